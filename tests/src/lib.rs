@@ -1,0 +1,1 @@
+//! Pipeline and verification tests (see README.md).
