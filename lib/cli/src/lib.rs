@@ -1,1 +1,36 @@
-//! cli
+//! What every tool of the pipeline shares: arguments, exit status, messages, output that is
+//! never half written, provenance, progress and signals.
+//!
+//! A tool is a `clap` parser that flattens [`Common`] and one function:
+//!
+//! ```no_run
+//! #[derive(clap::Parser)]
+//! #[command(version, about = "Doubles a number")]
+//! struct Arguments {
+//!     number: f64,
+//!     #[command(flatten)]
+//!     common: cli::Common,
+//! }
+//! fn run(arguments: Arguments) -> Result<(), cli::Failure> {
+//!     cli::Output::Stdout.write(|out| writeln!(out, "{}", 2.0 * arguments.number))
+//! }
+//! fn main() -> std::process::ExitCode {
+//!     cli::main(|a: &Arguments| &a.common, run)
+//! }
+//! ```
+
+mod common;
+mod exit;
+mod message;
+mod output;
+mod progress;
+mod provenance;
+mod signals;
+
+pub use common::{Common, main};
+pub use exit::{Failure, Status};
+pub use message::{detail, note, warn};
+pub use output::Output;
+pub use progress::Progress;
+pub use provenance::{InputRecord, Record, hash_file};
+pub use signals::{catch_interrupts, interrupted};

@@ -1,1 +1,21 @@
-//! units
+//! Quantities with units: the only place of the project that converts.
+//!
+//! On the command line and in case files a quantity is a string with a unit as the
+//! literature quotes it (`"1300 cP"`, `"1.2 g/cm3"`); everything behind this crate is SI.
+//!
+//! ```
+//! use units::{Quantity, Viscosity};
+//! let eta: Quantity<Viscosity> = "1300 cP".parse().unwrap();
+//! assert!((eta.si() - 1.3).abs() < 1e-15);
+//! assert!("1300".parse::<Quantity<Viscosity>>().is_err());
+//! ```
+
+mod axis;
+mod dimension;
+mod quantity;
+
+pub use axis::Axis;
+pub use dimension::{
+    Acceleration, Density, Dimension, Length, Pressure, ShearRate, Speed, Time, Viscosity,
+};
+pub use quantity::{ParseError, Quantity};

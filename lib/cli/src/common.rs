@@ -1,0 +1,128 @@
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, ValueEnum};
+
+use crate::message;
+use crate::{Failure, Output};
+
+/// Options every tool has.
+#[derive(clap::Args, Clone, Debug)]
+#[command(next_help_heading = "Common options")]
+pub struct Common {
+    /// Print errors and warnings only
+    #[arg(short, long, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Print details
+    #[arg(short, long)]
+    verbose: bool,
+    /// Worker threads [default: RAYON_NUM_THREADS, then SLURM_CPUS_PER_TASK, then all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    threads: Option<u16>,
+    /// Print the man page or a shell completion script and exit
+    #[arg(long, value_name = "WHAT", exclusive = true)]
+    generate: Option<Generate>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Generate {
+    Man,
+    Bash,
+    Zsh,
+    Fish,
+    Elvish,
+    Powershell,
+}
+
+/// Parses the command line, sets up messages and threads, runs the tool, maps its end to
+/// an exit code.
+pub fn main<A: Parser + CommandFactory>(
+    common: fn(&A) -> &Common,
+    run: fn(A) -> Result<(), Failure>,
+) -> ExitCode {
+    let tool = A::command().get_name().to_owned();
+    if let Some(what) = requested_generation() {
+        return match generate::<A>(what) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(failure) => failure.report(&tool),
+        };
+    }
+    let arguments = match A::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return usage(&error),
+    };
+    let ended = setup(common(&arguments)).and_then(|()| run(arguments));
+    match ended {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(&tool),
+    }
+}
+
+/// `--generate WHAT` must work without the tool's required arguments, so it is looked for
+/// before the real parse; a wrong WHAT is left to that parse to refuse.
+fn requested_generation() -> Option<Generate> {
+    let mut words = std::env::args().skip(1);
+    let what = match words.next()?.as_str() {
+        "--generate" => words.next()?,
+        word => word.strip_prefix("--generate=")?.to_owned(),
+    };
+    Generate::from_str(&what, true).ok()
+}
+
+fn generate<A: CommandFactory>(what: Generate) -> Result<(), Failure> {
+    use clap_complete::Shell;
+    let mut command = A::command();
+    let name = command.get_name().to_owned();
+    let mut text = Vec::new();
+    let shell = match what {
+        Generate::Man => None,
+        Generate::Bash => Some(Shell::Bash),
+        Generate::Zsh => Some(Shell::Zsh),
+        Generate::Fish => Some(Shell::Fish),
+        Generate::Elvish => Some(Shell::Elvish),
+        Generate::Powershell => Some(Shell::PowerShell),
+    };
+    match shell {
+        Some(shell) => clap_complete::generate(shell, &mut command, name, &mut text),
+        None => clap_mangen::Man::new(command)
+            .render(&mut text)
+            .map_err(|e| Failure::write("the man page", &e))?,
+    }
+    Output::Stdout.write(|out| out.write_all(&text))
+}
+
+fn usage(error: &clap::Error) -> ExitCode {
+    // A closed pipe while printing help is a quiet end.
+    let _ = error.print();
+    let _ = io::stdout().flush();
+    match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => ExitCode::SUCCESS,
+        _ => ExitCode::from(crate::Status::Usage as u8),
+    }
+}
+
+fn setup(common: &Common) -> Result<(), Failure> {
+    message::set_level(match (common.quiet, common.verbose) {
+        (true, _) => -1,
+        (_, true) => 1,
+        _ => 0,
+    });
+    let from_environment = |name| {
+        std::env::var(name)
+            .ok()?
+            .parse::<usize>()
+            .ok()
+            .filter(|&n| n > 0)
+    };
+    let threads = common
+        .threads
+        .map(usize::from)
+        .or_else(|| from_environment("RAYON_NUM_THREADS"))
+        .or_else(|| from_environment("SLURM_CPUS_PER_TASK"))
+        .unwrap_or(0); // rayon: all cores
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global()
+        .map_err(|e| Failure::failed(format!("cannot start the worker threads: {e}")))
+}

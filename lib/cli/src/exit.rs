@@ -1,0 +1,69 @@
+use std::fmt;
+use std::io;
+use std::process::ExitCode;
+
+/// Exit statuses of every tool, documented here and in README.md only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The run failed: unstable, particle lost, output could not be written.
+    Failed = 1,
+    /// Usage or case-file error.
+    Usage = 2,
+    /// Unreadable or corrupt data file.
+    Data = 3,
+    /// Stopped early and resumable.
+    Resumable = 75,
+}
+
+/// Why a tool ends without success: one sentence and an exit status.
+#[derive(Debug)]
+pub struct Failure(Kind);
+
+#[derive(Debug)]
+enum Kind {
+    Said(Status, String),
+    /// The reader of our standard output went away: not an error, the tool ends quietly.
+    ClosedPipe,
+}
+
+impl Failure {
+    /// A failure with `status`; `message` is one sentence without the tool's name.
+    pub fn new(status: Status, message: impl fmt::Display) -> Self {
+        Self(Kind::Said(status, message.to_string()))
+    }
+
+    /// The run failed (exit 1).
+    pub fn failed(message: impl fmt::Display) -> Self {
+        Self::new(Status::Failed, message)
+    }
+
+    /// Usage or case-file error (exit 2).
+    pub fn usage(message: impl fmt::Display) -> Self {
+        Self::new(Status::Usage, message)
+    }
+
+    /// Unreadable or corrupt data (exit 3).
+    pub fn data(message: impl fmt::Display) -> Self {
+        Self::new(Status::Data, message)
+    }
+
+    /// A failed write to `target`: a closed pipe is a quiet end, all else exit 1.
+    pub fn write(target: impl fmt::Display, error: &io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self(Kind::ClosedPipe)
+        } else {
+            Self::failed(format!("cannot write {target}: {error}"))
+        }
+    }
+
+    /// Prints the sentence to standard error and gives the exit code.
+    pub(crate) fn report(self, tool: &str) -> ExitCode {
+        match self.0 {
+            Kind::ClosedPipe => ExitCode::SUCCESS,
+            Kind::Said(status, message) => {
+                eprintln!("{tool}: {message}");
+                ExitCode::from(status as u8)
+            }
+        }
+    }
+}

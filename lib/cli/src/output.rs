@@ -1,0 +1,156 @@
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use crate::{Failure, Record};
+
+/// Where a tool's data go: standard output (`-`) or a file.
+///
+/// A regular file appears whole or not at all: it is written beside its target and renamed.
+/// Devices and pipes are written in place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Output {
+    /// Standard output.
+    Stdout,
+    /// A file.
+    File(PathBuf),
+}
+
+impl FromStr for Output {
+    type Err = std::convert::Infallible;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Ok(if text == "-" {
+            Output::Stdout
+        } else {
+            Output::File(text.into())
+        })
+    }
+}
+
+impl fmt::Display for Output {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Output::Stdout => f.write_str("standard output"),
+            Output::File(path) => write!(f, "'{}'", path.display()),
+        }
+    }
+}
+
+impl Output {
+    /// Writes with `body` into a buffered writer and puts the result in place.
+    ///
+    /// # Errors
+    /// Exit 1 with the target and the system's reason; a closed pipe ends quietly.
+    pub fn write(
+        &self,
+        body: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let written = match self {
+            Output::Stdout => {
+                let mut out = BufWriter::with_capacity(1 << 16, io::stdout().lock());
+                body(&mut out).and_then(|()| out.flush())
+            }
+            Output::File(path) => write_file(path, body),
+        };
+        written.map_err(|e| Failure::write(self, &e))
+    }
+
+    /// As [`Output::write`], for formats with no room for provenance (CSV, pictures): the
+    /// record goes into `<file>.provenance.json` beside the file.
+    ///
+    /// # Errors
+    /// As [`Output::write`].
+    pub fn write_with_record(
+        &self,
+        record: &Record,
+        body: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        self.write(body)?;
+        match self {
+            Output::File(path) if !is_special(path) => {
+                let mut beside = path.clone().into_os_string();
+                beside.push(".provenance.json");
+                Output::File(beside.into()).write(|out| out.write_all(record.to_json().as_bytes()))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn is_special(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|m| !m.is_file())
+}
+
+fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    if path.is_dir() {
+        return Err(io::Error::other("it is a folder; a file name is needed"));
+    }
+    if is_special(path) {
+        let mut out = BufWriter::new(File::options().write(true).open(path)?);
+        body(&mut out)?;
+        return out.flush();
+    }
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut file = tempfile::Builder::new()
+        .prefix(".bondline-")
+        .suffix(".tmp")
+        .tempfile_in(folder)?;
+    {
+        let mut out = BufWriter::with_capacity(1 << 20, file.as_file_mut());
+        body(&mut out)?;
+        out.flush()?;
+    }
+    // tempfile creates with 0600; an output is readable as the user's umask says.
+    set_default_mode(file.as_file())?;
+    file.persist(path).map_err(|e| e.error)?;
+    Ok(())
+}
+
+#[cfg(unix)]
+fn set_default_mode(file: &File) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.set_permissions(fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn set_default_mode(_: &File) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_body_leaves_the_old_file_and_no_litter() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.csv");
+        let output = Output::File(target.clone());
+        output.write(|out| out.write_all(b"old")).unwrap();
+        let failed = output.write(|out| {
+            out.write_all(b"half")?;
+            Err(io::Error::other("disk on fire"))
+        });
+        assert!(failed.is_err());
+        assert_eq!(fs::read(&target).unwrap(), b"old");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn the_record_stands_beside_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.csv");
+        let record = Record::new("tool", "1.0", Vec::new());
+        Output::File(target)
+            .write_with_record(&record, |out| out.write_all(b"x\n"))
+            .unwrap();
+        let beside = fs::read_to_string(folder.path().join("a.csv.provenance.json")).unwrap();
+        assert!(beside.contains("\"tool\": \"tool\""), "{beside}");
+    }
+}

@@ -1,0 +1,85 @@
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use serde::Serialize;
+use xxhash_rust::xxh3::Xxh3Default;
+
+/// What made an output: tool, version, command line and the hash of each input.
+#[derive(Clone, Debug, Serialize)]
+pub struct Record {
+    /// Name of the tool.
+    pub tool: String,
+    /// Version of the tool.
+    pub version: String,
+    /// The command line as given.
+    pub command: Vec<String>,
+    /// The files read.
+    pub inputs: Vec<InputRecord>,
+}
+
+/// One input file of a [`Record`].
+#[derive(Clone, Debug, Serialize)]
+pub struct InputRecord {
+    /// Path as given on the command line.
+    pub path: String,
+    /// XXH3-64 of the content, hexadecimal.
+    pub xxh3: String,
+}
+
+impl Record {
+    /// The record of this process; `tool` and `version` from the tool's own
+    /// `CARGO_PKG_NAME` and `CARGO_PKG_VERSION`.
+    pub fn new(tool: &str, version: &str, inputs: Vec<InputRecord>) -> Self {
+        let command = std::env::args_os()
+            .map(|a| a.to_string_lossy().into_owned())
+            .collect();
+        Self {
+            tool: tool.into(),
+            version: version.into(),
+            command,
+            inputs,
+        }
+    }
+
+    /// The record as indented JSON with a final newline.
+    pub fn to_json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+}
+
+impl InputRecord {
+    /// Hashes the file at `path`.
+    ///
+    /// # Errors
+    /// The system's reason when the file cannot be read.
+    pub fn of_file(path: &Path) -> io::Result<Self> {
+        Ok(Self::new(path.display().to_string(), hash_file(path)?))
+    }
+
+    /// A record from a hash computed while the input was read anyway.
+    pub fn new(path: String, hash: u64) -> Self {
+        Self {
+            path,
+            xxh3: format!("{hash:016x}"),
+        }
+    }
+}
+
+/// XXH3-64 of a file's content.
+///
+/// # Errors
+/// The system's reason when the file cannot be read.
+pub fn hash_file(path: &Path) -> io::Result<u64> {
+    let mut file = File::open(path)?;
+    let mut hasher = Xxh3Default::new();
+    let mut buffer = vec![0_u8; 1 << 20];
+    loop {
+        match file.read(&mut buffer)? {
+            0 => return Ok(hasher.digest()),
+            n => hasher.update(&buffer[..n]),
+        }
+    }
+}
