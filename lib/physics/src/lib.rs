@@ -1,1 +1,23 @@
-//! physics
+//! What both schemes share, free of any grid: the scene resolved to SI, the two kinds of
+//! matter in it (a Tait liquid and rigid voxel bodies), the wall law between them, clamp
+//! control, and the regime numbers that justify what is left out.
+
+mod bodies;
+mod clamp;
+mod material;
+mod regime;
+mod scene;
+mod scheme;
+mod wall_law;
+
+pub use bodies::{Motion, RigidBody, VoxelBlock};
+pub use clamp::{Clamp, LinearRule, Pid, PidControl};
+pub use material::{
+    Liquid, Newtonian, Rheology, ShearRate, TAIT_C, Table, TableError, Tait, Viscosity,
+};
+pub use regime::Regime;
+pub use scene::{Boundary, Dimensions, GridBox, Points, Scene, Stop};
+pub use scheme::{
+    Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
+};
+pub use wall_law::WallLaw;

@@ -1,0 +1,201 @@
+/// How the upper adherend is driven.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clamp {
+    /// Largest closing speed, m/s.
+    pub closing_speed: f64,
+    /// Pressure not to be exceeded, Pa; `None`: constant speed.
+    pub max_pressure: Option<f64>,
+    /// Gains of the PID when the case asks for one; the scheme has its own default otherwise.
+    pub pid: Option<Pid>,
+}
+
+/// Gains of the load controller, dimensionless: the error is (p_max - p)/p_max, the output is
+/// the closing speed over its limit, and time counts in units of [`PidControl::new`]'s
+/// reference time, so that gains do not depend on the time step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pid {
+    /// Proportional gain.
+    pub kp: f64,
+    /// Integral gain per reference time.
+    pub ki: f64,
+    /// Derivative gain times reference time.
+    pub kd: f64,
+}
+
+impl Default for Pid {
+    /// The gains of the six runs.
+    fn default() -> Self {
+        Self {
+            kp: 0.1,
+            ki: 0.001,
+            kd: 0.000_25,
+        }
+    }
+}
+
+/// PID control of the closing speed with anti-windup (the paper's section 2.2).
+///
+/// The output is limited to [0, closing_speed], and the integral stops growing while the
+/// output is at a limit and the error would push it further.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PidControl {
+    clamp: Clamp,
+    gains: Pid,
+    reference_time: f64,
+    integral: f64,
+    last_error: f64,
+    speed: f64,
+}
+
+impl PidControl {
+    /// A controller at full speed. `reference_time` in s is the unit of time of the gains.
+    pub fn new(clamp: Clamp, reference_time: f64) -> Self {
+        Self {
+            clamp,
+            gains: clamp.pid.unwrap_or_default(),
+            reference_time,
+            integral: 1.0,
+            last_error: 1.0,
+            speed: clamp.closing_speed,
+        }
+    }
+
+    /// Speed for the next step, m/s.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Takes in the pressure (Pa) measured over a step of `dt` (s).
+    pub fn observe(&mut self, pressure: f64, dt: f64) {
+        let Some(limit) = self.clamp.max_pressure else {
+            return;
+        };
+        let error = 1.0 - pressure / limit;
+        let tau = dt / self.reference_time;
+        // One step may at most undo the whole error: long steps must not make the loop ring.
+        let step = (self.gains.ki * tau).min(0.5) * error;
+        let derivative = self.gains.kd * (error - self.last_error) / tau;
+        let output = |integral: f64| self.gains.kp * error.min(0.0) + integral + derivative;
+        let wanted = output(self.integral + step);
+        let pushes_out = (wanted > 1.0 && step > 0.0) || (wanted < 0.0 && step < 0.0);
+        if !pushes_out {
+            self.integral = (self.integral + step).clamp(0.0, 1.0);
+        }
+        self.last_error = error;
+        self.speed = self.clamp.closing_speed * output(self.integral).clamp(0.0, 1.0);
+    }
+
+    /// The changing part, for checkpoints.
+    pub fn state(&self) -> [f64; 3] {
+        [self.integral, self.last_error, self.speed]
+    }
+
+    /// Goes back to a saved changing part.
+    pub fn set_state(&mut self, [integral, last_error, speed]: [f64; 3]) {
+        (self.integral, self.last_error, self.speed) = (integral, last_error, speed);
+    }
+}
+
+/// Load control where the pressure is proportional to the speed within a step (quasi-Stokes):
+/// the speed that gives the limit is known after one solve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearRule {
+    clamp: Clamp,
+}
+
+impl LinearRule {
+    /// The rule for `clamp`.
+    pub fn new(clamp: Clamp) -> Self {
+        Self { clamp }
+    }
+
+    /// The speed that would have given the pressure limit, never above the closing speed;
+    /// `None` when `pressure` (Pa), which came from `speed`, needs no change within `tolerance`.
+    pub fn correct(&self, speed: f64, pressure: f64, tolerance: f64) -> Option<f64> {
+        let limit = self.clamp.max_pressure?;
+        let too_high = pressure > limit * (1.0 + tolerance);
+        let could_be_faster =
+            speed < self.clamp.closing_speed && pressure < limit * (1.0 - tolerance);
+        if !(too_high || could_be_faster) || pressure <= 0.0 {
+            return None;
+        }
+        Some((speed * limit / pressure).min(self.clamp.closing_speed))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CLAMP: Clamp = Clamp {
+        closing_speed: 1.0,
+        max_pressure: Some(2.5e6),
+        pid: None,
+    };
+
+    /// Plant: p = R v with R rising e-fold in 10 us, behind a 0.1 us lag.
+    fn closing(reference_time: f64, dt: f64) -> (f64, f64, f64) {
+        let mut control = PidControl::new(CLAMP, reference_time);
+        let (mut p, mut largest, mut late) = (0.0_f64, 0.0_f64, 0.0);
+        let steps = (60e-6 / dt) as usize;
+        for i in 0..steps {
+            let t = i as f64 * dt;
+            let target = 0.25e6 * (t / 10e-6).exp() * control.speed();
+            p += (target - p) * (dt / 0.1e-6).min(1.0);
+            control.observe(p, dt);
+            assert!((0.0..=1.0).contains(&control.speed()));
+            largest = largest.max(p);
+            late = p;
+        }
+        (largest / 2.5e6, late / 2.5e6, control.speed())
+    }
+
+    #[test]
+    fn holds_the_set_pressure_without_overshoot() {
+        for dt in [0.5e-9, 1e-9, 1.5e-9] {
+            let (largest, late, speed) = closing(0.3e-9, dt);
+            println!(
+                "dt {dt:e}: largest {largest:.4}, at the end {late:.4} of the limit, speed {speed:.3}"
+            );
+            assert!(largest < 1.05 && (late - 1.0).abs() < 0.05);
+        }
+    }
+
+    #[test]
+    fn does_not_wind_up() {
+        let mut control = PidControl::new(CLAMP, 0.3e-9);
+        for _ in 0..1_000_000 {
+            control.observe(0.0, 1e-9);
+        }
+        let mut steps = 0;
+        while control.speed() > 0.9 {
+            control.observe(1.5 * 2.5e6, 1e-9);
+            steps += 1;
+        }
+        assert!(
+            steps < 200,
+            "{steps} steps at 1.5 times the limit to slow down by 10 %"
+        );
+    }
+
+    #[test]
+    fn without_a_limit_the_speed_is_constant() {
+        let mut control = PidControl::new(
+            Clamp {
+                max_pressure: None,
+                ..CLAMP
+            },
+            1e-9,
+        );
+        control.observe(1e12, 1e-9);
+        assert_eq!(control.speed(), 1.0);
+    }
+
+    #[test]
+    fn the_linear_rule_hits_the_limit_in_one_correction() {
+        let rule = LinearRule::new(CLAMP);
+        assert_eq!(rule.correct(1.0, 2.4e6, 0.002), None);
+        assert_eq!(rule.correct(1.0, 5.0e6, 0.002), Some(0.5));
+        assert_eq!(rule.correct(0.5, 1.0e6, 0.002), Some(1.0));
+    }
+}

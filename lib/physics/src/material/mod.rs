@@ -1,0 +1,32 @@
+//! Constitutive laws of the liquid (paper Eqs. 1 and 2).
+
+mod tait;
+mod viscosity;
+
+pub use tait::{TAIT_C, Tait};
+pub use viscosity::{Newtonian, Rheology, ShearRate, Table, TableError, Viscosity};
+
+/// The liquid of a scene: a compressible (Tait) generalised Newtonian fluid.
+#[derive(Clone, Debug)]
+pub struct Liquid {
+    /// Mass density at J = 1, kg/m3.
+    pub density: f64,
+    /// Pressure law, paper Eq. 1.
+    pub tait: Tait,
+    /// Viscosity law, paper Eq. 2.
+    pub viscosity: Viscosity,
+    /// How the rate in eta(rate) is defined.
+    pub shear_rate: ShearRate,
+    /// Largest tension the liquid carries, Pa (> 0); `None`: as much as Eq. 1 gives.
+    pub cavitation_pressure: Option<f64>,
+}
+
+impl Liquid {
+    /// Speed of sound at rest, sqrt(K / rho), m/s.
+    pub fn sound_speed(&self) -> f64 {
+        (self.tait.bulk_modulus / self.density).sqrt()
+    }
+}
+
+#[cfg(test)]
+pub(crate) use viscosity::tests::pva_pf as test_table;

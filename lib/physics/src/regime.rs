@@ -1,0 +1,120 @@
+use std::fmt;
+
+use crate::{Scene, Viscosity};
+
+/// Surface tension of a typical wood adhesive, N/m (paper, below Eq. 4).
+const SURFACE_TENSION: f64 = 0.03;
+
+/// Dimensionless numbers of a run: what may be left out and what may not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Regime {
+    /// Speed of sound at rest, m/s.
+    pub sound_speed: f64,
+    /// Driving speed over speed of sound.
+    pub mach: f64,
+    /// rho v d / eta for a lumen of six cells with the smallest viscosity at its tube rate.
+    pub reynolds: f64,
+    /// rho (d/2)^2 / eta of that lumen, s: how fast a velocity profile settles.
+    pub diffusion_time: f64,
+    /// 8 v / d, the tube shear rate of paper Eq. 7, 1/s.
+    pub tube_shear_rate: f64,
+    /// 2 gamma / r of that lumen, Pa (paper Eq. 4 with cos theta = 1).
+    pub capillary_pressure: f64,
+    /// Largest pressure over bulk modulus; `None` without a pressure limit.
+    pub volume_strain: Option<f64>,
+    /// Pressure limit, Pa, if there is one.
+    pub max_pressure: Option<f64>,
+}
+
+impl Regime {
+    /// The numbers of `scene`, for a lumen of six cells and its fastest driver.
+    pub fn of(scene: &Scene) -> Self {
+        let liquid = &scene.liquid;
+        let lumen = 6.0 * scene.grid.cell_m;
+        let speed = scene.initial_speed();
+        let rate = 8.0 * speed / lumen;
+        let eta = match &liquid.viscosity {
+            Viscosity::Newtonian(law) => law.0,
+            table => table.at(rate),
+        };
+        let max_pressure = scene.clamp.and_then(|c| c.max_pressure);
+        Self {
+            sound_speed: liquid.sound_speed(),
+            mach: speed / liquid.sound_speed(),
+            reynolds: liquid.density * speed * lumen / eta,
+            diffusion_time: liquid.density * (0.5 * lumen).powi(2) / eta,
+            tube_shear_rate: rate,
+            capillary_pressure: 4.0 * SURFACE_TENSION / lumen,
+            volume_strain: max_pressure.map(|p| p / liquid.tait.bulk_modulus),
+            max_pressure,
+        }
+    }
+
+    /// Sentences about terms that are left out although this regime would need them.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut said = Vec::new();
+        if self.mach > 0.1 {
+            said.push(format!(
+                "the Mach number is {:.2}: sound waves matter and an explicit run is needed",
+                self.mach
+            ));
+        }
+        if self.reynolds > 1.0 {
+            said.push(format!(
+                "the Reynolds number of a six-cell lumen is {:.2}: inertia is not negligible there",
+                self.reynolds
+            ));
+        }
+        if let Some(p) = self
+            .max_pressure
+            .filter(|p| self.capillary_pressure > 0.05 * p)
+        {
+            said.push(format!(
+                "capillary pressure in a six-cell lumen is {:.1} kPa, more than 5 % of the clamp's {:.1} kPa, and is not modelled",
+                self.capillary_pressure / 1e3,
+                p / 1e3
+            ));
+        }
+        if let Some(strain) = self.volume_strain.filter(|s| *s > 0.05) {
+            said.push(format!(
+                "the liquid shrinks by {:.0} % at the pressure limit: its bulk modulus is too low to be called nearly incompressible",
+                100.0 * strain
+            ));
+        }
+        said
+    }
+}
+
+impl fmt::Display for Regime {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "sound speed        {:.4} m/s, Mach {:.2e}",
+            self.sound_speed, self.mach
+        )?;
+        writeln!(
+            f,
+            "Reynolds number    {:.3e} (lumen of six cells)",
+            self.reynolds
+        )?;
+        writeln!(
+            f,
+            "diffusion time     {:.3e} s across that lumen",
+            self.diffusion_time
+        )?;
+        writeln!(
+            f,
+            "tube shear rate    {:.3e} 1/s (paper Eq. 7)",
+            self.tube_shear_rate
+        )?;
+        write!(
+            f,
+            "capillary pressure {:.3e} Pa (paper Eq. 4)",
+            self.capillary_pressure
+        )?;
+        if let Some(strain) = self.volume_strain {
+            write!(f, "\nvolume strain      {strain:.2e} at the pressure limit")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,124 @@
+use crate::{Clamp, Liquid, RigidBody, WallLaw};
+
+/// Number of dimensions computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimensions {
+    /// Plane strain: one layer of cells along z, no z velocity; forces are for that depth.
+    Two,
+    /// Three dimensions.
+    Three,
+}
+
+/// What happens at the two sides of the domain normal to an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Boundary {
+    /// Mirror: no flow through, no friction.
+    Symmetry,
+    /// What leaves on one side enters on the other.
+    Periodic,
+    /// Zero traction; liquid that reaches it is lost and counted.
+    Open,
+}
+
+/// The box of cubic cells that a run computes in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GridBox {
+    /// Edge of a cell, m.
+    pub cell_m: f64,
+    /// Low corner, m.
+    pub min_m: [f64; 3],
+    /// Cells along x, y, z; one along z in plane strain.
+    pub cells: [usize; 3],
+}
+
+impl GridBox {
+    /// High corner, m.
+    pub fn max_m(&self) -> [f64; 3] {
+        std::array::from_fn(|a| self.min_m[a] + self.cells[a] as f64 * self.cell_m)
+    }
+
+    /// Area of the cross-section normal to y, m2: what clamp pressures are referred to.
+    pub fn area_m2(&self) -> f64 {
+        self.cells[0] as f64 * self.cells[2] as f64 * self.cell_m * self.cell_m
+    }
+}
+
+/// The liquid material points at the start, in flat arrays of equal length.
+#[derive(Clone, Debug, Default)]
+pub struct Points {
+    /// Positions, m.
+    pub position: Vec<[f64; 3]>,
+    /// Velocities, m/s.
+    pub velocity: Vec<[f64; 3]>,
+    /// Volumes at J = 1, m3.
+    pub volume: Vec<f64>,
+}
+
+/// When a run ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stop {
+    /// When the clamp has travelled this far, m (the adherends are back in place).
+    Closed {
+        /// Travel, m.
+        travel_m: f64,
+    },
+    /// At this time, s.
+    Time(f64),
+}
+
+/// A run resolved to SI: everything a scheme needs to know and nothing it does not.
+///
+/// The bond normal is y. In plane strain the grid is one cell deep.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// 2 or 3.
+    pub dimensions: Dimensions,
+    /// Cells and extent.
+    pub grid: GridBox,
+    /// Sides normal to x, y, z.
+    pub boundary: [Boundary; 3],
+    /// The liquid's constitutive law.
+    pub liquid: Liquid,
+    /// The liquid's material points.
+    pub points: Points,
+    /// Rigid bodies; all of different motion or name.
+    pub bodies: Vec<RigidBody>,
+    /// Law between liquid and bodies.
+    pub wall: WallLaw,
+    /// Body force per mass, m/s2.
+    pub gravity: [f64; 3],
+    /// The clamp that drives bodies with `Motion::Clamped`.
+    pub clamp: Option<Clamp>,
+    /// When to end.
+    pub stop: Stop,
+    /// Index in `bodies` of the lower reaction reported as `pressure_bottom_Pa`.
+    pub bottom: Option<usize>,
+    /// Index in `bodies` of the upper reaction reported as `pressure_top_Pa`.
+    pub top: Option<usize>,
+}
+
+impl Scene {
+    /// Liquid volume at J = 1, m3.
+    pub fn liquid_volume(&self) -> f64 {
+        self.points.volume.iter().sum()
+    }
+
+    /// Largest speed known before the first step, m/s: bodies and initial liquid.
+    pub fn initial_speed(&self) -> f64 {
+        let norm = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        let liquid = self
+            .points
+            .velocity
+            .iter()
+            .map(|&v| norm(v))
+            .fold(0.0, f64::max);
+        self.bodies
+            .iter()
+            .map(|body| match body.motion {
+                crate::Motion::Fixed => 0.0,
+                crate::Motion::Constant(v) => norm(v),
+                crate::Motion::Clamped => self.clamp.map_or(0.0, |c| c.closing_speed),
+            })
+            .fold(liquid, f64::max)
+    }
+}

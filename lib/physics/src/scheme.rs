@@ -1,0 +1,169 @@
+use std::fmt;
+
+/// How far a step may go at most.
+#[derive(Clone, Copy, Debug)]
+pub struct StepLimit {
+    /// Time left until the next event the run must hit exactly, s.
+    pub time_s: f64,
+    /// Clamp travel left until closure, m; infinite without a clamp.
+    pub travel_m: f64,
+}
+
+/// What one step did; cheap to know.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepReport {
+    /// Time step, s.
+    pub dt_s: f64,
+    /// Speed of the clamp during the step, m/s.
+    pub closing_speed: f64,
+    /// Clamp travel since the start, m.
+    pub travel_m: f64,
+    /// Normal force of the liquid on the lower body over the bond area, Pa, compression positive.
+    pub pressure_bottom: f64,
+    /// The same on the upper body.
+    pub pressure_top: f64,
+    /// Material points that left through an open side so far.
+    pub lost: u64,
+    /// Iterations of the linear solver; 0 for an explicit step.
+    pub iterations: u32,
+}
+
+/// What is computed only when a row of the history is due.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Diagnostics {
+    /// Kinetic energy of the liquid, J.
+    pub kinetic_energy: f64,
+    /// Viscous dissipation, W.
+    pub viscous_power: f64,
+    /// Current volume of the liquid, m3.
+    pub volume: f64,
+    /// Largest speed of a material point, m/s.
+    pub max_speed: f64,
+    /// Fraction of the liquid volume whose viscosity was capped to keep an explicit step
+    /// stable; 0 for an implicit one.
+    pub capped_fraction: f64,
+}
+
+/// The liquid as snapshots and metrics see it; arrays of equal length, one entry per point.
+#[derive(Clone, Debug, Default)]
+pub struct LiquidState {
+    /// Positions, m.
+    pub position: Vec<[f32; 3]>,
+    /// Velocities, m/s.
+    pub velocity: Vec<[f32; 3]>,
+    /// Current volumes, m3.
+    pub volume: Vec<f32>,
+    /// Pressures, Pa.
+    pub pressure: Vec<f32>,
+    /// Shear rates by the scene's convention, 1/s.
+    pub shear_rate: Vec<f32>,
+}
+
+/// One array of a saved scheme.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Array {
+    /// Single precision.
+    F32(Vec<f32>),
+    /// Double precision.
+    F64(Vec<f64>),
+    /// Indices.
+    U32(Vec<u32>),
+}
+
+/// Everything a scheme needs to go on bit by bit where it stopped: named arrays.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Saved(pub Vec<(String, Array)>);
+
+impl Saved {
+    /// The array `name` in double precision.
+    ///
+    /// # Errors
+    /// When it is absent or of another type.
+    pub fn f64s(&self, name: &str) -> Result<&[f64], String> {
+        match self.find(name)? {
+            Array::F64(a) => Ok(a),
+            _ => Err(format!(
+                "array '{name}' of the checkpoint is not in double precision"
+            )),
+        }
+    }
+
+    /// The array `name` in single precision.
+    ///
+    /// # Errors
+    /// When it is absent or of another type.
+    pub fn f32s(&self, name: &str) -> Result<&[f32], String> {
+        match self.find(name)? {
+            Array::F32(a) => Ok(a),
+            _ => Err(format!(
+                "array '{name}' of the checkpoint is not in single precision"
+            )),
+        }
+    }
+
+    /// The array `name` of indices.
+    ///
+    /// # Errors
+    /// When it is absent or of another type.
+    pub fn u32s(&self, name: &str) -> Result<&[u32], String> {
+        match self.find(name)? {
+            Array::U32(a) => Ok(a),
+            _ => Err(format!(
+                "array '{name}' of the checkpoint does not hold indices"
+            )),
+        }
+    }
+
+    fn find(&self, name: &str) -> Result<&Array, String> {
+        self.0
+            .iter()
+            .find(|(n, _)| n == name)
+            .map(|(_, a)| a)
+            .ok_or_else(|| format!("the checkpoint has no array '{name}'"))
+    }
+}
+
+/// Time spent in one named stage of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct StageTime {
+    /// Name as in the algorithm's description.
+    pub name: &'static str,
+    /// Wall-clock seconds so far.
+    pub wall_s: f64,
+}
+
+/// Why a step could not be taken: step, place, likely cause, in one sentence.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure(pub String);
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// A time-stepping scheme over a scene.
+pub trait Scheme {
+    /// Takes one step, at most as far as `limit`.
+    ///
+    /// # Errors
+    /// When the state is no longer sound; the state before the step is then lost.
+    fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure>;
+    /// Quantities of a history row, for the state after the last step.
+    fn diagnostics(&self) -> Diagnostics;
+    /// The liquid after the last step.
+    fn liquid(&self) -> LiquidState;
+    /// Displacement of each body of the scene, m.
+    fn displacements(&self) -> Vec<[f64; 3]>;
+    /// All that [`Scheme::restore`] needs.
+    fn save(&self) -> Saved;
+    /// Goes back to a saved state.
+    ///
+    /// # Errors
+    /// When the arrays are not those of this scheme and scene.
+    fn restore(&mut self, saved: &Saved) -> Result<(), String>;
+    /// Wall time per stage since the start.
+    fn stage_times(&self) -> Vec<StageTime>;
+}
