@@ -1,0 +1,294 @@
+//! The tables and keys of a case file.
+
+use serde::Deserialize;
+use units::{Acceleration, Density, Length, Pressure, Quantity, ShearRate, Speed, Time, Viscosity};
+
+use super::value::{BodyVelocity, InfluenceLength, Positive, StopRule};
+
+/// A case file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// Cells.
+    pub grid: Grid,
+    /// The liquid.
+    pub adhesive: Adhesive,
+    /// Wall law; may be left out where there is no rigid body.
+    pub contact: Option<Contact>,
+    /// Clamp.
+    pub clamp: Option<ClampTable>,
+    /// Scheme and its options.
+    pub integrator: Integrator,
+    /// Output.
+    #[serde(default)]
+    pub output: OutputTable,
+    /// Bodies, where no particle file gives them.
+    #[serde(default)]
+    pub body: Vec<Body>,
+    /// Body force.
+    pub gravity: Option<Gravity>,
+    /// Sides of the domain.
+    #[serde(default)]
+    pub boundary: Axes,
+    /// End of a run without clamp.
+    pub stop: Option<StopTable>,
+}
+
+/// `[grid]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grid {
+    /// Edge of a cubic cell.
+    pub cell: Positive<Length>,
+    /// 2 (plane strain) or 3.
+    #[serde(default = "three")]
+    pub dimensions: u8,
+    /// Shape function of the explicit scheme.
+    #[serde(default)]
+    pub shape: ShapeName,
+    /// Material points per cell edge at the start.
+    #[serde(default = "two")]
+    pub points_per_direction: u8,
+    /// Box to compute in, where `[[body]]` describes the scene; their bounding box if absent.
+    pub domain: Option<BoxCorners>,
+}
+
+fn three() -> u8 {
+    3
+}
+
+fn two() -> u8 {
+    2
+}
+
+/// `shape`
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ShapeName {
+    /// Uniform generalised interpolation, the paper's.
+    #[default]
+    Gimp,
+    /// Quadratic B-spline.
+    Bspline2,
+    /// Linear hat functions.
+    Linear,
+}
+
+/// `[adhesive]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Adhesive {
+    /// Mass density.
+    pub density: Positive<Density>,
+    /// Bulk modulus K of Eq. 1.
+    pub bulk_modulus: Positive<Pressure>,
+    /// Newtonian viscosity.
+    pub viscosity: Option<Positive<Viscosity>>,
+    /// Viscosity against shear rate.
+    pub viscosity_table: Option<Vec<(Positive<ShearRate>, Positive<Viscosity>)>>,
+    /// Convention of the rate in eta(rate).
+    #[serde(default)]
+    pub shear_rate: ShearRateName,
+    /// Largest tension the liquid carries.
+    pub cavitation_pressure: Option<Positive<Pressure>>,
+}
+
+/// `shear_rate`
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ShearRateName {
+    /// 2 |dev D|.
+    #[default]
+    Paper,
+    /// sqrt(2 D:D).
+    Rheometer,
+}
+
+/// `[contact]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Which law.
+    pub law: LawName,
+    /// 1/k of Eq. 3, for partial slip.
+    pub influence_length: Option<InfluenceLength>,
+}
+
+/// `law`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LawName {
+    /// k = 0.
+    Frictionless,
+    /// Eq. 3.
+    PartialSlip,
+    /// k infinite.
+    Stick,
+}
+
+/// `[clamp]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClampTable {
+    /// Largest closing speed.
+    pub closing_speed: Positive<Speed>,
+    /// Pressure limit.
+    pub max_pressure: Option<Positive<Pressure>>,
+    /// Gains of the load controller.
+    pub pid: Option<PidGains>,
+    /// When to stop.
+    #[serde(default = "closed")]
+    pub stop: StopRule,
+    /// Latest end of a run that stops when closed.
+    pub time_limit: Option<Positive<Time>>,
+    /// Closing distance where `[[body]]` describes the scene.
+    pub travel: Option<Positive<Length>>,
+}
+
+fn closed() -> StopRule {
+    StopRule::Closed
+}
+
+/// `pid`
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PidGains {
+    /// Proportional.
+    pub kp: f64,
+    /// Integral.
+    pub ki: f64,
+    /// Derivative.
+    pub kd: f64,
+}
+
+/// `[integrator]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Integrator {
+    /// Explicit or implicit.
+    pub scheme: SchemeName,
+    /// Explicit: how particle velocities are updated.
+    pub velocity_update: Option<UpdateName>,
+    /// Order of xpic and fmpm.
+    pub order: Option<u8>,
+    /// Courant number of the limit that binds.
+    pub cfl: Option<f64>,
+    /// Implicit: relative residual at which the linear solve stops.
+    pub tolerance: Option<f64>,
+}
+
+/// `scheme`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SchemeName {
+    /// The paper's material point method.
+    Explicit,
+    /// The staggered filling solver.
+    Implicit,
+}
+
+/// `velocity_update`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum UpdateName {
+    /// Fluid implicit particle.
+    Flip,
+    /// Particle in cell.
+    Pic,
+    /// XPIC of order m.
+    Xpic,
+    /// FMPM of order m.
+    Fmpm,
+    /// Affine particle in cell.
+    Apic,
+}
+
+/// `[output]`
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OutputTable {
+    /// Snapshots over the nominal duration; none by default.
+    #[serde(default)]
+    pub snapshots: u32,
+    /// Time between rows of the history; a thousandth of the nominal duration by default.
+    pub history_every: Option<Positive<Time>>,
+}
+
+/// `[[body]]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Adhesive or rigid.
+    pub material: MaterialName,
+    /// Its corners.
+    #[serde(rename = "box")]
+    pub corners: BoxCorners,
+    /// Its velocity; at rest by default.
+    pub velocity: Option<BodyVelocity>,
+    /// Whose reaction it carries: bodies of one name and velocity are one body.
+    pub name: Option<String>,
+}
+
+/// `material`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MaterialName {
+    /// Liquid.
+    Adhesive,
+    /// Wall.
+    Rigid,
+}
+
+/// A box by its corners.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoxCorners {
+    /// Low corner.
+    pub min: [Quantity<Length>; 3],
+    /// High corner.
+    pub max: [Quantity<Length>; 3],
+}
+
+/// `[gravity]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gravity {
+    /// Body force per mass.
+    pub acceleration: [Quantity<Acceleration>; 3],
+}
+
+/// `[boundary]`
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Axes {
+    /// Sides normal to x.
+    #[serde(default)]
+    pub x: BoundaryName,
+    /// Sides normal to y.
+    #[serde(default)]
+    pub y: BoundaryName,
+    /// Sides normal to z.
+    #[serde(default)]
+    pub z: BoundaryName,
+}
+
+/// One axis of `[boundary]`
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BoundaryName {
+    /// Mirror.
+    #[default]
+    Symmetry,
+    /// Wrapped.
+    Periodic,
+    /// Outflow.
+    Open,
+}
+
+/// `[stop]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StopTable {
+    /// End of the run.
+    pub time: Positive<Time>,
+}

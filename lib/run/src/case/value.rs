@@ -1,0 +1,148 @@
+//! Values of a case file that are more than a plain quantity.
+
+use std::fmt;
+
+use serde::Deserialize;
+use serde::de::{self, Deserializer};
+use units::{Dimension, Length, Quantity, Speed, Time};
+
+/// A quantity that must be greater than zero.
+#[derive(Clone, Copy, Debug)]
+pub struct Positive<D: Dimension>(Quantity<D>);
+
+impl<D: Dimension> Positive<D> {
+    /// Value in SI.
+    pub fn si(self) -> f64
+    where
+        D: Copy,
+    {
+        self.0.si()
+    }
+
+    /// From a value in SI, for defaults.
+    pub fn from_si(si: f64) -> Self {
+        Self(Quantity::from_si(si))
+    }
+}
+
+impl<'de, D: Dimension> Deserialize<'de> for Positive<D> {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        Quantity::deserialize(reader)?
+            .positive()
+            .map(Self)
+            .map_err(de::Error::custom)
+    }
+}
+
+/// 1/k of paper Eq. 3: a length, or a multiple of the cell (`"0.01 cell"`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum InfluenceLength {
+    /// In cells.
+    Cells(f64),
+    /// In metres.
+    Metres(f64),
+}
+
+impl InfluenceLength {
+    /// In metres for a cell of `cell_m`.
+    pub fn si(self, cell_m: f64) -> f64 {
+        match self {
+            InfluenceLength::Cells(n) => n * cell_m,
+            InfluenceLength::Metres(l) => l,
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for InfluenceLength {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        let text = text(
+            reader,
+            "a length such as \"29 nm\" or a multiple of the cell such as \"0.01 cell\"",
+        )?;
+        if let Some(number) = text.trim().strip_suffix("cell") {
+            return match number.trim().parse::<f64>() {
+                Ok(n) if n > 0.0 && n.is_finite() => Ok(InfluenceLength::Cells(n)),
+                _ => Err(de::Error::custom(format!(
+                    "'{text}' is not accepted: a number of cells greater than zero is needed, such as \"0.01 cell\""
+                ))),
+            };
+        }
+        text.parse::<Quantity<Length>>()
+            .and_then(Quantity::positive)
+            .map(|l| InfluenceLength::Metres(l.si()))
+            .map_err(|e| {
+                de::Error::custom(format!("{e}, or a number of cells such as \"0.01 cell\""))
+            })
+    }
+}
+
+/// `stop` of the clamp: `"closed"` or a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StopRule {
+    /// When the adherends are back in place.
+    Closed,
+    /// At this time, s.
+    Time(f64),
+}
+
+impl<'de> Deserialize<'de> for StopRule {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        let text = text(reader, "\"closed\" or a time such as \"0.08 ms\"")?;
+        if text == "closed" {
+            return Ok(StopRule::Closed);
+        }
+        text.parse::<Quantity<Time>>()
+            .and_then(Quantity::positive)
+            .map(|t| StopRule::Time(t.si()))
+            .map_err(|e| de::Error::custom(format!("{e}, or \"closed\"")))
+    }
+}
+
+/// Velocity of a body: three speeds, or `"clamp"` for a rigid body the clamp drives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BodyVelocity {
+    /// Constant, m/s.
+    Constant([f64; 3]),
+    /// Along -y at the clamp's closing speed.
+    Clamp,
+}
+
+impl<'de> Deserialize<'de> for BodyVelocity {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Raw {
+            Word(String),
+            Speeds([String; 3]),
+        }
+        let wanted = "three speeds such as [\"0 m/s\", \"-1 m/s\", \"0 m/s\"], or \"clamp\"";
+        match Raw::deserialize(reader) {
+            Ok(Raw::Word(word)) if word == "clamp" => Ok(BodyVelocity::Clamp),
+            Ok(Raw::Speeds(speeds)) => {
+                let mut v = [0.0; 3];
+                for (v, text) in v.iter_mut().zip(&speeds) {
+                    *v = text
+                        .parse::<Quantity<Speed>>()
+                        .map_err(de::Error::custom)?
+                        .si();
+                }
+                Ok(BodyVelocity::Constant(v))
+            }
+            _ => Err(de::Error::custom(format!("a body's velocity is {wanted}"))),
+        }
+    }
+}
+
+fn text<'de, R: Deserializer<'de>>(reader: R, wanted: &'static str) -> Result<String, R::Error> {
+    struct Visitor(&'static str);
+    impl de::Visitor<'_> for Visitor {
+        type Value = String;
+        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+            f.write_str(self.0)
+        }
+        fn visit_str<E: de::Error>(self, text: &str) -> Result<String, E> {
+            Ok(text.to_owned())
+        }
+    }
+    reader.deserialize_any(Visitor(wanted))
+}

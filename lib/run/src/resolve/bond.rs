@@ -1,0 +1,154 @@
+//! Scenes from a bond file: two adherends and a slab of adhesive between them.
+
+use physics::{Dimensions, GridBox, Motion, Points, RigidBody, VoxelBlock};
+
+use super::{Geometry, seed};
+use crate::case::{Case, CaseError};
+
+/// What a bond file says, with the bond normal turned to y.
+#[derive(Clone, Debug)]
+pub struct Bond {
+    /// Low corner of the box, m.
+    pub min_m: [f64; 3],
+    /// High corner of the box, the top adherend moved away, m.
+    pub max_m: [f64; 3],
+    /// Bond normal in the file.
+    pub normal: units::Axis,
+    /// Lower adherend.
+    pub bottom: VoxelBlock,
+    /// Upper adherend.
+    pub top: VoxelBlock,
+    /// Adhesive voxels.
+    pub adhesive: VoxelBlock,
+    /// How far the upper adherend was moved away, m.
+    pub gap_m: f64,
+}
+
+pub(super) fn geometry(
+    case: &Case,
+    dimensions: Dimensions,
+    bond: Bond,
+) -> Result<Geometry, CaseError> {
+    let cell = case.grid.cell.si();
+    if case.grid.domain.is_some() {
+        return Err(CaseError(
+            "[grid] domain is for [[body]] scenes; a bond file has its own box".into(),
+        ));
+    }
+    let voxel = bond.adhesive.voxel()[0];
+    let plane_strain = dimensions == Dimensions::Two;
+    if plane_strain && bond.adhesive.dims()[2] != 1 {
+        return Err(CaseError(format!(
+            "plane strain needs a bond one voxel thick along z, but this one has {}; cut it with xct2particles --crop",
+            bond.adhesive.dims()[2]
+        )));
+    }
+    let mut cells = [1; 3];
+    for a in 0..if plane_strain { 2 } else { 3 } {
+        let n = (bond.max_m[a] - bond.min_m[a]) / cell;
+        if a != 1 && (n - n.round()).abs() > 1e-3 {
+            return Err(CaseError(format!(
+                "the bond is {n:.3} cells of {:.4} um wide along {}: its symmetry sides must lie on cell faces; crop it or choose another cell",
+                cell * 1e6,
+                ["x", "y", "z"][a]
+            )));
+        }
+        cells[a] = (n - 1e-3).ceil().max(1.0) as usize;
+    }
+    let mut min_m = bond.min_m;
+    let depth = plane_strain.then_some(cell);
+    if depth.is_some() {
+        min_m[2] = 0.0;
+    }
+    let grid = GridBox {
+        cell_m: cell,
+        min_m,
+        cells,
+    };
+    let points = points(case, &bond.adhesive, voxel, cell, depth)?;
+    let body = |name: &str, block: &VoxelBlock, motion| RigidBody {
+        name: name.into(),
+        blocks: vec![deepen(block, depth)],
+        motion,
+    };
+    let bodies = vec![
+        body("wood-bottom", &bond.bottom, Motion::Fixed),
+        body(
+            "wood-top",
+            &bond.top,
+            if case.clamp.is_some() {
+                Motion::Clamped
+            } else {
+                Motion::Fixed
+            },
+        ),
+    ];
+    Ok(Geometry {
+        grid,
+        points,
+        bodies,
+        bottom: Some(0),
+        top: Some(1),
+        travel_m: Some(
+            case.clamp
+                .as_ref()
+                .and_then(|c| c.travel)
+                .map_or(bond.gap_m, |t| t.si()),
+        ),
+        normal: bond.normal,
+    })
+}
+
+/// In plane strain a block is as deep as the one layer of cells.
+fn deepen(block: &VoxelBlock, depth: Option<f64>) -> VoxelBlock {
+    let Some(depth) = depth else {
+        return block.clone();
+    };
+    let (mut origin, mut voxel) = (block.origin(), block.voxel());
+    (origin[2], voxel[2]) = (0.0, depth);
+    VoxelBlock::new(origin, voxel, block.dims(), block.bits().to_vec())
+}
+
+/// The same number of points in every adhesive voxel, on a regular lattice.
+fn points(
+    case: &Case,
+    block: &VoxelBlock,
+    voxel: f64,
+    cell: f64,
+    depth: Option<f64>,
+) -> Result<Points, CaseError> {
+    let spacing = cell / f64::from(case.grid.points_per_direction);
+    let per_edge = voxel / spacing;
+    if per_edge < 0.99 || (per_edge - per_edge.round()).abs() > 1e-3 {
+        return Err(CaseError(format!(
+            "cell {:.4} um with {} points per direction puts {per_edge:.3} points along a voxel of {:.4} um: a whole number is needed",
+            cell * 1e6,
+            case.grid.points_per_direction,
+            voxel * 1e6
+        )));
+    }
+    let [nx, ny, nz] = block.dims();
+    let per_voxel = (per_edge.round() as u64).pow(if depth.is_some() { 2 } else { 3 });
+    if block.count().saturating_mul(per_voxel) > seed::MOST_POINTS {
+        return Err(CaseError(
+            "the adhesive would need more than two thousand million material points".into(),
+        ));
+    }
+    let mut points = Points::default();
+    for k in 0..nz {
+        for j in 0..ny {
+            for i in 0..nx {
+                if block.solid(i, j, k) {
+                    let index = [i, j, k];
+                    let min = std::array::from_fn(|a| {
+                        block.origin()[a] + index[a] as f64 * block.voxel()[a]
+                    });
+                    let max = std::array::from_fn(|a| min[a] + block.voxel()[a]);
+                    seed::fill_box(&mut points, min, max, spacing, depth, [0.0; 3])
+                        .map_err(CaseError)?;
+                }
+            }
+        }
+    }
+    Ok(points)
+}

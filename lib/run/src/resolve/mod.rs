@@ -1,0 +1,229 @@
+//! A case and its bodies or bond file, resolved to a [`Scene`] in SI.
+
+mod bond;
+mod primitives;
+mod seed;
+
+use physics::{
+    Boundary, Clamp, Dimensions, Liquid, Newtonian, Pid, Points, RigidBody, Scene, ShearRate, Stop,
+    Table, Tait, Viscosity, WallLaw,
+};
+
+use crate::case::{
+    Adhesive, BoundaryName, Case, CaseError, Contact, LawName, ShearRateName, StopRule,
+};
+
+pub use bond::Bond;
+
+/// A run resolved to SI with what the run loop needs beside the scene.
+#[derive(Debug)]
+pub struct Setup {
+    /// The scene.
+    pub scene: Scene,
+    /// Latest end, s.
+    pub time_limit_s: f64,
+    /// Gap between the adherends at the start, m; `None` without a clamp.
+    pub initial_gap_m: Option<f64>,
+    /// Duration that snapshots and history divide, s.
+    pub nominal_duration_s: f64,
+    /// Bond normal of the files; the scene's own is y.
+    pub normal: units::Axis,
+}
+
+/// Geometry of a scene: what differs between a bond file and `[[body]]` tables.
+struct Geometry {
+    grid: physics::GridBox,
+    points: Points,
+    bodies: Vec<RigidBody>,
+    bottom: Option<usize>,
+    top: Option<usize>,
+    travel_m: Option<f64>,
+    normal: units::Axis,
+}
+
+/// Resolves `case`, with the bond file's content where one is given.
+///
+/// # Errors
+/// One sentence about keys that contradict each other or geometry that does not fit.
+pub fn resolve(case: &Case, bond: Option<Bond>) -> Result<Setup, CaseError> {
+    let dimensions = match case.grid.dimensions {
+        2 => Dimensions::Two,
+        3 => Dimensions::Three,
+        n => {
+            return Err(CaseError(format!(
+                "[grid] dimensions = {n} is not accepted: 2 or 3 is needed"
+            )));
+        }
+    };
+    if !(1..=4).contains(&case.grid.points_per_direction) {
+        return Err(CaseError(
+            "[grid] points_per_direction must be 1 to 4".into(),
+        ));
+    }
+    let geometry = match bond {
+        Some(bond) if case.body.is_empty() => bond::geometry(case, dimensions, bond)?,
+        Some(_) => {
+            return Err(CaseError("the case has [[body]] tables and --particles: only one of them can describe the scene".into()));
+        }
+        None if case.body.is_empty() => {
+            return Err(CaseError(
+                "nothing describes the scene: give --particles BOND or [[body]] tables".into(),
+            ));
+        }
+        None => primitives::geometry(case, dimensions)?,
+    };
+    if geometry.points.position.is_empty() {
+        return Err(CaseError(
+            "the scene holds no adhesive: no material point lies inside the grid".into(),
+        ));
+    }
+    finish(case, dimensions, geometry)
+}
+
+fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Setup, CaseError> {
+    let cell = case.grid.cell.si();
+    let clamp = case.clamp.as_ref().map(|c| Clamp {
+        closing_speed: c.closing_speed.si(),
+        max_pressure: c.max_pressure.map(|p| p.si()),
+        pid: c.pid.map(|g| Pid {
+            kp: g.kp,
+            ki: g.ki,
+            kd: g.kd,
+        }),
+    });
+    let (stop, time_limit_s, nominal) = stop(case, clamp, geometry.travel_m)?;
+    let scene = Scene {
+        dimensions,
+        grid: geometry.grid,
+        boundary: boundary(case, dimensions)?,
+        liquid: liquid(&case.adhesive)?,
+        points: geometry.points,
+        wall: wall(case.contact.as_ref(), cell, !geometry.bodies.is_empty())?,
+        bodies: geometry.bodies,
+        gravity: case
+            .gravity
+            .as_ref()
+            .map_or([0.0; 3], |g| g.acceleration.map(|a| a.si())),
+        clamp,
+        stop,
+        bottom: geometry.bottom,
+        top: geometry.top,
+    };
+    let initial_gap_m = scene.clamp.and(geometry.travel_m);
+    Ok(Setup {
+        scene,
+        time_limit_s,
+        initial_gap_m,
+        nominal_duration_s: nominal,
+        normal: geometry.normal,
+    })
+}
+
+/// The stop rule, the latest end and the nominal duration.
+fn stop(
+    case: &Case,
+    clamp: Option<Clamp>,
+    travel: Option<f64>,
+) -> Result<(Stop, f64, f64), CaseError> {
+    let (table, clamp) = match (&case.clamp, clamp) {
+        (Some(table), Some(clamp)) => (table, clamp),
+        _ => {
+            let time = case.stop.as_ref().map(|s| s.time.si()).ok_or_else(|| {
+                CaseError("the case has no end: give [stop] time, or a [clamp] with stop".into())
+            })?;
+            return Ok((Stop::Time(time), time, time));
+        }
+    };
+    if case.stop.is_some() {
+        return Err(CaseError(
+            "[stop] is for runs without [clamp]; use the clamp's own stop".into(),
+        ));
+    }
+    match table.stop {
+        StopRule::Time(t) => Ok((Stop::Time(t), t, t)),
+        StopRule::Closed => {
+            let travel_m = travel.ok_or_else(|| {
+                CaseError("stop = \"closed\" needs the clamp's travel: give [clamp] travel".into())
+            })?;
+            let nominal = travel_m / clamp.closing_speed;
+            // Under load control closure may never come (paper Fig. 5): twice the time at
+            // full speed is where the paper's own runs had stopped moving.
+            let limit = table.time_limit.map_or(2.0 * nominal, |t| t.si());
+            Ok((Stop::Closed { travel_m }, limit, nominal))
+        }
+    }
+}
+
+fn boundary(case: &Case, dimensions: Dimensions) -> Result<[Boundary; 3], CaseError> {
+    let named = [case.boundary.x, case.boundary.y, case.boundary.z];
+    if dimensions == Dimensions::Two && named[2] != BoundaryName::Symmetry {
+        return Err(CaseError(
+            "[boundary] z has no meaning in plane strain (dimensions = 2)".into(),
+        ));
+    }
+    Ok(named.map(|name| match name {
+        BoundaryName::Symmetry => Boundary::Symmetry,
+        BoundaryName::Periodic => Boundary::Periodic,
+        BoundaryName::Open => Boundary::Open,
+    }))
+}
+
+fn liquid(adhesive: &Adhesive) -> Result<Liquid, CaseError> {
+    let viscosity = match (&adhesive.viscosity, &adhesive.viscosity_table) {
+        (Some(eta), None) => Viscosity::Newtonian(Newtonian(eta.si())),
+        (None, Some(points)) => {
+            let points: Vec<_> = points
+                .iter()
+                .map(|(rate, eta)| (rate.si(), eta.si()))
+                .collect();
+            Viscosity::Table(Table::new(&points).map_err(|e| CaseError(format!("[adhesive] {e}")))?)
+        }
+        (Some(_), Some(_)) => {
+            return Err(CaseError(
+                "[adhesive] has viscosity and viscosity_table: only one can hold".into(),
+            ));
+        }
+        (None, None) => {
+            return Err(CaseError(
+                "[adhesive] needs viscosity or viscosity_table".into(),
+            ));
+        }
+    };
+    Ok(Liquid {
+        density: adhesive.density.si(),
+        tait: Tait {
+            bulk_modulus: adhesive.bulk_modulus.si(),
+        },
+        viscosity,
+        shear_rate: match adhesive.shear_rate {
+            ShearRateName::Paper => ShearRate::Paper,
+            ShearRateName::Rheometer => ShearRate::Rheometer,
+        },
+        cavitation_pressure: adhesive.cavitation_pressure.map(|p| p.si()),
+    })
+}
+
+fn wall(contact: Option<&Contact>, cell: f64, walls: bool) -> Result<WallLaw, CaseError> {
+    let Some(contact) = contact else {
+        return if walls {
+            Err(CaseError(
+                "the scene has rigid bodies: [contact] law is needed".into(),
+            ))
+        } else {
+            Ok(WallLaw::Frictionless)
+        };
+    };
+    match (contact.law, contact.influence_length) {
+        (LawName::PartialSlip, Some(l)) => Ok(WallLaw::PartialSlip {
+            influence_length_m: l.si(cell),
+        }),
+        (LawName::PartialSlip, None) => Err(CaseError(
+            "[contact] law = \"partial-slip\" needs influence_length, such as \"0.01 cell\"".into(),
+        )),
+        (LawName::Frictionless | LawName::Stick, Some(_)) => Err(CaseError(
+            "[contact] influence_length is for law = \"partial-slip\" only".into(),
+        )),
+        (LawName::Frictionless, None) => Ok(WallLaw::Frictionless),
+        (LawName::Stick, None) => Ok(WallLaw::Stick),
+    }
+}

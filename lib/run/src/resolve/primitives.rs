@@ -1,0 +1,147 @@
+//! Scenes described by `[[body]]` tables: the verification cases.
+
+use physics::{Dimensions, GridBox, Motion, Points, RigidBody, VoxelBlock};
+
+use super::{Geometry, seed};
+use crate::case::{Body, BodyVelocity, BoxCorners, Case, CaseError, MaterialName};
+
+pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, CaseError> {
+    let cell = case.grid.cell.si();
+    let depth = (dimensions == Dimensions::Two).then_some(cell);
+    let grid = grid(case, cell, depth)?;
+    let mut points = Points::default();
+    let mut bodies: Vec<RigidBody> = Vec::new();
+    for (index, body) in case.body.iter().enumerate() {
+        let (min, max) = corners(&body.corners, depth)
+            .map_err(|e| CaseError(format!("[[body]] number {}: {e}", index + 1)))?;
+        match body.material {
+            MaterialName::Adhesive => {
+                let velocity = match body.velocity {
+                    None => [0.0; 3],
+                    Some(BodyVelocity::Constant(v)) => v,
+                    Some(BodyVelocity::Clamp) => {
+                        return Err(CaseError(
+                            "an adhesive body cannot be driven by the clamp".into(),
+                        ));
+                    }
+                };
+                let spacing = cell / f64::from(case.grid.points_per_direction);
+                seed::fill_box(&mut points, min, max, spacing, depth, velocity)
+                    .map_err(CaseError)?;
+            }
+            MaterialName::Rigid => add_rigid(&mut bodies, body, min, max, case.clamp.is_some())?,
+        }
+    }
+    inside(&points, &grid)?;
+    let moving = bodies.iter().position(|b| b.motion != Motion::Fixed);
+    let fixed = bodies.iter().position(|b| b.motion == Motion::Fixed);
+    let named = |name: &str| bodies.iter().position(|b| b.name == name);
+    Ok(Geometry {
+        grid,
+        points,
+        bottom: named("bottom").or(fixed),
+        top: named("top").or(moving),
+        bodies,
+        travel_m: case.clamp.as_ref().and_then(|c| c.travel).map(|t| t.si()),
+        normal: units::Axis::Y,
+    })
+}
+
+/// Bodies of one name and motion become one body, as one piece of wood is.
+fn add_rigid(
+    bodies: &mut Vec<RigidBody>,
+    body: &Body,
+    min: [f64; 3],
+    max: [f64; 3],
+    clamped: bool,
+) -> Result<(), CaseError> {
+    let motion = match body.velocity {
+        None => Motion::Fixed,
+        Some(BodyVelocity::Constant(v)) if v == [0.0; 3] => Motion::Fixed,
+        Some(BodyVelocity::Constant(v)) => Motion::Constant(v),
+        Some(BodyVelocity::Clamp) if clamped => Motion::Clamped,
+        Some(BodyVelocity::Clamp) => {
+            return Err(CaseError(
+                "a [[body]] with velocity = \"clamp\" needs a [clamp] table".into(),
+            ));
+        }
+    };
+    let name = body.name.clone().unwrap_or_else(|| "wall".into());
+    let block = VoxelBlock::solid_box(min, max);
+    match bodies
+        .iter_mut()
+        .find(|b| b.name == name && b.motion == motion)
+    {
+        Some(same) => same.blocks.push(block),
+        None => bodies.push(RigidBody {
+            name,
+            blocks: vec![block],
+            motion,
+        }),
+    }
+    Ok(())
+}
+
+fn corners(corners: &BoxCorners, depth: Option<f64>) -> Result<([f64; 3], [f64; 3]), String> {
+    let (mut min, mut max) = (corners.min.map(|q| q.si()), corners.max.map(|q| q.si()));
+    if let Some(depth) = depth {
+        (min[2], max[2]) = (0.0, depth);
+    }
+    match (0..3).find(|&a| max[a] <= min[a]) {
+        Some(a) => Err(format!(
+            "max must be greater than min along {}",
+            ["x", "y", "z"][a]
+        )),
+        None => Ok((min, max)),
+    }
+}
+
+fn grid(case: &Case, cell: f64, depth: Option<f64>) -> Result<GridBox, CaseError> {
+    let (min, max) = match &case.grid.domain {
+        Some(domain) => {
+            corners(domain, depth).map_err(|e| CaseError(format!("[grid] domain: {e}")))?
+        }
+        None => {
+            let mut low = [f64::INFINITY; 3];
+            let mut high = [f64::NEG_INFINITY; 3];
+            for body in &case.body {
+                let (min, max) = corners(&body.corners, depth).map_err(CaseError)?;
+                for a in 0..3 {
+                    low[a] = low[a].min(min[a]);
+                    high[a] = high[a].max(max[a]);
+                }
+            }
+            (low, high)
+        }
+    };
+    let mut cells = [0; 3];
+    for a in 0..3 {
+        let n = ((max[a] - min[a]) / cell - 1e-6).ceil().max(1.0);
+        if n > 1e5 {
+            return Err(CaseError(format!(
+                "the domain is {n} cells long, more than 100000: the cell is too small"
+            )));
+        }
+        cells[a] = n as usize;
+    }
+    Ok(GridBox {
+        cell_m: cell,
+        min_m: min,
+        cells,
+    })
+}
+
+fn inside(points: &Points, grid: &GridBox) -> Result<(), CaseError> {
+    let max = grid.max_m();
+    match points
+        .position
+        .iter()
+        .find(|p| (0..3).any(|a| p[a] < grid.min_m[a] || p[a] > max[a]))
+    {
+        Some(p) => Err(CaseError(format!(
+            "an adhesive body reaches out of the domain at ({:.4e}, {:.4e}, {:.4e}) m",
+            p[0], p[1], p[2]
+        ))),
+        None => Ok(()),
+    }
+}
