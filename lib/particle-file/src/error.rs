@@ -1,0 +1,32 @@
+use std::io;
+
+/// Why a particle file cannot be used; every case is exit status 3.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The system refuses to read it.
+    #[error("cannot read {file}: {source}")]
+    Unreadable {
+        /// The file as the user named it.
+        file: String,
+        /// The system's reason.
+        source: io::Error,
+    },
+    /// Not a particle file, of another version, truncated, or damaged.
+    #[error("{file} {what}")]
+    Corrupt {
+        /// The file as the user named it.
+        file: String,
+        /// What is wrong and what would be accepted.
+        what: String,
+    },
+    /// A sound file without the block or column asked for.
+    #[error("{file} has no {wanted}; it holds {present}")]
+    Missing {
+        /// The file as the user named it.
+        file: String,
+        /// What was asked for.
+        wanted: String,
+        /// What there is.
+        present: String,
+    },
+}

@@ -1,0 +1,254 @@
+use std::path::Path;
+use std::sync::OnceLock;
+
+use bytemuck::Pod;
+
+use crate::bits::BitsRef;
+use crate::error::Error;
+use crate::header::{Block, Header, Stored};
+use crate::layout::{self, END_LEN, Element, PREAMBLE, Preamble, Section};
+use crate::map::Mapped;
+
+/// A type that columns are made of.
+pub trait Value: Pod {
+    /// Its name in the file.
+    const ELEMENT: Element;
+}
+
+impl Value for f32 {
+    const ELEMENT: Element = Element::F32;
+}
+impl Value for f64 {
+    const ELEMENT: Element = Element::F64;
+}
+impl Value for u32 {
+    const ELEMENT: Element = Element::U32;
+}
+impl Value for u64 {
+    const ELEMENT: Element = Element::U64;
+}
+impl Value for u8 {
+    const ELEMENT: Element = Element::U8;
+}
+
+/// An opened particle file: header and layout are checked, arrays are read when asked for
+/// and checked against their checksum then.
+#[derive(Debug)]
+pub struct ParticleFile {
+    name: String,
+    bytes: Mapped,
+    stored: Stored,
+    /// Whether each section agrees with its checksum, once somebody wanted to know.
+    sound: Vec<OnceLock<bool>>,
+}
+
+impl ParticleFile {
+    /// Opens the file at `path`; `-` is standard input.
+    ///
+    /// # Errors
+    /// When it cannot be read, is not a particle file, is truncated, or its header is
+    /// damaged.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let name = if path == Path::new("-") {
+            "standard input".to_owned()
+        } else {
+            format!("'{}'", path.display())
+        };
+        match Mapped::open(path) {
+            Ok(bytes) => Self::from_mapped(name, bytes),
+            Err(source) => Err(Error::Unreadable { file: name, source }),
+        }
+    }
+
+    /// Reads a file that lies in memory.
+    ///
+    /// # Errors
+    /// As [`ParticleFile::open`].
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let name = "the particle file in memory".to_owned();
+        match Mapped::copy_of(bytes) {
+            Ok(bytes) => Self::from_mapped(name, bytes),
+            Err(source) => Err(Error::Unreadable { file: name, source }),
+        }
+    }
+
+    /// Reads an input that was mapped already, e.g. to see what it is; `name` is for
+    /// messages.
+    ///
+    /// # Errors
+    /// As [`ParticleFile::open`].
+    pub fn from_mapped(name: String, bytes: Mapped) -> Result<Self, Error> {
+        match read_header(&bytes) {
+            Ok(stored) => Ok(Self {
+                name,
+                bytes,
+                sound: stored.sections.iter().map(|_| OnceLock::new()).collect(),
+                stored,
+            }),
+            Err(what) => Err(Error::Corrupt { file: name, what }),
+        }
+    }
+
+    /// Whether `bytes` begin like a particle file.
+    pub fn recognises(bytes: &[u8]) -> bool {
+        bytes.starts_with(&layout::MAGIC)
+    }
+
+    /// The file's name as messages show it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What the file says about itself.
+    pub fn header(&self) -> &Header {
+        &self.stored.header
+    }
+
+    /// All arrays: the blocks' bits, then columns and blobs.
+    pub fn sections(&self) -> &[Section] {
+        &self.stored.sections
+    }
+
+    /// The columns.
+    pub fn columns(&self) -> impl Iterator<Item = &Section> {
+        let bulk = |s: &&Section| !matches!(s.element, Element::Bits | Element::Blob);
+        self.stored.sections.iter().filter(bulk)
+    }
+
+    /// XXH3-64 of the whole file, as provenance records it.
+    pub fn content_hash(&self) -> u64 {
+        layout::checksum(&self.bytes)
+    }
+
+    /// Block `index` and its voxels.
+    ///
+    /// # Errors
+    /// When there is no such block or its voxels are damaged.
+    pub fn block(&self, index: usize) -> Result<(&Block, BitsRef<'_>), Error> {
+        let block = (self.header().blocks.get(index))
+            .ok_or_else(|| self.missing(format!("block number {index}")))?;
+        let words = self.values_of(index)?;
+        let dims = layout::usize_dims(block.dims);
+        match dims.and_then(|dims| BitsRef::new(dims, words)) {
+            Some(bits) if bits.count() == block.count => Ok((block, bits)),
+            _ => Err(self.corrupt(format!(
+                "says that block '{}' has {} voxels, which is not what its bits say",
+                block.name, block.count
+            ))),
+        }
+    }
+
+    /// The block called `name` and its voxels.
+    ///
+    /// # Errors
+    /// When there is no such block or its voxels are damaged.
+    pub fn block_named(&self, name: &str) -> Result<(&Block, BitsRef<'_>), Error> {
+        let index = self.header().blocks.iter().position(|b| b.name == name);
+        self.block(index.ok_or_else(|| self.missing(format!("block '{name}'")))?)
+    }
+
+    /// The values of column `name`, row by row.
+    ///
+    /// # Errors
+    /// When there is no column of that name and type or it is damaged.
+    pub fn column<T: Value>(&self, name: &str) -> Result<&[T], Error> {
+        let matches = |s: &Section| s.name == name && s.element == T::ELEMENT;
+        match self.stored.sections.iter().position(matches) {
+            Some(index) => self.values_of(index),
+            None => Err(self.missing(format!("column '{name}' of type {:?}", T::ELEMENT))),
+        }
+    }
+
+    /// The vectors of column `name`, which has three components.
+    ///
+    /// # Errors
+    /// When there is no column of that name, type and width or it is damaged.
+    pub fn vectors(&self, name: &str) -> Result<&[[f32; 3]], Error> {
+        let fits = |s: &Section| s.name == name && s.components == 3;
+        if self.columns().any(fits) {
+            Ok(bytemuck::cast_slice(self.column::<f32>(name)?))
+        } else {
+            Err(self.missing(format!("column '{name}' of vectors")))
+        }
+    }
+
+    /// The bytes of blob `name`.
+    ///
+    /// # Errors
+    /// When there is no such blob or it is damaged.
+    pub fn blob(&self, name: &str) -> Result<&[u8], Error> {
+        let matches = |s: &Section| s.name == name && s.element == Element::Blob;
+        match self.stored.sections.iter().position(matches) {
+            Some(index) => self.values_of(index),
+            None => Err(self.missing(format!("blob '{name}'"))),
+        }
+    }
+
+    /// The checked bytes of section `index` as values of its type.
+    fn values_of<T: Pod>(&self, index: usize) -> Result<&[T], Error> {
+        let section = &self.stored.sections[index];
+        let bytes = section_bytes(&self.bytes, section)
+            .ok_or_else(|| self.corrupt("ends within an array".into()))?;
+        let sound = self.sound[index].get_or_init(|| layout::checksum(bytes) == section.xxh3);
+        match bytemuck::try_cast_slice(bytes) {
+            Ok(values) if *sound => Ok(values),
+            _ => Err(self.corrupt(format!(
+                "has a damaged array '{}': its checksum does not agree",
+                section.name
+            ))),
+        }
+    }
+
+    fn corrupt(&self, what: String) -> Error {
+        Error::Corrupt {
+            file: self.name.clone(),
+            what,
+        }
+    }
+
+    fn missing(&self, wanted: String) -> Error {
+        let names: Vec<String> = (self.stored.sections.iter())
+            .map(|s| format!("'{}' ({:?} x {})", s.name, s.element, s.components))
+            .collect();
+        Error::Missing {
+            file: self.name.clone(),
+            wanted,
+            present: match names.is_empty() {
+                true => "no arrays".into(),
+                false => names.join(", "),
+            },
+        }
+    }
+}
+
+/// The bytes of a section, without padding.
+pub(crate) fn section_bytes<'a>(file: &'a [u8], section: &Section) -> Option<&'a [u8]> {
+    let start = usize::try_from(section.offset).ok()?;
+    let len = usize::try_from(section.bytes()?).ok()?;
+    file.get(start..start.checked_add(len)?)
+}
+
+/// Everything about the file but the arrays' values; the error says what is wrong with it.
+fn read_header(file: &[u8]) -> Result<Stored, String> {
+    let preamble = Preamble::from_file(file)?;
+    let header = (file.get(PREAMBLE..PREAMBLE + preamble.header_len))
+        .ok_or("ends within its header; it is truncated or damaged")?;
+    if preamble.checksum_with(header) != preamble.checksum {
+        return Err("has a damaged header: its checksum does not agree".into());
+    }
+    let stored = Stored::decode(header).map_err(|what| format!("has a header that {what}"))?;
+    let fault = stored.header.fault();
+    if let Some(fault) = fault.or_else(|| layout::fault(&stored.header, &stored.sections)) {
+        return Err(format!("has an impossible header: {fault}"));
+    }
+    let mut placed = stored.sections.clone();
+    let file_len = layout::place(&mut placed, preamble.header_len);
+    if file_len != Some(preamble.file_len) || placed != stored.sections {
+        return Err("has arrays that do not lie one behind the other".into());
+    }
+    match file.last_chunk::<END_LEN>() {
+        Some(end) if *end == layout::end_marker(preamble.checksum) => Ok(stored),
+        _ => Err("does not end with its end marker; it is truncated or damaged".into()),
+    }
+}
