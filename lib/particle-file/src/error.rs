@@ -4,25 +4,25 @@ use std::io;
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The system refuses to read it.
-    #[error("cannot read {file}: {source}")]
+    #[error("cannot read '{file}': {source}")]
     Unreadable {
-        /// The file as the user named it.
+        /// The file as the user named it, "standard input" for `-`.
         file: String,
         /// The system's reason.
         source: io::Error,
     },
     /// Not a particle file, of another version, truncated, or damaged.
-    #[error("{file} {what}")]
+    #[error("'{file}' {what}")]
     Corrupt {
-        /// The file as the user named it.
+        /// The file as the user named it, "standard input" for `-`.
         file: String,
         /// What is wrong and what would be accepted.
         what: String,
     },
     /// A sound file without the block or column asked for.
-    #[error("{file} has no {wanted}; it holds {present}")]
+    #[error("'{file}' has no {wanted}; it holds {present}")]
     Missing {
-        /// The file as the user named it.
+        /// The file as the user named it, "standard input" for `-`.
         file: String,
         /// What was asked for.
         wanted: String,

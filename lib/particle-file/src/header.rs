@@ -190,7 +190,9 @@ impl Header {
             return Some(format!("time {} s is not 0 or positive", self.time_s));
         }
         self.blocks.iter().find_map(|block| {
-            let fault = if !positive(block.voxel_m) {
+            let fault = if block.dims.contains(&0) {
+                "number of voxels is zero"
+            } else if !positive(block.voxel_m) {
                 "voxel edge is not positive"
             } else if !block
                 .max_m()

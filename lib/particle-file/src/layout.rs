@@ -122,6 +122,14 @@ pub(crate) fn fault(header: &Header, sections: &[Section]) -> Option<String> {
             return Some(format!("the bits of block '{}' do not fit it", block.name));
         }
     }
+    let is_column = |s: &&Section| s.element != Element::Blob;
+    let mut columns = arrays.iter().filter(is_column);
+    if header.particles > 0 && !columns.any(|s| s.rows == header.particles) {
+        return Some(format!(
+            "no column has a row for each of {} material points",
+            header.particles
+        ));
+    }
     for section in arrays {
         let rows_fit = match section.element {
             Element::Bits => false,

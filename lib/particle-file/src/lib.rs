@@ -21,12 +21,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod adhesive;
 mod bits;
+mod check;
 mod error;
 mod header;
 mod layout;
 mod map;
 mod read;
+mod sum;
 mod write;
 
 pub use bits::{BitGrid, BitsRef};

@@ -10,7 +10,7 @@ use crate::layout::{self, END_LEN, Element, PREAMBLE, Preamble, Section};
 use crate::map::Mapped;
 
 /// A type that columns are made of.
-pub trait Value: Pod {
+pub trait Value: Pod + Send + Sync {
     /// Its name in the file.
     const ELEMENT: Element;
 }
@@ -53,7 +53,7 @@ impl ParticleFile {
         let name = if path == Path::new("-") {
             "standard input".to_owned()
         } else {
-            format!("'{}'", path.display())
+            path.display().to_string()
         };
         match Mapped::open(path) {
             Ok(bytes) => Self::from_mapped(name, bytes),
@@ -66,7 +66,7 @@ impl ParticleFile {
     /// # Errors
     /// As [`ParticleFile::open`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        let name = "the particle file in memory".to_owned();
+        let name = "bytes in memory".to_owned();
         match Mapped::copy_of(bytes) {
             Ok(bytes) => Self::from_mapped(name, bytes),
             Err(source) => Err(Error::Unreadable { file: name, source }),
@@ -95,7 +95,7 @@ impl ParticleFile {
         bytes.starts_with(&layout::MAGIC)
     }
 
-    /// The file's name as messages show it.
+    /// The file as the user named it; "standard input" for `-`.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -185,8 +185,12 @@ impl ParticleFile {
         }
     }
 
+    pub(crate) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
     /// The checked bytes of section `index` as values of its type.
-    fn values_of<T: Pod>(&self, index: usize) -> Result<&[T], Error> {
+    pub(crate) fn values_of<T: Pod>(&self, index: usize) -> Result<&[T], Error> {
         let section = &self.stored.sections[index];
         let bytes = section_bytes(&self.bytes, section)
             .ok_or_else(|| self.corrupt("ends within an array".into()))?;
@@ -200,7 +204,7 @@ impl ParticleFile {
         }
     }
 
-    fn corrupt(&self, what: String) -> Error {
+    pub(crate) fn corrupt(&self, what: String) -> Error {
         Error::Corrupt {
             file: self.name.clone(),
             what,
@@ -223,7 +227,7 @@ impl ParticleFile {
 }
 
 /// The bytes of a section, without padding.
-pub(crate) fn section_bytes<'a>(file: &'a [u8], section: &Section) -> Option<&'a [u8]> {
+fn section_bytes<'a>(file: &'a [u8], section: &Section) -> Option<&'a [u8]> {
     let start = usize::try_from(section.offset).ok()?;
     let len = usize::try_from(section.bytes()?).ok()?;
     file.get(start..start.checked_add(len)?)
