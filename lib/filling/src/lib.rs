@@ -1,1 +1,8 @@
-//! filling
+//! The implicit scheme: a staggered (MAC) pressure-viscosity step with particles as markers
+//! and walls at the true voxel faces, for viscous liquid pressed into narrow lumens.
+//!
+//! Lengths inside are in cells, pressures and viscosities scaled by the liquid's viscosity.
+
+pub mod lattice;
+pub mod solids;
+pub mod window;

@@ -1,0 +1,124 @@
+//! Which faces are open.
+
+use physics::Boundary;
+
+use super::{Lattice, PROBE};
+use crate::solids::{BodyId, OPEN, SIDE};
+
+impl Lattice {
+    /// Whether the low face along `axis` of a cell carries a velocity of its own.
+    ///
+    /// The face is probed at the points around its centre (4, in plane strain 2), on both
+    /// sides of its plane. A point is blocked in a solid, or behind a wall that lies strictly
+    /// inside the neighbouring cell nearer to this face than to the opposite one (leak
+    /// stopper: such a wall closes no face by itself). The face is open when at most one of
+    /// four points is blocked, in plane strain none.
+    pub(super) fn face_state(&self, axis: usize, cell: [usize; 3]) -> BodyId {
+        if self.on_side(axis, cell) {
+            return SIDE;
+        }
+        match self.uniform(axis, cell) {
+            Some(true) => return OPEN,
+            Some(false) => {
+                let mut centre = self.window.face_centre(axis, cell);
+                centre[axis] += PROBE;
+                if let Some(body) = self.solids.at(centre) {
+                    return body;
+                }
+            }
+            None => {}
+        }
+        let centre = self.window.face_centre(axis, cell);
+        let tangents = self.tangents(axis);
+        let mut closing = OPEN;
+        let mut blocked = 0;
+        for corner in 0..1_usize << tangents.len() {
+            let mut point = centre;
+            for (bit, &t) in tangents.iter().enumerate() {
+                point[t] += if corner >> bit & 1 == 1 {
+                    PROBE
+                } else {
+                    -PROBE
+                };
+            }
+            if let Some(body) = self.blocker(axis, point) {
+                blocked += 1;
+                closing = if closing == OPEN { body } else { closing };
+            }
+        }
+        // 3 of 4 open points leave the open sub-cells on both sides connected (an L), so the
+        // face cannot join two sides of a wall.
+        if blocked + 2 <= tangents.len() {
+            return OPEN;
+        }
+        closing
+    }
+
+    /// Whether the face lies on or beyond a symmetry plane.
+    fn on_side(&self, axis: usize, cell: [usize; 3]) -> bool {
+        let domain = &self.window.domain;
+        (0..domain.axes).any(|a| {
+            let i = self.window.low[a] + cell[a] as i64;
+            let n = domain.cells[a] as i64;
+            let inside = if a == axis {
+                0 < i && i < n
+            } else {
+                0 <= i && i < n
+            };
+            domain.boundary[a] == Boundary::Symmetry && !inside
+        })
+    }
+
+    /// `Some(true)` when both cells at the face are open throughout, `Some(false)` when both
+    /// are solid throughout.
+    fn uniform(&self, axis: usize, cell: [usize; 3]) -> Option<bool> {
+        let w = &self.window;
+        if cell[axis] == 0 {
+            return None;
+        }
+        let mut low = cell;
+        low[axis] -= 1;
+        let first = self.open[w.first_sub(cell)];
+        if first != 0.0 && first != 1.0 {
+            return None;
+        }
+        for start in [w.first_sub(low), w.first_sub(cell)] {
+            for dz in 0..w.parts(2) {
+                for dy in 0..2 {
+                    let row = start + dy * w.sub_stride(1) + dz * w.sub_stride(2);
+                    if self.open[row] != first || self.open[row + 1] != first {
+                        return None;
+                    }
+                }
+            }
+        }
+        Some(first == 1.0)
+    }
+
+    /// Who blocks the passage through a face plane at a point of it.
+    fn blocker(&self, axis: usize, point: [f64; 3]) -> Option<BodyId> {
+        for side in [PROBE, -PROBE] {
+            let mut probe = point;
+            probe[axis] += side;
+            if let Some(body) = self.solids.at(probe) {
+                return Some(body);
+            }
+        }
+        for up in [true, false] {
+            let Some(hit) = self.solids.ray(point, axis, up, 1.0) else {
+                continue;
+            };
+            let middle = 0.5 * (hit.near + hit.far);
+            // A wall half way between two faces closes the lower one.
+            let nearer = if up {
+                middle <= 0.5 + PROBE
+            } else {
+                middle < 0.5 - PROBE
+            };
+            if hit.body != SIDE && hit.far < 1.0 - PROBE && nearer {
+                return Some(hit.body);
+            }
+        }
+        None
+    }
+}
