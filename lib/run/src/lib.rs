@@ -1,4 +1,23 @@
-//! From a case file to a run folder.
+//! From a case file to a run folder: reading and resolving the case, the time loop, and what
+//! a run writes (`history.csv`, snapshots, checkpoint, `final.mpts`, `summary.json`).
 
 pub mod case;
-pub mod resolve;
+mod checkpoint;
+mod drive;
+mod explain;
+mod history;
+mod invariants;
+mod left_out;
+mod load;
+mod request;
+mod resolve;
+mod schemes;
+mod snapshot;
+mod summary;
+mod system;
+
+pub use drive::End;
+pub use invariants::Invariants;
+pub use left_out::LeftOut;
+pub use request::{Mode, Request, RunFailure};
+pub use summary::{Stage, Summary};

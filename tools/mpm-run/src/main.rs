@@ -1,2 +1,113 @@
-//! Placeholder until the tool lands.
-fn main() {}
+//! Presses adhesive into wood: runs a case file into a run folder.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use cli::{Failure, Progress};
+use particle_file::Provenance;
+use run::{End, Request, RunFailure};
+
+/// Press adhesive into wood: run a case file into a run folder.
+#[derive(Parser, Debug)]
+#[command(
+    version,
+    after_help = "Examples:
+  mpm-run pf-implicit.toml --particles bond.mpts -o runs/pf-implicit
+  mpm-run pf-xpic.toml --particles bond.mpts --explain
+  mpm-run pf-xpic.toml --particles bond.mpts -o runs/pf-xpic --resume
+
+Exit status: 0 ok; 1 the run failed (unstable, cannot write); 2 usage or case file;
+3 unreadable or corrupt data; 75 stopped early, continue with --resume."
+)]
+struct Arguments {
+    /// Case file (TOML)
+    case: PathBuf,
+    /// Bond file from build-bondline; '-' is standard input. Without it the case's [[body]]
+    /// tables describe the scene
+    #[arg(long, value_name = "BOND")]
+    particles: Option<PathBuf>,
+    /// Run folder
+    #[arg(
+        short,
+        long,
+        value_name = "RUNDIR",
+        required_unless_present = "explain"
+    )]
+    output: Option<PathBuf>,
+    /// Change a key of the case, e.g. --set grid.cell="1.45 um" --set integrator.cfl=0.25
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Print the plan and what this scene leaves out, and run nothing
+    #[arg(long)]
+    explain: bool,
+    /// Continue from the run folder's last checkpoint; start if there is none
+    #[arg(long, conflicts_with = "explain")]
+    resume: bool,
+    /// Replace another run in the run folder
+    #[arg(long, conflicts_with = "explain")]
+    overwrite: bool,
+    #[command(flatten)]
+    common: cli::Common,
+}
+
+fn main() -> ExitCode {
+    cli::main(|a: &Arguments| &a.common, start)
+}
+
+fn start(arguments: Arguments) -> Result<(), Failure> {
+    let request = Request::read(
+        &arguments.case,
+        arguments.particles.as_deref(),
+        &arguments.set,
+    )
+    .map_err(failure)?;
+    for warning in request.warnings() {
+        cli::warn(warning);
+    }
+    if arguments.explain {
+        let plan = request.explain().map_err(failure)?;
+        return cli::Output::Stdout.write(|out| write!(out, "{plan}"));
+    }
+    let Some(folder) = arguments.output else {
+        return Err(Failure::usage("a run folder is needed: -o RUNDIR"));
+    };
+    cli::catch_interrupts()?;
+    let by = Provenance::of_process(
+        env!("CARGO_PKG_NAME"),
+        env!("CARGO_PKG_VERSION"),
+        Vec::new(),
+    );
+    let mut progress = Progress::new(&folder.display().to_string());
+    let ended = request.execute(
+        &folder,
+        run::Mode {
+            resume: arguments.resume,
+            overwrite: arguments.overwrite,
+        },
+        by,
+        &cli::interrupted,
+        &mut |fraction, state| progress.update(fraction, || state),
+    );
+    progress.finish();
+    let summary = ended.map_err(failure)?;
+    cli::note(summary.sentence());
+    match summary.end {
+        End::Interrupted => Err(Failure::new(
+            cli::Status::Resumable,
+            format!(
+                "stopped early; continue with --resume -o {}",
+                folder.display()
+            ),
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn failure(error: RunFailure) -> Failure {
+    match error {
+        RunFailure::Usage(said) => Failure::usage(said),
+        RunFailure::Data(said) => Failure::data(said),
+        RunFailure::Run(said) => Failure::failed(said),
+    }
+}

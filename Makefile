@@ -1,0 +1,46 @@
+# bondline: from XCT stack to penetration metrics.
+#
+#   make                          the paper's six runs and their implicit counterparts on two
+#                                 small synthetic specimens; ends with Table 2
+#   make SCALE=small|medium|full  the same on larger specimens
+#   make XCT_PF=a.tif XCT_PVA_PF=b.tif VOXEL="1.45 um" [LABELS=void=0,wood=1,adhesive=2]
+#                                 the same on your own stacks
+#   make test                     formatting, clippy, all tests
+#   make verify tradeoff stability bench   long studies, results into docs/results/
+#   make figures man install clean help
+
+.DELETE_ON_ERROR:
+.SUFFIXES:
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+
+SCALE ?= quick
+VOXEL ?= 1.45 um
+NORMAL ?= y
+CARGO ?= cargo
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+PREFIX ?= $(HOME)/.local
+
+BIN := target/release
+TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures particles
+BINARIES := $(TOOLS:%=$(BIN)/%)
+
+OUT := out/$(if $(XCT_PF)$(XCT_PVA_PF),xct,$(SCALE))
+
+.PHONY: all
+all: table2 figures
+
+include pipelines/10-tools.mk
+include pipelines/20-specimens.mk
+include pipelines/30-runs.mk
+include pipelines/40-metrics.mk
+include pipelines/50-figures.mk
+include pipelines/60-studies.mk
+
+.PHONY: help
+help:
+	@sed -n '3,12s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+
+.PHONY: clean
+clean:
+	rm -rf out

@@ -1,0 +1,264 @@
+//! The time loop: steps until the end, and what is written on the way.
+
+use std::io;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use physics::{Diagnostics, Failure, Scheme, StepLimit, StepReport, Stop};
+
+use crate::checkpoint::{self, Clock};
+use crate::history::History;
+use crate::resolve::Setup;
+use crate::snapshot::SnapshotWriter;
+
+/// Wall time between checkpoints.
+const CHECKPOINT_EVERY: Duration = Duration::from_secs(60);
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum End {
+    /// The adherends are back in place.
+    Closed,
+    /// The time asked for is reached.
+    Time,
+    /// Closure did not come before the time limit: the pressure limit holds the gap open.
+    TimeLimit,
+    /// Stopped by the user; can be resumed.
+    Interrupted,
+}
+
+/// Why a run stopped without an end.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The state is no longer sound.
+    #[error("{failure}; the run stopped after step {step} at {time_s:.4e} s{checkpoint}")]
+    Unstable {
+        /// What the scheme found.
+        failure: Failure,
+        /// Last step taken.
+        step: u64,
+        /// Its time, s.
+        time_s: f64,
+        /// Where the last good checkpoint is, as the end of the sentence.
+        checkpoint: String,
+    },
+    /// An output could not be written.
+    #[error("cannot write {path}: {error}")]
+    Write {
+        /// File or folder.
+        path: String,
+        /// The system's reason.
+        error: io::Error,
+    },
+    /// A checkpoint cannot be used.
+    #[error("{0}")]
+    Checkpoint(String),
+}
+
+impl RunError {
+    pub(crate) fn write(path: &Path) -> impl Fn(io::Error) -> Self + '_ {
+        move |error| RunError::Write {
+            path: path.display().to_string(),
+            error,
+        }
+    }
+}
+
+/// What the loop needs beside setup and scheme.
+pub struct Controls<'a> {
+    /// Time between rows of the history, s.
+    pub history_every_s: f64,
+    /// Time between snapshots, s; infinite for none.
+    pub snapshot_every_s: f64,
+    /// Whether the user asked to stop.
+    pub interrupted: &'a dyn Fn() -> bool,
+    /// Told after every step: fraction done, time in s, last report.
+    pub progress: &'a mut dyn FnMut(f64, f64, &StepReport),
+    /// Identifies case and particle file in checkpoints.
+    pub identity: String,
+}
+
+/// What the loop did.
+pub struct Outcome {
+    /// How it ended.
+    pub end: End,
+    /// Clock at the end.
+    pub clock: Clock,
+    /// Wall time spent in steps by this process.
+    pub stepping: Duration,
+    /// Steps taken by this process.
+    pub steps_here: u64,
+    /// Report of the last step.
+    pub last: StepReport,
+    /// Diagnostics of the last state.
+    pub diagnostics: Diagnostics,
+}
+
+/// Runs `scheme` to its end, from `clock` on.
+///
+/// # Errors
+/// An unstable state or an output that cannot be written.
+pub fn drive(
+    setup: &Setup,
+    scheme: &mut dyn Scheme,
+    clock: Clock,
+    history: &mut History,
+    snapshots: &SnapshotWriter,
+    folder: &Path,
+    controls: &mut Controls,
+) -> Result<Outcome, RunError> {
+    let mut state = Loop::new(clock);
+    loop {
+        if let Some(end) = state.end(setup) {
+            return state.finish(end, setup, scheme, history);
+        }
+        let begun = Instant::now();
+        let report = scheme
+            .advance(state.limit(setup))
+            .map_err(|failure| RunError::Unstable {
+                failure,
+                step: state.clock.step,
+                time_s: state.clock.time_s,
+                checkpoint: checkpoint::where_last(folder),
+            })?;
+        state.stepping += begun.elapsed();
+        state.took(report);
+        (controls.progress)(state.fraction(setup), state.clock.time_s, &report);
+        state.write_due(setup, scheme, history, snapshots, controls)?;
+        let stop = (controls.interrupted)();
+        if stop || state.last_checkpoint.elapsed() >= CHECKPOINT_EVERY {
+            checkpoint::write(folder, &state.clock, &controls.identity, &scheme.save())?;
+            state.last_checkpoint = Instant::now();
+        }
+        if stop {
+            return state.finish(End::Interrupted, setup, scheme, history);
+        }
+    }
+}
+
+struct Loop {
+    clock: Clock,
+    stepping: Duration,
+    steps_here: u64,
+    last: StepReport,
+    last_checkpoint: Instant,
+    row_written: bool,
+}
+
+impl Loop {
+    fn new(clock: Clock) -> Self {
+        Self {
+            clock,
+            stepping: Duration::ZERO,
+            steps_here: 0,
+            last: StepReport::default(),
+            last_checkpoint: Instant::now(),
+            row_written: true,
+        }
+    }
+
+    fn end(&self, setup: &Setup) -> Option<End> {
+        // A relative hair, so that a sum of many steps that should meet the end does.
+        let reached = |t: f64, goal: f64| t >= goal * (1.0 - 1e-12);
+        match setup.scene.stop {
+            Stop::Time(t) => reached(self.clock.time_s, t).then_some(End::Time),
+            Stop::Closed { travel_m } => {
+                if self.clock.travel_m >= travel_m * (1.0 - 1e-9) {
+                    Some(End::Closed)
+                } else {
+                    reached(self.clock.time_s, setup.time_limit_s).then_some(End::TimeLimit)
+                }
+            }
+        }
+    }
+
+    fn limit(&self, setup: &Setup) -> StepLimit {
+        StepLimit {
+            time_s: setup.time_limit_s - self.clock.time_s,
+            travel_m: match setup.scene.stop {
+                Stop::Closed { travel_m } => travel_m - self.clock.travel_m,
+                Stop::Time(_) => f64::INFINITY,
+            },
+        }
+    }
+
+    fn took(&mut self, report: StepReport) {
+        self.clock.step += 1;
+        self.clock.time_s += report.dt_s;
+        self.clock.travel_m = report.travel_m;
+        self.steps_here += 1;
+        self.last = report;
+        self.row_written = false;
+    }
+
+    fn fraction(&self, setup: &Setup) -> f64 {
+        let time = self.clock.time_s / setup.time_limit_s;
+        match setup.scene.stop {
+            Stop::Closed { travel_m } => time.max(self.clock.travel_m / travel_m),
+            Stop::Time(_) => time,
+        }
+    }
+
+    fn write_due(
+        &mut self,
+        setup: &Setup,
+        scheme: &dyn Scheme,
+        history: &mut History,
+        snapshots: &SnapshotWriter,
+        controls: &Controls,
+    ) -> Result<(), RunError> {
+        if self.clock.time_s >= self.clock.next_history_s {
+            self.row(setup, scheme.diagnostics(), history)?;
+            self.clock.next_history_s += controls.history_every_s;
+            // After a step longer than the interval, do not catch up with a burst of rows.
+            self.clock.next_history_s = self.clock.next_history_s.max(self.clock.time_s);
+        }
+        if self.clock.time_s >= self.clock.next_snapshot_s {
+            snapshots.write_numbered(&mut self.clock, scheme)?;
+            self.clock.next_snapshot_s += controls.snapshot_every_s;
+        }
+        Ok(())
+    }
+
+    fn row(
+        &mut self,
+        setup: &Setup,
+        diagnostics: Diagnostics,
+        history: &mut History,
+    ) -> Result<(), RunError> {
+        let gap = setup.initial_gap_m.map(|g| g - self.clock.travel_m);
+        self.row_written = true;
+        let path = history.path().to_owned();
+        history
+            .row(
+                self.clock.step,
+                self.clock.time_s,
+                gap,
+                &self.last,
+                &diagnostics,
+            )
+            .map_err(RunError::write(&path))
+    }
+
+    fn finish(
+        mut self,
+        end: End,
+        setup: &Setup,
+        scheme: &dyn Scheme,
+        history: &mut History,
+    ) -> Result<Outcome, RunError> {
+        let diagnostics = scheme.diagnostics();
+        if !self.row_written && end != End::Interrupted {
+            self.row(setup, diagnostics, history)?;
+        }
+        Ok(Outcome {
+            end,
+            clock: self.clock,
+            stepping: self.stepping,
+            steps_here: self.steps_here,
+            last: self.last,
+            diagnostics,
+        })
+    }
+}

@@ -1,0 +1,194 @@
+//! `--explain`: the plan of a run as text.
+
+use std::fmt::Write;
+
+use physics::{Boundary, Dimensions, Motion, Regime, Stop, Viscosity, WallLaw};
+
+use crate::case::{Case, SchemeName};
+use crate::left_out::left_out;
+use crate::resolve::Setup;
+
+/// What a scheme expects of a run.
+#[derive(Clone, Debug)]
+pub struct Forecast {
+    /// First time step, s.
+    pub dt_s: f64,
+    /// Which limit sets it, in words.
+    pub limit: String,
+    /// Steps to the nominal end.
+    pub steps: f64,
+    /// Largest resident memory, bytes.
+    pub memory_bytes: f64,
+    /// Wall time on the threads at hand, s.
+    pub seconds: f64,
+    /// Further lines: unknowns, caps.
+    pub notes: Vec<String>,
+}
+
+/// The plan of a run.
+pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = scene(&mut out, case, setup);
+    let _ = cost(&mut out, setup, forecast);
+    let _ = writeln!(
+        out,
+        "\nregime\n{}",
+        indent(&Regime::of(&setup.scene).to_string())
+    );
+    let _ = writeln!(out, "\nleft out");
+    for item in left_out(
+        &setup.scene,
+        case.integrator.scheme,
+        case.output.snapshots > 0,
+    ) {
+        let _ = writeln!(out, "  {:<18} {}", item.what, item.why);
+    }
+    out
+}
+
+fn indent(text: &str) -> String {
+    text.lines()
+        .map(|l| format!("  {l}"))
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
+    let scene = &setup.scene;
+    let [nx, ny, nz] = scene.grid.cells;
+    let um = 1e6 * scene.grid.cell_m;
+    writeln!(out, "scene")?;
+    let dimensions = match scene.dimensions {
+        Dimensions::Two => "plane strain",
+        Dimensions::Three => "3D",
+    };
+    writeln!(
+        out,
+        "  grid               {nx} x {ny} x {nz} cells of {um:.4} um, {dimensions}"
+    )?;
+    writeln!(
+        out,
+        "  liquid             {} material points, {:.4e} m3",
+        scene.points.position.len(),
+        scene.liquid_volume()
+    )?;
+    let liquid = &scene.liquid;
+    let viscosity = match &liquid.viscosity {
+        Viscosity::Newtonian(law) => format!("{} Pa s", law.0),
+        table => format!(
+            "table, {} Pa s at rest, {} Pa s at 1e6 1/s",
+            table.at(0.0),
+            table.at(1e6)
+        ),
+    };
+    writeln!(
+        out,
+        "                     {} kg/m3, K {:.3e} Pa, viscosity {viscosity}",
+        liquid.density, liquid.tait.bulk_modulus
+    )?;
+    for body in &scene.bodies {
+        let solid: u64 = body.blocks.iter().map(physics::VoxelBlock::count).sum();
+        let motion = match body.motion {
+            Motion::Fixed => "at rest".to_owned(),
+            Motion::Constant(v) => format!("moves at ({}, {}, {}) m/s", v[0], v[1], v[2]),
+            Motion::Clamped => "driven by the clamp".to_owned(),
+        };
+        writeln!(
+            out,
+            "  rigid body         {}: {solid} voxels, {motion}",
+            body.name
+        )?;
+    }
+    if !scene.bodies.is_empty() {
+        let law = match scene.wall {
+            WallLaw::Frictionless => "frictionless".to_owned(),
+            WallLaw::Stick => "stick".to_owned(),
+            WallLaw::PartialSlip { influence_length_m } => {
+                format!(
+                    "partial slip, influence length {:.4e} m (k = {:.3e} 1/m)",
+                    influence_length_m,
+                    1.0 / influence_length_m
+                )
+            }
+        };
+        writeln!(out, "  walls              {law}")?;
+    }
+    let side = |b: Boundary| match b {
+        Boundary::Symmetry => "symmetry",
+        Boundary::Periodic => "periodic",
+        Boundary::Open => "open",
+    };
+    let [x, y, z] = scene.boundary;
+    writeln!(
+        out,
+        "  sides              x {}, y {}, z {}",
+        side(x),
+        side(y),
+        side(z)
+    )?;
+    if let Some(clamp) = scene.clamp {
+        let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
+            format!("at most {:.4} MPa", p / 1e6)
+        });
+        writeln!(
+            out,
+            "  clamp              {} m/s, {limit}",
+            clamp.closing_speed
+        )?;
+    }
+    let end = match scene.stop {
+        Stop::Time(t) => format!("at {t:.4e} s"),
+        Stop::Closed { travel_m } => {
+            format!(
+                "closed after {:.2} um of travel, at the latest at {:.4e} s",
+                travel_m * 1e6,
+                setup.time_limit_s
+            )
+        }
+    };
+    writeln!(out, "  end                {end}")?;
+    let scheme = match case.integrator.scheme {
+        SchemeName::Explicit => "explicit material point method",
+        SchemeName::Implicit => "implicit staggered filling solver",
+    };
+    writeln!(out, "  scheme             {scheme}")
+}
+
+fn cost(out: &mut String, setup: &Setup, forecast: &Forecast) -> std::fmt::Result {
+    writeln!(out, "\ncost (estimated)")?;
+    writeln!(
+        out,
+        "  time step          {:.4e} s, set by {}",
+        forecast.dt_s, forecast.limit
+    )?;
+    writeln!(
+        out,
+        "  steps              about {:.0} to {:.4e} s",
+        forecast.steps, setup.nominal_duration_s
+    )?;
+    writeln!(
+        out,
+        "  memory             {:.0} MB",
+        forecast.memory_bytes / 1e6
+    )?;
+    writeln!(
+        out,
+        "  run time           {} on {} threads",
+        duration(forecast.seconds),
+        rayon::current_num_threads()
+    )?;
+    for note in &forecast.notes {
+        writeln!(out, "  {note}")?;
+    }
+    Ok(())
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.1} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.1} days", s / 86_400.0),
+    }
+}

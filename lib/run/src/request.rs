@@ -1,0 +1,354 @@
+//! A run as a tool asks for it: case file, bond file, changed keys; then explained or executed.
+
+use std::fs;
+use std::path::Path;
+
+use particle_file::{ParticleFile, Provenance};
+use physics::{Regime, StepReport};
+use xxhash_rust::xxh3::xxh3_64;
+
+use crate::case::{Case, CaseError};
+use crate::checkpoint::{self, Clock};
+use crate::drive::{self, Controls, RunError};
+use crate::history::History;
+use crate::invariants;
+use crate::left_out::left_out;
+use crate::load;
+use crate::resolve::{self, Setup};
+use crate::schemes;
+use crate::snapshot::{SnapshotWriter, write_whole};
+use crate::summary::{Facts, Summary};
+
+/// Why a run could not be made ready or did not end well; tools map it to exit status.
+#[derive(Debug, thiserror::Error)]
+pub enum RunFailure {
+    /// Usage or case file (exit 2).
+    #[error("{0}")]
+    Usage(String),
+    /// Unreadable or corrupt data (exit 3).
+    #[error("{0}")]
+    Data(String),
+    /// The run failed (exit 1).
+    #[error("{0}")]
+    Run(String),
+}
+
+impl From<CaseError> for RunFailure {
+    fn from(error: CaseError) -> Self {
+        RunFailure::Usage(error.0)
+    }
+}
+
+impl From<RunError> for RunFailure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Checkpoint(said) => RunFailure::Data(said),
+            other => RunFailure::Run(other.to_string()),
+        }
+    }
+}
+
+/// How an existing run folder is treated.
+#[derive(Clone, Copy, Debug)]
+pub struct Mode {
+    /// Continue from its checkpoint.
+    pub resume: bool,
+    /// Replace what belongs to another run.
+    pub overwrite: bool,
+}
+
+/// A run ready to be explained or executed.
+#[derive(Debug)]
+pub struct Request {
+    case: Case,
+    /// The case as run: the file with changed keys.
+    text: String,
+    setup: Setup,
+    bond: Option<ParticleFile>,
+    inputs: Vec<(String, u64)>,
+}
+
+impl Request {
+    /// Reads and resolves a case with `changes` (`key=value`) and its bond file.
+    ///
+    /// # Errors
+    /// [`RunFailure::Usage`] and [`RunFailure::Data`].
+    pub fn read(case: &Path, bond: Option<&Path>, changes: &[String]) -> Result<Self, RunFailure> {
+        let original = fs::read_to_string(case).map_err(|e| {
+            RunFailure::Usage(format!(
+                "cannot read the case file '{}': {e}",
+                case.display()
+            ))
+        })?;
+        let text = changed(&original, case, changes)?;
+        let parsed = Case::parse(&text, case)?;
+        let mut inputs = vec![(case.display().to_string(), xxh3_64(original.as_bytes()))];
+        let bond = match bond {
+            Some(path) => {
+                let file = ParticleFile::open(path).map_err(|e| RunFailure::Data(e.to_string()))?;
+                inputs.push((path.display().to_string(), file.content_hash()));
+                Some(file)
+            }
+            None => None,
+        };
+        let plain = bond.as_ref().map(load::bond).transpose()?;
+        let setup = resolve::resolve(&parsed, plain)?;
+        Ok(Self {
+            case: parsed,
+            text,
+            setup,
+            bond,
+            inputs,
+        })
+    }
+
+    /// Sentences about terms left out although the regime would need them.
+    pub fn warnings(&self) -> Vec<String> {
+        Regime::of(&self.setup.scene).warnings()
+    }
+
+    /// The plan of the run as text.
+    ///
+    /// # Errors
+    /// What would keep the scheme from starting.
+    pub fn explain(&self) -> Result<String, RunFailure> {
+        Ok(crate::explain::text(
+            &self.case,
+            &self.setup,
+            &schemes::plan(&self.case, &self.setup)?,
+        ))
+    }
+
+    /// Runs into `folder`.
+    ///
+    /// # Errors
+    /// All kinds; an unstable state leaves the last good checkpoint.
+    pub fn execute(
+        self,
+        folder: &Path,
+        mode: Mode,
+        by: Provenance,
+        interrupted: &dyn Fn() -> bool,
+        progress: &mut dyn FnMut(f64, String),
+    ) -> Result<Summary, RunFailure> {
+        let identity = self.identity(&by);
+        let by = Provenance {
+            inputs: self.inputs.clone(),
+            ..by
+        };
+        let started = self.start(folder, mode, &identity)?;
+        let mut scheme = schemes::build(&self.case, &self.setup)?;
+        let (clock, mut history) = match started {
+            Start::Resumed(clock, saved) => {
+                scheme.restore(&saved).map_err(RunFailure::Data)?;
+                let history =
+                    History::resume(folder, clock.step).map_err(RunError::write(folder))?;
+                (clock, history)
+            }
+            Start::Anew => (
+                Clock::default(),
+                History::create(folder).map_err(RunError::write(folder))?,
+            ),
+        };
+        let mut controls = Controls {
+            history_every_s: self.history_every(),
+            snapshot_every_s: self.snapshot_every(),
+            interrupted,
+            progress: &mut |fraction, time_s, report: &StepReport| {
+                let pressure = 0.5 * (report.pressure_bottom + report.pressure_top) / 1e6;
+                progress(
+                    fraction,
+                    format!("{:.3} us, {pressure:.3} MPa", time_s * 1e6),
+                );
+            },
+            identity,
+        };
+        let provenance = provenance_json(&by);
+        let writer = SnapshotWriter::new(folder, &self.setup, self.bond, by);
+        let outcome = drive::drive(
+            &self.setup,
+            scheme.as_mut(),
+            clock,
+            &mut history,
+            &writer,
+            folder,
+            &mut controls,
+        )?;
+        let scene = &self.setup.scene;
+        let summary = Summary::new(
+            &outcome,
+            Facts {
+                liquid_points: scene.points.position.len() as u64,
+                initial_gap_m: self.setup.initial_gap_m,
+                stages: scheme.stage_times(),
+                invariants: invariants::check(scene, &scheme.liquid(), &scheme.displacements()),
+                left_out: left_out(
+                    scene,
+                    self.case.integrator.scheme,
+                    self.case.output.snapshots > 0,
+                ),
+                provenance,
+            },
+        );
+        write_text(
+            &folder.join("summary.json"),
+            &(serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n"),
+        )?;
+        if outcome.end != drive::End::Interrupted {
+            writer.write_final(&outcome.clock, scheme.as_ref())?;
+        }
+        Ok(summary)
+    }
+
+    /// What makes two runs the same: the case as run, the inputs and the version.
+    fn identity(&self, by: &Provenance) -> String {
+        let bond = self.inputs.get(1).map_or(0, |i| i.1);
+        format!(
+            "{} {:016x} {bond:016x}",
+            by.version,
+            xxh3_64(self.text.as_bytes())
+        )
+    }
+
+    fn history_every(&self) -> f64 {
+        self.case
+            .output
+            .history_every
+            .map_or(1e-3 * self.setup.nominal_duration_s, |t| t.si())
+    }
+
+    fn snapshot_every(&self) -> f64 {
+        match self.case.output.snapshots {
+            0 => f64::INFINITY,
+            n => self.setup.nominal_duration_s / f64::from(n),
+        }
+    }
+
+    /// Makes the run folder ready and finds where to start.
+    fn start(&self, folder: &Path, mode: Mode, identity: &str) -> Result<Start, RunFailure> {
+        fs::create_dir_all(folder).map_err(RunError::write(folder))?;
+        if mode.resume {
+            match checkpoint::read(folder, identity) {
+                Ok(Some((clock, saved))) => return Ok(Start::Resumed(clock, saved)),
+                Ok(None) => {}
+                Err(error) if !mode.overwrite => return Err(error.into()),
+                Err(_) => {}
+            }
+        }
+        let holds = |name: &str| folder.join(name).exists();
+        if !mode.overwrite && (holds("history.csv") || holds("final.mpts")) {
+            return Err(RunFailure::Usage(format!(
+                "'{}' already holds a run; use --resume to continue it or --overwrite to replace it",
+                folder.display()
+            )));
+        }
+        for name in [
+            "final.mpts",
+            "summary.json",
+            "checkpoint.mpts",
+            "history.csv",
+            "resolved.toml",
+        ] {
+            remove(fs::remove_file(folder.join(name)), &folder.join(name))?;
+        }
+        remove(
+            fs::remove_dir_all(folder.join("snapshots")),
+            &folder.join("snapshots"),
+        )?;
+        write_text(&folder.join("resolved.toml"), &self.text)?;
+        Ok(Start::Anew)
+    }
+}
+
+enum Start {
+    Anew,
+    Resumed(Clock, physics::Saved),
+}
+
+/// A file that is not there need not be removed.
+fn remove(result: std::io::Result<()>, path: &Path) -> Result<(), RunError> {
+    match result {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(RunError::write(path)(e)),
+        _ => Ok(()),
+    }
+}
+
+fn write_text(path: &Path, text: &str) -> Result<(), RunError> {
+    write_whole(path, |out| out.write_all(text.as_bytes()))
+}
+
+fn provenance_json(by: &Provenance) -> serde_json::Value {
+    let inputs: Vec<_> = by
+        .inputs
+        .iter()
+        .map(|(path, hash)| serde_json::json!({ "path": path, "xxh3": format!("{hash:016x}") }))
+        .collect();
+    serde_json::json!({ "tool": by.tool, "version": by.version, "command": by.command, "inputs": inputs })
+}
+
+/// The case text with `changes` applied; the text itself when there are none, so that errors
+/// keep the user's own line numbers.
+fn changed(original: &str, path: &Path, changes: &[String]) -> Result<String, RunFailure> {
+    if changes.is_empty() {
+        return Ok(original.to_owned());
+    }
+    Case::parse(original, path)?;
+    let mut root: toml::Table =
+        toml::from_str(original).map_err(|e| RunFailure::Usage(e.message().into()))?;
+    for change in changes {
+        let refuse = |why: &str| RunFailure::Usage(format!("--set {change}: {why}"));
+        let (key, value) = change
+            .split_once('=')
+            .ok_or_else(|| refuse("KEY=VALUE is needed"))?;
+        // A word that is no TOML value is meant as a string: --set grid.shape=linear.
+        let value = match toml::from_str::<toml::Table>(&format!("v = {value}")) {
+            Ok(mut table) => table.remove("v").unwrap_or_else(|| value.into()),
+            Err(_) => value.into(),
+        };
+        let mut path: Vec<&str> = key.split('.').map(str::trim).collect();
+        let last = path
+            .pop()
+            .filter(|k| !k.is_empty())
+            .ok_or_else(|| refuse("the key is empty"))?;
+        let mut table = &mut root;
+        for part in path {
+            table = table
+                .entry(part)
+                .or_insert_with(|| toml::Table::new().into())
+                .as_table_mut()
+                .ok_or_else(|| refuse(&format!("'{part}' is not a table")))?;
+        }
+        table.insert(last.to_owned(), value);
+    }
+    toml::to_string(&root).map_err(|e| RunFailure::Usage(e.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_can_be_changed_from_the_command_line() {
+        let original = "[grid]\ncell = \"2.9 um\"\n[adhesive]\ndensity = \"1 g/cm3\"\nbulk_modulus = \"1 GPa\"\nviscosity = \"1 cP\"\n[integrator]\nscheme = \"explicit\"\n";
+        let changes = [
+            "grid.cell=1.45 um",
+            "integrator.cfl=0.25",
+            "grid.dimensions=2",
+            "clamp.closing_speed=\"1 m/s\"",
+        ];
+        let changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
+        let text = changed(original, Path::new("c"), &changes).unwrap();
+        let case = Case::parse(&text, Path::new("c")).unwrap();
+        assert!((case.grid.cell.si() - 1.45e-6).abs() < 1e-18);
+        assert_eq!((case.integrator.cfl, case.grid.dimensions), (Some(0.25), 2));
+        assert!(case.clamp.is_some());
+        assert!(changed(original, Path::new("c"), &["nonsense".into()]).is_err());
+        assert!(
+            Case::parse(
+                &changed(original, Path::new("c"), &["grid.cel=1".into()]).unwrap(),
+                Path::new("c")
+            )
+            .is_err()
+        );
+    }
+}

@@ -1,0 +1,132 @@
+//! `summary.json`: what a run was, did and cost.
+
+use physics::{Diagnostics, StageTime};
+use serde::Serialize;
+
+use crate::drive::{End, Outcome};
+use crate::invariants::Invariants;
+use crate::left_out::LeftOut;
+
+/// Content of `summary.json`.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    /// How the run ended.
+    pub end: End,
+    /// Steps since the start.
+    pub steps: u64,
+    /// Simulated time, s.
+    pub time_s: f64,
+    /// Clamp travel, m.
+    pub travel_m: f64,
+    /// Gap left, m.
+    pub gap_m: Option<f64>,
+    /// Mean of the reactions of the last step, Pa.
+    pub final_pressure_pa: f64,
+    /// Liquid material points.
+    pub liquid_points: u64,
+    /// Kinetic energy of the liquid at the end, J.
+    pub kinetic_energy_j: f64,
+    /// Volume fraction whose viscosity was capped in the last step.
+    pub capped_viscosity_fraction: f64,
+    /// Wall time of this process in steps, s.
+    pub stepping_wall_s: f64,
+    /// CPU time of this process, s.
+    pub cpu_s: Option<f64>,
+    /// Worker threads.
+    pub threads: usize,
+    /// Liquid material points times steps per second of wall time.
+    pub particle_steps_per_s: f64,
+    /// Largest resident memory, bytes.
+    pub peak_memory_bytes: Option<u64>,
+    /// Wall time per stage of a step, s.
+    pub stages: Vec<Stage>,
+    /// Checks of the final state.
+    pub invariants: Invariants,
+    /// What the run did not compute, and why.
+    pub left_out: Vec<LeftOut>,
+    /// What made this run folder.
+    pub provenance: serde_json::Value,
+}
+
+/// Wall time of one stage.
+#[derive(Debug, Serialize)]
+pub struct Stage {
+    /// Name.
+    pub name: &'static str,
+    /// Seconds.
+    pub wall_s: f64,
+}
+
+/// What a summary needs beside the loop's outcome.
+pub(crate) struct Facts {
+    pub liquid_points: u64,
+    pub initial_gap_m: Option<f64>,
+    pub stages: Vec<StageTime>,
+    pub invariants: Invariants,
+    pub left_out: Vec<LeftOut>,
+    pub provenance: serde_json::Value,
+}
+
+impl Summary {
+    pub(crate) fn new(outcome: &Outcome, facts: Facts) -> Self {
+        let Diagnostics {
+            kinetic_energy,
+            capped_fraction,
+            ..
+        } = outcome.diagnostics;
+        let wall = outcome.stepping.as_secs_f64();
+        let work = outcome.steps_here as f64 * facts.liquid_points as f64;
+        Self {
+            end: outcome.end,
+            steps: outcome.clock.step,
+            time_s: outcome.clock.time_s,
+            travel_m: outcome.clock.travel_m,
+            gap_m: facts.initial_gap_m.map(|g| g - outcome.clock.travel_m),
+            final_pressure_pa: 0.5 * (outcome.last.pressure_bottom + outcome.last.pressure_top),
+            liquid_points: facts.liquid_points,
+            kinetic_energy_j: kinetic_energy,
+            capped_viscosity_fraction: capped_fraction,
+            stepping_wall_s: wall,
+            cpu_s: crate::system::cpu_seconds(),
+            threads: rayon::current_num_threads(),
+            particle_steps_per_s: if wall > 0.0 { work / wall } else { 0.0 },
+            peak_memory_bytes: crate::system::peak_memory_bytes(),
+            stages: facts
+                .stages
+                .iter()
+                .map(|s| Stage {
+                    name: s.name,
+                    wall_s: s.wall_s,
+                })
+                .collect(),
+            invariants: facts.invariants,
+            left_out: facts.left_out,
+            provenance: facts.provenance,
+        }
+    }
+
+    /// One sentence for the terminal.
+    pub fn sentence(&self) -> String {
+        let end = match self.end {
+            End::Closed => "closed",
+            End::Time => "reached its time",
+            End::TimeLimit => "reached its time limit before closing",
+            End::Interrupted => "was interrupted",
+        };
+        let gap = self.gap_m.map_or(String::new(), |g| {
+            format!(", gap {:.2} um", g.max(0.0) * 1e6)
+        });
+        format!(
+            "The run {end} after {} steps at {:.2} us{gap}, {:.3} MPa; volume {:+.3} %, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s.",
+            self.steps,
+            self.time_s * 1e6,
+            self.final_pressure_pa / 1e6,
+            100.0 * self.invariants.volume_change,
+            self.invariants.points_in_wood,
+            self.invariants.deepest_m * 1e6,
+            self.invariants.points_in_unreachable_voids,
+            self.stepping_wall_s,
+            self.particle_steps_per_s / 1e6,
+        )
+    }
+}

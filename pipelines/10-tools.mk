@@ -1,0 +1,29 @@
+# Stage 1: the tools. Cargo decides what to rebuild; a binary that did not change keeps its
+# time stamp, so nothing after it is made again.
+
+.PHONY: FORCE
+FORCE:
+
+$(BINARIES) &: FORCE
+	@$(CARGO) build --release --quiet --workspace
+
+.PHONY: test
+test:
+	$(CARGO) fmt --all --check
+	$(CARGO) clippy --release --workspace --all-targets --quiet -- -D warnings
+	$(CARGO) build --release --workspace
+	$(CARGO) test --release --workspace
+
+.PHONY: man
+man: $(BINARIES)
+	@mkdir -p out/man
+	@for tool in $(TOOLS); do $(BIN)/$$tool --generate man > out/man/$$tool.1; done
+	@echo "man pages in out/man"
+
+.PHONY: install
+install: $(BINARIES) man
+	install -d $(PREFIX)/bin $(PREFIX)/share/man/man1 $(PREFIX)/share/bash-completion/completions
+	install $(BINARIES) $(PREFIX)/bin
+	install -m 644 out/man/*.1 $(PREFIX)/share/man/man1
+	@for tool in $(TOOLS); do \
+	    $(BIN)/$$tool --generate bash > $(PREFIX)/share/bash-completion/completions/$$tool; done

@@ -1,0 +1,20 @@
+# Stage 3: five runs per adhesive. The runs are independent, so they share the cores side by
+# side with one thread each, which costs less than splitting each small run.
+
+RUNS := xpic flip frictionless implicit implicit-frictionless
+RUN_THREADS ?= 1
+# A cell is two voxels, as in the paper.
+CELL = $(shell echo "$(VOXEL)" | awk '{ printf "%.9g %s", 2 * $$1, $$2 }')
+
+FINALS := $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(OUT)/$(a)/$(r)/final.mpts))
+
+define run_rule
+$(OUT)/$(1)/$(2)/final.mpts: pipelines/cases/$(1)-$(2).toml $(OUT)/$(1)/bond.mpts $(BIN)/mpm-run
+	$(BIN)/mpm-run $$< --particles $(OUT)/$(1)/bond.mpts --set grid.cell="$$(CELL)" \
+	    --resume --overwrite --threads $(RUN_THREADS) -o $$(@D)
+endef
+$(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call run_rule,$(a),$(r)))))
+
+.PHONY: runs
+runs: $(BINARIES)
+	@$(MAKE) --no-print-directory -j$(JOBS) $(FINALS)

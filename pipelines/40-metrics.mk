@@ -1,0 +1,24 @@
+# Stage 4: penetration metrics, maps, profiles, shear rates, Table 2.
+
+METRICS := $(FINALS:%/final.mpts=%/wp.csv)
+EXPERIMENTS := $(ADHESIVES:%=$(OUT)/%/experiment.csv)
+
+$(OUT)/%/wp.csv: $(OUT)/%/final.mpts $(BIN)/wp-metrics
+	$(BIN)/wp-metrics $< --map $(@D)/map.csv --profile $(@D)/depth.csv -o $@
+
+$(OUT)/%/experiment.csv: $(OUT)/%/experiment.mpts $(BIN)/wp-metrics
+	$(BIN)/wp-metrics $< --map $(@D)/experiment-map.csv --profile $(@D)/experiment-depth.csv -o $@
+
+$(OUT)/%/shear.csv: $(OUT)/%/final.mpts $(BIN)/shear-stats
+	$(BIN)/shear-stats $(@D)/snapshots/*.mpts $< -o $@
+
+$(OUT)/table2.csv: $(METRICS) $(EXPERIMENTS) $(BIN)/bond-figures
+	$(BIN)/bond-figures table2 \
+	    $(foreach a,$(ADHESIVES),--experiment $(a)=$(OUT)/$(a)/experiment.csv) \
+	    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run $(a):$(r)=$(OUT)/$(a)/$(r)/wp.csv)) -o $@
+
+# The bond files and runs come first and side by side; what follows is quick.
+.PHONY: table2
+table2: runs
+	@$(MAKE) --no-print-directory -j$(JOBS) $(OUT)/table2.csv
+	@cat $(OUT)/table2.csv
