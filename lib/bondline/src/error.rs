@@ -1,0 +1,83 @@
+/// Why there is no bond line to build or to find; one sentence each.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// The specimen holds no adhesive voxel.
+    #[error("the specimen has no adhesive voxel: a bonded specimen is needed")]
+    NoAdhesive,
+    /// No wood on one side of the bond line.
+    #[error(
+        "there is no wood {side} {of}: a specimen with an adherend on each side is needed, or another --normal"
+    )]
+    NoWood {
+        /// "below" or "above".
+        side: &'static str,
+        /// What it is below or above of.
+        of: String,
+    },
+    /// Wood outweighs adhesive in every layer.
+    #[error(
+        "no layer normal to {normal} looks like a bond line: at best adhesive covers {:.1} % of a layer less than wood does; give the plane by hand or another --normal",
+        -100.0 * contrast
+    )]
+    NoBondLine {
+        /// The axis looked along.
+        normal: units::Axis,
+        /// Best adhesive less wood area fraction.
+        contrast: f64,
+    },
+    /// The blocks of the specimen are not voxels of one stack.
+    #[error("the wood and the adhesive of the specimen are not voxels of the same stack")]
+    Mismatch,
+    /// A plane given by hand is outside.
+    #[error(
+        "the bond plane at {:.3} um is outside the specimen, which reaches from {:.3} to {:.3} um along {normal}",
+        1e6 * plane_m, 1e6 * low_m, 1e6 * high_m
+    )]
+    PlaneOutside {
+        /// The plane asked for, m.
+        plane_m: f64,
+        /// Low face of the specimen, m.
+        low_m: f64,
+        /// High face of the specimen, m.
+        high_m: f64,
+        /// The bond normal.
+        normal: units::Axis,
+    },
+    /// Rounding to whole cells changes the volume of the adhesive too much.
+    #[error(
+        "the adhesive would make a slab of {:.4} cells of {:.3} um; rounded to {cells} its volume changes by {:+.2} %, more than the tolerance of {:.2} %: use fewer voxels per cell or a larger --tolerance",
+        exact_cells, 1e6 * cell_m, 100.0 * change, 100.0 * tolerance
+    )]
+    Rounding {
+        /// Slab thickness in cells before rounding.
+        exact_cells: f64,
+        /// After rounding.
+        cells: u64,
+        /// Edge of a cell, m.
+        cell_m: f64,
+        /// Relative change of volume.
+        change: f64,
+        /// Largest relative change accepted.
+        tolerance: f64,
+    },
+    /// The slab does not fit between the adherends at the gap asked for.
+    #[error(
+        "a gap of {:.3} um leaves no room for the adhesive slab of {:.3} um between the adherends: at least {:.3} um is needed",
+        1e6 * gap_m, 1e6 * slab_m, 1e6 * least_m
+    )]
+    GapTooSmall {
+        /// The gap asked for, m.
+        gap_m: f64,
+        /// Thickness of the slab, m.
+        slab_m: f64,
+        /// The smallest gap that has room, m.
+        least_m: f64,
+    },
+}
+
+impl Error {
+    /// Whether the specimen itself is unfit, whatever the options.
+    pub fn is_unfit_data(&self) -> bool {
+        matches!(self, Error::NoAdhesive | Error::Mismatch)
+    }
+}

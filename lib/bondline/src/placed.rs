@@ -1,0 +1,144 @@
+use std::ops::Range;
+
+use particle_file::{BitGrid, BitsRef, Block};
+use units::Axis;
+
+use crate::{Error, Profile};
+
+/// Voxels of one material in place: voxel (i, j, k) fills `origin + [i, j, k] * voxel` to
+/// `origin + [i+1, j+1, k+1] * voxel`.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed<'a> {
+    /// Low corner, m.
+    pub origin_m: [f64; 3],
+    /// Edge of a voxel, m.
+    pub voxel_m: f64,
+    /// Which voxels.
+    pub bits: BitsRef<'a>,
+}
+
+impl<'a> Placed<'a> {
+    /// The voxels of a block of a particle file.
+    pub fn of_block((block, bits): (&Block, BitsRef<'a>)) -> Self {
+        Self {
+            origin_m: block.origin_m,
+            voxel_m: block.voxel_m,
+            bits,
+        }
+    }
+
+    /// High corner, m.
+    pub fn max_m(&self) -> [f64; 3] {
+        let dims = self.bits.dims();
+        std::array::from_fn(|a| self.origin_m[a] + dims[a] as f64 * self.voxel_m)
+    }
+
+    /// Centre of a voxel, m.
+    pub fn centre_m(&self, index: [usize; 3]) -> [f64; 3] {
+        std::array::from_fn(|a| self.origin_m[a] + (index[a] as f64 + 0.5) * self.voxel_m)
+    }
+
+    /// Calls `visit` with the index of every set voxel, in storage order.
+    pub fn for_each(&self, mut visit: impl FnMut([usize; 3])) {
+        let [_, ny, nz] = self.bits.dims();
+        for z in 0..nz {
+            for y in 0..ny {
+                self.bits.set_in_row(y, z).for_each(|x| visit([x, y, z]));
+            }
+        }
+    }
+}
+
+/// A bonded specimen: wood and adhesive of one stack.
+#[derive(Clone, Copy, Debug)]
+pub struct Specimen<'a> {
+    wood: Placed<'a>,
+    adhesive: Placed<'a>,
+}
+
+impl<'a> Specimen<'a> {
+    /// A specimen from its two materials.
+    ///
+    /// # Errors
+    /// When they are not voxels of the same stack.
+    pub fn new(wood: Placed<'a>, adhesive: Placed<'a>) -> Result<Self, Error> {
+        let same = wood.bits.dims() == adhesive.bits.dims()
+            && wood.origin_m == adhesive.origin_m
+            && wood.voxel_m == adhesive.voxel_m;
+        same.then_some(Self { wood, adhesive })
+            .ok_or(Error::Mismatch)
+    }
+
+    /// The wood.
+    pub fn wood(&self) -> Placed<'a> {
+        self.wood
+    }
+
+    /// The adhesive.
+    pub fn adhesive(&self) -> Placed<'a> {
+        self.adhesive
+    }
+
+    /// Wood and adhesive of each layer normal to `normal`.
+    pub fn profile(&self, normal: Axis) -> Profile {
+        let dims = self.wood.bits.dims();
+        let volume: u64 = dims.iter().map(|&n| n as u64).product();
+        let layers = dims[normal.index()].max(1) as u64;
+        Profile {
+            normal,
+            area: volume / layers,
+            wood: self.wood.bits.counts_along(normal.index()),
+            adhesive: self.adhesive.bits.counts_along(normal.index()),
+        }
+    }
+}
+
+/// The voxels inside `ranges` (along x, y, z, within the grid).
+pub(crate) fn crop(bits: BitsRef, ranges: &[Range<usize>; 3]) -> BitGrid {
+    let (shift, first) = (ranges[0].start % 64, ranges[0].start / 64);
+    let dims = ranges.clone().map(|r| r.len());
+    BitGrid::from_rows(dims, |y, z, row| {
+        let source = bits.row(ranges[1].start + y, ranges[2].start + z);
+        let word = |w: usize| source.get(first + w).copied().unwrap_or(0);
+        for (w, out) in row.iter_mut().enumerate() {
+            *out = word(w) >> shift;
+            if shift > 0 {
+                *out |= word(w + 1) << (64 - shift);
+            }
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pattern(x: usize, y: usize, z: usize) -> bool {
+        (x * 7 + y * 3 + z * 11) % 5 < 2
+    }
+
+    #[test]
+    fn a_crop_holds_the_same_voxels() {
+        let grid = BitGrid::from_fn([200, 6, 5], pattern);
+        for x in [0..200, 3..70, 64..128, 65..66, 130..199, 7..7] {
+            let part = crop(grid.view(), &[x.clone(), 1..5, 2..4]);
+            let expected = BitGrid::from_fn([x.len(), 4, 2], |i, j, k| {
+                pattern(i + x.start, j + 1, k + 2)
+            });
+            assert_eq!(part, expected, "{x:?}");
+        }
+    }
+
+    #[test]
+    fn voxels_of_different_stacks_are_no_specimen() {
+        let (a, b) = (BitGrid::new([2, 3, 4]), BitGrid::new([2, 3, 5]));
+        let placed = |grid, voxel_m| Placed {
+            origin_m: [0.0; 3],
+            voxel_m,
+            bits: BitGrid::view(grid),
+        };
+        assert!(Specimen::new(placed(&a, 1.0), placed(&a, 1.0)).is_ok());
+        assert!(Specimen::new(placed(&a, 1.0), placed(&b, 1.0)).is_err());
+        assert!(Specimen::new(placed(&a, 1.0), placed(&a, 2.0)).is_err());
+    }
+}

@@ -1,0 +1,184 @@
+//! A bond from synthetic specimens whose answer is known, along each axis.
+
+use bondline::{Bond, Error, Options, Placed, Plane, Specimen, build};
+use particle_file::BitGrid;
+use units::Axis;
+
+const VOXEL: f64 = 1.45e-6;
+
+/// Layers along the normal: comb-shaped wood up to 20 and from 31, adhesive in the gap and in
+/// the grooves of the bottom comb down to 14, one speck at 38.
+fn material(layer: usize, u: usize) -> char {
+    let groove = u % 4 == 1;
+    match layer {
+        0..20 if !groove => 'w',
+        31.. if !groove => 'w',
+        14..31 => 'a',
+        38 if u == 5 => 'a',
+        _ => ' ',
+    }
+}
+
+struct Stack {
+    wood: BitGrid,
+    adhesive: BitGrid,
+}
+
+impl Stack {
+    /// 50 layers along `normal`; `u` of [`material`] is the first of the other two axes.
+    fn new(normal: Axis, lateral: [usize; 2]) -> Self {
+        let n = normal.index();
+        let across: Vec<usize> = (0..3).filter(|&a| a != n).collect();
+        let mut dims = [50; 3];
+        (dims[across[0]], dims[across[1]]) = (lateral[0], lateral[1]);
+        let grid = |wanted: char| {
+            BitGrid::from_fn(dims, |x, y, z| {
+                let index = [x, y, z];
+                material(index[n], index[across[0]]) == wanted
+            })
+        };
+        Self {
+            wood: grid('w'),
+            adhesive: grid('a'),
+        }
+    }
+
+    fn build(&self, options: &Options) -> Result<Bond, Error> {
+        let placed = |grid| Placed {
+            origin_m: [0.0; 3],
+            voxel_m: VOXEL,
+            bits: BitGrid::view(grid),
+        };
+        build(
+            &Specimen::new(placed(&self.wood), placed(&self.adhesive))?,
+            options,
+        )
+    }
+}
+
+fn options(normal: Axis) -> Options {
+    Options {
+        normal,
+        plane: Plane::Auto,
+        voxels_per_cell: 2,
+        gap_m: None,
+        tolerance: 0.05,
+    }
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-6 * VOXEL
+}
+
+#[test]
+fn every_axis_gives_the_same_bond() {
+    for normal in Axis::ALL {
+        let stack = Stack::new(normal, [80, 12]);
+        let bond = stack.build(&options(normal)).unwrap();
+        let n = normal.index();
+        // Midway between the faces at 20 and 31 is 25.5: the face below it.
+        assert!(
+            near(bond.plane_m, 25.0 * VOXEL),
+            "{normal}: {}",
+            bond.plane_m
+        );
+        // 11 full layers, 6 layers of a quarter and a speck of 12 voxels: 12.5125 voxels,
+        // hence 6 cells.
+        assert_eq!(bond.adhesive_in, 80 * 12 * 11 + 6 * 20 * 12 + 12);
+        assert_eq!((bond.slab_cells, bond.adhesive_out), (6, 80 * 12 * 12));
+        assert!((bond.rounding() - (12.0 / 12.5125 - 1.0)).abs() < 1e-12);
+        assert!(near(bond.gap_m, 12.0 * VOXEL));
+        // The adherends keep every voxel and come back when closed by the gap.
+        let (bottom, top) = (bond.bottom.bits.count(), bond.top.bits.count());
+        assert_eq!(bottom, 20 * 60 * 12);
+        assert_eq!(bottom + top, stack.wood.count());
+        assert!(near(bond.top.origin_m[n] - bond.gap_m, bond.plane_m));
+        assert_eq!(bond.top.bits.dims()[n], 25);
+        // Slab between plane and moved adherend, full, on the lattice of the box.
+        assert!(near(bond.slab.origin_m[n], bond.plane_m));
+        assert_eq!(bond.slab.bits.count(), bond.adhesive_out);
+        let cells = (bond.slab.origin_m[n] - bond.box_min_m[n]) / bond.cell_m;
+        assert!(
+            (cells - 13.0).abs() < 1e-9,
+            "25 voxels are reached from 13 cells below"
+        );
+        assert!(near(bond.box_max_m[n], 62.0 * VOXEL));
+        assert_eq!(bond.severed, 0);
+    }
+}
+
+#[test]
+fn odd_widths_are_trimmed_to_whole_cells_and_counted_again() {
+    let stack = Stack::new(Axis::Y, [81, 13]);
+    let bond = stack.build(&options(Axis::Y)).unwrap();
+    assert_eq!(bond.trimmed, [1, 0, 1]);
+    assert_eq!(bond.adhesive_in, 80 * 12 * 11 + 6 * 20 * 12 + 12);
+    assert_eq!(bond.bottom.bits.dims(), [80, 25, 12]);
+    assert!(near(bond.box_max_m[0], 80.0 * VOXEL));
+    // One layer deep, as in plane strain, is kept.
+    let plane_strain = Stack::new(Axis::Y, [80, 1])
+        .build(&options(Axis::Y))
+        .unwrap();
+    assert_eq!(
+        (plane_strain.trimmed, plane_strain.slab.bits.dims()),
+        ([0; 3], [80, 12, 1])
+    );
+}
+
+#[test]
+fn a_plane_through_the_wood_severs_it_and_says_so() {
+    let stack = Stack::new(Axis::Y, [80, 12]);
+    let at = |layers: f64| Options {
+        plane: Plane::At(layers * VOXEL),
+        ..options(Axis::Y)
+    };
+    let bond = stack.build(&at(10.2)).unwrap();
+    assert!(near(bond.plane_m, 10.0 * VOXEL));
+    assert_eq!(bond.severed, 60 * 12);
+    assert_eq!(
+        bond.bottom.bits.count() + bond.top.bits.count(),
+        stack.wood.count()
+    );
+    assert!(matches!(
+        stack.build(&at(50.0)),
+        Err(Error::PlaneOutside { .. })
+    ));
+    assert!(matches!(
+        stack.build(&at(f64::NAN)),
+        Err(Error::PlaneOutside { .. })
+    ));
+}
+
+#[test]
+fn refusals() {
+    let stack = Stack::new(Axis::Y, [80, 12]);
+    // Every layer across z is alike: no bond line.
+    assert!(matches!(
+        stack.build(&options(Axis::Z)),
+        Err(Error::NoBondLine { .. })
+    ));
+    let strict = Options {
+        tolerance: 0.01,
+        ..options(Axis::Y)
+    };
+    assert!(matches!(stack.build(&strict), Err(Error::Rounding { .. })));
+    // The opening of 11 voxels leaves 1 voxel to make for the slab of 12.
+    let gap = |voxels: f64| Options {
+        gap_m: Some(voxels * VOXEL),
+        ..options(Axis::Y)
+    };
+    assert!(matches!(
+        stack.build(&gap(0.5)),
+        Err(Error::GapTooSmall { .. })
+    ));
+    let tight = stack.build(&gap(1.0)).unwrap();
+    assert!(near(tight.slab.origin_m[1], 20.0 * VOXEL));
+    let empty = Stack {
+        wood: stack.wood.clone(),
+        adhesive: BitGrid::new(stack.wood.dims()),
+    };
+    assert_eq!(
+        empty.build(&options(Axis::Y)).unwrap_err(),
+        Error::NoAdhesive
+    );
+}
