@@ -5,4 +5,5 @@
 
 pub mod lattice;
 pub mod solids;
+pub mod solve;
 pub mod window;

@@ -1,0 +1,72 @@
+//! Linear solver of the implicit staggered scheme.
+//!
+//! Each step solves one saddle-point system for face velocities and cell pressures
+//! ([`SaddleSolver`]) and one scalar Poisson problem for the density projection ([`Poisson`]).
+//! Matrices are assembled row by row with [`Csr::assemble`]. Every result is bit-identical for any
+//! number of threads: work is split into fixed ranges of rows, and sums are added in their order.
+
+mod amg;
+mod chebyshev;
+mod csr;
+mod fgmres;
+mod pcg;
+mod pockets;
+mod poisson;
+mod saddle;
+mod schur;
+mod vector;
+
+pub use csr::{Csr, RowEntries};
+pub use poisson::Poisson;
+pub use saddle::{SaddleOptions, SaddleReport, SaddleSolver, SaddleSystem};
+pub use vector::Real;
+
+/// Why a linear system was not solved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SolveError {
+    /// Arrays that belong together differ in length.
+    #[error("{what}: {found} given, {expected} expected")]
+    Length {
+        /// Which array.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that fits.
+        expected: usize,
+    },
+    /// A matrix or diagonal is not of the kind described.
+    #[error("linear system: {0}")]
+    Matrix(String),
+    /// A right-hand side or a guess holds an infinity or is not a number.
+    #[error("linear system: right-hand side or guess is not finite at row {row}")]
+    NotFinite {
+        /// Its row.
+        row: usize,
+    },
+    /// The iteration did not reach its tolerance.
+    #[error(
+        "linear solver: relative residual {residual:.1e} after {iterations} iterations, \
+         {tolerance:.1e} wanted"
+    )]
+    NotConverged {
+        /// Iterations done.
+        iterations: usize,
+        /// Relative residual reached.
+        residual: f64,
+        /// Relative residual wanted.
+        tolerance: f64,
+    },
+}
+
+/// Refuses a length that does not fit.
+fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), SolveError> {
+    if found == expected {
+        Ok(())
+    } else {
+        Err(SolveError::Length {
+            what,
+            found,
+            expected,
+        })
+    }
+}

@@ -1,0 +1,261 @@
+//! The coupled velocity-pressure system of one implicit step and its solution.
+
+use std::time::{Duration, Instant};
+
+use super::chebyshev::Chebyshev;
+use super::csr::Csr;
+use super::fgmres::{KrylovSpace, Limits, Operator, fgmres};
+use super::schur::Schur;
+use super::vector::{Real, Work, for_chunks};
+use super::{SolveError, check_length};
+
+/// The saddle-point system `[A, -G^T; -G, -C] [u; p] = [b; -g]` and what its preconditioner needs.
+///
+/// All values are scaled alike, momentum rows by `1/eta_0` with lengths in cells and the pressure
+/// by `h/eta_0`, so that `A` and `G` have entries of order one.
+#[derive(Clone, Copy)]
+pub struct SaddleSystem<'a> {
+    /// Velocity block, faces x faces: mass, viscosity and wall friction. Symmetric positive
+    /// definite.
+    pub a: &'a Csr<f64>,
+    /// Flux operator, cells x faces.
+    pub g: &'a Csr<f64>,
+    /// Compressibility of every cell, not negative.
+    pub c: &'a [f64],
+    /// `D_B` of every face, positive: liquid volume times
+    /// `rho/dt + 12 eta/h^2 (1/H_1^2 + 1/H_2^2)` with the free paths `H` across the lumen.
+    pub friction: &'a [f64],
+    /// Twice the viscosity of every cell, not multiplied by its volume.
+    pub two_eta: &'a [f64],
+    /// Momentum right-hand side `b`, one per face.
+    pub b: &'a [f64],
+    /// Volume source `g`, one per cell: `G u + C p = g`.
+    pub volume_source: &'a [f64],
+}
+
+/// Settings of the solver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SaddleOptions {
+    /// Residual to reach, relative to the norm of the right-hand side.
+    pub tolerance: f64,
+    /// Iterations after which the solve fails.
+    pub max_iterations: usize,
+    /// Krylov vectors before a restart; memory is 8 bytes x unknowns x this.
+    pub restart: usize,
+    /// Degree of the Chebyshev polynomial that stands for `A^-1`.
+    pub chebyshev_degree: usize,
+    /// Its interval: largest over smallest eigenvalue of `D^-1 A` treated.
+    pub chebyshev_ratio: f64,
+    /// Residual to which the Poisson problem in the pressure preconditioner is solved.
+    pub inner_tolerance: f64,
+}
+
+impl Default for SaddleOptions {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-3,
+            max_iterations: 200,
+            restart: 30,
+            chebyshev_degree: 12,
+            chebyshev_ratio: 115.0,
+            inner_tolerance: 0.3,
+        }
+    }
+}
+
+/// What a solve did.
+#[derive(Clone, Debug)]
+pub struct SaddleReport {
+    /// Relative residual at the start and after every iteration.
+    pub history: Vec<f64>,
+    /// Multigrid cycles of all inner solves.
+    pub cycles: usize,
+    /// Upper bound of the eigenvalues of `D^-1 A` used.
+    pub eigenvalue_bound: f64,
+    /// Time to build the preconditioner.
+    pub setup: Duration,
+    /// Time of the iteration.
+    pub iteration: Duration,
+}
+
+impl SaddleReport {
+    /// Number of iterations.
+    pub fn iterations(&self) -> usize {
+        self.history.len().saturating_sub(1)
+    }
+
+    /// Relative residual reached.
+    pub fn residual(&self) -> f64 {
+        self.history.last().copied().unwrap_or(0.0)
+    }
+}
+
+/// Solver of [`SaddleSystem`]s; keeps its memory from one step to the next, nothing else.
+#[derive(Default)]
+pub struct SaddleSolver {
+    options: SaddleOptions,
+    space: KrylovSpace,
+}
+
+impl SaddleSolver {
+    /// A solver with given settings.
+    pub fn new(options: SaddleOptions) -> Self {
+        Self {
+            options,
+            space: KrylovSpace::default(),
+        }
+    }
+
+    /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per
+    /// cell), which take the solution. The preconditioner is block lower triangular: a Chebyshev
+    /// polynomial in `A` for the velocities, then friction Poisson solve plus local viscosity for
+    /// the pressures. Results do not depend on the number of threads.
+    ///
+    /// # Errors
+    /// [`SolveError::Length`] or [`SolveError::Matrix`] when the system is not as described,
+    /// [`SolveError::NotFinite`] for a right-hand side or guess that is not finite, and
+    /// [`SolveError::NotConverged`], with the best `u` and `p` found.
+    pub fn solve(
+        &mut self,
+        system: &SaddleSystem,
+        u: &mut [f64],
+        p: &mut [f64],
+    ) -> Result<SaddleReport, SolveError> {
+        check(system, u, p)?;
+        let options = self.options;
+        rayon::scope(|_| {
+            let started = Instant::now();
+            let operator = SaddleOperator {
+                system: *system,
+                g_transposed: system.g.transpose(),
+            };
+            let mut preconditioner = BlockTriangular::new(&operator, &options)?;
+            let setup = started.elapsed();
+            let rhs: Vec<f64> = (system.b.iter().copied())
+                .chain(system.volume_source.iter().map(|g| -g))
+                .collect();
+            let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
+            let limits = Limits {
+                tolerance: options.tolerance,
+                max_iterations: options.max_iterations,
+                restart: options.restart.max(1),
+            };
+            let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
+            let result = fgmres(
+                &operator,
+                precondition,
+                &rhs,
+                &mut x,
+                limits,
+                &mut self.space,
+            );
+            let (x_u, x_p) = x.split_at(u.len());
+            u.copy_from_slice(x_u);
+            p.copy_from_slice(x_p);
+            Ok(SaddleReport {
+                history: result?,
+                cycles: preconditioner.schur.cycles,
+                eigenvalue_bound: preconditioner.chebyshev.bound(),
+                setup,
+                iteration: started.elapsed() - setup,
+            })
+        })
+    }
+}
+
+fn check(system: &SaddleSystem, u: &[f64], p: &[f64]) -> Result<(), SolveError> {
+    let (faces, cells) = (system.a.n_rows(), system.g.n_rows());
+    for (what, found, expected) in [
+        ("columns of the velocity block", system.a.n_columns(), faces),
+        ("columns of the flux operator", system.g.n_columns(), faces),
+        ("compressibilities", system.c.len(), cells),
+        ("face frictions", system.friction.len(), faces),
+        ("cell viscosities", system.two_eta.len(), cells),
+        ("momentum right-hand side", system.b.len(), faces),
+        ("volume sources", system.volume_source.len(), cells),
+        ("velocities", u.len(), faces),
+        ("pressures", p.len(), cells),
+    ] {
+        check_length(what, found, expected)?;
+    }
+    for values in [system.b, system.volume_source, u, p] {
+        if let Some(row) = values.iter().position(|v| !v.is_finite()) {
+            return Err(SolveError::NotFinite { row });
+        }
+    }
+    for (what, values) in [("friction", system.friction), ("viscosity", system.two_eta)] {
+        if let Some(at) = values.iter().position(|v| !(*v > 0.0 && v.is_finite())) {
+            return Err(SolveError::Matrix(format!(
+                "{what} {} at index {at}; it must be positive and finite",
+                values[at]
+            )));
+        }
+    }
+    Ok(())
+}
+
+struct SaddleOperator<'a> {
+    system: SaddleSystem<'a>,
+    g_transposed: Csr<f64>,
+}
+
+impl Operator for SaddleOperator<'_> {
+    fn apply<X: Real>(&self, x: &[X], y: &mut [f64]) {
+        let (u, p) = x.split_at(self.system.a.n_rows());
+        let (y_u, y_p) = y.split_at_mut(u.len());
+        for_chunks(y_u, |start, part| {
+            for (i, y) in part.iter_mut().enumerate() {
+                *y = self.system.a.row_times_wide(start + i, u)
+                    - self.g_transposed.row_times_wide(start + i, p);
+            }
+        });
+        for_chunks(y_p, |start, part| {
+            for (i, y) in part.iter_mut().enumerate() {
+                let cell = start + i;
+                *y = -self.system.g.row_times_wide(cell, u) - self.system.c[cell] * p[cell].into();
+            }
+        });
+    }
+}
+
+/// `[Ahat, 0; -G, -Shat]^-1`.
+struct BlockTriangular<'a> {
+    g: &'a Csr<f64>,
+    chebyshev: Chebyshev,
+    schur: Schur,
+    velocity: Vec<Work>,
+    pressure: Vec<Work>,
+    residual: Vec<Work>,
+}
+
+impl<'a> BlockTriangular<'a> {
+    fn new(operator: &SaddleOperator<'a>, options: &SaddleOptions) -> Result<Self, SolveError> {
+        let system = operator.system;
+        Ok(Self {
+            g: system.g,
+            chebyshev: Chebyshev::new(system.a, options.chebyshev_degree, options.chebyshev_ratio)?,
+            schur: Schur::new(&system, &operator.g_transposed, options.inner_tolerance)?,
+            velocity: Vec::new(),
+            pressure: Vec::new(),
+            residual: vec![Work::default(); system.g.n_rows()],
+        })
+    }
+
+    /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`.
+    fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+        let (r_u, r_p) = r.split_at(self.g.n_columns());
+        self.chebyshev.apply(r_u, &mut self.velocity);
+        let (g, velocity) = (self.g, &self.velocity);
+        for_chunks(&mut self.residual, |start, part| {
+            for (i, out) in part.iter_mut().enumerate() {
+                let flux = g.row_times_wide(start + i, velocity);
+                *out = r_p[start + i] + Work::nearest(flux);
+            }
+        });
+        self.schur
+            .apply_negative(&mut self.residual, &mut self.pressure);
+        z.clear();
+        z.extend_from_slice(&self.velocity);
+        z.extend_from_slice(&self.pressure);
+    }
+}

@@ -1,0 +1,52 @@
+//! Approximate inverse of the pressure Schur complement.
+
+use super::SolveError;
+use super::csr::Csr;
+use super::pcg::PcgSpace;
+use super::poisson::Poisson;
+use super::saddle::SaddleSystem;
+use super::vector::{Real, Work, for_chunks};
+
+/// Cycles after which the inner iteration stops whatever its residual.
+const MAX_CYCLES: usize = 20;
+
+/// `S^-1 ~ 2 eta I + (G D_B^-1 G^T + C)^-1`: the viscous part by the local viscosity, and the part
+/// of inertia and lumen friction `D_B` by a Poisson solve (after Cahouet & Chabard 1988, Int. J.
+/// Numer. Meth. Fluids 8, 869-895, with Darcy friction joined to inertia).
+pub(crate) struct Schur {
+    poisson: Poisson,
+    two_eta: Vec<Work>,
+    tolerance: f64,
+    space: PcgSpace<Work>,
+    /// Cycles spent so far.
+    pub(crate) cycles: usize,
+}
+
+impl Schur {
+    pub(crate) fn new(
+        system: &SaddleSystem,
+        g_transposed: &Csr<f64>,
+        tolerance: f64,
+    ) -> Result<Self, SolveError> {
+        let weight: Vec<f64> = system.friction.iter().map(|d| 1.0 / d).collect();
+        Ok(Self {
+            poisson: Poisson::new(system.g, g_transposed, &weight, system.c)?,
+            two_eta: system.two_eta.iter().map(|&v| Work::nearest(v)).collect(),
+            tolerance,
+            space: PcgSpace::default(),
+            cycles: 0,
+        })
+    }
+
+    /// `p = -S^-1 r`; `r` is changed.
+    pub(crate) fn apply_negative(&mut self, r: &mut [Work], p: &mut Vec<Work>) {
+        let outcome = (self.poisson).apply(r, p, self.tolerance, MAX_CYCLES, &mut self.space);
+        self.cycles += outcome.iterations;
+        let two_eta = &self.two_eta;
+        for_chunks(p, |start, part| {
+            for (i, p) in part.iter_mut().enumerate() {
+                *p = -(*p + two_eta[start + i] * r[start + i]);
+            }
+        });
+    }
+}
