@@ -293,8 +293,9 @@ fn changed(original: &str, path: &Path, changes: &[String]) -> Result<String, Ru
         return Ok(original.to_owned());
     }
     Case::parse(original, path)?;
-    let mut root: toml::Table =
-        toml::from_str(original).map_err(|e| RunFailure::Usage(e.message().into()))?;
+    let mut root = toml::from_str::<toml::Table>(original)
+        .map(toml::Value::Table)
+        .map_err(|e| RunFailure::Usage(e.message().into()))?;
     for change in changes {
         let refuse = |why: &str| RunFailure::Usage(format!("--set {change}: {why}"));
         let (key, value) = change
@@ -310,17 +311,36 @@ fn changed(original: &str, path: &Path, changes: &[String]) -> Result<String, Ru
             .pop()
             .filter(|k| !k.is_empty())
             .ok_or_else(|| refuse("the key is empty"))?;
-        let mut table = &mut root;
+        let mut place = &mut root;
         for part in path {
-            table = table
-                .entry(part)
-                .or_insert_with(|| toml::Table::new().into())
-                .as_table_mut()
-                .ok_or_else(|| refuse(&format!("'{part}' is not a table")))?;
+            place = enter(place, part).map_err(|why| refuse(&why))?;
         }
-        table.insert(last.to_owned(), value);
+        match (place, last.parse::<usize>()) {
+            (toml::Value::Array(list), Ok(i)) if i < list.len() => list[i] = value,
+            (toml::Value::Table(table), _) => {
+                table.insert(last.to_owned(), value);
+            }
+            _ => return Err(refuse(&format!("there is no '{last}' to set"))),
+        }
     }
     toml::to_string(&root).map_err(|e| RunFailure::Usage(e.to_string()))
+}
+
+/// The value below `place` at `part`: a key of a table, made if absent, or an index of an array.
+fn enter<'a>(place: &'a mut toml::Value, part: &str) -> Result<&'a mut toml::Value, String> {
+    match place {
+        toml::Value::Table(table) => Ok(table
+            .entry(part)
+            .or_insert_with(|| toml::Table::new().into())),
+        toml::Value::Array(list) => {
+            let length = list.len();
+            let index = part.parse::<usize>().ok();
+            index
+                .and_then(|i| list.get_mut(i))
+                .ok_or_else(|| format!("'{part}' is no index of an array of {length}"))
+        }
+        _ => Err(format!("nothing can be set below '{part}'")),
+    }
 }
 
 #[cfg(test)]
@@ -342,6 +362,13 @@ mod tests {
         assert!((case.grid.cell.si() - 1.45e-6).abs() < 1e-18);
         assert_eq!((case.integrator.cfl, case.grid.dimensions), (Some(0.25), 2));
         assert!(case.clamp.is_some());
+        let body = format!(
+            "{original}[[body]]\nmaterial = \"rigid\"\nbox = {{ min = [\"0 m\", \"0 m\", \"0 m\"], max = [\"1 m\", \"1 m\", \"1 m\"] }}\n"
+        );
+        let text = changed(&body, Path::new("c"), &["body.0.box.min.1=0.5 m".into()]).unwrap();
+        let case = Case::parse(&text, Path::new("c")).unwrap();
+        assert_eq!(case.body[0].corners.min[1].si(), 0.5);
+        assert!(changed(&body, Path::new("c"), &["body.1.box.min.1=0.5 m".into()]).is_err());
         assert!(changed(original, Path::new("c"), &["nonsense".into()]).is_err());
         assert!(
             Case::parse(
