@@ -1,5 +1,6 @@
 //! Where things stand in the file. FORMAT.md is the specification.
 
+use std::collections::HashSet;
 use std::mem::size_of;
 
 use bincode::{Decode, Encode};
@@ -98,8 +99,9 @@ pub(crate) fn padded_header(len: usize) -> usize {
 
 /// Why the sections do not belong to this header, if so.
 pub(crate) fn fault(header: &Header, sections: &[Section]) -> Option<String> {
-    for (i, section) in sections.iter().enumerate() {
-        if section.name.is_empty() || sections[..i].iter().any(|s| s.name == section.name) {
+    let mut names = HashSet::with_capacity(sections.len());
+    for section in sections {
+        if section.name.is_empty() || !names.insert(&section.name) {
             return Some(format!(
                 "the name '{}' is empty or used twice",
                 section.name

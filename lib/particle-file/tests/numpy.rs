@@ -1,0 +1,76 @@
+//! The NumPy reader in `readers/` agrees with the library, where Python and NumPy exist.
+
+use std::path::Path;
+use std::process::Command;
+
+use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
+
+/// Prints what a wrong order of axes, rows or bytes would change.
+const SCRIPT: &str = "
+import sys, numpy, mpts
+head, arrays = mpts.read(sys.argv[1])
+print(head['kind'], head['step'], head['particles'], head['attributes']['gap_m'])
+for name, a in arrays.items():
+    weights = numpy.arange(1, a.size + 1)
+    print(name, a.dtype, a.shape, int(a.ravel().astype(numpy.int64) @ weights))
+";
+
+#[test]
+fn numpy_reads_what_was_written() {
+    let works = |c: &mut Command| c.output().is_ok_and(|o| o.status.success());
+    if !works(Command::new("python3").args(["-c", "import numpy"])) {
+        println!("skipped: python3 with numpy is not installed here");
+        return;
+    }
+    let dims = [70, 3, 2];
+    let wood = BitGrid::from_fn(dims, |x, y, z| (3 * x + 5 * y + 7 * z) % 4 == 0);
+    let position: Vec<f32> = (0..15).map(|i| (i * i) as f32).collect();
+    let label: Vec<u32> = (0..5).map(|i| 1_000_000 * i).collect();
+    let mut header = Header::new(Kind::State, 1.45e-6, 2, [0.0; 3], [1e-4; 3]);
+    header.step = 42;
+    header.set_attribute("gap_m", 1.5e-5);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("state.mpts");
+    let mut out = std::fs::File::create(&path).unwrap();
+    Draft::new(header)
+        .block(
+            Block::new("wood-top", Material::Rigid, [0.0; 3], 1.45e-6, &wood),
+            &wood,
+        )
+        .column("position", 3, &position)
+        .column("label", 1, &label)
+        .blob("notes", &[9, 8, 7])
+        .write_to(&mut out)
+        .unwrap();
+
+    let weighted = |values: &mut dyn Iterator<Item = i64>| -> i64 {
+        (1..).zip(values).map(|(i, v): (i64, i64)| i * v).sum()
+    };
+    let [nx, ny, nz] = dims;
+    let mut voxels =
+        (0..nx * ny * nz).map(|i| i64::from(wood.get(i % nx, i / nx % ny, i / nx / ny)));
+    let expected = [
+        "2 42 5 0.000015".to_owned(),
+        format!("wood-top bool (2, 3, 70) {}", weighted(&mut voxels)),
+        format!(
+            "position float32 (5, 3) {}",
+            weighted(&mut position.iter().map(|&x| x as i64))
+        ),
+        format!(
+            "label uint32 (5, 1) {}",
+            weighted(&mut label.iter().map(|&x| i64::from(x)))
+        ),
+        format!("notes uint8 (3, 1) {}", 9 + 2 * 8 + 3 * 7),
+    ];
+    let readers = Path::new(env!("CARGO_MANIFEST_DIR")).join("readers");
+    let output = Command::new("python3")
+        .args(["-c", SCRIPT])
+        .arg(&path)
+        .env("PYTHONPATH", readers)
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(said.lines().collect::<Vec<_>>(), expected, "{errors}");
+}
