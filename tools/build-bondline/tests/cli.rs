@@ -12,7 +12,7 @@ const DIMS: [usize; 3] = [40, 60, 16];
 
 /// Wood below 24 and from 30 with grooves, adhesive between and in the lower grooves.
 fn specimen(folder: &Path, with_adhesive: bool) -> PathBuf {
-    let groove = |x: usize| x % 4 == 0;
+    let groove = |x: usize| x.is_multiple_of(4);
     let wood = BitGrid::from_fn(DIMS, |x, y, _| !(24..30).contains(&y) && !groove(x));
     let adhesive = BitGrid::from_fn(DIMS, |x, y, _| {
         with_adhesive && ((24..30).contains(&y) || (9..24).contains(&y) && groove(x))
