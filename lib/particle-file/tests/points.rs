@@ -97,8 +97,8 @@ fn adhesive_is_the_same_as_voxels_and_as_points() {
     specimen.for_each_adhesive(push).unwrap();
     assert_eq!(from_voxels.len() as u64, glue.count());
     let first: ([f64; 3], f64) = from_voxels[0];
-    for axis in 0..3 {
-        assert!((first.0[axis] - origin[axis] - 0.5 * VOXEL).abs() < 1e-12);
+    for (x, low) in first.0.iter().zip(origin) {
+        assert!((x - low - 0.5 * VOXEL).abs() < 1e-12);
     }
     let centroid_y = from_voxels.iter().map(|(p, _)| p[1]).sum::<f64>() / from_voxels.len() as f64;
     let layers = glue.view().counts_along(1);
