@@ -1,0 +1,176 @@
+//! From stored pixels to bit planes, one row at a time.
+
+use crate::label::Label;
+use crate::phases::{Phase, Phases};
+use crate::sample::{PageFormat, Sample};
+
+// A code is what one pixel contributes: its phase and, for a guess, which label it had.
+const WOOD: u8 = 0x01;
+const ADHESIVE: u8 = 0x02;
+/// A pixel whose value has no phase.
+pub(crate) const UNKNOWN: u8 = 0x80;
+/// The label sets that are recognised without `--labels`, each with its bits of "seen".
+/// Label 0 and the phases agree between the sets, so one pass can code both and decide at
+/// the end which one it was.
+const GUESSES: [([f64; 3], [u8; 3]); 2] = [
+    ([0.0, 1.0, 2.0], [0x04, 0x08, 0x10]),
+    ([0.0, 128.0, 255.0], [0x04, 0x20, 0x40]),
+];
+
+/// Codes pixels of one format.
+pub(crate) struct Coder<'a> {
+    phases: &'a Phases,
+    format: PageFormat,
+    /// Codes of all values of an 8- or 16-bit sample, by its bit pattern.
+    table: Option<Vec<u8>>,
+}
+
+impl<'a> Coder<'a> {
+    pub(crate) fn new(phases: &'a Phases, format: PageFormat) -> Self {
+        let mut coder = Self {
+            phases,
+            format,
+            table: None,
+        };
+        if format.channels == 1 && format.sample.bytes() <= 2 {
+            let bytes = format.sample.bytes();
+            let codes = |bits: u16| match bytes {
+                1 => coder.code(&[bits as u8]),
+                _ => coder.code(&bits.to_ne_bytes()),
+            };
+            let last = if bytes == 1 { 0xff } else { 0xffff };
+            coder.table = Some((0..=last).map(codes).collect());
+        }
+        coder
+    }
+
+    /// The code of the pixel stored in `pixel`.
+    fn code(&self, pixel: &[u8]) -> u8 {
+        let label = Label::of_pixel(pixel, self.format.sample, self.format.channels);
+        match (self.phases, label) {
+            (Phases::Labels(labels), _) => labels.phase(label).map_or(UNKNOWN, phase_code),
+            (Phases::Grey(grey), Label::Value(v)) => grey.phase(v).map_or(UNKNOWN, phase_code),
+            (Phases::Guess, Label::Value(v)) => guess_code(v),
+            (Phases::Grey(_) | Phases::Guess, Label::Rgb(_)) => UNKNOWN,
+        }
+    }
+
+    /// Sets the bits of one row and returns the union of its codes.
+    pub(crate) fn row(&self, pixels: &[u8], wood: &mut [u64], adhesive: &mut [u64]) -> u8 {
+        match (&self.table, self.format.sample) {
+            (Some(table), Sample::U8 | Sample::I8) => pack(
+                pixels.iter().map(|&b| table[usize::from(b)]),
+                wood,
+                adhesive,
+            ),
+            (Some(table), _) => {
+                let pairs = pixels.as_chunks::<2>().0;
+                let codes = pairs
+                    .iter()
+                    .map(|&b| table[usize::from(u16::from_ne_bytes(b))]);
+                pack(codes, wood, adhesive)
+            }
+            (None, _) => {
+                // Labels come in runs: only a change of value is looked up.
+                let mut last: (&[u8], u8) = (&[], UNKNOWN);
+                let codes = pixels.chunks_exact(self.format.pixel_bytes()).map(|pixel| {
+                    if pixel != last.0 {
+                        last = (pixel, self.code(pixel));
+                    }
+                    last.1
+                });
+                pack(codes, wood, adhesive)
+            }
+        }
+    }
+
+    /// The first pixel of a row that has no phase.
+    pub(crate) fn first_unknown(&self, pixels: &[u8]) -> Option<(usize, Label)> {
+        let mut pixels = pixels.chunks_exact(self.format.pixel_bytes()).enumerate();
+        pixels
+            .find(|(_, pixel)| self.code(pixel) == UNKNOWN)
+            .map(|(x, pixel)| {
+                let label = Label::of_pixel(pixel, self.format.sample, self.format.channels);
+                (x, label)
+            })
+    }
+}
+
+/// Whether a stack with this union of codes held exactly the labels of one guess; gives them.
+pub(crate) fn guessed(union: u8) -> Option<[f64; 3]> {
+    GUESSES
+        .into_iter()
+        .find(|(_, seen)| union & !(WOOD | ADHESIVE) == seen[0] | seen[1] | seen[2])
+        .map(|(labels, _)| labels)
+}
+
+fn phase_code(phase: Phase) -> u8 {
+    match phase {
+        Phase::Void => 0,
+        Phase::Wood => WOOD,
+        Phase::Adhesive => ADHESIVE,
+    }
+}
+
+fn guess_code(value: f64) -> u8 {
+    let phases = [Phase::Void, Phase::Wood, Phase::Adhesive];
+    for (labels, seen) in GUESSES {
+        if let Some(i) = labels.iter().position(|l| *l == value) {
+            return phase_code(phases[i]) | seen[i];
+        }
+    }
+    UNKNOWN
+}
+
+/// Gathers bit 0 of each code into `wood`, bit 1 into `adhesive`, 64 pixels a word, and
+/// returns the union of the codes.
+fn pack(mut codes: impl Iterator<Item = u8>, wood: &mut [u64], adhesive: &mut [u64]) -> u8 {
+    const LOW_BITS: u64 = 0x0101_0101_0101_0101;
+    // Multiplying moves bit 0 of byte k to bit 56 + k; no two terms meet, so none carries.
+    const GATHER: u64 = 0x0102_0408_1020_4080;
+    let mut union = 0_u64;
+    for (wood, adhesive) in wood.iter_mut().zip(adhesive) {
+        let mut block = [0_u8; 64];
+        block
+            .iter_mut()
+            .zip(codes.by_ref())
+            .for_each(|(slot, code)| *slot = code);
+        (*wood, *adhesive) = (0, 0);
+        for (i, eight) in block.as_chunks::<8>().0.iter().enumerate() {
+            let codes = u64::from_le_bytes(*eight);
+            union |= codes;
+            *wood |= ((codes & LOW_BITS).wrapping_mul(GATHER) >> 56) << (8 * i);
+            *adhesive |= ((codes >> 1 & LOW_BITS).wrapping_mul(GATHER) >> 56) << (8 * i);
+        }
+    }
+    union.to_le_bytes().into_iter().fold(0, |a, b| a | b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packing_puts_every_pixel_at_its_bit() {
+        let codes: Vec<u8> = (0..150_u32).map(|i| (i * i % 7 % 3) as u8).collect();
+        let (mut wood, mut adhesive) = ([!0; 3], [!0; 3]);
+        pack(codes.iter().copied(), &mut wood, &mut adhesive);
+        for i in 0..192 {
+            let code = codes.get(i).copied().unwrap_or(0);
+            assert_eq!(wood[i / 64] >> (i % 64) & 1, u64::from(code == WOOD), "{i}");
+            let bit = adhesive[i / 64] >> (i % 64) & 1;
+            assert_eq!(bit, u64::from(code == ADHESIVE), "{i}");
+        }
+    }
+
+    #[test]
+    fn a_guess_needs_all_three_labels_of_one_set() {
+        let union = |values: &[f64]| values.iter().fold(0, |u, v| u | guess_code(*v));
+        assert_eq!(guessed(union(&[0.0, 1.0, 2.0])), Some([0.0, 1.0, 2.0]));
+        let second = guessed(union(&[255.0, 0.0, 128.0]));
+        assert_eq!(second, Some([0.0, 128.0, 255.0]));
+        assert_eq!(guessed(union(&[0.0, 1.0])), None);
+        assert_eq!(guessed(union(&[0.0, 1.0, 2.0, 128.0])), None);
+        assert_eq!(guessed(union(&[0.0, 1.0, 2.0, 3.0])), None);
+    }
+}

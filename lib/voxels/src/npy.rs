@@ -1,0 +1,190 @@
+//! NumPy's `.npy`, format versions 1 to 3
+//! (<https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>): an array of
+//! shape (pages, rows, columns).
+
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+
+use crate::Error;
+use crate::raw::RawVolume;
+use crate::sample::{PageFormat, Sample};
+use crate::source::Source;
+
+const MAGIC: &[u8] = b"\x93NUMPY";
+
+pub(crate) fn is_npy(head: &[u8]) -> bool {
+    head.starts_with(MAGIC)
+}
+
+/// Opens an array of three axes (z, y, x) in C or Fortran order.
+pub(crate) fn open(source: Source) -> Result<RawVolume, Error> {
+    let (text, data) = header(&source)?;
+    let header = Header::parse(&text).map_err(|what| Error::file(&source, what))?;
+    let [nz, ny, nx] = header.shape;
+    let format = PageFormat {
+        width: nx,
+        height: ny,
+        sample: header.sample,
+        channels: 1,
+    };
+    if !header.fortran {
+        return RawVolume::new(vec![source], format, nz, data, header.big_endian);
+    }
+    // The same bytes read as C order are an array of shape (x, y, z): checked as such before
+    // they are put in order.
+    let transposed = PageFormat {
+        width: nz,
+        height: ny,
+        ..format
+    };
+    let checked = RawVolume::new(vec![source], transposed, nx, data, header.big_endian)?;
+    let [source] = checked.sources() else {
+        return Ok(checked);
+    };
+    let ordered = in_c_order(source, data, header.shape, header.sample.bytes())
+        .and_then(|file| Source::of_file(source.name().to_owned(), file))
+        .map_err(|e| Error::io(source, e))?;
+    RawVolume::new(vec![ordered], format, nz, 0, header.big_endian)
+}
+
+/// The header's text and where the data begin.
+fn header(source: &Source) -> Result<(String, u64), Error> {
+    let corrupt = || Error::file(source, "its .npy header is corrupt or truncated");
+    let start = source.window(0, 12).map_err(|e| Error::io(source, e))?;
+    let (length, begin) = match *start.as_slice() {
+        [.., 1, _, a, b, _, _] => (usize::from(u16::from_le_bytes([a, b])), 10),
+        [.., 2 | 3, _, a, b, c, d] => (u32::from_le_bytes([a, b, c, d]) as usize, 12),
+        _ => return Err(corrupt()),
+    };
+    let text = source
+        .window(begin, length)
+        .map_err(|e| Error::io(source, e))?;
+    if text.len() < length {
+        return Err(corrupt());
+    }
+    let text = String::from_utf8(text).map_err(|_| corrupt())?;
+    Ok((text, begin + length as u64))
+}
+
+struct Header {
+    sample: Sample,
+    big_endian: bool,
+    fortran: bool,
+    /// (pages, rows, columns).
+    shape: [usize; 3],
+}
+
+impl Header {
+    /// Parses the Python dictionary `{'descr': '<u2', 'fortran_order': False, 'shape': (..)}`.
+    fn parse(text: &str) -> Result<Self, String> {
+        let after = |key: &str| {
+            text.split_once(key)
+                .map(|(_, rest)| rest.trim_start())
+                .ok_or_else(|| format!("its .npy header has no {key}"))
+        };
+        let descr = after("'descr':")?;
+        let descr = descr.split(['\'', '"']).nth(1).unwrap_or_default();
+        let (sample, big_endian) = sample_of(descr)?;
+        let fortran = after("'fortran_order':")?.starts_with("True");
+        let shape = after("'shape':")?;
+        let axes: Option<Vec<usize>> = shape
+            .strip_prefix('(')
+            .and_then(|rest| rest.split_once(')'))
+            .map(|(inside, _)| inside.trim().trim_end_matches(','))
+            .and_then(|inside| inside.split(',').map(|n| n.trim().parse().ok()).collect());
+        let shape = axes
+            .and_then(|axes| axes.try_into().ok())
+            .ok_or("its array has not three axes; accepted is the shape (pages, rows, columns)")?;
+        Ok(Self {
+            sample,
+            big_endian,
+            fortran,
+            shape,
+        })
+    }
+}
+
+fn sample_of(descr: &str) -> Result<(Sample, bool), String> {
+    let sample = match descr.get(1..) {
+        Some("u1" | "b1") => Sample::U8,
+        Some("i1") => Sample::I8,
+        Some("u2") => Sample::U16,
+        Some("i2") => Sample::I16,
+        Some("u4") => Sample::U32,
+        Some("i4") => Sample::I32,
+        Some("u8") => Sample::U64,
+        Some("i8") => Sample::I64,
+        Some("f4") => Sample::F32,
+        Some("f8") => Sample::F64,
+        _ => {
+            return Err(format!(
+                "its array has the type '{descr}'; accepted are integers of 8 to 64 bits, bool, float32 and float64"
+            ));
+        }
+    };
+    match descr.as_bytes() {
+        [b'|' | b'<' | b'=', ..] => Ok((sample, false)),
+        [b'>', ..] => Ok((sample, true)),
+        _ => Err(format!("its array has the unknown byte order of '{descr}'")),
+    }
+}
+
+/// Copies an array stored with z fastest to an unnamed file with x fastest.
+///
+/// Each pass reads the whole array and gathers as many pages as fit into one byte per voxel,
+/// so a stack needs as many passes as a sample has bytes.
+fn in_c_order(source: &Source, data: u64, shape: [usize; 3], size: usize) -> io::Result<File> {
+    let [nz, ny, nx] = shape;
+    let batch = nz.div_ceil(size);
+    let mut out = BufWriter::new(tempfile::tempfile()?);
+    let mut column = vec![0; nz * size];
+    for z0 in (0..nz).step_by(batch) {
+        let pages = batch.min(nz - z0);
+        let mut ordered = vec![0; pages * ny * nx * size];
+        let mut stored = BufReader::with_capacity(1 << 20, source.reader()?);
+        io::copy(&mut stored.by_ref().take(data), &mut io::sink())?;
+        for x in 0..nx {
+            for y in 0..ny {
+                stored.read_exact(&mut column)?;
+                let wanted = &column[z0 * size..(z0 + pages) * size];
+                for (k, value) in wanted.chunks_exact(size).enumerate() {
+                    let at = ((k * ny + y) * nx + x) * size;
+                    ordered[at..at + size].copy_from_slice(value);
+                }
+            }
+        }
+        out.write_all(&ordered)?;
+    }
+    let mut file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+    file.seek(SeekFrom::Start(0))?;
+    Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Header, String> {
+        Header::parse(text)
+    }
+
+    #[test]
+    fn headers_as_numpy_writes_them() {
+        let good = "{'descr': '>u2', 'fortran_order': True, 'shape': (40, 64, 96), }  \n";
+        let header = parse(good).unwrap();
+        assert_eq!(header.sample, Sample::U16);
+        assert!(header.big_endian && header.fortran);
+        assert_eq!(header.shape, [40, 64, 96]);
+        for bad in [
+            "{'descr': '<c8', 'fortran_order': False, 'shape': (1, 1, 1), }",
+            "{'descr': [('a', '<u2')], 'fortran_order': False, 'shape': (1, 1, 1), }",
+            "{'descr': '<u2', 'fortran_order': False, 'shape': (64, 96), }",
+            "{'descr': '<u2', 'fortran_order': False, 'shape': (), }",
+            "{'descr': '<u2', 'fortran_order': False, 'shape': (-1, 2, 3), }",
+            "{'descr': '<u2', 'shape': (1, 2, 3)}",
+            "",
+        ] {
+            assert!(parse(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,211 @@
+use std::str::FromStr;
+
+use crate::label::Label;
+
+/// What a voxel holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// Air.
+    Void,
+    /// Cell wall.
+    Wood,
+    /// Adhesive.
+    Adhesive,
+}
+
+impl Phase {
+    const ALL: [Phase; 3] = [Phase::Void, Phase::Wood, Phase::Adhesive];
+
+    fn name(self) -> &'static str {
+        ["void", "wood", "adhesive"][self as usize]
+    }
+
+    fn parse(name: &str) -> Result<Self, String> {
+        let known = Self::ALL.into_iter().find(|p| p.name() == name.trim());
+        known.ok_or_else(|| {
+            format!(
+                "'{}' is not a phase; accepted are void, wood and adhesive",
+                name.trim()
+            )
+        })
+    }
+}
+
+/// How stored values become phases.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Phases {
+    /// The stack must hold exactly the labels {0, 1, 2} or {0, 128, 255} for void, wood and
+    /// adhesive.
+    Guess,
+    /// Every label of the stack is named.
+    Labels(Labels),
+    /// Ranges of grey values.
+    Grey(Grey),
+}
+
+/// The labels of each phase, e.g. `void=0,wood=1|2|7,adhesive=255`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Labels(Vec<(Label, Phase)>);
+
+impl Labels {
+    /// The phase of `label`, if it is named.
+    pub fn phase(&self, label: Label) -> Option<Phase> {
+        self.0.iter().find(|(l, _)| *l == label).map(|(_, p)| *p)
+    }
+}
+
+impl FromStr for Labels {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut labels = Self(Vec::new());
+        for part in text.split(',') {
+            let (name, values) = part.split_once('=').ok_or_else(|| {
+                format!("'{part}' is not PHASE=LABEL, as in void=0,wood=1|2,adhesive=255")
+            })?;
+            let phase = Phase::parse(name)?;
+            for value in values.split('|') {
+                let label = value.parse()?;
+                if let Some(other) = labels.phase(label) {
+                    return Err(format!(
+                        "label {label} is given to {} and to {}; a label has one phase",
+                        other.name(),
+                        phase.name()
+                    ));
+                }
+                labels.0.push((label, phase));
+            }
+        }
+        let missing = Phase::ALL
+            .into_iter()
+            .find(|phase| labels.0.iter().all(|(_, p)| p != phase));
+        match missing {
+            Some(phase) => Err(format!(
+                "no label is given for {}; void, wood and adhesive are needed, as in void=0,wood=128,adhesive=255",
+                phase.name()
+            )),
+            None => Ok(labels),
+        }
+    }
+}
+
+/// Inclusive ranges of grey values for wood and adhesive, e.g. `wood=90..170,adhesive=171..`;
+/// every other value is void.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grey {
+    wood: (f64, f64),
+    adhesive: (f64, f64),
+}
+
+impl Grey {
+    /// The phase of a grey value; not-a-number has none.
+    pub fn phase(&self, grey: f64) -> Option<Phase> {
+        let within = |(low, high): (f64, f64)| low <= grey && grey <= high;
+        match () {
+            () if grey.is_nan() => None,
+            () if within(self.wood) => Some(Phase::Wood),
+            () if within(self.adhesive) => Some(Phase::Adhesive),
+            () => Some(Phase::Void),
+        }
+    }
+}
+
+impl FromStr for Grey {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (mut wood, mut adhesive) = (None, None);
+        for part in text.split(',') {
+            let (name, range) = part.split_once('=').ok_or_else(|| {
+                format!("'{part}' is not PHASE=LOW..HIGH, as in wood=90..170,adhesive=171..")
+            })?;
+            let slot = match Phase::parse(name)? {
+                Phase::Void => return Err("void is what no range names; leave it out".into()),
+                Phase::Wood => &mut wood,
+                Phase::Adhesive => &mut adhesive,
+            };
+            if slot.replace(parse_range(range)?).is_some() {
+                return Err(format!("{} has two ranges; give one", name.trim()));
+            }
+        }
+        let (Some(wood), Some(adhesive)) = (wood, adhesive) else {
+            return Err(
+                "both wood and adhesive need a range, as in wood=90..170,adhesive=171..".into(),
+            );
+        };
+        if wood.0 <= adhesive.1 && adhesive.0 <= wood.1 {
+            return Err(format!(
+                "the ranges of wood and adhesive overlap in '{text}'; both ends belong to a range"
+            ));
+        }
+        Ok(Self { wood, adhesive })
+    }
+}
+
+fn parse_range(text: &str) -> Result<(f64, f64), String> {
+    let bound = |part: &str, open: f64| match part.trim() {
+        "" => Some(open),
+        number => number.parse().ok().filter(|v: &f64| v.is_finite()),
+    };
+    text.split_once("..")
+        .and_then(|(low, high)| Some((bound(low, f64::NEG_INFINITY)?, bound(high, f64::INFINITY)?)))
+        .filter(|(low, high)| low <= high)
+        .ok_or_else(|| {
+            format!("'{text}' is not a range of grey values; accepted are 90..170, 171.. and ..89")
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_of_several_values_and_colours() {
+        let labels: Labels = "void=0,wood=1|2|7,adhesive=255:0:0".parse().unwrap();
+        assert_eq!(labels.phase(Label::Value(7.0)), Some(Phase::Wood));
+        assert_eq!(
+            labels.phase(Label::Rgb([255.0, 0.0, 0.0])),
+            Some(Phase::Adhesive)
+        );
+        assert_eq!(labels.phase(Label::Value(3.0)), None);
+    }
+
+    #[test]
+    fn bad_labels_say_what_is_accepted() {
+        for (bad, word) in [
+            ("wood=1,adhesive=2", "no label is given for void"),
+            ("void=0,wood=1", "adhesive"),
+            ("void=0,wood=1,adhesive=1", "one phase"),
+            ("void=0,wood=x,adhesive=1", "not a label"),
+            ("void=0,wood=1:2,adhesive=1", "R:G:B"),
+            ("void=0,wood,adhesive=1", "PHASE=LABEL"),
+            ("void=0,glue=2", "not a phase"),
+            ("void=0,wood=9007199254740993,adhesive=1", "2^53"),
+            ("", "PHASE=LABEL"),
+        ] {
+            let said = bad.parse::<Labels>().unwrap_err();
+            assert!(said.contains(word), "{bad}: {said}");
+        }
+    }
+
+    #[test]
+    fn grey_ranges_hold_both_ends() {
+        let grey: Grey = "wood=90..170,adhesive=171..".parse().unwrap();
+        let phase = |v| grey.phase(v).unwrap();
+        assert_eq!(phase(89.0), Phase::Void);
+        assert_eq!(phase(90.0), Phase::Wood);
+        assert_eq!(phase(170.0), Phase::Wood);
+        assert_eq!(phase(171.0), Phase::Adhesive);
+        assert_eq!(grey.phase(f64::NAN), None);
+        for bad in [
+            "wood=90..170",
+            "wood=90..170,adhesive=170..",
+            "wood=170..90,adhesive=171..",
+            "wood=90,adhesive=171..",
+            "void=0..1,wood=2..3,adhesive=4..",
+            "wood=1..2,wood=3..4,adhesive=5..",
+        ] {
+            assert!(bad.parse::<Grey>().is_err(), "{bad}");
+        }
+    }
+}

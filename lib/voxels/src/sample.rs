@@ -1,0 +1,132 @@
+use std::fmt;
+
+/// The number type of a stored sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sample {
+    /// Unsigned, 8 bits; also what 1-, 2- and 4-bit pixels are unpacked to.
+    U8,
+    /// Unsigned, 16 bits.
+    U16,
+    /// Unsigned, 32 bits.
+    U32,
+    /// Unsigned, 64 bits.
+    U64,
+    /// Signed, 8 bits.
+    I8,
+    /// Signed, 16 bits.
+    I16,
+    /// Signed, 32 bits.
+    I32,
+    /// Signed, 64 bits.
+    I64,
+    /// IEEE single precision.
+    F32,
+    /// IEEE double precision.
+    F64,
+}
+
+impl Sample {
+    /// Bytes of one sample.
+    pub fn bytes(self) -> usize {
+        match self {
+            Sample::U8 | Sample::I8 => 1,
+            Sample::U16 | Sample::I16 => 2,
+            Sample::U32 | Sample::I32 | Sample::F32 => 4,
+            Sample::U64 | Sample::I64 | Sample::F64 => 8,
+        }
+    }
+
+    /// The value of one sample in native byte order; `bytes` holds at least
+    /// [`Sample::bytes`]. Integers beyond 2^53 are rounded, which no label reaches.
+    pub(crate) fn value(self, bytes: &[u8]) -> f64 {
+        fn take<const N: usize>(bytes: &[u8]) -> [u8; N] {
+            let mut array = [0; N];
+            array.copy_from_slice(&bytes[..N]);
+            array
+        }
+        match self {
+            Sample::U8 => f64::from(bytes[0]),
+            Sample::I8 => f64::from(i8::from_ne_bytes(take(bytes))),
+            Sample::U16 => f64::from(u16::from_ne_bytes(take(bytes))),
+            Sample::I16 => f64::from(i16::from_ne_bytes(take(bytes))),
+            Sample::U32 => f64::from(u32::from_ne_bytes(take(bytes))),
+            Sample::I32 => f64::from(i32::from_ne_bytes(take(bytes))),
+            Sample::U64 => u64::from_ne_bytes(take(bytes)) as f64,
+            Sample::I64 => i64::from_ne_bytes(take(bytes)) as f64,
+            Sample::F32 => f64::from(f32::from_ne_bytes(take(bytes))),
+            Sample::F64 => f64::from_ne_bytes(take(bytes)),
+        }
+    }
+}
+
+impl fmt::Display for Sample {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Sample::U8 => "unsigned 8 bits",
+            Sample::U16 => "unsigned 16 bits",
+            Sample::U32 => "unsigned 32 bits",
+            Sample::U64 => "unsigned 64 bits",
+            Sample::I8 => "signed 8 bits",
+            Sample::I16 => "signed 16 bits",
+            Sample::I32 => "signed 32 bits",
+            Sample::I64 => "signed 64 bits",
+            Sample::F32 => "32-bit float",
+            Sample::F64 => "64-bit float",
+        })
+    }
+}
+
+/// What every page of a stack shares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PageFormat {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Number type of a sample.
+    pub sample: Sample,
+    /// Samples per pixel: 1, or 3 for `R:G:B` labels.
+    pub channels: usize,
+}
+
+impl PageFormat {
+    /// Bytes of one pixel.
+    pub fn pixel_bytes(&self) -> usize {
+        self.sample.bytes() * self.channels
+    }
+
+    /// Bytes of one page, if that is a number.
+    pub(crate) fn page_bytes(&self) -> Option<usize> {
+        self.width
+            .checked_mul(self.height)?
+            .checked_mul(self.pixel_bytes())
+    }
+}
+
+impl fmt::Display for PageFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} x {}, {}", self.width, self.height, self.sample)?;
+        if self.channels > 1 {
+            write!(f, " x {}", self.channels)?;
+        }
+        Ok(())
+    }
+}
+
+/// Reverses the bytes of every sample: from the other byte order to the native one.
+pub(crate) fn swap_bytes(bytes: &mut [u8], sample_bytes: usize) {
+    // The length as a constant lets the compiler use byte shuffles.
+    fn swap<const N: usize>(bytes: &mut [u8]) {
+        bytes
+            .as_chunks_mut::<N>()
+            .0
+            .iter_mut()
+            .for_each(|s| s.reverse());
+    }
+    match sample_bytes {
+        2 => swap::<2>(bytes),
+        4 => swap::<4>(bytes),
+        8 => swap::<8>(bytes),
+        _ => {}
+    }
+}

@@ -1,0 +1,129 @@
+use rayon::prelude::*;
+
+use crate::bits::BitVolume;
+use crate::coder::{Coder, UNKNOWN, guessed};
+use crate::label::Label;
+use crate::phases::Phases;
+use crate::{Crop, Error, Stack};
+
+/// A stack as sets of voxels; void is what is in neither.
+#[derive(Clone, Debug)]
+pub struct Segmented {
+    /// Voxels of wood.
+    pub wood: BitVolume,
+    /// Voxels of adhesive.
+    pub adhesive: BitVolume,
+    /// The labels of void, wood and adhesive when they were guessed.
+    pub guessed: Option<[f64; 3]>,
+}
+
+/// Reads the voxels of `crop` page by page on all threads and sorts them into phases.
+///
+/// Memory: the result (one bit per voxel and phase) and two pages per thread. `on_page` is
+/// called after each page, from any thread.
+///
+/// # Errors
+/// A page that cannot be read, the first pixel without a phase, or a crop that reaches out
+/// of the stack.
+pub fn segment(
+    stack: &Stack,
+    phases: &Phases,
+    crop: &Crop,
+    on_page: impl Fn() + Sync,
+) -> Result<Segmented, Error> {
+    crop.check(stack.dims()).map_err(Error::Usage)?;
+    if stack.format().channels > 1 && matches!(phases, Phases::Grey(_)) {
+        return Err(Error::Usage(format!(
+            "{}: grey values are asked for but its pixels are R:G:B; give R:G:B labels instead",
+            stack.name()
+        )));
+    }
+    let too_large = || Error::file(stack.name(), "it has more voxels than can be counted");
+    let mut wood = BitVolume::empty(crop.dims()).ok_or_else(too_large)?;
+    let mut adhesive = BitVolume::empty(crop.dims()).ok_or_else(too_large)?;
+
+    let coder = Coder::new(phases, stack.format());
+    let words_per_row = wood.words_per_row();
+    let words_per_page = words_per_row * crop.dims()[1];
+    let unions: Vec<Result<u8, Error>> = wood
+        .words_mut()
+        .par_chunks_mut(words_per_page)
+        .zip(adhesive.words_mut().par_chunks_mut(words_per_page))
+        .enumerate()
+        .map_init(Vec::new, |page, (k, (wood, adhesive))| {
+            let z = crop.ranges()[2].start + k;
+            stack.read_page(z, page)?;
+            let union = page_rows(stack, crop, page)
+                .zip(wood.chunks_mut(words_per_row))
+                .zip(adhesive.chunks_mut(words_per_row))
+                .map(|((pixels, wood), adhesive)| coder.row(pixels, wood, adhesive))
+                .fold(0, |union, row| union | row);
+            on_page();
+            if union & UNKNOWN == 0 {
+                Ok(union)
+            } else {
+                Err(unknown_label(stack, phases, crop, page, z, &coder))
+            }
+        })
+        .collect();
+    let mut union = 0;
+    for page in unions {
+        union |= page?;
+    }
+    let guessed = match phases {
+        Phases::Guess => Some(guessed(union).ok_or_else(|| {
+            Error::Usage(format!(
+                "{}: its labels are neither exactly 0, 1, 2 nor exactly 0, 128, 255; say which is which with --labels or --grey",
+                stack.name()
+            ))
+        })?),
+        _ => None,
+    };
+    Ok(Segmented {
+        wood,
+        adhesive,
+        guessed,
+    })
+}
+
+/// The cropped rows of a page, bottom of the index range first.
+fn page_rows<'a>(stack: &Stack, crop: &Crop, page: &'a [u8]) -> impl Iterator<Item = &'a [u8]> {
+    let [x, y, _] = crop.ranges().clone();
+    let pixel = stack.format().pixel_bytes();
+    let row_bytes = stack.format().width * pixel;
+    page.chunks_exact(row_bytes)
+        .skip(y.start)
+        .take(y.len())
+        .map(move |row| &row[x.start * pixel..x.end * pixel])
+}
+
+/// The error for the first pixel of a page that has no phase.
+fn unknown_label(
+    stack: &Stack,
+    phases: &Phases,
+    crop: &Crop,
+    page: &[u8],
+    z: usize,
+    coder: &Coder,
+) -> Error {
+    let [x0, y0] = [0, 1].map(|axis| crop.ranges()[axis].start);
+    let found = page_rows(stack, crop, page)
+        .enumerate()
+        .find_map(|(y, row)| {
+            coder
+                .first_unknown(row)
+                .map(|(x, label)| (label, x + x0, y + y0))
+        });
+    let (label, x, y) = found.unwrap_or((Label::Value(f64::NAN), x0, y0));
+    let cure = match phases {
+        Phases::Labels(_) => "no phase has that label; name it in --labels",
+        Phases::Grey(_) => "it has no grey value",
+        Phases::Guess => {
+            "labels are guessed only from exactly 0, 1, 2 or 0, 128, 255; say which is which with --labels or --grey"
+        }
+    };
+    Error::Usage(format!(
+        "{}: the pixel at column {x}, row {y} holds {label}, and {cure}",
+        stack.page_name(z)
+    ))
+}

@@ -1,0 +1,147 @@
+use std::fmt;
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+use std::os::fd::AsFd;
+use std::os::unix::fs::FileExt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::Error;
+
+/// One input file, read at positions from any thread.
+///
+/// Positioned reads instead of a memory map: equally fast for whole pages, and a file that
+/// shrinks while it is read is an error instead of a SIGBUS.
+#[derive(Debug)]
+pub struct Source {
+    name: String,
+    handle: Handle,
+    len: u64,
+}
+
+#[derive(Debug)]
+enum Handle {
+    Held(Arc<File>),
+    /// Opened for each page, so that a folder of thousands of slices does not exhaust the
+    /// file descriptors.
+    Reopened(PathBuf),
+}
+
+impl Source {
+    /// Opens `path`; `-` is standard input. Whatever is not a regular file is copied to an
+    /// unnamed temporary file first, because pages are not read in order.
+    pub(crate) fn open(path: &Path) -> Result<Self, Error> {
+        let name = quoted(path);
+        let opened = if path.as_os_str() == "-" {
+            io::stdin().as_fd().try_clone_to_owned().map(File::from)
+        } else {
+            File::open(path)
+        };
+        let held = opened.and_then(|file| {
+            let meta = file.metadata()?;
+            if meta.is_dir() {
+                return Err(io::Error::other("it is a folder"));
+            }
+            let file = if meta.is_file() { file } else { spool(file)? };
+            let len = file.metadata()?.len();
+            Ok((file, len))
+        });
+        let (file, len) = held.map_err(|e| Error::io(&name, e))?;
+        Ok(Self {
+            name,
+            handle: Handle::Held(Arc::new(file)),
+            len,
+        })
+    }
+
+    /// As [`Source::open`], but holds no file open between reads.
+    pub(crate) fn open_slice(path: &Path) -> Result<Self, Error> {
+        let mut source = Self::open(path)?;
+        if path.is_file() {
+            source.handle = Handle::Reopened(path.to_owned());
+        }
+        Ok(source)
+    }
+
+    /// Wraps an unnamed file that stands for `name`.
+    pub(crate) fn of_file(name: String, file: File) -> io::Result<Self> {
+        let len = file.metadata()?.len();
+        Ok(Self {
+            name,
+            handle: Handle::Held(Arc::new(file)),
+            len,
+        })
+    }
+
+    /// The name as it stands in messages: the quoted path or `standard input`.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Bytes in the file.
+    pub(crate) fn len(&self) -> u64 {
+        self.len
+    }
+
+    /// A handle for a few reads in a row.
+    pub(crate) fn file(&self) -> io::Result<Arc<File>> {
+        match &self.handle {
+            Handle::Held(file) => Ok(Arc::clone(file)),
+            Handle::Reopened(path) => File::open(path).map(Arc::new),
+        }
+    }
+
+    /// Up to `len` bytes at `offset`, fewer at the end of the file.
+    pub(crate) fn window(&self, offset: u64, len: usize) -> io::Result<Vec<u8>> {
+        let left = self.len.saturating_sub(offset);
+        let mut bytes = vec![0; usize::try_from(left).map_or(len, |left| left.min(len))];
+        self.file()?.read_exact_at(&mut bytes, offset)?;
+        Ok(bytes)
+    }
+
+    /// The content from its first byte, e.g. to hash it.
+    ///
+    /// # Errors
+    /// The system's reason when the file cannot be opened again.
+    pub fn reader(&self) -> io::Result<impl Read> {
+        Ok(Content {
+            file: self.file()?,
+            at: 0,
+        })
+    }
+}
+
+struct Content {
+    file: Arc<File>,
+    at: u64,
+}
+
+impl Read for Content {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let n = self.file.read_at(buffer, self.at)?;
+        self.at += n as u64;
+        Ok(n)
+    }
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+/// A path as it stands in messages.
+pub(crate) fn quoted(path: &Path) -> String {
+    if path.as_os_str() == "-" {
+        "standard input".into()
+    } else {
+        format!("'{}'", path.display())
+    }
+}
+
+fn spool(mut pipe: File) -> io::Result<File> {
+    let mut file = tempfile::tempfile()?;
+    io::copy(&mut pipe, &mut file)?;
+    file.seek(SeekFrom::Start(0))?;
+    Ok(file)
+}

@@ -1,0 +1,142 @@
+use std::path::{Path, PathBuf};
+
+use crate::raw::RawVolume;
+use crate::sample::PageFormat;
+use crate::source::{Source, quoted};
+use crate::tiff::TiffPages;
+use crate::voxel_size::VoxelSize;
+use crate::{Error, folder, mhd, npy, tiff};
+
+/// A stack of label or grey images, read page by page.
+///
+/// The stored sample value is the label, whatever a photometric interpretation, colour map or
+/// lookup table would make of it.
+#[derive(Debug)]
+pub struct Stack {
+    name: String,
+    pages: Pages,
+    voxel_size: Option<VoxelSize>,
+}
+
+#[derive(Debug)]
+enum Pages {
+    Tiff(TiffPages),
+    Raw(RawVolume),
+}
+
+impl Stack {
+    /// Opens one multi-page TIFF, `.npy` or `.mhd` file (`-` is standard input), one folder
+    /// of TIFF slices, or several slices, which are put in natural order.
+    ///
+    /// All headers are read and checked here; pixels are read by [`Stack::read_page`].
+    ///
+    /// # Errors
+    /// A file that cannot be read, is of another kind, or whose pages do not make a stack.
+    pub fn open(paths: &[PathBuf]) -> Result<Self, Error> {
+        match paths {
+            [] => Err(Error::Usage("no stack is given".into())),
+            [path] if path.is_dir() => Self::of_slices(quoted(path), &folder::slices(path)?),
+            [path] => Self::of_file(path),
+            slices => {
+                let mut slices = slices.to_vec();
+                folder::sort_naturally(&mut slices);
+                let name = format!("{} and {} more", quoted(&slices[0]), slices.len() - 1);
+                Self::of_slices(name, &slices)
+            }
+        }
+    }
+
+    fn of_slices(name: String, paths: &[PathBuf]) -> Result<Self, Error> {
+        let sources = paths
+            .iter()
+            .map(|path| Source::open_slice(path))
+            .collect::<Result<Vec<_>, _>>()?;
+        let (pages, voxel_size) = tiff::open_slices(sources)?;
+        Ok(Self {
+            name,
+            pages: Pages::Tiff(pages),
+            voxel_size,
+        })
+    }
+
+    fn of_file(path: &Path) -> Result<Self, Error> {
+        let source = Source::open(path)?;
+        let name = source.name().to_owned();
+        let head = source.window(0, 512).map_err(|e| Error::io(&name, e))?;
+        let (pages, voxel_size) = if tiff::is_tiff(&head) {
+            let (pages, voxel_size) = tiff::open(source)?;
+            (Pages::Tiff(pages), voxel_size)
+        } else if npy::is_npy(&head) {
+            (Pages::Raw(npy::open(source)?), None)
+        } else if mhd::is_mhd(&head) {
+            let (volume, voxel_size) = mhd::open(source, path)?;
+            (Pages::Raw(volume), voxel_size)
+        } else {
+            return Err(Error::file(
+                name,
+                "it is not a stack; accepted are TIFF, BigTIFF, .npy and .mhd files and folders of TIFF slices",
+            ));
+        };
+        Ok(Self {
+            name,
+            pages,
+            voxel_size,
+        })
+    }
+
+    /// The stack's name as it stands in messages.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Numbers of voxels along x (columns), y (rows), z (pages).
+    pub fn dims(&self) -> [usize; 3] {
+        let format = self.format();
+        let pages = match &self.pages {
+            Pages::Tiff(pages) => pages.len(),
+            Pages::Raw(volume) => volume.pages(),
+        };
+        [format.width, format.height, pages]
+    }
+
+    /// What every page shares.
+    pub fn format(&self) -> PageFormat {
+        match &self.pages {
+            Pages::Tiff(pages) => pages.format(),
+            Pages::Raw(volume) => volume.format(),
+        }
+    }
+
+    /// The voxel size that the metadata state, if they do.
+    pub fn voxel_size(&self) -> Option<&VoxelSize> {
+        self.voxel_size.as_ref()
+    }
+
+    /// The files read, e.g. to hash them.
+    pub fn sources(&self) -> &[Source] {
+        match &self.pages {
+            Pages::Tiff(pages) => pages.sources(),
+            Pages::Raw(volume) => volume.sources(),
+        }
+    }
+
+    /// Reads page `z` (from 0) into `page`: rows from y = 0, pixels from x = 0, channels
+    /// interleaved, samples in native byte order.
+    ///
+    /// # Errors
+    /// A page that does not decode to its declared size.
+    pub fn read_page(&self, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
+        match &self.pages {
+            Pages::Tiff(pages) => pages.read(z, page),
+            Pages::Raw(volume) => volume.read(z, page),
+        }
+    }
+
+    /// Page `z` as it stands in messages.
+    pub(crate) fn page_name(&self, z: usize) -> String {
+        match &self.pages {
+            Pages::Tiff(pages) => pages.page_name(z),
+            Pages::Raw(_) => format!("{}, page {}", self.name, z + 1),
+        }
+    }
+}

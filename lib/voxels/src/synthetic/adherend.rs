@@ -1,0 +1,120 @@
+use super::cut::Cut;
+use super::fibres::Fibres;
+use super::rays::Rays;
+use super::recipe::Plan;
+use super::vessels::{Part, Vessels};
+
+/// The tissues of the wood, in the order of their counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tissue {
+    Vessel,
+    Fibre,
+    Ray,
+}
+
+/// What the wood is at a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Sample {
+    /// Cell wall.
+    Wall(Tissue),
+    /// Lumen or pit of this radius, um.
+    Lumen(Tissue, f32),
+    /// Lumen of the isolated tube of the PF specimen.
+    Tube,
+}
+
+impl Sample {
+    pub(super) fn tissue(&self) -> Tissue {
+        match self {
+            Self::Wall(tissue) | Self::Lumen(tissue, _) => *tissue,
+            Self::Tube => Tissue::Vessel,
+        }
+    }
+}
+
+/// Voxels of one adherend by tissue: all, and open ones.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Counts {
+    pub(super) all: [u64; 3],
+    pub(super) open: [u64; 3],
+}
+
+impl Counts {
+    pub(super) fn add(&mut self, sample: &Sample) {
+        let tissue = sample.tissue() as usize;
+        self.all[tissue] += 1;
+        self.open[tissue] += u64::from(!matches!(sample, Sample::Wall(_)));
+    }
+}
+
+impl std::ops::AddAssign<&Counts> for Counts {
+    fn add_assign(&mut self, other: &Counts) {
+        for tissue in 0..3 {
+            self.all[tissue] += other.all[tissue];
+            self.open[tissue] += other.open[tissue];
+        }
+    }
+}
+
+/// Radius of ray cells and pits for the penetration, um.
+const RAY_RADIUS: f32 = 3.5;
+/// Margin of the anatomy around the box, um: more than the largest vessel.
+const MARGIN: f32 = 110.0;
+
+/// One piece of wood, defined everywhere in and around its half of the box.
+pub(super) struct Adherend {
+    pub(super) cut: Cut,
+    pub(super) vessels: Vessels,
+    rays: Rays,
+    fibres: Fibres,
+}
+
+impl Adherend {
+    /// The bottom and the top adherend of a plan.
+    pub(super) fn both(plan: &Plan) -> [Self; 2] {
+        [0, 1].map(|side| Self::grow(plan, side))
+    }
+
+    fn grow(plan: &Plan, side: usize) -> Self {
+        let cut = Cut::new(plan.seed, side);
+        let bounds = cut.bounds(plan.half_box(side));
+        let [l, r, t] = bounds.map(|[low, high]| [low - MARGIN, high + MARGIN]);
+        let vessels = Vessels::place(plan, &cut, side, [r, t]);
+        let rays = Rays::place(plan, side, l, t);
+        let fibres = Fibres::place(plan, side, r, &rays, &vessels);
+        Self {
+            cut,
+            vessels,
+            rays,
+            fibres,
+        }
+    }
+
+    /// What the wood is at a box position (um from the middle of the bond plane).
+    pub(super) fn at(&self, position: [f32; 3]) -> Sample {
+        let point = self.cut.locate(position);
+        let place = self.rays.locate(point);
+        match self.vessels.at(point) {
+            Part::Lumen(vessel) if vessel.sealed => Sample::Tube,
+            Part::Lumen(vessel) => Sample::Lumen(Tissue::Vessel, vessel.radius),
+            Part::Wall(vessel) => {
+                if !vessel.sealed && self.rays.pits_vessel(point, &place) {
+                    Sample::Lumen(Tissue::Vessel, RAY_RADIUS)
+                } else {
+                    Sample::Wall(Tissue::Vessel)
+                }
+            }
+            Part::Outside(_) if place.clearance < 0.0 => {
+                if self.rays.is_lumen(point, &place) {
+                    Sample::Lumen(Tissue::Ray, RAY_RADIUS)
+                } else {
+                    Sample::Wall(Tissue::Ray)
+                }
+            }
+            Part::Outside(distance) => match self.fibres.lumen(point, &place, distance) {
+                Some(radius) => Sample::Lumen(Tissue::Fibre, radius),
+                None => Sample::Wall(Tissue::Fibre),
+            },
+        }
+    }
+}

@@ -1,0 +1,21 @@
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+/// What a stream of random numbers decides; one stream each, so that a change in one feature
+/// leaves the others of the same seed as they are.
+#[derive(Clone, Copy)]
+pub(super) enum Feature {
+    Cut,
+    Face,
+    Vessels,
+    Rays,
+    Fibres,
+}
+
+/// The generator for `feature` of the adherend `side` (0 bottom, 1 top). ChaCha8 by name,
+/// because `StdRng` may change between releases and specimens are kept.
+pub(super) fn stream(seed: u64, side: usize, feature: Feature) -> ChaCha8Rng {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    generator.set_stream(2 * feature as u64 + side as u64);
+    generator
+}

@@ -1,0 +1,226 @@
+use super::*;
+
+const VOXEL: f64 = 1.45e-6;
+
+fn grow(size: [usize; 3], adhesive: AdhesiveSystem, seed: u64) -> Specimen {
+    let recipe = Recipe {
+        size,
+        voxel: VOXEL,
+        adhesive,
+        slab: None,
+        seed,
+    };
+    Specimen::grow(&recipe).unwrap()
+}
+
+/// Voxels reached from `start` through voxels that `passes` allows; `diagonal` also steps
+/// over edges and corners.
+fn flood(specimen: &Specimen, start: u8, passes: fn(u8) -> bool, diagonal: bool) -> Vec<bool> {
+    let [nx, ny, nz] = specimen.size();
+    let labels = specimen.labels();
+    let plane = (0..labels.len()).filter(|i| i / nx % ny == ny / 2 && labels[*i] == start);
+    let mut open: Vec<usize> = plane.collect();
+    let mut reached = vec![false; labels.len()];
+    open.iter().for_each(|&i| reached[i] = true);
+    while let Some(i) = open.pop() {
+        let at = [i % nx, i / nx % ny, i / (nx * ny)].map(|c| c as isize);
+        for step in 0..27_isize {
+            let step = [step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1];
+            let straight = step.iter().filter(|s| **s != 0).count() == 1;
+            let [x, y, z] = [0, 1, 2].map(|a| (at[a] + step[a]) as usize);
+            if (diagonal || straight) && x < nx && y < ny && z < nz {
+                let next = (z * ny + y) * nx + x;
+                if !reached[next] && passes(labels[next]) {
+                    reached[next] = true;
+                    open.push(next);
+                }
+            }
+        }
+    }
+    reached
+}
+
+#[test]
+fn the_anatomy_is_that_of_hybrid_poplar() {
+    for (adhesive, seed) in [(AdhesiveSystem::Pf, 1), (AdhesiveSystem::PvaPf, 2)] {
+        let specimen = grow([393, 393, 24], adhesive, seed);
+        for (target, value) in Anatomy::TARGETS.iter().zip(specimen.anatomy().values()) {
+            let [low, high] = target.range;
+            println!("seed {seed}: {} {value:.3} ({low} to {high})", target.name);
+            assert!((low..=high).contains(&value), "{} {value}", target.name);
+        }
+    }
+}
+
+/// The tissue counts must agree with the labels themselves: porosity from the labels of the
+/// rows that no face reaches.
+#[test]
+fn the_reported_porosity_is_that_of_the_labels() {
+    let specimen = grow([300, 300, 24], AdhesiveSystem::PvaPf, 3);
+    let [nx, ny, _] = specimen.size();
+    let far = |i: &usize| (i / nx % ny).abs_diff(ny / 2) > 40;
+    let deep: Vec<u8> = (0..specimen.labels().len())
+        .filter(far)
+        .map(|i| specimen.labels()[i])
+        .collect();
+    let porosity = deep.iter().filter(|&&l| l != WOOD).count() as f64 / deep.len() as f64;
+    let reported = specimen.anatomy().porosity;
+    println!("labels {porosity:.3}, reported {reported:.3}");
+    assert!((porosity - reported).abs() < 0.03);
+}
+
+#[test]
+fn fibre_lumens_measure_14_to_20_um() {
+    let specimen = grow([393, 393, 24], AdhesiveSystem::PvaPf, 4);
+    let [nx, ny, _] = specimen.size();
+    let page = specimen.page(12).unwrap();
+    let mut seen: Vec<bool> = page.iter().map(|&label| label == WOOD).collect();
+    let mut diameters = Vec::new();
+    for start in 0..page.len() {
+        let mut open = vec![start];
+        let mut area = 0;
+        while let Some(i) = open.pop() {
+            if std::mem::replace(&mut seen[i], true) {
+                continue;
+            }
+            area += 1;
+            let (x, y) = (i % nx, i / nx);
+            open.extend((x > 0).then(|| i - 1));
+            open.extend((x + 1 < nx).then_some(i + 1));
+            open.extend((y > 0).then(|| i - nx));
+            open.extend((y + 1 < ny).then_some(i + nx));
+        }
+        let diameter = 2.0 * (f64::from(area) / std::f64::consts::PI).sqrt() * 1.45;
+        // Smaller ones are ray cells and tapered ends, larger ones vessels.
+        if (9.0..35.0).contains(&diameter) {
+            diameters.push(diameter);
+        }
+    }
+    diameters.sort_by(f64::total_cmp);
+    let quantile = |q: f64| diameters[(q * diameters.len() as f64) as usize];
+    println!(
+        "{} lumens, quartiles {:.1}, {:.1}, {:.1} um",
+        diameters.len(),
+        quantile(0.25),
+        quantile(0.5),
+        quantile(0.75)
+    );
+    assert!(diameters.len() > 200);
+    assert!(quantile(0.25) > 14.0 && quantile(0.75) < 20.0);
+}
+
+#[test]
+fn a_recipe_gives_the_same_bytes_for_any_number_of_threads() {
+    let with_threads = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| grow([64, 96, 40], AdhesiveSystem::Pf, 5))
+    };
+    let (one, three) = (with_threads(1), with_threads(3));
+    assert_eq!(one.labels(), three.labels());
+    assert_eq!(one.anatomy(), three.anatomy());
+    let other = grow([64, 96, 40], AdhesiveSystem::Pf, 6);
+    let differ = (one.labels().iter().zip(other.labels())).filter(|(a, b)| a != b);
+    assert!(differ.count() > one.labels().len() / 10);
+}
+
+#[test]
+fn the_adhesive_has_the_slabs_volume() {
+    for (adhesive, slab) in [
+        (AdhesiveSystem::Pf, 23.2e-6),
+        (AdhesiveSystem::PvaPf, 29.0e-6),
+    ] {
+        let recipe = Recipe {
+            size: [48, 96, 40],
+            voxel: VOXEL,
+            adhesive,
+            slab: Some(slab),
+            seed: 7,
+        };
+        let specimen = Specimen::grow(&recipe).unwrap();
+        let voxels = specimen.labels().iter().filter(|&&l| l == ADHESIVE).count();
+        assert_eq!(voxels, (slab / VOXEL).round() as usize * 48 * 40);
+        let anatomy = specimen.anatomy();
+        assert!((anatomy.slab / slab - 1.0).abs() < 1e-6, "{}", anatomy.slab);
+        let expected = slab * 48.0 * 40.0 * VOXEL * VOXEL;
+        assert!((anatomy.adhesive_volume / expected - 1.0).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn adhesive_is_connected_to_the_gap_but_for_the_tube_of_pf() {
+    for adhesive in [AdhesiveSystem::Pf, AdhesiveSystem::PvaPf] {
+        let specimen = grow([393, 393, 64], adhesive, 1);
+        let all = specimen.labels().iter().filter(|&&l| l == ADHESIVE).count();
+        let through_adhesive = flood(&specimen, ADHESIVE, |label| label == ADHESIVE, false);
+        let connected = through_adhesive.iter().filter(|r| **r).count();
+        let tube = specimen.anatomy().adhesive_voxels[2];
+        println!("{adhesive:?}: {all} voxels, {connected} connected, {tube} in the tube");
+        assert_eq!(connected + tube, all);
+        assert_eq!(tube > 0, adhesive == AdhesiveSystem::Pf);
+        // Not even over voxel corners and through empty lumens does the tube meet the gap.
+        let through_void = flood(&specimen, ADHESIVE, |label| label != WOOD, true);
+        let outside = specimen.labels().iter().zip(&through_void);
+        let isolated = outside.filter(|(label, reached)| **label == ADHESIVE && !**reached);
+        assert_eq!(isolated.count(), tube);
+    }
+}
+
+/// The specimens of the plain `make` must let adhesive in on both sides.
+#[test]
+fn small_boxes_have_open_lumens_on_both_sides() {
+    for size in [[40, 96, 40], [48, 96, 48], [64, 128, 64]] {
+        for seed in 1..6 {
+            let specimen = grow(size, AdhesiveSystem::PvaPf, seed);
+            let reached = flood(&specimen, ADHESIVE, |label| label != WOOD, false);
+            let [nx, ny, _] = size;
+            let mut per_side = [0_usize; 2];
+            for (i, _) in reached.iter().enumerate().filter(|(_, r)| **r) {
+                per_side[usize::from(i / nx % ny >= ny / 2)] += 1;
+            }
+            let side = specimen.labels().len() / 2;
+            let shares = per_side.map(|n| n as f64 / side as f64);
+            println!("{size:?} seed {seed}: reachable {shares:.2?}");
+            assert!(shares.iter().all(|share| *share > 0.15), "{shares:?}");
+        }
+    }
+}
+
+#[test]
+fn the_adherends_can_be_drawn_apart() {
+    let specimen = grow([64, 96, 64], AdhesiveSystem::Pf, 9);
+    let [nx, ny, _] = specimen.size();
+    let at_plane = |i: &usize| [ny / 2 - 1, ny / 2].contains(&(i / nx % ny));
+    let wood = |i: &usize| specimen.labels()[*i] == WOOD;
+    let all = 0..specimen.labels().len();
+    assert_eq!(all.clone().filter(at_plane).filter(wood).count(), 0);
+    assert!(all.filter(wood).count() > 0);
+}
+
+#[test]
+fn recipes_out_of_range_are_refused() {
+    let recipe = |size, voxel, slab| Recipe {
+        size,
+        voxel,
+        adhesive: AdhesiveSystem::Pf,
+        slab,
+        seed: 1,
+    };
+    let refused = |recipe: Recipe| Specimen::grow(&recipe).unwrap_err();
+    assert!(matches!(
+        refused(recipe([8, 96, 48], VOXEL, None)),
+        RecipeError::Size(_)
+    ));
+    assert!(matches!(
+        refused(recipe([48, 96, 48], 5e-6, None)),
+        RecipeError::Voxel(_)
+    ));
+    assert!(matches!(
+        refused(recipe([48, 96, 48], f64::NAN, None)),
+        RecipeError::Voxel(_)
+    ));
+    assert!(matches!(
+        refused(recipe([48, 96, 48], VOXEL, Some(100e-6))),
+        RecipeError::Slab { .. }
+    ));
+}

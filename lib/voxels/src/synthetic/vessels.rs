@@ -1,0 +1,361 @@
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+use super::cut::{Cut, WoodPoint};
+use super::random::{Feature, stream};
+use super::recipe::{AdhesiveSystem, Plan};
+
+/// Share of the cross-section that vessels with their walls take.
+const SHARE: f32 = 0.33;
+/// By how much the share may exceed that.
+const TOLERANCE: f32 = 0.02;
+/// Lumen diameter of vessels, um.
+const DIAMETER: [f32; 2] = [50.0, 92.0];
+/// Wall of a vessel, um; fibres add their half wall outside it.
+pub(super) const WALL: f32 = 2.5;
+/// Half of the wall that the vessels of a radial multiple share, um.
+const SHARED_HALF_WALL: f32 = 2.0;
+/// Least wood between two groups, um.
+const BETWEEN: f32 = 5.0;
+/// How far outside a vessel its distance is still needed (fibre walls), um.
+const REACH: f32 = 8.0;
+/// Chances that a group has 1, 2, 3 or 4 vessels, cumulated.
+const GROUPS: [f32; 4] = [0.45, 0.75, 0.92, 1.0];
+/// Spacing of the members of a multiple over the sum of their radii: below one, so that the
+/// shared wall is flat as in real radial multiples.
+const FLATTENED: f32 = 0.88;
+/// Length of vessel elements, um; a rim at each end is what a simple perforation leaves.
+const ELEMENT: [f32; 2] = [300.0, 600.0];
+/// Thickness of the perforation rim along the vessel and its width over the radius, um and 1.
+const RIM: [f32; 2] = [3.5, 0.16];
+/// Diameter of inter-vessel pits, um.
+const PIT: [f32; 2] = [5.0, 13.0];
+/// Lumen diameter of the isolated tube of the PF specimen, um.
+const TUBE: f32 = 96.0;
+
+/// One vessel: a tube along l.
+#[derive(Clone, Debug)]
+pub(super) struct Vessel {
+    pub(super) r: f32,
+    pub(super) t: f32,
+    /// Radius of the lumen, um.
+    pub(super) radius: f32,
+    element: f32,
+    phase: f32,
+    pit_radius: f32,
+    /// Without pits: the isolated tube.
+    pub(super) sealed: bool,
+}
+
+/// What a point is with respect to the vessels.
+pub(super) enum Part<'a> {
+    /// In the lumen of a vessel.
+    Lumen(&'a Vessel),
+    /// In the wall of a vessel.
+    Wall(&'a Vessel),
+    /// Outside all vessels, this far (um, at most `REACH`) from the nearest outer wall.
+    Outside(f32),
+}
+
+/// The vessels of one adherend.
+pub(super) struct Vessels {
+    members: Vec<Vessel>,
+    bins: Bins,
+}
+
+impl Vessels {
+    /// Places vessels over the rectangle `bounds` (r and t, um): first one that the bond face
+    /// opens in the middle of the box, then (PF, bottom) the isolated tube, then random groups
+    /// until the share is reached.
+    pub(super) fn place(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
+        let mut random = stream(plan.seed, side, Feature::Vessels);
+        let mut members = opened(plan, cut, side, &mut random);
+        members.extend(isolated(plan, cut, side, &mut random));
+        let [r, t] = bounds;
+        let mut cover = Cover::new(plan, cut, side, bounds);
+        members.iter().for_each(|vessel| cover.add(vessel));
+        // Random sequential placement jams near this share; the bound ends hopeless tries.
+        for _ in 0..20_000 {
+            if cover.in_box() >= SHARE {
+                break;
+            }
+            let start = [
+                random.random_range(r[0]..r[1]),
+                random.random_range(t[0]..t[1]),
+            ];
+            let group = group(start, &mut random);
+            let clear = |a: &Vessel| members.iter().all(|b| a.clear_of(b));
+            if group.iter().all(clear) && cover.has_room(&group) {
+                group.iter().for_each(|vessel| cover.add(vessel));
+                members.extend(group);
+            }
+        }
+        let bins = Bins::new(&members, bounds);
+        Self { members, bins }
+    }
+
+    pub(super) fn members(&self) -> &[Vessel] {
+        &self.members
+    }
+
+    pub(super) fn at(&self, point: WoodPoint) -> Part<'_> {
+        let mut nearest = (f32::INFINITY, None);
+        let mut second = f32::INFINITY;
+        for &index in self.bins.near(point.r, point.t) {
+            let vessel = &self.members[index as usize];
+            let outside = vessel.outside(point.r, point.t);
+            if outside < nearest.0 {
+                second = nearest.0;
+                nearest = (outside, Some(vessel));
+            } else {
+                second = second.min(outside);
+            }
+        }
+        match nearest {
+            (outside, Some(vessel)) if outside < WALL => vessel.part(point, outside, second),
+            (outside, _) => Part::Outside((outside - WALL).min(REACH)),
+        }
+    }
+}
+
+impl Vessel {
+    fn new(r: f32, t: f32, radius: f32, random: &mut ChaCha8Rng) -> Self {
+        let element = random.random_range(ELEMENT[0]..ELEMENT[1]);
+        Self {
+            r,
+            t,
+            radius,
+            element,
+            phase: random.random_range(0.0..element),
+            pit_radius: 0.5 * random.random_range(PIT[0]..PIT[1]),
+            sealed: false,
+        }
+    }
+
+    /// Distance from the lumen surface, negative inside.
+    fn outside(&self, r: f32, t: f32) -> f32 {
+        let (dr, dt) = (r - self.r, t - self.t);
+        (dr * dr + dt * dt).sqrt() - self.radius
+    }
+
+    fn clear_of(&self, other: &Self) -> bool {
+        self.outside(other.r, other.t) - other.radius > 2.0 * WALL + BETWEEN
+    }
+
+    fn covers(&self, point: &Point) -> bool {
+        self.outside(point.r, point.t) < WALL
+    }
+
+    /// Which part of this vessel a point is in that is nearer to it than to any other;
+    /// `outside` and `second` are the distances from its lumen and from the next vessel's.
+    fn part(&self, point: WoodPoint, outside: f32, second: f32) -> Part<'_> {
+        let to_shared_wall = 0.5 * (second - outside);
+        let open = if outside >= 0.0 {
+            false
+        } else if to_shared_wall < SHARED_HALF_WALL {
+            self.in_pit(point)
+        } else {
+            !self.in_rim(point.l, outside)
+        };
+        if open {
+            Part::Lumen(self)
+        } else {
+            Part::Wall(self)
+        }
+    }
+
+    /// Whether (l, t) is in a pit of the shared wall, which is normal to r.
+    fn in_pit(&self, point: WoodPoint) -> bool {
+        let pitch = 2.0 * self.pit_radius + 8.0;
+        let from_centre = |s: f32| s - pitch * (s / pitch).round();
+        let (l, t) = (from_centre(point.l), from_centre(point.t - self.t));
+        l * l + t * t < self.pit_radius * self.pit_radius
+    }
+
+    fn in_rim(&self, l: f32, outside: f32) -> bool {
+        let along = l + self.phase;
+        let to_end = along - self.element * (along / self.element).round();
+        2.0 * to_end.abs() < RIM[0] && outside > -RIM[1] * self.radius
+    }
+}
+
+/// A solitary vessel or a radial multiple starting at `[r, t]`.
+fn group(start: [f32; 2], random: &mut ChaCha8Rng) -> Vec<Vessel> {
+    let chance: f32 = random.random();
+    let count = 1 + GROUPS.iter().filter(|&&bound| chance >= bound).count();
+    let mut r = start[0];
+    let mut last = 0.0;
+    (0..count)
+        .map(|i| {
+            let radius = 0.5 * random.random_range(DIAMETER[0]..DIAMETER[1]);
+            if i > 0 {
+                r += FLATTENED * (last + radius);
+            }
+            last = radius;
+            let t = start[1] + random.random_range(-0.1..0.1) * radius;
+            Vessel::new(r, t, radius, random)
+        })
+        .collect()
+}
+
+/// A vessel whose lumen the face cuts in the middle of the box, with a second one behind it
+/// where the cut puts radial multiples across the bond line: small boxes must have an open
+/// vessel on both sides for penetration to mean anything.
+fn opened(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Vec<Vessel> {
+    let width = plan.edges()[0];
+    let radius = 0.5 * DIAMETER[0] * random.random_range(1.0..1.1);
+    let depth = plan.mean_recess() + random.random_range(0.2..0.45) * radius;
+    let y = if side == 0 { -depth } else { depth };
+    // The two sides' vessels are opened apart from each other, which leaves fibres beside them.
+    let x = random.random_range(0.2..0.3) * if side == 0 { width } else { -width };
+    let centre = cut.locate([x, y, 0.0]);
+    let first = Vessel::new(centre.r, centre.t, radius, random);
+    if side == 1 {
+        return vec![first];
+    }
+    let step = FLATTENED * 2.0 * radius;
+    let r = centre.r + if cut.inward(side) { step } else { -step };
+    let second = Vessel::new(r, centre.t, radius, random);
+    vec![first, second]
+}
+
+/// The isolated tube of the PF specimen: in the bottom adherend, wholly behind the face along
+/// the box, and at most a third of the adhesive. Small boxes have no room for it.
+fn isolated(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Option<Vessel> {
+    if plan.adhesive != AdhesiveSystem::Pf || side == 1 {
+        return None;
+    }
+    let [width, height, length] = plan.edges();
+    let radius = 0.5 * TUBE;
+    let outer = radius + WALL + BETWEEN;
+    let drift = 0.5 * length * cut.slope().abs();
+    // Four mean recesses bound the deepest valley of the face.
+    let nearest = 4.0 * plan.mean_recess() + outer + drift;
+    let farthest = 0.5 * height - radius;
+    let share = std::f32::consts::PI * radius * radius / (width * plan.slab as f32);
+    if nearest >= farthest || share > 1.0 / 3.0 {
+        return None;
+    }
+    let depth = nearest + 0.3 * (farthest - nearest);
+    // To the side of the opened multiple, which reaches into the same depth.
+    let x = -0.25 * width;
+    let centre = cut.locate([x, -depth, 0.0]);
+    let mut tube = Vessel::new(centre.r, centre.t, radius, random);
+    tube.sealed = true;
+    Some(tube)
+}
+
+/// Sample points over the cross-section: which share do vessels cover, in all and in the box.
+struct Cover {
+    points: Vec<Point>,
+}
+
+struct Point {
+    r: f32,
+    t: f32,
+    in_box: bool,
+    covered: bool,
+}
+
+const POINT_SPACING: f32 = 8.0;
+
+impl Cover {
+    fn new(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
+        let [low, high] = plan.half_box(side);
+        let along = |[low, high]: [f32; 2]| {
+            let count = ((high - low) / POINT_SPACING) as usize;
+            (0..count).map(move |i| low + (i as f32 + 0.5) * POINT_SPACING)
+        };
+        let point = |(r, t)| {
+            let place = cut.crossing(r, t);
+            let in_box = (0..2).all(|i| (low[i]..high[i]).contains(&place[i]));
+            Point {
+                r,
+                t,
+                in_box,
+                covered: false,
+            }
+        };
+        let pairs = along(bounds[0]).flat_map(|r| along(bounds[1]).map(move |t| (r, t)));
+        Self {
+            points: pairs.map(point).collect(),
+        }
+    }
+
+    fn add(&mut self, vessel: &Vessel) {
+        for point in &mut self.points {
+            point.covered |= vessel.covers(point);
+        }
+    }
+
+    /// Covered share of the box.
+    fn in_box(&self) -> f32 {
+        let (all, covered, _) = self.count(true, &[]);
+        covered as f32 / all.max(1) as f32
+    }
+
+    /// Whether the shares in and around the box stay below `SHARE` with one more group: a
+    /// small box is as much vessel as the opened ones make it, not more.
+    fn has_room(&self, group: &[Vessel]) -> bool {
+        [true, false].into_iter().all(|in_box| {
+            let (all, covered, newly) = self.count(in_box, group);
+            newly == 0 || (covered + newly) as f32 <= (SHARE + TOLERANCE) * all as f32
+        })
+    }
+
+    /// Points in the box or around it, those covered, and those a group would newly cover.
+    fn count(&self, in_box: bool, group: &[Vessel]) -> (usize, usize, usize) {
+        let points = self.points.iter().filter(|point| point.in_box == in_box);
+        points.fold((0, 0, 0), |(all, covered, newly), point| {
+            let new = !point.covered && group.iter().any(|vessel| vessel.covers(point));
+            (
+                all + 1,
+                covered + usize::from(point.covered),
+                newly + usize::from(new),
+            )
+        })
+    }
+}
+
+/// Vessels near a place, from square bins over the cross-section.
+struct Bins {
+    origin: [f32; 2],
+    columns: usize,
+    bins: Vec<Vec<u16>>,
+}
+
+const BIN: f32 = 40.0;
+
+impl Bins {
+    fn new(members: &[Vessel], bounds: [[f32; 2]; 2]) -> Self {
+        let count = bounds.map(|[low, high]| ((high - low) / BIN).ceil().max(1.0) as usize);
+        let origin = bounds.map(|[low, _]| low);
+        let mut bins = vec![Vec::new(); count[0] * count[1]];
+        for (index, vessel) in members.iter().enumerate() {
+            let reach = vessel.radius + WALL + REACH;
+            let span = |centre: f32, axis: usize| {
+                let bin = |s: f32| ((s - origin[axis]) / BIN).max(0.0) as usize;
+                bin(centre - reach)..(bin(centre + reach) + 1).min(count[axis])
+            };
+            for i in span(vessel.r, 0) {
+                for j in span(vessel.t, 1) {
+                    bins[i * count[1] + j].push(index as u16);
+                }
+            }
+        }
+        Self {
+            origin,
+            columns: count[1],
+            bins,
+        }
+    }
+
+    fn near(&self, r: f32, t: f32) -> &[u16] {
+        let i = ((r - self.origin[0]) / BIN).max(0.0) as usize;
+        let j = ((t - self.origin[1]) / BIN).max(0.0) as usize;
+        match self.bins.get(i * self.columns + j.min(self.columns - 1)) {
+            Some(bin) => bin,
+            None => &[],
+        }
+    }
+}

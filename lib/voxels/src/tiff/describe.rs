@@ -1,0 +1,169 @@
+//! What programs write into a TIFF's image description: the number of planes and the size
+//! of a voxel. ImageJ writes `key=value` lines, tifffile a JSON object, OME an XML document.
+
+use super::ifd::{Container, Directory, tag};
+use super::layout::PageLayout;
+use crate::voxel_size::{VoxelSize, metres_of_unit};
+
+/// What the first page says about the whole file.
+#[derive(Debug, Default)]
+pub(crate) struct Description {
+    /// Planes in the file, if stated.
+    pub(crate) planes: Option<u64>,
+    /// Size of a voxel, if stated.
+    pub(crate) voxel_size: Option<VoxelSize>,
+}
+
+/// Reads the description of the first page.
+pub(crate) fn describe(
+    tiff: &Container,
+    page: &Directory,
+    layout: &PageLayout,
+) -> Result<Description, String> {
+    let text = tiff.text(page, tag::IMAGE_DESCRIPTION)?.unwrap_or_default();
+    let resolution = [tag::X_RESOLUTION, tag::Y_RESOLUTION].map(|t| tiff.rational(page, t));
+    let mut description = if text.starts_with("ImageJ=") {
+        imagej(&text, resolution)?
+    } else if text.trim_start().starts_with("{\"shape\"") {
+        shaped(&text, layout)?
+    } else if text.contains("<OME") {
+        ome(&text, layout)?
+    } else {
+        Description::default()
+    };
+    if let (None, [Some(x), Some(y)]) = (&description.voxel_size, resolution) {
+        let unit = tiff.first_uint(page, tag::RESOLUTION_UNIT)?.unwrap_or(2);
+        description.voxel_size = VoxelSize::from_resolution(x, y, unit);
+    }
+    Ok(description)
+}
+
+/// ImageJ: XResolution counts pixels per `unit`, `spacing` is the distance of planes in it.
+fn imagej(text: &str, resolution: [Option<f64>; 2]) -> Result<Description, String> {
+    let value = |key: &str| {
+        text.lines()
+            .find_map(|line| line.strip_prefix(key)?.strip_prefix('='))
+            .map(str::trim)
+    };
+    let count = |key| value(key).and_then(|n| n.parse::<u64>().ok());
+    one_axis(["channels", "slices", "frames"].map(|key| count(key).unwrap_or(1)))?;
+    let voxel_size = match (value("unit").and_then(metres_of_unit), resolution) {
+        (Some(unit), [Some(x), Some(y)]) => {
+            let spacing = value("spacing").and_then(|s| s.parse::<f64>().ok());
+            VoxelSize::new(
+                unit / x,
+                unit / y,
+                spacing.map(|s| s * unit),
+                "ImageJ metadata",
+            )
+        }
+        _ => None,
+    };
+    Ok(Description {
+        planes: count("images"),
+        voxel_size,
+    })
+}
+
+/// tifffile: `{"shape": [N, rows, columns]}`, with RGB `[N, rows, columns, 3]` or
+/// `[N, 3, rows, columns]`.
+fn shaped(text: &str, layout: &PageLayout) -> Result<Description, String> {
+    let json: serde_json::Value = serde_json::from_str(text)
+        .map_err(|e| format!("its description is not the JSON it begins as: {e}"))?;
+    let axes = json.get("shape").and_then(|s| s.as_array());
+    let axes: Option<Vec<u64>> = axes.and_then(|a| a.iter().map(|n| n.as_u64()).collect());
+    let total = axes.and_then(|axes| axes.iter().try_fold(1_u64, |n, axis| n.checked_mul(*axis)));
+    let format = layout.format;
+    let plane = (format.width as u64)
+        .checked_mul(format.height as u64)
+        .and_then(|n| n.checked_mul(format.channels as u64));
+    match (total, plane) {
+        (Some(total), Some(plane)) if total > 0 && total % plane == 0 => Ok(Description {
+            planes: Some(total / plane),
+            voxel_size: None,
+        }),
+        _ => Err(format!(
+            "its description declares a shape that is no number of planes of {format}"
+        )),
+    }
+}
+
+/// OME-TIFF: <https://docs.openmicroscopy.org/ome-model/latest/ome-tiff/specification.html>.
+fn ome(text: &str, layout: &PageLayout) -> Result<Description, String> {
+    let xml = roxmltree::Document::parse(text)
+        .map_err(|e| format!("its OME description is not valid XML: {e}"))?;
+    let named = |name: &'static str| {
+        xml.descendants()
+            .filter(move |n| n.tag_name().name() == name)
+    };
+    let mut images = named("Pixels");
+    let pixels = images.next().ok_or("its OME description has no Pixels")?;
+    if images.next().is_some() {
+        return Err("its OME description holds several images; one is accepted".into());
+    }
+    let count = |key| pixels.attribute(key).and_then(|n| n.parse::<u64>().ok());
+    let format = layout.format;
+    if [count("SizeX"), count("SizeY")] != [Some(format.width as u64), Some(format.height as u64)] {
+        return Err(format!(
+            "its OME description declares another size than {format}"
+        ));
+    }
+    let channels = count("SizeC").unwrap_or(1);
+    let planes = [
+        if channels == format.channels as u64 {
+            1
+        } else {
+            channels
+        },
+        count("SizeZ").unwrap_or(1),
+        count("SizeT").unwrap_or(1),
+    ];
+    one_axis(planes)?;
+    for block in named("TiffData") {
+        let at = |key| {
+            block
+                .attribute(key)
+                .and_then(|n| n.parse::<u64>().ok())
+                .unwrap_or(0)
+        };
+        // Only one of the three axes is longer than 1, so their sum is the plane.
+        let plane = at("FirstZ")
+            .checked_add(at("FirstT"))
+            .and_then(|n| n.checked_add(at("FirstC")));
+        if plane != Some(at("IFD")) && block.has_attribute("IFD") {
+            return Err("its OME description puts the pages in another order than the file; accepted is file order".into());
+        }
+    }
+    let edge = |key: &str, unit_key: &str| {
+        let size: f64 = pixels.attribute(key)?.parse().ok()?;
+        Some(size * metres_of_unit(pixels.attribute(unit_key).unwrap_or("um"))?)
+    };
+    let edges = (
+        edge("PhysicalSizeX", "PhysicalSizeXUnit"),
+        edge("PhysicalSizeY", "PhysicalSizeYUnit"),
+    );
+    let voxel_size = match edges {
+        (Some(x), Some(y)) => VoxelSize::new(
+            x,
+            y,
+            edge("PhysicalSizeZ", "PhysicalSizeZUnit"),
+            "OME metadata",
+        ),
+        _ => None,
+    };
+    Ok(Description {
+        planes: planes.into_iter().max(),
+        voxel_size,
+    })
+}
+
+/// Refuses hyperstacks: of channels, slices and frames only one may be more than 1.
+fn one_axis(counts: [u64; 3]) -> Result<(), String> {
+    if counts.iter().filter(|n| **n > 1).count() > 1 {
+        let [c, z, t] = counts;
+        return Err(format!(
+            "it declares {c} channels, {z} slices and {t} frames; one series of planes is accepted"
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,255 @@
+//! The skeleton of a TIFF or BigTIFF file: byte order, chain of directories, tag values.
+//!
+//! The `tiff` crate decodes pixels (see `decode`), but it hides what tells planes, palettes
+//! and inverted greys apart, and reads a directory only together with its interpretation.
+
+use std::collections::{BTreeMap, HashSet};
+use std::fs::File;
+use std::os::unix::fs::FileExt;
+
+use crate::source::Source;
+
+pub(crate) mod tag {
+    pub(crate) const NEW_SUBFILE_TYPE: u16 = 254;
+    pub(crate) const IMAGE_WIDTH: u16 = 256;
+    pub(crate) const IMAGE_LENGTH: u16 = 257;
+    pub(crate) const BITS_PER_SAMPLE: u16 = 258;
+    pub(crate) const COMPRESSION: u16 = 259;
+    pub(crate) const PHOTOMETRIC: u16 = 262;
+    pub(crate) const FILL_ORDER: u16 = 266;
+    pub(crate) const IMAGE_DESCRIPTION: u16 = 270;
+    pub(crate) const STRIP_OFFSETS: u16 = 273;
+    pub(crate) const SAMPLES_PER_PIXEL: u16 = 277;
+    pub(crate) const ROWS_PER_STRIP: u16 = 278;
+    pub(crate) const STRIP_BYTE_COUNTS: u16 = 279;
+    pub(crate) const X_RESOLUTION: u16 = 282;
+    pub(crate) const Y_RESOLUTION: u16 = 283;
+    pub(crate) const PLANAR_CONFIGURATION: u16 = 284;
+    pub(crate) const RESOLUTION_UNIT: u16 = 296;
+    pub(crate) const PREDICTOR: u16 = 317;
+    pub(crate) const TILE_WIDTH: u16 = 322;
+    pub(crate) const TILE_LENGTH: u16 = 323;
+    pub(crate) const TILE_OFFSETS: u16 = 324;
+    pub(crate) const TILE_BYTE_COUNTS: u16 = 325;
+    pub(crate) const SAMPLE_FORMAT: u16 = 339;
+    pub(crate) const IMAGE_DEPTH: u16 = 32997;
+}
+
+/// Bytes read at a directory's offset at once: enough for the usual directory whole.
+const WINDOW: usize = 1 << 10;
+
+/// An open file with its byte order and flavour.
+pub(crate) struct Container<'a> {
+    source: &'a Source,
+    file: &'a File,
+    pub(crate) big_endian: bool,
+    big_tiff: bool,
+    first: u64,
+}
+
+/// A directory: where the values of each tag stand.
+pub(crate) struct Directory {
+    entries: BTreeMap<u16, Entry>,
+}
+
+#[derive(Clone, Copy)]
+struct Entry {
+    kind: u16,
+    count: u64,
+    /// Where the values begin in the file, be it inside the entry or elsewhere.
+    at: u64,
+}
+
+/// Whether a file with this beginning is a TIFF or BigTIFF.
+pub(crate) fn is_tiff(head: &[u8]) -> bool {
+    matches!(
+        head,
+        [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..]
+    )
+}
+
+impl<'a> Container<'a> {
+    pub(crate) fn open(source: &'a Source, file: &'a File) -> Result<Self, String> {
+        let head = source.window(0, 16).map_err(|e| e.to_string())?;
+        if !is_tiff(&head) {
+            return Err("it is not a TIFF file".into());
+        }
+        let big_endian = head[0] == b'M';
+        let mut container = Self {
+            source,
+            file,
+            big_endian,
+            big_tiff: head[2].max(head[3]) == 43,
+            first: 0,
+        };
+        let offset = match container.big_tiff {
+            true => head.get(8..16),
+            false => head.get(4..8),
+        };
+        container.first = container.uint(offset.ok_or("its header is truncated")?);
+        Ok(container)
+    }
+
+    /// All directories of the chain in order; an error names the index of the page at fault.
+    pub(crate) fn directories(&self) -> Result<Vec<Directory>, (usize, String)> {
+        let mut directories = Vec::new();
+        let mut seen = HashSet::new();
+        let mut at = self.first;
+        while at != 0 {
+            let page = directories.len();
+            if !seen.insert(at) {
+                return Err((
+                    page,
+                    "its directory was read before: the chain of pages is a loop".into(),
+                ));
+            }
+            let (directory, next) = self.directory(at).map_err(|what| (page, what))?;
+            directories.push(directory);
+            at = next;
+        }
+        Ok(directories)
+    }
+
+    fn directory(&self, at: u64) -> Result<(Directory, u64), String> {
+        let (count_bytes, entry_bytes, offset_bytes) = if self.big_tiff {
+            (8, 20, 8)
+        } else {
+            (2, 12, 4)
+        };
+        let truncated = || {
+            format!(
+                "its directory at byte {at} reaches beyond the end of the file at byte {}: the file is truncated",
+                self.source.len()
+            )
+        };
+        let mut bytes = self.source.window(at, WINDOW).map_err(|e| e.to_string())?;
+        let count = self.uint(bytes.get(..count_bytes).ok_or_else(truncated)?);
+        let size = usize::try_from(count)
+            .ok()
+            .and_then(|n| {
+                n.checked_mul(entry_bytes)?
+                    .checked_add(count_bytes + offset_bytes)
+            })
+            .ok_or_else(truncated)?;
+        if size > bytes.len() {
+            bytes = self.source.window(at, size).map_err(|e| e.to_string())?;
+        }
+        let list = bytes.get(count_bytes..size).ok_or_else(truncated)?;
+        let (list, next) = list.split_at(size - count_bytes - offset_bytes);
+        let mut entries = BTreeMap::new();
+        for (i, entry) in list.chunks_exact(entry_bytes).enumerate() {
+            let (head, value) = entry.split_at(entry_bytes - offset_bytes);
+            let kind = self.uint(&head[2..4]) as u16;
+            let count = self.uint(&head[4..]);
+            let inline =
+                type_bytes(kind).and_then(|n| count.checked_mul(n)) <= Some(offset_bytes as u64);
+            let at = if inline {
+                at + (count_bytes + (i + 1) * entry_bytes - offset_bytes) as u64
+            } else {
+                self.uint(value)
+            };
+            entries.insert(self.uint(&head[..2]) as u16, Entry { kind, count, at });
+        }
+        Ok((Directory { entries }, self.uint(next)))
+    }
+
+    /// Bytes of a tag's value; the size is checked against the file before it is allocated.
+    fn bytes(&self, tag: u16, entry: Entry) -> Result<Vec<u8>, String> {
+        let size = type_bytes(entry.kind)
+            .and_then(|n| n.checked_mul(entry.count))
+            .ok_or_else(|| format!("tag {tag} has an unknown type or size"))?;
+        let end = entry.at.checked_add(size);
+        if end.is_none_or(|end| end > self.source.len()) {
+            return Err(format!(
+                "tag {tag} lies beyond the end of the file at byte {}: the file is truncated",
+                self.source.len()
+            ));
+        }
+        let size = usize::try_from(size).map_err(|e| e.to_string())?;
+        let mut bytes = vec![0; size];
+        self.file
+            .read_exact_at(&mut bytes, entry.at)
+            .map_err(|e| e.to_string())?;
+        Ok(bytes)
+    }
+
+    /// The unsigned integers of a tag; none if the tag is absent.
+    pub(crate) fn uints(
+        &self,
+        directory: &Directory,
+        tag: u16,
+    ) -> Result<Option<Vec<u64>>, String> {
+        let Some(&entry) = directory.entries.get(&tag) else {
+            return Ok(None);
+        };
+        let size = match entry.kind {
+            1 => 1,
+            3 => 2,
+            4 | 13 => 4,
+            16 | 18 => 8,
+            _ => return Err(format!("tag {tag} does not hold unsigned integers")),
+        };
+        let bytes = self.bytes(tag, entry)?;
+        Ok(Some(
+            bytes.chunks_exact(size).map(|b| self.uint(b)).collect(),
+        ))
+    }
+
+    /// The first unsigned integer of a tag; none if the tag is absent.
+    pub(crate) fn first_uint(
+        &self,
+        directory: &Directory,
+        tag: u16,
+    ) -> Result<Option<u64>, String> {
+        match self.uints(directory, tag)? {
+            None => Ok(None),
+            Some(values) => match values.first() {
+                Some(&value) => Ok(Some(value)),
+                None => Err(format!("tag {tag} is empty")),
+            },
+        }
+    }
+
+    /// The first rational of a tag; none if it is absent or no number.
+    pub(crate) fn rational(&self, directory: &Directory, tag: u16) -> Option<f64> {
+        let &entry = directory.entries.get(&tag)?;
+        let bytes = self.bytes(tag, entry).ok()?;
+        let (numerator, denominator) = (bytes.get(..4)?, bytes.get(4..8)?);
+        let value = self.uint(numerator) as f64 / self.uint(denominator) as f64;
+        (entry.kind == 5 && value.is_finite()).then_some(value)
+    }
+
+    /// A tag's text, which is UTF-8 or, from ImageJ, Latin-1; none if it is absent.
+    pub(crate) fn text(&self, directory: &Directory, tag: u16) -> Result<Option<String>, String> {
+        let Some(&entry) = directory.entries.get(&tag) else {
+            return Ok(None);
+        };
+        let mut bytes = self.bytes(tag, entry)?;
+        bytes.truncate(bytes.iter().position(|b| *b == 0).unwrap_or(bytes.len()));
+        Ok(Some(match String::from_utf8(bytes) {
+            Ok(text) => text,
+            Err(latin) => latin.as_bytes().iter().map(|b| char::from(*b)).collect(),
+        }))
+    }
+
+    /// An unsigned integer of up to 8 bytes in the file's byte order.
+    fn uint(&self, bytes: &[u8]) -> u64 {
+        let join = |value: u64, byte: &u8| value << 8 | u64::from(*byte);
+        if self.big_endian {
+            bytes.iter().fold(0, join)
+        } else {
+            bytes.iter().rev().fold(0, join)
+        }
+    }
+}
+
+/// Bytes of one value of a tag type (TIFF 6.0, p. 15; BigTIFF adds 13, 16 to 18).
+fn type_bytes(kind: u16) -> Option<u64> {
+    match kind {
+        1 | 2 | 6 | 7 => Some(1),
+        3 | 8 => Some(2),
+        4 | 9 | 11 | 13 => Some(4),
+        5 | 10 | 12 | 16 | 17 | 18 => Some(8),
+        _ => None,
+    }
+}

@@ -1,0 +1,362 @@
+//! How the pixels of one page are stored, checked against the file before anything is
+//! allocated.
+
+use super::ifd::{Container, Directory, tag};
+use crate::sample::{PageFormat, Sample};
+
+/// How pixels are packed into chunks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Compression {
+    None,
+    Lzw,
+    Deflate,
+    PackBits,
+    Zstd,
+}
+
+impl Compression {
+    fn parse(code: u64) -> Result<Self, String> {
+        Ok(match code {
+            1 => Self::None,
+            5 => Self::Lzw,
+            8 | 32946 => Self::Deflate,
+            32773 => Self::PackBits,
+            50000 => Self::Zstd,
+            _ => {
+                let name = match code {
+                    2..=4 => " (CCITT fax)",
+                    6 | 7 => " (JPEG, which does not keep labels)",
+                    _ => "",
+                };
+                return Err(format!(
+                    "compression {code}{name} is not accepted; accepted are none, LZW, Deflate, PackBits and zstd"
+                ));
+            }
+        })
+    }
+
+    /// Code of TIFF tag 259.
+    pub(crate) fn code(self) -> u16 {
+        match self {
+            Self::None => 1,
+            Self::Lzw => 5,
+            Self::Deflate => 8,
+            Self::PackBits => 32773,
+            Self::Zstd => 50000,
+        }
+    }
+
+    /// More pixel bytes per stored byte than the method can ever reach. Deflate copies 258
+    /// bytes with 2 bits; an LZW code of 12 bits stands for up to 3837 bytes; PackBits
+    /// repeats a byte 128 times with 2 bytes; a zstd block of 4 bytes fills 128 KiB.
+    fn max_ratio(self) -> u64 {
+        match self {
+            Self::None => 1,
+            Self::Lzw => 2_560,
+            Self::Deflate => 1_032,
+            Self::PackBits => 64,
+            Self::Zstd => 32_768,
+        }
+    }
+}
+
+/// How the page is cut into chunks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Cut {
+    /// Rows of a strip.
+    Strips(u32),
+    /// Width and height of a tile.
+    Tiles(u32, u32),
+}
+
+/// A page as it is stored.
+#[derive(Clone, Debug)]
+pub(crate) struct PageLayout {
+    /// What reading the page yields.
+    pub(crate) format: PageFormat,
+    /// Stored bits per sample; below 8 only with unsigned samples, one channel.
+    pub(crate) bits: u16,
+    pub(crate) compression: Compression,
+    /// Value of tag 317; 1 is none.
+    pub(crate) predictor: u16,
+    /// Channels are stored one after another instead of interleaved.
+    pub(crate) planar: bool,
+    pub(crate) cut: Cut,
+    pub(crate) big_endian: bool,
+    /// Offset and length in bytes of each chunk in the file, plane by plane.
+    pub(crate) chunks: Vec<(u64, u64)>,
+}
+
+impl PageLayout {
+    /// Reads and checks the layout of a page in a file of `file_len` bytes.
+    pub(crate) fn read(tiff: &Container, page: &Directory, file_len: u64) -> Result<Self, String> {
+        let first = |tag, default| Ok::<_, String>(tiff.first_uint(page, tag)?.unwrap_or(default));
+        refuse_special_pages(
+            first(tag::NEW_SUBFILE_TYPE, 0)?,
+            first(tag::IMAGE_DEPTH, 1)?,
+            first(tag::FILL_ORDER, 1)?,
+        )?;
+        let (sample, bits, channels) = sample_of(tiff, page)?;
+        let side = |tag, name| match tiff.first_uint(page, tag)? {
+            Some(n) if n > 0 && n <= u64::from(u32::MAX) => Ok(n as u32),
+            Some(n) => Err(format!("its {name} is {n}, which is no size")),
+            None => Err(format!("its {name} is not given")),
+        };
+        let (width, height) = (
+            side(tag::IMAGE_WIDTH, "width")?,
+            side(tag::IMAGE_LENGTH, "height")?,
+        );
+        let compression = Compression::parse(first(tag::COMPRESSION, 1)?)?;
+        let predictor = match compression {
+            Compression::None | Compression::PackBits => 1,
+            _ => u16::try_from(first(tag::PREDICTOR, 1)?).unwrap_or(u16::MAX),
+        };
+        let mut layout = Self {
+            format: PageFormat {
+                width: width as usize,
+                height: height as usize,
+                sample,
+                channels,
+            },
+            bits,
+            compression,
+            predictor,
+            planar: channels > 1 && first(tag::PLANAR_CONFIGURATION, 1)? == 2,
+            cut: Cut::Strips(height),
+            big_endian: tiff.big_endian,
+            chunks: Vec::new(),
+        };
+        layout.read_chunks(tiff, page)?;
+        layout.check_chunks(file_len)?;
+        Ok(layout)
+    }
+
+    /// Planes that are stored one after another.
+    pub(crate) fn planes(&self) -> usize {
+        if self.planar { self.format.channels } else { 1 }
+    }
+
+    /// Samples of a pixel that stand side by side in a plane.
+    pub(crate) fn samples_side_by_side(&self) -> usize {
+        self.format.channels / self.planes()
+    }
+
+    /// Stored bytes of `width` pixels of a plane; rows are padded to whole bytes.
+    fn stored_row_bytes(&self, width: u64) -> Option<u64> {
+        let bits = self.samples_side_by_side() as u64 * u64::from(self.bits);
+        Some(width.checked_mul(bits)?.div_ceil(8))
+    }
+
+    /// Stored bytes of a row and of a plane once decompressed.
+    pub(crate) fn plane_bytes(&self) -> Option<(usize, usize)> {
+        let row = usize::try_from(self.stored_row_bytes(self.format.width as u64)?).ok()?;
+        Some((row, row.checked_mul(self.format.height)?))
+    }
+
+    fn read_chunks(&mut self, tiff: &Container, page: &Directory) -> Result<(), String> {
+        let tile = |tag| {
+            Ok::<_, String>(
+                tiff.first_uint(page, tag)?
+                    .filter(|n| *n > 0 && *n <= 1 << 24),
+            )
+        };
+        let (offsets, counts) = match tiff.uints(page, tag::TILE_OFFSETS)? {
+            Some(offsets) => {
+                let (Some(w), Some(h)) = (tile(tag::TILE_WIDTH)?, tile(tag::TILE_LENGTH)?) else {
+                    return Err("its tiles have no size".into());
+                };
+                self.cut = Cut::Tiles(w as u32, h as u32);
+                (offsets, tiff.uints(page, tag::TILE_BYTE_COUNTS)?)
+            }
+            None => {
+                let rows = tiff
+                    .first_uint(page, tag::ROWS_PER_STRIP)?
+                    .unwrap_or(u64::MAX);
+                // At most the page's height, which fits 32 bits.
+                let rows = rows.clamp(1, self.format.height as u64) as u32;
+                self.cut = Cut::Strips(rows);
+                let offsets = tiff.uints(page, tag::STRIP_OFFSETS)?;
+                let offsets = offsets.ok_or("it has neither strips nor tiles of pixels")?;
+                (offsets, tiff.uints(page, tag::STRIP_BYTE_COUNTS)?)
+            }
+        };
+        let expected = self.chunks_per_plane() * self.planes() as u64;
+        if offsets.len() as u64 != expected {
+            return Err(format!(
+                "it has {} strips or tiles but its size needs {expected}",
+                offsets.len()
+            ));
+        }
+        self.chunks = match counts {
+            Some(counts) if counts.len() == offsets.len() => {
+                offsets.into_iter().zip(counts).collect()
+            }
+            None if self.compression == Compression::None => {
+                let sized = |(i, offset)| Some((offset, self.chunk_bytes(i)?));
+                let chunks: Option<_> = offsets.into_iter().enumerate().map(sized).collect();
+                chunks.ok_or(TOO_LARGE)?
+            }
+            _ => return Err("the lengths of its strips or tiles are not given".into()),
+        };
+        Ok(())
+    }
+
+    fn chunks_per_plane(&self) -> u64 {
+        let [width, height] = [self.format.width, self.format.height].map(|n| n as u64);
+        match self.cut {
+            Cut::Strips(rows) => height.div_ceil(rows.into()),
+            // Both sides are below 2^32.
+            Cut::Tiles(w, h) => width.div_ceil(w.into()) * height.div_ceil(h.into()),
+        }
+    }
+
+    /// Bytes of chunk `i` once decompressed; tiles are stored whole, the last strip is not.
+    fn chunk_bytes(&self, i: usize) -> Option<u64> {
+        match self.cut {
+            Cut::Strips(rows) => {
+                let strip = i as u64 % self.chunks_per_plane();
+                let left = self.format.height as u64 - strip * u64::from(rows);
+                self.stored_row_bytes(self.format.width as u64)?
+                    .checked_mul(left.min(rows.into()))
+            }
+            Cut::Tiles(w, h) => self.stored_row_bytes(w.into())?.checked_mul(h.into()),
+        }
+    }
+
+    /// Checks that the file can hold what the page declares, and joins strips that follow
+    /// one another.
+    fn check_chunks(&mut self, file_len: u64) -> Result<(), String> {
+        for i in 0..self.chunks.len() {
+            let (offset, stored) = self.chunks[i];
+            if offset.checked_add(stored).is_none_or(|end| end > file_len) {
+                return Err(format!(
+                    "its pixels at byte {offset}, {stored} long, reach beyond the end of the file at byte {file_len}: the file is truncated"
+                ));
+            }
+            let declared = self.chunk_bytes(i).ok_or(TOO_LARGE)?;
+            if declared > stored.saturating_mul(self.compression.max_ratio()) {
+                return Err(format!(
+                    "it is declared as {} with strips or tiles of {declared} bytes, but {stored} bytes are stored for one: its size or the file is corrupt",
+                    self.format
+                ));
+            }
+            if self.is_plain() {
+                self.chunks[i].1 = declared;
+            }
+        }
+        if self.is_plain() {
+            self.chunks.dedup_by(|next, run| {
+                let follows = run.0 + run.1 == next.0;
+                if follows {
+                    run.1 += next.1;
+                }
+                follows
+            });
+        }
+        let total = self
+            .plane_bytes()
+            .and_then(|(_, n)| n.checked_mul(self.planes()));
+        total.filter(|n| *n > 0).ok_or(TOO_LARGE)?;
+        self.format.page_bytes().ok_or(TOO_LARGE)?;
+        Ok(())
+    }
+
+    /// Whether the pixels stand in the file as they are.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.compression == Compression::None && matches!(self.cut, Cut::Strips(_))
+    }
+
+    /// The layout of plane `k` of planes that follow this page in the file without
+    /// directories of their own.
+    pub(crate) fn following_plane(&self, k: usize, file_len: u64) -> Result<Self, String> {
+        let [(offset, bytes)] = self.chunks[..] else {
+            return Err(
+                "planes that follow one another need uncompressed pixels in one piece".into(),
+            );
+        };
+        if !self.is_plain() {
+            return Err("planes that follow one another need uncompressed strips of pixels".into());
+        }
+        let begin = bytes
+            .checked_mul(k as u64)
+            .and_then(|n| n.checked_add(offset));
+        let end = begin.and_then(|n| n.checked_add(bytes));
+        match (begin, end) {
+            (Some(begin), Some(end)) if end <= file_len => Ok(Self {
+                chunks: vec![(begin, bytes)],
+                ..self.clone()
+            }),
+            _ => Err(format!(
+                "its pixels reach beyond the end of the file at byte {file_len}: the file is truncated"
+            )),
+        }
+    }
+}
+
+const TOO_LARGE: &str = "it declares more pixels than can be counted";
+
+fn refuse_special_pages(subfile_type: u64, depth: u64, fill_order: u64) -> Result<(), String> {
+    if subfile_type & 1 != 0 {
+        return Err(
+            "it is a reduced copy (thumbnail) of another page; remove it from the stack".into(),
+        );
+    }
+    if depth != 1 {
+        return Err(format!(
+            "it holds {depth} planes by the tag ImageDepth; one plane per page is accepted"
+        ));
+    }
+    if fill_order != 1 {
+        return Err("its bits are stored in reverse (FillOrder 2); accepted is FillOrder 1".into());
+    }
+    Ok(())
+}
+
+/// Sample type after unpacking, stored bits, channels.
+fn sample_of(tiff: &Container, page: &Directory) -> Result<(Sample, u16, usize), String> {
+    let channels = match tiff.first_uint(page, tag::SAMPLES_PER_PIXEL)?.unwrap_or(1) {
+        1 => 1,
+        3 => 3,
+        n => {
+            return Err(format!(
+                "it has {n} samples per pixel; accepted are 1 and 3 (R:G:B)"
+            ));
+        }
+    };
+    let uniform = |tag, default| match tiff.uints(page, tag)? {
+        None => Ok(default),
+        Some(values) => match values.first() {
+            Some(&first) if values.iter().all(|v| *v == first) => Ok(first),
+            _ => Err(format!("tag {tag} differs between its channels")),
+        },
+    };
+    let bits = uniform(tag::BITS_PER_SAMPLE, 1)?;
+    let number = uniform(tag::SAMPLE_FORMAT, 1)?;
+    let sample = match (number, bits) {
+        (1 | 4, 1 | 2 | 4) if channels == 1 => Sample::U8,
+        (1 | 4, 8) => Sample::U8,
+        (1 | 4, 16) => Sample::U16,
+        (1 | 4, 32) => Sample::U32,
+        (1 | 4, 64) => Sample::U64,
+        (2, 8) => Sample::I8,
+        (2, 16) => Sample::I16,
+        (2, 32) => Sample::I32,
+        (2, 64) => Sample::I64,
+        (3, 32) => Sample::F32,
+        (3, 64) => Sample::F64,
+        _ => {
+            let kind = match number {
+                2 => "signed",
+                3 => "floating-point",
+                _ => "unsigned",
+            };
+            return Err(format!(
+                "its samples are {kind} of {bits} bits; accepted are unsigned of 1, 2, 4, 8, 16, 32 and 64, signed of 8 to 64, floats of 32 and 64 bits"
+            ));
+        }
+    };
+    if channels == 3 && tiff.first_uint(page, tag::PHOTOMETRIC)? == Some(6) {
+        return Err("its colours are YCbCr, which does not keep labels; accepted is RGB".into());
+    }
+    Ok((sample, bits as u16, channels))
+}

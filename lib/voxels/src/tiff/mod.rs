@@ -1,0 +1,160 @@
+//! TIFF and BigTIFF stacks.
+
+mod decode;
+mod describe;
+mod ifd;
+mod layout;
+mod write;
+
+pub(crate) use ifd::is_tiff;
+pub use write::TiffWriter;
+
+use crate::Error;
+use crate::sample::PageFormat;
+use crate::source::Source;
+use crate::voxel_size::VoxelSize;
+use describe::Description;
+use ifd::Container;
+use layout::PageLayout;
+
+/// The pages of one TIFF file, or of a file per page.
+#[derive(Debug)]
+pub(crate) struct TiffPages {
+    /// One file, or as many as pages.
+    sources: Vec<Source>,
+    /// At least one page; all have the format of the first.
+    pages: Vec<PageLayout>,
+}
+
+/// Opens one file with all its pages.
+pub(crate) fn open(source: Source) -> Result<(TiffPages, Option<VoxelSize>), Error> {
+    let (mut pages, description) = read_directories(&source)?;
+    let stated = description.planes.filter(|n| *n > 0);
+    if let Some(planes) = stated.filter(|n| *n != pages.len() as u64) {
+        pages = following_planes(&source, &pages, planes)?;
+    }
+    same_format(&pages, |_| &source)?;
+    let sources = vec![source];
+    Ok((TiffPages { sources, pages }, description.voxel_size))
+}
+
+/// Opens files of one page each, in this order.
+pub(crate) fn open_slices(sources: Vec<Source>) -> Result<(TiffPages, Option<VoxelSize>), Error> {
+    let mut pages = Vec::with_capacity(sources.len());
+    let mut voxel_size = None;
+    for (i, source) in sources.iter().enumerate() {
+        let (mut page, description) = read_directories(source)?;
+        if page.len() != 1
+            || description
+                .planes
+                .is_some_and(|n| n != 1 && n != sources.len() as u64)
+        {
+            let what = format!(
+                "it holds {} pages; a stack of several files is made of files of one page",
+                description.planes.unwrap_or(page.len() as u64)
+            );
+            return Err(Error::file(source, what));
+        }
+        pages.append(&mut page);
+        if i == 0 {
+            voxel_size = description.voxel_size;
+        }
+    }
+    same_format(&pages, |i| &sources[i])?;
+    Ok((TiffPages { sources, pages }, voxel_size))
+}
+
+/// The layouts of a file's directories and what the first says about the file.
+fn read_directories(source: &Source) -> Result<(Vec<PageLayout>, Description), Error> {
+    let file = source.file().map_err(|e| Error::io(source, e))?;
+    let tiff = Container::open(source, &file).map_err(|what| Error::file(source, what))?;
+    let directories = tiff
+        .directories()
+        .map_err(|(page, what)| Error::page(source, page, what))?;
+    let pages = directories
+        .iter()
+        .enumerate()
+        .map(|(i, directory)| {
+            PageLayout::read(&tiff, directory, source.len())
+                .map_err(|what| Error::page(source, i, what))
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    let (Some(directory), Some(page)) = (directories.first(), pages.first()) else {
+        return Err(Error::file(source, "it holds no page"));
+    };
+    let description =
+        describe::describe(&tiff, directory, page).map_err(|what| Error::page(source, 0, what))?;
+    Ok((pages, description))
+}
+
+/// The layouts of planes that stand one after another behind a single directory.
+fn following_planes(
+    source: &Source,
+    pages: &[PageLayout],
+    planes: u64,
+) -> Result<Vec<PageLayout>, Error> {
+    let [page] = pages else {
+        let what = format!(
+            "its description declares {planes} planes but it holds {} pages",
+            pages.len()
+        );
+        return Err(Error::file(source, what));
+    };
+    (0..planes)
+        .map(|k| {
+            let k = k as usize;
+            page.following_plane(k, source.len())
+                .map_err(|what| Error::page(source, k, what))
+        })
+        .collect()
+}
+
+fn same_format<'a>(
+    pages: &[PageLayout],
+    source: impl Fn(usize) -> &'a Source,
+) -> Result<(), Error> {
+    let odd = pages.iter().position(|page| page.format != pages[0].format);
+    match odd {
+        None => Ok(()),
+        Some(i) => Err(Error::page(
+            source(i),
+            i,
+            format!(
+                "it is {} but page 1 is {}; the pages of a stack must be alike",
+                pages[i].format, pages[0].format
+            ),
+        )),
+    }
+}
+
+impl TiffPages {
+    pub(crate) fn len(&self) -> usize {
+        self.pages.len()
+    }
+
+    pub(crate) fn format(&self) -> PageFormat {
+        self.pages[0].format
+    }
+
+    pub(crate) fn sources(&self) -> &[Source] {
+        &self.sources
+    }
+
+    fn source(&self, z: usize) -> &Source {
+        self.sources.get(z).unwrap_or(&self.sources[0])
+    }
+
+    /// Page `z` as it stands in messages.
+    pub(crate) fn page_name(&self, z: usize) -> String {
+        format!("{}, page {} of {}", self.source(z), z + 1, self.len())
+    }
+
+    pub(crate) fn read(&self, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
+        let Some(layout) = self.pages.get(z) else {
+            return Err(Error::Usage(format!("there is no page {}", z + 1)));
+        };
+        let source = self.source(z);
+        let file = source.file().map_err(|e| Error::io(source, e))?;
+        decode::read(&file, layout, page).map_err(|what| Error::page(source, z, what))
+    }
+}
