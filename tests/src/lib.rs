@@ -1,1 +1,8 @@
-//! Pipeline and verification tests (see README.md).
+//! Verification of the real `mpm-run` against closed forms and converged references, and the
+//! long studies built on it. README.md beside this crate says which test checks which
+//! equation, with which tolerance and why.
+
+pub mod case_text;
+pub mod closed_forms;
+pub mod outputs;
+pub mod verification;

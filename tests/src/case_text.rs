@@ -1,0 +1,181 @@
+//! Case files of the verification scenes, written as text the way a user would.
+
+use std::fmt::Write;
+
+/// Phenol formaldehyde of the paper: density kg/m3, bulk modulus Pa, viscosity Pa s.
+pub const PF: [f64; 3] = [1200.0, 1e9, 1.3];
+
+/// A box body in a scene, lengths in metres.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// "adhesive" or "rigid".
+    pub material: &'static str,
+    /// Low corner, m.
+    pub min: [f64; 3],
+    /// High corner, m.
+    pub max: [f64; 3],
+    /// Velocity: `None` at rest, or the text of the key.
+    pub velocity: Option<String>,
+    /// Name, where a reaction is reported by it.
+    pub name: Option<&'static str>,
+}
+
+impl Body {
+    /// A wall at rest.
+    pub fn wall(min: [f64; 3], max: [f64; 3]) -> Self {
+        Self {
+            material: "rigid",
+            min,
+            max,
+            velocity: None,
+            name: None,
+        }
+    }
+
+    /// Liquid at rest.
+    pub fn liquid(min: [f64; 3], max: [f64; 3]) -> Self {
+        Self {
+            material: "adhesive",
+            min,
+            max,
+            velocity: None,
+            name: None,
+        }
+    }
+
+    /// This body at a constant velocity, m/s.
+    pub fn moving(mut self, v: [f64; 3]) -> Self {
+        self.velocity = Some(format!(
+            "[\"{} m/s\", \"{} m/s\", \"{} m/s\"]",
+            v[0], v[1], v[2]
+        ));
+        self
+    }
+
+    /// This body driven by the clamp.
+    pub fn clamped(mut self) -> Self {
+        self.velocity = Some("\"clamp\"".into());
+        self
+    }
+
+    /// This body with a name.
+    pub fn named(mut self, name: &'static str) -> Self {
+        self.name = Some(name);
+        self
+    }
+}
+
+/// A case to be written.
+#[derive(Clone, Debug)]
+pub struct CaseText {
+    /// First lines, as comments.
+    pub title: String,
+    /// Cell edge, m.
+    pub cell: f64,
+    /// 2 or 3.
+    pub dimensions: u8,
+    /// Box computed in, m.
+    pub domain: [[f64; 3]; 2],
+    /// Lines of `[adhesive]` beyond those of [`PF`]; empty for PF.
+    pub viscosity: Option<String>,
+    /// Lines of `[contact]`.
+    pub contact: String,
+    /// Lines of `[clamp]`, if any.
+    pub clamp: Option<String>,
+    /// Body force per mass, m/s2.
+    pub gravity: [f64; 3],
+    /// `[boundary]` of x, y, z.
+    pub boundary: [&'static str; 3],
+    /// End without a clamp, s.
+    pub stop: Option<f64>,
+    /// Bodies.
+    pub bodies: Vec<Body>,
+    /// Rows of the history, as the time between them, s.
+    pub history_every: f64,
+}
+
+/// Lines of `[contact]` for walls the liquid sticks to.
+pub const STICK: &str = "law = \"stick\"\n";
+
+impl CaseText {
+    /// The TOML text with the `[integrator]` lines given.
+    pub fn text(&self, integrator: &str) -> String {
+        let mut out = String::new();
+        // Writing to a string cannot fail.
+        let _ = self.write(&mut out, integrator);
+        out
+    }
+
+    fn write(&self, out: &mut String, integrator: &str) -> std::fmt::Result {
+        for line in self.title.lines() {
+            writeln!(out, "# {line}")?;
+        }
+        writeln!(
+            out,
+            "[grid]\ncell = \"{} um\"\ndimensions = {}",
+            um(self.cell),
+            self.dimensions
+        )?;
+        writeln!(out, "domain = {}", corners(self.domain[0], self.domain[1]))?;
+        writeln!(
+            out,
+            "\n[adhesive]\ndensity = \"{} kg/m3\"\nbulk_modulus = \"{} Pa\"",
+            PF[0], PF[1]
+        )?;
+        match &self.viscosity {
+            None => writeln!(out, "viscosity = \"{} Pa s\"", PF[2])?,
+            Some(lines) => out.push_str(lines),
+        }
+        writeln!(out, "\n[contact]\n{}", self.contact.trim_end())?;
+        if let Some(clamp) = &self.clamp {
+            writeln!(out, "\n[clamp]\n{}", clamp.trim_end())?;
+        }
+        if let Some(stop) = self.stop {
+            writeln!(out, "\n[stop]\ntime = \"{} us\"", number(stop * 1e6))?;
+        }
+        writeln!(out, "\n[integrator]\n{}", integrator.trim_end())?;
+        writeln!(
+            out,
+            "\n[output]\nhistory_every = \"{} us\"",
+            number(self.history_every * 1e6)
+        )?;
+        if self.gravity != [0.0; 3] {
+            let g = self.gravity;
+            writeln!(
+                out,
+                "\n[gravity]\nacceleration = [\"{} m/s2\", \"{} m/s2\", \"{} m/s2\"]",
+                number(g[0]),
+                number(g[1]),
+                number(g[2])
+            )?;
+        }
+        let [x, y, z] = self.boundary;
+        writeln!(out, "\n[boundary]\nx = \"{x}\"\ny = \"{y}\"\nz = \"{z}\"")?;
+        for body in &self.bodies {
+            writeln!(out, "\n[[body]]\nmaterial = \"{}\"", body.material)?;
+            writeln!(out, "box = {}", corners(body.min, body.max))?;
+            if let Some(velocity) = &body.velocity {
+                writeln!(out, "velocity = {velocity}")?;
+            }
+            if let Some(name) = body.name {
+                writeln!(out, "name = \"{name}\"")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn corners(min: [f64; 3], max: [f64; 3]) -> String {
+    let list = |v: [f64; 3]| v.map(|x| format!("\"{} um\"", um(x))).join(", ");
+    format!("{{ min = [{}], max = [{}] }}", list(min), list(max))
+}
+
+fn um(metres: f64) -> String {
+    number(metres * 1e6)
+}
+
+/// Twelve significant digits at most, without the noise of binary fractions.
+fn number(x: f64) -> String {
+    let rounded: f64 = format!("{x:.11e}").parse().unwrap_or(x);
+    format!("{rounded}")
+}

@@ -1,0 +1,74 @@
+//! Couette flow with partial slip: the speed of the liquid at the walls.
+
+use super::{LUMEN, Measured, Scene};
+use crate::case_text::{Body, CaseText};
+use crate::closed_forms::couette_slip;
+
+const SPEED: f64 = 0.5;
+
+/// A gap of `n` cells, lower wall `offset` cells off the nodes, influence length `slip` widths.
+pub fn scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
+    let cell = LUMEN / f64::from(n);
+    let (width, low) = (4.0 * cell, (2.0 + offset) * cell);
+    let high = low + LUMEN;
+    let top = (f64::from(n) + 5.0) * cell;
+    let case = CaseText {
+        title: format!(
+            "Couette flow with partial slip, gap of {n} cells, walls {offset} cell off the nodes.\nAgainst v l/(H + 2 l) at the resting wall."
+        ),
+        cell,
+        dimensions: 2,
+        domain: [[0.0; 3], [width, top, cell]],
+        viscosity: None,
+        contact: format!(
+            "law = \"partial-slip\"\ninfluence_length = \"{} um\"\n",
+            slip * LUMEN * 1e6
+        ),
+        clamp: None,
+        gravity: [0.0; 3],
+        boundary: ["periodic", "symmetry", "symmetry"],
+        stop: Some(until),
+        bodies: vec![
+            Body::wall([0.0; 3], [width, low, cell]).named("bottom"),
+            Body::wall([-1e-3, high, 0.0], [1e-3, top, cell])
+                .moving([SPEED, 0.0, 0.0])
+                .named("top"),
+            Body::liquid([0.0, low, 0.0], [width, high, cell]),
+        ],
+        history_every: until / 20.0,
+    };
+    Scene {
+        name: format!("couette-n{n}-off{offset}-slip{slip}"),
+        case,
+        against: "Couette with Navier slip",
+        measure: Box::new(move |run| {
+            let file = run.last()?;
+            let position = file.vectors("position").map_err(|e| e.to_string())?;
+            let velocity = file.vectors("velocity").map_err(|e| e.to_string())?;
+            // Least-squares line through all points, read off at the resting wall.
+            let points: Vec<_> = position
+                .iter()
+                .zip(velocity)
+                .map(|(x, v)| (f64::from(x[1]) - low, f64::from(v[0])))
+                .collect();
+            let slip_speed = line_at_zero(&points);
+            Ok(vec![Measured::relative(
+                "slip velocity",
+                slip_speed,
+                couette_slip(LUMEN, slip * LUMEN, SPEED),
+            )])
+        }),
+    }
+}
+
+fn line_at_zero(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let (sx, sy) = points
+        .iter()
+        .fold((0.0, 0.0), |s, p| (s.0 + p.0, s.1 + p.1));
+    let (mx, my) = (sx / n, sy / n);
+    let (sxx, sxy) = points.iter().fold((0.0, 0.0), |s, p| {
+        (s.0 + (p.0 - mx).powi(2), s.1 + (p.0 - mx) * (p.1 - my))
+    });
+    my - mx * sxy / sxx
+}

@@ -1,0 +1,79 @@
+//! A piston pushes liquid from a reservoir, four slit widths wide, into a slit: the mission's
+//! own flow. Against a 24-cell run of another code (shared/data/slit-filling-reference.csv)
+//! and, for the slope, against lubrication theory.
+
+use super::{LUMEN, Measured, Scene, window_mean};
+use crate::case_text::{Body, CaseText, PF, STICK};
+
+/// Piston speed, m/s; the slit is a quarter of the reservoir, so it flows four times faster.
+const SPEED: f64 = 0.5;
+
+/// Filled length in slit widths and the equivalent length that entrance and moving front add
+/// to it in the piston force (filling-solver.md section A, 24 cells per slit).
+const ENTRANCE: [(f64, f64); 4] = [(1.0, 0.25), (2.0, 0.22), (3.0, 0.22), (4.0, 0.22)];
+
+/// Slit of `n` cells, walls offset by `offset` cells along x and y.
+pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
+    let h = LUMEN / f64::from(n);
+    let (x0, width) = ((2.0 + offset[0]) * h, 4.0 * LUMEN);
+    let centre = x0 + 0.5 * width;
+    // A whole number of cells, because pressures refer to the cross-section of the grid.
+    let right = (4.0 * f64::from(n) + 6.0) * h;
+    let shoulder = 7.0 * LUMEN + 2.0 * h;
+    // The piston comes from above; the slit leads down, as in a clamped bond line.
+    let piston = shoulder + 2.0 * LUMEN + offset[1] * h;
+    let top = piston + 3.0 * h;
+    let half = 0.5 * LUMEN;
+    let case = CaseText {
+        title: format!(
+            "A piston pushes liquid from a reservoir into a slit of {n} cells, walls ({}, {}) cell off the nodes.",
+            offset[0], offset[1]
+        ),
+        cell: h,
+        dimensions: 2,
+        domain: [[0.0; 3], [right, top, h]],
+        viscosity: None,
+        contact: STICK.into(),
+        clamp: None,
+        gravity: [0.0; 3],
+        boundary: ["symmetry", "symmetry", "symmetry"],
+        stop: Some(0.55 * 2.0 * LUMEN / SPEED),
+        bodies: vec![
+            Body::wall([0.0, 0.0, 0.0], [x0, top, h]).named("bottom"),
+            Body::wall([x0 + width, 0.0, 0.0], [right, top, h]).named("bottom"),
+            Body::wall([x0, 0.0, 0.0], [centre - half, shoulder, h]).named("bottom"),
+            Body::wall([centre + half, 0.0, 0.0], [x0 + width, shoulder, h]).named("bottom"),
+            Body::wall([x0, piston, 0.0], [x0 + width, top + LUMEN, h])
+                .moving([0.0, -SPEED, 0.0])
+                .named("top"),
+            Body::liquid([x0, shoulder, 0.0], [x0 + width, piston, h]),
+        ],
+        history_every: 0.05e-6,
+    };
+    Scene {
+        name: format!("slit-n{n}-off{}-{}", offset[0], offset[1]),
+        case,
+        against: "24-cell reference",
+        measure: Box::new(move |run| {
+            let time = run.history("time_s")?;
+            let pressure = run.history("pressure_top_Pa")?;
+            // History pressures refer to the whole cross-section of the domain.
+            let unit = 12.0 * PF[2] * 4.0 * SPEED / LUMEN;
+            let filled: Vec<f64> = time.iter().map(|t| 4.0 * SPEED * t / LUMEN).collect();
+            let force: Vec<f64> = pressure.iter().map(|p| p * right / width / unit).collect();
+            let mut list = Vec::new();
+            for (length, entrance) in ENTRANCE {
+                if let Some(f) = window_mean(&filled, &force, length - 0.25, length + 0.25) {
+                    list.push(Measured::relative(
+                        format!("piston force at L = {length} H"),
+                        f,
+                        length + entrance,
+                    ));
+                }
+            }
+            let volume = run.summary("volume_change").unwrap_or(f64::NAN);
+            list.push(Measured::absolute("volume change", volume));
+            Ok(list)
+        }),
+    }
+}
