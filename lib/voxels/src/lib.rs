@@ -4,7 +4,6 @@
 //! [`segment`] sorts its voxels into [`Phases`], page by page; [`TiffWriter`] writes labels.
 //! A stack is indexed (z = page, y = row, x = column), x fastest.
 
-mod bits;
 mod coder;
 mod crop;
 mod error;
@@ -22,7 +21,6 @@ pub mod synthetic;
 mod tiff;
 mod voxel_size;
 
-pub use bits::BitVolume;
 pub use crop::Crop;
 pub use error::Error;
 pub use label::Label;

@@ -1,6 +1,6 @@
+use particle_file::BitGrid;
 use rayon::prelude::*;
 
-use crate::bits::BitVolume;
 use crate::coder::{Coder, UNKNOWN, guessed};
 use crate::label::Label;
 use crate::phases::Phases;
@@ -10,9 +10,9 @@ use crate::{Crop, Error, Stack};
 #[derive(Clone, Debug)]
 pub struct Segmented {
     /// Voxels of wood.
-    pub wood: BitVolume,
+    pub wood: BitGrid,
     /// Voxels of adhesive.
-    pub adhesive: BitVolume,
+    pub adhesive: BitGrid,
     /// The labels of void, wood and adhesive when they were guessed.
     pub guessed: Option<[f64; 3]>,
 }
@@ -39,16 +39,18 @@ pub fn segment(
         )));
     }
     let too_large = || Error::file(stack.name(), "it has more voxels than can be counted");
-    let mut wood = BitVolume::empty(crop.dims()).ok_or_else(too_large)?;
-    let mut adhesive = BitVolume::empty(crop.dims()).ok_or_else(too_large)?;
+    let [nx, ny, nz] = crop.dims();
+    let voxels = nx.checked_mul(ny).and_then(|n| n.checked_mul(nz));
+    voxels.ok_or_else(too_large)?;
+    let words_per_row = nx.div_ceil(u64::BITS as usize);
+    let words_per_page = words_per_row * ny;
+    let mut wood = vec![0; words_per_page * nz];
+    let mut adhesive = vec![0; words_per_page * nz];
 
     let coder = Coder::new(phases, stack.format());
-    let words_per_row = wood.words_per_row();
-    let words_per_page = words_per_row * crop.dims()[1];
     let unions: Vec<Result<u8, Error>> = wood
-        .words_mut()
         .par_chunks_mut(words_per_page)
-        .zip(adhesive.words_mut().par_chunks_mut(words_per_page))
+        .zip(adhesive.par_chunks_mut(words_per_page))
         .enumerate()
         .map_init(Vec::new, |page, (k, (wood, adhesive))| {
             let z = crop.ranges()[2].start + k;
@@ -80,8 +82,8 @@ pub fn segment(
         _ => None,
     };
     Ok(Segmented {
-        wood,
-        adhesive,
+        wood: BitGrid::from_words(crop.dims(), wood).ok_or_else(too_large)?,
+        adhesive: BitGrid::from_words(crop.dims(), adhesive).ok_or_else(too_large)?,
         guessed,
     })
 }

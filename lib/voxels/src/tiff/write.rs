@@ -29,9 +29,22 @@ impl<W: Write> TiffWriter<W> {
     /// # Errors
     /// Dimensions that TIFF cannot hold, or the failed write.
     pub fn new(out: W, dims: [usize; 3], voxel_edge: f64) -> io::Result<Self> {
-        let layout = Layout::new(dims, voxel_edge, false)
+        Self::with_note(out, dims, voxel_edge, "")
+    }
+
+    /// As [`TiffWriter::new`], with a line for the image description, e.g. `note=synthetic`.
+    ///
+    /// # Errors
+    /// As [`TiffWriter::new`].
+    pub fn with_note(
+        out: W,
+        dims: [usize; 3],
+        voxel_edge: f64,
+        note: &str,
+    ) -> io::Result<Self> {
+        let layout = Layout::new(dims, voxel_edge, note, false)
             .filter(|layout| layout.end <= u64::from(u32::MAX))
-            .or_else(|| Layout::new(dims, voxel_edge, true));
+            .or_else(|| Layout::new(dims, voxel_edge, note, true));
         let layout = layout.ok_or_else(|| {
             let [nx, ny, nz] = dims;
             let what = format!("a stack of {nx} x {ny} x {nz} voxels does not fit a TIFF file");
@@ -97,12 +110,13 @@ struct Layout {
 }
 
 impl Layout {
-    fn new(dims: [usize; 3], voxel_edge: f64, big: bool) -> Option<Self> {
+    fn new(dims: [usize; 3], voxel_edge: f64, note: &str, big: bool) -> Option<Self> {
         let side = |n: usize| u32::try_from(n).ok().filter(|n| *n > 0);
         let (width, height, pages) = (side(dims[0])?, side(dims[1])?, u64::from(side(dims[2])?));
         let edge_um = micrometres(voxel_edge);
+        let end = if note.is_empty() { "" } else { "\n" };
         let description = format!(
-            "ImageJ=1.11a\nimages={pages}\nslices={pages}\nunit=um\nspacing={edge_um}\nloop=false\n\0"
+            "ImageJ=1.11a\nimages={pages}\nslices={pages}\nunit=um\nspacing={edge_um}\nloop=false\n{note}{end}\0"
         );
         let mut layout = Self {
             width,
