@@ -1,2 +1,115 @@
-//! Placeholder until the tool lands.
-fn main() {}
+//! Looks into particle files: what they hold, whether they are whole, their order-free sum,
+//! and their content in other formats.
+
+mod export;
+mod info;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+use cli::{Common, Failure, Output};
+use particle_file::ParticleFile;
+
+/// Look into particle files (.mpts): what they hold, whether they are whole, their sum,
+/// and their content in other formats.
+#[derive(Parser, Debug)]
+#[command(
+    version,
+    after_help = "Examples:
+  particles info bond.mpts
+  particles check runs/pf/final.mpts && particles sum runs/pf/final.mpts
+  particles export runs/pf/snapshots/*.mpts -o pf.pvd
+
+Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or corrupt file."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Print what a file holds and how it was made
+    Info(Files),
+    /// Read a whole file: every array agrees with its checksum, every number is finite
+    Check(Files),
+    /// Print a checksum of the material points that does not depend on their order
+    Sum(Files),
+    /// Write the content as csv, npz, vtp, vti, pvd or labelled tiff
+    ///
+    /// csv and vtp hold the liquid points or, where a file has none, its adhesive voxels.
+    /// vti and tiff hold labels: void 0, wood 128, adhesive 255; a voxel with the position
+    /// of a liquid point in it is adhesive unless it is wood. npz holds everything. pvd is a
+    /// series for ParaView, with the files it refers to in a folder beside it.
+    Export(export::Arguments),
+}
+
+#[derive(Args, Debug)]
+struct Files {
+    /// Particle files; '-' is standard input
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    common: Common,
+}
+
+fn main() -> ExitCode {
+    cli::main(common, run)
+}
+
+fn common(arguments: &Arguments) -> &Common {
+    match &arguments.command {
+        Command::Info(files) | Command::Check(files) | Command::Sum(files) => &files.common,
+        Command::Export(export) => &export.common,
+    }
+}
+
+fn run(arguments: Arguments) -> Result<(), Failure> {
+    match arguments.command {
+        Command::Info(files) => for_each(&files.files, info::describe),
+        Command::Check(files) => check(&files.files),
+        Command::Sum(files) => for_each(&files.files, |file| {
+            let sum = file.sum().map_err(Failure::data)?;
+            Ok(format!("{sum:016x}  {}\n", file.name()))
+        }),
+        Command::Export(arguments) => export::run(&arguments),
+    }
+}
+
+/// Prints one text per file.
+fn for_each(
+    files: &[PathBuf],
+    text: impl Fn(&ParticleFile) -> Result<String, Failure>,
+) -> Result<(), Failure> {
+    for path in files {
+        let file = ParticleFile::open(path).map_err(Failure::data)?;
+        let text = text(&file)?;
+        Output::Stdout.write(|out| out.write_all(text.as_bytes()))?;
+    }
+    Ok(())
+}
+
+/// Checks every file, also behind a damaged one, so that one call finds all of them.
+fn check(files: &[PathBuf]) -> Result<(), Failure> {
+    let mut last_fault = None;
+    let mut faults = 0;
+    for path in files {
+        match ParticleFile::open(path).and_then(|file| file.check().map(|()| file)) {
+            Ok(file) => Output::Stdout.write(|out| writeln!(out, "{}: ok", file.name()))?,
+            Err(fault) => {
+                if let Some(earlier) = last_fault.replace(fault) {
+                    cli::warn(earlier);
+                }
+                faults += 1;
+            }
+        }
+    }
+    match last_fault {
+        None => Ok(()),
+        Some(fault) if faults == 1 => Err(Failure::data(fault)),
+        Some(fault) => Err(Failure::data(format!(
+            "{fault}; {faults} files are damaged"
+        ))),
+    }
+}

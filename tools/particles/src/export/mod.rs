@@ -1,0 +1,123 @@
+//! Particle files in other formats; one module per format.
+
+mod csv;
+mod labels;
+mod npz;
+mod points;
+mod series;
+mod vtk;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use cli::{Common, Failure, InputRecord, Output, Record};
+use particle_file::ParticleFile;
+
+use labels::Labels;
+use points::Points;
+
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// Particle files; '-' is standard input; all formats but pvd take one
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Output file; '-' is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Output,
+    /// Format [default: the extension of the output file]
+    #[arg(short, long)]
+    format: Option<Format>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A line per point, units in the column names
+    Csv,
+    /// Every array, for NumPy
+    Npz,
+    /// Points, for ParaView
+    Vtp,
+    /// Labels, for ParaView
+    Vti,
+    /// A series in time, for ParaView
+    Pvd,
+    /// Labels, for ImageJ and xct2particles
+    Tiff,
+}
+
+/// Exports as the arguments say.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let format = format(arguments)?;
+    if arguments.files.len() > 1 && format != Format::Pvd {
+        return Err(Failure::usage(format!(
+            "{} files were given, but only pvd takes more than one",
+            arguments.files.len()
+        )));
+    }
+    let files = (arguments.files.iter())
+        .map(|path| ParticleFile::open(path).map_err(Failure::data))
+        .collect::<Result<Vec<_>, _>>()?;
+    let inputs = (files.iter())
+        .map(|f| InputRecord::new(f.name().into(), f.content_hash()))
+        .collect();
+    let record = Record::new(env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"), inputs);
+    let output = &arguments.output;
+    // Several files are a series, as was checked above.
+    let [file] = files.as_slice() else {
+        return series::write(&files, output, &record);
+    };
+    match format {
+        Format::Csv => {
+            let points = Points::of(file)?;
+            output.write_with_record(&record, |out| csv::write(&points, out))
+        }
+        Format::Vtp => {
+            let points = Points::of(file)?;
+            let time_s = file.header().time_s;
+            output.write_with_record(&record, |out| vtk::write_points(&points, time_s, out))
+        }
+        Format::Vti => {
+            let labels = Labels::of(file)?;
+            let time_s = file.header().time_s;
+            output.write_with_record(&record, |out| vtk::write_labels(&labels, time_s, out))
+        }
+        Format::Tiff => {
+            let labels = Labels::of(file)?;
+            output.write_with_record(&record, |out| labels.write_tiff(out))
+        }
+        Format::Npz => npz::write(file, output, &record),
+        Format::Pvd => series::write(&files, output, &record),
+    }
+}
+
+/// The format asked for or else the one of the output's extension.
+fn format(arguments: &Arguments) -> Result<Format, Failure> {
+    if let Some(format) = arguments.format {
+        return Ok(format);
+    }
+    let extension = match &arguments.output {
+        Output::Stdout => None,
+        Output::File(path) => path.extension().and_then(|e| e.to_str()),
+    };
+    let format = match extension {
+        Some("tif" | "TIF") => Some(Format::Tiff),
+        Some(name) => Format::from_str(name, true).ok(),
+        None => None,
+    };
+    format.ok_or_else(|| {
+        Failure::usage(format!(
+            "cannot tell the format of {}; use --format csv, npz, vtp, vti, pvd or tiff",
+            arguments.output
+        ))
+    })
+}
+
+/// `name` with nothing in it that means something in XML, a path or an archive.
+fn plain(name: &str) -> String {
+    let keep = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
+    name.chars()
+        .map(|c| if keep(c) { c } else { '_' })
+        .collect()
+}

@@ -1,0 +1,100 @@
+use std::borrow::Cow;
+
+use cli::Failure;
+use particle_file::{Element, ParticleFile, Section};
+
+/// Material points as a table: the liquid points of a file with all their columns or, where
+/// it has none, the adhesive voxels with centre and volume.
+pub struct Points<'a> {
+    pub rows: usize,
+    pub columns: Vec<Column<'a>>,
+}
+
+/// One quantity of all points.
+pub struct Column<'a> {
+    pub name: &'a str,
+    pub components: usize,
+    pub values: Values<'a>,
+}
+
+/// The values of a column, rows one behind the other.
+pub enum Values<'a> {
+    F32(Cow<'a, [f32]>),
+    F64(&'a [f64]),
+    U32(&'a [u32]),
+    U64(&'a [u64]),
+    U8(&'a [u8]),
+}
+
+impl<'a> Points<'a> {
+    /// # Errors
+    /// Exit 3 when an array is damaged or there is no adhesive in the file.
+    pub fn of(file: &'a ParticleFile) -> Result<Self, Failure> {
+        let rows = file.header().particles;
+        if rows == 0 {
+            return Self::of_voxels(file);
+        }
+        let columns = (file.columns().filter(|s| s.rows == rows))
+            .map(|section| column(file, section))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            rows: rows as usize,
+            columns,
+        })
+    }
+
+    fn of_voxels(file: &ParticleFile) -> Result<Self, Failure> {
+        let (mut position, mut volume) = (Vec::new(), Vec::new());
+        file.for_each_adhesive(|p, v| {
+            position.extend(p.map(|x| x as f32));
+            volume.push(v as f32);
+        })
+        .map_err(Failure::data)?;
+        if volume.is_empty() {
+            return Err(Failure::data(format!("'{}' has no adhesive", file.name())));
+        }
+        let column = |name, components, values: Vec<f32>| Column {
+            name,
+            components,
+            values: Values::F32(values.into()),
+        };
+        Ok(Self {
+            rows: volume.len(),
+            columns: vec![column("position", 3, position), column("volume", 1, volume)],
+        })
+    }
+}
+
+/// The column that `section` of `file` describes.
+///
+/// # Errors
+/// Exit 3 when it is damaged.
+pub fn column<'a>(file: &'a ParticleFile, section: &'a Section) -> Result<Column<'a>, Failure> {
+    let name = section.name.as_str();
+    let values = match section.element {
+        Element::F32 => file.column(name).map(|v| Values::F32(Cow::Borrowed(v))),
+        Element::F64 => file.column(name).map(Values::F64),
+        Element::U32 => file.column(name).map(Values::U32),
+        Element::U64 => file.column(name).map(Values::U64),
+        Element::U8 => file.column(name).map(Values::U8),
+        Element::Blob | Element::Bits => file.blob(name).map(Values::U8),
+    };
+    Ok(Column {
+        name,
+        components: section.components as usize,
+        values: values.map_err(Failure::data)?,
+    })
+}
+
+impl Values<'_> {
+    /// The values as stored: little-endian.
+    pub fn bytes(&self) -> &[u8] {
+        match self {
+            Values::F32(v) => bytemuck::cast_slice(v),
+            Values::F64(v) => bytemuck::cast_slice(v),
+            Values::U32(v) => bytemuck::cast_slice(v),
+            Values::U64(v) => bytemuck::cast_slice(v),
+            Values::U8(v) => v,
+        }
+    }
+}

@@ -1,0 +1,102 @@
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::fs;
+use std::path::PathBuf;
+
+use cli::{Failure, Output, Record};
+use particle_file::ParticleFile;
+
+use super::labels::Labels;
+use super::points::Points;
+use super::vtk;
+
+/// Writes `NAME.pvd` and beside it the folder `NAME` with the liquid of each file as
+/// `NNNN.vtp` (part 0) and its blocks as `NNNN-BLOCK.vti` (parts 1 and up). A block that
+/// stays where it was is written once.
+///
+/// # Errors
+/// Exit 2 for standard output, exit 3 when an array is damaged, exit 1 when an output cannot
+/// be written.
+pub fn write(files: &[ParticleFile], output: &Output, record: &Record) -> Result<(), Failure> {
+    let Output::File(pvd) = output else {
+        let what = "a pvd refers to files beside it and cannot go to standard output";
+        return Err(Failure::usage(what));
+    };
+    let folder = pvd.with_extension("");
+    let Some(folder_name) = folder.file_name().and_then(|n| n.to_str()) else {
+        return Err(Failure::usage(format!("{output} is no file name in UTF-8")));
+    };
+    let folder_name = escape(folder_name);
+    fs::create_dir_all(&folder)
+        .map_err(|e| Failure::write(format!("'{}'", folder.display()), &e))?;
+    let mut parts = Parts {
+        folder,
+        blocks: HashMap::new(),
+    };
+    let mut entries = String::new();
+    for (number, file) in files.iter().enumerate() {
+        let time_s = file.header().time_s;
+        for (part, name) in parts.write(number, file)? {
+            entries.push_str(&format!(
+                "<DataSet timestep=\"{time_s:e}\" part=\"{part}\" file=\"{folder_name}/{name}\"/>\n"
+            ));
+        }
+    }
+    output.write_with_record(record, |out| {
+        write!(
+            out,
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" \
+             byte_order=\"LittleEndian\">\n<Collection>\n{entries}</Collection>\n</VTKFile>\n"
+        )
+    })
+}
+
+/// The files that a series refers to.
+struct Parts {
+    folder: PathBuf,
+    /// Name of the file of a block with this index, place and hash of its voxels.
+    blocks: HashMap<(usize, [u64; 3], u64), String>,
+}
+
+impl Parts {
+    /// Writes what is new in the file of this number; gives number and name of its parts.
+    fn write(
+        &mut self,
+        number: usize,
+        file: &ParticleFile,
+    ) -> Result<Vec<(usize, String)>, Failure> {
+        let time_s = file.header().time_s;
+        let mut parts = Vec::new();
+        if file.header().particles > 0 {
+            let name = format!("{number:04}.vtp");
+            let points = Points::of(file)?;
+            Output::File(self.folder.join(&name))
+                .write(|out| vtk::write_points(&points, time_s, out))?;
+            parts.push((0, name));
+        }
+        for index in 0..file.header().blocks.len() {
+            let (block, bits) = file.block(index).map_err(Failure::data)?;
+            let place = block.origin_m.map(f64::to_bits);
+            let name = match self
+                .blocks
+                .entry((index, place, file.sections()[index].xxh3))
+            {
+                Entry::Occupied(written) => written.get().clone(),
+                Entry::Vacant(new) => {
+                    let name = format!("{number:04}-{}.vti", super::plain(&block.name));
+                    let labels = Labels::of_block(block, bits);
+                    Output::File(self.folder.join(&name))
+                        .write(|out| vtk::write_labels(&labels, time_s, out))?;
+                    new.insert(name).clone()
+                }
+            };
+            parts.push((1 + index, name));
+        }
+        Ok(parts)
+    }
+}
+
+/// Text for an XML attribute.
+fn escape(text: &str) -> String {
+    (text.replace('&', "&amp;").replace('<', "&lt;")).replace('"', "&quot;")
+}

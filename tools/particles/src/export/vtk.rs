@@ -1,0 +1,133 @@
+//! VTK XML files with raw appended data: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
+
+use std::io::{self, Write};
+
+use super::labels::Labels;
+use super::points::{Column, Points, Values};
+
+/// Writes the points of a file as PolyData, one vertex each.
+pub fn write_points(points: &Points, time_s: f64, out: &mut dyn Write) -> io::Result<()> {
+    let is_position = |c: &&Column| c.name == "position" && c.components == 3;
+    let Some(position) = points.columns.iter().find(is_position) else {
+        return Err(io::Error::other("points without positions cannot be drawn"));
+    };
+    let n = points.rows as u64;
+    let mut document = Document::new("PolyData", time_s, "");
+    document.open(&format!(
+        "<Piece NumberOfPoints=\"{n}\" NumberOfVerts=\"{n}\" NumberOfLines=\"0\" \
+         NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>"
+    ));
+    document.column(position);
+    document.open("</Points>\n<Verts>");
+    document.array("Int64", "connectivity", 1, 8 * n);
+    document.array("Int64", "offsets", 1, 8 * n);
+    document.open("</Verts>\n<PointData>");
+    let others = || points.columns.iter().filter(|c| !is_position(c));
+    others().for_each(|column| document.column(column));
+    document.open("</PointData>\n</Piece>");
+    document.write_head(out)?;
+    append(position.values.bytes(), out)?;
+    for first in [0, 1] {
+        out.write_all(&(8 * n).to_le_bytes())?;
+        (first..first + n).try_for_each(|i| out.write_all(&i.to_le_bytes()))?;
+    }
+    others().try_for_each(|column| append(column.values.bytes(), out))?;
+    write_end(out)
+}
+
+/// Writes labels as ImageData, one cell per voxel.
+pub fn write_labels(labels: &Labels, time_s: f64, out: &mut dyn Write) -> io::Result<()> {
+    let [nx, ny, nz] = labels.dims;
+    let [x, y, z] = labels.origin_m;
+    let edge = labels.voxel_m;
+    let extent = format!("0 {nx} 0 {ny} 0 {nz}");
+    let place = format!(
+        " WholeExtent=\"{extent}\" Origin=\"{x:e} {y:e} {z:e}\" Spacing=\"{edge:e} {edge:e} {edge:e}\""
+    );
+    let len = nx as u64 * ny as u64 * nz as u64;
+    let mut document = Document::new("ImageData", time_s, &place);
+    document.open(&format!(
+        "<Piece Extent=\"{extent}\">\n<CellData Scalars=\"label\">"
+    ));
+    document.array("UInt8", "label", 1, len);
+    document.open("</CellData>\n</Piece>");
+    document.write_head(out)?;
+    out.write_all(&len.to_le_bytes())?;
+    labels.pages(|page| out.write_all(page))?;
+    write_end(out)
+}
+
+/// The XML in front of the appended bytes.
+struct Document {
+    data_set: &'static str,
+    xml: String,
+    /// Bytes of the arrays declared so far, each behind its length as u64.
+    offset: u64,
+}
+
+impl Document {
+    fn new(data_set: &'static str, time_s: f64, attributes: &str) -> Self {
+        let xml = format!(
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"{data_set}\" version=\"1.0\" byte_order=\"LittleEndian\" \
+             header_type=\"UInt64\">\n\
+             <{data_set}{attributes}>\n\
+             <FieldData>\n\
+             <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
+             format=\"ascii\">{time_s:e}</DataArray>\n\
+             </FieldData>\n"
+        );
+        Self {
+            data_set,
+            xml,
+            offset: 0,
+        }
+    }
+
+    fn open(&mut self, tags: &str) {
+        self.xml.push_str(tags);
+        self.xml.push('\n');
+    }
+
+    /// Declares the next appended array, of `len` bytes.
+    fn array(&mut self, kind: &str, name: &str, components: usize, len: u64) {
+        self.open(&format!(
+            "<DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{components}\" \
+             format=\"appended\" offset=\"{}\"/>",
+            super::plain(name),
+            self.offset
+        ));
+        self.offset += size_of::<u64>() as u64 + len;
+    }
+
+    fn column(&mut self, column: &Column) {
+        let kind = match column.values {
+            Values::F32(_) => "Float32",
+            Values::F64(_) => "Float64",
+            Values::U32(_) => "UInt32",
+            Values::U64(_) => "UInt64",
+            Values::U8(_) => "UInt8",
+        };
+        let len = column.values.bytes().len() as u64;
+        self.array(kind, column.name, column.components, len);
+    }
+
+    /// Writes the XML up to the mark behind which the arrays follow.
+    fn write_head(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Self { xml, data_set, .. } = self;
+        write!(
+            out,
+            "{xml}</{data_set}>\n<AppendedData encoding=\"raw\">\n_"
+        )
+    }
+}
+
+/// Writes an array with its length in front.
+fn append(bytes: &[u8], out: &mut dyn Write) -> io::Result<()> {
+    out.write_all(&(bytes.len() as u64).to_le_bytes())?;
+    out.write_all(bytes)
+}
+
+fn write_end(out: &mut dyn Write) -> io::Result<()> {
+    out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+}

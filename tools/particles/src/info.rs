@@ -1,0 +1,116 @@
+use std::fmt::Write;
+
+use cli::Failure;
+use particle_file::{Block, Element, Kind, Material, ParticleFile, Provenance, Section};
+
+/// What a file holds and how it was made, one fact per line.
+pub fn describe(file: &ParticleFile) -> Result<String, Failure> {
+    let mut text = String::new();
+    write(&mut text, file).map_err(Failure::failed)?;
+    Ok(text)
+}
+
+fn write(out: &mut String, file: &ParticleFile) -> std::fmt::Result {
+    let header = file.header();
+    let kind = match header.kind {
+        Kind::Specimen => "specimen",
+        Kind::Bond => "bond before pressing",
+        Kind::State => "state of a run",
+        Kind::Checkpoint => "checkpoint of a run",
+    };
+    let normal = ["x", "y", "z"]
+        .get(usize::from(header.normal))
+        .unwrap_or(&"?");
+    writeln!(out, "file        {}", file.name())?;
+    writeln!(out, "kind        {kind}")?;
+    writeln!(out, "voxel       {} um", um(header.voxel_m))?;
+    writeln!(out, "normal      {normal}")?;
+    let box_um: Vec<String> = (header.box_min_m.iter().zip(&header.box_max_m))
+        .map(|(&low, &high)| format!("{} to {}", um(low), um(high)))
+        .collect();
+    writeln!(out, "box         {} um", box_um.join(", "))?;
+    if matches!(header.kind, Kind::State | Kind::Checkpoint) {
+        writeln!(
+            out,
+            "time        {:e} s, step {}",
+            header.time_s, header.step
+        )?;
+    }
+    for block in &header.blocks {
+        write_block(out, block)?;
+    }
+    if header.particles > 0 {
+        writeln!(out, "liquid      {} points", header.particles)?;
+    }
+    for section in file
+        .sections()
+        .iter()
+        .filter(|s| s.element != Element::Bits)
+    {
+        write_array(out, section)?;
+    }
+    for (name, value) in &header.attributes {
+        writeln!(out, "attribute   {name} = {value}")?;
+    }
+    header
+        .provenance
+        .iter()
+        .try_for_each(|p| write_provenance(out, p))
+}
+
+fn write_block(out: &mut String, block: &Block) -> std::fmt::Result {
+    let material = match block.material {
+        Material::Rigid => "rigid",
+        Material::Adhesive => "adhesive",
+    };
+    let [nx, ny, nz] = block.dims;
+    let [x, y, z] = block.origin_m.map(um);
+    let all = block.dims.iter().map(|&n| n as f64).product::<f64>();
+    writeln!(
+        out,
+        "block       {}: {material}, {} of {nx} x {ny} x {nz} voxels ({:.2} %) of {} um \
+         from {x}, {y}, {z} um",
+        block.name,
+        block.count,
+        100.0 * block.count as f64 / all,
+        um(block.voxel_m),
+    )
+}
+
+fn write_array(out: &mut String, section: &Section) -> std::fmt::Result {
+    let element = match section.element {
+        Element::Bits => "bits",
+        Element::F32 => "f32",
+        Element::F64 => "f64",
+        Element::U32 => "u32",
+        Element::U64 => "u64",
+        Element::U8 => "u8",
+        Element::Blob => {
+            return writeln!(out, "blob        {}: {} bytes", section.name, section.rows);
+        }
+    };
+    writeln!(
+        out,
+        "column      {}: {} rows of {} {element}",
+        section.name, section.rows, section.components
+    )
+}
+
+fn write_provenance(out: &mut String, by: &Provenance) -> std::fmt::Result {
+    writeln!(
+        out,
+        "made by     {} {}: {}",
+        by.tool,
+        by.version,
+        by.command.join(" ")
+    )?;
+    for (path, hash) in &by.inputs {
+        writeln!(out, "  from      {path} (xxh3 {hash:016x})")?;
+    }
+    Ok(())
+}
+
+/// A length in micrometres without the digits that only rounding made.
+fn um(length_m: f64) -> f64 {
+    (length_m * 1e12).round() / 1e6
+}
