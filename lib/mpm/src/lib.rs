@@ -1,1 +1,33 @@
-//! mpm
+//! The explicit scheme: the paper's multimaterial material point method (MPM).
+//!
+//! A step reads as in [`Explicit`]'s `advance`: points to nodes, contact with the rigid bodies
+//! and sides, momentum update, contact again, velocity filter, nodes to points, stress.
+//! Equations and order: Sulsky, Chen & Schreyer (10.1016/0045-7825(94)90112-0), XPIC:
+//! Hammerquist & Nairn (10.1016/j.cma.2017.01.035), contact: Nairn, Hammerquist & Smith
+//! (10.1016/j.cma.2018.04.032).
+//!
+//! Liquid points live in tiles of 4 x 4 x 4 nodes, each point with its nearest node and its
+//! offset from it; nodes live in blocks of the same size, which exist only where liquid is.
+//! Lengths inside are in cells, masses in (density x cell^3), velocities in m/s.
+
+mod collide;
+mod contact;
+mod explicit;
+mod lanes;
+mod lattice;
+mod material;
+mod nodes;
+mod plan;
+mod saved;
+mod settings;
+mod shape;
+mod simd;
+mod step;
+mod tiles;
+mod topology;
+mod transfer;
+mod walls;
+
+pub use explicit::{Corrections, Explicit};
+pub use plan::{Limit, Plan};
+pub use settings::{Settings, ShapeFunction, VelocityUpdate};

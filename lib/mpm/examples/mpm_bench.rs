@@ -1,0 +1,134 @@
+//! Liquid particle-steps per second of the explicit scheme.
+//!
+//!     cargo run --release -p mpm --example mpm_bench -- [steps]
+//!
+//! Scene "wood": a slab of liquid between two porous voxel blocks with voxels of half a cell,
+//! eight points per cell, the upper one closing at 1 m/s, partial slip. Scene "free": the same
+//! liquid without bodies. Threads: `RAYON_NUM_THREADS`.
+
+use std::time::Instant;
+
+use mpm::{Explicit, Settings, ShapeFunction, VelocityUpdate};
+use physics::{
+    Boundary, Clamp, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene,
+    Scheme, ShearRate, StepLimit, Stop, Tait, Viscosity, VoxelBlock, WallLaw,
+};
+
+const CELL: f64 = 2.9e-6;
+const WIDTH: usize = 24;
+const WOOD: usize = 12;
+const SLAB: usize = 6;
+
+/// Lumens of 12 voxels along z with walls of 2 voxels.
+fn porous(i: usize, j: usize) -> bool {
+    i % 14 < 2 || j % 14 < 2
+}
+
+fn scene(walls: bool) -> Scene {
+    let height = 2 * WOOD + SLAB;
+    let mut points = Points::default();
+    for k in 0..2 * WIDTH {
+        for j in 2 * WOOD..2 * (WOOD + SLAB) {
+            for i in 0..2 * WIDTH {
+                points
+                    .position
+                    .push([i, j, k].map(|n| (n as f64 + 0.5) * 0.5 * CELL));
+                points.velocity.push([0.0; 3]);
+                points.volume.push(CELL.powi(3) / 8.0);
+            }
+        }
+    }
+    let voxel = [0.5 * CELL; 3];
+    let dims = [2 * WIDTH, 2 * WOOD, 2 * WIDTH];
+    let wood = |low: usize, upper: bool| {
+        VoxelBlock::from_fn([0.0, low as f64 * CELL, 0.0], voxel, dims, |i, j, _| {
+            porous(i, if upper { j } else { 2 * WOOD - 1 - j } + 5)
+        })
+    };
+    let body = |name: &str, block, motion| RigidBody {
+        name: name.into(),
+        blocks: vec![block],
+        motion,
+    };
+    let bodies = vec![
+        body("bottom", wood(0, false), Motion::Fixed),
+        body("top", wood(WOOD + SLAB, true), Motion::Clamped),
+    ];
+    Scene {
+        dimensions: Dimensions::Three,
+        grid: GridBox {
+            cell_m: CELL,
+            min_m: [0.0; 3],
+            cells: [WIDTH, height, WIDTH],
+        },
+        boundary: [Boundary::Symmetry, Boundary::Open, Boundary::Symmetry],
+        liquid: Liquid {
+            density: 1200.0,
+            tait: Tait { bulk_modulus: 1e9 },
+            viscosity: Viscosity::Newtonian(Newtonian(1.3)),
+            shear_rate: ShearRate::Paper,
+            cavitation_pressure: None,
+        },
+        points,
+        bodies: if walls { bodies } else { Vec::new() },
+        wall: WallLaw::PartialSlip {
+            influence_length_m: 0.01 * CELL,
+        },
+        gravity: [0.0; 3],
+        clamp: walls.then_some(Clamp {
+            closing_speed: 1.0,
+            max_pressure: Some(2.5e6),
+            pid: None,
+        }),
+        stop: Stop::Time(1.0),
+        bottom: walls.then_some(0),
+        top: walls.then_some(1),
+    }
+}
+
+fn main() {
+    let steps: usize = std::env::args()
+        .nth(1)
+        .map_or(400, |n| n.parse().expect("a number of steps"));
+    let threads = rayon::current_num_threads();
+    println!("scene,shape,update,threads,points,steps,million_point_steps_per_s,stages_percent");
+    for walls in [true, false] {
+        let scene = scene(walls);
+        for (shape, update) in [
+            (ShapeFunction::Gimp, VelocityUpdate::Flip),
+            (ShapeFunction::Gimp, VelocityUpdate::Xpic(5)),
+            (ShapeFunction::Gimp, VelocityUpdate::Apic),
+            (ShapeFunction::Bspline2, VelocityUpdate::Flip),
+            (ShapeFunction::Linear, VelocityUpdate::Flip),
+        ] {
+            let settings = Settings {
+                shape,
+                velocity_update: update,
+                cfl: 0.5,
+            };
+            let mut run = Explicit::new(&scene, &settings).expect("a valid scene");
+            let limit = StepLimit {
+                time_s: f64::INFINITY,
+                travel_m: f64::INFINITY,
+            };
+            run.advance(limit).expect("a sound run");
+            let start = Instant::now();
+            for _ in 0..steps {
+                run.advance(limit).expect("a sound run");
+            }
+            let wall = start.elapsed().as_secs_f64();
+            let points = scene.points.position.len();
+            let stages: Vec<String> = run
+                .stage_times()
+                .iter()
+                .map(|s| format!("{} {:.0}", s.name, 100.0 * s.wall_s / wall))
+                .collect();
+            println!(
+                "{},{shape:?},{update:?},{threads},{points},{steps},{:.2},{}",
+                if walls { "wood" } else { "free" },
+                points as f64 * steps as f64 / wall / 1e6,
+                stages.join("; ")
+            );
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! Moving the points, and keeping them out of the bodies.
+//!
+//! Contact at nodes blurs a wall over about a cell. That is not enough for wood: behind a wall
+//! one voxel thick a node's velocity is the liquid's on either side, and points seep through. So
+//! a point may not enter a solid voxel: its path is followed axis by axis, stopped at the
+//! first face, and the impulse goes to the body. Every such stop is counted.
+
+use physics::Boundary;
+
+use crate::lanes::Quad;
+use crate::lattice::Lattice;
+use crate::tiles::{Tile, base_of};
+use crate::walls::BlockShape;
+
+/// Distance (cells) from a face at which a stopped point is left: above the resolution of
+/// positions, far below anything physical.
+const STAND_OFF: f64 = 1e-5;
+
+/// A body while points move: its parts and where it is.
+pub(crate) struct Obstacle<'a> {
+    pub(crate) parts: &'a [BlockShape],
+    /// Displacement (cells) at the start and the end of the step.
+    pub(crate) from: [f64; 3],
+    pub(crate) to: [f64; 3],
+    /// Velocity, m/s.
+    pub(crate) velocity: [f32; 3],
+}
+
+/// The first point whose displacement is not a number or longer than a cell.
+pub(crate) type Fault = Option<u32>;
+
+/// Moves all points of a tile by their displacement and sorts out those that leave.
+pub(crate) fn move_points(tile: &mut Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Fault {
+    tile.lost = 0;
+    tile.hits = Default::default();
+    tile.push.fill([0.0; 3]);
+    let axes = lattice.axes();
+    let mut p = 0;
+    while p < tile.points.len() {
+        let base = tile.points.base[p];
+        let shift = tile.points.shift[p];
+        let mut d = tile.points.place[p];
+        if !(0..axes).all(|a| shift.0[a].abs() < 0.9) {
+            return Some(tile.points.id[p]);
+        }
+        for a in 0..axes {
+            d.0[a] += shift.0[a];
+        }
+        let mut node = tile.node_of(base);
+        if tile.bodies != 0 && tile.near_wall[usize::from(base)] {
+            collide(tile, p, node, &mut d, lattice, bodies);
+        }
+        let inside = settle(tile, p, &mut node, &mut d, lattice);
+        tile.points.place[p] = d;
+        if !inside {
+            tile.lost += 1;
+            tile.points.swap_remove(p);
+            continue;
+        }
+        let local: [i32; 3] = std::array::from_fn(|a| node[a] - tile.origin[a]);
+        if local[..axes].iter().all(|l| (0..4).contains(l)) {
+            tile.points.base[p] = base_of(local);
+            p += 1;
+        } else {
+            tile.leaving.push((node, tile.points.get(p)));
+            tile.points.swap_remove(p);
+        }
+    }
+    None
+}
+
+/// Finds the nearest node and applies the sides; says whether the point is still inside.
+#[inline]
+fn settle(tile: &mut Tile, p: usize, node: &mut [i32; 3], d: &mut Quad, lattice: &Lattice) -> bool {
+    for a in 0..lattice.axes() {
+        let n = lattice.cells[a];
+        let outside = (node[a] == 0 && d.0[a] < 0.0) || (node[a] == n && d.0[a] > 0.0);
+        if outside && lattice.boundary[a] == Boundary::Symmetry {
+            d.0[a] = -d.0[a];
+            tile.points.motion[p].0[a] = -tile.points.motion[p].0[a];
+        }
+        if outside && lattice.boundary[a] == Boundary::Open {
+            return false;
+        }
+        if d.0[a] >= 0.5 {
+            d.0[a] -= 1.0;
+            node[a] += 1;
+        } else if d.0[a] < -0.5 {
+            d.0[a] += 1.0;
+            node[a] -= 1;
+        }
+        if lattice.boundary[a] == Boundary::Periodic {
+            node[a] = node[a].rem_euclid(n);
+        }
+    }
+    true
+}
+
+/// Keeps point `p` out of the bodies on its way to offset `d` from `node`.
+fn collide(
+    tile: &mut Tile,
+    p: usize,
+    node: [i32; 3],
+    d: &mut Quad,
+    lattice: &Lattice,
+    bodies: &[Obstacle],
+) {
+    let start = tile.points.place[p];
+    let mass = f64::from(start.0[3]);
+    let mut hit = false;
+    for (b, body) in bodies.iter().enumerate() {
+        if tile.bodies >> b & 1 == 0 {
+            continue;
+        }
+        for part in body.parts {
+            let stops = part.sweep(node, &start, d, (&body.from, &body.to), lattice);
+            let Some(stops) = stops else { continue };
+            hit = true;
+            let v = &mut tile.points.motion[p].0;
+            for a in 0..3 {
+                // Stopped going up: no faster than the body; going down: no slower.
+                let slip = v[a] - body.velocity[a];
+                if f32::from(stops[a]) * slip > 0.0 {
+                    tile.push[b][a] += mass * f64::from(slip);
+                    v[a] = body.velocity[a];
+                }
+            }
+        }
+    }
+    if hit {
+        tile.hits.count += 1;
+        let trapped = bodies.iter().any(|body| {
+            let inside = |part: &BlockShape| part.contains(node, d, &body.to, lattice);
+            body.parts.iter().any(inside)
+        });
+        tile.hits.trapped += u64::from(trapped);
+    }
+}
+
+impl BlockShape {
+    /// Position of a point in voxels of this block displaced by `shift`.
+    fn voxels(&self, node: [i32; 3], d: &Quad, shift: &[f64; 3], lattice: &Lattice) -> [f64; 3] {
+        std::array::from_fn(|a| {
+            let mut x = f64::from(node[a]) + f64::from(d.0[a]) - shift[a] - self.origin[a];
+            if lattice.boundary[a] == Boundary::Periodic && a < lattice.axes() {
+                x = x.rem_euclid(f64::from(lattice.cells[a]));
+            }
+            x / self.voxel[a]
+        })
+    }
+
+    fn solid_at(&self, x: [f64; 3]) -> bool {
+        x.iter().all(|&x| x >= 0.0) && {
+            let [i, j, k] = x.map(|x| x as usize);
+            self.solid.solid(i, j, k)
+        }
+    }
+
+    /// Whether a point is in a solid voxel of this block displaced by `shift`.
+    pub(crate) fn contains(
+        &self,
+        node: [i32; 3],
+        d: &Quad,
+        shift: &[f64; 3],
+        lattice: &Lattice,
+    ) -> bool {
+        self.solid_at(self.voxels(node, d, shift, lattice))
+    }
+
+    /// Follows a point from `start` to `end` axis by axis and stops it before solid voxels.
+    /// Gives the directions (-1, 0, 1) in which it was stopped, `None` if it was not.
+    fn sweep(
+        &self,
+        node: [i32; 3],
+        start: &Quad,
+        end: &mut Quad,
+        (from, to): (&[f64; 3], &[f64; 3]),
+        lattice: &Lattice,
+    ) -> Option<[i8; 3]> {
+        let mut at = self.voxels(node, start, from, lattice);
+        let target = self.voxels(node, end, to, lattice);
+        if at.map(f64::floor) == target.map(f64::floor) || self.solid_at(at) {
+            return None;
+        }
+        let mut stops = [0_i8; 3];
+        for a in 0..3 {
+            let free = at[a];
+            at[a] = target[a];
+            if !self.solid_at(at) {
+                continue;
+            }
+            let up = target[a] > free;
+            stops[a] = if up { 1 } else { -1 };
+            let stand_off = STAND_OFF / self.voxel[a];
+            let stopped = if up {
+                target[a].floor() - stand_off
+            } else {
+                target[a].floor() + 1.0 + stand_off
+            };
+            at[a] = stopped;
+            end.0[a] += ((stopped - target[a]) * self.voxel[a]) as f32;
+        }
+        (stops != [0; 3]).then_some(stops)
+    }
+}

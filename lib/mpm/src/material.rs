@@ -1,0 +1,219 @@
+//! The liquid's stress at its points (paper Eqs. 1 and 2).
+
+use physics::{Liquid, Rheology, TAIT_C, Table};
+
+use crate::tiles::Points;
+
+/// Kinematic viscosity (m2/s) of a shear rate (1/s) in single precision.
+pub(crate) trait Flow: Send + Sync {
+    /// Viscosity over density.
+    fn viscosity(&self, rate: f32) -> f32;
+}
+
+/// Constant kinematic viscosity.
+pub(crate) struct Constant(f32);
+
+impl Flow for Constant {
+    #[inline(always)]
+    fn viscosity(&self, _rate: f32) -> f32 {
+        self.0
+    }
+}
+
+/// A viscosity table: value and slope in ln(rate) of every segment.
+pub(crate) struct Segments {
+    rates: Vec<f32>,
+    lines: Vec<(f32, f32)>,
+}
+
+impl Segments {
+    pub(crate) fn new(table: &Table, density: f64) -> Self {
+        let rates = table.breakpoints();
+        let value = |rate: f64| table.viscosity(rate) / density;
+        let mut lines = vec![(value(rates[0]) as f32, 0.0)];
+        for ends in rates.windows(2) {
+            let slope = (value(ends[1]) - value(ends[0])) / (ends[1] / ends[0]).ln();
+            lines.push(((value(ends[0]) - slope * ends[0].ln()) as f32, slope as f32));
+        }
+        lines.push((value(rates[rates.len() - 1]) as f32, 0.0));
+        Self {
+            rates: rates.iter().map(|&r| r as f32).collect(),
+            lines,
+        }
+    }
+}
+
+impl Flow for Segments {
+    #[inline(always)]
+    fn viscosity(&self, rate: f32) -> f32 {
+        let segment = self.rates.iter().take_while(|&&r| rate >= r).count();
+        let (value, slope) = self.lines[segment];
+        if slope == 0.0 {
+            value
+        } else {
+            value + slope * rate.ln()
+        }
+    }
+}
+
+/// The liquid's law with its constants divided by the density.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stress {
+    /// C K / rho, m2/s2.
+    stiffness: f32,
+    /// Largest tension over rho, m2/s2.
+    tension: f32,
+    /// Largest kinematic viscosity the step is stable with, m2/s.
+    pub(crate) cap: f32,
+    rate_factor: f32,
+    per_cell: f32,
+}
+
+impl Stress {
+    /// `cell` in m, `cap` the largest viscosity in Pa s.
+    pub(crate) fn new(liquid: &Liquid, cell: f64, cap: f64) -> Self {
+        Self {
+            stiffness: (TAIT_C * liquid.tait.bulk_modulus / liquid.density) as f32,
+            tension: liquid
+                .cavitation_pressure
+                .map_or(f32::INFINITY, |p| (p / liquid.density) as f32),
+            cap: (cap / liquid.density) as f32,
+            rate_factor: liquid.shear_rate.factor() as f32,
+            per_cell: (1.0 / cell) as f32,
+        }
+    }
+
+    /// Pressure over density at j = J - 1.
+    #[inline(always)]
+    pub(crate) fn pressure(&self, j: f32) -> f32 {
+        (self.stiffness * exp_m1(-j * (1.0 / TAIT_C) as f32)).max(-self.tension)
+    }
+
+    /// Volume change, shear rate and stress of the points after a step of `dt`.
+    #[inline(always)]
+    pub(crate) fn update<F: Flow>(&self, points: &mut Points, flow: &F, dt: f32) {
+        let n = points.len();
+        let gradient = &points.gradient[..n];
+        let (motion, stress) = (&mut points.motion[..n], &mut points.stress[..n]);
+        for p in 0..n {
+            let [x, y, z] = &gradient[p];
+            let trace = (x.0[0] + y.0[1] + z.0[2]) * self.per_cell;
+            let j = &mut motion[p].0[3];
+            *j += (1.0 + *j) * (dt * trace);
+            let third = trace / 3.0;
+            let xx = x.0[0] * self.per_cell - third;
+            let yy = y.0[1] * self.per_cell - third;
+            let zz = z.0[2] * self.per_cell - third;
+            let half = 0.5 * self.per_cell;
+            let xy = (x.0[1] + y.0[0]) * half;
+            let xz = (x.0[2] + z.0[0]) * half;
+            let yz = (y.0[2] + z.0[1]) * half;
+            let square = xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + xz * xz + yz * yz);
+            let rate = self.rate_factor * square.sqrt();
+            let viscosity = flow.viscosity(rate).min(self.cap);
+            let (k, p_rho) = (2.0 * viscosity, self.pressure(*j));
+            stress[p].0 = [
+                k * xx - p_rho,
+                k * yy - p_rho,
+                k * zz - p_rho,
+                k * xy,
+                k * xz,
+                k * yz,
+                rate,
+                viscosity,
+            ];
+        }
+    }
+}
+
+/// exp(x) - 1 without cancellation: a series where it is exact to rounding, else by exp.
+#[inline(always)]
+fn exp_m1(x: f32) -> f32 {
+    if x.abs() < 0.25 {
+        let tail = 1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0 + x * (1.0 / 5040.0)));
+        x + x * x * (0.5 + x * (1.0 / 6.0 + x * tail))
+    } else {
+        x.exp() - 1.0
+    }
+}
+
+impl Constant {
+    pub(crate) fn new(viscosity: f64, density: f64) -> Self {
+        Self((viscosity / density) as f32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use physics::{Newtonian, ShearRate, Tait, Viscosity};
+
+    use super::*;
+    use crate::lanes::{Oct, Quad};
+    use crate::tiles::Point;
+
+    fn liquid() -> Liquid {
+        Liquid {
+            density: 1200.0,
+            tait: Tait { bulk_modulus: 1e9 },
+            viscosity: Viscosity::Newtonian(Newtonian(1.3)),
+            shear_rate: ShearRate::Paper,
+            cavitation_pressure: None,
+        }
+    }
+
+    #[test]
+    fn tait_pressure_to_rounding() {
+        let liquid = liquid();
+        let law = Stress::new(&liquid, 2.9e-6, f64::INFINITY);
+        let mut worst = 0.0_f64;
+        for i in -600..1200 {
+            let j = f64::from(i) * 5e-4 + 1e-7;
+            let exact = liquid.tait.pressure(f64::from(j as f32));
+            worst = worst.max((f64::from(law.pressure(j as f32)) * 1200.0 / exact - 1.0).abs());
+        }
+        println!("largest relative error of the pressure for J in 0.7 to 1.6: {worst:e}");
+        assert!(worst < 2e-6);
+    }
+
+    #[test]
+    fn stress_of_compression_and_simple_shear() {
+        let liquid = liquid();
+        let cell = 2.9e-6;
+        let law = Stress::new(&liquid, cell, f64::INFINITY);
+        let flow = Constant::new(1.3, liquid.density);
+        let mut points = Points::default();
+        let point = Point {
+            id: 0,
+            place: Quad([0.0, 0.0, 0.0, 0.125]),
+            motion: Quad::ZERO,
+            stress: Oct::ZERO,
+            affine: [Quad::ZERO; 3],
+        };
+        points.push(&point, 0, false);
+        let rate = 1e5_f64;
+        // dv_x/dy = rate, and a compression that ends at j = -1e-3 after the step.
+        let (dt, squeeze) = (1e-9_f64, -1e-3 / 1e-9);
+        points.gradient[0][1].0[0] = (rate * cell) as f32;
+        points.gradient[0][2].0[2] = (squeeze * cell) as f32;
+        law.update(&mut points, &flow, dt as f32);
+        let s = points.stress[0].0.map(|s| f64::from(s) * 1200.0);
+        let p = liquid.tait.pressure(-1e-3);
+        let sigma_zz = -p + 2.0 * 1.3 * squeeze * (1.0 - 1.0 / 3.0);
+        println!("shear {} Pa, sigma_zz {} of {sigma_zz} Pa", s[3], s[2]);
+        assert!((s[3] / (1.3 * rate) - 1.0).abs() < 1e-5);
+        assert!((s[2] / sigma_zz - 1.0).abs() < 1e-5);
+        assert!((s[0] + s[1] + s[2] + 3.0 * p).abs() < 1e-5 * p.abs() + 50.0);
+    }
+
+    #[test]
+    fn segments_are_the_table() {
+        let table = Table::new(&[(1.0, 210.0), (6.3, 87.0), (40.0, 1.7), (501.0, 1.0)]).unwrap();
+        let segments = Segments::new(&table, 1200.0);
+        for i in -20..80 {
+            let rate = 10_f64.powf(f64::from(i) * 0.05);
+            let exact = table.viscosity(rate) / 1200.0;
+            let relative = f64::from(segments.viscosity(rate as f32)) / exact - 1.0;
+            assert!(relative.abs() < 2e-5, "{rate} {relative}");
+        }
+    }
+}

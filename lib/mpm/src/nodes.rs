@@ -1,0 +1,280 @@
+//! Blocks of nodes and what a step does at each node.
+
+use physics::{Rheology, WallLaw};
+
+use crate::contact::{Meeting, meeting};
+use crate::lanes::{Oct, Quad};
+use crate::lattice::{Lattice, block_node};
+use crate::tiles::Tile;
+use crate::walls::NearBody;
+
+/// One halo entry of a tile that adds to a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Source {
+    pub(crate) tile: u32,
+    pub(crate) local: u16,
+    /// Mirrored axes.
+    pub(crate) flip: u8,
+}
+
+/// 4 x 4 x 4 nodes (4 x 4 in plane strain).
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    /// Its lowest node.
+    pub(crate) origin: [i32; 3],
+    /// Where each node's sources begin in `sources`; one entry more than nodes.
+    pub(crate) first: Vec<u32>,
+    pub(crate) sources: Vec<Source>,
+    /// Mirror planes each node lies on, bit per axis.
+    planes: Vec<u8>,
+    /// v+ in lanes 0..3; the increment or v* in lanes 4..7.
+    pub(crate) velocity: Vec<Oct>,
+    /// Bodies near this block, one entry per body; filled before a step.
+    pub(crate) walls: Vec<NearBody>,
+    /// Impulse on each body in this step, density cell^3 m/s.
+    pub(crate) reaction: Vec<[f64; 3]>,
+    filter: Filtered,
+}
+
+/// What the velocity filter keeps at nodes; empty without one.
+#[derive(Clone, Debug, Default)]
+struct Filtered {
+    /// w_l of the recursion in lanes 0..3, mass in lane 3.
+    w: Vec<Quad>,
+    meetings: Vec<Option<Meeting>>,
+}
+
+/// What all nodes of a step share.
+pub(crate) struct NodeStep<'a, R> {
+    pub(crate) law: WallLaw,
+    pub(crate) rheology: &'a R,
+    /// Velocity of each body, m/s.
+    pub(crate) velocities: &'a [[f32; 3]],
+    pub(crate) separation: f32,
+    /// Gravity times dt, m/s.
+    pub(crate) fall: [f32; 3],
+    /// dt / (rho cell), m2 s/kg per cell^2 of area and unit of mass.
+    pub(crate) dt_over_mass: f64,
+    pub(crate) mode: Mode,
+}
+
+/// What the second half of a node's velocity lanes is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mode {
+    /// The increment (FLIP): points keep their own velocity, and contact before the forces
+    /// does not reach them.
+    Increment,
+    /// Nothing: points take v+.
+    Replace,
+    /// v*, the sum of the recursion from the velocity before the forces (XPIC).
+    FilterBefore,
+    /// v*, the sum of the recursion from v+ (FMPM).
+    FilterAfter,
+}
+
+impl Block {
+    pub(crate) fn new(key: u64, lattice: &Lattice, bodies: usize, filtered: bool) -> Self {
+        let origin = lattice.tile_origin(key);
+        let n = lattice.block_len();
+        let planes = (0..n).map(|i| {
+            let local = block_node(i);
+            lattice.planes(std::array::from_fn(|a| origin[a] + local[a]))
+        });
+        let filter = if filtered {
+            Filtered {
+                w: vec![Quad::ZERO; n],
+                meetings: vec![None; n],
+            }
+        } else {
+            Filtered::default()
+        };
+        Self {
+            origin,
+            first: Vec::new(),
+            sources: Vec::new(),
+            planes: planes.collect(),
+            velocity: vec![Oct::ZERO; n],
+            walls: Vec::with_capacity(bodies),
+            reaction: vec![[0.0; 3]; bodies],
+            filter,
+        }
+    }
+
+    fn sources_of(&self, node: usize) -> &[Source] {
+        &self.sources[self.first[node] as usize..self.first[node + 1] as usize]
+    }
+
+    /// w_l of the filter at a node.
+    pub(crate) fn filtered(&self, node: usize) -> Quad {
+        self.filter.w[node]
+    }
+
+    /// The body of most volume at `node`, if any is there.
+    fn body_at(&self, node: usize) -> Option<(usize, &Oct)> {
+        let mut largest: Option<(usize, &Oct)> = None;
+        for (body, near) in self.walls.iter().enumerate() {
+            let Some(value) = near.values.get(node) else {
+                continue;
+            };
+            if value.0[0] > largest.map_or(1e-6, |(_, v)| v.0[0]) {
+                largest = Some((body, value));
+            }
+        }
+        largest
+    }
+
+    /// Sums the tiles, applies contact and sides, and updates the momentum of all nodes.
+    pub(crate) fn advance<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
+        self.reaction.fill([0.0; 3]);
+        let walls = self.walls.iter().any(|w| w.near != 0);
+        for node in 0..self.velocity.len() {
+            if self.first[node] == self.first[node + 1] {
+                continue;
+            }
+            let sum = self.sum(node, |s| &tiles[s.tile as usize].local, [1, 4]);
+            let mass = sum.0[0];
+            if mass <= 0.0 {
+                self.velocity[node] = Oct::ZERO;
+                continue;
+            }
+            let found = if walls { self.body_at(node) } else { None };
+            let meeting = found.and_then(|(body, rigid)| {
+                let sums = self.sum(node, |s| &tiles[s.tile as usize].wall_local, [0, 3]);
+                let liquid = (mass, sum.0[7], &sums);
+                let velocity = step.velocities[body];
+                meeting(
+                    body,
+                    velocity,
+                    rigid,
+                    liquid,
+                    self.planes[node],
+                    step.separation,
+                )
+            });
+            self.advance_node(node, &sum, meeting, step);
+        }
+    }
+
+    /// Sum over the tiles that reach `node`; vectors begin at the lanes `vectors`.
+    fn sum<'a>(
+        &self,
+        node: usize,
+        values: impl Fn(&Source) -> &'a Vec<Oct>,
+        vectors: [usize; 2],
+    ) -> Oct {
+        let mut sum = Oct::ZERO;
+        for source in self.sources_of(node) {
+            let mut value = values(source)[usize::from(source.local)];
+            if source.flip != 0 {
+                for a in (0..3).filter(|a| source.flip & (1 << a) != 0) {
+                    value.0[vectors[0] + a] = -value.0[vectors[0] + a];
+                    value.0[vectors[1] + a] = -value.0[vectors[1] + a];
+                }
+            }
+            sum = sum.plus(value);
+        }
+        sum
+    }
+
+    fn advance_node<R: Rheology>(
+        &mut self,
+        node: usize,
+        sum: &Oct,
+        meeting: Option<Meeting>,
+        step: &NodeStep<R>,
+    ) {
+        let [mass, px, py, pz, fx, fy, fz, _] = sum.0;
+        let planes = self.planes[node];
+        let mut before = hold(planes, [px / mass, py / mass, pz / mass]);
+        let raw = before;
+        if let Some(meeting) = &meeting {
+            meeting.stop_approach(&mut before, step.law);
+            before = hold(planes, before);
+        }
+        let force = [fx, fy, fz];
+        let mut after = before;
+        for a in 0..3 {
+            after[a] += force[a] / mass + step.fall[a];
+        }
+        after = hold(planes, after);
+        let mut touching = None;
+        if let Some(meeting) = meeting {
+            let free = after;
+            let dose = step.dt_over_mass / f64::from(mass);
+            if meeting.resolve(&mut after, step.law, step.rheology, dose) {
+                after = hold(planes, after);
+                touching = Some(meeting);
+            }
+            let reaction = &mut self.reaction[meeting.body];
+            for a in 0..3 {
+                let mut impulse = free[a] - after[a];
+                if step.mode != Mode::Increment {
+                    impulse += raw[a] - before[a];
+                }
+                reaction[a] += f64::from(mass * impulse);
+            }
+        }
+        let second = match step.mode {
+            Mode::Increment => std::array::from_fn(|a| after[a] - before[a]),
+            _ => after,
+        };
+        self.velocity[node] = Oct([
+            after[0], after[1], after[2], 0.0, second[0], second[1], second[2], 0.0,
+        ]);
+        if matches!(step.mode, Mode::FilterBefore | Mode::FilterAfter) {
+            let w = if step.mode == Mode::FilterBefore {
+                before
+            } else {
+                after
+            };
+            self.filter.w[node] = Quad([w[0], w[1], w[2], mass]);
+            self.filter.meetings[node] = touching;
+        }
+    }
+
+    /// One step of the recursion w_l = (I - S+ S) w_{l-1}, added to v*. The increment of a
+    /// body's velocity is zero for l >= 2, so contact only restrains.
+    pub(crate) fn refine<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
+        for node in 0..self.velocity.len() {
+            let mass = self.filter.w[node].0[3];
+            if self.first[node] == self.first[node + 1] || mass <= 0.0 {
+                continue;
+            }
+            let mut sum = [0.0_f32; 3];
+            for source in self.sources_of(node) {
+                let value = &tiles[source.tile as usize].filter_out[usize::from(source.local)];
+                for (a, s) in sum.iter_mut().enumerate() {
+                    let flipped = source.flip & (1 << a) != 0;
+                    *s += if flipped { -value.0[a] } else { value.0[a] };
+                }
+            }
+            let old = self.filter.w[node].0;
+            let free = hold(
+                self.planes[node],
+                std::array::from_fn(|a| old[a] - sum[a] / mass),
+            );
+            let mut w = free;
+            if let Some(meeting) = &self.filter.meetings[node] {
+                meeting.restrain(&mut w, step.law);
+                w = hold(self.planes[node], w);
+                for (a, r) in self.reaction[meeting.body].iter_mut().enumerate() {
+                    *r += f64::from(mass * (free[a] - w[a]));
+                }
+            }
+            self.filter.w[node] = Quad([w[0], w[1], w[2], mass]);
+            for (a, w) in w.iter().enumerate() {
+                self.velocity[node].0[4 + a] += w;
+            }
+        }
+    }
+}
+
+/// Removes the components normal to the mirror planes of a node.
+fn hold(planes: u8, mut v: [f32; 3]) -> [f32; 3] {
+    for (a, v) in v.iter_mut().enumerate() {
+        if planes & (1 << a) != 0 {
+            *v = 0.0;
+        }
+    }
+    v
+}

@@ -1,0 +1,102 @@
+use std::fmt;
+
+use physics::{Rheology, Scene, Stop, Viscosity};
+
+use crate::settings::{Settings, VelocityUpdate};
+
+/// What sets the time step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// cell / (c + |v|): a sound wave may not cross a cell in a step.
+    Acoustic,
+    /// rho cell^2 / (8 eta): momentum may not diffuse across a cell in a step.
+    Viscous,
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Limit::Acoustic => "acoustic, cell/(c + |v|)",
+            Limit::Viscous => "viscous, rho cell^2/(8 eta)",
+        })
+    }
+}
+
+/// What an explicit run of a scene will take; cheap, nothing is allocated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// Time step at the start, s: cfl times the smaller limit.
+    pub dt_s: f64,
+    /// Which limit that is.
+    pub limit: Limit,
+    /// Acoustic limit, s.
+    pub acoustic_s: f64,
+    /// Viscous limit, s. For a viscosity table it is that of its smallest viscosity.
+    pub viscous_s: f64,
+    /// Largest viscosity the step carries, Pa s; larger ones of a table are capped and counted.
+    pub viscosity_cap: f64,
+    /// Steps to the end if the clamp keeps its full speed.
+    pub steps: u64,
+    /// Memory of points and nodes, bytes.
+    pub memory_bytes: u64,
+}
+
+impl Plan {
+    /// The plan for `scene`.
+    pub fn new(scene: &Scene, settings: &Settings) -> Self {
+        let (cell, density) = (scene.grid.cell_m, scene.liquid.density);
+        let acoustic_s = acoustic_limit(scene, scene.initial_speed(), 0.0);
+        let smallest = match &scene.liquid.viscosity {
+            Viscosity::Newtonian(law) => law.0,
+            Viscosity::Table(law) => law
+                .breakpoints()
+                .iter()
+                .map(|&rate| law.viscosity(rate))
+                .fold(f64::INFINITY, f64::min),
+        };
+        let viscous_s = density * cell * cell / (8.0 * smallest);
+        let limit = if acoustic_s < viscous_s {
+            Limit::Acoustic
+        } else {
+            Limit::Viscous
+        };
+        let dt_s = settings.cfl * acoustic_s.min(viscous_s);
+        let duration = match scene.stop {
+            Stop::Time(end) => end,
+            Stop::Closed { travel_m } => scene
+                .clamp
+                .map_or(f64::INFINITY, |clamp| travel_m / clamp.closing_speed),
+        };
+        Self {
+            dt_s,
+            limit,
+            acoustic_s,
+            viscous_s,
+            viscosity_cap: density * cell * cell / (8.0 * dt_s),
+            steps: (duration / dt_s).ceil() as u64,
+            memory_bytes: memory(scene, settings),
+        }
+    }
+}
+
+/// cell / (c + v) at the largest speed and the smallest j = J - 1 of the points; the sound
+/// speed of a Tait liquid rises as it is compressed.
+pub(crate) fn acoustic_limit(scene: &Scene, speed: f64, j: f64) -> f64 {
+    let stiffness = scene.liquid.tait.stiffness(j.min(0.0));
+    let sound = (stiffness / scene.liquid.density).sqrt();
+    scene.grid.cell_m / (sound + speed)
+}
+
+/// Bytes of points and nodes: tiles and blocks at the filling that lumens a few cells wide
+/// leave, about a quarter.
+fn memory(scene: &Scene, settings: &Settings) -> u64 {
+    let points = scene.points.position.len() as u64;
+    let affine = settings.velocity_update == VelocityUpdate::Apic;
+    let per_point = 134 + if affine { 48 } else { 0 };
+    let volume = scene.liquid_volume() / scene.grid.cell_m.powi(3);
+    let tiles = (volume / 64.0 * 4.0).ceil() as u64 + 1;
+    let bodies = scene.bodies.len() as u64;
+    let per_tile = 216 * (32 * (1 + u64::from(bodies > 0)) + 13);
+    let per_block = 64 * (48 + 56 * bodies) + 216 * 8;
+    points * per_point + tiles * (per_tile + 2 * per_block)
+}

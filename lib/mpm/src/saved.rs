@@ -1,0 +1,159 @@
+//! Saving and restoring: points in their order in memory, so that sums keep theirs.
+
+use physics::{Array, Saved};
+
+use crate::explicit::{Corrections, Explicit, State};
+use crate::lanes::{Oct, Quad};
+use crate::settings::VelocityUpdate;
+use crate::tiles::Point;
+use crate::topology::Grid;
+
+/// Integers of [`State`] in the array "counts", two words each: step, lost, stopped, trapped.
+fn words(counts: [u64; 4]) -> Vec<u32> {
+    counts
+        .iter()
+        .flat_map(|&c| [c as u32, (c >> 32) as u32])
+        .collect()
+}
+
+impl Explicit {
+    fn is_affine(&self) -> bool {
+        self.settings.velocity_update == VelocityUpdate::Apic
+    }
+
+    pub(crate) fn to_saved(&self) -> Saved {
+        let (mut id, mut node) = (Vec::new(), Vec::new());
+        let (mut place, mut motion, mut stress) = (Vec::new(), Vec::new(), Vec::new());
+        let mut affine = Vec::new();
+        for tile in &self.grid.tiles {
+            let points = &tile.points;
+            id.extend_from_slice(&points.id);
+            node.extend(
+                points
+                    .base
+                    .iter()
+                    .flat_map(|&b| tile.node_of(b).map(|n| n as u32)),
+            );
+            place.extend(points.place.iter().flat_map(|q| q.0));
+            motion.extend(points.motion.iter().flat_map(|q| q.0));
+            stress.extend(points.stress.iter().flat_map(|o| o.0));
+            affine.extend(points.affine.iter().flatten().flat_map(|q| q.0));
+        }
+        let state = &self.state;
+        let control = self.control.as_ref().map_or([0.0; 3], |c| c.state());
+        let mut clock = vec![state.time_s, state.travel_m, state.dt_s];
+        clock.extend(control);
+        let corrections = state.corrections;
+        let counts = [
+            state.step,
+            state.lost,
+            corrections.stopped,
+            corrections.trapped,
+        ];
+        let mut arrays = vec![
+            ("id", Array::U32(id)),
+            ("node", Array::U32(node)),
+            ("place", Array::F32(place)),
+            ("motion", Array::F32(motion)),
+            ("stress", Array::F32(stress)),
+            ("clock", Array::F64(clock)),
+            ("counts", Array::U32(words(counts))),
+            (
+                "displacement",
+                Array::F64(state.displacement.iter().flatten().copied().collect()),
+            ),
+        ];
+        if self.is_affine() {
+            arrays.push(("affine", Array::F32(affine)));
+        }
+        Saved(
+            arrays
+                .into_iter()
+                .map(|(name, array)| (name.to_string(), array))
+                .collect(),
+        )
+    }
+
+    pub(crate) fn take_saved(&mut self, saved: &Saved) -> Result<(), String> {
+        let points = self.saved_points(saved)?;
+        let clock = sized(saved.f64s("clock")?, 6, "clock")?;
+        let counts = sized(saved.u32s("counts")?, 8, "counts")?;
+        let bodies = self.scene.bodies.len();
+        let displacement = sized(saved.f64s("displacement")?, 3 * bodies, "displacement")?;
+        let count = |i: usize| u64::from(counts[2 * i]) | u64::from(counts[2 * i + 1]) << 32;
+        self.state = State {
+            step: count(0),
+            time_s: clock[0],
+            travel_m: clock[1],
+            dt_s: clock[2],
+            displacement: displacement
+                .chunks_exact(3)
+                .map(|d| [d[0], d[1], d[2]])
+                .collect(),
+            lost: count(1),
+            corrections: Corrections {
+                stopped: count(2),
+                trapped: count(3),
+            },
+        };
+        if let Some(control) = &mut self.control {
+            control.set_state([clock[3], clock[4], clock[5]]);
+        }
+        self.grid = Grid::like(&self.grid);
+        self.grid.insert(points);
+        self.unseen = true;
+        Ok(())
+    }
+
+    fn saved_points(&self, saved: &Saved) -> Result<Vec<([i32; 3], Point)>, String> {
+        let id = saved.u32s("id")?;
+        let n = id.len();
+        let node = sized(saved.u32s("node")?, 3 * n, "node")?;
+        let place = sized(saved.f32s("place")?, 4 * n, "place")?;
+        let motion = sized(saved.f32s("motion")?, 4 * n, "motion")?;
+        let stress = sized(saved.f32s("stress")?, 8 * n, "stress")?;
+        let affine = if self.is_affine() {
+            sized(saved.f32s("affine")?, 12 * n, "affine")?
+        } else {
+            &[]
+        };
+        let quad = |a: &[f32], i: usize| Quad([a[i], a[i + 1], a[i + 2], a[i + 3]]);
+        let cells = self.grid.lattice.cells;
+        (0..n)
+            .map(|p| {
+                let at: [i32; 3] = std::array::from_fn(|a| node[3 * p + a] as i32);
+                if (0..3).any(|a| !(0..=cells[a]).contains(&at[a])) {
+                    return Err(format!(
+                        "point {p} of the checkpoint is at node {at:?} of a grid of {cells:?} cells"
+                    ));
+                }
+                let point = Point {
+                    id: id[p],
+                    place: quad(place, 4 * p),
+                    motion: quad(motion, 4 * p),
+                    stress: Oct(std::array::from_fn(|l| stress[8 * p + l])),
+                    affine: std::array::from_fn(|a| {
+                        if affine.is_empty() {
+                            Quad::ZERO
+                        } else {
+                            quad(affine, 12 * p + 4 * a)
+                        }
+                    }),
+                };
+                Ok((at, point))
+            })
+            .collect()
+    }
+}
+
+/// `array` if it has `len` entries.
+fn sized<'a, T>(array: &'a [T], len: usize, name: &str) -> Result<&'a [T], String> {
+    if array.len() == len {
+        Ok(array)
+    } else {
+        Err(format!(
+            "array '{name}' of the checkpoint has {} entries, but this scene needs {len}",
+            array.len()
+        ))
+    }
+}

@@ -1,0 +1,75 @@
+/// Shape function between points and nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShapeFunction {
+    /// Uniform GIMP with boxes of half a cell, the paper's
+    /// (Bardenhagen & Kober, 10.3970/cmes.2004.005.477).
+    #[default]
+    Gimp,
+    /// Quadratic B-spline (Steffen, Kirby & Berzins, 10.1002/nme.2360).
+    Bspline2,
+    /// Hat function of classic MPM.
+    Linear,
+}
+
+/// How points take their velocity from the nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum VelocityUpdate {
+    /// Increment of the nodal velocity (Brackbill & Ruppel, 10.1016/0021-9991(86)90211-1).
+    #[default]
+    Flip,
+    /// Nodal velocity; XPIC(1).
+    Pic,
+    /// XPIC(m), null space filter of order m (Hammerquist & Nairn 2017).
+    Xpic(u32),
+    /// FMPM(m), approximate full mass matrix (Nairn & Hammerquist, 10.1016/j.cma.2021.113667).
+    Fmpm(u32),
+    /// Affine PIC (Jiang et al., 10.1145/2766996).
+    Apic,
+}
+
+/// What of the explicit scheme a case chooses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Shape function.
+    pub shape: ShapeFunction,
+    /// Velocity update.
+    pub velocity_update: VelocityUpdate,
+    /// Time step over the limit that binds.
+    pub cfl: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            shape: ShapeFunction::Gimp,
+            velocity_update: VelocityUpdate::Flip,
+            cfl: 0.5,
+        }
+    }
+}
+
+/// Highest order of XPIC and FMPM: beyond it the filter costs far more than the step.
+pub(crate) const MAX_ORDER: u32 = 20;
+
+impl Settings {
+    /// Says what is wrong with the settings, if anything.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        if !(self.cfl > 0.0 && self.cfl <= 1.5) {
+            return Err(format!(
+                "cfl is {}: it must be above 0 and at most 1.5",
+                self.cfl
+            ));
+        }
+        match self.velocity_update {
+            VelocityUpdate::Xpic(m) | VelocityUpdate::Fmpm(m) if m == 0 || m > MAX_ORDER => {
+                Err(format!(
+                    "the order of the velocity update is {m}: it must be 1 to {MAX_ORDER}"
+                ))
+            }
+            VelocityUpdate::Apic if self.shape == ShapeFunction::Linear => Err(
+                "velocity_update \"apic\" needs shape \"gimp\" or \"bspline2\": with \"linear\" a point on a node has no affine inertia".into(),
+            ),
+            _ => Ok(()),
+        }
+    }
+}

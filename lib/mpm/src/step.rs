@@ -1,0 +1,349 @@
+//! One time step; reads as the algorithm.
+
+use std::time::Instant;
+
+use physics::{Failure, Rheology, StepLimit, StepReport, Viscosity};
+use rayon::prelude::*;
+
+use crate::collide::move_points;
+use crate::explicit::Explicit;
+use crate::nodes::{Block, Mode, NodeStep};
+use crate::plan::acoustic_limit;
+use crate::settings::VelocityUpdate;
+use crate::tiles::{NOWHERE, Tile};
+use crate::walls::NearBody;
+
+/// Named stages whose time is reported.
+#[derive(Clone, Copy)]
+pub(crate) enum Stage {
+    Bodies,
+    PointsToNodes,
+    Nodes,
+    Filter,
+    NodesToPoints,
+    Sort,
+}
+
+impl Stage {
+    pub(crate) const COUNT: usize = 6;
+    pub(crate) const NAMES: [&'static str; Self::COUNT] = [
+        "bodies at nodes",
+        "points to nodes",
+        "contact and momentum",
+        "velocity filter",
+        "nodes to points and stress",
+        "sort and control",
+    ];
+}
+
+/// Steps between checks of the whole state, which also renew the time step.
+const CHECK_EVERY: u64 = 64;
+/// Volume ratios beyond which Eq. 1 means nothing.
+const SOUND_J: std::ops::Range<f32> = -0.7..1.0;
+
+impl Explicit {
+    pub(crate) fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
+        let mut speed = self.control.as_ref().map_or(0.0, |control| control.speed());
+        if limit.travel_m <= 0.0 {
+            speed = 0.0;
+        }
+        let mut dt = self.state.dt_s.min(limit.time_s);
+        if speed > 0.0 {
+            dt = dt.min(limit.travel_m / speed);
+        }
+        let velocities = self.body_velocities(speed);
+        let slow: Vec<[f32; 3]> = velocities.iter().map(|v| v.map(|v| v as f32)).collect();
+
+        let mut clock = Instant::now();
+        self.see_bodies();
+        self.lap(Stage::Bodies, &mut clock);
+        self.points_to_nodes(dt);
+        self.lap(Stage::PointsToNodes, &mut clock);
+        match self.scene.liquid.viscosity.clone() {
+            Viscosity::Newtonian(law) => self.nodes(dt, &slow, &law, &mut clock),
+            Viscosity::Table(law) => self.nodes(dt, &slow, &law, &mut clock),
+        }
+        let from = self.state.displacement.clone();
+        for (x, v) in self.state.displacement.iter_mut().zip(&velocities) {
+            for a in 0..3 {
+                x[a] += v[a] * dt;
+            }
+        }
+        self.nodes_to_points(dt, &from, &slow)?;
+        self.lap(Stage::NodesToPoints, &mut clock);
+        self.unseen |= self.grid.deliver();
+        self.state.step += 1;
+        self.state.time_s += dt;
+        self.state.travel_m += speed * dt;
+        let report = self.report(dt, speed);
+        self.steer(&report);
+        if self.state.step.is_multiple_of(CHECK_EVERY) {
+            self.check()?;
+        }
+        self.lap(Stage::Sort, &mut clock);
+        Ok(report)
+    }
+
+    fn lap(&mut self, stage: Stage, clock: &mut Instant) {
+        let now = Instant::now();
+        self.stage_s[stage as usize] += (now - *clock).as_secs_f64();
+        *clock = now;
+    }
+
+    /// Integrals of the bodies at the nodes, for where the bodies are now.
+    fn see_bodies(&mut self) {
+        if self.parts.is_empty() {
+            return;
+        }
+        let cell = self.scene.grid.cell_m;
+        let shifts: Vec<[f64; 3]> = self
+            .state
+            .displacement
+            .iter()
+            .map(|x| x.map(|x| x / cell))
+            .collect();
+        let (parts, integrator) = (&self.parts, &self.integrator);
+        let changed = self
+            .grid
+            .blocks
+            .par_iter_mut()
+            .map(|block| see(block, parts, &shifts, integrator))
+            .reduce(|| false, |a, b| a | b);
+        if changed || self.unseen {
+            self.unseen = false;
+            self.grid.mark_walls();
+        }
+    }
+
+    fn points_to_nodes(&mut self, dt: f64) {
+        let scale = (dt / self.scene.grid.cell_m) as f32;
+        let p2g = self.kernels.p2g;
+        self.grid
+            .tiles
+            .par_iter_mut()
+            .for_each(|tile| p2g(tile, scale));
+    }
+
+    /// Contact, sides and momentum at the nodes, then the velocity filter.
+    fn nodes<R: Rheology>(
+        &mut self,
+        dt: f64,
+        velocities: &[[f32; 3]],
+        rheology: &R,
+        clock: &mut Instant,
+    ) {
+        let (cell, density) = (self.scene.grid.cell_m, self.scene.liquid.density);
+        let mode = self.mode();
+        let law = self.scene.wall;
+        let separation = self.separation;
+        let fall = self.scene.gravity.map(|g| (g * dt) as f32);
+        let step = NodeStep {
+            law,
+            rheology,
+            velocities,
+            separation,
+            fall,
+            dt_over_mass: dt / (density * cell),
+            mode,
+        };
+        let tiles = &self.grid.tiles;
+        self.grid
+            .blocks
+            .par_iter_mut()
+            .for_each(|block| block.advance(tiles, &step));
+        self.lap(Stage::Nodes, clock);
+        if let VelocityUpdate::Xpic(order) | VelocityUpdate::Fmpm(order) =
+            self.settings.velocity_update
+        {
+            let filter = self.kernels.filter;
+            let len = self.grid.lattice.block_len();
+            for round in 2..=order {
+                let blocks = &self.grid.blocks;
+                let keep = round == 2 && mode == Mode::FilterBefore;
+                self.grid.tiles.par_iter_mut().for_each(|tile| {
+                    gather_filtered(tile, blocks, len);
+                    filter(tile, keep);
+                });
+                let tiles = &self.grid.tiles;
+                self.grid
+                    .blocks
+                    .par_iter_mut()
+                    .for_each(|block| block.refine(tiles, &step));
+            }
+            self.lap(Stage::Filter, clock);
+        }
+    }
+
+    /// Velocities, stress and positions of the points.
+    fn nodes_to_points(
+        &mut self,
+        dt: f64,
+        from: &[[f64; 3]],
+        velocities: &[[f32; 3]],
+    ) -> Result<(), Failure> {
+        let mut tiles = std::mem::take(&mut self.grid.tiles);
+        let bodies = self.obstacles(from, &self.state.displacement, velocities);
+        let (blocks, lattice) = (&self.grid.blocks, &self.grid.lattice);
+        let len = lattice.block_len();
+        let scale = (dt / self.scene.grid.cell_m) as f32;
+        let fault = tiles
+            .par_iter_mut()
+            .map(|tile| {
+                gather_velocity(tile, blocks, len);
+                (self.kernels.g2p)(tile, scale, self.settings.velocity_update);
+                self.flow.update(tile, &self.stress, dt as f32);
+                move_points(tile, lattice, &bodies)
+            })
+            .reduce(|| None, |a, b| a.or(b).map(|x| b.map_or(x, |b| b.min(x))));
+        self.grid.tiles = tiles;
+        for tile in &self.grid.tiles {
+            self.state.lost += tile.lost;
+            self.state.corrections.stopped += tile.hits.count;
+            self.state.corrections.trapped += tile.hits.trapped;
+        }
+        match fault {
+            Some(id) => Err(Failure(format!(
+                "step {}: liquid point {id} would move by more than 0.9 of a cell or has no finite velocity: the run is unstable; a smaller cfl than {} may help",
+                self.state.step + 1,
+                self.settings.cfl
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Impulse on the bodies as pressure over the bond area.
+    fn report(&self, dt: f64, speed: f64) -> StepReport {
+        let (cell, density) = (self.scene.grid.cell_m, self.scene.liquid.density);
+        let unit = density * cell.powi(3) / (dt * self.scene.grid.area_m2());
+        let force = |body: Option<usize>, sign: f64| {
+            body.map_or(0.0, |b| {
+                let nodes: f64 = self
+                    .grid
+                    .blocks
+                    .iter()
+                    .map(|block| block.reaction[b][1])
+                    .sum();
+                let points: f64 = self.grid.tiles.iter().map(|tile| tile.push[b][1]).sum();
+                sign * (nodes + points) * unit
+            })
+        };
+        StepReport {
+            dt_s: dt,
+            closing_speed: speed,
+            travel_m: self.state.travel_m,
+            pressure_bottom: force(self.scene.bottom, -1.0),
+            pressure_top: force(self.scene.top, 1.0),
+            lost: self.state.lost,
+            iterations: 0,
+        }
+    }
+
+    /// Clamp control on the mean of the two pressures, which differ by the liquid's inertia.
+    fn steer(&mut self, report: &StepReport) {
+        let pressure = match (self.scene.bottom, self.scene.top) {
+            (Some(_), Some(_)) => 0.5 * (report.pressure_bottom + report.pressure_top),
+            (Some(_), None) => report.pressure_bottom,
+            (None, Some(_)) => report.pressure_top,
+            (None, None) => return,
+        };
+        if let Some(control) = &mut self.control {
+            control.observe(pressure, report.dt_s);
+        }
+    }
+
+    /// Looks at all points: stops an unsound run and renews the time step.
+    fn check(&mut self) -> Result<(), Failure> {
+        let sound = self.scene.liquid.sound_speed();
+        let (mut fastest, mut least) = (0.0_f64, 0.0_f32);
+        for tile in &self.grid.tiles {
+            for (motion, id) in tile.points.motion.iter().zip(&tile.points.id) {
+                let [vx, vy, vz, j] = motion.0;
+                let square = f64::from(vx * vx + vy * vy + vz * vz);
+                if !(square.sqrt() < 10.0 * sound && SOUND_J.contains(&j)) {
+                    return Err(Failure(format!(
+                        "step {}: liquid point {id} has speed {:.3e} m/s and volume ratio J = {:.4}: {}",
+                        self.state.step,
+                        square.sqrt(),
+                        1.0 + j,
+                        self.cause(j)
+                    )));
+                }
+                fastest = fastest.max(square);
+                least = least.min(j);
+            }
+        }
+        let acoustic = acoustic_limit(&self.scene, fastest.sqrt(), f64::from(least));
+        self.state.dt_s = self.settings.cfl * acoustic.min(self.plan.viscous_s);
+        Ok(())
+    }
+
+    fn cause(&self, j: f32) -> String {
+        if j <= SOUND_J.start {
+            "the liquid is crushed, probably between bodies that leave it no room".into()
+        } else if j >= SOUND_J.end {
+            "the liquid is torn apart: a cavitation_pressure limits the tension it carries".into()
+        } else {
+            format!(
+                "the run is unstable; the step is {} of its {} limit and a smaller cfl may help",
+                self.settings.cfl, self.plan.limit
+            )
+        }
+    }
+}
+
+/// Brings what a block knows of the bodies to their displacements (cells); says whether the
+/// nodes within their reach changed.
+fn see(
+    block: &mut Block,
+    parts: &[Vec<crate::walls::BlockShape>],
+    shifts: &[[f64; 3]],
+    integrator: &crate::walls::Integrator,
+) -> bool {
+    let mut changed = false;
+    for (body, (parts, &shift)) in parts.iter().zip(shifts).enumerate() {
+        match block.walls.get_mut(body) {
+            None => {
+                block
+                    .walls
+                    .push(NearBody::new(parts, block.origin, shift, integrator));
+                changed = true;
+            }
+            Some(near) if near.is_stale(shift) => {
+                *near = NearBody::new(parts, block.origin, shift, integrator);
+                changed = true;
+            }
+            Some(_) => {}
+        }
+        block.walls[body].update(parts, block.origin, shift, integrator);
+    }
+    changed
+}
+
+/// Copies the nodal velocities to the halo of a tile.
+fn gather_velocity(tile: &mut Tile, blocks: &[Block], len: usize) {
+    for (value, &link) in tile.local.iter_mut().zip(&tile.links) {
+        if link != NOWHERE {
+            *value = blocks[link as usize / len].velocity[link as usize % len];
+        }
+    }
+    for (value, &flip) in tile.local.iter_mut().zip(&tile.flips) {
+        for a in (0..3).filter(|a| flip & (1 << a) != 0) {
+            value.0[a] = -value.0[a];
+            value.0[4 + a] = -value.0[4 + a];
+        }
+    }
+}
+
+/// Copies w_l of the velocity filter to the halo of a tile.
+fn gather_filtered(tile: &mut Tile, blocks: &[Block], len: usize) {
+    for (value, &link) in tile.filter_in.iter_mut().zip(&tile.links) {
+        if link != NOWHERE {
+            *value = blocks[link as usize / len].filtered(link as usize % len);
+        }
+    }
+    for (value, &flip) in tile.filter_in.iter_mut().zip(&tile.flips) {
+        for a in (0..3).filter(|a| flip & (1 << a) != 0) {
+            value.0[a] = -value.0[a];
+        }
+    }
+}

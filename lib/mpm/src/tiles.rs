@@ -1,0 +1,177 @@
+//! Liquid points, grouped by the tile of nodes that they are nearest to.
+
+use crate::lanes::{Oct, Quad};
+use crate::lattice::{HALO, Lattice, block_node};
+
+/// All that one point carries; the unit in which points move between tiles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Point {
+    pub(crate) id: u32,
+    /// Offset from the nearest node (cells) and volume at J = 1 (cells).
+    pub(crate) place: Quad,
+    /// Velocity (m/s) and j = J - 1.
+    pub(crate) motion: Quad,
+    /// Stress over density (m2/s2): xx yy zz xy xz yz, then shear rate (1/s) and viscosity
+    /// over density (m2/s).
+    pub(crate) stress: Oct,
+    /// Affine velocity field (m/s per cell): its derivative along x, y, z. APIC only.
+    pub(crate) affine: [Quad; 3],
+}
+
+/// Points of a tile in flat arrays of equal length.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Points {
+    pub(crate) id: Vec<u32>,
+    /// Where the 3 x 3 x 3 nodes of a point begin in its tile's halo.
+    pub(crate) base: Vec<u16>,
+    pub(crate) place: Vec<Quad>,
+    pub(crate) motion: Vec<Quad>,
+    pub(crate) stress: Vec<Oct>,
+    /// Empty unless APIC.
+    pub(crate) affine: Vec<[Quad; 3]>,
+    /// Scratch: displacement of this step (cells); before that S w1 of XPIC (m/s).
+    pub(crate) shift: Vec<Quad>,
+    /// Scratch: velocity gradient (m/s per cell), derivatives along x, y, z.
+    pub(crate) gradient: Vec<[Quad; 3]>,
+}
+
+impl Points {
+    pub(crate) fn len(&self) -> usize {
+        self.id.len()
+    }
+
+    pub(crate) fn push(&mut self, point: &Point, base: u16, affine: bool) {
+        self.id.push(point.id);
+        self.base.push(base);
+        self.place.push(point.place);
+        self.motion.push(point.motion);
+        self.stress.push(point.stress);
+        if affine {
+            self.affine.push(point.affine);
+        }
+        self.shift.push(Quad::ZERO);
+        self.gradient.push([Quad::ZERO; 3]);
+    }
+
+    pub(crate) fn get(&self, p: usize) -> Point {
+        Point {
+            id: self.id[p],
+            place: self.place[p],
+            motion: self.motion[p],
+            stress: self.stress[p],
+            affine: self.affine.get(p).copied().unwrap_or([Quad::ZERO; 3]),
+        }
+    }
+
+    pub(crate) fn swap_remove(&mut self, p: usize) {
+        self.id.swap_remove(p);
+        self.base.swap_remove(p);
+        self.place.swap_remove(p);
+        self.motion.swap_remove(p);
+        self.stress.swap_remove(p);
+        if !self.affine.is_empty() {
+            self.affine.swap_remove(p);
+        }
+        self.shift.swap_remove(p);
+        self.gradient.swap_remove(p);
+    }
+}
+
+/// No node: out of every point's reach.
+pub(crate) const NOWHERE: u32 = u32::MAX;
+
+/// What the collision of points with bodies did in one step, summed over a tile.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Hits {
+    pub(crate) count: u64,
+    pub(crate) trapped: u64,
+}
+
+/// A tile: points whose nearest nodes are its 4 x 4 x 4 nodes, and the values of these and the
+/// adjacent nodes while its points work on them.
+#[derive(Clone, Debug)]
+pub(crate) struct Tile {
+    pub(crate) key: u64,
+    /// Its lowest node.
+    pub(crate) origin: [i32; 3],
+    pub(crate) points: Points,
+    /// Block and node of every halo node, `block * block_len + node`, or [`NOWHERE`].
+    pub(crate) links: Vec<u32>,
+    /// Mirrored axes of every halo node; empty when no node is mirrored.
+    pub(crate) flips: Vec<u8>,
+    /// Sums over this tile's points, or nodal values gathered for them.
+    pub(crate) local: Vec<Oct>,
+    /// Sums that contact needs; empty without bodies.
+    pub(crate) wall_local: Vec<Oct>,
+    /// Nodal values in and point sums out of the velocity filter; empty without one.
+    pub(crate) filter_in: Vec<Quad>,
+    pub(crate) filter_out: Vec<Quad>,
+    /// Per window base: a body is within reach of these nodes.
+    pub(crate) near_wall: Vec<bool>,
+    /// Bodies within reach, bit b for body b.
+    pub(crate) bodies: u64,
+    /// Points that leave: target node and point, in order of departure.
+    pub(crate) leaving: Vec<([i32; 3], Point)>,
+    /// Points that left through an open side in this step.
+    pub(crate) lost: u64,
+    pub(crate) hits: Hits,
+    /// Impulse of collisions on each body in this step, density cell^3 m/s.
+    pub(crate) push: Vec<[f64; 3]>,
+}
+
+impl Tile {
+    pub(crate) fn new(key: u64, lattice: &Lattice, filtered: bool, bodies: usize) -> Self {
+        let n = lattice.halo_len();
+        Self {
+            key,
+            origin: lattice.tile_origin(key),
+            points: Points::default(),
+            links: Vec::new(),
+            flips: Vec::new(),
+            local: vec![Oct::ZERO; n],
+            wall_local: if bodies > 0 {
+                vec![Oct::ZERO; n]
+            } else {
+                Vec::new()
+            },
+            filter_in: if filtered {
+                vec![Quad::ZERO; n]
+            } else {
+                Vec::new()
+            },
+            filter_out: if filtered {
+                vec![Quad::ZERO; n]
+            } else {
+                Vec::new()
+            },
+            near_wall: vec![false; n],
+            bodies: 0,
+            leaving: Vec::new(),
+            lost: 0,
+            hits: Hits::default(),
+            push: vec![[0.0; 3]; bodies],
+        }
+    }
+
+    /// The node nearest to the points with window base `base`.
+    #[inline]
+    pub(crate) fn node_of(&self, base: u16) -> [i32; 3] {
+        let b = usize::from(base);
+        [
+            self.origin[0] + (b % HALO) as i32,
+            self.origin[1] + (b / HALO % HALO) as i32,
+            self.origin[2] + (b / (HALO * HALO)) as i32,
+        ]
+    }
+}
+
+/// Window base of the tile-local node (x, y, z), each 0..4.
+#[inline]
+pub(crate) fn base_of(local: [i32; 3]) -> u16 {
+    ((local[2] * HALO as i32 + local[1]) * HALO as i32 + local[0]) as u16
+}
+
+/// All window bases of a tile.
+pub(crate) fn bases(lattice: &Lattice) -> impl Iterator<Item = u16> {
+    (0..lattice.block_len()).map(|i| base_of(block_node(i)))
+}

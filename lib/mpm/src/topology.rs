@@ -1,0 +1,186 @@
+//! Which tiles and blocks exist and how they are linked.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use crate::lattice::{HALO, Lattice, block_index};
+use crate::nodes::{Block, Source};
+use crate::tiles::{NOWHERE, Point, Tile, base_of, bases};
+
+/// Tiles where liquid is and the blocks of nodes that it reaches, both ordered by key, which
+/// fixes the order of every sum.
+pub(crate) struct Grid {
+    pub(crate) lattice: Lattice,
+    pub(crate) tiles: Vec<Tile>,
+    pub(crate) blocks: Vec<Block>,
+    block_keys: Vec<u64>,
+    tile_of: HashMap<u64, usize>,
+    bodies: usize,
+    filtered: bool,
+    affine: bool,
+}
+
+impl Grid {
+    pub(crate) fn new(lattice: Lattice, bodies: usize, filtered: bool, affine: bool) -> Self {
+        Self {
+            lattice,
+            tiles: Vec::new(),
+            blocks: Vec::new(),
+            block_keys: Vec::new(),
+            tile_of: HashMap::new(),
+            bodies,
+            filtered,
+            affine,
+        }
+    }
+
+    /// An empty grid made like `other`.
+    pub(crate) fn like(other: &Self) -> Self {
+        Self::new(
+            other.lattice.clone(),
+            other.bodies,
+            other.filtered,
+            other.affine,
+        )
+    }
+
+    /// Adds points with their nearest nodes, making tiles as needed; says whether tiles changed.
+    pub(crate) fn insert(&mut self, points: impl IntoIterator<Item = ([i32; 3], Point)>) -> bool {
+        let mut new: BTreeMap<u64, Tile> = BTreeMap::new();
+        for (node, point) in points {
+            let key = self.lattice.tile_key(node);
+            let tile = match self.tile_of.get(&key) {
+                Some(&t) => &mut self.tiles[t],
+                None => new
+                    .entry(key)
+                    .or_insert_with(|| Tile::new(key, &self.lattice, self.filtered, self.bodies)),
+            };
+            let origin = tile.origin;
+            let base = base_of(std::array::from_fn(|a| node[a] - origin[a]));
+            tile.points.push(&point, base, self.affine);
+        }
+        if new.is_empty() {
+            return false;
+        }
+        self.tiles.retain(|tile| tile.points.len() > 0);
+        self.tiles.extend(new.into_values());
+        self.tiles.sort_by_key(|tile| tile.key);
+        self.link();
+        true
+    }
+
+    /// Delivers the points that left their tiles, in tile order; says whether tiles changed.
+    pub(crate) fn deliver(&mut self) -> bool {
+        let mut leaving = Vec::new();
+        for tile in &mut self.tiles {
+            leaving.append(&mut tile.leaving);
+        }
+        !leaving.is_empty() && self.insert(leaving)
+    }
+
+    /// Rebuilds the links between tiles and blocks.
+    fn link(&mut self) {
+        let lattice = &self.lattice;
+        self.tile_of = self
+            .tiles
+            .iter()
+            .enumerate()
+            .map(|(t, tile)| (tile.key, t))
+            .collect();
+        let mut old: HashMap<u64, Block> = self
+            .block_keys
+            .drain(..)
+            .zip(self.blocks.drain(..))
+            .collect();
+        let halos: Vec<Vec<Option<(u64, usize, u8)>>> =
+            self.tiles.iter().map(|tile| halo(tile, lattice)).collect();
+        let keys: BTreeSet<u64> = halos.iter().flatten().flatten().map(|h| h.0).collect();
+        self.block_keys = keys.into_iter().collect();
+        let n = lattice.block_len();
+        let mut index = HashMap::with_capacity(self.block_keys.len());
+        for (b, &key) in self.block_keys.iter().enumerate() {
+            index.insert(key, b);
+            self.blocks.push(
+                old.remove(&key)
+                    .unwrap_or_else(|| Block::new(key, lattice, self.bodies, self.filtered)),
+            );
+        }
+        let mut sources: Vec<Vec<(usize, Source)>> = vec![Vec::new(); self.blocks.len()];
+        for (t, (tile, halo)) in self.tiles.iter_mut().zip(&halos).enumerate() {
+            tile.links.clear();
+            tile.flips.clear();
+            for (local, place) in halo.iter().enumerate() {
+                let Some((key, node, flip)) = *place else {
+                    tile.links.push(NOWHERE);
+                    continue;
+                };
+                let b = index[&key];
+                tile.links.push((b * n + node) as u32);
+                let source = Source {
+                    tile: t as u32,
+                    local: local as u16,
+                    flip,
+                };
+                sources[b].push((node, source));
+            }
+            if halo.iter().flatten().any(|h| h.2 != 0) {
+                tile.flips = halo.iter().map(|h| h.map_or(0, |h| h.2)).collect();
+            }
+        }
+        for (block, mut list) in self.blocks.iter_mut().zip(sources) {
+            list.sort_by_key(|(node, _)| *node);
+            block.first = (0..=n as u32)
+                .map(|i| list.partition_point(|(node, _)| (*node as u32) < i) as u32)
+                .collect();
+            block.sources = list.into_iter().map(|(_, source)| source).collect();
+        }
+    }
+
+    /// Marks the cells of every tile from which a body is within reach.
+    pub(crate) fn mark_walls(&mut self) {
+        let n = self.lattice.block_len();
+        let layers = if self.lattice.three { 3 } else { 1 };
+        for tile in &mut self.tiles {
+            let mut at = vec![false; tile.links.len()];
+            tile.bodies = 0;
+            for (near, &link) in at.iter_mut().zip(&tile.links) {
+                if link == NOWHERE {
+                    continue;
+                }
+                let block = &self.blocks[link as usize / n];
+                for (body, wall) in block.walls.iter().enumerate() {
+                    if wall.near >> (link as usize % n) & 1 == 1 {
+                        *near = true;
+                        tile.bodies |= 1 << body;
+                    }
+                }
+            }
+            for base in bases(&self.lattice) {
+                let base = usize::from(base);
+                tile.near_wall[base] = (0..layers)
+                    .any(|z| (0..3).any(|y| (0..3).any(|x| at[base + (z * HALO + y) * HALO + x])));
+            }
+        }
+    }
+}
+
+/// Block key, node in the block and mirrored axes of every halo node of a tile.
+fn halo(tile: &Tile, lattice: &Lattice) -> Vec<Option<(u64, usize, u8)>> {
+    (0..lattice.halo_len())
+        .map(|local| {
+            let depth = if lattice.three {
+                (local / (HALO * HALO)) as i32 - 1
+            } else {
+                0
+            };
+            let folded = lattice.fold([
+                tile.origin[0] + (local % HALO) as i32 - 1,
+                tile.origin[1] + (local / HALO % HALO) as i32 - 1,
+                tile.origin[2] + depth,
+            ])?;
+            let key = lattice.tile_key(folded.node);
+            let origin = lattice.tile_origin(key);
+            let within = std::array::from_fn(|a| folded.node[a] - origin[a]);
+            Some((key, block_index(within), folded.flip))
+        })
+        .collect()
+}

@@ -1,0 +1,109 @@
+//! Scenes for the verification cases: PF adhesive (paper section 2.2) unless changed.
+#![allow(dead_code)] // every test file uses its own part
+
+use mpm::{Explicit, Settings, ShapeFunction, VelocityUpdate};
+use physics::{
+    Boundary, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene, Scheme,
+    ShearRate, StepLimit, StepReport, Stop, Tait, Viscosity, VoxelBlock, WallLaw,
+};
+
+/// The paper's cell, m.
+pub const CELL: f64 = 2.9e-6;
+/// PF: density (kg/m3), viscosity (Pa s), bulk modulus (Pa).
+pub const DENSITY: f64 = 1200.0;
+pub const VISCOSITY: f64 = 1.3;
+pub const MODULUS: f64 = 1e9;
+
+pub fn pf() -> Liquid {
+    Liquid {
+        density: DENSITY,
+        tait: Tait {
+            bulk_modulus: MODULUS,
+        },
+        viscosity: Viscosity::Newtonian(Newtonian(VISCOSITY)),
+        shear_rate: ShearRate::Paper,
+        cavitation_pressure: None,
+    }
+}
+
+/// An empty scene of `cells`; one cell along z means plane strain.
+pub fn scene(cells: [usize; 3], boundary: [Boundary; 3]) -> Scene {
+    Scene {
+        dimensions: if cells[2] == 1 {
+            Dimensions::Two
+        } else {
+            Dimensions::Three
+        },
+        grid: GridBox {
+            cell_m: CELL,
+            min_m: [0.0; 3],
+            cells,
+        },
+        boundary,
+        liquid: pf(),
+        points: Points::default(),
+        bodies: Vec::new(),
+        wall: WallLaw::Stick,
+        gravity: [0.0; 3],
+        clamp: None,
+        stop: Stop::Time(1.0),
+        bottom: None,
+        top: None,
+    }
+}
+
+/// Fills the box from `low` to `high` (cells) with two points per cell and axis, with the
+/// velocity `v` at their positions (cells).
+pub fn fill(scene: &mut Scene, low: [f64; 3], high: [f64; 3], v: impl Fn([f64; 3]) -> [f64; 3]) {
+    let two = scene.dimensions == Dimensions::Two;
+    let count = |a: usize| ((high[a] - low[a]) * 2.0).round() as usize;
+    let (layers, depth) = if two { (1, 1.0) } else { (count(2), 0.5) };
+    for k in 0..layers {
+        for j in 0..count(1) {
+            for i in 0..count(0) {
+                let z = if two { 0.5 } else { low[2] + 0.5 * (k as f64 + 0.5) };
+                let x = [low[0] + 0.5 * (i as f64 + 0.5), low[1] + 0.5 * (j as f64 + 0.5), z];
+                scene.points.position.push(x.map(|x| x * CELL));
+                scene.points.velocity.push(v(x));
+                scene.points.volume.push(0.25 * depth * CELL.powi(3));
+            }
+        }
+    }
+}
+
+/// A box from `low` to `high` in cells.
+pub fn solid(name: &str, low: [f64; 3], high: [f64; 3], motion: Motion) -> RigidBody {
+    RigidBody {
+        name: name.into(),
+        blocks: vec![VoxelBlock::solid_box(low.map(|x| x * CELL), high.map(|x| x * CELL))],
+        motion,
+    }
+}
+
+pub fn settings(shape: ShapeFunction, velocity_update: VelocityUpdate, cfl: f64) -> Settings {
+    Settings {
+        shape,
+        velocity_update,
+        cfl,
+    }
+}
+
+/// No event ahead.
+pub const FREE: StepLimit = StepLimit {
+    time_s: f64::INFINITY,
+    travel_m: f64::INFINITY,
+};
+
+/// Runs to `end` (s), handing every step to `see`.
+pub fn run_to(run: &mut Explicit, end: f64, mut see: impl FnMut(&Explicit, &StepReport, f64)) {
+    let mut time = 0.0;
+    while end - time > 1e-6 * end {
+        let limit = StepLimit {
+            time_s: end - time,
+            ..FREE
+        };
+        let report = run.advance(limit).expect("a sound run");
+        time += report.dt_s;
+        see(run, &report, time);
+    }
+}
