@@ -84,9 +84,9 @@ impl Specimen {
         self.size
     }
 
-    /// Labels of one page, rows of x; `None` beyond the last page.
-    pub fn page(&self, z: usize) -> Option<&[u8]> {
-        self.labels.chunks(self.size[0] * self.size[1]).nth(z)
+    /// Labels of each page in turn, x fastest.
+    pub fn pages(&self) -> impl Iterator<Item = &[u8]> {
+        self.labels.chunks(self.size[0] * self.size[1])
     }
 
     /// All labels, x fastest, then y, then z.

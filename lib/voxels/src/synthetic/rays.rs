@@ -108,7 +108,7 @@ impl Rays {
         if place.half_width - place.offset.abs() < SIDE_WALL {
             return false;
         }
-        let row = self.from_row_middle(point.l, place);
+        let row = self.offset_in_row(point.l, place);
         if 0.5 * CELL[0] - row.abs() < HALF_WALL {
             return false;
         }
@@ -121,13 +121,13 @@ impl Rays {
     pub(super) fn pits_vessel(&self, point: WoodPoint, place: &Place) -> bool {
         place.half_width > SIDE_WALL
             && in_circle(
-                self.from_row_middle(point.l, place),
+                self.offset_in_row(point.l, place),
                 place.offset,
                 PIT_RADIUS[1],
             )
     }
 
-    fn from_row_middle(&self, l: f32, place: &Place) -> f32 {
+    fn offset_in_row(&self, l: f32, place: &Place) -> f32 {
         let along = l + self.columns[place.column].phase;
         along - CELL[0] * (along / CELL[0]).round()
     }

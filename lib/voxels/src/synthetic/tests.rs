@@ -73,7 +73,7 @@ fn the_reported_porosity_is_that_of_the_labels() {
 fn fibre_lumens_measure_14_to_20_um() {
     let specimen = grow([393, 393, 24], AdhesiveSystem::PvaPf, 4);
     let [nx, ny, _] = specimen.size();
-    let page = specimen.page(12).unwrap();
+    let page = specimen.pages().nth(12).unwrap();
     let mut seen: Vec<bool> = page.iter().map(|&label| label == WOOD).collect();
     let mut diameters = Vec::new();
     for start in 0..page.len() {

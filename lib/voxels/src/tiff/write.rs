@@ -36,12 +36,7 @@ impl<W: Write> TiffWriter<W> {
     ///
     /// # Errors
     /// As [`TiffWriter::new`].
-    pub fn with_note(
-        out: W,
-        dims: [usize; 3],
-        voxel_edge: f64,
-        note: &str,
-    ) -> io::Result<Self> {
+    pub fn with_note(out: W, dims: [usize; 3], voxel_edge: f64, note: &str) -> io::Result<Self> {
         let layout = Layout::new(dims, voxel_edge, note, false)
             .filter(|layout| layout.end <= u64::from(u32::MAX))
             .or_else(|| Layout::new(dims, voxel_edge, note, true));
@@ -231,7 +226,7 @@ mod tests {
 
     fn read_back(big: bool) -> (Stack, tempfile::TempDir) {
         let dims = [5, 4, 3];
-        let layout = Layout::new(dims, 1.45e-6, big).unwrap();
+        let layout = Layout::new(dims, 1.45e-6, "", big).unwrap();
         let mut bytes = Vec::new();
         let mut writer = TiffWriter::with_layout(&mut bytes, &layout).unwrap();
         for z in 0..3_u8 {
