@@ -32,5 +32,5 @@ pub use exit::{Failure, Status};
 pub use message::{detail, note, warn};
 pub use output::Output;
 pub use progress::Progress;
-pub use provenance::{InputRecord, Record, hash_file};
+pub use provenance::{InputRecord, Record, hash_file, hash_reader};
 pub use signals::{catch_interrupts, interrupted};

@@ -73,11 +73,18 @@ impl InputRecord {
 /// # Errors
 /// The system's reason when the file cannot be read.
 pub fn hash_file(path: &Path) -> io::Result<u64> {
-    let mut file = File::open(path)?;
+    hash_reader(File::open(path)?)
+}
+
+/// XXH3-64 of all that `reader` gives.
+///
+/// # Errors
+/// The system's reason when it cannot be read.
+pub fn hash_reader(mut reader: impl Read) -> io::Result<u64> {
     let mut hasher = Xxh3Default::new();
     let mut buffer = vec![0_u8; 1 << 20];
     loop {
-        match file.read(&mut buffer)? {
+        match reader.read(&mut buffer)? {
             0 => return Ok(hasher.digest()),
             n => hasher.update(&buffer[..n]),
         }
