@@ -1,0 +1,204 @@
+//! Folders of slices, NumPy arrays and MetaImages give the same volume as a TIFF.
+
+mod common;
+
+use std::fs;
+use std::path::PathBuf;
+
+use common::*;
+use voxels::{Phases, Stack};
+
+fn slices(names: impl Fn(usize) -> String) -> (tempfile::TempDir, Vec<PathBuf>) {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = plain_pages()
+        .into_iter()
+        .enumerate()
+        .map(|(z, page)| {
+            let path = folder.path().join(names(z));
+            fs::write(&path, tiff(CLASSIC, &[page])).unwrap();
+            path
+        })
+        .collect();
+    (folder, paths)
+}
+
+#[test]
+fn slices_are_taken_in_natural_order() {
+    // 8, 9, 10, 11: unpadded numbers with a space, endings in both cases.
+    let name = |z: usize| format!("scan slice {}.{}", z + 8, ["tif", "TIF", "tiff", "TIFF"][z]);
+    let (folder, mut paths) = slices(name);
+    fs::write(folder.path().join("notes.txt"), "not a slice").unwrap();
+    assert_test_volume("folder", folder.path(), ["0", "1", "2"]);
+    paths.reverse();
+    let stack = Stack::open(&paths).unwrap();
+    assert_eq!(stack.dims(), DIMS);
+    let mut read = Vec::new();
+    for z in 0..DIMS[2] {
+        stack.read_page(z, &mut read).unwrap();
+        assert_eq!(read, page(z, |l| l));
+    }
+}
+
+#[test]
+fn slices_that_do_not_belong_together_are_refused() {
+    let (folder, _) = slices(|z| format!("{z}.tif"));
+    let open = || {
+        Stack::open(&[folder.path().to_owned()])
+            .unwrap_err()
+            .to_string()
+    };
+    fs::write(folder.path().join("7.tif"), tiff(CLASSIC, &plain_pages())).unwrap();
+    assert!(open().contains("7.tif': it holds 4 pages"), "{}", open());
+    let odd = tiff(CLASSIC, &[Page::new(3, 2, 8, vec![0; 6])]);
+    fs::write(folder.path().join("7.tif"), odd).unwrap();
+    assert!(open().contains("7.tif', page 5: it is 3 x 2"), "{}", open());
+    let missing = Stack::open(&[folder.path().join("none.tif")]).unwrap_err();
+    assert!(missing.to_string().contains("none.tif"), "{missing}");
+}
+
+/// A `.npy` file as `numpy.save` writes it.
+fn npy(version: u8, descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
+    let order = if fortran { "True" } else { "False" };
+    let mut header =
+        format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': ({shape}), }}");
+    while (header.len() + 11) % 64 != 0 {
+        header.push(' ');
+    }
+    header.push('\n');
+    let mut bytes = b"\x93NUMPY".to_vec();
+    bytes.extend([version, 0]);
+    let length = (header.len() as u32).to_le_bytes();
+    bytes.extend(&length[..if version == 1 { 2 } else { 4 }]);
+    bytes.extend(header.as_bytes());
+    bytes.extend(data);
+    bytes
+}
+
+#[test]
+fn arrays_of_every_type_and_order() {
+    let [nx, ny, nz] = DIMS;
+    let shape = format!("{nz}, {ny}, {nx}");
+    let case = |descr: &str, fortran: bool, data: Vec<u8>, labels| {
+        let (_folder, path) = stored("a.npy", &npy(1, descr, fortran, &shape, &data));
+        assert_test_volume(descr, &path, labels);
+    };
+    case("|u1", false, pages(|l| [l]).concat(), ["0", "1", "2"]);
+    case(
+        "<i2",
+        false,
+        pages(|l| (i16::from(l) * -7).to_le_bytes()).concat(),
+        ["0", "-7", "-14"],
+    );
+    case(
+        ">u4",
+        false,
+        pages(|l| (u32::from(l) << 20).to_be_bytes()).concat(),
+        ["0", "1048576", "2097152"],
+    );
+    case(
+        "<i8",
+        false,
+        pages(|l| i64::from(l).to_le_bytes()).concat(),
+        ["0", "1", "2"],
+    );
+    case(
+        "<f4",
+        false,
+        pages(|l| f32::from(l).to_le_bytes()).concat(),
+        ["0", "1", "2"],
+    );
+    // z fastest, then y.
+    let fortran: Vec<u8> = (0..nx * ny * nz)
+        .map(|i| label(i / (nz * ny), i / nz % ny, i % nz))
+        .collect();
+    case("|u1", true, fortran.clone(), ["0", "1", "2"]);
+    let doubles = fortran
+        .iter()
+        .flat_map(|l| f64::from(*l).to_le_bytes())
+        .collect();
+    case("<f8", true, doubles, ["0", "1", "2"]);
+    let (_folder, path) = stored(
+        "a.npy",
+        &npy(2, "|u1", false, &shape, &pages(|l| [l]).concat()),
+    );
+    assert_test_volume("version 2", &path, ["0", "1", "2"]);
+}
+
+#[test]
+fn damaged_arrays_are_refused() {
+    let [nx, ny, nz] = DIMS;
+    let data = pages(|l| [l]).concat();
+    let good = npy(1, "|u1", false, &format!("{nz}, {ny}, {nx}"), &data);
+    for length in 0..good.len() {
+        refusal("a.npy", &good[..length]);
+    }
+    for shape in [
+        "99999999999, 99999999999, 99999999999",
+        "5, 13, 21",
+        "0, 13, 21",
+    ] {
+        for fortran in [false, true] {
+            refusal("a.npy", &npy(1, "|u1", fortran, shape, &data));
+        }
+    }
+}
+
+#[test]
+fn meta_images_beside_and_behind_their_header() {
+    let [nx, ny, nz] = DIMS;
+    let header = |kind: &str, more: &str, file: &str| {
+        format!(
+            "ObjectType = Image\nNDims = 3\nDimSize = {nx} {ny} {nz}\nElementType = {kind}\n{more}ElementDataFile = {file}\n"
+        )
+    };
+    let raw: Vec<u8> = pages(|l| (u16::from(l) * 300).to_be_bytes()).concat();
+    let spaced =
+        "ElementByteOrderMSB = True\nElementSpacing = 1.45 1.45 1.45\nDistanceUnits = um\n";
+    let (folder, path) = stored("a.mhd", header("MET_USHORT", spaced, "a.raw").as_bytes());
+    fs::write(folder.path().join("a.raw"), &raw).unwrap();
+    assert_test_volume("beside", &path, ["0", "300", "600"]);
+    let edge = Stack::open(&[path])
+        .unwrap()
+        .voxel_size()
+        .unwrap()
+        .cube_edge();
+    assert!((edge.unwrap() - 1.45e-6).abs() < 1e-18);
+
+    let mut behind = header("MET_UCHAR", "", "LOCAL").into_bytes();
+    behind.extend(pages(|l| [l]).concat());
+    let (_folder, path) = stored("a.mha", &behind);
+    assert_test_volume("behind", &path, ["0", "1", "2"]);
+    assert!(Stack::open(&[path]).unwrap().voxel_size().is_none());
+
+    for (bad, said) in [
+        (header("MET_USHORT", "", "none.raw"), "none.raw"),
+        (header("MET_LONG_LONG", "", "a.raw"), "line 4"),
+        (
+            header("MET_UCHAR", "CompressedData = True\n", "LOCAL"),
+            "compressed",
+        ),
+        (header("MET_UCHAR", "HeaderSize = -1\n", "LOCAL"), "line 5"),
+        (header("MET_UCHAR", "", "LOCAL"), "truncated"),
+        ("NDims = 3\n".into(), "ElementDataFile"),
+    ] {
+        let sentence = refusal("a.mhd", bad.as_bytes());
+        assert!(sentence.contains(said), "{sentence}");
+    }
+}
+
+#[test]
+fn grey_values_become_phases_by_range() {
+    let (_folder, path) = stored("a.tif", &tiff(CLASSIC, &plain_pages()));
+    let grey = Phases::Grey("wood=1..1.5,adhesive=1.6..".parse().unwrap());
+    let found = segmented(&[path], &grey).unwrap();
+    let labels = |wanted| {
+        (0..DIMS[2])
+            .flat_map(|z| page(z, |l| l))
+            .filter(|l| *l == wanted)
+            .count() as u64
+    };
+    assert_eq!(
+        [found.wood.count(), found.adhesive.count()],
+        [labels(1), labels(2)]
+    );
+}
