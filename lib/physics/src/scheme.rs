@@ -166,4 +166,6 @@ pub trait Scheme {
     fn restore(&mut self, saved: &Saved) -> Result<(), String>;
     /// Wall time per stage since the start.
     fn stage_times(&self) -> Vec<StageTime>;
+    /// Named counts for the summary: how often the scheme had to step in, since the start.
+    fn counts(&self) -> Vec<(&'static str, u64)>;
 }

@@ -115,7 +115,7 @@ impl Request {
         Ok(crate::explain::text(
             &self.case,
             &self.setup,
-            &schemes::plan(&self.case, &self.setup)?,
+            &schemes::forecast(&self.case, &self.setup)?,
         ))
     }
 
@@ -137,7 +137,7 @@ impl Request {
             ..by
         };
         let started = self.start(folder, mode, &identity)?;
-        let mut scheme = schemes::build(&self.case, &self.setup)?;
+        let mut scheme = schemes::build(&self.case, &self.setup.scene)?;
         let (clock, mut history) = match started {
             Start::Resumed(clock, saved) => {
                 scheme.restore(&saved).map_err(RunFailure::Data)?;
@@ -181,6 +181,7 @@ impl Request {
                 liquid_points: scene.points.position.len() as u64,
                 initial_gap_m: self.setup.initial_gap_m,
                 stages: scheme.stage_times(),
+                counts: scheme.counts(),
                 invariants: invariants::check(scene, &scheme.liquid(), &scheme.displacements()),
                 left_out: left_out(
                     scene,

@@ -1,10 +1,100 @@
-use crate::case::Case;
+//! The scheme a case asks for, with its settings and its forecast.
+
+use mpm::{Explicit, ShapeFunction, VelocityUpdate};
+use physics::{Scene, Scheme};
+
+use crate::case::{Case, CaseError, SchemeName, ShapeName, UpdateName};
 use crate::explain::Forecast;
 use crate::request::RunFailure;
 use crate::resolve::Setup;
-pub(crate) fn plan(_: &Case, _: &Setup) -> Result<Forecast, RunFailure> {
-    Err(RunFailure::Run(String::new()))
+
+/// Highest Courant number a case may ask for.
+const DEFAULT_CFL: f64 = 0.5;
+
+/// The scheme at the start of its scene.
+pub(crate) fn build(case: &Case, scene: &Scene) -> Result<Box<dyn Scheme>, RunFailure> {
+    Ok(match case.integrator.scheme {
+        SchemeName::Explicit => {
+            Box::new(Explicit::new(scene, &explicit(case)?).map_err(RunFailure::Usage)?)
+        }
+        SchemeName::Implicit => return Err(RunFailure::Usage("implicit is not there yet".into())),
+    })
 }
-pub(crate) fn build(_: &Case, _: &Setup) -> Result<Box<dyn physics::Scheme>, RunFailure> {
-    Err(RunFailure::Run(String::new()))
+
+/// What a run is expected to take.
+pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailure> {
+    match case.integrator.scheme {
+        SchemeName::Explicit => explicit_forecast(&explicit(case)?, setup),
+        SchemeName::Implicit => Err(RunFailure::Usage("implicit is not there yet".into())),
+    }
+}
+
+fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
+    let table = &case.integrator;
+    if table.tolerance.is_some() {
+        return Err(CaseError(
+            "[integrator] tolerance is for scheme = \"implicit\" only".into(),
+        ));
+    }
+    let order = |name: &str| {
+        table.order.map(u32::from).ok_or_else(|| {
+            CaseError(format!(
+                "[integrator] velocity_update = \"{name}\" needs an order, such as order = 5"
+            ))
+        })
+    };
+    let update = table.velocity_update.unwrap_or(UpdateName::Flip);
+    if table.order.is_some() && !matches!(update, UpdateName::Xpic | UpdateName::Fmpm) {
+        return Err(CaseError(
+            "[integrator] order is for velocity_update = \"xpic\" and \"fmpm\" only".into(),
+        ));
+    }
+    Ok(mpm::Settings {
+        shape: match case.grid.shape.unwrap_or_default() {
+            ShapeName::Gimp => ShapeFunction::Gimp,
+            ShapeName::Bspline2 => ShapeFunction::Bspline2,
+            ShapeName::Linear => ShapeFunction::Linear,
+        },
+        velocity_update: match update {
+            UpdateName::Flip => VelocityUpdate::Flip,
+            UpdateName::Pic => VelocityUpdate::Pic,
+            UpdateName::Xpic => VelocityUpdate::Xpic(order("xpic")?),
+            UpdateName::Fmpm => VelocityUpdate::Fmpm(order("fmpm")?),
+            UpdateName::Apic => VelocityUpdate::Apic,
+        },
+        cfl: table.cfl.unwrap_or(DEFAULT_CFL),
+    })
+}
+
+/// Liquid particle-steps per second and thread of a scene with walls, from
+/// docs/results/bench.md; a filtered update costs about one more FLIP step per order.
+const EXPLICIT_SPEED: f64 = 5e6;
+
+fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast, RunFailure> {
+    let plan = mpm::Plan::new(&setup.scene, settings);
+    let points = setup.scene.points.position.len() as f64;
+    let filter = match settings.velocity_update {
+        VelocityUpdate::Xpic(m) | VelocityUpdate::Fmpm(m) => 1.0 + 0.5 * f64::from(m - 1),
+        _ => 1.0,
+    };
+    let mut notes = vec![format!(
+        "limits             acoustic {:.3e} s, viscous {:.3e} s; the Courant number {} is of the smaller",
+        plan.acoustic_s, plan.viscous_s, settings.cfl
+    )];
+    if setup.scene.liquid.viscosity.largest() > plan.viscosity_cap {
+        notes.push(format!(
+            "viscosity cap      {:.3} Pa s: this step carries no more, and the table goes to {} Pa s",
+            plan.viscosity_cap,
+            setup.scene.liquid.viscosity.largest()
+        ));
+    }
+    Ok(Forecast {
+        dt_s: plan.dt_s,
+        limit: plan.limit.to_string(),
+        steps: plan.steps as f64,
+        memory_bytes: plan.memory_bytes as f64,
+        seconds: plan.steps as f64 * points * filter
+            / (EXPLICIT_SPEED * rayon::current_num_threads() as f64),
+        notes,
+    })
 }

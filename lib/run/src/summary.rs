@@ -1,5 +1,7 @@
 //! `summary.json`: what a run was, did and cost.
 
+use std::collections::BTreeMap;
+
 use physics::{Diagnostics, StageTime};
 use serde::Serialize;
 
@@ -40,6 +42,8 @@ pub struct Summary {
     pub peak_memory_bytes: Option<u64>,
     /// Wall time per stage of a step, s.
     pub stages: Vec<Stage>,
+    /// How often the scheme had to step in.
+    pub counts: BTreeMap<&'static str, u64>,
     /// Checks of the final state.
     pub invariants: Invariants,
     /// What the run did not compute, and why.
@@ -62,6 +66,7 @@ pub(crate) struct Facts {
     pub liquid_points: u64,
     pub initial_gap_m: Option<f64>,
     pub stages: Vec<StageTime>,
+    pub counts: Vec<(&'static str, u64)>,
     pub invariants: Invariants,
     pub left_out: Vec<LeftOut>,
     pub provenance: serde_json::Value,
@@ -99,6 +104,7 @@ impl Summary {
                     wall_s: s.wall_s,
                 })
                 .collect(),
+            counts: facts.counts.into_iter().collect(),
             invariants: facts.invariants,
             left_out: facts.left_out,
             provenance: facts.provenance,

@@ -43,9 +43,8 @@ pub struct Grid {
     /// 2 (plane strain) or 3.
     #[serde(default = "three")]
     pub dimensions: u8,
-    /// Shape function of the explicit scheme.
-    #[serde(default)]
-    pub shape: ShapeName,
+    /// Shape function of the explicit scheme; the paper's by default.
+    pub shape: Option<ShapeName>,
     /// Material points per cell edge at the start.
     #[serde(default = "two")]
     pub points_per_direction: u8,
