@@ -322,6 +322,14 @@ impl Scheme for Explicit {
         self.take_saved(saved)
     }
 
+    fn counts(&self) -> Vec<(&'static str, u64)> {
+        let Corrections { stopped, trapped } = self.state.corrections;
+        vec![
+            ("points stopped at walls", stopped),
+            ("points trapped in walls", trapped),
+        ]
+    }
+
     fn stage_times(&self) -> Vec<StageTime> {
         Stage::NAMES
             .iter()

@@ -61,8 +61,16 @@ pub fn fill(scene: &mut Scene, low: [f64; 3], high: [f64; 3], v: impl Fn([f64; 3
     for k in 0..layers {
         for j in 0..count(1) {
             for i in 0..count(0) {
-                let z = if two { 0.5 } else { low[2] + 0.5 * (k as f64 + 0.5) };
-                let x = [low[0] + 0.5 * (i as f64 + 0.5), low[1] + 0.5 * (j as f64 + 0.5), z];
+                let z = if two {
+                    0.5
+                } else {
+                    low[2] + 0.5 * (k as f64 + 0.5)
+                };
+                let x = [
+                    low[0] + 0.5 * (i as f64 + 0.5),
+                    low[1] + 0.5 * (j as f64 + 0.5),
+                    z,
+                ];
                 scene.points.position.push(x.map(|x| x * CELL));
                 scene.points.velocity.push(v(x));
                 scene.points.volume.push(0.25 * depth * CELL.powi(3));
@@ -75,7 +83,10 @@ pub fn fill(scene: &mut Scene, low: [f64; 3], high: [f64; 3], v: impl Fn([f64; 3
 pub fn solid(name: &str, low: [f64; 3], high: [f64; 3], motion: Motion) -> RigidBody {
     RigidBody {
         name: name.into(),
-        blocks: vec![VoxelBlock::solid_box(low.map(|x| x * CELL), high.map(|x| x * CELL))],
+        blocks: vec![VoxelBlock::solid_box(
+            low.map(|x| x * CELL),
+            high.map(|x| x * CELL),
+        )],
         motion,
     }
 }
