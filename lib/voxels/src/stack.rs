@@ -1,3 +1,4 @@
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use crate::raw::RawVolume;
@@ -60,7 +61,20 @@ impl Stack {
     }
 
     fn of_file(path: &Path) -> Result<Self, Error> {
-        let source = Source::open(path)?;
+        Self::of_source(Source::open(path)?, path)
+    }
+
+    /// Opens a regular file that is open already, e.g. what a pipe was copied to; `name`
+    /// stands for it in messages.
+    ///
+    /// # Errors
+    /// As [`Stack::open`].
+    pub fn of_open_file(name: &str, file: File) -> Result<Self, Error> {
+        let source = Source::of_file(name.to_owned(), file).map_err(|e| Error::io(name, e))?;
+        Self::of_source(source, Path::new(name))
+    }
+
+    fn of_source(source: Source, path: &Path) -> Result<Self, Error> {
         let name = source.name().to_owned();
         let head = source.window(0, 512).map_err(|e| Error::io(&name, e))?;
         let (pages, voxel_size) = if tiff::is_tiff(&head) {
