@@ -3,7 +3,12 @@
 //!
 //! Lengths inside are in cells, pressures and viscosities scaled by the liquid's viscosity.
 
+pub mod fractions;
 pub mod lattice;
+pub mod operator;
+pub mod particles;
+pub mod reach;
 pub mod solids;
 pub mod solve;
+pub mod wall;
 pub mod window;

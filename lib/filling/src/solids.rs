@@ -1,10 +1,14 @@
 //! Where the rigid bodies are: point, ray and overlap queries by voxel index arithmetic.
 
+mod sweep;
+
 use std::sync::Arc;
 
 use physics::{Boundary, RigidBody, VoxelBlock};
 
 use crate::window::Domain;
+
+pub use sweep::Deflected;
 
 /// Index of a body in the scene, or [`SIDE`] or [`OPEN`].
 pub type BodyId = u8;
@@ -71,6 +75,9 @@ impl Solids {
         for axis in (0..domain.axes).filter(|&a| domain.periodic(a)) {
             let period = domain.cells[axis] as f64;
             let images = (FAR / period).ceil() as i64;
+            for block in &mut blocks {
+                block.clip(axis, period);
+            }
             let originals = blocks.clone();
             for shift in (-images..=images).filter(|&s| s != 0) {
                 blocks.extend(originals.iter().cloned().map(|mut image| {
@@ -165,6 +172,18 @@ impl Solids {
 }
 
 impl Placed {
+    /// Cuts a block of one voxel along `axis` to `0..period`, where its images must not
+    /// overlap it.
+    fn clip(&mut self, axis: usize, period: f64) {
+        if self.block.dims()[axis] == 1 {
+            let low = self.rest[axis].clamp(0.0, period);
+            let high = (self.rest[axis] + self.edge[axis]).clamp(0.0, period);
+            self.rest[axis] = low;
+            self.edge[axis] = (high - low).max(TOUCH);
+            self.origin = self.rest;
+        }
+    }
+
     fn index(&self, axis: usize, x: f64) -> Option<usize> {
         let s = (x - self.origin[axis]) / self.edge[axis];
         (s >= 0.0 && s < self.block.dims()[axis] as f64).then_some(s as usize)
