@@ -1,1 +1,29 @@
-//! metrics
+//! What is measured on a bond line: weighted and effective penetration, maps, depth
+//! profiles, agreement with an experiment, and the shear rates of a run.
+//!
+//! A [`State`] is the common view of a specimen, of a bond before pressing and of a state of
+//! a run; a [`Datum`] is what distances are measured from; the rest are functions of both.
+//! Lengths are metres, and all results are independent of the number of threads.
+
+mod compare;
+mod datum;
+mod depth_profile;
+mod error;
+mod fit;
+mod map;
+mod penetration;
+mod quantile;
+mod shear_rate;
+mod state;
+pub mod table;
+mod voxelise;
+
+pub use compare::{Agreement, compare};
+pub use datum::{Datum, Reference};
+pub use depth_profile::{DepthLayer, depth_profile};
+pub use error::Error;
+pub use map::Map;
+pub use penetration::{Penetration, Side, penetration};
+pub use quantile::Weighted;
+pub use shear_rate::{Convention, ShearRates, tube_shear_rate};
+pub use state::{Across, Adhesive, State, Wood};

@@ -1,2 +1,198 @@
-//! Placeholder until the tool lands.
-fn main() {}
+//! How far adhesive penetrated: see `lib/metrics`.
+
+mod input;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::str::FromStr;
+
+use clap::Parser;
+use cli::{Failure, InputRecord, Output, Record};
+use input::{Input, StackOptions};
+use metrics::table::{self, PenetrationRows};
+use metrics::{Datum, Map, Reference, Side, compare, depth_profile, penetration};
+use units::{Axis, Length, Quantity};
+use voxels::{Grey, Labels, Phases};
+
+/// Measure weighted and effective penetration of adhesive
+///
+/// Of a state of a run, a bond, a specimen (particle files) or straight of an image stack.
+/// WP is Eq. 6 of Hammerquist & Nairn; slab_wp_um is that of a slab of the same volume that
+/// has not penetrated.
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Examples:
+  wp-metrics run/final.mpts run/snapshots/*.mpts -o wp.csv
+  wp-metrics stack.tif --voxel 1.45um --reference plane=226.2um --map map.csv --profile depth.csv
+  wp-metrics run/final.mpts --compare specimen.mpts"
+)]
+struct Arguments {
+    /// Particle files, TIFF, .npy or .mhd stacks or folders of slices; `-` is standard input
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// What to measure from: mid (midway between the bond surfaces), adherend (the bond
+    /// surface of each side), fit (a tilted plane midway) or plane=LEN
+    #[arg(long, value_name = "WHAT", default_value = "mid", value_parser = reference)]
+    reference: Reference,
+    /// Axis across the bond: x, y or z [default: the file's, y of a stack]
+    #[arg(long, value_name = "AXIS")]
+    normal: Option<Axis>,
+    /// Where the table goes; `-` is standard output
+    #[arg(short, long, value_name = "CSV", default_value = "-")]
+    output: Output,
+    /// Write WP and volume of every column of voxels across the bond (one FILE only)
+    #[arg(long, value_name = "CSV")]
+    map: Option<Output>,
+    /// Write adhesive and filled void against depth (one FILE only)
+    #[arg(long, value_name = "CSV")]
+    profile: Option<Output>,
+    /// Add agreement with this specimen: Dice coefficient of the voxels and correlation of
+    /// the maps
+    #[arg(long, value_name = "EXPERIMENT")]
+    compare: Option<PathBuf>,
+    /// Voxel edge of stacks [default: from their metadata]
+    #[arg(long, value_name = "LEN", help_heading = "Image stacks")]
+    voxel: Option<Quantity<Length>>,
+    /// Labels of stacks, as in void=0,wood=1|2,adhesive=255 [default: guessed]
+    #[arg(long, value_name = "LABELS", help_heading = "Image stacks")]
+    labels: Option<Labels>,
+    /// Grey values of stacks, as in wood=90..170,adhesive=171..
+    #[arg(
+        long,
+        value_name = "RANGES",
+        conflicts_with = "labels",
+        help_heading = "Image stacks"
+    )]
+    grey: Option<Grey>,
+    #[command(flatten)]
+    common: cli::Common,
+}
+
+fn reference(text: &str) -> Result<Reference, String> {
+    match (text, text.strip_prefix("plane=")) {
+        ("mid", _) => Ok(Reference::Mid),
+        ("adherend", _) => Ok(Reference::Adherend),
+        ("fit", _) => Ok(Reference::Fit),
+        (_, Some(length)) => Quantity::<Length>::from_str(length)
+            .map(|length| Reference::Plane(length.si()))
+            .map_err(|e| e.to_string()),
+        _ => Err(format!(
+            "'{text}' is not a reference; accepted are mid, adherend, fit and plane=LEN"
+        )),
+    }
+}
+
+fn main() -> ExitCode {
+    cli::main(|a: &Arguments| &a.common, run)
+}
+
+fn run(arguments: Arguments) -> Result<(), Failure> {
+    if arguments.files.len() > 1 && (arguments.map.is_some() || arguments.profile.is_some()) {
+        return Err(Failure::usage(
+            "--map and --profile describe one file, but several are given: run wp-metrics on each",
+        ));
+    }
+    let options = stack_options(&arguments)?;
+    let experiment = match &arguments.compare {
+        Some(path) => Some(Input::open(path, &options)?),
+        None => None,
+    };
+    let mut record = Recorder::new(&arguments);
+    if let Some(experiment) = &experiment {
+        record.add(experiment)?;
+    }
+    let mut files = Vec::new();
+    for path in &arguments.files {
+        // A row of numbers is all that stays of a file.
+        let input = Input::open(path, &options)?;
+        record.add(&input)?;
+        files.push(measure(&input, &arguments, experiment.as_ref(), &record)?);
+    }
+    arguments.output.write_with_record(&record.finish(), |out| {
+        table::write_penetration(out, &files)
+    })
+}
+
+fn stack_options(arguments: &Arguments) -> Result<StackOptions, Failure> {
+    let voxel = arguments.voxel.map(Quantity::positive).transpose();
+    Ok(StackOptions {
+        voxel_m: voxel.map_err(Failure::usage)?.map(Quantity::si),
+        phases: match (&arguments.labels, &arguments.grey) {
+            (Some(labels), _) => Phases::Labels(labels.clone()),
+            (None, Some(grey)) => Phases::Grey(grey.clone()),
+            (None, None) => Phases::Guess,
+        },
+    })
+}
+
+/// The row of one file; writes its map and profile where they are asked for.
+fn measure(
+    input: &Input,
+    arguments: &Arguments,
+    experiment: Option<&Input>,
+    record: &Recorder,
+) -> Result<PenetrationRows, Failure> {
+    let fail = |error| input.failure(&error);
+    let state = input.state(arguments.normal)?;
+    let datum = Datum::find(arguments.reference, &state).map_err(fail)?;
+    if let Some(output) = &arguments.map {
+        let map = Map::new(&state, &datum, Side::Total);
+        output.write_with_record(&record.finish(), |out| table::write_map(out, &map))?;
+    }
+    if let Some(output) = &arguments.profile {
+        let layers = depth_profile(&state, &datum).map_err(fail)?;
+        output.write_with_record(&record.finish(), |out| {
+            table::write_depth_profile(out, &layers)
+        })?;
+    }
+    let agreement = match experiment {
+        Some(experiment) => {
+            let experiment = experiment.state(arguments.normal)?;
+            Some(compare(&state, &experiment).map_err(fail)?)
+        }
+        None => None,
+    };
+    Ok(PenetrationRows {
+        file: input.name.clone(),
+        reference: arguments.reference,
+        sides: penetration(&state, &datum),
+        agreement,
+    })
+}
+
+/// Collects what the outputs were made from. Hashing reads every input whole, so it is done
+/// only when an output is a file, beside which a record can stand.
+struct Recorder {
+    wanted: bool,
+    inputs: Vec<InputRecord>,
+}
+
+impl Recorder {
+    fn new(arguments: &Arguments) -> Self {
+        let outputs = [
+            Some(&arguments.output),
+            arguments.map.as_ref(),
+            arguments.profile.as_ref(),
+        ];
+        Self {
+            wanted: outputs.into_iter().flatten().any(|o| *o != Output::Stdout),
+            inputs: Vec::new(),
+        }
+    }
+
+    fn add(&mut self, input: &Input) -> Result<(), Failure> {
+        if self.wanted {
+            self.inputs.extend(input.records()?);
+        }
+        Ok(())
+    }
+
+    fn finish(&self) -> Record {
+        Record::new(
+            env!("CARGO_PKG_NAME"),
+            env!("CARGO_PKG_VERSION"),
+            self.inputs.clone(),
+        )
+    }
+}

@@ -1,0 +1,182 @@
+use bondline::Placed;
+use particle_file::{BitGrid, BitsRef};
+
+use crate::voxelise::Voxeliser;
+use crate::{Adhesive, Datum, Error, Map, Reference, Side, State, Wood};
+
+/// How well a state agrees with an experiment on the same wood.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Agreement {
+    /// Which side.
+    pub side: Side,
+    /// Dice coefficient of the adhesive voxels, 2 |A and B| / (|A| + |B|), 0 to 1; NaN when
+    /// both are empty.
+    pub dice: f64,
+    /// Pearson correlation of the WP maps over the columns where both hold adhesive; NaN when
+    /// fewer than two do or one map is constant.
+    pub map_correlation: f64,
+}
+
+/// Compares a state with the experiment that its wood comes from.
+///
+/// Each side is compared in the frame of its adherend: liquid on the top side moves back with
+/// the top adherend by what remains of the gap, so that a lumen is compared with itself even
+/// when the bond did not close. What is then beyond the experiment's bond plane, i.e. the film
+/// that remains between parted adherends, is left out of the overlap; maps hold everything,
+/// each about its own mid-plane. A bond trimmed to whole cells is compared over its own width.
+///
+/// # Errors
+/// Two states that are not of the same voxels, and the errors of [`Datum::find`].
+pub fn compare(state: &State, experiment: &State) -> Result<[Agreement; 3], Error> {
+    let (Wood::Whole(wood), Adhesive::Voxels(adhesive)) = (experiment.wood, experiment.adhesive)
+    else {
+        return Err(Error::Usage(
+            "the experiment to compare with is no specimen: wood and adhesive voxels of one stack are needed".into(),
+        ));
+    };
+    same_voxels(state, experiment)?;
+    let ours = Datum::find(Reference::Mid, state)?;
+    let theirs = Datum::find(Reference::Mid, experiment)?;
+    let frame = Frame::new(state, experiment, adhesive, &ours, &theirs);
+    let overlaps = [Side::Bottom, Side::Top].map(|side| frame.overlap(side, wood.bits));
+    let dice = |common: u64, sizes: u64| 2.0 * common as f64 / sizes as f64;
+    let [(b, bottom), (t, top)] = overlaps;
+    Ok(Side::ALL.map(|side| Agreement {
+        side,
+        dice: match side {
+            Side::Bottom => dice(b, bottom),
+            Side::Top => dice(t, top),
+            Side::Total => dice(b + t, bottom + top),
+        },
+        map_correlation: correlation(
+            &Map::new(state, &ours, side),
+            &Map::new(experiment, &theirs, side),
+        ),
+    }))
+}
+
+fn same_voxels(state: &State, experiment: &State) -> Result<(), Error> {
+    let (ours, theirs) = (state.across(), experiment.across());
+    let same = |a: f64, b: f64| (a - b).abs() < 1e-3 * experiment.voxel_m;
+    let fits = state.normal == experiment.normal
+        && same(1e3 * state.voxel_m, 1e3 * experiment.voxel_m)
+        && (0..2).all(|a| same(ours.min_m[a], theirs.min_m[a]))
+        && (0..2).all(|a| ours.columns[a] <= theirs.columns[a]);
+    if fits {
+        return Ok(());
+    }
+    let describe = |s: &State| {
+        let across = s.across();
+        format!(
+            "{:?} columns of {:.4} um across {}",
+            across.columns,
+            1e6 * s.voxel_m,
+            s.normal
+        )
+    };
+    Err(Error::Usage(format!(
+        "it has {} but the experiment {}: the specimen that the bond was built from is needed",
+        describe(state),
+        describe(experiment)
+    )))
+}
+
+/// The voxels of the experiment and where the state's adhesive is among them.
+struct Frame<'a> {
+    state: &'a State<'a>,
+    datum: &'a Datum,
+    adhesive: Placed<'a>,
+    /// Index of the normal.
+    n: usize,
+    /// Layers below the bond plane.
+    plane: usize,
+    /// How far the top adherend is from its place, m.
+    parted: f64,
+    /// Voxels compared along x, y, z.
+    reach: [usize; 3],
+}
+
+impl<'a> Frame<'a> {
+    fn new(
+        state: &'a State,
+        experiment: &State,
+        adhesive: Placed<'a>,
+        ours: &'a Datum,
+        theirs: &Datum,
+    ) -> Self {
+        let n = experiment.normal.index();
+        let height = theirs.plane_m(Side::Total) - adhesive.origin_m[n];
+        let across = state.across();
+        let mut reach = adhesive.bits.dims();
+        for (axis, columns) in across.axes.into_iter().zip(across.columns) {
+            reach[axis.index()] = columns;
+        }
+        Self {
+            state,
+            datum: ours,
+            adhesive,
+            n,
+            plane: (height / adhesive.voxel_m + 1e-6).floor() as usize,
+            parted: match state.wood {
+                Wood::Parted { bottom, top } => top.origin_m[n] - bottom.max_m()[n],
+                _ => 0.0,
+            },
+            reach,
+        }
+    }
+
+    fn is_on(&self, side: Side, layer: usize) -> bool {
+        (layer < self.plane) == (side == Side::Bottom)
+    }
+
+    /// Voxels that hold adhesive on `side` in both, and the sum of those in each.
+    fn overlap(&self, side: Side, wood: BitsRef) -> (u64, u64) {
+        let ours = self.voxels(side, wood);
+        let theirs = BitGrid::from_fn(self.reach, |x, y, z| {
+            self.is_on(side, [x, y, z][self.n]) && self.adhesive.bits.get(x, y, z)
+        });
+        let common = ours.iter().filter(|v| theirs.get(v[0], v[1], v[2])).count();
+        (common as u64, ours.len() as u64 + theirs.count())
+    }
+
+    /// The voxels that the state's adhesive on `side` fills, in the frame of the adherend.
+    fn voxels(&self, side: Side, wood: BitsRef) -> Vec<[usize; 3]> {
+        let voxel = self.adhesive.voxel_m;
+        let mut fill = Voxeliser::new(self.reach);
+        let mut volume = 0.0;
+        self.state.for_each_parcel(|mut point, v| {
+            if self.datum.depth(point).0 != side {
+                return;
+            }
+            if side == Side::Top {
+                point[self.n] -= self.parted;
+            }
+            let place = std::array::from_fn(|a| (point[a] - self.adhesive.origin_m[a]) / voxel);
+            if self.is_on(side, place[self.n].max(0.0) as usize) {
+                let v = v / voxel.powi(3);
+                fill.add(place, v);
+                volume += v;
+            }
+        });
+        fill.fullest(volume.round() as usize, |[x, y, z]| {
+            self.is_on(side, [x, y, z][self.n]) && !wood.get(x, y, z)
+        })
+    }
+}
+
+/// Pearson correlation of two maps over the columns of the first where both hold adhesive.
+fn correlation(a: &Map, b: &Map) -> f64 {
+    let [columns, rows] = a.across.columns;
+    let width = b.across.columns[0];
+    let pairs: Vec<(f64, f64)> = (0..columns * rows)
+        .filter_map(|c| Some((a.wp_m(c)?, b.wp_m(c / columns * width + c % columns)?)))
+        .collect();
+    let n = pairs.len() as f64;
+    let mean_a = pairs.iter().map(|p| p.0).sum::<f64>() / n;
+    let mean_b = pairs.iter().map(|p| p.1).sum::<f64>() / n;
+    let sum = |f: fn(f64, f64) -> f64| -> f64 {
+        let deviations = pairs.iter().map(|p| f(p.0 - mean_a, p.1 - mean_b));
+        deviations.sum()
+    };
+    sum(|x, y| x * y) / (sum(|x, _| x * x) * sum(|_, y| y * y)).sqrt()
+}

@@ -1,0 +1,143 @@
+use std::fmt;
+
+use bondline::surface;
+use units::Axis;
+
+use crate::fit::{self, Plane};
+use crate::penetration::Side;
+use crate::{Error, State, Wood};
+
+/// What penetration is measured from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reference {
+    /// The level midway between the bond surfaces of the two adherends, where they are now.
+    /// In a scanned specimen this is the bond plane.
+    Mid,
+    /// The bond surface of the adherend on each side, where it is now; what lies between the
+    /// surfaces has not penetrated at all.
+    Adherend,
+    /// A given level, m.
+    Plane(f64),
+    /// The plane, possibly tilted, that best fits the middle between the surfaces.
+    Fit,
+}
+
+impl fmt::Display for Reference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Reference::Mid => "mid",
+            Reference::Adherend => "adherend",
+            Reference::Plane(_) => "plane",
+            Reference::Fit => "fit",
+        })
+    }
+}
+
+/// A [`Reference`] found in a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Datum {
+    /// Levels along the normal, m.
+    Level {
+        /// The axis across the bond.
+        normal: Axis,
+        /// Zero of the bottom side.
+        bottom: f64,
+        /// Zero of the top side; not below `bottom`.
+        top: f64,
+    },
+    /// A tilted plane.
+    Tilted(Plane),
+}
+
+impl Datum {
+    /// Finds `reference` in `state`.
+    ///
+    /// # Errors
+    /// No bond line to be found, or no wood: [`Reference::Plane`] is then the way out.
+    pub fn find(reference: Reference, state: &State) -> Result<Self, Error> {
+        let normal = state.normal;
+        let level = |bottom, top| Datum::Level {
+            normal,
+            bottom,
+            top,
+        };
+        if let Reference::Plane(plane) = reference {
+            return Ok(level(plane, plane));
+        }
+        let [bottom, top] = bond_surfaces(state)?;
+        let middle = 0.5 * (bottom + top);
+        match reference {
+            Reference::Adherend => Ok(level(bottom, top)),
+            Reference::Fit => fit::plane(state, middle).map(Datum::Tilted),
+            _ => Ok(level(middle, middle)),
+        }
+    }
+
+    /// On which side of the bond `point` is, and its distance (m) from the zero of that side.
+    pub fn depth(&self, point: [f64; 3]) -> (Side, f64) {
+        match self {
+            Datum::Level { normal, .. } => self.depth_of_level(point[normal.index()]),
+            Datum::Tilted(plane) => {
+                let distance = plane.distance(point);
+                (Side::of(distance), distance.abs())
+            }
+        }
+    }
+
+    /// [`Datum::depth`] of any point at this coordinate along the normal; of a tilted plane,
+    /// at the centre of the bond area.
+    pub fn depth_of_level(&self, coordinate: f64) -> (Side, f64) {
+        let side = Side::of(coordinate - self.plane_m(Side::Total));
+        let zero = self.plane_m(side);
+        let beyond = match side {
+            Side::Bottom => zero - coordinate,
+            _ => coordinate - zero,
+        };
+        (side, beyond.max(0.0))
+    }
+
+    /// The coordinate (m) along the normal that depths on `side` are measured from; for both
+    /// sides together the one that separates them; of a tilted plane, at the centre of the
+    /// bond area.
+    pub fn plane_m(&self, side: Side) -> f64 {
+        match (self, side) {
+            (Datum::Level { bottom, .. }, Side::Bottom) => *bottom,
+            (Datum::Level { top, .. }, Side::Top) => *top,
+            (Datum::Level { bottom, top, .. }, Side::Total) => 0.5 * (bottom + top),
+            (Datum::Tilted(plane), _) => plane.centre_m(),
+        }
+    }
+}
+
+/// Levels (m) of the bond surfaces of the bottom and the top adherend.
+fn bond_surfaces(state: &State) -> Result<[f64; 2], Error> {
+    let n = state.normal.index();
+    let no_wood = |which: &str| {
+        Error::Usage(format!(
+            "there is no {which} to measure from; give the level with --reference plane=LEN"
+        ))
+    };
+    match state.wood {
+        Wood::None => Err(no_wood("wood")),
+        Wood::Whole(wood) => {
+            let crate::Adhesive::Voxels(adhesive) = state.adhesive else {
+                return Err(no_wood("bottom and top adherend"));
+            };
+            let specimen = bondline::Specimen::new(wood, adhesive)?;
+            let line = bondline::find(&specimen.profile(state.normal))?;
+            let at = |layers: usize| wood.origin_m[n] + layers as f64 * wood.voxel_m;
+            Ok([at(line.bottom), at(line.top)])
+        }
+        Wood::Parted { bottom, top } => {
+            let mut below = bottom.bits.counts_along(n);
+            below.reverse();
+            let above = top.bits.counts_along(n);
+            let bare_below = surface(&below).ok_or_else(|| no_wood("bottom adherend"))?;
+            let bare_above = surface(&above).ok_or_else(|| no_wood("top adherend"))?;
+            Ok([
+                bottom.max_m()[n] - bare_below as f64 * bottom.voxel_m,
+                top.origin_m[n] + bare_above as f64 * top.voxel_m,
+            ])
+        }
+    }
+}

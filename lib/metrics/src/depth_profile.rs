@@ -1,0 +1,148 @@
+use crate::{Adhesive, Datum, Error, Side, State, Wood};
+
+/// Adhesive in the layers of one voxel at a distance from the bond line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthLayer {
+    /// Middle of the layer, m; negative in the bottom adherend.
+    pub depth_m: f64,
+    /// Volume of adhesive over that of the layer.
+    pub adhesive_fraction: f64,
+    /// Volume of adhesive over that of the layer outside wood (Hass et al.); NaN where all
+    /// is wood.
+    pub filled_void_fraction: f64,
+}
+
+/// The adhesive against depth, from the far side of the bottom to that of the top adherend.
+///
+/// Layers are one voxel thick and begin at the reference; a voxel or material point is spread
+/// evenly over one voxel along the normal, so that a reference between voxel faces and an
+/// adherend between them need no rounding. With [`crate::Reference::Adherend`] what lies
+/// between the two bond surfaces is in no layer.
+///
+/// # Errors
+/// A tilted reference, which has no layers.
+pub fn depth_profile(state: &State, datum: &Datum) -> Result<Vec<DepthLayer>, Error> {
+    if matches!(datum, Datum::Tilted(_)) {
+        return Err(Error::Usage(
+            "--profile counts layers, which a fitted, tilted plane does not have; use --reference mid, adherend or plane=LEN".into(),
+        ));
+    }
+    let n = state.normal.index();
+    let [low, high] = extent(state);
+    let voxel = state.voxel_m;
+    let mut layers = Layers::new(datum, low, high, voxel);
+    // A thin wall of the specimen counts as a block of its full layers.
+    layers.add_span(low, high, 1.0, |l| &mut l.thickness);
+    for block in state.wood_blocks() {
+        let unit = block.voxel_m.powi(3) / state.area_m2() / block.voxel_m;
+        for (layer, count) in block.bits.counts_along(n).into_iter().enumerate() {
+            let at = block.origin_m[n] + layer as f64 * block.voxel_m;
+            let fraction = count as f64 * unit;
+            layers.add_span(at, at + block.voxel_m, fraction, |l| &mut l.wood);
+        }
+    }
+    match state.adhesive {
+        Adhesive::Voxels(block) => {
+            let unit = block.voxel_m.powi(3) / state.area_m2() / block.voxel_m;
+            for (layer, count) in block.bits.counts_along(n).into_iter().enumerate() {
+                let at = block.origin_m[n] + layer as f64 * block.voxel_m;
+                let fraction = count as f64 * unit;
+                layers.add_span(at, at + block.voxel_m, fraction, |l| &mut l.adhesive);
+            }
+        }
+        Adhesive::Points { position, volume } => {
+            for (p, &v) in position.iter().zip(volume) {
+                let at = f64::from(p[n]) - 0.5 * voxel;
+                let fraction = f64::from(v) / state.area_m2() / voxel;
+                layers.add_span(at, at + voxel, fraction, |l| &mut l.adhesive);
+            }
+        }
+    }
+    Ok(layers.finish())
+}
+
+/// From the low face of the bottom to the high face of the top adherend, m.
+fn extent(state: &State) -> [f64; 2] {
+    let n = state.normal.index();
+    match state.wood {
+        Wood::None => [state.box_min_m[n], state.box_max_m[n]],
+        Wood::Whole(wood) => [wood.origin_m[n], wood.max_m()[n]],
+        Wood::Parted { bottom, top } => [bottom.origin_m[n], top.max_m()[n]],
+    }
+}
+
+/// Thicknesses (m) that specimen, wood and adhesive would have in a layer if spread over the
+/// whole bond area.
+#[derive(Clone, Copy, Default)]
+struct Layer {
+    thickness: f64,
+    wood: f64,
+    adhesive: f64,
+}
+
+/// Layers on both sides of a level datum, each counted away from it.
+struct Layers<'a> {
+    datum: &'a Datum,
+    voxel: f64,
+    bottom: Vec<Layer>,
+    top: Vec<Layer>,
+}
+
+impl<'a> Layers<'a> {
+    fn new(datum: &'a Datum, low: f64, high: f64, voxel: f64) -> Self {
+        let count = |thickness: f64| (thickness / voxel - 1e-6).ceil().max(0.0) as usize;
+        let [bottom, top] = [
+            count(datum.plane_m(Side::Bottom) - low),
+            count(high - datum.plane_m(Side::Top)),
+        ];
+        Self {
+            datum,
+            voxel,
+            bottom: vec![Layer::default(); bottom],
+            top: vec![Layer::default(); top],
+        }
+    }
+
+    /// Spreads `fraction` of the bond area over `from` to `to` (m along the normal).
+    fn add_span(
+        &mut self,
+        from: f64,
+        to: f64,
+        fraction: f64,
+        what: impl Fn(&mut Layer) -> &mut f64,
+    ) {
+        let bottom = self.datum.plane_m(Side::Bottom);
+        let top = self.datum.plane_m(Side::Top);
+        let spans = [
+            (&mut self.bottom, bottom - to, bottom - from),
+            (&mut self.top, from - top, to - top),
+        ];
+        for (layers, near, far) in spans {
+            let first = (near / self.voxel).floor().max(0.0) as usize;
+            let last = (far / self.voxel).ceil().max(0.0) as usize;
+            for layer in first..last.min(layers.len()) {
+                let [low, high] = [layer, layer + 1].map(|l| l as f64 * self.voxel);
+                let overlap = far.min(high) - near.max(low);
+                *what(&mut layers[layer]) += fraction * overlap.max(0.0);
+            }
+        }
+    }
+
+    fn finish(self) -> Vec<DepthLayer> {
+        let voxel = self.voxel;
+        let layer = |sign: f64| {
+            move |(index, layer): (usize, &Layer)| DepthLayer {
+                depth_m: sign * (index as f64 + 0.5) * voxel,
+                adhesive_fraction: layer.adhesive / layer.thickness,
+                filled_void_fraction: match layer.thickness - layer.wood {
+                    void if void > 1e-9 * voxel => layer.adhesive / void,
+                    _ => f64::NAN,
+                },
+            }
+        };
+        let bottom = self.bottom.iter().enumerate().rev().map(layer(-1.0));
+        bottom
+            .chain(self.top.iter().enumerate().map(layer(1.0)))
+            .collect()
+    }
+}

@@ -1,0 +1,142 @@
+use units::Axis;
+
+use crate::state::Across;
+use crate::{Error, State};
+
+/// Fits are repeated because the first split of wood into below and above is level; tilts that
+/// a box can hold settle in a few rounds.
+const ROUNDS: usize = 8;
+
+/// A plane across the bond: coordinate along the normal = `level` + `slope` . (u - centre).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    normal: Axis,
+    axes: [Axis; 2],
+    centre: [f64; 2],
+    level: f64,
+    slope: [f64; 2],
+}
+
+impl Plane {
+    /// Coordinate along the normal at the centre of the bond area, m.
+    pub fn centre_m(&self) -> f64 {
+        self.level
+    }
+
+    /// Rise along the two axes across the bond, in their order.
+    pub fn slope(&self) -> [f64; 2] {
+        self.slope
+    }
+
+    /// Signed distance (m) of a point, measured perpendicular to the plane.
+    pub fn distance(&self, point: [f64; 3]) -> f64 {
+        let uv = self.axes.map(|a| point[a.index()]);
+        let [a, b] = self.slope;
+        (point[self.normal.index()] - self.coordinate(uv)) / (1.0 + a * a + b * b).sqrt()
+    }
+
+    fn coordinate(&self, uv: [f64; 2]) -> f64 {
+        self.level
+            + self.slope[0] * (uv[0] - self.centre[0])
+            + self.slope[1] * (uv[1] - self.centre[1])
+    }
+}
+
+/// Least-squares plane through the middle of the opening between the adherends.
+///
+/// In every column the opening reaches from the highest wood below the plane to the lowest
+/// wood above it. Columns that look into a cut lumen are wide open and say nothing about the
+/// surface, so only the narrower half of the open columns counts. Starts from the level
+/// `start` and repeats with the fitted plane.
+pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, Error> {
+    let across = state.across();
+    let extent = across.columns.map(|n| n as f64 * across.width_m);
+    let mut plane = Plane {
+        normal: state.normal,
+        axes: across.axes,
+        centre: [0, 1].map(|a| across.min_m[a] + 0.5 * extent[a]),
+        level: start,
+        slope: [0.0; 2],
+    };
+    for _ in 0..ROUNDS {
+        let middles = middles(state, &across, &plane);
+        if middles.is_empty() {
+            return Err(Error::Usage(
+                "no column is open between the adherends, so no plane can be fitted; use --reference mid".into(),
+            ));
+        }
+        let (level, slope) = least_squares(&middles, plane.centre);
+        let settled = plane.level == level && plane.slope == slope;
+        (plane.level, plane.slope) = (level, slope);
+        if settled {
+            break;
+        }
+    }
+    Ok(plane)
+}
+
+/// Position and middle of the narrower half of the open columns.
+fn middles(state: &State, across: &Across, plane: &Plane) -> Vec<([f64; 2], f64)> {
+    let n = state.normal.index();
+    let columns = across.columns[0] * across.columns[1];
+    let mut below = vec![f64::NEG_INFINITY; columns];
+    let mut above = vec![f64::INFINITY; columns];
+    for block in state.wood_blocks() {
+        let half = 0.5 * block.voxel_m;
+        block.for_each(|index| {
+            let centre = block.centre_m(index);
+            let column = across.column(centre);
+            let height = plane.coordinate(across.centre_m(column));
+            if centre[n] < height {
+                below[column] = below[column].max(centre[n] + half);
+            } else {
+                above[column] = above[column].min(centre[n] - half);
+            }
+        });
+    }
+    let mut open: Vec<(f64, usize)> = (0..columns)
+        .map(|c| (above[c] - below[c], c))
+        .filter(|(opening, _)| opening.is_finite() && *opening > 0.5 * across.width_m)
+        .collect();
+    open.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let Some(&(median, _)) = open.get(open.len() / 2) else {
+        return Vec::new();
+    };
+    open.iter()
+        .filter(|(opening, _)| *opening <= median)
+        .map(|&(_, c)| (across.centre_m(c), 0.5 * (below[c] + above[c])))
+        .collect()
+}
+
+/// Level at `centre` and slopes of the least-squares plane. A direction in which the points
+/// do not extend (plane strain) has no slope.
+fn least_squares(points: &[([f64; 2], f64)], centre: [f64; 2]) -> (f64, [f64; 2]) {
+    let count = points.len() as f64;
+    let mean = points.iter().fold([0.0; 3], |m, (uv, y)| {
+        [m[0] + uv[0] / count, m[1] + uv[1] / count, m[2] + y / count]
+    });
+    let (mut uu, mut uv, mut vv, mut uy, mut vy) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for (position, y) in points {
+        let (u, v, y) = (position[0] - mean[0], position[1] - mean[1], y - mean[2]);
+        uu += u * u;
+        uv += u * v;
+        vv += v * v;
+        uy += u * y;
+        vy += v * y;
+    }
+    let determinant = uu * vv - uv * uv;
+    let slope = if determinant > 1e-12 * (uu * uu + vv * vv) {
+        [
+            (uy * vv - vy * uv) / determinant,
+            (vy * uu - uy * uv) / determinant,
+        ]
+    } else if uu >= vv && uu > 0.0 {
+        [uy / uu, 0.0]
+    } else if vv > 0.0 {
+        [0.0, vy / vv]
+    } else {
+        [0.0; 2]
+    };
+    let level = mean[2] + slope[0] * (centre[0] - mean[0]) + slope[1] * (centre[1] - mean[1]);
+    (level, slope)
+}

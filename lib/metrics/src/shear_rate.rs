@@ -1,0 +1,113 @@
+use std::str::FromStr;
+
+use particle_file::ParticleFile;
+
+use crate::{Error, Weighted};
+
+/// What "shear rate" means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Convention {
+    /// 2 |dev D|, as the paper writes (section 2.2): sqrt(2) times the rheometer's.
+    Paper,
+    /// sqrt(2 D:D): du/dy in simple shear, what a rheometer reports.
+    Rheometer,
+}
+
+impl Convention {
+    /// What a rheometer's shear rate is multiplied by.
+    pub fn factor(self) -> f64 {
+        match self {
+            Convention::Paper => std::f64::consts::SQRT_2,
+            Convention::Rheometer => 1.0,
+        }
+    }
+}
+
+impl FromStr for Convention {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "paper" => Ok(Convention::Paper),
+            "rheometer" => Ok(Convention::Rheometer),
+            _ => Err(format!(
+                "'{text}' is not a convention; accepted are paper and rheometer"
+            )),
+        }
+    }
+}
+
+/// Volume-weighted distribution of shear rates in one state of a run (paper Figs. 10, 11).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShearRates {
+    /// Time of the state, s.
+    pub time_s: f64,
+    /// The rates (1/s) that [`ShearRates::SHARES`] of the volume do not exceed.
+    pub quantiles: [f64; 7],
+    /// Largest rate, 1/s.
+    pub max: f64,
+    /// Mean rate, 1/s.
+    pub mean: f64,
+    /// Volume of adhesive, m3.
+    pub volume_m3: f64,
+}
+
+impl ShearRates {
+    /// Shares of the volume.
+    pub const SHARES: [f64; 7] = [0.05, 0.10, 0.25, 0.50, 0.75, 0.90, 0.95];
+
+    /// The distribution in a snapshot, in `convention`; `None`: as stored.
+    ///
+    /// # Errors
+    /// Missing or damaged columns, values that are no shear rates, and a snapshot that does
+    /// not say which convention it stores when another may be needed.
+    pub fn of_file(file: &ParticleFile, convention: Option<Convention>) -> Result<Self, Error> {
+        let factor = match convention {
+            None => 1.0,
+            Some(wanted) => wanted.factor() / stored_convention(file)?.factor(),
+        };
+        let rates = file.column::<f32>("shear_rate")?;
+        let volumes = file.column::<f32>("volume")?;
+        let is_sound = |x: &f32| x.is_finite() && *x >= 0.0;
+        let pairs = rates.iter().zip(volumes);
+        let unfit = pairs
+            .clone()
+            .position(|(r, v)| !(is_sound(r) && is_sound(v)));
+        if let Some(i) = unfit {
+            return Err(Error::Data(format!(
+                "material point {i} has shear rate {} 1/s and volume {} m3: numbers of at least 0 are needed",
+                rates[i], volumes[i]
+            )));
+        }
+        let weighted = Weighted::new(
+            pairs
+                .map(|(&r, &v)| (factor * f64::from(r), f64::from(v)))
+                .collect(),
+        );
+        Ok(Self {
+            time_s: file.header().time_s,
+            quantiles: weighted.quantiles(Self::SHARES),
+            max: weighted.max(),
+            mean: weighted.mean(),
+            volume_m3: weighted.total(),
+        })
+    }
+}
+
+fn stored_convention(file: &ParticleFile) -> Result<Convention, Error> {
+    let name = "shear_rate_convention";
+    let stored = file.header().attribute(name).ok_or_else(|| {
+        Error::Usage(format!(
+            "there is no attribute '{name}', so its rates cannot be converted; leave out --convention"
+        ))
+    })?;
+    stored
+        .parse()
+        .map_err(|said| Error::Data(format!("attribute '{name}': {said}")))
+}
+
+/// Shear rate (1/s) at the wall of a tube of `diameter` (m) at mean speed `speed` (m/s):
+/// 8 v / d (paper Eq. 7; Wilkes 2006). A rheometer's shear rate.
+pub fn tube_shear_rate(speed: f64, diameter: f64) -> f64 {
+    8.0 * speed / diameter
+}

@@ -1,0 +1,140 @@
+//! The tables as CSV; the columns are a contract with other people's scripts.
+
+use std::io::{self, Write};
+
+use units::Axis;
+
+use crate::{Agreement, DepthLayer, Map, Penetration, Reference, ShearRates};
+
+/// Micrometres with six digits behind the point.
+fn um(metres: f64) -> String {
+    format!("{:.6}", 1e6 * metres)
+}
+
+fn um3(cubic_metres: f64) -> String {
+    format!("{:.4}", 1e18 * cubic_metres)
+}
+
+/// One file's rows of the table of `wp-metrics`.
+pub struct PenetrationRows {
+    /// The file as the user named it.
+    pub file: String,
+    /// What depths are measured from.
+    pub reference: Reference,
+    /// Bottom, top and total.
+    pub sides: [Penetration; 3],
+    /// Agreement with an experiment, when asked for.
+    pub agreement: Option<[Agreement; 3]>,
+}
+
+/// `file,side,reference,plane_m,wp_um,slab_wp_um,ep_um,max_depth_um,p99_depth_um,volume_um3,voxels`,
+/// then `dice,map_correlation` when the files were compared.
+///
+/// # Errors
+/// What `out` says.
+pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    let mut header = vec![
+        "file",
+        "side",
+        "reference",
+        "plane_m",
+        "wp_um",
+        "slab_wp_um",
+        "ep_um",
+        "max_depth_um",
+        "p99_depth_um",
+        "volume_um3",
+        "voxels",
+    ];
+    if files.iter().any(|f| f.agreement.is_some()) {
+        header.extend(["dice", "map_correlation"]);
+    }
+    table.write_record(header)?;
+    for file in files {
+        for (i, p) in file.sides.iter().enumerate() {
+            let mut row = vec![
+                file.file.clone(),
+                p.side.to_string(),
+                file.reference.to_string(),
+                format!("{:.9e}", p.plane_m),
+                um(p.wp_m),
+                um(p.slab_wp_m),
+                um(p.ep_m),
+                um(p.max_depth_m),
+                um(p.p99_depth_m),
+                um3(p.volume_m3),
+                p.voxels.to_string(),
+            ];
+            if let Some(agreement) = file.agreement {
+                row.push(format!("{:.6}", agreement[i].dice));
+                row.push(format!("{:.6}", agreement[i].map_correlation));
+            }
+            table.write_record(row)?;
+        }
+    }
+    table.flush()
+}
+
+/// `x_um,z_um,wp_um,volume_um3` (the names of the two axes across the bond), a row for each
+/// column of voxels; WP is NaN where there is no adhesive.
+///
+/// # Errors
+/// What `out` says.
+pub fn write_map(out: &mut dyn Write, map: &Map) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    let [u, v] = map.across.axes.map(|axis: Axis| format!("{axis}_um"));
+    table.write_record([u.as_str(), v.as_str(), "wp_um", "volume_um3"])?;
+    for (column, &volume) in map.volume_m3.iter().enumerate() {
+        let [u, v] = map.across.centre_m(column).map(um);
+        let wp = um(map.wp_m(column).unwrap_or(f64::NAN));
+        table.write_record([u, v, wp, um3(volume)])?;
+    }
+    table.flush()
+}
+
+/// `depth_um,adhesive_fraction,filled_void_fraction`, bottom adherend at negative depths.
+///
+/// # Errors
+/// What `out` says.
+pub fn write_depth_profile(out: &mut dyn Write, layers: &[DepthLayer]) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    table.write_record(["depth_um", "adhesive_fraction", "filled_void_fraction"])?;
+    for layer in layers {
+        table.write_record([
+            um(layer.depth_m),
+            format!("{:.6}", layer.adhesive_fraction),
+            format!("{:.6}", layer.filled_void_fraction),
+        ])?;
+    }
+    table.flush()
+}
+
+/// `time_s,q05,q10,q25,q50,q75,q90,q95,max,mean,volume_um3`, rates in 1/s.
+///
+/// # Errors
+/// What `out` says.
+pub fn write_shear_rates(out: &mut dyn Write, states: &[ShearRates]) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    table.write_record([
+        "time_s",
+        "q05",
+        "q10",
+        "q25",
+        "q50",
+        "q75",
+        "q90",
+        "q95",
+        "max",
+        "mean",
+        "volume_um3",
+    ])?;
+    for state in states {
+        let mut row = vec![format!("{:.9e}", state.time_s)];
+        let rates = state.quantiles.iter().chain([&state.max, &state.mean]);
+        row.extend(rates.map(|rate| format!("{rate:.6e}")));
+        row.push(um3(state.volume_m3));
+        table.write_record(row)?;
+    }
+    table.flush()
+}

@@ -1,0 +1,159 @@
+//! A file of any kind that wp-metrics reads, in memory or mapped.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+use bondline::{Placed, Specimen};
+use cli::{Failure, InputRecord};
+use metrics::State;
+use particle_file::{BitGrid, Mapped, ParticleFile};
+use units::Axis;
+use voxels::{Crop, Phases, Segmented, Source, Stack, VoxelEdge};
+
+/// How to read an image stack.
+pub struct StackOptions {
+    /// Voxel edge, m, when the stack's metadata shall not decide.
+    pub voxel_m: Option<f64>,
+    /// Which label is what.
+    pub phases: Phases,
+}
+
+/// An opened input.
+pub struct Input {
+    /// As the user named it.
+    pub name: String,
+    content: Content,
+}
+
+enum Content {
+    Particles(ParticleFile),
+    Stack {
+        stack: Stack,
+        voxels: Segmented,
+        edge_m: f64,
+    },
+}
+
+impl Input {
+    /// Opens a particle file or an image stack; `-` is standard input.
+    pub fn open(path: &Path, options: &StackOptions) -> Result<Self, Failure> {
+        let name = path.display().to_string();
+        let content = if path.is_dir() {
+            stack(Stack::open(&[path.to_owned()]), options)?
+        } else {
+            open_file(path, options)?
+        };
+        Ok(Self { name, content })
+    }
+
+    /// What it shows; `normal` overrides the file's own axis across the bond.
+    pub fn state(&self, normal: Option<Axis>) -> Result<State<'_>, Failure> {
+        match &self.content {
+            Content::Particles(file) => {
+                let mut state = State::of_file(file).map_err(|e| self.failure(&e))?;
+                state.normal = normal.unwrap_or(state.normal);
+                Ok(state)
+            }
+            Content::Stack { voxels, edge_m, .. } => {
+                let wood = placed(&voxels.wood, *edge_m);
+                let adhesive = placed(&voxels.adhesive, *edge_m);
+                let specimen = Specimen::new(wood, adhesive).map_err(Failure::data)?;
+                Ok(State::of_specimen(&specimen, normal.unwrap_or(Axis::Y)))
+            }
+        }
+    }
+
+    /// A failure to measure this input.
+    pub fn failure(&self, error: &metrics::Error) -> Failure {
+        let said = format!("'{}': {error}", self.name);
+        if error.is_usage() {
+            Failure::usage(said)
+        } else {
+            Failure::data(said)
+        }
+    }
+
+    /// The files read and their hashes.
+    pub fn records(&self) -> Result<Vec<InputRecord>, Failure> {
+        match &self.content {
+            Content::Particles(file) => Ok(vec![InputRecord::new(
+                self.name.clone(),
+                file.content_hash(),
+            )]),
+            Content::Stack { stack, .. } => stack.sources().iter().map(record).collect(),
+        }
+    }
+}
+
+fn open_file(path: &Path, options: &StackOptions) -> Result<Content, Failure> {
+    let from_stdin = path == Path::new("-");
+    let name = if from_stdin {
+        "standard input".to_owned()
+    } else {
+        format!("'{}'", path.display())
+    };
+    let bytes = Mapped::open(path)
+        .map_err(|error| Failure::data(format!("cannot read {name}: {error}")))?;
+    if ParticleFile::recognises(&bytes) {
+        return ParticleFile::from_mapped(name, bytes)
+            .map(Content::Particles)
+            .map_err(Failure::data);
+    }
+    if from_stdin {
+        // A pipe has been read already; a stack is read from a file.
+        let file = copy(&bytes)
+            .map_err(|error| Failure::failed(format!("cannot keep standard input: {error}")))?;
+        return stack(Stack::of_open_file(&name, file), options);
+    }
+    stack(Stack::open(&[path.to_owned()]), options)
+}
+
+fn copy(bytes: &[u8]) -> std::io::Result<File> {
+    let mut file = tempfile::tempfile()?;
+    file.write_all(bytes)?;
+    Ok(file)
+}
+
+fn stack(opened: Result<Stack, voxels::Error>, options: &StackOptions) -> Result<Content, Failure> {
+    let stack = opened.map_err(stack_failure)?;
+    let edge = VoxelEdge::resolve(options.voxel_m, stack.voxel_size(), stack.name())
+        .map_err(stack_failure)?;
+    let whole = Crop::whole(stack.dims());
+    let voxels = voxels::segment(&stack, &options.phases, &whole, || ()).map_err(stack_failure)?;
+    if let Some([void, wood, adhesive]) = voxels.guessed {
+        cli::note(format!(
+            "{}: labels taken as void={void}, wood={wood}, adhesive={adhesive}",
+            stack.name()
+        ));
+    }
+    Ok(Content::Stack {
+        stack,
+        voxels,
+        edge_m: edge.metres,
+    })
+}
+
+fn stack_failure(error: voxels::Error) -> Failure {
+    if error.is_usage() {
+        Failure::usage(error)
+    } else {
+        Failure::data(error)
+    }
+}
+
+fn placed(bits: &BitGrid, voxel_m: f64) -> Placed<'_> {
+    Placed {
+        origin_m: [0.0; 3],
+        voxel_m,
+        bits: bits.view(),
+    }
+}
+
+fn record(source: &Source) -> Result<InputRecord, Failure> {
+    let hash = source.reader().and_then(cli::hash_reader);
+    match hash {
+        Ok(hash) => Ok(InputRecord::new(source.name().to_owned(), hash)),
+        Err(error) => Err(Failure::data(format!("cannot read {source}: {error}"))),
+    }
+}
