@@ -42,7 +42,7 @@ pub fn main<A: Parser + CommandFactory>(
     run: fn(A) -> Result<(), Failure>,
 ) -> ExitCode {
     let tool = A::command().get_name().to_owned();
-    if let Some(what) = requested_generation() {
+    if let Some(what) = requested_generation(&A::command()) {
         return match generate::<A>(what) {
             Ok(()) => ExitCode::SUCCESS,
             Err(failure) => failure.report(&tool),
@@ -61,8 +61,9 @@ pub fn main<A: Parser + CommandFactory>(
 
 /// `--generate WHAT` must work without the tool's required arguments, so it is looked for
 /// before the real parse; a wrong WHAT is left to that parse to refuse.
-fn requested_generation() -> Option<Generate> {
-    let mut words = std::env::args().skip(1);
+fn requested_generation(command: &clap::Command) -> Option<Generate> {
+    let mut words =
+        (std::env::args().skip(1)).skip_while(|word| command.find_subcommand(word).is_some());
     let what = match words.next()?.as_str() {
         "--generate" => words.next()?,
         word => word.strip_prefix("--generate=")?.to_owned(),

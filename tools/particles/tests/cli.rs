@@ -27,6 +27,17 @@ fn info_says_what_a_file_holds() {
 }
 
 #[test]
+fn the_man_page_needs_no_file() {
+    let folder = tempdir().unwrap();
+    for arguments in [
+        ["--generate", "man"].as_slice(),
+        &["info", "--generate=man"],
+    ] {
+        assert!(stdout(folder.path(), arguments).contains(".TH particles 1"));
+    }
+}
+
+#[test]
 fn the_sum_is_the_same_from_a_file_a_redirection_and_a_pipe() {
     let folder = tempdir().unwrap();
     let path = state(folder.path(), 0);
