@@ -3,6 +3,7 @@
 //!
 //! Lengths inside are in cells, pressures and viscosities scaled by the liquid's viscosity.
 
+pub mod advect;
 pub mod fractions;
 pub mod lattice;
 pub mod operator;

@@ -14,6 +14,12 @@ pub struct Column {
 }
 
 impl Column {
+    /// A column without walls.
+    pub const FREE: Self = Self {
+        distance: [FAR; 2],
+        body: [OPEN; 2],
+    };
+
     /// Whether the column is solid at the height of the face's centre.
     pub fn blocked(&self) -> bool {
         self.distance[0] <= 0.0 && self.distance[1] <= 0.0
@@ -65,10 +71,7 @@ impl Lattice {
         if other < self.window.domain.axes {
             from[other] += if index & 2 == 2 { QUARTER } else { -QUARTER };
         }
-        let mut column = Column {
-            distance: [FAR; 2],
-            body: [OPEN; 2],
-        };
+        let mut column = Column::FREE;
         for side in 0..2 {
             if let Some(hit) = self.solids.ray(from, tangent, side == 1, FAR) {
                 column.distance[side] = hit.near;

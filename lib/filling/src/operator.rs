@@ -1,0 +1,323 @@
+//! The coupled system of one step: viscosity, mass and wall friction A, fluxes G,
+//! compressibility C, and the forces on bodies that follow from a solution.
+//!
+//! Per step the scheme minimises over the face velocities u, with pressures p as multipliers,
+//!
+//! E = sum_f rho V_f/(2 dt) (u - u*)^2 + sum_c eta phi_c o_c sum_d (D_d u_d)^2
+//!   + 1/2 sum_e eta phi_e (shear of the edge)^2 + 1/2 sum_walls A_s beta (u_f - U_b)^2
+//!   - sum_c phi_c p_c Phi_c - sum_c phi_c o_c (p_c^2/2 - p_c p*_c)/(K dt),
+//!
+//! which gives [A, -G^T; -G, -C] [u; p] = [b; -g]. Velocities are in m/s, lengths in cells h,
+//! viscosities in units of a reference eta_0, pressures in units of eta_0/h, forces in units of
+//! eta_0 h; in plane strain the depth is one cell.
+
+mod dofs;
+mod fluxes;
+mod terms;
+mod walls;
+
+use rayon::prelude::*;
+
+use crate::lattice::Lattice;
+use crate::solve::{Csr, SaddleSystem, SolveError};
+use terms::Velocity;
+
+pub use dofs::{Dofs, Liquid, NONE};
+pub use walls::{PathRule, WallLink, Walls};
+
+/// Smallest liquid volume, in cells, that a face's mass counts with.
+const LEAST_MASS: f64 = 0.02;
+/// Unknowns per task and partial sum; part of the result of sums.
+const CHUNK: usize = 1 << 12;
+
+/// Numbers that scale the terms of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// Inertia, rho h^2/(eta_0 dt).
+    pub inertia: f64,
+    /// Compressibility, eta_0/(K dt).
+    pub compressibility: f64,
+    /// Body force per face volume, rho h^2 g/eta_0, m/s.
+    pub gravity: [f64; 3],
+    /// 1/(k h): influence length of the wall law, cells; infinite without friction.
+    pub influence_length: f64,
+    /// Which free path the wall law takes.
+    pub path: PathRule,
+}
+
+/// Geometry, liquid and unknowns of a step, from which its system is assembled.
+pub struct Operator<'a> {
+    /// Geometry.
+    pub lattice: &'a Lattice,
+    /// Liquid fractions.
+    pub liquid: &'a Liquid,
+    /// Viscosity of each cell over eta_0; empty when it is eta_0 everywhere.
+    pub viscosity: Vec<f32>,
+    /// Unknowns.
+    pub dofs: Dofs,
+    /// Walls at the face unknowns.
+    pub walls: Walls,
+    /// Liquid volume of the control volume of each face unknown, in cells.
+    pub face_volume: Vec<f64>,
+    scales: Scales,
+    influence_length: f64,
+}
+
+/// The assembled parts of a [`SaddleSystem`].
+pub struct System {
+    a: Csr<f64>,
+    /// Liquid fluxes, cells x faces.
+    pub g: Csr<f64>,
+    c: Vec<f64>,
+    friction: Vec<f64>,
+    two_eta: Vec<f64>,
+    b: Vec<f64>,
+    source: Vec<f64>,
+}
+
+impl System {
+    /// What the solver takes.
+    pub fn saddle(&self) -> SaddleSystem<'_> {
+        SaddleSystem {
+            a: &self.a,
+            g: &self.g,
+            c: &self.c,
+            friction: &self.friction,
+            two_eta: &self.two_eta,
+            b: &self.b,
+            volume_source: &self.source,
+        }
+    }
+}
+
+/// What is known of the liquid before the step.
+#[derive(Clone, Copy, Debug)]
+pub struct Before<'a> {
+    /// Velocity of each face unknown carried by the particles, m/s.
+    pub velocity: &'a [f64],
+    /// Pressure of each pressure unknown carried by the particles, scaled.
+    pub pressure: &'a [f64],
+}
+
+impl<'a> Operator<'a> {
+    /// The operator for `liquid` in `lattice`.
+    pub fn new(lattice: &'a Lattice, liquid: &'a Liquid, scales: Scales) -> Self {
+        let dofs = Dofs::new(lattice, liquid);
+        let friction = scales.influence_length.is_finite();
+        let walls = Walls::new(lattice, &liquid.phi, &dofs, scales.path, friction);
+        let face_volume = dofs
+            .faces
+            .par_iter()
+            .with_min_len(CHUNK)
+            .map(|&(axis, index)| face_volume(lattice, liquid, axis.into(), index as usize))
+            .collect();
+        Self {
+            lattice,
+            liquid,
+            viscosity: Vec::new(),
+            dofs,
+            walls,
+            face_volume,
+            scales,
+            influence_length: scales.influence_length,
+        }
+    }
+
+    #[inline]
+    fn eta(&self, cell: usize) -> f64 {
+        self.viscosity.get(cell).map_or(1.0, |&eta| f64::from(eta))
+    }
+
+    fn face_viscosity(&self, axis: usize, index: usize) -> f64 {
+        let below = index - self.lattice.window.stride(axis);
+        self.mean_viscosity([index, below])
+    }
+
+    fn edge_viscosity(&self, cells: [usize; 4]) -> f64 {
+        self.mean_viscosity(cells)
+    }
+
+    /// Viscosity around a place, by the liquid in the cells that meet there.
+    fn mean_viscosity<const N: usize>(&self, cells: [usize; N]) -> f64 {
+        if self.viscosity.is_empty() {
+            return 1.0;
+        }
+        let (mut sum, mut volume) = (0.0, 0.0);
+        for cell in cells {
+            let v = f64::from(self.liquid.volume[cell]);
+            sum += v * self.eta(cell);
+            volume += v;
+        }
+        if volume > 0.0 { sum / volume } else { 1.0 }
+    }
+
+    /// Assembles the system for bodies that move at `bodies` (m/s).
+    ///
+    /// # Errors
+    /// When an entry is not finite.
+    pub fn assemble(&self, bodies: &[[f64; 3]], before: Before) -> Result<System, SolveError> {
+        let n = self.dofs.faces.len();
+        let a = Csr::assemble(n, n, |face, entries| {
+            entries.add(face, self.mass(face));
+            self.terms(face, |term| {
+                let own = coefficient(term.parts(), face);
+                for &(velocity, c) in term.parts() {
+                    if let Velocity::Face(other) = velocity {
+                        entries.add(other as usize, term.weight * own * c);
+                    }
+                }
+            });
+        })?;
+        let g = Csr::assemble(self.dofs.cells.len(), n, |cell, entries| {
+            self.flux(cell, |velocity, area| {
+                if let Velocity::Face(face) = velocity {
+                    entries.add(face as usize, area);
+                }
+            });
+        })?;
+        let c = self.compressibility();
+        Ok(System {
+            b: self.momentum(bodies, before.velocity),
+            source: self.source(bodies, before.pressure, &c),
+            friction: (0..n).map(|face| self.darcy(face)).collect(),
+            two_eta: (self.dofs.cells.iter())
+                .map(|&cell| 2.0 * self.eta(cell as usize))
+                .collect(),
+            a,
+            g,
+            c,
+        })
+    }
+
+    fn mass(&self, face: usize) -> f64 {
+        self.scales.inertia * self.face_volume[face].max(LEAST_MASS)
+    }
+
+    /// D_B of the pressure preconditioner: V_f [rho h^2/(eta_0 dt) + 12 eta sum H^-2].
+    fn darcy(&self, face: usize) -> f64 {
+        let (axis, index) = self.dofs.faces[face];
+        let eta = self.face_viscosity(axis.into(), index as usize);
+        let paths = f64::from(self.walls.inverse_paths[face]);
+        self.face_volume[face].max(LEAST_MASS) * (self.scales.inertia + 12.0 * eta * paths)
+    }
+
+    fn compressibility(&self) -> Vec<f64> {
+        let volume = |&cell: &u32| f64::from(self.liquid.volume[cell as usize]);
+        (self.dofs.cells.iter())
+            .map(|cell| self.scales.compressibility * volume(cell))
+            .collect()
+    }
+
+    /// b: inertia, body force and what moving bodies drag along.
+    fn momentum(&self, bodies: &[[f64; 3]], velocity: &[f64]) -> Vec<f64> {
+        (0..self.dofs.faces.len())
+            .into_par_iter()
+            .with_min_len(CHUNK)
+            .map(|face| {
+                let axis = usize::from(self.dofs.faces[face].0);
+                let mut b = self.mass(face) * velocity[face]
+                    + self.face_volume[face] * self.scales.gravity[axis];
+                self.terms(face, |term| {
+                    let own = term.weight * coefficient(term.parts(), face);
+                    for &(velocity, c) in term.parts() {
+                        if let Velocity::Body(component) = velocity {
+                            b -= own * c * bodies[component / 3][component % 3];
+                        }
+                    }
+                });
+                b
+            })
+            .collect()
+    }
+
+    /// g of G u + C p = g: what moving bodies displace, and the pressure before.
+    fn source(&self, bodies: &[[f64; 3]], pressure: &[f64], c: &[f64]) -> Vec<f64> {
+        (0..self.dofs.cells.len())
+            .into_par_iter()
+            .with_min_len(CHUNK)
+            .map(|cell| {
+                let mut g = c[cell] * pressure[cell];
+                self.flux(cell, |velocity, area| {
+                    if let Velocity::Body(component) = velocity {
+                        g -= area * bodies[component / 3][component % 3];
+                    }
+                });
+                g
+            })
+            .collect()
+    }
+
+    /// Forces of the liquid on the bodies, in units of eta_0 h, and the power dissipated by
+    /// viscosity and wall friction, in units of eta_0 h (m/s)^2.
+    pub fn reactions(&self, bodies: &[[f64; 3]], u: &[f64], p: &[f64]) -> (Vec<[f64; 3]>, f64) {
+        let value = |velocity: Velocity| match velocity {
+            Velocity::Face(face) => u[face as usize],
+            Velocity::Body(component) => bodies[component / 3][component % 3],
+            Velocity::Still => 0.0,
+        };
+        let new = || (vec![[0.0; 3]; bodies.len()], 0.0);
+        let faces = in_chunks(self.dofs.faces.len(), new, |(force, power), face| {
+            self.terms(face, |term| {
+                if term.owner() != Some(face as u32) {
+                    return;
+                }
+                let rate: f64 = term.parts().iter().map(|&(v, c)| c * value(v)).sum();
+                *power += term.weight * rate * rate;
+                for &(velocity, c) in term.parts() {
+                    if let Velocity::Body(component) = velocity {
+                        force[component / 3][component % 3] -= term.weight * c * rate;
+                    }
+                }
+            });
+        });
+        let cells = in_chunks(self.dofs.cells.len(), new, |(force, _), cell| {
+            self.flux(cell, |velocity, area| {
+                if let Velocity::Body(component) = velocity {
+                    force[component / 3][component % 3] += area * p[cell];
+                }
+            });
+        });
+        let mut total = new();
+        for (force, power) in faces.into_iter().chain(cells) {
+            total.1 += power;
+            for (sum, part) in total.0.iter_mut().zip(force) {
+                *sum = std::array::from_fn(|a| sum[a] + part[a]);
+            }
+        }
+        total
+    }
+}
+
+/// Partial sums over fixed ranges of `0..len`, in their order.
+fn in_chunks<S: Send>(
+    len: usize,
+    new: impl Fn() -> S + Sync,
+    add: impl Fn(&mut S, usize) + Sync,
+) -> Vec<S> {
+    (0..len.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| {
+            let mut sum = new();
+            for i in chunk * CHUNK..len.min((chunk + 1) * CHUNK) {
+                add(&mut sum, i);
+            }
+            sum
+        })
+        .collect()
+}
+
+/// Coefficient of an unknown in a term.
+fn coefficient(parts: &[(Velocity, f64)], face: usize) -> f64 {
+    let own = |part: &&(Velocity, f64)| part.0 == Velocity::Face(face as u32);
+    parts.iter().filter(own).map(|part| part.1).sum()
+}
+
+/// Liquid volume that moves with a face: of its control volume, and of the slivers merged
+/// into its area.
+fn face_volume(lattice: &Lattice, liquid: &Liquid, axis: usize, index: usize) -> f64 {
+    let cell = lattice.window.coordinates(index);
+    let (wet, open) = dofs::face_fill(lattice, &liquid.phi, axis, cell);
+    let merged = lattice.aperture(axis, cell).bodies.into_iter();
+    let merged: f64 = merged.map(|b| (-b.1).max(0.0)).sum();
+    wet + if open > 0.0 { merged * wet / open } else { 0.0 }
+}

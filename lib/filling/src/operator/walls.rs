@@ -1,0 +1,215 @@
+//! Friction of walls on face velocities, and the free paths that go with it.
+
+use rayon::prelude::*;
+
+use super::dofs::Dofs;
+use crate::lattice::{Column, Lattice};
+use crate::solids::BodyId;
+use crate::wall::effective_distance;
+
+/// Faces per task; part of no result.
+const CHUNK: usize = 1 << 12;
+/// Distance (cells) that counts where a corner of a wall ends at the centre of a face: the
+/// open quadrants next to it are that far from it on average.
+const AT_CORNER: f64 = 0.25;
+
+/// Which free path enters the wall law in 3D.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathRule {
+    /// H_n, across the lumen along the wall's normal: for walls made of voxels of half a cell,
+    /// whose steps already add friction.
+    Normal,
+    /// (H_n^-2 + H_t^-2)^(-1/2) with H_t along the other tangential direction: exact to 1 %
+    /// for ducts with plane walls.
+    Combined,
+}
+
+/// A part of a body's surface that a face velocity slides along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WallLink {
+    /// Whose surface.
+    pub body: BodyId,
+    /// Wetted area, cells^2.
+    pub area: f32,
+    /// d_eff of [`effective_distance`], cells.
+    pub distance: f32,
+}
+
+/// The walls at all face unknowns.
+#[derive(Clone, Debug, Default)]
+pub struct Walls {
+    start: Vec<u32>,
+    links: Vec<WallLink>,
+    /// Sum over the tangential directions of H^-2, cells^-2, per face unknown.
+    pub inverse_paths: Vec<f32>,
+}
+
+impl Walls {
+    /// Marches the rays from all face unknowns. `friction` false leaves the links out.
+    pub fn new(
+        lattice: &Lattice,
+        phi: &[f32],
+        dofs: &Dofs,
+        rule: PathRule,
+        friction: bool,
+    ) -> Self {
+        let chunks: Vec<(Vec<u32>, Vec<WallLink>, Vec<f32>)> = dofs
+            .faces
+            .par_chunks(CHUNK)
+            .map(|faces| {
+                let (mut counts, mut links, mut paths) = (Vec::new(), Vec::new(), Vec::new());
+                for &(axis, index) in faces {
+                    let before = links.len();
+                    let cell = lattice.window.coordinates(index as usize);
+                    let view = View::new(lattice, axis.into(), cell);
+                    paths.push(view.inverse_paths(lattice) as f32);
+                    if friction {
+                        view.push_links(lattice, phi, rule, &mut links);
+                    }
+                    counts.push((links.len() - before) as u32);
+                }
+                (counts, links, paths)
+            })
+            .collect();
+        let mut walls = Self {
+            start: vec![0],
+            ..Self::default()
+        };
+        let mut end = 0;
+        for (counts, links, paths) in chunks {
+            for count in counts {
+                end += count;
+                walls.start.push(end);
+            }
+            walls.links.extend(links);
+            walls.inverse_paths.extend(paths);
+        }
+        walls
+    }
+
+    /// The walls at a face unknown.
+    pub fn of(&self, face: usize) -> &[WallLink] {
+        &self.links[self.start[face] as usize..self.start[face + 1] as usize]
+    }
+}
+
+/// What a face sees along its tangential directions.
+struct View {
+    axis: usize,
+    cell: [usize; 3],
+    /// Columns per tangential direction; one that stands for all where no wall is near.
+    columns: [[Column; 4]; 2],
+    near: [bool; 2],
+}
+
+impl View {
+    fn new(lattice: &Lattice, axis: usize, cell: [usize; 3]) -> Self {
+        let mut near = [false; 2];
+        let mut columns = [[Column::FREE; 4]; 2];
+        for (t, &tangent) in lattice.tangents(axis).iter().enumerate() {
+            near[t] = !lattice.clear(axis, cell, tangent);
+            columns[t] = if near[t] {
+                lattice.columns(axis, cell, tangent)
+            } else {
+                [lattice.column(axis, cell, tangent, 0); 4]
+            };
+        }
+        Self {
+            axis,
+            cell,
+            columns,
+            near,
+        }
+    }
+
+    /// Mean free path along a tangential direction.
+    fn path(&self, t: usize) -> f64 {
+        let open = self.columns[t].iter().filter(|c| !c.blocked());
+        let (sum, count) = open.fold((0.0, 0), |(s, n), c| (s + c.free_path(), n + 1));
+        if count == 0 { 1.0 } else { sum / f64::from(count) }
+    }
+
+    fn inverse_paths(&self, lattice: &Lattice) -> f64 {
+        (0..lattice.tangents(self.axis).len())
+            .map(|t| self.path(t).max(0.5).powi(-2))
+            .sum()
+    }
+
+    fn push_links(
+        &self,
+        lattice: &Lattice,
+        phi: &[f32],
+        rule: PathRule,
+        links: &mut Vec<WallLink>,
+    ) {
+        let first = links.len();
+        let tangents = lattice.tangents(self.axis);
+        let count = lattice.column_count();
+        for (t, &tangent) in tangents.iter().enumerate().filter(|(t, _)| self.near[*t]) {
+            for index in 0..count {
+                let column = self.columns[t][index];
+                if column.blocked() {
+                    continue;
+                }
+                for side in (0..2).filter(|&s| column.touches(s)) {
+                    let area = self.wetted(lattice, phi, tangent, index) / count as f64;
+                    let path = match rule {
+                        PathRule::Combined if tangents.len() == 2 => {
+                            let across = self.path(1 - t);
+                            (column.free_path().powi(-2) + across.powi(-2)).powf(-0.5)
+                        }
+                        _ => column.free_path(),
+                    };
+                    let distance = layer(column, side, path);
+                    add(&mut links[..], first, column.body[side], area, distance).unwrap_or_else(
+                        |link| links.push(link),
+                    );
+                }
+            }
+        }
+    }
+
+    /// Liquid fraction of the part of a column that lies in the face's control volume.
+    fn wetted(&self, lattice: &Lattice, phi: &[f32], tangent: usize, index: usize) -> f64 {
+        let w = &lattice.window;
+        let other = 3 - self.axis - tangent;
+        let mut sub = w.first_sub(self.cell) - w.sub_stride(self.axis);
+        sub += (index & 1) * w.sub_stride(self.axis);
+        if other < w.domain.axes {
+            sub += (index >> 1) * w.sub_stride(other);
+        }
+        0.5 * f64::from(phi[sub] + phi[sub + w.sub_stride(tangent)])
+    }
+}
+
+/// Effective distance to the wall of a column at `side`, in a lumen of the given free path.
+fn layer(column: Column, side: usize, path: f64) -> f64 {
+    let [d, opposite] = [side, 1 - side].map(|s| {
+        let d = column.distance[s];
+        if d < 1e-3 { AT_CORNER } else { d }
+    });
+    effective_distance(d, opposite, path.max(d))
+}
+
+/// Adds to an equal link after `first`, or gives the link to push.
+fn add(
+    links: &mut [WallLink],
+    first: usize,
+    body: BodyId,
+    area: f64,
+    distance: f64,
+) -> Result<(), WallLink> {
+    let new = WallLink {
+        body,
+        area: area as f32,
+        distance: distance as f32,
+    };
+    let same = |link: &&mut WallLink| link.body == body && link.distance == new.distance;
+    match links[first..].iter_mut().find(same) {
+        Some(link) => {
+            link.area += new.area;
+            Ok(())
+        }
+        None => Err(new),
+    }
+}

@@ -1,0 +1,71 @@
+//! Steady flow in straight channels against closed forms, at every offset of the walls
+//! against the cells. Run with `--nocapture` to see the errors.
+
+mod common;
+
+use common::{Flow, duct, hagen_poiseuille_mask, worst};
+use filling::operator::PathRule;
+use physics::VoxelBlock;
+
+/// Flux through a plane channel of `n` cells whose lower wall is at `offset`, over the exact
+/// one n^3/12 (1 + 6 l/n) per body force, with influence length `slip` in cells.
+fn plane_channel(n: f64, offset: f64, slip: f64) -> f64 {
+    let height = n as usize + 6;
+    let low = 2.0 + offset;
+    let walls = vec![
+        VoxelBlock::solid_box([-9.0, -9.0, 0.0], [20.0, low, 1.0]),
+        VoxelBlock::solid_box([-9.0, low + n, 0.0], [20.0, 99.0, 1.0]),
+    ];
+    let mut flow = Flow::new([4, height, 1], 2, vec![walls]);
+    flow.slip = slip;
+    let exact = n.powi(3) / 12.0 * (1.0 + 6.0 * slip / n);
+    flow.periodic_flux() / exact
+}
+
+#[test]
+fn plane_channel_flux_at_every_offset() {
+    for (n, tolerance) in [(3.0, 0.08), (6.0, 0.03), (12.0, 0.01)] {
+        for slip in [0.0, 0.01, 1.0] {
+            let error = worst((0..20).map(|i| plane_channel(n, 0.05 * f64::from(i), slip) - 1.0));
+            println!("channel of {n} cells, influence length {slip}: flux error {error:+.4}");
+            assert!(error.abs() < tolerance, "{n} cells, slip {slip}: {error}");
+        }
+    }
+}
+
+/// The same channel with other walls' distances would miss by far more than the tolerance.
+#[test]
+fn a_wall_a_quarter_cell_off_is_seen() {
+    let moved = plane_channel(6.25, 0.0, 0.0) * (6.25_f64 / 6.0).powi(3);
+    assert!((moved - 1.13).abs() < 0.01, "{moved}");
+}
+
+#[test]
+fn rectangular_ducts() {
+    for (a, b, tolerance) in [(6.0, 6.0, 0.03), (3.0, 3.0, 0.08), (3.0, 12.0, 0.05), (12.0, 12.0, 0.01)] {
+        let ratio = duct(a, b, [0.0; 2]);
+        println!("duct {a} x {b} cells, walls on faces: flux error {:+.4}", ratio - 1.0);
+        assert!((ratio - 1.0).abs() < tolerance, "{a} x {b}: {ratio}");
+        for off in [0.25, 0.5, 0.75] {
+            let ratio = duct(a, b, [off, 0.5 * off]);
+            println!("  walls off by {off}, {}: {:+.4}", 0.5 * off, ratio - 1.0);
+        }
+    }
+}
+
+#[test]
+fn round_tubes_of_voxels() {
+    for (voxel, rule) in [(1.0, PathRule::Combined), (0.5, PathRule::Normal)] {
+        for radius in [1.5, 3.0, 6.0] {
+            let ratios: Vec<f64> = (0..5)
+                .map(|i| {
+                    let c = [0.13 * f64::from(i), 0.29 * f64::from(i)];
+                    hagen_poiseuille_mask(radius, c, voxel, rule)
+                })
+                .collect();
+            let mean = ratios.iter().sum::<f64>() / 5.0;
+            let spread = worst(ratios.iter().map(|r| r - mean));
+            println!("tube of radius {radius} cells, voxel {voxel} cells: flux {mean:.3} ({spread:+.3}) of the voxel tube's");
+        }
+    }
+}

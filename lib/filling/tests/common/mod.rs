@@ -1,0 +1,195 @@
+//! Steady flows without particles: all open sub-cells of a region are liquid.
+
+use filling::lattice::Lattice;
+use filling::operator::{Before, Liquid, Operator, PathRule, Scales};
+use filling::solids::Solids;
+use filling::solve::{SaddleOptions, SaddleSolver};
+use filling::window::{Domain, Window};
+use physics::{Boundary, Motion, RigidBody, VoxelBlock};
+
+/// A scene of bodies in a domain, of unit viscosity and negligible inertia and compressibility.
+pub struct Flow {
+    pub domain: Domain,
+    pub bodies: Vec<Vec<VoxelBlock>>,
+    /// Influence length of the wall law, cells.
+    pub slip: f64,
+    pub path: PathRule,
+    pub gravity: [f64; 3],
+    pub speeds: Vec<[f64; 3]>,
+}
+
+/// A solved flow.
+pub struct Solved {
+    pub flux_x: f64,
+    pub forces: Vec<[f64; 3]>,
+    pub lattice: Lattice,
+    /// Velocity per axis and cell of the window.
+    pub velocity: [Vec<f64>; 3],
+    pub pressure: Vec<f64>,
+    pub iterations: usize,
+}
+
+impl Flow {
+    pub fn new(cells: [usize; 3], axes: usize, bodies: Vec<Vec<VoxelBlock>>) -> Self {
+        Self {
+            domain: Domain {
+                cells,
+                boundary: [Boundary::Symmetry; 3],
+                axes,
+            },
+            slip: 0.0,
+            path: PathRule::Combined,
+            gravity: [0.0; 3],
+            speeds: vec![[0.0; 3]; bodies.len()],
+            bodies,
+        }
+    }
+
+    /// Flux along x per unit body force when the domain repeats along x.
+    pub fn periodic_flux(&mut self) -> f64 {
+        self.domain.boundary[0] = Boundary::Periodic;
+        self.gravity = [1.0, 0.0, 0.0];
+        self.solve(|_| true).flux_x
+    }
+
+    /// The steady flow of liquid in the open sub-cells whose centre is in `wet`.
+    pub fn solve(&self, wet: impl Fn([f64; 3]) -> bool) -> Solved {
+        let bodies = (self.bodies.iter().enumerate())
+            .map(|(i, blocks)| RigidBody {
+                name: format!("body {i}"),
+                blocks: blocks.clone(),
+                motion: Motion::Fixed,
+            })
+            .collect();
+        let solids = Solids::new(bodies, self.domain, [0.0; 3], 1.0);
+        let to = self.domain.cells.map(|n| n as i64);
+        let lattice = Lattice::new(solids, Window::around(self.domain, [0; 3], to));
+        let phi = fractions(&lattice, wet);
+        let liquid = Liquid::new(&lattice, phi);
+        let scales = Scales {
+            inertia: 1e-9,
+            compressibility: 1e-12,
+            gravity: self.gravity,
+            influence_length: self.slip,
+            path: self.path,
+        };
+        let operator = Operator::new(&lattice, &liquid, scales);
+        let (n, m) = (operator.dofs.faces.len(), operator.dofs.cells.len());
+        let before = Before {
+            velocity: &vec![0.0; n],
+            pressure: &vec![0.0; m],
+        };
+        let system = operator.assemble(&self.speeds, before).unwrap();
+        let (mut u, mut p) = (vec![0.0; n], vec![0.0; m]);
+        let options = SaddleOptions {
+            tolerance: 1e-7,
+            ..SaddleOptions::default()
+        };
+        let report = SaddleSolver::new(options)
+            .solve(&system.saddle(), &mut u, &mut p)
+            .unwrap();
+        let (forces, _) = operator.reactions(&self.speeds, &u, &p);
+        let w = &lattice.window;
+        let mut velocity = [const { Vec::new() }; 3];
+        for field in &mut velocity {
+            *field = vec![0.0; w.len()];
+        }
+        for (&(axis, index), &u) in operator.dofs.faces.iter().zip(&u) {
+            velocity[usize::from(axis)][index as usize] = u;
+        }
+        let mut pressure = vec![0.0; w.len()];
+        for (&index, &p) in operator.dofs.cells.iter().zip(&p) {
+            pressure[index as usize] = p;
+        }
+        let flux_x = (operator.dofs.faces.iter().zip(&u))
+            .filter(|(face, _)| face.0 == 0)
+            .map(|(&(_, index), u)| (w.coordinates(index as usize), u))
+            .filter(|(cell, _)| cell[0] as i64 + w.low[0] == 2)
+            .map(|(cell, u)| u * lattice.aperture(0, cell).open)
+            .sum();
+        Solved {
+            flux_x,
+            forces,
+            velocity,
+            pressure,
+            iterations: report.iterations(),
+            lattice,
+        }
+    }
+}
+
+/// Liquid fraction 1 in the sub-cells of the domain whose centre is in `wet`.
+fn fractions(lattice: &Lattice, wet: impl Fn([f64; 3]) -> bool) -> Vec<f32> {
+    let w = &lattice.window;
+    let dims = w.sub_cells();
+    (0..w.sub_len())
+        .map(|s| {
+            let at = [s % dims[0], s / dims[0] % dims[1], s / dims[0] / dims[1]];
+            let centre: [f64; 3] = std::array::from_fn(|a| {
+                w.low[a] as f64 + (at[a] as f64 + 0.5) / w.parts(a) as f64
+            });
+            if wet(centre) { 1.0 } else { 0.0 }
+        })
+        .collect()
+}
+
+/// The number farthest from zero.
+pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
+    errors
+        .into_iter()
+        .fold(0.0, |a: f64, e| if e.abs() > a.abs() { e } else { a })
+}
+
+/// Exact flux of a rectangular duct per pressure gradient over viscosity (White 2006, Eq. 3-48).
+pub fn duct_flux(a: f64, b: f64) -> f64 {
+    let (a, b) = (a.max(b), a.min(b));
+    let sum: f64 = (1..200)
+        .step_by(2)
+        .map(|k| f64::from(k))
+        .map(|k| (k * std::f64::consts::PI * a / (2.0 * b)).tanh() / k.powi(5))
+        .sum();
+    a * b.powi(3) / 12.0 * (1.0 - 192.0 * b / (std::f64::consts::PI.powi(5) * a) * sum)
+}
+
+/// Flux of a duct of `a` x `b` cells along x over the exact one, walls off by `offset`.
+pub fn duct(a: f64, b: f64, offset: [f64; 2]) -> f64 {
+    let (y, z) = (2.0 + offset[0], 2.0 + offset[1]);
+    let (ny, nz) = (a as usize + 5, b as usize + 5);
+    let far = 99.0;
+    let walls = vec![
+        VoxelBlock::solid_box([-far, -far, -far], [far, y, far]),
+        VoxelBlock::solid_box([-far, y + a, -far], [far, far, far]),
+        VoxelBlock::solid_box([-far, y, -far], [far, y + a, z]),
+        VoxelBlock::solid_box([-far, y, z + b], [far, y + a, far]),
+    ];
+    let mut flow = Flow::new([4, ny, nz], 3, vec![walls]);
+    flow.periodic_flux() / duct_flux(a, b)
+}
+
+/// Whether voxel (j, k) of size `voxel` is in the tube of `radius` around `centre`.
+fn in_tube(j: usize, k: usize, voxel: f64, radius: f64, centre: [f64; 2]) -> bool {
+    let y = (j as f64 + 0.5) * voxel - centre[0];
+    let z = (k as f64 + 0.5) * voxel - centre[1];
+    y * y + z * z < radius * radius
+}
+
+/// Flux of a tube made of voxels over that of the same voxels on a grid four times as fine.
+pub fn hagen_poiseuille_mask(radius: f64, shift: [f64; 2], voxel: f64, path: PathRule) -> f64 {
+    let n = (2.0 * radius).ceil() as usize + 4;
+    let centre = shift.map(|s| 0.5 * n as f64 + s - 0.5);
+    let flux = |refine: usize| {
+        let r = refine as f64;
+        let voxels = (n as f64 / voxel) as usize;
+        let tube = |j: usize, k: usize| in_tube(j, k, voxel, radius, centre);
+        let block = VoxelBlock::from_fn(
+            [-99.0, 0.0, 0.0],
+            [999.0, voxel * r, voxel * r],
+            [1, voxels, voxels],
+            |_, j, k| !tube(j, k),
+        );
+        let mut flow = Flow::new([3, n * refine, n * refine], 3, vec![vec![block]]);
+        flow.path = if refine == 1 { path } else { PathRule::Combined };
+        flow.periodic_flux() / r.powi(4)
+    };
+    flux(1) / flux(4)
+}
