@@ -42,7 +42,7 @@ pub(crate) fn open(source: Source) -> Result<RawVolume, Error> {
         return Ok(checked);
     };
     let ordered = in_c_order(source, data, header.shape, header.sample.bytes())
-        .and_then(|file| Source::of_file(source.name().to_owned(), file))
+        .and_then(|file| source.reordered(file))
         .map_err(|e| Error::io(source, e))?;
     RawVolume::new(vec![ordered], format, nz, 0, header.big_endian)
 }

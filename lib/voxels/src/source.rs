@@ -14,6 +14,8 @@ use crate::Error;
 /// shrinks while it is read is an error instead of a SIGBUS.
 #[derive(Debug)]
 pub struct Source {
+    /// The path as given; `-` is standard input.
+    path: PathBuf,
     name: String,
     handle: Handle,
     len: u64,
@@ -37,21 +39,36 @@ impl Source {
         } else {
             File::open(path)
         };
-        let held = opened.and_then(|file| {
-            let meta = file.metadata()?;
-            if meta.is_dir() {
-                return Err(io::Error::other("it is a folder"));
-            }
-            let file = if meta.is_file() { file } else { spool(file)? };
-            let len = file.metadata()?.len();
-            Ok((file, len))
-        });
-        let (file, len) = held.map_err(|e| Error::io(&name, e))?;
+        opened
+            .and_then(|file| {
+                let meta = file.metadata()?;
+                if meta.is_dir() {
+                    return Err(io::Error::other("it is a folder"));
+                }
+                let file = if meta.is_file() { file } else { spool(file)? };
+                Self::held(path.to_owned(), name.clone(), file)
+            })
+            .map_err(|e| Error::io(&name, e))
+    }
+
+    fn held(path: PathBuf, name: String, file: File) -> io::Result<Self> {
+        let len = file.metadata()?.len();
         Ok(Self {
+            path,
             name,
             handle: Handle::Held(Arc::new(file)),
             len,
         })
+    }
+
+    /// Wraps a regular file that is open already; `name` stands for it in messages.
+    pub(crate) fn of_file(name: String, file: File) -> io::Result<Self> {
+        Self::held(PathBuf::from(&name), name, file)
+    }
+
+    /// The same input with `file`, which holds its content in another order.
+    pub(crate) fn reordered(&self, file: File) -> io::Result<Self> {
+        Self::held(self.path.clone(), self.name.clone(), file)
     }
 
     /// As [`Source::open`], but holds no file open between reads.
@@ -63,14 +80,9 @@ impl Source {
         Ok(source)
     }
 
-    /// Wraps an unnamed file that stands for `name`.
-    pub(crate) fn of_file(name: String, file: File) -> io::Result<Self> {
-        let len = file.metadata()?.len();
-        Ok(Self {
-            name,
-            handle: Handle::Held(Arc::new(file)),
-            len,
-        })
+    /// The path as given; `-` is standard input.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// The name as it stands in messages: the quoted path or `standard input`.

@@ -1,0 +1,63 @@
+//! What the tool says on standard error.
+
+use voxels::{Segmented, Stack, VoxelEdge};
+
+/// A given edge further than this from the stated one is worth a warning.
+const EDGE_TOLERANCE: f64 = 0.01;
+
+/// The stack and the size of its voxels.
+pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
+    let [nx, ny, nz] = stack.dims();
+    let sample = stack.format().sample;
+    cli::note(format_args!(
+        "stack       {}, {nx} x {ny} x {nz} voxels (x, y, z), {sample}",
+        stack.name()
+    ));
+    let um = edge.metres * 1e6;
+    cli::note(format_args!("voxel edge  {um:.6} um, from {}", edge.from));
+    if let Some(stated) = stack
+        .voxel_size()
+        .filter(|stated| stated.from() != edge.from)
+    {
+        let near = |metres: f64| (metres / edge.metres - 1.0).abs() <= EDGE_TOLERANCE;
+        if !stated.cube_edge().is_ok_and(near) {
+            cli::warn(format_args!(
+                "{} says a voxel is {stated}; {} is taken instead",
+                stated.from(),
+                edge.from
+            ));
+        }
+    }
+}
+
+/// Counts, fractions and bond area of a specimen with voxels of `edge` (m).
+pub(crate) fn phases(specimen: &Segmented, edge: f64) {
+    if let Some([void, wood, adhesive]) = specimen.guessed {
+        cli::note(format_args!(
+            "labels      guessed: void={void},wood={wood},adhesive={adhesive}"
+        ));
+    }
+    let [nx, ny, nz] = specimen.wood.dims().map(|n| n as u64);
+    let (wood, adhesive) = (specimen.wood.count(), specimen.adhesive.count());
+    let total = nx * ny * nz;
+    let phases = [
+        ("void", total - wood - adhesive),
+        ("wood", wood),
+        ("adhesive", adhesive),
+    ];
+    for (name, voxels) in phases {
+        let fraction = voxels as f64 / total as f64;
+        cli::note(format_args!(
+            "{name:<10} {voxels:>12} voxels  {fraction:.6}"
+        ));
+        if voxels == 0 && name != "void" {
+            cli::warn(format_args!("no voxel is {name}"));
+        }
+    }
+    let um = edge * 1e6;
+    let area = (nx * nz) as f64 * um * um;
+    let thickness = adhesive as f64 * um / (nx * nz) as f64;
+    cli::note(format_args!(
+        "bond area   {area:.1} um2 (x times z), adhesive volume over it {thickness:.4} um"
+    ));
+}
