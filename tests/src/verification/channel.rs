@@ -1,7 +1,7 @@
 //! Plane Poiseuille flow between walls at any offset, driven by a body force along a
 //! periodic channel.
 
-use super::{LUMEN, Measured, Scene};
+use super::{LUMEN, Measured, Scene, pressing};
 use crate::case_text::{Body, CaseText, PF, STICK};
 use crate::closed_forms::channel_mean;
 
@@ -36,7 +36,9 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
         stop: Some(until),
         bodies: vec![
             Body::wall([0.0; 3], [width, low, cell]),
-            Body::wall([0.0, high, 0.0], [width, top, cell]),
+            Body::wall([0.0, high, 0.0], [width, top + cell, cell])
+                .moving([0.0, -pressing(until), 0.0])
+                .named("top"),
             Body::liquid([0.0, low, 0.0], [width, high, cell]),
         ],
         history_every: until / 20.0,

@@ -1,6 +1,6 @@
 //! Couette flow with partial slip: the speed of the liquid at the walls.
 
-use super::{LUMEN, Measured, Scene};
+use super::{LUMEN, Measured, Scene, pressing};
 use crate::case_text::{Body, CaseText};
 use crate::closed_forms::couette_slip;
 
@@ -30,8 +30,8 @@ pub fn scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
         stop: Some(until),
         bodies: vec![
             Body::wall([0.0; 3], [width, low, cell]).named("bottom"),
-            Body::wall([-1e-3, high, 0.0], [1e-3, top, cell])
-                .moving([SPEED, 0.0, 0.0])
+            Body::wall([-1e-3, high, 0.0], [1e-3, top + cell, cell])
+                .moving([SPEED, -pressing(until), 0.0])
                 .named("top"),
             Body::liquid([0.0, low, 0.0], [width, high, cell]),
         ],

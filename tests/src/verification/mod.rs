@@ -61,6 +61,13 @@ impl Measured {
     }
 }
 
+/// Speed of the upper wall towards the lower one, m/s, that raises the pressure to 1 MPa by the
+/// time `until` (s). The wall law is unilateral: without pressure, as in the adhesive that a
+/// clamp presses, liquid would slip off the walls.
+pub(crate) fn pressing(until: f64) -> f64 {
+    1e6 / crate::case_text::PF[1] * LUMEN / until
+}
+
 /// Rows of a column in a window of another, averaged.
 pub(crate) fn window_mean(x: &[f64], y: &[f64], from: f64, to: f64) -> Option<f64> {
     let inside: Vec<f64> = x
