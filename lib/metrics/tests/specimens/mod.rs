@@ -1,0 +1,100 @@
+//! Specimens whose penetration is known in closed form.
+#![allow(dead_code)] // each test file uses a part
+
+use bondline::{Placed, Specimen};
+use metrics::{Adhesive, State, Wood};
+use particle_file::BitGrid;
+use units::Axis;
+
+/// Voxel edge, m.
+pub const VOXEL: f64 = 1.45e-6;
+
+/// Wood and adhesive of one stack.
+pub struct Stack {
+    pub wood: BitGrid,
+    pub adhesive: BitGrid,
+}
+
+impl Stack {
+    /// A stack from a letter for each voxel: `w`, `a` or anything else for void.
+    pub fn new(dims: [usize; 3], letter: impl Fn(usize, usize, usize) -> char + Sync) -> Self {
+        Self {
+            wood: BitGrid::from_fn(dims, |x, y, z| letter(x, y, z) == 'w'),
+            adhesive: BitGrid::from_fn(dims, |x, y, z| letter(x, y, z) == 'a'),
+        }
+    }
+
+    /// The scanned specimen.
+    pub fn state(&self, normal: Axis) -> State<'_> {
+        let specimen = Specimen::new(placed(&self.wood), placed(&self.adhesive)).unwrap();
+        State::of_specimen(&specimen, normal)
+    }
+}
+
+/// Bits with the low corner at the origin.
+pub fn placed(bits: &BitGrid) -> Placed<'_> {
+    Placed {
+        origin_m: [0.0; 3],
+        voxel_m: VOXEL,
+        bits: bits.view(),
+    }
+}
+
+/// A state of a run: the adherends of a stack parted at layer `plane` (along y) with the top
+/// one `gap` away, and points.
+pub struct Run {
+    bottom: BitGrid,
+    top: BitGrid,
+    plane: usize,
+    pub gap: f64,
+    pub position: Vec<[f32; 3]>,
+    pub volume: Vec<f32>,
+}
+
+impl Run {
+    pub fn new(stack: &Stack, plane: usize, gap: f64) -> Self {
+        let [nx, ny, nz] = stack.wood.dims();
+        Self {
+            bottom: BitGrid::from_fn([nx, plane, nz], |x, y, z| stack.wood.get(x, y, z)),
+            top: BitGrid::from_fn([nx, ny - plane, nz], |x, y, z| {
+                stack.wood.get(x, y + plane, z)
+            }),
+            plane,
+            gap,
+            position: Vec::new(),
+            volume: Vec::new(),
+        }
+    }
+
+    /// Adds a point of one voxel's volume at `place` in voxels.
+    pub fn add(&mut self, place: [f64; 3]) {
+        self.position.push(place.map(|x| (x * VOXEL) as f32));
+        self.volume.push(VOXEL.powi(3) as f32);
+    }
+
+    pub fn state(&self) -> State<'_> {
+        let [nx, top_layers, nz] = self.top.dims();
+        let mut top = placed(&self.top);
+        top.origin_m[1] = self.plane as f64 * VOXEL + self.gap;
+        let height = (self.plane + top_layers) as f64 * VOXEL + self.gap;
+        State {
+            normal: Axis::Y,
+            voxel_m: VOXEL,
+            box_min_m: [0.0; 3],
+            box_max_m: [nx as f64 * VOXEL, height, nz as f64 * VOXEL],
+            wood: Wood::Parted {
+                bottom: placed(&self.bottom),
+                top,
+            },
+            adhesive: Adhesive::Points {
+                position: &self.position,
+                volume: &self.volume,
+            },
+        }
+    }
+}
+
+/// Whether two numbers agree to `relative`.
+pub fn close(a: f64, b: f64, relative: f64) -> bool {
+    (a - b).abs() <= relative * a.abs().max(b.abs())
+}
