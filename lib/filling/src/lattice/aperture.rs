@@ -105,25 +105,47 @@ impl Lattice {
 
     /// Adds the slivers of the closed face next to `cell` along `t` to an open face's areas.
     fn merge(&self, axis: usize, cell: [usize; 3], t: usize, up: bool, aperture: &mut Aperture) {
-        let Some(closed) = self.shifted(cell, t, up) else {
+        let Some(closed) = self.closed_neighbour(axis, cell, t, up) else {
             return;
         };
         let body = self.faces[axis][self.window.index(closed)];
-        if body == OPEN || body == SIDE {
-            return;
-        }
         for quadrant in 0..self.column_count() {
-            let area = self.quadrant_open(axis, closed, quadrant);
-            if area <= PROBE {
-                continue;
-            }
-            let (found, asking) = self.receivers(axis, closed, quadrant, Some((t, !up)));
-            if asking > 0 {
-                let share = area * f64::from(asking) / f64::from(found);
-                aperture.open += share;
-                aperture.add(body, -share);
+            let share = self.sliver_share(axis, closed, quadrant, t, !up);
+            if share > 0.0 {
+                let area = share * self.quadrant_open(axis, closed, quadrant);
+                aperture.open += area;
+                aperture.add(body, -area);
             }
         }
+    }
+
+    /// The cell next to `cell` along `t` whose face along `axis` a body closes.
+    pub(crate) fn closed_neighbour(
+        &self,
+        axis: usize,
+        cell: [usize; 3],
+        t: usize,
+        up: bool,
+    ) -> Option<[usize; 3]> {
+        let next = self.shifted(cell, t, up)?;
+        (self.faces[axis][self.window.index(next)] < OPEN).then_some(next)
+    }
+
+    /// The share of a closed face's open quadrant that the open face along `t` (above it when
+    /// `up`) takes over.
+    pub(crate) fn sliver_share(
+        &self,
+        axis: usize,
+        closed: [usize; 3],
+        quadrant: usize,
+        t: usize,
+        up: bool,
+    ) -> f64 {
+        if self.quadrant_open(axis, closed, quadrant) <= PROBE {
+            return 0.0;
+        }
+        let (found, asking) = self.receivers(axis, closed, quadrant, Some((t, up)));
+        f64::from(asking) / f64::from(found.max(1))
     }
 
     /// Who takes the open quadrant of a closed face: the open faces that it borders on, or, if

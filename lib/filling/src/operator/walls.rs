@@ -142,38 +142,79 @@ impl View {
         rule: PathRule,
         links: &mut Vec<WallLink>,
     ) {
-        let first = links.len();
+        let mut links = Collector {
+            first: links.len(),
+            links,
+        };
         let tangents = lattice.tangents(self.axis);
         let count = lattice.column_count();
         for (t, &tangent) in tangents.iter().enumerate().filter(|(t, _)| self.near[*t]) {
+            let across = match rule {
+                PathRule::Combined if tangents.len() == 2 => Some(self.path(1 - t)),
+                _ => None,
+            };
             for index in 0..count {
                 let column = self.columns[t][index];
-                if column.blocked() {
+                if !column.blocked() {
+                    let area = self.wetted(lattice, phi, self.cell, tangent, index) / count as f64;
+                    for side in (0..2).filter(|&s| column.touches(s)) {
+                        links.add(column, side, area, across);
+                    }
+                }
+            }
+            if tangents.len() == 2 {
+                self.push_sliver_links(lattice, phi, t, across, &mut links);
+            }
+        }
+    }
+
+    /// The walls along tangential direction `t` of slivers that lie, along the other one, in
+    /// adjacent closed faces and are merged into this face.
+    fn push_sliver_links(
+        &self,
+        lattice: &Lattice,
+        phi: &[f32],
+        t: usize,
+        across: Option<f64>,
+        links: &mut Collector,
+    ) {
+        let tangents = lattice.tangents(self.axis);
+        let (tangent, other) = (tangents[t], tangents[1 - t]);
+        for up in [false, true] {
+            let Some(closed) = lattice.closed_neighbour(self.axis, self.cell, other, up) else {
+                continue;
+            };
+            for side in 0..2 {
+                let near_half = usize::from(!up);
+                let quadrant = side << t | near_half << (1 - t);
+                let share = lattice.sliver_share(self.axis, closed, quadrant, other, !up);
+                if share == 0.0 {
                     continue;
                 }
-                for side in (0..2).filter(|&s| column.touches(s)) {
-                    let area = self.wetted(lattice, phi, tangent, index) / count as f64;
-                    let path = match rule {
-                        PathRule::Combined if tangents.len() == 2 => {
-                            let across = self.path(1 - t);
-                            (column.free_path().powi(-2) + across.powi(-2)).powf(-0.5)
-                        }
-                        _ => column.free_path(),
-                    };
-                    let distance = layer(column, side, path);
-                    add(&mut links[..], first, column.body[side], area, distance).unwrap_or_else(
-                        |link| links.push(link),
-                    );
+                for normal in 0..2 {
+                    let index = normal | near_half << 1;
+                    let column = lattice.column(self.axis, closed, tangent, index);
+                    if column.touches(side) && !column.blocked() {
+                        let wet = self.wetted(lattice, phi, closed, tangent, index);
+                        links.add(column, side, 0.25 * share * wet, across);
+                    }
                 }
             }
         }
     }
 
-    /// Liquid fraction of the part of a column that lies in the face's control volume.
-    fn wetted(&self, lattice: &Lattice, phi: &[f32], tangent: usize, index: usize) -> f64 {
+    /// Liquid fraction of the part of a column that lies at the face of `cell`.
+    fn wetted(
+        &self,
+        lattice: &Lattice,
+        phi: &[f32],
+        cell: [usize; 3],
+        tangent: usize,
+        index: usize,
+    ) -> f64 {
         let w = &lattice.window;
         let other = 3 - self.axis - tangent;
-        let mut sub = w.first_sub(self.cell) - w.sub_stride(self.axis);
+        let mut sub = w.first_sub(cell) - w.sub_stride(self.axis);
         sub += (index & 1) * w.sub_stride(self.axis);
         if other < w.domain.axes {
             sub += (index >> 1) * w.sub_stride(other);
@@ -182,34 +223,31 @@ impl View {
     }
 }
 
-/// Effective distance to the wall of a column at `side`, in a lumen of the given free path.
-fn layer(column: Column, side: usize, path: f64) -> f64 {
-    let [d, opposite] = [side, 1 - side].map(|s| {
-        let d = column.distance[s];
-        if d < 1e-3 { AT_CORNER } else { d }
-    });
-    effective_distance(d, opposite, path.max(d))
+/// Gathers the links of one face; equal ones join.
+struct Collector<'a> {
+    links: &'a mut Vec<WallLink>,
+    first: usize,
 }
 
-/// Adds to an equal link after `first`, or gives the link to push.
-fn add(
-    links: &mut [WallLink],
-    first: usize,
-    body: BodyId,
-    area: f64,
-    distance: f64,
-) -> Result<(), WallLink> {
-    let new = WallLink {
-        body,
-        area: area as f32,
-        distance: distance as f32,
-    };
-    let same = |link: &&mut WallLink| link.body == body && link.distance == new.distance;
-    match links[first..].iter_mut().find(same) {
-        Some(link) => {
-            link.area += new.area;
-            Ok(())
+impl Collector<'_> {
+    /// The wall of `column` at `side`, in a lumen of free path `across` along the other
+    /// tangential direction if that is to count.
+    fn add(&mut self, column: Column, side: usize, area: f64, across: Option<f64>) {
+        let along = column.free_path();
+        let path = across.map_or(along, |a| (along.powi(-2) + a.powi(-2)).powf(-0.5));
+        let [d, opposite] = [side, 1 - side].map(|s| {
+            let d = column.distance[s];
+            if d < 1e-3 { AT_CORNER } else { d }
+        });
+        let link = WallLink {
+            body: column.body[side],
+            area: area as f32,
+            distance: effective_distance(d, opposite, path.max(d)) as f32,
+        };
+        let equal = |l: &&mut WallLink| l.body == link.body && l.distance == link.distance;
+        match self.links[self.first..].iter_mut().find(equal) {
+            Some(known) => known.area += link.area,
+            None => self.links.push(link),
         }
-        None => Err(new),
     }
 }
