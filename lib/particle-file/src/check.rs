@@ -36,8 +36,14 @@ impl ParticleFile {
         section: &Section,
         finite: impl Fn(T) -> bool + Sync,
     ) -> Result<(), Error> {
+        const CHUNK: usize = 1 << 14;
         let values = self.column::<T>(&section.name)?;
-        match values.par_iter().position_first(|&x| !finite(x)) {
+        let first_of_chunk = |(chunk, values): (usize, &[T])| {
+            let at = values.iter().position(|&x| !finite(x))?;
+            Some(chunk * CHUNK + at)
+        };
+        let chunks = values.par_chunks(CHUNK).enumerate();
+        match chunks.find_map_first(first_of_chunk) {
             None => Ok(()),
             Some(at) => Err(self.corrupt(format!(
                 "has a value that is not a finite number in row {} of column '{}'",
