@@ -2,7 +2,8 @@
 
 use super::SolveError;
 use super::csr::Csr;
-use super::vector::{Real, Work, for_chunks, for_chunks_pair};
+use super::packed::PackedMatrix;
+use super::vector::{Real, Work, for_chunks, for_chunks_pair, reset};
 
 /// Sweeps that tighten the bound of the largest eigenvalue.
 const BOUND_SWEEPS: usize = 6;
@@ -11,40 +12,43 @@ const BOUND_SWEEPS: usize = 6;
 /// `S = D^-1/2` and `q` the Chebyshev iteration of given degree on `[bound/ratio, bound]`
 /// (Golub & Van Loan, Matrix Computations, 4th ed., section 11.2.8).
 pub(crate) struct Chebyshev {
-    /// `S A S` without its unit diagonal.
-    scaled: Csr<Work>,
+    /// `S A S`.
+    scaled: PackedMatrix,
     /// `D^-1/2`.
     scale: Vec<Work>,
     bound: f64,
     degree: usize,
     ratio: f64,
-    /// Scaled right-hand side and previous iterate.
+    /// Scaled right-hand side, and the last two iterates.
     rhs: Vec<Work>,
-    previous: Vec<Work>,
+    now: Vec<Work>,
+    before: Vec<Work>,
 }
 
 impl Chebyshev {
     pub(crate) fn new(a: &Csr<f64>, degree: usize, ratio: f64) -> Result<Self, SolveError> {
-        let diagonal = a.diagonal();
-        if let Some(row) = diagonal.iter().position(|&d| !(d > 0.0)) {
+        let mut scale = a.diagonal();
+        if let Some(row) = scale.iter().position(|&d| !(d > 0.0)) {
             return Err(SolveError::Matrix(format!(
                 "diagonal {} of velocity row {row}; the velocity block must be positive definite",
-                diagonal[row]
+                scale[row]
             )));
         }
-        let root: Vec<f64> = diagonal.iter().map(|d| 1.0 / d.sqrt()).collect();
-        let scaled = a.filter_map(|row, column, value| {
-            (row != column).then(|| Work::nearest(value * root[row] * root[column]))
+        for_chunks(&mut scale, |_, part| {
+            part.iter_mut().for_each(|d| *d = 1.0 / d.sqrt());
         });
-        let bound = largest_eigenvalue_bound(&scaled);
+        let scaled = PackedMatrix::new(a, &scale)?;
+        let len = scaled.padded_len();
+        let (mut now, mut before) = (vec![0.0; len], vec![0.0; len]);
         Ok(Self {
+            bound: largest_eigenvalue_bound(&scaled, a.n_rows(), &mut now, &mut before),
             scaled,
-            scale: root.into_iter().map(Work::nearest).collect(),
-            bound,
+            scale: scale.into_iter().map(Work::nearest).collect(),
             degree,
             ratio,
-            rhs: Vec::new(),
-            previous: Vec::new(),
+            rhs: vec![0.0; len],
+            now,
+            before,
         })
     }
 
@@ -54,21 +58,19 @@ impl Chebyshev {
     }
 
     /// `x ~ A^-1 b`.
-    pub(crate) fn apply(&mut self, b: &[Work], x: &mut Vec<Work>) {
+    pub(crate) fn apply(&mut self, b: &[Work], x: &mut [Work]) {
         let n = b.len();
         let (low, high) = (self.bound / self.ratio, self.bound);
         let (centre, half_width) = (0.5 * (high + low), 0.5 * (high - low));
         let sigma = centre / half_width;
         let first = Work::nearest(1.0 / centre);
-        self.previous.clear();
-        self.previous.resize(n, 0.0);
-        self.rhs.resize(n, 0.0);
-        x.resize(n, 0.0);
+        let len = self.before.len();
+        reset(&mut self.before, len);
         let scale = &self.scale;
-        for_chunks_pair(&mut self.rhs, x, |start, rhs, x| {
-            for (i, (rhs, x)) in rhs.iter_mut().zip(x).enumerate() {
+        for_chunks_pair(&mut self.rhs[..n], &mut self.now[..n], |start, rhs, now| {
+            for (i, (rhs, now)) in rhs.iter_mut().zip(now).enumerate() {
                 *rhs = b[start + i] * scale[start + i];
-                *x = first * *rhs;
+                *now = first * *rhs;
             }
         });
         let mut rho = 1.0 / sigma;
@@ -77,20 +79,20 @@ impl Chebyshev {
             let momentum = Work::nearest(next * rho);
             let step = Work::nearest(2.0 * next / half_width);
             rho = next;
-            let (matrix, rhs, x_now) = (&self.scaled, &self.rhs, &*x);
-            for_chunks(&mut self.previous, |start, previous| {
-                for (i, old) in previous.iter_mut().enumerate() {
-                    let row = start + i;
-                    let x_row = x_now[row];
-                    let residual = rhs[row] - x_row - matrix.row_times(row, x_now);
-                    *old = x_row + momentum * (x_row - *old) + step * residual;
-                }
-            });
-            std::mem::swap(&mut self.previous, x);
+            let (rhs, now) = (&self.rhs, &self.now);
+            self.scaled
+                .for_blocks(now, &mut self.before, |row, product, old| {
+                    let (rhs, now) = (&rhs[row..], &now[row..]);
+                    for (i, old) in old.iter_mut().enumerate() {
+                        let residual = rhs[i] - now[i] - product[i];
+                        *old = now[i] + momentum * (now[i] - *old) + step * residual;
+                    }
+                });
+            std::mem::swap(&mut self.before, &mut self.now);
         }
         for_chunks(x, |start, part| {
-            for (x, &scale) in part.iter_mut().zip(&scale[start..]) {
-                *x = *x * scale;
+            for (i, x) in part.iter_mut().enumerate() {
+                *x = self.now[start + i] * scale[start + i];
             }
         });
     }
@@ -100,26 +102,26 @@ impl Chebyshev {
 /// positive `w`, `rho(I + M) <= rho(I + |M|) <= max_i ((I + |M|) w)_i / w_i` (Collatz 1942).
 /// Each sweep `w <- (I + |M|) w` tightens the bound; unlike a power iteration it is never too low,
 /// which would make the polynomial amplify the missed modes.
-fn largest_eigenvalue_bound(off_diagonal: &Csr<Work>) -> f64 {
-    let n = off_diagonal.n_rows();
-    let mut w = vec![1.0f64; n];
-    let mut next = vec![0.0f64; n];
+///
+/// `w` and `next` are zeros of the padded length and are left so.
+fn largest_eigenvalue_bound(
+    matrix: &PackedMatrix,
+    n: usize,
+    w: &mut Vec<Work>,
+    next: &mut Vec<Work>,
+) -> f64 {
+    w[..n].fill(1.0);
     let mut bound = f64::INFINITY;
     for _ in 0..BOUND_SWEEPS {
-        for_chunks(&mut next, |start, part| {
-            for (i, out) in part.iter_mut().enumerate() {
-                let (columns, values) = off_diagonal.row(start + i);
-                let mut sum = w[start + i];
-                for (&column, &value) in columns.iter().zip(values) {
-                    sum += f64::from(value.abs()) * w[column as usize];
-                }
-                *out = sum;
-            }
-        });
-        let ratio = next.iter().zip(&w).map(|(a, b)| a / b).fold(1.0, f64::max);
-        bound = bound.min(ratio);
-        std::mem::swap(&mut w, &mut next);
+        matrix.multiply_absolute(w, next);
+        let ratios = next[..n].iter().zip(&w[..n]).map(|(a, b)| a / b);
+        bound = bound.min(f64::from(ratios.fold(1.0, Work::max)));
+        std::mem::swap(w, next);
     }
-    // Rounding of the single-precision entries.
+    for vector in [w, next] {
+        let len = vector.len();
+        reset(vector, len);
+    }
+    // Room for the rounding of single-precision sums.
     bound * (1.0 + 1e-5)
 }

@@ -9,6 +9,7 @@ mod amg;
 mod chebyshev;
 mod csr;
 mod fgmres;
+mod packed;
 mod pcg;
 mod pockets;
 mod poisson;

@@ -2,7 +2,7 @@
 
 use super::amg::Amg;
 use super::csr::Csr;
-use super::pcg::{Outcome, PcgSpace, pcg};
+use super::pcg::{PcgSpace, pcg};
 use super::pockets::ClosedPockets;
 use super::vector::Work;
 use super::{SolveError, check_length};
@@ -117,26 +117,17 @@ impl Poisson {
         })
     }
 
-    /// Approximate solution in working precision, to a loose tolerance.
+    /// Approximate solution in working precision by `cycles` steps from zero; the right-hand side
+    /// loses its mean over closed pockets.
     pub(crate) fn apply(
         &self,
         rhs: &mut [Work],
         psi: &mut Vec<Work>,
-        tolerance: f64,
-        max_iterations: usize,
+        cycles: usize,
         space: &mut PcgSpace<Work>,
-    ) -> Outcome {
+    ) {
         self.pockets.remove_mean(rhs);
-        let outcome = pcg(
-            &self.matrix,
-            &self.amg,
-            rhs,
-            psi,
-            tolerance,
-            max_iterations,
-            space,
-        );
+        pcg(&self.matrix, &self.amg, rhs, psi, 0.0, cycles, space);
         self.pockets.remove_mean(psi);
-        outcome
     }
 }

@@ -46,8 +46,9 @@ pub struct SaddleOptions {
     pub chebyshev_degree: usize,
     /// Its interval: largest over smallest eigenvalue of `D^-1 A` treated.
     pub chebyshev_ratio: f64,
-    /// Residual to which the Poisson problem in the pressure preconditioner is solved.
-    pub inner_tolerance: f64,
+    /// Conjugate gradient steps, each with a multigrid cycle, for the Poisson problem in the
+    /// pressure preconditioner.
+    pub inner_cycles: usize,
 }
 
 impl Default for SaddleOptions {
@@ -56,9 +57,9 @@ impl Default for SaddleOptions {
             tolerance: 1e-3,
             max_iterations: 200,
             restart: 30,
-            chebyshev_degree: 12,
-            chebyshev_ratio: 115.0,
-            inner_tolerance: 0.3,
+            chebyshev_degree: 20,
+            chebyshev_ratio: 320.0,
+            inner_cycles: 2,
         }
     }
 }
@@ -223,8 +224,6 @@ struct BlockTriangular<'a> {
     g: &'a Csr<f64>,
     chebyshev: Chebyshev,
     schur: Schur,
-    velocity: Vec<Work>,
-    pressure: Vec<Work>,
     residual: Vec<Work>,
 }
 
@@ -234,9 +233,7 @@ impl<'a> BlockTriangular<'a> {
         Ok(Self {
             g: system.g,
             chebyshev: Chebyshev::new(system.a, options.chebyshev_degree, options.chebyshev_ratio)?,
-            schur: Schur::new(&system, &operator.g_transposed, options.inner_tolerance)?,
-            velocity: Vec::new(),
-            pressure: Vec::new(),
+            schur: Schur::new(&system, &operator.g_transposed, options.inner_cycles)?,
             residual: vec![Work::default(); system.g.n_rows()],
         })
     }
@@ -244,18 +241,16 @@ impl<'a> BlockTriangular<'a> {
     /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`.
     fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
         let (r_u, r_p) = r.split_at(self.g.n_columns());
-        self.chebyshev.apply(r_u, &mut self.velocity);
-        let (g, velocity) = (self.g, &self.velocity);
+        z.resize(r.len(), Work::default());
+        let (velocity, pressure) = z.split_at_mut(r_u.len());
+        self.chebyshev.apply(r_u, velocity);
+        let (g, velocity) = (self.g, &*velocity);
         for_chunks(&mut self.residual, |start, part| {
             for (i, out) in part.iter_mut().enumerate() {
                 let flux = g.row_times_wide(start + i, velocity);
                 *out = r_p[start + i] + Work::nearest(flux);
             }
         });
-        self.schur
-            .apply_negative(&mut self.residual, &mut self.pressure);
-        z.clear();
-        z.extend_from_slice(&self.velocity);
-        z.extend_from_slice(&self.pressure);
+        self.schur.apply_negative(&mut self.residual, pressure);
     }
 }

@@ -57,8 +57,7 @@ struct Face {
 struct Stokes {
     case: Case,
     wood: Wood,
-    /// Pressure unknown of every cell and velocity unknown of every cell's three lower faces.
-    pressure: Vec<u32>,
+    /// Velocity unknown of every cell's three lower faces.
     velocity: Vec<[u32; 3]>,
     cells: Vec<Point>,
     faces: Vec<Face>,
@@ -81,30 +80,39 @@ impl Stokes {
         let wood = Wood::new(case);
         let mut stokes = Self {
             case: *case,
-            pressure: vec![NONE; wood.cell.len()],
             velocity: vec![[NONE; 3]; wood.cell.len()],
             cells: Vec::new(),
             faces: Vec::new(),
             wood,
         };
-        for index in 0..stokes.wood.cell.len() {
-            let [nx, ny, _] = stokes.wood.n;
-            let at = [index % nx, index / nx % ny, index / nx / ny].map(|v| v as i64);
-            let here = stokes.wood.at(at);
-            if here == Cell::Liquid {
-                stokes.pressure[index] = stokes.cells.len() as u32;
-                stokes.cells.push(at);
-            }
+        stokes.number();
+        stokes
+    }
+
+    /// Numbers the unknowns along grid lines, one velocity component after the other on each line:
+    /// neighbouring rows then couple to equal distances.
+    fn number(&mut self) {
+        let [nx, ny, nz] = self.wood.n.map(|n| n as i64);
+        for (z, y) in (0..nz).flat_map(|z| (0..ny).map(move |y| (z, y))) {
+            let line = (0..nx).map(|x| [x, y, z]);
+            let liquid = line.clone().filter(|&at| self.wood.at(at) == Cell::Liquid);
+            self.cells.extend(liquid);
             for axis in 0..3 {
-                let below = stokes.wood.at(shift(at, axis, -1));
-                let wet = here == Cell::Liquid || below == Cell::Liquid;
-                if here.is_open() && below.is_open() && wet {
-                    stokes.velocity[index][axis] = stokes.faces.len() as u32;
-                    stokes.faces.push(Face { axis, at });
+                for at in line.clone() {
+                    if self.is_active(axis, at) {
+                        let index = self.wood.index(at.map(|v| v as usize));
+                        self.velocity[index][axis] = self.faces.len() as u32;
+                        self.faces.push(Face { axis, at });
+                    }
                 }
             }
         }
-        stokes
+    }
+
+    /// Whether the lower face of a cell along `axis` is open and wet.
+    fn is_active(&self, axis: usize, at: Point) -> bool {
+        let sides = [self.wood.at(at), self.wood.at(shift(at, axis, -1))];
+        sides.into_iter().all(Cell::is_open) && sides.contains(&Cell::Liquid)
     }
 
     fn assemble(&self) -> Result<Problem, SolveError> {
