@@ -1,1 +1,40 @@
-//! figures
+//! Figures and Table 2 of the pipeline, from the tools' own output files.
+//!
+//! A figure is read from data into a plain struct (`Closing`, `WpMap`, `ShearRates`,
+//! `Slices`), drawn into a [`Drawing`] and written as SVG or PNG. The font is embedded, so a
+//! machine without fonts or display gives the same picture. No chart is drawn from data that
+//! are not there: a missing column or an empty file is an [`Error`].
+
+mod axes;
+mod closing;
+mod colour;
+mod colour_bar;
+mod drawing;
+mod error;
+mod legend;
+mod panels;
+mod render;
+mod shear_rate;
+mod slice;
+mod table;
+mod table2;
+mod wp_map;
+
+pub use closing::Closing;
+pub use drawing::Drawing;
+pub use error::Error;
+pub use shear_rate::ShearRates;
+pub use slice::{Colouring, Cut, Position, Slices};
+pub use table2::{Case, Table2};
+pub use wp_map::WpMap;
+
+use std::path::PathBuf;
+
+/// A data file with the name it goes by in a figure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Labelled {
+    /// Name in legends and titles.
+    pub label: String,
+    /// The file.
+    pub path: PathBuf,
+}

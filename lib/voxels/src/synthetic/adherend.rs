@@ -76,7 +76,7 @@ impl Adherend {
     }
 
     fn grow(plan: &Plan, side: usize) -> Self {
-        let cut = Cut::new(plan.seed, side);
+        let cut = Cut::new(plan, side);
         let bounds = cut.bounds(plan.half_box(side));
         let [l, r, t] = bounds.map(|[low, high]| [low - MARGIN, high + MARGIN]);
         let vessels = Vessels::place(plan, &cut, side, [r, t]);

@@ -1,6 +1,7 @@
 use rand::RngExt;
 
 use super::random::{Feature, stream};
+use super::recipe::Plan;
 
 /// A position in the wood, um: along the fibres (l), along the rays (r) and along the growth
 /// ring (t), from the middle of the bond plane.
@@ -26,8 +27,8 @@ const DRIFT: f32 = 3.0;
 const RAY_ANGLE: [[f32; 2]; 2] = [[-12.0, 12.0], [62.0, 84.0]];
 
 impl Cut {
-    pub(super) fn new(seed: u64, side: usize) -> Self {
-        let mut random = stream(seed, side, Feature::Cut);
+    pub(super) fn new(plan: &Plan, side: usize) -> Self {
+        let mut random = stream(plan, side, Feature::Cut);
         let [lowest, highest] = RAY_ANGLE[side];
         let rays = random.random_range(lowest..highest).to_radians();
         let sign = if random.random::<bool>() { 1.0 } else { -1.0 };

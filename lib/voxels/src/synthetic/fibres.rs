@@ -51,7 +51,7 @@ impl Fibres {
         rays: &Rays,
         vessels: &Vessels,
     ) -> Self {
-        let mut random = stream(plan.seed, side, Feature::Fibres);
+        let mut random = stream(plan, side, Feature::Fibres);
         let start = r[0] - 3.0 * PITCH;
         let per_file = ((r[1] - start) / PITCH) as usize + 4;
         let mut strip = |[low, high]: [f32; 2]| {

@@ -1,6 +1,8 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+use super::recipe::Plan;
+
 /// What a stream of random numbers decides; one stream each, so that a change in one feature
 /// leaves the others of the same seed as they are.
 #[derive(Clone, Copy)]
@@ -12,10 +14,12 @@ pub(super) enum Feature {
     Fibres,
 }
 
-/// The generator for `feature` of the adherend `side` (0 bottom, 1 top). ChaCha8 by name,
-/// because `StdRng` may change between releases and specimens are kept.
-pub(super) fn stream(seed: u64, side: usize, feature: Feature) -> ChaCha8Rng {
-    let mut generator = ChaCha8Rng::seed_from_u64(seed);
-    generator.set_stream(2 * feature as u64 + side as u64);
+/// The generator for `feature` of the adherend `side` (0 bottom, 1 top). The adhesives'
+/// specimens are different pieces of wood. ChaCha8 by name, because `StdRng` may change
+/// between releases and specimens are kept.
+pub(super) fn stream(plan: &Plan, side: usize, feature: Feature) -> ChaCha8Rng {
+    let mut generator = ChaCha8Rng::seed_from_u64(plan.seed);
+    let wood = 2 * plan.adhesive as u64 + side as u64;
+    generator.set_stream(16 * wood + feature as u64);
     generator
 }

@@ -56,7 +56,7 @@ pub(super) struct Place {
 impl Rays {
     /// Ray columns over the given ranges of l and t, um.
     pub(super) fn place(plan: &Plan, side: usize, l: [f32; 2], t: [f32; 2]) -> Self {
-        let mut random = stream(plan.seed, side, Feature::Rays);
+        let mut random = stream(plan, side, Feature::Rays);
         let mut columns = Vec::new();
         // One column before and one after the range, so that every point is in a strip.
         let mut next = t[0] - SPACING * random.random_range(1.0..2.0);

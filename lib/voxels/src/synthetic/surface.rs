@@ -20,7 +20,7 @@ const WAVELENGTHS: [f32; 2] = [25.0, 160.0];
 
 impl Face {
     pub(super) fn new(plan: &Plan, side: usize) -> Self {
-        let mut random = stream(plan.seed, side, Feature::Face);
+        let mut random = stream(plan, side, Feature::Face);
         let waves: Vec<[f32; 4]> = (0..WAVES)
             .map(|_| {
                 let wavelength = random.random_range(WAVELENGTHS[0]..WAVELENGTHS[1]);

@@ -68,7 +68,7 @@ impl Vessels {
     /// opens in the middle of the box, then (PF, bottom) the isolated tube, then random groups
     /// until the share is reached.
     pub(super) fn place(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
-        let mut random = stream(plan.seed, side, Feature::Vessels);
+        let mut random = stream(plan, side, Feature::Vessels);
         let mut members = opened(plan, cut, side, &mut random);
         members.extend(isolated(plan, cut, side, &mut random));
         let [r, t] = bounds;

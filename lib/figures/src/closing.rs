@@ -1,0 +1,184 @@
+use crate::axes::{Axis, Frame, NORMAL, extent};
+use crate::colour::{BLACK, DISTINCT};
+use crate::drawing::{Anchor, Drawing, Point};
+use crate::legend::{self, Stroke};
+use crate::table::Table;
+use crate::{Error, Labelled};
+
+/// Clamping pressure and closing speed against time, one line per run (Figs. 5 and 6 of the
+/// paper), from the `history.csv` of each run.
+#[derive(Clone, Debug)]
+pub struct Closing {
+    runs: Vec<Run>,
+    limit: Option<f64>,
+    title: String,
+}
+
+#[derive(Clone, Debug)]
+struct Run {
+    label: String,
+    /// s
+    time: Vec<f64>,
+    /// Pa; mean of both adherends
+    pressure: Vec<f64>,
+    /// m/s
+    speed: Vec<f64>,
+}
+
+const WIDTH: u32 = 800;
+const LEFT: f64 = 84.0;
+const RIGHT: f64 = 24.0;
+const PRESSURE_HEIGHT: f64 = 300.0;
+const SPEED_HEIGHT: f64 = 150.0;
+
+impl Closing {
+    /// Reads the histories of runs. `limit` (Pa) is drawn as a dashed line.
+    ///
+    /// # Errors
+    /// [`Error::Data`] for an unreadable history, a missing column, or one without numbers;
+    /// [`Error::Request`] for more runs than can be told apart.
+    pub fn read(runs: &[Labelled], limit: Option<f64>, title: &str) -> Result<Self, Error> {
+        if runs.len() > DISTINCT {
+            return Err(Error::Request(format!(
+                "{} runs are too many for one figure: {DISTINCT} can be told apart",
+                runs.len()
+            )));
+        }
+        let runs = runs.iter().map(Run::read).collect::<Result<_, _>>()?;
+        Ok(Self {
+            runs,
+            limit,
+            title: title.into(),
+        })
+    }
+
+    /// The figure.
+    pub fn draw(&self) -> Drawing {
+        let labels: Vec<&str> = self.runs.iter().map(|run| run.label.as_str()).collect();
+        let width = f64::from(WIDTH) - LEFT - RIGHT;
+        let title_height = if self.title.is_empty() { 10.0 } else { 36.0 };
+        let top = title_height + legend::height(&labels, width) + 10.0;
+        let frame = |top, height| Frame {
+            left: LEFT,
+            top,
+            width,
+            height,
+        };
+        let upper = frame(top, PRESSURE_HEIGHT);
+        let lower = frame(upper.bottom() + 34.0, SPEED_HEIGHT);
+        let mut drawing = Drawing::new(WIDTH, (lower.bottom() + 56.0) as u32);
+        if !self.title.is_empty() {
+            let middle = LEFT + 0.5 * width;
+            drawing.text(&self.title, [middle, 20.0], Anchor::Centre, NORMAL + 2.0);
+        }
+        legend::draw(&mut drawing, &labels, LEFT, title_height, width);
+        self.plot(&mut drawing, &upper, &lower);
+        drawing
+    }
+
+    fn plot(&self, drawing: &mut Drawing, upper: &Frame, lower: &Frame) {
+        let times = || self.runs.iter().flat_map(|run| run.time.iter().copied());
+        let (unit, name) = time_unit(extent(times()).1);
+        let time = |title: String| Axis::linear(title, times().map(move |t| t / unit));
+        let (above, below) = (time(String::new()), time(format!("time ({name})")));
+        let pressures = self.runs.iter().flat_map(|run| run.pressure.iter());
+        let pressures = pressures.copied().chain(self.limit).chain([0.0]);
+        let pressure = Axis::linear("pressure (MPa)", pressures.map(|p| p * 1e-6));
+        let speeds = self.runs.iter().flat_map(|run| run.speed.iter().copied());
+        let speed = Axis::linear("closing speed (m/s)", speeds.chain([0.0]));
+        upper.draw(drawing, &above, &pressure, true);
+        lower.draw(drawing, &below, &speed, true);
+        if let Some(limit) = self.limit {
+            let ends = [0.0, f64::MAX].map(|t| upper.place(&above, &pressure, [t, limit * 1e-6]));
+            drawing.dashes(&ends, BLACK, 1.2, [4.0, 4.0]);
+        }
+        for (i, run) in self.runs.iter().enumerate() {
+            let stroke = Stroke::of_series(i);
+            let line = |frame: &Frame, y: &Axis, values: &[f64], scale: f64| {
+                let pairs = run.time.iter().zip(values);
+                let place = |(t, v): (&f64, &f64)| frame.place(&above, y, [t / unit, v * scale]);
+                thinned(pairs.map(place))
+            };
+            stroke.draw(drawing, &line(upper, &pressure, &run.pressure, 1e-6));
+            stroke.draw(drawing, &line(lower, &speed, &run.speed, 1.0));
+        }
+    }
+}
+
+impl Run {
+    fn read(source: &Labelled) -> Result<Self, Error> {
+        let table = Table::read(&source.path)?;
+        let [bottom, top] = [
+            table.data("pressure_bottom_Pa")?,
+            table.data("pressure_top_Pa")?,
+        ];
+        Ok(Self {
+            label: source.label.clone(),
+            time: table.data("time_s")?,
+            pressure: bottom.iter().zip(top).map(|(b, t)| 0.5 * (b + t)).collect(),
+            speed: table.data("closing_speed_m_s")?,
+        })
+    }
+}
+
+/// The largest unit that shows a time of `last` seconds as a number above one.
+pub(crate) fn time_unit(last: f64) -> (f64, &'static str) {
+    match last {
+        s if s >= 1.0 => (1.0, "s"),
+        s if s >= 1e-3 => (1e-3, "ms"),
+        _ => (1e-6, "µs"),
+    }
+}
+
+/// At most four points per logical pixel column, keeping the extremes, so that noise keeps
+/// its height and an SVG of 100 000 steps stays small.
+pub(crate) fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
+    let mut kept: Vec<Point> = Vec::new();
+    let mut column: Vec<Point> = Vec::new();
+    let mut flush = |column: &mut Vec<Point>| {
+        if column.len() <= 4 {
+            kept.append(column);
+            return;
+        }
+        let last = column.len() - 1;
+        let by_height = |a: &usize, b: &usize| column[*a][1].total_cmp(&column[*b][1]);
+        let lowest = (0..=last).min_by(by_height).unwrap_or(0);
+        let highest = (0..=last).max_by(by_height).unwrap_or(last);
+        let mut indices = [0, lowest.min(highest), lowest.max(highest), last].to_vec();
+        indices.dedup();
+        kept.extend(indices.iter().map(|&i| column[i]));
+        column.clear();
+    };
+    for point in points {
+        let changes = column
+            .first()
+            .is_some_and(|first| first[0].floor() != point[0].floor());
+        if changes || !(point[0].is_finite() && point[1].is_finite()) {
+            flush(&mut column);
+        }
+        column.push(point);
+        if !(point[0].is_finite() && point[1].is_finite()) {
+            flush(&mut column);
+        }
+    }
+    flush(&mut column);
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thinning_keeps_extremes_ends_and_gaps() {
+        let noise = |i: usize| if i == 517 { 99.0 } else { (i % 7) as f64 };
+        let points: Vec<Point> = (0..1000).map(|i| [i as f64 * 0.01, noise(i)]).collect();
+        let kept = thinned(points.iter().copied());
+        assert!(kept.len() <= 44, "{}", kept.len());
+        assert!(kept.iter().any(|p| p[1] == 99.0));
+        assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[999]));
+        assert!(kept.windows(2).all(|pair| pair[0][0] <= pair[1][0]));
+        let gap = [[0.1, 1.0], [0.2, f64::NAN], [0.3, 1.0]];
+        assert_eq!(thinned(gap.into_iter()).len(), 3);
+    }
+}

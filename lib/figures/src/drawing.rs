@@ -1,0 +1,128 @@
+use plotters::style::RGBAColor;
+
+/// A point in logical pixels from the top left corner.
+pub(crate) type Point = [f64; 2];
+
+/// A picture as a list of what is in it, in logical pixels (96 per inch); figures build it,
+/// [`Drawing::to_svg`] and [`Drawing::to_png`] render it. Images lie under all else, the rest
+/// in the order of drawing.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) images: Vec<Image>,
+    pub(crate) items: Vec<Item>,
+}
+
+/// Pixels of a picture placed in the drawing, not smoothed.
+#[derive(Clone, Debug)]
+pub(crate) struct Image {
+    /// Left, top, width and height of the place it fills.
+    pub(crate) place: [f64; 4],
+    /// Pixels along x and y.
+    pub(crate) size: [usize; 2],
+    /// Row by row from the top, three bytes a pixel.
+    pub(crate) rgb: Vec<u8>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) enum Item {
+    Line {
+        points: Vec<Point>,
+        colour: RGBAColor,
+        width: f64,
+    },
+    Area {
+        points: Vec<Point>,
+        colour: RGBAColor,
+    },
+    Text {
+        text: String,
+        at: Point,
+        anchor: Anchor,
+        size: f64,
+    },
+}
+
+/// Where the text lies with respect to its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Anchor {
+    /// To the right of it, centred in height.
+    Left,
+    /// Centred on it.
+    Centre,
+    /// To the left of it, centred in height.
+    Right,
+    /// Centred on it, reading upwards.
+    Upwards,
+}
+
+impl Drawing {
+    pub(crate) fn new(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            images: Vec::new(),
+            items: Vec::new(),
+        }
+    }
+
+    pub(crate) fn line(&mut self, points: Vec<Point>, colour: RGBAColor, width: f64) {
+        self.items.push(Item::Line {
+            points,
+            colour,
+            width,
+        });
+    }
+
+    /// A line of dashes `on` long with gaps of `off`.
+    pub(crate) fn dashes(
+        &mut self,
+        points: &[Point],
+        colour: RGBAColor,
+        width: f64,
+        [on, off]: [f64; 2],
+    ) {
+        let mut dash = Vec::new();
+        let mut done = 0.0;
+        for pair in points.windows(2) {
+            let [a, b] = [pair[0], pair[1]];
+            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+            let at = |s: f64| [0, 1].map(|i| a[i] + (b[i] - a[i]) * s / length);
+            let mut s = 0.0;
+            while s < length {
+                let phase = done % (on + off);
+                let inked = phase < on;
+                let left = if inked { on - phase } else { on + off - phase };
+                // A floor on the step keeps rounding in `phase` from stalling the walk.
+                let step = left.max(1e-6).min(length - s);
+                if inked {
+                    if dash.is_empty() {
+                        dash.push(at(s));
+                    }
+                    dash.push(at(s + step));
+                } else if !dash.is_empty() {
+                    self.line(std::mem::take(&mut dash), colour, width);
+                }
+                s += step;
+                done += step;
+            }
+        }
+        if dash.len() > 1 {
+            self.line(dash, colour, width);
+        }
+    }
+
+    pub(crate) fn area(&mut self, points: Vec<Point>, colour: RGBAColor) {
+        self.items.push(Item::Area { points, colour });
+    }
+
+    pub(crate) fn text(&mut self, text: impl Into<String>, at: Point, anchor: Anchor, size: f64) {
+        self.items.push(Item::Text {
+            text: text.into(),
+            at,
+            anchor,
+            size,
+        });
+    }
+}

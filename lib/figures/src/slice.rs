@@ -1,0 +1,317 @@
+use particle_file::{Header, Material, ParticleFile};
+use units::Axis as Direction;
+
+use crate::axes::{Axis, NORMAL};
+use crate::closing::time_unit;
+use crate::colour::{BLACK, viridis};
+use crate::colour_bar;
+use crate::drawing::{Anchor, Drawing, Image};
+use crate::panels::{Panels, Room};
+use crate::{Error, Labelled};
+
+/// Slices through states (specimens, bonds, snapshots of a run): wood grey, void white,
+/// adhesive in one colour or by its pressure.
+#[derive(Clone, Debug)]
+pub struct Slices {
+    panels: Vec<Panel>,
+    colouring: Colouring,
+}
+
+/// What the adhesive's colour shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colouring {
+    /// Where it is.
+    Plain,
+    /// Its pressure; the states must hold the column.
+    Pressure,
+}
+
+/// Where to cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    /// The axis that the slice is normal to.
+    pub axis: Direction,
+    /// How far along it.
+    pub position: Position,
+}
+
+/// A place along an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Position {
+    /// Coordinate, m.
+    At(f64),
+    /// Share of the box from its low side, 0 to 1.
+    Share(f64),
+}
+
+#[derive(Clone, Debug)]
+struct Panel {
+    title: String,
+    /// Edges of the slice across and up, m.
+    edges: [f64; 2],
+    size: [usize; 2],
+    /// Row by row from the top.
+    pixels: Vec<Pixel>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Pixel {
+    Void,
+    Wood,
+    /// With its pressure (Pa) where that is shown.
+    Adhesive(f32),
+}
+
+const WOOD: [u8; 3] = [150, 150, 150];
+const ADHESIVE: [u8; 3] = [230, 159, 0];
+/// Pixels along the edge of a voxel: bodies stand between voxels during a run.
+const FINER: f64 = 2.0;
+/// Most pixels along an edge of a slice.
+const MOST_PIXELS: f64 = 2048.0;
+const ROOM: Room = Room {
+    left: 24.0,
+    above: 36.0,
+    below: 46.0,
+};
+
+impl Slices {
+    /// Reads one panel per particle file.
+    ///
+    /// # Errors
+    /// [`Error::Data`] for an unreadable file or one without the pressure that is to be
+    /// shown, [`Error::Request`] for a slice beside the box.
+    pub fn read(states: &[Labelled], cut: Cut, colouring: Colouring) -> Result<Self, Error> {
+        let read = |state| Panel::read(state, cut, colouring);
+        let panels = states.iter().map(read).collect::<Result<_, _>>()?;
+        Ok(Self { panels, colouring })
+    }
+
+    /// The figure.
+    pub fn draw(&self) -> Drawing {
+        let edges: Vec<_> = self.panels.iter().map(|panel| panel.edges).collect();
+        let longest = if edges.len() > 2 { 340.0 } else { 520.0 };
+        let panels = Panels::place(&edges, longest, ROOM);
+        let bar = match self.colouring {
+            Colouring::Plain => ROOM.left,
+            Colouring::Pressure => colour_bar::WIDTH,
+        };
+        let mut drawing = Drawing::new((panels.right + bar) as u32, panels.bottom as u32);
+        let pressures = self.panels.iter().flat_map(|panel| &panel.pixels);
+        let pressures = pressures.filter_map(|pixel| match pixel {
+            Pixel::Adhesive(pressure) => Some(f64::from(*pressure) * 1e-6),
+            _ => None,
+        });
+        let shades = Axis::linear("pressure (MPa)", pressures);
+        for (panel, frame) in self.panels.iter().zip(&panels.frames) {
+            let colour = |pixel: &Pixel| match (pixel, self.colouring) {
+                (Pixel::Void, _) => [255; 3],
+                (Pixel::Wood, _) => WOOD,
+                (Pixel::Adhesive(_), Colouring::Plain) => ADHESIVE,
+                (Pixel::Adhesive(pressure), Colouring::Pressure) => {
+                    viridis(shades.share(f64::from(*pressure) * 1e-6))
+                }
+            };
+            drawing.images.push(Image {
+                place: [frame.left, frame.top, frame.width, frame.height],
+                size: panel.size,
+                rgb: panel.pixels.iter().flat_map(colour).collect(),
+            });
+            frame.draw(&mut drawing, &Axis::none(), &Axis::none(), false);
+            let above = [frame.left + 0.5 * frame.width, frame.top - 15.0];
+            drawing.text(&panel.title, above, Anchor::Centre, NORMAL);
+            let bar = scale_bar(panel.edges[0]);
+            let length = bar / panel.edges[0] * frame.width;
+            let (left, y) = (frame.left, frame.bottom() + 18.0);
+            drawing.line(vec![[left, y], [left + length, y]], BLACK, 4.0);
+            let text = format!("{:.0} µm", bar * 1e6);
+            drawing.text(text, [left + length + 10.0, y], Anchor::Left, NORMAL);
+        }
+        if self.colouring == Colouring::Pressure {
+            let (right, height) = (panels.right, panels.height);
+            colour_bar::draw(&mut drawing, right, ROOM.above, height, &shades);
+        }
+        drawing
+    }
+}
+
+/// The longest of 1, 2, 5, 10 ... um that fits into a third of the width, m.
+fn scale_bar(width: f64) -> f64 {
+    let steps = (0..9).flat_map(|power| [1.0, 2.0, 5.0].map(|f| f * 10_f64.powi(power) * 1e-6));
+    steps
+        .take_while(|bar| *bar <= width / 3.0)
+        .last()
+        .unwrap_or(1e-6)
+}
+
+impl Panel {
+    fn read(state: &Labelled, cut: Cut, colouring: Colouring) -> Result<Self, Error> {
+        let file = ParticleFile::open(&state.path).map_err(|e| Error::Data(e.to_string()))?;
+        let [low, high] = bounds(file.header());
+        let normal = cut.axis.index();
+        let at = match cut.position {
+            Position::At(at) => at,
+            Position::Share(share) => low[normal] + share * (high[normal] - low[normal]),
+        };
+        if !(low[normal]..=high[normal]).contains(&at) {
+            return Err(Error::Request(format!(
+                "'{}' has no slice at {} = {:.2} um: its box reaches from {:.2} to {:.2} um",
+                file.name(),
+                cut.axis,
+                at * 1e6,
+                low[normal] * 1e6,
+                high[normal] * 1e6
+            )));
+        }
+        let mut raster = Raster::new(cut.axis, at, [low, high], file.header().voxel_m);
+        raster
+            .add(&file, colouring)
+            .map_err(|e| Error::Data(e.to_string()))?;
+        let (unit, name) = time_unit(file.header().time_s);
+        let time = match file.header().kind {
+            particle_file::Kind::State => {
+                format!(", t = {:.3} {name}", file.header().time_s / unit)
+            }
+            _ => String::new(),
+        };
+        Ok(Self {
+            title: format!("{}{time}, {} = {:.1} µm", state.label, cut.axis, at * 1e6),
+            edges: raster.edges,
+            size: raster.size,
+            pixels: raster.pixels,
+        })
+    }
+}
+
+/// Low and high corner of all there is: the specimen's box and the bodies, which may stand
+/// beyond it before closing.
+fn bounds(header: &Header) -> [[f64; 3]; 2] {
+    let blocks = header.blocks.iter();
+    blocks.fold(
+        [header.box_min_m, header.box_max_m],
+        |[low, high], block| {
+            let (from, to) = (block.origin_m, block.max_m());
+            [
+                std::array::from_fn(|axis| low[axis].min(from[axis])),
+                std::array::from_fn(|axis| high[axis].max(to[axis])),
+            ]
+        },
+    )
+}
+
+/// A slice while it is filled.
+struct Raster {
+    /// Axes across, up and normal to the slice.
+    axes: [usize; 3],
+    at: f64,
+    low: [f64; 2],
+    edges: [f64; 2],
+    pitch: f64,
+    size: [usize; 2],
+    pixels: Vec<Pixel>,
+}
+
+impl Raster {
+    fn new(normal: Direction, at: f64, [low, high]: [[f64; 3]; 2], voxel: f64) -> Self {
+        let axes = match normal {
+            Direction::X => [2, 1, 0],
+            Direction::Y => [0, 2, 1],
+            Direction::Z => [0, 1, 2],
+        };
+        let edges = [axes[0], axes[1]].map(|a| high[a] - low[a]);
+        let pitch = (voxel / FINER).max(edges[0].max(edges[1]) / MOST_PIXELS);
+        let size = edges.map(|edge| ((edge / pitch).round() as usize).max(1));
+        Self {
+            axes,
+            at,
+            low: [axes[0], axes[1]].map(|a| low[a]),
+            edges,
+            pitch,
+            size,
+            pixels: vec![Pixel::Void; size[0] * size[1]],
+        }
+    }
+
+    fn add(
+        &mut self,
+        file: &ParticleFile,
+        colouring: Colouring,
+    ) -> Result<(), particle_file::Error> {
+        for index in 0..file.header().blocks.len() {
+            let (block, bits) = file.block(index)?;
+            let pixel = match block.material {
+                Material::Rigid => Pixel::Wood,
+                Material::Adhesive => Pixel::Adhesive(0.0),
+            };
+            let dims = bits.dims();
+            // Low coordinate of a pixel's middle in voxels of this block, along each axis.
+            let voxel = |axis: usize, coordinate: f64| {
+                let cell = ((coordinate - block.origin_m[axis]) / block.voxel_m).floor();
+                (cell >= 0.0 && cell < dims[axis] as f64).then_some(cell as usize)
+            };
+            let [across, up, normal] = self.axes;
+            let mut place = [0; 3];
+            let Some(layer) = voxel(normal, self.at) else {
+                continue;
+            };
+            place[normal] = layer;
+            for i in 0..self.pixels.len() {
+                let [a, b] = self.middle(i);
+                if let Some((x, y)) = voxel(across, a).zip(voxel(up, b)) {
+                    (place[across], place[up]) = (x, y);
+                    if bits.get(place[0], place[1], place[2]) {
+                        self.pixels[i] = pixel;
+                    }
+                }
+            }
+        }
+        if file.header().particles > 0 {
+            self.add_points(file, colouring)?;
+        }
+        Ok(())
+    }
+
+    /// Liquid points as squares of their volume's edge where the slice cuts their cube.
+    fn add_points(
+        &mut self,
+        file: &ParticleFile,
+        colouring: Colouring,
+    ) -> Result<(), particle_file::Error> {
+        let positions = file.vectors("position")?;
+        let volumes = file.column::<f32>("volume")?;
+        let pressures = match colouring {
+            Colouring::Plain => None,
+            Colouring::Pressure => Some(file.column::<f32>("pressure")?),
+        };
+        let [across, up, normal] = self.axes;
+        for (i, (position, volume)) in positions.iter().zip(volumes).enumerate() {
+            let position = position.map(f64::from);
+            let half = 0.5 * f64::from(*volume).cbrt();
+            if (position[normal] - self.at).abs() > half {
+                continue;
+            }
+            let pixel = Pixel::Adhesive(pressures.map_or(0.0, |p| p[i]));
+            let span = |axis: usize, edge: usize| {
+                let cells = |c: f64| ((c - self.low[edge]) / self.pitch).round().max(0.0) as usize;
+                let centre = position[axis];
+                cells(centre - half)..cells(centre + half).min(self.size[edge])
+            };
+            let columns = span(across, 0);
+            for row in span(up, 1) {
+                let from_top = (self.size[1] - 1 - row) * self.size[0];
+                for column in columns.clone() {
+                    self.pixels[from_top + column] = pixel;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Coordinates across and up of the middle of pixel `i`, m.
+    fn middle(&self, i: usize) -> [f64; 2] {
+        let (column, row) = (i % self.size[0], self.size[1] - 1 - i / self.size[0]);
+        [
+            self.low[0] + (column as f64 + 0.5) * self.pitch,
+            self.low[1] + (row as f64 + 0.5) * self.pitch,
+        ]
+    }
+}

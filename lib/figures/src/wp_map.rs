@@ -1,0 +1,227 @@
+use crate::axes::{Axis, Frame, NORMAL, extent};
+use crate::colour::{NO_DATA, opaque, viridis};
+use crate::colour_bar;
+use crate::drawing::{Anchor, Drawing, Image};
+use crate::panels::{Panels, Room};
+use crate::table::Table;
+use crate::{Error, Labelled};
+
+/// Weighted penetration over the bond plane, one panel per state with a common colour scale
+/// (Figs. 8 and 9 of the paper), from the maps of `wp-metrics --map`.
+#[derive(Clone, Debug)]
+pub struct WpMap {
+    panels: Vec<Panel>,
+}
+
+#[derive(Clone, Debug)]
+struct Panel {
+    label: String,
+    x: Grid,
+    z: Grid,
+    /// um, x fastest; NaN where there is no adhesive
+    wp: Vec<f64>,
+}
+
+/// Equally spaced places of the map's cells along one axis, um.
+#[derive(Clone, Copy, Debug)]
+struct Grid {
+    first: f64,
+    step: f64,
+    count: usize,
+}
+
+/// Share of all cells whose value the colour scale covers: single deep columns would take
+/// the contrast from the rest.
+const COVERED: f64 = 0.995;
+/// Longest edge of a panel, logical pixels.
+const LONGEST: f64 = 300.0;
+const ROOM: Room = Room {
+    left: 76.0,
+    above: 40.0,
+    below: 58.0,
+};
+/// A map beyond this many cells is not a map of a specimen.
+const MOST_CELLS: usize = 1 << 26;
+
+impl WpMap {
+    /// Reads one panel per CSV.
+    ///
+    /// # Errors
+    /// [`Error::Data`] for an unreadable file, a missing column, one without numbers, or
+    /// places that are not on a grid.
+    pub fn read(maps: &[Labelled]) -> Result<Self, Error> {
+        let panels = maps.iter().map(Panel::read).collect::<Result<_, _>>()?;
+        Ok(Self { panels })
+    }
+
+    /// The figure.
+    pub fn draw(&self) -> Drawing {
+        let edges: Vec<_> = self
+            .panels
+            .iter()
+            .map(|p| [p.x.edge(), p.z.edge()])
+            .collect();
+        let panels = Panels::place(&edges, LONGEST, ROOM);
+        let width = panels.right + colour_bar::WIDTH;
+        let mut drawing = Drawing::new(width as u32, panels.bottom as u32);
+        let shades = self.shades();
+        for (panel, frame) in self.panels.iter().zip(&panels.frames) {
+            panel.draw(&mut drawing, frame, &shades);
+        }
+        let bar = colour_bar::draw(
+            &mut drawing,
+            panels.right,
+            ROOM.above,
+            panels.height,
+            &shades,
+        );
+        let (left, y) = (bar.left - 34.0, bar.bottom() + 26.0);
+        let swatch = [[0.0, -7.0], [18.0, -7.0], [18.0, 7.0], [0.0, 7.0]];
+        let swatch = swatch.map(|[dx, dy]| [left + dx, y + dy]);
+        drawing.area(swatch.to_vec(), opaque(NO_DATA));
+        drawing.text("none", [left + 24.0, y], Anchor::Left, NORMAL);
+        drawing
+    }
+
+    /// The common colour scale; its title says where values lie beyond it.
+    fn shades(&self) -> Axis {
+        let all = self
+            .panels
+            .iter()
+            .flat_map(|panel| panel.wp.iter().copied());
+        let mut values: Vec<f64> = all.filter(|wp| wp.is_finite()).collect();
+        values.sort_by(f64::total_cmp);
+        let last = values.len().saturating_sub(1);
+        let high = values.get((COVERED * last as f64).round() as usize);
+        let (low, highest) = extent(values.iter().copied());
+        let high = high.copied().unwrap_or(highest);
+        let mut axis = Axis::linear("weighted penetration (µm)", [low, high].into_iter());
+        if !axis.covers(highest) {
+            axis.title.push_str(", top: and more");
+        }
+        axis
+    }
+}
+
+impl Panel {
+    fn read(source: &Labelled) -> Result<Self, Error> {
+        let table = Table::read(&source.path)?;
+        let (xs, zs) = (table.data("x_um")?, table.data("z_um")?);
+        let (wps, volumes) = (table.data("wp_um")?, table.data("volume_um3")?);
+        let off_grid = |why: String| Error::Data(format!("'{}': {why}", table.name()));
+        let x = Grid::of(&xs, "x_um").map_err(off_grid)?;
+        let z = Grid::of(&zs, "z_um").map_err(off_grid)?;
+        let cells = x.count.checked_mul(z.count).filter(|n| *n <= MOST_CELLS);
+        let cells = cells.ok_or_else(|| {
+            off_grid(format!(
+                "a map of {} x {} cells is too large",
+                x.count, z.count
+            ))
+        })?;
+        let mut wp = vec![f64::NAN; cells];
+        for (row, (place, value)) in xs.iter().zip(&zs).zip(&wps).enumerate() {
+            let (i, j) = x.index(*place.0).zip(z.index(*place.1)).ok_or_else(|| {
+                off_grid(format!("row {} is not on the grid of the others", row + 1))
+            })?;
+            if volumes[row] > 0.0 {
+                wp[j * x.count + i] = *value;
+            }
+        }
+        Ok(Self {
+            label: source.label.clone(),
+            x,
+            z,
+            wp,
+        })
+    }
+
+    fn draw(&self, drawing: &mut Drawing, frame: &Frame, shades: &Axis) {
+        let rows = (0..self.z.count).rev();
+        let cells = rows.flat_map(|j| &self.wp[j * self.x.count..(j + 1) * self.x.count]);
+        let shade = |wp: &f64| {
+            if wp.is_finite() {
+                viridis(shades.share(*wp))
+            } else {
+                NO_DATA
+            }
+        };
+        drawing.images.push(Image {
+            place: [frame.left, frame.top, frame.width, frame.height],
+            size: [self.x.count, self.z.count],
+            rgb: cells.flat_map(shade).collect(),
+        });
+        let axis =
+            |title: &str, grid: &Grid| Axis::exact(title, grid.low(), grid.low() + grid.edge());
+        let (x, z) = (axis("x (µm)", &self.x), axis("z (µm)", &self.z));
+        frame.draw(drawing, &x, &z, false);
+        let above = [frame.left + 0.5 * frame.width, frame.top - 16.0];
+        drawing.text(&self.label, above, Anchor::Centre, NORMAL);
+    }
+}
+
+impl Grid {
+    /// The grid that the places in `values` are on: its step is their least distance.
+    fn of(values: &[f64], column: &str) -> Result<Self, String> {
+        let mut places = values.to_vec();
+        if let Some(row) = places.iter().position(|v| !v.is_finite()) {
+            return Err(format!(
+                "row {}, column {column}: a number is needed",
+                row + 1
+            ));
+        }
+        places.sort_by(f64::total_cmp);
+        let (first, last) = (places[0], places[places.len() - 1]);
+        let least = (last - first) * 1e-6;
+        let steps = places.windows(2).map(|pair| pair[1] - pair[0]);
+        let step = steps.filter(|s| *s > least).fold(f64::INFINITY, f64::min);
+        if !step.is_finite() {
+            // One place only: any width does.
+            return Ok(Self {
+                first,
+                step: 1.0,
+                count: 1,
+            });
+        }
+        let count = (last - first) / step + 1.0;
+        if count > MOST_CELLS as f64 {
+            return Err(format!("column {column} is not on a grid"));
+        }
+        Ok(Self {
+            first,
+            step,
+            count: count.round() as usize,
+        })
+    }
+
+    fn low(&self) -> f64 {
+        self.first - 0.5 * self.step
+    }
+
+    fn edge(&self) -> f64 {
+        self.count as f64 * self.step
+    }
+
+    /// Which cell a place is, if it is within a tenth of a step of one.
+    fn index(&self, place: f64) -> Option<usize> {
+        let cells = (place - self.first) / self.step;
+        let nearest = cells.round();
+        let inside = nearest >= 0.0 && nearest < self.count as f64;
+        (inside && (cells - nearest).abs() < 0.1).then_some(nearest as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_is_found_from_places_with_holes() {
+        let grid = Grid::of(&[4.0, 1.0, 2.5, 1.0, 8.5], "x_um").unwrap();
+        assert_eq!((grid.count, grid.step), (6, 1.5));
+        assert_eq!(grid.index(8.5), Some(5));
+        assert_eq!(grid.index(5.9), None);
+        assert_eq!(grid.low(), 0.25);
+        assert!(Grid::of(&[1.0, f64::NAN], "x_um").is_err());
+        assert_eq!(Grid::of(&[3.0, 3.0], "x_um").unwrap().count, 1);
+    }
+}

@@ -1,0 +1,250 @@
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use cli::Output;
+use figures::{Case, Colouring, Labelled, Position};
+use units::{Axis, Length, Pressure, Quantity};
+
+/// Draw the figures of the pipeline and print Table 2 from the tools' output files
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Examples:
+  bond-figures pressure --run \"XPIC(5)=out/pf-xpic\" --run FLIP=out/pf-flip -o pressure.svg
+  bond-figures slice start=bond.mpts end=out/pf-xpic/final.mpts --normal z -o slices.png
+  bond-figures table2 --experiment pf=pf.csv --run pf:xpic=out/pf-xpic/wp.csv -o table2.csv"
+)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) figure: Figure,
+    #[command(flatten)]
+    pub(crate) common: cli::Common,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Figure {
+    /// Clamping pressure and closing speed against time (Figs. 5 and 6)
+    #[command(after_help = "Examples:
+  bond-figures pressure --run \"XPIC(5)=out/pf-xpic\" --run FLIP=out/pf-flip -o pressure.svg
+  bond-figures pressure --run out/pf-xpic --limit \"2.5 MPa\" --title PF -o pf.svg -o pf.png
+  bond-figures pressure --run quick=history.csv -o - > pressure.svg")]
+    Pressure(PressureArgs),
+    /// Weighted penetration over the bond plane (Figs. 8 and 9)
+    #[command(after_help = "Examples:
+  bond-figures map --map experiment=exp-map.csv --map \"XPIC(5)=xpic-map.csv\" -o map.png
+  wp-metrics final.mpts --map map.csv && bond-figures map --map map.csv -o map.svg
+  bond-figures map --map a.csv --map b.csv -o ab.svg -o ab.png")]
+    Map(MapArgs),
+    /// Quantiles of the shear rate against time (Figs. 10 and 11)
+    #[command(after_help = "Examples:
+  bond-figures shear shear.csv -o shear.svg
+  bond-figures shear PF=pf-shear.csv PVA-PF=pva-pf-shear.csv -o shear.png
+  shear-stats out/pf/snapshots/*.mpts -o s.csv && bond-figures shear PF=s.csv -o s.svg")]
+    Shear(ShearArgs),
+    /// Slices through specimens, bonds and states of a run
+    #[command(after_help = "Examples:
+  bond-figures slice bond.mpts -o bond.png
+  bond-figures slice start=bond.mpts end=final.mpts --normal x --at 40% -o ends.png
+  bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg")]
+    Slice(SliceArgs),
+    /// Weighted penetration of experiment and runs beside the paper's (Table 2)
+    #[command(after_help = "Examples:
+  bond-figures table2 --experiment pf=experiment.csv --run pf:xpic=xpic.csv -o table2.csv
+  bond-figures table2 --run pf:flip=flip.csv --run pva-pf:flip=pva-flip.csv -o -
+  wp-metrics final.mpts -o wp.csv && bond-figures table2 --run \"pf:XPIC(5)=wp.csv\" -o -")]
+    Table2(Table2Args),
+}
+
+#[derive(Args)]
+pub(crate) struct Picture {
+    /// Picture to write, .svg or .png; `-` is SVG on standard output; may be repeated
+    #[arg(short, long, value_name = "FILE", required = true)]
+    pub(crate) output: Vec<Target>,
+}
+
+#[derive(Args)]
+pub(crate) struct PressureArgs {
+    /// A run: its folder or its history.csv; may be repeated
+    #[arg(long, value_name = "[LABEL=]RUNDIR", required = true, value_parser = labelled)]
+    pub(crate) run: Vec<Labelled>,
+    /// Draw this pressure as a dashed line
+    #[arg(long, value_name = "PRESSURE")]
+    pub(crate) limit: Option<Limit>,
+    /// Title above the figure
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) title: Option<String>,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
+pub(crate) struct MapArgs {
+    /// A map as `wp-metrics --map` writes; may be repeated
+    #[arg(long, value_name = "[LABEL=]CSV", required = true, value_parser = labelled)]
+    pub(crate) map: Vec<Labelled>,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
+pub(crate) struct ShearArgs {
+    /// Tables of `shear-stats`, one panel each
+    #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = labelled)]
+    pub(crate) files: Vec<Labelled>,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
+pub(crate) struct SliceArgs {
+    /// Particle files, one panel each
+    #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = labelled)]
+    pub(crate) files: Vec<Labelled>,
+    /// Axis that the slice is normal to: x, y or z
+    #[arg(long, value_name = "AXIS", default_value = "z")]
+    pub(crate) normal: Axis,
+    /// Where along that axis: a length, or a percentage of the box
+    #[arg(long, value_name = "LEN|PERCENT", default_value = "50%", allow_hyphen_values = true,
+          value_parser = position)]
+    pub(crate) at: Position,
+    /// Colour the adhesive: plain, or by its pressure
+    #[arg(long, value_enum, default_value = "plain")]
+    pub(crate) colour: Colour,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
+#[group(required = true, multiple = true, args = ["experiment", "run"])]
+pub(crate) struct Table2Args {
+    /// Table of `wp-metrics` of an experiment; may be repeated
+    #[arg(long, value_name = "ADHESIVE=CSV", value_parser = experiment)]
+    experiment: Vec<Case>,
+    /// Table of `wp-metrics` of a run's final state; may be repeated
+    #[arg(long, value_name = "ADHESIVE:RUN=CSV", value_parser = run)]
+    run: Vec<Case>,
+    /// CSV to write; `-` is standard output
+    #[arg(short, long, value_name = "CSV")]
+    pub(crate) output: Output,
+}
+
+impl Table2Args {
+    /// Experiments, then runs.
+    pub(crate) fn cases(&self) -> Vec<Case> {
+        self.experiment.iter().chain(&self.run).cloned().collect()
+    }
+}
+
+/// How to colour the adhesive.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum Colour {
+    Plain,
+    Pressure,
+}
+
+impl From<Colour> for Colouring {
+    fn from(colour: Colour) -> Self {
+        match colour {
+            Colour::Plain => Self::Plain,
+            Colour::Pressure => Self::Pressure,
+        }
+    }
+}
+
+/// A positive pressure, Pa.
+#[derive(Clone, Copy)]
+pub(crate) struct Limit(pub(crate) f64);
+
+impl FromStr for Limit {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let pressure = text
+            .parse::<Quantity<Pressure>>()
+            .and_then(Quantity::positive);
+        pressure.map(|p| Self(p.si())).map_err(|e| e.to_string())
+    }
+}
+
+/// A picture's file and format.
+#[derive(Clone)]
+pub(crate) struct Target {
+    pub(crate) output: Output,
+    pub(crate) format: Format,
+}
+
+#[derive(Clone, Copy)]
+pub(crate) enum Format {
+    Svg,
+    Png,
+}
+
+impl FromStr for Target {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let Ok(output) = text.parse::<Output>();
+        let format = match &output {
+            Output::Stdout => Format::Svg,
+            Output::File(path) => match path.extension().and_then(|e| e.to_str()) {
+                Some(e) if e.eq_ignore_ascii_case("svg") => Format::Svg,
+                Some(e) if e.eq_ignore_ascii_case("png") => Format::Png,
+                _ => {
+                    return Err(format!(
+                        "'{text}' is not a picture's name: it must end in .svg or .png"
+                    ));
+                }
+            },
+        };
+        Ok(Self { output, format })
+    }
+}
+
+/// `LABEL=PATH`, or a path alone, which is its own label.
+fn labelled(text: &str) -> Result<Labelled, String> {
+    let (label, path) = text.split_once('=').unwrap_or((text, text));
+    if label.is_empty() || path.is_empty() {
+        return Err(format!(
+            "'{text}' needs a label and a path, as in FLIP=out/pf-flip"
+        ));
+    }
+    Ok(Labelled {
+        label: label.into(),
+        path: PathBuf::from(path),
+    })
+}
+
+fn experiment(text: &str) -> Result<Case, String> {
+    let case = text.split_once('=').map(|(adhesive, path)| Case {
+        adhesive: adhesive.into(),
+        name: "experiment".into(),
+        path: path.into(),
+    });
+    case.ok_or_else(|| format!("'{text}' is not ADHESIVE=CSV, as in pf=experiment.csv"))
+}
+
+fn run(text: &str) -> Result<Case, String> {
+    let parts = text
+        .split_once('=')
+        .and_then(|(name, path)| name.split_once(':').zip(Some(path)));
+    let case = parts.map(|((adhesive, name), path)| Case {
+        adhesive: adhesive.into(),
+        name: name.into(),
+        path: path.into(),
+    });
+    case.ok_or_else(|| format!("'{text}' is not ADHESIVE:RUN=CSV, as in pf:xpic=wp.csv"))
+}
+
+fn position(text: &str) -> Result<Position, String> {
+    if let Some(number) = text.strip_suffix('%') {
+        return match number.trim().parse::<f64>() {
+            Ok(percent) if (0.0..=100.0).contains(&percent) => Ok(Position::Share(percent / 100.0)),
+            _ => Err(format!("'{text}' is not a percentage from 0% to 100%")),
+        };
+    }
+    let length = text.parse::<Quantity<Length>>();
+    length
+        .map(|length| Position::At(length.si()))
+        .map_err(|e| format!("{e}, or a percentage of the box, e.g. 50%"))
+}
