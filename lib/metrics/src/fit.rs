@@ -46,8 +46,9 @@ impl Plane {
 ///
 /// In every column the opening reaches from the highest wood below the plane to the lowest
 /// wood above it. Columns that look into a cut lumen are wide open and say nothing about the
-/// surface, so only the narrower half of the open columns counts. Starts from the level
-/// `start` and repeats with the fitted plane.
+/// surface, so only the narrowest quarter of the open columns counts (its level on
+/// bondline-acer-240 is 0.0002 voxels off the true one; that of the narrower half 0.2).
+/// Starts from the level `start` and repeats with the fitted plane.
 pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, Error> {
     let across = state.across();
     let extent = across.columns.map(|n| n as f64 * across.width_m);
@@ -75,7 +76,7 @@ pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, Error> {
     Ok(plane)
 }
 
-/// Position and middle of the narrower half of the open columns.
+/// Position and middle of the narrowest quarter of the open columns.
 fn middles(state: &State, across: &Across, plane: &Plane) -> Vec<([f64; 2], f64)> {
     let n = state.normal.index();
     let columns = across.columns[0] * across.columns[1];
@@ -99,11 +100,11 @@ fn middles(state: &State, across: &Across, plane: &Plane) -> Vec<([f64; 2], f64)
         .filter(|(opening, _)| opening.is_finite() && *opening > 0.5 * across.width_m)
         .collect();
     open.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let Some(&(median, _)) = open.get(open.len() / 2) else {
+    let Some(&(widest, _)) = open.get(open.len() / 4) else {
         return Vec::new();
     };
     open.iter()
-        .filter(|(opening, _)| *opening <= median)
+        .filter(|(opening, _)| *opening <= widest)
         .map(|&(_, c)| (across.centre_m(c), 0.5 * (below[c] + above[c])))
         .collect()
 }

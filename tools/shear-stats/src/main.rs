@@ -1,2 +1,109 @@
-//! Placeholder until the tool lands.
-fn main() {}
+//! Shear rates in the states of a run: see `lib/metrics`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use cli::{Failure, InputRecord, Output, Record};
+use metrics::{Convention, ShearRates, table, tube_shear_rate};
+use particle_file::ParticleFile;
+use units::{Length, Quantity, Speed};
+
+/// Distribution of shear rates in the adhesive, weighted by volume
+///
+/// One row of quantiles per snapshot, as in Figs. 10 and 11 of Hammerquist & Nairn.
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Examples:
+  shear-stats run/snapshots/*.mpts -o shear.csv
+  shear-stats run/final.mpts --convention rheometer
+  shear-stats --tube '1 m/s,50 um'"
+)]
+struct Arguments {
+    /// Snapshots of a run; `-` is standard input
+    #[arg(required_unless_present = "tube")]
+    snapshots: Vec<PathBuf>,
+    /// Convert to 2|dev D| (paper) or sqrt(2 D:D) (rheometer) [default: as stored]
+    #[arg(long, value_name = "paper|rheometer")]
+    convention: Option<Convention>,
+    /// Print the shear rate at the wall of a tube, 8 v / d (Eq. 7), in both conventions: on
+    /// standard error beside a table, on standard output without
+    #[arg(long, value_name = "SPEED,DIAMETER", value_parser = tube)]
+    tube: Option<Tube>,
+    /// Where the table goes; `-` is standard output
+    #[arg(short, long, value_name = "CSV", default_value = "-")]
+    output: Output,
+    #[command(flatten)]
+    common: cli::Common,
+}
+
+#[derive(Clone, Copy)]
+struct Tube {
+    speed: f64,
+    diameter: f64,
+}
+
+fn tube(text: &str) -> Result<Tube, String> {
+    let (speed, diameter) = text
+        .split_once(',')
+        .ok_or_else(|| format!("'{text}' is not SPEED,DIAMETER; accepted is e.g. '1 m/s,50 um'"))?;
+    let speed: Quantity<Speed> = speed.parse().map_err(said)?;
+    let diameter: Quantity<Length> = diameter.parse().map_err(said)?;
+    Ok(Tube {
+        speed: speed.positive().map_err(said)?.si(),
+        diameter: diameter.positive().map_err(said)?.si(),
+    })
+}
+
+fn said(error: units::ParseError) -> String {
+    error.to_string()
+}
+
+fn main() -> ExitCode {
+    cli::main(|a: &Arguments| &a.common, run)
+}
+
+fn run(arguments: Arguments) -> Result<(), Failure> {
+    if let Some(tube) = arguments.tube {
+        let line = tube_line(tube);
+        if arguments.snapshots.is_empty() {
+            return arguments.output.write(|out| writeln!(out, "{line}"));
+        }
+        cli::note(line);
+    }
+    let mut states = Vec::new();
+    let mut inputs = Vec::new();
+    for path in &arguments.snapshots {
+        let file = ParticleFile::open(path).map_err(Failure::data)?;
+        let rates = ShearRates::of_file(&file, arguments.convention).map_err(|error| {
+            let said = format!("'{}': {error}", path.display());
+            if error.is_usage() {
+                Failure::usage(said)
+            } else {
+                Failure::data(said)
+            }
+        })?;
+        states.push(rates);
+        if arguments.output != Output::Stdout {
+            inputs.push(InputRecord::new(
+                path.display().to_string(),
+                file.content_hash(),
+            ));
+        }
+    }
+    let record = Record::new(env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"), inputs);
+    arguments
+        .output
+        .write_with_record(&record, |out| table::write_shear_rates(out, &states))
+}
+
+fn tube_line(tube: Tube) -> String {
+    let rate = tube_shear_rate(tube.speed, tube.diameter);
+    format!(
+        "tube of {} um at {} m/s: 8 v / d = {rate:.4e} 1/s (rheometer), {:.4e} 1/s (paper)",
+        1e6 * tube.diameter,
+        tube.speed,
+        Convention::Paper.factor() * rate
+    )
+}

@@ -1,0 +1,216 @@
+//! The command line of wp-metrics.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
+use tempfile::TempDir;
+
+const VOXEL: f64 = 1.45e-6;
+const DIMS: [usize; 3] = [40, 60, 16];
+const HEADER: &str = "file,side,reference,plane_m,wp_um,slab_wp_um,ep_um,max_depth_um,p99_depth_um,volume_um3,voxels";
+
+fn letter(x: usize, y: usize) -> char {
+    let groove = x.is_multiple_of(4);
+    match y {
+        24..30 => 'a',
+        10..24 if groove => 'a',
+        _ if groove => ' ',
+        _ => 'w',
+    }
+}
+
+fn specimen(folder: &Path) -> PathBuf {
+    let grid = |wanted| BitGrid::from_fn(DIMS, |x, y, _| letter(x, y) == wanted);
+    let (wood, adhesive) = (grid('w'), grid('a'));
+    let max = DIMS.map(|n| n as f64 * VOXEL);
+    let path = folder.join("specimen.mpts");
+    let block = |name, material, bits| Block::new(name, material, [0.0; 3], VOXEL, bits);
+    Draft::new(Header::new(Kind::Specimen, VOXEL, 1, [0.0; 3], max))
+        .block(block("wood", Material::Rigid, &wood), &wood)
+        .block(block("adhesive", Material::Adhesive, &adhesive), &adhesive)
+        .write_to(&mut File::create(&path).unwrap())
+        .unwrap();
+    path
+}
+
+fn tool(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_wp-metrics"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The rows of a table, fields apart.
+fn rows(csv: &str) -> Vec<Vec<String>> {
+    let split = |line: &str| line.split(',').map(str::to_owned).collect();
+    csv.lines().skip(1).map(split).collect()
+}
+
+fn number(field: &str) -> f64 {
+    field.parse().unwrap()
+}
+
+#[test]
+fn a_specimen_from_a_file_a_pipe_and_standard_input() {
+    let folder = TempDir::new().unwrap();
+    let path = specimen(folder.path());
+    let run = tool(&[path.to_str().unwrap()]);
+    assert!(run.status.success(), "{}", text(&run.stderr));
+    let table = text(&run.stdout);
+    assert_eq!(table.lines().next(), Some(HEADER));
+    let found = rows(&table);
+    let sides: Vec<&str> = found.iter().map(|r| r[1].as_str()).collect();
+    assert_eq!(sides, ["bottom", "top", "total"]);
+    // Full layers at +-1/2 to +-5/2 voxels and a quarter of those to -33/2.
+    let squares = |layers: std::ops::Range<u32>| -> f64 {
+        layers.map(|i| (f64::from(i) + 0.5).powi(2)).sum()
+    };
+    let wp = |squares: f64, layers: f64| format!("{:.4}", 1.45 * (squares / layers).sqrt());
+    let bottom = squares(0..3) + 0.25 * squares(3..17);
+    let expected = [
+        wp(bottom, 6.5),
+        wp(squares(0..3), 3.0),
+        wp(bottom + squares(0..3), 9.5),
+    ];
+    for (row, expected) in found.iter().zip(&expected) {
+        assert_eq!(row[2], "mid");
+        assert!((number(&row[3]) - 27.0 * VOXEL).abs() < 1e-12);
+        assert!(
+            (number(&row[4]) - number(expected)).abs() < 1e-4,
+            "{row:?} {expected}"
+        );
+    }
+    assert_eq!(found[2][10], (9.5 * 640.0).to_string());
+
+    let mapped = Command::new(env!("CARGO_BIN_EXE_wp-metrics"))
+        .arg("-")
+        .stdin(Stdio::from(File::open(&path).unwrap()))
+        .output()
+        .unwrap();
+    let mut cat = Command::new("cat")
+        .arg(&path)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let piped = Command::new(env!("CARGO_BIN_EXE_wp-metrics"))
+        .arg("-")
+        .stdin(cat.stdout.take().unwrap())
+        .output()
+        .unwrap();
+    cat.wait().unwrap();
+    for other in [mapped, piped] {
+        assert_eq!(rows(&text(&other.stdout))[2][1..], found[2][1..]);
+    }
+}
+
+#[test]
+fn map_profile_and_comparison() {
+    let folder = TempDir::new().unwrap();
+    let path = specimen(folder.path());
+    let path = path.to_str().unwrap();
+    let [map, profile, table] =
+        ["map.csv", "depth.csv", "wp.csv"].map(|n| folder.path().join(n).display().to_string());
+    let options = [
+        "--map",
+        &map,
+        "--profile",
+        &profile,
+        "-o",
+        &table,
+        "--compare",
+        path,
+    ];
+    let run = tool(&[&[path], &options[..]].concat());
+    assert!(run.status.success(), "{}", text(&run.stderr));
+
+    let csv = fs::read_to_string(&table).unwrap();
+    assert_eq!(
+        csv.lines().next(),
+        Some(format!("{HEADER},dice,map_correlation").as_str())
+    );
+    assert!(rows(&csv).iter().all(|row| number(&row[11]) == 1.0));
+    let csv = fs::read_to_string(&map).unwrap();
+    assert_eq!(csv.lines().next(), Some("x_um,z_um,wp_um,volume_um3"));
+    let columns = rows(&csv);
+    assert_eq!(columns.len(), 40 * 16);
+    assert_eq!(
+        columns[41][..2],
+        ["2.175000".to_owned(), "2.175000".to_owned()]
+    );
+    assert!((number(&columns[1][3]) - 6.0 * 1.45_f64.powi(3)).abs() < 1e-3);
+    let csv = fs::read_to_string(&profile).unwrap();
+    assert_eq!(
+        csv.lines().next(),
+        Some("depth_um,adhesive_fraction,filled_void_fraction")
+    );
+    let layers = rows(&csv);
+    assert_eq!(layers.len(), 60);
+    assert_eq!(layers[20], ["-9.425000", "0.250000", "1.000000"]);
+    for file in [&map, &profile, &table] {
+        let record = fs::read_to_string(format!("{file}.provenance.json")).unwrap();
+        assert!(record.contains("specimen.mpts"));
+    }
+}
+
+#[test]
+fn refusals() {
+    let folder = TempDir::new().unwrap();
+    let good = specimen(folder.path());
+    let good = good.to_str().unwrap();
+    let torn = folder.path().join("torn.mpts");
+    let bytes = fs::read(good).unwrap();
+    fs::write(&torn, &bytes[..bytes.len() / 2]).unwrap();
+    let foreign = folder.path().join("foreign.tif");
+    fs::write(&foreign, "not a stack").unwrap();
+    for (arguments, status, words) in [
+        (&[][..], 2, "FILES"),
+        (&[good, "--reference", "middle"], 2, "adherend"),
+        (&[good, "--reference", "plane=5"], 2, "no unit"),
+        (&[good, good, "--map", "map.csv"], 2, "one file"),
+        (&[good, "--reference", "fit", "--profile", "-"], 2, "tilted"),
+        (&[good, "--normal", "z"], 2, "plane=LEN"),
+        (&[good, "--voxel", "0 um"], 2, "greater than zero"),
+        (&[torn.to_str().unwrap()], 3, "torn.mpts"),
+        (&[foreign.to_str().unwrap()], 3, "foreign.tif"),
+        (&["/nonexistent.mpts"], 3, "cannot read"),
+        (&[good, "-o", "/nonexistent/wp.csv"], 1, "cannot write"),
+    ] {
+        let run = tool(arguments);
+        let said = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(status), "{arguments:?}: {said}");
+        assert!(said.contains(words), "{arguments:?}: {said}");
+        assert_eq!(text(&run.stdout), "", "{arguments:?}");
+    }
+}
+
+/// `bondline-acer-240.json` beside the stack, computed by its authors with NumPy.
+#[test]
+fn the_real_specimen_gives_the_reference_numbers() {
+    let stack =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/bondline-acer-240.tif");
+    if !stack.exists() {
+        eprintln!("skipped: {} is not here", stack.display());
+        return;
+    }
+    let run = tool(&[stack.to_str().unwrap(), "--voxel", "1.45 um"]);
+    assert!(run.status.success(), "{}", text(&run.stderr));
+    let found = rows(&text(&run.stdout));
+    for (row, [wp, ep, deepest, voxels]) in found.iter().zip([
+        [17.5810, 20.6259, 215.325, 819_346.0],
+        [16.7128, 20.0407, 225.475, 796_100.0],
+        [17.1586, 40.6666, 225.475, 1_615_446.0],
+    ]) {
+        assert!((number(&row[3]) - 226.2e-6).abs() < 1e-12, "{row:?}");
+        assert!((number(&row[4]) - wp).abs() < 5e-5, "{row:?}");
+        assert!((number(&row[5]) - 40.666_609 / 12_f64.sqrt()).abs() < 1e-5);
+        assert!((number(&row[6]) - ep).abs() < 5e-5, "{row:?}");
+        assert!((number(&row[7]) - deepest).abs() < 1e-6, "{row:?}");
+        assert_eq!(number(&row[10]), voxels);
+    }
+}
