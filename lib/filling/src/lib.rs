@@ -4,12 +4,18 @@
 //! Lengths inside are in cells, pressures and viscosities scaled by the liquid's viscosity.
 
 pub mod advect;
+pub mod density;
 pub mod fractions;
 pub mod lattice;
 pub mod operator;
 pub mod particles;
 pub mod reach;
+mod settings;
 pub mod solids;
 pub mod solve;
+mod step;
 pub mod wall;
 pub mod window;
+
+pub use settings::Settings;
+pub use step::Implicit;
