@@ -125,7 +125,9 @@ fn columns_come_back_in_every_type_and_only_in_their_own() {
 #[test]
 fn a_number_that_is_not_finite_is_found_by_row() {
     let header = || Header::new(Kind::State, 1e-6, 0, [0.0; 3], [1.0; 3]);
-    let position = [0.0, 1.0, 2.0, 3.0, f32::NAN, 5.0_f32];
+    let mut position = vec![0.5_f32; 3 * 40_000];
+    position[3 * 30_001 + 1] = f32::NAN;
+    position[3 * 35_000] = f32::INFINITY;
     let mut bytes = Vec::new();
     let draft = Draft::new(header()).column("position", 3, &position);
     draft.write_to(&mut bytes).unwrap();
@@ -134,7 +136,7 @@ fn a_number_that_is_not_finite_is_found_by_row() {
         .check()
         .unwrap_err();
     let said = error.to_string();
-    assert!(said.contains("row 1 of column 'position'"), "{said}");
+    assert!(said.contains("row 30001 of column 'position'"), "{said}");
 }
 
 #[test]
