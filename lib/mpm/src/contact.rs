@@ -19,6 +19,10 @@ pub(crate) fn separation_limit(shape: ShapeFunction) -> f32 {
     }
 }
 
+/// Volume of a body at a node (cells) from which the node counts as inside it; a node on a
+/// plane wall has one half.
+const INSIDE: f32 = 0.5;
+
 /// Liquid and a body meet at a node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Meeting {
@@ -76,7 +80,10 @@ pub(crate) fn meeting(
     // positions still tell the side the liquid is on.
     let gap = dot(normal, apart) / length;
     let sign = if gap < 0.0 { -1.0 } else { 1.0 } / length;
-    (gap.abs() < limit).then(|| Meeting {
+    // A node inside the body is in contact whatever the separation: it has little liquid, all of
+    // it far away, and left free it would let the liquid flow into the wall.
+    let touching = rigid_volume > INSIDE || gap.abs() < limit;
+    touching.then(|| Meeting {
         body,
         velocity,
         normal: normal.map(|n| sign * n),
@@ -85,22 +92,19 @@ pub(crate) fn meeting(
 }
 
 impl Meeting {
-    /// Removes approach, and all sliding where the wall law sticks: contact before the forces.
-    /// Friction acts once a step, after the forces.
-    pub(crate) fn stop_approach(&self, v: &mut [f32; 3], law: WallLaw) {
-        let slip = self.relative(v);
-        let approach = dot(slip, self.normal);
-        if approach < 0.0 {
-            self.apply(
-                v,
-                slip,
-                approach,
-                if law == WallLaw::Stick { 0.0 } else { 1.0 },
-            );
-        }
+    /// Whether liquid with velocity `v` would not move away from the body.
+    pub(crate) fn holds(&self, v: [f32; 3]) -> bool {
+        dot(self.relative(&v), self.normal) <= 0.0
     }
 
-    /// Removes approach and applies the wall law; says whether the two are in contact.
+    /// Contact before the forces: removes approach, and all sliding where the wall law sticks.
+    /// Friction acts once a step, after the forces.
+    pub(crate) fn stop_approach(&self, v: &mut [f32; 3], law: WallLaw) {
+        let remaining = if law == WallLaw::Stick { 0.0 } else { 1.0 };
+        self.apply(v, remaining);
+    }
+
+    /// Contact after the forces: removes approach and applies the wall law.
     ///
     /// `dt_over_mass` is dt / (m rho cell) in m2 s/kg per cell^2 of area.
     pub(crate) fn resolve<R: Rheology>(
@@ -109,21 +113,13 @@ impl Meeting {
         law: WallLaw,
         rheology: &R,
         dt_over_mass: f64,
-    ) -> bool {
+    ) {
         let slip = self.relative(v);
-        let approach = dot(slip, self.normal);
-        if approach >= 0.0 {
-            return false;
-        }
-        let tangential: [f32; 3] = std::array::from_fn(|a| slip[a] - approach * self.normal[a]);
-        let speed = dot(tangential, tangential).sqrt();
-        let remaining = law.remaining_slip(
-            rheology,
-            f64::from(speed),
-            f64::from(self.area) * dt_over_mass,
-        );
-        self.apply(v, slip, approach, remaining as f32);
-        true
+        let normal = dot(slip, self.normal);
+        let speed = (dot(slip, slip) - normal * normal).max(0.0).sqrt();
+        let dose = f64::from(self.area) * dt_over_mass;
+        let remaining = law.remaining_slip(rheology, f64::from(speed), dose);
+        self.apply(v, remaining as f32);
     }
 
     /// Takes from an increment of velocity what a contact does not allow.
@@ -142,10 +138,13 @@ impl Meeting {
         std::array::from_fn(|a| v[a] - self.velocity[a])
     }
 
-    fn apply(&self, v: &mut [f32; 3], slip: [f32; 3], approach: f32, remaining: f32) {
+    /// Leaves no approach and the fraction `remaining` of the sliding.
+    fn apply(&self, v: &mut [f32; 3], remaining: f32) {
+        let slip = self.relative(v);
+        let normal = dot(slip, self.normal);
         for a in 0..3 {
-            let tangential = slip[a] - approach * self.normal[a];
-            v[a] = self.velocity[a] + remaining * tangential;
+            let sliding = slip[a] - normal * self.normal[a];
+            v[a] = self.velocity[a] + normal.max(0.0) * self.normal[a] + remaining * sliding;
         }
     }
 }

@@ -39,7 +39,7 @@ pub(crate) struct Block {
 /// What the velocity filter keeps at nodes; empty without one.
 #[derive(Clone, Debug, Default)]
 struct Filtered {
-    /// w_l of the recursion in lanes 0..3, mass in lane 3.
+    /// w_l of the recursion in lanes 0..3; lane 3 is 1 where there is mass.
     w: Vec<Quad>,
     meetings: Vec<Option<Meeting>>,
 }
@@ -135,6 +135,9 @@ impl Block {
             let mass = sum.0[0];
             if mass <= 0.0 {
                 self.velocity[node] = Oct::ZERO;
+                if let Some(w) = self.filter.w.get_mut(node) {
+                    *w = Quad::ZERO;
+                }
                 continue;
             }
             let found = if walls { self.body_at(node) } else { None };
@@ -185,26 +188,26 @@ impl Block {
     ) {
         let [mass, px, py, pz, fx, fy, fz, _] = sum.0;
         let planes = self.planes[node];
-        let mut before = hold(planes, [px / mass, py / mass, pz / mass]);
-        let raw = before;
-        if let Some(meeting) = &meeting {
+        let raw = hold(planes, [px / mass, py / mass, pz / mass]);
+        let force = [fx, fy, fz];
+        let gain = hold(
+            planes,
+            std::array::from_fn(|a| force[a] / mass + step.fall[a]),
+        );
+        // Contact before and after the forces is one decision: were it taken twice, a wall
+        // that sticks would let go of the velocity before the forces whenever noise lifts it.
+        let touching = meeting.filter(|m| m.holds(std::array::from_fn(|a| raw[a] + gain[a])));
+        let mut before = raw;
+        if let Some(meeting) = &touching {
             meeting.stop_approach(&mut before, step.law);
             before = hold(planes, before);
         }
-        let force = [fx, fy, fz];
-        let mut after = before;
-        for a in 0..3 {
-            after[a] += force[a] / mass + step.fall[a];
-        }
-        after = hold(planes, after);
-        let mut touching = None;
-        if let Some(meeting) = meeting {
+        let mut after: [f32; 3] = std::array::from_fn(|a| before[a] + gain[a]);
+        if let Some(meeting) = &touching {
             let free = after;
             let dose = step.dt_over_mass / f64::from(mass);
-            if meeting.resolve(&mut after, step.law, step.rheology, dose) {
-                after = hold(planes, after);
-                touching = Some(meeting);
-            }
+            meeting.resolve(&mut after, step.law, step.rheology, dose);
+            after = hold(planes, after);
             let reaction = &mut self.reaction[meeting.body];
             for a in 0..3 {
                 let mut impulse = free[a] - after[a];
@@ -219,7 +222,7 @@ impl Block {
             _ => after,
         };
         self.velocity[node] = Oct([
-            after[0], after[1], after[2], 0.0, second[0], second[1], second[2], 0.0,
+            after[0], after[1], after[2], 1.0, second[0], second[1], second[2], 1.0,
         ]);
         if matches!(step.mode, Mode::FilterBefore | Mode::FilterAfter) {
             let w = if step.mode == Mode::FilterBefore {
@@ -227,7 +230,7 @@ impl Block {
             } else {
                 after
             };
-            self.filter.w[node] = Quad([w[0], w[1], w[2], mass]);
+            self.filter.w[node] = Quad([w[0], w[1], w[2], 1.0]);
             self.filter.meetings[node] = touching;
         }
     }
@@ -236,11 +239,10 @@ impl Block {
     /// body's velocity is zero for l >= 2, so contact only restrains.
     pub(crate) fn refine<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
         for node in 0..self.velocity.len() {
-            let mass = self.filter.w[node].0[3];
-            if self.first[node] == self.first[node + 1] || mass <= 0.0 {
+            if self.filter.w[node].0[3] == 0.0 {
                 continue;
             }
-            let mut sum = [0.0_f32; 3];
+            let mut sum = [0.0_f32; 4];
             for source in self.sources_of(node) {
                 let value = &tiles[source.tile as usize].filter_out[usize::from(source.local)];
                 for (a, s) in sum.iter_mut().enumerate() {
@@ -248,6 +250,7 @@ impl Block {
                     *s += if flipped { -value.0[a] } else { value.0[a] };
                 }
             }
+            let mass = sum[3];
             let old = self.filter.w[node].0;
             let free = hold(
                 self.planes[node],
@@ -261,7 +264,7 @@ impl Block {
                     *r += f64::from(mass * (free[a] - w[a]));
                 }
             }
-            self.filter.w[node] = Quad([w[0], w[1], w[2], mass]);
+            self.filter.w[node] = Quad([w[0], w[1], w[2], 1.0]);
             for (a, w) in w.iter().enumerate() {
                 self.velocity[node].0[4 + a] += w;
             }

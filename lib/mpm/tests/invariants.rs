@@ -59,7 +59,7 @@ fn galilean_invariance_for_every_update_shape_and_wall_law() {
                     continue;
                 }
                 let mut run = Explicit::new(&drifting(law), &settings(shape, update, 0.5)).unwrap();
-                for _ in 0..300 {
+                for _ in 0..100 {
                     run.advance(FREE).unwrap();
                 }
                 let drift = run
@@ -67,10 +67,10 @@ fn galilean_invariance_for_every_update_shape_and_wall_law() {
                     .velocity
                     .iter()
                     .flatten()
-                    .map(|&v| (f64::from(v) / 0.5 - 1.0).abs())
+                    .map(|&v| (f64::from(v) - 0.5).abs())
                     .fold(0.0, f64::max);
                 if drift > worst {
-                    println!("{law:?} {shape:?} {update:?}: relative drift {drift:.1e}");
+                    println!("{law:?} {shape:?} {update:?}: drift {drift:.1e} m/s");
                     worst = drift;
                 }
             }
@@ -80,19 +80,41 @@ fn galilean_invariance_for_every_update_shape_and_wall_law() {
     assert!(worst < 1e-6, "{worst}");
 }
 
-fn sums(run: &Explicit, mass_of: impl Fn(usize) -> f64) -> ([f64; 3], f64) {
+/// Momentum over mass, and angular momentum along z about the centroid, cells m/s, of equal
+/// points; with APIC and quadratic B-splines, whose affine inertia is 1/4 cell^2.
+fn sums(run: &Explicit, affine: bool) -> ([f64; 3], f64) {
     let LiquidState {
         position, velocity, ..
     } = run.liquid();
-    let (mut p, mut l) = ([0.0; 3], 0.0);
-    for (i, (x, v)) in position.iter().zip(&velocity).enumerate() {
-        let m = mass_of(i);
-        for a in 0..3 {
-            p[a] += m * f64::from(v[a]);
-        }
-        l += m * (f64::from(x[0]) * f64::from(v[1]) - f64::from(x[1]) * f64::from(v[0]));
+    let n = position.len() as f64;
+    let mean = |list: &[[f32; 3]], a: usize| list.iter().map(|x| f64::from(x[a])).sum::<f64>() / n;
+    let p = [0, 1, 2].map(|a| mean(&velocity, a));
+    let centre = [0, 1].map(|a| mean(&position, a));
+    let mut spin = 0.0;
+    for (x, v) in position.iter().zip(&velocity) {
+        let arm = [0, 1].map(|a| (f64::from(x[a]) - centre[a]) / CELL);
+        spin += arm[0] * (f64::from(v[1]) - p[1]) - arm[1] * (f64::from(v[0]) - p[0]);
     }
-    (p, l)
+    if affine {
+        let saved = run.save();
+        // Twelve numbers a point: d(vx, vy, vz, -)/dx, then /dy, then /dz, per cell.
+        let fields = saved.f32s("affine").unwrap();
+        let own = fields
+            .chunks_exact(12)
+            .map(|c| 0.25 * f64::from(c[1] - c[4]));
+        spin += own.sum::<f64>();
+    }
+    (p, spin / n)
+}
+
+/// A drop that spins, stretches and moves.
+fn drop() -> Scene {
+    let mut s = scene([16, 16, 12], [Boundary::Open; 3]);
+    fill(&mut s, [5.0, 5.0, 4.0], [10.0, 10.0, 8.0], |x| {
+        let (x, y) = (x[0] - 7.5, x[1] - 7.5);
+        [0.3 - 0.1 * y + 0.02 * x, 0.2 + 0.1 * x, 0.1 + 0.02 * y]
+    });
+    s
 }
 
 #[test]
@@ -106,30 +128,24 @@ fn momentum_of_a_free_drop_is_kept() {
             if shape == ShapeFunction::Linear && update == VelocityUpdate::Apic {
                 continue;
             }
-            let mut s = scene([16, 16, 12], [Boundary::Open; 3]);
-            // A drop that spins, stretches and moves.
-            fill(&mut s, [5.0, 5.0, 4.0], [10.0, 10.0, 8.0], |x| {
-                let (x, y) = (x[0] - 7.5, x[1] - 7.5);
-                [0.3 - 0.1 * y + 0.02 * x, 0.2 + 0.1 * x, 0.1 + 0.02 * y]
-            });
-            let mut run = Explicit::new(&s, &settings(shape, update, 0.5)).unwrap();
-            let mass = |_| 1.0;
-            let (p0, l0) = sums(&run, mass);
+            let mut run = Explicit::new(&drop(), &settings(shape, update, 0.5)).unwrap();
+            let affine = (shape, update) == (ShapeFunction::Bspline2, VelocityUpdate::Apic);
+            // The affine fields exist from the first step on.
+            run.advance(FREE).unwrap();
+            let (p0, l0) = sums(&run, affine);
             for _ in 0..200 {
                 run.advance(FREE).unwrap();
             }
-            let (p1, l1) = sums(&run, mass);
-            let scale = p0.iter().map(|p| p.abs()).fold(0.0, f64::max);
+            let (p1, l1) = sums(&run, affine);
             let error = (0..3)
-                .map(|a| (p1[a] - p0[a]).abs() / scale)
+                .map(|a| (p1[a] - p0[a]).abs() / 0.3)
                 .fold(0.0, f64::max);
-            let spin = (l1 - l0) / l0;
+            let spin = l1 / l0 - 1.0;
             println!("{shape:?} {update:?}: momentum {error:.1e}, angular momentum {spin:.1e}");
-            assert!(error < 2e-6);
-            // PIC damps rotation; FLIP and APIC keep it but for O(dt) of the moving grid.
-            if matches!(update, VelocityUpdate::Flip | VelocityUpdate::Apic) {
-                assert!(spin.abs() < 3e-3);
-            }
+            // Sums of 2560 points over 200 steps in single precision.
+            assert!(error < 3e-6);
+            // Only APIC keeps angular momentum by construction (Jiang et al. 2015).
+            assert!(!affine || spin.abs() < 1e-5);
         }
     }
 }

@@ -53,6 +53,8 @@ impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
                     plane
                 };
             }
+            // Lane 3 is 1 at every node: the sum of the weights as it was rounded.
+            let value = value.scaled(1.0 / value.0[3]);
             if self.keep {
                 shift[p] = value;
             }

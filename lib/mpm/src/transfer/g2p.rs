@@ -11,7 +11,7 @@ use crate::tiles::Tile;
 /// Nodes to points: new velocity, velocity gradient and displacement.
 ///
 /// `tile.local` holds the nodal velocity v+ in lanes 0..3; lanes 4..7 hold its increment for
-/// FLIP and the filtered velocity v* for XPIC and FMPM.
+/// FLIP and the filtered velocity v* for XPIC and FMPM; lanes 3 and 7 are 1.
 pub(crate) struct G2p<'a, S, const D: usize, const AFFINE: bool> {
     pub(crate) tile: &'a mut Tile,
     /// dt over cell, s/m.
@@ -96,7 +96,13 @@ impl<S: Shape, const D: usize, const AFFINE: bool> Kernel for G2p<'_, S, D, AFFI
                     *to = low(from);
                 }
             }
-            let (plus, second) = (low(&field.value), high(&field.value));
+            // Lanes 3 and 7 are 1 at every node: the sum of the weights as it was rounded. A
+            // velocity that is replaced each step would drift by that rounding.
+            let plus = low(&field.value).scaled(1.0 / field.value.0[3]);
+            let second = match self.update {
+                VelocityUpdate::Flip => high(&field.value),
+                _ => high(&field.value).scaled(1.0 / field.value.0[7]),
+            };
             let (old, drift) = (motion[p], shift[p]);
             for a in 0..D {
                 let (new, travel) = match self.update {
