@@ -175,6 +175,10 @@ fn pages_that_make_no_stack_are_refused() {
     );
     refused(&|p| p[1] = p[1].clone().short(259, 7), &["page 2", "JPEG"]);
     refused(
+        &|p| p[1] = p[1].clone().short(259, 5).short(317, 3),
+        &["page 2", "predictor 3"],
+    );
+    refused(
         &|p| p[1] = p[1].clone().short(32997, 2),
         &["page 2", "ImageDepth"],
     );

@@ -79,11 +79,6 @@ impl Cut {
     pub(super) fn ring_along(&self, axis: usize) -> f32 {
         self.axes[2][axis]
     }
-
-    /// Whether depth into this adherend grows with r.
-    pub(super) fn inward(&self, side: usize) -> bool {
-        (self.axes[1][1] > 0.0) == (side == 1)
-    }
 }
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {

@@ -81,7 +81,7 @@ pub(super) struct Plan {
 
 /// Share of the slab that stays in the gap when the specimen is closed; the rest is in the
 /// wood. Half of it is the mean recess of each face.
-const GAP_SHARE: f32 = 0.3;
+const GAP_SHARE: f32 = 0.25;
 
 impl Plan {
     pub(super) fn new(recipe: &Recipe) -> Result<Self, RecipeError> {

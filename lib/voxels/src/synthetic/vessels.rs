@@ -65,11 +65,11 @@ pub(super) struct Vessels {
 
 impl Vessels {
     /// Places vessels over the rectangle `bounds` (r and t, um): first one that the bond face
-    /// opens in the middle of the box, then (PF, bottom) the isolated tube, then random groups
+    /// opens along the box, then (PF, bottom) the isolated tube, then random groups
     /// until the share is reached.
     pub(super) fn place(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
         let mut random = stream(plan, side, Feature::Vessels);
-        let mut members = opened(plan, cut, side, &mut random);
+        let mut members = vec![opened(plan, cut, side, &mut random)];
         members.extend(isolated(plan, cut, side, &mut random));
         let [r, t] = bounds;
         let mut cover = Cover::new(plan, cut, side, bounds);
@@ -198,25 +198,21 @@ fn group(start: [f32; 2], random: &mut ChaCha8Rng) -> Vec<Vessel> {
         .collect()
 }
 
-/// A vessel whose lumen the face cuts in the middle of the box, with a second one behind it
-/// where the cut puts radial multiples across the bond line: small boxes must have an open
-/// vessel on both sides for penetration to mean anything.
-fn opened(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Vec<Vessel> {
-    let width = plan.edges()[0];
+/// A vessel that the face cuts open along the box: small boxes must have one on both sides
+/// for penetration to mean anything. It reaches into the box from the side, by at most a
+/// quarter of the width, so that fibres are most of a small face and its void stays of the
+/// slab's size; the two adherends' vessels are at opposite sides.
+fn opened(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Vessel {
+    let half_width = 0.5 * plan.edges()[0];
     let radius = 0.5 * DIAMETER[0] * random.random_range(1.0..1.1);
     let depth = plan.mean_recess() + random.random_range(0.2..0.45) * radius;
-    let y = if side == 0 { -depth } else { depth };
-    // The two sides' vessels are opened apart from each other, which leaves fibres beside them.
-    let x = random.random_range(0.2..0.3) * if side == 0 { width } else { -width };
-    let centre = cut.locate([x, y, 0.0]);
-    let first = Vessel::new(centre.r, centre.t, radius, random);
-    if side == 1 {
-        return vec![first];
-    }
-    let step = FLATTENED * 2.0 * radius;
-    let r = centre.r + if cut.inward(side) { step } else { -step };
-    let second = Vessel::new(r, centre.t, radius, random);
-    vec![first, second]
+    let reach = (0.5 * half_width).min(2.0 * radius) * random.random_range(0.85..1.0);
+    let x = half_width - reach + radius;
+    let centre = match side {
+        0 => cut.locate([x, -depth, 0.0]),
+        _ => cut.locate([-x, depth, 0.0]),
+    };
+    Vessel::new(centre.r, centre.t, radius, random)
 }
 
 /// The isolated tube of the PF specimen: in the bottom adherend, wholly behind the face along
@@ -237,7 +233,7 @@ fn isolated(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Opt
         return None;
     }
     let depth = nearest + 0.3 * (farthest - nearest);
-    // To the side of the opened multiple, which reaches into the same depth.
+    // Away from the opened vessel.
     let x = -0.25 * width;
     let centre = cut.locate([x, -depth, 0.0]);
     let mut tube = Vessel::new(centre.r, centre.t, radius, random);

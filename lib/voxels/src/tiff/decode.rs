@@ -43,21 +43,47 @@ pub(crate) fn read(file: &File, layout: &PageLayout, page: &mut Vec<u8>) -> Resu
 /// Decodes a plane with the `tiff` crate, from a copy of its chunks in memory under a
 /// directory of our own that calls the samples plain greys: whatever the original says about
 /// photometric interpretation, colour maps or planes cannot touch the stored values.
+///
+/// Tiles are handed over as the strips of a high page and put in their places here: the
+/// crate reads tiles row by row and gives up on LZW codes that end with a row.
 fn decode_plane(
     file: &File,
     layout: &PageLayout,
     chunks: &[(u64, u64)],
     plane: &mut [u8],
 ) -> Result<(), String> {
+    let tiles = layout
+        .tile_bytes()
+        .map(|(row, tile)| (row, tile, chunks.len()));
     let bytes = as_grey_tiff(file, layout, chunks)?;
     // The sizes are checked; the crate's own limits would refuse large pages.
     let decoder = Decoder::new(Cursor::new(bytes)).map(|d| d.with_limits(Limits::unlimited()));
-    decoder
-        .and_then(|mut decoder| decoder.read_image_bytes(plane))
-        .map_err(|e| format!("its pixels do not decode ({e}): the file is truncated or corrupt"))
+    let decode = |pixels: &mut [u8]| {
+        decoder
+            .and_then(|mut decoder| decoder.read_image_bytes(pixels))
+            .map_err(|e| {
+                format!("its pixels do not decode ({e}): the file is truncated or corrupt")
+            })
+    };
+    let Some((tile_row, tile, count)) = tiles else {
+        return decode(plane);
+    };
+    let mut pixels = vec![0; tile * count];
+    decode(&mut pixels)?;
+    let row = plane.len() / layout.format.height;
+    let across = row.div_ceil(tile_row);
+    let rows_of_tiles = plane.chunks_mut(row * (tile / tile_row));
+    for (rows, tiles) in rows_of_tiles.zip(pixels.chunks(tile * across)) {
+        for (y, row) in rows.chunks_exact_mut(row).enumerate() {
+            for (part, tile) in row.chunks_mut(tile_row).zip(tiles.chunks(tile)) {
+                part.copy_from_slice(&tile[y * tile_row..][..part.len()]);
+            }
+        }
+    }
+    Ok(())
 }
 
-/// A BigTIFF of one page with these chunks.
+/// A BigTIFF of one page with these chunks as strips.
 fn as_grey_tiff(
     file: &File,
     layout: &PageLayout,
@@ -71,21 +97,17 @@ fn as_grey_tiff(
         Sample::I8 | Sample::I16 | Sample::I32 | Sample::I64 => 2,
         Sample::F32 | Sample::F64 => 3,
     };
-    let (offsets_tag, counts_tag, cut_tags) = match layout.cut {
+    let (width, height, rows) = match layout.cut {
         Cut::Strips(rows) => (
-            tag::STRIP_OFFSETS,
-            tag::STRIP_BYTE_COUNTS,
-            vec![(tag::ROWS_PER_STRIP, rows)],
+            layout.format.width as u64,
+            layout.format.height as u64,
+            rows,
         ),
-        Cut::Tiles(w, h) => (
-            tag::TILE_OFFSETS,
-            tag::TILE_BYTE_COUNTS,
-            vec![(tag::TILE_WIDTH, w), (tag::TILE_LENGTH, h)],
-        ),
+        Cut::Tiles(w, h) => (w.into(), u64::from(h) * chunks.len() as u64, h),
     };
     let mut tags: Vec<(u16, u16, u64)> = vec![
-        (tag::IMAGE_WIDTH, LONG, layout.format.width as u64),
-        (tag::IMAGE_LENGTH, LONG, layout.format.height as u64),
+        (tag::IMAGE_WIDTH, LONG, width),
+        (tag::IMAGE_LENGTH, LONG, height),
         (tag::BITS_PER_SAMPLE, SHORT, layout.bits.into()),
         (tag::COMPRESSION, SHORT, layout.compression.code().into()),
         (tag::PHOTOMETRIC, SHORT, 1), // black is zero
@@ -94,10 +116,10 @@ fn as_grey_tiff(
             SHORT,
             layout.samples_side_by_side() as u64,
         ),
+        (tag::ROWS_PER_STRIP, LONG, rows.into()),
         (tag::PREDICTOR, SHORT, layout.predictor.into()),
         (tag::SAMPLE_FORMAT, SHORT, sample_format),
     ];
-    tags.extend(cut_tags.into_iter().map(|(tag, n)| (tag, LONG, n.into())));
 
     // Header (16), count (8), entries (20 each), next (8), offsets, lengths, chunks.
     let entries = tags.len() + 2;
@@ -118,8 +140,8 @@ fn as_grey_tiff(
     // One chunk's offset and length stand in the entry itself, as the format demands.
     let one = |value, place| if n == 1 { value } else { place };
     let first = chunks.first().map_or(0, |c| c.1);
-    tags.push((offsets_tag, LONG8, one(at, arrays)));
-    tags.push((counts_tag, LONG8, one(first, arrays + 8 * n)));
+    tags.push((tag::STRIP_OFFSETS, LONG8, one(at, arrays)));
+    tags.push((tag::STRIP_BYTE_COUNTS, LONG8, one(first, arrays + 8 * n)));
     tags.sort_unstable();
     for (tag, kind, value) in tags {
         out.put(tag.into(), 2);

@@ -1,64 +1,9 @@
 //! How the pixels of one page are stored, checked against the file before anything is
 //! allocated.
 
+use super::encoding::{Compression, sample_of};
 use super::ifd::{Container, Directory, tag};
-use crate::sample::{PageFormat, Sample};
-
-/// How pixels are packed into chunks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Compression {
-    None,
-    Lzw,
-    Deflate,
-    PackBits,
-    Zstd,
-}
-
-impl Compression {
-    fn parse(code: u64) -> Result<Self, String> {
-        Ok(match code {
-            1 => Self::None,
-            5 => Self::Lzw,
-            8 | 32946 => Self::Deflate,
-            32773 => Self::PackBits,
-            50000 => Self::Zstd,
-            _ => {
-                let name = match code {
-                    2..=4 => " (CCITT fax)",
-                    6 | 7 => " (JPEG, which does not keep labels)",
-                    _ => "",
-                };
-                return Err(format!(
-                    "compression {code}{name} is not accepted; accepted are none, LZW, Deflate, PackBits and zstd"
-                ));
-            }
-        })
-    }
-
-    /// Code of TIFF tag 259.
-    pub(crate) fn code(self) -> u16 {
-        match self {
-            Self::None => 1,
-            Self::Lzw => 5,
-            Self::Deflate => 8,
-            Self::PackBits => 32773,
-            Self::Zstd => 50000,
-        }
-    }
-
-    /// More pixel bytes per stored byte than the method can ever reach. Deflate copies 258
-    /// bytes with 2 bits; an LZW code of 12 bits stands for up to 3837 bytes; PackBits
-    /// repeats a byte 128 times with 2 bytes; a zstd block of 4 bytes fills 128 KiB.
-    fn max_ratio(self) -> u64 {
-        match self {
-            Self::None => 1,
-            Self::Lzw => 2_560,
-            Self::Deflate => 1_032,
-            Self::PackBits => 64,
-            Self::Zstd => 32_768,
-        }
-    }
-}
+use crate::sample::PageFormat;
 
 /// How the page is cut into chunks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,10 +52,7 @@ impl PageLayout {
             side(tag::IMAGE_LENGTH, "height")?,
         );
         let compression = Compression::parse(first(tag::COMPRESSION, 1)?)?;
-        let predictor = match compression {
-            Compression::None | Compression::PackBits => 1,
-            _ => u16::try_from(first(tag::PREDICTOR, 1)?).unwrap_or(u16::MAX),
-        };
+        let predictor = compression.predictor(first(tag::PREDICTOR, 1)?, sample, bits)?;
         let mut layout = Self {
             format: PageFormat {
                 width: width as usize,
@@ -151,6 +93,15 @@ impl PageLayout {
     pub(crate) fn plane_bytes(&self) -> Option<(usize, usize)> {
         let row = usize::try_from(self.stored_row_bytes(self.format.width as u64)?).ok()?;
         Some((row, row.checked_mul(self.format.height)?))
+    }
+
+    /// Bytes of a row of a tile and of a whole tile once decompressed; none for strips.
+    pub(crate) fn tile_bytes(&self) -> Option<(usize, usize)> {
+        let Cut::Tiles(width, _) = self.cut else {
+            return None;
+        };
+        let row = self.stored_row_bytes(width.into())?;
+        Some((row as usize, self.chunk_bytes(0)? as usize))
     }
 
     fn read_chunks(&mut self, tiff: &Container, page: &Directory) -> Result<(), String> {
@@ -253,11 +204,29 @@ impl PageLayout {
                 follows
             });
         }
+        self.check_tiles()?;
         let total = self
             .plane_bytes()
             .and_then(|(_, n)| n.checked_mul(self.planes()));
         total.filter(|n| *n > 0).ok_or(TOO_LARGE)?;
         self.format.page_bytes().ok_or(TOO_LARGE)?;
+        Ok(())
+    }
+
+    /// Tiles side by side must end at whole bytes, and all of a plane make a page of a height
+    /// that fits 32 bits.
+    fn check_tiles(&self) -> Result<(), String> {
+        let Cut::Tiles(width, height) = self.cut else {
+            return Ok(());
+        };
+        if u64::from(width) * u64::from(self.bits) % 8 != 0 {
+            return Err(format!(
+                "its tiles of {width} pixels of {} bits do not end at whole bytes",
+                self.bits
+            ));
+        }
+        let rows = u64::from(height).checked_mul(self.chunks_per_plane());
+        rows.filter(|n| *n <= u32::MAX.into()).ok_or(TOO_LARGE)?;
         Ok(())
     }
 
@@ -310,53 +279,4 @@ fn refuse_special_pages(subfile_type: u64, depth: u64, fill_order: u64) -> Resul
         return Err("its bits are stored in reverse (FillOrder 2); accepted is FillOrder 1".into());
     }
     Ok(())
-}
-
-/// Sample type after unpacking, stored bits, channels.
-fn sample_of(tiff: &Container, page: &Directory) -> Result<(Sample, u16, usize), String> {
-    let channels = match tiff.first_uint(page, tag::SAMPLES_PER_PIXEL)?.unwrap_or(1) {
-        1 => 1,
-        3 => 3,
-        n => {
-            return Err(format!(
-                "it has {n} samples per pixel; accepted are 1 and 3 (R:G:B)"
-            ));
-        }
-    };
-    let uniform = |tag, default| match tiff.uints(page, tag)? {
-        None => Ok(default),
-        Some(values) => match values.first() {
-            Some(&first) if values.iter().all(|v| *v == first) => Ok(first),
-            _ => Err(format!("tag {tag} differs between its channels")),
-        },
-    };
-    let bits = uniform(tag::BITS_PER_SAMPLE, 1)?;
-    let number = uniform(tag::SAMPLE_FORMAT, 1)?;
-    let sample = match (number, bits) {
-        (1 | 4, 1 | 2 | 4) if channels == 1 => Sample::U8,
-        (1 | 4, 8) => Sample::U8,
-        (1 | 4, 16) => Sample::U16,
-        (1 | 4, 32) => Sample::U32,
-        (1 | 4, 64) => Sample::U64,
-        (2, 8) => Sample::I8,
-        (2, 16) => Sample::I16,
-        (2, 32) => Sample::I32,
-        (2, 64) => Sample::I64,
-        (3, 32) => Sample::F32,
-        (3, 64) => Sample::F64,
-        _ => {
-            let kind = match number {
-                2 => "signed",
-                3 => "floating-point",
-                _ => "unsigned",
-            };
-            return Err(format!(
-                "its samples are {kind} of {bits} bits; accepted are unsigned of 1, 2, 4, 8, 16, 32 and 64, signed of 8 to 64, floats of 32 and 64 bits"
-            ));
-        }
-    };
-    if channels == 3 && tiff.first_uint(page, tag::PHOTOMETRIC)? == Some(6) {
-        return Err("its colours are YCbCr, which does not keep labels; accepted is RGB".into());
-    }
-    Ok((sample, bits as u16, channels))
 }

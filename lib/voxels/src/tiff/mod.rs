@@ -2,6 +2,7 @@
 
 mod decode;
 mod describe;
+mod encoding;
 mod ifd;
 mod layout;
 mod write;

@@ -1,0 +1,127 @@
+//! How samples are encoded: number type, compression, predictor.
+
+use super::ifd::{Container, Directory, tag};
+use crate::sample::Sample;
+
+/// How pixels are packed into chunks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Compression {
+    None,
+    Lzw,
+    Deflate,
+    PackBits,
+    Zstd,
+}
+
+impl Compression {
+    /// From the code of TIFF tag 259.
+    pub(crate) fn parse(code: u64) -> Result<Self, String> {
+        Ok(match code {
+            1 => Self::None,
+            5 => Self::Lzw,
+            8 | 32946 => Self::Deflate,
+            32773 => Self::PackBits,
+            50000 => Self::Zstd,
+            _ => {
+                let name = match code {
+                    2..=4 => " (CCITT fax)",
+                    6 | 7 => " (JPEG, which does not keep labels)",
+                    _ => "",
+                };
+                return Err(format!(
+                    "compression {code}{name} is not accepted; accepted are none, LZW, Deflate, PackBits and zstd"
+                ));
+            }
+        })
+    }
+
+    /// Code of TIFF tag 259.
+    pub(crate) fn code(self) -> u16 {
+        match self {
+            Self::None => 1,
+            Self::Lzw => 5,
+            Self::Deflate => 8,
+            Self::PackBits => 32773,
+            Self::Zstd => 50000,
+        }
+    }
+
+    /// The predictor (tag 317) that is undone, if it makes sense for the samples: 2 is the
+    /// difference of neighbours, 3 that of the bytes of floats.
+    pub(crate) fn predictor(self, code: u64, sample: Sample, bits: u16) -> Result<u16, String> {
+        match (self, code) {
+            // They know no predictor, whatever the tag says.
+            (Self::None | Self::PackBits, _) | (_, 1) => Ok(1),
+            (_, 2) if bits >= 8 => Ok(2),
+            (_, 3) if matches!(sample, Sample::F32 | Sample::F64) => Ok(3),
+            _ => Err(format!(
+                "predictor {code} is not accepted for samples of {bits} bits; accepted are 1, for 8 bits and more 2, for floats 3"
+            )),
+        }
+    }
+
+    /// More pixel bytes per stored byte than the method can ever reach. Deflate copies 258
+    /// bytes with 2 bits; an LZW code of 12 bits stands for up to 3837 bytes; PackBits
+    /// repeats a byte 128 times with 2 bytes; a zstd block of 4 bytes fills 128 KiB.
+    pub(crate) fn max_ratio(self) -> u64 {
+        match self {
+            Self::None => 1,
+            Self::Lzw => 2_560,
+            Self::Deflate => 1_032,
+            Self::PackBits => 64,
+            Self::Zstd => 32_768,
+        }
+    }
+}
+
+/// Sample type after unpacking, stored bits, channels.
+pub(crate) fn sample_of(
+    tiff: &Container,
+    page: &Directory,
+) -> Result<(Sample, u16, usize), String> {
+    let channels = match tiff.first_uint(page, tag::SAMPLES_PER_PIXEL)?.unwrap_or(1) {
+        1 => 1,
+        3 => 3,
+        n => {
+            return Err(format!(
+                "it has {n} samples per pixel; accepted are 1 and 3 (R:G:B)"
+            ));
+        }
+    };
+    let uniform = |tag, default| match tiff.uints(page, tag)? {
+        None => Ok(default),
+        Some(values) => match values.first() {
+            Some(&first) if values.iter().all(|v| *v == first) => Ok(first),
+            _ => Err(format!("tag {tag} differs between its channels")),
+        },
+    };
+    let bits = uniform(tag::BITS_PER_SAMPLE, 1)?;
+    let number = uniform(tag::SAMPLE_FORMAT, 1)?;
+    let sample = match (number, bits) {
+        (1 | 4, 1 | 2 | 4) if channels == 1 => Sample::U8,
+        (1 | 4, 8) => Sample::U8,
+        (1 | 4, 16) => Sample::U16,
+        (1 | 4, 32) => Sample::U32,
+        (1 | 4, 64) => Sample::U64,
+        (2, 8) => Sample::I8,
+        (2, 16) => Sample::I16,
+        (2, 32) => Sample::I32,
+        (2, 64) => Sample::I64,
+        (3, 32) => Sample::F32,
+        (3, 64) => Sample::F64,
+        _ => {
+            let kind = match number {
+                2 => "signed",
+                3 => "floating-point",
+                _ => "unsigned",
+            };
+            return Err(format!(
+                "its samples are {kind} of {bits} bits; accepted are unsigned of 1, 2, 4, 8, 16, 32 and 64, signed of 8 to 64, floats of 32 and 64 bits"
+            ));
+        }
+    };
+    if channels == 3 && tiff.first_uint(page, tag::PHOTOMETRIC)? == Some(6) {
+        return Err("its colours are YCbCr, which does not keep labels; accepted is RGB".into());
+    }
+    Ok((sample, bits as u16, channels))
+}
