@@ -48,7 +48,9 @@ impl Plane {
 /// wood above it. Columns that look into a cut lumen are wide open and say nothing about the
 /// surface, so only the narrowest quarter of the open columns counts (its level on
 /// bondline-acer-240 is 0.0002 voxels off the true one; that of the narrower half 0.2).
-/// Starts from the level `start` and repeats with the fitted plane.
+/// Starts from the level `start` and repeats with the fitted plane as long as the plane cuts no
+/// more wood than before: in small specimens with few surface columns a fit can otherwise walk
+/// off into the lumens.
 pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, Error> {
     let across = state.across();
     let extent = across.columns.map(|n| n as f64 * across.width_m);
@@ -59,54 +61,78 @@ pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, Error> {
         level: start,
         slope: [0.0; 2],
     };
+    let mut openings = Openings::along(state, &across, &plane);
     for _ in 0..ROUNDS {
-        let middles = middles(state, &across, &plane);
+        let middles = openings.narrowest_middles(&across);
         if middles.is_empty() {
             return Err(Error::Usage(
                 "no column is open between the adherends, so no plane can be fitted; use --reference mid".into(),
             ));
         }
         let (level, slope) = least_squares(&middles, plane.centre);
-        let settled = plane.level == level && plane.slope == slope;
-        (plane.level, plane.slope) = (level, slope);
-        if settled {
+        let next = Plane {
+            level,
+            slope,
+            ..plane
+        };
+        let next_openings = Openings::along(state, &across, &next);
+        if next == plane || next_openings.open.len() < openings.open.len() {
             break;
         }
+        (plane, openings) = (next, next_openings);
     }
     Ok(plane)
 }
 
-/// Position and middle of the narrowest quarter of the open columns.
-fn middles(state: &State, across: &Across, plane: &Plane) -> Vec<([f64; 2], f64)> {
-    let n = state.normal.index();
-    let columns = across.columns[0] * across.columns[1];
-    let mut below = vec![f64::NEG_INFINITY; columns];
-    let mut above = vec![f64::INFINITY; columns];
-    for block in state.wood_blocks() {
-        let half = 0.5 * block.voxel_m;
-        block.for_each(|index| {
-            let centre = block.centre_m(index);
-            let column = across.column(centre);
-            let height = plane.coordinate(across.centre_m(column));
-            if centre[n] < height {
-                below[column] = below[column].max(centre[n] + half);
-            } else {
-                above[column] = above[column].min(centre[n] - half);
-            }
-        });
+/// The openings between the adherends along a plane.
+struct Openings {
+    /// Highest wood below the plane in each column, m.
+    below: Vec<f64>,
+    /// Lowest wood above the plane in each column, m.
+    above: Vec<f64>,
+    /// Columns in which the plane runs between wood, the narrowest opening first.
+    open: Vec<usize>,
+}
+
+impl Openings {
+    fn along(state: &State, across: &Across, plane: &Plane) -> Self {
+        let n = state.normal.index();
+        let columns = across.columns[0] * across.columns[1];
+        let mut below = vec![f64::NEG_INFINITY; columns];
+        let mut above = vec![f64::INFINITY; columns];
+        for block in state.wood_blocks() {
+            let half = 0.5 * block.voxel_m;
+            block.for_each(|index| {
+                let centre = block.centre_m(index);
+                let column = across.column(centre);
+                let height = plane.coordinate(across.centre_m(column));
+                if centre[n] < height {
+                    below[column] = below[column].max(centre[n] + half);
+                } else {
+                    above[column] = above[column].min(centre[n] - half);
+                }
+            });
+        }
+        let width = |c: usize| above[c] - below[c];
+        let mut open: Vec<usize> = (0..columns)
+            .filter(|&c| width(c).is_finite() && width(c) > 0.5 * across.width_m)
+            .collect();
+        open.sort_unstable_by(|&a, &b| width(a).total_cmp(&width(b)).then(a.cmp(&b)));
+        Self { below, above, open }
     }
-    let mut open: Vec<(f64, usize)> = (0..columns)
-        .map(|c| (above[c] - below[c], c))
-        .filter(|(opening, _)| opening.is_finite() && *opening > 0.5 * across.width_m)
-        .collect();
-    open.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let Some(&(widest, _)) = open.get(open.len() / 4) else {
-        return Vec::new();
-    };
-    open.iter()
-        .filter(|(opening, _)| *opening <= widest)
-        .map(|&(_, c)| (across.centre_m(c), 0.5 * (below[c] + above[c])))
-        .collect()
+
+    /// Place and middle of the narrowest quarter of the openings, and of those as narrow.
+    fn narrowest_middles(&self, across: &Across) -> Vec<([f64; 2], f64)> {
+        let width = |c: usize| self.above[c] - self.below[c];
+        let Some(&quarter) = self.open.get(self.open.len() / 4) else {
+            return Vec::new();
+        };
+        self.open
+            .iter()
+            .take_while(|&&c| width(c) <= width(quarter))
+            .map(|&c| (across.centre_m(c), 0.5 * (self.below[c] + self.above[c])))
+            .collect()
+    }
 }
 
 /// Level at `centre` and slopes of the least-squares plane. A direction in which the points
