@@ -1,6 +1,6 @@
 //! What the particles take from the grid after a step.
 
-use physics::{ShearRate, Tait};
+use physics::{ShearRate, TAIT_C, Tait};
 use rayon::prelude::*;
 
 use super::Flow;
@@ -17,7 +17,8 @@ pub fn set_velocities(particles: &mut Particles, flow: &Flow) {
 }
 
 /// Sets the particles' volume changes by `tait` from the pressure (Pa) of their cell of the
-/// window, not below `lowest` (Pa); cells without liquid have pressure 0.
+/// window, not below `lowest` (Pa) nor below half the tension at which `tait` has no volume;
+/// cells without liquid have pressure 0.
 pub fn set_volume_changes(
     particles: &mut Particles,
     window: &Window,
@@ -25,6 +26,7 @@ pub fn set_volume_changes(
     tait: Tait,
     lowest: f64,
 ) {
+    let lowest = lowest.max(-0.5 * TAIT_C * tait.bulk_modulus);
     (particles.j.par_iter_mut())
         .zip(&particles.position)
         .with_min_len(1 << 12)
