@@ -178,5 +178,12 @@ fn correlation(a: &Map, b: &Map) -> f64 {
         let deviations = pairs.iter().map(|p| f(p.0 - mean_a, p.1 - mean_b));
         deviations.sum()
     };
-    sum(|x, y| x * y) / (sum(|x, _| x * x) * sum(|_, y| y * y)).sqrt()
+    let (aa, bb) = (sum(|x, _| x * x), sum(|_, y| y * y));
+    // Single-precision places of material points make a constant map vary by 1e-6 voxels.
+    let constant = n * (1e-4 * a.across.width_m).powi(2);
+    if aa > constant && bb > constant {
+        sum(|x, y| x * y) / (aa * bb).sqrt()
+    } else {
+        f64::NAN
+    }
 }

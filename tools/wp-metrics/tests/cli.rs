@@ -35,6 +35,39 @@ fn specimen(folder: &Path) -> PathBuf {
     path
 }
 
+/// A state of a run on the specimen: its adherends parted by `gap` voxels, and its adhesive as
+/// material points that moved with them; `spoil` may break it.
+fn state(folder: &Path, gap: usize, spoil: impl Fn(&mut Vec<[f32; 3]>)) -> PathBuf {
+    let [nx, ny, nz] = DIMS;
+    let bottom = BitGrid::from_fn([nx, 27, nz], |x, y, _| letter(x, y) == 'w');
+    let top = BitGrid::from_fn([nx, ny - 27, nz], |x, y, _| letter(x, y + 27) == 'w');
+    let mut position = Vec::new();
+    for y in 0..ny {
+        for z in 0..nz {
+            for x in (0..nx).filter(|&x| letter(x, y) == 'a') {
+                let y = if y < 27 { y } else { y + gap };
+                position.push([x, y, z].map(|i| ((i as f64 + 0.5) * VOXEL) as f32));
+            }
+        }
+    }
+    let volume = vec![VOXEL.powi(3) as f32; position.len()];
+    spoil(&mut position);
+    let max = [nx, ny + gap, nz].map(|n| n as f64 * VOXEL);
+    let block = |name, layer: usize, bits| {
+        let origin = [0.0, layer as f64 * VOXEL, 0.0];
+        Block::new(name, Material::Rigid, origin, VOXEL, bits)
+    };
+    let path = folder.join("state.mpts");
+    Draft::new(Header::new(Kind::State, VOXEL, 1, [0.0; 3], max))
+        .block(block("wood-bottom", 0, &bottom), &bottom)
+        .block(block("wood-top", 27 + gap, &top), &top)
+        .column("position", 3, position.as_flattened())
+        .column("volume", 1, &volume)
+        .write_to(&mut File::create(&path).unwrap())
+        .unwrap();
+    path
+}
+
 fn tool(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_wp-metrics"))
         .args(arguments)
@@ -156,6 +189,44 @@ fn map_profile_and_comparison() {
         let record = fs::read_to_string(format!("{file}.provenance.json")).unwrap();
         assert!(record.contains("specimen.mpts"));
     }
+}
+
+#[test]
+fn a_closed_state_is_the_experiment_and_a_parted_one_has_its_own_middle() {
+    let folder = TempDir::new().unwrap();
+    let experiment = specimen(folder.path());
+    let experiment = experiment.to_str().unwrap();
+    let exact = rows(&text(&tool(&[experiment]).stdout));
+    for gap in [0, 4] {
+        let state = state(folder.path(), gap, |_| ());
+        let run = tool(&[state.to_str().unwrap(), "--compare", experiment]);
+        assert!(run.status.success(), "{}", text(&run.stderr));
+        let found = rows(&text(&run.stdout));
+        for (row, exact) in found.iter().zip(&exact) {
+            let middle = (27.0 + 0.5 * gap as f64) * VOXEL;
+            assert!((number(&row[3]) - middle).abs() < 1e-12);
+            let closed = (number(&row[4]) - number(&exact[4])).abs() < 1e-4;
+            assert_eq!(closed, gap == 0, "{row:?} {exact:?}");
+            assert_eq!(row[10], exact[10]);
+            assert!(
+                number(&row[11]) > 0.999,
+                "each side in its own frame: {row:?}"
+            );
+            // Nothing entered the top adherend: its map is constant.
+            match row[1].as_str() {
+                "top" => assert_eq!(row[12], "NaN"),
+                _ => assert!(number(&row[12]) > 0.99, "{row:?}"),
+            }
+        }
+    }
+    let nowhere = state(folder.path(), 0, |position| position[7][2] = f32::NAN);
+    let run = tool(&[nowhere.to_str().unwrap()]);
+    assert_eq!(run.status.code(), Some(3));
+    assert!(
+        text(&run.stderr).contains("material point 7"),
+        "{}",
+        text(&run.stderr)
+    );
 }
 
 #[test]
