@@ -110,16 +110,15 @@ impl Fractions {
         self.rows
             .par_extend((0..ny * nz).into_par_iter().map(|row| {
                 let (j, k) = (row % ny, row / ny);
-                let mut all = usize::MAX..0;
+                let (mut start, mut end) = (nx, 0);
                 for k in near(nz, k) {
-                    for j in near(ny, j) {
-                        let one = &occupied[k * ny + j];
+                    for one in near(ny, j).map(|j| &occupied[k * ny + j]) {
                         if !one.is_empty() {
-                            all = all.start.min(one.start)..all.end.max(one.end);
+                            (start, end) = (start.min(one.start), end.max(one.end));
                         }
                     }
                 }
-                if all.is_empty() { 0..0 } else { all }
+                start.min(end)..end
             }));
     }
 
