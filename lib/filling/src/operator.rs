@@ -14,6 +14,7 @@
 mod dofs;
 mod fluxes;
 mod terms;
+mod viscosity;
 mod walls;
 
 use rayon::prelude::*;
@@ -23,6 +24,7 @@ use crate::solve::{Csr, SaddleSystem, SolveError};
 use terms::Velocity;
 
 pub use dofs::{Dofs, Liquid, NONE};
+pub use viscosity::{Sheared, reference_viscosity, varies};
 pub use walls::{PathRule, WallLink, Walls};
 
 /// Smallest liquid volume, in cells, that a face's mass counts with.
@@ -50,9 +52,9 @@ pub struct Operator<'a> {
     /// Geometry.
     pub lattice: &'a Lattice,
     /// Liquid fractions.
-    pub liquid: &'a Liquid,
+    pub liquid: &'a Liquid<'a>,
     /// Viscosity of each cell over eta_0; empty when it is eta_0 everywhere.
-    pub viscosity: Vec<f32>,
+    viscosity: Vec<f32>,
     /// Unknowns.
     pub dofs: Dofs,
     /// Walls at the face unknowns.
@@ -60,7 +62,6 @@ pub struct Operator<'a> {
     /// Liquid volume of the control volume of each face unknown, in cells.
     pub face_volume: Vec<f64>,
     scales: Scales,
-    influence_length: f64,
 }
 
 /// The assembled parts of a [`SaddleSystem`].
@@ -101,10 +102,10 @@ pub struct Before<'a> {
 
 impl<'a> Operator<'a> {
     /// The operator for `liquid` in `lattice`.
-    pub fn new(lattice: &'a Lattice, liquid: &'a Liquid, scales: Scales) -> Self {
+    pub fn new(lattice: &'a Lattice, liquid: &'a Liquid<'a>, scales: Scales) -> Self {
         let dofs = Dofs::new(lattice, liquid);
         let friction = scales.influence_length.is_finite();
-        let walls = Walls::new(lattice, &liquid.phi, &dofs, scales.path, friction);
+        let walls = Walls::new(lattice, liquid.phi, &dofs, scales.path, friction);
         let face_volume = dofs
             .faces
             .par_iter()
@@ -119,7 +120,6 @@ impl<'a> Operator<'a> {
             walls,
             face_volume,
             scales,
-            influence_length: scales.influence_length,
         }
     }
 
@@ -316,7 +316,7 @@ fn coefficient(parts: &[(Velocity, f64)], face: usize) -> f64 {
 /// into its area.
 fn face_volume(lattice: &Lattice, liquid: &Liquid, axis: usize, index: usize) -> f64 {
     let cell = lattice.window.coordinates(index);
-    let (wet, open) = dofs::face_fill(lattice, &liquid.phi, axis, cell);
+    let (wet, open) = dofs::face_fill(lattice, liquid.phi, axis, cell);
     let merged = lattice.aperture(axis, cell).bodies.into_iter();
     let merged: f64 = merged.map(|b| (-b.1).max(0.0)).sum();
     wet + if open > 0.0 { merged * wet / open } else { 0.0 }

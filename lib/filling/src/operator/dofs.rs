@@ -28,19 +28,19 @@ pub struct Dofs {
 }
 
 /// Liquid in the cells and control volumes of a window.
-#[derive(Clone, Debug, Default)]
-pub struct Liquid {
+#[derive(Clone, Debug)]
+pub struct Liquid<'a> {
     /// Liquid fraction of the open part of each sub-cell, 0 to 1.
-    pub phi: Vec<f32>,
+    pub phi: &'a [f32],
     /// Liquid volume of each cell, in cells.
     pub volume: Vec<f32>,
     /// Liquid fraction of the open part of each cell.
     pub fraction: Vec<f32>,
 }
 
-impl Liquid {
+impl<'a> Liquid<'a> {
     /// Cell volumes and fractions from the sub-cells'.
-    pub fn new(lattice: &Lattice, phi: Vec<f32>) -> Self {
+    pub fn new(lattice: &Lattice, phi: &'a [f32]) -> Self {
         let window = &lattice.window;
         let (mut volume, mut fraction) = (vec![0.0; window.len()], vec![0.0; window.len()]);
         let row = window.cells[0];
@@ -51,7 +51,7 @@ impl Liquid {
                 for i in 0..row {
                     let first = window.first_sub([i, j, k]);
                     let parts = [2, 2, window.parts(2)];
-                    let (wet, open) = fill(lattice, &phi, first, parts);
+                    let (wet, open) = fill(lattice, phi, first, parts);
                     volume[i] = (wet / window.sub_per_cell() as f64) as f32;
                     fraction[i] = if open > 1e-6 { (wet / open) as f32 } else { 0.0 };
                 }
@@ -110,7 +110,7 @@ impl Dofs {
                 && (window.in_domain(cell) || window.in_domain(window.coordinates(below)))
                 && (wet(index)
                     || wet(below)
-                    || face_fill(lattice, &liquid.phi, axis, cell).0 > WET_FACE)
+                    || face_fill(lattice, liquid.phi, axis, cell).0 > WET_FACE)
         };
         let axes = window.domain.axes;
         // One bit per axis for an active low face, one for a wet cell; rows are independent.

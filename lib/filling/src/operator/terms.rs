@@ -78,9 +78,8 @@ impl Operator<'_> {
             self.edge_terms(axis, t, index + window.stride(t), &mut each);
         }
         for link in self.walls.of(face) {
-            let eta = self.face_viscosity(axis, index);
-            let weight = eta * f64::from(link.area)
-                / (f64::from(link.distance) + self.influence_length);
+            let weight = f64::from(link.viscosity * link.area)
+                / (f64::from(link.distance) + self.scales.influence_length);
             let wall = Velocity::Body(3 * usize::from(link.body) + axis);
             each(&Term::pair(weight, wall, Velocity::Face(face as u32)));
         }
@@ -111,7 +110,7 @@ impl Operator<'_> {
         }
         let cell = window.coordinates(at);
         let first = window.first_sub(cell) - window.sub_stride(i) - window.sub_stride(j);
-        let (wet, open) = fill(self.lattice, &self.liquid.phi, first, [2, 2, window.parts(2)]);
+        let (wet, open) = fill(self.lattice, self.liquid.phi, first, [2, 2, window.parts(2)]);
         if wet <= 0.0 {
             return;
         }

@@ -33,6 +33,8 @@ pub struct WallLink {
     pub area: f32,
     /// d_eff of [`effective_distance`], cells.
     pub distance: f32,
+    /// Viscosity there over eta_0.
+    pub viscosity: f32,
 }
 
 /// The walls at all face unknowns.
@@ -85,6 +87,15 @@ impl Walls {
             walls.inverse_paths.extend(paths);
         }
         walls
+    }
+
+    /// Sets the viscosity of every link by `viscosity(face, link)`.
+    pub(super) fn set_viscosity(&mut self, viscosity: impl Fn(usize, &WallLink) -> f32) {
+        for face in 0..self.start.len() - 1 {
+            for link in &mut self.links[self.start[face] as usize..self.start[face + 1] as usize] {
+                link.viscosity = viscosity(face, link);
+            }
+        }
     }
 
     /// The walls at a face unknown.
@@ -243,6 +254,7 @@ impl Collector<'_> {
             body: column.body[side],
             area: area as f32,
             distance: effective_distance(d, opposite, path.max(d)) as f32,
+            viscosity: 1.0,
         };
         let equal = |l: &&mut WallLink| l.body == link.body && l.distance == link.distance;
         match self.links[self.first..].iter_mut().find(equal) {

@@ -65,7 +65,7 @@ impl Flow {
         let to = self.domain.cells.map(|n| n as i64);
         let lattice = Lattice::new(solids, Window::around(self.domain, [0; 3], to));
         let phi = fractions(&lattice, wet);
-        let liquid = Liquid::new(&lattice, phi);
+        let liquid = Liquid::new(&lattice, &phi);
         let scales = Scales {
             inertia: 1e-9,
             compressibility: 1e-12,

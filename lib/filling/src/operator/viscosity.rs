@@ -1,0 +1,71 @@
+//! Viscosity that depends on the shear rate, lagged by one pass (Picard).
+
+use physics::{Liquid, Viscosity};
+use rayon::prelude::*;
+
+use super::Operator;
+use crate::advect::{Flow, deviator_norm};
+
+/// A velocity field from which shear rates are taken.
+pub struct Sheared<'a> {
+    /// Velocity between faces, m/s.
+    pub flow: &'a Flow,
+    /// Velocity of each face unknown, m/s.
+    pub u: &'a [f64],
+    /// Velocities of the bodies, m/s.
+    pub bodies: &'a [[f64; 3]],
+}
+
+impl Operator<'_> {
+    /// Sets the viscosities of cells and walls by the law of `liquid` at the rates of `field`,
+    /// in units of `reference` (Pa s), for cells of `cell_m`. Returns the mean relative change
+    /// over the liquid; infinite where there was no viscosity before.
+    ///
+    /// At a wall the rate is (u - U)/(d_eff + l), that of the wall law (paper Eq. 3), without
+    /// the factor of the paper's convention for rates in the liquid.
+    pub fn set_viscosity(
+        &mut self,
+        liquid: &Liquid,
+        reference: f64,
+        cell_m: f64,
+        field: &Sheared,
+    ) -> f64 {
+        let law = &liquid.viscosity;
+        let at = |rate: f64| (law.at(rate) / reference) as f32;
+        let window = self.lattice.window;
+        let mut viscosity = vec![0.0_f32; window.len()];
+        let values: Vec<f32> = (self.dofs.cells.par_iter())
+            .map(|&cell| {
+                let centre = window.corner(window.coordinates(cell as usize)).map(|x| x + 0.5);
+                let gradient = field.flow.gradient(centre).map(|c| c.gradient);
+                at(liquid.shear_rate.factor() * deviator_norm(&gradient) / cell_m)
+            })
+            .collect();
+        let mut change = 0.0;
+        for (&cell, &value) in self.dofs.cells.iter().zip(&values) {
+            let before = self.viscosity.get(cell as usize).copied().unwrap_or(0.0);
+            change += f64::from((value - before).abs() / before);
+            viscosity[cell as usize] = value;
+        }
+        self.viscosity = viscosity;
+        let length = self.scales.influence_length;
+        let faces = &self.dofs.faces;
+        self.walls.set_viscosity(|face, link| {
+            let axis = usize::from(faces[face].0);
+            let slip = (field.u[face] - field.bodies[usize::from(link.body)][axis]).abs();
+            at(slip / (f64::from(link.distance) + length) / cell_m)
+        });
+        change / values.len().max(1) as f64
+    }
+}
+
+/// Viscosity that a scene's liquid has at the shear rate of a lumen of six cells, to scale
+/// equations with.
+pub fn reference_viscosity(law: &Viscosity, speed: f64, cell_m: f64) -> f64 {
+    law.at(8.0 * speed / (6.0 * cell_m))
+}
+
+/// Whether a law needs rates at all.
+pub fn varies(law: &Viscosity) -> bool {
+    matches!(law, Viscosity::Table(_))
+}

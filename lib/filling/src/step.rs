@@ -1,0 +1,319 @@
+//! One implicit time step.
+
+mod checks;
+mod drive;
+mod solution;
+mod stages;
+mod state;
+mod units;
+
+use physics::{Failure, Liquid, Motion, Scene, StepLimit, StepReport, WallLaw};
+
+use crate::advect::{self, Flow, Moved, Path};
+use crate::density;
+use crate::fractions::Fractions;
+use crate::lattice::Lattice;
+use crate::operator::{PathRule, Scales};
+use crate::particles::{Bins, Particles};
+use crate::settings::Settings;
+use crate::solids::Solids;
+use crate::solve::{SaddleOptions, SaddleSolver};
+use crate::window::{Domain, Window};
+use drive::Drive;
+use solution::Solution;
+use stages::{Stage, Stages};
+use units::Units;
+
+/// A step may overshoot its CFL number by this factor before it is taken again.
+const OVERSHOOT: f64 = 1.3;
+/// Attempts at a step of acceptable length.
+const ATTEMPTS: usize = 6;
+
+/// The implicit scheme on a scene: a staggered, coupled pressure-viscosity solve per step with
+/// the particles as markers.
+pub struct Implicit {
+    settings: Settings,
+    units: Units,
+    domain: Domain,
+    liquid: Liquid,
+    wall: WallLaw,
+    gravity: [f64; 3],
+    path: PathRule,
+    bottom: Option<usize>,
+    top: Option<usize>,
+    /// Area that pressures refer to, m2.
+    area: f64,
+    /// Bodies before any displacement.
+    rest: Solids,
+    /// Displacement of each body, m.
+    displacement: Vec<[f64; 3]>,
+    drive: Drive,
+    particles: Particles,
+    bins: Bins,
+    fractions: Fractions,
+    solver: SaddleSolver,
+    /// Velocity after the last step; none before the first.
+    flow: Option<Flow>,
+    /// Largest speed of the last step, m/s.
+    fastest: f64,
+    /// Clamp travel, m.
+    travel: f64,
+    steps: u64,
+    lost: u64,
+    /// Particles that a wall turned back so far.
+    deflected: u64,
+    /// Particles between closing walls that found no free place nearby so far.
+    pinched: u64,
+    /// Voxels of voids that no liquid can reach, filled in.
+    sealed: u64,
+    /// Power of viscosity and friction in the last step, W.
+    power: f64,
+    /// Shear rates of a restored state, until the next step gives its own.
+    restored_rates: Option<Vec<f32>>,
+    stages: Stages,
+}
+
+/// Geometry and liquid of a step that is being tried.
+struct Trial {
+    lattice: Lattice,
+    dt: f64,
+}
+
+impl Implicit {
+    /// The scheme for `scene`.
+    ///
+    /// # Errors
+    /// A sentence on what this scheme cannot do with the scene or the settings.
+    pub fn new(scene: Scene, settings: Settings) -> Result<Self, String> {
+        settings.check()?;
+        checks::scene(&scene)?;
+        let speed = scene.initial_speed();
+        let units = Units::new(&scene.grid, &scene.liquid, speed);
+        let domain = Domain::new(&scene.grid, scene.boundary, scene.dimensions);
+        let motions: Vec<Motion> = scene.bodies.iter().map(|body| body.motion).collect();
+        let path = checks::path_rule(&scene);
+        let area = scene.grid.area_m2();
+        let acoustic = 0.1 * units.h / scene.liquid.sound_speed();
+        let (rest, particles, sealed) = checks::contents(scene.bodies, scene.points, domain, units)?;
+        let options = SaddleOptions {
+            tolerance: settings.tolerance,
+            ..SaddleOptions::default()
+        };
+        Ok(Self {
+            settings,
+            units,
+            domain,
+            liquid: scene.liquid,
+            wall: scene.wall,
+            gravity: scene.gravity,
+            path,
+            bottom: scene.bottom,
+            top: scene.top,
+            area,
+            rest,
+            displacement: vec![[0.0; 3]; motions.len()],
+            drive: Drive::new(motions, scene.clamp, acoustic),
+            particles,
+            bins: Bins::default(),
+            fractions: Fractions::default(),
+            solver: SaddleSolver::new(options),
+            flow: None,
+            fastest: speed,
+            travel: 0.0,
+            steps: 0,
+            lost: 0,
+            deflected: 0,
+            pinched: 0,
+            sealed,
+            power: 0.0,
+            restored_rates: None,
+            stages: Stages::default(),
+        })
+    }
+
+    /// 1. Time step: CFL cells of the fastest motion known, in equal parts of what is left.
+    fn time_step(&self, limit: StepLimit) -> Result<f64, Failure> {
+        let bodies = self.drive.velocities();
+        let moving = bodies.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let speed = self.fastest.max(moving);
+        let mut left = limit.time_s;
+        if self.drive.clamped().is_some() && self.drive.speed > 0.0 {
+            left = left.min(limit.travel_m / self.drive.speed);
+        }
+        let step = if speed > 0.0 {
+            self.settings.cfl * self.units.h / speed
+        } else {
+            // From rest under a body force: the distance fallen in the step.
+            let pull = self.gravity.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+            (2.0 * self.settings.cfl * self.units.h / pull).sqrt()
+        };
+        let dt = if step < left { left / (left / step).ceil() } else { left };
+        if dt > 0.0 && dt.is_finite() {
+            return Ok(dt);
+        }
+        Err(Failure(format!(
+            "step {}: nothing moves and no time is left, so no time step can be chosen",
+            self.steps + 1
+        )))
+    }
+
+    /// Bodies displaced by where they are now and a time at given velocities.
+    fn solids_after(&self, bodies: &[[f64; 3]], time: f64) -> Solids {
+        let moved: Vec<[f64; 3]> = (self.displacement.iter().zip(bodies))
+            .map(|(d, v)| std::array::from_fn(|a| (d[a] + v[a] * time) / self.units.h))
+            .collect();
+        self.rest.displaced(&moved)
+    }
+
+    /// 2. and 3. Geometry in the middle of the step, and the liquid in it.
+    fn place(&mut self, dt: f64) -> Trial {
+        let solids = self.solids_after(&self.drive.velocities(), 0.5 * dt);
+        let (from, to) = self.particles.extent();
+        let window = Window::around(self.domain, from, to);
+        let lattice = (self.stages).time(Stage::Geometry, || Lattice::new(solids, window));
+        let Self {
+            stages,
+            particles,
+            bins,
+            fractions,
+            ..
+        } = self;
+        stages.time(Stage::Fractions, || {
+            particles.sort(&window, bins);
+            fractions.update(particles, bins, &window, &lattice.open);
+        });
+        Trial { lattice, dt }
+    }
+
+    fn scales(&self, dt: f64) -> Scales {
+        let Units { h, eta, .. } = self.units;
+        let weight = self.liquid.density * h * h / eta;
+        Scales {
+            inertia: weight / dt,
+            compressibility: eta / (self.liquid.tait.bulk_modulus * dt),
+            gravity: self.gravity.map(|g| weight * g),
+            influence_length: self.wall.influence_length() / h,
+            path: self.path,
+        }
+    }
+
+    /// 1. to 6. Solves with steps of decreasing length until none overshoots the CFL number.
+    fn solve(&mut self, limit: StepLimit) -> Result<(Trial, Solution), Failure> {
+        for _ in 0..ATTEMPTS {
+            let dt = self.time_step(limit)?;
+            let trial = self.place(dt);
+            let solution = self.solution(&trial)?;
+            let cells = solution.fastest * dt / self.units.h;
+            self.fastest = solution.fastest;
+            if cells <= OVERSHOOT * self.settings.cfl {
+                return Ok((trial, solution));
+            }
+        }
+        Err(Failure(format!(
+            "step {}: the liquid gets faster the shorter the time step, {:.3e} m/s at last; \
+             a wall may push liquid that has no way out",
+            self.steps + 1,
+            self.fastest
+        )))
+    }
+
+    /// Takes one step; see [`physics::Scheme::advance`].
+    fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
+        self.flow = None;
+        self.restored_rates = None;
+        let (trial, solution) = self.solve(limit)?;
+        let mut dt = trial.dt;
+        if self.drive.clamped().is_some() {
+            // Load control may have sped the clamp up.
+            dt = dt.min(limit.travel_m / solution.speed);
+        }
+        let before = self.solids_after(&solution.bodies, 0.0);
+        let after = self.solids_after(&solution.bodies, dt);
+        self.transport(&trial.lattice, &solution, &before, &after, dt)?;
+        for (displacement, v) in self.displacement.iter_mut().zip(&solution.bodies) {
+            *displacement = std::array::from_fn(|a| displacement[a] + v[a] * dt);
+        }
+        let pressure = |body: Option<usize>, way: f64| {
+            body.map_or(0.0, |b| way * solution.forces[b][1] * self.units.force() / self.area)
+        };
+        let (bottom, top) = (pressure(self.bottom, -1.0), pressure(self.top, 1.0));
+        if self.drive.clamped().is_some() {
+            self.travel += solution.speed * dt;
+        }
+        self.drive.observe(top, dt);
+        self.steps += 1;
+        Ok(StepReport {
+            dt_s: dt,
+            closing_speed: solution.speed,
+            travel_m: self.travel,
+            pressure_bottom: bottom,
+            pressure_top: top,
+            lost: self.lost,
+            iterations: solution.iterations,
+        })
+    }
+
+    /// 7. and 8. Particles follow the flow, are projected, and take velocity and pressure.
+    fn transport(
+        &mut self,
+        lattice: &Lattice,
+        solution: &Solution,
+        before: &Solids,
+        after: &Solids,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        let path = Path {
+            before,
+            after,
+            scale: dt / self.units.h,
+        };
+        let influence = self.wall.influence_length() / self.units.h;
+        let dofs = &solution.dofs;
+        let particles = &mut self.particles;
+        let (flow, mut moved) = self.stages.time(Stage::Advection, || {
+            let value = advect::extend(lattice, &dofs.face, &solution.u);
+            let flow = Flow::new(lattice, &value, &dofs.face, &solution.bodies, influence);
+            let moved = path.follow(particles, |x| flow.velocity(x));
+            (flow, moved)
+        });
+        let projected: Result<Moved, _> = self.stages.time(Stage::Density, || {
+            let cells = density::Cells {
+                density: &solution.density,
+                fraction: &solution.fraction,
+                volume: &solution.volume,
+            };
+            let (g, volume) = (&solution.g, &solution.face_volume);
+            let (moves, _) = density::displacement(g, &g.transpose(), volume, cells)?;
+            let field = density::Field::new(&lattice.window, &dofs.face, &moves);
+            let path = Path {
+                before: after,
+                after,
+                scale: 1.0,
+            };
+            Ok(path.follow(particles, |x| field.at(x)))
+        });
+        let projected = projected.map_err(|e: crate::solve::SolveError| self.failure(&e.to_string()))?;
+        moved.lost += projected.lost;
+        moved.pinched += projected.pinched;
+        self.deflected += moved.deflected;
+        self.lost += moved.lost;
+        self.pinched += moved.pinched;
+        self.stages.time(Stage::Advection, || {
+            advect::set_velocities(&mut self.particles, &flow);
+            let lowest = self.liquid.cavitation_pressure.map_or(f64::NEG_INFINITY, |p| -p);
+            let tait = self.liquid.tait;
+            let (window, pressure) = (&lattice.window, &solution.pressure);
+            advect::set_volume_changes(&mut self.particles, window, pressure, tait, lowest);
+        });
+        self.flow = Some(flow);
+        self.power = solution.power;
+        if self.particles.is_empty() {
+            return Err(self.failure("all liquid has left the domain"));
+        }
+        Ok(())
+    }
+
+    fn failure(&self, what: &str) -> Failure {
+        Failure(format!("step {}: {what}", self.steps + 1))
+    }
+}

@@ -1,0 +1,225 @@
+//! The coupled solve of a step under the clamp's control.
+
+use physics::Failure;
+
+use super::{Implicit, Stage, Trial};
+use crate::advect::{self, Flow};
+use crate::fractions;
+use crate::operator::{self, Before, Dofs, Liquid, NONE, Operator, Sheared, System};
+use crate::solve::{Csr, SolveError};
+
+/// Solves with a corrected speed of the clamp, at most.
+const CORRECTIONS: usize = 3;
+/// Passes over a viscosity that depends on the shear rate: at most, and in the first step,
+/// which has no rates to start from.
+const PASSES: [usize; 2] = [3, 8];
+/// Mean relative change of the viscosity below which no further pass is made.
+const SETTLED: f64 = 0.02;
+/// A solve that stops short of its tolerance by at most this factor is used.
+const SHORT: f64 = 10.0;
+
+/// The flow of a step.
+pub(super) struct Solution {
+    pub(super) dofs: Dofs,
+    /// Velocity of each face unknown, m/s.
+    pub(super) u: Vec<f64>,
+    /// Pressure of each cell of the window, Pa.
+    pub(super) pressure: Vec<f32>,
+    /// Velocities of the bodies, m/s.
+    pub(super) bodies: Vec<[f64; 3]>,
+    /// Speed of the clamp, m/s.
+    pub(super) speed: f64,
+    /// Forces on the bodies, in the solver's unit.
+    pub(super) forces: Vec<[f64; 3]>,
+    /// Dissipated power, W.
+    pub(super) power: f64,
+    /// Largest velocity component, m/s.
+    pub(super) fastest: f64,
+    pub(super) iterations: u32,
+    /// For the density projection: fluxes, volumes of the faces, and of the pressure unknowns
+    /// density, liquid fraction and liquid volume.
+    pub(super) g: Csr<f64>,
+    pub(super) face_volume: Vec<f64>,
+    pub(super) density: Vec<f32>,
+    pub(super) fraction: Vec<f32>,
+    pub(super) volume: Vec<f32>,
+}
+
+/// Unknowns of a solve: start values and result.
+struct Unknowns {
+    u: Vec<f64>,
+    p: Vec<f64>,
+    iterations: u32,
+}
+
+impl Implicit {
+    /// 4. to 6. Assembles and solves, with viscosity passes and load control.
+    pub(super) fn solution(&mut self, trial: &Trial) -> Result<Solution, Failure> {
+        let phi = std::mem::take(&mut self.fractions.liquid);
+        let result = self.solve_with(trial, &phi);
+        self.fractions.liquid = phi;
+        result
+    }
+
+    fn solve_with(&mut self, trial: &Trial, phi: &[f32]) -> Result<Solution, Failure> {
+        let lattice = &trial.lattice;
+        let scales = self.scales(trial.dt);
+        let liquid = Liquid::new(lattice, phi);
+        let mut operator = self.stages.time(Stage::Assembly, || {
+            Operator::new(lattice, &liquid, scales)
+        });
+        let start = self.carried(&operator);
+        let mut now = Unknowns {
+            u: start.u.clone(),
+            p: start.p.clone(),
+            iterations: 0,
+        };
+        let before = Before {
+            velocity: &start.u,
+            pressure: &start.p,
+        };
+        let varies = operator::varies(&self.liquid.viscosity);
+        if varies {
+            self.update_viscosity(&mut operator, &now.u);
+        }
+        let mut pass = 0;
+        let (system, forces, power) = loop {
+            let solved = self.controlled(&operator, before, &mut now)?;
+            pass += 1;
+            let most = PASSES[usize::from(self.steps == 0)];
+            if !varies || pass == most || self.update_viscosity(&mut operator, &now.u) < SETTLED {
+                break solved;
+            }
+        };
+        let pick = |field: &[f32]| (operator.dofs.cells.iter()).map(|&c| field[c as usize]).collect();
+        let (density, fraction) = (pick(&self.fractions.density), pick(&liquid.fraction));
+        let volume = pick(&liquid.volume);
+        let fastest = now.u.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
+        if !fastest.is_finite() {
+            return Err(self.failure("the velocity is not a number"));
+        }
+        Ok(Solution {
+            pressure: self.spread(&operator, &now.p),
+            bodies: self.drive.velocities(),
+            speed: self.drive.speed,
+            forces,
+            power: power * self.units.force(),
+            fastest,
+            iterations: now.iterations,
+            u: now.u,
+            g: system.g,
+            density,
+            fraction,
+            volume,
+            face_volume: operator.face_volume,
+            dofs: operator.dofs,
+        })
+    }
+
+    /// Velocities and scaled pressures that the particles carry to the unknowns.
+    fn carried(&mut self, operator: &Operator) -> Unknowns {
+        let window = &operator.lattice.window;
+        let (dofs, units) = (&operator.dofs, self.units);
+        let (particles, bins) = (&self.particles, &self.bins);
+        self.stages.time(Stage::Fractions, || {
+            let mut u = vec![0.0; dofs.faces.len()];
+            let mut field = Vec::new();
+            for axis in 0..window.domain.axes {
+                fractions::velocities(particles, bins, window, axis, &mut field);
+                for (u, face) in u.iter_mut().zip(&dofs.faces) {
+                    if usize::from(face.0) == axis {
+                        *u = f64::from(field[face.1 as usize]);
+                    }
+                }
+            }
+            fractions::pressures(particles, bins, window, self.liquid.tait, &mut field);
+            let p = (dofs.cells.iter())
+                .map(|&cell| f64::from(field[cell as usize]) / units.pressure())
+                .collect();
+            Unknowns {
+                u,
+                p,
+                iterations: 0,
+            }
+        })
+    }
+
+    /// Solves, and again with another speed where the clamp's pressure is not to be exceeded.
+    fn controlled(
+        &mut self,
+        operator: &Operator,
+        before: Before,
+        now: &mut Unknowns,
+    ) -> Result<(System, Vec<[f64; 3]>, f64), Failure> {
+        let mut correction = 0;
+        loop {
+            let bodies = self.drive.velocities();
+            let system = (self.stages)
+                .time(Stage::Assembly, || operator.assemble(&bodies, before))
+                .map_err(|e| self.failure(&e.to_string()))?;
+            self.solve_system(&system, now)?;
+            let (forces, power) = (self.stages).time(Stage::Forces, || {
+                operator.reactions(&bodies, &now.u, &now.p)
+            });
+            let Some(clamped) = self.drive.clamped().filter(|_| correction < CORRECTIONS) else {
+                return Ok((system, forces, power));
+            };
+            let pressure = forces[clamped][1] * self.units.force() / self.area;
+            let Some(factor) = self.drive.correct(pressure) else {
+                return Ok((system, forces, power));
+            };
+            correction += 1;
+            for x in now.u.iter_mut().chain(&mut now.p) {
+                *x *= factor;
+            }
+        }
+    }
+
+    fn solve_system(&mut self, system: &System, now: &mut Unknowns) -> Result<(), Failure> {
+        let solver = &mut self.solver;
+        let outcome = (self.stages).time(Stage::Solve, || {
+            solver.solve(&system.saddle(), &mut now.u, &mut now.p)
+        });
+        match outcome {
+            Ok(report) => now.iterations += report.iterations() as u32,
+            Err(SolveError::NotConverged {
+                iterations,
+                residual,
+                tolerance,
+            }) if residual <= SHORT * tolerance => now.iterations += iterations as u32,
+            Err(error) => return Err(self.failure(&error.to_string())),
+        }
+        Ok(())
+    }
+
+    /// Viscosities at the rates of the velocities `u`; how much they changed.
+    fn update_viscosity(&mut self, operator: &mut Operator, u: &[f64]) -> f64 {
+        let bodies = self.drive.velocities();
+        let influence = self.wall.influence_length() / self.units.h;
+        let (lattice, liquid, units) = (operator.lattice, &self.liquid, self.units);
+        self.stages.time(Stage::Assembly, || {
+            let value = advect::extend(lattice, &operator.dofs.face, u);
+            let flow = Flow::new(lattice, &value, &operator.dofs.face, &bodies, influence);
+            let field = Sheared {
+                flow: &flow,
+                u,
+                bodies: &bodies,
+            };
+            operator.set_viscosity(liquid, units.eta, units.h, &field)
+        })
+    }
+
+    /// Pressures (Pa) on the window; 0 in air, images beyond periodic sides included.
+    fn spread(&self, operator: &Operator, p: &[f64]) -> Vec<f32> {
+        let window = &operator.lattice.window;
+        (0..window.len())
+            .map(|index| {
+                let home = window.index(window.home(window.coordinates(index)));
+                match operator.dofs.cell[home] {
+                    NONE => 0.0,
+                    cell => (p[cell as usize] * self.units.pressure()) as f32,
+                }
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,167 @@
+//! What the scheme shows and saves.
+
+use physics::{
+    Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
+};
+use rayon::prelude::*;
+
+use super::Implicit;
+use crate::advect;
+
+impl Scheme for Implicit {
+    fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
+        self.step(limit)
+    }
+
+    fn diagnostics(&self) -> Diagnostics {
+        let square = |v: [f32; 3]| v.iter().map(|&c| f64::from(c).powi(2)).sum::<f64>();
+        let particles = &self.particles;
+        let parts: Vec<(f64, f64)> = (particles.velocity.par_chunks(1 << 14))
+            .zip(particles.volume.par_chunks(1 << 14))
+            .map(|(velocities, volumes)| {
+                let mut sum = (0.0, 0.0_f64);
+                for (&v, &volume) in velocities.iter().zip(volumes) {
+                    let square = square(v);
+                    sum = (sum.0 + square * f64::from(volume), sum.1.max(square));
+                }
+                sum
+            })
+            .collect();
+        let (energy, fastest) = (parts.iter())
+            .fold((0.0, 0.0_f64), |sum, part| (sum.0 + part.0, sum.1.max(part.1)));
+        Diagnostics {
+            kinetic_energy: 0.5 * self.liquid.density * energy * self.units.volume(),
+            viscous_power: self.power,
+            volume: particles.total_volume() * self.units.volume(),
+            max_speed: fastest.sqrt(),
+            capped_fraction: 0.0,
+        }
+    }
+
+    fn liquid(&self) -> LiquidState {
+        let (particles, units) = (&self.particles, self.units);
+        let rates = self.shear_rates();
+        // In the order of the scene's points.
+        let mut order: Vec<u32> = (0..particles.len() as u32).collect();
+        order.par_sort_unstable_by_key(|&p| particles.id[p as usize]);
+        let volume = |p: usize| {
+            f64::from(particles.volume[p]) * (1.0 + f64::from(particles.j[p])) * units.volume()
+        };
+        let pressure = |p: usize| self.liquid.tait.pressure(f64::from(particles.j[p])) as f32;
+        let at = |p: &u32| *p as usize;
+        LiquidState {
+            position: (order.par_iter().map(at))
+                .map(|p| units.to_metres(particles.position[p]).map(|x| x as f32))
+                .collect(),
+            velocity: order.par_iter().map(at).map(|p| particles.velocity[p]).collect(),
+            volume: order.par_iter().map(at).map(|p| volume(p) as f32).collect(),
+            pressure: order.par_iter().map(at).map(pressure).collect(),
+            shear_rate: order.par_iter().map(at).map(|p| rates[p]).collect(),
+        }
+    }
+
+    fn displacements(&self) -> Vec<[f64; 3]> {
+        self.displacement.clone()
+    }
+
+    fn save(&self) -> Saved {
+        let particles = &self.particles;
+        let flat = |v: &[[f64; 3]]| v.iter().flatten().copied().collect::<Vec<f64>>();
+        let velocity = particles.velocity.iter().flatten().copied().collect();
+        let mut scalars = vec![
+            self.fastest,
+            self.travel,
+            self.steps as f64,
+            self.lost as f64,
+            self.pinched as f64,
+            self.deflected as f64,
+            self.power,
+        ];
+        scalars.extend(self.drive.state());
+        let arrays = [
+            ("position", Array::F64(flat(&particles.position))),
+            ("velocity", Array::F32(velocity)),
+            ("volume", Array::F32(particles.volume.clone())),
+            ("volume_change", Array::F32(particles.j.clone())),
+            ("shear_rate", Array::F32(self.shear_rates())),
+            ("point", Array::U32(particles.id.clone())),
+            ("displacement", Array::F64(flat(&self.displacement))),
+            ("scalars", Array::F64(scalars)),
+        ];
+        Saved(arrays.map(|(name, array)| (name.to_string(), array)).into())
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), String> {
+        let position = triples(saved.f64s("position")?, "position")?;
+        let n = position.len();
+        let velocity = triples(saved.f32s("velocity")?, "velocity")?;
+        let displacement = triples(saved.f64s("displacement")?, "displacement")?;
+        let (volume, j) = (saved.f32s("volume")?, saved.f32s("volume_change")?);
+        let (rates, id) = (saved.f32s("shear_rate")?, saved.u32s("point")?);
+        let scalars = saved.f64s("scalars")?;
+        let lengths = [velocity.len(), volume.len(), j.len(), rates.len(), id.len()];
+        if lengths.iter().any(|&l| l != n) {
+            return Err("the arrays of the checkpoint differ in length".into());
+        }
+        if displacement.len() != self.displacement.len() {
+            return Err(format!(
+                "the checkpoint has {} rigid bodies, the scene {}",
+                displacement.len(),
+                self.displacement.len()
+            ));
+        }
+        let &[fastest, travel, steps, lost, pinched, deflected, power, a, b, c, d] = scalars else {
+            return Err("the checkpoint's scalars are not those of the implicit scheme".into());
+        };
+        self.particles.position = position;
+        self.particles.velocity = velocity;
+        self.particles.volume = volume.to_vec();
+        self.particles.j = j.to_vec();
+        self.particles.id = id.to_vec();
+        self.displacement = displacement;
+        (self.fastest, self.travel, self.power) = (fastest, travel, power);
+        (self.steps, self.lost) = (steps as u64, lost as u64);
+        (self.pinched, self.deflected) = (pinched as u64, deflected as u64);
+        self.drive.set_state([a, b, c, d]);
+        self.flow = None;
+        self.restored_rates = Some(rates.to_vec());
+        Ok(())
+    }
+
+    fn stage_times(&self) -> Vec<StageTime> {
+        self.stages.report()
+    }
+
+    fn counts(&self) -> Vec<(&'static str, u64)> {
+        vec![
+            ("particles turned back by walls", self.deflected),
+            ("particles pinched between closing walls", self.pinched),
+            ("voxels of voids that no liquid can reach", self.sealed),
+        ]
+    }
+}
+
+impl Implicit {
+    /// Shear rate of each particle, 1/s; 0 before the first step.
+    fn shear_rates(&self) -> Vec<f32> {
+        match (&self.flow, &self.restored_rates) {
+            (Some(flow), _) => advect::shear_rates(
+                &self.particles,
+                flow,
+                self.liquid.shear_rate,
+                self.units.h,
+            ),
+            (None, Some(rates)) => rates.clone(),
+            (None, None) => vec![0.0; self.particles.len()],
+        }
+    }
+}
+
+fn triples<T: Copy>(flat: &[T], name: &str) -> Result<Vec<[T; 3]>, String> {
+    let (triples, rest) = flat.as_chunks::<3>();
+    if rest.is_empty() {
+        Ok(triples.to_vec())
+    } else {
+        Err(format!("array '{name}' of the checkpoint is not made of triples"))
+    }
+}

@@ -1,0 +1,49 @@
+//! Between SI and the units of the solver: cells, m/s, eta_0/h.
+
+use physics::{GridBox, Liquid};
+
+use crate::operator::reference_viscosity;
+
+/// Scales of a scene.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Units {
+    /// Cell, m.
+    pub(super) h: f64,
+    /// Low corner of the domain, m.
+    pub(super) low: [f64; 3],
+    /// Reference viscosity eta_0, Pa s.
+    pub(super) eta: f64,
+}
+
+impl Units {
+    pub(super) fn new(grid: &GridBox, liquid: &Liquid, speed: f64) -> Self {
+        Self {
+            h: grid.cell_m,
+            low: grid.min_m,
+            eta: reference_viscosity(&liquid.viscosity, speed, grid.cell_m),
+        }
+    }
+
+    /// Pressure unit, Pa per unit of the solver.
+    pub(super) fn pressure(&self) -> f64 {
+        self.eta / self.h
+    }
+
+    /// Force unit, N.
+    pub(super) fn force(&self) -> f64 {
+        self.eta * self.h
+    }
+
+    /// A volume, m3 per cell.
+    pub(super) fn volume(&self) -> f64 {
+        self.h.powi(3)
+    }
+
+    pub(super) fn to_cells(self, x: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|a| (x[a] - self.low[a]) / self.h)
+    }
+
+    pub(super) fn to_metres(self, x: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|a| self.low[a] + x[a] * self.h)
+    }
+}
