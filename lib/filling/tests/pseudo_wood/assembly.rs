@@ -366,6 +366,7 @@ impl Stokes {
             .filter(|&tangent| tangent != face.axis)
             .map(|tangent| 12.0 / self.free_path(face, tangent).powi(2))
             .sum();
+        let lumen = if self.case.friction { lumen } else { 0.0 };
         self.volume(face) * (self.inverse_time() + self.mean_viscosity(face) * lumen)
     }
 

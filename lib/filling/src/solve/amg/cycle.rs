@@ -3,14 +3,13 @@
 use super::{Amg, Bottom, Level};
 use crate::solve::vector::{Work, add_scaled, dot, for_chunks, norm, reset};
 
-/// Jacobi weights of the two sweeps: the Chebyshev points of the interval [0.5, 2], the upper
-/// part of the spectrum of `D^-1 A` for a matrix with non-positive off-diagonal entries.
-const WEIGHTS: [Work; 2] = [0.561_7, 1.389_1];
+/// Jacobi weights of the two sweeps: inverse Chebyshev points of the interval [0.25, 2], the part
+/// of the spectrum of `D^-1 A` that aggregates of eight cannot represent. The bound 2 holds for
+/// non-positive off-diagonal entries.
+const WEIGHTS: [Work; 2] = [0.5735, 1.975];
 /// Aggregates of piecewise constants make the coarse operator too stiff; the correction is
 /// lengthened (Braess 1995, Computing 55, 379-393).
-const OVERCORRECTION: Work = 1.6;
-/// Coarse levels, from the finest, on which two Krylov steps accelerate the cycle.
-const ACCELERATED: usize = 2;
+const OVERCORRECTION: Work = 1.3;
 /// The second Krylov step is left out when the first reduces the residual by this.
 const ENOUGH: f64 = 0.25;
 
@@ -86,7 +85,7 @@ impl Amg {
             return;
         };
         level.aggregation.restrict(scratch, &mut next.rhs);
-        if index < ACCELERATED && index + 1 < self.levels.len() {
+        if index + 1 < self.levels.len() {
             self.accelerate(index + 1, next, rest);
         } else {
             let Vectors {

@@ -1,7 +1,7 @@
 //! Aggregation multigrid for the pressure Poisson operators: three passes of pairwise matching
-//! (8:1) per level, Jacobi smoothing with Chebyshev weights, K-cycles on the upper coarse levels
-//! (Notay 2010, An aggregation-based algebraic multigrid method, ETNA 37, 123-146) and a dense
-//! Cholesky factor on the last one.
+//! (8:1) per level, Jacobi smoothing with Chebyshev weights, K-cycles (Notay 2010, An
+//! aggregation-based algebraic multigrid method, ETNA 37, 123-146) and a dense Cholesky factor on
+//! the last one.
 
 mod aggregate;
 mod cycle;
