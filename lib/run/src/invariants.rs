@@ -18,8 +18,14 @@ pub struct Invariants {
     pub volume_change: f64,
 }
 
-/// Checks `liquid`, with the bodies displaced by `displacements` (m).
-pub fn check(scene: &Scene, liquid: &LiquidState, displacements: &[[f64; 3]]) -> Invariants {
+/// Checks `liquid`, whose volume was `initial_volume` (m3) at the start, with the bodies
+/// displaced by `displacements` (m).
+pub fn check(
+    scene: &Scene,
+    initial_volume: f64,
+    liquid: &LiquidState,
+    displacements: &[[f64; 3]],
+) -> Invariants {
     let spacing = 0.5 * scene.grid.cell_m;
     let reachable: Vec<Option<Reachable>> = scene
         .bodies
@@ -42,7 +48,7 @@ pub fn check(scene: &Scene, liquid: &LiquidState, displacements: &[[f64; 3]]) ->
         }
     }
     let volume: f64 = liquid.volume.iter().map(|&v| f64::from(v)).sum();
-    found.volume_change = volume / scene.liquid_volume() - 1.0;
+    found.volume_change = volume / initial_volume - 1.0;
     found
 }
 

@@ -124,7 +124,7 @@ impl Request {
     /// # Errors
     /// All kinds; an unstable state leaves the last good checkpoint.
     pub fn execute(
-        self,
+        mut self,
         folder: &Path,
         mode: Mode,
         by: Provenance,
@@ -137,7 +137,7 @@ impl Request {
             ..by
         };
         let started = self.start(folder, mode, &identity)?;
-        let mut scheme = schemes::build(&self.case, &self.setup.scene)?;
+        let mut scheme = schemes::build(&self.case, self.setup.scene_for_scheme())?;
         let (clock, mut history) = match started {
             Start::Resumed(clock, saved) => {
                 scheme.restore(&saved).map_err(RunFailure::Data)?;
@@ -178,11 +178,16 @@ impl Request {
         let summary = Summary::new(
             &outcome,
             Facts {
-                liquid_points: scene.points.position.len() as u64,
+                liquid_points: self.setup.liquid_points,
                 initial_gap_m: self.setup.initial_gap_m,
                 stages: scheme.stage_times(),
                 counts: scheme.counts(),
-                invariants: invariants::check(scene, &scheme.liquid(), &scheme.displacements()),
+                invariants: invariants::check(
+                    scene,
+                    self.setup.liquid_volume_m3,
+                    &scheme.liquid(),
+                    &scheme.displacements(),
+                ),
                 left_out: left_out(
                     scene,
                     self.case.integrator.scheme,

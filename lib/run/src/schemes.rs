@@ -1,5 +1,6 @@
 //! The scheme a case asks for, with its settings and its forecast.
 
+use filling::Implicit;
 use mpm::{Explicit, ShapeFunction, VelocityUpdate};
 use physics::{Scene, Scheme};
 
@@ -8,16 +9,21 @@ use crate::explain::Forecast;
 use crate::request::RunFailure;
 use crate::resolve::Setup;
 
-/// Highest Courant number a case may ask for.
+/// Courant number where a case gives none.
 const DEFAULT_CFL: f64 = 0.5;
 
 /// The scheme at the start of its scene.
-pub(crate) fn build(case: &Case, scene: &Scene) -> Result<Box<dyn Scheme>, RunFailure> {
+///
+/// # Errors
+/// Settings that are not of this scheme, and scenes it cannot do.
+pub(crate) fn build(case: &Case, scene: Scene) -> Result<Box<dyn Scheme>, RunFailure> {
     Ok(match case.integrator.scheme {
         SchemeName::Explicit => {
-            Box::new(Explicit::new(scene, &explicit(case)?).map_err(RunFailure::Usage)?)
+            Box::new(Explicit::new(&scene, &explicit(case)?).map_err(RunFailure::Usage)?)
         }
-        SchemeName::Implicit => return Err(RunFailure::Usage("implicit is not there yet".into())),
+        SchemeName::Implicit => {
+            Box::new(Implicit::new(scene, implicit(case)?).map_err(RunFailure::Usage)?)
+        }
     })
 }
 
@@ -63,6 +69,28 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
             UpdateName::Apic => VelocityUpdate::Apic,
         },
         cfl: table.cfl.unwrap_or(DEFAULT_CFL),
+    })
+}
+
+fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
+    let table = &case.integrator;
+    let stray = [
+        (
+            table.velocity_update.is_some(),
+            "[integrator] velocity_update",
+        ),
+        (table.order.is_some(), "[integrator] order"),
+        (case.grid.shape.is_some(), "[grid] shape"),
+    ];
+    if let Some((_, key)) = stray.iter().find(|(given, _)| *given) {
+        return Err(CaseError(format!(
+            "{key} is for scheme = \"explicit\" only"
+        )));
+    }
+    let default = filling::Settings::default();
+    Ok(filling::Settings {
+        cfl: table.cfl.unwrap_or(DEFAULT_CFL),
+        tolerance: table.tolerance.unwrap_or(default.tolerance),
     })
 }
 

@@ -20,6 +20,10 @@ pub use bond::Bond;
 pub struct Setup {
     /// The scene.
     pub scene: Scene,
+    /// Liquid material points of the scene.
+    pub liquid_points: u64,
+    /// Their volume at the start, m3.
+    pub liquid_volume_m3: f64,
     /// Latest end, s.
     pub time_limit_s: f64,
     /// Gap between the adherends at the start, m; `None` without a clamp.
@@ -28,6 +32,18 @@ pub struct Setup {
     pub nominal_duration_s: f64,
     /// Bond normal of the files; the scene's own is y.
     pub normal: units::Axis,
+}
+
+impl Setup {
+    /// The scene for a scheme, which takes the material points over: millions of them need not
+    /// stay in memory twice.
+    pub fn scene_for_scheme(&mut self) -> Scene {
+        let points = std::mem::take(&mut self.scene.points);
+        Scene {
+            points,
+            ..self.scene.clone()
+        }
+    }
 }
 
 /// Geometry of a scene: what differs between a bond file and `[[body]]` tables.
@@ -111,6 +127,8 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
     };
     let initial_gap_m = scene.clamp.and(geometry.travel_m);
     Ok(Setup {
+        liquid_points: scene.points.position.len() as u64,
+        liquid_volume_m3: scene.liquid_volume(),
         scene,
         time_limit_s,
         initial_gap_m,
