@@ -199,14 +199,14 @@ fn group(start: [f32; 2], random: &mut ChaCha8Rng) -> Vec<Vessel> {
 }
 
 /// A vessel that the face cuts open along the box: small boxes must have one on both sides
-/// for penetration to mean anything. It reaches into the box from the side, by at most a
-/// quarter of the width, so that fibres are most of a small face and its void stays of the
+/// for penetration to mean anything. It reaches into the box from the side, by at most 0.3
+/// of the width, so that fibres are most of a small face and its void stays of the
 /// slab's size; the two adherends' vessels are at opposite sides.
 fn opened(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Vessel {
     let half_width = 0.5 * plan.edges()[0];
     let radius = 0.5 * DIAMETER[0] * random.random_range(1.0..1.1);
     let depth = plan.mean_recess() + random.random_range(0.2..0.45) * radius;
-    let reach = (0.5 * half_width).min(2.0 * radius) * random.random_range(0.85..1.0);
+    let reach = (0.6 * half_width).min(2.0 * radius) * random.random_range(0.85..1.0);
     let x = half_width - reach + radius;
     let centre = match side {
         0 => cut.locate([x, -depth, 0.0]),
