@@ -101,7 +101,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 fn tube_line(tube: Tube) -> String {
     let rate = tube_shear_rate(tube.speed, tube.diameter);
     format!(
-        "tube of {} um at {} m/s: 8 v / d = {rate:.4e} 1/s (rheometer), {:.4e} 1/s (paper)",
+        "tube of {:.3} um at {:.3} m/s: 8 v / d = {rate:.4e} 1/s (rheometer), {:.4e} 1/s (paper)",
         1e6 * tube.diameter,
         tube.speed,
         Convention::Paper.factor() * rate
