@@ -43,6 +43,15 @@ impl Axis {
         }
     }
 
+    /// A linear axis that ends exactly at `low` and `high` if they differ.
+    pub(crate) fn over(title: impl Into<String>, low: f64, high: f64) -> Self {
+        if high > low {
+            Self::exact(title, low, high)
+        } else {
+            Self::linear(title, [low].into_iter())
+        }
+    }
+
     /// An axis without ticks.
     pub(crate) fn none() -> Self {
         Self::exact(String::new(), 0.0, 0.0)

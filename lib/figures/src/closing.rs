@@ -79,13 +79,15 @@ impl Closing {
     fn plot(&self, drawing: &mut Drawing, upper: &Frame, lower: &Frame) {
         let times = || self.runs.iter().flat_map(|run| run.time.iter().copied());
         let (unit, name) = time_unit(extent(times()).1);
-        let time = |title: String| Axis::linear(title, times().map(move |t| t / unit));
+        let (first, last) = extent(times());
+        let time = |title: String| Axis::over(title, first.min(0.0) / unit, last / unit);
         let (above, below) = (time(String::new()), time(format!("time ({name})")));
         let pressures = self.runs.iter().flat_map(|run| run.pressure.iter());
         let pressures = pressures.copied().chain(self.limit).chain([0.0]);
-        let pressure = Axis::linear("pressure (MPa)", pressures.map(|p| p * 1e-6));
-        let speeds = self.runs.iter().flat_map(|run| run.speed.iter().copied());
-        let speed = Axis::linear("closing speed (m/s)", speeds.chain([0.0]));
+        // Room above the limit and the full speed, which else lie on the frame.
+        let pressure = Axis::linear("pressure (MPa)", pressures.map(|p| 1.05 * p * 1e-6));
+        let speeds = self.runs.iter().flat_map(|run| run.speed.iter());
+        let speed = Axis::linear("closing speed (m/s)", speeds.map(|s| 1.05 * s).chain([0.0]));
         upper.draw(drawing, &above, &pressure, true);
         lower.draw(drawing, &below, &speed, true);
         if let Some(limit) = self.limit {

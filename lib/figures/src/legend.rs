@@ -48,7 +48,7 @@ fn dot([x, y]: Point) -> Vec<Point> {
 }
 
 /// Mean width of a character of the legend, logical pixels: an estimate on the safe side.
-const CHARACTER: f64 = 0.56 * NORMAL;
+const CHARACTER: f64 = 0.47 * NORMAL;
 const SAMPLE: f64 = 34.0;
 const BETWEEN: f64 = 26.0;
 

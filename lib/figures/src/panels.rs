@@ -18,6 +18,8 @@ pub(crate) struct Room {
     pub(crate) left: f64,
     pub(crate) above: f64,
     pub(crate) below: f64,
+    /// Least width of a column, for the labels of narrow panels.
+    pub(crate) column: f64,
 }
 
 impl Panels {
@@ -33,16 +35,17 @@ impl Panels {
         let [widest, highest] = [largest(0), largest(1)];
         let scale = longest / widest.max(highest);
         let (width, height) = (widest * scale, highest * scale);
+        let column = (room.left + width).max(room.column);
         let row = room.above + height + room.below;
         let frame = |(i, edges): (usize, &[f64; 2])| Frame {
-            left: (i % columns) as f64 * (room.left + width) + room.left,
+            left: (i % columns) as f64 * column + room.left + 0.5 * (column - room.left - width),
             top: (i / columns) as f64 * row + room.above,
             width: edges[0] * scale,
             height: edges[1] * scale,
         };
         Self {
             frames: edges.iter().enumerate().map(frame).collect(),
-            right: columns as f64 * (room.left + width),
+            right: columns as f64 * column,
             bottom: rows as f64 * row,
             height,
         }

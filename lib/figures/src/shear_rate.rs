@@ -107,31 +107,43 @@ impl Panel {
     fn read(source: &Labelled) -> Result<Self, Error> {
         let table = Table::read(&source.path)?;
         let quantiles = QUANTILES.iter().map(|q| table.data(q));
+        let max = table.data("max")?;
+        if !max.iter().any(|rate| *rate > 0.0) {
+            return Err(Error::Data(format!(
+                "'{}' has no shear rate above zero: nothing flows in these states",
+                table.name()
+            )));
+        }
         Ok(Self {
             label: source.label.clone(),
             time: table.data("time_s")?,
             quantiles: quantiles.collect::<Result<_, _>>()?,
-            max: table.data("max")?,
+            max,
         })
     }
 
     fn draw(&self, drawing: &mut Drawing, frame: &Frame, rate: &Axis) {
         let (unit, name) = time_unit(extent(self.time.iter().copied()).1);
         let times = self.time.iter().map(|t| t / unit);
-        let time = Axis::linear(format!("time ({name})"), times.clone());
+        let (first, last) = extent(times.clone());
+        let time = Axis::over(format!("time ({name})"), first.min(0.0), last);
         let middle = frame.left + 0.5 * frame.width;
         let label = [middle, frame.top - 18.0];
         drawing.text(&self.label, label, Anchor::Centre, NORMAL);
         frame.draw(drawing, &time, rate, true);
-        let line = |values: &[f64]| -> Vec<[f64; 2]> {
-            let pairs = times.clone().zip(values);
-            let places = pairs.map(|(t, v)| frame.place(&time, rate, [t, *v]));
-            places
-                .filter(|p| p[0].is_finite() && p[1].is_finite())
+        // A rate of zero, as before the start, has no place on a logarithmic axis; of a band
+        // whose upper end has one, the lower end lies on the edge.
+        let places = |values: &[f64], shown: &[f64]| -> Vec<[f64; 2]> {
+            let triples = times.clone().zip(values).zip(shown);
+            let shown =
+                triples.filter(|((t, v), shown)| t.is_finite() && v.is_finite() && **shown > 0.0);
+            shown
+                .map(|((t, v), _)| frame.place(&time, rate, [t, *v]))
                 .collect()
         };
+        let line = |values: &[f64]| places(values, values);
         for (low, high, _, opacity) in BANDS {
-            let mut outline = line(&self.quantiles[low]);
+            let mut outline = places(&self.quantiles[low], &self.quantiles[high]);
             outline.extend(line(&self.quantiles[high]).into_iter().rev());
             drawing.area(outline, faded(series(0), opacity));
         }

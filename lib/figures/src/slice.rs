@@ -1,7 +1,7 @@
 use particle_file::{Header, Material, ParticleFile};
 use units::Axis as Direction;
 
-use crate::axes::{Axis, NORMAL};
+use crate::axes::{Axis, NORMAL, SMALL};
 use crate::closing::time_unit;
 use crate::colour::{BLACK, viridis};
 use crate::colour_bar;
@@ -46,7 +46,9 @@ pub enum Position {
 
 #[derive(Clone, Debug)]
 struct Panel {
-    title: String,
+    label: String,
+    /// Time and place.
+    detail: String,
     /// Edges of the slice across and up, m.
     edges: [f64; 2],
     size: [usize; 2],
@@ -68,10 +70,13 @@ const ADHESIVE: [u8; 3] = [230, 159, 0];
 const FINER: f64 = 2.0;
 /// Most pixels along an edge of a slice.
 const MOST_PIXELS: f64 = 2048.0;
+/// How much wider a point is drawn over void.
+const WIDER: f64 = 1.35;
 const ROOM: Room = Room {
     left: 24.0,
-    above: 36.0,
+    above: 54.0,
     below: 46.0,
+    column: 220.0,
 };
 
 impl Slices {
@@ -117,8 +122,11 @@ impl Slices {
                 rgb: panel.pixels.iter().flat_map(colour).collect(),
             });
             frame.draw(&mut drawing, &Axis::none(), &Axis::none(), false);
-            let above = [frame.left + 0.5 * frame.width, frame.top - 15.0];
-            drawing.text(&panel.title, above, Anchor::Centre, NORMAL);
+            let middle = frame.left + 0.5 * frame.width;
+            for (text, above, size) in [(&panel.label, 36.0, NORMAL), (&panel.detail, 15.0, SMALL)]
+            {
+                drawing.text(text, [middle, frame.top - above], Anchor::Centre, size);
+            }
             let bar = scale_bar(panel.edges[0]);
             let length = bar / panel.edges[0] * frame.width;
             let (left, y) = (frame.left, frame.bottom() + 18.0);
@@ -169,12 +177,13 @@ impl Panel {
         let (unit, name) = time_unit(file.header().time_s);
         let time = match file.header().kind {
             particle_file::Kind::State => {
-                format!(", t = {:.3} {name}", file.header().time_s / unit)
+                format!("t = {:.2} {name}, ", file.header().time_s / unit)
             }
             _ => String::new(),
         };
         Ok(Self {
-            title: format!("{}{time}, {} = {:.1} µm", state.label, cut.axis, at * 1e6),
+            label: state.label.clone(),
+            detail: format!("{time}{} = {:.1} µm", cut.axis, at * 1e6),
             edges: raster.edges,
             size: raster.size,
             pixels: raster.pixels,
@@ -270,7 +279,9 @@ impl Raster {
         Ok(())
     }
 
-    /// Liquid points as squares of their volume's edge where the slice cuts their cube.
+    /// Liquid points as squares of their volume's edge where the slice cuts their cube. Void
+    /// next to a point is filled too: points are never in perfect order, and the space that
+    /// their disorder leaves between them is liquid.
     fn add_points(
         &mut self,
         file: &ParticleFile,
@@ -290,16 +301,23 @@ impl Raster {
                 continue;
             }
             let pixel = Pixel::Adhesive(pressures.map_or(0.0, |p| p[i]));
-            let span = |axis: usize, edge: usize| {
-                let cells = |c: f64| ((c - self.low[edge]) / self.pitch).round().max(0.0) as usize;
-                let centre = position[axis];
-                cells(centre - half)..cells(centre + half).min(self.size[edge])
+            let cells = |c: f64, edge: usize| {
+                let cell = ((c - self.low[edge]) / self.pitch).round().max(0.0) as usize;
+                cell.min(self.size[edge])
             };
-            let columns = span(across, 0);
-            for row in span(up, 1) {
+            let span = |axis: usize, edge: usize, half: f64| {
+                cells(position[axis] - half, edge)..cells(position[axis] + half, edge)
+            };
+            let (own_columns, own_rows) = (span(across, 0, half), span(up, 1, half));
+            let columns = span(across, 0, WIDER * half);
+            for row in span(up, 1, WIDER * half) {
                 let from_top = (self.size[1] - 1 - row) * self.size[0];
                 for column in columns.clone() {
-                    self.pixels[from_top + column] = pixel;
+                    let own = own_columns.contains(&column) && own_rows.contains(&row);
+                    let place = &mut self.pixels[from_top + column];
+                    if own || *place == Pixel::Void {
+                        *place = pixel;
+                    }
                 }
             }
         }

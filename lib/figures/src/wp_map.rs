@@ -39,6 +39,7 @@ const ROOM: Room = Room {
     left: 76.0,
     above: 40.0,
     below: 58.0,
+    column: 200.0,
 };
 /// A map beyond this many cells is not a map of a specimen.
 const MOST_CELLS: usize = 1 << 26;
@@ -75,11 +76,17 @@ impl WpMap {
             panels.height,
             &shades,
         );
-        let (left, y) = (bar.left - 34.0, bar.bottom() + 26.0);
-        let swatch = [[0.0, -7.0], [18.0, -7.0], [18.0, 7.0], [0.0, 7.0]];
-        let swatch = swatch.map(|[dx, dy]| [left + dx, y + dy]);
-        drawing.area(swatch.to_vec(), opaque(NO_DATA));
-        drawing.text("none", [left + 24.0, y], Anchor::Left, NORMAL);
+        if self
+            .panels
+            .iter()
+            .any(|panel| panel.wp.iter().any(|wp| wp.is_nan()))
+        {
+            let (left, y) = (bar.left - 34.0, bar.bottom() + 26.0);
+            let swatch = [[0.0, -7.0], [18.0, -7.0], [18.0, 7.0], [0.0, 7.0]];
+            let swatch = swatch.map(|[dx, dy]| [left + dx, y + dy]);
+            drawing.area(swatch.to_vec(), opaque(NO_DATA));
+            drawing.text("none", [left + 24.0, y], Anchor::Left, NORMAL);
+        }
         drawing
     }
 
