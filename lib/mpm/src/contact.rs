@@ -21,7 +21,7 @@ pub(crate) fn separation_limit(shape: ShapeFunction) -> f32 {
 
 /// Volume of a body at a node (cells) from which the node counts as inside it; a node on a
 /// plane wall has one half.
-const INSIDE: f32 = 0.5;
+const INSIDE: f32 = 0.501;
 
 /// Liquid and a body meet at a node.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +34,8 @@ pub(crate) struct Meeting {
     pub(crate) normal: [f32; 3],
     /// Contact area, cells^2 (Nairn, Hammerquist & Smith 2018).
     area: f32,
+    /// The node lies inside the body.
+    inside: bool,
 }
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
@@ -82,8 +84,10 @@ pub(crate) fn meeting(
     let sign = if gap < 0.0 { -1.0 } else { 1.0 } / length;
     // A node inside the body is in contact whatever the separation: it has little liquid, all of
     // it far away, and left free it would let the liquid flow into the wall.
-    let touching = rigid_volume > INSIDE || gap.abs() < limit;
-    touching.then(|| Meeting {
+    let whole = rigid_volume * (1_u32 << planes.count_ones()) as f32;
+    let inside = whole > INSIDE;
+    (inside || gap.abs() < limit).then(|| Meeting {
+        inside,
         body,
         velocity,
         normal: normal.map(|n| sign * n),
@@ -92,9 +96,11 @@ pub(crate) fn meeting(
 }
 
 impl Meeting {
-    /// Whether liquid with velocity `v` would not move away from the body.
+    /// Whether liquid with velocity `v` stays on the body. It is free to leave, but not at a
+    /// node inside: what little liquid is felt there has no way to go, and its noise would
+    /// strain the points next to the wall.
     pub(crate) fn holds(&self, v: [f32; 3]) -> bool {
-        dot(self.relative(&v), self.normal) <= 0.0
+        self.inside || dot(self.relative(&v), self.normal) <= 0.0
     }
 
     /// Contact before the forces: removes approach, and all sliding where the wall law sticks.
@@ -142,9 +148,10 @@ impl Meeting {
     fn apply(&self, v: &mut [f32; 3], remaining: f32) {
         let slip = self.relative(v);
         let normal = dot(slip, self.normal);
+        let leaving = if self.inside { 0.0 } else { normal.max(0.0) };
         for a in 0..3 {
             let sliding = slip[a] - normal * self.normal[a];
-            v[a] = self.velocity[a] + normal.max(0.0) * self.normal[a] + remaining * sliding;
+            v[a] = self.velocity[a] + leaving * self.normal[a] + remaining * sliding;
         }
     }
 }

