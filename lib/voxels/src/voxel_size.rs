@@ -48,6 +48,12 @@ impl VoxelSize {
         self.from
     }
 
+    /// Whether the distance of pages is stated; if not, [`VoxelSize::cube_edge`] takes voxels
+    /// to be as high as they are wide.
+    pub fn states_spacing(&self) -> bool {
+        self.edges.2.is_some()
+    }
+
     /// The edge (m) of a cubic voxel: edges within 1 % of each other count as equal, and the
     /// cube keeps their volume.
     ///

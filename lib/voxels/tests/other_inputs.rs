@@ -129,7 +129,7 @@ fn damaged_arrays_are_refused() {
     let [nx, ny, nz] = DIMS;
     let data = pages(|l| [l]).concat();
     let good = npy(1, "|u1", false, &format!("{nz}, {ny}, {nx}"), &data);
-    for length in 0..good.len() {
+    for length in (0..good.len()).step_by(11) {
         refusal("a.npy", &good[..length]);
     }
     for shape in [

@@ -223,7 +223,7 @@ fn strips_and_tiles_plain_and_packed() {
 }
 
 /// Rows that end between two LZW codes: the tiff crate 0.11 gives up on them ("no lzw end
-/// code found") when it reads a tile row by row.
+/// code found", image-tiff issue 395) when it reads a tile row by row.
 #[test]
 fn lzw_tiles_of_one_label() {
     let page = Page::new(40, 40, 8, vec![1; 1600]);

@@ -15,18 +15,20 @@ pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
     ));
     let um = edge.metres * 1e6;
     cli::note(format_args!("voxel edge  {um:.6} um, from {}", edge.from));
-    if let Some(stated) = stack
-        .voxel_size()
-        .filter(|stated| stated.from() != edge.from)
-    {
-        let near = |metres: f64| (metres / edge.metres - 1.0).abs() <= EDGE_TOLERANCE;
-        if !stated.cube_edge().is_ok_and(near) {
-            cli::warn(format_args!(
-                "{} says a voxel is {stated}; {} is taken instead",
-                stated.from(),
-                edge.from
-            ));
+    let Some(stated) = stack.voxel_size() else {
+        return;
+    };
+    let near = |metres: f64| (metres / edge.metres - 1.0).abs() <= EDGE_TOLERANCE;
+    if stated.from() == edge.from {
+        if !stated.states_spacing() {
+            cli::note("            the distance of pages is not stated: cubes are assumed");
         }
+    } else if !stated.cube_edge().is_ok_and(near) {
+        cli::warn(format_args!(
+            "{} says a voxel is {stated}; {} is taken instead",
+            stated.from(),
+            edge.from
+        ));
     }
 }
 

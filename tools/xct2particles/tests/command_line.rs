@@ -225,6 +225,22 @@ fn labels_and_voxel_size_that_nothing_states_are_asked_for() {
 }
 
 #[test]
+fn a_voxel_size_against_the_files_own_is_taken_with_a_warning() {
+    let (_folder, stack) = folder();
+    let said = |edge: &str| {
+        let output = run(&[text(&stack), "--voxel", edge, "-q", "-o", "/dev/null"]);
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(said("1.45 um"), "");
+    let warning = said("2.9 um");
+    assert!(
+        warning.contains("1.45 x 1.45 x 1.45 um; --voxel is taken"),
+        "{warning}"
+    );
+}
+
+#[test]
 fn unreadable_data_is_exit_3() {
     let (folder, stack) = folder();
     let target = folder.path().join("out.mpts");

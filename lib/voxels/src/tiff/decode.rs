@@ -45,7 +45,8 @@ pub(crate) fn read(file: &File, layout: &PageLayout, page: &mut Vec<u8>) -> Resu
 /// photometric interpretation, colour maps or planes cannot touch the stored values.
 ///
 /// Tiles are handed over as the strips of a high page and put in their places here: the
-/// crate reads tiles row by row and gives up on LZW codes that end with a row.
+/// crate reads tiles row by row and gives up on LZW codes that end with a row
+/// (<https://github.com/image-rs/image-tiff/issues/395>).
 fn decode_plane(
     file: &File,
     layout: &PageLayout,
