@@ -61,17 +61,19 @@ fn same_voxels(state: &State, experiment: &State) -> Result<(), Error> {
     let fits = state.normal == experiment.normal
         && same(1e3 * state.voxel_m, 1e3 * experiment.voxel_m)
         && (0..2).all(|a| same(ours.min_m[a], theirs.min_m[a]))
-        && (0..2).all(|a| ours.columns[a] <= theirs.columns[a]);
+        && (0..2).all(|a| ours.columns[a] <= theirs.columns[a])
+        && layers(state) == layers(experiment);
     if fits {
         return Ok(());
     }
     let describe = |s: &State| {
         let across = s.across();
         format!(
-            "{:?} columns of {:.4} um across {}",
+            "{} layers along {} of {:?} voxels of {:.4} um",
+            layers(s),
+            s.normal,
             across.columns,
-            1e6 * s.voxel_m,
-            s.normal
+            1e6 * s.voxel_m
         )
     };
     Err(Error::Usage(format!(
@@ -79,6 +81,12 @@ fn same_voxels(state: &State, experiment: &State) -> Result<(), Error> {
         describe(state),
         describe(experiment)
     )))
+}
+
+/// Layers of voxels along the normal, both adherends together.
+fn layers(state: &State) -> usize {
+    let n = state.normal.index();
+    state.wood_blocks().map(|wood| wood.bits.dims()[n]).sum()
 }
 
 /// The voxels of the experiment and where the state's adhesive is among them.

@@ -11,6 +11,14 @@ fn um(metres: f64) -> String {
     format!("{:.6}", 1e6 * metres)
 }
 
+/// The writer's own error in place of csv's wrapping of it, so that a closed pipe can be told.
+fn unwrapped(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}
+
 fn um3(cubic_metres: f64) -> String {
     format!("{:.4}", 1e18 * cubic_metres)
 }
@@ -50,7 +58,7 @@ pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::
     if files.iter().any(|f| f.agreement.is_some()) {
         header.extend(["dice", "map_correlation"]);
     }
-    table.write_record(header)?;
+    table.write_record(header).map_err(unwrapped)?;
     for file in files {
         for (i, p) in file.sides.iter().enumerate() {
             let mut row = vec![
@@ -70,7 +78,7 @@ pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::
                 row.push(format!("{:.6}", agreement[i].dice));
                 row.push(format!("{:.6}", agreement[i].map_correlation));
             }
-            table.write_record(row)?;
+            table.write_record(row).map_err(unwrapped)?;
         }
     }
     table.flush()
@@ -84,11 +92,15 @@ pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::
 pub fn write_map(out: &mut dyn Write, map: &Map) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     let [u, v] = map.across.axes.map(|axis: Axis| format!("{axis}_um"));
-    table.write_record([u.as_str(), v.as_str(), "wp_um", "volume_um3"])?;
+    table
+        .write_record([u.as_str(), v.as_str(), "wp_um", "volume_um3"])
+        .map_err(unwrapped)?;
     for (column, &volume) in map.volume_m3.iter().enumerate() {
         let [u, v] = map.across.centre_m(column).map(um);
         let wp = um(map.wp_m(column).unwrap_or(f64::NAN));
-        table.write_record([u, v, wp, um3(volume)])?;
+        table
+            .write_record([u, v, wp, um3(volume)])
+            .map_err(unwrapped)?;
     }
     table.flush()
 }
@@ -99,13 +111,17 @@ pub fn write_map(out: &mut dyn Write, map: &Map) -> io::Result<()> {
 /// What `out` says.
 pub fn write_depth_profile(out: &mut dyn Write, layers: &[DepthLayer]) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    table.write_record(["depth_um", "adhesive_fraction", "filled_void_fraction"])?;
+    table
+        .write_record(["depth_um", "adhesive_fraction", "filled_void_fraction"])
+        .map_err(unwrapped)?;
     for layer in layers {
-        table.write_record([
-            um(layer.depth_m),
-            format!("{:.6}", layer.adhesive_fraction),
-            format!("{:.6}", layer.filled_void_fraction),
-        ])?;
+        table
+            .write_record([
+                um(layer.depth_m),
+                format!("{:.6}", layer.adhesive_fraction),
+                format!("{:.6}", layer.filled_void_fraction),
+            ])
+            .map_err(unwrapped)?;
     }
     table.flush()
 }
@@ -116,25 +132,27 @@ pub fn write_depth_profile(out: &mut dyn Write, layers: &[DepthLayer]) -> io::Re
 /// What `out` says.
 pub fn write_shear_rates(out: &mut dyn Write, states: &[ShearRates]) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    table.write_record([
-        "time_s",
-        "q05",
-        "q10",
-        "q25",
-        "q50",
-        "q75",
-        "q90",
-        "q95",
-        "max",
-        "mean",
-        "volume_um3",
-    ])?;
+    table
+        .write_record([
+            "time_s",
+            "q05",
+            "q10",
+            "q25",
+            "q50",
+            "q75",
+            "q90",
+            "q95",
+            "max",
+            "mean",
+            "volume_um3",
+        ])
+        .map_err(unwrapped)?;
     for state in states {
         let mut row = vec![format!("{:.9e}", state.time_s)];
         let rates = state.quantiles.iter().chain([&state.max, &state.mean]);
         row.extend(rates.map(|rate| format!("{rate:.6e}")));
         row.push(um3(state.volume_m3));
-        table.write_record(row)?;
+        table.write_record(row).map_err(unwrapped)?;
     }
     table.flush()
 }

@@ -131,6 +131,9 @@ fn other_voxels_are_refused() {
         said.is_usage() && said.to_string().contains("[30, 16]"),
         "{said}"
     );
+    let cropped = Stack::new([32, 50, 16], |_, y, _| if y == 30 { 'a' } else { 'w' });
+    let said = compare(&cropped.state(Axis::Y), &stack.state(Axis::Y)).unwrap_err();
+    assert!(said.to_string().contains("50 layers"), "{said}");
     let said = compare(&stack.state(Axis::Y), &run.state()).unwrap_err();
     assert!(said.to_string().contains("no specimen"), "{said}");
 }

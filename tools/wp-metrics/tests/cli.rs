@@ -230,6 +230,21 @@ fn a_closed_state_is_the_experiment_and_a_parted_one_has_its_own_middle() {
 }
 
 #[test]
+fn a_closed_pipe_is_a_quiet_end() {
+    let folder = TempDir::new().unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_wp-metrics"))
+        .arg(specimen(folder.path()))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(run.stdout.take());
+    let ended = run.wait_with_output().unwrap();
+    assert!(ended.status.success(), "{}", text(&ended.stderr));
+    assert_eq!(text(&ended.stderr), "");
+}
+
+#[test]
 fn refusals() {
     let folder = TempDir::new().unwrap();
     let good = specimen(folder.path());
