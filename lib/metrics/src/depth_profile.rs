@@ -1,3 +1,5 @@
+use bondline::Placed;
+
 use crate::{Adhesive, Datum, Error, Side, State, Wood};
 
 /// Adhesive in the layers of one voxel at a distance from the bond line.
@@ -31,25 +33,19 @@ pub fn depth_profile(state: &State, datum: &Datum) -> Result<Vec<DepthLayer>, Er
     let [low, high] = extent(state);
     let voxel = state.voxel_m;
     let mut layers = Layers::new(datum, low, high, voxel);
-    // A thin wall of the specimen counts as a block of its full layers.
     layers.add_span(low, high, 1.0, |l| &mut l.thickness);
-    for block in state.wood_blocks() {
-        let unit = block.voxel_m.powi(3) / state.area_m2() / block.voxel_m;
+    let mut add_block = |block: Placed, what: fn(&mut Layer) -> &mut f64| {
+        let area = block.voxel_m * block.voxel_m / state.area_m2();
         for (layer, count) in block.bits.counts_along(n).into_iter().enumerate() {
             let at = block.origin_m[n] + layer as f64 * block.voxel_m;
-            let fraction = count as f64 * unit;
-            layers.add_span(at, at + block.voxel_m, fraction, |l| &mut l.wood);
+            layers.add_span(at, at + block.voxel_m, count as f64 * area, what);
         }
-    }
+    };
+    state
+        .wood_blocks()
+        .for_each(|wood| add_block(wood, |l| &mut l.wood));
     match state.adhesive {
-        Adhesive::Voxels(block) => {
-            let unit = block.voxel_m.powi(3) / state.area_m2() / block.voxel_m;
-            for (layer, count) in block.bits.counts_along(n).into_iter().enumerate() {
-                let at = block.origin_m[n] + layer as f64 * block.voxel_m;
-                let fraction = count as f64 * unit;
-                layers.add_span(at, at + block.voxel_m, fraction, |l| &mut l.adhesive);
-            }
-        }
+        Adhesive::Voxels(adhesive) => add_block(adhesive, |l| &mut l.adhesive),
         Adhesive::Points { position, volume } => {
             for (p, &v) in position.iter().zip(volume) {
                 let at = f64::from(p[n]) - 0.5 * voxel;
