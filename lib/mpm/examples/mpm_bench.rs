@@ -1,7 +1,8 @@
 //! Liquid particle-steps per second of the explicit scheme.
 //!
-//!     cargo run --release -p mpm --example mpm_bench -- [steps]
+//!     cargo run --release -p mpm --example mpm_bench -- [steps] [case]
 //!
+//! `case` picks the lines that begin with it, such as `wood,Gimp`.
 //! Scene "wood": a slab of liquid between two porous voxel blocks with voxels of half a cell,
 //! eight points per cell, the upper one closing at 1 m/s, partial slip. Scene "free": the same
 //! liquid without bodies. Threads: `RAYON_NUM_THREADS`. Rates are per wall-clock second and,
@@ -104,6 +105,7 @@ fn main() {
     let steps: usize = std::env::args()
         .nth(1)
         .map_or(400, |n| n.parse().expect("a number of steps"));
+    let only = std::env::args().nth(2).unwrap_or_default();
     let threads = rayon::current_num_threads();
     println!(
         "scene,shape,update,threads,points,steps,million_point_steps_per_s,per_cpu_s,stages_percent"
@@ -117,6 +119,11 @@ fn main() {
             (ShapeFunction::Bspline2, VelocityUpdate::Flip),
             (ShapeFunction::Linear, VelocityUpdate::Flip),
         ] {
+            let scene_name = if walls { "wood" } else { "free" };
+            let name = format!("{scene_name},{shape:?},{update:?}");
+            if !name.starts_with(&only) {
+                continue;
+            }
             let settings = Settings {
                 shape,
                 velocity_update: update,
@@ -142,8 +149,7 @@ fn main() {
                 .map(|(s, b)| format!("{} {:.0}", s.name, 100.0 * (s.wall_s - b.wall_s) / wall))
                 .collect();
             println!(
-                "{},{shape:?},{update:?},{threads},{points},{steps},{:.2},{:.2},{}",
-                if walls { "wood" } else { "free" },
+                "{name},{threads},{points},{steps},{:.2},{:.2},{}",
                 points as f64 * steps as f64 / wall / 1e6,
                 points as f64 * steps as f64 / cpu / 1e6,
                 stages.join("; ")
