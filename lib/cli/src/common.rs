@@ -103,6 +103,10 @@ fn usage(error: &clap::Error) -> ExitCode {
     }
 }
 
+/// More threads than this per core slow a run down by orders of magnitude: every parallel
+/// section waits for the last of them.
+const THREADS_PER_CORE: usize = 4;
+
 fn setup(common: &Common) -> Result<(), Failure> {
     message::set_level(match (common.quiet, common.verbose) {
         (true, _) => -1,
@@ -122,8 +126,15 @@ fn setup(common: &Common) -> Result<(), Failure> {
         .or_else(|| from_environment("RAYON_NUM_THREADS"))
         .or_else(|| from_environment("SLURM_CPUS_PER_TASK"))
         .unwrap_or(0); // rayon: all cores
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let most = THREADS_PER_CORE * cores;
+    if threads > most {
+        message::warn(format!(
+            "{threads} threads would only wait for each other on {cores} cores; {most} are used"
+        ));
+    }
     rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
+        .num_threads(threads.min(most))
         .build_global()
         .map_err(|e| Failure::failed(format!("cannot start the worker threads: {e}")))
 }

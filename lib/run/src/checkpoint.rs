@@ -66,6 +66,15 @@ pub(crate) fn write(
     write_whole(&path(folder), |out| draft.write_to(out))
 }
 
+/// Removes the checkpoint of a run that has ended: nothing is left to continue.
+pub(crate) fn remove(folder: &Path) -> Result<(), RunError> {
+    let path = path(folder);
+    match std::fs::remove_file(&path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(RunError::write(&path)(e)),
+        _ => Ok(()),
+    }
+}
+
 /// Reads the run folder's checkpoint, if there is one.
 ///
 /// # Errors

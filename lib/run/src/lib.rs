@@ -2,6 +2,7 @@
 //! a run writes (`history.csv`, snapshots, checkpoint, `final.mpts`, `summary.json`).
 
 pub mod case;
+mod changes;
 mod checkpoint;
 mod drive;
 mod explain;

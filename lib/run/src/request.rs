@@ -8,6 +8,7 @@ use physics::{Regime, StepReport};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::case::{Case, CaseError};
+use crate::changes::changed;
 use crate::checkpoint::{self, Clock};
 use crate::drive::{self, Controls, RunError};
 use crate::history::History;
@@ -16,7 +17,7 @@ use crate::left_out::left_out;
 use crate::load;
 use crate::resolve::{self, Setup};
 use crate::schemes;
-use crate::snapshot::{SnapshotWriter, write_whole};
+use crate::snapshot::{SnapshotWriter, is_final_of, write_whole};
 use crate::summary::{Facts, Summary};
 
 /// Why a run could not be made ready or did not end well; tools map it to exit status.
@@ -119,6 +120,11 @@ impl Request {
         ))
     }
 
+    /// Whether `folder` already holds the end of this very run by this version.
+    pub fn has_ended(&self, folder: &Path, by: &Provenance) -> bool {
+        is_final_of(folder, &self.identity(by))
+    }
+
     /// Runs into `folder`.
     ///
     /// # Errors
@@ -164,7 +170,7 @@ impl Request {
             identity,
         };
         let provenance = provenance_json(&by);
-        let writer = SnapshotWriter::new(folder, &self.setup, self.bond, by);
+        let writer = SnapshotWriter::new(folder, &self.setup, self.bond, by, &controls.identity);
         let outcome = drive::drive(
             &self.setup,
             scheme.as_mut(),
@@ -202,6 +208,7 @@ impl Request {
         )?;
         if outcome.end != drive::End::Interrupted {
             writer.write_final(&outcome.clock, scheme.as_ref())?;
+            checkpoint::remove(folder)?;
         }
         Ok(summary)
     }
@@ -232,6 +239,12 @@ impl Request {
 
     /// Makes the run folder ready and finds where to start.
     fn start(&self, folder: &Path, mode: Mode, identity: &str) -> Result<Start, RunFailure> {
+        if fs::metadata(folder).is_ok_and(|found| !found.is_dir()) {
+            return Err(RunFailure::Usage(format!(
+                "'{}' is a file; a run needs a folder",
+                folder.display()
+            )));
+        }
         fs::create_dir_all(folder).map_err(RunError::write(folder))?;
         if mode.resume {
             match checkpoint::read(folder, identity) {
@@ -242,11 +255,22 @@ impl Request {
             }
         }
         let holds = |name: &str| folder.join(name).exists();
-        if !mode.overwrite && (holds("history.csv") || holds("final.mpts")) {
-            return Err(RunFailure::Usage(format!(
-                "'{}' already holds a run; use --resume to continue it or --overwrite to replace it",
-                folder.display()
-            )));
+        // A run killed before its first checkpoint has nothing to lose.
+        let begun =
+            || fs::read_to_string(folder.join("resolved.toml")).is_ok_and(|text| text == self.text);
+        let again = mode.resume && !holds("final.mpts") && begun();
+        if !mode.overwrite && !again && (holds("history.csv") || holds("final.mpts")) {
+            return Err(RunFailure::Usage(if mode.resume {
+                format!(
+                    "'{}' holds another run, or the same of another version; use --overwrite to replace it",
+                    folder.display()
+                )
+            } else {
+                format!(
+                    "'{}' already holds a run; use --resume to continue it or --overwrite to replace it",
+                    folder.display()
+                )
+            }));
         }
         for name in [
             "final.mpts",
@@ -290,98 +314,4 @@ fn provenance_json(by: &Provenance) -> serde_json::Value {
         .map(|(path, hash)| serde_json::json!({ "path": path, "xxh3": format!("{hash:016x}") }))
         .collect();
     serde_json::json!({ "tool": by.tool, "version": by.version, "command": by.command, "inputs": inputs })
-}
-
-/// The case text with `changes` applied; the text itself when there are none, so that errors
-/// keep the user's own line numbers.
-fn changed(original: &str, path: &Path, changes: &[String]) -> Result<String, RunFailure> {
-    if changes.is_empty() {
-        return Ok(original.to_owned());
-    }
-    Case::parse(original, path)?;
-    let mut root = toml::from_str::<toml::Table>(original)
-        .map(toml::Value::Table)
-        .map_err(|e| RunFailure::Usage(e.message().into()))?;
-    for change in changes {
-        let refuse = |why: &str| RunFailure::Usage(format!("--set {change}: {why}"));
-        let (key, value) = change
-            .split_once('=')
-            .ok_or_else(|| refuse("KEY=VALUE is needed"))?;
-        // A word that is no TOML value is meant as a string: --set grid.shape=linear.
-        let value = match toml::from_str::<toml::Table>(&format!("v = {value}")) {
-            Ok(mut table) => table.remove("v").unwrap_or_else(|| value.into()),
-            Err(_) => value.into(),
-        };
-        let mut path: Vec<&str> = key.split('.').map(str::trim).collect();
-        let last = path
-            .pop()
-            .filter(|k| !k.is_empty())
-            .ok_or_else(|| refuse("the key is empty"))?;
-        let mut place = &mut root;
-        for part in path {
-            place = enter(place, part).map_err(|why| refuse(&why))?;
-        }
-        match (place, last.parse::<usize>()) {
-            (toml::Value::Array(list), Ok(i)) if i < list.len() => list[i] = value,
-            (toml::Value::Table(table), _) => {
-                table.insert(last.to_owned(), value);
-            }
-            _ => return Err(refuse(&format!("there is no '{last}' to set"))),
-        }
-    }
-    toml::to_string(&root).map_err(|e| RunFailure::Usage(e.to_string()))
-}
-
-/// The value below `place` at `part`: a key of a table, made if absent, or an index of an array.
-fn enter<'a>(place: &'a mut toml::Value, part: &str) -> Result<&'a mut toml::Value, String> {
-    match place {
-        toml::Value::Table(table) => Ok(table
-            .entry(part)
-            .or_insert_with(|| toml::Table::new().into())),
-        toml::Value::Array(list) => {
-            let length = list.len();
-            let index = part.parse::<usize>().ok();
-            index
-                .and_then(|i| list.get_mut(i))
-                .ok_or_else(|| format!("'{part}' is no index of an array of {length}"))
-        }
-        _ => Err(format!("nothing can be set below '{part}'")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keys_can_be_changed_from_the_command_line() {
-        let original = "[grid]\ncell = \"2.9 um\"\n[adhesive]\ndensity = \"1 g/cm3\"\nbulk_modulus = \"1 GPa\"\nviscosity = \"1 cP\"\n[integrator]\nscheme = \"explicit\"\n";
-        let changes = [
-            "grid.cell=1.45 um",
-            "integrator.cfl=0.25",
-            "grid.dimensions=2",
-            "clamp.closing_speed=\"1 m/s\"",
-        ];
-        let changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
-        let text = changed(original, Path::new("c"), &changes).unwrap();
-        let case = Case::parse(&text, Path::new("c")).unwrap();
-        assert!((case.grid.cell.si() - 1.45e-6).abs() < 1e-18);
-        assert_eq!((case.integrator.cfl, case.grid.dimensions), (Some(0.25), 2));
-        assert!(case.clamp.is_some());
-        let body = format!(
-            "{original}[[body]]\nmaterial = \"rigid\"\nbox = {{ min = [\"0 m\", \"0 m\", \"0 m\"], max = [\"1 m\", \"1 m\", \"1 m\"] }}\n"
-        );
-        let text = changed(&body, Path::new("c"), &["body.0.box.min.1=0.5 m".into()]).unwrap();
-        let case = Case::parse(&text, Path::new("c")).unwrap();
-        assert_eq!(case.body[0].corners.min[1].si(), 0.5);
-        assert!(changed(&body, Path::new("c"), &["body.1.box.min.1=0.5 m".into()]).is_err());
-        assert!(changed(original, Path::new("c"), &["nonsense".into()]).is_err());
-        assert!(
-            Case::parse(
-                &changed(original, Path::new("c"), &["grid.cel=1".into()]).unwrap(),
-                Path::new("c")
-            )
-            .is_err()
-        );
-    }
 }

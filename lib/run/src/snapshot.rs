@@ -13,6 +13,14 @@ use crate::drive::RunError;
 use crate::load::swap;
 use crate::resolve::Setup;
 
+const IDENTITY: &str = "identity";
+
+/// Whether `folder` holds the final state of the run with this identity.
+pub(crate) fn is_final_of(folder: &Path, identity: &str) -> bool {
+    ParticleFile::open(folder.join("final.mpts"))
+        .is_ok_and(|file| file.header().attribute(IDENTITY) == Some(identity))
+}
+
 /// Writes states of one run.
 pub struct SnapshotWriter {
     folder: PathBuf,
@@ -23,8 +31,15 @@ pub struct SnapshotWriter {
 }
 
 impl SnapshotWriter {
-    /// A writer into `folder`; wood comes from `bond` where there is one.
-    pub fn new(folder: &Path, setup: &Setup, bond: Option<ParticleFile>, by: Provenance) -> Self {
+    /// A writer into `folder`; wood comes from `bond` where there is one. `identity` says
+    /// which run a state is of.
+    pub fn new(
+        folder: &Path,
+        setup: &Setup,
+        bond: Option<ParticleFile>,
+        by: Provenance,
+        identity: &str,
+    ) -> Self {
         let grid = &setup.scene.grid;
         let normal = setup.normal;
         let (voxel_m, min, max) = match &bond {
@@ -42,6 +57,7 @@ impl SnapshotWriter {
         }
         header.provenance.push(by);
         header.set_attribute("cell_m", grid.cell_m);
+        header.set_attribute(IDENTITY, identity);
         header.set_attribute(
             "shear_rate_convention",
             match setup.scene.liquid.shear_rate {

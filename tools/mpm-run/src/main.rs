@@ -41,7 +41,8 @@ struct Arguments {
     /// Print the plan and what this scene leaves out, and run nothing
     #[arg(long)]
     explain: bool,
-    /// Continue from the run folder's last checkpoint; start if there is none
+    /// Continue from the run folder's last checkpoint; start if there is none, do nothing if
+    /// the run has ended
     #[arg(long, conflicts_with = "explain")]
     resume: bool,
     /// Replace another run in the run folder
@@ -72,12 +73,21 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     let Some(folder) = arguments.output else {
         return Err(Failure::usage("a run folder is needed: -o RUNDIR"));
     };
+    if folder.as_os_str() == "-" {
+        return Err(Failure::usage(
+            "a run is a folder of files and cannot go to standard output: -o RUNDIR is needed",
+        ));
+    }
     cli::catch_interrupts()?;
     let by = Provenance::of_process(
         env!("CARGO_PKG_NAME"),
         env!("CARGO_PKG_VERSION"),
         Vec::new(),
     );
+    if arguments.resume && !arguments.overwrite && request.has_ended(&folder, &by) {
+        cli::note(format!("{} has ended already", folder.display()));
+        return Ok(());
+    }
     let mut progress = Progress::new(&folder.display().to_string());
     let ended = request.execute(
         &folder,

@@ -22,7 +22,7 @@ use voxels::{Crop, Grey, Labels, Phases, Segmented, Source, Stack, VoxelEdge, se
 #[command(
     version,
     after_help = "Examples:
-  xct2particles bondline.tif --voxel '1.45 um' --labels void=0,wood=128,adhesive=255 -o bond.mpts
+  xct2particles bondline.tif --voxel '1.45 um' --labels void=0,wood=128,adhesive=255 -o specimen.mpts
   xct2particles slices/ --voxel 1.45um --grey wood=90..170,adhesive=171.. -o grey.mpts
   xct2particles stack.ome.tif --crop 0:200,50:250,0:100 -o - | wp-metrics -"
 )]
