@@ -52,6 +52,31 @@ impl Axis {
         }
     }
 
+    /// A linear axis for a colour scale over the given quantiles of `values`, because single
+    /// outliers would take the contrast from the rest; the title says where values lie beyond.
+    pub(crate) fn covering(
+        title: &str,
+        values: impl Iterator<Item = f64>,
+        shares: [f64; 2],
+    ) -> Self {
+        let mut values: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+        values.sort_by(f64::total_cmp);
+        let last = values.len().saturating_sub(1);
+        let quantile = |share: f64| values.get((share * last as f64).round() as usize).copied();
+        let mut axis = Self::linear(title, shares.into_iter().filter_map(quantile));
+        let beyond = match values[..] {
+            [low, .., high] => [low < axis.low, high > axis.high],
+            _ => [false, false],
+        };
+        axis.title += match beyond {
+            [false, false] => "",
+            [false, true] => ", top: and more",
+            [true, false] => ", bottom: and less",
+            [true, true] => ", ends: and beyond",
+        };
+        axis
+    }
+
     /// An axis without ticks.
     pub(crate) fn none() -> Self {
         Self::exact(String::new(), 0.0, 0.0)
@@ -70,11 +95,6 @@ impl Axis {
             high: top,
             logarithmic: true,
         }
-    }
-
-    /// Whether a linear axis reaches up to a value.
-    pub(crate) fn covers(&self, value: f64) -> bool {
-        value <= self.high
     }
 
     /// Share of the axis at which a value lies, 0 to 1 within its range; values outside are
@@ -115,7 +135,7 @@ impl Axis {
     }
 }
 
-const MOST_DECADES: f64 = 7.0;
+const MOST_DECADES: f64 = 5.0;
 /// About how many steps an axis has.
 const STEPS: f64 = 5.0;
 
@@ -227,11 +247,23 @@ mod tests {
 
     #[test]
     fn a_logarithmic_axis_has_decades() {
-        let axis = Axis::logarithmic("", [0.0, 3.0, 4e5, f64::NAN].into_iter());
-        assert_eq!(axis.share(1.0), 0.0);
+        let axis = Axis::logarithmic("", [0.0, 30.0, 4e5, f64::NAN].into_iter());
+        assert_eq!(axis.share(10.0), 0.0);
         assert_eq!(axis.share(1e6), 1.0);
-        assert!((axis.share(1e3) - 0.5).abs() < 1e-12);
+        assert!((axis.share(1e3) - 0.4).abs() < 1e-12);
         assert_eq!(axis.share(0.0), 0.0);
-        assert_eq!(axis.ticks().len(), 7);
+        assert_eq!(axis.ticks().len(), 6);
+    }
+
+    #[test]
+    fn a_colour_scale_leaves_outliers_out_and_says_so() {
+        let values = || (0..1000).map(f64::from).chain([1e6]);
+        let axis = Axis::covering("T", values(), [0.0, 0.99]);
+        assert_eq!(
+            (axis.title.as_str(), axis.share(500.0)),
+            ("T, top: and more", 0.5)
+        );
+        let all = Axis::covering("T", values(), [0.0, 1.0]);
+        assert_eq!((all.title.as_str(), all.share(1e6)), ("T", 1.0));
     }
 }

@@ -85,9 +85,10 @@ impl Closing {
         let pressures = self.runs.iter().flat_map(|run| run.pressure.iter());
         let pressures = pressures.copied().chain(self.limit).chain([0.0]);
         // Room above the limit and the full speed, which else lie on the frame.
-        let pressure = Axis::linear("pressure (MPa)", pressures.map(|p| 1.05 * p * 1e-6));
-        let speeds = self.runs.iter().flat_map(|run| run.speed.iter());
-        let speed = Axis::linear("closing speed (m/s)", speeds.map(|s| 1.05 * s).chain([0.0]));
+        let roomy = |title: &str, (low, high): (f64, f64)| Axis::over(title, low, 1.08 * high);
+        let pressure = roomy("pressure (MPa)", extent(pressures.map(|p| p * 1e-6)));
+        let speeds = self.runs.iter().flat_map(|run| run.speed.iter().copied());
+        let speed = roomy("closing speed (m/s)", extent(speeds.chain([0.0])));
         upper.draw(drawing, &above, &pressure, true);
         lower.draw(drawing, &below, &speed, true);
         if let Some(limit) = self.limit {

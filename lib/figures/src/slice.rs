@@ -70,6 +70,9 @@ const ADHESIVE: [u8; 3] = [230, 159, 0];
 const FINER: f64 = 2.0;
 /// Most pixels along an edge of a slice.
 const MOST_PIXELS: f64 = 2048.0;
+/// Quantiles of the pressures that the colour scale covers: those of single material points
+/// are noisy in the explicit scheme.
+const COVERED: [f64; 2] = [0.02, 0.98];
 /// How much wider a point is drawn over void.
 const WIDER: f64 = 1.35;
 const ROOM: Room = Room {
@@ -106,7 +109,7 @@ impl Slices {
             Pixel::Adhesive(pressure) => Some(f64::from(*pressure) * 1e-6),
             _ => None,
         });
-        let shades = Axis::linear("pressure (MPa)", pressures);
+        let shades = Axis::covering("pressure (MPa)", pressures, COVERED);
         for (panel, frame) in self.panels.iter().zip(&panels.frames) {
             let colour = |pixel: &Pixel| match (pixel, self.colouring) {
                 (Pixel::Void, _) => [255; 3],

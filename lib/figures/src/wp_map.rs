@@ -1,4 +1,4 @@
-use crate::axes::{Axis, Frame, NORMAL, extent};
+use crate::axes::{Axis, Frame, NORMAL};
 use crate::colour::{NO_DATA, opaque, viridis};
 use crate::colour_bar;
 use crate::drawing::{Anchor, Drawing, Image};
@@ -30,9 +30,8 @@ struct Grid {
     count: usize,
 }
 
-/// Share of all cells whose value the colour scale covers: single deep columns would take
-/// the contrast from the rest.
-const COVERED: f64 = 0.995;
+/// Quantiles of all cells' values that the colour scale covers.
+const COVERED: [f64; 2] = [0.0, 0.995];
 /// Longest edge of a panel, logical pixels.
 const LONGEST: f64 = 300.0;
 const ROOM: Room = Room {
@@ -65,7 +64,11 @@ impl WpMap {
         let panels = Panels::place(&edges, LONGEST, ROOM);
         let width = panels.right + colour_bar::WIDTH;
         let mut drawing = Drawing::new(width as u32, panels.bottom as u32);
-        let shades = self.shades();
+        let all = self
+            .panels
+            .iter()
+            .flat_map(|panel| panel.wp.iter().copied());
+        let shades = Axis::covering("weighted penetration (µm)", all, COVERED);
         for (panel, frame) in self.panels.iter().zip(&panels.frames) {
             panel.draw(&mut drawing, frame, &shades);
         }
@@ -88,25 +91,6 @@ impl WpMap {
             drawing.text("none", [left + 24.0, y], Anchor::Left, NORMAL);
         }
         drawing
-    }
-
-    /// The common colour scale; its title says where values lie beyond it.
-    fn shades(&self) -> Axis {
-        let all = self
-            .panels
-            .iter()
-            .flat_map(|panel| panel.wp.iter().copied());
-        let mut values: Vec<f64> = all.filter(|wp| wp.is_finite()).collect();
-        values.sort_by(f64::total_cmp);
-        let last = values.len().saturating_sub(1);
-        let high = values.get((COVERED * last as f64).round() as usize);
-        let (low, highest) = extent(values.iter().copied());
-        let high = high.copied().unwrap_or(highest);
-        let mut axis = Axis::linear("weighted penetration (µm)", [low, high].into_iter());
-        if !axis.covers(highest) {
-            axis.title.push_str(", top: and more");
-        }
-        axis
     }
 }
 

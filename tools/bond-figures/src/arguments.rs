@@ -18,8 +18,19 @@ use units::{Axis, Length, Pressure, Quantity};
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) figure: Figure,
-    #[command(flatten)]
-    pub(crate) common: cli::Common,
+}
+
+impl Arguments {
+    /// The common options of whichever figure.
+    pub(crate) fn common(&self) -> &cli::Common {
+        match &self.figure {
+            Figure::Pressure(a) => &a.picture.common,
+            Figure::Map(a) => &a.picture.common,
+            Figure::Shear(a) => &a.picture.common,
+            Figure::Slice(a) => &a.picture.common,
+            Figure::Table2(a) => &a.common,
+        }
+    }
 }
 
 #[derive(Subcommand)]
@@ -61,6 +72,8 @@ pub(crate) struct Picture {
     /// Picture to write, .svg or .png; `-` is SVG on standard output; may be repeated
     #[arg(short, long, value_name = "FILE", required = true)]
     pub(crate) output: Vec<Target>,
+    #[command(flatten)]
+    common: cli::Common,
 }
 
 #[derive(Args)]
@@ -116,10 +129,10 @@ pub(crate) struct SliceArgs {
 }
 
 #[derive(Args)]
-#[group(required = true, multiple = true, args = ["experiment", "run"])]
 pub(crate) struct Table2Args {
     /// Table of `wp-metrics` of an experiment; may be repeated
-    #[arg(long, value_name = "ADHESIVE=CSV", value_parser = experiment)]
+    #[arg(long, value_name = "ADHESIVE=CSV", required_unless_present = "run",
+          value_parser = experiment)]
     experiment: Vec<Case>,
     /// Table of `wp-metrics` of a run's final state; may be repeated
     #[arg(long, value_name = "ADHESIVE:RUN=CSV", value_parser = run)]
@@ -127,6 +140,8 @@ pub(crate) struct Table2Args {
     /// CSV to write; `-` is standard output
     #[arg(short, long, value_name = "CSV")]
     pub(crate) output: Output,
+    #[command(flatten)]
+    common: cli::Common,
 }
 
 impl Table2Args {

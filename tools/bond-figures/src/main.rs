@@ -11,7 +11,7 @@ use figures::{Closing, Cut, Drawing, Error, Labelled, ShearRates, Slices, Table2
 use arguments::{Arguments, Figure, Format, Picture};
 
 fn main() -> ExitCode {
-    cli::main(|a: &Arguments| &a.common, run)
+    cli::main(Arguments::common, run)
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {

@@ -1,0 +1,198 @@
+//! The command line of bond-figures: exit statuses, formats, what goes where.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn figures(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_bond-figures"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+const HISTORY: &str = "step,time_s,closing_speed_m_s,pressure_bottom_Pa,pressure_top_Pa
+0,0,1,0,0
+1,1e-5,1,1e6,1.1e6
+2,2e-5,0.5,2.5e6,2.5e6
+";
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    std::fs::create_dir(folder.path().join("run")).unwrap();
+    write("run/history.csv", HISTORY);
+    write("empty.csv", "");
+    write("header.csv", HISTORY.lines().next().unwrap());
+    write("other.csv", "time_s,speed\n0,1\n");
+    write("words.csv", &HISTORY.replace("1e6", "much"));
+    let row = |side: &str| format!("a.mpts,{side},mid,9.5,6.7\n");
+    let rows = ["bottom", "top", "total"].map(row).concat();
+    write(
+        "wp.csv",
+        &format!("file,side,reference,wp_um,slab_wp_um\n{rows}"),
+    );
+    folder
+}
+
+#[test]
+fn a_run_folder_becomes_svg_and_png_with_their_records() {
+    let folder = folder();
+    let run = "XPIC(5)=run";
+    let arguments = [
+        "pressure", "--run", run, "--limit", "2.5 MPa", "-o", "a.svg", "-o", "a.png",
+    ];
+    let output = figures(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let svg = std::fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let mut texts = document.descendants().filter_map(|n| n.text());
+    assert!(texts.any(|t| t.trim() == "XPIC(5)"));
+    let png = std::fs::File::open(folder.path().join("a.png")).unwrap();
+    let reader = png::Decoder::new(std::io::BufReader::new(png))
+        .read_info()
+        .unwrap();
+    assert_eq!(reader.info().width, 1600);
+    let record = folder.path().join("a.png.provenance.json");
+    let record = std::fs::read_to_string(record).unwrap();
+    assert!(record.contains("history.csv"), "{record}");
+}
+
+#[test]
+fn standard_output_gets_the_svg_alone() {
+    let folder = folder();
+    let output = figures(folder.path(), &["pressure", "--run", "run", "-o", "-"]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let svg = String::from_utf8(output.stdout).unwrap();
+    roxmltree::Document::parse(&svg).unwrap();
+}
+
+#[test]
+fn table_2_prints_for_reading_and_writes_csv() {
+    let folder = folder();
+    let cases = [
+        "table2",
+        "--experiment",
+        "pf=wp.csv",
+        "--run",
+        "pf:flip=wp.csv",
+        "-o",
+    ];
+    let output = figures(folder.path(), &[&cases[..], &["t.csv"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        text.contains("another specimen") && text.contains("27.74"),
+        "{text}"
+    );
+    let csv = std::fs::read_to_string(folder.path().join("t.csv")).unwrap();
+    assert!(
+        csv.starts_with("adhesive,case,reference,bottom_wp_um"),
+        "{csv}"
+    );
+    assert_eq!(csv.lines().count(), 3);
+    let piped = figures(folder.path(), &[&cases[..], &["-"]].concat());
+    assert_eq!(piped.stdout, csv.as_bytes());
+    assert!(said(&piped).contains("another specimen"));
+}
+
+#[test]
+fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
+    let folder = folder();
+    for (file, sentence) in [
+        ("missing.csv", "cannot read 'missing.csv'"),
+        ("empty.csv", "at least one row"),
+        ("header.csv", "at least one row"),
+        (
+            "other.csv",
+            "no column pressure_bottom_Pa: it has time_s, speed",
+        ),
+        (
+            "words.csv",
+            "row 2 below the header, column pressure_bottom_Pa: 'much'",
+        ),
+    ] {
+        let output = figures(folder.path(), &["pressure", "--run", file, "-o", "bad.svg"]);
+        assert_eq!(output.status.code(), Some(3), "{file}: {}", said(&output));
+        assert!(said(&output).contains(sentence), "{}", said(&output));
+        assert!(!folder.path().join("bad.svg").exists());
+    }
+    for arguments in [
+        ["map", "--map", "wp.csv", "-o", "bad.svg"],
+        ["shear", "wp.csv", "-q", "-o", "bad.svg"],
+        ["slice", "wp.csv", "-q", "-o", "bad.svg"],
+    ] {
+        let output = figures(folder.path(), &arguments);
+        assert_eq!(
+            output.status.code(),
+            Some(3),
+            "{arguments:?}: {}",
+            said(&output)
+        );
+    }
+}
+
+#[test]
+fn wrong_usage_is_exit_2_with_what_is_accepted() {
+    let folder = folder();
+    for (arguments, sentence) in [
+        (
+            vec!["pressure", "--run", "run", "-o", "a.jpg"],
+            "must end in .svg or .png",
+        ),
+        (
+            vec!["pressure", "--run", "=run", "-o", "a.svg"],
+            "needs a label and a path",
+        ),
+        (vec!["pressure", "-o", "a.svg"], "--run"),
+        (
+            vec!["pressure", "--run", "run", "--limit", "2.5", "-o", "a.svg"],
+            "has no unit",
+        ),
+        (
+            vec!["slice", "a.mpts", "--at", "150%", "-o", "a.svg"],
+            "from 0% to 100%",
+        ),
+        (
+            vec!["slice", "a.mpts", "--normal", "w", "-o", "a.svg"],
+            "x, y and z",
+        ),
+        (
+            vec!["table2", "--run", "pf=wp.csv", "-o", "-"],
+            "ADHESIVE:RUN=CSV",
+        ),
+        (vec!["table2", "-o", "-"], "--experiment"),
+        (vec!["draw"], "unrecognized subcommand"),
+    ] {
+        let output = figures(folder.path(), &arguments);
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{arguments:?}: {}",
+            said(&output)
+        );
+        assert!(said(&output).contains(sentence), "{}", said(&output));
+    }
+    let eight = ["--run", "run"].repeat(8);
+    let output = figures(
+        folder.path(),
+        &[&["pressure"], &eight[..], &["-o", "a.svg"]].concat(),
+    );
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("too many"), "{}", said(&output));
+}
+
+#[test]
+fn an_unwritable_target_is_exit_1() {
+    let folder = folder();
+    let output = figures(
+        folder.path(),
+        &["pressure", "--run", "run", "-o", "/nowhere/a.svg"],
+    );
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    assert!(said(&output).contains("/nowhere/a.svg"));
+}
