@@ -8,6 +8,11 @@ use plotters::style::{FontTransform, TextStyle, register_font};
 use crate::Error;
 use crate::drawing::{Anchor, Drawing, Image, Item};
 
+/// Units of the SVG per logical pixel: the backend writes whole numbers.
+const SVG_SCALE: u32 = 8;
+/// Pixels along the longer edge of a picture inside the SVG: small ones are enlarged, because
+/// not every viewer knows `image-rendering` and the others would smooth the voxels away.
+const SVG_IMAGE: usize = 900;
 /// Pixels of the PNG per logical pixel.
 const PNG_SCALE: u32 = 2;
 /// The PNG is drawn this much larger and averaged, because the bitmap backend does not smooth
@@ -26,29 +31,36 @@ impl Drawing {
     /// [`Error::Draw`] with the backend's reason.
     pub fn to_svg(&self) -> Result<String, Error> {
         let mut text = String::new();
+        let (width, height) = (self.width * SVG_SCALE, self.height * SVG_SCALE);
         {
-            let mut backend = SVGBackend::with_string(&mut text, (self.width, self.height));
-            replay(self, &mut backend, 1.0, 0.0)?;
+            let mut backend = SVGBackend::with_string(&mut text, (width, height));
+            replay(self, &mut backend, f64::from(SVG_SCALE), 0.0)?;
         }
-        // The backend cannot embed pictures: they and the white ground go in front of its
-        // first element, right after the opening tag.
-        let head = text
+        // The backend cannot scale or embed pictures: the opening tag is written anew, and
+        // the white ground and the pictures come right after it.
+        let end_of_tag = text
             .find("<svg")
             .and_then(|start| text[start..].find('>').map(|end| start + end + 1))
             .ok_or_else(|| Error::Draw("the SVG backend wrote no <svg> element".into()))?;
-        let mut under = String::from("\n<rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>");
+        let mut head = format!(
+            "<svg width=\"{}\" height=\"{}\" viewBox=\"0 0 {width} {height}\" \
+             xmlns=\"http://www.w3.org/2000/svg\">\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>",
+            self.width, self.height
+        );
         for image in &self.images {
-            let [x, y, width, height] = image.place;
+            let [x, y, width, height] = image.place.map(|s| s * f64::from(SVG_SCALE));
+            let image = enlarged(image);
             let [columns, rows] = image.size.map(|n| n as u32);
             let data = base64(&encode_png(&image.rgb, columns, rows)?);
             let _ = write!(
-                under,
+                head,
                 "\n<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
                  preserveAspectRatio=\"none\" image-rendering=\"pixelated\" \
                  href=\"data:image/png;base64,{data}\"/>"
             );
         }
-        text.insert_str(head, &under);
+        text.replace_range(..end_of_tag, &head);
         Ok(text)
     }
 
@@ -139,6 +151,21 @@ fn register() -> Result<(), Error> {
     } else {
         Err(Error::Draw("the embedded font is not readable".into()))
     }
+}
+
+/// The image with each pixel repeated until it has about `SVG_IMAGE` along its longer edge.
+fn enlarged(image: &Image) -> Image {
+    let [columns, rows] = image.size;
+    let factor = SVG_IMAGE.div_ceil(columns.max(rows));
+    let size = [columns * factor, rows * factor];
+    let mut rgb = vec![0; 3 * size[0] * size[1]];
+    let place = [0.0, 0.0, size[0] as f64, size[1] as f64];
+    let whole = Image {
+        place,
+        ..image.clone()
+    };
+    blit(&whole, &mut rgb, size[0], 1.0);
+    Image { size, rgb, place }
 }
 
 /// Copies an image into its place, nearest pixel.

@@ -284,7 +284,7 @@ fn slices_show_each_phase_by_its_area() {
     let folder = Folder::new();
     let state = folder.labelled("bond", bond());
     let cut = |axis, position| Cut { axis, position };
-    let read = |cut| Slices::read(&[state.clone()], cut, figures::Colouring::Plain);
+    let read = |cut| Slices::read(std::slice::from_ref(&state), cut, figures::Colouring::Plain);
     let areas = |cut| {
         let (_, pixels) = pixels(&read(cut).unwrap().draw());
         [[150, 150, 150], [230, 159, 0]].map(|c| pixels.iter().filter(|p| **p == c).count() as f64)
