@@ -12,8 +12,9 @@ const WET_FACE: f64 = 0.05;
 /// Liquid fraction of a cell's open volume from which its pressure is an unknown.
 pub const WET_CELL: f64 = 0.5;
 
-/// Numbering of the unknowns, in the order of the cells, so that neighbours in space are
-/// neighbours in memory.
+/// Numbering of the unknowns along rows of cells, one velocity component after the other, so
+/// that neighbours in space are near in memory and consecutive rows of the velocity block couple
+/// to equal distances, which the solver packs.
 #[derive(Clone, Debug, Default)]
 pub struct Dofs {
     /// Number of the low face of each cell along x, y, z, or [`NONE`]. Images of a face
@@ -134,9 +135,10 @@ impl Dofs {
             cell: vec![NONE; flags.len()],
             ..Self::default()
         };
-        for (index, &flag) in flags.iter().enumerate().filter(|f| *f.1 != 0) {
+        for (r, row) in flags.chunks(window.cells[0]).enumerate() {
             for axis in 0..axes {
-                if flag >> axis & 1 == 1 {
+                for i in (0..row.len()).filter(|&i| row[i] >> axis & 1 == 1) {
+                    let index = r * window.cells[0] + i;
                     dofs.face[axis][index] = dofs.faces.len() as u32;
                     dofs.faces.push((axis as u8, index as u32));
                 }

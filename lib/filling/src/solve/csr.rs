@@ -86,20 +86,32 @@ impl<T: Real> Csr<T> {
     /// Joins the rows of consecutive chunks, whose entries number less than 2^32.
     fn join(n_rows: usize, n_columns: usize, chunks: Vec<Rows<T>>) -> Self {
         let total = chunks.iter().map(|rows| rows.columns.len()).sum();
-        let mut matrix = Self {
-            n_columns,
-            row_start: Vec::with_capacity(n_rows + 1),
-            columns: Vec::with_capacity(total),
-            values: Vec::with_capacity(total),
-        };
-        matrix.row_start.push(0);
-        for rows in chunks {
-            let before = matrix.columns.len() as u32;
-            (matrix.row_start).extend(rows.row_end.iter().map(|end| before + end));
-            matrix.columns.extend_from_slice(&rows.columns);
-            matrix.values.extend_from_slice(&rows.values);
+        let mut row_start = Vec::with_capacity(n_rows + 1);
+        row_start.push(0);
+        let mut columns = vec![0; total];
+        let mut values = vec![T::default(); total];
+        // Every chunk is copied to its place in parallel and released at once.
+        let mut places = Vec::with_capacity(chunks.len());
+        let (mut columns_left, mut values_left) = (&mut columns[..], &mut values[..]);
+        for rows in &chunks {
+            let before = (total - columns_left.len()) as u32;
+            row_start.extend(rows.row_end.iter().map(|end| before + end));
+            let (columns, after) = columns_left.split_at_mut(rows.columns.len());
+            columns_left = after;
+            let (values, after) = values_left.split_at_mut(rows.values.len());
+            values_left = after;
+            places.push((columns, values));
         }
-        matrix
+        (chunks.into_par_iter().zip(places)).for_each(|(rows, (columns, values))| {
+            columns.copy_from_slice(&rows.columns);
+            values.copy_from_slice(&rows.values);
+        });
+        Self {
+            n_columns,
+            row_start,
+            columns,
+            values,
+        }
     }
 
     /// Number of rows.

@@ -19,7 +19,7 @@ const WINDOW: usize = 1 << 16;
 /// Fixed-point unit.
 const UNIT: f64 = 32767.0;
 /// Couplings at one distance among eight rows from which a common base pays.
-const MIN_RUN: usize = 3;
+const MIN_RUN: usize = 4;
 
 /// Eight fixed-point values.
 type Values = [i16; LANES];
