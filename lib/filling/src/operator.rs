@@ -11,6 +11,7 @@
 //! viscosities in units of a reference eta_0, pressures in units of eta_0/h, forces in units of
 //! eta_0 h; in plane strain the depth is one cell.
 
+mod couplings;
 mod dofs;
 mod fluxes;
 mod terms;
@@ -21,6 +22,7 @@ use rayon::prelude::*;
 
 use crate::lattice::Lattice;
 use crate::solve::{Csr, SaddleSystem, SolveError};
+use couplings::Couplings;
 use terms::Velocity;
 
 pub use dofs::{Dofs, Liquid, NONE};
@@ -64,7 +66,7 @@ pub struct Operator<'a> {
     scales: Scales,
 }
 
-/// The assembled parts of a [`SaddleSystem`].
+/// The assembled system of a step, for bodies at given speeds.
 pub struct System {
     a: Csr<f64>,
     /// Liquid fluxes, cells x faces.
@@ -72,6 +74,11 @@ pub struct System {
     c: Vec<f64>,
     friction: Vec<f64>,
     two_eta: Vec<f64>,
+    mass: Vec<f64>,
+    couplings: Couplings,
+    /// Right-hand sides with all bodies at rest.
+    resting: [Vec<f64>; 2],
+    bodies: Vec<[f64; 3]>,
     b: Vec<f64>,
     source: Vec<f64>,
 }
@@ -88,6 +95,31 @@ impl System {
             b: &self.b,
             volume_source: &self.source,
         }
+    }
+
+    /// Sets the velocities of the bodies, m/s.
+    pub fn steer(&mut self, bodies: &[[f64; 3]]) {
+        self.bodies = bodies.to_vec();
+        let couplings = &self.couplings;
+        let [momentum, source] = &self.resting;
+        self.b = (momentum.par_iter().enumerate())
+            .map(|(face, b)| b + couplings.dragged(face, bodies))
+            .collect();
+        self.source = (source.par_iter().enumerate())
+            .map(|(cell, g)| g + couplings.displaced(cell, bodies))
+            .collect();
+    }
+
+    /// Forces of the liquid on the bodies, in units of eta_0 h, and the power dissipated by
+    /// viscosity and wall friction, in units of eta_0 h (m/s)^2.
+    pub fn reactions(&self, u: &[f64], p: &[f64]) -> (Vec<[f64; 3]>, f64) {
+        let (forces, of_bodies) = self.couplings.forces(&self.bodies, u, p);
+        let mut product = vec![0.0; u.len()];
+        self.a.multiply(u, &mut product);
+        let of_liquid: f64 = (product.iter().zip(u).zip(&self.mass))
+            .map(|((product, u), mass)| u * (product - mass * u))
+            .sum();
+        (forces, of_liquid + of_bodies)
     }
 }
 
@@ -168,25 +200,35 @@ impl<'a> Operator<'a> {
                 }
             });
         })?;
+        let flux = couplings::fluxes(self);
         let g = Csr::assemble(self.dofs.cells.len(), n, |cell, entries| {
-            self.flux(cell, |velocity, area| {
-                if let Velocity::Face(face) = velocity {
-                    entries.add(face as usize, area);
-                }
-            });
+            for &(column, area) in flux.of(cell).iter().filter(|e| (e.0 as usize) < n) {
+                entries.add(column as usize, area);
+            }
         })?;
         let c = self.compressibility();
-        Ok(System {
-            b: self.momentum(bodies, before.velocity),
-            source: self.source(bodies, before.pressure, &c),
+        let mut system = System {
             friction: (0..n).map(|face| self.darcy(face)).collect(),
             two_eta: (self.dofs.cells.iter())
                 .map(|&cell| 2.0 * self.eta(cell as usize))
                 .collect(),
+            mass: (0..n).map(|face| self.mass(face)).collect(),
+            couplings: Couplings::new(self, bodies.len(), &flux),
+            resting: [
+                self.momentum(before.velocity),
+                (c.iter().zip(before.pressure))
+                    .map(|(c, p)| c * p)
+                    .collect(),
+            ],
             a,
             g,
             c,
-        })
+            bodies: Vec::new(),
+            b: Vec::new(),
+            source: Vec::new(),
+        };
+        system.steer(bodies);
+        Ok(system)
     }
 
     fn mass(&self, face: usize) -> f64 {
@@ -208,102 +250,15 @@ impl<'a> Operator<'a> {
             .collect()
     }
 
-    /// b: inertia, body force and what moving bodies drag along.
-    fn momentum(&self, bodies: &[[f64; 3]], velocity: &[f64]) -> Vec<f64> {
-        (0..self.dofs.faces.len())
-            .into_par_iter()
-            .with_min_len(CHUNK)
-            .map(|face| {
-                let axis = usize::from(self.dofs.faces[face].0);
-                let mut b = self.mass(face) * velocity[face]
-                    + self.face_volume[face] * self.scales.gravity[axis];
-                self.terms(face, |term| {
-                    let own = term.weight * coefficient(term.parts(), face);
-                    for &(velocity, c) in term.parts() {
-                        if let Velocity::Body(component) = velocity {
-                            b -= own * c * bodies[component / 3][component % 3];
-                        }
-                    }
-                });
-                b
+    /// b with all bodies at rest: inertia and body force.
+    fn momentum(&self, velocity: &[f64]) -> Vec<f64> {
+        (self.dofs.faces.iter().enumerate())
+            .map(|(face, &(axis, _))| {
+                self.mass(face) * velocity[face]
+                    + self.face_volume[face] * self.scales.gravity[usize::from(axis)]
             })
             .collect()
     }
-
-    /// g of G u + C p = g: what moving bodies displace, and the pressure before.
-    fn source(&self, bodies: &[[f64; 3]], pressure: &[f64], c: &[f64]) -> Vec<f64> {
-        (0..self.dofs.cells.len())
-            .into_par_iter()
-            .with_min_len(CHUNK)
-            .map(|cell| {
-                let mut g = c[cell] * pressure[cell];
-                self.flux(cell, |velocity, area| {
-                    if let Velocity::Body(component) = velocity {
-                        g -= area * bodies[component / 3][component % 3];
-                    }
-                });
-                g
-            })
-            .collect()
-    }
-
-    /// Forces of the liquid on the bodies, in units of eta_0 h, and the power dissipated by
-    /// viscosity and wall friction, in units of eta_0 h (m/s)^2.
-    pub fn reactions(&self, bodies: &[[f64; 3]], u: &[f64], p: &[f64]) -> (Vec<[f64; 3]>, f64) {
-        let value = |velocity: Velocity| match velocity {
-            Velocity::Face(face) => u[face as usize],
-            Velocity::Body(component) => bodies[component / 3][component % 3],
-            Velocity::Still => 0.0,
-        };
-        let new = || (vec![[0.0; 3]; bodies.len()], 0.0);
-        let faces = in_chunks(self.dofs.faces.len(), new, |(force, power), face| {
-            self.terms(face, |term| {
-                if term.owner() != Some(face as u32) {
-                    return;
-                }
-                let rate: f64 = term.parts().iter().map(|&(v, c)| c * value(v)).sum();
-                *power += term.weight * rate * rate;
-                for &(velocity, c) in term.parts() {
-                    if let Velocity::Body(component) = velocity {
-                        force[component / 3][component % 3] -= term.weight * c * rate;
-                    }
-                }
-            });
-        });
-        let cells = in_chunks(self.dofs.cells.len(), new, |(force, _), cell| {
-            self.flux(cell, |velocity, area| {
-                if let Velocity::Body(component) = velocity {
-                    force[component / 3][component % 3] += area * p[cell];
-                }
-            });
-        });
-        let mut total = new();
-        for (force, power) in faces.into_iter().chain(cells) {
-            total.1 += power;
-            for (sum, part) in total.0.iter_mut().zip(force) {
-                *sum = std::array::from_fn(|a| sum[a] + part[a]);
-            }
-        }
-        total
-    }
-}
-
-/// Partial sums over fixed ranges of `0..len`, in their order.
-fn in_chunks<S: Send>(
-    len: usize,
-    new: impl Fn() -> S + Sync,
-    add: impl Fn(&mut S, usize) + Sync,
-) -> Vec<S> {
-    (0..len.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|chunk| {
-            let mut sum = new();
-            for i in chunk * CHUNK..len.min((chunk + 1) * CHUNK) {
-                add(&mut sum, i);
-            }
-            sum
-        })
-        .collect()
 }
 
 /// Coefficient of an unknown in a term.

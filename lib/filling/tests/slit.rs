@@ -113,9 +113,10 @@ fn run(n: usize, offset: [f64; 2], settings: Settings, change: impl Fn(&mut Scen
     let moved = scheme.displacements();
     let in_walls = (liquid.position.iter())
         .filter(|x| {
-            bodies.iter().zip(&moved).any(|(body, d)| {
-                body.contains(std::array::from_fn(|a| f64::from(x[a]) - d[a]))
-            })
+            bodies
+                .iter()
+                .zip(&moved)
+                .any(|(body, d)| body.contains(std::array::from_fn(|a| f64::from(x[a]) - d[a])))
         })
         .count();
     let entrance = 2.0 * h + 2.0 * H + offset[1] * h;
@@ -163,7 +164,13 @@ fn compare(n: usize, offset: [f64; 2]) -> f64 {
     let mean = errors.iter().sum::<f64>() / 4.0;
     println!(
         "slit of {n} cells, offset {offset:?}: force {:+.3} at L = 1..4 H {:+.3?}, {} steps, {:.1} iterations, volume {:+.4}, delivered {:.4}, in walls {}",
-        mean, errors, filled.steps, filled.iterations, filled.volume_error, filled.delivered, filled.in_walls
+        mean,
+        errors,
+        filled.steps,
+        filled.iterations,
+        filled.volume_error,
+        filled.delivered,
+        filled.in_walls
     );
     assert_eq!(filled.in_walls, 0);
     mean

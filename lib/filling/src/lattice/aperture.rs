@@ -190,6 +190,30 @@ impl Lattice {
     /// Open area of a quadrant (in plane strain a half) of a face; bit b of `quadrant` tells
     /// its half along the b-th tangential direction.
     pub fn quadrant_open(&self, axis: usize, cell: [usize; 3], quadrant: usize) -> f64 {
+        let whole = 1.0 / self.column_count() as f64;
+        match self.quadrant_sides(axis, cell, quadrant) {
+            [1.0, 1.0] => whole,
+            [0.0, _] | [_, 0.0] => 0.0,
+            _ => {
+                let covered = self.covered_quadrant(axis, cell, quadrant);
+                let total: f64 = covered.bodies.iter().map(|b| b.1).sum();
+                (whole - total).max(0.0)
+            }
+        }
+    }
+
+    /// Open fractions of the sub-cells below and above a quadrant.
+    fn quadrant_sides(&self, axis: usize, cell: [usize; 3], quadrant: usize) -> [f32; 2] {
+        let window = &self.window;
+        let mut sub = window.first_sub(cell);
+        for (bit, &t) in self.tangents(axis).iter().enumerate() {
+            sub += (quadrant >> bit & 1) * window.sub_stride(t);
+        }
+        [self.open[sub - window.sub_stride(axis)], self.open[sub]]
+    }
+
+    /// Area of a quadrant that each body covers.
+    fn covered_quadrant(&self, axis: usize, cell: [usize; 3], quadrant: usize) -> Aperture {
         let mut low = self.window.corner(cell);
         let mut high = low.map(|x| x + 1.0);
         for (bit, &t) in self.tangents(axis).iter().enumerate() {
@@ -199,15 +223,23 @@ impl Lattice {
                 high[t] -= 0.5;
             }
         }
-        let whole = 1.0 / self.column_count() as f64;
-        let covered = self.covered_box(axis, low, high);
-        let total: f64 = covered.bodies.iter().map(|b| b.1).sum();
-        (whole - total).max(0.0)
+        self.covered_box(axis, low, high)
     }
 
+    /// Area of a face that each body covers.
     fn covered(&self, axis: usize, cell: [usize; 3]) -> Aperture {
-        let low = self.window.corner(cell);
-        self.covered_box(axis, low, low.map(|x| x + 1.0))
+        let mut covered = Aperture {
+            open: 0.0,
+            ..Aperture::WHOLE
+        };
+        for quadrant in 0..self.column_count() {
+            if self.quadrant_sides(axis, cell, quadrant) != [1.0, 1.0] {
+                for (body, area) in self.covered_quadrant(axis, cell, quadrant).bodies {
+                    covered.add(body, area);
+                }
+            }
+        }
+        covered
     }
 
     /// Area of the plane through `low[axis]`, within the box, that each body covers: by the

@@ -54,7 +54,11 @@ impl<'a> Liquid<'a> {
                     let parts = [2, 2, window.parts(2)];
                     let (wet, open) = fill(lattice, phi, first, parts);
                     volume[i] = (wet / window.sub_per_cell() as f64) as f32;
-                    fraction[i] = if open > 1e-6 { (wet / open) as f32 } else { 0.0 };
+                    fraction[i] = if open > 1e-6 {
+                        (wet / open) as f32
+                    } else {
+                        0.0
+                    };
                 }
             });
         Self {
@@ -116,22 +120,31 @@ impl Dofs {
         let axes = window.domain.axes;
         // One bit per axis for an active low face, one for a wet cell; rows are independent.
         let mut flags = vec![0_u8; window.len()];
-        flags.par_chunks_mut(window.cells[0]).enumerate().for_each(|(r, row)| {
-            let (j, k) = (r % window.cells[1], r / window.cells[1]);
-            for (i, flag) in row.iter_mut().enumerate() {
-                let cell = [i, j, k];
-                if mine(cell) && !lonely(lattice, liquid, cell) {
-                    for axis in (0..axes).filter(|&a| active(a, cell)) {
-                        *flag |= 1 << axis;
-                    }
-                    if window.in_domain(cell) && wet(window.index(cell)) {
-                        *flag |= 8;
+        flags
+            .par_chunks_mut(window.cells[0])
+            .enumerate()
+            .for_each(|(r, row)| {
+                let (j, k) = (r % window.cells[1], r / window.cells[1]);
+                for (i, flag) in row.iter_mut().enumerate() {
+                    let cell = [i, j, k];
+                    if mine(cell) && !lonely(lattice, liquid, cell) {
+                        for axis in (0..axes).filter(|&a| active(a, cell)) {
+                            *flag |= 1 << axis;
+                        }
+                        if window.in_domain(cell) && wet(window.index(cell)) {
+                            *flag |= 8;
+                        }
                     }
                 }
-            }
-        });
+            });
         let mut dofs = Self {
-            face: std::array::from_fn(|a| if a < axes { vec![NONE; flags.len()] } else { vec![] }),
+            face: std::array::from_fn(|a| {
+                if a < axes {
+                    vec![NONE; flags.len()]
+                } else {
+                    vec![]
+                }
+            }),
             cell: vec![NONE; flags.len()],
             ..Self::default()
         };

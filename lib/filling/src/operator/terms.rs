@@ -110,7 +110,12 @@ impl Operator<'_> {
         }
         let cell = window.coordinates(at);
         let first = window.first_sub(cell) - window.sub_stride(i) - window.sub_stride(j);
-        let (wet, open) = fill(self.lattice, self.liquid.phi, first, [2, 2, window.parts(2)]);
+        let (wet, open) = fill(
+            self.lattice,
+            self.liquid.phi,
+            first,
+            [2, 2, window.parts(2)],
+        );
         if wet <= 0.0 {
             return;
         }
@@ -151,17 +156,25 @@ impl Operator<'_> {
         let mut below = cell;
         below[t] -= 1;
         // A closed face may have its centre exactly on the wall that closes it.
-        let both_open = [below, cell].map(|c| self.lattice.face(axis, window.index(c))) == [OPEN; 2];
+        let [low_open, high_open] =
+            [below, cell].map(|c| self.lattice.face(axis, window.index(c)) == OPEN);
         let mut free = 0;
         for index in 0..count {
             let mut sub = first + (index & 1) * window.sub_stride(axis);
             if other < window.domain.axes {
                 sub += (index >> 1) * window.sub_stride(other);
             }
-            let open = [sub, sub + window.sub_stride(t)].map(|s| self.lattice.open[s]);
-            free += u32::from(match open {
-                [a, b] if a == 1.0 && b == 1.0 && both_open => true,
-                [a, b] if a == 0.0 || b == 0.0 => false,
+            let step = window.sub_stride(t);
+            let open = |s: usize| self.lattice.open[s];
+            // Sub-cells of the column beyond the centres of closed faces.
+            let beyond = [
+                if low_open { 1.0 } else { open(sub - step) },
+                if high_open { 1.0 } else { open(sub + 2 * step) },
+            ];
+            free += u32::from(match ([open(sub), open(sub + step)], beyond) {
+                ([a, b], _) if a == 0.0 || b == 0.0 => false,
+                (_, [a, b]) if a == 0.0 || b == 0.0 => false,
+                ([1.0, 1.0], [1.0, 1.0]) => true,
                 _ => {
                     let up = self.lattice.column(axis, below, t, index).distance[1];
                     let down = self.lattice.column(axis, cell, t, index).distance[0];

@@ -36,7 +36,9 @@ impl Operator<'_> {
         let mut viscosity = vec![0.0_f32; window.len()];
         let values: Vec<f32> = (self.dofs.cells.par_iter())
             .map(|&cell| {
-                let centre = window.corner(window.coordinates(cell as usize)).map(|x| x + 0.5);
+                let centre = window
+                    .corner(window.coordinates(cell as usize))
+                    .map(|x| x + 0.5);
                 let gradient = field.flow.gradient(centre).map(|c| c.gradient);
                 at(liquid.shear_rate.factor() * deviator_norm(&gradient) / cell_m)
             })

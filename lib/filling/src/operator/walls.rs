@@ -137,7 +137,11 @@ impl View {
     fn path(&self, t: usize) -> f64 {
         let open = self.columns[t].iter().filter(|c| !c.blocked());
         let (sum, count) = open.fold((0.0, 0), |(s, n), c| (s + c.free_path(), n + 1));
-        if count == 0 { 1.0 } else { sum / f64::from(count) }
+        if count == 0 {
+            1.0
+        } else {
+            sum / f64::from(count)
+        }
     }
 
     fn inverse_paths(&self, lattice: &Lattice) -> f64 {

@@ -25,12 +25,17 @@ pub(super) fn scene(scene: &Scene) -> Result<(), String> {
     }
     let flat = scene.dimensions == Dimensions::Two;
     if flat && (scene.gravity[2] != 0.0 || scene.points.velocity.iter().any(|v| v[2] != 0.0)) {
-        return Err("a scene in two dimensions moves or pulls along z; leave z velocities and gravity zero".into());
+        return Err(
+            "a scene in two dimensions moves or pulls along z; leave z velocities and gravity zero"
+                .into(),
+        );
     }
     let axes = if flat { 2 } else { 3 };
     for (axis, name) in ["x", "y", "z"].iter().enumerate().take(axes) {
         if scene.grid.cells[axis] < 2 {
-            return Err(format!("the domain has one cell along {name}; two are the least"));
+            return Err(format!(
+                "the domain has one cell along {name}; two are the least"
+            ));
         }
     }
     Ok(())
@@ -44,7 +49,11 @@ pub(super) fn path_rule(scene: &Scene) -> PathRule {
         block.dims().iter().product::<usize>() > 1
             && edge.iter().any(|e| *e < FINE_VOXEL * scene.grid.cell_m)
     });
-    if fine { PathRule::Normal } else { PathRule::Combined }
+    if fine {
+        PathRule::Normal
+    } else {
+        PathRule::Combined
+    }
 }
 
 /// Bodies, with the voids that no liquid can reach filled in, particles, and the number of
@@ -67,9 +76,12 @@ pub(super) fn contents(
                 let edge = block.voxel().map(|e| e / units.h);
                 let (filled, sealed) = fill_sealed(block, &domain, low, edge);
                 // Liquid that starts in a sealed void stays there.
-                if sealed > 0 && !points.position.iter().any(|&x| {
-                    filled.contains(x) && !block.contains(x)
-                }) {
+                if sealed > 0
+                    && !points
+                        .position
+                        .iter()
+                        .any(|&x| filled.contains(x) && !block.contains(x))
+                {
                     *block = filled;
                     closed += sealed;
                 }
@@ -83,13 +95,19 @@ pub(super) fn contents(
             return Err(format!("liquid point {point} lies outside the domain"));
         }
         if solids.at(x).is_some() {
-            return Err(format!("liquid point {point} lies in a rigid body; liquid and bodies must not overlap"));
+            return Err(format!(
+                "liquid point {point} lies in a rigid body; liquid and bodies must not overlap"
+            ));
         }
     }
     let n = positions.len();
     let particles = Particles {
         position: positions,
-        velocity: points.velocity.iter().map(|v| v.map(|v| v as f32)).collect(),
+        velocity: points
+            .velocity
+            .iter()
+            .map(|v| v.map(|v| v as f32))
+            .collect(),
         volume: (points.volume.iter())
             .map(|v| (v / units.h.powi(3)) as f32)
             .collect(),

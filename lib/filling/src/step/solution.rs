@@ -33,8 +33,6 @@ pub(super) struct Solution {
     pub(super) forces: Vec<[f64; 3]>,
     /// Dissipated power, W.
     pub(super) power: f64,
-    /// Largest velocity component, m/s.
-    pub(super) fastest: f64,
     pub(super) iterations: u32,
     /// For the density projection: fluxes, volumes of the faces, and of the pressure unknowns
     /// density, liquid fraction and liquid volume.
@@ -65,9 +63,9 @@ impl Implicit {
         let lattice = &trial.lattice;
         let scales = self.scales(trial.dt);
         let liquid = Liquid::new(lattice, phi);
-        let mut operator = self.stages.time(Stage::Assembly, || {
-            Operator::new(lattice, &liquid, scales)
-        });
+        let mut operator = self
+            .stages
+            .time(Stage::Assembly, || Operator::new(lattice, &liquid, scales));
         let start = self.carried(&operator);
         let mut now = Unknowns {
             u: start.u.clone(),
@@ -91,20 +89,19 @@ impl Implicit {
                 break solved;
             }
         };
-        let pick = |field: &[f32]| (operator.dofs.cells.iter()).map(|&c| field[c as usize]).collect();
+        let pick = |field: &[f32]| {
+            (operator.dofs.cells.iter())
+                .map(|&c| field[c as usize])
+                .collect()
+        };
         let (density, fraction) = (pick(&self.fractions.density), pick(&liquid.fraction));
         let volume = pick(&liquid.volume);
-        let fastest = now.u.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
-        if !fastest.is_finite() {
-            return Err(self.failure("the velocity is not a number"));
-        }
         Ok(Solution {
             pressure: self.spread(&operator, &now.p),
             bodies: self.drive.velocities(),
             speed: self.drive.speed,
             forces,
             power: power * self.units.force(),
-            fastest,
             iterations: now.iterations,
             u: now.u,
             g: system.g,
@@ -152,15 +149,14 @@ impl Implicit {
         now: &mut Unknowns,
     ) -> Result<(System, Vec<[f64; 3]>, f64), Failure> {
         let mut correction = 0;
+        let bodies = self.drive.velocities();
+        let mut system = (self.stages)
+            .time(Stage::Assembly, || operator.assemble(&bodies, before))
+            .map_err(|e| self.failure(&e.to_string()))?;
         loop {
-            let bodies = self.drive.velocities();
-            let system = (self.stages)
-                .time(Stage::Assembly, || operator.assemble(&bodies, before))
-                .map_err(|e| self.failure(&e.to_string()))?;
             self.solve_system(&system, now)?;
-            let (forces, power) = (self.stages).time(Stage::Forces, || {
-                operator.reactions(&bodies, &now.u, &now.p)
-            });
+            let (forces, power) =
+                (self.stages).time(Stage::Forces, || system.reactions(&now.u, &now.p));
             let Some(clamped) = self.drive.clamped().filter(|_| correction < CORRECTIONS) else {
                 return Ok((system, forces, power));
             };
@@ -169,6 +165,7 @@ impl Implicit {
                 return Ok((system, forces, power));
             };
             correction += 1;
+            system.steer(&self.drive.velocities());
             for x in now.u.iter_mut().chain(&mut now.p) {
                 *x *= factor;
             }

@@ -27,8 +27,9 @@ impl Scheme for Implicit {
                 sum
             })
             .collect();
-        let (energy, fastest) = (parts.iter())
-            .fold((0.0, 0.0_f64), |sum, part| (sum.0 + part.0, sum.1.max(part.1)));
+        let (energy, fastest) = (parts.iter()).fold((0.0, 0.0_f64), |sum, part| {
+            (sum.0 + part.0, sum.1.max(part.1))
+        });
         Diagnostics {
             kinetic_energy: 0.5 * self.liquid.density * energy * self.units.volume(),
             viscous_power: self.power,
@@ -53,7 +54,11 @@ impl Scheme for Implicit {
             position: (order.par_iter().map(at))
                 .map(|p| units.to_metres(particles.position[p]).map(|x| x as f32))
                 .collect(),
-            velocity: order.par_iter().map(at).map(|p| particles.velocity[p]).collect(),
+            velocity: order
+                .par_iter()
+                .map(at)
+                .map(|p| particles.velocity[p])
+                .collect(),
             volume: order.par_iter().map(at).map(|p| volume(p) as f32).collect(),
             pressure: order.par_iter().map(at).map(pressure).collect(),
             shear_rate: order.par_iter().map(at).map(|p| rates[p]).collect(),
@@ -69,7 +74,7 @@ impl Scheme for Implicit {
         let flat = |v: &[[f64; 3]]| v.iter().flatten().copied().collect::<Vec<f64>>();
         let velocity = particles.velocity.iter().flatten().copied().collect();
         let mut scalars = vec![
-            self.fastest,
+            self.pace,
             self.travel,
             self.steps as f64,
             self.lost as f64,
@@ -110,8 +115,21 @@ impl Scheme for Implicit {
                 self.displacement.len()
             ));
         }
-        let &[fastest, travel, steps, lost, pinched, deflected, power, a, b, c, d] = scalars else {
+        let &[
+            pace,
+            travel,
+            steps,
+            lost,
+            pinched,
+            deflected,
+            power,
+            ref drive @ ..,
+        ] = scalars
+        else {
             return Err("the checkpoint's scalars are not those of the implicit scheme".into());
+        };
+        let Ok(drive) = <[f64; 5]>::try_from(drive) else {
+            return Err("the checkpoint's clamp state is not that of the implicit scheme".into());
         };
         self.particles.position = position;
         self.particles.velocity = velocity;
@@ -119,10 +137,10 @@ impl Scheme for Implicit {
         self.particles.j = j.to_vec();
         self.particles.id = id.to_vec();
         self.displacement = displacement;
-        (self.fastest, self.travel, self.power) = (fastest, travel, power);
+        (self.pace, self.travel, self.power) = (pace, travel, power);
         (self.steps, self.lost) = (steps as u64, lost as u64);
         (self.pinched, self.deflected) = (pinched as u64, deflected as u64);
-        self.drive.set_state([a, b, c, d]);
+        self.drive.set_state(drive);
         self.flow = None;
         self.restored_rates = Some(rates.to_vec());
         Ok(())
@@ -145,12 +163,9 @@ impl Implicit {
     /// Shear rate of each particle, 1/s; 0 before the first step.
     fn shear_rates(&self) -> Vec<f32> {
         match (&self.flow, &self.restored_rates) {
-            (Some(flow), _) => advect::shear_rates(
-                &self.particles,
-                flow,
-                self.liquid.shear_rate,
-                self.units.h,
-            ),
+            (Some(flow), _) => {
+                advect::shear_rates(&self.particles, flow, self.liquid.shear_rate, self.units.h)
+            }
             (None, Some(rates)) => rates.clone(),
             (None, None) => vec![0.0; self.particles.len()],
         }
@@ -162,6 +177,8 @@ fn triples<T: Copy>(flat: &[T], name: &str) -> Result<Vec<[T; 3]>, String> {
     if rest.is_empty() {
         Ok(triples.to_vec())
     } else {
-        Err(format!("array '{name}' of the checkpoint is not made of triples"))
+        Err(format!(
+            "array '{name}' of the checkpoint is not made of triples"
+        ))
     }
 }

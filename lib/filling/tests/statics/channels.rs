@@ -1,9 +1,7 @@
 //! Steady flow in straight channels against closed forms, at every offset of the walls
 //! against the cells. Run with `--nocapture` to see the errors.
 
-mod common;
-
-use common::{Flow, duct, hagen_poiseuille_mask, worst};
+use super::flow::{Flow, duct, hagen_poiseuille_mask, worst};
 use filling::operator::PathRule;
 use physics::VoxelBlock;
 
@@ -42,9 +40,17 @@ fn a_wall_a_quarter_cell_off_is_seen() {
 
 #[test]
 fn rectangular_ducts() {
-    for (a, b, tolerance) in [(6.0, 6.0, 0.03), (3.0, 3.0, 0.08), (3.0, 12.0, 0.05), (12.0, 12.0, 0.01)] {
+    for (a, b, tolerance) in [
+        (6.0, 6.0, 0.03),
+        (3.0, 3.0, 0.08),
+        (3.0, 12.0, 0.05),
+        (12.0, 12.0, 0.01),
+    ] {
         let ratio = duct(a, b, [0.0; 2]);
-        println!("duct {a} x {b} cells, walls on faces: flux error {:+.4}", ratio - 1.0);
+        println!(
+            "duct {a} x {b} cells, walls on faces: flux error {:+.4}",
+            ratio - 1.0
+        );
         assert!((ratio - 1.0).abs() < tolerance, "{a} x {b}: {ratio}");
         for off in [0.25, 0.5, 0.75] {
             let ratio = duct(a, b, [off, 0.5 * off]);
@@ -65,7 +71,9 @@ fn round_tubes_of_voxels() {
                 .collect();
             let mean = ratios.iter().sum::<f64>() / 5.0;
             let spread = worst(ratios.iter().map(|r| r - mean));
-            println!("tube of radius {radius} cells, voxel {voxel} cells: flux {mean:.3} ({spread:+.3}) of the voxel tube's");
+            println!(
+                "tube of radius {radius} cells, voxel {voxel} cells: flux {mean:.3} ({spread:+.3}) of the voxel tube's"
+            );
         }
     }
 }

@@ -88,7 +88,7 @@ impl Flow {
         let report = SaddleSolver::new(options)
             .solve(&system.saddle(), &mut u, &mut p)
             .unwrap();
-        let (forces, _) = operator.reactions(&self.speeds, &u, &p);
+        let (forces, _) = system.reactions(&u, &p);
         let w = &lattice.window;
         let mut velocity = [const { Vec::new() }; 3];
         for field in &mut velocity {
@@ -125,9 +125,8 @@ fn fractions(lattice: &Lattice, wet: impl Fn([f64; 3]) -> bool) -> Vec<f32> {
     (0..w.sub_len())
         .map(|s| {
             let at = [s % dims[0], s / dims[0] % dims[1], s / dims[0] / dims[1]];
-            let centre: [f64; 3] = std::array::from_fn(|a| {
-                w.low[a] as f64 + (at[a] as f64 + 0.5) / w.parts(a) as f64
-            });
+            let centre: [f64; 3] =
+                std::array::from_fn(|a| w.low[a] as f64 + (at[a] as f64 + 0.5) / w.parts(a) as f64);
             if wet(centre) { 1.0 } else { 0.0 }
         })
         .collect()
@@ -188,7 +187,11 @@ pub fn hagen_poiseuille_mask(radius: f64, shift: [f64; 2], voxel: f64, path: Pat
             |_, j, k| !tube(j, k),
         );
         let mut flow = Flow::new([3, n * refine, n * refine], 3, vec![vec![block]]);
-        flow.path = if refine == 1 { path } else { PathRule::Combined };
+        flow.path = if refine == 1 {
+            path
+        } else {
+            PathRule::Combined
+        };
         flow.periodic_flux() / r.powi(4)
     };
     flux(1) / flux(4)

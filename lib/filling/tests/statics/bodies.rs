@@ -1,9 +1,7 @@
 //! Steady flows driven by moving bodies: forces against lubrication theory and an independent
 //! finite-element solution. Run with `--nocapture` to see the errors.
 
-mod common;
-
-use common::{Flow, worst};
+use super::flow::{Flow, worst};
 use physics::VoxelBlock;
 
 /// Force between plates closing at unit speed over the exact 8 V a^3/h^3 (plane) for a film of
@@ -12,13 +10,17 @@ fn squeeze_film(gap: f64, aspect: usize, offset: f64, slip: f64) -> f64 {
     let half = aspect * gap as usize;
     let low = 2.0 + offset;
     let cells = [half + 6, gap as usize + 5, 1];
-    let plate = |from: f64, to: f64| vec![VoxelBlock::solid_box([-9.0, from, 0.0], [999.0, to, 1.0])];
+    let plate =
+        |from: f64, to: f64| vec![VoxelBlock::solid_box([-9.0, from, 0.0], [999.0, to, 1.0])];
     let mut flow = Flow::new(cells, 2, vec![plate(-9.0, low), plate(low + gap, 99.0)]);
     flow.slip = slip;
     flow.speeds[1] = [0.0, -1.0, 0.0];
     let solved = flow.solve(|x| x[0] < half as f64);
     let balance = solved.forces[0][1] / solved.forces[1][1] + 1.0;
-    assert!(balance.abs() < 1e-3, "the plates' forces differ by {balance}");
+    assert!(
+        balance.abs() < 1e-3,
+        "the plates' forces differ by {balance}"
+    );
     let mobility = 1.0 + 6.0 * slip / gap;
     solved.forces[1][1] / (4.0 * (half as f64 / gap).powi(3)) * mobility
 }
@@ -27,7 +29,8 @@ fn squeeze_film(gap: f64, aspect: usize, offset: f64, slip: f64) -> f64 {
 fn squeeze_film_between_plates() {
     for (gap, tolerance) in [(2.0, 0.1), (3.0, 0.02), (6.0, 0.01)] {
         for slip in [0.0, 0.01] {
-            let error = worst((0..4).map(|i| squeeze_film(gap, 16, 0.25 * f64::from(i), slip) - 1.0));
+            let error =
+                worst((0..4).map(|i| squeeze_film(gap, 16, 0.25 * f64::from(i), slip) - 1.0));
             println!("squeeze film, gap {gap}, influence length {slip}: force error {error:+.4}");
             assert!(error.abs() < tolerance, "gap {gap}: {error}");
         }
@@ -38,7 +41,8 @@ fn squeeze_film_between_plates() {
 /// slip velocity is the stress times the influence length l.
 fn couette(n: f64, offset: f64, slip: f64) -> f64 {
     let low = 2.0 + offset;
-    let plate = |from: f64, to: f64| vec![VoxelBlock::solid_box([-9.0, from, 0.0], [99.0, to, 1.0])];
+    let plate =
+        |from: f64, to: f64| vec![VoxelBlock::solid_box([-9.0, from, 0.0], [99.0, to, 1.0])];
     let cells = [4, n as usize + 5, 1];
     let mut flow = Flow::new(cells, 2, vec![plate(-9.0, low), plate(low + n, 99.0)]);
     flow.domain.boundary[0] = physics::Boundary::Periodic;
@@ -79,7 +83,10 @@ fn slit_pressure(n: usize, length: f64, offset: f64) -> f64 {
         VoxelBlock::solid_box([x0, top, 0.0], [a, far, 1.0]),
         VoxelBlock::solid_box([b, top, 0.0], [x0 + width, far, 1.0]),
     ];
-    let piston = vec![VoxelBlock::solid_box([x0, -9.0, 0.0], [x0 + width, 1.0, 1.0])];
+    let piston = vec![VoxelBlock::solid_box(
+        [x0, -9.0, 0.0],
+        [x0 + width, 1.0, 1.0],
+    )];
     let cells = [width as usize + 3, end as usize + 4, 1];
     let mut flow = Flow::new(cells, 2, vec![wood, piston]);
     flow.speeds[1] = [0.0, 1.0, 0.0];
@@ -104,9 +111,14 @@ fn pressure_in_front_of_a_slit() {
     for (n, tolerance) in [(3, 0.05), (6, 0.02), (12, 0.01)] {
         for offset in [0.0, 0.25, 0.5] {
             let found = slit_pressure(n, 3.5, offset);
-            println!("slit of {n} cells, offset {offset}: pressure {found:.3}, finite elements 3.843");
+            println!(
+                "slit of {n} cells, offset {offset}: pressure {found:.3}, finite elements 3.843"
+            );
             if offset == 0.0 {
-                assert!((found / 3.843 - 1.0).abs() < tolerance, "{n} cells: {found}");
+                assert!(
+                    (found / 3.843 - 1.0).abs() < tolerance,
+                    "{n} cells: {found}"
+                );
             }
         }
     }

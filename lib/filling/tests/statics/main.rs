@@ -1,0 +1,5 @@
+//! Steady flows against closed forms; run with `--nocapture` to see the errors.
+
+mod bodies;
+mod channels;
+mod flow;
