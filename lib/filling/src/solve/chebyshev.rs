@@ -28,7 +28,7 @@ pub(crate) struct Chebyshev {
 impl Chebyshev {
     pub(crate) fn new(a: &Csr<f64>, degree: usize, ratio: f64) -> Result<Self, SolveError> {
         let mut scale = a.diagonal();
-        if let Some(row) = scale.iter().position(|&d| !(d > 0.0)) {
+        if let Some(row) = scale.iter().position(|&d| d <= 0.0) {
             return Err(SolveError::Matrix(format!(
                 "diagonal {} of velocity row {row}; the velocity block must be positive definite",
                 scale[row]

@@ -178,33 +178,20 @@ impl<T: Real> Csr<T> {
         }
     }
 
-    /// The matrix of the entries that `keep(row, column, entry)` returns, possibly in another
-    /// precision.
-    pub(crate) fn filter_map<U: Real>(
-        &self,
-        keep: impl Fn(usize, usize, T) -> Option<U> + Sync,
-    ) -> Csr<U> {
-        let n_rows = self.n_rows();
-        let chunks = (0..n_rows.div_ceil(CHUNK))
-            .into_par_iter()
-            .map(|chunk| {
-                let range = chunk * CHUNK..n_rows.min((chunk + 1) * CHUNK);
-                let size = (self.row_start[range.end] - self.row_start[range.start]) as usize;
-                let mut rows = Rows::with_capacity(range.len(), size);
-                for row in range {
-                    let (columns, values) = self.row(row);
-                    for (&column, &entry) in columns.iter().zip(values) {
-                        if let Some(value) = keep(row, column as usize, entry) {
-                            rows.columns.push(column);
-                            rows.values.push(value);
-                        }
-                    }
-                    rows.row_end.push(rows.columns.len() as u32);
-                }
-                rows
-            })
-            .collect();
-        Csr::join(n_rows, self.n_columns, chunks)
+    /// The same matrix in another precision.
+    pub(crate) fn cast<U: Real>(&self) -> Csr<U> {
+        let mut values = vec![U::default(); self.values.len()];
+        for_chunks(&mut values, |start, part| {
+            for (out, &value) in part.iter_mut().zip(&self.values[start..]) {
+                *out = U::nearest(value.into());
+            }
+        });
+        Csr {
+            n_columns: self.n_columns,
+            row_start: self.row_start.clone(),
+            columns: self.columns.clone(),
+            values,
+        }
     }
 
     /// Row `row` times `x`, in the precision of the matrix.

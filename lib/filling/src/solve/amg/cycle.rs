@@ -68,8 +68,8 @@ impl Amg {
         &self,
         index: usize,
         b: &[Work],
-        x: &mut Vec<Work>,
-        scratch: &mut Vec<Work>,
+        x: &mut [Work],
+        scratch: &mut [Work],
         below: &mut [Vectors],
     ) {
         let Some(level) = self.levels.get(index) else {
@@ -123,7 +123,7 @@ impl Amg {
         self.descend(index, rhs, solution, scratch, below);
         multiply(solution, product);
         let curvature = dot(solution, product);
-        if !(curvature > 0.0) {
+        if curvature <= 0.0 || curvature.is_nan() {
             return;
         }
         let before = norm(rhs);
@@ -137,7 +137,7 @@ impl Amg {
         multiply(direction, second);
         let coupling = dot(direction, product);
         let second_curvature = dot(direction, second) - coupling * coupling / curvature;
-        if !(second_curvature > 0.0) {
+        if second_curvature <= 0.0 || second_curvature.is_nan() {
             scale(solution, first_step);
             return;
         }

@@ -58,7 +58,7 @@ impl Amg {
                 return Ok(Self { levels, bottom });
             }
             levels.push(Level {
-                matrix: fine.filter_map(|_, _, value| Some(Work::nearest(value))),
+                matrix: fine.cast(),
                 inverse_diagonal: inverse_diagonal(fine),
                 aggregation,
             });
