@@ -8,7 +8,8 @@
 use physics::Boundary;
 
 use crate::lanes::Quad;
-use crate::lattice::Lattice;
+use crate::lattice::{EDGE, HALO, Lattice};
+use crate::simd::{Kernel, dispatch};
 use crate::tiles::{Tile, base_of};
 use crate::walls::BlockShape;
 
@@ -34,39 +35,148 @@ pub(crate) fn move_points(tile: &mut Tile, lattice: &Lattice, bodies: &[Obstacle
     tile.lost = 0;
     tile.hits = Default::default();
     tile.push.fill([0.0; 3]);
-    let axes = lattice.axes();
-    let mut p = 0;
-    while p < tile.points.len() {
-        let base = tile.points.base[p];
-        let shift = tile.points.shift[p];
-        let mut d = tile.points.place[p];
-        if !(0..axes).all(|a| shift.0[a].abs() < 0.9) {
-            return Some(tile.points.id[p]);
-        }
-        for a in 0..axes {
-            d.0[a] += shift.0[a];
-        }
-        let mut node = tile.node_of(base);
-        if tile.bodies != 0 && tile.near_wall[usize::from(base)] {
-            collide(tile, p, node, &mut d, lattice, bodies);
-        }
-        let inside = settle(tile, p, &mut node, &mut d, lattice);
-        tile.points.place[p] = d;
-        if !inside {
-            tile.lost += 1;
-            tile.points.swap_remove(p);
-            continue;
-        }
-        let local: [i32; 3] = std::array::from_fn(|a| node[a] - tile.origin[a]);
-        if local[..axes].iter().all(|l| (0..4).contains(l)) {
-            tile.points.base[p] = base_of(local);
-            p += 1;
-        } else {
-            tile.leaving.push((node, tile.points.get(p)));
-            tile.points.swap_remove(p);
+    let mut fault = None;
+    dispatch(Move {
+        tile,
+        lattice,
+        bodies,
+        fault: &mut fault,
+    });
+    fault
+}
+
+struct Move<'a> {
+    tile: &'a mut Tile,
+    lattice: &'a Lattice,
+    bodies: &'a [Obstacle<'a>],
+    fault: &'a mut Fault,
+}
+
+impl Kernel for Move<'_> {
+    /// Most points stay with their node and far from every face; the others go one by one.
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let Self {
+            tile,
+            lattice,
+            bodies,
+            fault,
+        } = self;
+        let grids: Vec<FaceGrid> = faces(tile, lattice, bodies);
+        let axes = lattice.axes();
+        let mut p = 0;
+        while p < tile.points.len() {
+            let (shift, mut d) = (tile.points.shift[p], tile.points.place[p]);
+            for a in 0..3 {
+                d.0[a] += shift.0[a];
+            }
+            let base = usize::from(tile.points.base[p]);
+            let stays =
+                d.0[0].abs() < 0.5 && d.0[1].abs() < 0.5 && (axes == 2 || d.0[2].abs() < 0.5);
+            let clear = !tile.near_wall[base] || far(&grids, base, &d, &shift);
+            if stays && clear && !tile.at_side[base] {
+                tile.points.place[p] = d;
+                p += 1;
+            } else if !(0..axes).all(|a| shift.0[a].abs() < 0.9) {
+                *fault = Some(tile.points.id[p]);
+                return;
+            } else if move_point(tile, p, d, lattice, if clear { &[] } else { bodies }) {
+                p += 1;
+            }
         }
     }
-    None
+}
+
+/// Faces of a block's voxels in the coordinates of a tile: offset from its lowest node (cells)
+/// times `scale` plus `origin` is an integer on a face.
+struct FaceGrid {
+    scale: Quad,
+    origin: Quad,
+    /// How far (voxels) the block moves in the step, and a margin for rounding.
+    margin: Quad,
+}
+
+/// The face grids of the bodies near a tile.
+fn faces(tile: &Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Vec<FaceGrid> {
+    let near = bodies
+        .iter()
+        .enumerate()
+        .filter(|(b, _)| tile.bodies >> b & 1 == 1);
+    near.flat_map(|(_, body)| body.parts.iter().map(move |part| (body, part)))
+        .map(|(body, part)| {
+            let (mut scale, mut origin, mut margin) = (Quad::ZERO, Quad::ZERO, Quad::ZERO);
+            for a in 0..3 {
+                let inverse = 1.0 / part.voxel[a];
+                let low = (f64::from(tile.origin[a]) - body.to[a] - part.origin[a]) * inverse;
+                let travel = (body.to[a] - body.from[a]).abs() * inverse;
+                scale.0[a] = inverse as f32;
+                origin.0[a] = (low - low.floor()) as f32;
+                // Through a periodic side faces need not repeat: look at every point there.
+                let periodic = lattice.boundary[a] == Boundary::Periodic;
+                margin.0[a] = if periodic { 1.0 } else { travel as f32 + 1e-4 };
+            }
+            FaceGrid {
+                scale,
+                origin,
+                margin,
+            }
+        })
+        .collect()
+}
+
+/// Whether a point at `d` after moving by `shift` has certainly crossed no face.
+#[inline(always)]
+fn far(grids: &[FaceGrid], base: usize, d: &Quad, shift: &Quad) -> bool {
+    let local = [
+        (base % HALO) as f32,
+        (base / HALO % HALO) as f32,
+        (base / (HALO * HALO)) as f32,
+    ];
+    grids.iter().all(|grid| {
+        let mut clear = true;
+        for a in 0..3 {
+            let x = (local[a] + d.0[a]) * grid.scale.0[a] + grid.origin.0[a];
+            let part = x - x.floor();
+            let margin = shift.0[a].abs() * grid.scale.0[a] + grid.margin.0[a];
+            clear &= part > margin && part < 1.0 - margin;
+        }
+        clear
+    })
+}
+
+/// Moves point `p` to offset `d` from its old node, through the faces of `bodies`, nodes and
+/// sides; says whether it still is in the tile.
+#[inline(never)]
+fn move_point(
+    tile: &mut Tile,
+    p: usize,
+    mut d: Quad,
+    lattice: &Lattice,
+    bodies: &[Obstacle],
+) -> bool {
+    let base = tile.points.base[p];
+    let mut node = tile.node_of(base);
+    if !bodies.is_empty() {
+        collide(tile, p, node, &mut d, lattice, bodies);
+    }
+    let inside = settle(tile, p, &mut node, &mut d, lattice);
+    tile.points.place[p] = d;
+    if !inside {
+        tile.lost += 1;
+        tile.points.swap_remove(p);
+        return false;
+    }
+    let local: [i32; 3] = std::array::from_fn(|a| node[a] - tile.origin[a]);
+    let stays = local[..lattice.axes()]
+        .iter()
+        .all(|l| (0..EDGE as i32).contains(l));
+    if stays {
+        tile.points.base[p] = base_of(local);
+    } else {
+        tile.leaving.push((node, tile.points.get(p)));
+        tile.points.swap_remove(p);
+    }
+    stays
 }
 
 /// Finds the nearest node and applies the sides; says whether the point is still inside.

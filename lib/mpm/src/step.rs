@@ -11,7 +11,8 @@ use crate::nodes::{Block, Mode, NodeStep};
 use crate::plan::acoustic_limit;
 use crate::settings::VelocityUpdate;
 use crate::tiles::{NOWHERE, Tile};
-use crate::walls::NearBody;
+use crate::topology::unlink;
+use crate::walls::{BlockShape, Integrator, NearBody};
 
 /// Named stages whose time is reported.
 #[derive(Clone, Copy)]
@@ -156,12 +157,11 @@ impl Explicit {
             self.settings.velocity_update
         {
             let filter = self.kernels.filter;
-            let len = self.grid.lattice.block_len();
             for round in 2..=order {
                 let blocks = &self.grid.blocks;
                 let keep = round == 2 && mode == Mode::FilterBefore;
                 self.grid.tiles.par_iter_mut().for_each(|tile| {
-                    gather_filtered(tile, blocks, len);
+                    gather_filtered(tile, blocks);
                     filter(tile, keep);
                 });
                 let tiles = &self.grid.tiles;
@@ -184,12 +184,11 @@ impl Explicit {
         let mut tiles = std::mem::take(&mut self.grid.tiles);
         let bodies = self.obstacles(from, &self.state.displacement, velocities);
         let (blocks, lattice) = (&self.grid.blocks, &self.grid.lattice);
-        let len = lattice.block_len();
         let scale = (dt / self.scene.grid.cell_m) as f32;
         let fault = tiles
             .par_iter_mut()
             .map(|tile| {
-                gather_velocity(tile, blocks, len);
+                gather_velocity(tile, blocks);
                 (self.kernels.g2p)(tile, scale, self.settings.velocity_update);
                 self.flow.update(tile, &self.stress, dt as f32);
                 move_points(tile, lattice, &bodies)
@@ -295,9 +294,9 @@ impl Explicit {
 /// nodes within their reach changed.
 fn see(
     block: &mut Block,
-    parts: &[Vec<crate::walls::BlockShape>],
+    parts: &[Vec<BlockShape>],
     shifts: &[[f64; 3]],
-    integrator: &crate::walls::Integrator,
+    integrator: &Integrator,
 ) -> bool {
     let mut changed = false;
     for (body, (parts, &shift)) in parts.iter().zip(shifts).enumerate() {
@@ -320,10 +319,11 @@ fn see(
 }
 
 /// Copies the nodal velocities to the halo of a tile.
-fn gather_velocity(tile: &mut Tile, blocks: &[Block], len: usize) {
+fn gather_velocity(tile: &mut Tile, blocks: &[Block]) {
     for (value, &link) in tile.local.iter_mut().zip(&tile.links) {
         if link != NOWHERE {
-            *value = blocks[link as usize / len].velocity[link as usize % len];
+            let (block, node) = unlink(link);
+            *value = blocks[block].velocity[node];
         }
     }
     for (value, &flip) in tile.local.iter_mut().zip(&tile.flips) {
@@ -335,10 +335,11 @@ fn gather_velocity(tile: &mut Tile, blocks: &[Block], len: usize) {
 }
 
 /// Copies w_l of the velocity filter to the halo of a tile.
-fn gather_filtered(tile: &mut Tile, blocks: &[Block], len: usize) {
+fn gather_filtered(tile: &mut Tile, blocks: &[Block]) {
     for (value, &link) in tile.filter_in.iter_mut().zip(&tile.links) {
         if link != NOWHERE {
-            *value = blocks[link as usize / len].filtered(link as usize % len);
+            let (block, node) = unlink(link);
+            *value = blocks[block].filtered(node);
         }
     }
     for (value, &flip) in tile.filter_in.iter_mut().zip(&tile.flips) {

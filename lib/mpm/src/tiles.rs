@@ -95,7 +95,7 @@ pub(crate) struct Tile {
     /// Its lowest node.
     pub(crate) origin: [i32; 3],
     pub(crate) points: Points,
-    /// Block and node of every halo node, `block * block_len + node`, or [`NOWHERE`].
+    /// Block and node of every halo node as `topology::unlink` reads them, or [`NOWHERE`].
     pub(crate) links: Vec<u32>,
     /// Mirrored axes of every halo node; empty when no node is mirrored.
     pub(crate) flips: Vec<u8>,
@@ -108,6 +108,8 @@ pub(crate) struct Tile {
     pub(crate) filter_out: Vec<Quad>,
     /// Per window base: a body is within reach of these nodes.
     pub(crate) near_wall: Vec<bool>,
+    /// Per window base: the node is on a side of the domain.
+    pub(crate) at_side: Vec<bool>,
     /// Bodies within reach, bit b for body b.
     pub(crate) bodies: u64,
     /// Points that leave: target node and point, in order of departure.
@@ -122,9 +124,19 @@ pub(crate) struct Tile {
 impl Tile {
     pub(crate) fn new(key: u64, lattice: &Lattice, filtered: bool, bodies: usize) -> Self {
         let n = lattice.halo_len();
+        let origin = lattice.tile_origin(key);
+        let mut at_side = vec![false; n];
+        for i in 0..lattice.block_len() {
+            let local = block_node(i);
+            at_side[usize::from(base_of(local))] = (0..lattice.axes()).any(|a| {
+                let node = origin[a] + local[a];
+                node <= 0 || node >= lattice.cells[a]
+            });
+        }
         Self {
             key,
-            origin: lattice.tile_origin(key),
+            origin,
+            at_side,
             points: Points::default(),
             links: Vec::new(),
             flips: Vec::new(),

@@ -114,7 +114,7 @@ impl Grid {
                     continue;
                 };
                 let b = index[&key];
-                tile.links.push((b * n + node) as u32);
+                tile.links.push(link(b, node));
                 let source = Source {
                     tile: t as u32,
                     local: local as u16,
@@ -137,7 +137,6 @@ impl Grid {
 
     /// Marks the cells of every tile from which a body is within reach.
     pub(crate) fn mark_walls(&mut self) {
-        let n = self.lattice.block_len();
         let layers = if self.lattice.three { 3 } else { 1 };
         for tile in &mut self.tiles {
             let mut at = vec![false; tile.links.len()];
@@ -146,9 +145,10 @@ impl Grid {
                 if link == NOWHERE {
                     continue;
                 }
-                let block = &self.blocks[link as usize / n];
+                let (block, node) = unlink(link);
+                let block = &self.blocks[block];
                 for (body, wall) in block.walls.iter().enumerate() {
-                    if wall.near >> (link as usize % n) & 1 == 1 {
+                    if wall.near >> node & 1 == 1 {
                         *near = true;
                         tile.bodies |= 1 << body;
                     }
@@ -161,6 +161,17 @@ impl Grid {
             }
         }
     }
+}
+
+/// A link: block and node in one word.
+fn link(block: usize, node: usize) -> u32 {
+    (block << 6 | node) as u32
+}
+
+/// Block and node of a link.
+#[inline]
+pub(crate) fn unlink(link: u32) -> (usize, usize) {
+    (link as usize >> 6, link as usize & 63)
 }
 
 /// Block key, node in the block and mirrored axes of every halo node of a tile.
