@@ -4,6 +4,9 @@
 .PHONY: FORCE
 FORCE:
 
+# A build that fails leaves the tools of the last good one.
+.PRECIOUS: $(BINARIES)
+
 $(BINARIES) &: FORCE
 	@$(CARGO) build --release --quiet --workspace
 

@@ -3,7 +3,7 @@
 ADHESIVES := $(if $(XCT_PF)$(XCT_PVA_PF),$(if $(XCT_PF),pf) $(if $(XCT_PVA_PF),pva-pf),pf pva-pf)
 
 # Size in voxels (x, y, z) and slab thickness of the synthetic specimens.
-SIZE_quick := 32x80x32
+SIZE_quick := 40x96x40
 SIZE_small := 64x160x64
 SIZE_medium := 160x240x160
 SIZE_full := 394x394x400
@@ -23,7 +23,7 @@ ifeq ($(XCT_PF)$(XCT_PVA_PF),)
 $(OUT)/%/specimen.tif: $(BIN)/synth-xct
 	@mkdir -p $(@D)
 	$(BIN)/synth-xct --quiet --adhesive $* --size $(SIZE_$(SCALE)) --slab "$(SLAB_$(SCALE)_$*)" \
-	    --voxel "$(VOXEL)" --seed 7 -o $@
+	    --voxel "$(VOXEL)" --seed 1 -o $@
 
 $(OUT)/%/experiment.mpts: $(OUT)/%/specimen.tif $(BIN)/xct2particles
 	$(BIN)/xct2particles --quiet $< -o $@

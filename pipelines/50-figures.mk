@@ -1,0 +1,33 @@
+# Stage 5: figures of the paper from the tools' outputs.
+
+SHEARS := $(ADHESIVES:%=$(OUT)/%/xpic/shear.csv)
+FIGURES = $(foreach a,$(ADHESIVES),$(addprefix $(OUT)/figures/$(a)-,pressure.svg map.svg shear.svg slice.png start.png))
+
+.PHONY: figures
+figures: runs
+	@$(MAKE) --no-print-directory -j$(JOBS) $(FIGURES)
+	@echo "figures in $(OUT)/figures"
+
+define figure_rules
+$(OUT)/figures/$(1)-pressure.svg: $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(BIN)/bond-figures
+	@mkdir -p $$(@D)
+	$(BIN)/bond-figures pressure $(foreach r,$(RUNS),--run "$(r)=$(OUT)/$(1)/$(r)") -o $$@
+
+$(OUT)/figures/$(1)-map.svg: $(RUNS:%=$(OUT)/$(1)/%/wp.csv) $(OUT)/$(1)/experiment.csv $(BIN)/bond-figures
+	@mkdir -p $$(@D)
+	$(BIN)/bond-figures map --map "synthetic experiment=$(OUT)/$(1)/experiment-map.csv" \
+	    $(foreach r,$(RUNS),--map "$(r)=$(OUT)/$(1)/$(r)/map.csv") -o $$@
+
+$(OUT)/figures/$(1)-shear.svg: $(OUT)/$(1)/xpic/shear.csv $(BIN)/bond-figures
+	@mkdir -p $$(@D)
+	$(BIN)/bond-figures shear $$< -o $$@
+
+$(OUT)/figures/$(1)-slice.png: $(OUT)/$(1)/xpic/final.mpts $(BIN)/bond-figures
+	@mkdir -p $$(@D)
+	$(BIN)/bond-figures slice $$< -o $$@
+
+$(OUT)/figures/$(1)-start.png: $(OUT)/$(1)/bond.mpts $(BIN)/bond-figures
+	@mkdir -p $$(@D)
+	$(BIN)/bond-figures slice $$< -o $$@
+endef
+$(foreach a,$(ADHESIVES),$(eval $(call figure_rules,$(a))))
