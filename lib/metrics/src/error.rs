@@ -18,7 +18,7 @@ impl Error {
 
 impl From<particle_file::Error> for Error {
     fn from(error: particle_file::Error) -> Self {
-        Error::Data(error.to_string())
+        Error::Data(error.without_name())
     }
 }
 

@@ -30,3 +30,16 @@ pub enum Error {
         present: String,
     },
 }
+
+impl Error {
+    /// The sentence without the file's name, for callers that put it first.
+    pub fn without_name(&self) -> String {
+        match self {
+            Error::Unreadable { source, .. } => format!("the file cannot be read: {source}"),
+            Error::Corrupt { what, .. } => format!("the file {what}"),
+            Error::Missing {
+                wanted, present, ..
+            } => format!("the file has no {wanted}; it holds {present}"),
+        }
+    }
+}

@@ -25,6 +25,17 @@ pub enum Kind {
     Checkpoint,
 }
 
+impl std::fmt::Display for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Kind::Specimen => "specimen",
+            Kind::Bond => "bond before pressing",
+            Kind::State => "state of a run",
+            Kind::Checkpoint => "checkpoint of a run",
+        })
+    }
+}
+
 /// What a block is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Encode, Decode)]
 pub enum Material {

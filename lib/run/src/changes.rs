@@ -46,7 +46,16 @@ pub(crate) fn changed(
             _ => return Err(refuse(&format!("there is no '{last}' to set"))),
         }
     }
-    toml::to_string(&root).map_err(|e| RunFailure::Usage(e.to_string()))
+    let text = toml::to_string(&root).map_err(|e| RunFailure::Usage(e.to_string()))?;
+    // Lines of this text are nobody's: a refusal names the changes instead.
+    match toml::from_str::<Case>(&text) {
+        Ok(_) => Ok(text),
+        Err(error) => Err(RunFailure::Usage(format!(
+            "--set {}: {}",
+            changes.join(" --set "),
+            error.message().replace('\n', " ")
+        ))),
+    }
 }
 
 /// The value below `place` at `part`: a key of a table, made if absent, or an index of an array.
@@ -93,12 +102,12 @@ mod tests {
         assert_eq!(case.body[0].corners.min[1].si(), 0.5);
         assert!(changed(&body, Path::new("c"), &["body.1.box.min.1=0.5 m".into()]).is_err());
         assert!(changed(original, Path::new("c"), &["nonsense".into()]).is_err());
+        let said = changed(original, Path::new("c"), &["grid.cel=1".into()])
+            .unwrap_err()
+            .to_string();
         assert!(
-            Case::parse(
-                &changed(original, Path::new("c"), &["grid.cel=1".into()]).unwrap(),
-                Path::new("c")
-            )
-            .is_err()
+            said.starts_with("--set grid.cel=1: ") && said.contains("`cell`"),
+            "{said}"
         );
     }
 }

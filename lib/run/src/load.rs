@@ -21,7 +21,7 @@ pub(crate) fn bond(file: &ParticleFile) -> Result<Bond, RunFailure> {
     let header = file.header();
     if header.kind != Kind::Bond {
         return Err(RunFailure::Usage(format!(
-            "'{}' is no bond file but holds a {:?}; make one with build-bondline",
+            "'{}' is no bond file but holds a {}; make one with build-bondline",
             file.name(),
             header.kind
         )));

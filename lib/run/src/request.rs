@@ -76,8 +76,12 @@ impl Request {
     /// [`RunFailure::Usage`] and [`RunFailure::Data`].
     pub fn read(case: &Path, bond: Option<&Path>, changes: &[String]) -> Result<Self, RunFailure> {
         let original = fs::read_to_string(case).map_err(|e| {
+            let why = match e.kind() {
+                std::io::ErrorKind::InvalidData => "it is not TOML text".to_owned(),
+                _ => e.to_string(),
+            };
             RunFailure::Usage(format!(
-                "cannot read the case file '{}': {e}",
+                "cannot read the case file '{}': {why}",
                 case.display()
             ))
         })?;
@@ -142,8 +146,9 @@ impl Request {
             inputs: self.inputs.clone(),
             ..by
         };
-        let started = self.start(folder, mode, &identity)?;
+        // What the scheme refuses must not cost a run folder.
         let mut scheme = schemes::build(&self.case, self.setup.scene_for_scheme())?;
+        let started = self.start(folder, mode, &identity)?;
         let (clock, mut history) = match started {
             Start::Resumed(clock, saved) => {
                 scheme.restore(&saved).map_err(RunFailure::Data)?;

@@ -75,7 +75,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let file = ParticleFile::open(&arguments.specimen).map_err(Failure::data)?;
     if file.header().kind != Kind::Specimen {
         return Err(Failure::usage(format!(
-            "{} holds a {:?}, not a specimen: a file as xct2particles writes is needed",
+            "'{}' holds a {}, not a specimen: a file as xct2particles writes is needed",
             file.name(),
             file.header().kind
         )));
@@ -88,7 +88,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     )
     .and_then(|specimen| bondline::build(&specimen, &options))
     .map_err(|error| {
-        let said = format!("{}: {error}", file.name());
+        let said = format!("'{}': {error}", file.name());
         if error.is_unfit_data() {
             Failure::data(said)
         } else {

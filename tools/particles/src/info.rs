@@ -12,12 +12,7 @@ pub fn describe(file: &ParticleFile) -> Result<String, Failure> {
 
 fn write(out: &mut String, file: &ParticleFile) -> std::fmt::Result {
     let header = file.header();
-    let kind = match header.kind {
-        Kind::Specimen => "specimen",
-        Kind::Bond => "bond before pressing",
-        Kind::State => "state of a run",
-        Kind::Checkpoint => "checkpoint of a run",
-    };
+    let kind = header.kind;
     let normal = ["x", "y", "z"]
         .get(usize::from(header.normal))
         .unwrap_or(&"?");

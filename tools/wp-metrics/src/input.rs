@@ -96,7 +96,11 @@ fn open_file(path: &Path, options: &StackOptions) -> Result<Content, Failure> {
     let bytes = Mapped::open(path)
         .map_err(|error| Failure::data(format!("cannot read {name}: {error}")))?;
     if ParticleFile::recognises(&bytes) {
-        return ParticleFile::from_mapped(name, bytes)
+        let own_name = match from_stdin {
+            true => name,
+            false => path.display().to_string(),
+        };
+        return ParticleFile::from_mapped(own_name, bytes)
             .map(Content::Particles)
             .map_err(Failure::data);
     }

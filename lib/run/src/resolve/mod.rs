@@ -107,6 +107,15 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
             kd: g.kd,
         }),
     });
+    if let Some(pid) = clamp.and_then(|c| c.pid)
+        && [pid.kp, pid.ki, pid.kd]
+            .iter()
+            .any(|g| !(g.is_finite() && *g >= 0.0))
+    {
+        return Err(CaseError(
+            "[clamp] pid: kp, ki and kd must be numbers of at least 0".into(),
+        ));
+    }
     let (stop, time_limit_s, nominal) = stop(case, clamp, geometry.travel_m)?;
     let scene = Scene {
         dimensions,

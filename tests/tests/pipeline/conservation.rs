@@ -1,0 +1,101 @@
+//! Adhesive and wood are conserved from the stack to the end of a run.
+
+use particle_file::{Kind, ParticleFile};
+
+use crate::workbench::{METHODS, VOXEL, Workbench, grooved, said};
+
+const VOXEL_M3: f64 = 1.45e-6 * 1.45e-6 * 1.45e-6;
+
+/// Voxels of a block, by name.
+fn voxels(file: &ParticleFile, block: &str) -> u64 {
+    file.block_named(block).unwrap().1.count()
+}
+
+fn volume(file: &ParticleFile) -> f64 {
+    let column = file.column::<f32>("volume").unwrap();
+    column.iter().map(|&v| f64::from(v)).sum()
+}
+
+/// Voxels of one label in the hand-made specimen.
+fn counted(label: u8) -> u64 {
+    let rows = (0..16).flat_map(|z| (0..32).map(move |y| (y, z)));
+    rows.flat_map(|(y, z)| (0..16).map(move |x| grooved(x, y, z)))
+        .filter(|&found| found == label)
+        .count() as u64
+}
+
+#[test]
+fn voxels_and_volume_pass_through_the_pipe() {
+    let bench = Workbench::with_bond();
+    let output = bench.shell(&format!(
+        "xct2particles - -q --voxel '{VOXEL}' -o - < specimen.npy | tee a.mpts |
+         build-bondline - -q -o - | tee b.mpts |
+         mpm-run case.toml -q --particles - -o run"
+    ));
+    assert!(output.status.success(), "{}", said(&output));
+    let [specimen, bond, last] =
+        ["a.mpts", "b.mpts", "run/final.mpts"].map(|file| bench.particles(file));
+    let kinds = [&specimen, &bond, &last].map(|file| file.header().kind);
+    assert_eq!(kinds, [Kind::Specimen, Kind::Bond, Kind::State]);
+
+    let (wood, adhesive) = (counted(128), counted(255));
+    assert_eq!((wood, adhesive), (5952, 1024));
+    assert_eq!(voxels(&specimen, "wood"), wood);
+    assert_eq!(voxels(&specimen, "adhesive"), adhesive);
+    assert_eq!(voxels(&bond, "adhesive"), adhesive);
+    for file in [&bond, &last] {
+        let sides = voxels(file, "wood-bottom") + voxels(file, "wood-top");
+        assert_eq!(sides, wood);
+    }
+    // K = 1 GPa at some MPa: compression is a few tenths of a per cent, the paper's own K.
+    let kept = volume(&last) / (adhesive as f64 * VOXEL_M3);
+    println!("adhesive volume kept: {kept:.6}");
+    assert!((kept - 1.0).abs() < 0.02, "{kept}");
+    // The pipe and the files of `with_bond` are one and the same bond.
+    assert_eq!(bench.sum("b.mpts"), bench.sum("bond.mpts"));
+}
+
+/// What mpm-run reports is what a reader of its files finds.
+#[test]
+fn the_history_ends_with_the_volume_of_the_last_state() {
+    let bench = Workbench::with_bond();
+    for method in METHODS {
+        bench.pressed("run", method, &["--overwrite"]);
+        let history = String::from_utf8(bench.read("run/history.csv")).unwrap();
+        let field = |line: &str, i: usize| line.split(',').nth(i).unwrap().to_owned();
+        let header = history.lines().next().unwrap();
+        assert_eq!(field(header, 10), "adhesive_volume_m3");
+        let reported: f64 = field(history.lines().last().unwrap(), 10).parse().unwrap();
+        let found = volume(&bench.particles("run/final.mpts"));
+        assert!(
+            (found / reported - 1.0).abs() < 1e-6,
+            "{method:?}: {found} {reported}"
+        );
+        let lost = field(history.lines().last().unwrap(), 12);
+        assert_eq!(lost, "0", "{method:?}");
+    }
+}
+
+/// `-` at both ends of every tool that has both.
+#[test]
+fn every_tool_reads_and_writes_standard_streams() {
+    let bench = Workbench::with_bond();
+    bench.pressed("run", &[], &[]);
+    let lines = [
+        "wp-metrics - -q -o - < run/final.mpts | grep -q total",
+        "cat run/final.mpts | wp-metrics - --map - -o table.csv | head -1 | grep -q wp_um",
+        "shear-stats - -o - < run/final.mpts | grep -q q50",
+        "cat run/final.mpts | particles sum - | grep -q .",
+        "particles info - < bond.mpts | grep -q slab_cells",
+        "cat run/final.mpts | particles export - -f csv -o - | wc -l | grep -qx 1025",
+        "particles export run/final.mpts -f npz -o - | wc -c | grep -q .....",
+        "cat run/final.mpts | bond-figures slice - -o - | grep -q '</svg>'",
+        "synth-xct -q --adhesive pf --size 24x48x24 -o - | xct2particles - -q -o - |
+             build-bondline - -q -o - | particles check -",
+        "synth-xct -q --adhesive pf --size 24x48x24 -o - | wp-metrics - -q | grep -q total",
+    ];
+    for line in lines {
+        let output = bench.shell(line);
+        assert!(output.status.success(), "{line}: {}", said(&output));
+    }
+}

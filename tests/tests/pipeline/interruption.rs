@@ -1,0 +1,142 @@
+//! Stopped, killed and repeated runs.
+
+use std::fs;
+use std::process::{Child, Command};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crate::workbench::{Workbench, press_arguments, said};
+
+/// Long enough that a signal arrives in the middle: several thousand steps.
+const SLOW: [&str; 3] = [
+    "clamp.stop=0.6 us",
+    "integrator.cfl=0.05",
+    "output.history_every=1 ns",
+];
+
+/// Starts a run and waits until its history has `rows` lines.
+fn started(bench: &Workbench, folder: &str, more: &[&str], rows: usize) -> Child {
+    let arguments = press_arguments(folder, &SLOW, more);
+    let mut child = bench.command("mpm-run", &arguments).spawn().unwrap();
+    let history = bench.path(folder).join("history.csv");
+    let begun = Instant::now();
+    while fs::read_to_string(&history).map_or(0, |text| text.lines().count()) < rows {
+        assert!(
+            child.try_wait().unwrap().is_none(),
+            "the run ended too early"
+        );
+        assert!(begun.elapsed() < Duration::from_secs(60), "no history");
+        sleep(Duration::from_millis(2));
+    }
+    child
+}
+
+fn terminate(child: &mut Child) -> Option<i32> {
+    let sent = Command::new("kill")
+        .args(["-TERM", &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+    child.wait().unwrap().code()
+}
+
+#[test]
+fn a_stopped_run_goes_on_bit_by_bit() {
+    let bench = Workbench::with_bond();
+    bench.pressed("whole", &SLOW, &[]);
+
+    let code = terminate(&mut started(&bench, "parts", &[], 50));
+    assert_eq!(code, Some(75), "stopped early and resumable");
+    assert!(bench.path("parts/checkpoint.mpts").is_file());
+    assert!(!bench.path("parts/final.mpts").exists());
+    // A second stop, then a kill that leaves no time for a checkpoint.
+    let code = terminate(&mut started(&bench, "parts", &["--resume"], 150));
+    assert_eq!(code, Some(75));
+    let mut killed = started(&bench, "parts", &["--resume"], 250);
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert!(!bench.path("parts/final.mpts").exists());
+    bench.pressed("parts", &SLOW, &["--resume"]);
+
+    assert_eq!(bench.sum("parts/final.mpts"), bench.sum("whole/final.mpts"));
+    assert_eq!(
+        bench.read("parts/history.csv"),
+        bench.read("whole/history.csv")
+    );
+    for name in ["0000", "0001", "0002"] {
+        let [a, b] = ["parts", "whole"].map(|f| bench.sum(&format!("{f}/snapshots/{name}.mpts")));
+        assert_eq!(a, b, "{name}");
+    }
+    assert!(!bench.path("parts/checkpoint.mpts").exists());
+}
+
+#[test]
+fn a_killed_run_leaves_nothing_half_written_and_runs_again() {
+    let bench = Workbench::with_bond();
+    bench.pressed("whole", &SLOW, &[]);
+    for rows in [2, 100, 300] {
+        let mut child = started(&bench, "killed", &["--resume"], rows);
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert!(!bench.path("killed/final.mpts").exists());
+        for entry in fs::read_dir(bench.path("killed/snapshots"))
+            .into_iter()
+            .flatten()
+        {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|e| e == "mpts") {
+                bench.done("particles", &["check", path.to_str().unwrap()]);
+            }
+        }
+    }
+    bench.pressed("killed", &SLOW, &["--resume"]);
+    assert_eq!(
+        bench.sum("killed/final.mpts"),
+        bench.sum("whole/final.mpts")
+    );
+    assert_eq!(
+        bench.read("killed/history.csv"),
+        bench.read("whole/history.csv")
+    );
+}
+
+#[test]
+fn a_run_folder_is_not_reused_by_accident() {
+    let bench = Workbench::with_bond();
+    bench.pressed("run", &[], &[]);
+    let state = bench.read("run/final.mpts");
+    let again = |changes: &[&str], more: &[&str]| bench.press("run", changes, more);
+
+    let refused = again(&[], &[]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        said(&refused).contains("already holds a run"),
+        "{}",
+        said(&refused)
+    );
+    // The very same run has ended; another one may not take its place.
+    assert_eq!(again(&[], &["--resume"]).status.code(), Some(0));
+    let other = again(&["adhesive.viscosity=400 cP"], &["--resume"]);
+    assert_eq!(other.status.code(), Some(2));
+    assert!(said(&other).contains("another run"), "{}", said(&other));
+    assert!(bench.read("run/final.mpts") == state, "the run was touched");
+
+    let replaced = again(&["adhesive.viscosity=400 cP"], &["--overwrite"]);
+    assert!(replaced.status.success(), "{}", said(&replaced));
+    assert!(bench.read("run/final.mpts") != state);
+}
+
+/// A checkpoint of one case is refused by another, which would continue with wrong physics.
+#[test]
+fn a_checkpoint_belongs_to_its_case() {
+    let bench = Workbench::with_bond();
+    assert_eq!(terminate(&mut started(&bench, "run", &[], 20)), Some(75));
+    let other = bench.press("run", &["clamp.stop=0.5 us"], &["--resume"]);
+    assert_eq!(other.status.code(), Some(3));
+    assert!(said(&other).contains("another case"), "{}", said(&other));
+
+    let mut bytes = bench.read("run/checkpoint.mpts");
+    bytes.truncate(bytes.len() / 2);
+    bench.write("run/checkpoint.mpts", &bytes);
+    let damaged = bench.press("run", &SLOW, &["--resume"]);
+    assert_eq!(damaged.status.code(), Some(3), "{}", said(&damaged));
+}

@@ -1,0 +1,11 @@
+//! The built tools as a user runs them: pipes, conservation from stack to run folder,
+//! repeatability, interruption, and what bad input gets. README.md of this crate says which
+//! test checks what.
+
+mod conservation;
+mod examples;
+mod interruption;
+mod real_volume;
+mod refusals;
+mod repeatability;
+mod workbench;

@@ -1,0 +1,143 @@
+//! The same bytes for any number of threads, across repeats and for any bond normal.
+
+use std::fs;
+
+use crate::workbench::{METHODS, VOXEL, Workbench, grooved, npy};
+
+/// Names of the snapshots of a run.
+fn snapshots(bench: &Workbench, folder: &str) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(bench.path(folder).join("snapshots"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_run_is_the_same_for_any_threads_and_every_time() {
+    let bench = Workbench::with_bond();
+    for method in METHODS {
+        let runs = [("one", "1"), ("two", "2"), ("again", "2")];
+        for (folder, threads) in runs {
+            bench.pressed(folder, method, &["--threads", threads, "--overwrite"]);
+        }
+        let sum = bench.sum("one/final.mpts");
+        let names = snapshots(&bench, "one");
+        let rows = bench.read("one/history.csv");
+        assert!(
+            names.len() >= 3 && rows.len() > 1000,
+            "{method:?}: {names:?}"
+        );
+        for folder in ["two", "again"] {
+            assert_eq!(
+                bench.sum(&format!("{folder}/final.mpts")),
+                sum,
+                "{method:?}"
+            );
+            assert_eq!(
+                bench.read(&format!("{folder}/history.csv")),
+                rows,
+                "{method:?}"
+            );
+            assert_eq!(snapshots(&bench, folder), names, "{method:?}");
+            for name in &names {
+                let [a, b] = ["one", folder].map(|f| bench.sum(&format!("{f}/snapshots/{name}")));
+                assert_eq!(a, b, "{method:?} {name}");
+            }
+        }
+        // A sum that did not see the state would be the same for the first snapshot.
+        assert_ne!(bench.sum(&format!("one/snapshots/{}", names[0])), sum);
+    }
+}
+
+#[test]
+fn every_tool_writes_the_same_bytes_for_any_threads() {
+    let bench = Workbench::with_bond();
+    bench.pressed("run", &[], &[]);
+    let commands: [&[&str]; 7] = [
+        &[
+            "synth-xct",
+            "--adhesive",
+            "pf",
+            "--size",
+            "32x64x32",
+            "-o",
+            "-",
+        ],
+        &["xct2particles", "specimen.npy", "--voxel", VOXEL, "-o", "-"],
+        &["build-bondline", "specimen.mpts", "-o", "-"],
+        &["wp-metrics", "run/final.mpts", "--compare", "specimen.mpts"],
+        &["shear-stats", "run/final.mpts"],
+        &["bond-figures", "slice", "run/final.mpts", "-o", "-"],
+        &[
+            "particles",
+            "export",
+            "-f",
+            "vtp",
+            "run/final.mpts",
+            "-o",
+            "-",
+        ],
+    ];
+    for command in commands {
+        // The command line, which the provenance holds, must be the same: threads by environment.
+        let bytes = ["1", "2", "2"].map(|threads| {
+            let mut run = bench.command(command[0], &command[1..]);
+            let output = run.env("RAYON_NUM_THREADS", threads).output().unwrap();
+            assert!(output.status.success(), "{command:?}");
+            output.stdout
+        });
+        assert!(bytes[0].len() > 100, "{command:?}");
+        assert!(bytes[0] == bytes[1] && bytes[1] == bytes[2], "{command:?}");
+    }
+}
+
+/// The same specimen lying on its side gives the same metrics and the same run. The explicit
+/// scheme sums in the order of the axes of its own frame, so even the rounding agrees.
+#[test]
+fn the_axis_across_the_bond_does_not_matter() {
+    let bench = Workbench::with_bond();
+    let stacks = [
+        ("x", npy([32, 16, 16], |x, y, z| grooved(y, x, z))),
+        ("z", npy([16, 16, 32], |x, y, z| grooved(x, z, y))),
+    ];
+    bench.pressed("y", &[], &[]);
+    let table = |specimen: &str, normal: &str| {
+        let csv = bench.done("wp-metrics", &["--normal", normal, specimen]);
+        csv.lines()
+            .map(|line| line.split_once(',').unwrap().1.to_owned())
+            .collect::<Vec<_>>()
+    };
+    for (normal, stack) in stacks {
+        bench.write("turned.npy", stack);
+        bench.convert("turned.npy", "turned.mpts");
+        assert_eq!(table("turned.mpts", normal), table("specimen.mpts", "y"));
+        bench.done(
+            "build-bondline",
+            &[
+                "-q",
+                "turned.mpts",
+                "--normal",
+                normal,
+                "-o",
+                "turned-bond.mpts",
+            ],
+        );
+        bench.done(
+            "mpm-run",
+            &[
+                "-q",
+                "case.toml",
+                "--particles",
+                "turned-bond.mpts",
+                "-o",
+                normal,
+            ],
+        );
+        let history = |folder: &str| bench.read(&format!("{folder}/history.csv"));
+        assert_eq!(history(normal), history("y"), "normal {normal}");
+        let state = |folder: &str| table(&format!("{folder}/final.mpts"), folder);
+        assert_eq!(state(normal), state("y"), "normal {normal}");
+    }
+}
