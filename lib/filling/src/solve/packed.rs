@@ -256,3 +256,69 @@ fn nearest(first: usize, lanes: &[(&[u32], &[f64]); LANES]) -> Option<i64> {
         .filter_map(|(i, lane)| next_distance(first + i, lane))
         .min()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Neighbours at distance 1 and 300, and one far away in the mirrored row.
+    fn matrix(n: usize) -> Csr<f64> {
+        let matrix = Csr::assemble(n, n, |row, entries| {
+            entries.add(row, 5.0 + (row % 7) as f64);
+            for distance in [1, 300] {
+                if row >= distance {
+                    entries.add(row - distance, -1.0 - (row % 3) as f64);
+                }
+                if row + distance < n {
+                    entries.add(row + distance, 0.3 - (row % 5) as f64);
+                }
+            }
+            entries.add(n - 1 - row, 0.7);
+        });
+        matrix.unwrap()
+    }
+
+    #[test]
+    fn products_agree_with_plain_rows() {
+        // More rows than an offset reaches, and not a multiple of eight.
+        let n = WINDOW + 4467;
+        let a = matrix(n);
+        let scale: Vec<f64> = a.diagonal().iter().map(|d| 1.0 / d.sqrt()).collect();
+        let packed = PackedMatrix::new(&a, &scale).unwrap();
+        let mut x = vec![0.0; packed.padded_len()];
+        for (i, x) in x[..n].iter_mut().enumerate() {
+            *x = (0.1 * i as Work).sin();
+        }
+        let (mut plain, mut absolute) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+        packed.for_blocks(&x, &mut plain, |_, product, out| *out = product);
+        packed.multiply_absolute(&x, &mut absolute);
+        for row in 0..n {
+            let (columns, values) = a.row(row);
+            let (mut sum, mut absolute_sum) = (0.0, f64::from(x[row]));
+            for (&column, &value) in columns.iter().zip(values) {
+                let column = column as usize;
+                if column != row {
+                    let entry = value * scale[row] * scale[column];
+                    sum += entry * f64::from(x[column]);
+                    absolute_sum += entry.abs() * f64::from(x[column]);
+                }
+            }
+            // Half a fixed-point unit per entry.
+            assert!(
+                (sum - f64::from(plain[row])).abs() < 6.0 * 0.5 / UNIT,
+                "row {row}"
+            );
+            assert!((absolute_sum - f64::from(absolute[row])).abs() < 6.0 * 0.5 / UNIT);
+        }
+    }
+
+    #[test]
+    fn an_entry_above_the_diagonal_is_refused() {
+        let a = Csr::assemble(2, 2, |row, entries| {
+            entries.add(row, 1.0);
+            entries.add(1 - row, 1.5);
+        });
+        let error = PackedMatrix::new(&a.unwrap(), &[1.0, 1.0]).err();
+        assert!(error.is_some_and(|e| e.to_string().contains("positive definite")));
+    }
+}

@@ -23,7 +23,9 @@ pub struct SaddleSystem<'a> {
     /// Compressibility of every cell, not negative.
     pub c: &'a [f64],
     /// `D_B` of every face, positive: liquid volume times
-    /// `rho/dt + 12 eta/h^2 (1/H_1^2 + 1/H_2^2)` with the free paths `H` across the lumen.
+    /// `rho/dt + 12 eta/h^2 (1/H_1^2 + 1/H_2^2)` with the free paths `H` across the lumen. Walls
+    /// that slip count less, frictionless ones not at all: with their paths included the
+    /// iterations double.
     pub friction: &'a [f64],
     /// Twice the viscosity of every cell, not multiplied by its volume.
     pub two_eta: &'a [f64],
