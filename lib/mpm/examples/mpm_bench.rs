@@ -5,7 +5,7 @@
 //! `case` picks the lines that begin with it, such as `wood,Gimp`.
 //! Scene "wood": a slab of liquid between two porous voxel blocks with voxels of half a cell,
 //! eight points per cell, the upper one closing at 1 m/s, partial slip. Scene "free": the same
-//! liquid without bodies. Threads: `RAYON_NUM_THREADS`. Rates are per wall-clock second and,
+//! liquid without bodies, scene "table" the first with the paper's PVA-PF table. Threads: `RAYON_NUM_THREADS`. Rates are per wall-clock second and,
 //! for machines that are shared, per second of processor time.
 
 use std::time::Instant;
@@ -13,7 +13,7 @@ use std::time::Instant;
 use mpm::{Explicit, Settings, ShapeFunction, VelocityUpdate};
 use physics::{
     Boundary, Clamp, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene,
-    Scheme, ShearRate, StepLimit, Stop, Tait, Viscosity, VoxelBlock, WallLaw,
+    Scheme, ShearRate, StepLimit, Stop, Table, Tait, Viscosity, VoxelBlock, WallLaw,
 };
 
 const CELL: f64 = 2.9e-6;
@@ -26,7 +26,18 @@ fn porous(i: usize, j: usize) -> bool {
     i % 14 < 2 || j % 14 < 2
 }
 
-fn scene(walls: bool) -> Scene {
+/// The paper's Table 1.
+fn pva_pf() -> Viscosity {
+    let points = [
+        (1.0, 210.0),
+        (6.30957, 87.0),
+        (39.8107, 1.7),
+        (501.187, 1.0),
+    ];
+    Viscosity::Table(Table::new(&points).expect("a valid table"))
+}
+
+fn scene(walls: bool, viscosity: Viscosity) -> Scene {
     let height = 2 * WOOD + SLAB;
     let mut points = Points::default();
     for k in 0..2 * WIDTH {
@@ -67,7 +78,7 @@ fn scene(walls: bool) -> Scene {
         liquid: Liquid {
             density: 1200.0,
             tait: Tait { bulk_modulus: 1e9 },
-            viscosity: Viscosity::Newtonian(Newtonian(1.3)),
+            viscosity,
             shear_rate: ShearRate::Paper,
             cavitation_pressure: None,
         },
@@ -110,8 +121,12 @@ fn main() {
     println!(
         "scene,shape,update,threads,points,steps,million_point_steps_per_s,per_cpu_s,stages_percent"
     );
-    for walls in [true, false] {
-        let scene = scene(walls);
+    let pf = || Viscosity::Newtonian(Newtonian(1.3));
+    for (scene_name, scene) in [
+        ("wood", scene(true, pf())),
+        ("free", scene(false, pf())),
+        ("table", scene(true, pva_pf())),
+    ] {
         for (shape, update) in [
             (ShapeFunction::Gimp, VelocityUpdate::Flip),
             (ShapeFunction::Gimp, VelocityUpdate::Xpic(5)),
@@ -119,7 +134,6 @@ fn main() {
             (ShapeFunction::Bspline2, VelocityUpdate::Flip),
             (ShapeFunction::Linear, VelocityUpdate::Flip),
         ] {
-            let scene_name = if walls { "wood" } else { "free" };
             let name = format!("{scene_name},{shape:?},{update:?}");
             if !name.starts_with(&only) {
                 continue;

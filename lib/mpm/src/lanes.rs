@@ -46,16 +46,6 @@ macro_rules! lanes {
                 }
                 Self(r)
             }
-
-            /// Sum.
-            #[inline(always)]
-            pub(crate) fn plus(self, b: Self) -> Self {
-                let mut r = self.0;
-                for l in 0..$n {
-                    r[l] += b.0[l];
-                }
-                Self(r)
-            }
         }
     };
 }

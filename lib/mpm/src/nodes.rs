@@ -174,7 +174,7 @@ impl Block {
                     value.0[vectors[1] + a] = -value.0[vectors[1] + a];
                 }
             }
-            sum = sum.plus(value);
+            sum = sum.add_scaled::<false>(1.0, value);
         }
         sum
     }

@@ -51,27 +51,57 @@ fn lowest_root<R: Rheology>(law: &R, rate: f64, a: f64) -> f64 {
         return 1.0 / (1.0 + a * law.viscosity(rate));
     }
     let excess = |x: f64| x * (1.0 + a * law.viscosity(x * rate)) - 1.0;
-    let mut low = 0.0;
-    let mut high = 1.0;
-    for &breakpoint in law.breakpoints() {
-        let x = breakpoint / rate;
-        if x >= 1.0 {
-            break;
-        }
-        if excess(x) >= 0.0 {
-            high = x;
-            break;
-        }
-        low = x;
+    // Below the first and above the last breakpoint the viscosity is one number.
+    let constant = |beyond: f64| 1.0 / (1.0 + a * law.viscosity(beyond));
+    let breakpoints = law.breakpoints();
+    let (Some(&first), Some(&last)) = (breakpoints.first(), breakpoints.last()) else {
+        return constant(rate);
+    };
+    let slow = constant(first);
+    if slow * rate <= first {
+        return slow;
     }
-    // Between breakpoints the excess can still bend, so bisect: the bracket keeps the sign
-    // change that lies lowest to within the resolution of the table.
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if excess(middle) < 0.0 {
-            low = middle;
+    let (mut low, mut at_low) = (first / rate, excess(first / rate));
+    for &breakpoint in &breakpoints[1..] {
+        let high = (breakpoint / rate).min(1.0);
+        let at_high = excess(high);
+        if at_high >= 0.0 {
+            return bracketed(excess, (low, at_low), (high, at_high));
+        }
+        (low, at_low) = (high, at_high);
+    }
+    constant(last)
+}
+
+/// The root between `low`, where `excess` is negative, and `high`, where it is not, by the
+/// Illinois variant of false position (Dowell & Jarratt 1971, 10.1007/BF01934364).
+fn bracketed(
+    excess: impl Fn(f64) -> f64,
+    (mut low, mut at_low): (f64, f64),
+    (mut high, mut at_high): (f64, f64),
+) -> f64 {
+    let mut side = 0;
+    for _ in 0..100 {
+        if high - low <= 1e-13 * high || at_high == 0.0 {
+            break;
+        }
+        let x = (low * at_high - high * at_low) / (at_high - at_low);
+        let at_x = excess(x);
+        if at_x < 0.0 {
+            (low, at_low) = (x, at_x);
+            if side == -1 {
+                at_high *= 0.5;
+            }
+            side = -1;
         } else {
-            high = middle;
+            (high, at_high) = (x, at_x);
+            if side == 1 {
+                at_low *= 0.5;
+            }
+            side = 1;
+        }
+        if at_x.abs() < 1e-12 {
+            return x;
         }
     }
     high
