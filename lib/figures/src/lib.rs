@@ -13,6 +13,7 @@ mod drawing;
 mod error;
 mod legend;
 mod panels;
+mod raster;
 mod render;
 mod shear_rate;
 mod slice;

@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -216,18 +216,29 @@ impl FromStr for Target {
     }
 }
 
-/// `LABEL=PATH`, or a path alone, which is its own label.
+/// `LABEL=PATH`, or a path alone, whose last two names are its label.
 fn labelled(text: &str) -> Result<Labelled, String> {
-    let (label, path) = text.split_once('=').unwrap_or((text, text));
+    let (label, path) = match text.split_once('=') {
+        Some((label, path)) => (label.to_owned(), path),
+        None => (short_name(Path::new(text)), text),
+    };
     if label.is_empty() || path.is_empty() {
         return Err(format!(
             "'{text}' needs a label and a path, as in FLIP=out/pf-flip"
         ));
     }
     Ok(Labelled {
-        label: label.into(),
+        label,
         path: PathBuf::from(path),
     })
+}
+
+/// `xpic/final` for `out/quick/pf/xpic/final.mpts`.
+fn short_name(path: &Path) -> String {
+    let folder = path.parent().and_then(Path::file_name);
+    let names = folder.into_iter().chain(path.file_stem());
+    let names: Vec<_> = names.map(|name| name.to_string_lossy()).collect();
+    names.join("/")
 }
 
 fn experiment(text: &str) -> Result<Case, String> {

@@ -1,7 +1,8 @@
 //! The command line of bond-figures: exit statuses, formats, what goes where.
 
+use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 fn figures(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_bond-figures"))
@@ -69,6 +70,31 @@ fn standard_output_gets_the_svg_alone() {
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     let svg = String::from_utf8(output.stdout).unwrap();
     roxmltree::Document::parse(&svg).unwrap();
+}
+
+#[test]
+fn standard_input_is_read_where_a_file_is_a_dash() {
+    let folder = folder();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_bond-figures"))
+        .args([
+            "pressure", "--run", "piped=-", "--run", "file=run", "-o", "p.svg",
+        ])
+        .current_dir(folder.path())
+        .stdin(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut pipe = child.stdin.take().unwrap();
+    pipe.write_all(HISTORY.as_bytes()).unwrap();
+    drop(pipe);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    let record = folder.path().join("p.svg.provenance.json");
+    let record = std::fs::read_to_string(record).unwrap();
+    assert!(record.contains("\"path\": \"-\""), "{record}");
+    let twice = figures(
+        folder.path(),
+        &["map", "--map", "-", "--map", "-", "-o", "m.svg"],
+    );
+    assert_eq!(twice.status.code(), Some(2), "{}", said(&twice));
 }
 
 #[test]

@@ -11,6 +11,7 @@
 
 mod adherend;
 mod anatomy;
+mod cross_section;
 mod cut;
 mod fibres;
 mod penetration;

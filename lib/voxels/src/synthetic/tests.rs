@@ -147,10 +147,46 @@ fn the_adhesive_has_the_slabs_volume() {
     }
 }
 
+/// At equal pressure and time a tube is filled to a depth that goes with its radius (Washburn).
+#[test]
+fn wide_lumens_are_filled_deeper_in_proportion_to_their_radius() {
+    let size = [24, 240, 24];
+    let recipe = Recipe {
+        size,
+        voxel: VOXEL,
+        adhesive: AdhesiveSystem::PvaPf,
+        slab: Some(30e-6),
+        seed: 1,
+    };
+    let plan = Plan::new(&recipe).unwrap();
+    let mut cells = vec![0_u8; plan.voxels()];
+    for (i, cell) in cells.iter_mut().enumerate() {
+        let (x, y) = (i % 24, i / 24 % 240);
+        *cell = match (x, y) {
+            (_, 118..=121) => penetration::GAP,
+            (0..=5, _) => 40,
+            (12..=13, _) => 10,
+            _ => 0,
+        };
+    }
+    penetration::fill(&mut cells, &plan).unwrap();
+    let depth = |x: usize| {
+        let column = (122..240).map(|y| cells[y * 24 + x]);
+        column.take_while(|&c| c == penetration::FILLED).count() as f64
+    };
+    let (wide, narrow) = (depth(2), depth(12));
+    println!(
+        "depth {wide} at radius 40 um, {narrow} at 10 um: ratio {:.2}",
+        wide / narrow
+    );
+    assert!(narrow > 4.0 && wide < 118.0);
+    assert!((wide / narrow - 4.0).abs() < 0.4);
+}
+
 #[test]
 fn adhesive_is_connected_to_the_gap_but_for_the_tube_of_pf() {
     for adhesive in [AdhesiveSystem::Pf, AdhesiveSystem::PvaPf] {
-        let specimen = grow([393, 393, 64], adhesive, 1);
+        let specimen = grow([300, 300, 40], adhesive, 1);
         let all = specimen.labels().iter().filter(|&&l| l == ADHESIVE).count();
         let through_adhesive = flood(&specimen, ADHESIVE, |label| label == ADHESIVE, false);
         let connected = through_adhesive.iter().filter(|r| **r).count();

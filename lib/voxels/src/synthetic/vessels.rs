@@ -1,14 +1,15 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
+use super::cross_section::{Bins, Cover, Point};
 use super::cut::{Cut, WoodPoint};
 use super::random::{Feature, stream};
 use super::recipe::{AdhesiveSystem, Plan};
 
 /// Share of the cross-section that vessels with their walls take.
-const SHARE: f32 = 0.33;
+pub(super) const SHARE: f32 = 0.33;
 /// By how much the share may exceed that.
-const TOLERANCE: f32 = 0.02;
+pub(super) const TOLERANCE: f32 = 0.02;
 /// Lumen diameter of vessels, um.
 const DIAMETER: [f32; 2] = [50.0, 92.0];
 /// Wall of a vessel, um; fibres add their half wall outside it.
@@ -18,7 +19,7 @@ const SHARED_HALF_WALL: f32 = 2.0;
 /// Least wood between two groups, um.
 const BETWEEN: f32 = 5.0;
 /// How far outside a vessel its distance is still needed (fibre walls), um.
-const REACH: f32 = 8.0;
+pub(super) const REACH: f32 = 8.0;
 /// Chances that a group has 1, 2, 3 or 4 vessels, cumulated.
 const GROUPS: [f32; 4] = [0.45, 0.75, 0.92, 1.0];
 /// Spacing of the members of a multiple over the sum of their radii: below one, so that the
@@ -142,7 +143,7 @@ impl Vessel {
         self.outside(other.r, other.t) - other.radius > 2.0 * WALL + BETWEEN
     }
 
-    fn covers(&self, point: &Point) -> bool {
+    pub(super) fn covers(&self, point: &Point) -> bool {
         self.outside(point.r, point.t) < WALL
     }
 
@@ -239,119 +240,4 @@ fn isolated(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Opt
     let mut tube = Vessel::new(centre.r, centre.t, radius, random);
     tube.sealed = true;
     Some(tube)
-}
-
-/// Sample points over the cross-section: which share do vessels cover, in all and in the box.
-struct Cover {
-    points: Vec<Point>,
-}
-
-struct Point {
-    r: f32,
-    t: f32,
-    in_box: bool,
-    covered: bool,
-}
-
-const POINT_SPACING: f32 = 8.0;
-
-impl Cover {
-    fn new(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
-        let [low, high] = plan.half_box(side);
-        let along = |[low, high]: [f32; 2]| {
-            let count = ((high - low) / POINT_SPACING) as usize;
-            (0..count).map(move |i| low + (i as f32 + 0.5) * POINT_SPACING)
-        };
-        let point = |(r, t)| {
-            let place = cut.crossing(r, t);
-            let in_box = (0..2).all(|i| (low[i]..high[i]).contains(&place[i]));
-            Point {
-                r,
-                t,
-                in_box,
-                covered: false,
-            }
-        };
-        let pairs = along(bounds[0]).flat_map(|r| along(bounds[1]).map(move |t| (r, t)));
-        Self {
-            points: pairs.map(point).collect(),
-        }
-    }
-
-    fn add(&mut self, vessel: &Vessel) {
-        for point in &mut self.points {
-            point.covered |= vessel.covers(point);
-        }
-    }
-
-    /// Covered share of the box.
-    fn in_box(&self) -> f32 {
-        let (all, covered, _) = self.count(true, &[]);
-        covered as f32 / all.max(1) as f32
-    }
-
-    /// Whether the shares in and around the box stay below `SHARE` with one more group: a
-    /// small box is as much vessel as the opened ones make it, not more.
-    fn has_room(&self, group: &[Vessel]) -> bool {
-        [true, false].into_iter().all(|in_box| {
-            let (all, covered, newly) = self.count(in_box, group);
-            newly == 0 || (covered + newly) as f32 <= (SHARE + TOLERANCE) * all as f32
-        })
-    }
-
-    /// Points in the box or around it, those covered, and those a group would newly cover.
-    fn count(&self, in_box: bool, group: &[Vessel]) -> (usize, usize, usize) {
-        let points = self.points.iter().filter(|point| point.in_box == in_box);
-        points.fold((0, 0, 0), |(all, covered, newly), point| {
-            let new = !point.covered && group.iter().any(|vessel| vessel.covers(point));
-            (
-                all + 1,
-                covered + usize::from(point.covered),
-                newly + usize::from(new),
-            )
-        })
-    }
-}
-
-/// Vessels near a place, from square bins over the cross-section.
-struct Bins {
-    origin: [f32; 2],
-    columns: usize,
-    bins: Vec<Vec<u16>>,
-}
-
-const BIN: f32 = 40.0;
-
-impl Bins {
-    fn new(members: &[Vessel], bounds: [[f32; 2]; 2]) -> Self {
-        let count = bounds.map(|[low, high]| ((high - low) / BIN).ceil().max(1.0) as usize);
-        let origin = bounds.map(|[low, _]| low);
-        let mut bins = vec![Vec::new(); count[0] * count[1]];
-        for (index, vessel) in members.iter().enumerate() {
-            let reach = vessel.radius + WALL + REACH;
-            let span = |centre: f32, axis: usize| {
-                let bin = |s: f32| ((s - origin[axis]) / BIN).max(0.0) as usize;
-                bin(centre - reach)..(bin(centre + reach) + 1).min(count[axis])
-            };
-            for i in span(vessel.r, 0) {
-                for j in span(vessel.t, 1) {
-                    bins[i * count[1] + j].push(index as u16);
-                }
-            }
-        }
-        Self {
-            origin,
-            columns: count[1],
-            bins,
-        }
-    }
-
-    fn near(&self, r: f32, t: f32) -> &[u16] {
-        let i = ((r - self.origin[0]) / BIN).max(0.0) as usize;
-        let j = ((t - self.origin[1]) / BIN).max(0.0) as usize;
-        match self.bins.get(i * self.columns + j.min(self.columns - 1)) {
-            Some(bin) => bin,
-            None => &[],
-        }
-    }
 }

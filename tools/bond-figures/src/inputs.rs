@@ -1,0 +1,95 @@
+use std::io;
+use std::path::{Path, PathBuf};
+
+use cli::{Failure, InputRecord, Record};
+use figures::{Case, Labelled};
+use tempfile::NamedTempFile;
+
+/// The files of a figure; standard input is among them as a temporary file.
+pub(crate) struct Inputs {
+    files: Vec<Labelled>,
+    /// The files as the user named them.
+    given: Vec<PathBuf>,
+    /// Keeps the copy of standard input until the figure is written.
+    _spooled: Option<NamedTempFile>,
+}
+
+impl Inputs {
+    /// Takes the files as they are, `-` as standard input.
+    pub(crate) fn new(files: Vec<Labelled>) -> Result<Self, Failure> {
+        let given: Vec<PathBuf> = files.iter().map(|file| file.path.clone()).collect();
+        let from_pipe = |path: &PathBuf| path == Path::new("-");
+        let spooled = match given.iter().filter(|path| from_pipe(path)).count() {
+            0 => None,
+            1 => Some(spool().map_err(|e| Failure::failed(format!("cannot spool '-': {e}")))?),
+            _ => {
+                return Err(Failure::usage(
+                    "'-' can be read once and is given more often",
+                ));
+            }
+        };
+        let placed = files.into_iter().map(|mut file| {
+            if let Some(copy) = spooled.as_ref().filter(|_| from_pipe(&file.path)) {
+                file.path = copy.path().to_owned();
+            }
+            file
+        });
+        Ok(Self {
+            files: placed.collect(),
+            given,
+            _spooled: spooled,
+        })
+    }
+
+    /// As [`Inputs::new`]; a run folder stands for its `history.csv`.
+    pub(crate) fn of_runs(mut runs: Vec<Labelled>) -> Result<Self, Failure> {
+        for run in &mut runs {
+            if run.path.is_dir() {
+                run.path.push("history.csv");
+            }
+        }
+        Self::new(runs)
+    }
+
+    /// As [`Inputs::new`], and the cases with their files in place.
+    pub(crate) fn of_cases(cases: Vec<Case>) -> Result<(Self, Vec<Case>), Failure> {
+        let file = |case: &Case| Labelled {
+            label: case.name.clone(),
+            path: case.path.clone(),
+        };
+        let inputs = Self::new(cases.iter().map(file).collect())?;
+        let placed = cases.into_iter().zip(&inputs.files);
+        let cases = placed.map(|(case, file)| Case {
+            path: file.path.clone(),
+            ..case
+        });
+        let cases = cases.collect();
+        Ok((inputs, cases))
+    }
+
+    pub(crate) fn files(&self) -> &[Labelled] {
+        &self.files
+    }
+
+    /// The provenance of an output made of these files.
+    pub(crate) fn record(&self) -> Result<Record, Failure> {
+        let hashed = self.files.iter().zip(&self.given).map(|(file, given)| {
+            let name = given.display().to_string();
+            cli::hash_file(&file.path)
+                .map(|hash| InputRecord::new(name.clone(), hash))
+                .map_err(|e| Failure::data(format!("cannot read '{name}': {e}")))
+        });
+        let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
+        Ok(Record::new(
+            tool,
+            version,
+            hashed.collect::<Result<_, _>>()?,
+        ))
+    }
+}
+
+fn spool() -> io::Result<NamedTempFile> {
+    let mut copy = NamedTempFile::new()?;
+    io::copy(&mut io::stdin().lock(), &mut copy)?;
+    Ok(copy)
+}
