@@ -14,9 +14,17 @@ const SLOW: [&str; 3] = [
     "output.history_every=1 ns",
 ];
 
+/// The same by the other scheme, some hundred steps.
+const SLOW_IMPLICIT: [&str; 4] = [
+    "integrator.scheme=implicit",
+    "clamp.stop=0.5 us",
+    "integrator.cfl=0.02",
+    "output.history_every=1 ns",
+];
+
 /// Starts a run and waits until its history has `rows` lines.
-fn started(bench: &Workbench, folder: &str, more: &[&str], rows: usize) -> Child {
-    let arguments = press_arguments(folder, &SLOW, more);
+fn started(bench: &Workbench, folder: &str, changes: &[&str], more: &[&str], rows: usize) -> Child {
+    let arguments = press_arguments(folder, changes, more);
     let mut child = bench.command("mpm-run", &arguments).spawn().unwrap();
     let history = bench.path(folder).join("history.csv");
     let begun = Instant::now();
@@ -39,34 +47,46 @@ fn terminate(child: &mut Child) -> Option<i32> {
     child.wait().unwrap().code()
 }
 
-#[test]
-fn a_stopped_run_goes_on_bit_by_bit() {
+/// Stops a run after `rows` of its history, again later, kills it, and lets it end.
+fn goes_on_bit_by_bit(changes: &[&str], rows: [usize; 3]) {
     let bench = Workbench::with_bond();
-    bench.pressed("whole", &SLOW, &[]);
+    bench.pressed("whole", changes, &[]);
 
-    let code = terminate(&mut started(&bench, "parts", &[], 50));
+    let code = terminate(&mut started(&bench, "parts", changes, &[], rows[0]));
     assert_eq!(code, Some(75), "stopped early and resumable");
     assert!(bench.path("parts/checkpoint.mpts").is_file());
     assert!(!bench.path("parts/final.mpts").exists());
-    // A second stop, then a kill that leaves no time for a checkpoint.
-    let code = terminate(&mut started(&bench, "parts", &["--resume"], 150));
+    let resume = ["--resume"];
+    let code = terminate(&mut started(&bench, "parts", changes, &resume, rows[1]));
     assert_eq!(code, Some(75));
-    let mut killed = started(&bench, "parts", &["--resume"], 250);
+    // A kill leaves no time for a checkpoint: the run goes back to the last.
+    let mut killed = started(&bench, "parts", changes, &resume, rows[2]);
     killed.kill().unwrap();
     killed.wait().unwrap();
     assert!(!bench.path("parts/final.mpts").exists());
-    bench.pressed("parts", &SLOW, &["--resume"]);
+    bench.pressed("parts", changes, &resume);
 
-    assert_eq!(bench.sum("parts/final.mpts"), bench.sum("whole/final.mpts"));
-    assert_eq!(
-        bench.read("parts/history.csv"),
-        bench.read("whole/history.csv")
-    );
+    let same_sum = |file: &str| {
+        let [parts, whole] = ["parts", "whole"].map(|f| bench.sum(&format!("{f}/{file}")));
+        assert_eq!(parts, whole, "{file}");
+    };
+    same_sum("final.mpts");
     for name in ["0000", "0001", "0002"] {
-        let [a, b] = ["parts", "whole"].map(|f| bench.sum(&format!("{f}/snapshots/{name}.mpts")));
-        assert_eq!(a, b, "{name}");
+        same_sum(&format!("snapshots/{name}.mpts"));
     }
+    let history = |folder: &str| bench.read(&format!("{folder}/history.csv"));
+    assert_eq!(history("parts"), history("whole"));
     assert!(!bench.path("parts/checkpoint.mpts").exists());
+}
+
+#[test]
+fn a_stopped_explicit_run_goes_on_bit_by_bit() {
+    goes_on_bit_by_bit(&SLOW, [50, 150, 250]);
+}
+
+#[test]
+fn a_stopped_implicit_run_goes_on_bit_by_bit() {
+    goes_on_bit_by_bit(&SLOW_IMPLICIT, [8, 20, 32]);
 }
 
 #[test]
@@ -74,7 +94,7 @@ fn a_killed_run_leaves_nothing_half_written_and_runs_again() {
     let bench = Workbench::with_bond();
     bench.pressed("whole", &SLOW, &[]);
     for rows in [2, 100, 300] {
-        let mut child = started(&bench, "killed", &["--resume"], rows);
+        let mut child = started(&bench, "killed", &SLOW, &["--resume"], rows);
         child.kill().unwrap();
         child.wait().unwrap();
         assert!(!bench.path("killed/final.mpts").exists());
@@ -129,7 +149,10 @@ fn a_run_folder_is_not_reused_by_accident() {
 #[test]
 fn a_checkpoint_belongs_to_its_case() {
     let bench = Workbench::with_bond();
-    assert_eq!(terminate(&mut started(&bench, "run", &[], 20)), Some(75));
+    assert_eq!(
+        terminate(&mut started(&bench, "run", &SLOW, &[], 20)),
+        Some(75)
+    );
     let other = bench.press("run", &["clamp.stop=0.5 us"], &["--resume"]);
     assert_eq!(other.status.code(), Some(3));
     assert!(said(&other).contains("another case"), "{}", said(&other));

@@ -4,6 +4,7 @@
 
 mod conservation;
 mod examples;
+mod forged;
 mod interruption;
 mod real_volume;
 mod refusals;

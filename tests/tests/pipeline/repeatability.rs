@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::workbench::{METHODS, VOXEL, Workbench, grooved, npy};
+use crate::workbench::{METHODS, VOXEL, Workbench, grooved, npy, said};
 
 /// Names of the snapshots of a run.
 fn snapshots(bench: &Workbench, folder: &str) -> Vec<String> {
@@ -93,51 +93,53 @@ fn every_tool_writes_the_same_bytes_for_any_threads() {
     }
 }
 
-/// The same specimen lying on its side gives the same metrics and the same run. The explicit
-/// scheme sums in the order of the axes of its own frame, so even the rounding agrees.
+/// More threads than are of use are not started: a run would take hours.
+#[test]
+fn threads_are_limited_by_the_cores() {
+    let bench = Workbench::with_bond();
+    let short = ["clamp.stop=0.05 us"];
+    bench.pressed("one", &short, &["--threads", "1"]);
+    let output = bench.press("many", &short, &["--threads", "4096"]);
+    assert!(output.status.success(), "{}", said(&output));
+    assert!(said(&output).contains("4096 threads"), "{}", said(&output));
+    assert_eq!(bench.sum("many/final.mpts"), bench.sum("one/final.mpts"));
+}
+
+/// The same specimen lying on its side gives the same metrics and the same run, to the last
+/// bit: solvers know one frame only.
 #[test]
 fn the_axis_across_the_bond_does_not_matter() {
     let bench = Workbench::with_bond();
-    let stacks = [
-        ("x", npy([32, 16, 16], |x, y, z| grooved(y, x, z))),
-        ("z", npy([16, 16, 32], |x, y, z| grooved(x, z, y))),
-    ];
-    bench.pressed("y", &[], &[]);
     let table = |specimen: &str, normal: &str| {
         let csv = bench.done("wp-metrics", &["--normal", normal, specimen]);
         csv.lines()
             .map(|line| line.split_once(',').unwrap().1.to_owned())
             .collect::<Vec<_>>()
     };
-    for (normal, stack) in stacks {
+    let turned = [
+        ("x", npy([32, 16, 16], |x, y, z| grooved(y, x, z))),
+        ("z", npy([16, 16, 32], |x, y, z| grooved(x, z, y))),
+    ];
+    for (normal, stack) in &turned {
         bench.write("turned.npy", stack);
         bench.convert("turned.npy", "turned.mpts");
         assert_eq!(table("turned.mpts", normal), table("specimen.mpts", "y"));
-        bench.done(
-            "build-bondline",
-            &[
-                "-q",
-                "turned.mpts",
-                "--normal",
-                normal,
-                "-o",
-                "turned-bond.mpts",
-            ],
-        );
-        bench.done(
-            "mpm-run",
-            &[
-                "-q",
-                "case.toml",
-                "--particles",
-                "turned-bond.mpts",
-                "-o",
-                normal,
-            ],
-        );
-        let history = |folder: &str| bench.read(&format!("{folder}/history.csv"));
-        assert_eq!(history(normal), history("y"), "normal {normal}");
-        let state = |folder: &str| table(&format!("{folder}/final.mpts"), folder);
-        assert_eq!(state(normal), state("y"), "normal {normal}");
+        let bond = format!("{normal}.mpts");
+        let arguments = ["-q", "turned.mpts", "--normal", normal, "-o", &bond];
+        bench.done("build-bondline", &arguments);
+    }
+    fs::copy(bench.path("bond.mpts"), bench.path("y.mpts")).unwrap();
+    for scheme in ["explicit", "implicit"] {
+        let scheme = format!("integrator.scheme={scheme}");
+        let pressed = ["x", "y", "z"].map(|normal| {
+            let bond = format!("{normal}.mpts");
+            let mut arguments = vec!["-q", "case.toml", "--particles", &bond, "--set", &scheme];
+            arguments.extend(["-o", normal, "--overwrite"]);
+            bench.done("mpm-run", &arguments);
+            let state = table(&format!("{normal}/final.mpts"), normal);
+            (bench.read(&format!("{normal}/history.csv")), state)
+        });
+        assert!(pressed[0] == pressed[1], "{scheme}, x and y differ");
+        assert!(pressed[2] == pressed[1], "{scheme}, z and y differ");
     }
 }

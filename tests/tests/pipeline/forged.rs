@@ -1,0 +1,75 @@
+//! Bond files that are sound as files but describe no bond: a sentence, never a panic, and no
+//! memory beyond what the file is worth.
+
+use std::fs::File;
+
+use particle_file::{Block, Draft, Header, ParticleFile};
+
+use crate::workbench::{Workbench, said};
+
+/// Writes `bond.mpts` again as `to` with header and blocks changed.
+fn forge(bench: &Workbench, to: &str, change: impl Fn(&mut Header, &mut [Block])) {
+    let file: ParticleFile = bench.particles("bond.mpts");
+    let names = ["wood-bottom", "wood-top", "adhesive"];
+    let parts = names.map(|name| file.block_named(name).unwrap());
+    let mut header = file.header().clone();
+    let mut blocks = parts.clone().map(|(block, _)| block.clone());
+    change(&mut header, &mut blocks);
+    let mut draft = Draft::new(header);
+    for (block, (_, bits)) in blocks.into_iter().zip(parts) {
+        draft = draft.block(block, bits);
+    }
+    let mut out = File::create(bench.path(to)).unwrap();
+    draft.write_to(&mut out).unwrap();
+}
+
+type Change = fn(&mut Header, &mut [Block]);
+
+const FORGERIES: [(&str, Change); 12] = [
+    ("gap of a kilometre", |h, _| h.set_attribute("gap_m", 1e3)),
+    ("negative gap", |h, _| h.set_attribute("gap_m", -1e-6)),
+    ("gap that is no number", |h, _| {
+        h.set_attribute("gap_m", "wide")
+    }),
+    ("no gap", |h, _| h.set_attribute("gap_m", 0.0)),
+    ("box of a kilometre", |h, _| h.box_max_m = [1e3; 3]),
+    ("box far from its blocks", |h, _| {
+        (h.box_min_m, h.box_max_m) = ([1.0; 3], [1.0 + 23.2e-6; 3]);
+    }),
+    ("flat box", |h, _| h.box_max_m = h.box_min_m),
+    ("adhesive outside the box", |_, b| {
+        b[2].origin_m = [0.0, 1.0, 0.0]
+    }),
+    ("wood far away", |_, b| b[1].origin_m = [1e300; 3]),
+    ("tiny adhesive voxels", |_, b| b[2].voxel_m = 1e-30),
+    ("huge wood voxels", |_, b| b[0].voxel_m = 1e30),
+    ("adhesive in the wood", |_, b| b[2].origin_m = b[0].origin_m),
+];
+
+#[test]
+fn forged_bonds_end_in_a_sentence() {
+    let bench = Workbench::with_bond();
+    let mut wrong = Vec::new();
+    for (what, change) in FORGERIES {
+        forge(&bench, "forged.mpts", change);
+        for scheme in ["explicit", "implicit"] {
+            // Little address space: a request for more is a mistake here. Time likewise.
+            let line = format!(
+                "ulimit -v 4000000; timeout 20 mpm-run -q case.toml --particles forged.mpts -o run \
+                 --overwrite --threads 2 --set clamp.stop='20 ns' --set integrator.scheme={scheme}"
+            );
+            let output = bench.shell(&line);
+            let told = said(&output);
+            let code = output.status.code();
+            println!(
+                "{what}, {scheme}: {code:?} {}",
+                told.lines().last().unwrap_or("")
+            );
+            let ended = matches!(code, Some(0..=3)) && !told.contains("panicked");
+            if !ended || (code != Some(0) && !told.contains("mpm-run: ")) {
+                wrong.push(format!("{what}, {scheme}: {code:?} {told}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
