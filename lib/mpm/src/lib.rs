@@ -10,6 +10,9 @@
 //! offset from it; nodes live in blocks of the same size, which exist only where liquid is.
 //! Lengths inside are in cells, masses in (density x cell^3), velocities in m/s.
 
+// Loops over axes and lanes index several short arrays at once.
+#![allow(clippy::needless_range_loop)]
+
 mod collide;
 mod contact;
 mod explicit;

@@ -341,15 +341,13 @@ fn columns(
 
 #[cfg(test)]
 mod tests {
-    use physics::Dimensions;
-
     use super::*;
 
     fn lattice() -> Lattice {
         Lattice {
             cells: [20, 20, 20],
             boundary: [Boundary::Open; 3],
-            three: Dimensions::Three == Dimensions::Three,
+            three: true,
         }
     }
 
