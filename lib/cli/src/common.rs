@@ -86,11 +86,21 @@ fn generate<A: CommandFactory>(what: Generate) -> Result<(), Failure> {
     };
     match shell {
         Some(shell) => clap_complete::generate(shell, &mut command, name, &mut text),
-        None => clap_mangen::Man::new(command)
-            .render(&mut text)
-            .map_err(|e| Failure::write("the man page", &e))?,
+        None => {
+            command.build();
+            man_pages(&command, &mut text).map_err(|e| Failure::write("the man page", &e))?;
+        }
     }
     Output::Stdout.write(|out| out.write_all(&text))
+}
+
+/// The page of a command, and behind it those of its subcommands, to which it refers.
+fn man_pages(command: &clap::Command, out: &mut Vec<u8>) -> io::Result<()> {
+    clap_mangen::Man::new(command.clone()).render(out)?;
+    for subcommand in command.get_subcommands().filter(|s| s.get_name() != "help") {
+        man_pages(subcommand, out)?;
+    }
+    Ok(())
 }
 
 fn usage(error: &clap::Error) -> ExitCode {

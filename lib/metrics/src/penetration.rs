@@ -76,7 +76,8 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     let total: f64 = samples.iter().map(|s| s.volume).sum();
     Side::ALL.map(|side| {
         let of_side = || samples.iter().filter(|s| side.includes(s.side));
-        let volume: f64 = of_side().map(|s| s.volume).sum();
+        // The sum of nothing is -0.
+        let volume = of_side().map(|s| s.volume).sum::<f64>() + 0.0;
         let squares: f64 = of_side().map(|s| s.volume * s.depth * s.depth).sum();
         let depths = Weighted::new(of_side().map(|s| (s.depth, s.volume)).collect());
         Penetration {

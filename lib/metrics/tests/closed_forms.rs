@@ -106,6 +106,7 @@ fn a_side_without_adhesive_has_no_penetration() {
     let [bottom, top, total] = measured(&stack.state(Axis::Y), Reference::Plane(10.0 * VOXEL));
     assert!(bottom.wp_m.is_nan() && bottom.max_depth_m.is_nan());
     assert_eq!((bottom.volume_m3, bottom.voxels), (0.0, 0));
+    assert!(bottom.volume_m3.is_sign_positive());
     assert!(close(top.wp_m, total.wp_m, 1e-12));
 }
 

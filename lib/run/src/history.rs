@@ -77,8 +77,8 @@ impl History {
             report.dt_s,
             report.closing_speed,
             report.travel_m,
-            report.pressure_bottom,
-            report.pressure_top,
+            report.pressure_bottom + 0.0, // no -0
+            report.pressure_top + 0.0,
             diagnostics.kinetic_energy,
             diagnostics.viscous_power,
             diagnostics.volume,

@@ -108,7 +108,10 @@ fn every_tool_has_help_version_man_page_and_refuses_zero_threads() {
             "{tool} has fewer than three examples"
         );
         assert!(bench.done(tool, &["--version"]).starts_with(tool));
-        assert!(bench.done(tool, &["--generate", "man"]).contains(".TH"));
+        let man = bench.done(tool, &["--generate", "man"]);
+        // One page, and one for each subcommand.
+        let pages = man.lines().filter(|l| l.starts_with(".TH")).count();
+        assert_eq!(pages, 1 + subcommands(&help), "{tool}");
         for shell in ["bash", "zsh", "fish"] {
             assert!(bench.done(tool, &["--generate", shell]).contains(tool));
         }
@@ -125,6 +128,15 @@ fn every_tool_has_help_version_man_page_and_refuses_zero_threads() {
             said(&refused)
         );
     }
+}
+
+/// Subcommands that a help text lists, `help` aside.
+fn subcommands(help: &str) -> usize {
+    let list = help.split_once("Commands:\n").map_or("", |(_, list)| list);
+    let lines = list.lines().take_while(|line| !line.is_empty());
+    // A description that goes on is indented further.
+    let names = lines.filter(|line| !line.starts_with("   ") && !line.contains("  help "));
+    names.count()
 }
 
 /// The reader of a pipe that goes away ends a tool quietly.
