@@ -9,6 +9,7 @@ pub mod fractions;
 pub mod lattice;
 pub mod operator;
 pub mod particles;
+mod plan;
 pub mod reach;
 mod settings;
 pub mod solids;
@@ -17,5 +18,6 @@ mod step;
 pub mod wall;
 pub mod window;
 
+pub use plan::Plan;
 pub use settings::Settings;
 pub use step::Implicit;

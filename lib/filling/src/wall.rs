@@ -24,8 +24,7 @@ pub fn effective_distance(d: f64, opposite: f64, path: f64) -> f64 {
     let h1 = d + 0.5;
     let half = 0.5 * path;
     let point = path * d - d * d;
-    let excess =
-        h1 * point - half * h1 * h1 + h1.powi(3) / 3.0 + (half - h1) / 12.0;
+    let excess = h1 * point - half * h1 * h1 + h1.powi(3) / 3.0 + (half - h1) / 12.0;
     (d * (1.0 - d / path) - 2.0 / (path * path) * excess).max(0.2 * d)
 }
 
@@ -75,7 +74,13 @@ mod tests {
 
     #[test]
     fn slit_flux_is_exact_at_any_offset() {
-        for (n, tolerance) in [(1.5, 0.25), (2.0, 0.11), (3.0, 0.02), (6.0, 0.002), (12.0, 0.001)] {
+        for (n, tolerance) in [
+            (1.5, 0.25),
+            (2.0, 0.11),
+            (3.0, 0.02),
+            (6.0, 0.002),
+            (12.0, 0.001),
+        ] {
             for slip in [0.0, 0.01, 1.0] {
                 let errors = (0..20).map(|i| flux(n, 0.05 * f64::from(i), slip) - 1.0);
                 let worst = errors.fold(0.0, |a: f64, e| if e.abs() > a.abs() { e } else { a });

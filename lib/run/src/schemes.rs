@@ -31,7 +31,7 @@ pub(crate) fn build(case: &Case, scene: Scene) -> Result<Box<dyn Scheme>, RunFai
 pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailure> {
     match case.integrator.scheme {
         SchemeName::Explicit => explicit_forecast(&explicit(case)?, setup),
-        SchemeName::Implicit => Err(RunFailure::Usage("implicit is not there yet".into())),
+        SchemeName::Implicit => Ok(implicit_forecast(&implicit(case)?, setup)),
     }
 }
 
@@ -125,4 +125,19 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
             / (EXPLICIT_SPEED * rayon::current_num_threads() as f64),
         notes,
     })
+}
+
+fn implicit_forecast(settings: &filling::Settings, setup: &Setup) -> Forecast {
+    let plan = filling::Plan::new(&setup.scene, settings);
+    Forecast {
+        dt_s: plan.dt_s,
+        limit: "advective, cfl cell/|v|, shorter as the liquid gets faster".into(),
+        steps: plan.steps,
+        memory_bytes: plan.memory_bytes,
+        seconds: plan.cpu_s / rayon::current_num_threads() as f64,
+        notes: vec![format!(
+            "unknowns           {:.2e} velocities and pressures in {:.2e} liquid cells",
+            plan.unknowns, plan.liquid_cells
+        )],
+    }
 }

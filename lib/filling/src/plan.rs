@@ -1,0 +1,85 @@
+//! What an implicit run of a scene will take.
+
+use physics::{Dimensions, Scene, Stop};
+
+use crate::settings::Settings;
+
+/// Speed of the liquid that sets the time step over that of the body that drives it, averaged
+/// over a run: wood closing on a slab gives 1.5 at first and 6 towards the end.
+const SPEED_RATIO: f64 = 4.0;
+/// Krylov iterations of a step, solves for load control included.
+const ITERATIONS: f64 = 25.0;
+/// Seconds per unknown and iteration on one core, and per material point and step.
+const SECONDS: [f64; 2] = [0.3e-6, 2.5e-6];
+/// Bytes per unknown (matrices, Krylov basis, multigrid), per cell of the window (fractions,
+/// faces, fields), and per material point.
+const BYTES: [f64; 3] = [700.0, 260.0, 100.0];
+
+/// Size and cost of a run; cheap, nothing is allocated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// Cells of the domain.
+    pub cells: f64,
+    /// Cells that the liquid fills.
+    pub liquid_cells: f64,
+    /// Velocity and pressure unknowns of a step.
+    pub unknowns: f64,
+    /// First time step, s.
+    pub dt_s: f64,
+    /// Steps to the end if the clamp keeps its full speed.
+    pub steps: f64,
+    /// Memory, bytes.
+    pub memory_bytes: f64,
+    /// Processor seconds: wall time is that over the number of cores.
+    pub cpu_s: f64,
+}
+
+impl Plan {
+    /// The plan for `scene`.
+    pub fn new(scene: &Scene, settings: &Settings) -> Self {
+        let h = scene.grid.cell_m;
+        let axes = match scene.dimensions {
+            Dimensions::Two => 2.0,
+            Dimensions::Three => 3.0,
+        };
+        let cells: f64 = scene.grid.cells.iter().map(|&n| n as f64).product();
+        let liquid_cells = scene.liquid_volume() / h.powi(3);
+        // Surfaces add faces to the d per cell inside.
+        let unknowns = liquid_cells * (1.0 + 1.1 * axes);
+        let speed = scene.initial_speed();
+        let dt_s = if speed > 0.0 {
+            settings.cfl * h / speed
+        } else {
+            let pull = scene.gravity.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+            (2.0 * settings.cfl * h / pull).sqrt()
+        };
+        let duration = match scene.stop {
+            Stop::Time(time) => time,
+            Stop::Closed { travel_m } => travel_m / speed,
+        };
+        let steps = (SPEED_RATIO * duration / dt_s).ceil().max(1.0);
+        let points = scene.points.position.len() as f64;
+        Self {
+            cells,
+            liquid_cells,
+            unknowns,
+            dt_s,
+            steps,
+            memory_bytes: BYTES[0] * unknowns + BYTES[1] * window(scene) + BYTES[2] * points,
+            cpu_s: steps * (SECONDS[0] * ITERATIONS * unknowns + SECONDS[1] * points),
+        }
+    }
+}
+
+/// Cells of the box around the liquid when it has spread as far as it is thick, at most all.
+fn window(scene: &Scene) -> f64 {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for x in &scene.points.position {
+        (low, high) = (low.min(x[1]), high.max(x[1]));
+    }
+    let cells = scene.grid.cells;
+    let thick = (3.0 * (high - low) / scene.grid.cell_m)
+        .min(cells[1] as f64)
+        .max(1.0);
+    cells[0] as f64 * cells[2] as f64 * thick
+}
