@@ -97,31 +97,28 @@ fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) 
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let mut file = tempfile::Builder::new()
-        .prefix(".bondline-")
-        .suffix(".tmp")
-        .tempfile_in(folder)?;
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".bondline-").suffix(".tmp");
+    allow_as_umask(&mut builder);
+    let mut file = builder.tempfile_in(folder)?;
     {
         let mut out = BufWriter::with_capacity(1 << 20, file.as_file_mut());
         body(&mut out)?;
         out.flush()?;
     }
-    // tempfile creates with 0600; an output is readable as the user's umask says.
-    set_default_mode(file.as_file())?;
     file.persist(path).map_err(|e| e.error)?;
     Ok(())
 }
 
+/// Temporary files are private by default; an output is readable as the user's umask says.
 #[cfg(unix)]
-fn set_default_mode(file: &File) -> io::Result<()> {
+fn allow_as_umask(builder: &mut tempfile::Builder) {
     use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(fs::Permissions::from_mode(0o644))
+    builder.permissions(fs::Permissions::from_mode(0o666));
 }
 
 #[cfg(not(unix))]
-fn set_default_mode(_: &File) -> io::Result<()> {
-    Ok(())
-}
+fn allow_as_umask(_: &mut tempfile::Builder) {}
 
 #[cfg(test)]
 mod tests {

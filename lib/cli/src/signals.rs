@@ -8,19 +8,20 @@ use crate::Failure;
 
 static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
-/// From now on the first SIGINT or SIGTERM only sets the flag that [`interrupted`] reads;
-/// a second one ends the process at once.
+/// From now on SIGINT and SIGTERM only set the flag that [`interrupted`] reads; a second
+/// SIGINT, a user's second Ctrl-C, ends the process at once. Not so a second SIGTERM: GNU
+/// `timeout` and batch systems send one to the process and one to its group.
 ///
 /// # Errors
 /// Exit 1 when the system refuses the handler.
 pub fn catch_interrupts() -> Result<(), Failure> {
     let flag = FLAG.get_or_init(|| Arc::new(AtomicBool::new(false)));
-    for signal in [SIGINT, SIGTERM] {
-        signal_hook::flag::register_conditional_shutdown(signal, 75, Arc::clone(flag))
-            .and_then(|_| signal_hook::flag::register(signal, Arc::clone(flag)))
-            .map_err(|e| Failure::failed(format!("cannot catch signal {signal}: {e}")))?;
-    }
-    Ok(())
+    let caught = signal_hook::flag::register_conditional_shutdown(SIGINT, 75, Arc::clone(flag))
+        .and_then(|_| signal_hook::flag::register(SIGINT, Arc::clone(flag)))
+        .and_then(|_| signal_hook::flag::register(SIGTERM, Arc::clone(flag)));
+    caught
+        .map(|_| ())
+        .map_err(|e| Failure::failed(format!("cannot catch interrupts: {e}")))
 }
 
 /// Whether the user asked the run to stop.

@@ -93,6 +93,9 @@ fn every_tool_reads_and_writes_standard_streams() {
         "synth-xct -q --adhesive pf --size 24x48x24 -o - | xct2particles - -q -o - |
              build-bondline - -q -o - | particles check -",
         "synth-xct -q --adhesive pf --size 24x48x24 -o - | wp-metrics - -q | grep -q total",
+        // A file has the rights that the user's mask leaves.
+        "umask 077; wp-metrics run/final.mpts -o own.csv; stat -c %a own.csv | grep -qx 600",
+        "umask 022; wp-metrics run/final.mpts -o all.csv; stat -c %a all.csv | grep -qx 644",
     ];
     for line in lines {
         let output = bench.shell(line);

@@ -39,11 +39,14 @@ fn started(bench: &Workbench, folder: &str, changes: &[&str], more: &[&str], row
     child
 }
 
+/// Sends SIGTERM more than once, as GNU `timeout` and batch systems do.
 fn terminate(child: &mut Child) -> Option<i32> {
-    let sent = Command::new("kill")
-        .args(["-TERM", &child.id().to_string()])
-        .status();
-    assert!(sent.unwrap().success());
+    for _ in 0..3 {
+        let sent = Command::new("kill")
+            .args(["-TERM", &child.id().to_string()])
+            .status();
+        assert!(sent.unwrap().success());
+    }
     child.wait().unwrap().code()
 }
 

@@ -119,7 +119,7 @@ fn grid(case: &Case, cell: f64, depth: Option<f64>) -> Result<GridBox, CaseError
         let n = ((max[a] - min[a]) / cell - 1e-6).ceil().max(1.0);
         if n > 1e5 {
             return Err(CaseError(format!(
-                "the domain is {n} cells long, more than 100000: the cell is too small"
+                "the domain is {n:.3e} cells long, more than 100000: the cell is too small"
             )));
         }
         cells[a] = n as usize;
