@@ -178,7 +178,7 @@ fn channel_flux(shape: ShapeFunction, update: VelocityUpdate, width: f64, offset
 fn plane_poiseuille() {
     for shape in SHAPES {
         for update in [VelocityUpdate::Flip, VelocityUpdate::Xpic(5)] {
-            for offset in [0.0, 0.25, 0.5, 0.75] {
+            for offset in [0.0, 0.5] {
                 let flux = channel_flux(shape, update, 6.0, offset);
                 println!(
                     "{shape:?} {update:?}: six cells, walls {offset} cell off the nodes: flux {flux:.3}"
@@ -261,15 +261,25 @@ fn film(update: VelocityUpdate, offset: f64, boost: f64) -> (f64, f64) {
 #[test]
 fn film_on_an_incline() {
     for update in [VelocityUpdate::Flip, VelocityUpdate::Xpic(5)] {
-        for offset in [0.0, 0.25, 0.5, 0.75] {
-            let (error, noise) = film(update, offset, 200.0);
+        for offset in [0.0, 0.5] {
+            let (error, noise) = film(update, offset, 400.0);
             println!(
                 "{update:?}: floor {offset} cell off the nodes: rms error {:.2} %, v_y noise {:.2} % of v_max",
                 100.0 * error,
                 100.0 * noise
             );
+            // On the nodes linear interpolation between them leaves 0.5 %; off the nodes the
+            // paper's contact puts the wall elsewhere, which is reported only.
             if offset == 0.0 {
-                assert!(error < 0.05);
+                assert!(error < 0.01);
+                assert!(
+                    noise
+                        < if update == VelocityUpdate::Flip {
+                            0.01
+                        } else {
+                            0.001
+                        }
+                );
             }
         }
     }

@@ -7,7 +7,7 @@ use mpm::{Explicit, ShapeFunction, VelocityUpdate};
 use physics::{Boundary, Clamp, Motion, RigidBody, Scene, Scheme, VoxelBlock, WallLaw};
 use scenes::{CELL, FREE, fill, scene, settings, solid};
 
-const WIDTH: usize = 6;
+const WIDTH: usize = 4;
 
 /// Liquid between a lid that the clamp moves and wood with an empty lumen below a roof of
 /// `thickness` voxels; a second, filled lumen stands beside it behind a wall as thin.
@@ -69,18 +69,17 @@ fn sealed(thickness: usize, offset: f64) -> Scene {
 fn thin_walls_hold() {
     for update in [VelocityUpdate::Flip, VelocityUpdate::Xpic(2)] {
         for thickness in [1, 2] {
-            for step in 0..5 {
-                let offset = 0.19 * f64::from(step);
+            for offset in [0.0, 0.38, 0.76] {
                 let s = sealed(thickness, offset);
                 let settings = settings(ShapeFunction::Gimp, update, 0.5);
                 let mut run = Explicit::new(&s, &settings).unwrap();
                 let v0 = run.diagnostics().volume;
                 let (mut bottom, mut top, mut largest) = (0.0, 0.0, 0.0_f64);
-                for i in 0..1500 {
+                for i in 0..900 {
                     let report = run.advance(FREE).unwrap();
-                    if i >= 1000 {
-                        bottom += report.pressure_bottom / 500.0;
-                        top += report.pressure_top / 500.0;
+                    if i >= 500 {
+                        bottom += report.pressure_bottom / 400.0;
+                        top += report.pressure_top / 400.0;
                     }
                     largest = largest.max(report.pressure_top);
                 }
@@ -103,6 +102,10 @@ fn thin_walls_hold() {
                     mean_p / 1e6,
                 );
                 assert_eq!(leaked, 0);
+                // Both bodies carry the same; when a face lies half a cell off the nodes a layer
+                // of half a cell at it goes unstrained, so the mean in the liquid may be half.
+                assert!((bottom / top - 1.0).abs() < 0.02);
+                assert!((0.45..1.2).contains(&(mean_p / bottom)));
                 assert_eq!(run.corrections().trapped, 0);
             }
         }
