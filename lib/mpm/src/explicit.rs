@@ -104,11 +104,9 @@ impl Explicit {
             separation: separation_limit(settings.shape),
             grid: Grid::new(lattice, scene.bodies.len(), filtered, affine),
             parts,
-            // Sound crosses a cell in ten units of the controller's time: it reacts to the
-            // pressure of about the last 10^4 units, the time of a wave across the bond line.
             control: scene
                 .clamp
-                .map(|clamp| PidControl::new(clamp, 0.1 * cell / scene.liquid.sound_speed())),
+                .map(|clamp| PidControl::new(clamp, cell / scene.liquid.sound_speed())),
             state: State {
                 step: 0,
                 time_s: 0.0,

@@ -1,0 +1,146 @@
+//! Integrals of the shape function along one axis.
+
+use physics::Boundary;
+
+use super::BlockShape;
+use crate::lattice::Lattice;
+use crate::settings::ShapeFunction;
+
+/// Integrals over one voxel along one axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slice {
+    pub(super) index: usize,
+    /// Of the shape function, of its slope, and of the shape function times position.
+    pub(super) w: f32,
+    pub(super) g: f32,
+    pub(super) m: f32,
+}
+
+/// What is needed to integrate over bodies.
+#[derive(Clone, Debug)]
+pub(crate) struct Integrator {
+    pub(super) lattice: Lattice,
+    spline: bool,
+}
+
+impl Integrator {
+    pub(crate) fn new(lattice: &Lattice, shape: ShapeFunction) -> Self {
+        Self {
+            lattice: lattice.clone(),
+            spline: shape == ShapeFunction::Bspline2,
+        }
+    }
+
+    fn reach(&self) -> f64 {
+        if self.spline { 1.5 } else { 1.0 }
+    }
+
+    /// The shape function at `x` cells from the node.
+    fn value(&self, x: f64) -> f64 {
+        let a = x.abs();
+        if !self.spline {
+            (1.0 - a).max(0.0)
+        } else if a < 0.5 {
+            0.75 - a * a
+        } else {
+            0.5 * (1.5 - a).max(0.0).powi(2)
+        }
+    }
+
+    /// Its integral from minus infinity to `x`.
+    fn integral(&self, x: f64) -> f64 {
+        let half = |a: f64| {
+            if !self.spline {
+                0.5 * (1.0 - a).max(0.0).powi(2)
+            } else if a < 0.5 {
+                0.5 - 0.75 * a + a.powi(3) / 3.0
+            } else {
+                (1.5 - a).max(0.0).powi(3) / 6.0
+            }
+        };
+        if x < 0.0 { half(-x) } else { 1.0 - half(x) }
+    }
+
+    /// The integral of x times it from minus infinity to `x`.
+    fn moment(&self, x: f64) -> f64 {
+        let a = x.abs().min(self.reach());
+        if !self.spline {
+            a * a / 2.0 - a.powi(3) / 3.0 - 1.0 / 6.0
+        } else if a < 0.5 {
+            0.375 * a * a - a.powi(4) / 4.0 - 13.0 / 64.0
+        } else {
+            let u = 1.5 - a;
+            u.powi(4) / 8.0 - u.powi(3) / 4.0
+        }
+    }
+
+    /// Integrals over the voxels of `block` within reach (+ `margin`) of node `g` on `axis`,
+    /// the body being displaced by `shift` cells. Mirror and periodic images are included.
+    pub(super) fn slices(
+        &self,
+        block: &BlockShape,
+        axis: usize,
+        g: i32,
+        shift: f64,
+        margin: f64,
+    ) -> Vec<Slice> {
+        let (origin, voxel) = (block.origin[axis] + shift, block.voxel[axis]);
+        let count = block.solid.dims()[axis];
+        let mut slices = Vec::new();
+        if axis == 2 && !self.lattice.three {
+            for index in 0..count {
+                let low = (origin + index as f64 * voxel).max(0.0);
+                let high = (origin + (index + 1) as f64 * voxel).min(1.0);
+                if high > low {
+                    let w = (high - low) as f32;
+                    slices.push(Slice {
+                        index,
+                        w,
+                        g: 0.0,
+                        m: 0.0,
+                    });
+                }
+            }
+            return slices;
+        }
+        let n = f64::from(self.lattice.cells[axis]);
+        let x = f64::from(g);
+        let boundary = self.lattice.boundary[axis];
+        let mut images = vec![(x, 1.0)];
+        match boundary {
+            Boundary::Periodic => images.extend([(x - n, 1.0), (x + n, 1.0)]),
+            Boundary::Symmetry => {
+                images.extend((g != 0).then_some((-x, -1.0)));
+                images.extend((x != n).then_some((2.0 * n - x, -1.0)));
+            }
+            Boundary::Open => {}
+        }
+        let (clip_low, clip_high) = if boundary == Boundary::Symmetry {
+            (0.0, n)
+        } else {
+            (f64::NEG_INFINITY, f64::INFINITY)
+        };
+        let reach = self.reach() + margin;
+        for (node, sign) in images {
+            let first = ((node - reach - origin) / voxel).floor().max(0.0) as usize;
+            let last = ((node + reach - origin) / voxel)
+                .ceil()
+                .clamp(0.0, count as f64) as usize;
+            for index in first..last {
+                let low = (origin + index as f64 * voxel).max(clip_low);
+                let high = (origin + (index + 1) as f64 * voxel).min(clip_high);
+                if high <= low {
+                    continue;
+                }
+                let (low, high) = (low - node, high - node);
+                slices.push(Slice {
+                    index,
+                    w: (self.integral(high) - self.integral(low)) as f32,
+                    g: (sign * (self.value(high) - self.value(low))) as f32,
+                    m: (sign * (self.moment(high) - self.moment(low))) as f32,
+                });
+            }
+        }
+        slices
+    }
+}
