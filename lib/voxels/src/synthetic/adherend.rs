@@ -56,8 +56,11 @@ impl std::ops::AddAssign<&Counts> for Counts {
     }
 }
 
-/// Radius of ray cells and pits for the penetration, um.
+/// Radius of ray cells for the penetration, um.
 const RAY_RADIUS: f32 = 3.5;
+/// Radius of vessel pits for the penetration, um: their membranes are finer than a voxel and
+/// hold the adhesive back.
+const PIT_RADIUS: f32 = 1.0;
 /// Margin of the anatomy around the box, um: more than the largest vessel.
 const MARGIN: f32 = 110.0;
 
@@ -97,9 +100,10 @@ impl Adherend {
         match self.vessels.at(point) {
             Part::Lumen(vessel) if vessel.sealed => Sample::Tube,
             Part::Lumen(vessel) => Sample::Lumen(Tissue::Vessel, vessel.radius),
+            Part::Pit => Sample::Lumen(Tissue::Vessel, PIT_RADIUS),
             Part::Wall(vessel) => {
                 if !vessel.sealed && self.rays.pits_vessel(point, &place) {
-                    Sample::Lumen(Tissue::Vessel, RAY_RADIUS)
+                    Sample::Lumen(Tissue::Vessel, PIT_RADIUS)
                 } else {
                     Sample::Wall(Tissue::Vessel)
                 }

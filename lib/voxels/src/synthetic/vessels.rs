@@ -52,6 +52,8 @@ pub(super) struct Vessel {
 pub(super) enum Part<'a> {
     /// In the lumen of a vessel.
     Lumen(&'a Vessel),
+    /// In a pit between two vessels.
+    Pit,
     /// In the wall of a vessel.
     Wall(&'a Vessel),
     /// Outside all vessels, this far (um, at most `REACH`) from the nearest outer wall.
@@ -151,15 +153,12 @@ impl Vessel {
     /// `outside` and `second` are the distances from its lumen and from the next vessel's.
     fn part(&self, point: WoodPoint, outside: f32, second: f32) -> Part<'_> {
         let to_shared_wall = 0.5 * (second - outside);
-        let open = if outside >= 0.0 {
-            false
-        } else if to_shared_wall < SHARED_HALF_WALL {
-            self.in_pit(point)
-        } else {
-            !self.in_rim(point.l, outside)
-        };
-        if open {
+        if outside >= 0.0 || self.in_rim(point.l, outside) {
+            Part::Wall(self)
+        } else if to_shared_wall >= SHARED_HALF_WALL {
             Part::Lumen(self)
+        } else if self.in_pit(point) {
+            Part::Pit
         } else {
             Part::Wall(self)
         }
