@@ -14,6 +14,9 @@ use crate::outputs::Run;
 /// Width of the lumen of all scenes, m (paper section 2.3).
 pub const LUMEN: f64 = 17.4e-6;
 
+/// Measures a run; an error is a sentence.
+pub type Measure = Box<dyn Fn(&Run) -> Result<Vec<Measured>, String>>;
+
 /// A scene with the error of a run of it.
 pub struct Scene {
     /// Name of the case file, e.g. "channel-n6-off0.25".
@@ -23,7 +26,7 @@ pub struct Scene {
     /// What is compared, with its equation.
     pub against: &'static str,
     /// Named errors of a run.
-    pub measure: Box<dyn Fn(&Run) -> Result<Vec<Measured>, String>>,
+    pub measure: Measure,
 }
 
 /// One number measured against its reference.
