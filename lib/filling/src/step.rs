@@ -100,7 +100,7 @@ impl Implicit {
         let motions: Vec<Motion> = scene.bodies.iter().map(|body| body.motion).collect();
         let path = checks::path_rule(&scene);
         let area = scene.grid.area_m2();
-        let acoustic = 0.1 * units.h / scene.liquid.sound_speed();
+        let acoustic = units.h / scene.liquid.sound_speed();
         let (rest, particles, sealed) =
             checks::contents(scene.bodies, scene.points, domain, units)?;
         let options = SaddleOptions {

@@ -33,7 +33,7 @@ pub(super) struct Drive {
 }
 
 impl Drive {
-    /// `acoustic_time` is the unit of time of PID gains, s.
+    /// `acoustic_time` is how long sound takes to cross a cell, s.
     pub(super) fn new(motions: Vec<Motion>, clamp: Option<Clamp>, acoustic_time: f64) -> Self {
         let control = match clamp {
             Some(clamp) if clamp.max_pressure.is_some() => match clamp.pid {
