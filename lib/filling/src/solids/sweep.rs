@@ -75,19 +75,26 @@ impl Solids {
         first
     }
 
-    /// A place free of solids close to `point`, nearest distances first, along the axes.
+    /// A place free of solids close to `point`: nearest distances first, along the axes before
+    /// the diagonals.
     fn nearby(&self, point: [f64; 3]) -> Option<[f64; 3]> {
+        let axes = self.domain.axes;
+        let inside = |x: [f64; 3]| {
+            (0..axes).all(|a| {
+                self.domain.periodic(a) || x[a] > 0.0 && x[a] < self.domain.cells[a] as f64
+            })
+        };
+        // Base 3 digits of `way` are the steps along the axes: none, down, up.
+        let digit = |way: usize, axis: usize| way / 3_usize.pow(axis as u32) % 3;
+        let mut ways: Vec<usize> = (1..3_usize.pow(axes as u32)).collect();
+        ways.sort_by_key(|&way| (0..axes).filter(|&a| digit(way, a) != 0).count());
         for distance in SEARCH {
-            for axis in 0..self.domain.axes {
-                for way in [-distance, distance] {
-                    let mut candidate = point;
-                    candidate[axis] += way;
-                    let inside = candidate[axis] > 0.0
-                        && candidate[axis] < self.domain.cells[axis] as f64
-                        || self.domain.periodic(axis);
-                    if inside && self.at(candidate).is_none() {
-                        return Some(candidate);
-                    }
+            for &way in &ways {
+                let candidate = std::array::from_fn(|a| {
+                    point[a] + [0.0, -distance, distance][if a < axes { digit(way, a) } else { 0 }]
+                });
+                if inside(candidate) && self.at(candidate).is_none() {
+                    return Some(candidate);
                 }
             }
         }
