@@ -13,7 +13,7 @@ fn forge(bench: &Workbench, to: &str, change: impl Fn(&mut Header, &mut [Block])
     let names = ["wood-bottom", "wood-top", "adhesive"];
     let parts = names.map(|name| file.block_named(name).unwrap());
     let mut header = file.header().clone();
-    let mut blocks = parts.clone().map(|(block, _)| block.clone());
+    let mut blocks = parts.map(|(block, _)| block.clone());
     change(&mut header, &mut blocks);
     let mut draft = Draft::new(header);
     for (block, (_, bits)) in blocks.into_iter().zip(parts) {
