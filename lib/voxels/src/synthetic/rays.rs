@@ -6,13 +6,13 @@ use super::recipe::Plan;
 
 /// Mean distance of ray columns along the ring, um: 8 to 12 rays per mm are met, because
 /// vessels interrupt rays and rays end.
-const SPACING: f32 = 59.0;
+const SPACING: f32 = 63.0;
 /// Width of a ray with its walls, um.
-pub(super) const WIDTH: [f32; 2] = [10.0, 12.0];
+pub(super) const WIDTH: [f32; 2] = [11.2, 12.0];
 /// Height of a ray along the fibres, um.
 const HEIGHT: [f32; 2] = [100.0, 500.0];
 /// Distance along the fibres between a ray and the next of its column, um.
-const BETWEEN: [f32; 2] = [10.0, 30.0];
+const BETWEEN: [f32; 2] = [6.0, 20.0];
 /// Wall of a ray cell against the fibres, which add their half wall, um.
 const SIDE_WALL: f32 = 1.9;
 /// Half of the wall between ray cells, um: with 1.45 um voxels no diagonal leaks.
