@@ -6,7 +6,7 @@
 #   make XCT_PF=a.tif XCT_PVA_PF=b.tif VOXEL="1.45 um" [LABELS=void=0,wood=1,adhesive=2]
 #                                 the same on your own stacks
 #   make test                     formatting, clippy, all tests
-#   make verify tradeoff stability bench   long studies, results into docs/results/
+#   make verify bench             long studies: closed forms; speed of kernels and solver
 #   make figures man install clean help
 
 .DELETE_ON_ERROR:
@@ -39,7 +39,7 @@ include pipelines/60-studies.mk
 
 .PHONY: help
 help:
-	@sed -n '3,12s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,11s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

@@ -1,0 +1,14 @@
+# Long studies; their results are committed under docs/results/.
+
+# Every verification scene by every method that applies, against closed forms. ONLY="slit
+# channel" runs those whose names contain one of the words.
+.PHONY: verify
+verify: $(BINARIES)
+	@$(CARGO) build --release --quiet -p studies
+	$(BIN)/verify pipelines/cases/verification out/results $(ONLY)
+
+# Speed of the kernels and of the linear solver.
+.PHONY: bench
+bench:
+	$(CARGO) run --release --quiet -p mpm --example mpm_bench
+	$(CARGO) run --release --quiet -p filling --example solver_bench -- 1e-3 32,48,48,12 64,56,64,12

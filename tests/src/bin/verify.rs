@@ -1,5 +1,5 @@
 //! `make verify`: every verification scene by every scheme and update that applies, against
-//! its closed form or reference; writes case files, a table and a CSV.
+//! its closed form or reference; writes case files and a CSV.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
