@@ -1,0 +1,81 @@
+//! The plan's limits, and what is refused or stopped, in sentences.
+
+mod scenes;
+
+use mpm::{Explicit, Limit, Plan, Settings, ShapeFunction, VelocityUpdate};
+use physics::{Boundary, Motion, Newtonian, Scene, Scheme, Table, Viscosity};
+use scenes::{CELL, FREE, fill, scene, settings, solid};
+
+fn pool() -> Scene {
+    let mut s = scene([8, 10, 8], [Boundary::Symmetry; 3]);
+    s.boundary[1] = Boundary::Open;
+    s.gravity = [0.0, -1e8, 0.0];
+    s.bodies = vec![solid("floor", [0.0; 3], [8.0, 2.0, 8.0], Motion::Fixed)];
+    fill(&mut s, [0.0, 2.0, 0.0], [8.0, 6.0, 8.0], |_| [0.0; 3]);
+    s
+}
+
+#[test]
+fn the_plan_gives_the_limits_of_the_papers_materials() {
+    let mut s = pool();
+    let flip = settings(ShapeFunction::Gimp, VelocityUpdate::Flip, 0.5);
+    let plan = Plan::new(&s, &flip);
+    println!("{plan:?}");
+    // cell/c = 2.9 um / 913 m/s and rho cell^2/(8 eta), by hand.
+    assert!((plan.acoustic_s / 3.1768e-9 - 1.0).abs() < 1e-3);
+    assert!((plan.viscous_s / 9.7038e-10 - 1.0).abs() < 1e-3);
+    assert_eq!(plan.limit, Limit::Viscous);
+    assert_eq!(plan.dt_s, 0.5 * plan.viscous_s);
+    // PVA-PF: its 210 Pa s would ask for 6 ps, its smallest viscosity of 1 Pa s for 1.26 ns.
+    let table = Table::new(&[
+        (1.0, 210.0),
+        (6.30957, 87.0),
+        (39.8107, 1.7),
+        (501.187, 1.0),
+    ]);
+    s.liquid.viscosity = Viscosity::Table(table.unwrap());
+    let plan = Plan::new(&s, &flip);
+    assert!((plan.viscous_s / 1.2615e-9 - 1.0).abs() < 1e-3);
+    assert!((plan.viscosity_cap / 2.0 - 1.0).abs() < 1e-6);
+    // At rest all of it is thicker than that.
+    let run = Explicit::new(&s, &flip).unwrap();
+    assert!((run.diagnostics().capped_fraction - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn steps_beyond_the_stable_limit_are_stopped_with_step_and_point() {
+    // Nearly inviscid: the acoustic limit binds.
+    let mut s = pool();
+    s.liquid.viscosity = Viscosity::Newtonian(Newtonian(1e-3));
+    let stable = settings(ShapeFunction::Linear, VelocityUpdate::Flip, 0.3);
+    let unstable = Settings { cfl: 1.5, ..stable };
+    let end = |settings: &Settings| {
+        let mut run = Explicit::new(&s, settings).unwrap();
+        (0..600).find_map(|_| run.advance(FREE).err())
+    };
+    assert_eq!(end(&stable), None);
+    let said = end(&unstable).expect("cfl 1.5 is unstable").0;
+    println!("{said}");
+    assert!(said.contains("step ") && said.contains("liquid point "));
+}
+
+#[test]
+fn bad_settings_and_points_are_refused() {
+    let s = pool();
+    let refused = |scene: &Scene, shape, update, cfl| {
+        let said = Explicit::new(scene, &settings(shape, update, cfl)).err();
+        println!("{said:?}");
+        said.expect("a refusal")
+    };
+    let gimp = ShapeFunction::Gimp;
+    assert!(refused(&s, gimp, VelocityUpdate::Flip, 0.0).contains("cfl"));
+    assert!(refused(&s, gimp, VelocityUpdate::Xpic(0), 0.5).contains("order"));
+    let linear = ShapeFunction::Linear;
+    assert!(refused(&s, linear, VelocityUpdate::Apic, 0.5).contains("apic"));
+    let mut sunk = s.clone();
+    sunk.points.position[7][1] = 1.5 * CELL;
+    let said = refused(&sunk, gimp, VelocityUpdate::Flip, 0.5);
+    assert!(said.contains("point 7") && said.contains("floor"));
+    sunk.points.position[7][1] = 11.0 * CELL;
+    assert!(refused(&sunk, gimp, VelocityUpdate::Flip, 0.5).contains("outside the grid"));
+}
