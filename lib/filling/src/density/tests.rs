@@ -144,7 +144,7 @@ fn a_partly_filled_surface_is_left_alone() {
         .for_each(|(p, x)| {
             x[0] = 0.25 + 0.5 * (particles.id[p] % 40) as f64;
         });
-    particles.retain(|x| x[0] < 16.0 || (x[0] * 2.0) as u64 % 2 == 0 && x[0] < 17.0);
+    particles.retain(|x| x[0] < 16.0 || ((x[0] * 2.0) as u64).is_multiple_of(2) && x[0] < 17.0);
     let before: f64 = particles.position.iter().map(|x| x[0]).fold(0.0, f64::max);
     for _ in 0..5 {
         project(&lattice, &mut particles);
