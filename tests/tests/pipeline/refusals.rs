@@ -150,7 +150,7 @@ fn a_closed_pipe_is_no_error() {
         "build-bondline -q specimen.mpts -o -",
         "mpm-run -q case.toml --particles bond.mpts --explain",
         "wp-metrics -q run/final.mpts",
-        "wp-metrics -q run/final.mpts --profile -",
+        "wp-metrics -q run/final.mpts -o table.csv --profile -",
         "shear-stats -q run/final.mpts",
         "particles sum run/final.mpts",
         "particles info run/final.mpts",

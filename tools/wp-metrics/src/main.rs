@@ -93,6 +93,12 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             "--map and --profile describe one file, but several are given: run wp-metrics on each",
         ));
     }
+    let on_stdout = outputs(&arguments).filter(|o| **o == Output::Stdout);
+    if on_stdout.count() > 1 {
+        return Err(Failure::usage(
+            "two tables on standard output cannot be told apart: give all but one of -o, --map and --profile a file",
+        ));
+    }
     let options = stack_options(&arguments)?;
     let experiment = match &arguments.compare {
         Some(path) => Some(Input::open(path, &options)?),
@@ -112,6 +118,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     arguments.output.write_with_record(&record.finish(), |out| {
         table::write_penetration(out, &files)
     })
+}
+
+fn outputs(arguments: &Arguments) -> impl Iterator<Item = &Output> {
+    let table = [&arguments.output].into_iter();
+    table.chain(&arguments.map).chain(&arguments.profile)
 }
 
 fn stack_options(arguments: &Arguments) -> Result<StackOptions, Failure> {
@@ -170,13 +181,8 @@ struct Recorder {
 
 impl Recorder {
     fn new(arguments: &Arguments) -> Self {
-        let outputs = [
-            Some(&arguments.output),
-            arguments.map.as_ref(),
-            arguments.profile.as_ref(),
-        ];
         Self {
-            wanted: outputs.into_iter().flatten().any(|o| *o != Output::Stdout),
+            wanted: outputs(arguments).any(|o| *o != Output::Stdout),
             inputs: Vec::new(),
         }
     }

@@ -259,7 +259,12 @@ fn refusals() {
         (&[good, "--reference", "middle"], 2, "adherend"),
         (&[good, "--reference", "plane=5"], 2, "no unit"),
         (&[good, good, "--map", "map.csv"], 2, "one file"),
-        (&[good, "--reference", "fit", "--profile", "-"], 2, "tilted"),
+        (
+            &[good, "--reference", "fit", "--profile", "/dev/null"],
+            2,
+            "tilted",
+        ),
+        (&[good, "--map", "-"], 2, "two tables"),
         (&[good, "--normal", "z"], 2, "plane=LEN"),
         (&[good, "--voxel", "0 um"], 2, "greater than zero"),
         (&[torn.to_str().unwrap()], 3, "torn.mpts"),
