@@ -186,11 +186,11 @@ impl Window {
     /// The cell of the domain that a cell is or, beyond a periodic side, is an image of.
     #[inline]
     pub fn home(&self, mut cell: [usize; 3]) -> [usize; 3] {
-        for axis in 0..self.domain.axes {
+        for (axis, place) in cell.iter_mut().enumerate() {
             if self.domain.periodic(axis) {
                 let n = self.domain.cells[axis] as i64;
-                let i = (self.low[axis] + cell[axis] as i64).rem_euclid(n);
-                cell[axis] = (i - self.low[axis]) as usize;
+                let i = (self.low[axis] + *place as i64).rem_euclid(n);
+                *place = (i - self.low[axis]) as usize;
             }
         }
         cell

@@ -254,3 +254,37 @@ fn aligned_walls_close_to_nothing() {
     assert!(closed.history[closed.history.len() - 1][0].abs() < 1e-6);
     assert!(closed.volume_error.abs() < 0.006);
 }
+
+/// Bit by bit the same liquid after ten steps with any number of threads.
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let wood = |top: bool, i: usize, k: usize| {
+        let shift = if top { 7 } else { 0 };
+        (i + shift) % 14 < 2 || (k + shift) % 14 < 2
+    };
+    let after = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| {
+            let mut scheme = Implicit::new(scene([14, 14], 0, wood), Settings::default()).unwrap();
+            let mut reports = Vec::new();
+            for _ in 0..10 {
+                let limit = StepLimit {
+                    time_s: f64::INFINITY,
+                    travel_m: 13.0 * H,
+                };
+                reports.push(scheme.advance(limit).unwrap());
+            }
+            let liquid = scheme.liquid();
+            let bits = |v: &[f32]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            let found = [
+                bits(liquid.position.as_flattened()),
+                bits(liquid.velocity.as_flattened()),
+                bits(&liquid.pressure),
+                bits(&liquid.shear_rate),
+            ];
+            (reports, found)
+        })
+    };
+    let one = after(1);
+    assert!(one == after(2) && one == after(3));
+}

@@ -310,8 +310,8 @@ fn a_common_velocity_only_translates() {
         let middle = rest.displaced(&[v.map(|x| 0.5 * x)]);
         let l = whole(domain, middle);
         let mut active: [Vec<u32>; 3] = std::array::from_fn(|_| vec![NONE; l.window.len()]);
-        for axis in 0..2 {
-            for (index, dof) in active[axis].iter_mut().enumerate() {
+        for (axis, active) in active.iter_mut().enumerate().take(2) {
+            for (index, dof) in active.iter_mut().enumerate() {
                 if l.face(axis, index) == OPEN {
                     *dof = axis as u32;
                 }

@@ -150,13 +150,16 @@ pub(super) fn fluxes(operator: &Operator) -> Rows {
     rows
 }
 
+/// Ends of the rows of a chunk, their entries, and its sums.
+type Chunk = (Vec<u32>, Vec<(u32, f64)>, Vec<f64>);
+
 /// Rows of unknowns `0..len` and a sum of `sums` numbers, both by `fill(row, entries, sum)`.
 fn gather(
     len: usize,
     sums: usize,
     fill: impl Fn(usize, &mut Vec<(u32, f64)>, &mut [f64]) + Sync,
 ) -> (Rows, Vec<f64>) {
-    let chunks: Vec<(Vec<u32>, Vec<(u32, f64)>, Vec<f64>)> = (0..len.div_ceil(CHUNK))
+    let chunks: Vec<Chunk> = (0..len.div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
             let (mut ends, mut entries) = (Vec::with_capacity(CHUNK), Vec::new());

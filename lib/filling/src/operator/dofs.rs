@@ -75,10 +75,10 @@ pub(super) fn fill(lattice: &Lattice, phi: &[f32], first: usize, parts: [usize; 
     for z in 0..parts[2] {
         for y in 0..parts[1] {
             let row = first + y * lattice.window.sub_stride(1) + z * lattice.window.sub_stride(2);
-            for s in row..row + parts[0] {
-                let o = f64::from(lattice.open[s]);
-                open += o;
-                wet += o * f64::from(phi[s]);
+            let range = row..row + parts[0];
+            for (&o, &phi) in lattice.open[range.clone()].iter().zip(&phi[range]) {
+                open += f64::from(o);
+                wet += f64::from(o) * f64::from(phi);
             }
         }
     }

@@ -101,7 +101,6 @@ fn slit_pressure(n: usize, length: f64, offset: f64) -> f64 {
             count += 1;
         }
     }
-    println!("{n} {length} {offset}: {} iterations", solved.iterations);
     // Slit velocity 4, in units 12 V_s/H per cell.
     sum / f64::from(count) / (12.0 * 4.0 / h)
 }

@@ -23,10 +23,8 @@ pub struct Solved {
     pub flux_x: f64,
     pub forces: Vec<[f64; 3]>,
     pub lattice: Lattice,
-    /// Velocity per axis and cell of the window.
-    pub velocity: [Vec<f64>; 3],
+    /// Pressure of each cell of the window.
     pub pressure: Vec<f64>,
-    pub iterations: usize,
 }
 
 impl Flow {
@@ -85,18 +83,11 @@ impl Flow {
             tolerance: 1e-7,
             ..SaddleOptions::default()
         };
-        let report = SaddleSolver::new(options)
+        SaddleSolver::new(options)
             .solve(&system.saddle(), &mut u, &mut p)
             .unwrap();
         let (forces, _) = system.reactions(&u, &p);
         let w = &lattice.window;
-        let mut velocity = [const { Vec::new() }; 3];
-        for field in &mut velocity {
-            *field = vec![0.0; w.len()];
-        }
-        for (&(axis, index), &u) in operator.dofs.faces.iter().zip(&u) {
-            velocity[usize::from(axis)][index as usize] = u;
-        }
         let mut pressure = vec![0.0; w.len()];
         for (&index, &p) in operator.dofs.cells.iter().zip(&p) {
             pressure[index as usize] = p;
@@ -110,9 +101,7 @@ impl Flow {
         Solved {
             flux_x,
             forces,
-            velocity,
             pressure,
-            iterations: report.iterations(),
             lattice,
         }
     }
@@ -144,7 +133,7 @@ pub fn duct_flux(a: f64, b: f64) -> f64 {
     let (a, b) = (a.max(b), a.min(b));
     let sum: f64 = (1..200)
         .step_by(2)
-        .map(|k| f64::from(k))
+        .map(f64::from)
         .map(|k| (k * std::f64::consts::PI * a / (2.0 * b)).tanh() / k.powi(5))
         .sum();
     a * b.powi(3) / 12.0 * (1.0 - 192.0 * b / (std::f64::consts::PI.powi(5) * a) * sum)

@@ -1,6 +1,9 @@
 //! A piston presses liquid from a reservoir into a slit: pressure against filled length, volume,
 //! and no particle in a wall. Run with `--nocapture` to see the errors.
 
+mod constant_pressure;
+mod robustness;
+
 use filling::{Implicit, Settings};
 use physics::{
     Boundary, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene, Scheme,
@@ -146,7 +149,7 @@ fn at(force: &[[f64; 2]], length: f64) -> f64 {
 /// Reference: this scheme's prototype at 24 cells per slit, whose static limit an independent
 /// finite-element solution confirmed to 0.2 %.
 fn reference() -> Vec<[f64; 2]> {
-    include_str!("slit-filling-reference.csv")
+    include_str!("../slit-filling-reference.csv")
         .lines()
         .skip(1)
         .map(|line| {

@@ -1,0 +1,62 @@
+//! A piston under constant pressure fills the slit: Washburn's law.
+
+use filling::{Implicit, Settings};
+use physics::{Clamp, Motion, Scheme, StepLimit, VoxelBlock};
+
+use crate::{ETA, H, scene};
+
+/// Pressure on the piston, Pa.
+const PRESSURE: f64 = 1e6;
+
+/// Time to fill the slit to 5 H, in units of 12 eta/P.
+fn time_to_fill(n: usize, offset: f64) -> f64 {
+    let mut scene = scene(n, [offset, 0.0]);
+    // The clamp pushes downwards, so the scene is turned upside down.
+    let top = scene.grid.max_m()[1];
+    for body in &mut scene.bodies {
+        for block in &mut body.blocks {
+            let (mut low, mut high) = (block.origin(), block.max());
+            (low[1], high[1]) = (top - high[1], top - low[1]);
+            *block = VoxelBlock::solid_box(low, high);
+        }
+    }
+    for x in &mut scene.points.position {
+        x[1] = top - x[1];
+    }
+    let h = H / n as f64;
+    scene.bodies[1].motion = Motion::Clamped;
+    scene.clamp = Some(Clamp {
+        closing_speed: 5.0,
+        max_pressure: Some(PRESSURE * 4.0 * H * h / scene.grid.area_m2()),
+        pid: None,
+    });
+    (scene.bottom, scene.top) = (Some(0), Some(1));
+    let mut scheme = Implicit::new(scene, Settings::default()).unwrap();
+    let (mut time, mut travel, goal) = (0.0, 0.0, 5.0 * H / 4.0);
+    while travel < goal * (1.0 - 1e-9) {
+        let limit = StepLimit {
+            time_s: f64::INFINITY,
+            travel_m: goal - travel,
+        };
+        let report = scheme.advance(limit).unwrap();
+        time += report.dt_s;
+        travel = report.travel_m;
+    }
+    time * PRESSURE / (12.0 * ETA)
+}
+
+/// The prototype at 24 cells per slit takes 13.83; L^2/2 + e L with e = 0.25 gives 13.75.
+#[test]
+fn filling_at_constant_pressure() {
+    for (n, tolerance) in [(6, 0.05), (12, 0.03)] {
+        for offset in [0.0, 0.25, 0.5] {
+            let time = time_to_fill(n, offset);
+            println!(
+                "slit of {n} cells, offset {offset}: filled to 5 H in {time:.2}, reference 13.83"
+            );
+            if offset == 0.0 {
+                assert!((time / 13.83 - 1.0).abs() < tolerance, "{n} cells: {time}");
+            }
+        }
+    }
+}
