@@ -45,11 +45,14 @@ pub fn scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
             let file = run.last()?;
             let position = file.vectors("position").map_err(|e| e.to_string())?;
             let velocity = file.vectors("velocity").map_err(|e| e.to_string())?;
-            // Least-squares line through all points, read off at the resting wall.
+            // Least-squares line through the middle half, read off at the resting wall: the
+            // profile is straight, and what the wall does shows in it without the kernels of
+            // the wall's own cells.
             let points: Vec<_> = position
                 .iter()
                 .zip(velocity)
                 .map(|(x, v)| (f64::from(x[1]) - low, f64::from(v[0])))
+                .filter(|(y, _)| (0.25 * LUMEN..=0.75 * LUMEN).contains(y))
                 .collect();
             let slip_speed = line_at_zero(&points);
             Ok(vec![Measured::relative(
