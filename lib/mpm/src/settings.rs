@@ -7,7 +7,8 @@ pub enum ShapeFunction {
     Gimp,
     /// Quadratic B-spline (Steffen, Kirby & Berzins, 10.1002/nme.2360).
     Bspline2,
-    /// Hat function of classic MPM.
+    /// Hat function of classic MPM. A node with little mass feels full forces, so that liquid
+    /// whose surface lies off the nodes is unstable at any step; such a run stops and says so.
     Linear,
 }
 
@@ -34,7 +35,8 @@ pub struct Settings {
     pub shape: ShapeFunction,
     /// Velocity update.
     pub velocity_update: VelocityUpdate,
-    /// Time step over the limit that binds.
+    /// Time step over the limit that binds. With GIMP 0.7 is stable for 1e-3 to 1.3 Pa s in a
+    /// pool on a wall off the nodes; 1.0 is not, neither there nor in wood.
     pub cfl: f64,
 }
 
