@@ -26,13 +26,14 @@ impl Panels {
     /// Places panels of the given edges (any unit), the longest of which becomes `longest`
     /// logical pixels.
     pub(crate) fn place(edges: &[[f64; 2]], longest: f64, room: Room) -> Self {
-        let columns = match edges.len() {
-            4 => 2,
-            n => n.clamp(1, 3),
-        };
-        let rows = edges.len().div_ceil(columns);
         let largest = |axis: usize| edges.iter().map(|e| e[axis]).fold(0.0, f64::max);
         let [widest, highest] = [largest(0), largest(1)];
+        let most = if widest < 0.6 * highest { 6 } else { 3 };
+        let columns = match edges.len() {
+            4 if most == 3 => 2,
+            n => n.clamp(1, most),
+        };
+        let rows = edges.len().div_ceil(columns);
         let scale = longest / widest.max(highest);
         let (width, height) = (widest * scale, highest * scale);
         let column = (room.left + width).max(room.column);
