@@ -188,9 +188,7 @@ impl Builder<'_> {
         let [low, high] = seen.nearest.distance;
         let touches = [seen.nearest.touches(0), seen.nearest.touches(1)];
         if touches[0] || touches[1] {
-            // The nearest walls of two columns may leave no room between them (a staircase
-            // through the face): no profile fits there.
-            if self.influence.is_infinite() || low + high < SLIVER {
+            if self.influence.is_infinite() {
                 return Across::FLAT;
             }
             let above = !(touches[0] && (!touches[1] || low <= high));

@@ -1,5 +1,8 @@
 //! The velocity profile over the control volume of a face.
 
+/// Room between two walls below which they count as a staircase, cells.
+const LEAST_ROOM: f64 = 0.5;
+
 /// Profile over the two tangential directions of a face, a biquadratic polynomial
 /// sum c[3 m + n] a^m b^n of the distances a, b (cells) from the face's centre.
 ///
@@ -48,7 +51,13 @@ impl Across {
 
     /// A wall at distance `d`, below or `above`, with the opposite wall at `opposite`, free path
     /// `path` and influence length `l`, all in cells.
+    ///
+    /// The nearest walls of two columns may leave next to no room between them (a staircase
+    /// through the face); no profile fits there, and the variation is left out.
     pub(super) fn wall(velocity: f64, above: bool, [d, opposite, path, l]: [f64; 4]) -> Self {
+        if d + opposite < LEAST_ROOM {
+            return Self::FLAT;
+        }
         let h1 = d + if opposite > 1.0 + 1e-6 { 0.5 } else { opposite };
         let path = path.max(h1);
         let mean = 0.5 * h1 + l - h1 * h1 / (3.0 * path);
@@ -163,6 +172,17 @@ mod tests {
                         }
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn walls_without_room_between_them_leave_the_velocity_finite() {
+        for (d, opposite) in [(0.0, 0.0), (0.0, 1e-9), (1e-12, 0.0), (0.2, 0.25)] {
+            let across = Across::wall(0.4, false, [d, opposite, d + opposite, 0.0]);
+            let p = Profile::new(2.0, [across, Across::FLAT]);
+            for a in [-0.5_f32, 0.0, 0.5] {
+                assert_eq!(p.value([a, 0.1]), 2.0, "walls at {d} and {opposite}");
             }
         }
     }
