@@ -10,6 +10,8 @@
 #   make figures man install clean help
 
 .DELETE_ON_ERROR:
+# Specimens and bond files on the way are kept: they are looked at and used again.
+.SECONDARY:
 .SUFFIXES:
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c

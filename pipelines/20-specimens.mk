@@ -28,10 +28,12 @@ $(OUT)/%/specimen.tif: $(BIN)/synth-xct
 $(OUT)/%/experiment.mpts: $(OUT)/%/specimen.tif $(BIN)/xct2particles
 	$(BIN)/xct2particles --quiet $< -o $@
 else
-.SECONDEXPANSION:
-$(OUT)/%/experiment.mpts: $$(XCT_$$*) $(BIN)/xct2particles
-	@mkdir -p $(@D)
-	$(BIN)/xct2particles $< --voxel "$(VOXEL)" $(if $(LABELS),--labels "$(LABELS)") -o $@
+define experiment_rule
+$(OUT)/$(1)/experiment.mpts: $(XCT_$(1)) $(BIN)/xct2particles
+	@mkdir -p $$(@D)
+	$(BIN)/xct2particles $$< --voxel "$(VOXEL)" $(if $(LABELS),--labels "$(LABELS)") -o $$@
+endef
+$(foreach a,$(ADHESIVES),$(eval $(call experiment_rule,$(a))))
 endif
 
 $(OUT)/%/bond.mpts: $(OUT)/%/experiment.mpts $(BIN)/build-bondline
