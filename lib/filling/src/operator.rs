@@ -21,7 +21,7 @@ mod walls;
 use rayon::prelude::*;
 
 use crate::lattice::Lattice;
-use crate::solve::{Csr, SaddleSystem, SolveError};
+use crate::solve::{Csr, Load, SaddleSystem, SolveError};
 use couplings::Couplings;
 use terms::Velocity;
 
@@ -108,6 +108,29 @@ impl System {
         self.source = (source.par_iter().enumerate())
             .map(|(cell, g)| g + couplings.displaced(cell, bodies))
             .collect();
+    }
+
+    /// How the speed of body `clamped` against y enters the system, for a force of `force` on it
+    /// along y (units of eta_0 h); to be solved with that body at rest.
+    pub fn load(&self, clamped: usize, force: f64) -> Load {
+        let mut unit = vec![[0.0; 3]; self.bodies.len()];
+        unit[clamped][1] = -1.0;
+        let mut resting = self.bodies.clone();
+        resting[clamped] = [0.0; 3];
+        let couplings = &self.couplings;
+        let rigid = |bodies: &[[f64; 3]]| couplings.forces(bodies, &[], &[]).0[clamped][1];
+        Load {
+            momentum: (0..self.b.len())
+                .into_par_iter()
+                .map(|face| couplings.dragged(face, &unit))
+                .collect(),
+            source: (0..self.source.len())
+                .into_par_iter()
+                .map(|cell| couplings.displaced(cell, &unit))
+                .collect(),
+            resistance: rigid(&unit),
+            force: force - rigid(&resting),
+        }
     }
 
     /// Forces of the liquid on the bodies, in units of eta_0 h, and the power dissipated by

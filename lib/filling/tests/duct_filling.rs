@@ -43,6 +43,8 @@ struct Filled {
     pressure: Vec<[f64; 2]>,
     volume_error: f64,
     delivered: f64,
+    /// Liquid volume over open volume between half a width and two widths above the box.
+    density: f64,
     steps: usize,
     iterations: f64,
 }
@@ -212,23 +214,22 @@ impl Case {
         let liquid = scheme.liquid();
         let moved = scheme.displacements();
         let lid = (WALL + 3 * self.n / 2) as f64 * H;
-        let mut inside = 0.0;
+        let (mut inside, mut behind_front) = (0.0, 0.0);
         for (x, v) in liquid.position.iter().zip(&liquid.volume) {
             for (body, d) in bodies.iter().zip(&moved) {
                 let at = std::array::from_fn(|a| f64::from(x[a]) - d[a]);
                 assert!(!body.contains(at), "particle in {} at {x:?}", body.name);
             }
-            inside += if f64::from(x[1]) > lid {
-                f64::from(*v)
-            } else {
-                0.0
-            };
+            let (height, v) = ((f64::from(x[1]) - lid) / (n * H), f64::from(*v));
+            inside += if height > 0.0 { v } else { 0.0 };
+            behind_front += if (0.5..2.0).contains(&height) { v } else { 0.0 };
         }
         Filled {
             steps: pressure.len(),
             iterations: f64::from(iterations) / pressure.len() as f64,
             volume_error: scheme.diagnostics().volume / start - 1.0,
             delivered: inside / (face * H * H * SPEED * time),
+            density: behind_front / (1.5 * n * area * H.powi(3)),
             pressure,
         }
     }
@@ -254,8 +255,14 @@ fn compare(name: &str, case: &Case) -> f64 {
     let [slope, entrance] = line(&filled.pressure);
     let ratio = (3.0 * slope + entrance) / 3.22;
     println!(
-        "{name}, {} cells, shift {}: pressure {ratio:.3}, slope {slope:.3}, entrance {entrance:.3} widths, {} steps, {:.1} iterations, delivered {:.4}, volume {:+.4}",
-        case.n, case.shift, filled.steps, filled.iterations, filled.delivered, filled.volume_error
+        "{name}, {} cells, shift {}: pressure {ratio:.3}, slope {slope:.3}, entrance {entrance:.3} widths, {} steps, {:.1} iterations, delivered {:.4}, density {:.4}, volume {:+.4}",
+        case.n,
+        case.shift,
+        filled.steps,
+        filled.iterations,
+        filled.delivered,
+        filled.density,
+        filled.volume_error
     );
     assert!(filled.volume_error.abs() < 0.005);
     assert!((filled.delivered - 1.0).abs() < 0.025);

@@ -101,33 +101,6 @@ impl PidControl {
     }
 }
 
-/// Load control where the pressure is proportional to the speed within a step (quasi-Stokes):
-/// the speed that gives the limit is known after one solve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearRule {
-    clamp: Clamp,
-}
-
-impl LinearRule {
-    /// The rule for `clamp`.
-    pub fn new(clamp: Clamp) -> Self {
-        Self { clamp }
-    }
-
-    /// The speed that would have given the pressure limit, never above the closing speed;
-    /// `None` when `pressure` (Pa), which came from `speed`, needs no change within `tolerance`.
-    pub fn correct(&self, speed: f64, pressure: f64, tolerance: f64) -> Option<f64> {
-        let limit = self.clamp.max_pressure?;
-        let too_high = pressure > limit * (1.0 + tolerance);
-        let could_be_faster =
-            speed < self.clamp.closing_speed && pressure < limit * (1.0 - tolerance);
-        if !(too_high || could_be_faster) || pressure <= 0.0 {
-            return None;
-        }
-        Some((speed * limit / pressure).min(self.clamp.closing_speed))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -195,13 +168,5 @@ mod tests {
         );
         control.observe(1e12, 1e-9);
         assert_eq!(control.speed(), 1.0);
-    }
-
-    #[test]
-    fn the_linear_rule_hits_the_limit_in_one_correction() {
-        let rule = LinearRule::new(CLAMP);
-        assert_eq!(rule.correct(1.0, 2.4e6, 0.002), None);
-        assert_eq!(rule.correct(1.0, 5.0e6, 0.002), Some(0.5));
-        assert_eq!(rule.correct(0.5, 1.0e6, 0.002), Some(1.0));
     }
 }

@@ -11,7 +11,7 @@ mod scheme;
 mod wall_law;
 
 pub use bodies::{Motion, RigidBody, VoxelBlock};
-pub use clamp::{Clamp, LinearRule, Pid, PidControl};
+pub use clamp::{Clamp, Pid, PidControl};
 pub use material::{
     Liquid, Newtonian, Rheology, ShearRate, TAIT_C, Table, TableError, Tait, Viscosity,
 };

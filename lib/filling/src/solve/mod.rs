@@ -9,6 +9,7 @@ mod amg;
 mod chebyshev;
 mod csr;
 mod fgmres;
+mod load;
 mod packed;
 mod pcg;
 mod pockets;
@@ -18,6 +19,7 @@ mod schur;
 mod vector;
 
 pub use csr::{Csr, RowEntries};
+pub use load::Load;
 pub use poisson::Poisson;
 pub use saddle::{SaddleOptions, SaddleReport, SaddleSolver, SaddleSystem};
 pub use vector::Real;

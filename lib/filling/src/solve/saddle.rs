@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use super::chebyshev::Chebyshev;
 use super::csr::Csr;
 use super::fgmres::{KrylovSpace, Limits, Operator, fgmres};
+use super::load::{Bordered, Load, LoadedOperator};
 use super::schur::Schur;
 use super::vector::{Real, Work, for_chunks};
 use super::{SolveError, check_length};
@@ -125,45 +126,103 @@ impl SaddleSolver {
         p: &mut [f64],
     ) -> Result<SaddleReport, SolveError> {
         check(system, u, p)?;
-        let options = self.options;
-        rayon::scope(|_| {
-            let started = Instant::now();
-            let operator = SaddleOperator {
-                system: *system,
-                g_transposed: system.g.transpose(),
-            };
-            let mut preconditioner = BlockTriangular::new(&operator, &options)?;
-            let setup = started.elapsed();
-            let rhs: Vec<f64> = (system.b.iter().copied())
-                .chain(system.volume_source.iter().map(|g| -g))
-                .collect();
-            let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
-            let limits = Limits {
-                tolerance: options.tolerance,
-                max_iterations: options.max_iterations,
-                restart: options.restart.max(1),
-            };
+        let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
+        let (limits, space) = (self.limits(), &mut self.space);
+        let (rhs, options) = (right_hand_side(system), &self.options);
+        let report = prepared(system, options, |operator, mut preconditioner| {
             let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
-            let result = fgmres(
-                &operator,
-                precondition,
-                &rhs,
-                &mut x,
-                limits,
-                &mut self.space,
-            );
-            let (x_u, x_p) = x.split_at(u.len());
-            u.copy_from_slice(x_u);
-            p.copy_from_slice(x_p);
-            Ok(SaddleReport {
-                history: result?,
-                cycles: preconditioner.schur.cycles,
-                eigenvalue_bound: preconditioner.chebyshev.bound(),
-                setup,
-                iteration: started.elapsed() - setup,
-            })
-        })
+            let result = fgmres(operator, precondition, &rhs, &mut x, limits, space);
+            (result, preconditioner.totals())
+        });
+        spread(&x, u, p);
+        report
     }
+
+    /// As [`SaddleSolver::solve`] with the speed of a body unknown and the force on it known;
+    /// `system` has it at rest. `speed` holds a guess and takes the solution.
+    ///
+    /// # Errors
+    /// As [`SaddleSolver::solve`].
+    pub fn solve_loaded(
+        &mut self,
+        system: &SaddleSystem,
+        load: &Load,
+        u: &mut [f64],
+        p: &mut [f64],
+        speed: &mut f64,
+    ) -> Result<SaddleReport, SolveError> {
+        check(system, u, p)?;
+        load.check(system)?;
+        let weight = load.weight(system, *speed);
+        let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
+        x.push(*speed / weight);
+        let mut rhs = right_hand_side(system);
+        rhs.push(weight * load.force);
+        let (limits, space, options) = (self.limits(), &mut self.space, &self.options);
+        let report = prepared(system, options, |inner, preconditioner| {
+            let operator = LoadedOperator {
+                inner,
+                load,
+                weight,
+            };
+            let mut bordered = Bordered::new(preconditioner, load, weight);
+            let precondition = |r: &[Work], z: &mut Vec<Work>| bordered.apply(r, z);
+            let result = fgmres(&operator, precondition, &rhs, &mut x, limits, space);
+            (result, bordered.inner().totals())
+        });
+        *speed = weight * x.pop().unwrap_or_default();
+        spread(&x, u, p);
+        report
+    }
+
+    fn limits(&self) -> Limits {
+        Limits {
+            tolerance: self.options.tolerance,
+            max_iterations: self.options.max_iterations,
+            restart: self.options.restart.max(1),
+        }
+    }
+}
+
+/// Multigrid cycles and eigenvalue bound of a preconditioner.
+type Totals = (usize, f64);
+type Iterated = (Result<Vec<f64>, SolveError>, Totals);
+
+/// Runs `iterate` on the operator and the preconditioner of `system`, and reports on it.
+fn prepared(
+    system: &SaddleSystem,
+    options: &SaddleOptions,
+    iterate: impl FnOnce(&SaddleOperator, BlockTriangular) -> Iterated + Send,
+) -> Result<SaddleReport, SolveError> {
+    // On the thread pool throughout: its threads need not be woken for every product.
+    rayon::scope(|_| {
+        let started = Instant::now();
+        let operator = SaddleOperator {
+            system: *system,
+            g_transposed: system.g.transpose(),
+        };
+        let preconditioner = BlockTriangular::new(&operator, options)?;
+        let setup = started.elapsed();
+        let (result, (cycles, eigenvalue_bound)) = iterate(&operator, preconditioner);
+        Ok(SaddleReport {
+            history: result?,
+            cycles,
+            eigenvalue_bound,
+            setup,
+            iteration: started.elapsed() - setup,
+        })
+    })
+}
+
+fn right_hand_side(system: &SaddleSystem) -> Vec<f64> {
+    let sources = system.volume_source.iter().map(|g| -g);
+    system.b.iter().copied().chain(sources).collect()
+}
+
+fn spread(x: &[f64], u: &mut [f64], p: &mut [f64]) {
+    let (x_u, x_p) = x.split_at(u.len());
+    u.copy_from_slice(x_u);
+    p.copy_from_slice(x_p);
 }
 
 fn check(system: &SaddleSystem, u: &[f64], p: &[f64]) -> Result<(), SolveError> {
@@ -222,7 +281,7 @@ impl Operator for SaddleOperator<'_> {
 }
 
 /// `[Ahat, 0; -G, -Shat]^-1`.
-struct BlockTriangular<'a> {
+pub(super) struct BlockTriangular<'a> {
     g: &'a Csr<f64>,
     chebyshev: Chebyshev,
     schur: Schur,
@@ -240,8 +299,12 @@ impl<'a> BlockTriangular<'a> {
         })
     }
 
+    fn totals(&self) -> Totals {
+        (self.schur.cycles, self.chebyshev.bound())
+    }
+
     /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`.
-    fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+    pub(super) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
         let (r_u, r_p) = r.split_at(self.g.n_columns());
         z.resize(r.len(), Work::default());
         let (velocity, pressure) = z.split_at_mut(r_u.len());

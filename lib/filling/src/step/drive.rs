@@ -1,11 +1,11 @@
 //! How the bodies move: constant speeds, and the clamp under load control.
 
-use physics::{Clamp, LinearRule, Motion, PidControl};
+use physics::{Clamp, Motion, PidControl};
 
-/// Pressure error, relative, that the linear rule leaves.
+/// Part of the pressure limit by which a solve may exceed it.
 const TOLERANCE: f64 = 5e-3;
-/// Slowest speed under load control, as part of the closing speed: from rest the rule could not
-/// speed up again.
+/// Slowest speed under load control, as part of the closing speed: liquid that springs back does
+/// not push the press open.
 const SLOWEST: f64 = 1e-6;
 
 /// Speed of the clamp.
@@ -13,8 +13,13 @@ const SLOWEST: f64 = 1e-6;
 enum Control {
     /// Nothing is clamped, or at constant speed.
     Free,
-    /// The pressure is linear in the speed within a step.
-    Linear(LinearRule, Clamp),
+    /// At full speed until that would exceed the limit (Pa); held at the limit then, and at full
+    /// speed again where that no longer reaches it.
+    Limit {
+        clamp: Clamp,
+        limit: f64,
+        held: bool,
+    },
     /// By the case's PID, after each step.
     Pid(PidControl),
 }
@@ -26,28 +31,27 @@ pub(super) struct Drive {
     control: Control,
     /// Closing speed now, m/s.
     pub(super) speed: f64,
-    /// Speed and pressure of the solve before, within a step.
-    tried: Option<[f64; 2]>,
-    /// Rise of the pressure with the speed, Pa s/m; 0 when not known.
-    slope: f64,
 }
 
 impl Drive {
     /// `acoustic_time` is how long sound takes to cross a cell, s.
     pub(super) fn new(motions: Vec<Motion>, clamp: Option<Clamp>, acoustic_time: f64) -> Self {
-        let control = match clamp {
-            Some(clamp) if clamp.max_pressure.is_some() => match clamp.pid {
-                Some(_) => Control::Pid(PidControl::new(clamp, acoustic_time)),
-                None => Control::Linear(LinearRule::new(clamp), clamp),
+        let limited = clamp.and_then(|clamp| Some((clamp, clamp.max_pressure?)));
+        let control = match limited {
+            Some((clamp, _)) if clamp.pid.is_some() => {
+                Control::Pid(PidControl::new(clamp, acoustic_time))
+            }
+            Some((clamp, limit)) => Control::Limit {
+                clamp,
+                limit,
+                held: false,
             },
-            _ => Control::Free,
+            None => Control::Free,
         };
         Self {
             motions,
             control,
             speed: clamp.map_or(0.0, |c| c.closing_speed),
-            tried: None,
-            slope: 0.0,
         }
     }
 
@@ -67,39 +71,44 @@ impl Drive {
         self.motions.iter().position(|m| *m == Motion::Clamped)
     }
 
-    /// Corrects the speed within a step that gave `pressure` (Pa); the factor by which it
-    /// changed, if it did.
-    ///
-    /// The pressure is a + b V: b V of the flow, and a what the liquid's compression keeps of
-    /// the step before. Where only one solve is known, b is the step before's, or a is zero.
-    pub(super) fn correct(&mut self, pressure: f64) -> Option<f64> {
-        let Control::Linear(rule, clamp) = &self.control else {
-            return None;
-        };
-        if let Some([speed, before]) = self.tried {
-            let slope = (pressure - before) / (self.speed - speed);
-            if slope > 0.0 && slope.is_finite() {
-                self.slope = slope;
-            }
+    /// The pressure (Pa) at which the clamp is held, its speed being unknown.
+    pub(super) fn held(&self) -> Option<f64> {
+        match self.control {
+            Control::Limit {
+                limit, held: true, ..
+            } => Some(limit),
+            _ => None,
         }
-        let proportional = rule.correct(self.speed, pressure, TOLERANCE)?;
-        let wanted = match clamp.max_pressure {
-            Some(limit) if self.slope > 0.0 => self.speed + (limit - pressure) / self.slope,
-            _ => proportional,
+    }
+
+    /// Whether `pressure` (Pa) at full speed exceeds the limit: the clamp is held from now on, and
+    /// `speed` is a guess at its speed.
+    pub(super) fn exceeds(&mut self, pressure: f64) -> bool {
+        let Control::Limit { limit, held, .. } = &mut self.control else {
+            return false;
         };
-        let speed = wanted.clamp(SLOWEST * clamp.closing_speed, clamp.closing_speed);
-        let factor = speed / self.speed;
-        if (factor - 1.0).abs() < 1e-6 {
-            return None;
+        if *held || pressure <= *limit * (1.0 + TOLERANCE) {
+            return false;
         }
-        self.tried = Some([self.speed, pressure]);
-        self.speed = speed;
-        Some(factor)
+        *held = true;
+        self.speed *= *limit / pressure;
+        true
+    }
+
+    /// Takes the speed (m/s) that the limit asks for; `false` where the clamp cannot follow it and
+    /// moves at the nearest speed that it can.
+    pub(super) fn follow(&mut self, speed: f64) -> bool {
+        let Control::Limit { clamp, held, .. } = &mut self.control else {
+            return true;
+        };
+        let full = clamp.closing_speed;
+        *held = speed < full;
+        self.speed = speed.clamp(SLOWEST * full, full);
+        self.speed == speed
     }
 
     /// Takes in the pressure (Pa) of a step of `dt` (s) that is over.
     pub(super) fn observe(&mut self, pressure: f64, dt: f64) {
-        self.tried = None;
         if let Control::Pid(pid) = &mut self.control {
             pid.observe(pressure, dt);
             self.speed = pid.speed();
@@ -112,14 +121,17 @@ impl Drive {
             Control::Pid(pid) => pid.state(),
             _ => [0.0; 3],
         };
-        [self.speed, self.slope, pid[0], pid[1], pid[2]]
+        let held = f64::from(u8::from(self.held().is_some()));
+        [self.speed, held, pid[0], pid[1], pid[2]]
     }
 
     /// Goes back to a saved changing part.
-    pub(super) fn set_state(&mut self, [speed, slope, a, b, c]: [f64; 5]) {
-        (self.speed, self.slope) = (speed, slope);
-        if let Control::Pid(pid) = &mut self.control {
-            pid.set_state([a, b, c]);
+    pub(super) fn set_state(&mut self, [speed, was_held, a, b, c]: [f64; 5]) {
+        self.speed = speed;
+        match &mut self.control {
+            Control::Pid(pid) => pid.set_state([a, b, c]),
+            Control::Limit { held, .. } => *held = was_held != 0.0,
+            Control::Free => {}
         }
     }
 }

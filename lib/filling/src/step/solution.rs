@@ -6,10 +6,8 @@ use super::{Implicit, Stage, Trial};
 use crate::advect::{self, Flow};
 use crate::fractions;
 use crate::operator::{self, Before, Dofs, Liquid, NONE, Operator, Sheared, System};
-use crate::solve::{Csr, SolveError};
+use crate::solve::{Csr, SaddleReport, SolveError};
 
-/// Solves with a corrected speed of the clamp, at most.
-const CORRECTIONS: usize = 3;
 /// Passes over a viscosity that depends on the shear rate: at most, and in the first step,
 /// which has no rates to start from.
 const PASSES: [usize; 2] = [3, 8];
@@ -141,35 +139,74 @@ impl Implicit {
         })
     }
 
-    /// Solves, and again with another speed where the clamp's pressure is not to be exceeded.
+    /// Solves at the clamp's speed or, where it is held at its pressure limit, for that speed.
     fn controlled(
         &mut self,
         operator: &Operator,
         before: Before,
         now: &mut Unknowns,
     ) -> Result<(System, Vec<[f64; 3]>, f64), Failure> {
-        let mut correction = 0;
         let bodies = self.drive.velocities();
         let mut system = (self.stages)
             .time(Stage::Assembly, || operator.assemble(&bodies, before))
             .map_err(|e| self.failure(&e.to_string()))?;
-        loop {
+        let Some(clamped) = self.drive.clamped() else {
             self.solve_system(&system, now)?;
-            let (forces, power) =
-                (self.stages).time(Stage::Forces, || system.reactions(&now.u, &now.p));
-            let Some(clamped) = self.drive.clamped().filter(|_| correction < CORRECTIONS) else {
-                return Ok((system, forces, power));
-            };
-            let pressure = forces[clamped][1] * self.units.force() / self.area;
-            let Some(factor) = self.drive.correct(pressure) else {
-                return Ok((system, forces, power));
-            };
-            correction += 1;
-            system.steer(&self.drive.velocities());
+            let (forces, power) = self.reactions(&system, now);
+            return Ok((system, forces, power));
+        };
+        if let Some(limit) = self.drive.held()
+            && self.solve_held(&mut system, clamped, limit, now)?
+        {
+            let (forces, power) = self.reactions(&system, now);
+            return Ok((system, forces, power));
+        }
+        self.solve_system(&system, now)?;
+        let (mut forces, mut power) = self.reactions(&system, now);
+        let pressure = forces[clamped][1] * self.units.force() / self.area;
+        let speed = self.drive.speed;
+        if self.drive.exceeds(pressure)
+            && let Some(limit) = self.drive.held()
+        {
+            let factor = self.drive.speed / speed;
             for x in now.u.iter_mut().chain(&mut now.p) {
                 *x *= factor;
             }
+            if !self.solve_held(&mut system, clamped, limit, now)? {
+                self.solve_system(&system, now)?;
+            }
+            (forces, power) = self.reactions(&system, now);
         }
+        Ok((system, forces, power))
+    }
+
+    fn reactions(&mut self, system: &System, now: &Unknowns) -> (Vec<[f64; 3]>, f64) {
+        (self.stages).time(Stage::Forces, || system.reactions(&now.u, &now.p))
+    }
+
+    /// Solves for the speed at which the pressure on body `clamped` is `limit` (Pa); `false`
+    /// where the clamp cannot move like that, and moves as near to it as it can.
+    fn solve_held(
+        &mut self,
+        system: &mut System,
+        clamped: usize,
+        limit: f64,
+        now: &mut Unknowns,
+    ) -> Result<bool, Failure> {
+        let force = limit * self.area / self.units.force();
+        let mut bodies = self.drive.velocities();
+        let load = system.load(clamped, force);
+        bodies[clamped] = [0.0; 3];
+        system.steer(&bodies);
+        let mut speed = self.drive.speed;
+        let solver = &mut self.solver;
+        let outcome = (self.stages).time(Stage::Solve, || {
+            solver.solve_loaded(&system.saddle(), &load, &mut now.u, &mut now.p, &mut speed)
+        });
+        self.count(outcome, now)?;
+        let follows = self.drive.follow(speed);
+        system.steer(&self.drive.velocities());
+        Ok(follows)
     }
 
     fn solve_system(&mut self, system: &System, now: &mut Unknowns) -> Result<(), Failure> {
@@ -177,6 +214,15 @@ impl Implicit {
         let outcome = (self.stages).time(Stage::Solve, || {
             solver.solve(&system.saddle(), &mut now.u, &mut now.p)
         });
+        self.count(outcome, now)
+    }
+
+    /// Counts the iterations of a solve that converged, or nearly.
+    fn count(
+        &self,
+        outcome: Result<SaddleReport, SolveError>,
+        now: &mut Unknowns,
+    ) -> Result<(), Failure> {
         match outcome {
             Ok(report) => now.iterations += report.iterations() as u32,
             Err(SolveError::NotConverged {
