@@ -185,17 +185,14 @@ impl Builder<'_> {
     }
 
     fn across(&self, axis: usize, index: usize, which: usize, seen: &Seen) -> Across {
-        let [low, high] = seen.nearest.distance;
-        let touches = [seen.nearest.touches(0), seen.nearest.touches(1)];
-        if touches[0] || touches[1] {
+        if seen.nearest.touches(0) || seen.nearest.touches(1) {
             if self.influence.is_infinite() {
                 return Across::FLAT;
             }
-            let above = !(touches[0] && (!touches[1] || low <= high));
-            let (d, opposite) = if above { (high, low) } else { (low, high) };
-            let velocity = self.body(seen.nearest.body[usize::from(above)], axis);
-            let path = seen.nearest.free_path();
-            return Across::wall(velocity, above, [d, opposite, path, self.influence]);
+            if seen.uneven {
+                return self.along_steps(axis, index, which);
+            }
+            return self.walled(axis, &seen.nearest);
         }
         if self.active[axis][index] == NONE {
             return Across::FLAT;
@@ -205,6 +202,44 @@ impl Builder<'_> {
         match sides {
             [Some((below, w)), Some((above, v))] => {
                 Across::free([below - own, above - own], [w, v])
+            }
+            _ => Across::FLAT,
+        }
+    }
+
+    /// The profile between the walls of a column, of which one is near.
+    fn walled(&self, axis: usize, column: &Column) -> Across {
+        let [low, high] = column.distance;
+        let above = !(column.touches(0) && (!column.touches(1) || low <= high));
+        let (d, opposite) = if above { (high, low) } else { (low, high) };
+        let velocity = self.body(column.body[usize::from(above)], axis);
+        Across::wall(
+            velocity,
+            above,
+            [d, opposite, column.free_path(), self.influence],
+        )
+    }
+
+    /// The profile where the columns of a face meet different walls, as along the steps of voxels:
+    /// that between the farthest ones, with mean 1 over the open parts of the columns. The
+    /// parabola between the nearest ones would be far below zero in the rest.
+    fn along_steps(&self, axis: usize, index: usize, which: usize) -> Across {
+        let cell = self.lattice.window.coordinates(index);
+        let columns = self.lattice.columns(axis, cell, tangents(axis)[which]);
+        let open = columns.iter().filter(|column| !column.blocked());
+        let farthest = open.clone().fold(None, |farthest: Option<Column>, column| {
+            let mut all = farthest.unwrap_or(*column);
+            for side in 0..2 {
+                if column.distance[side] > all.distance[side] {
+                    all.distance[side] = column.distance[side];
+                    all.body[side] = column.body[side];
+                }
+            }
+            Some(all)
+        });
+        match farthest {
+            Some(all) if all.touches(0) || all.touches(1) => {
+                self.walled(axis, &all).with_mean_over(open.map(extent))
             }
             _ => Across::FLAT,
         }
@@ -248,10 +283,7 @@ impl Builder<'_> {
 fn see(lattice: &Lattice, axis: usize, index: usize) -> [Seen; 2] {
     let cell = lattice.window.coordinates(index);
     tangents(axis).map(|t| {
-        let mut seen = Seen {
-            nearest: Column::FREE,
-            reaches: 0,
-        };
+        let mut seen = Seen::default();
         if t >= lattice.window.domain.axes || lattice.clear(axis, cell, t) {
             return seen;
         }
@@ -265,8 +297,34 @@ fn see(lattice: &Lattice, axis: usize, index: usize) -> [Seen; 2] {
 struct Seen {
     /// Nearest walls below and above.
     nearest: Column,
+    /// Open columns.
+    columns: u8,
+    /// Whether they reach to walls at different distances.
+    uneven: bool,
     /// Bit 0: the control volume reaches beyond the face's edge above, bit 1: below.
     reaches: u8,
+}
+
+impl Default for Seen {
+    fn default() -> Self {
+        Self {
+            nearest: Column::FREE,
+            columns: 0,
+            uneven: false,
+            reaches: 0,
+        }
+    }
+}
+
+/// How far a control volume reaches below and above the face's centre in a column.
+fn extent(column: &Column) -> [f64; 2] {
+    [0, 1].map(|side| {
+        if column.touches(side) {
+            column.distance[side]
+        } else {
+            0.5
+        }
+    })
 }
 
 impl Seen {
@@ -276,6 +334,8 @@ impl Seen {
         }
         for side in 0..2 {
             let distance = column.distance[side];
+            let differs = (extent(&self.nearest)[side] - extent(column)[side]).abs() > TOUCH;
+            self.uneven |= differs && self.columns > 0;
             if distance < self.nearest.distance[side] {
                 self.nearest.distance[side] = distance;
                 self.nearest.body[side] = column.body[side];
@@ -284,5 +344,6 @@ impl Seen {
                 self.reaches |= if side == 1 { 1 } else { 2 };
             }
         }
+        self.columns += 1;
     }
 }

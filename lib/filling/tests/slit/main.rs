@@ -114,13 +114,15 @@ fn run(n: usize, offset: [f64; 2], settings: Settings, change: impl Fn(&mut Scen
     }
     let liquid = scheme.liquid();
     let moved = scheme.displacements();
+    // Deeper than the rounding of positions to f32.
+    let deep = |x: &[f32; 3], body: &RigidBody, d: &[f64; 3]| {
+        let at = |dx: f64, dy: f64| [dx, dy, 0.0].map(|s| s * 1e-4 * h);
+        [at(1.0, 0.0), at(-1.0, 0.0), at(0.0, 1.0), at(0.0, -1.0)]
+            .iter()
+            .all(|s| body.contains(std::array::from_fn(|a| f64::from(x[a]) - d[a] + s[a])))
+    };
     let in_walls = (liquid.position.iter())
-        .filter(|x| {
-            bodies
-                .iter()
-                .zip(&moved)
-                .any(|(body, d)| body.contains(std::array::from_fn(|a| f64::from(x[a]) - d[a])))
-        })
+        .filter(|x| bodies.iter().zip(&moved).any(|(body, d)| deep(x, body, d)))
         .count();
     let entrance = 2.0 * h + 2.0 * H + offset[1] * h;
     let inside: f64 = (liquid.position.iter().zip(&liquid.volume))
