@@ -10,7 +10,7 @@
 
 use std::time::Instant;
 
-use mpm::{Explicit, Settings, ShapeFunction, VelocityUpdate};
+use mpm::{Explicit, PressureFrom, Settings, ShapeFunction, VelocityUpdate};
 use physics::{
     Boundary, Clamp, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene,
     Scheme, ShearRate, StepLimit, Stop, Table, Tait, Viscosity, VoxelBlock, WallLaw,
@@ -112,6 +112,31 @@ fn processor_s() -> f64 {
     (ticks(11) + ticks(12)) / 100.0
 }
 
+/// What is timed in every scene.
+fn variants() -> Vec<Settings> {
+    let of = |shape, velocity_update| Settings {
+        shape,
+        velocity_update,
+        ..Settings::default()
+    };
+    let apic = of(ShapeFunction::Gimp, VelocityUpdate::Apic);
+    vec![
+        of(ShapeFunction::Gimp, VelocityUpdate::Flip),
+        of(ShapeFunction::Gimp, VelocityUpdate::Xpic(5)),
+        apic,
+        Settings {
+            pressure: PressureFrom::CellMean,
+            ..apic
+        },
+        Settings {
+            density_projection: Some(0.04),
+            ..apic
+        },
+        of(ShapeFunction::Bspline2, VelocityUpdate::Flip),
+        of(ShapeFunction::Linear, VelocityUpdate::Flip),
+    ]
+}
+
 fn main() {
     let steps: usize = std::env::args()
         .nth(1)
@@ -127,22 +152,18 @@ fn main() {
         ("free", scene(false, pf())),
         ("table", scene(true, pva_pf())),
     ] {
-        for (shape, update) in [
-            (ShapeFunction::Gimp, VelocityUpdate::Flip),
-            (ShapeFunction::Gimp, VelocityUpdate::Xpic(5)),
-            (ShapeFunction::Gimp, VelocityUpdate::Apic),
-            (ShapeFunction::Bspline2, VelocityUpdate::Flip),
-            (ShapeFunction::Linear, VelocityUpdate::Flip),
-        ] {
-            let name = format!("{scene_name},{shape:?},{update:?}");
+        for settings in variants() {
+            let (shape, update) = (settings.shape, settings.velocity_update);
+            let mut name = format!("{scene_name},{shape:?},{update:?}");
+            if settings.pressure == PressureFrom::CellMean {
+                name += " cell-mean";
+            }
+            if settings.density_projection.is_some() {
+                name += " projection";
+            }
             if !name.starts_with(&only) {
                 continue;
             }
-            let settings = Settings {
-                shape,
-                velocity_update: update,
-                cfl: 0.5,
-            };
             let mut run = Explicit::new(&scene, &settings).expect("a valid scene");
             let limit = StepLimit {
                 time_s: f64::INFINITY,

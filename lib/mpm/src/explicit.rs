@@ -5,15 +5,16 @@ use physics::{
 
 use crate::collide::Obstacle;
 use crate::contact::separation_limit;
+use crate::density::Projection;
 use crate::lanes::{Oct, Quad};
 use crate::lattice::Lattice;
 use crate::material::{Constant, Segments, Stress};
 use crate::nodes::Mode;
 use crate::plan::Plan;
-use crate::settings::{Settings, VelocityUpdate};
+use crate::settings::{PressureFrom, Settings, VelocityUpdate};
 use crate::step::Stage;
 use crate::tiles::Point;
-use crate::topology::Grid;
+use crate::topology::{Extras, Grid};
 use crate::transfer::{AnyFlow, Kernels};
 use crate::walls::{BlockShape, Integrator};
 
@@ -32,6 +33,7 @@ pub struct Explicit {
     /// Voxel blocks of each body, in cells.
     pub(crate) parts: Vec<Vec<BlockShape>>,
     pub(crate) control: Option<PidControl>,
+    pub(crate) projection: Option<Projection>,
     pub(crate) state: State,
     /// Tiles changed since the bodies' reach was marked on them.
     pub(crate) unseen: bool,
@@ -101,12 +103,25 @@ impl Explicit {
             },
             stress: Stress::new(&scene.liquid, cell, plan.viscosity_cap),
             integrator: Integrator::new(&lattice, settings.shape),
-            separation: separation_limit(settings.shape),
-            grid: Grid::new(lattice, scene.bodies.len(), filtered, affine),
+            separation: settings
+                .separation
+                .map_or(separation_limit(settings.shape), |cells| cells as f32),
+            grid: Grid::new(
+                lattice,
+                scene.bodies.len(),
+                Extras {
+                    filtered,
+                    affine,
+                    cell_sums: settings.pressure == PressureFrom::CellMean,
+                },
+            ),
             parts,
             control: scene
                 .clamp
                 .map(|clamp| PidControl::new(clamp, cell / scene.liquid.sound_speed())),
+            projection: settings
+                .density_projection
+                .map(|every| Projection::new(every, scene.initial_speed())),
             state: State {
                 step: 0,
                 time_s: 0.0,
@@ -322,10 +337,14 @@ impl Scheme for Explicit {
 
     fn counts(&self) -> Vec<(&'static str, u64)> {
         let Corrections { stopped, trapped } = self.state.corrections;
-        vec![
+        let mut counts = vec![
             ("points stopped at walls", stopped),
             ("points trapped in walls", trapped),
-        ]
+        ];
+        if let Some(projection) = &self.projection {
+            counts.push(("density projections", projection.count));
+        }
+        counts
     }
 
     fn stage_times(&self) -> Vec<StageTime> {

@@ -13,8 +13,10 @@
 // Loops over axes and lanes index several short arrays at once.
 #![allow(clippy::needless_range_loop)]
 
+mod cell_mean;
 mod collide;
 mod contact;
+mod density;
 mod explicit;
 mod lanes;
 mod lattice;
@@ -33,4 +35,4 @@ mod walls;
 
 pub use explicit::{Corrections, Explicit};
 pub use plan::{Limit, Plan};
-pub use settings::{Settings, ShapeFunction, VelocityUpdate};
+pub use settings::{PressureFrom, Settings, ShapeFunction, VelocityUpdate};

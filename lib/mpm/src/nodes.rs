@@ -2,10 +2,12 @@
 
 use physics::{Rheology, WallLaw};
 
+use crate::cell_mean::CellSum;
 use crate::contact::{Meeting, meeting};
 use crate::lanes::{Oct, Quad};
 use crate::lattice::{Lattice, block_node};
 use crate::tiles::Tile;
+use crate::topology::Extras;
 use crate::walls::NearBody;
 
 /// One halo entry of a tile that adds to a node.
@@ -34,6 +36,8 @@ pub(crate) struct Block {
     /// Impulse on each body in this step, density cell^3 m/s.
     pub(crate) reaction: Vec<[f64; 3]>,
     filter: Filtered,
+    /// Sums over cells, at the lowest node of each; empty unless the pressure is a cell's.
+    pub(crate) cells: Vec<CellSum>,
 }
 
 /// What the velocity filter keeps at nodes; empty without one.
@@ -73,14 +77,14 @@ pub(crate) enum Mode {
 }
 
 impl Block {
-    pub(crate) fn new(key: u64, lattice: &Lattice, bodies: usize, filtered: bool) -> Self {
+    pub(crate) fn new(key: u64, lattice: &Lattice, bodies: usize, extras: Extras) -> Self {
         let origin = lattice.tile_origin(key);
         let n = lattice.block_len();
         let planes = (0..n).map(|i| {
             let local = block_node(i);
             lattice.planes(std::array::from_fn(|a| origin[a] + local[a]))
         });
-        let filter = if filtered {
+        let filter = if extras.filtered {
             Filtered {
                 w: vec![Quad::ZERO; n],
                 meetings: vec![None; n],
@@ -97,10 +101,11 @@ impl Block {
             walls: Vec::with_capacity(bodies),
             reaction: vec![[0.0; 3]; bodies],
             filter,
+            cells: vec![[0.0; 2]; if extras.cell_sums { n } else { 0 }],
         }
     }
 
-    fn sources_of(&self, node: usize) -> &[Source] {
+    pub(crate) fn sources_of(&self, node: usize) -> &[Source] {
         &self.sources[self.first[node] as usize..self.first[node + 1] as usize]
     }
 

@@ -66,6 +66,9 @@ impl Explicit {
         if self.is_affine() {
             arrays.push(("affine", Array::F32(affine)));
         }
+        if let Some(projection) = &self.projection {
+            arrays.push(("projection", Array::F64(projection.state())));
+        }
         Saved(
             arrays
                 .into_iter()
@@ -98,6 +101,10 @@ impl Explicit {
         };
         if let Some(control) = &mut self.control {
             control.set_state([clock[3], clock[4], clock[5]]);
+        }
+        if let Some(projection) = &mut self.projection {
+            let state = sized(saved.f64s("projection")?, 3, "projection")?;
+            projection.set_state([state[0], state[1], state[2]]);
         }
         self.grid = Grid::like(&self.grid);
         self.grid.insert(points);

@@ -28,6 +28,16 @@ pub enum VelocityUpdate {
     Apic,
 }
 
+/// Whose volume change sets a point's pressure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PressureFrom {
+    /// The point's own, the paper's.
+    #[default]
+    Point,
+    /// The mean of its cell.
+    CellMean,
+}
+
 /// What of the explicit scheme a case chooses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -38,6 +48,14 @@ pub struct Settings {
     /// Time step over the limit that binds. With GIMP 0.7 is stable for 1e-3 to 1.3 Pa s in a
     /// pool on a wall off the nodes; 1.0 is not, neither there nor in wood.
     pub cfl: f64,
+    /// Whose volume change sets a point's pressure; not the paper's unless `Point`.
+    pub pressure: PressureFrom,
+    /// How far (cells) the fastest point moves between two projections of the points to uniform
+    /// density; `None`, the paper's, for no projection.
+    pub density_projection: Option<f64>,
+    /// Largest separation (cells) of liquid and wall, by positions extrapolated to a node, at
+    /// which they are in contact; `None` for the shape function's own value.
+    pub separation: Option<f64>,
 }
 
 impl Default for Settings {
@@ -46,6 +64,9 @@ impl Default for Settings {
             shape: ShapeFunction::Gimp,
             velocity_update: VelocityUpdate::Flip,
             cfl: 0.5,
+            pressure: PressureFrom::Point,
+            density_projection: None,
+            separation: None,
         }
     }
 }
@@ -53,13 +74,33 @@ impl Default for Settings {
 /// Highest order of XPIC and FMPM: beyond it the filter costs far more than the step.
 pub(crate) const MAX_ORDER: u32 = 20;
 
+/// Beyond this many cells liquid and wall never share a node: each reaches 1.5 cells at most.
+const MAX_SEPARATION: f64 = 3.0;
+
 impl Settings {
     /// Says what is wrong with the settings, if anything.
-    pub(crate) fn check(&self) -> Result<(), String> {
+    ///
+    /// # Errors
+    /// One sentence about the first value out of range.
+    pub fn check(&self) -> Result<(), String> {
         if !(self.cfl > 0.0 && self.cfl <= 1.5) {
             return Err(format!(
                 "cfl is {}: it must be above 0 and at most 1.5",
                 self.cfl
+            ));
+        }
+        if let Some(cells) = self.density_projection
+            && !(cells > 0.0 && cells <= 1.0)
+        {
+            return Err(format!(
+                "density_projection is {cells} cells: it must be above 0 and at most 1 cell"
+            ));
+        }
+        if let Some(cells) = self.separation
+            && !(cells > 0.0 && cells <= MAX_SEPARATION)
+        {
+            return Err(format!(
+                "separation is {cells} cells: it must be above 0 and at most {MAX_SEPARATION} cells, farther than which no point reaches a node"
             ));
         }
         match self.velocity_update {

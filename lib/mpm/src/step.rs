@@ -5,11 +5,12 @@ use std::time::Instant;
 use physics::{Failure, Rheology, StepLimit, StepReport, Viscosity};
 use rayon::prelude::*;
 
+use crate::cell_mean::{equalise, share_rate};
 use crate::collide::move_points;
 use crate::explicit::Explicit;
 use crate::nodes::{Block, Mode, NodeStep};
 use crate::plan::acoustic_limit;
-use crate::settings::VelocityUpdate;
+use crate::settings::{PressureFrom, VelocityUpdate};
 use crate::tiles::{NOWHERE, Tile};
 use crate::topology::unlink;
 use crate::walls::{BlockShape, Integrator, NearBody};
@@ -73,11 +74,15 @@ impl Explicit {
         self.nodes_to_points(dt, &from, &slow)?;
         self.lap(Stage::NodesToPoints, &mut clock);
         self.unseen |= self.grid.deliver();
+        if self.settings.pressure == PressureFrom::CellMean {
+            equalise(&mut self.grid, &self.stress);
+        }
         self.state.step += 1;
         self.state.time_s += dt;
         self.state.travel_m += speed * dt;
         let report = self.report(dt, speed);
         self.steer(&report);
+        self.project(dt)?;
         if self.state.step.is_multiple_of(CHECK_EVERY) {
             self.check()?;
         }
@@ -185,11 +190,15 @@ impl Explicit {
         let bodies = self.obstacles(from, &self.state.displacement, velocities);
         let (blocks, lattice) = (&self.grid.blocks, &self.grid.lattice);
         let scale = (dt / self.scene.grid.cell_m) as f32;
+        let shared = self.settings.pressure == PressureFrom::CellMean;
         let fault = tiles
             .par_iter_mut()
             .map(|tile| {
                 gather_velocity(tile, blocks);
                 (self.kernels.g2p)(tile, scale, self.settings.velocity_update);
+                if shared {
+                    share_rate(tile, lattice.axes());
+                }
                 self.flow.update(tile, &self.stress, dt as f32);
                 move_points(tile, lattice, &bodies)
             })
@@ -273,6 +282,9 @@ impl Explicit {
         }
         let acoustic = acoustic_limit(&self.scene, fastest.sqrt(), f64::from(least));
         self.state.dt_s = self.settings.cfl * acoustic.min(self.plan.viscous_s);
+        if let Some(projection) = &mut self.projection {
+            projection.speed = fastest.sqrt();
+        }
         Ok(())
     }
 

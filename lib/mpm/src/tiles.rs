@@ -1,7 +1,9 @@
 //! Liquid points, grouped by the tile of nodes that they are nearest to.
 
+use crate::cell_mean::CellSum;
 use crate::lanes::{Oct, Quad};
 use crate::lattice::{HALO, Lattice, block_node};
+use crate::topology::Extras;
 
 /// All that one point carries; the unit in which points move between tiles.
 #[derive(Clone, Copy, Debug)]
@@ -106,6 +108,9 @@ pub(crate) struct Tile {
     /// Nodal values in and point sums out of the velocity filter; empty without one.
     pub(crate) filter_in: Vec<Quad>,
     pub(crate) filter_out: Vec<Quad>,
+    /// Sums over this tile's points by cell, at the lowest node of each, or whole sums gathered
+    /// for them; empty unless the pressure is a cell's.
+    pub(crate) cells: Vec<CellSum>,
     /// Per window base: a body is within reach of these nodes.
     pub(crate) near_wall: Vec<bool>,
     /// Per window base: the node is on a side of the domain.
@@ -122,7 +127,7 @@ pub(crate) struct Tile {
 }
 
 impl Tile {
-    pub(crate) fn new(key: u64, lattice: &Lattice, filtered: bool, bodies: usize) -> Self {
+    pub(crate) fn new(key: u64, lattice: &Lattice, extras: Extras, bodies: usize) -> Self {
         let n = lattice.halo_len();
         let origin = lattice.tile_origin(key);
         let mut at_side = vec![false; n];
@@ -146,16 +151,17 @@ impl Tile {
             } else {
                 Vec::new()
             },
-            filter_in: if filtered {
+            filter_in: if extras.filtered {
                 vec![Quad::ZERO; n]
             } else {
                 Vec::new()
             },
-            filter_out: if filtered {
+            filter_out: if extras.filtered {
                 vec![Quad::ZERO; n]
             } else {
                 Vec::new()
             },
+            cells: vec![[0.0; 2]; if extras.cell_sums { n } else { 0 }],
             near_wall: vec![false; n],
             bodies: 0,
             leaving: Vec::new(),

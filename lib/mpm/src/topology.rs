@@ -15,12 +15,22 @@ pub(crate) struct Grid {
     block_keys: Vec<u64>,
     tile_of: HashMap<u64, usize>,
     bodies: usize,
-    filtered: bool,
-    affine: bool,
+    extras: Extras,
+}
+
+/// What tiles and blocks carry beside the least that a step needs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extras {
+    /// Arrays of the velocity filter.
+    pub(crate) filtered: bool,
+    /// The points' affine velocity fields.
+    pub(crate) affine: bool,
+    /// Sums over cells.
+    pub(crate) cell_sums: bool,
 }
 
 impl Grid {
-    pub(crate) fn new(lattice: Lattice, bodies: usize, filtered: bool, affine: bool) -> Self {
+    pub(crate) fn new(lattice: Lattice, bodies: usize, extras: Extras) -> Self {
         Self {
             lattice,
             tiles: Vec::new(),
@@ -28,19 +38,13 @@ impl Grid {
             block_keys: Vec::new(),
             tile_of: HashMap::new(),
             bodies,
-            filtered,
-            affine,
+            extras,
         }
     }
 
     /// An empty grid made like `other`.
     pub(crate) fn like(other: &Self) -> Self {
-        Self::new(
-            other.lattice.clone(),
-            other.bodies,
-            other.filtered,
-            other.affine,
-        )
+        Self::new(other.lattice.clone(), other.bodies, other.extras)
     }
 
     /// Adds points with their nearest nodes, making tiles as needed; says whether tiles changed.
@@ -52,11 +56,11 @@ impl Grid {
                 Some(&t) => &mut self.tiles[t],
                 None => new
                     .entry(key)
-                    .or_insert_with(|| Tile::new(key, &self.lattice, self.filtered, self.bodies)),
+                    .or_insert_with(|| Tile::new(key, &self.lattice, self.extras, self.bodies)),
             };
             let origin = tile.origin;
             let base = base_of(std::array::from_fn(|a| node[a] - origin[a]));
-            tile.points.push(&point, base, self.affine);
+            tile.points.push(&point, base, self.extras.affine);
         }
         if new.is_empty() {
             return false;
@@ -101,7 +105,7 @@ impl Grid {
             index.insert(key, b);
             self.blocks.push(
                 old.remove(&key)
-                    .unwrap_or_else(|| Block::new(key, lattice, self.bodies, self.filtered)),
+                    .unwrap_or_else(|| Block::new(key, lattice, self.bodies, self.extras)),
             );
         }
         let mut sources: Vec<Vec<(usize, Source)>> = vec![Vec::new(); self.blocks.len()];

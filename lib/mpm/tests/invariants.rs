@@ -4,8 +4,8 @@
 mod scenes;
 
 use mpm::{Explicit, ShapeFunction, VelocityUpdate};
-use physics::{Boundary, Clamp, LiquidState, Motion, Scene, Scheme, VoxelBlock, WallLaw};
-use scenes::{CELL, FREE, fill, scene, settings, solid};
+use physics::{Boundary, LiquidState, Motion, Scene, Scheme, WallLaw};
+use scenes::{CELL, FREE, fill, press, scene, settings, solid};
 
 const UPDATES: [VelocityUpdate; 7] = [
     VelocityUpdate::Flip,
@@ -148,38 +148,6 @@ fn momentum_of_a_free_drop_is_kept() {
             assert!(!affine || spin.abs() < 1e-5);
         }
     }
-}
-
-/// Liquid pressed into porous voxels by a clamped block; all features at work.
-fn press() -> Scene {
-    let mut s = scene([10, 14, 10], [Boundary::Symmetry; 3]);
-    s.boundary[1] = Boundary::Open;
-    s.wall = WallLaw::PartialSlip {
-        influence_length_m: 0.01 * CELL,
-    };
-    fill(&mut s, [0.0, 5.0, 0.0], [10.0, 8.0, 10.0], |_| [0.0; 3]);
-    let voxel = [0.5 * CELL; 3];
-    let block = |low: f64| {
-        VoxelBlock::from_fn([0.0, low * CELL, 0.0], voxel, [20, 10, 20], |i, j, k| {
-            (i % 8 < 2 || k % 9 < 2) && (j + i) % 7 != 3
-        })
-    };
-    let body = |name: &str, low: f64, motion| physics::RigidBody {
-        name: name.into(),
-        blocks: vec![block(low)],
-        motion,
-    };
-    s.bodies = vec![
-        body("bottom", 0.0, Motion::Fixed),
-        body("top", 8.0, Motion::Clamped),
-    ];
-    s.clamp = Some(Clamp {
-        closing_speed: 20.0,
-        max_pressure: Some(2.5e6),
-        pid: None,
-    });
-    (s.bottom, s.top) = (Some(0), Some(1));
-    s
 }
 
 fn same(a: &Explicit, b: &Explicit) -> bool {

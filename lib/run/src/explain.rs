@@ -25,6 +25,21 @@ pub struct Forecast {
     pub notes: Vec<String>,
 }
 
+/// Steps from which a run will not end: at a microsecond each they take weeks.
+const ENDLESS: f64 = 1e9;
+
+impl Forecast {
+    /// A sentence where the time step is so short that the run will not end.
+    pub fn warning(&self) -> Option<String> {
+        (self.steps > ENDLESS).then(|| {
+            format!(
+                "the run needs about {:.1e} steps of {:.2e} s and will hardly end; the limit that binds is {}",
+                self.steps, self.dt_s, self.limit
+            )
+        })
+    }
+}
+
 /// The plan of a run.
 pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
     let mut out = String::new();
@@ -178,7 +193,7 @@ fn cost(out: &mut String, setup: &Setup, forecast: &Forecast) -> std::fmt::Resul
         duration(forecast.seconds),
         rayon::current_num_threads()
     )?;
-    for note in &forecast.notes {
+    for note in forecast.notes.iter().chain(&forecast.warning()) {
         writeln!(out, "  {note}")?;
     }
     Ok(())

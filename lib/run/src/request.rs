@@ -107,9 +107,15 @@ impl Request {
         })
     }
 
-    /// Sentences about terms left out although the regime would need them.
+    /// Sentences about terms left out although the regime would need them, and about a step too
+    /// short for the run to end.
     pub fn warnings(&self) -> Vec<String> {
-        Regime::of(&self.setup.scene).warnings()
+        let mut said = Regime::of(&self.setup.scene).warnings();
+        // What keeps the scheme from starting is said when it is to start.
+        if let Ok(forecast) = schemes::forecast(&self.case, &self.setup) {
+            said.extend(forecast.warning());
+        }
+        said
     }
 
     /// The plan of the run as text.

@@ -1,10 +1,10 @@
 //! The scheme a case asks for, with its settings and its forecast.
 
 use filling::Implicit;
-use mpm::{Explicit, ShapeFunction, VelocityUpdate};
+use mpm::{Explicit, PressureFrom, ShapeFunction, VelocityUpdate};
 use physics::{Scene, Scheme};
 
-use crate::case::{Case, CaseError, SchemeName, ShapeName, UpdateName};
+use crate::case::{Case, CaseError, PressureName, SchemeName, ShapeName, UpdateName};
 use crate::explain::Forecast;
 use crate::request::RunFailure;
 use crate::resolve::Setup;
@@ -49,13 +49,14 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
             ))
         })
     };
+    let cell = case.grid.cell.si();
     let update = table.velocity_update.unwrap_or(UpdateName::Flip);
     if table.order.is_some() && !matches!(update, UpdateName::Xpic | UpdateName::Fmpm) {
         return Err(CaseError(
             "[integrator] order is for velocity_update = \"xpic\" and \"fmpm\" only".into(),
         ));
     }
-    Ok(mpm::Settings {
+    let settings = mpm::Settings {
         shape: match case.grid.shape.unwrap_or_default() {
             ShapeName::Gimp => ShapeFunction::Gimp,
             ShapeName::Bspline2 => ShapeFunction::Bspline2,
@@ -69,7 +70,17 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
             UpdateName::Apic => VelocityUpdate::Apic,
         },
         cfl: table.cfl.unwrap_or(DEFAULT_CFL),
-    })
+        pressure: match table.pressure.unwrap_or_default() {
+            PressureName::Point => PressureFrom::Point,
+            PressureName::CellMean => PressureFrom::CellMean,
+        },
+        density_projection: table.density_projection.map(|length| length.cells(cell)),
+        separation: (case.contact.as_ref())
+            .and_then(|contact| contact.separation)
+            .map(|length| length.cells(cell)),
+    };
+    settings.check().map_err(CaseError)?;
+    Ok(settings)
 }
 
 fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
@@ -80,7 +91,18 @@ fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
             "[integrator] velocity_update",
         ),
         (table.order.is_some(), "[integrator] order"),
+        (table.pressure.is_some(), "[integrator] pressure"),
+        (
+            table.density_projection.is_some(),
+            "[integrator] density_projection",
+        ),
         (case.grid.shape.is_some(), "[grid] shape"),
+        (
+            case.contact
+                .as_ref()
+                .is_some_and(|c| c.separation.is_some()),
+            "[contact] separation",
+        ),
     ];
     if let Some((_, key)) = stray.iter().find(|(given, _)| *given) {
         return Err(CaseError(format!(
@@ -116,6 +138,7 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
             setup.scene.liquid.viscosity.largest()
         ));
     }
+    notes.extend(departures(settings));
     Ok(Forecast {
         dt_s: plan.dt_s,
         limit: plan.limit.to_string(),
@@ -125,6 +148,25 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
             / (EXPLICIT_SPEED * rayon::current_num_threads() as f64),
         notes,
     })
+}
+
+/// What the settings change of the paper's method, none of it silently.
+fn departures(settings: &mpm::Settings) -> Vec<String> {
+    let mut list = Vec::new();
+    if settings.pressure == PressureFrom::CellMean {
+        list.push("pressure           from the mean J of each cell, not the paper's".to_owned());
+    }
+    if let Some(cells) = settings.density_projection {
+        list.push(format!(
+            "density projection after every {cells} cell of motion, not the paper's"
+        ));
+    }
+    if let Some(cells) = settings.separation {
+        list.push(format!(
+            "contact separation {cells} cell, not the shape function's own"
+        ));
+    }
+    list
 }
 
 fn implicit_forecast(settings: &filling::Settings, setup: &Setup) -> Forecast {

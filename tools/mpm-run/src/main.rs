@@ -17,6 +17,11 @@ use run::{End, Request, RunFailure};
   mpm-run pf-xpic.toml --particles bond.mpts --explain
   mpm-run pf-xpic.toml --particles bond.mpts -o runs/pf-xpic --resume
 
+Keys of the explicit scheme that are not the paper's, off unless given (docs/results/explicit-options.md):
+  integrator.pressure = \"cell-mean\"            pressure from the mean volume ratio of each cell
+  integrator.density_projection = \"0.04 cell\"  points evened out after that much motion
+  contact.separation = \"0.8 cell\"              how near liquid and wall touch at a node
+
 Exit status: 0 ok; 1 the run failed (unstable, cannot write); 2 usage or case file;
 3 unreadable or corrupt data; 75 stopped early, continue with --resume."
 )]

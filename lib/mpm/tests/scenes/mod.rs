@@ -3,8 +3,8 @@
 
 use mpm::{Explicit, Settings, ShapeFunction, VelocityUpdate};
 use physics::{
-    Boundary, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene, Scheme,
-    ShearRate, StepLimit, StepReport, Stop, Tait, Viscosity, VoxelBlock, WallLaw,
+    Boundary, Clamp, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene,
+    Scheme, ShearRate, StepLimit, StepReport, Stop, Tait, Viscosity, VoxelBlock, WallLaw,
 };
 
 /// The paper's cell, m.
@@ -91,11 +91,44 @@ pub fn solid(name: &str, low: [f64; 3], high: [f64; 3], motion: Motion) -> Rigid
     }
 }
 
+/// Liquid pressed into porous voxels by a clamped block; all features at work.
+pub fn press() -> Scene {
+    let mut s = scene([10, 14, 10], [Boundary::Symmetry; 3]);
+    s.boundary[1] = Boundary::Open;
+    s.wall = WallLaw::PartialSlip {
+        influence_length_m: 0.01 * CELL,
+    };
+    fill(&mut s, [0.0, 5.0, 0.0], [10.0, 8.0, 10.0], |_| [0.0; 3]);
+    let voxel = [0.5 * CELL; 3];
+    let block = |low: f64| {
+        VoxelBlock::from_fn([0.0, low * CELL, 0.0], voxel, [20, 10, 20], |i, j, k| {
+            (i % 8 < 2 || k % 9 < 2) && (j + i) % 7 != 3
+        })
+    };
+    let body = |name: &str, low: f64, motion| physics::RigidBody {
+        name: name.into(),
+        blocks: vec![block(low)],
+        motion,
+    };
+    s.bodies = vec![
+        body("bottom", 0.0, Motion::Fixed),
+        body("top", 8.0, Motion::Clamped),
+    ];
+    s.clamp = Some(Clamp {
+        closing_speed: 20.0,
+        max_pressure: Some(2.5e6),
+        pid: None,
+    });
+    (s.bottom, s.top) = (Some(0), Some(1));
+    s
+}
+
 pub fn settings(shape: ShapeFunction, velocity_update: VelocityUpdate, cfl: f64) -> Settings {
     Settings {
         shape,
         velocity_update,
         cfl,
+        ..Settings::default()
     }
 }
 

@@ -9,9 +9,10 @@ use std::path::Path;
 
 pub use schema::{
     Adhesive, Axes, Body, BoundaryName, BoxCorners, Case, ClampTable, Contact, Grid, Integrator,
-    LawName, MaterialName, OutputTable, PidGains, SchemeName, ShapeName, ShearRateName, UpdateName,
+    LawName, MaterialName, OutputTable, PidGains, PressureName, SchemeName, ShapeName,
+    ShearRateName, UpdateName,
 };
-pub use value::{BodyVelocity, InfluenceLength, Positive, StopRule};
+pub use value::{BodyVelocity, CellLength, Positive, StopRule};
 
 /// Why a case cannot be run; one sentence with file, line and column where known.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

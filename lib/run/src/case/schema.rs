@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use units::{Acceleration, Density, Length, Pressure, Quantity, ShearRate, Speed, Time, Viscosity};
 
-use super::value::{BodyVelocity, InfluenceLength, Positive, StopRule};
+use super::value::{BodyVelocity, CellLength, Positive, StopRule};
 
 /// A case file.
 #[derive(Clone, Debug, Deserialize)]
@@ -110,7 +110,9 @@ pub struct Contact {
     /// Which law.
     pub law: LawName,
     /// 1/k of Eq. 3, for partial slip.
-    pub influence_length: Option<InfluenceLength>,
+    pub influence_length: Option<CellLength>,
+    /// Explicit: largest separation of liquid and wall at a node at which they touch.
+    pub separation: Option<CellLength>,
 }
 
 /// `law`
@@ -172,6 +174,12 @@ pub struct Integrator {
     pub order: Option<u8>,
     /// Courant number of the limit that binds.
     pub cfl: Option<f64>,
+    /// Explicit: whose volume change sets a point's pressure; its own, as in the paper, by
+    /// default.
+    pub pressure: Option<PressureName>,
+    /// Explicit: how far the fastest point moves between two projections of the points to
+    /// uniform density; none, as in the paper, by default.
+    pub density_projection: Option<CellLength>,
     /// Implicit: relative residual at which the linear solve stops.
     pub tolerance: Option<f64>,
 }
@@ -200,6 +208,17 @@ pub enum UpdateName {
     Fmpm,
     /// Affine particle in cell.
     Apic,
+}
+
+/// `pressure`
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PressureName {
+    /// From the point's own J.
+    #[default]
+    Point,
+    /// From the mean J of the points of its cell.
+    CellMean,
 }
 
 /// `[output]`

@@ -34,26 +34,34 @@ impl<'de, D: Dimension> Deserialize<'de> for Positive<D> {
     }
 }
 
-/// 1/k of paper Eq. 3: a length, or a multiple of the cell (`"0.01 cell"`).
+/// A length, or a multiple of the cell (`"0.01 cell"`).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum InfluenceLength {
+pub enum CellLength {
     /// In cells.
     Cells(f64),
     /// In metres.
     Metres(f64),
 }
 
-impl InfluenceLength {
+impl CellLength {
     /// In metres for a cell of `cell_m`.
     pub fn si(self, cell_m: f64) -> f64 {
         match self {
-            InfluenceLength::Cells(n) => n * cell_m,
-            InfluenceLength::Metres(l) => l,
+            CellLength::Cells(n) => n * cell_m,
+            CellLength::Metres(l) => l,
+        }
+    }
+
+    /// In cells of `cell_m`.
+    pub fn cells(self, cell_m: f64) -> f64 {
+        match self {
+            CellLength::Cells(n) => n,
+            CellLength::Metres(l) => l / cell_m,
         }
     }
 }
 
-impl<'de> Deserialize<'de> for InfluenceLength {
+impl<'de> Deserialize<'de> for CellLength {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
         let text = text(
             reader,
@@ -61,7 +69,7 @@ impl<'de> Deserialize<'de> for InfluenceLength {
         )?;
         if let Some(number) = text.trim().strip_suffix("cell") {
             return match number.trim().parse::<f64>() {
-                Ok(n) if n > 0.0 && n.is_finite() => Ok(InfluenceLength::Cells(n)),
+                Ok(n) if n > 0.0 && n.is_finite() => Ok(CellLength::Cells(n)),
                 _ => Err(de::Error::custom(format!(
                     "'{text}' is not accepted: a number of cells greater than zero is needed, such as \"0.01 cell\""
                 ))),
@@ -69,7 +77,7 @@ impl<'de> Deserialize<'de> for InfluenceLength {
         }
         text.parse::<Quantity<Length>>()
             .and_then(Quantity::positive)
-            .map(|l| InfluenceLength::Metres(l.si()))
+            .map(|l| CellLength::Metres(l.si()))
             .map_err(|e| {
                 de::Error::custom(format!("{e}, or a number of cells such as \"0.01 cell\""))
             })

@@ -188,6 +188,11 @@ fn boundary(case: &Case, dimensions: Dimensions) -> Result<[Boundary; 3], CaseEr
             "[boundary] z has no meaning in plane strain (dimensions = 2)".into(),
         ));
     }
+    if case.clamp.is_some() && named[1] == BoundaryName::Periodic {
+        return Err(CaseError(
+            "[boundary] y = \"periodic\" has no meaning with [clamp], which closes the bond along y: use \"symmetry\" or \"open\"".into(),
+        ));
+    }
     Ok(named.map(|name| match name {
         BoundaryName::Symmetry => Boundary::Symmetry,
         BoundaryName::Periodic => Boundary::Periodic,

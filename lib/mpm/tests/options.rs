@@ -1,0 +1,212 @@
+//! The options that are not the paper's: pressure from the cell, density projection, contact
+//! separation.
+
+mod scenes;
+
+use mpm::{Explicit, PressureFrom, Settings, ShapeFunction, VelocityUpdate};
+use physics::{Boundary, Motion, Scheme};
+use scenes::{CELL, FREE, fill, press, scene, settings, solid};
+
+fn with_all(update: VelocityUpdate) -> Settings {
+    Settings {
+        pressure: PressureFrom::CellMean,
+        density_projection: Some(0.04),
+        separation: Some(0.7),
+        ..settings(ShapeFunction::Gimp, update, 0.5)
+    }
+}
+
+#[test]
+fn threads_do_not_change_a_bit_and_a_saved_run_goes_on() {
+    for update in [
+        VelocityUpdate::Flip,
+        VelocityUpdate::Xpic(3),
+        VelocityUpdate::Apic,
+    ] {
+        let new = || Explicit::new(&press(), &with_all(update)).unwrap();
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
+            pool.install(|| {
+                let mut run = new();
+                for _ in 0..200 {
+                    run.advance(FREE).unwrap();
+                }
+                run.save()
+            })
+        };
+        let saved = run(1);
+        assert!(saved == run(2) && saved == run(5), "{update:?}");
+        let (mut straight, mut resumed) = (new(), new());
+        straight.restore(&saved).unwrap();
+        resumed.restore(&straight.save()).unwrap();
+        for _ in 0..150 {
+            straight.advance(FREE).unwrap();
+            resumed.advance(FREE).unwrap();
+        }
+        assert!(straight.save() == resumed.save(), "{update:?}");
+        let projections = straight
+            .counts()
+            .into_iter()
+            .find(|c| c.0 == "density projections");
+        println!("{update:?}: {projections:?}");
+        assert!(projections.is_some_and(|c| c.1 > 3));
+    }
+}
+
+/// Points per cell at the place of a wave cos(2 pi x / 8 cells), as the wave's amplitude.
+fn wave(run: &Explicit) -> f64 {
+    let liquid = run.liquid();
+    let (mut sine, mut cosine) = (0.0, 0.0);
+    for x in &liquid.position {
+        let phase = std::f64::consts::TAU * f64::from(x[0]) / (8.0 * CELL);
+        sine += phase.sin();
+        cosine += phase.cos();
+    }
+    2.0 * f64::hypot(sine, cosine) / liquid.position.len() as f64
+}
+
+#[test]
+fn the_projection_evens_the_density_and_nothing_else() {
+    let mut s = scene(
+        [8, 6, 1],
+        [Boundary::Periodic, Boundary::Symmetry, Boundary::Symmetry],
+    );
+    fill(&mut s, [0.0, 0.0, 0.0], [8.0, 6.0, 1.0], |_| {
+        [1.0, 0.0, 0.0]
+    });
+    for x in &mut s.points.position {
+        let phase = std::f64::consts::TAU * x[0] / (8.0 * CELL);
+        x[0] += 0.15 * CELL * phase.sin();
+    }
+    let mut paper = settings(ShapeFunction::Gimp, VelocityUpdate::Pic, 0.5);
+    let end = |settings: &Settings| {
+        let mut run = Explicit::new(&s, settings).unwrap();
+        let first = wave(&run);
+        // One cell of motion: 25 projections, each taking half of what is left.
+        let mut time = 0.0;
+        while time < CELL {
+            time += run.advance(FREE).unwrap().dt_s;
+        }
+        let liquid = run.liquid();
+        let speed = |v: &[f32; 3]| f64::hypot(f64::from(v[0]) - 1.0, f64::from(v[1]));
+        let change = liquid.velocity.iter().map(speed).fold(0.0, f64::max);
+        (
+            first,
+            wave(&run),
+            change,
+            liquid.volume.iter().map(|&v| f64::from(v)).sum::<f64>(),
+        )
+    };
+    let (first, kept, ..) = end(&paper);
+    paper.density_projection = Some(0.04);
+    let (_, evened, change, volume) = end(&paper);
+    println!(
+        "density wave {first:.4}, without projection {kept:.4}, with it {evened:.5}; largest change of velocity {change:e}"
+    );
+    // Displacement 0.15 sin: density amplitude 0.15 * 2 pi / 8 = 0.118.
+    assert!((first - 0.118).abs() < 0.005 && (kept / first - 1.0).abs() < 1e-3);
+    // Cubes of points that straddle cells leave what a cell cannot see.
+    assert!(evened < 0.1 * first);
+    assert!(change < 1e-5 && (volume / s.liquid_volume() - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn points_of_a_cell_share_their_volume_ratio_and_volume_is_kept() {
+    let mut s = scene([10, 10, 1], [Boundary::Symmetry; 3]);
+    // Converging flow that fills the box: volume is given by the walls.
+    fill(&mut s, [0.0; 3], [10.0, 10.0, 1.0], |x| {
+        let wave = |x: f64| 2.0 * (std::f64::consts::PI * x / 10.0).sin();
+        [wave(x[0]), wave(x[1]), 0.0]
+    });
+    let settings = Settings {
+        pressure: PressureFrom::CellMean,
+        ..settings(ShapeFunction::Gimp, VelocityUpdate::Flip, 0.5)
+    };
+    let mut run = Explicit::new(&s, &settings).unwrap();
+    for _ in 0..100 {
+        run.advance(FREE).unwrap();
+    }
+    let liquid = run.liquid();
+    let mut of_cell = std::collections::HashMap::new();
+    let (mut least, mut most) = (f32::INFINITY, 0.0_f32);
+    for (x, &v) in liquid.position.iter().zip(&liquid.volume) {
+        let cell = [0, 1].map(|a| (f64::from(x[a]) / CELL).floor() as i32);
+        let first = *of_cell.entry(cell).or_insert(v);
+        assert!((v / first - 1.0).abs() < 1e-6, "cell {cell:?}");
+        (least, most) = (least.min(v), most.max(v));
+    }
+    let volume: f64 = liquid.volume.iter().map(|&v| f64::from(v)).sum();
+    let change = volume / s.liquid_volume() - 1.0;
+    println!("volumes of points {least:e} to {most:e} m3, volume change {change:e}");
+    assert!(most / least > 1.0002, "the flow compresses some cells");
+    // In closed walls the fluxes add up to nothing; J follows them by products, hence J^2.
+    assert!(change.abs() < 1e-5);
+}
+
+#[test]
+fn the_contact_separation_says_how_near_liquid_is_held() {
+    let mut s = scene([6, 10, 1], [Boundary::Symmetry; 3]);
+    s.bodies = vec![solid("floor", [0.0; 3], [6.0, 2.0, 1.0], Motion::Fixed)];
+    // A cell of air, then liquid that falls.
+    fill(&mut s, [0.0, 3.0, 0.0], [6.0, 6.0, 1.0], |_| {
+        [0.0, -5.0, 0.0]
+    });
+    s.bottom = Some(0);
+    let height = |separation: Option<f64>| {
+        let settings = Settings {
+            separation,
+            ..settings(ShapeFunction::Gimp, VelocityUpdate::Flip, 0.5)
+        };
+        let mut run = Explicit::new(&s, &settings).unwrap();
+        while run.advance(FREE).unwrap().pressure_bottom == 0.0 {}
+        let lowest = |l: &physics::LiquidState| {
+            l.position
+                .iter()
+                .map(|x| f64::from(x[1]))
+                .fold(f64::INFINITY, f64::min)
+        };
+        lowest(&run.liquid()) / CELL - 2.0
+    };
+    let (default, same, near) = (height(None), height(Some(0.8)), height(Some(0.5)));
+    println!(
+        "first contact with points {default:.3}, {same:.3} and {near:.3} cells above the floor"
+    );
+    assert_eq!(default, same);
+    assert!(near < default - 0.1);
+}
+
+#[test]
+fn options_out_of_range_are_refused() {
+    let s = press();
+    let flip = settings(ShapeFunction::Gimp, VelocityUpdate::Flip, 0.5);
+    for (changed, word) in [
+        (
+            Settings {
+                density_projection: Some(0.0),
+                ..flip
+            },
+            "density_projection",
+        ),
+        (
+            Settings {
+                density_projection: Some(f64::NAN),
+                ..flip
+            },
+            "density_projection",
+        ),
+        (
+            Settings {
+                separation: Some(7.0),
+                ..flip
+            },
+            "separation",
+        ),
+    ] {
+        let said = Explicit::new(&s, &changed).err().expect("a refusal");
+        println!("{said}");
+        assert!(said.contains(word));
+    }
+}
