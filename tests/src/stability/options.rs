@@ -1,0 +1,126 @@
+//! `make options`: what the explicit scheme's options change on the flows it is wrong on, piston
+//! into slit and channel, against the same references as `make verify`.
+
+use std::fmt::Write;
+
+use crate::method::Method;
+use crate::study::{Folders, Job, Outcome, run_all};
+use crate::verification::{Scene, channel, slit};
+
+/// The options by name, with the keys they set.
+pub const OPTIONS: [(&str, &[&str]); 5] = [
+    ("cell mean", &["integrator.pressure=cell-mean"]),
+    ("projection", &["integrator.density_projection=0.04cell"]),
+    ("separation 0.6", &["contact.separation=0.6cell"]),
+    ("separation 1.0", &["contact.separation=1.0cell"]),
+    (
+        "cell mean, projection",
+        &[
+            "integrator.pressure=cell-mean",
+            "integrator.density_projection=0.04cell",
+        ],
+    ),
+];
+
+/// Offsets of the walls against the nodes, cells.
+const OFFSETS: [f64; 3] = [0.0, 0.25, 0.5];
+/// Cells across slit and channel.
+const CELLS: u32 = 6;
+
+/// Methods: the paper's two, APIC, each with every option; the implicit scheme beside them.
+fn methods() -> Vec<Method> {
+    let mut list = Vec::new();
+    for plain in [Method::flip(), Method::xpic(5), Method::apic()] {
+        list.push(plain.clone());
+        for (name, keys) in OPTIONS {
+            let label = format!("{}, {name}", plain.label);
+            let with = keys.iter().fold(plain.clone(), |m, key| m.setting(*key));
+            list.push(with.called(label));
+        }
+    }
+    list.push(Method::implicit());
+    list
+}
+
+/// Runs the study.
+pub fn outcomes(folders: &Folders) -> Vec<Outcome> {
+    let scenes: Vec<Scene> = (OFFSETS.iter())
+        .map(|&offset| slit::scene(CELLS, [offset, 0.0]))
+        .chain((OFFSETS.iter()).map(|&offset| channel::scene(CELLS, offset, None, 3e-6)))
+        .collect();
+    let jobs: Vec<Job> = (scenes.iter())
+        .flat_map(|scene| {
+            methods()
+                .into_iter()
+                .map(move |method| Job { scene, method })
+        })
+        .collect();
+    run_all(&jobs, folders)
+}
+
+/// The errors as CSV.
+pub fn csv(outcomes: &[Outcome]) -> String {
+    let mut out = String::from("case,method,quantity,error,steps,cpu_s,said\n");
+    for o in outcomes {
+        // Writing to a string cannot fail.
+        let _ = match &o.measured {
+            Ok(list) => list.iter().try_for_each(|m| {
+                writeln!(
+                    out,
+                    "{},\"{}\",{},{:.4e},{},{:.1},",
+                    o.scene, o.method.label, m.what, m.error, o.steps, o.cpu_s
+                )
+            }),
+            Err(said) => writeln!(
+                out,
+                "{},\"{}\",,,,,\"{}\"",
+                o.scene,
+                o.method.label,
+                said.replace('"', "'")
+            ),
+        };
+    }
+    out
+}
+
+/// The errors as a table: a row per method, a column per quantity and scene.
+pub fn table(outcomes: &[Outcome]) -> String {
+    let mut scenes: Vec<&str> = outcomes.iter().map(|o| o.scene.as_str()).collect();
+    scenes.dedup();
+    let mut out = String::new();
+    for (family, what) in [("slit", "piston force"), ("channel", "mean velocity")] {
+        let columns: Vec<&str> = (scenes.iter().copied())
+            .filter(|scene| scene.starts_with(family))
+            .collect();
+        let _ = writeln!(
+            out,
+            "\n| method | {} |",
+            columns.join(" | CPU s | ") + " | CPU s"
+        );
+        let _ = writeln!(out, "|---|{}", "---|---|".repeat(columns.len()));
+        for method in methods() {
+            let cells: Vec<String> = (columns.iter())
+                .filter_map(|scene| {
+                    let found = |o: &&Outcome| o.scene == *scene && o.method == method;
+                    outcomes.iter().find(found).map(|o| cell(o, what))
+                })
+                .collect();
+            let _ = writeln!(out, "| {} | {} |", method.label, cells.join(" | "));
+        }
+    }
+    out
+}
+
+/// Errors in per cent, or where the run stopped, and CPU seconds.
+fn cell(outcome: &Outcome, what: &str) -> String {
+    match &outcome.measured {
+        Ok(list) => {
+            let errors: Vec<String> = (list.iter())
+                .filter(|m| m.what.starts_with(what))
+                .map(|m| format!("{:+.0}", 100.0 * m.error))
+                .collect();
+            format!("{} | {:.0}", errors.join(", "), outcome.cpu_s)
+        }
+        Err(_) => "stopped |".into(),
+    }
+}

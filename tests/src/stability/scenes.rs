@@ -1,0 +1,245 @@
+//! The scenes: a press with a lumen, a sealed chamber, liquid torn apart, droplets.
+
+use crate::case_text::{Body, CaseText, Viscosity};
+
+/// Edge of a cell, m (paper section 2.3); a voxel is half of it.
+pub const CELL: f64 = 2.9e-6;
+
+/// A scene with what its results are measured against.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The case; its end is set by [`Scene::lasting`].
+    pub case: CaseText,
+    /// Fastest speed the scene's own motion gives the liquid, m/s.
+    pub speed: f64,
+    /// How long the scene's motion takes, s.
+    pub duration: f64,
+    /// What the trial's balance error is.
+    pub balance: Balance,
+}
+
+/// A conserved or balanced quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Balance {
+    /// Pressure on the upper against that on the lower body, over the later half of the run.
+    Forces,
+    /// Mean velocity of the liquid at the end against this one (m/s) at the start, over the
+    /// speed.
+    Momentum([f64; 2]),
+    /// Neither: liquid is thrown about.
+    None,
+}
+
+impl Scene {
+    /// The case that ends after `seconds`.
+    pub fn lasting(&self, seconds: f64) -> CaseText {
+        let mut case = self.case.clone();
+        case.history_every = seconds / 100.0;
+        match &mut case.clamp {
+            Some(clamp) => clamp.push_str(&format!("stop = \"{} us\"\n", seconds * 1e6)),
+            None => case.stop = Some(seconds),
+        }
+        case
+    }
+
+    /// The same scene of another liquid.
+    pub fn of(mut self, viscosity: Viscosity, bulk_modulus: f64) -> Self {
+        self.case.viscosity = viscosity;
+        self.case.bulk_modulus = bulk_modulus;
+        self
+    }
+
+    /// The same scene with other lines of `[contact]`.
+    pub fn walls(mut self, contact: &str) -> Self {
+        self.case.contact = contact.into();
+        self
+    }
+}
+
+fn scale(x: [f64; 3]) -> [f64; 3] {
+    x.map(|x| x * CELL)
+}
+
+fn wall(min: [f64; 3], max: [f64; 3]) -> Body {
+    Body::wall(scale(min), scale(max)).named("bottom")
+}
+
+/// Shape of a press, lengths in cells.
+#[derive(Clone, Copy, Debug)]
+pub struct Press {
+    /// Width of the lumen in the lower body; none at 0.
+    pub lumen: f64,
+    /// Thickness of the slab of liquid.
+    pub slab: f64,
+    /// How far the upper body moves.
+    pub travel: f64,
+    /// Closing speed, m/s.
+    pub speed: f64,
+    /// Pressure limit, Pa.
+    pub limit: Option<f64>,
+    /// Cells along z; one for plane strain.
+    pub depth: u32,
+}
+
+impl Default for Press {
+    fn default() -> Self {
+        Self {
+            lumen: 6.0,
+            slab: 4.0,
+            travel: 1.5,
+            speed: 1.0,
+            limit: Some(2.5e6),
+            depth: 1,
+        }
+    }
+}
+
+/// An upper body presses a slab of liquid into a lumen of the lower one; walls a quarter cell off
+/// the nodes.
+pub fn press(shape: Press) -> Scene {
+    let (width, off) = (16.0, 0.25);
+    let floor = 8.0 + off;
+    let plate = floor + shape.slab;
+    let top = (plate + 2.0).ceil();
+    let depth = f64::from(shape.depth);
+    let (left, right) = (
+        0.5 * (width - shape.lumen) + off,
+        0.5 * (width + shape.lumen) + off,
+    );
+    let mut bodies = Vec::new();
+    if shape.lumen > 0.0 {
+        bodies.push(wall([0.0; 3], [width, 2.0 + off, depth]));
+        bodies.push(wall([0.0, 2.0 + off, 0.0], [left, floor, depth]));
+        bodies.push(wall([right, 2.0 + off, 0.0], [width, floor, depth]));
+    } else {
+        bodies.push(wall([0.0; 3], [width, floor, depth]));
+    }
+    bodies.push(
+        Body::wall(
+            scale([0.0, plate, 0.0]),
+            scale([width, top + shape.travel, depth]),
+        )
+        .clamped()
+        .named("top"),
+    );
+    bodies.push(Body::liquid(
+        scale([0.0, floor, 0.0]),
+        scale([width, plate, depth]),
+    ));
+    let limit = shape
+        .limit
+        .map_or(String::new(), |p| format!("max_pressure = \"{p} Pa\"\n"));
+    let case = CaseText {
+        clamp: Some(format!("closing_speed = \"{} m/s\"\n{limit}", shape.speed)),
+        bodies,
+        ..CaseText::new(
+            "A slab of liquid pressed into a lumen.",
+            CELL,
+            if shape.depth == 1 { 2 } else { 3 },
+            scale([width, top, depth]),
+        )
+    };
+    // Mean speed in the lumen; between closing plates the liquid leaves sideways.
+    let narrowing = width / shape.lumen.max(1.0);
+    Scene {
+        case,
+        speed: shape.speed * narrowing,
+        duration: shape.travel * CELL / shape.speed,
+        balance: Balance::Forces,
+    }
+}
+
+/// A chamber full of liquid whose lid moves in until `j` of its volume is left.
+pub fn chamber(j: f64, speed: f64) -> Scene {
+    let mut scene = press(Press {
+        lumen: 0.0,
+        slab: 8.0,
+        travel: 8.0 * (1.0 - j),
+        speed,
+        limit: None,
+        depth: 1,
+    });
+    scene.case.title = "A sealed chamber whose lid moves in.".into();
+    scene
+}
+
+/// A lumen full of liquid, closed by a wall of one voxel, under the slab that is pressed. Both
+/// have nowhere to go: the slab is compressed to the pressure limit, the lumen must stay as it is.
+pub fn sealed_lumen() -> Scene {
+    let mut scene = press(Press::default());
+    let (low, high) = (2.25, 7.75);
+    scene
+        .case
+        .bodies
+        .push(wall([5.25, high, 0.0], [11.25, 8.25, 1.0]));
+    scene.case.bodies.push(Body::liquid(
+        scale([5.25, low, 0.0]),
+        scale([11.25, high, 1.0]),
+    ));
+    scene.case.title = "Liquid in a lumen sealed by a wall of one voxel.".into();
+    scene
+}
+
+/// Two halves of a block of liquid that fly apart: tension, J far above 1.
+pub fn torn(speed: f64) -> Scene {
+    let (width, height) = (20.0, 8.0);
+    let half = |from: f64, v: f64| {
+        Body::liquid(scale([from, 2.0, 0.0]), scale([from + 4.0, 6.0, 1.0])).moving([v, 0.0, 0.0])
+    };
+    let case = CaseText {
+        boundary: ["open", "open", "symmetry"],
+        bodies: vec![half(6.0, -speed), half(10.0, speed)],
+        ..CaseText::new(
+            "Two halves of a block of liquid fly apart.",
+            CELL,
+            2,
+            scale([width, height, 1.0]),
+        )
+    };
+    Scene {
+        case,
+        speed,
+        duration: 4.0 * CELL / speed,
+        balance: Balance::Momentum([0.0; 2]),
+    }
+}
+
+/// A drop `size` cells wide in free flight through a periodic box, a fraction of a cell off.
+pub fn free_drop(size: f64) -> Scene {
+    let speed = 1.0;
+    let low = 4.1;
+    let case =
+        CaseText {
+            boundary: ["periodic", "periodic", "symmetry"],
+            bodies: vec![
+                Body::liquid(scale([low, low, 0.0]), scale([low + size, low + size, 1.0]))
+                    .moving([speed, -0.5 * speed, 0.0]),
+            ],
+            ..CaseText::new("A drop in free flight.", CELL, 2, scale([12.0, 12.0, 1.0]))
+        };
+    Scene {
+        case,
+        speed: 1.25_f64.sqrt() * speed,
+        duration: 6.0 * CELL / speed,
+        balance: Balance::Momentum([speed, -0.5 * speed]),
+    }
+}
+
+/// A drop that hits a floor.
+pub fn splash(size: f64, speed: f64) -> Scene {
+    let low = 4.1;
+    let case = CaseText {
+        bodies: vec![
+            wall([0.0; 3], [12.0, 2.25, 1.0]),
+            Body::liquid(scale([low, low, 0.0]), scale([low + size, low + size, 1.0]))
+                .moving([0.0, -speed, 0.0]),
+        ],
+        ..CaseText::new("A drop hits a floor.", CELL, 2, scale([12.0, 12.0, 1.0]))
+    };
+    Scene {
+        case,
+        speed,
+        duration: 4.0 * CELL / speed,
+        balance: Balance::None,
+    }
+}
