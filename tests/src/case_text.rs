@@ -76,8 +76,10 @@ pub struct CaseText {
     pub dimensions: u8,
     /// Box computed in, m.
     pub domain: [[f64; 3]; 2],
-    /// Lines of `[adhesive]` beyond those of [`PF`]; empty for PF.
-    pub viscosity: Option<String>,
+    /// Bulk modulus, Pa.
+    pub bulk_modulus: f64,
+    /// Viscosity.
+    pub viscosity: Viscosity,
     /// Lines of `[contact]`.
     pub contact: String,
     /// Lines of `[clamp]`, if any.
@@ -94,10 +96,38 @@ pub struct CaseText {
     pub history_every: f64,
 }
 
+/// Viscosity of a scene's liquid; a table is read linearly in the logarithm of the shear rate.
+#[derive(Clone, Debug)]
+pub enum Viscosity {
+    /// Pa s.
+    Newtonian(f64),
+    /// Shear rate (rheometer's, 1/s) and viscosity (Pa s).
+    Table(Vec<[f64; 2]>),
+}
+
 /// Lines of `[contact]` for walls the liquid sticks to.
 pub const STICK: &str = "law = \"stick\"\n";
 
 impl CaseText {
+    /// PF at rest between sides that mirror, with walls it sticks to and nothing in it yet.
+    pub fn new(title: impl Into<String>, cell: f64, dimensions: u8, size: [f64; 3]) -> Self {
+        Self {
+            title: title.into(),
+            cell,
+            dimensions,
+            domain: [[0.0; 3], size],
+            bulk_modulus: PF[1],
+            viscosity: Viscosity::Newtonian(PF[2]),
+            contact: STICK.into(),
+            clamp: None,
+            gravity: [0.0; 3],
+            boundary: ["symmetry"; 3],
+            stop: None,
+            bodies: Vec::new(),
+            history_every: 0.05e-6,
+        }
+    }
+
     /// The TOML text with the `[integrator]` lines given.
     pub fn text(&self, integrator: &str) -> String {
         let mut out = String::new();
@@ -120,11 +150,17 @@ impl CaseText {
         writeln!(
             out,
             "\n[adhesive]\ndensity = \"{} kg/m3\"\nbulk_modulus = \"{} Pa\"",
-            PF[0], PF[1]
+            PF[0], self.bulk_modulus
         )?;
         match &self.viscosity {
-            None => writeln!(out, "viscosity = \"{} Pa s\"", PF[2])?,
-            Some(lines) => out.push_str(lines),
+            Viscosity::Newtonian(eta) => writeln!(out, "viscosity = \"{} Pa s\"", number(*eta))?,
+            Viscosity::Table(rows) => {
+                writeln!(out, "shear_rate = \"rheometer\"\nviscosity_table = [")?;
+                for [rate, eta] in rows {
+                    writeln!(out, "  [\"{rate} 1/s\", \"{eta} Pa s\"],")?;
+                }
+                writeln!(out, "]")?;
+            }
         }
         writeln!(out, "\n[contact]\n{}", self.contact.trim_end())?;
         if let Some(clamp) = &self.clamp {

@@ -23,6 +23,37 @@ pub fn squeeze_plates(a: f64, h: f64, v: f64, eta: f64) -> f64 {
     8.0 * eta * v * (a / h).powi(3)
 }
 
+/// Force on a disc of radius `r` closing at speed `v` on a gap `h` (Stefan 1874).
+pub fn squeeze_discs(r: f64, h: f64, v: f64, eta: f64) -> f64 {
+    1.5 * std::f64::consts::PI * eta * v * r.powi(4) / h.powi(3)
+}
+
+/// Mean velocity between plates `h` apart under a body force `g` per mass for a viscosity that
+/// depends on the shear rate, `eta(rate)`, with a stress that grows with the rate up to
+/// `fastest` (1/s): quadrature over the half gap.
+pub fn channel_mean_of(eta: impl Fn(f64) -> f64, fastest: f64, h: f64, g: f64, rho: f64) -> f64 {
+    const PARTS: u32 = 4000;
+    let step = 0.5 * h / f64::from(PARTS);
+    // u(y) = integral of the rate from the wall; its mean is the integral of rate times the
+    // distance from the middle over the half gap.
+    (0..PARTS)
+        .map(|i| {
+            let y = (f64::from(i) + 0.5) * step;
+            let (mut low, mut high) = (0.0, fastest);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if eta(middle) * middle < rho * g * y {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            low * y * step
+        })
+        .sum::<f64>()
+        / (0.5 * h)
+}
+
 /// Tait pressure at relative volume `j` (paper Eq. 1).
 pub fn tait(j: f64, k: f64) -> f64 {
     0.0894 * k * (((1.0 - j) / 0.0894).exp() - 1.0)
@@ -35,6 +66,8 @@ mod tests {
     #[test]
     fn known_values() {
         assert!((film(1.0, 1.0, 2.0, 1.0, 1.0) - 1.0).abs() < 1e-15);
+        let newtonian = channel_mean_of(|_| 2.0, 1e3, 1.0, 3.0, 5.0);
+        assert!((newtonian / channel_mean(1.0, 0.0, 3.0, 5.0, 2.0) - 1.0).abs() < 1e-6);
         assert!((couette_slip(1.0, 0.1, 1.2) - 0.1).abs() < 1e-15);
     }
 }

@@ -4,5 +4,8 @@
 
 pub mod case_text;
 pub mod closed_forms;
+pub mod method;
 pub mod outputs;
+pub mod stability;
+pub mod study;
 pub mod verification;

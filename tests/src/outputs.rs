@@ -10,8 +10,6 @@ use particle_file::ParticleFile;
 pub struct Run {
     /// Its folder.
     pub folder: PathBuf,
-    /// Wall seconds of the process, its start included.
-    pub wall_s: f64,
 }
 
 /// The folder of the built tools: where this program itself was built.
@@ -26,7 +24,6 @@ pub fn bin_folder() -> PathBuf {
 /// # Errors
 /// What `mpm-run` said on standard error, with its exit status.
 pub fn run(case: &Path, folder: &Path, more: &[&str]) -> Result<Run, String> {
-    let started = std::time::Instant::now();
     let output = Command::new(bin_folder().join("mpm-run"))
         .arg(case)
         .arg("-o")
@@ -45,7 +42,6 @@ pub fn run(case: &Path, folder: &Path, more: &[&str]) -> Result<Run, String> {
     }
     Ok(Run {
         folder: folder.to_owned(),
-        wall_s: started.elapsed().as_secs_f64(),
     })
 }
 

@@ -1,9 +1,9 @@
 //! Plane Poiseuille flow between walls at any offset, driven by a body force along a
 //! periodic channel.
 
-use super::{LUMEN, Measured, Scene, pressing};
-use crate::case_text::{Body, CaseText, PF, STICK};
-use crate::closed_forms::channel_mean;
+use super::{LUMEN, Measured, Scene, mean_velocity, pressing};
+use crate::case_text::{Body, CaseText, PF, STICK, Viscosity};
+use crate::closed_forms::{channel_mean, channel_mean_of};
 
 /// Body force per mass, m/s2: a mean velocity near 0.02 m/s.
 const G: f64 = 2.3e5;
@@ -22,15 +22,7 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
         )
     });
     let case = CaseText {
-        title: format!(
-            "Plane Poiseuille flow in a channel of {n} cells, walls {offset} cell off the nodes.\nAgainst rho g H^2/(12 eta) (1 + 6/(k H))."
-        ),
-        cell,
-        dimensions: 2,
-        domain: [[0.0; 3], [width, top, cell]],
-        viscosity: None,
         contact,
-        clamp: None,
         gravity: [G, 0.0, 0.0],
         boundary: ["periodic", "symmetry", "symmetry"],
         stop: Some(until),
@@ -42,6 +34,14 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
             Body::liquid([0.0, low, 0.0], [width, high, cell]),
         ],
         history_every: until / 20.0,
+        ..CaseText::new(
+            format!(
+                "Plane Poiseuille flow in a channel of {n} cells, walls {offset} cell off the nodes.\nAgainst rho g H^2/(12 eta) (1 + 6/(k H))."
+            ),
+            cell,
+            2,
+            [width, top, cell],
+        )
     };
     Scene {
         name: format!(
@@ -51,12 +51,39 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
         case,
         against: "plane Poiseuille",
         measure: Box::new(move |run| {
-            let file = run.last()?;
-            let velocity = file.vectors("velocity").map_err(|e| e.to_string())?;
-            let mean =
-                velocity.iter().map(|v| f64::from(v[0])).sum::<f64>() / velocity.len() as f64;
+            let mean = mean_velocity(run)?;
             let exact = channel_mean(LUMEN, slip.unwrap_or(0.0) * LUMEN, G, PF[0], PF[2]);
             Ok(vec![Measured::relative("mean velocity", mean, exact)])
         }),
     }
+}
+
+/// Shear rate (1/s) and viscosity (Pa s) of a liquid that thins: its stress grows with the rate
+/// everywhere, so that the profile is one.
+const THINNING: [[f64; 2]; 2] = [[1e2, 20.0], [1e5, 5.0]];
+
+/// Body force per mass in [`table_scene`], m/s2: shear rates up to 3e4 1/s at the walls.
+const STRONG: f64 = 2.2e7;
+
+/// A channel of `n` cells with a viscosity table, linear in the logarithm of the shear rate.
+pub fn table_scene(n: u32, offset: f64, until: f64) -> Scene {
+    let mut scene = scene(n, offset, None, until);
+    scene.name = format!("table-n{n}-off{offset}");
+    scene.against = "quadrature of the profile";
+    scene.case.title = format!(
+        "Channel of {n} cells, viscosity table, walls {offset} cell off the nodes.\nAgainst quadrature of the profile."
+    );
+    scene.case.viscosity = Viscosity::Table(THINNING.to_vec());
+    scene.case.gravity = [STRONG, 0.0, 0.0];
+    scene.measure = Box::new(|run| {
+        let [[slow, thick], [fast, thin]] = THINNING;
+        let eta = |rate: f64| {
+            let share = (rate / slow).log10() / (fast / slow).log10();
+            thick + (thin - thick) * share.clamp(0.0, 1.0)
+        };
+        let exact = channel_mean_of(eta, 1e6, LUMEN, STRONG, PF[0]);
+        let mean = mean_velocity(run)?;
+        Ok(vec![Measured::relative("mean velocity", mean, exact)])
+    });
+    scene
 }

@@ -1,6 +1,6 @@
 //! Couette flow with partial slip: the speed of the liquid at the walls.
 
-use super::{LUMEN, Measured, Scene, pressing};
+use super::{LUMEN, Measured, Scene, final_points, pressing};
 use crate::case_text::{Body, CaseText};
 use crate::closed_forms::couette_slip;
 
@@ -13,19 +13,10 @@ pub fn scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
     let high = low + LUMEN;
     let top = (f64::from(n) + 5.0) * cell;
     let case = CaseText {
-        title: format!(
-            "Couette flow with partial slip, gap of {n} cells, walls {offset} cell off the nodes.\nAgainst v l/(H + 2 l) at the resting wall."
-        ),
-        cell,
-        dimensions: 2,
-        domain: [[0.0; 3], [width, top, cell]],
-        viscosity: None,
         contact: format!(
             "law = \"partial-slip\"\ninfluence_length = \"{} um\"\n",
             slip * LUMEN * 1e6
         ),
-        clamp: None,
-        gravity: [0.0; 3],
         boundary: ["periodic", "symmetry", "symmetry"],
         stop: Some(until),
         bodies: vec![
@@ -36,22 +27,26 @@ pub fn scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
             Body::liquid([0.0, low, 0.0], [width, high, cell]),
         ],
         history_every: until / 20.0,
+        ..CaseText::new(
+            format!(
+                "Couette flow with partial slip, gap of {n} cells, walls {offset} cell off the nodes.\nAgainst v l/(H + 2 l) at the resting wall."
+            ),
+            cell,
+            2,
+            [width, top, cell],
+        )
     };
     Scene {
         name: format!("couette-n{n}-off{offset}-slip{slip}"),
         case,
         against: "Couette with Navier slip",
         measure: Box::new(move |run| {
-            let file = run.last()?;
-            let position = file.vectors("position").map_err(|e| e.to_string())?;
-            let velocity = file.vectors("velocity").map_err(|e| e.to_string())?;
             // Least-squares line through the middle half, read off at the resting wall: the
             // profile is straight, and what the wall does shows in it without the kernels of
             // the wall's own cells.
-            let points: Vec<_> = position
+            let points: Vec<_> = final_points(run)?
                 .iter()
-                .zip(velocity)
-                .map(|(x, v)| (f64::from(x[1]) - low, f64::from(v[0])))
+                .map(|(x, v)| (x[1] - low, v[0]))
                 .filter(|(y, _)| (0.25 * LUMEN..=0.75 * LUMEN).contains(y))
                 .collect();
             let slip_speed = line_at_zero(&points);

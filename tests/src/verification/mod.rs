@@ -1,11 +1,25 @@
 //! The verification scenes: for each a case text and a measure of its error.
 
+pub mod acoustic;
+pub mod catalogue;
 pub mod channel;
+pub mod clamp;
+pub mod column;
 pub mod couette;
+pub mod disc;
+pub mod drop;
+pub mod duct;
+pub mod galilean;
 pub mod incline;
+pub mod lumen;
+pub mod piston;
+pub mod plots;
+pub mod report;
+pub mod sealed;
 pub mod slit;
 pub mod squeeze;
 pub mod tait;
+pub mod taylor_green;
 pub mod washburn;
 
 use crate::case_text::CaseText;
@@ -15,11 +29,12 @@ use crate::outputs::Run;
 pub const LUMEN: f64 = 17.4e-6;
 
 /// Measures a run; an error is a sentence.
-pub type Measure = Box<dyn Fn(&Run) -> Result<Vec<Measured>, String>>;
+pub type Measure = Box<dyn Fn(&Run) -> Result<Vec<Measured>, String> + Send + Sync>;
 
 /// A scene with the error of a run of it.
 pub struct Scene {
-    /// Name of the case file, e.g. "channel-n6-off0.25".
+    /// Name of the case file, e.g. "channel-n6-off0.25": its family, the cells across the lumen
+    /// where other scenes differ in them alone, and the rest.
     pub name: String,
     /// The case.
     pub case: CaseText,
@@ -27,6 +42,22 @@ pub struct Scene {
     pub against: &'static str,
     /// Named errors of a run.
     pub measure: Measure,
+}
+
+impl Scene {
+    /// First word of the name.
+    pub fn family(&self) -> &str {
+        self.name.split('-').next().unwrap_or_default()
+    }
+
+    /// Cells across the lumen, if the name says so, and the name without them: scenes that agree
+    /// in the latter are one refinement series.
+    pub fn resolution(name: &str) -> (String, Option<u32>) {
+        let cells = |part: &str| part.strip_prefix('n')?.parse::<u32>().ok();
+        let found = name.split('-').find_map(cells);
+        let series: Vec<&str> = name.split('-').filter(|p| cells(p).is_none()).collect();
+        (series.join("-"), found)
+    }
 }
 
 /// One number measured against its reference.
@@ -69,6 +100,26 @@ impl Measured {
 /// clamp presses, liquid would slip off the walls.
 pub(crate) fn pressing(until: f64) -> f64 {
     1e6 / crate::case_text::PF[1] * LUMEN / until
+}
+
+/// Position (m) and velocity (m/s) of a material point.
+pub(crate) type Point = ([f64; 3], [f64; 3]);
+
+/// Positions and velocities of the final state.
+pub(crate) fn final_points(run: &Run) -> Result<Vec<Point>, String> {
+    let file = run.last()?;
+    let read = |name| file.vectors(name).map_err(|e| e.to_string());
+    let (position, velocity) = (read("position")?, read("velocity")?);
+    let pairs = position.iter().zip(velocity);
+    Ok(pairs
+        .map(|(x, v)| (x.map(f64::from), v.map(f64::from)))
+        .collect())
+}
+
+/// Mean velocity along x of the final state, m/s.
+pub(crate) fn mean_velocity(run: &Run) -> Result<f64, String> {
+    let points = final_points(run)?;
+    Ok(points.iter().map(|(_, v)| v[0]).sum::<f64>() / points.len() as f64)
 }
 
 /// Rows of a column in a window of another, averaged.

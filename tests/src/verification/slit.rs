@@ -3,7 +3,7 @@
 //! and, for the slope, against lubrication theory.
 
 use super::{LUMEN, Measured, Scene, window_mean};
-use crate::case_text::{Body, CaseText, PF, STICK};
+use crate::case_text::{Body, CaseText, PF};
 
 /// Piston speed, m/s; the slit is a quarter of the reservoir, so it flows four times faster.
 const SPEED: f64 = 0.5;
@@ -25,18 +25,6 @@ pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
     let top = piston + 3.0 * h;
     let half = 0.5 * LUMEN;
     let case = CaseText {
-        title: format!(
-            "A piston pushes liquid from a reservoir into a slit of {n} cells, walls ({}, {}) cell off the nodes.",
-            offset[0], offset[1]
-        ),
-        cell: h,
-        dimensions: 2,
-        domain: [[0.0; 3], [right, top, h]],
-        viscosity: None,
-        contact: STICK.into(),
-        clamp: None,
-        gravity: [0.0; 3],
-        boundary: ["symmetry", "symmetry", "symmetry"],
         stop: Some(0.55 * 2.0 * LUMEN / SPEED),
         bodies: vec![
             Body::wall([0.0, 0.0, 0.0], [x0, top, h]).named("bottom"),
@@ -49,6 +37,15 @@ pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
             Body::liquid([x0, shoulder, 0.0], [x0 + width, piston, h]),
         ],
         history_every: 0.05e-6,
+        ..CaseText::new(
+            format!(
+                "A piston pushes liquid from a reservoir into a slit of {n} cells, walls ({}, {}) cell off the nodes.",
+                offset[0], offset[1]
+            ),
+            h,
+            2,
+            [right, top, h],
+        )
     };
     Scene {
         name: format!("slit-n{n}-off{}-{}", offset[0], offset[1]),

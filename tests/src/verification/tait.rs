@@ -13,15 +13,7 @@ pub fn scene() -> Scene {
     let piston = floor + height;
     let until = 0.02 * height / SPEED;
     let case = CaseText {
-        title: "A piston compresses a closed column of liquid by 2 %.\nAgainst paper Eq. 1.".into(),
-        cell: CELL,
-        dimensions: 2,
-        domain: [[0.0; 3], [width, piston + 3.0 * CELL, CELL]],
-        viscosity: None,
         contact: "law = \"frictionless\"\n".into(),
-        clamp: None,
-        gravity: [0.0; 3],
-        boundary: ["symmetry", "symmetry", "symmetry"],
         stop: Some(until),
         bodies: vec![
             Body::wall([0.0; 3], [width, floor, CELL]).named("bottom"),
@@ -31,6 +23,12 @@ pub fn scene() -> Scene {
             Body::liquid([0.0, floor, 0.0], [width, piston, CELL]),
         ],
         history_every: until / 20.0,
+        ..CaseText::new(
+            "A piston compresses a closed column of liquid by 2 %.\nAgainst paper Eq. 1.",
+            CELL,
+            2,
+            [width, piston + 3.0 * CELL, CELL],
+        )
     };
     Scene {
         name: "tait-column".into(),

@@ -1,7 +1,7 @@
 //! Filling a slit from a reservoir at constant pressure.
 
 use super::{LUMEN, Measured, Scene};
-use crate::case_text::{Body, CaseText, PF, STICK};
+use crate::case_text::{Body, CaseText, PF};
 
 /// Piston pressure, Pa.
 const PRESSURE: f64 = 1e6;
@@ -21,22 +21,11 @@ pub fn scene(n: u32, offset: f64) -> Scene {
     let top = piston + 3.0 * h;
     let limit = PRESSURE * width / right;
     let case = CaseText {
-        title: format!(
-            "A slit of {n} cells filled at constant pressure, walls {offset} cell off the nodes.\nAgainst Washburn's law with entrance correction."
-        ),
-        cell: h,
-        dimensions: 2,
-        domain: [[0.0; 3], [right, top, h]],
-        viscosity: None,
-        contact: STICK.into(),
         clamp: Some(format!(
             "closing_speed = \"20 m/s\"\nmax_pressure = \"{limit} Pa\"\nstop = \"{} us\"\ntravel = \"{} um\"\n",
             16.0 * 12.0 * PF[2] / PRESSURE * 1e6,
             2.0 * LUMEN * 1e6
         )),
-        gravity: [0.0; 3],
-        boundary: ["symmetry", "symmetry", "symmetry"],
-        stop: None,
         bodies: vec![
             Body::wall([0.0, 0.0, 0.0], [x0, top, h]).named("bottom"),
             Body::wall([x0 + width, 0.0, 0.0], [right, top, h]).named("bottom"),
@@ -48,6 +37,14 @@ pub fn scene(n: u32, offset: f64) -> Scene {
             Body::liquid([x0, shoulder, 0.0], [x0 + width, piston, h]),
         ],
         history_every: 0.05e-6,
+        ..CaseText::new(
+            format!(
+                "A slit of {n} cells filled at constant pressure, walls {offset} cell off the nodes.\nAgainst Washburn's law with entrance correction."
+            ),
+            h,
+            2,
+            [right, top, h],
+        )
     };
     Scene {
         name: format!("washburn-n{n}-off{offset}"),

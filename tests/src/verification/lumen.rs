@@ -1,0 +1,181 @@
+//! Cross-sections of straight lumens made of voxels of half a cell, in three dimensions.
+
+/// Cross-section of a lumen of `n` cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Section {
+    /// Square of edge `n` cells.
+    Square,
+    /// Voxels whose centres lie in a circle of diameter `n` cells, with so many voxels on the
+    /// edge of a cell: 1 or 2. With one, `n` must be even.
+    Round(u32),
+}
+
+impl Section {
+    /// Word in names.
+    pub fn name(self) -> &'static str {
+        match self {
+            Section::Square => "square",
+            Section::Round(1) => "tube1",
+            Section::Round(_) => "tube",
+        }
+    }
+
+    /// Rows of voxels on one side of the axis.
+    fn count(self, n: u32) -> u32 {
+        match self {
+            Section::Square => n,
+            Section::Round(voxels) => n * voxels / 2,
+        }
+    }
+
+    /// Half the width of each row of voxels of one side, from the axis outwards, over the
+    /// diameter.
+    pub fn rows(self, n: u32) -> Vec<f64> {
+        let count = self.count(n);
+        let radius = f64::from(count);
+        let half = |row: u32| {
+            let y = f64::from(row) + 0.5;
+            let open = |k: &u32| self == Section::Square || (f64::from(*k) + 0.5).hypot(y) < radius;
+            (0..count).filter(open).count() as f64 / (2.0 * radius)
+        };
+        (0..count).map(half).collect()
+    }
+
+    /// Open area over the square of the diameter.
+    pub fn area(self, n: u32) -> f64 {
+        let rows = self.rows(n);
+        2.0 * rows.iter().sum::<f64>() / rows.len() as f64
+    }
+
+    /// Pressure gradient over viscosity and mean velocity times the square of the diameter in
+    /// developed flow: 28.454 for the square (White 2006); for the tube 8 pi over its area
+    /// (Hagen-Poiseuille with the radius of a circle of the voxels' own area).
+    pub fn resistance(self, n: u32) -> f64 {
+        match self {
+            Section::Square => 28.454,
+            Section::Round(_) => 8.0 * std::f64::consts::PI / self.area(n),
+        }
+    }
+}
+
+impl Section {
+    /// [`Self::resistance`] of the lumen's own staircase walls: central differences on a quarter
+    /// with [`FINE`] squares per voxel edge, successive over-relaxation.
+    pub fn staircase_resistance(self, n: u32) -> f64 {
+        let rows = self.rows(n);
+        let voxels = 2.0 * rows.len() as f64;
+        let m = rows.len() * FINE;
+        let wide: Vec<usize> = (0..m)
+            .map(|j| (rows[j / FINE] * voxels).round() as usize * FINE)
+            .collect();
+        let relaxation = 2.0 / (1.0 + std::f64::consts::FRAC_PI_2 / m as f64);
+        let mut u = vec![0.0; m * m];
+        // Change of a pass over the sum of all values.
+        let (mut change, mut sum) = (1.0, 0.0);
+        while change > 1e-9 * sum {
+            (change, sum) = (0.0, 0.0);
+            for j in 0..m {
+                for i in 0..wide[j] {
+                    // A mirror at the axes, a wall half a square beyond the last open one.
+                    let at = |i: usize, j: usize| {
+                        let open = j < m && i < wide[j];
+                        open.then(|| u[j * m + i])
+                    };
+                    let own = u[j * m + i];
+                    let around = [
+                        at(i.wrapping_sub(1).min(i), j),
+                        at(i + 1, j),
+                        at(i, j.wrapping_sub(1).min(j)),
+                        at(i, j + 1),
+                    ];
+                    let (mut weight, mut flow) = (0.0, 1.0);
+                    for neighbour in around {
+                        weight += if neighbour.is_some() { 1.0 } else { 2.0 };
+                        flow += neighbour.unwrap_or(0.0);
+                    }
+                    let step = relaxation * (flow / weight - own);
+                    u[j * m + i] = own + step;
+                    change += step.abs();
+                    sum += own.abs();
+                }
+            }
+        }
+        // d = 2 m squares; mean velocity of unit gradient over unit viscosity in squares.
+        let area: usize = wide.iter().sum();
+        let mean = u.iter().sum::<f64>() / area as f64;
+        (2.0 * m as f64).powi(2) / mean
+    }
+}
+
+/// Squares per voxel edge of the finite differences.
+const FINE: usize = 4;
+
+/// A rectangle of a cross-section by its corners (across, up) from the lumen's axis, m.
+#[derive(Clone, Copy, Debug)]
+pub struct Rectangle {
+    /// Low corner.
+    pub low: [f64; 2],
+    /// High corner.
+    pub high: [f64; 2],
+}
+
+/// The quarter of a cross-section at positive coordinates about the axis.
+pub struct Quarter {
+    /// What is above the lumen.
+    pub roof: Rectangle,
+    /// What is beside it.
+    pub sides: Vec<Rectangle>,
+    /// What is open.
+    pub open: Vec<Rectangle>,
+}
+
+/// The quarter of a lumen of diameter `d` (m), `n` cells; its solid goes out to `far` (m).
+pub fn quarter(section: Section, n: u32, d: f64, far: f64) -> Quarter {
+    let rectangle = |low, high| Rectangle { low, high };
+    let mut quarter = Quarter {
+        roof: rectangle([0.0, 0.5 * d], [far, far]),
+        sides: Vec::new(),
+        open: Vec::new(),
+    };
+    let rows = section.rows(n);
+    let voxel = 0.5 * d / rows.len() as f64;
+    // Rows of equal width are one rectangle.
+    let mut start = 0;
+    while start < rows.len() {
+        let same = rows[start..].iter().take_while(|&&w| w == rows[start]);
+        let end = start + same.count();
+        let (low, high) = (start as f64 * voxel, end as f64 * voxel);
+        let wide = rows[start] * d;
+        quarter.open.push(rectangle([0.0, low], [wide, high]));
+        quarter.sides.push(rectangle([wide, low], [far, high]));
+        start = end;
+    }
+    quarter
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn resistances() {
+        let square = Section::Square.staircase_resistance(6);
+        assert!((square / 28.454 - 1.0).abs() < 0.003, "{square}");
+        for (voxels, n) in [(1, 6), (2, 6), (2, 12), (2, 24)] {
+            let tube = Section::Round(voxels);
+            println!(
+                "{voxels} {n} {} {}",
+                tube.staircase_resistance(n),
+                tube.resistance(n)
+            );
+        }
+    }
+
+    #[test]
+    fn areas() {
+        assert_eq!(Section::Square.area(6), 1.0);
+        let circle = std::f64::consts::FRAC_PI_4;
+        assert!((Section::Round(2).area(6) / circle - 1.0).abs() < 0.05);
+        assert!((Section::Round(2).area(96) / circle - 1.0).abs() < 0.001);
+    }
+}

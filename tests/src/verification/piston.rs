@@ -1,0 +1,164 @@
+//! A piston presses liquid from a reservoir, twice as wide as a lumen, into the lumen in three
+//! dimensions, at constant speed or constant pressure; a quarter is computed. The pressure must
+//! grow with the filled length L as in developed flow, p = c eta V (L + e)/d^2, with the
+//! equivalent length e of entrance and moving front.
+
+use super::lumen::{Rectangle, Section, quarter};
+use super::{LUMEN, Measured, Scene, window_mean};
+use crate::case_text::{Body, CaseText, PF};
+use crate::outputs::Run;
+
+/// Depth of the reservoir over the diameter of the lumen.
+const DEPTH: f64 = 1.5;
+/// Filled length up to which a run goes, over the diameter.
+const LONGEST: f64 = 2.5;
+
+/// What moves the piston.
+#[derive(Clone, Copy, Debug)]
+pub enum Drive {
+    /// Speed, m/s.
+    Speed(f64),
+    /// Pressure, Pa.
+    Pressure(f64),
+}
+
+/// Equivalent length of entrance and front over the diameter between one and two diameters: the
+/// implicit scheme with 24 cells (docs/results/verification.md has 6 and 12 beside it).
+fn entrance(section: Section) -> f64 {
+    match section {
+        Section::Square => 0.2,
+        Section::Round(_) => 0.2,
+    }
+}
+
+/// A lumen of `n` cells.
+pub fn scene(section: Section, n: u32, drive: Drive) -> Scene {
+    let cell = LUMEN / f64::from(n);
+    let right = LUMEN + 2.0 * cell;
+    let shoulder = (LONGEST + 0.7) * LUMEN;
+    let piston = shoulder + DEPTH * LUMEN;
+    let top = piston + 2.0 * cell;
+    let shape = quarter(section, n, LUMEN, right);
+    let lumen = |r: &Rectangle| {
+        let (low, high) = ([r.low[0], 0.0, r.low[1]], [r.high[0], shoulder, r.high[1]]);
+        Body::wall(low, high).named("bottom")
+    };
+    let mut bodies: Vec<Body> = shape.sides.iter().map(lumen).collect();
+    bodies.push(lumen(&shape.roof));
+    let beside = [[LUMEN, 0.0], [0.0, LUMEN]];
+    let wall = |[x, z]: [f64; 2]| Body::wall([x, shoulder, z], [right, top, right]).named("bottom");
+    bodies.extend(beside.map(wall));
+    let plunger = Body::wall([0.0, piston, 0.0], [LUMEN, top + 2.0 * LUMEN, LUMEN]).named("top");
+    let area = section.area(n);
+    let resistance = section.staircase_resistance(n) * PF[2];
+    let (mut clamp, mut stop) = (None, None);
+    let until;
+    match drive {
+        Drive::Speed(v) => {
+            until = LONGEST * area / 4.0 * LUMEN / v;
+            stop = Some(until);
+            bodies.push(plunger.moving([0.0, -v, 0.0]));
+        }
+        Drive::Pressure(p) => {
+            until = 1.4 * resistance / p * (0.5 * LONGEST * LONGEST + 0.5);
+            let limit = p * (LUMEN / right).powi(2);
+            clamp = Some(format!(
+                "closing_speed = \"20 m/s\"\nmax_pressure = \"{limit:.6} Pa\"\nstop = \"{:.6} us\"\ntravel = \"{:.6} um\"\n",
+                until * 1e6,
+                1.2 * LUMEN * 1e6
+            ));
+            bodies.push(plunger.clamped());
+        }
+    }
+    bodies.push(Body::liquid([0.0, shoulder, 0.0], [LUMEN, piston, LUMEN]));
+    let case = CaseText {
+        clamp,
+        stop,
+        bodies,
+        history_every: until / 400.0,
+        ..CaseText::new(
+            format!(
+                "A piston at constant {} presses liquid into a lumen ({}) of {n} cells, a quarter of it.\nAgainst c eta V (L + e)/d^2, c of developed flow between the same walls by finite differences.",
+                match drive {
+                    Drive::Speed(_) => "speed",
+                    Drive::Pressure(_) => "pressure",
+                },
+                section.name()
+            ),
+            cell,
+            3,
+            [right, top, right],
+        )
+    };
+    let word = match drive {
+        Drive::Speed(_) => "piston",
+        Drive::Pressure(_) => "washburn3d",
+    };
+    Scene {
+        name: format!("{word}-{}-n{n}", section.name()),
+        case,
+        against: "developed flow",
+        measure: Box::new(move |run| match drive {
+            Drive::Speed(v) => {
+                let unit = resistance * 4.0 / area * v / LUMEN;
+                pressures(run, section, area, v, unit, right)
+            }
+            Drive::Pressure(p) => times(run, section, area, resistance / p),
+        }),
+    }
+}
+
+/// Growth of the pressure over the filled length, and the pressure itself; `unit` (Pa) is the
+/// pressure of one filled diameter, `right` (m) the edge of the domain's cross-section, which
+/// the history refers to.
+fn pressures(
+    run: &Run,
+    section: Section,
+    area: f64,
+    speed: f64,
+    unit: f64,
+    right: f64,
+) -> Result<Vec<Measured>, String> {
+    let time = run.history("time_s")?;
+    let pressure = run.history("pressure_top_Pa")?;
+    let pressure: Vec<f64> = pressure
+        .iter()
+        .map(|p| p * (right / LUMEN).powi(2))
+        .collect();
+    // What the liquid gives way by itself does not flow into the lumen.
+    let filled: Vec<f64> = time
+        .iter()
+        .zip(&pressure)
+        .map(|(t, p)| 4.0 / area * (speed * t / LUMEN - DEPTH * p / PF[1]))
+        .collect();
+    let at = |length: f64| {
+        window_mean(&filled, &pressure, length - 0.25, length + 0.25)
+            .map(|p| p / unit)
+            .ok_or("the lumen was not filled to two diameters")
+    };
+    let (one, two) = (at(1.0)?, at(2.0)?);
+    Ok(vec![
+        Measured::relative("pressure per filled diameter", two - one, 1.0),
+        Measured::relative("pressure at L = 2 d", two, 2.0 + entrance(section)),
+    ])
+}
+
+/// Time in which the liquid goes on from one to two diameters, over `c eta/p` (s).
+fn times(run: &Run, section: Section, area: f64, unit: f64) -> Result<Vec<Measured>, String> {
+    let time = run.history("time_s")?;
+    let travel = run.history("displacement_m")?;
+    let when = |length: f64| {
+        let goal = length * area / 4.0 * LUMEN;
+        let i = travel.iter().position(|&s| s >= goal).filter(|&i| i > 0);
+        let i = i.ok_or("the lumen was not filled to two diameters")?;
+        let part = (goal - travel[i - 1]) / (travel[i] - travel[i - 1]);
+        Ok::<f64, String>(time[i - 1] + part * (time[i] - time[i - 1]))
+    };
+    let took = (when(2.0)? - when(1.0)?) / unit;
+    let exact = 1.5 + entrance(section);
+    Ok(vec![Measured::relative(
+        "time from L = d to 2 d",
+        took,
+        exact,
+    )])
+}
