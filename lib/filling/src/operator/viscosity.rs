@@ -33,22 +33,29 @@ impl Operator<'_> {
         let law = &liquid.viscosity;
         let at = |rate: f64| (law.at(rate) / reference) as f32;
         let window = self.lattice.window;
-        let mut viscosity = vec![0.0_f32; window.len()];
-        let values: Vec<f32> = (self.dofs.cells.par_iter())
-            .map(|&cell| {
-                let centre = window
-                    .corner(window.coordinates(cell as usize))
-                    .map(|x| x + 0.5);
+        let wet = |index: usize| self.liquid.volume[index] > 0.0;
+        let mut viscosity: Vec<f32> = (0..window.len())
+            .into_par_iter()
+            .map(|index| {
+                let cell = window.coordinates(index);
+                if !wet(index) || window.home(cell) != cell {
+                    return 0.0;
+                }
+                let centre = window.corner(cell).map(|x| x + 0.5);
                 let gradient = field.flow.gradient(centre).map(|c| c.gradient);
                 at(liquid.shear_rate.factor() * deviator_norm(&gradient) / cell_m)
             })
             .collect();
-        let mut change = 0.0;
-        for (&cell, &value) in self.dofs.cells.iter().zip(&values) {
-            let before = self.viscosity.get(cell as usize).copied().unwrap_or(0.0);
-            change += f64::from((value - before).abs() / before);
-            viscosity[cell as usize] = value;
+        // Edges on a periodic side average over cells and images of cells.
+        for index in (0..window.len()).filter(|&index| wet(index)) {
+            viscosity[index] = viscosity[window.index(window.home(window.coordinates(index)))];
         }
+        let change: f64 = (self.dofs.cells.iter())
+            .map(|&cell| {
+                let before = self.viscosity.get(cell as usize).copied().unwrap_or(0.0);
+                f64::from((viscosity[cell as usize] - before).abs() / before)
+            })
+            .sum();
         self.viscosity = viscosity;
         let length = self.scales.influence_length;
         let faces = &self.dofs.faces;
@@ -57,7 +64,7 @@ impl Operator<'_> {
             let slip = (field.u[face] - field.bodies[usize::from(link.body)][axis]).abs();
             at(slip / (f64::from(link.distance) + length) / cell_m)
         });
-        change / values.len().max(1) as f64
+        change / self.dofs.cells.len().max(1) as f64
     }
 }
 
