@@ -7,12 +7,14 @@
 
 mod axes;
 mod closing;
+mod clouds;
 mod colour;
 mod colour_bar;
 mod drawing;
 mod error;
 mod legend;
 mod panels;
+mod plot;
 mod raster;
 mod render;
 mod shear_rate;
@@ -22,8 +24,10 @@ mod table2;
 mod wp_map;
 
 pub use closing::Closing;
+pub use clouds::{Clouds, Spot};
 pub use drawing::Drawing;
 pub use error::Error;
+pub use plot::{Mark, Plot};
 pub use shear_rate::ShearRates;
 pub use slice::{Colouring, Cut, Position, Slices};
 pub use table2::{Case, Table2};

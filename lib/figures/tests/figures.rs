@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use figures::{
-    Case, Closing, Cut, Drawing, Error, Labelled, Position, ShearRates, Slices, Table2, WpMap,
+    Case, Closing, Clouds, Cut, Drawing, Error, Labelled, Mark, Plot, Position, ShearRates, Slices,
+    Table2, WpMap,
 };
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
 use units::Axis;
@@ -374,4 +375,37 @@ fn table_2_has_ours_the_slab_and_the_papers_numbers_labelled() {
         .unwrap_err()
         .to_string();
     assert!(said.contains("several states"), "{said}");
+}
+
+#[test]
+fn a_plot_has_titles_labels_and_marks() {
+    let plot = Plot::new("errors", "CPU (s)", "error (%)")
+        .logarithmic([true, true])
+        .with("ours", Mark::LineAndDots, vec![[1.0, 10.0], [10.0, 1.0]])
+        .with("theirs", Mark::Dots, vec![[3.0, 30.0], [f64::NAN, 1.0]]);
+    let drawing = plot.draw().unwrap();
+    let texts = texts(&drawing);
+    for text in ["errors", "CPU (s)", "error (%)", "ours", "theirs", "10"] {
+        assert!(texts.iter().any(|t| t == text), "{text}: {texts:?}");
+    }
+    let (_, pixels) = pixels(&drawing);
+    // The second series has dots and no line: its colour covers little, but something.
+    let colours = [[0, 114, 178], [213, 94, 0]].map(|c| share(&pixels, c));
+    assert!(colours[0] > colours[1] && colours[1] > 1e-5, "{colours:?}");
+    let empty = Plot::new("none", "", "").with("a", Mark::Line, vec![[f64::NAN, 0.0]]);
+    assert!(matches!(empty.draw(), Err(Error::Data(_))));
+}
+
+#[test]
+fn clouds_have_labels_and_colours_of_their_values() {
+    let points = vec![([0.0, 0.0], 0.0), ([1.0, 2.0], 1.0)];
+    let clouds = Clouds::new("v", [0.0, 1.0], 0.1).with("FLIP", points);
+    let drawing = clouds.draw().unwrap();
+    assert!(texts(&drawing).iter().any(|t| t == "FLIP"));
+    let (_, pixels) = pixels(&drawing);
+    // Both ends of the scale are there beside the colour bar's one line of each.
+    for end in [[68, 1, 84], [253, 231, 37]] {
+        assert!(share(&pixels, end) > 1e-4);
+    }
+    assert!(Clouds::new("v", [0.0, 1.0], 0.1).draw().is_err());
 }
