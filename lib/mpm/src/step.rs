@@ -40,6 +40,11 @@ impl Stage {
 
 /// Steps between checks of the whole state, which also renew the time step.
 const CHECK_EVERY: u64 = 64;
+/// Courant numbers of the two limits below which a point alone in its cells is stable with any
+/// shape but the hat: dt 2 nu q < 1 and 3 (c dt)^2 q < 2, q at most 28/3 per cell^2, the sum over
+/// nodes of slope^2 / weight of GIMP along an axis.
+const ALONE_VISCOUS: f64 = 0.4;
+const ALONE_ACOUSTIC: f64 = 0.25;
 /// Volume ratios beyond which Eq. 1 means nothing.
 const SOUND_J: std::ops::Range<f32> = -0.7..1.0;
 
@@ -211,9 +216,9 @@ impl Explicit {
         }
         match fault {
             Some(id) => Err(Failure(format!(
-                "step {}: liquid point {id} would move by more than 0.9 of a cell or has no finite velocity: the run is unstable; a smaller cfl than {} may help",
+                "step {}: liquid point {id} would move by more than 0.9 of a cell or has no finite velocity: {}",
                 self.state.step + 1,
-                self.settings.cfl
+                self.unstable(id)
             ))),
             None => Ok(()),
         }
@@ -273,7 +278,7 @@ impl Explicit {
                         self.state.step,
                         square.sqrt(),
                         1.0 + j,
-                        self.cause(j)
+                        self.cause(*id, j)
                     )));
                 }
                 fastest = fastest.max(square);
@@ -288,17 +293,51 @@ impl Explicit {
         Ok(())
     }
 
-    fn cause(&self, j: f32) -> String {
+    fn cause(&self, id: u32, j: f32) -> String {
         if j <= SOUND_J.start {
             "the liquid is crushed, probably between bodies that leave it no room".into()
         } else if j >= SOUND_J.end {
-            "the liquid is torn apart: a cavitation_pressure limits the tension it carries".into()
+            match self.scene.liquid.cavitation_pressure {
+                None => {
+                    "the liquid is torn apart: a cavitation_pressure limits the tension it carries"
+                }
+                Some(_) => "the liquid flies apart, beyond what a volume ratio can describe",
+            }
+            .into()
         } else {
-            format!(
-                "the run is unstable; the step is {} of its {} limit and a smaller cfl may help",
-                self.settings.cfl, self.plan.limit
-            )
+            self.unstable(id)
         }
+    }
+
+    /// The likely cause of an instability at a point.
+    fn unstable(&self, id: u32) -> String {
+        let advice = format!(
+            "the step is {} of its {} limit",
+            self.settings.cfl, self.plan.limit
+        );
+        if self.is_alone(id) {
+            // Nobody shares the nodes and keeps their velocity gradient from one step to the
+            // next, so that stress turns the gradient round in each.
+            return format!(
+                "the run is unstable where that point is alone, a drop smaller than a cell; {advice}, and such a drop needs {ALONE_VISCOUS} of the viscous and {ALONE_ACOUSTIC} of the acoustic limit"
+            );
+        }
+        format!("the run is unstable; {advice} and a smaller cfl may help")
+    }
+
+    /// Whether no other point is within a cell and a half, the reach of a node, of this one.
+    fn is_alone(&self, id: u32) -> bool {
+        let nodes = || {
+            self.grid.tiles.iter().flat_map(|tile| {
+                let points = &tile.points;
+                (0..points.len()).map(move |p| (points.id[p], tile.node_of(points.base[p])))
+            })
+        };
+        let Some((_, own)) = nodes().find(|(other, _)| *other == id) else {
+            return false;
+        };
+        let near = |node: [i32; 3]| (0..3).all(|a| (node[a] - own[a]).abs() <= 1);
+        nodes().filter(|(_, node)| near(*node)).count() == 1
     }
 }
 

@@ -60,6 +60,31 @@ fn steps_beyond_the_stable_limit_are_stopped_with_step_and_point() {
 }
 
 #[test]
+fn a_point_alone_is_named_and_stable_at_the_step_advised() {
+    let drop = |viscosity: f64| {
+        let mut s = scene([24, 24, 1], [Boundary::Periodic; 3]);
+        s.boundary[2] = Boundary::Symmetry;
+        s.liquid.viscosity = Viscosity::Newtonian(Newtonian(viscosity));
+        fill(&mut s, [4.13, 4.1, 0.0], [4.63, 4.6, 1.0], |_| {
+            [0.91, -0.37, 0.0]
+        });
+        s
+    };
+    let gimp = ShapeFunction::Gimp;
+    let end = |viscosity: f64, cfl: f64| {
+        let settings = settings(gimp, VelocityUpdate::Flip, cfl);
+        let mut run = Explicit::new(&drop(viscosity), &settings).unwrap();
+        (0..15_000).find_map(|_| run.advance(FREE).err())
+    };
+    for (viscosity, unstable, stable) in [(scenes::VISCOSITY, 0.5, 0.4), (1e-3, 0.5, 0.25)] {
+        let said = end(viscosity, unstable).expect("a failure").0;
+        println!("{viscosity} Pa s: {said}");
+        assert!(said.contains("alone") && said.contains("needs 0.4"));
+        assert_eq!(end(viscosity, stable), None);
+    }
+}
+
+#[test]
 fn bad_settings_and_points_are_refused() {
     let s = pool();
     let refused = |scene: &Scene, shape, update, cfl| {
