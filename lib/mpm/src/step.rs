@@ -294,7 +294,9 @@ impl Explicit {
     }
 
     fn cause(&self, id: u32, j: f32) -> String {
-        if j <= SOUND_J.start {
+        if self.is_alone(id) {
+            self.unstable(id)
+        } else if j <= SOUND_J.start {
             "the liquid is crushed, probably between bodies that leave it no room".into()
         } else if j >= SOUND_J.end {
             match self.scene.liquid.cavitation_pressure {
