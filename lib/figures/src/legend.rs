@@ -60,9 +60,23 @@ pub(crate) fn height(labels: &[&str], width: f64) -> f64 {
 
 /// Draws sample lines and labels above the plots, where they cover no data.
 pub(crate) fn draw(drawing: &mut Drawing, labels: &[&str], left: f64, top: f64, width: f64) {
+    let line = |drawing: &mut Drawing, i: usize, ends: [Point; 2]| {
+        Stroke::of_series(i).draw(drawing, &ends);
+    };
+    draw_samples(drawing, labels, [left, top], width, line);
+}
+
+/// The same with samples drawn by `sample`, given the series and the ends of its line.
+pub(crate) fn draw_samples(
+    drawing: &mut Drawing,
+    labels: &[&str],
+    [left, top]: Point,
+    width: f64,
+    sample: impl Fn(&mut Drawing, usize, [Point; 2]),
+) {
     for (i, (label, [x, y])) in labels.iter().zip(places(labels, width)).enumerate() {
         let (x, y) = (left + x, top + y + 12.0);
-        Stroke::of_series(i).draw(drawing, &[[x, y], [x + SAMPLE, y]]);
+        sample(drawing, i, [[x, y], [x + SAMPLE, y]]);
         drawing.text(*label, [x + SAMPLE + 8.0, y], Anchor::Left, NORMAL);
     }
 }

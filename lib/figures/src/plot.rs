@@ -101,26 +101,35 @@ impl Plot {
         let mut drawing = Drawing::new(WIDTH, (frame.bottom() + 56.0) as u32);
         let middle = [LEFT + 0.5 * width, 20.0];
         drawing.text(&self.title, middle, Anchor::Centre, NORMAL + 2.0);
-        legend::draw(&mut drawing, &labels, LEFT, 36.0, width);
+        let sample = |drawing: &mut Drawing, i: usize, [a, b]: [Point; 2]| {
+            let middle = [0.5 * (a[0] + b[0]), a[1]];
+            self.series[i].draw_line(drawing, i, &[a, b]);
+            self.series[i].draw_dots(drawing, i, &[middle]);
+        };
+        legend::draw_samples(&mut drawing, &labels, [LEFT, 36.0], width, sample);
         frame.draw(&mut drawing, &x, &y, true);
         for (i, series) in self.series.iter().enumerate() {
             let places = series.points.iter().map(|&p| frame.place(&x, &y, p));
-            series.draw(&mut drawing, i, &places.collect::<Vec<_>>());
+            let places: Vec<Point> = places.collect();
+            series.draw_line(&mut drawing, i, &places);
+            series.draw_dots(&mut drawing, i, &places);
         }
         Ok(drawing)
     }
 }
 
 impl Series {
-    fn draw(&self, drawing: &mut Drawing, index: usize, places: &[Point]) {
-        let stroke = Stroke::of_series(index);
+    fn draw_line(&self, drawing: &mut Drawing, index: usize, places: &[Point]) {
         if self.mark != Mark::Dots {
-            stroke.draw(drawing, places);
+            Stroke::of_series(index).draw(drawing, places);
         }
+    }
+
+    fn draw_dots(&self, drawing: &mut Drawing, index: usize, places: &[Point]) {
         if self.mark != Mark::Line {
             for place in places {
                 // A run of one point is a dot.
-                stroke.draw(drawing, &[*place]);
+                Stroke::of_series(index).draw(drawing, &[*place]);
             }
         }
     }

@@ -10,6 +10,7 @@ pub mod disc;
 pub mod drop;
 pub mod duct;
 pub mod galilean;
+pub mod goals;
 pub mod incline;
 pub mod lumen;
 pub mod piston;
@@ -71,6 +72,8 @@ pub struct Measured {
     pub reference: f64,
     /// Error as stated: relative unless `what` says otherwise.
     pub error: f64,
+    /// Whether the error is a number of things, not a share.
+    pub counted: bool,
 }
 
 impl Measured {
@@ -81,6 +84,7 @@ impl Measured {
             value,
             reference,
             error: value / reference - 1.0,
+            counted: false,
         }
     }
 
@@ -91,6 +95,15 @@ impl Measured {
             value: error,
             reference: 0.0,
             error,
+            counted: false,
+        }
+    }
+
+    /// A number of things that should be none.
+    pub fn count(what: impl Into<String>, number: usize) -> Self {
+        Self {
+            counted: true,
+            ..Self::absolute(what, number as f64)
         }
     }
 }

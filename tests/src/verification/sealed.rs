@@ -32,7 +32,7 @@ pub fn scene(voxels: u32, offset: f64) -> Scene {
     let (lid_low, lid_high) = at([0.0, lid], [width, lid + 6.0]);
     let case = CaseText {
         clamp: Some(format!(
-            "closing_speed = \"1 m/s\"\nmax_pressure = \"{PRESSURE} Pa\"\nstop = \"{} us\"\ntravel = \"5.8 um\"\n",
+            "closing_speed = \"1 m/s\"\nmax_pressure = \"{PRESSURE} Pa\"\nstop = \"{:.3} us\"\ntravel = \"5.8 um\"\n",
             until * 1e6
         )),
         boundary: ["symmetry", "open", "symmetry"],
@@ -69,7 +69,7 @@ pub fn scene(voxels: u32, offset: f64) -> Scene {
             // The lumen's void stays empty, so all liquid is under the clamp's pressure.
             let compressed = -0.0894 * (last / (0.0894 * PF[1])).ln_1p();
             Ok(vec![
-                Measured::absolute("points leaked into the sealed lumen", leaked as f64),
+                Measured::count("points leaked into the sealed lumen", leaked),
                 Measured::absolute("volume beyond Tait", volume - compressed),
             ])
         }),

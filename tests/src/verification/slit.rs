@@ -4,6 +4,7 @@
 
 use super::{LUMEN, Measured, Scene, window_mean};
 use crate::case_text::{Body, CaseText, PF};
+use crate::outputs::Run;
 
 /// Piston speed, m/s; the slit is a quarter of the reservoir, so it flows four times faster.
 const SPEED: f64 = 0.5;
@@ -52,12 +53,8 @@ pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
         case,
         against: "24-cell reference",
         measure: Box::new(move |run| {
-            let time = run.history("time_s")?;
-            let pressure = run.history("pressure_top_Pa")?;
-            // History pressures refer to the whole cross-section of the domain.
-            let unit = 12.0 * PF[2] * 4.0 * SPEED / LUMEN;
-            let filled: Vec<f64> = time.iter().map(|t| 4.0 * SPEED * t / LUMEN).collect();
-            let force: Vec<f64> = pressure.iter().map(|p| p * right / width / unit).collect();
+            let (filled, force): (Vec<f64>, Vec<f64>) =
+                curve(run, n)?.iter().map(|p| (p[0], p[1])).unzip();
             let mut list = Vec::new();
             for (length, entrance) in ENTRANCE {
                 if let Some(f) = window_mean(&filled, &force, length - 0.25, length + 0.25) {
@@ -73,4 +70,26 @@ pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
             Ok(list)
         }),
     }
+}
+
+/// Filled length in slit widths and force on the piston over that of one filled width, row by
+/// row of the history of a run with `n` cells.
+///
+/// # Errors
+/// What is wrong with the history.
+pub fn curve(run: &Run, n: u32) -> Result<Vec<[f64; 2]>, String> {
+    let time = run.history("time_s")?;
+    let pressure = run.history("pressure_top_Pa")?;
+    // History pressures refer to the whole cross-section of the domain.
+    let section = (4.0 * f64::from(n) + 6.0) / (4.0 * f64::from(n));
+    let unit = 12.0 * PF[2] * 4.0 * SPEED / LUMEN;
+    let row = |(t, p): (&f64, &f64)| [4.0 * SPEED * t / LUMEN, p * section / unit];
+    Ok(time.iter().zip(&pressure).map(row).collect())
+}
+
+/// Filled lengths and forces of the reference.
+pub fn reference() -> Vec<[f64; 2]> {
+    ENTRANCE
+        .map(|(length, more)| [length, length + more])
+        .to_vec()
 }

@@ -3,6 +3,7 @@
 use super::{Measured, Scene};
 use crate::case_text::{Body, CaseText, PF};
 use crate::closed_forms::tait;
+use crate::outputs::Run;
 
 const CELL: f64 = 2.9e-6;
 const SPEED: f64 = 0.5;
@@ -44,11 +45,23 @@ pub fn scene() -> Scene {
                 exact += tait(1.0 - SPEED * t / height, PF[1]);
                 rows += 1.0;
             }
-            Ok(vec![Measured::relative(
-                "piston pressure",
-                sum / rows,
-                exact / rows,
-            )])
+            Ok(vec![
+                Measured::relative("piston pressure", sum / rows, exact / rows),
+                Measured::absolute("rms pressure of points of their volume", law_error(run)?),
+            ])
         }),
     }
+}
+
+/// Root mean square over the points of their pressure over that of Eq. 1 at their own volume,
+/// minus one: the law itself, without the walls.
+fn law_error(run: &Run) -> Result<f64, String> {
+    let file = run.last()?;
+    let read = |name| file.column::<f32>(name).map_err(|e| e.to_string());
+    let (volume, pressure) = (read("volume")?, read("pressure")?);
+    let whole = 0.25 * CELL.powi(3);
+    let square =
+        |(v, p): (&f32, &f32)| (f64::from(*p) / tait(f64::from(*v) / whole, PF[1]) - 1.0).powi(2);
+    let sum: f64 = volume.iter().zip(pressure).map(square).sum();
+    Ok((sum / volume.len() as f64).sqrt())
 }

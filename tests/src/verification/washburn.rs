@@ -23,7 +23,7 @@ pub fn scene(n: u32, offset: f64) -> Scene {
     let case = CaseText {
         clamp: Some(format!(
             "closing_speed = \"20 m/s\"\nmax_pressure = \"{limit} Pa\"\nstop = \"{} us\"\ntravel = \"{} um\"\n",
-            16.0 * 12.0 * PF[2] / PRESSURE * 1e6,
+            20.0 * 12.0 * PF[2] / PRESSURE * 1e6,
             2.0 * LUMEN * 1e6
         )),
         bodies: vec![

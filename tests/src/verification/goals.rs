@@ -1,0 +1,170 @@
+//! What the verification should reach, for the page to say whether it does.
+
+/// A largest error for some of the runs.
+pub struct Goal {
+    /// Beginnings of names of scenes, in words for the page.
+    pub cases: &'static str,
+    /// Whole words at the beginnings of names of scenes.
+    prefixes: &'static [&'static str],
+    /// Label of the method, or "explicit" for every update.
+    pub method: &'static str,
+    /// Beginning of the quantity's name.
+    pub quantity: &'static str,
+    /// Largest error.
+    pub limit: f64,
+}
+
+impl Goal {
+    /// Whether a run of `scene` by the method of this label counts.
+    pub fn is_about(&self, scene: &str, label: &str) -> bool {
+        let method = match self.method {
+            "explicit" => !label.starts_with("implicit"),
+            "implicit" => label.starts_with("implicit"),
+            method => label == method,
+        };
+        // Whole words of the name: "off0" is not the beginning of "off0.25".
+        let begins = |p: &str| {
+            let rest = scene.strip_prefix(p);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+        };
+        method && self.prefixes.iter().any(|p| begins(p))
+    }
+}
+
+const fn goal(
+    cases: &'static str,
+    prefixes: &'static [&'static str],
+    method: &'static str,
+    quantity: &'static str,
+    limit: f64,
+) -> Goal {
+    Goal {
+        cases,
+        prefixes,
+        method,
+        quantity,
+        limit,
+    }
+}
+
+/// The numbers the project set out to reach.
+pub const GOALS: &[Goal] = &[
+    goal(
+        "incline, 0.5 ms, on nodes",
+        &["incline-n6-off0"],
+        "XPIC(5)",
+        "rms profile",
+        0.01,
+    ),
+    goal(
+        "incline, 0.5 ms, on nodes",
+        &["incline-n6-off0"],
+        "XPIC(5)",
+        "rms v_y",
+        0.001,
+    ),
+    goal(
+        "channel, 6 cells, any offset",
+        &["channel-n6"],
+        "implicit",
+        "mean velocity",
+        0.03,
+    ),
+    goal(
+        "channel, 3 cells, any offset",
+        &["channel-n3"],
+        "implicit",
+        "mean velocity",
+        0.08,
+    ),
+    goal(
+        "couette, 6 cells, any offset",
+        &["couette-n6"],
+        "implicit",
+        "slip velocity",
+        0.02,
+    ),
+    goal(
+        "square duct, 6 cells",
+        &["duct-square-n6"],
+        "implicit",
+        "mean velocity",
+        0.03,
+    ),
+    goal(
+        "slit, 6 cells, aligned and quarter off",
+        &["slit-n6-off0", "slit-n6-off0.25"],
+        "implicit",
+        "piston force",
+        0.05,
+    ),
+    goal(
+        "slit, 6 cells, half a cell off",
+        &["slit-n6-off0.5"],
+        "implicit",
+        "piston force",
+        0.08,
+    ),
+    goal(
+        "filling at constant pressure, 6 cells",
+        &["washburn-n6"],
+        "implicit",
+        "L(t)",
+        0.05,
+    ),
+    goal(
+        "squeeze film, plates, from 3 cells",
+        &["squeeze-n3", "squeeze-n6"],
+        "implicit",
+        "force",
+        0.02,
+    ),
+    goal(
+        "squeeze film, disc, from 3 cells",
+        &["disc8-n3", "disc8-n6"],
+        "implicit",
+        "force",
+        0.02,
+    ),
+    goal(
+        "slit, 6 and 12 cells, volume of points",
+        &["slit-n6", "slit-n12"],
+        "implicit",
+        "volume",
+        0.005,
+    ),
+    goal(
+        "sealed lumens",
+        &["sealed"],
+        "explicit",
+        "points leaked",
+        0.0,
+    ),
+    goal(
+        "sealed lumens",
+        &["sealed"],
+        "implicit",
+        "points leaked",
+        0.0,
+    ),
+    goal(
+        "compression",
+        &["tait"],
+        "explicit",
+        "rms pressure of points",
+        1e-4,
+    ),
+    goal("sound", &["acoustic"], "explicit", "frequency", 0.01),
+    goal("Galilean", &["galilean"], "explicit", "largest drift", 1e-6),
+    goal("Galilean", &["galilean"], "implicit", "largest drift", 1e-6),
+    goal(
+        "momentum of a drop",
+        &["drop"],
+        "explicit",
+        "momentum",
+        1e-5,
+    ),
+    goal("load control", &["clamp"], "explicit", "overshoot", 0.05),
+    goal("load control", &["clamp"], "implicit", "overshoot", 0.05),
+    goal("load control", &["clamp"], "implicit", "travel", 1e-6),
+];
