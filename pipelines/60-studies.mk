@@ -12,3 +12,16 @@ verify: $(BINARIES)
 bench:
 	$(CARGO) run --release --quiet -p mpm --example mpm_bench
 	$(CARGO) run --release --quiet -p filling --example solver_bench -- 1e-3 32,48,48,12 64,56,64,12
+
+# Stiff and extreme cases by both schemes: all end well, are refused or stop with a reason.
+.PHONY: stability
+stability: $(BINARIES)
+	@$(CARGO) build --release --quiet -p studies
+	@mkdir -p out/results
+	$(BIN)/stability scenes $(if $(ONLY),out/results,docs/results) $(ONLY)
+
+# What the options of the explicit scheme that are not the paper's change; prints the table.
+.PHONY: options
+options: $(BINARIES)
+	@$(CARGO) build --release --quiet -p studies
+	$(BIN)/stability options docs/results

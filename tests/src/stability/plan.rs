@@ -209,6 +209,22 @@ fn extremes(plan: &mut Plan) {
         &splash(3.0, 30.0),
         &usual(),
     );
+    // A point alone has no neighbours to share its velocity gradient with.
+    let thin_drop = free_drop(0.5).of(Viscosity::Newtonian(1e-3), PF[1]);
+    for (name, scene) in [("PF", free_drop(0.5)), ("1e-3 Pa s", thin_drop)] {
+        for cfl in [0.25, 0.4, 0.5] {
+            let from = plan.0.len();
+            plan.add(
+                "drop of one point",
+                format!("{cfl}, {name}"),
+                &scene,
+                &updates(),
+            );
+            for trial in &mut plan.0[from..] {
+                trial.cfl = cfl;
+            }
+        }
+    }
     // Without viscosity to speak of nothing damps the noise.
     let thin = press(Press::default()).of(Viscosity::Newtonian(1e-6), PF[1]);
     plan.add("viscosity", "1e-6 Pa s", &thin, &usual());

@@ -41,14 +41,14 @@ fn number(x: f64) -> String {
 /// The rows as CSV.
 pub fn csv(rows: &[Row]) -> String {
     let mut out = String::from(
-        "varied,value,method,cfl,verdict,part_computed,steps,cpu_s,energy_over_flow,J_min,J_max,lost_points,balance_error,sentence,warning\n",
+        "varied,value,method,cfl,verdict,part_computed,steps,cpu_s,energy_over_flow,travel_over_full_speed,J_min,J_max,lost_points,balance_error,sentence,warning\n",
     );
     for row in rows {
         let trial = &row.trial;
         // Writing to a string cannot fail.
         let _ = writeln!(
             out,
-            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
             quoted(trial.varied),
             quoted(&trial.value),
             quoted(&trial.method.label),
@@ -58,6 +58,7 @@ pub fn csv(rows: &[Row]) -> String {
             number(row.steps),
             number(row.cpu_s),
             number(row.energy),
+            number(row.travel),
             number(row.j[0]),
             number(row.j[1]),
             number(row.lost),
@@ -124,23 +125,29 @@ fn line(out: &mut String, row: &Row) {
     } else {
         String::new()
     };
+    let j = if row.j[0].is_finite() {
+        format!("{:.4} to {:.4}", row.j[0], row.j[1])
+    } else {
+        String::new()
+    };
     let _ = writeln!(
         out,
-        "| {} | {} | {} | {} | {} | {energy} | {} to {} | {} | {balance} | {} |",
+        "| {} | {} | {} | {} | {} | {energy} | {} | {} | {} | {balance} | {} |",
         trial.value,
         trial.method.label,
         trial.cfl,
         row.verdict.word(),
         short(row.steps, 0),
-        short(row.j[0], 4),
-        short(row.j[1], 4),
+        short(row.travel, 3),
+        j,
         short(row.lost, 0),
         note.trim(),
     );
 }
 
-const HEADER: &str = "| value | method | CFL | ended | steps | energy | J | lost | balance | said |
-|---|---|---|---|---|---|---|---|---|---|";
+const HEADER: &str =
+    "| value | method | CFL | ended | steps | energy | travel | J | lost | balance | said |
+|---|---|---|---|---|---|---|---|---|---|---|";
 
 const INTRODUCTION: &str = "# Stability on stiff and extreme cases
 
@@ -155,10 +162,13 @@ drops. One value is varied at a time; sticking walls and CFL 0.5 unless said.
   at all, of which there must be none.
 - *energy*: largest kinetic energy over that of all liquid at the speed of the scene's own motion (in
   the lumen, for a press).
+- *travel*: how far the clamp moved over how far it would have at its closing speed; less than 1 where the
+  pressure limit holds it back.
 - *J*: smallest and largest volume ratio of the points at the end, from their pressures by Eq. 1.
 - *lost*: points that left the domain or lie deeper than a point spacing in a wall.
-- *balance*: mean force on the upper over that on the lower body in the later half of the run, minus
-  one; for free drops the change of mean velocity over the speed.
+- *balance*: difference of the mean forces on upper and lower body in the later half of the run over
+  the larger of them, or over rho v^2 if that is more; for free drops the change of mean velocity
+  over the speed.
 - Explicit runs take at most 20,000 steps; where that is less than the scene's motion, the row says
   how much of it was computed. A balance of forces then is of the start-up, not of the flow.
 ";

@@ -14,6 +14,8 @@ pub struct Scene {
     pub speed: f64,
     /// How long the scene's motion takes, s.
     pub duration: f64,
+    /// How far the clamp moves in that time at its closing speed, m; 0 without one.
+    pub travel: f64,
     /// What the trial's balance error is.
     pub balance: Balance,
 }
@@ -145,6 +147,7 @@ pub fn press(shape: Press) -> Scene {
         case,
         speed: shape.speed * narrowing,
         duration: shape.travel * CELL / shape.speed,
+        travel: shape.travel * CELL,
         balance: Balance::Forces,
     }
 }
@@ -200,6 +203,7 @@ pub fn torn(speed: f64) -> Scene {
         case,
         speed,
         duration: 4.0 * CELL / speed,
+        travel: 0.0,
         balance: Balance::Momentum([0.0; 2]),
     }
 }
@@ -221,6 +225,7 @@ pub fn free_drop(size: f64) -> Scene {
         case,
         speed: 1.25_f64.sqrt() * speed,
         duration: 6.0 * CELL / speed,
+        travel: 0.0,
         balance: Balance::Momentum([speed, -0.5 * speed]),
     }
 }
@@ -240,6 +245,7 @@ pub fn splash(size: f64, speed: f64) -> Scene {
         case,
         speed,
         duration: 4.0 * CELL / speed,
+        travel: 0.0,
         balance: Balance::None,
     }
 }

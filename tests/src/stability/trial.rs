@@ -67,6 +67,8 @@ pub struct Row {
     pub j: [f64; 2],
     /// Points lost through sides, or inside bodies deeper than a point spacing.
     pub lost: f64,
+    /// What a clamped body has moved over what it would have at its closing speed.
+    pub travel: f64,
     /// Error of the balance, see [`Balance`].
     pub balance: f64,
     /// Warnings, first sentence.
@@ -160,6 +162,7 @@ impl Trial {
             energy: f64::NAN,
             j: [f64::NAN; 2],
             lost: f64::NAN,
+            travel: f64::NAN,
             balance: f64::NAN,
             warning: warning
                 .unwrap_or("")
@@ -201,6 +204,10 @@ impl Row {
         }
         self.steps = run.summary("steps").unwrap_or(f64::NAN);
         self.cpu_s = run.summary("cpu_s").unwrap_or(f64::NAN);
+        if scene.travel > 0.0 {
+            let moved = run.history("displacement_m")?.last().copied();
+            self.travel = moved.unwrap_or(f64::NAN) / (scene.travel * self.part);
+        }
         self.balance = balance(run, scene)?;
         self.j = volume_ratios(run, scene)?;
         Ok(())
@@ -214,8 +221,14 @@ fn balance(run: &Run, scene: &Scene) -> Result<f64, String> {
         Balance::Forces => {
             let bottom = run.history("pressure_bottom_Pa")?;
             let top = run.history("pressure_top_Pa")?;
-            let late = |list: &[f64]| list[list.len() / 2..].iter().sum::<f64>();
-            Ok(late(&top) / late(&bottom) - 1.0)
+            let late = |list: &[f64]| {
+                let later = &list[list.len() / 2..];
+                later.iter().sum::<f64>() / later.len() as f64
+            };
+            let (top, bottom) = (late(&top), late(&bottom));
+            // What turning a stream of the scene's speed takes: forces may differ by it.
+            let inertia = PF[0] * scene.speed.powi(2);
+            Ok((top - bottom) / top.abs().max(bottom.abs()).max(inertia))
         }
         Balance::Momentum(start) => {
             let file = run.last()?;
