@@ -207,3 +207,27 @@ fn duration(seconds: f64) -> String {
         s => format!("{:.1} days", s / 86_400.0),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_will_not_end_is_named_with_its_limit() {
+        let forecast = |steps| Forecast {
+            dt_s: 6e-19,
+            limit: "viscous".into(),
+            steps,
+            memory_bytes: 0.0,
+            seconds: 0.0,
+            notes: Vec::new(),
+        };
+        let said = forecast(6e13).warning().expect("a warning");
+        assert!(
+            said.contains("6.0e13 steps") && said.contains("viscous"),
+            "{said}"
+        );
+        // The paper's own runs take some 50,000 steps, a full-size one some 1e5.
+        assert_eq!(forecast(1e6).warning(), None);
+    }
+}
