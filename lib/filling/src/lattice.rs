@@ -8,6 +8,7 @@
 mod aperture;
 mod column;
 mod faces;
+mod narrow;
 
 use physics::Boundary;
 use rayon::prelude::*;
@@ -69,6 +70,7 @@ impl Lattice {
                 }
             });
             self.faces[axis] = faces;
+            self.open_narrow_passages(axis);
         }
     }
 

@@ -299,7 +299,6 @@ fn coefficient(parts: &[(Velocity, f64)], face: usize) -> f64 {
 fn face_volume(lattice: &Lattice, liquid: &Liquid, axis: usize, index: usize) -> f64 {
     let cell = lattice.window.coordinates(index);
     let (wet, open) = dofs::face_fill(lattice, liquid.phi, axis, cell);
-    let merged = lattice.aperture(axis, cell).bodies.into_iter();
-    let merged: f64 = merged.map(|b| (-b.1).max(0.0)).sum();
+    let merged = lattice.aperture(axis, cell).merged;
     wet + if open > 0.0 { merged * wet / open } else { 0.0 }
 }

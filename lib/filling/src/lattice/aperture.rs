@@ -10,6 +10,8 @@ pub struct Aperture {
     /// Area that moves with the face's own velocity, with the slivers merged into it; 0 for a
     /// closed face. May exceed 1.
     pub open: f64,
+    /// Part of it that is merged slivers.
+    pub merged: f64,
     /// Bodies and the areas that move with them; a merged sliver counts negative for the body
     /// behind it. Unused entries are ([`OPEN`], 0).
     pub bodies: [(BodyId, f64); 4],
@@ -18,8 +20,16 @@ pub struct Aperture {
 impl Aperture {
     const WHOLE: Self = Self {
         open: 1.0,
+        merged: 0.0,
         bodies: [(OPEN, 0.0); 4],
     };
+
+    /// Adds a sliver, which lies in front of `body`.
+    fn merge(&mut self, body: BodyId, area: f64) {
+        self.open += area;
+        self.merged += area;
+        self.add(body, -area);
+    }
 
     fn add(&mut self, body: BodyId, area: f64) {
         if body >= OPEN || area == 0.0 {
@@ -98,8 +108,7 @@ impl Lattice {
         let facing = corner ^ 3;
         let area = self.quadrant_open(axis, closed, facing);
         if area > PROBE && self.receivers(axis, closed, facing, None).0 == 0 {
-            sum.open += area;
-            sum.add(body, -area);
+            sum.merge(body, area);
         }
     }
 
@@ -112,9 +121,7 @@ impl Lattice {
         for quadrant in 0..self.column_count() {
             let share = self.sliver_share(axis, closed, quadrant, t, !up);
             if share > 0.0 {
-                let area = share * self.quadrant_open(axis, closed, quadrant);
-                aperture.open += area;
-                aperture.add(body, -area);
+                aperture.merge(body, share * self.quadrant_open(axis, closed, quadrant));
             }
         }
     }
@@ -151,7 +158,7 @@ impl Lattice {
     /// Who takes the open quadrant of a closed face: the open faces that it borders on, or, if
     /// there is none, those that its neighbours in the face border on. Their number, and how
     /// many of them are the face along `asking` (a tangential direction, above when `true`).
-    fn receivers(
+    pub(super) fn receivers(
         &self,
         axis: usize,
         closed: [usize; 3],
@@ -203,7 +210,12 @@ impl Lattice {
     }
 
     /// Open fractions of the sub-cells below and above a quadrant.
-    fn quadrant_sides(&self, axis: usize, cell: [usize; 3], quadrant: usize) -> [f32; 2] {
+    pub(super) fn quadrant_sides(
+        &self,
+        axis: usize,
+        cell: [usize; 3],
+        quadrant: usize,
+    ) -> [f32; 2] {
         let window = &self.window;
         let mut sub = window.first_sub(cell);
         for (bit, &t) in self.tangents(axis).iter().enumerate() {

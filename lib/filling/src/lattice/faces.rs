@@ -95,6 +95,19 @@ impl Lattice {
         Some(first == 1.0)
     }
 
+    /// Whether nothing blocks the passage through a quadrant of a face next to its centre.
+    pub(super) fn quadrant_passes(&self, axis: usize, cell: [usize; 3], quadrant: usize) -> bool {
+        let mut point = self.window.face_centre(axis, cell);
+        for (bit, &t) in self.tangents(axis).iter().enumerate() {
+            point[t] += if quadrant >> bit & 1 == 1 {
+                PROBE
+            } else {
+                -PROBE
+            };
+        }
+        self.blocker(axis, point).is_none()
+    }
+
     /// Who blocks the passage through a face plane at a point of it.
     fn blocker(&self, axis: usize, point: [f64; 3]) -> Option<BodyId> {
         for side in [PROBE, -PROBE] {

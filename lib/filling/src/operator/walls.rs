@@ -250,9 +250,11 @@ impl Collector<'_> {
     fn add(&mut self, column: Column, side: usize, area: f64, across: Option<f64>) {
         let along = column.free_path();
         let path = across.map_or(along, |a| (along.powi(-2) + a.powi(-2)).powf(-0.5));
+        // Both walls of a narrow passage bound one control volume, wherever its centre is.
+        let narrow = along <= 1.0 + 1e-6;
         let [d, opposite] = [side, 1 - side].map(|s| {
             let d = column.distance[s];
-            if d < 1e-3 { AT_CORNER } else { d }
+            if d < 1e-3 && !narrow { AT_CORNER } else { d }
         });
         let link = WallLink {
             body: column.body[side],

@@ -31,6 +31,24 @@ fn plane_channel_flux_at_every_offset() {
     }
 }
 
+/// Passages of one and two voxels of half a cell, wherever they lie on the grid: they would be
+/// closed where both walls go through the centres of faces.
+#[test]
+fn passages_of_one_and_two_voxels() {
+    for (width, offsets, tolerance) in [(1.0, [0.0, 0.5], 0.01), (0.5, [0.0, 0.5], 0.01)] {
+        for offset in offsets {
+            let flat = plane_channel(width, offset, 0.0) - 1.0;
+            println!("passage of {width} cells, offset {offset}: flux error {flat:+.4}");
+            assert!(flat.abs() < tolerance, "{width} at {offset}: {flat}");
+        }
+    }
+    for offset in [[0.0; 2], [0.5, 0.0], [0.5, 0.5]] {
+        let error = duct(1.0, 4.0, offset) - 1.0;
+        println!("duct of 1 x 4 cells, walls off by {offset:?}: flux error {error:+.4}");
+        assert!(error.abs() < 0.25, "{offset:?}: {error}");
+    }
+}
+
 /// The same channel with other walls' distances would miss by far more than the tolerance.
 #[test]
 fn a_wall_a_quarter_cell_off_is_seen() {
