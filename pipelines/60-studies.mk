@@ -7,6 +7,13 @@ verify: $(BINARIES)
 	@$(CARGO) build --release --quiet -p studies
 	$(BIN)/verify pipelines/cases/verification $(if $(ONLY),out/results,docs/results) $(ONLY)
 
+# Error against CPU time over schemes and settings. Also writes the errors that `mpm-run --explain`
+# quotes, which is compiled in: build again after it.
+.PHONY: tradeoff
+tradeoff: $(BINARIES)
+	@$(CARGO) build --release --quiet -p studies
+	$(BIN)/tradeoff docs/results lib/run/src/expected_error.csv
+
 # Speed of the kernels and of the linear solver.
 .PHONY: bench
 bench:
@@ -24,4 +31,5 @@ stability: $(BINARIES)
 .PHONY: options
 options: $(BINARIES)
 	@$(CARGO) build --release --quiet -p studies
-	$(BIN)/stability options docs/results
+	@mkdir -p out/results
+	$(BIN)/stability options $(if $(ONLY),out/results,docs/results) $(ONLY)

@@ -15,9 +15,11 @@ fn main() -> ExitCode {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
         ["scenes", results, only @ ..] => scenes(Path::new(results), only),
-        ["options", results] => explicit_options(Path::new(results)).map(|()| true),
+        ["options", results, only @ ..] => {
+            explicit_options(Path::new(results), only).map(|()| true)
+        }
         _ => {
-            eprintln!("usage: stability scenes|options RESULT_FOLDER [PART_OF_VARIED_OR_VALUE...]");
+            eprintln!("usage: stability scenes|options RESULT_FOLDER [PART_OF_NAME...]");
             return ExitCode::from(2);
         }
     };
@@ -99,12 +101,13 @@ fn say(row: &Row) {
     );
 }
 
-fn explicit_options(results: &Path) -> Result<(), String> {
+/// Runs the options' scenes and prints the tables.
+fn explicit_options(results: &Path, only: &[&str]) -> Result<(), String> {
     let folders = Folders {
         cases: PathBuf::from("out/options/cases"),
         runs: PathBuf::from("out/options"),
     };
-    let outcomes = options::outcomes(&folders);
+    let outcomes = options::outcomes(&folders, only);
     write(
         &results.join("explicit-options.csv"),
         &options::csv(&outcomes),
