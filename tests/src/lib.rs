@@ -8,4 +8,5 @@ pub mod method;
 pub mod outputs;
 pub mod stability;
 pub mod study;
+pub mod tradeoff;
 pub mod verification;

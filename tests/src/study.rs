@@ -90,19 +90,29 @@ pub fn run_one(job: &Job, folders: &Folders) -> Outcome {
 /// Runs all jobs and gives their outcomes in the order of the jobs; says each on standard output
 /// as it ends.
 pub fn run_all(jobs: &[Job], folders: &Folders) -> Vec<Outcome> {
+    side_by_side(jobs.len(), |i| {
+        let outcome = run_one(&jobs[i], folders);
+        say(&outcome);
+        outcome
+    })
+}
+
+/// Does `count` pieces of work, as many at a time as there are processors; results in order.
+pub fn side_by_side<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
-    let done: Mutex<Vec<(usize, Outcome)>> = Mutex::new(Vec::new());
+    let done: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::new());
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {
-        for _ in 0..workers.min(jobs.len()) {
+        for _ in 0..workers.min(count) {
             scope.spawn(|| {
                 loop {
                     let i = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(job) = jobs.get(i) else { return };
-                    let outcome = run_one(job, folders);
-                    say(&outcome);
+                    if i >= count {
+                        return;
+                    }
+                    let result = work(i);
                     if let Ok(mut done) = done.lock() {
-                        done.push((i, outcome));
+                        done.push((i, result));
                     }
                 }
             });
@@ -110,7 +120,7 @@ pub fn run_all(jobs: &[Job], folders: &Folders) -> Vec<Outcome> {
     });
     let mut done = done.into_inner().unwrap_or_default();
     done.sort_by_key(|(i, _)| *i);
-    done.into_iter().map(|(_, outcome)| outcome).collect()
+    done.into_iter().map(|(_, result)| result).collect()
 }
 
 fn say(outcome: &Outcome) {

@@ -127,10 +127,10 @@ pub const GOALS: &[Goal] = &[
         0.02,
     ),
     goal(
-        "slit, 6 and 12 cells, volume of points",
+        "slit, 6 and 12 cells, volume",
         &["slit-n6", "slit-n12"],
         "implicit",
-        "volume",
+        "density",
         0.005,
     ),
     goal(

@@ -9,6 +9,7 @@ pub mod couette;
 pub mod disc;
 pub mod drop;
 pub mod duct;
+mod families;
 pub mod galilean;
 pub mod goals;
 pub mod incline;

@@ -65,8 +65,12 @@ pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
                     ));
                 }
             }
-            let volume = run.summary("volume_change").unwrap_or(f64::NAN);
-            list.push(Measured::absolute("volume change", volume));
+            let time = run.summary("time_s").unwrap_or(f64::NAN);
+            let room = (piston - SPEED * time - shoulder) * width * h;
+            list.push(Measured::absolute(
+                "density in the reservoir",
+                volume_above(run, shoulder)? / room - 1.0,
+            ));
             Ok(list)
         }),
     }
@@ -92,4 +96,16 @@ pub fn reference() -> Vec<[f64; 2]> {
     ENTRANCE
         .map(|(length, more)| [length, length + more])
         .to_vec()
+}
+
+/// Volume of the points above a height, m3.
+fn volume_above(run: &Run, height: f64) -> Result<f64, String> {
+    let file = run.last()?;
+    let position = file.vectors("position").map_err(|e| e.to_string())?;
+    let volume = file.column::<f32>("volume").map_err(|e| e.to_string())?;
+    let above = position
+        .iter()
+        .zip(volume)
+        .filter(|(x, _)| f64::from(x[1]) > height);
+    Ok(above.map(|(_, v)| f64::from(*v)).sum())
 }

@@ -1,0 +1,251 @@
+//! What the trade-off study writes: a CSV, a figure, a page, and the table that `mpm-run
+//! --explain` quotes from.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use figures::{Mark, Plot};
+
+use super::{Flow, Row};
+use crate::method::{Method, Scheme};
+use crate::study::{Outcome, provenance};
+use crate::verification::report::percent;
+
+/// Writes `tradeoff.csv`, `tradeoff.md` and the figures into `results`, and the table of expected
+/// errors to `quoted`.
+///
+/// # Errors
+/// The system's reason.
+pub fn write(
+    results: &Path,
+    quoted: &Path,
+    rows: &[Row],
+    outcomes: &[Outcome],
+) -> Result<(), String> {
+    std::fs::create_dir_all(results).map_err(|e| format!("{}: {e}", results.display()))?;
+    let save = |path: &Path, bytes: &[u8]| {
+        std::fs::write(path, bytes).map_err(|e| format!("{}: {e}", path.display()))
+    };
+    save(&results.join("tradeoff.csv"), table(rows).as_bytes())?;
+    for (flow, name) in [(Flow::Slit, "slit"), (Flow::BondPressure, "bond")] {
+        let png = plot(rows, flow)
+            .draw()
+            .and_then(|d| d.to_png())
+            .map_err(|e| e.to_string())?;
+        save(&results.join(format!("tradeoff-{name}.png")), &png)?;
+    }
+    save(
+        &results.join("tradeoff.md"),
+        page(rows, outcomes).as_bytes(),
+    )?;
+    save(quoted, expected(rows).as_bytes())
+}
+
+fn table(rows: &[Row]) -> String {
+    let mut csv = String::from("flow,scheme,method,varied,cells,set,error,cpu_s,pareto,failed\n");
+    for r in rows {
+        let method = &r.setting.method;
+        let _ = writeln!(
+            csv,
+            "\"{}\",{},\"{}\",{},{},\"{}\",{:.4e},{:.2},{},\"{}\"",
+            r.flow.name(),
+            method.scheme.name(),
+            method.label,
+            r.setting.varied,
+            r.setting.cells,
+            method.set.join(" ").replace('"', "'"),
+            r.error,
+            r.cpu_s,
+            r.pareto,
+            r.failed.as_deref().unwrap_or("").replace('"', "'")
+        );
+    }
+    csv
+}
+
+fn plot(rows: &[Row], flow: Flow) -> Plot {
+    let of = |wanted: &dyn Fn(&Row) -> bool| -> Vec<[f64; 2]> {
+        let mut points: Vec<[f64; 2]> = rows
+            .iter()
+            .filter(|r| r.flow == flow && r.error.is_finite() && wanted(r))
+            .map(|r| [r.cpu_s.max(0.01), 100.0 * r.error])
+            .collect();
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        points
+    };
+    let labelled = |name: &'static str| {
+        of(&|r: &Row| {
+            let word = r.setting.method.label.split([',', '(']).next();
+            word == Some(name)
+        })
+    };
+    let mut plot = Plot::new(
+        &format!("Error against CPU time: {}", flow.name()),
+        "CPU time of a run (s)",
+        "error (%)",
+    )
+    .logarithmic([true, true])
+    .with("Pareto front", Mark::Line, of(&|r| r.pareto));
+    for name in ["FLIP", "PIC", "APIC", "XPIC", "FMPM", "implicit"] {
+        let points = labelled(name);
+        if !points.is_empty() {
+            plot = plot.with(name, Mark::Dots, points);
+        }
+    }
+    plot
+}
+
+const HEAD: &str = "Error is the root mean square of the relative errors of a flow: **piston \
+into slit** piston force at one and two filled widths, walls on the nodes and a quarter cell off, \
+against a 24-cell reference; **channel** mean velocity, walls on the nodes, a quarter and half a \
+cell off, against plane Poiseuille; **incline** profile over v_max, floor on the nodes, against \
+paper Eq. 5; **bond line** a synthetic specimen of 24x72x24 voxels closed at 1 m/s: mean clamp \
+pressure over the second half and WP when closed, against the implicit scheme with cells of half a \
+voxel. Cells are those across a lumen of 17.4 um (6 are two voxels each, 12 one). CPU time is that \
+of one run on one thread, to 0.01 s. The explicit scheme is f32 with f64 sums; there is no f64 \
+build of it, and the implicit scheme is f64 with f32 coefficients, so precision is not varied. \
+**Bold**: nothing cheaper is as accurate (the Pareto front).";
+
+fn page(rows: &[Row], outcomes: &[Outcome]) -> String {
+    let mut out = String::from("# Error against run time\n\n");
+    let _ = writeln!(
+        out,
+        "{}\n{HEAD}\n",
+        provenance("make tradeoff", outcomes).replace("in all.", "in all, the bond line apart.")
+    );
+    out.push_str("![Piston into slit](tradeoff-slit.png)\n![Bond line](tradeoff-bond.png)\n\n");
+    advice(&mut out, rows);
+    settings_table(&mut out, rows);
+    out
+}
+
+/// For each accuracy the cheapest setting of the flows that count, from the rows themselves.
+fn advice(out: &mut String, rows: &[Row]) {
+    out.push_str(
+        "## Which settings for which accuracy\n\nThe cheapest setting measured that reaches an \
+         error, and the cheapest explicit one:\n\n| flow | error | cheapest | CPU (s) | cheapest \
+         explicit | CPU (s) |\n|---|---|---|---|---|---|\n",
+    );
+    for flow in [Flow::Slit, Flow::Channel, Flow::BondPressure, Flow::BondWp] {
+        for goal in [0.3, 0.1, 0.05, 0.02] {
+            let cheapest = |explicit: bool| {
+                let good = rows.iter().filter(|r| {
+                    r.flow == flow
+                        && r.error <= goal
+                        && (!explicit || r.setting.method.scheme == Scheme::Explicit)
+                });
+                good.min_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s))
+                    .map_or("none | ".to_owned(), |r| {
+                        format!("{} | {:.2}", r.setting.method.label, r.cpu_s)
+                    })
+            };
+            let _ = writeln!(
+                out,
+                "| {} | {:.0} % | {} | {} |",
+                flow.name(),
+                100.0 * goal,
+                cheapest(false),
+                cheapest(true)
+            );
+        }
+    }
+    out.push('\n');
+}
+
+fn settings_table(out: &mut String, rows: &[Row]) {
+    out.push_str("## All settings\n\nError, CPU seconds.\n");
+    let mut varied = "";
+    for r in rows.iter().filter(|r| r.flow == Flow::Slit) {
+        if r.setting.varied != varied {
+            varied = r.setting.varied;
+            let names = Flow::ALL.map(Flow::name).join(" | ");
+            let _ = write!(
+                out,
+                "\n### {varied}\n\n| setting | {names} |\n|---|{}\n",
+                "---|".repeat(Flow::ALL.len())
+            );
+        }
+        let label = &r.setting.method.label;
+        let cells = Flow::ALL.map(|flow| {
+            let found = rows
+                .iter()
+                .find(|o| o.flow == flow && o.setting.method.label == *label);
+            found.map_or(String::new(), cell)
+        });
+        let _ = writeln!(out, "| {label} | {} |", cells.join(" | "));
+    }
+    let failed: Vec<&Row> = rows.iter().filter(|r| r.failed.is_some()).collect();
+    if !failed.is_empty() {
+        out.push_str("\n### Failed\n\n");
+        for r in failed {
+            let said = r.failed.as_deref().unwrap_or("").replace('\n', " ");
+            let _ = writeln!(
+                out,
+                "- {}, {}: {said}",
+                r.setting.method.label,
+                r.flow.name()
+            );
+        }
+    }
+}
+
+fn cell(row: &Row) -> String {
+    if row.error.is_nan() {
+        return "failed".into();
+    }
+    let error = percent(row.error).trim_start_matches('+').to_owned();
+    let text = format!("{error}, {:.2}", row.cpu_s);
+    if row.pareto {
+        format!("**{text}**")
+    } else {
+        text
+    }
+}
+
+/// The table that `mpm-run --explain` quotes: one row per scheme, update, shape, option and cells,
+/// all else as a case has it by default.
+fn expected(rows: &[Row]) -> String {
+    let mut csv = String::from(
+        "scheme,update,order,shape,pressure,density_projection,cells_per_lumen,piston_pressure,channel_flux,bond_pressure,bond_wp\n",
+    );
+    for r in rows.iter().filter(|r| r.flow == Flow::Slit) {
+        let method = &r.setting.method;
+        let other = value(method, "contact.separation").is_some();
+        if other || !["update", "cell", "shape", "option"].contains(&r.setting.varied) {
+            continue;
+        }
+        let error = |flow| {
+            rows.iter()
+                .find(|o| o.flow == flow && o.setting.method == *method)
+                .filter(|o| o.error.is_finite())
+                .map_or(String::new(), |o| format!("{:.4}", o.error))
+        };
+        let key = match method.scheme {
+            Scheme::Implicit => ",,,,".to_owned(),
+            Scheme::Explicit => format!(
+                "{},{},{},{},{}",
+                value(method, "integrator.velocity_update").unwrap_or("flip"),
+                value(method, "integrator.order").unwrap_or(""),
+                value(method, "grid.shape").unwrap_or("gimp"),
+                value(method, "integrator.pressure").unwrap_or("point"),
+                value(method, "integrator.density_projection").map_or("no", |_| "yes")
+            ),
+        };
+        let _ = writeln!(
+            csv,
+            "{},{key},{},{},{},{},{}",
+            method.scheme.name(),
+            r.setting.cells,
+            error(Flow::Slit),
+            error(Flow::Channel),
+            error(Flow::BondPressure),
+            error(Flow::BondWp)
+        );
+    }
+    csv
+}
+
+fn value<'a>(method: &'a Method, key: &str) -> Option<&'a str> {
+    let change = method.set.iter().find_map(|s| s.strip_prefix(key))?;
+    Some(change.trim_start_matches('=').trim_matches('"'))
+}
