@@ -138,8 +138,8 @@ fn say(outcome: &Outcome) {
     }
 }
 
-/// First lines of a results page: what made it, when and on what.
-pub fn provenance(command: &str, outcomes: &[Outcome]) -> String {
+/// First words of a results page: what made it, when, and on what machine.
+pub fn origin(command: &str) -> String {
     let said = |program: &str, arguments: &[&str]| {
         let output = std::process::Command::new(program)
             .args(arguments)
@@ -160,19 +160,26 @@ pub fn provenance(command: &str, outcomes: &[Outcome]) -> String {
         })
         .unwrap_or_else(unknown);
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    format!(
+        "Written by `{command}` on {date}: commit {commit}{}, {processor} ({cores} processors)",
+        if changed.is_some() {
+            " with changes not yet committed"
+        } else {
+            ""
+        },
+    )
+}
+
+/// First lines of a results page: its origin and the cost of its runs.
+pub fn provenance(command: &str, outcomes: &[Outcome]) -> String {
     let cpu: f64 = outcomes
         .iter()
         .map(|o| o.cpu_s)
         .filter(|s| s.is_finite())
         .sum();
     format!(
-        "Written by `{command}` on {date}: commit {commit}{}, {processor} ({cores} processors), {} runs of one thread each, {:.0} CPU seconds in all.\n",
-        if changed.is_some() {
-            " with changes not yet committed"
-        } else {
-            ""
-        },
-        outcomes.len(),
-        cpu
+        "{}, {} runs of one thread each, {cpu:.0} CPU seconds in all.\n",
+        origin(command),
+        outcomes.len()
     )
 }

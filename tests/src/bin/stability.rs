@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use studies::stability::trial::{Row, Trial, Verdict};
 use studies::stability::{options, plan, report};
-use studies::study::{Folders, provenance};
+use studies::study::{Folders, origin, provenance};
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -48,8 +48,8 @@ fn scenes(results: &Path, only: &[&str]) -> Result<bool, String> {
     let rows = run_all(trials, Path::new("out/stability"))?;
     let cpu: f64 = rows.iter().map(|r| r.cpu_s).filter(|s| s.is_finite()).sum();
     let head = format!(
-        "{}\n{} runs, {cpu:.0} CPU seconds in those that ended.\n",
-        provenance("make stability", &[]),
+        "{}, {} runs of one thread each, {cpu:.0} CPU seconds in those that ended.\n",
+        origin("make stability"),
         rows.len()
     );
     write(&results.join("stability.csv"), &report::csv(&rows))?;

@@ -113,7 +113,8 @@ fn line(out: &mut String, row: &Row) {
         let _ = write!(note, " (first {:.2e} of the motion only)", row.part);
     }
     if !row.warning.is_empty() {
-        let _ = write!(note, " (warned: {})", row.warning);
+        let said = row.warning.split(':').next().unwrap_or("");
+        let _ = write!(note, " (warned: {said})");
     }
     let balance = if row.balance.is_finite() {
         format!("{:+.2e}", row.balance)
