@@ -164,7 +164,8 @@ drops. One value is varied at a time; sticking walls and CFL 0.5 unless said.
 - *energy*: largest kinetic energy over that of all liquid at the speed of the scene's own motion (in
   the lumen, for a press).
 - *travel*: how far the clamp moved over how far it would have at its closing speed; less than 1 where the
-  pressure limit holds it back.
+  pressure limit holds it back. Stable is not yet right: where the explicit scheme's travel stays near 0 and
+  the implicit one's does not, the liquid has locked (explicit-options.md).
 - *J*: smallest and largest volume ratio of the points at the end, from their pressures by Eq. 1.
 - *lost*: points that left the domain or lie deeper than a point spacing in a wall.
 - *balance*: difference of the mean forces on upper and lower body in the later half of the run over
