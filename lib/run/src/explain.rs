@@ -5,6 +5,7 @@ use std::fmt::Write;
 use physics::{Boundary, Dimensions, Motion, Regime, Stop, Viscosity, WallLaw};
 
 use crate::case::{Case, SchemeName};
+use crate::expected_error;
 use crate::left_out::left_out;
 use crate::resolve::Setup;
 
@@ -46,6 +47,7 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
     // Writing to a string cannot fail.
     let _ = scene(&mut out, case, setup);
     let _ = cost(&mut out, setup, forecast);
+    out.push_str(&expected_error::text(case));
     let _ = writeln!(
         out,
         "\nregime\n{}",

@@ -5,6 +5,7 @@ pub mod case;
 mod changes;
 mod checkpoint;
 mod drive;
+mod expected_error;
 mod explain;
 mod history;
 mod invariants;
