@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::method::{Method, Scheme};
+use crate::method::Method;
 use crate::outputs;
 use crate::verification::{Measured, Scene};
 
@@ -49,14 +49,18 @@ pub struct Folders {
     pub runs: PathBuf,
 }
 
-/// The case file of `scene` for `scheme`, written into `folder`.
+/// The case file of `scene` for the scheme of `method`, written into `folder`; whole at any time,
+/// because runs of other methods may be reading it.
 ///
 /// # Errors
 /// The system's reason.
-pub fn write_case(folder: &Path, scene: &Scene, scheme: Scheme) -> Result<PathBuf, String> {
+pub fn write_case(folder: &Path, scene: &Scene, method: &Method) -> Result<PathBuf, String> {
+    let scheme = method.scheme;
     let path = folder.join(format!("{}-{}.toml", scene.name, scheme.name()));
+    let aside = folder.join(format!("{}-{}.tmp", scene.name, method.file_label()));
     std::fs::create_dir_all(folder)
-        .and_then(|()| std::fs::write(&path, scene.case.text(scheme.integrator())))
+        .and_then(|()| std::fs::write(&aside, scene.case.text(scheme.integrator())))
+        .and_then(|()| std::fs::rename(&aside, &path))
         .map_err(|e| format!("{}: {e}", path.display()))?;
     Ok(path)
 }
@@ -71,7 +75,7 @@ pub fn run_one(job: &Job, folders: &Folders) -> Outcome {
     for change in &job.method.set {
         arguments.extend(["--set", change]);
     }
-    let run = write_case(&folders.cases, scene, job.method.scheme)
+    let run = write_case(&folders.cases, scene, &job.method)
         .and_then(|case| outputs::run(&case, &folder, &arguments));
     let number = |key: &str| {
         let run = run.as_ref().ok()?;
