@@ -22,7 +22,8 @@ const CLIP: f64 = 0.3;
 /// Liquid fraction from which a cell may be drawn together; below, it is partly filled
 /// because it is at the surface.
 const FULL: f32 = 0.85;
-/// Largest displacement, cells.
+/// Largest displacement of a face, cells: a cell in which particles crowd must not hold back the
+/// others.
 const LONGEST: f64 = 0.25;
 /// Liquid volume, in cells, that a face's control volume counts with at least.
 const LEAST_VOLUME: f64 = 0.02;
@@ -76,7 +77,7 @@ pub fn displacement(
         Ok(iterations) | Err(SolveError::NotConverged { iterations, .. }) => iterations,
         Err(error) => return Err(error),
     };
-    let mut moves: Vec<f64> = (0..face_volume.len())
+    let moves: Vec<f64> = (0..face_volume.len())
         .into_par_iter()
         .with_min_len(1 << 12)
         .map(|face| {
@@ -84,15 +85,9 @@ pub fn displacement(
             let flux: f64 = (rows.iter().zip(values))
                 .map(|(&cell, value)| value * psi[cell as usize])
                 .sum();
-            flux * weight[face]
+            (flux * weight[face]).clamp(-LONGEST, LONGEST)
         })
         .collect();
-    let longest = moves.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
-    if longest > LONGEST {
-        for d in &mut moves {
-            *d *= LONGEST / longest;
-        }
-    }
     Ok((moves, iterations))
 }
 

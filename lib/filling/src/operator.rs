@@ -153,6 +153,8 @@ pub struct Before<'a> {
     pub velocity: &'a [f64],
     /// Pressure of each pressure unknown carried by the particles, scaled.
     pub pressure: &'a [f64],
+    /// Resistance of the liquid at that pressure to a change of its present volume, over K.
+    pub stiffness: &'a [f64],
 }
 
 impl<'a> Operator<'a> {
@@ -229,7 +231,7 @@ impl<'a> Operator<'a> {
                 entries.add(column as usize, area);
             }
         })?;
-        let c = self.compressibility();
+        let c = self.compressibility(before.stiffness);
         let mut system = System {
             friction: (0..n).map(|face| self.darcy(face)).collect(),
             two_eta: (self.dofs.cells.iter())
@@ -270,10 +272,12 @@ impl<'a> Operator<'a> {
         self.face_volume[face].max(LEAST_MASS) * (self.scales.inertia + 12.0 * eta * paths)
     }
 
-    fn compressibility(&self) -> Vec<f64> {
-        let volume = |&cell: &u32| f64::from(self.liquid.volume[cell as usize]);
-        (self.dofs.cells.iter())
-            .map(|cell| self.scales.compressibility * volume(cell))
+    fn compressibility(&self, stiffness: &[f64]) -> Vec<f64> {
+        (self.dofs.cells.iter().zip(stiffness))
+            .map(|(&cell, stiffness)| {
+                self.scales.compressibility * f64::from(self.liquid.volume[cell as usize])
+                    / stiffness
+            })
             .collect()
     }
 

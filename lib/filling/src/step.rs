@@ -301,11 +301,11 @@ impl Implicit {
         let influence = self.wall.influence_length() / self.units.h;
         let dofs = &solution.dofs;
         let particles = &mut self.particles;
-        let (flow, mut moved) = self.stages.time(Stage::Advection, || {
+        let (flow, value, mut moved) = self.stages.time(Stage::Advection, || {
             let value = advect::extend(lattice, &dofs.face, &solution.u);
             let flow = Flow::new(lattice, &value, &dofs.face, &solution.bodies, influence);
             let moved = path.follow(particles, |x| flow.velocity(x));
-            (flow, moved)
+            (flow, value, moved)
         });
         let projected: Result<Moved, _> = self.stages.time(Stage::Density, || {
             let cells = density::Cells {
@@ -331,7 +331,7 @@ impl Implicit {
         self.lost += moved.lost;
         self.pinched += moved.pinched;
         self.stages.time(Stage::Advection, || {
-            advect::set_velocities(&mut self.particles, &flow);
+            advect::set_velocities(&mut self.particles, &flow, &value);
             let lowest = self
                 .liquid
                 .cavitation_pressure

@@ -9,11 +9,58 @@ use crate::window::Window;
 
 /// Sets the particles' velocities to those of the field where they are (PIC). Its numerical
 /// viscosity, a fraction of h^2/dt, is below 2 % of eta/rho = 1e-3 m2/s at the paper's scales.
-pub fn set_velocities(particles: &mut Particles, flow: &Flow) {
+///
+/// No component leaves the range of the face velocities `value` around it and of the bodies: the
+/// profile between walls exceeds its mean, and where inertia counts (lumen Reynolds numbers above
+/// 1) particles that carried the excess on would gain energy in every step.
+pub fn set_velocities(particles: &mut Particles, flow: &Flow, value: &[Vec<f32>; 3]) {
+    let axes = flow.window.domain.axes;
+    let bodies: [[f32; 2]; 3] = std::array::from_fn(|axis| {
+        (flow.bodies.iter().map(|body| body[axis] as f32))
+            .fold([0.0_f32; 2], |[low, high], v| [low.min(v), high.max(v)])
+    });
     (particles.velocity.par_iter_mut())
         .zip(&particles.position)
         .with_min_len(1 << 12)
-        .for_each(|(v, &x)| *v = flow.velocity(x).map(|v| v as f32));
+        .for_each(|(v, &x)| {
+            let (_, cell, _) = flow.place(x);
+            *v = flow.velocity(x).map(|v| v as f32);
+            for axis in 0..axes {
+                let [low, high] = around(&flow.window, axis, cell, &value[axis], bodies[axis]);
+                v[axis] = v[axis].clamp(low, high);
+            }
+        });
+}
+
+/// `range` widened by the known velocities of the two faces of a cell along `axis` and of those
+/// beside them.
+fn around(
+    window: &Window,
+    axis: usize,
+    cell: [usize; 3],
+    value: &[f32],
+    range: [f32; 2],
+) -> [f32; 2] {
+    let span = |a: usize| {
+        if a >= window.domain.axes {
+            0..1
+        } else if a == axis {
+            cell[a]..(cell[a] + 2).min(window.cells[a])
+        } else {
+            cell[a].saturating_sub(1)..(cell[a] + 2).min(window.cells[a])
+        }
+    };
+    let [mut low, mut high] = range;
+    for k in span(2) {
+        for j in span(1) {
+            for i in span(0) {
+                // NaN, an unknown velocity, changes neither.
+                let v = value[window.index([i, j, k])];
+                (low, high) = (low.min(v), high.max(v));
+            }
+        }
+    }
+    [low, high]
 }
 
 /// Sets the particles' volume changes by `tait` from the pressure (Pa) of their cell of the

@@ -70,9 +70,11 @@ impl Implicit {
             p: start.p.clone(),
             iterations: 0,
         };
+        let stiffness = self.stiffness(&start.p);
         let before = Before {
             velocity: &start.u,
             pressure: &start.p,
+            stiffness: &stiffness,
         };
         let varies = operator::varies(&self.liquid.viscosity);
         if varies {
@@ -137,6 +139,17 @@ impl Implicit {
                 iterations: 0,
             }
         })
+    }
+
+    /// -dp/d(ln J)/K at scaled pressures: the slope of Tait's law against the present volume.
+    fn stiffness(&self, pressure: &[f64]) -> Vec<f64> {
+        let (tait, unit) = (self.liquid.tait, self.units.pressure());
+        (pressure.iter())
+            .map(|p| {
+                let j = tait.volume_change(p * unit);
+                (1.0 + j) * tait.stiffness(j) / tait.bulk_modulus
+            })
+            .collect()
     }
 
     /// Solves at the clamp's speed or, where it is held at its pressure limit, for that speed.
