@@ -54,11 +54,7 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
         indent(&Regime::of(&setup.scene).to_string())
     );
     let _ = writeln!(out, "\nleft out");
-    for item in left_out(
-        &setup.scene,
-        case.integrator.scheme,
-        case.output.snapshots > 0,
-    ) {
+    for item in left_out(&setup.scene, &case.integrator, case.output.snapshots > 0) {
         let _ = writeln!(out, "  {:<18} {}", item.what, item.why);
     }
     out

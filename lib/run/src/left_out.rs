@@ -2,7 +2,7 @@
 
 use physics::{Boundary, Dimensions, Regime, Scene, Viscosity, WallLaw};
 
-use crate::case::SchemeName;
+use crate::case::{Integrator, SchemeName, UpdateName};
 
 /// One thing left out.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -14,7 +14,7 @@ pub struct LeftOut {
 }
 
 /// Everything a run of `scene` leaves out.
-pub fn left_out(scene: &Scene, scheme: SchemeName, snapshots: bool) -> Vec<LeftOut> {
+pub fn left_out(scene: &Scene, integrator: &Integrator, snapshots: bool) -> Vec<LeftOut> {
     let mut list = Vec::new();
     let mut add = |what, why: String| list.push(LeftOut { what, why });
     if scene.dimensions == Dimensions::Two {
@@ -74,7 +74,17 @@ pub fn left_out(scene: &Scene, scheme: SchemeName, snapshots: bool) -> Vec<LeftO
         ),
     };
     add("capillary pressure", capillary);
-    if scheme == SchemeName::Implicit {
+    let filtered = matches!(
+        integrator.velocity_update,
+        Some(UpdateName::Xpic | UpdateName::Fmpm)
+    );
+    if integrator.scheme == SchemeName::Explicit && !filtered {
+        add(
+            "velocity filter",
+            "only xpic and fmpm pass velocities between points and nodes again".into(),
+        );
+    }
+    if integrator.scheme == SchemeName::Implicit {
         add(
             "sound waves",
             format!(

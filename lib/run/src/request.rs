@@ -205,11 +205,7 @@ impl Request {
                     &scheme.liquid(),
                     &scheme.displacements(),
                 ),
-                left_out: left_out(
-                    scene,
-                    self.case.integrator.scheme,
-                    self.case.output.snapshots > 0,
-                ),
+                left_out: left_out(scene, &self.case.integrator, self.case.output.snapshots > 0),
                 provenance,
             },
         );
