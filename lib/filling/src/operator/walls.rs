@@ -9,6 +9,9 @@ use crate::wall::effective_distance;
 
 /// Faces per task; part of no result.
 const CHUNK: usize = 1 << 12;
+/// Distance (cells) that counts where a wall goes through the height of a face's centre in one of
+/// its columns only, as where a moving body's surface parts the columns along the face's axis.
+const AT_CORNER: f64 = 0.25;
 
 /// Which free path enters the wall law in 3D.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -247,7 +250,12 @@ impl Collector<'_> {
     fn add(&mut self, column: Column, side: usize, area: f64, across: Option<f64>) {
         let along = column.free_path();
         let path = across.map_or(along, |a| (along.powi(-2) + a.powi(-2)).powf(-0.5));
-        let [d, opposite] = [side, 1 - side].map(|s| column.distance[s]);
+        // Both walls of a narrow passage bound one control volume, wherever its centre is.
+        let narrow = along <= 1.0 + 1e-6;
+        let [d, opposite] = [side, 1 - side].map(|s| {
+            let d = column.distance[s];
+            if d < 1e-3 && !narrow { AT_CORNER } else { d }
+        });
         let link = WallLink {
             body: column.body[side],
             area: area as f32,
