@@ -6,7 +6,9 @@
 #   make XCT_PF=a.tif XCT_PVA_PF=b.tif VOXEL="1.45 um" [LABELS=void=0,wood=1,adhesive=2]
 #                                 the same on your own stacks
 #   make test                     formatting, clippy, all tests
-#   make verify bench             long studies: closed forms; speed of kernels and solver
+#   make verify                   long studies: both schemes against closed forms
+#   make tradeoff stability options   error against run time; extreme cases; explicit options
+#   make bench                    speed of the kernels and of the linear solver
 #   make figures man install clean help
 
 .DELETE_ON_ERROR:
@@ -41,7 +43,7 @@ include pipelines/60-studies.mk
 
 .PHONY: help
 help:
-	@sed -n '3,11s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,13s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:
