@@ -88,7 +88,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         clock.lap("move");
         path.follow(&mut particles, |_| [0.0; 3]);
         clock.lap("deflect only");
-        advect::set_velocities(&mut particles, &flow, &value);
+        advect::set_velocities(&mut particles, &flow, None);
         advect::set_volume_changes(&mut particles, &window, &field, tait, -1e6);
         clock.lap("carry");
         clock.total();

@@ -10,10 +10,10 @@ use crate::window::Window;
 /// Sets the particles' velocities to those of the field where they are (PIC). Its numerical
 /// viscosity, a fraction of h^2/dt, is below 2 % of eta/rho = 1e-3 m2/s at the paper's scales.
 ///
-/// No component goes far beyond the range of the face velocities `value` around it and of the bodies:
-/// the profile between walls exceeds its mean, and where inertia counts (lumen Reynolds numbers above
-/// 1) particles that carried the excess on would gain energy in every step.
-pub fn set_velocities(particles: &mut Particles, flow: &Flow, value: &[Vec<f32>; 3]) {
+/// With face velocities in `limit`, no component goes far beyond the range of those around it and of
+/// the bodies: the profile between walls exceeds its mean, and where inertia counts (lumen Reynolds
+/// numbers above 1) particles that carried the excess on would gain energy in every step.
+pub fn set_velocities(particles: &mut Particles, flow: &Flow, limit: Option<&[Vec<f32>; 3]>) {
     let axes = flow.window.domain.axes;
     let bodies: [[f32; 2]; 3] = std::array::from_fn(|axis| {
         (flow.bodies.iter().map(|body| body[axis] as f32))
@@ -25,6 +25,7 @@ pub fn set_velocities(particles: &mut Particles, flow: &Flow, value: &[Vec<f32>;
         .for_each(|(v, &x)| {
             let (_, cell, _) = flow.place(x);
             *v = flow.velocity(x).map(|v| v as f32);
+            let Some(value) = limit else { return };
             for axis in 0..axes {
                 let [low, high] = around(&flow.window, axis, cell, &value[axis], bodies[axis]);
                 v[axis] = v[axis].clamp(low, high);
