@@ -7,8 +7,12 @@ FORCE:
 # A build that fails leaves the tools of the last good one.
 .PRECIOUS: $(BINARIES)
 
+# Sub-makes find the tools built: GNU make 4.3 running side by side takes all but the first
+# target of such a rule for changed, whatever their time stamps say.
+ifndef BUILT
 $(BINARIES) &: FORCE
 	@$(CARGO) build --release --quiet --workspace
+endif
 
 .PHONY: test
 test:

@@ -17,4 +17,4 @@ $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call run_rule,$(a),$(r))))
 
 .PHONY: runs
 runs: $(BINARIES)
-	@$(MAKE) --no-print-directory -j$(JOBS) $(FINALS)
+	@$(MAKE) BUILT=1 --no-print-directory -j$(JOBS) $(FINALS)

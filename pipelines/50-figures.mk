@@ -5,7 +5,7 @@ FIGURES = $(foreach a,$(ADHESIVES),$(addprefix $(OUT)/figures/$(a)-,pressure.svg
 
 .PHONY: figures
 figures: runs
-	@$(MAKE) --no-print-directory -j$(JOBS) $(FIGURES)
+	@$(MAKE) BUILT=1 --no-print-directory -j$(JOBS) $(FIGURES)
 	@echo "figures in $(OUT)/figures"
 
 define figure_rules
