@@ -23,9 +23,9 @@ pub fn set_velocities(particles: &mut Particles, flow: &Flow, limit: Option<&[Ve
         .zip(&particles.position)
         .with_min_len(1 << 12)
         .for_each(|(v, &x)| {
-            let (_, cell, _) = flow.place(x);
             *v = flow.velocity(x).map(|v| v as f32);
             let Some(value) = limit else { return };
+            let (_, cell, _) = flow.place(x);
             for axis in 0..axes {
                 let [low, high] = around(&flow.window, axis, cell, &value[axis], bodies[axis]);
                 v[axis] = v[axis].clamp(low, high);

@@ -41,7 +41,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
     let before = Before {
         velocity: &vec![0.0; dofs.faces.len()],
         pressure: &vec![0.0; dofs.cells.len()],
-        stiffness: &vec![0.0; dofs.cells.len()],
+        stiffness: &vec![1.0; dofs.cells.len()],
     };
     let system = operator.assemble(&[[0.0; 3]], before).unwrap();
     let pick =

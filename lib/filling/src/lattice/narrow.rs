@@ -32,13 +32,12 @@ impl Lattice {
         if self.faces[axis][index] >= OPEN || !self.window.inner(cell) || self.wraps(axis, cell) {
             return false;
         }
-        let whole = 1.0 / self.column_count() as f64;
         let open: Vec<usize> = (0..self.column_count())
             .filter(|&q| self.quadrant_sides(axis, cell, q) == [1.0, 1.0])
             .collect();
         // Half of the face, its quadrants side by side; and no wall close behind it.
         let half = match *open.as_slice() {
-            [_] => whole == 0.5,
+            [_] => self.column_count() == 2,
             [a, b] => (a ^ b).is_power_of_two(),
             _ => false,
         };

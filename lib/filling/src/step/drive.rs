@@ -81,18 +81,18 @@ impl Drive {
         }
     }
 
-    /// Whether `pressure` (Pa) at full speed exceeds the limit: the clamp is held from now on, and
-    /// `speed` is a guess at its speed.
-    pub(super) fn exceeds(&mut self, pressure: f64) -> bool {
+    /// The limit (Pa) where `pressure` (Pa) at full speed exceeds it: the clamp is held from now
+    /// on, and `speed` is a guess at its speed.
+    pub(super) fn exceeded(&mut self, pressure: f64) -> Option<f64> {
         let Control::Limit { limit, held, .. } = &mut self.control else {
-            return false;
+            return None;
         };
         if *held || pressure <= *limit * (1.0 + TOLERANCE) {
-            return false;
+            return None;
         }
         *held = true;
         self.speed *= *limit / pressure;
-        true
+        Some(*limit)
     }
 
     /// Takes the speed (m/s) that the limit asks for; `false` where the clamp cannot follow it and

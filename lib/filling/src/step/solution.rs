@@ -163,33 +163,31 @@ impl Implicit {
         let mut system = (self.stages)
             .time(Stage::Assembly, || operator.assemble(&bodies, before))
             .map_err(|e| self.failure(&e.to_string()))?;
-        let Some(clamped) = self.drive.clamped() else {
+        let clamped = self.drive.clamped();
+        let solved = match (clamped, self.drive.held()) {
+            (Some(clamped), Some(limit)) => self.solve_held(&mut system, clamped, limit, now)?,
+            _ => false,
+        };
+        if !solved {
             self.solve_system(&system, now)?;
-            let (forces, power) = self.reactions(&system, now);
+        }
+        let (forces, power) = self.reactions(&system, now);
+        let Some(clamped) = clamped else {
             return Ok((system, forces, power));
         };
-        if let Some(limit) = self.drive.held()
-            && self.solve_held(&mut system, clamped, limit, now)?
-        {
-            let (forces, power) = self.reactions(&system, now);
-            return Ok((system, forces, power));
-        }
-        self.solve_system(&system, now)?;
-        let (mut forces, mut power) = self.reactions(&system, now);
-        let pressure = forces[clamped][1] * self.units.force() / self.area;
         let speed = self.drive.speed;
-        if self.drive.exceeds(pressure)
-            && let Some(limit) = self.drive.held()
-        {
-            let factor = self.drive.speed / speed;
-            for x in now.u.iter_mut().chain(&mut now.p) {
-                *x *= factor;
-            }
-            if !self.solve_held(&mut system, clamped, limit, now)? {
-                self.solve_system(&system, now)?;
-            }
-            (forces, power) = self.reactions(&system, now);
+        let pressure = forces[clamped][1] * self.units.force() / self.area;
+        let Some(limit) = self.drive.exceeded(pressure) else {
+            return Ok((system, forces, power));
+        };
+        let factor = self.drive.speed / speed;
+        for x in now.u.iter_mut().chain(&mut now.p) {
+            *x *= factor;
         }
+        if !self.solve_held(&mut system, clamped, limit, now)? {
+            self.solve_system(&system, now)?;
+        }
+        let (forces, power) = self.reactions(&system, now);
         Ok((system, forces, power))
     }
 

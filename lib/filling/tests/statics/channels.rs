@@ -42,10 +42,11 @@ fn passages_of_one_and_two_voxels() {
             assert!(flat.abs() < tolerance, "{width} at {offset}: {flat}");
         }
     }
-    for offset in [[0.0; 2], [0.5, 0.0], [0.5, 0.5]] {
+    // The walls one cell apart are exact; what is left comes from the other two.
+    for (offset, tolerance) in [([0.0; 2], 0.09), ([0.5, 0.0], 0.21), ([0.5, 0.5], 0.06)] {
         let error = duct(1.0, 4.0, offset) - 1.0;
         println!("duct of 1 x 4 cells, walls off by {offset:?}: flux error {error:+.4}");
-        assert!(error.abs() < 0.25, "{offset:?}: {error}");
+        assert!(error.abs() < tolerance, "{offset:?}: {error}");
     }
 }
 
