@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use particle_file::{Draft, Header, Kind, ParticleFile};
 use physics::{Array, Saved};
 
+use crate::courant::Courant;
 use crate::drive::RunError;
 use crate::snapshot::write_whole;
 
@@ -25,6 +26,17 @@ pub struct Clock {
     pub snapshots: u32,
 }
 
+/// A run as its checkpoint holds it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint {
+    /// Where the run is.
+    pub clock: Clock,
+    /// Which part of it was taken at which Courant number.
+    pub courant: Vec<Courant>,
+    /// State of the scheme.
+    pub saved: Saved,
+}
+
 fn path(folder: &Path) -> PathBuf {
     folder.join("checkpoint.mpts")
 }
@@ -32,7 +44,10 @@ fn path(folder: &Path) -> PathBuf {
 /// The end of a sentence that says where the last checkpoint is.
 pub(crate) fn where_last(folder: &Path) -> String {
     if path(folder).exists() {
-        format!("; the last good checkpoint is {}", path(folder).display())
+        format!(
+            "; --resume goes on from the last good checkpoint, {}, at another integrator.cfl if wanted",
+            path(folder).display()
+        )
     } else {
         "; it came before the first checkpoint".into()
     }
@@ -41,9 +56,12 @@ pub(crate) fn where_last(folder: &Path) -> String {
 /// Writes the run folder's checkpoint, replacing the one before.
 pub(crate) fn write(
     folder: &Path,
-    clock: &Clock,
     identity: &str,
-    saved: &Saved,
+    Checkpoint {
+        clock,
+        courant,
+        saved,
+    }: &Checkpoint,
 ) -> Result<(), RunError> {
     let mut header = Header::new(Kind::Checkpoint, 1.0, 1, [0.0; 3], [0.0; 3]);
     (header.time_s, header.step) = (clock.time_s, clock.step);
@@ -55,7 +73,13 @@ pub(crate) fn write(
         clock.next_history_s,
         clock.next_snapshot_s,
     ];
-    let mut draft = Draft::new(header).column("run.clock", 1, &times);
+    let courant: Vec<f64> = (courant.iter())
+        .flat_map(|part| [part.after_step as f64, part.cfl])
+        .collect();
+    let mut draft =
+        Draft::new(header)
+            .column("run.clock", 1, &times)
+            .column("run.courant", 1, &courant);
     for (name, array) in &saved.0 {
         draft = match array {
             Array::F32(values) => draft.column(name, 1, values),
@@ -79,7 +103,7 @@ pub(crate) fn remove(folder: &Path) -> Result<(), RunError> {
 ///
 /// # Errors
 /// A checkpoint that is corrupt or belongs to another case, particle file or version.
-pub fn read(folder: &Path, identity: &str) -> Result<Option<(Clock, Saved)>, RunError> {
+pub fn read(folder: &Path, identity: &str) -> Result<Option<Checkpoint>, RunError> {
     let path = path(folder);
     if !path.exists() {
         return Ok(None);
@@ -92,14 +116,12 @@ pub fn read(folder: &Path, identity: &str) -> Result<Option<(Clock, Saved)>, Run
     }
     if header.attribute("identity") != Some(identity) {
         return Err(bad(
-            "it belongs to another case, particle file or version; use --overwrite to start anew"
+            "it belongs to another case (only integrator.cfl may change), particle file or version; use --overwrite to start anew"
                 .into(),
         ));
     }
-    let clock = file
-        .column::<f64>("run.clock")
-        .map_err(|e| bad(e.to_string()))?;
-    let &[time_s, travel_m, next_history_s, next_snapshot_s] = clock else {
+    let numbers = |name| file.column::<f64>(name).map_err(|e| bad(e.to_string()));
+    let &[time_s, travel_m, next_history_s, next_snapshot_s] = numbers("run.clock")? else {
         return Err(bad("its clock does not have four entries".into()));
     };
     let snapshots = header.attribute("snapshots").and_then(|t| t.parse().ok());
@@ -111,8 +133,14 @@ pub fn read(folder: &Path, identity: &str) -> Result<Option<(Clock, Saved)>, Run
         next_snapshot_s,
         snapshots: snapshots.ok_or_else(|| bad("its number of snapshots is missing".into()))?,
     };
+    let courant = (numbers("run.courant")?.as_chunks().0.iter())
+        .map(|&[after, cfl]| Courant {
+            after_step: after as u64,
+            cfl,
+        })
+        .collect();
     let mut saved = Vec::new();
-    for column in file.columns().filter(|c| c.name != "run.clock") {
+    for column in file.columns().filter(|c| !c.name.starts_with("run.")) {
         let array = file
             .column::<f64>(&column.name)
             .map(|v| Array::F64(v.to_vec()))
@@ -127,7 +155,11 @@ pub fn read(folder: &Path, identity: &str) -> Result<Option<(Clock, Saved)>, Run
             .map_err(|e| bad(e.to_string()))?;
         saved.push((column.name.clone(), array));
     }
-    Ok(Some((clock, Saved(saved))))
+    Ok(Some(Checkpoint {
+        clock,
+        courant,
+        saved: Saved(saved),
+    }))
 }
 
 #[cfg(test)]
@@ -150,9 +182,15 @@ mod tests {
             ("b".into(), Array::F32(vec![0.1; 5])),
             ("c".into(), Array::U32(vec![4, 5])),
         ]);
+        let courant = [(0, 1.0), (5, 0.3)].map(|(after_step, cfl)| Courant { after_step, cfl });
+        let checkpoint = Checkpoint {
+            clock,
+            courant: courant.to_vec(),
+            saved,
+        };
         assert_eq!(read(folder.path(), "x").unwrap(), None);
-        write(folder.path(), &clock, "x", &saved).unwrap();
-        assert_eq!(read(folder.path(), "x").unwrap(), Some((clock, saved)));
+        write(folder.path(), "x", &checkpoint).unwrap();
+        assert_eq!(read(folder.path(), "x").unwrap(), Some(checkpoint));
         let said = read(folder.path(), "y").unwrap_err().to_string();
         assert!(said.contains("another case"), "{said}");
     }

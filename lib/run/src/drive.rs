@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 
 use physics::{Diagnostics, Failure, Scheme, StepLimit, StepReport, Stop};
 
-use crate::checkpoint::{self, Clock};
+use crate::checkpoint::{self, Checkpoint, Clock};
+use crate::courant::Courant;
 use crate::history::History;
 use crate::resolve::Setup;
 use crate::snapshot::SnapshotWriter;
@@ -77,6 +78,8 @@ pub struct Controls<'a> {
     pub progress: &'a mut dyn FnMut(f64, f64, &StepReport),
     /// Identifies case and particle file in checkpoints.
     pub identity: String,
+    /// Which part of the run was, and will be, taken at which Courant number.
+    pub courant: Vec<Courant>,
 }
 
 /// What the loop did.
@@ -128,7 +131,12 @@ pub fn drive(
         state.write_due(setup, scheme, history, snapshots, controls)?;
         let stop = (controls.interrupted)();
         if stop || state.last_checkpoint.elapsed() >= CHECKPOINT_EVERY {
-            checkpoint::write(folder, &state.clock, &controls.identity, &scheme.save())?;
+            let checkpoint = Checkpoint {
+                clock: state.clock,
+                courant: controls.courant.clone(),
+                saved: scheme.save(),
+            };
+            checkpoint::write(folder, &controls.identity, &checkpoint)?;
             state.last_checkpoint = Instant::now();
         }
         if stop {

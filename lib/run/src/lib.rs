@@ -4,9 +4,11 @@
 pub mod case;
 mod changes;
 mod checkpoint;
+mod courant;
 mod drive;
 mod expected_error;
 mod explain;
+mod folder;
 mod history;
 mod invariants;
 mod left_out;
@@ -18,8 +20,10 @@ mod snapshot;
 mod summary;
 mod system;
 
+pub use courant::Courant;
 pub use drive::End;
+pub use folder::Mode;
 pub use invariants::Invariants;
 pub use left_out::LeftOut;
-pub use request::{Mode, Request, RunFailure};
+pub use request::{Request, RunFailure};
 pub use summary::{Stage, Summary};

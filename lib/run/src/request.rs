@@ -9,15 +9,17 @@ use xxhash_rust::xxh3::xxh3_64;
 
 use crate::case::{Case, CaseError};
 use crate::changes::changed;
-use crate::checkpoint::{self, Clock};
+use crate::checkpoint::{self, Checkpoint, Clock};
+use crate::courant::{continued, without_cfl};
 use crate::drive::{self, Controls, RunError};
+use crate::folder::{self, Mode};
 use crate::history::History;
 use crate::invariants;
 use crate::left_out::left_out;
 use crate::load;
 use crate::resolve::{self, Setup};
 use crate::schemes;
-use crate::snapshot::{SnapshotWriter, is_final_of, write_whole};
+use crate::snapshot::{SnapshotWriter, is_final_of};
 use crate::summary::{Facts, Summary};
 
 /// Why a run could not be made ready or did not end well; tools map it to exit status.
@@ -47,15 +49,6 @@ impl From<RunError> for RunFailure {
             other => RunFailure::Run(other.to_string()),
         }
     }
-}
-
-/// How an existing run folder is treated.
-#[derive(Clone, Copy, Debug)]
-pub struct Mode {
-    /// Continue from its checkpoint.
-    pub resume: bool,
-    /// Replace what belongs to another run.
-    pub overwrite: bool,
 }
 
 /// A run ready to be explained or executed.
@@ -148,25 +141,34 @@ impl Request {
         progress: &mut dyn FnMut(f64, String),
     ) -> Result<Summary, RunFailure> {
         let identity = self.identity(&by);
+        let continuable = self.identity_of(&without_cfl(&self.text), &by);
         let by = Provenance {
             inputs: self.inputs.clone(),
             ..by
         };
         // What the scheme refuses must not cost a run folder.
         let mut scheme = schemes::build(&self.case, self.setup.scene_for_scheme())?;
-        let started = self.start(folder, mode, &identity)?;
-        let (clock, mut history) = match started {
-            Start::Resumed(clock, saved) => {
-                scheme.restore(&saved).map_err(RunFailure::Data)?;
-                let history =
-                    History::resume(folder, clock.step).map_err(RunError::write(folder))?;
-                (clock, history)
-            }
-            Start::Anew => (
-                Clock::default(),
-                History::create(folder).map_err(RunError::write(folder))?,
-            ),
-        };
+        let cfl = schemes::cfl(&self.case);
+        let (clock, courant, mut history) =
+            match folder::start(folder, mode, &continuable, &self.text)? {
+                Some(Checkpoint {
+                    clock,
+                    courant,
+                    saved,
+                }) => {
+                    scheme.restore(&saved).map_err(RunFailure::Data)?;
+                    let history =
+                        History::resume(folder, clock.step).map_err(RunError::write(folder))?;
+                    folder::write_text(&folder.join(folder::RESOLVED), &self.text)?;
+                    folder::remove_summary(folder)?;
+                    (clock, continued(courant, clock.step, cfl), history)
+                }
+                None => (
+                    Clock::default(),
+                    continued(Vec::new(), 0, cfl),
+                    History::create(folder).map_err(RunError::write(folder))?,
+                ),
+            };
         let mut controls = Controls {
             history_every_s: self.history_every(),
             snapshot_every_s: self.snapshot_every(),
@@ -178,10 +180,11 @@ impl Request {
                     format!("{:.3} us, {pressure:.3} MPa", time_s * 1e6),
                 );
             },
-            identity,
+            identity: continuable,
+            courant,
         };
         let provenance = provenance_json(&by);
-        let writer = SnapshotWriter::new(folder, &self.setup, self.bond, by, &controls.identity);
+        let writer = SnapshotWriter::new(folder, &self.setup, self.bond, by, &identity);
         let outcome = drive::drive(
             &self.setup,
             scheme.as_mut(),
@@ -195,6 +198,7 @@ impl Request {
         let summary = Summary::new(
             &outcome,
             Facts {
+                courant_numbers: controls.courant,
                 liquid_points: self.setup.liquid_points,
                 initial_gap_m: self.setup.initial_gap_m,
                 stages: scheme.stage_times(),
@@ -209,8 +213,8 @@ impl Request {
                 provenance,
             },
         );
-        write_text(
-            &folder.join("summary.json"),
+        folder::write_text(
+            &folder.join(folder::SUMMARY),
             &(serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n"),
         )?;
         if outcome.end != drive::End::Interrupted {
@@ -222,11 +226,15 @@ impl Request {
 
     /// What makes two runs the same: the case as run, the inputs and the version.
     fn identity(&self, by: &Provenance) -> String {
+        self.identity_of(&self.text, by)
+    }
+
+    fn identity_of(&self, case: &str, by: &Provenance) -> String {
         let bond = self.inputs.get(1).map_or(0, |i| i.1);
         format!(
             "{} {:016x} {bond:016x}",
             by.version,
-            xxh3_64(self.text.as_bytes())
+            xxh3_64(case.as_bytes())
         )
     }
 
@@ -243,75 +251,6 @@ impl Request {
             n => self.setup.nominal_duration_s / f64::from(n),
         }
     }
-
-    /// Makes the run folder ready and finds where to start.
-    fn start(&self, folder: &Path, mode: Mode, identity: &str) -> Result<Start, RunFailure> {
-        if fs::metadata(folder).is_ok_and(|found| !found.is_dir()) {
-            return Err(RunFailure::Usage(format!(
-                "'{}' is a file; a run needs a folder",
-                folder.display()
-            )));
-        }
-        fs::create_dir_all(folder).map_err(RunError::write(folder))?;
-        if mode.resume {
-            match checkpoint::read(folder, identity) {
-                Ok(Some((clock, saved))) => return Ok(Start::Resumed(clock, saved)),
-                Ok(None) => {}
-                Err(error) if !mode.overwrite => return Err(error.into()),
-                Err(_) => {}
-            }
-        }
-        let holds = |name: &str| folder.join(name).exists();
-        // A run killed before its first checkpoint has nothing to lose.
-        let begun =
-            || fs::read_to_string(folder.join("resolved.toml")).is_ok_and(|text| text == self.text);
-        let again = mode.resume && !holds("final.mpts") && begun();
-        if !mode.overwrite && !again && (holds("history.csv") || holds("final.mpts")) {
-            return Err(RunFailure::Usage(if mode.resume {
-                format!(
-                    "'{}' holds another run, or the same of another version; use --overwrite to replace it",
-                    folder.display()
-                )
-            } else {
-                format!(
-                    "'{}' already holds a run; use --resume to continue it or --overwrite to replace it",
-                    folder.display()
-                )
-            }));
-        }
-        for name in [
-            "final.mpts",
-            "summary.json",
-            "checkpoint.mpts",
-            "history.csv",
-            "resolved.toml",
-        ] {
-            remove(fs::remove_file(folder.join(name)), &folder.join(name))?;
-        }
-        remove(
-            fs::remove_dir_all(folder.join("snapshots")),
-            &folder.join("snapshots"),
-        )?;
-        write_text(&folder.join("resolved.toml"), &self.text)?;
-        Ok(Start::Anew)
-    }
-}
-
-enum Start {
-    Anew,
-    Resumed(Clock, physics::Saved),
-}
-
-/// A file that is not there need not be removed.
-fn remove(result: std::io::Result<()>, path: &Path) -> Result<(), RunError> {
-    match result {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(RunError::write(path)(e)),
-        _ => Ok(()),
-    }
-}
-
-fn write_text(path: &Path, text: &str) -> Result<(), RunError> {
-    write_whole(path, |out| out.write_all(text.as_bytes()))
 }
 
 fn provenance_json(by: &Provenance) -> serde_json::Value {

@@ -12,6 +12,11 @@ use crate::resolve::Setup;
 /// Courant number where a case gives none.
 const DEFAULT_CFL: f64 = 0.5;
 
+/// The Courant number of a case.
+pub(crate) fn cfl(case: &Case) -> f64 {
+    case.integrator.cfl.unwrap_or(DEFAULT_CFL)
+}
+
 /// The scheme at the start of its scene.
 ///
 /// # Errors
@@ -69,7 +74,7 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
             UpdateName::Fmpm => VelocityUpdate::Fmpm(order("fmpm")?),
             UpdateName::Apic => VelocityUpdate::Apic,
         },
-        cfl: table.cfl.unwrap_or(DEFAULT_CFL),
+        cfl: cfl(case),
         pressure: match table.pressure.unwrap_or_default() {
             PressureName::Point => PressureFrom::Point,
             PressureName::CellMean => PressureFrom::CellMean,
@@ -111,7 +116,7 @@ fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
     }
     let default = filling::Settings::default();
     Ok(filling::Settings {
-        cfl: table.cfl.unwrap_or(DEFAULT_CFL),
+        cfl: cfl(case),
         tolerance: table.tolerance.unwrap_or(default.tolerance),
     })
 }

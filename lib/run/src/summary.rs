@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use physics::{Diagnostics, StageTime};
 use serde::Serialize;
 
+use crate::courant::Courant;
 use crate::drive::{End, Outcome};
 use crate::invariants::Invariants;
 use crate::left_out::LeftOut;
@@ -16,6 +17,8 @@ pub struct Summary {
     pub end: End,
     /// Steps since the start.
     pub steps: u64,
+    /// Which of them were taken at which Courant number.
+    pub courant_numbers: Vec<Courant>,
     /// Simulated time, s.
     pub time_s: f64,
     /// Clamp travel, m.
@@ -63,6 +66,7 @@ pub struct Stage {
 
 /// What a summary needs beside the loop's outcome.
 pub(crate) struct Facts {
+    pub courant_numbers: Vec<Courant>,
     pub liquid_points: u64,
     pub initial_gap_m: Option<f64>,
     pub stages: Vec<StageTime>,
@@ -84,6 +88,7 @@ impl Summary {
         Self {
             end: outcome.end,
             steps: outcome.clock.step,
+            courant_numbers: facts.courant_numbers,
             time_s: outcome.clock.time_s,
             travel_m: outcome.clock.travel_m,
             gap_m: facts.initial_gap_m.map(|g| g - outcome.clock.travel_m),

@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use studies::stability::trial::{Row, Trial, Verdict};
-use studies::stability::{options, plan, report};
+use studies::stability::{instability, options, plan, report};
 use studies::study::{Folders, origin, provenance};
 
 fn main() -> ExitCode {
@@ -45,7 +45,8 @@ fn scenes(results: &Path, only: &[&str]) -> Result<bool, String> {
             only.is_empty() || only.iter().any(named)
         })
         .collect();
-    let rows = run_all(trials, Path::new("out/stability"))?;
+    let folder = Path::new("out/stability");
+    let rows = run_all(trials, folder)?;
     let cpu: f64 = rows.iter().map(|r| r.cpu_s).filter(|s| s.is_finite()).sum();
     let head = format!(
         "{}, {} runs of one thread each, {cpu:.0} CPU seconds in those that ended.\n",
@@ -53,8 +54,14 @@ fn scenes(results: &Path, only: &[&str]) -> Result<bool, String> {
         rows.len()
     );
     write(&results.join("stability.csv"), &report::csv(&rows))?;
-    write(&results.join("stability.md"), &report::page(&rows, &head))?;
-    Ok(!rows.iter().any(|r| matches!(r.verdict, Verdict::Broken(_))))
+    let unstable: Vec<_> = (instability::trials().iter().enumerate())
+        .filter(|(_, trial)| only.is_empty() || only.contains(&trial.scene))
+        .map(|(i, trial)| trial.run(&folder.join(format!("checkpoint-{i}"))))
+        .collect();
+    let page = report::page(&rows, &head) + &instability::section(&unstable);
+    write(&results.join("stability.md"), &page)?;
+    let broken = |row: &Row| matches!(row.verdict, Verdict::Broken(_));
+    Ok(!rows.iter().any(broken) && unstable.iter().all(Result::is_ok))
 }
 
 /// Runs the trials two at a time, one thread each, and gives their rows in order.

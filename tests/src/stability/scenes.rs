@@ -51,6 +51,17 @@ impl Scene {
         self
     }
 
+    /// The same scene in three dimensions, `cells` deep.
+    pub fn deep(mut self, cells: u32) -> Self {
+        let depth = f64::from(cells) * CELL;
+        self.case.dimensions = 3;
+        self.case.domain[1][2] = depth;
+        for body in &mut self.case.bodies {
+            body.max[2] = depth;
+        }
+        self
+    }
+
     /// The same scene with other lines of `[contact]`.
     pub fn walls(mut self, contact: &str) -> Self {
         self.case.contact = contact.into();

@@ -5,6 +5,8 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use studies::stability::instability;
+
 use crate::workbench::{Workbench, press_arguments, said};
 
 /// Long enough that a signal arrives in the middle: several thousand steps.
@@ -165,4 +167,37 @@ fn a_checkpoint_belongs_to_its_case() {
     bench.write("run/checkpoint.mpts", &bytes);
     let damaged = bench.press("run", &SLOW, &["--resume"]);
     assert_eq!(damaged.status.code(), Some(3), "{}", said(&damaged));
+}
+
+/// A run that becomes unstable leaves its last checkpoint and results, and goes on from there at
+/// a smaller Courant number; a liquid that flies apart stops again with a sentence.
+#[test]
+fn an_unstable_run_leaves_its_checkpoint_and_goes_on_at_a_smaller_step() {
+    for trial in instability::trials() {
+        let bench = Workbench::new();
+        let row = trial.run(bench.folder()).unwrap();
+        println!("{row:?}");
+        assert!(row.checkpoint < row.unstable, "{row:?}");
+        let named = "last good checkpoint, run/checkpoint.mpts";
+        assert!(row.said.contains(named), "{}", row.said);
+        match (&row.then, trial.scene) {
+            (Ok(steps), "press") => assert!(*steps > row.unstable),
+            (Err(said), "torn apart, 150 m/s") => assert!(said.contains(named), "{said}"),
+            (then, scene) => panic!("{scene}: {then:?}"),
+        }
+        let changes = bench.read("run/resolved.toml");
+        let cfl = format!("cfl = {}", row.cfl[1]);
+        assert!(String::from_utf8(changes).unwrap().contains(&cfl));
+        for entry in fs::read_dir(bench.path("run/snapshots")).unwrap() {
+            bench.done(
+                "particles",
+                &["check", entry.unwrap().path().to_str().unwrap()],
+            );
+        }
+        if row.then.is_ok() {
+            let summary = String::from_utf8(bench.read("run/summary.json")).unwrap();
+            let kept = format!("\"after_step\": {},", row.checkpoint);
+            assert!(summary.contains(&kept), "{summary}");
+        }
+    }
 }

@@ -46,8 +46,8 @@ struct Arguments {
     /// Print the plan and what this scene leaves out, and run nothing
     #[arg(long)]
     explain: bool,
-    /// Continue from the run folder's last checkpoint; start if there is none, do nothing if
-    /// the run has ended
+    /// Continue from the run folder's last checkpoint, at the case's integrator.cfl even where it
+    /// was another before; start if there is none, do nothing if the run has ended
     #[arg(long, conflicts_with = "explain")]
     resume: bool,
     /// Replace another run in the run folder
