@@ -14,6 +14,7 @@
 mod couplings;
 mod dofs;
 mod fluxes;
+mod joined;
 mod terms;
 mod viscosity;
 mod walls;
@@ -273,10 +274,10 @@ impl<'a> Operator<'a> {
     }
 
     fn compressibility(&self, stiffness: &[f64]) -> Vec<f64> {
-        (self.dofs.cells.iter().zip(stiffness))
-            .map(|(&cell, stiffness)| {
-                self.scales.compressibility * f64::from(self.liquid.volume[cell as usize])
-                    / stiffness
+        (stiffness.iter().enumerate())
+            .map(|(cell, stiffness)| {
+                let volume = (self.dofs.members(cell)).map(|i| f64::from(self.liquid.volume[i]));
+                self.scales.compressibility * volume.sum::<f64>() / stiffness
             })
             .collect()
     }

@@ -283,7 +283,7 @@ impl Lattice {
     }
 
     /// The neighbouring cell along `axis`, above when `up`, if it is in the window.
-    fn shifted(&self, mut cell: [usize; 3], axis: usize, up: bool) -> Option<[usize; 3]> {
+    pub(crate) fn shifted(&self, mut cell: [usize; 3], axis: usize, up: bool) -> Option<[usize; 3]> {
         if up {
             cell[axis] += 1;
             (cell[axis] < self.window.cells[axis]).then_some(cell)

@@ -3,6 +3,12 @@
 use super::Lattice;
 use crate::solids::{BodyId, FAR, OPEN, SIDE};
 
+/// Distances to walls are exact to this, cells.
+const TOUCH: f64 = 1e-6;
+/// Distance of a wall at the centre of the next face where that face is open and has the wall for
+/// itself: just too far to touch.
+const BEYOND: f64 = 1.0 + 2.0 * TOUCH;
+
 /// The column of half a face's control volume along one tangential direction, seen from the
 /// face's centre height: what lies below and above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +34,7 @@ impl Column {
     /// Whether the wall below (0) or above (1) belongs to a body, and so exerts friction,
     /// and lies at most one cell away.
     pub fn touches(&self, side: usize) -> bool {
-        self.body[side] < OPEN && self.distance[side] <= 1.0 + 1e-6
+        self.body[side] < OPEN && self.distance[side] <= 1.0 + TOUCH
     }
 
     /// Free path H across the lumen, at most [`FAR`]. A symmetry plane mirrors the lumen.
@@ -76,6 +82,12 @@ impl Lattice {
             if let Some(hit) = self.solids.ray(from, tangent, side == 1, FAR) {
                 column.distance[side] = hit.near;
                 column.body[side] = hit.body;
+                if (hit.near - 1.0).abs() < TOUCH
+                    && (self.shifted(cell, tangent, side == 1))
+                        .is_some_and(|next| self.face(axis, self.window.index(next)) == OPEN)
+                {
+                    column.distance[side] = BEYOND;
+                }
             }
         }
         column

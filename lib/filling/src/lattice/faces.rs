@@ -31,7 +31,7 @@ impl Lattice {
         }
         let centre = self.window.face_centre(axis, cell);
         let tangents = self.tangents(axis);
-        let mut closing = OPEN;
+        let (mut corner_of, mut free) = (OPEN, false);
         for corner in 0..1_usize << tangents.len() {
             let mut point = centre;
             for (bit, &t) in tangents.iter().enumerate() {
@@ -41,11 +41,16 @@ impl Lattice {
                     -PROBE
                 };
             }
-            if let Some(body) = self.blocker(axis, point) {
-                closing = if closing == OPEN { body } else { closing };
+            match self.solid_sides(axis, point) {
+                [None, None] => match self.wall_behind(axis, point) {
+                    Some(body) => return body,
+                    None => free = true,
+                },
+                [Some(body), Some(_)] => return body,
+                [Some(body), None] | [None, Some(body)] => corner_of = body,
             }
         }
-        closing
+        if free { OPEN } else { corner_of }
     }
 
     /// Whether the face lies on or beyond a symmetry plane.
@@ -99,18 +104,21 @@ impl Lattice {
                 -PROBE
             };
         }
-        self.blocker(axis, point).is_none()
+        self.solid_sides(axis, point) == [None; 2] && self.wall_behind(axis, point).is_none()
     }
 
-    /// Who blocks the passage through a face plane at a point of it.
-    fn blocker(&self, axis: usize, point: [f64; 3]) -> Option<BodyId> {
-        for side in [PROBE, -PROBE] {
+    /// The bodies just below and above a point of a face plane.
+    fn solid_sides(&self, axis: usize, point: [f64; 3]) -> [Option<BodyId>; 2] {
+        [-PROBE, PROBE].map(|side| {
             let mut probe = point;
             probe[axis] += side;
-            if let Some(body) = self.solids.at(probe) {
-                return Some(body);
-            }
-        }
+            self.solids.at(probe)
+        })
+    }
+
+    /// The body of a wall that lies strictly inside a cell at a face plane and nearer to this
+    /// face than to the opposite one, where it crosses the normal of the plane at `point`.
+    fn wall_behind(&self, axis: usize, point: [f64; 3]) -> Option<BodyId> {
         for up in [true, false] {
             let Some(hit) = self.solids.ray(point, axis, up, 1.0) else {
                 continue;

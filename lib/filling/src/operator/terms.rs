@@ -99,7 +99,8 @@ impl Operator<'_> {
 
     /// Shear around the edge at the low corner of cell `at` in the plane of axes `i` and `j`:
     /// eta/2 [w (D_j u_i + D_i u_j)^2 + (w_i - w)(D_j u_i)^2 + (w_j - w)(D_i u_j)^2] with w_i
-    /// the part of the edge across which the two u_i see each other, w = min(w_i, w_j).
+    /// the part of the edge across which the two u_i see each other, w = min(w_i, w_j), each over
+    /// the distances between the places of the velocities.
     fn edge_terms(&self, i: usize, j: usize, at: usize, each: &mut impl FnMut(&Term)) {
         let window = &self.lattice.window;
         let (si, sj) = (window.stride(i), window.stride(j));
@@ -120,35 +121,43 @@ impl Operator<'_> {
             return;
         }
         let eta = self.edge_viscosity([at, at - si, at - sj, at - si - sj]) * wet / open;
-        let seen = |low: usize, axis: usize, t: usize| match (velocities[low], velocities[low + 1])
-        {
-            (Some(a), Some(b)) => Some((self.sight(axis, t, cell), a, b)),
-            _ => None,
+        let seen = |low: usize, axis: usize, t: usize| {
+            let (a, b) = (velocities[low]?, velocities[low + 1]?);
+            let (sight, distance) = self.sight(axis, t, cell, [a, b]);
+            (sight > 0.0).then_some((sight, distance, a, b))
         };
         let (along, across) = (seen(0, i, j), seen(2, j, i));
-        let both = match (along, across) {
-            (Some(a), Some(b)) => a.0.min(b.0),
-            _ => 0.0,
-        };
-        if let (Some((_, a, b)), Some((_, c, d))) = (along, across)
-            && both > 0.0
-        {
+        let mut both = 0.0;
+        if let (Some((sight, di, a, b)), Some((other, dj, c, d))) = (along, across) {
+            both = sight.min(other);
             each(&Term {
-                weight: eta * both,
-                parts: [(a, -1.0), (b, 1.0), (c, -1.0), (d, 1.0)],
+                weight: eta * both * di * dj,
+                parts: [
+                    (a, -1.0 / di),
+                    (b, 1.0 / di),
+                    (c, -1.0 / dj),
+                    (d, 1.0 / dj),
+                ],
                 count: 4,
             });
         }
-        for (sight, low, high) in [along, across].into_iter().flatten() {
+        for (sight, distance, low, high) in [along, across].into_iter().flatten() {
             if sight > both {
-                each(&Term::pair(eta * (sight - both), low, high));
+                each(&Term::pair(eta * (sight - both) / distance, low, high));
             }
         }
     }
 
     /// Part of the columns between the centre of the face along `axis` below `cell` and that
-    /// of `cell`, neighbours along `t`, that no wall crosses.
-    fn sight(&self, axis: usize, t: usize, cell: [usize; 3]) -> f64 {
+    /// of `cell`, neighbours along `t` with velocities `between`, that no wall crosses, and the
+    /// distance between the places of the two velocities, cells.
+    fn sight(
+        &self,
+        axis: usize,
+        t: usize,
+        cell: [usize; 3],
+        between: [Velocity; 2],
+    ) -> (f64, f64) {
         let window = &self.lattice.window;
         let other = 3 - axis - t;
         let first = window.first_sub(cell) - window.sub_stride(axis) - window.sub_stride(t);
@@ -158,7 +167,12 @@ impl Operator<'_> {
         // A closed face may have its centre exactly on the wall that closes it.
         let [low_open, high_open] =
             [below, cell].map(|c| self.lattice.face(axis, window.index(c)) == OPEN);
-        let mut free = 0;
+        let which = usize::from(self.lattice.tangents(axis)[0] != t);
+        let shift = |velocity: Velocity, column: usize| match velocity {
+            Velocity::Face(face) => self.walls.shift(face as usize, which, column),
+            _ => 0.0,
+        };
+        let (mut free, mut conductance) = (0.0, 0.0);
         for index in 0..count {
             let mut sub = first + (index & 1) * window.sub_stride(axis);
             if other < window.domain.axes {
@@ -171,7 +185,7 @@ impl Operator<'_> {
                 if low_open { 1.0 } else { open(sub - step) },
                 if high_open { 1.0 } else { open(sub + 2 * step) },
             ];
-            free += u32::from(match ([open(sub), open(sub + step)], beyond) {
+            let clear = match ([open(sub), open(sub + step)], beyond) {
                 ([a, b], _) if a == 0.0 || b == 0.0 => false,
                 (_, [a, b]) if a == 0.0 || b == 0.0 => false,
                 ([1.0, 1.0], [1.0, 1.0]) => true,
@@ -180,8 +194,12 @@ impl Operator<'_> {
                     let down = self.lattice.column(axis, cell, t, index).distance[0];
                     up.min(down) > 1.0 + 1e-6
                 }
-            });
+            };
+            if clear {
+                free += 1.0;
+                conductance += 1.0 / (1.0 + shift(between[1], index) - shift(between[0], index));
+            }
         }
-        f64::from(free) / count as f64
+        (free / count as f64, if free > 0.0 { free / conductance } else { 1.0 })
     }
 }

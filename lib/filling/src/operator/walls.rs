@@ -5,13 +5,12 @@ use rayon::prelude::*;
 use super::dofs::Dofs;
 use crate::lattice::{Column, Lattice};
 use crate::solids::BodyId;
-use crate::wall::effective_distance;
+use crate::wall::{effective_distance, shift_of_mean};
 
 /// Faces per task; part of no result.
 const CHUNK: usize = 1 << 12;
-/// Distance (cells) that counts where a wall goes through the height of a face's centre in one of
-/// its columns only, as where a moving body's surface parts the columns along the face's axis.
-const AT_CORNER: f64 = 0.25;
+/// No entry in [`Walls::shifts`].
+const CENTRED: u32 = u32::MAX;
 
 /// Which free path enters the wall law in 3D.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +43,22 @@ pub struct Walls {
     links: Vec<WallLink>,
     /// Sum over the tangential directions of H^-2, cells^-2, per face unknown.
     pub inverse_paths: Vec<f32>,
+    /// Where the shifts of a face unknown are in `shifts`, or [`CENTRED`].
+    place: Vec<u32>,
+    shifts: Vec<Shifts>,
+}
+
+/// Places of a velocity from its face's centre, along each tangential direction (cells), in the
+/// columns of the control volume: it is the mean over the part that walls bound.
+type Shifts = [[f32; 4]; 2];
+
+/// What a task finds.
+#[derive(Default)]
+struct Part {
+    counts: Vec<u32>,
+    links: Vec<WallLink>,
+    paths: Vec<f32>,
+    shifts: Vec<Option<Shifts>>,
 }
 
 impl Walls {
@@ -55,22 +70,21 @@ impl Walls {
         rule: PathRule,
         friction: bool,
     ) -> Self {
-        let chunks: Vec<(Vec<u32>, Vec<WallLink>, Vec<f32>)> = dofs
-            .faces
-            .par_chunks(CHUNK)
+        let parts: Vec<Part> = (dofs.faces.par_chunks(CHUNK))
             .map(|faces| {
-                let (mut counts, mut links, mut paths) = (Vec::new(), Vec::new(), Vec::new());
+                let mut part = Part::default();
                 for &(axis, index) in faces {
-                    let before = links.len();
+                    let before = part.links.len();
                     let cell = lattice.window.coordinates(index as usize);
                     let view = View::new(lattice, axis.into(), cell);
-                    paths.push(view.inverse_paths(lattice) as f32);
+                    part.paths.push(view.inverse_paths(lattice) as f32);
+                    part.shifts.push(view.shifts());
                     if friction {
-                        view.push_links(lattice, phi, rule, &mut links);
+                        view.push_links(lattice, phi, rule, &mut part.links);
                     }
-                    counts.push((links.len() - before) as u32);
+                    part.counts.push((part.links.len() - before) as u32);
                 }
-                (counts, links, paths)
+                part
             })
             .collect();
         let mut walls = Self {
@@ -78,15 +92,30 @@ impl Walls {
             ..Self::default()
         };
         let mut end = 0;
-        for (counts, links, paths) in chunks {
-            for count in counts {
+        for part in parts {
+            for count in part.counts {
                 end += count;
                 walls.start.push(end);
             }
-            walls.links.extend(links);
-            walls.inverse_paths.extend(paths);
+            for shifts in part.shifts {
+                let place = shifts.map_or(CENTRED, |_| walls.shifts.len() as u32);
+                walls.place.push(place);
+                walls.shifts.extend(shifts);
+            }
+            walls.links.extend(part.links);
+            walls.inverse_paths.extend(part.paths);
         }
         walls
+    }
+
+    /// Place of a face unknown's velocity from the face's centre along its tangential direction
+    /// number `which` in a column of its control volume, cells.
+    #[inline]
+    pub(super) fn shift(&self, face: usize, which: usize, column: usize) -> f64 {
+        match self.place[face] {
+            CENTRED => 0.0,
+            place => self.shifts[place as usize][which][column].into(),
+        }
     }
 
     /// Sets the viscosity of every link by `viscosity(face, link)`.
@@ -148,6 +177,26 @@ impl View {
         (0..lattice.tangents(self.axis).len())
             .map(|t| self.path(t).max(0.5).powi(-2))
             .sum()
+    }
+
+    /// Places of the velocity; `None` where it is at the centre in all columns.
+    fn shifts(&self) -> Option<Shifts> {
+        let mut shifts = Shifts::default();
+        for (t, shifts) in shifts.iter_mut().enumerate().filter(|(t, _)| self.near[*t]) {
+            for (column, shift) in self.columns[t].iter().zip(shifts) {
+                let part = |side| {
+                    if column.touches(side) {
+                        shift_of_mean(column.distance[side])
+                    } else {
+                        0.0
+                    }
+                };
+                if !column.blocked() {
+                    *shift = (part(0) - part(1)) as f32;
+                }
+            }
+        }
+        (shifts.as_flattened().iter().any(|s| s.abs() > 1e-6)).then_some(shifts)
     }
 
     fn push_links(
@@ -250,12 +299,7 @@ impl Collector<'_> {
     fn add(&mut self, column: Column, side: usize, area: f64, across: Option<f64>) {
         let along = column.free_path();
         let path = across.map_or(along, |a| (along.powi(-2) + a.powi(-2)).powf(-0.5));
-        // Both walls of a narrow passage bound one control volume, wherever its centre is.
-        let narrow = along <= 1.0 + 1e-6;
-        let [d, opposite] = [side, 1 - side].map(|s| {
-            let d = column.distance[s];
-            if d < 1e-3 && !narrow { AT_CORNER } else { d }
-        });
+        let (d, opposite) = (column.distance[side], column.distance[1 - side]);
         let link = WallLink {
             body: column.body[side],
             area: area as f32,
