@@ -1,11 +1,11 @@
 //! Two voxel bodies closing on a slab of liquid, as the adherends of a bond do. Run with
 //! `--nocapture` to see the numbers.
 
+#[path = "common/plain.rs"]
+mod plain;
+
 use filling::{Implicit, Settings};
-use physics::{
-    Boundary, Clamp, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene,
-    Scheme, ShearRate, StepLimit, Stop, Tait, Viscosity, VoxelBlock, WallLaw,
-};
+use physics::{Clamp, Motion, Scene, Scheme, StepLimit, Stop, VoxelBlock, WallLaw};
 
 /// Edge of a cell, m.
 const H: f64 = 2.9e-6;
@@ -30,26 +30,12 @@ fn scene(across: [usize; 2], margin: usize, wood: impl Fn(bool, usize, usize) ->
         })
     };
     let bottom = DEPTH + 2;
-    let mut points = Points::default();
-    let step = if flat { [0.5, 0.5, 1.0] } else { [0.5; 3] };
-    for k in 0..if flat { 1 } else { 2 * across[1] } {
-        for j in 0..2 * GAP {
-            for i in 0..2 * across[0] {
-                let low = [side, bottom as f64, 0.0];
-                let at = [i, j, k];
-                points.position.push(std::array::from_fn(|a| {
-                    H * (low[a] + step[a] * (at[a] as f64 + 0.5))
-                }));
-                points.velocity.push([0.0; 3]);
-                points.volume.push(step.iter().product::<f64>() * H.powi(3));
-            }
-        }
-    }
-    let body = |name: &str, blocks, motion| RigidBody {
-        name: name.into(),
-        blocks,
-        motion,
+    let (step, n) = if flat {
+        ([0.5 * H, 0.5 * H, H], [2 * across[0], 2 * GAP, 1])
+    } else {
+        ([0.5 * H; 3], [2 * across[0], 2 * GAP, 2 * across[1]])
     };
+    let points = plain::fill([side * H, bottom as f64 * H, 0.0], step, n);
     let mut below = vec![block(false, 0.0, 2 * bottom)];
     if margin > 0 {
         let n = cells.map(|n| n as f64 * H);
@@ -58,33 +44,14 @@ fn scene(across: [usize; 2], margin: usize, wood: impl Fn(bool, usize, usize) ->
     }
     let above = vec![block(true, (bottom + GAP) as f64, 2 * DEPTH + 4)];
     Scene {
-        dimensions: if flat {
-            Dimensions::Two
-        } else {
-            Dimensions::Three
-        },
-        grid: GridBox {
-            cell_m: H,
-            min_m: [0.0; 3],
-            cells,
-        },
-        boundary: [Boundary::Symmetry; 3],
-        liquid: Liquid {
-            density: 1200.0,
-            tait: Tait { bulk_modulus: 1e9 },
-            viscosity: Viscosity::Newtonian(Newtonian(1.3)),
-            shear_rate: ShearRate::Rheometer,
-            cavitation_pressure: None,
-        },
         points,
         bodies: vec![
-            body("bottom", below, Motion::Fixed),
-            body("top", above, Motion::Clamped),
+            plain::body("bottom", below, Motion::Fixed),
+            plain::body("top", above, Motion::Clamped),
         ],
         wall: WallLaw::PartialSlip {
             influence_length_m: 0.01 * H,
         },
-        gravity: [0.0; 3],
         clamp: Some(Clamp {
             closing_speed: 1.0,
             max_pressure: None,
@@ -93,6 +60,7 @@ fn scene(across: [usize; 2], margin: usize, wood: impl Fn(bool, usize, usize) ->
         stop: Stop::Closed { travel_m: 13.0 * H },
         bottom: Some(0),
         top: Some(1),
+        ..plain::scene(H, cells)
     }
 }
 

@@ -1,11 +1,15 @@
 //! A piston presses liquid from a box into a lumen in three dimensions: the pressure must grow
 //! with the filled length as in fully developed flow. Run with `--nocapture` to see the errors.
 
+#[path = "common/march.rs"]
+mod march;
+#[path = "common/plain.rs"]
+mod plain;
+#[path = "common/staircase.rs"]
+mod staircase;
+
 use filling::{Implicit, Settings};
-use physics::{
-    Boundary, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene, Scheme,
-    ShearRate, StepLimit, Stop, Tait, Viscosity, VoxelBlock, WallLaw,
-};
+use physics::{Motion, Scene, Scheme, VoxelBlock};
 
 const ETA: f64 = 1.3;
 /// Edge of a cell, m.
@@ -24,9 +28,6 @@ struct Case {
     /// Shift of the lumen along x, cells: a multiple of one half.
     shift: f64,
 }
-
-/// Nodes per voxel edge of the reference solution.
-const FINE: usize = 4;
 
 fn square(n: usize, [i, k]: [usize; 2]) -> bool {
     (n / 2..n / 2 + 2 * n).contains(&i) && (n / 2..n / 2 + 2 * n).contains(&k)
@@ -60,54 +61,15 @@ impl Case {
     }
 
     /// Pressure gradient per mean velocity and viscosity times the open area in developed flow
-    /// through the lumen, staircase walls and all: 28.454 for a square. Central differences on
-    /// squares of 1/[`FINE`] voxel, conjugate gradients.
+    /// through the lumen, staircase walls and all: 28.454 for a square.
     fn resistance(&self) -> f64 {
-        let n = 3 * self.n * FINE;
-        let open =
-            |at: [usize; 2]| at.iter().all(|&x| x < n) && (self.open)(self.n, at.map(|x| x / FINE));
-        let apply = |x: &[f64]| -> Vec<f64> {
-            let flow = |v: usize| {
-                let at = [v % n, v / n];
-                if !open(at) {
-                    return 0.0;
-                }
-                let mut sum = 0.0;
-                for axis in 0..2 {
-                    for way in [1, usize::MAX] {
-                        let mut next = at;
-                        next[axis] = at[axis].wrapping_add(way);
-                        // Walls lie half a square away.
-                        sum += if open(next) {
-                            x[v] - x[next[1] * n + next[0]]
-                        } else {
-                            2.0 * x[v]
-                        };
-                    }
-                }
-                sum
-            };
-            (0..n * n).map(flow).collect()
+        // Lumens keep within 3 n voxels; one more on each side is the rim of the flow's grid.
+        let open = |i: usize, k: usize| {
+            let at = [i.wrapping_sub(1), k.wrapping_sub(1)];
+            at.iter().all(|&x| x < 3 * self.n) && (self.open)(self.n, at)
         };
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let inside = |v: usize| f64::from(u8::from(open([v % n, v / n])));
-        let mut residual: Vec<f64> = (0..n * n).map(inside).collect();
-        let squares = residual.iter().sum::<f64>();
-        let (mut u, mut way) = (vec![0.0; n * n], residual.clone());
-        let mut size = dot(&residual, &residual);
-        while size > 1e-10 * squares {
-            let image = apply(&way);
-            let step = size / dot(&way, &image);
-            for v in 0..n * n {
-                u[v] += step * way[v];
-                residual[v] -= step * image[v];
-            }
-            let last = std::mem::replace(&mut size, dot(&residual, &residual));
-            for v in 0..n * n {
-                way[v] = residual[v] + size / last * way[v];
-            }
-        }
-        squares * squares / u.iter().sum::<f64>()
+        let area = 4.0 * self.area();
+        area * area / staircase::flux(3 * self.n + 2, open)
     }
 
     fn scene(&self) -> Scene {
@@ -142,49 +104,20 @@ impl Case {
             [a as f64 * H, -99.0 * H, a as f64 * H],
             [b as f64 * H, WALL as f64 * H, b as f64 * H],
         )];
-        let mut points = Points::default();
-        for k in 0..2 * wide {
-            for j in 0..2 * deep {
-                for i in 0..2 * wide {
-                    let at = [i, j, k].map(|x| H * (WALL as f64 + 0.25 + 0.5 * x as f64));
-                    points.position.push(at);
-                    points.velocity.push([0.0; 3]);
-                    points.volume.push(0.125 * H.powi(3));
-                }
-            }
-        }
-        let body = |name: &str, blocks, motion| RigidBody {
-            name: name.into(),
-            blocks,
-            motion,
-        };
-        Scene {
-            dimensions: Dimensions::Three,
-            grid: GridBox {
-                cell_m: H,
-                min_m: [0.0; 3],
-                cells,
-            },
-            boundary: [Boundary::Symmetry; 3],
-            liquid: Liquid {
-                density: 1200.0,
-                tait: Tait { bulk_modulus: 1e10 },
-                viscosity: Viscosity::Newtonian(Newtonian(ETA)),
-                shear_rate: ShearRate::Rheometer,
-                cavitation_pressure: None,
-            },
+        let half = 2 * wide;
+        let points = plain::fill([WALL as f64 * H; 3], [0.5 * H; 3], [half, 2 * deep, half]);
+        let mut scene = Scene {
             points,
             bodies: vec![
-                body("walls", walls, Motion::Fixed),
-                body("piston", piston, Motion::Constant([0.0, SPEED, 0.0])),
+                plain::body("walls", walls, Motion::Fixed),
+                plain::body("piston", piston, Motion::Constant([0.0, SPEED, 0.0])),
             ],
-            wall: WallLaw::Stick,
-            gravity: [0.0; 3],
-            clamp: None,
-            stop: Stop::Time(1.0),
             bottom: Some(1),
             top: Some(0),
-        }
+            ..plain::scene(H, cells)
+        };
+        scene.liquid.tait.bulk_modulus = 1e10;
+        scene
     }
 
     /// Fills three widths of the lumen.
@@ -198,19 +131,12 @@ impl Case {
         let velocity = SPEED * face / area;
         let unit = self.resistance() * ETA * velocity * n / (area * H);
         let end = 3.0 * n * H / velocity;
-        let (mut time, mut pressure, mut iterations) = (0.0, Vec::new(), 0);
-        while time < end * (1.0 - 1e-9) {
-            let report = scheme
-                .advance(StepLimit {
-                    time_s: end - time,
-                    travel_m: f64::INFINITY,
-                })
-                .unwrap();
-            time += report.dt_s;
+        let (mut pressure, mut iterations) = (Vec::new(), 0);
+        march::until(&mut scheme, end, |report, time| {
             iterations += report.iterations;
             let load = report.pressure_bottom * grid.area_m2() / (face * H * H);
             pressure.push([velocity * time / (n * H), load / unit]);
-        }
+        });
         let liquid = scheme.liquid();
         let moved = scheme.displacements();
         let lid = (WALL + 3 * self.n / 2) as f64 * H;
@@ -228,7 +154,7 @@ impl Case {
             steps: pressure.len(),
             iterations: f64::from(iterations) / pressure.len() as f64,
             volume_error: scheme.diagnostics().volume / start - 1.0,
-            delivered: inside / (face * H * H * SPEED * time),
+            delivered: inside / (face * H * H * SPEED * end),
             density: behind_front / (1.5 * n * area * H.powi(3)),
             pressure,
         }

@@ -2,13 +2,14 @@
 //! and no particle in a wall. Run with `--nocapture` to see the errors.
 
 mod constant_pressure;
+#[path = "../common/march.rs"]
+mod march;
+#[path = "../common/plain.rs"]
+mod plain;
 mod robustness;
 
 use filling::{Implicit, Settings};
-use physics::{
-    Boundary, Dimensions, GridBox, Liquid, Motion, Newtonian, Points, RigidBody, Scene, Scheme,
-    ShearRate, StepLimit, Stop, Tait, Viscosity, VoxelBlock, WallLaw,
-};
+use physics::{Motion, RigidBody, Scene, Scheme, VoxelBlock};
 
 /// Width of the slit, m.
 const H: f64 = 17.4e-6;
@@ -37,46 +38,16 @@ fn scene(n: usize, offset: [f64; 2]) -> Scene {
     let piston = vec![block([x0, -99.0], [x0 + 4.0 * w, y0])];
     let rows = (2.0 * (top - y0)).round() as usize;
     let dy = (top - y0) / rows as f64;
-    let mut points = Points::default();
-    for j in 0..rows {
-        for i in 0..8 * n {
-            let x = [x0 + 0.5 * (i as f64 + 0.5), y0 + dy * (j as f64 + 0.5), 0.5];
-            points.position.push(x.map(m));
-            points.velocity.push([0.0; 3]);
-            points.volume.push(0.5 * dy * h.powi(3));
-        }
-    }
-    let body = |name: &str, blocks, motion| RigidBody {
-        name: name.into(),
-        blocks,
-        motion,
-    };
+    let points = plain::fill([m(x0), m(y0), 0.0], [m(0.5), m(dy), h], [8 * n, rows, 1]);
     Scene {
-        dimensions: Dimensions::Two,
-        grid: GridBox {
-            cell_m: h,
-            min_m: [0.0; 3],
-            cells,
-        },
-        boundary: [Boundary::Symmetry; 3],
-        liquid: Liquid {
-            density: 1200.0,
-            tait: Tait { bulk_modulus: 1e9 },
-            viscosity: Viscosity::Newtonian(Newtonian(ETA)),
-            shear_rate: ShearRate::Rheometer,
-            cavitation_pressure: None,
-        },
         points,
         bodies: vec![
-            body("wood", wood, Motion::Fixed),
-            body("piston", piston, Motion::Constant([0.0, SPEED, 0.0])),
+            plain::body("wood", wood, Motion::Fixed),
+            plain::body("piston", piston, Motion::Constant([0.0, SPEED, 0.0])),
         ],
-        wall: WallLaw::Stick,
-        gravity: [0.0; 3],
-        clamp: None,
-        stop: Stop::Time(1.0),
         bottom: Some(1),
         top: Some(0),
+        ..plain::scene(h, cells)
     }
 }
 
@@ -99,19 +70,13 @@ fn run(n: usize, offset: [f64; 2], settings: Settings, change: impl Fn(&mut Scen
     let start = scene.liquid_volume();
     let end = 0.6 * 2.0 * H / SPEED;
     let mut scheme = Implicit::new(scene, settings).unwrap();
-    let (mut time, mut force, mut iterations) = (0.0, Vec::new(), 0);
-    while time < end * (1.0 - 1e-9) {
-        let limit = StepLimit {
-            time_s: end - time,
-            travel_m: f64::INFINITY,
-        };
-        let report = scheme.advance(limit).unwrap();
-        time += report.dt_s;
+    let (mut force, mut iterations) = (Vec::new(), 0);
+    march::until(&mut scheme, end, |report, time| {
         iterations += report.iterations;
         let pressure = report.pressure_bottom * area / (4.0 * H * h);
         let filled = 4.0 * SPEED * time / H;
         force.push([filled, pressure / (12.0 * ETA * 4.0 * SPEED / H)]);
-    }
+    });
     let liquid = scheme.liquid();
     let moved = scheme.displacements();
     // Deeper than the rounding of positions to f32.
@@ -134,7 +99,7 @@ fn run(n: usize, offset: [f64; 2], settings: Settings, change: impl Fn(&mut Scen
         iterations: f64::from(iterations) / force.len() as f64,
         volume_error: scheme.diagnostics().volume / start - 1.0,
         in_walls,
-        delivered: inside / (4.0 * H * h * SPEED * time),
+        delivered: inside / (4.0 * H * h * SPEED * end),
         force,
     }
 }

@@ -2,11 +2,10 @@
 
 use filling::{Implicit, Settings};
 use physics::{
-    Boundary, Motion, Newtonian, Points, Scene, Scheme, StepLimit, Table, Tait, Viscosity,
-    VoxelBlock,
+    Boundary, Motion, Newtonian, Scene, Scheme, StepLimit, Table, Tait, Viscosity, VoxelBlock,
 };
 
-use crate::{SPEED, at, run, scene};
+use crate::{SPEED, at, march, plain, run, scene};
 
 /// Force at L = 2 H over that of lubrication theory for PF at CFL 0.5, changed by `change`.
 fn force(cfl: f64, change: impl Fn(&mut Scene)) -> f64 {
@@ -81,13 +80,7 @@ fn layer() -> Scene {
     layer.bodies[0].blocks = vec![wall(-9.0, 2.0)];
     layer.bodies[1].blocks = vec![wall(8.0, 99.0)];
     layer.bodies[1].motion = Motion::Fixed;
-    layer.points = Points::default();
-    for (j, i) in (0..12).flat_map(|j| (0..8).map(move |i| (j, i))) {
-        let x = [0.5 * f64::from(i) + 0.25, 2.25 + 0.5 * f64::from(j), 0.5];
-        layer.points.position.push(x.map(|x| x * h));
-        layer.points.velocity.push([0.0; 3]);
-        layer.points.volume.push(0.25 * h.powi(3));
-    }
+    layer.points = plain::fill([0.0, 2.0 * h, 0.0], [0.5 * h, 0.5 * h, h], [8, 12, 1]);
     layer
 }
 
@@ -103,16 +96,10 @@ fn strong_compression_follows_tait() {
         tolerance: 1e-5,
     };
     let mut scheme = Implicit::new(chamber, settings).unwrap();
-    let (end, mut time, mut pressure) = (0.07 * 6.0 * h, 0.0, 0.0);
-    while time < end * (1.0 - 1e-9) {
-        let limit = StepLimit {
-            time_s: end - time,
-            travel_m: f64::INFINITY,
-        };
-        let report = scheme.advance(limit).unwrap();
-        time += report.dt_s;
+    let mut pressure = 0.0;
+    march::until(&mut scheme, 0.07 * 6.0 * h, |report, _| {
         pressure = report.pressure_bottom;
-    }
+    });
     let error = pressure / tait.pressure(-0.07) - 1.0;
     println!(
         "pressure at J = 0.93: {:.1} MPa, {error:+.4} of Tait's",

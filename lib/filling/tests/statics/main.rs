@@ -3,3 +3,5 @@
 mod bodies;
 mod channels;
 mod flow;
+#[path = "../common/staircase.rs"]
+mod staircase;

@@ -1,0 +1,63 @@
+//! The figures as files: SVG parses and says what it should, PNG decodes and is not blank, and
+//! what is drawn follows the data.
+
+mod curves;
+mod maps;
+mod slices;
+mod table;
+
+use std::path::PathBuf;
+
+use figures::{Drawing, Labelled};
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn file(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.path().join(name);
+        std::fs::write(&path, content).unwrap();
+        path
+    }
+
+    fn labelled(&self, label: &str, content: impl AsRef<[u8]>) -> Labelled {
+        let name: String = label.chars().filter(char::is_ascii_alphanumeric).collect();
+        Labelled {
+            label: label.into(),
+            path: self.file(&name, content),
+        }
+    }
+}
+
+/// All text of an SVG document, which must parse.
+fn texts(drawing: &Drawing) -> Vec<String> {
+    let svg = drawing.to_svg().unwrap();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let texts = document.descendants().filter(|n| n.has_tag_name("text"));
+    texts
+        .map(|n| n.text().unwrap_or_default().trim().into())
+        .collect()
+}
+
+/// Size and pixels of the PNG.
+fn pixels(drawing: &Drawing) -> ([u32; 2], Vec<[u8; 3]>) {
+    let bytes = drawing.to_png().unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+        .read_info()
+        .unwrap();
+    let mut buffer = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut buffer).unwrap();
+    let pixels = buffer.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
+    ([info.width, info.height], pixels)
+}
+
+fn share(pixels: &[[u8; 3]], colour: [u8; 3]) -> f64 {
+    pixels.iter().filter(|p| **p == colour).count() as f64 / pixels.len() as f64
+}
+
+const BLUE: [u8; 3] = [0, 114, 178];
+
+const VERMILION: [u8; 3] = [213, 94, 0];

@@ -1,0 +1,67 @@
+//! Slices of a specimen.
+
+use figures::{Cut, Error, Position, Slices};
+use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
+use units::Axis;
+
+use crate::{Folder, pixels, texts};
+
+/// A bond of 40 x 60 x 20 voxels: wood in the lowest and highest thirds, adhesive in a slab
+/// of 6 voxels at y = 27.
+fn bond() -> Vec<u8> {
+    let voxel = 1e-6;
+    let edges = [40e-6, 60e-6, 20e-6];
+    let header = Header::new(Kind::Bond, voxel, 1, [0.0; 3], edges);
+    let wood = BitGrid::from_fn([40, 60, 20], |_, y, _| !(20..40).contains(&y));
+    let slab = BitGrid::from_fn([40, 6, 20], |_, _, _| true);
+    let origin = [0.0, 27e-6, 0.0];
+    let blocks = [
+        (
+            Block::new("wood-bottom", Material::Rigid, [0.0; 3], voxel, &wood),
+            &wood,
+        ),
+        (
+            Block::new("adhesive", Material::Adhesive, origin, voxel, &slab),
+            &slab,
+        ),
+    ];
+    let mut bytes = Vec::new();
+    let draft = blocks
+        .into_iter()
+        .fold(Draft::new(header), |d, (block, bits)| d.block(block, bits));
+    draft.write_to(&mut bytes).unwrap();
+    bytes
+}
+
+#[test]
+fn slices_show_each_phase_by_its_area() {
+    let folder = Folder::new();
+    let state = folder.labelled("bond", bond());
+    let cut = |axis, position| Cut { axis, position };
+    let read = |cut| Slices::read(std::slice::from_ref(&state), cut, figures::Colouring::Plain);
+    let areas = |cut| {
+        let (_, pixels) = pixels(&read(cut).unwrap().draw());
+        [[150, 150, 150], [230, 159, 0]].map(|c| pixels.iter().filter(|p| **p == c).count() as f64)
+    };
+    let [wood, adhesive] = areas(cut(Axis::Z, Position::Share(0.5)));
+    println!(
+        "wood over adhesive: {:.3} (40 rows over 6)",
+        wood / adhesive
+    );
+    assert!((wood / adhesive - 40.0 / 6.0).abs() < 0.1);
+    let [wood, adhesive] = areas(cut(Axis::Y, Position::At(30e-6)));
+    // Some of the smoothed text is grey too.
+    println!("slice in the slab: wood {wood}, adhesive {adhesive} pixels");
+    assert!(wood < 1e-3 * adhesive && adhesive > 1e4);
+    let said = texts(&read(cut(Axis::X, Position::At(10e-6))).unwrap().draw());
+    assert!(
+        said.contains(&"x = 10.0 µm".into()) && said.contains(&"5 µm".into()),
+        "{said:?}"
+    );
+    let beside = read(cut(Axis::Z, Position::At(1e-3))).unwrap_err();
+    assert!(matches!(beside, Error::Request(_)), "{beside}");
+    let nothing = folder.labelled("foreign", "not a particle file");
+    let middle = cut(Axis::Z, Position::Share(0.5));
+    let foreign = Slices::read(&[nothing], middle, figures::Colouring::Plain).unwrap_err();
+    assert!(matches!(foreign, Error::Data(_)), "{foreign}");
+}

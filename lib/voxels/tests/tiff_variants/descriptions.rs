@@ -1,0 +1,139 @@
+//! Planes, voxel sizes and labels, stated or guessed.
+
+use voxels::{Phases, Stack};
+
+use crate::check;
+use crate::common::*;
+
+/// The test volume under a single directory with this description.
+fn single_directory(description: &str) -> Page {
+    let [nx, ny, _] = DIMS;
+    Page::new(nx, ny, 8, pages(|l| [l]).concat())
+        .tag(270, Value::Ascii(description.into()))
+        .tag(278, Value::Long(vec![ny as u32]))
+        .tag(279, Value::Long(vec![(nx * ny) as u32]))
+        .tag(282, Value::Rational(20, 29))
+        .tag(283, Value::Rational(20, 29))
+        .short(254, 0)
+        .short(296, 1)
+}
+
+#[test]
+fn planes_behind_a_single_directory() {
+    let nz = DIMS[2];
+    let hyperstack = format!(
+        "ImageJ=1.11a\nimages={nz}\nslices={nz}\nhyperstack=true\nmode=grayscale\nspacing=1.45\nunit=um\n"
+    );
+    let frames = format!("ImageJ=1.53t\nimages={nz}\nframes={nz}\nunit=\\u00B5m\n");
+    let shaped = format!("{{\"shape\": [{nz}, {}, {}]}}", DIMS[1], DIMS[0]);
+    for description in [hyperstack, frames, shaped] {
+        let bytes = tiff(CLASSIC, &[single_directory(&description)]);
+        check(&description, &bytes, ["0", "1", "2"]);
+    }
+}
+
+#[test]
+fn what_descriptions_say_that_the_file_does_not_hold_is_refused() {
+    for (description, said) in [
+        ("ImageJ=1.53t\nimages=5\nslices=5\n", "page 5"),
+        ("ImageJ=1.53t\nimages=4000000000\n", "page 5"),
+        (
+            "ImageJ=1.53t\nimages=4\nchannels=2\nslices=2\n",
+            "2 channels",
+        ),
+        ("{\"shape\": [5, 13, 21]}", "page 5"),
+        ("{\"shape\": [4, 13, 20]}", "no number of planes"),
+        ("{\"shape\": [4, 13, 21}", "JSON"),
+        ("<?xml?><OME", "XML"),
+    ] {
+        let bytes = tiff(CLASSIC, &[single_directory(description)]);
+        let sentence = refusal("a.tif", &bytes);
+        assert!(sentence.contains(said), "{description}: {sentence}");
+    }
+    let mut pages = plain_pages();
+    pages[0] = pages[0]
+        .clone()
+        .tag(270, Value::Ascii("ImageJ=1.53t\nimages=9\n".into()));
+    let sentence = refusal("a.tif", &tiff(CLASSIC, &pages));
+    assert!(
+        sentence.contains("declares 9 planes but it holds 4"),
+        "{sentence}"
+    );
+}
+
+fn stated_edge(first: Page) -> Option<Result<f64, String>> {
+    let mut pages = plain_pages();
+    pages[0] = first;
+    let (_folder, path) = stored("a.tif", &tiff(CLASSIC, &pages));
+    let stack = Stack::open(&[path]).unwrap();
+    stack.voxel_size().map(voxels::VoxelSize::cube_edge)
+}
+
+#[test]
+fn voxel_sizes_from_imagej_ome_and_resolution_tags() {
+    let page = |description: &str, resolution: (u32, u32), unit: u16| {
+        plain_pages()[0]
+            .clone()
+            .tag(270, Value::Ascii(description.into()))
+            .tag(282, Value::Rational(resolution.0, resolution.1))
+            .tag(283, Value::Rational(resolution.0, resolution.1))
+            .short(296, unit)
+    };
+    let ome = |z: &str| {
+        format!(
+            "<?xml version=\"1.0\"?><OME xmlns=\"http://www.openmicroscopy.org/Schemas/OME/2016-06\"><Image><Pixels DimensionOrder=\"XYCZT\" SizeX=\"21\" SizeY=\"13\" SizeC=\"1\" SizeZ=\"4\" SizeT=\"1\" PhysicalSizeX=\"1.45\" PhysicalSizeY=\"1450\" PhysicalSizeYUnit=\"nm\" PhysicalSizeZ=\"{z}\"/></Image></OME>"
+        )
+    };
+    let imagej = |spacing: &str| {
+        format!("ImageJ=1.53t\nimages=4\nslices=4\nunit=micron\nspacing={spacing}\n")
+    };
+    let close = |found: Option<Result<f64, String>>| {
+        let edge = found.unwrap().unwrap();
+        assert!((edge - 1.45e-6).abs() < 1e-15, "{edge}");
+    };
+    close(stated_edge(page(&imagej("1.45"), (20, 29), 1)));
+    close(stated_edge(page(&ome("1.45"), (1, 1), 1)));
+    close(stated_edge(page("", (200_000, 29), 3))); // pixels per centimetre
+    close(stated_edge(page("", (508_000, 29), 2))); // pixels per inch
+    let slanted = stated_edge(page(&imagej("3"), (20, 29), 1)).unwrap();
+    assert!(slanted.unwrap_err().contains("cubes"));
+    let slanted = stated_edge(page(&ome("1.5"), (20, 29), 1)).unwrap();
+    assert!(slanted.unwrap_err().contains("cubes"));
+    assert_eq!(stated_edge(page("", (1, 1), 1)), None);
+    assert_eq!(stated_edge(page("", (72, 1), 2)), None);
+    assert_eq!(stated_edge(page("", (1, 0), 3)), None);
+    assert_eq!(
+        stated_edge(page("ImageJ=1.53t\nimages=4\n", (1, 2), 1)),
+        None
+    );
+}
+
+#[test]
+fn guesses_and_crops() {
+    let (_folder, path) = stored("a.tif", &tiff(CLASSIC, &plain_pages()));
+    let guessed = segmented(std::slice::from_ref(&path), &Phases::Guess).unwrap();
+    assert_eq!(guessed.guessed, Some([0.0, 1.0, 2.0]));
+    let stack = Stack::open(&[path]).unwrap();
+    let crop = "3:20,2:9,1:3".parse().unwrap();
+    let part = voxels::segment(&stack, &Phases::Guess, &crop, || {}).unwrap();
+    assert_eq!(part.wood.dims(), [17, 7, 2]);
+    for (z, y, x) in [(0, 0, 0), (1, 6, 16), (1, 3, 5)] {
+        assert_eq!(part.wood.get(x, y, z), label(x + 3, y + 2, z + 1) == 1);
+    }
+    let outside = "3:22,2:9,1:3".parse().unwrap();
+    let error = voxels::segment(&stack, &Phases::Guess, &outside, || {}).unwrap_err();
+    assert!(
+        error.is_usage() && error.to_string().contains("along x"),
+        "{error}"
+    );
+}
+
+#[test]
+fn an_unknown_label_is_named_with_its_place() {
+    let mut pages = plain_pages();
+    pages[2].chunks[0][5 * DIMS[0] + 7] = 9;
+    let sentence = refusal("a.tif", &tiff(CLASSIC, &pages));
+    for part in ["page 3 of 4", "column 7, row 5", "holds 9"] {
+        assert!(sentence.contains(part), "{sentence}");
+    }
+}
