@@ -128,6 +128,11 @@ impl CaseText {
         }
     }
 
+    /// The same in plane strain: one layer of cells, `size` along x and y.
+    pub fn plane(title: impl Into<String>, cell: f64, [x, y]: [f64; 2]) -> Self {
+        Self::new(title, cell, 2, [x, y, cell])
+    }
+
     /// The TOML text with the `[integrator]` lines given.
     pub fn text(&self, integrator: &str) -> String {
         let mut out = String::new();

@@ -59,6 +59,17 @@ impl Plan {
         scene: &Scene,
         methods: &[Method],
     ) {
+        self.add_at(CFL, varied, value, scene, methods);
+    }
+
+    fn add_at(
+        &mut self,
+        cfl: f64,
+        varied: &'static str,
+        value: impl Into<String>,
+        scene: &Scene,
+        methods: &[Method],
+    ) {
         let value = value.into();
         for method in methods {
             self.0.push(Trial {
@@ -66,7 +77,7 @@ impl Plan {
                 value: value.clone(),
                 scene: scene.clone(),
                 method: method.clone(),
-                cfl: CFL,
+                cfl,
             });
         }
     }
@@ -236,16 +247,13 @@ fn extremes(plan: &mut Plan) {
     let thin_drop = free_drop(0.5).of(Viscosity::Newtonian(1e-3), PF[1]);
     for (name, scene) in [("PF", free_drop(0.5)), ("1e-3 Pa s", thin_drop)] {
         for cfl in [0.25, 0.4, 0.5] {
-            let from = plan.0.len();
-            plan.add(
+            plan.add_at(
+                cfl,
                 "drop of one point",
                 format!("{cfl}, {name}"),
                 &scene,
                 &updates(),
             );
-            for trial in &mut plan.0[from..] {
-                trial.cfl = cfl;
-            }
         }
     }
     // Without viscosity to speak of nothing damps the noise.
@@ -268,28 +276,22 @@ fn numerics(plan: &mut Plan) {
     let thin = base.clone().of(Viscosity::Newtonian(0.01), PF[1]);
     for (name, scene) in [("PF", &base), ("0.01 Pa s", &thin)] {
         for cfl in [0.1, 0.3, 0.5, 0.7, 0.9, 1.0, 1.2] {
-            let from = plan.0.len();
-            plan.add(
+            plan.add_at(
+                cfl,
                 "Courant number",
                 format!("{cfl}, {name}"),
                 scene,
                 &updates(),
             );
-            for trial in &mut plan.0[from..] {
-                trial.cfl = cfl;
-            }
         }
         for cfl in [0.1, 0.25, 0.5, 1.0, 1.25, 1.5, 1.6] {
-            let from = plan.0.len();
-            plan.add(
+            plan.add_at(
+                cfl,
                 "Courant number",
                 format!("{cfl}, {name}"),
                 scene,
                 &[Method::implicit()],
             );
-            for trial in &mut plan.0[from..] {
-                trial.cfl = cfl;
-            }
         }
         for shape in ["bspline2", "linear"] {
             let shaped: Vec<Method> = (updates().into_iter())

@@ -203,11 +203,10 @@ pub fn torn(speed: f64) -> Scene {
     let case = CaseText {
         boundary: ["open", "open", "symmetry"],
         bodies: vec![half(6.0, -speed), half(10.0, speed)],
-        ..CaseText::new(
+        ..CaseText::plane(
             "Two halves of a block of liquid fly apart.",
             CELL,
-            2,
-            scale([width, height, 1.0]),
+            [width * CELL, height * CELL],
         )
     };
     Scene {
@@ -230,7 +229,7 @@ pub fn free_drop(size: f64) -> Scene {
                 Body::liquid(scale([low, low, 0.0]), scale([low + size, low + size, 1.0]))
                     .moving([speed, -0.5 * speed, 0.0]),
             ],
-            ..CaseText::new("A drop in free flight.", CELL, 2, scale([12.0, 12.0, 1.0]))
+            ..CaseText::plane("A drop in free flight.", CELL, [12.0 * CELL, 12.0 * CELL])
         };
     Scene {
         case,
@@ -250,7 +249,7 @@ pub fn splash(size: f64, speed: f64) -> Scene {
             Body::liquid(scale([low, low, 0.0]), scale([low + size, low + size, 1.0]))
                 .moving([0.0, -speed, 0.0]),
         ],
-        ..CaseText::new("A drop hits a floor.", CELL, 2, scale([12.0, 12.0, 1.0]))
+        ..CaseText::plane("A drop hits a floor.", CELL, [12.0 * CELL, 12.0 * CELL])
     };
     Scene {
         case,

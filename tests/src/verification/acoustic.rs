@@ -29,13 +29,12 @@ pub fn scene(eta: f64) -> Scene {
         stop: Some(3.2 * period),
         bodies: (0..CELLS).map(cell).collect(),
         history_every: period / 200.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             format!(
                 "Standing sound wave, half a wave over {CELLS} cells, {eta} Pa s.\nAgainst c^2 = K/rho and a decay of (4/3 eta) k^2/(2 rho)."
             ),
             CELL,
-            2,
-            [long, 2.0 * CELL, CELL],
+            [long, 2.0 * CELL],
         )
     };
     let decay = 4.0 / 3.0 * eta * k * k / (2.0 * PF[0]);

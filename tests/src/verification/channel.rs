@@ -34,13 +34,12 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
             Body::liquid([0.0, low, 0.0], [width, high, cell]),
         ],
         history_every: until / 20.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             format!(
                 "Plane Poiseuille flow in a channel of {n} cells, walls {offset} cell off the nodes.\nAgainst rho g H^2/(12 eta) (1 + 6/(k H))."
             ),
             cell,
-            2,
-            [width, top, cell],
+            [width, top],
         )
     };
     Scene {

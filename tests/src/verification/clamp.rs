@@ -28,13 +28,12 @@ pub fn scene(travel: f64) -> Scene {
             Body::liquid([0.0, low, 0.0], [half, low + gap, CELL]),
         ],
         history_every: 0.02e-6,
-        ..CaseText::new(
+        ..CaseText::plane(
             format!(
                 "A squeeze film closed by {travel} cells under a pressure limit.\nAgainst the limit, the closing speed and the travel."
             ),
             CELL,
-            2,
-            [right, top, CELL],
+            [right, top],
         )
     };
     Scene {

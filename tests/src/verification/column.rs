@@ -20,13 +20,12 @@ pub fn scene(offset: f64, until: f64) -> Scene {
             Body::liquid([0.0, floor, 0.0], [width, floor + height, CELL]),
         ],
         history_every: until / 200.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             format!(
                 "Liquid at rest under a body force, floor {offset} cell off the nodes.\nAgainst rho g h."
             ),
             CELL,
-            2,
-            [width, 18.0 * CELL, CELL],
+            [width, 18.0 * CELL],
         )
     };
     Scene {

@@ -27,13 +27,12 @@ pub fn scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
             Body::liquid([0.0, low, 0.0], [width, high, cell]),
         ],
         history_every: until / 20.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             format!(
                 "Couette flow with partial slip, gap of {n} cells, walls {offset} cell off the nodes.\nAgainst v l/(H + 2 l) at the resting wall."
             ),
             cell,
-            2,
-            [width, top, cell],
+            [width, top],
         )
     };
     Scene {

@@ -24,11 +24,10 @@ pub fn scene(until: f64) -> Scene {
         stop: Some(until),
         bodies: (0..4).map(quarter).collect(),
         history_every: until / 20.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             "A free drop whose quarters move differently.\nAgainst conservation of momentum and angular momentum.",
             CELL,
-            2,
-            [size, size, CELL],
+            [size, size],
         )
     };
     Scene {

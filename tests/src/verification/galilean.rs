@@ -31,13 +31,12 @@ pub fn scene(law: &str, offset: f64) -> Scene {
             Body::liquid([0.0, low, 0.0], [width, high, CELL]).moving(velocity),
         ],
         history_every: until / 20.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             format!(
                 "Liquid and walls all at {SPEED} m/s, {law}, walls {offset} cell off the nodes.\nAgainst nothing changing."
             ),
             CELL,
-            2,
-            [width, 11.0 * CELL, CELL],
+            [width, 11.0 * CELL],
         )
     };
     Scene {

@@ -29,13 +29,12 @@ pub fn scene(n: u32, offset: f64, until: f64) -> Scene {
             Body::liquid([0.0, floor, 0.0], [width, floor + LUMEN, cell]),
         ],
         history_every: until / 50.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             format!(
                 "Film on a 50 degree incline, {n} cells thick, floor {offset} cell off the nodes.\nAgainst paper Eq. 5 (Fig. 4)."
             ),
             cell,
-            2,
-            [width, (7.0 + f64::from(n)) * cell, cell],
+            [width, (7.0 + f64::from(n)) * cell],
         )
     };
     Scene {

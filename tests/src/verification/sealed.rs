@@ -46,13 +46,12 @@ pub fn scene(voxels: u32, offset: f64) -> Scene {
             liquid([0.0, slab], [width, lid]),
         ],
         history_every: until / 40.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             format!(
                 "A lumen sealed by walls of {voxels} voxels, {offset} cell off the nodes, under {PRESSURE} Pa.\nAgainst nothing leaking."
             ),
             CELL,
-            2,
-            [width * CELL, (lid + 3.0) * CELL, CELL],
+            [width * CELL, (lid + 3.0) * CELL],
         )
     };
     Scene {

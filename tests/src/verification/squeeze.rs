@@ -30,13 +30,12 @@ pub fn scene(n: u32, offset: f64) -> Scene {
             Body::liquid([0.0, low, 0.0], [half_length, high, CELL]),
         ],
         history_every: until / 10.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             format!(
                 "Squeeze film, gap of {n} cells, plates {offset} cell off the nodes, half-length {ASPECT} gaps.\nAgainst 8 eta v a^3/h^3 per length."
             ),
             CELL,
-            2,
-            [right, top, CELL],
+            [right, top],
         )
     };
     Scene {

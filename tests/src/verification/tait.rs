@@ -24,11 +24,10 @@ pub fn scene() -> Scene {
             Body::liquid([0.0, floor, 0.0], [width, piston, CELL]),
         ],
         history_every: until / 20.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             "A piston compresses a closed column of liquid by 2 %.\nAgainst paper Eq. 1.",
             CELL,
-            2,
-            [width, piston + 3.0 * CELL, CELL],
+            [width, piston + 3.0 * CELL],
         )
     };
     Scene {

@@ -30,13 +30,12 @@ pub fn scene(n: u32, eta: f64) -> Scene {
         stop: Some(until),
         bodies: (0..n * n).map(one).collect(),
         history_every: until / 50.0,
-        ..CaseText::new(
+        ..CaseText::plane(
             format!(
                 "Taylor-Green vortex of {n} x {n} cells, {eta} Pa s.\nAgainst exp(-4 nu k^2 t)."
             ),
             cell,
-            2,
-            [EDGE, EDGE, cell],
+            [EDGE, EDGE],
         )
     };
     Scene {

@@ -62,7 +62,7 @@ fn bench() -> Workbench {
 #[test]
 fn bad_input_gets_its_status_and_a_sentence() {
     let bench = bench();
-    let before = listing(&bench);
+    let before = bench.names("");
     let mut wrong = Vec::new();
     let lines = TABLE
         .lines()
@@ -82,16 +82,7 @@ fn bad_input_gets_its_status_and_a_sentence() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert_eq!(listing(&bench), before, "something was left behind");
-}
-
-fn listing(bench: &Workbench) -> Vec<String> {
-    let mut names: Vec<_> = fs::read_dir(bench.folder())
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
+    assert_eq!(bench.names(""), before, "something was left behind");
 }
 
 #[test]

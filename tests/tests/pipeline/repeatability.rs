@@ -4,16 +4,6 @@ use std::fs;
 
 use crate::workbench::{METHODS, VOXEL, Workbench, grooved, npy, said};
 
-/// Names of the snapshots of a run.
-fn snapshots(bench: &Workbench, folder: &str) -> Vec<String> {
-    let mut names: Vec<_> = fs::read_dir(bench.path(folder).join("snapshots"))
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
-}
-
 #[test]
 fn a_run_is_the_same_for_any_threads_and_every_time() {
     let bench = Workbench::with_bond();
@@ -23,7 +13,7 @@ fn a_run_is_the_same_for_any_threads_and_every_time() {
             bench.pressed(folder, method, &["--threads", threads, "--overwrite"]);
         }
         let sum = bench.sum("one/final.mpts");
-        let names = snapshots(&bench, "one");
+        let names = bench.names("one/snapshots");
         let rows = bench.read("one/history.csv");
         assert!(
             names.len() >= 3 && rows.len() > 1000,
@@ -40,7 +30,11 @@ fn a_run_is_the_same_for_any_threads_and_every_time() {
                 rows,
                 "{method:?}"
             );
-            assert_eq!(snapshots(&bench, folder), names, "{method:?}");
+            assert_eq!(
+                bench.names(&format!("{folder}/snapshots")),
+                names,
+                "{method:?}"
+            );
             for name in &names {
                 let [a, b] = ["one", folder].map(|f| bench.sum(&format!("{f}/snapshots/{name}")));
                 assert_eq!(a, b, "{method:?} {name}");

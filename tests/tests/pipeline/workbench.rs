@@ -85,6 +85,15 @@ impl Workbench {
         self.folder().join(name)
     }
 
+    /// Names in a folder, in order.
+    pub fn names(&self, folder: &str) -> Vec<String> {
+        let mut names: Vec<_> = (fs::read_dir(self.path(folder)).unwrap())
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
     pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
         fs::write(self.path(name), content).unwrap();
     }
