@@ -19,6 +19,7 @@
 //! }
 //! ```
 
+mod apart;
 mod common;
 mod exit;
 mod message;
@@ -27,6 +28,7 @@ mod progress;
 mod provenance;
 mod signals;
 
+pub use apart::keep_apart;
 pub use common::{Common, main};
 pub use exit::{Failure, Status};
 pub use message::{detail, note, warn};

@@ -97,6 +97,12 @@ fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) 
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
+    if !folder.is_dir() {
+        return Err(io::Error::other(format!(
+            "there is no folder '{}'",
+            folder.display()
+        )));
+    }
     let mut builder = tempfile::Builder::new();
     builder.prefix(".bondline-").suffix(".tmp");
     allow_as_umask(&mut builder);

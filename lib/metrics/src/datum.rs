@@ -53,7 +53,8 @@ impl Datum {
     /// Finds `reference` in `state`.
     ///
     /// # Errors
-    /// No bond line to be found, or no wood: [`Reference::Plane`] is then the way out.
+    /// No bond line to be found, or no wood: [`Reference::Plane`] is then the way out. A plane
+    /// outside the state.
     pub fn find(reference: Reference, state: &State) -> Result<Self, Error> {
         let normal = state.normal;
         let level = |bottom, top| Datum::Level {
@@ -62,6 +63,16 @@ impl Datum {
             top,
         };
         if let Reference::Plane(plane) = reference {
+            let across = |corner: [f64; 3]| corner[normal.index()];
+            let (low, high) = (across(state.box_min_m), across(state.box_max_m));
+            if !(low..=high).contains(&plane) {
+                return Err(Error::Usage(format!(
+                    "the plane at {:.3} um is outside the bond, which reaches from {:.3} to {:.3} um along {normal}",
+                    1e6 * plane,
+                    1e6 * low,
+                    1e6 * high
+                )));
+            }
             return Ok(level(plane, plane));
         }
         let [bottom, top] = bond_surfaces(state)?;

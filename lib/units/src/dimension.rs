@@ -4,33 +4,40 @@ pub trait Dimension {
     const NAME: &'static str;
     /// Accepted unit symbols and what one of them is in SI; the first is the SI unit.
     const UNITS: &'static [(&'static str, f64)];
+    /// Least and largest size accepted, SI, zero apart; beyond them is a slip of the pen, and
+    /// what is computed from it would overflow.
+    const SIZE: [f64; 2];
 }
 
 macro_rules! dimension {
-    ($(#[$doc:meta])* $name:ident, $words:literal, $units:expr) => {
+    ($(#[$doc:meta])* $name:ident, $words:literal, $units:expr, $size:expr) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct $name;
         impl Dimension for $name {
             const NAME: &'static str = $words;
             const UNITS: &'static [(&'static str, f64)] = $units;
+            const SIZE: [f64; 2] = $size;
         }
     };
 }
 
+/// Where nothing narrower is known.
+const ANY: [f64; 2] = [1e-30, 1e30];
+
 dimension!(/// Length, SI metre.
-    Length, "a length", &[("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6), ("μm", 1e-6), ("nm", 1e-9)]);
+    Length, "a length", &[("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6), ("μm", 1e-6), ("nm", 1e-9)], [1e-12, 1e9]);
 dimension!(/// Time, SI second.
-    Time, "a time", &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6), ("ns", 1e-9), ("min", 60.0)]);
+    Time, "a time", &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6), ("ns", 1e-9), ("min", 60.0)], ANY);
 dimension!(/// Speed, SI metre per second.
-    Speed, "a speed", &[("m/s", 1.0), ("mm/s", 1e-3), ("um/s", 1e-6), ("mm/min", 1e-3 / 60.0)]);
+    Speed, "a speed", &[("m/s", 1.0), ("mm/s", 1e-3), ("um/s", 1e-6), ("mm/min", 1e-3 / 60.0)], ANY);
 dimension!(/// Pressure or modulus, SI pascal.
-    Pressure, "a pressure", &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("bar", 1e5), ("psi", 6_894.757_293_168)]);
+    Pressure, "a pressure", &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("bar", 1e5), ("psi", 6_894.757_293_168)], ANY);
 dimension!(/// Dynamic viscosity, SI pascal second.
-    Viscosity, "a viscosity", &[("Pa s", 1.0), ("Pa.s", 1.0), ("mPa s", 1e-3), ("mPa.s", 1e-3), ("cP", 1e-3), ("P", 0.1)]);
+    Viscosity, "a viscosity", &[("Pa s", 1.0), ("Pa.s", 1.0), ("mPa s", 1e-3), ("mPa.s", 1e-3), ("cP", 1e-3), ("P", 0.1)], ANY);
 dimension!(/// Mass density, SI kilogram per cubic metre.
-    Density, "a density", &[("kg/m3", 1.0), ("g/cm3", 1e3)]);
+    Density, "a density", &[("kg/m3", 1.0), ("g/cm3", 1e3)], ANY);
 dimension!(/// Acceleration, SI metre per second squared.
-    Acceleration, "an acceleration", &[("m/s2", 1.0)]);
+    Acceleration, "an acceleration", &[("m/s2", 1.0)], ANY);
 dimension!(/// Shear rate, SI one per second.
-    ShearRate, "a shear rate", &[("1/s", 1.0), ("s-1", 1.0)]);
+    ShearRate, "a shear rate", &[("1/s", 1.0), ("s-1", 1.0)], ANY);

@@ -32,10 +32,30 @@ impl<D: Dimension> Quantity<D> {
         }
     }
 
-    /// This quantity if it is greater than zero, else a sentence saying so.
-    pub fn positive(self) -> Result<Self, ParseError> {
-        if self.si > 0.0 {
+    /// This quantity if it is not too large to be meant; `text` is what was written.
+    fn of_size(self, text: &str) -> Result<Self, ParseError> {
+        if self.si.abs() <= D::SIZE[1] {
             Ok(self)
+        } else {
+            Err(Self::beyond(text))
+        }
+    }
+
+    fn beyond(what: &str) -> ParseError {
+        let ([least, most], unit) = (D::SIZE, D::UNITS[0].0);
+        ParseError(format!(
+            "{what} is not accepted: {} from {least:e} to {most:e} {unit} is needed",
+            D::NAME
+        ))
+    }
+
+    /// This quantity if it is greater than zero and not too small to be meant, else a sentence
+    /// saying so.
+    pub fn positive(self) -> Result<Self, ParseError> {
+        if self.si >= D::SIZE[0] {
+            Ok(self)
+        } else if self.si > 0.0 {
+            Err(Self::beyond(&format!("{:e} {}", self.si, D::UNITS[0].0)))
         } else {
             Err(ParseError(format!(
                 "{self} is not accepted: {} greater than zero is needed",
@@ -76,7 +96,7 @@ impl<D: Dimension> FromStr for Quantity<D> {
         let number: f64 = text[..split].trim_end().parse().unwrap_or(f64::NAN);
         let unit = text[split..].trim();
         match D::UNITS.iter().find(|(name, _)| *name == unit) {
-            Some((_, factor)) => Ok(Self::from_si(number * factor)),
+            Some((_, factor)) => Self::from_si(number * factor).of_size(text),
             None if unit.is_empty() => Err(ParseError(format!(
                 "'{text}' has no unit: {} needs one of {}",
                 D::NAME,
@@ -182,6 +202,18 @@ mod tests {
                 .positive()
                 .is_err()
         );
+    }
+
+    #[test]
+    fn sizes_beyond_all_bounds_are_refused() {
+        let parse = |text: &str| text.parse::<Quantity<Length>>();
+        assert!(parse("1e300 m").is_err() && parse("-1e300 m").is_err());
+        assert!(parse("1e308 mm").is_err());
+        // Near zero is a place like another, but not an edge or a thickness.
+        assert!(parse("1e-300 m").is_ok() && parse("0 m").is_ok());
+        let said = parse("1e-300 m").unwrap().positive().unwrap_err();
+        assert!(said.to_string().contains("from 1e-12 to 1e9 m"), "{said}");
+        assert!(parse("1 nm").unwrap().positive().is_ok());
     }
 
     #[test]

@@ -7,6 +7,16 @@ use crate::workbench::{ADHESIVE, CASE, TOOLS, VOID, WOOD, Workbench, grooved, np
 /// Command lines, the exit status of each, and parts of the one sentence it must say.
 const TABLE: &str = include_str!("refusals.txt");
 
+/// Two bodies of liquid that share a layer.
+const OVERLAP: &str = r#"
+[[body]]
+material = "adhesive"
+box = { min = ["0 um", "0 um", "0 um"], max = ["29 um", "29 um", "29 um"] }
+[[body]]
+material = "adhesive"
+box = { min = ["0 um", "26.1 um", "0 um"], max = ["29 um", "58 um", "29 um"] }
+"#;
+
 /// Every file the table names.
 fn bench() -> Workbench {
     let bench = Workbench::with_bond();
@@ -54,6 +64,7 @@ fn bench() -> Workbench {
         bench.write(name, CASE.replace(from, to));
     };
     changed("unknown.toml", "cell = ", "cel = ");
+    bench.write("overlap.toml", CASE.to_owned() + OVERLAP);
     changed("unitless.toml", "\"300 cP\"", "\"300\"");
     changed("negative.toml", "\"300 cP\"", "\"-300 cP\"");
     bench

@@ -1,7 +1,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use cli::{Failure, InputRecord, Record};
+use cli::{Failure, InputRecord, Output, Record};
 use figures::{Case, Labelled};
 use tempfile::NamedTempFile;
 
@@ -69,6 +69,14 @@ impl Inputs {
 
     pub(crate) fn files(&self) -> &[Labelled] {
         &self.files
+    }
+
+    /// Refuses outputs that would replace one of the files or one another.
+    pub(crate) fn keep_from<'a>(
+        &'a self,
+        outputs: impl IntoIterator<Item = &'a Output>,
+    ) -> Result<(), Failure> {
+        cli::keep_apart(self.given.iter().map(PathBuf::as_path), outputs)
     }
 
     /// The provenance of an output made of these files.

@@ -45,6 +45,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         Figure::Table2(a) => {
             let (inputs, cases) = Inputs::of_cases(a.cases())?;
+            inputs.keep_from([&a.output])?;
             let table = Table2::read(&cases).map_err(failure)?;
             // The CSV may itself go to standard output; the text for reading then gives way.
             match &a.output {
@@ -62,6 +63,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 
 /// Writes the picture to each of its outputs.
 fn write(drawing: &Drawing, picture: &Picture, inputs: &Inputs) -> Result<(), Failure> {
+    inputs.keep_from(picture.output.iter().map(|target| &target.output))?;
     let record = inputs.record()?;
     for target in &picture.output {
         let bytes = match target.format {

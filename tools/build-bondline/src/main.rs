@@ -72,6 +72,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
+    cli::keep_apart([arguments.specimen.as_path()], [&arguments.output])?;
     let file = ParticleFile::open(&arguments.specimen).map_err(Failure::data)?;
     if file.header().kind != Kind::Specimen {
         return Err(Failure::usage(format!(

@@ -99,6 +99,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             "two tables on standard output cannot be told apart: give all but one of -o, --map and --profile a file",
         ));
     }
+    let read = arguments.files.iter().chain(&arguments.compare);
+    cli::keep_apart(read.map(PathBuf::as_path), outputs(&arguments))?;
     let options = stack_options(&arguments)?;
     let experiment = match &arguments.compare {
         Some(path) => Some(Input::open(path, &options)?),

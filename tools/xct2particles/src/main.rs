@@ -63,6 +63,10 @@ fn main() -> ExitCode {
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
     let stack = Stack::open(&arguments.stack).map_err(failure)?;
+    cli::keep_apart(
+        stack.sources().iter().map(Source::path),
+        [&arguments.output],
+    )?;
     let edge = VoxelEdge::resolve(arguments.voxel, stack.voxel_size(), stack.name());
     let edge = edge.map_err(failure)?;
     report::stack(&stack, &edge);

@@ -11,6 +11,7 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
     let grid = grid(case, cell, depth)?;
     let mut points = Points::default();
     let mut bodies: Vec<RigidBody> = Vec::new();
+    let mut filled: Vec<(usize, Corners)> = Vec::new();
     for (index, body) in case.body.iter().enumerate() {
         let (min, max) = corners(&body.corners, depth)
             .map_err(|e| CaseError(format!("[[body]] number {}: {e}", index + 1)))?;
@@ -25,6 +26,14 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
                         ));
                     }
                 };
+                if let Some((other, _)) = filled.iter().find(|(_, b)| overlap(b, &(min, max))) {
+                    return Err(CaseError(format!(
+                        "[[body]] number {}: it overlaps number {}, and a place holds liquid once",
+                        index + 1,
+                        other + 1
+                    )));
+                }
+                filled.push((index, (min, max)));
                 let spacing = cell / f64::from(case.grid.points_per_direction);
                 seed::fill_box(&mut points, min, max, spacing, depth, velocity)
                     .map_err(CaseError)?;
@@ -44,6 +53,17 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
         bodies,
         travel_m: case.clamp.as_ref().and_then(|c| c.travel).map(|t| t.si()),
         normal: units::Axis::Y,
+    })
+}
+
+/// Low and high corner of a box, m.
+type Corners = ([f64; 3], [f64; 3]);
+
+/// Whether two boxes share more than rounding makes of a common face.
+fn overlap(a: &Corners, b: &Corners) -> bool {
+    (0..3).all(|i| {
+        let shared = a.1[i].min(b.1[i]) - a.0[i].max(b.0[i]);
+        shared > 1e-6 * (a.1[i] - a.0[i]).min(b.1[i] - b.0[i])
     })
 }
 
@@ -82,7 +102,7 @@ fn add_rigid(
     Ok(())
 }
 
-fn corners(corners: &BoxCorners, depth: Option<f64>) -> Result<([f64; 3], [f64; 3]), String> {
+fn corners(corners: &BoxCorners, depth: Option<f64>) -> Result<Corners, String> {
     let (mut min, mut max) = (corners.min.map(|q| q.si()), corners.max.map(|q| q.si()));
     if let Some(depth) = depth {
         (min[2], max[2]) = (0.0, depth);

@@ -56,6 +56,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             arguments.files.len()
         )));
     }
+    let read = arguments.files.iter().map(PathBuf::as_path);
+    cli::keep_apart(read, [&arguments.output])?;
     let files = (arguments.files.iter())
         .map(|path| ParticleFile::open(path).map_err(Failure::data))
         .collect::<Result<Vec<_>, _>>()?;
