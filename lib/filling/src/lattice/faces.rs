@@ -46,8 +46,7 @@ impl Lattice {
                     Some(body) => return body,
                     None => free = true,
                 },
-                [Some(body), Some(_)] => return body,
-                [Some(body), None] | [None, Some(body)] => corner_of = body,
+                [Some(body), _] | [None, Some(body)] => corner_of = body,
             }
         }
         if free { OPEN } else { corner_of }
