@@ -48,7 +48,10 @@ mod tests {
         let last = points.len() - 1;
         let walls = |j: usize| {
             let near = |d: f64, end: bool| if end { d } else { 0.5 };
-            [near(points[j] - low, j == 0), near(high - points[j], j == last)]
+            [
+                near(points[j] - low, j == 0),
+                near(high - points[j], j == last),
+            ]
         };
         let place = |j: usize| {
             let [below, above] = walls(j);
@@ -85,7 +88,9 @@ mod tests {
 
     /// Flux through a slit over the exact one.
     fn flux(n: f64, offset: f64, slip: f64) -> f64 {
-        let sum: f64 = (flow(n, offset, slip, 1.0, 0.0).iter()).map(|[h, u]| h * u).sum();
+        let sum: f64 = (flow(n, offset, slip, 1.0, 0.0).iter())
+            .map(|[h, u]| h * u)
+            .sum();
         sum / (n.powi(3) / 12.0 * (1.0 + 6.0 * slip / n))
     }
 

@@ -154,3 +154,21 @@ fn a_partly_filled_surface_is_left_alone() {
     println!("surface at {before:.3} before, {after:.3} after five projections");
     assert!((after - before).abs() < 0.15);
 }
+
+/// A crowded cell behind a narrow passage asks for more than the longest displacement; liquid
+/// elsewhere moves as if it were not there.
+#[test]
+fn one_crowded_cell_does_not_hold_back_the_rest() {
+    let passage = [0.02, 1.0];
+    let g = Csr::assemble(2, 2, |row, entries| entries.add(row, passage[row])).unwrap();
+    let cells = Cells {
+        density: &[1.3, 1.1],
+        fraction: &[1.0; 2],
+        volume: &[1.0; 2],
+    };
+    let (moves, _) = displacement(&g, &g.transpose(), &[1.0; 2], cells).unwrap();
+    let wanted = KAPPA * 0.1;
+    println!("{moves:?}, {wanted} wanted of the second");
+    assert_eq!(moves[0].abs(), LONGEST);
+    assert!((moves[1].abs() / wanted - 1.0).abs() < 0.01);
+}

@@ -283,7 +283,12 @@ impl Lattice {
     }
 
     /// The neighbouring cell along `axis`, above when `up`, if it is in the window.
-    pub(crate) fn shifted(&self, mut cell: [usize; 3], axis: usize, up: bool) -> Option<[usize; 3]> {
+    pub(crate) fn shifted(
+        &self,
+        mut cell: [usize; 3],
+        axis: usize,
+        up: bool,
+    ) -> Option<[usize; 3]> {
         if up {
             cell[axis] += 1;
             (cell[axis] < self.window.cells[axis]).then_some(cell)

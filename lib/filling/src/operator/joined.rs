@@ -45,7 +45,10 @@ impl Dofs {
         let window = &lattice.window;
         let sides = (0..window.domain.axes).flat_map(|axis| {
             let step = window.stride(axis);
-            [(axis, index, index - step), (axis, index + step, index + step)]
+            [
+                (axis, index, index - step),
+                (axis, index + step, index + step),
+            ]
         });
         let mut best = (CONTACT, None);
         for (axis, face, beyond) in sides {

@@ -132,12 +132,7 @@ impl Operator<'_> {
             both = sight.min(other);
             each(&Term {
                 weight: eta * both * di * dj,
-                parts: [
-                    (a, -1.0 / di),
-                    (b, 1.0 / di),
-                    (c, -1.0 / dj),
-                    (d, 1.0 / dj),
-                ],
+                parts: [(a, -1.0 / di), (b, 1.0 / di), (c, -1.0 / dj), (d, 1.0 / dj)],
                 count: 4,
             });
         }
@@ -151,13 +146,7 @@ impl Operator<'_> {
     /// Part of the columns between the centre of the face along `axis` below `cell` and that
     /// of `cell`, neighbours along `t` with velocities `between`, that no wall crosses, and the
     /// distance between the places of the two velocities, cells.
-    fn sight(
-        &self,
-        axis: usize,
-        t: usize,
-        cell: [usize; 3],
-        between: [Velocity; 2],
-    ) -> (f64, f64) {
+    fn sight(&self, axis: usize, t: usize, cell: [usize; 3], between: [Velocity; 2]) -> (f64, f64) {
         let window = &self.lattice.window;
         let other = 3 - axis - t;
         let first = window.first_sub(cell) - window.sub_stride(axis) - window.sub_stride(t);
@@ -200,6 +189,9 @@ impl Operator<'_> {
                 conductance += 1.0 / (1.0 + shift(between[1], index) - shift(between[0], index));
             }
         }
-        (free / count as f64, if free > 0.0 { free / conductance } else { 1.0 })
+        (
+            free / count as f64,
+            if free > 0.0 { free / conductance } else { 1.0 },
+        )
     }
 }

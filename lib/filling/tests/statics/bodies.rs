@@ -126,39 +126,49 @@ fn pressure_in_front_of_a_slit() {
 #[test]
 fn zz_profile() {
     for n in [6usize, 12] {
-    for offset in [0.0, 0.125, 0.25, 0.375, 0.49, 0.5, 0.51, 0.625, 0.75, 0.875] {
-        let h = n as f64;
-        let (x0, top) = (1.0 + offset, 1.0 + 2.0 * h);
-        let width = 4.0 * h;
-        let end = top + 3.5 * h;
-        let (a, b) = (x0 + 1.5 * h, x0 + 2.5 * h);
-        let far = 999.0;
-        let wood = vec![
-            VoxelBlock::solid_box([-9.0, -9.0, 0.0], [x0, far, 1.0]),
-            VoxelBlock::solid_box([x0 + width, -9.0, 0.0], [far, far, 1.0]),
-            VoxelBlock::solid_box([x0, top, 0.0], [a, far, 1.0]),
-            VoxelBlock::solid_box([b, top, 0.0], [x0 + width, far, 1.0]),
-        ];
-        let piston = vec![VoxelBlock::solid_box([x0, -9.0, 0.0], [x0 + width, 1.0, 1.0])];
-        let cells = [width as usize + 3, end as usize + 4, 1];
-        let mut flow = Flow::new(cells, 2, vec![wood, piston]);
-        flow.speeds[1] = [0.0, 1.0, 0.0];
-        let solved = flow.solve(|x| x[1] < end);
-        let w = &solved.lattice.window;
-        let unit = 12.0 * 4.0 / h;
-        let mut mid = vec![];
-        for j in 0..w.cells[1] {
-            let i = ((x0 + 2.0 * h) as i64 - w.low[0]) as usize;
-            let index = w.index([i, j, 0]);
-            mid.push((w.corner([i, j, 0])[1] + 0.5, solved.pressure[index] / unit));
+        for offset in [0.0, 0.125, 0.25, 0.375, 0.49, 0.5, 0.51, 0.625, 0.75, 0.875] {
+            let h = n as f64;
+            let (x0, top) = (1.0 + offset, 1.0 + 2.0 * h);
+            let width = 4.0 * h;
+            let end = top + 3.5 * h;
+            let (a, b) = (x0 + 1.5 * h, x0 + 2.5 * h);
+            let far = 999.0;
+            let wood = vec![
+                VoxelBlock::solid_box([-9.0, -9.0, 0.0], [x0, far, 1.0]),
+                VoxelBlock::solid_box([x0 + width, -9.0, 0.0], [far, far, 1.0]),
+                VoxelBlock::solid_box([x0, top, 0.0], [a, far, 1.0]),
+                VoxelBlock::solid_box([b, top, 0.0], [x0 + width, far, 1.0]),
+            ];
+            let piston = vec![VoxelBlock::solid_box(
+                [x0, -9.0, 0.0],
+                [x0 + width, 1.0, 1.0],
+            )];
+            let cells = [width as usize + 3, end as usize + 4, 1];
+            let mut flow = Flow::new(cells, 2, vec![wood, piston]);
+            flow.speeds[1] = [0.0, 1.0, 0.0];
+            let solved = flow.solve(|x| x[1] < end);
+            let w = &solved.lattice.window;
+            let unit = 12.0 * 4.0 / h;
+            let mut mid = vec![];
+            for j in 0..w.cells[1] {
+                let i = ((x0 + 2.0 * h) as i64 - w.low[0]) as usize;
+                let index = w.index([i, j, 0]);
+                mid.push((w.corner([i, j, 0])[1] + 0.5, solved.pressure[index] / unit));
+            }
+            let at = |y: f64| {
+                let k = mid.iter().position(|m| m.0 > y).unwrap();
+                let (p, q) = (mid[k - 1], mid[k]);
+                p.1 + (q.1 - p.1) * (y - p.0) / (q.0 - p.0)
+            };
+            // slope in the middle
+            let (y1, y2) = (top + 1.2 * h, top + 2.4 * h);
+            let slope = (at(y1) - at(y2)) / 1.2;
+            let entrance = at(1.0 + 0.25 * h + 0.5) - at(y1) - slope * 1.2;
+            let exit = at(y2) - slope * 1.1;
+            println!(
+                "n {n} off {offset}: total {:.3} slope {slope:.4} entrance {entrance:.4} exit {exit:.4}",
+                slit_pressure(n, 3.5, offset)
+            );
         }
-        let at = |y: f64| { let k = mid.iter().position(|m| m.0 > y).unwrap(); let (p, q) = (mid[k-1], mid[k]); p.1 + (q.1 - p.1) * (y - p.0) / (q.0 - p.0) };
-        // slope in the middle
-        let (y1, y2) = (top + 1.2 * h, top + 2.4 * h);
-        let slope = (at(y1) - at(y2)) / 1.2;
-        let entrance = at(1.0 + 0.25 * h + 0.5) - at(y1) - slope * 1.2;
-        let exit = at(y2) - slope * 1.1;
-        println!("n {n} off {offset}: total {:.3} slope {slope:.4} entrance {entrance:.4} exit {exit:.4}", slit_pressure(n, 3.5, offset));
-    }
     }
 }
