@@ -18,6 +18,7 @@ endif
 test:
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --release --workspace --all-targets --quiet -- -D warnings
+	$(CARGO) clippy --release -p mpm-run --features double --quiet -- -D warnings
 	$(CARGO) build --release --workspace
 	$(CARGO) test --release --workspace
 

@@ -7,12 +7,13 @@ verify: $(BINARIES)
 	@$(CARGO) build --release --quiet -p studies
 	$(BIN)/verify pipelines/cases/verification $(if $(ONLY),out/results,docs/results) $(ONLY)
 
-# Error against CPU time over schemes and settings. Also writes the errors that `mpm-run --explain`
+# Error against CPU time over schemes, settings and precision. Also writes the errors that `mpm-run --explain`
 # quotes, which is compiled in: build again after it.
 .PHONY: tradeoff
 tradeoff: $(BINARIES)
 	@$(CARGO) build --release --quiet -p studies
-	$(BIN)/tradeoff docs/results lib/run/src/expected_error.csv
+	@$(CARGO) build --release --quiet -p mpm-run --features double --target-dir target/double
+	$(BIN)/tradeoff docs/results lib/run/src/expected_error.csv target/double/release/mpm-run
 
 # Speed of the kernels and of the linear solver.
 .PHONY: bench

@@ -1,5 +1,9 @@
 //! Ways to run a scene: scheme, velocity update and what else a user can set.
 
+use std::path::{Path, PathBuf};
+
+use crate::outputs;
+
 /// A scheme with its options, as `--set` arguments on the scheme's plain case file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Method {
@@ -9,6 +13,8 @@ pub struct Method {
     pub scheme: Scheme,
     /// Keys changed, e.g. "integrator.order=5".
     pub set: Vec<String>,
+    /// Another build of `mpm-run` than the one beside the study.
+    program: Option<PathBuf>,
 }
 
 /// The two schemes.
@@ -46,6 +52,7 @@ impl Method {
             label: "FLIP".into(),
             scheme: Scheme::Explicit,
             set: Vec::new(),
+            program: None,
         }
     }
 
@@ -79,6 +86,7 @@ impl Method {
             label: "implicit".into(),
             scheme: Scheme::Implicit,
             set: Vec::new(),
+            program: None,
         }
     }
 
@@ -106,6 +114,18 @@ impl Method {
     pub fn setting(mut self, change: impl Into<String>) -> Self {
         self.set.push(change.into());
         self
+    }
+
+    /// This method by another build of `mpm-run`.
+    pub fn by(mut self, program: &Path) -> Self {
+        self.program = Some(program.to_owned());
+        self
+    }
+
+    /// The `mpm-run` that runs this method.
+    pub fn program(&self) -> PathBuf {
+        let own = || outputs::bin_folder().join("mpm-run");
+        self.program.clone().unwrap_or_else(own)
     }
 
     /// This method by another name.

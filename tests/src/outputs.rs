@@ -19,19 +19,24 @@ pub fn bin_folder() -> PathBuf {
     folder.map_or_else(|| PathBuf::from("target/release"), Path::to_path_buf)
 }
 
-/// Runs `case` into `folder`; `more` are further arguments.
+/// Runs `case` into `folder` by `program`, a build of `mpm-run`; `more` are further arguments.
 ///
 /// # Errors
 /// What `mpm-run` said on standard error, with its exit status.
-pub fn run(case: &Path, folder: &Path, more: &[&str]) -> Result<Run, String> {
-    let output = Command::new(bin_folder().join("mpm-run"))
+pub fn run(program: &Path, case: &Path, folder: &Path, more: &[&str]) -> Result<Run, String> {
+    let output = Command::new(program)
         .arg(case)
         .arg("-o")
         .arg(folder)
         .args(["--overwrite", "--quiet"])
         .args(more)
         .output()
-        .map_err(|e| format!("mpm-run cannot be started: {e}; build the workspace first"))?;
+        .map_err(|e| {
+            format!(
+                "{} cannot be started: {e}; build the workspace first",
+                program.display()
+            )
+        })?;
     if !output.status.success() {
         return Err(format!(
             "{}: exit {:?}: {}",

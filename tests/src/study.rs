@@ -76,7 +76,7 @@ pub fn run_one(job: &Job, folders: &Folders) -> Outcome {
         arguments.extend(["--set", change]);
     }
     let run = write_case(&folders.cases, scene, &job.method)
-        .and_then(|case| outputs::run(&case, &folder, &arguments));
+        .and_then(|case| outputs::run(&job.method.program(), &case, &folder, &arguments));
     let number = |key: &str| {
         let run = run.as_ref().ok()?;
         run.summary(key)

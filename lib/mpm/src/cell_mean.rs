@@ -12,11 +12,12 @@ use rayon::prelude::*;
 use crate::lattice::HALO;
 use crate::material::Stress;
 use crate::nodes::Block;
+use crate::real::Real;
 use crate::tiles::{NOWHERE, Points, Tile};
 use crate::topology::{Grid, unlink};
 
 /// What the points of a cell add up to: volume at J = 1 (cells) and that times j = J - 1.
-pub(crate) type CellSum = [f32; 2];
+pub(crate) type CellSum = [Real; 2];
 
 /// Entry of the halo that stands for a point's cell: its lowest node.
 #[inline]
@@ -33,7 +34,7 @@ fn cell_of(points: &Points, p: usize, axes: usize) -> usize {
 /// no point notices and is compressed without pressure.
 pub(crate) fn share_rate(tile: &mut Tile, axes: usize) {
     const STRIDE: [usize; 3] = [1, HALO, HALO * HALO];
-    let scale = 1.0 / (1 << (axes - 1)) as f32;
+    let scale = 1.0 / (1 << (axes - 1)) as Real;
     for p in 0..tile.points.len() {
         let low = cell_of(&tile.points, p, axes);
         let mut rate = 0.0;

@@ -9,6 +9,7 @@ use physics::Boundary;
 
 use crate::lanes::Quad;
 use crate::lattice::{EDGE, HALO, Lattice};
+use crate::real::Real;
 use crate::simd::{Kernel, dispatch};
 use crate::tiles::{Tile, base_of};
 use crate::walls::BlockShape;
@@ -24,7 +25,7 @@ pub(crate) struct Obstacle<'a> {
     pub(crate) from: [f64; 3],
     pub(crate) to: [f64; 3],
     /// Velocity, m/s.
-    pub(crate) velocity: [f32; 3],
+    pub(crate) velocity: [Real; 3],
 }
 
 /// The first point whose displacement is not a number or longer than a cell.
@@ -109,11 +110,11 @@ fn faces(tile: &Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Vec<FaceGrid> {
                 let inverse = 1.0 / part.voxel[a];
                 let low = (f64::from(tile.origin[a]) - body.to[a] - part.origin[a]) * inverse;
                 let travel = (body.to[a] - body.from[a]).abs() * inverse;
-                scale.0[a] = inverse as f32;
-                origin.0[a] = (low - low.floor()) as f32;
+                scale.0[a] = inverse as Real;
+                origin.0[a] = (low - low.floor()) as Real;
                 // Through a periodic side faces need not repeat: look at every point there.
                 let periodic = lattice.boundary[a] == Boundary::Periodic;
-                margin.0[a] = if periodic { 1.0 } else { travel as f32 + 1e-4 };
+                margin.0[a] = if periodic { 1.0 } else { travel as Real + 1e-4 };
             }
             FaceGrid {
                 scale,
@@ -128,9 +129,9 @@ fn faces(tile: &Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Vec<FaceGrid> {
 #[inline(always)]
 fn far(grids: &[FaceGrid], base: usize, d: &Quad, shift: &Quad) -> bool {
     let local = [
-        (base % HALO) as f32,
-        (base / HALO % HALO) as f32,
-        (base / (HALO * HALO)) as f32,
+        (base % HALO) as Real,
+        (base / HALO % HALO) as Real,
+        (base / (HALO * HALO)) as Real,
     ];
     grids.iter().all(|grid| {
         let mut clear = true;
@@ -230,7 +231,7 @@ fn collide(
             for a in 0..3 {
                 // Stopped going up: no faster than the body; going down: no slower.
                 let slip = v[a] - body.velocity[a];
-                if f32::from(stops[a]) * slip > 0.0 {
+                if Real::from(stops[a]) * slip > 0.0 {
                     tile.push[b][a] += mass * f64::from(slip);
                     v[a] = body.velocity[a];
                 }
@@ -308,7 +309,7 @@ impl BlockShape {
                 target[a].floor() + 1.0 + stand_off
             };
             at[a] = stopped;
-            end.0[a] += ((stopped - target[a]) * self.voxel[a]) as f32;
+            end.0[a] += ((stopped - target[a]) * self.voxel[a]) as Real;
         }
         (stops != [0; 3]).then_some(stops)
     }

@@ -3,6 +3,7 @@
 use physics::{Rheology, WallLaw};
 
 use crate::lanes::Oct;
+use crate::real::Real;
 use crate::settings::ShapeFunction;
 
 /// Largest separation (cells) of liquid and body, by positions extrapolated to the node, at
@@ -12,7 +13,7 @@ use crate::settings::ShapeFunction;
 /// with the node on the wall to 0.77 with the node half a cell into the liquid (GIMP and hat),
 /// so 0.8, the public code's value, finds every surface by its nearest node and not by the
 /// next. The quadratic B-spline reaches farther: 0.83 and 0.90 in the same places, hence 0.92.
-pub(crate) fn separation_limit(shape: ShapeFunction) -> f32 {
+pub(crate) fn separation_limit(shape: ShapeFunction) -> Real {
     match shape {
         ShapeFunction::Gimp | ShapeFunction::Linear => 0.8,
         ShapeFunction::Bspline2 => 0.92,
@@ -21,7 +22,7 @@ pub(crate) fn separation_limit(shape: ShapeFunction) -> f32 {
 
 /// Volume of a body at a node (cells) from which the node counts as inside it; a node on a
 /// plane wall has one half.
-const INSIDE: f32 = 0.501;
+const INSIDE: Real = 0.501;
 
 /// Liquid and a body meet at a node.
 #[derive(Clone, Copy, Debug)]
@@ -29,16 +30,16 @@ pub(crate) struct Meeting {
     /// Which body.
     pub(crate) body: usize,
     /// Its velocity, m/s.
-    pub(crate) velocity: [f32; 3],
+    pub(crate) velocity: [Real; 3],
     /// Unit normal from the body into the liquid.
-    pub(crate) normal: [f32; 3],
+    pub(crate) normal: [Real; 3],
     /// Contact area, cells^2 (Nairn, Hammerquist & Smith 2018).
-    area: f32,
+    area: Real,
     /// The node lies inside the body.
     inside: bool,
 }
 
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+fn dot(a: [Real; 3], b: [Real; 3]) -> Real {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -49,11 +50,11 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
 /// bit per axis) the other half is not in the sums, and their normal components are left out.
 pub(crate) fn meeting(
     body: usize,
-    velocity: [f32; 3],
+    velocity: [Real; 3],
     rigid: &Oct,
-    (mass, volume, sums): (f32, f32, &Oct),
+    (mass, volume, sums): (Real, Real, &Oct),
     planes: u8,
-    limit: f32,
+    limit: Real,
 ) -> Option<Meeting> {
     let [rigid_volume, ..] = rigid.0;
     let mut normal = [rigid.0[1], rigid.0[2], rigid.0[3]];
@@ -75,7 +76,7 @@ pub(crate) fn meeting(
         }
     }
     let length = dot(normal, normal).sqrt();
-    if length <= f32::MIN_POSITIVE {
+    if length <= Real::MIN_POSITIVE {
         return None;
     }
     // Behind a thin wall the body's gradient points away from the liquid; the extrapolated
@@ -84,7 +85,7 @@ pub(crate) fn meeting(
     let sign = if gap < 0.0 { -1.0 } else { 1.0 } / length;
     // A node inside the body is in contact whatever the separation: it has little liquid, all of
     // it far away, and left free it would let the liquid flow into the wall.
-    let whole = rigid_volume * (1_u32 << planes.count_ones()) as f32;
+    let whole = rigid_volume * (1_u32 << planes.count_ones()) as Real;
     let inside = whole > INSIDE;
     (inside || gap.abs() < limit).then(|| Meeting {
         inside,
@@ -99,13 +100,13 @@ impl Meeting {
     /// Whether liquid with velocity `v` stays on the body. It is free to leave, but not at a
     /// node inside: what little liquid is felt there has no way to go, and its noise would
     /// strain the points next to the wall.
-    pub(crate) fn holds(&self, v: [f32; 3]) -> bool {
+    pub(crate) fn holds(&self, v: [Real; 3]) -> bool {
         self.inside || dot(self.relative(&v), self.normal) <= 0.0
     }
 
     /// Contact before the forces: removes approach, and all sliding where the wall law sticks.
     /// Friction acts once a step, after the forces.
-    pub(crate) fn stop_approach(&self, v: &mut [f32; 3], law: WallLaw) {
+    pub(crate) fn stop_approach(&self, v: &mut [Real; 3], law: WallLaw) {
         let remaining = if law == WallLaw::Stick { 0.0 } else { 1.0 };
         self.apply(v, remaining);
     }
@@ -115,7 +116,7 @@ impl Meeting {
     /// `dt_over_mass` is dt / (m rho cell) in m2 s/kg per cell^2 of area.
     pub(crate) fn resolve<R: Rheology>(
         &self,
-        v: &mut [f32; 3],
+        v: &mut [Real; 3],
         law: WallLaw,
         rheology: &R,
         dt_over_mass: f64,
@@ -125,11 +126,11 @@ impl Meeting {
         let speed = (dot(slip, slip) - normal * normal).max(0.0).sqrt();
         let dose = f64::from(self.area) * dt_over_mass;
         let remaining = law.remaining_slip(rheology, f64::from(speed), dose);
-        self.apply(v, remaining as f32);
+        self.apply(v, remaining as Real);
     }
 
     /// Takes from an increment of velocity what a contact does not allow.
-    pub(crate) fn restrain(&self, w: &mut [f32; 3], law: WallLaw) {
+    pub(crate) fn restrain(&self, w: &mut [Real; 3], law: WallLaw) {
         if law == WallLaw::Stick {
             *w = [0.0; 3];
             return;
@@ -140,12 +141,12 @@ impl Meeting {
         }
     }
 
-    fn relative(&self, v: &[f32; 3]) -> [f32; 3] {
+    fn relative(&self, v: &[Real; 3]) -> [Real; 3] {
         std::array::from_fn(|a| v[a] - self.velocity[a])
     }
 
     /// Leaves no approach and the fraction `remaining` of the sliding.
-    fn apply(&self, v: &mut [f32; 3], remaining: f32) {
+    fn apply(&self, v: &mut [Real; 3], remaining: Real) {
         let slip = self.relative(v);
         let normal = dot(slip, self.normal);
         let leaving = if self.inside { 0.0 } else { normal.max(0.0) };

@@ -11,6 +11,7 @@ use crate::lattice::Lattice;
 use crate::material::{Constant, Segments, Stress};
 use crate::nodes::Mode;
 use crate::plan::Plan;
+use crate::real::Real;
 use crate::settings::{PressureFrom, Settings, VelocityUpdate};
 use crate::step::Stage;
 use crate::tiles::Point;
@@ -29,7 +30,7 @@ pub struct Explicit {
     pub(crate) stress: Stress,
     pub(crate) grid: Grid,
     pub(crate) integrator: Integrator,
-    pub(crate) separation: f32,
+    pub(crate) separation: Real,
     /// Voxel blocks of each body, in cells.
     pub(crate) parts: Vec<Vec<BlockShape>>,
     pub(crate) control: Option<PidControl>,
@@ -105,7 +106,7 @@ impl Explicit {
             integrator: Integrator::new(&lattice, settings.shape),
             separation: settings
                 .separation
-                .map_or(separation_limit(settings.shape), |cells| cells as f32),
+                .map_or(separation_limit(settings.shape), |cells| cells as Real),
             grid: Grid::new(
                 lattice,
                 scene.bodies.len(),
@@ -164,7 +165,7 @@ impl Explicit {
         &'a self,
         from: &[[f64; 3]],
         to: &[[f64; 3]],
-        velocities: &[[f32; 3]],
+        velocities: &[[Real; 3]],
     ) -> Vec<Obstacle<'a>> {
         let cell = self.scene.grid.cell_m;
         self.parts
@@ -212,7 +213,7 @@ impl Explicit {
             .enumerate()
         {
             let mut node = [0; 3];
-            let mut place = Quad([0.0, 0.0, 0.0, (volume / cell.powi(3)) as f32]);
+            let mut place = Quad([0.0, 0.0, 0.0, (volume / cell.powi(3)) as Real]);
             for a in 0..3 {
                 let at = (x[a] - min[a]) / cell;
                 if !(0.0..=scene.grid.cells[a] as f64).contains(&at) {
@@ -222,7 +223,7 @@ impl Explicit {
                     ));
                 }
                 node[a] = if a < axes { at.round() as i32 } else { 0 };
-                place.0[a] = (at - f64::from(node[a])) as f32;
+                place.0[a] = (at - f64::from(node[a])) as Real;
             }
             if let Some(b) = rest.iter().position(|body| {
                 body.parts
@@ -240,9 +241,9 @@ impl Explicit {
                 ));
             };
             let motion = Quad([
-                v[0] as f32,
-                v[1] as f32,
-                if axes == 3 { v[2] as f32 } else { 0.0 },
+                v[0] as Real,
+                v[1] as Real,
+                if axes == 3 { v[2] as Real } else { 0.0 },
                 0.0,
             ]);
             let point = Point {
@@ -313,12 +314,12 @@ impl Scheme for Explicit {
                 let offset = f64::from(node[a]) + f64::from(points.place[p].0[a]);
                 (min[a] + offset * cell) as f32
             }));
-            state.velocity.push([vx, vy, vz]);
+            state.velocity.push([vx, vy, vz].map(|v| v as f32));
             let v0 = f64::from(points.place[p].0[3]) * cell.powi(3);
             state.volume.push((v0 * (1.0 + f64::from(j))) as f32);
-            let pressure = self.stress.pressure(j) * self.scene.liquid.density as f32;
-            state.pressure.push(pressure);
-            state.shear_rate.push(points.stress[p].0[6]);
+            let pressure = self.stress.pressure(j) * self.scene.liquid.density as Real;
+            state.pressure.push(pressure as f32);
+            state.shear_rate.push(points.stress[p].0[6] as f32);
         }
         state
     }

@@ -1,19 +1,21 @@
 //! Short vectors whose lanes are fields of one point or node, so that the vector unit is
 //! full whatever the number of points in a cell.
 
+use crate::real::Real;
+
 macro_rules! lanes {
     ($name:ident, $n:literal, $align:literal, $doc:literal) => {
         #[doc = $doc]
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[repr(C, align($align))]
-        pub(crate) struct $name(pub(crate) [f32; $n]);
+        pub(crate) struct $name(pub(crate) [Real; $n]);
 
         impl $name {
             pub(crate) const ZERO: Self = Self([0.0; $n]);
 
             /// `self + w x`; fused where `FMA`.
             #[inline(always)]
-            pub(crate) fn add_scaled<const FMA: bool>(self, w: f32, x: Self) -> Self {
+            pub(crate) fn add_scaled<const FMA: bool>(self, w: Real, x: Self) -> Self {
                 self.add_product::<FMA>(Self([w; $n]), x)
             }
 
@@ -33,7 +35,7 @@ macro_rules! lanes {
 
             /// `w self`.
             #[inline(always)]
-            pub(crate) fn scaled(self, w: f32) -> Self {
+            pub(crate) fn scaled(self, w: Real) -> Self {
                 self.times(Self([w; $n]))
             }
 

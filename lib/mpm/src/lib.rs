@@ -12,6 +12,8 @@
 
 // Loops over axes and lanes index several short arrays at once.
 #![allow(clippy::needless_range_loop)]
+// Casts and conversions of `Real` are idle in one of its two precisions.
+#![allow(clippy::unnecessary_cast, clippy::useless_conversion)]
 
 mod cell_mean;
 mod collide;
@@ -23,6 +25,7 @@ mod lattice;
 mod material;
 mod nodes;
 mod plan;
+mod real;
 mod saved;
 mod settings;
 mod shape;

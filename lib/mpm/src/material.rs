@@ -2,42 +2,46 @@
 
 use physics::{Liquid, Rheology, TAIT_C, Table};
 
+use crate::real::{Real, exp_m1};
 use crate::tiles::Points;
 
-/// Kinematic viscosity (m2/s) of a shear rate (1/s) in single precision.
+/// Kinematic viscosity (m2/s) of a shear rate (1/s).
 pub(crate) trait Flow: Send + Sync {
     /// Viscosity over density.
-    fn viscosity(&self, rate: f32) -> f32;
+    fn viscosity(&self, rate: Real) -> Real;
 }
 
 /// Constant kinematic viscosity.
-pub(crate) struct Constant(f32);
+pub(crate) struct Constant(Real);
 
 impl Flow for Constant {
     #[inline(always)]
-    fn viscosity(&self, _rate: f32) -> f32 {
+    fn viscosity(&self, _rate: Real) -> Real {
         self.0
     }
 }
 
 /// A viscosity table: value and slope in ln(rate) of every segment.
 pub(crate) struct Segments {
-    rates: Vec<f32>,
-    lines: Vec<(f32, f32)>,
+    rates: Vec<Real>,
+    lines: Vec<(Real, Real)>,
 }
 
 impl Segments {
     pub(crate) fn new(table: &Table, density: f64) -> Self {
         let rates = table.breakpoints();
         let value = |rate: f64| table.viscosity(rate) / density;
-        let mut lines = vec![(value(rates[0]) as f32, 0.0)];
+        let mut lines = vec![(value(rates[0]) as Real, 0.0)];
         for ends in rates.windows(2) {
             let slope = (value(ends[1]) - value(ends[0])) / (ends[1] / ends[0]).ln();
-            lines.push(((value(ends[0]) - slope * ends[0].ln()) as f32, slope as f32));
+            lines.push((
+                (value(ends[0]) - slope * ends[0].ln()) as Real,
+                slope as Real,
+            ));
         }
-        lines.push((value(rates[rates.len() - 1]) as f32, 0.0));
+        lines.push((value(rates[rates.len() - 1]) as Real, 0.0));
         Self {
-            rates: rates.iter().map(|&r| r as f32).collect(),
+            rates: rates.iter().map(|&r| r as Real).collect(),
             lines,
         }
     }
@@ -45,7 +49,7 @@ impl Segments {
 
 impl Flow for Segments {
     #[inline(always)]
-    fn viscosity(&self, rate: f32) -> f32 {
+    fn viscosity(&self, rate: Real) -> Real {
         let segment = self.rates.iter().take_while(|&&r| rate >= r).count();
         let (value, slope) = self.lines[segment];
         if slope == 0.0 {
@@ -60,38 +64,38 @@ impl Flow for Segments {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stress {
     /// C K / rho, m2/s2.
-    stiffness: f32,
+    stiffness: Real,
     /// Largest tension over rho, m2/s2.
-    tension: f32,
+    tension: Real,
     /// Largest kinematic viscosity the step is stable with, m2/s.
-    pub(crate) cap: f32,
-    rate_factor: f32,
-    per_cell: f32,
+    pub(crate) cap: Real,
+    rate_factor: Real,
+    per_cell: Real,
 }
 
 impl Stress {
     /// `cell` in m, `cap` the largest viscosity in Pa s.
     pub(crate) fn new(liquid: &Liquid, cell: f64, cap: f64) -> Self {
         Self {
-            stiffness: (TAIT_C * liquid.tait.bulk_modulus / liquid.density) as f32,
+            stiffness: (TAIT_C * liquid.tait.bulk_modulus / liquid.density) as Real,
             tension: liquid
                 .cavitation_pressure
-                .map_or(f32::INFINITY, |p| (p / liquid.density) as f32),
-            cap: (cap / liquid.density) as f32,
-            rate_factor: liquid.shear_rate.factor() as f32,
-            per_cell: (1.0 / cell) as f32,
+                .map_or(Real::INFINITY, |p| (p / liquid.density) as Real),
+            cap: (cap / liquid.density) as Real,
+            rate_factor: liquid.shear_rate.factor() as Real,
+            per_cell: (1.0 / cell) as Real,
         }
     }
 
     /// Pressure over density at j = J - 1.
     #[inline(always)]
-    pub(crate) fn pressure(&self, j: f32) -> f32 {
-        (self.stiffness * exp_m1(-j * (1.0 / TAIT_C) as f32)).max(-self.tension)
+    pub(crate) fn pressure(&self, j: Real) -> Real {
+        (self.stiffness * exp_m1(-j * (1.0 / TAIT_C) as Real)).max(-self.tension)
     }
 
     /// Volume change, shear rate and stress of the points after a step of `dt`.
     #[inline(always)]
-    pub(crate) fn update<F: Flow>(&self, points: &mut Points, flow: &F, dt: f32) {
+    pub(crate) fn update<F: Flow>(&self, points: &mut Points, flow: &F, dt: Real) {
         let n = points.len();
         let gradient = &points.gradient[..n];
         let (motion, stress) = (&mut points.motion[..n], &mut points.stress[..n]);
@@ -126,20 +130,9 @@ impl Stress {
     }
 }
 
-/// exp(x) - 1 without cancellation: a series where it is exact to rounding, else by exp.
-#[inline(always)]
-fn exp_m1(x: f32) -> f32 {
-    if x.abs() < 0.25 {
-        let tail = 1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0 + x * (1.0 / 5040.0)));
-        x + x * x * (0.5 + x * (1.0 / 6.0 + x * tail))
-    } else {
-        x.exp() - 1.0
-    }
-}
-
 impl Constant {
     pub(crate) fn new(viscosity: f64, density: f64) -> Self {
-        Self((viscosity / density) as f32)
+        Self((viscosity / density) as Real)
     }
 }
 
@@ -168,8 +161,8 @@ mod tests {
         let mut worst = 0.0_f64;
         for i in -600..1200 {
             let j = f64::from(i) * 5e-4 + 1e-7;
-            let exact = liquid.tait.pressure(f64::from(j as f32));
-            worst = worst.max((f64::from(law.pressure(j as f32)) * 1200.0 / exact - 1.0).abs());
+            let exact = liquid.tait.pressure(f64::from(j as Real));
+            worst = worst.max((f64::from(law.pressure(j as Real)) * 1200.0 / exact - 1.0).abs());
         }
         println!("largest relative error of the pressure for J in 0.7 to 1.6: {worst:e}");
         assert!(worst < 2e-6);
@@ -193,9 +186,9 @@ mod tests {
         let rate = 1e5_f64;
         // dv_x/dy = rate, and a compression that ends at j = -1e-3 after the step.
         let (dt, squeeze) = (1e-9_f64, -1e-3 / 1e-9);
-        points.gradient[0][1].0[0] = (rate * cell) as f32;
-        points.gradient[0][2].0[2] = (squeeze * cell) as f32;
-        law.update(&mut points, &flow, dt as f32);
+        points.gradient[0][1].0[0] = (rate * cell) as Real;
+        points.gradient[0][2].0[2] = (squeeze * cell) as Real;
+        law.update(&mut points, &flow, dt as Real);
         let s = points.stress[0].0.map(|s| f64::from(s) * 1200.0);
         let p = liquid.tait.pressure(-1e-3);
         let sigma_zz = -p + 2.0 * 1.3 * squeeze * (1.0 - 1.0 / 3.0);
@@ -212,7 +205,7 @@ mod tests {
         for i in -20..80 {
             let rate = 10_f64.powf(f64::from(i) * 0.05);
             let exact = table.viscosity(rate) / 1200.0;
-            let relative = f64::from(segments.viscosity(rate as f32)) / exact - 1.0;
+            let relative = f64::from(segments.viscosity(rate as Real)) / exact - 1.0;
             assert!(relative.abs() < 2e-5, "{rate} {relative}");
         }
     }

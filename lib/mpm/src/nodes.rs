@@ -6,6 +6,7 @@ use crate::cell_mean::CellSum;
 use crate::contact::{Meeting, meeting};
 use crate::lanes::{Oct, Quad};
 use crate::lattice::{Lattice, block_node};
+use crate::real::Real;
 use crate::tiles::Tile;
 use crate::topology::Extras;
 use crate::walls::NearBody;
@@ -53,10 +54,10 @@ pub(crate) struct NodeStep<'a, R> {
     pub(crate) law: WallLaw,
     pub(crate) rheology: &'a R,
     /// Velocity of each body, m/s.
-    pub(crate) velocities: &'a [[f32; 3]],
-    pub(crate) separation: f32,
+    pub(crate) velocities: &'a [[Real; 3]],
+    pub(crate) separation: Real,
     /// Gravity times dt, m/s.
-    pub(crate) fall: [f32; 3],
+    pub(crate) fall: [Real; 3],
     /// dt / (rho cell), m2 s/kg per cell^2 of area and unit of mass.
     pub(crate) dt_over_mass: f64,
     pub(crate) mode: Mode,
@@ -207,7 +208,7 @@ impl Block {
             meeting.stop_approach(&mut before, step.law);
             before = hold(planes, before);
         }
-        let mut after: [f32; 3] = std::array::from_fn(|a| before[a] + gain[a]);
+        let mut after: [Real; 3] = std::array::from_fn(|a| before[a] + gain[a]);
         if let Some(meeting) = &touching {
             let free = after;
             let dose = step.dt_over_mass / f64::from(mass);
@@ -247,7 +248,7 @@ impl Block {
             if self.filter.w[node].0[3] == 0.0 {
                 continue;
             }
-            let mut sum = [0.0_f32; 4];
+            let mut sum = [0.0; 4];
             for source in self.sources_of(node) {
                 let value = &tiles[source.tile as usize].filter_out[usize::from(source.local)];
                 for (a, s) in sum.iter_mut().enumerate() {
@@ -278,7 +279,7 @@ impl Block {
 }
 
 /// Removes the components normal to the mirror planes of a node.
-fn hold(planes: u8, mut v: [f32; 3]) -> [f32; 3] {
+fn hold(planes: u8, mut v: [Real; 3]) -> [Real; 3] {
     for (a, v) in v.iter_mut().enumerate() {
         if planes & (1 << a) != 0 {
             *v = 0.0;

@@ -2,6 +2,7 @@ use std::fmt;
 
 use physics::{Rheology, Scene, Stop, Viscosity};
 
+use crate::real::BYTES;
 use crate::settings::{Settings, VelocityUpdate};
 
 /// What sets the time step.
@@ -92,11 +93,11 @@ pub(crate) fn acoustic_limit(scene: &Scene, speed: f64, j: f64) -> f64 {
 fn memory(scene: &Scene, settings: &Settings) -> u64 {
     let points = scene.points.position.len() as u64;
     let affine = settings.velocity_update == VelocityUpdate::Apic;
-    let per_point = 134 + if affine { 48 } else { 0 };
+    let per_point = 6 + BYTES * if affine { 44 } else { 32 };
     let volume = scene.liquid_volume() / scene.grid.cell_m.powi(3);
     let tiles = (volume / 64.0 * 4.0).ceil() as u64 + 1;
     let bodies = scene.bodies.len() as u64;
-    let per_tile = 216 * (32 * (1 + u64::from(bodies > 0)) + 13);
-    let per_block = 64 * (48 + 56 * bodies) + 216 * 8;
+    let per_tile = 216 * (8 * BYTES * (1 + u64::from(bodies > 0)) + 13);
+    let per_block = 64 * (16 + 8 * BYTES + (24 + 8 * BYTES) * bodies) + 216 * 8;
     points * per_point + tiles * (per_tile + 2 * per_block)
 }

@@ -4,6 +4,7 @@ use physics::{Array, Saved};
 
 use crate::explicit::{Corrections, Explicit, State};
 use crate::lanes::{Oct, Quad};
+use crate::real::{self, Real, array};
 use crate::settings::VelocityUpdate;
 use crate::tiles::Point;
 use crate::topology::Grid;
@@ -53,9 +54,9 @@ impl Explicit {
         let mut arrays = vec![
             ("id", Array::U32(id)),
             ("node", Array::U32(node)),
-            ("place", Array::F32(place)),
-            ("motion", Array::F32(motion)),
-            ("stress", Array::F32(stress)),
+            ("place", array(place)),
+            ("motion", array(motion)),
+            ("stress", array(stress)),
             ("clock", Array::F64(clock)),
             ("counts", Array::U32(words(counts))),
             (
@@ -64,7 +65,7 @@ impl Explicit {
             ),
         ];
         if self.is_affine() {
-            arrays.push(("affine", Array::F32(affine)));
+            arrays.push(("affine", array(affine)));
         }
         if let Some(projection) = &self.projection {
             arrays.push(("projection", Array::F64(projection.state())));
@@ -116,15 +117,15 @@ impl Explicit {
         let id = saved.u32s("id")?;
         let n = id.len();
         let node = sized(saved.u32s("node")?, 3 * n, "node")?;
-        let place = sized(saved.f32s("place")?, 4 * n, "place")?;
-        let motion = sized(saved.f32s("motion")?, 4 * n, "motion")?;
-        let stress = sized(saved.f32s("stress")?, 8 * n, "stress")?;
+        let place = sized(real::saved(saved, "place")?, 4 * n, "place")?;
+        let motion = sized(real::saved(saved, "motion")?, 4 * n, "motion")?;
+        let stress = sized(real::saved(saved, "stress")?, 8 * n, "stress")?;
         let affine = if self.is_affine() {
-            sized(saved.f32s("affine")?, 12 * n, "affine")?
+            sized(real::saved(saved, "affine")?, 12 * n, "affine")?
         } else {
             &[]
         };
-        let quad = |a: &[f32], i: usize| Quad([a[i], a[i + 1], a[i + 2], a[i + 3]]);
+        let quad = |a: &[Real], i: usize| Quad([a[i], a[i + 1], a[i + 2], a[i + 3]]);
         let cells = self.grid.lattice.cells;
         (0..n)
             .map(|p| {

@@ -90,6 +90,7 @@ impl Shape for Linear {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::real::Real;
 
     fn hat(x: f64) -> f64 {
         (1.0 - x.abs()).max(0.0)
@@ -116,7 +117,7 @@ mod tests {
         let mut worst = 0.0_f64;
         for i in 0..=100 {
             let d = -0.5 + f64::from(i) / 100.0;
-            let weights = S::weights(Quad([d as f32; 4]));
+            let weights = S::weights(Quad([d as Real; 4]));
             for (node, offset) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
                 let w = f64::from(weights.w[node].0[1]);
                 worst = worst.max((w - reference(d - offset)).abs());

@@ -10,6 +10,7 @@ use crate::collide::move_points;
 use crate::explicit::Explicit;
 use crate::nodes::{Block, Mode, NodeStep};
 use crate::plan::acoustic_limit;
+use crate::real::Real;
 use crate::settings::{PressureFrom, VelocityUpdate};
 use crate::tiles::{NOWHERE, Tile};
 use crate::topology::unlink;
@@ -46,7 +47,7 @@ const CHECK_EVERY: u64 = 64;
 const ALONE_VISCOUS: f64 = 0.4;
 const ALONE_ACOUSTIC: f64 = 0.25;
 /// Volume ratios beyond which Eq. 1 means nothing.
-const SOUND_J: std::ops::Range<f32> = -0.7..1.0;
+const SOUND_J: std::ops::Range<Real> = -0.7..1.0;
 
 impl Explicit {
     pub(crate) fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
@@ -59,7 +60,7 @@ impl Explicit {
             dt = dt.min(limit.travel_m / speed);
         }
         let velocities = self.body_velocities(speed);
-        let slow: Vec<[f32; 3]> = velocities.iter().map(|v| v.map(|v| v as f32)).collect();
+        let slow: Vec<[Real; 3]> = velocities.iter().map(|v| v.map(|v| v as Real)).collect();
 
         let mut clock = Instant::now();
         self.see_bodies();
@@ -127,7 +128,7 @@ impl Explicit {
     }
 
     fn points_to_nodes(&mut self, dt: f64) {
-        let scale = (dt / self.scene.grid.cell_m) as f32;
+        let scale = (dt / self.scene.grid.cell_m) as Real;
         let p2g = self.kernels.p2g;
         self.grid
             .tiles
@@ -139,7 +140,7 @@ impl Explicit {
     fn nodes<R: Rheology>(
         &mut self,
         dt: f64,
-        velocities: &[[f32; 3]],
+        velocities: &[[Real; 3]],
         rheology: &R,
         clock: &mut Instant,
     ) {
@@ -147,7 +148,7 @@ impl Explicit {
         let mode = self.mode();
         let law = self.scene.wall;
         let separation = self.separation;
-        let fall = self.scene.gravity.map(|g| (g * dt) as f32);
+        let fall = self.scene.gravity.map(|g| (g * dt) as Real);
         let step = NodeStep {
             law,
             rheology,
@@ -189,12 +190,12 @@ impl Explicit {
         &mut self,
         dt: f64,
         from: &[[f64; 3]],
-        velocities: &[[f32; 3]],
+        velocities: &[[Real; 3]],
     ) -> Result<(), Failure> {
         let mut tiles = std::mem::take(&mut self.grid.tiles);
         let bodies = self.obstacles(from, &self.state.displacement, velocities);
         let (blocks, lattice) = (&self.grid.blocks, &self.grid.lattice);
-        let scale = (dt / self.scene.grid.cell_m) as f32;
+        let scale = (dt / self.scene.grid.cell_m) as Real;
         let shared = self.settings.pressure == PressureFrom::CellMean;
         let fault = tiles
             .par_iter_mut()
@@ -204,7 +205,7 @@ impl Explicit {
                 if shared {
                     share_rate(tile, lattice.axes());
                 }
-                self.flow.update(tile, &self.stress, dt as f32);
+                self.flow.update(tile, &self.stress, dt as Real);
                 move_points(tile, lattice, &bodies)
             })
             .reduce(|| None, |a, b| a.or(b).map(|x| b.map_or(x, |b| b.min(x))));
@@ -267,7 +268,7 @@ impl Explicit {
     /// Looks at all points: stops an unsound run and renews the time step.
     fn check(&mut self) -> Result<(), Failure> {
         let sound = self.scene.liquid.sound_speed();
-        let (mut fastest, mut least) = (0.0_f64, 0.0_f32);
+        let (mut fastest, mut least): (f64, Real) = (0.0, 0.0);
         for tile in &self.grid.tiles {
             for (motion, id) in tile.points.motion.iter().zip(&tile.points.id) {
                 let [vx, vy, vz, j] = motion.0;
@@ -293,7 +294,7 @@ impl Explicit {
         Ok(())
     }
 
-    fn cause(&self, id: u32, j: f32) -> String {
+    fn cause(&self, id: u32, j: Real) -> String {
         if self.is_alone(id) {
             self.unstable(id)
         } else if j <= SOUND_J.start {

@@ -13,6 +13,7 @@ use physics::{RigidBody, VoxelBlock};
 
 use crate::lanes::Oct;
 use crate::lattice::{EDGE, block_index};
+use crate::real::Real;
 pub(crate) use integrals::Integrator;
 use integrals::Slice;
 
@@ -49,7 +50,7 @@ struct Columns {
     first_layer: usize,
     layers: usize,
     /// Column (z * 4 + x), layer: sums of w w, g_x w_z, w_x g_z, m_x w_z, w_x m_z.
-    sums: Vec<[f32; 5]>,
+    sums: Vec<[Real; 5]>,
 }
 
 /// A body near a block of nodes.
@@ -165,7 +166,7 @@ fn columns(
     let x: Vec<Vec<Slice>> = (0..EDGE).map(|i| along(0, i, 0.0)).collect();
     let depth = integrator.lattice.block_len() / (EDGE * EDGE);
     let z: Vec<Vec<Slice>> = (0..depth).map(|i| along(2, i, 0.0)).collect();
-    let mut sums = vec![[0.0_f32; 5]; EDGE * depth * layers];
+    let mut sums = vec![[0.0; 5]; EDGE * depth * layers];
     let mut any = false;
     for (column, sums) in sums.chunks_exact_mut(layers).enumerate() {
         let (xs, zs) = (&x[column % EDGE], &z[column / EDGE]);
@@ -236,7 +237,7 @@ mod tests {
                     });
                     let nearest = x.map(f64::round);
                     let d: [f64; 3] = std::array::from_fn(|a| x[a] - nearest[a]);
-                    let w = Gimp::weights(Quad([d[0] as f32, d[1] as f32, d[2] as f32, 0.0]));
+                    let w = Gimp::weights(Quad([d[0] as Real, d[1] as Real, d[2] as Real, 0.0]));
                     let offset: [f64; 3] =
                         std::array::from_fn(|a| f64::from(node[a]) - nearest[a] + 1.0);
                     if offset.iter().any(|o| !(0.0..=2.0).contains(o)) {

@@ -98,10 +98,12 @@ fn sums(run: &Explicit, affine: bool) -> ([f64; 3], f64) {
     if affine {
         let saved = run.save();
         // Twelve numbers a point: d(vx, vy, vz, -)/dx, then /dy, then /dz, per cell.
-        let fields = saved.f32s("affine").unwrap();
-        let own = fields
-            .chunks_exact(12)
-            .map(|c| 0.25 * f64::from(c[1] - c[4]));
+        let single = saved.f32s("affine");
+        let fields: Vec<f64> = match single {
+            Ok(fields) => fields.iter().map(|&x| x.into()).collect(),
+            Err(_) => saved.f64s("affine").unwrap().to_vec(),
+        };
+        let own = fields.chunks_exact(12).map(|c| 0.25 * (c[1] - c[4]));
         spin += own.sum::<f64>();
     }
     (p, spin / n)

@@ -9,11 +9,11 @@ use studies::tradeoff::{bond, boxes, mark_front, report, settings};
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let [results, quoted] = words.as_slice() else {
-        eprintln!("usage: tradeoff RESULT_FOLDER QUOTED_CSV");
+    let [results, quoted, double] = words.as_slice() else {
+        eprintln!("usage: tradeoff RESULT_FOLDER QUOTED_CSV MPM_RUN_IN_DOUBLE_PRECISION");
         return ExitCode::from(2);
     };
-    match study(Path::new(results), Path::new(quoted)) {
+    match study(Path::new(results), Path::new(quoted), Path::new(double)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(said) => {
             eprintln!("tradeoff: {said}");
@@ -22,8 +22,8 @@ fn main() -> ExitCode {
     }
 }
 
-fn study(results: &Path, quoted: &Path) -> Result<(), String> {
-    let settings = settings::all();
+fn study(results: &Path, quoted: &Path, double: &Path) -> Result<(), String> {
+    let settings = settings::all(double);
     let out = PathBuf::from("out/tradeoff");
     let mut rows = bond::rows(&settings, &out.join("bond"))?;
     let folders = Folders {

@@ -141,7 +141,7 @@ fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Cl
     {
         arguments.extend(["--set", change]);
     }
-    let run = run(Path::new(case), folder, &arguments)?;
+    let run = run(&method.program(), Path::new(case), folder, &arguments)?;
     Ok(Closed {
         pressure: late_pressure(&run)?,
         wp: weighted_penetration(&run)?,

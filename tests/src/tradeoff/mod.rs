@@ -1,5 +1,5 @@
 //! Error against CPU time: what scheme, update, shape function, cell size, points, Courant
-//! number, bulk modulus, solver tolerance and options cost and give on four flows.
+//! number, bulk modulus, solver tolerance, options and precision cost and give on four flows.
 
 pub mod bond;
 pub mod report;

@@ -102,8 +102,9 @@ cell off, against plane Poiseuille; **incline** profile over v_max, floor on the
 paper Eq. 5; **bond line** a synthetic specimen of 24x72x24 voxels closed at 1 m/s: mean clamp \
 pressure over the second half and WP when closed, against the implicit scheme with cells of half a \
 voxel. Cells are those across a lumen of 17.4 um (6 are two voxels each, 12 one). CPU time is that \
-of one run on one thread, to 0.01 s. The explicit scheme is f32 with f64 sums; there is no f64 \
-build of it, and the implicit scheme is f64 with f32 coefficients, so precision is not varied. \
+of one run on one thread, to 0.01 s. The explicit scheme is f32 with f64 sums over \
+the run, its rows *f64* by the build with the feature `double`; the implicit scheme is f64 with f32 \
+coefficients. \
 **Bold**: nothing cheaper is as accurate (the Pareto front).";
 
 fn page(rows: &[Row], outcomes: &[Outcome]) -> String {
@@ -167,6 +168,10 @@ const ADVICE: &str = "\
   separation suits a piston but lets films slip off their walls.
 - **Bulk modulus**: the viscous limit sets the explicit step of PF, so a lower K saves nothing. At 1e8 Pa the liquid itself
   gives way (the implicit scheme shows that alone: -14 %), which happens to cancel part of XPIC(5)'s error.
+- **Precision**: the explicit scheme's errors are not rounding. In double precision the channel and the incline come out
+  the same; the bond line within 0.5 % and the slit within 3 % of the error, because rounding grows until points take other
+  places. It costs 1.2 to 1.9 times the CPU time. What f32 does leave is a drift of liquid that moves with its walls, without
+  friction up to 2e-5 of the speed in twelve thousand steps (1e-16 in double precision).
 
 ";
 

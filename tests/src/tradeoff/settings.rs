@@ -1,5 +1,7 @@
 //! The settings of the trade-off study: a base for each update, and what is varied about it.
 
+use std::path::Path;
+
 use crate::method::Method;
 
 /// A method at a cell size.
@@ -15,12 +17,13 @@ pub struct Setting {
     pub bond: bool,
 }
 
-/// All settings.
-pub fn all() -> Vec<Setting> {
+/// All settings; `double` is the `mpm-run` built in double precision.
+pub fn all(double: &Path) -> Vec<Setting> {
     let mut list = updates();
     list.extend(cells());
     list.extend(numerics());
     list.extend(options());
+    list.extend(precision(double));
     list
 }
 
@@ -161,4 +164,10 @@ fn options() -> Vec<Setting> {
         }
     }
     list
+}
+
+fn precision(double: &Path) -> Vec<Setting> {
+    bases()
+        .map(|method| setting(with(&method, "f64", &[]).by(double), 6, "precision", true))
+        .into()
 }

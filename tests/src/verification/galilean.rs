@@ -1,4 +1,9 @@
 //! Liquid and walls that all move at one velocity stay as they are, by any update and wall law.
+//!
+//! The speed is a power of two, so that weights times speed are exact and only a step that takes
+//! the velocity itself for a difference drifts. At other speeds f32 rounds every product, and
+//! without friction that adds up: in 12 000 steps (6 us) at 0.37 m/s FLIP drifts by 1e-6 of the
+//! speed, APIC 1e-5, PIC 2e-5; built in double precision, 1e-16.
 
 use super::{Measured, Scene, final_points};
 use crate::case_text::{Body, CaseText};

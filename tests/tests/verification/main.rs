@@ -170,13 +170,7 @@ fn a_common_velocity_changes_nothing() {
         let mut methods = Method::updates();
         methods.push(Method::implicit());
         for method in methods {
-            // Rounding; APIC's adds up without friction, 1e-5 of the speed per microsecond.
-            let tolerance = match (method == Method::apic(), law) {
-                (true, "frictionless") => 5e-5,
-                (true, _) => 5e-6,
-                (false, _) => 1e-6,
-            };
-            assert_within(tolerance, &scene, method, "largest drift");
+            assert_within(1e-6, &scene, method, "largest drift");
         }
     }
 }

@@ -8,10 +8,17 @@ use cli::{Failure, Progress};
 use particle_file::Provenance;
 use run::{End, Request, RunFailure};
 
+/// Which build this is: a run of one precision cannot be continued in the other.
+const VERSION: &str = if cfg!(feature = "double") {
+    concat!(env!("CARGO_PKG_VERSION"), "+double")
+} else {
+    env!("CARGO_PKG_VERSION")
+};
+
 /// Press adhesive into wood: run a case file into a run folder.
 #[derive(Parser, Debug)]
 #[command(
-    version,
+    version = VERSION,
     after_help = "Examples:
   mpm-run pf-implicit.toml --particles bond.mpts -o runs/pf-implicit
   mpm-run pf-xpic.toml --particles bond.mpts --explain
@@ -84,11 +91,7 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         ));
     }
     cli::catch_interrupts()?;
-    let by = Provenance::of_process(
-        env!("CARGO_PKG_NAME"),
-        env!("CARGO_PKG_VERSION"),
-        Vec::new(),
-    );
+    let by = Provenance::of_process(env!("CARGO_PKG_NAME"), VERSION, Vec::new());
     if arguments.resume && !arguments.overwrite && request.has_ended(&folder, &by) {
         cli::note(format!("{} has ended already", folder.display()));
         return Ok(());

@@ -7,6 +7,7 @@ use super::{CLIP, FULL, KAPPA, LONGEST, SLIVER};
 use crate::collide::Obstacle;
 use crate::lanes::Quad;
 use crate::lattice::{EDGE, Lattice};
+use crate::real::Real;
 use crate::tiles::Tile;
 
 /// No cell.
@@ -242,7 +243,7 @@ impl<'a> Cells<'a> {
                     self.on_face(c as usize, a, 0),
                     self.on_face(c as usize, a, 1),
                 );
-                shift.0[a] = (low + part[a] * (high - low)) as f32;
+                shift.0[a] = (low + part[a] * (high - low)) as Real;
             }
         }
         shift

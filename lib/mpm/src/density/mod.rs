@@ -21,6 +21,7 @@ use crate::collide::{Obstacle, move_points};
 use crate::explicit::Explicit;
 use crate::lanes::Quad;
 use crate::lattice::Lattice;
+use crate::real::Real;
 use crate::tiles::Tile;
 use cells::Cells;
 
@@ -88,8 +89,8 @@ impl Explicit {
         }
         let mut tiles = std::mem::take(&mut self.grid.tiles);
         let here = &self.state.displacement;
-        let velocities: Vec<[f32; 3]> = (self.body_velocities(0.0).iter())
-            .map(|v| v.map(|v| v as f32))
+        let velocities: Vec<[Real; 3]> = (self.body_velocities(0.0).iter())
+            .map(|v| v.map(|v| v as Real))
             .collect();
         let bodies = self.obstacles(here, here, &velocities);
         let lattice = &self.grid.lattice;

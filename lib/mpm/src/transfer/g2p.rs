@@ -3,6 +3,7 @@ use std::marker::PhantomData;
 use super::{layers, window};
 use crate::lanes::{Oct, Quad};
 use crate::lattice::HALO;
+use crate::real::Real;
 use crate::settings::VelocityUpdate;
 use crate::shape::{Shape, Weights};
 use crate::simd::Kernel;
@@ -15,7 +16,7 @@ use crate::tiles::Tile;
 pub(crate) struct G2p<'a, S, const D: usize, const AFFINE: bool> {
     pub(crate) tile: &'a mut Tile,
     /// dt over cell, s/m.
-    pub(crate) dt_over_cell: f32,
+    pub(crate) dt_over_cell: Real,
     pub(crate) update: VelocityUpdate,
     pub(crate) shape: PhantomData<S>,
 }
@@ -66,7 +67,7 @@ fn affine<const D: usize, const FMA: bool>(nodes: &[Oct], weights: &Weights, d: 
     };
     for a in 0..4 {
         let arm = [-1.0 - d.0[a], -d.0[a], 1.0 - d.0[a]];
-        let inertia: f32 = (0..3).map(|i| weights.w[i].0[a] * arm[i] * arm[i]).sum();
+        let inertia: Real = (0..3).map(|i| weights.w[i].0[a] * arm[i] * arm[i]).sum();
         for i in 0..3 {
             moments.g[i].0[a] = weights.w[i].0[a] * arm[i] / inertia;
         }
@@ -90,15 +91,17 @@ impl<S: Shape, const D: usize, const AFFINE: bool> Kernel for G2p<'_, S, D, AFFI
             for (to, from) in gradient[p].iter_mut().zip(&field.slope) {
                 *to = low(from);
             }
-            if AFFINE {
-                let affine = affine::<D, FMA>(nodes, &weights, place[p]);
-                for (to, from) in points.affine[p].iter_mut().zip(&affine.slope) {
-                    *to = low(from);
-                }
-            }
             // Lanes 3 and 7 are 1 at every node: the sum of the weights as it was rounded. A
             // velocity that is replaced each step would drift by that rounding.
             let plus = low(&field.value).scaled(1.0 / field.value.0[3]);
+            if AFFINE {
+                let affine = affine::<D, FMA>(nodes, &weights, place[p]);
+                for (to, from) in points.affine[p].iter_mut().zip(&affine.slope) {
+                    // Lane 3 is the sum of the moments, zero but for rounding, which times the
+                    // velocity itself would be a gradient of liquid that moves as one.
+                    *to = low(from).add_scaled::<FMA>(-from.0[3], plus);
+                }
+            }
             let second = match self.update {
                 VelocityUpdate::Flip => high(&field.value),
                 _ => high(&field.value).scaled(1.0 / field.value.0[7]),

@@ -2,6 +2,7 @@ use std::marker::PhantomData;
 
 use super::{Filter, G2p, P2g};
 use crate::material::{Constant, Flow, Segments, Stress};
+use crate::real::Real;
 use crate::settings::{ShapeFunction, VelocityUpdate};
 use crate::shape::{Bspline2, Gimp, Linear, Shape};
 use crate::simd::{Kernel, dispatch};
@@ -11,9 +12,9 @@ use crate::tiles::Tile;
 #[derive(Clone, Copy)]
 pub(crate) struct Kernels {
     /// Points to nodes, with dt over cell.
-    pub(crate) p2g: fn(&mut Tile, f32),
+    pub(crate) p2g: fn(&mut Tile, Real),
     /// Nodes to points, with dt over cell.
-    pub(crate) g2p: fn(&mut Tile, f32, VelocityUpdate),
+    pub(crate) g2p: fn(&mut Tile, Real, VelocityUpdate),
     /// One round of the velocity filter; whether to keep the gathered value.
     pub(crate) filter: fn(&mut Tile, bool),
 }
@@ -73,7 +74,7 @@ pub(crate) enum AnyFlow {
 
 impl AnyFlow {
     /// Volume change, shear rate and stress of a tile's points after a step of `dt`.
-    pub(crate) fn update(&self, tile: &mut Tile, stress: &Stress, dt: f32) {
+    pub(crate) fn update(&self, tile: &mut Tile, stress: &Stress, dt: Real) {
         match self {
             Self::Constant(flow) => dispatch(Update {
                 tile,
@@ -95,7 +96,7 @@ struct Update<'a, F> {
     tile: &'a mut Tile,
     stress: &'a Stress,
     flow: &'a F,
-    dt: f32,
+    dt: Real,
 }
 
 impl<F: Flow> Kernel for Update<'_, F> {

@@ -3,6 +3,7 @@ use std::marker::PhantomData;
 use super::{layers, window};
 use crate::lanes::{Oct, Quad};
 use crate::lattice::HALO;
+use crate::real::Real;
 use crate::shape::{Shape, Weights};
 use crate::simd::Kernel;
 use crate::tiles::Tile;
@@ -12,12 +13,12 @@ use crate::tiles::Tile;
 pub(crate) struct P2g<'a, S, const D: usize, const AFFINE: bool> {
     pub(crate) tile: &'a mut Tile,
     /// dt over cell, s/m.
-    pub(crate) dt_over_cell: f32,
+    pub(crate) dt_over_cell: Real,
     pub(crate) shape: PhantomData<S>,
 }
 
 /// Offsets of the window's nodes from the nearest one.
-const OFFSET: [f32; 3] = [-1.0, 0.0, 1.0];
+const OFFSET: [Real; 3] = [-1.0, 0.0, 1.0];
 
 /// Lanes 0..4 weighted for momentum that varies linearly (APIC), 4..8 for stress.
 #[inline(always)]
@@ -123,8 +124,8 @@ fn wall_sums<const D: usize, const FMA: bool>(
     nodes: &mut [Oct],
     weights: &Weights,
     d: Quad,
-    mass: f32,
-    volume: f32,
+    mass: Real,
+    volume: Real,
 ) {
     let scale = Oct([mass, mass, mass, volume, volume, volume, 0.0, 0.0]);
     let lanes = |node: usize, axis: usize| {

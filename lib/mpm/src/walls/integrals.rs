@@ -4,6 +4,7 @@ use physics::Boundary;
 
 use super::BlockShape;
 use crate::lattice::Lattice;
+use crate::real::Real;
 use crate::settings::ShapeFunction;
 
 /// Integrals over one voxel along one axis.
@@ -11,9 +12,9 @@ use crate::settings::ShapeFunction;
 pub(super) struct Slice {
     pub(super) index: usize,
     /// Of the shape function, of its slope, and of the shape function times position.
-    pub(super) w: f32,
-    pub(super) g: f32,
-    pub(super) m: f32,
+    pub(super) w: Real,
+    pub(super) g: Real,
+    pub(super) m: Real,
 }
 
 /// What is needed to integrate over bodies.
@@ -92,7 +93,7 @@ impl Integrator {
                 let low = (origin + index as f64 * voxel).max(0.0);
                 let high = (origin + (index + 1) as f64 * voxel).min(1.0);
                 if high > low {
-                    let w = (high - low) as f32;
+                    let w = (high - low) as Real;
                     slices.push(Slice {
                         index,
                         w,
@@ -135,9 +136,9 @@ impl Integrator {
                 let (low, high) = (low - node, high - node);
                 slices.push(Slice {
                     index,
-                    w: (self.integral(high) - self.integral(low)) as f32,
-                    g: (sign * (self.value(high) - self.value(low))) as f32,
-                    m: (sign * (self.moment(high) - self.moment(low))) as f32,
+                    w: (self.integral(high) - self.integral(low)) as Real,
+                    g: (sign * (self.value(high) - self.value(low))) as Real,
+                    m: (sign * (self.moment(high) - self.moment(low))) as Real,
                 });
             }
         }
