@@ -33,19 +33,30 @@ fn slope<const AFFINE: bool>(weights: &Weights, node: usize, axis: usize) -> Oct
 }
 
 impl<S: Shape, const D: usize, const AFFINE: bool> Kernel for P2g<'_, S, D, AFFINE> {
+    /// A loop of its own for tiles without a body in reach: the others' extra sums, never taken
+    /// there, would take registers from it.
     #[inline(always)]
     fn run<const FMA: bool>(self) {
+        if self.tile.bodies == 0 {
+            self.sum::<FMA, false>();
+        } else {
+            self.sum::<FMA, true>();
+        }
+    }
+}
+
+impl<S: Shape, const D: usize, const AFFINE: bool> P2g<'_, S, D, AFFINE> {
+    #[inline(always)]
+    fn sum<const FMA: bool, const WALLS: bool>(self) {
         let Tile {
             points,
             local,
             wall_local,
             near_wall,
-            bodies,
             ..
         } = self.tile;
         local.fill(Oct::ZERO);
-        let walls = *bodies != 0;
-        if walls {
+        if WALLS {
             wall_local.fill(Oct::ZERO);
         }
         let n = points.len();
@@ -110,7 +121,7 @@ impl<S: Shape, const D: usize, const AFFINE: bool> Kernel for P2g<'_, S, D, AFFI
                     }
                 }
             }
-            if walls && near_wall[base] {
+            if WALLS && near_wall[base] {
                 let nodes = &mut wall_local[base..base + window(D)];
                 wall_sums::<D, FMA>(nodes, &weights, d, mass, volume);
             }
