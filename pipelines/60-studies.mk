@@ -34,3 +34,11 @@ options: $(BINARIES)
 	@$(CARGO) build --release --quiet -p studies
 	@mkdir -p out/results
 	$(BIN)/stability options $(if $(ONLY),out/results,docs/results) $(ONLY)
+
+# What a scene pays for features it does not use: the committed tree against builds without one
+# feature, made by the patches of pipelines/leave-out. ONLY="gravity sides" measures those.
+.PHONY: leave-out
+leave-out:
+	@$(CARGO) build --release --quiet -p studies
+	@mkdir -p out/results
+	$(BIN)/leave_out pipelines/leave-out $(if $(ONLY),out/results,docs/results) $(ONLY)
