@@ -26,9 +26,9 @@ impl Column {
         body: [OPEN; 2],
     };
 
-    /// Whether the column is solid at the height of the face's centre.
+    /// Whether the column is solid at the height of the face's centre, or bodies touch there.
     pub fn blocked(&self) -> bool {
-        self.distance[0] <= 0.0 && self.distance[1] <= 0.0
+        self.distance[0] + self.distance[1] <= TOUCH
     }
 
     /// Whether the wall below (0) or above (1) belongs to a body, and so exerts friction,
