@@ -8,7 +8,6 @@
 mod aperture;
 mod column;
 mod faces;
-mod narrow;
 
 use physics::Boundary;
 use rayon::prelude::*;
@@ -70,7 +69,6 @@ impl Lattice {
                 }
             });
             self.faces[axis] = faces;
-            self.open_narrow_passages(axis);
         }
     }
 

@@ -14,7 +14,6 @@
 mod couplings;
 mod dofs;
 mod fluxes;
-mod joined;
 mod terms;
 mod viscosity;
 mod walls;
@@ -274,10 +273,10 @@ impl<'a> Operator<'a> {
     }
 
     fn compressibility(&self, stiffness: &[f64]) -> Vec<f64> {
-        (stiffness.iter().enumerate())
-            .map(|(cell, stiffness)| {
-                let volume = (self.dofs.members(cell)).map(|i| f64::from(self.liquid.volume[i]));
-                self.scales.compressibility * volume.sum::<f64>() / stiffness
+        (self.dofs.cells.iter().zip(stiffness))
+            .map(|(&cell, stiffness)| {
+                self.scales.compressibility * f64::from(self.liquid.volume[cell as usize])
+                    / stiffness
             })
             .collect()
     }

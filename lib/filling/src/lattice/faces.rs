@@ -9,11 +9,10 @@ impl Lattice {
     /// Whether the low face along `axis` of a cell carries a velocity of its own.
     ///
     /// The face is probed at the points around its centre (4, in plane strain 2), on both
-    /// sides of its plane. A point is blocked in a solid, or behind a wall that lies strictly
-    /// inside the neighbouring cell nearer to this face than to the opposite one (leak
-    /// stopper: such a wall closes no face by itself). The face is open when no point is blocked.
-    /// Opening it with one of four blocked halves the spread of the flux over places in tubes of
-    /// 6 cells, not in those of 3 and 12.
+    /// sides of its plane. It is open when a point is free: also one whose centre lies on a wall,
+    /// whose open part then has a velocity of its own. A wall that lies strictly inside the
+    /// neighbouring cell nearer to this face than to the opposite one closes it at any point
+    /// (leak stopper: such a wall closes no face by itself).
     pub(super) fn face_state(&self, axis: usize, cell: [usize; 3]) -> BodyId {
         if self.on_side(axis, cell) {
             return SIDE;
@@ -31,7 +30,7 @@ impl Lattice {
         }
         let centre = self.window.face_centre(axis, cell);
         let tangents = self.tangents(axis);
-        let (mut corner_of, mut free) = (OPEN, false);
+        let (mut closing, mut free) = (OPEN, false);
         for corner in 0..1_usize << tangents.len() {
             let mut point = centre;
             for (bit, &t) in tangents.iter().enumerate() {
@@ -41,15 +40,15 @@ impl Lattice {
                     -PROBE
                 };
             }
-            match self.solid_sides(axis, point) {
-                [None, None] => match self.wall_behind(axis, point) {
+            match self.solid_at_plane(axis, point) {
+                Some(body) => closing = body,
+                None => match self.wall_behind(axis, point) {
                     Some(body) => return body,
                     None => free = true,
                 },
-                [Some(body), _] | [None, Some(body)] => corner_of = body,
             }
         }
-        if free { OPEN } else { corner_of }
+        if free { OPEN } else { closing }
     }
 
     /// Whether the face lies on or beyond a symmetry plane.
@@ -93,22 +92,9 @@ impl Lattice {
         Some(first == 1.0)
     }
 
-    /// Whether nothing blocks the passage through a quadrant of a face next to its centre.
-    pub(super) fn quadrant_passes(&self, axis: usize, cell: [usize; 3], quadrant: usize) -> bool {
-        let mut point = self.window.face_centre(axis, cell);
-        for (bit, &t) in self.tangents(axis).iter().enumerate() {
-            point[t] += if quadrant >> bit & 1 == 1 {
-                PROBE
-            } else {
-                -PROBE
-            };
-        }
-        self.solid_sides(axis, point) == [None; 2] && self.wall_behind(axis, point).is_none()
-    }
-
-    /// The bodies just below and above a point of a face plane.
-    fn solid_sides(&self, axis: usize, point: [f64; 3]) -> [Option<BodyId>; 2] {
-        [-PROBE, PROBE].map(|side| {
+    /// The body just above or below a point of a face plane.
+    fn solid_at_plane(&self, axis: usize, point: [f64; 3]) -> Option<BodyId> {
+        [PROBE, -PROBE].into_iter().find_map(|side| {
             let mut probe = point;
             probe[axis] += side;
             self.solids.at(probe)

@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use super::joined::is_small;
 use crate::lattice::Lattice;
 use crate::solids::OPEN;
 
@@ -27,8 +26,6 @@ pub struct Dofs {
     pub faces: Vec<(u8, u32)>,
     /// Cell index of each pressure unknown.
     pub cells: Vec<u32>,
-    /// Pressure unknown and index of each further cell that shares it, by unknown.
-    pub joined: Vec<(u32, u32)>,
 }
 
 /// Liquid in the cells and control volumes of a window.
@@ -121,8 +118,7 @@ impl Dofs {
                     || face_fill(lattice, liquid.phi, axis, cell).0 > WET_FACE)
         };
         let axes = window.domain.axes;
-        // One bit per axis for an active low face, one for a wet cell, one for a small one; rows
-        // are independent.
+        // One bit per axis for an active low face, one for a wet cell; rows are independent.
         let mut flags = vec![0_u8; window.len()];
         flags
             .par_chunks_mut(window.cells[0])
@@ -135,9 +131,8 @@ impl Dofs {
                         for axis in (0..axes).filter(|&a| active(a, cell)) {
                             *flag |= 1 << axis;
                         }
-                        let index = window.index(cell);
-                        if window.in_domain(cell) && wet(index) {
-                            *flag |= if is_small(lattice, index) { 16 } else { 8 };
+                        if window.in_domain(cell) && wet(window.index(cell)) {
+                            *flag |= 8;
                         }
                     }
                 }
@@ -164,39 +159,16 @@ impl Dofs {
         }
         dofs.mirror_faces(lattice);
         for (index, _) in flags.iter().enumerate().filter(|f| *f.1 & 8 != 0) {
-            dofs.number_cell(lattice, index);
-        }
-        for (index, _) in flags.iter().enumerate().filter(|f| *f.1 & 16 != 0) {
-            match dofs.neighbour(lattice, index) {
-                Some(cell) => dofs.joined.push((cell, index as u32)),
-                None => dofs.number_cell(lattice, index),
+            let owns = (0..axes).any(|a| {
+                let face = &dofs.face[a];
+                face[index] != NONE || face[index + window.stride(a)] != NONE
+            });
+            if owns {
+                dofs.cell[index] = dofs.cells.len() as u32;
+                dofs.cells.push(index as u32);
             }
         }
-        for &(cell, index) in &dofs.joined {
-            dofs.cell[index as usize] = cell;
-        }
-        dofs.joined.sort_unstable();
         dofs
-    }
-
-    /// Gives a cell a pressure unknown if a face of it has a velocity unknown.
-    fn number_cell(&mut self, lattice: &Lattice, index: usize) {
-        let owns = (0..lattice.window.domain.axes).any(|a| {
-            let face = &self.face[a];
-            face[index] != NONE || face[index + lattice.window.stride(a)] != NONE
-        });
-        if owns {
-            self.cell[index] = self.cells.len() as u32;
-            self.cells.push(index as u32);
-        }
-    }
-
-    /// Indices of the cells that have pressure unknown `cell`.
-    pub fn members(&self, cell: usize) -> impl Iterator<Item = usize> {
-        let from = self.joined.partition_point(|j| (j.0 as usize) < cell);
-        let joined = self.joined[from..].iter();
-        let joined = joined.take_while(move |j| j.0 as usize == cell);
-        std::iter::once(self.cells[cell] as usize).chain(joined.map(|j| j.1 as usize))
     }
 
     /// Gives images beyond periodic sides the number of their face.

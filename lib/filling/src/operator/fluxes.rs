@@ -7,12 +7,7 @@ impl Operator<'_> {
     /// Calls `each(velocity, area)` for every velocity in the liquid flux out of pressure
     /// unknown `cell`, Phi = sum area x velocity, weighted by its liquid fraction.
     pub(super) fn flux(&self, cell: usize, mut each: impl FnMut(Velocity, f64)) {
-        for index in self.dofs.members(cell) {
-            self.flux_of(index, &mut each);
-        }
-    }
-
-    fn flux_of(&self, index: usize, each: &mut impl FnMut(Velocity, f64)) {
+        let index = self.dofs.cells[cell] as usize;
         let window = &self.lattice.window;
         let fraction = f64::from(self.liquid.fraction[index]);
         for axis in 0..window.domain.axes {
