@@ -8,6 +8,7 @@
 mod aperture;
 mod column;
 mod faces;
+mod rooms;
 
 use physics::Boundary;
 use rayon::prelude::*;

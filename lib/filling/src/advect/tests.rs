@@ -79,8 +79,8 @@ impl Channel {
             }
             let extent = |t: usize| {
                 let x = centre[t + 1] - self.low[t];
-                let down = if x <= 1.0 + 1e-9 { x } else { 0.5 };
-                let up = if self.width - x <= 1.0 + 1e-9 {
+                let down = if x < 1.0 - 1e-9 { x } else { 0.5 };
+                let up = if self.width - x < 1.0 - 1e-9 {
                     self.width - x
                 } else {
                     0.5

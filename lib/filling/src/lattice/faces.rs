@@ -9,8 +9,8 @@ impl Lattice {
     /// Whether the low face along `axis` of a cell carries a velocity of its own.
     ///
     /// The face is probed at the points around its centre (4, in plane strain 2), on both
-    /// sides of its plane. It is open when a point is free: also one whose centre lies on a wall,
-    /// whose open part then has a velocity of its own. A wall that lies strictly inside the
+    /// sides of its plane. It is open when a point is free; where others are not, because its
+    /// centre lies on a wall, only between cells that are one room each. A wall that lies strictly inside the
     /// neighbouring cell nearer to this face than to the opposite one closes it at any point
     /// (leak stopper: such a wall closes no face by itself).
     pub(super) fn face_state(&self, axis: usize, cell: [usize; 3]) -> BodyId {
@@ -48,7 +48,16 @@ impl Lattice {
                 },
             }
         }
-        if free { OPEN } else { closing }
+        let below = |mut cell: [usize; 3]| {
+            cell[axis] = cell[axis].checked_sub(1)?;
+            Some(cell)
+        };
+        let one_room = |cell| self.is_one_room(cell);
+        if free && (closing == OPEN || one_room(cell) && below(cell).is_none_or(one_room)) {
+            OPEN
+        } else {
+            closing
+        }
     }
 
     /// Whether the face lies on or beyond a symmetry plane.
