@@ -158,7 +158,7 @@ impl Lattice {
     /// Who takes the open quadrant of a closed face: the open faces that it borders on, or, if
     /// there is none, those that its neighbours in the face border on. Their number, and how
     /// many of them are the face along `asking` (a tangential direction, above when `true`).
-    pub(super) fn receivers(
+    fn receivers(
         &self,
         axis: usize,
         closed: [usize; 3],
@@ -210,12 +210,7 @@ impl Lattice {
     }
 
     /// Open fractions of the sub-cells below and above a quadrant.
-    pub(super) fn quadrant_sides(
-        &self,
-        axis: usize,
-        cell: [usize; 3],
-        quadrant: usize,
-    ) -> [f32; 2] {
+    fn quadrant_sides(&self, axis: usize, cell: [usize; 3], quadrant: usize) -> [f32; 2] {
         let window = &self.window;
         let mut sub = window.first_sub(cell);
         for (bit, &t) in self.tangents(axis).iter().enumerate() {
@@ -283,7 +278,7 @@ impl Lattice {
     }
 
     /// The neighbouring cell along `axis`, above when `up`, if it is in the window.
-    pub(crate) fn shifted(
+    pub(super) fn shifted(
         &self,
         mut cell: [usize; 3],
         axis: usize,

@@ -52,17 +52,16 @@ fn couette(n: f64, offset: f64, slip: f64) -> f64 {
 }
 
 /// The wall law is made for pressure-driven flow; what it does to shear-driven flow is an
-/// error of order 2/(3 n^2) with walls on faces, and more in between.
+/// error of order 2/(3 n^2).
 #[test]
 fn couette_slip_velocity() {
-    for (n, tolerance) in [(3.0, 0.08), (6.0, 0.02), (12.0, 0.005)] {
+    for (n, tolerance) in [(3.0, 0.09), (6.0, 0.02), (12.0, 0.005)] {
         for slip in [0.1, 1.0] {
-            let aligned = couette(n, 0.0, slip) - 1.0;
             let error = worst((0..4).map(|i| couette(n, 0.25 * f64::from(i), slip) - 1.0));
             println!(
-                "Couette, {n} cells, influence length {slip}: slip velocity error {aligned:+.4} with walls on faces, {error:+.4} at worst"
+                "Couette, {n} cells, influence length {slip}: slip velocity error {error:+.4} at worst"
             );
-            assert!(aligned.abs() < tolerance, "{n} cells: {aligned}");
+            assert!(error.abs() < tolerance, "{n} cells: {error}");
         }
     }
 }
@@ -107,18 +106,16 @@ fn slit_pressure(n: usize, length: f64, offset: f64) -> f64 {
 
 #[test]
 fn pressure_in_front_of_a_slit() {
-    for (n, tolerance) in [(3, 0.05), (6, 0.02), (12, 0.01)] {
+    for (n, tolerance) in [(3, 0.02), (6, 0.01), (12, 0.01)] {
         for offset in [0.0, 0.25, 0.5] {
             let found = slit_pressure(n, 3.5, offset);
             println!(
                 "slit of {n} cells, offset {offset}: pressure {found:.3}, finite elements 3.843"
             );
-            if offset == 0.0 {
-                assert!(
-                    (found / 3.843 - 1.0).abs() < tolerance,
-                    "{n} cells: {found}"
-                );
-            }
+            assert!(
+                (found / 3.843 - 1.0).abs() < tolerance,
+                "{n} cells, offset {offset}: {found}"
+            );
         }
     }
 }

@@ -22,7 +22,7 @@ fn plane_channel(n: f64, offset: f64, slip: f64) -> f64 {
 
 #[test]
 fn plane_channel_flux_at_every_offset() {
-    for (n, tolerance) in [(3.0, 0.08), (6.0, 0.03), (12.0, 0.01)] {
+    for (n, tolerance) in [(3.0, 0.01), (6.0, 0.001), (12.0, 0.001)] {
         for slip in [0.0, 0.01, 1.0] {
             let error = worst((0..20).map(|i| plane_channel(n, 0.05 * f64::from(i), slip) - 1.0));
             println!("channel of {n} cells, influence length {slip}: flux error {error:+.4}");
@@ -31,8 +31,8 @@ fn plane_channel_flux_at_every_offset() {
     }
 }
 
-/// Passages of one and two voxels of half a cell, wherever they lie on the grid: they would be
-/// closed where both walls go through the centres of faces.
+/// Passages of one and two voxels of half a cell, also where their walls go through the centres
+/// of faces.
 #[test]
 fn passages_of_one_and_two_voxels() {
     for (width, offsets, tolerance) in [(1.0, [0.0, 0.5], 0.01), (0.5, [0.0, 0.5], 0.01)] {
@@ -43,7 +43,7 @@ fn passages_of_one_and_two_voxels() {
         }
     }
     // The walls one cell apart are exact; what is left comes from the other two.
-    for (offset, tolerance) in [([0.0; 2], 0.09), ([0.5, 0.0], 0.21), ([0.5, 0.5], 0.06)] {
+    for (offset, tolerance) in [([0.0; 2], 0.09), ([0.5, 0.0], 0.01), ([0.5, 0.5], 0.07)] {
         let error = duct(1.0, 4.0, offset) - 1.0;
         println!("duct of 1 x 4 cells, walls off by {offset:?}: flux error {error:+.4}");
         assert!(error.abs() < tolerance, "{offset:?}: {error}");
@@ -60,35 +60,37 @@ fn a_wall_a_quarter_cell_off_is_seen() {
 #[test]
 fn rectangular_ducts() {
     for (a, b, tolerance) in [
-        (6.0, 6.0, 0.03),
-        (3.0, 3.0, 0.08),
-        (3.0, 12.0, 0.05),
-        (12.0, 12.0, 0.01),
+        (6.0, 6.0, 0.01),
+        (3.0, 3.0, 0.05),
+        (3.0, 12.0, 0.01),
+        (12.0, 12.0, 0.005),
     ] {
-        let ratio = duct(a, b, [0.0; 2]);
-        println!(
-            "duct {a} x {b} cells, walls on faces: flux error {:+.4}",
-            ratio - 1.0
-        );
-        assert!((ratio - 1.0).abs() < tolerance, "{a} x {b}: {ratio}");
-        for off in [0.25, 0.5, 0.75] {
-            let ratio = duct(a, b, [off, 0.5 * off]);
-            println!("  walls off by {off}, {}: {:+.4}", 0.5 * off, ratio - 1.0);
+        for offset in [[0.0, 0.0], [0.25, 0.125], [0.5, 0.25], [0.75, 0.375]] {
+            let error = duct(a, b, offset) - 1.0;
+            println!("duct {a} x {b} cells, walls off by {offset:?}: flux error {error:+.4}");
+            assert!(error.abs() < tolerance, "{a} x {b}, {offset:?}: {error}");
         }
     }
 }
 
-/// Tubes of voxels against finite differences in the same staircase. Where the steps lie half a
-/// cell off, single tubes are up to a quarter off, with either sign; over all places the mean
-/// counts, because the lumens of wood lie anywhere.
+/// Tubes of voxels against finite differences in the same staircase, at sixteen places.
 #[test]
 fn round_tubes_of_voxels() {
     let quarters = [0.0, 0.25, 0.5, 0.75];
-    for (voxel, rule, tolerance) in [
-        (1.0, PathRule::Combined, [0.05, 0.07, 0.05]),
-        (0.5, PathRule::Normal, [0.1, 0.05, 0.05]),
+    // Of the mean over the places and of the worst one.
+    for (voxel, rule, tolerances) in [
+        (
+            1.0,
+            PathRule::Combined,
+            [[0.03, 0.06], [0.05, 0.07], [0.04, 0.05]],
+        ),
+        (
+            0.5,
+            PathRule::Normal,
+            [[0.03, 0.12], [0.02, 0.03], [0.01, 0.03]],
+        ),
     ] {
-        for (radius, tolerance) in [1.5, 3.0, 6.0].into_iter().zip(tolerance) {
+        for (radius, [tolerance, limit]) in [1.5, 3.0, 6.0].into_iter().zip(tolerances) {
             let errors: Vec<f64> = (quarters.iter())
                 .flat_map(|&y| quarters.map(|z| [y, z]))
                 .map(|shift| tube_of_voxels(radius, shift, voxel, rule) - 1.0)
@@ -101,7 +103,7 @@ fn round_tubes_of_voxels() {
                 "tube of radius {radius} cells, voxel {voxel} cells: flux error {mean:+.3} +- {spread:.3} over {n} places, {largest:+.3} at worst"
             );
             assert!(
-                mean.abs() < tolerance && largest.abs() < 0.5,
+                mean.abs() < tolerance && largest.abs() < limit,
                 "{mean}, {largest}"
             );
         }
