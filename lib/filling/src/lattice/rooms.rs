@@ -32,22 +32,27 @@ impl Lattice {
         }
     }
 
-    /// Whether no wall lies on the centre of the face between sub-cell number `bit` of a cell and
-    /// the other one along `axis`.
+    /// Whether sub-cell number `bit` of a cell and the other one along `axis` meet in the open at
+    /// a corner of the face between them: walls are at least as thick as a sub-cell.
     fn passes(&self, cell: [usize; 3], bit: usize, axis: usize) -> bool {
-        let mut point = self.window.corner(cell);
-        for (a, x) in point.iter_mut().enumerate() {
-            let quarter = if a < self.window.domain.axes {
-                0.25 + 0.5 * (bit >> a & 1) as f64
-            } else {
-                0.5
-            };
-            *x += if a == axis { 0.5 } else { quarter };
-        }
-        [PROBE, -PROBE].into_iter().all(|side| {
-            let mut probe = point;
-            probe[axis] += side;
-            self.solids.at(probe).is_none()
+        let w = &self.window;
+        let corner = w.corner(cell);
+        (0..8_usize).any(|end| {
+            let point = std::array::from_fn(|a| {
+                let half = 0.5 * (bit >> a & 1) as f64;
+                corner[a]
+                    + match (a == axis, a < w.domain.axes, end >> a & 1) {
+                        (true, ..) => 0.5,
+                        (_, false, _) => 0.5,
+                        (.., 0) => half + PROBE,
+                        _ => half + 0.5 - PROBE,
+                    }
+            });
+            [PROBE, -PROBE].into_iter().all(|side| {
+                let mut probe: [f64; 3] = point;
+                probe[axis] += side;
+                self.solids.at(probe).is_none()
+            })
         })
     }
 }
