@@ -49,8 +49,9 @@ pub(crate) struct State {
     pub(crate) travel_m: f64,
     /// Displacement of each body, m.
     pub(crate) displacement: Vec<[f64; 3]>,
-    /// Largest step now, s.
-    pub(crate) dt_s: f64,
+    /// Largest stable step now, s; the Courant number is not in it, because a run may go on from
+    /// a saved state at another one.
+    pub(crate) limit_s: f64,
     pub(crate) lost: u64,
     pub(crate) corrections: Corrections,
 }
@@ -128,7 +129,7 @@ impl Explicit {
                 time_s: 0.0,
                 travel_m: 0.0,
                 displacement: vec![[0.0; 3]; scene.bodies.len()],
-                dt_s: plan.dt_s,
+                limit_s: plan.acoustic_s.min(plan.viscous_s),
                 lost: 0,
                 corrections: Corrections::default(),
             },

@@ -42,7 +42,7 @@ impl Explicit {
         }
         let state = &self.state;
         let control = self.control.as_ref().map_or([0.0; 3], |c| c.state());
-        let mut clock = vec![state.time_s, state.travel_m, state.dt_s];
+        let mut clock = vec![state.time_s, state.travel_m, state.limit_s];
         clock.extend(control);
         let corrections = state.corrections;
         let counts = [
@@ -89,7 +89,7 @@ impl Explicit {
             step: count(0),
             time_s: clock[0],
             travel_m: clock[1],
-            dt_s: clock[2],
+            limit_s: clock[2],
             displacement: displacement
                 .chunks_exact(3)
                 .map(|d| [d[0], d[1], d[2]])

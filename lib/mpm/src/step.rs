@@ -55,7 +55,7 @@ impl Explicit {
         if limit.travel_m <= 0.0 {
             speed = 0.0;
         }
-        let mut dt = self.state.dt_s.min(limit.time_s);
+        let mut dt = (self.settings.cfl * self.state.limit_s).min(limit.time_s);
         if speed > 0.0 {
             dt = dt.min(limit.travel_m / speed);
         }
@@ -287,7 +287,7 @@ impl Explicit {
             }
         }
         let acoustic = acoustic_limit(&self.scene, fastest.sqrt(), f64::from(least));
-        self.state.dt_s = self.settings.cfl * acoustic.min(self.plan.viscous_s);
+        self.state.limit_s = acoustic.min(self.plan.viscous_s);
         if let Some(projection) = &mut self.projection {
             projection.speed = fastest.sqrt();
         }

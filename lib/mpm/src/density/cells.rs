@@ -42,8 +42,6 @@ pub(super) struct Cells<'a> {
     /// Index in `list` of every cell of the window.
     index: Vec<u32>,
     pub(super) list: Vec<Cell>,
-    /// Brings the longest displacement to its limit.
-    scale: f64,
 }
 
 impl<'a> Cells<'a> {
@@ -56,7 +54,6 @@ impl<'a> Cells<'a> {
             dims,
             index: vec![NONE; dims.iter().product()],
             list: Vec::new(),
-            scale: 1.0,
         };
         cells.deposit(tiles, bodies);
         cells.link(bodies);
@@ -228,7 +225,7 @@ impl<'a> Cells<'a> {
         } else {
             self.list[next as usize].psi
         };
-        let outward = self.scale * (cell.psi - psi);
+        let outward = (cell.psi - psi).clamp(-LONGEST, LONGEST);
         if side == 0 { -outward } else { outward }
     }
 
@@ -252,13 +249,6 @@ impl<'a> Cells<'a> {
     /// Solves for the displacement.
     pub(super) fn solve(&mut self) {
         super::solve::potential(&mut self.list);
-        let longest = (0..self.list.len())
-            .flat_map(|c| (0..6).map(move |f| (c, f)))
-            .map(|(c, f)| self.on_face(c, f / 2, f % 2).abs())
-            .fold(0.0, f64::max);
-        if longest > LONGEST {
-            self.scale = LONGEST / longest;
-        }
     }
 }
 
