@@ -8,7 +8,7 @@ use studies::leave_out::{CONTROL, FEATURES, Feature, Measured, Row, instructions
 use studies::study::origin;
 
 /// Pairs of runs per feature.
-const PAIRS: usize = 31;
+const PAIRS: usize = 11;
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
