@@ -157,8 +157,9 @@ fn advice(out: &mut String, rows: &[Row]) {
 /// What the tables say, in words.
 const ADVICE: &str = "\
 - **Clamp pressure and filling**: the implicit scheme with two voxels a cell (6 cells in a 17.4 um lumen), Courant number
-  0.5 and tolerance 1e-3: 2 % in the slit, about 10 % in a real bond line, whose narrow passages have fewer cells. One voxel a
-  cell (12) brings 1 % for ten times the time. A smaller tolerance or Courant number gains nothing.
+  0.5 and tolerance 1e-3: 2 % in the slit; in the small bond line here, whose passages have fewer cells, 20 % of the
+  pressure and 0.2 % of WP (in a crop of real wood 6 and 0.4 %, README.md). One voxel a cell (12) brings 1 % for ten
+  times the time. A smaller tolerance or Courant number gains nothing.
 - **The explicit scheme as in the paper** gives WP and the course of a flow, not pressures: each point's own J locks the
   liquid, and the walls lie where the nodes are. Finer cells help slowly. PIC damps viscous flow away; the other updates
   differ less from each other than from the truth.
