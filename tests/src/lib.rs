@@ -5,6 +5,7 @@
 pub mod case_text;
 pub mod closed_forms;
 pub mod leave_out;
+pub mod load_control;
 pub mod method;
 pub mod outputs;
 pub mod stability;

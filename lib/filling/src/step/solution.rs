@@ -207,6 +207,11 @@ impl Implicit {
         let force = limit * self.area / self.units.force();
         let mut bodies = self.drive.velocities();
         let load = system.load(clamped, force);
+        if !load.is_felt() {
+            // No liquid touches the body: at any speed it stays below its limit.
+            self.drive.follow(f64::INFINITY);
+            return Ok(false);
+        }
         bodies[clamped] = [0.0; 3];
         system.steer(&bodies);
         let mut speed = self.drive.speed;
