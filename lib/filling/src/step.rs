@@ -29,9 +29,10 @@ use units::Units;
 /// A step whose solved speeds overshoot its CFL number by more than this factor is taken again; up to
 /// it, what was solved is followed for the shorter time.
 const OVERSHOOT: f64 = 1.3;
-/// Cells by which a body may end up off the place, in the middle of the step, that its velocities
-/// were solved for: the speed under load control is known only then.
-const MISPLACED: f64 = 0.1;
+/// Cells by which the middle of a body's way may lie off the place that the step was solved for: its
+/// speed under load control is known only then. With a tenth of a cell a plate that is about to
+/// touch liquid can be held back before it does, step after step.
+const MISPLACED: f64 = 0.02;
 /// Part of the face velocities, the fastest, that the CFL number leaves out: jets through holes
 /// of a voxel must not set the time step of the whole bond. They cross [`JET_CFL`] cells at most.
 const JETS: f64 = 1e-3;
@@ -41,7 +42,7 @@ const JET_CFL: f64 = 1.5;
 /// from 0.3 on; below, the limit would only damp flows followed in many short steps.
 const THIN: f64 = 0.1;
 /// Attempts at a step of acceptable length.
-const ATTEMPTS: usize = 8;
+const ATTEMPTS: usize = 12;
 
 /// The implicit scheme on a scene: a staggered, coupled pressure-viscosity solve per step with
 /// the particles as markers.

@@ -31,8 +31,11 @@ pub struct Row {
     pub viscosity: f64,
     /// By each of [`COURANT`].
     pub courses: [Course; 2],
-    /// Largest difference of the gap from that at the small Courant number, at [`AT`], relative.
+    /// Largest difference of the way to go from that at the small Courant number, at [`AT`],
+    /// relative.
     pub difference: f64,
+    /// The same relative to the distance between the plates.
+    pub thickness: f64,
 }
 
 /// What a run did.
@@ -125,16 +128,19 @@ pub fn row(shape: Shape, pressure: f64, viscosity: f64, folder: &Path) -> Result
     };
     let courses = [course(COURANT[0])?, course(COURANT[1])?];
     let way = shape.travel * CELL;
-    let differences = AT.map(|part| {
-        let fine = courses[1].time((1.0 - part) * way)?;
-        Some((courses[0].travel(fine) / way - (1.0 - part)).abs() / part)
-    });
-    let most = |most: f64, d: Option<f64>| most.max(d.unwrap_or(f64::NAN));
+    let mut worst = [0.0_f64; 2];
+    for left in AT.map(|part| part * way) {
+        let fine = courses[1].time(way - left).ok_or("it did not close")?;
+        let off = (way - left - courses[0].travel(fine)).abs();
+        let between = shape.gap() - (way - left);
+        worst = [worst[0].max(off / left), worst[1].max(off / between)];
+    }
     Ok(Row {
         shape,
         pressure,
         viscosity,
-        difference: differences.into_iter().fold(0.0, most),
+        difference: worst[0],
+        thickness: worst[1],
         courses,
     })
 }
@@ -161,15 +167,15 @@ pub fn rows(only: &[&str], folder: &Path) -> Result<Vec<Row>, String> {
 }
 
 /// Pairs of rows that differ in one step of pressure or viscosity and of which the easier press
-/// closes later by more than `margin` of its time.
-pub fn out_of_order(rows: &[Row], margin: f64) -> Vec<[&Row; 2]> {
+/// closes later.
+pub fn out_of_order(rows: &[Row]) -> Vec<[&Row; 2]> {
     let mut found = Vec::new();
     for a in rows {
         for b in rows.iter().filter(|b| b.shape.name == a.shape.name) {
             let harder = b.pressure <= a.pressure && b.viscosity >= a.viscosity;
             for course in 0..COURANT.len() {
                 let (early, late) = (&a.courses[course], &b.courses[course]);
-                if harder && early.closed_s > late.closed_s * (1.0 + margin) {
+                if harder && early.closed_s > late.closed_s {
                     found.push([a, b]);
                 }
             }

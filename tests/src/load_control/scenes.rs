@@ -100,6 +100,16 @@ pub const SHAPES: [Shape; 8] = [
 ];
 
 impl Shape {
+    /// Distance between the plates at the start, m.
+    pub fn gap(&self) -> f64 {
+        (self.slab + self.air) * CELL
+    }
+
+    /// Whether the upper plate touches the liquid from the start.
+    pub fn touches(&self) -> bool {
+        self.air == 0.0
+    }
+
     /// The case for a liquid of `viscosity` (Pa s) under a limit of `pressure` (Pa).
     pub fn case(&self, pressure: f64, viscosity: f64) -> CaseText {
         let [deep, wet] = self.depth;
