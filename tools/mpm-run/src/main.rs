@@ -92,10 +92,6 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     }
     cli::catch_interrupts()?;
     let by = Provenance::of_process(env!("CARGO_PKG_NAME"), VERSION, Vec::new());
-    if arguments.resume && !arguments.overwrite && request.has_ended(&folder, &by) {
-        cli::note(format!("{} has ended already", folder.display()));
-        return Ok(());
-    }
     let mut progress = Progress::new(&folder.display().to_string());
     let ended = request.execute(
         &folder,
@@ -106,9 +102,13 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         by,
         &cli::interrupted,
         &mut |fraction, state| progress.update(fraction, || state),
+        &|warning| cli::warn(warning),
     );
     progress.finish();
-    let summary = ended.map_err(failure)?;
+    let Some(summary) = ended.map_err(failure)? else {
+        cli::note(format!("{} has ended already", folder.display()));
+        return Ok(());
+    };
     cli::note(summary.sentence());
     match summary.end {
         End::Interrupted => Err(Failure::new(
