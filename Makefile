@@ -9,6 +9,7 @@
 #   make verify                   long studies: both schemes against closed forms
 #   make tradeoff stability options   error against run time; extreme cases; explicit options
 #   make leave-out                what a scene pays for features it does not use
+#   make crash                    runs killed at every write, continued: all end the same
 #   make bench                    speed of the kernels and of the linear solver
 #   make figures man install clean help
 
@@ -44,7 +45,7 @@ include pipelines/60-studies.mk
 
 .PHONY: help
 help:
-	@sed -n '3,14s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,15s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

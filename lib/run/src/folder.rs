@@ -62,11 +62,6 @@ impl RunFolder {
     /// # Errors
     /// What is no folder, or is held by another run.
     pub(crate) fn find(path: &Path, by: &Provenance) -> Result<Option<Self>, RunFailure> {
-        if path.as_os_str().is_empty() {
-            return Err(RunFailure::Usage(
-                "the name of the run folder is empty: -o RUNDIR is needed".into(),
-            ));
-        }
         match fs::metadata(path) {
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(e) => return Err(RunError::write(path)(e).into()),
