@@ -103,6 +103,7 @@ fn clear(folder: &RunFolder, by: &Provenance) -> Result<(), RunFailure> {
         })?;
     }
     prove_snapshots(folder, 0, by)?;
+    folder.check_writable()?;
     for name in [FINAL, CHECKPOINT, SUMMARY, HISTORY] {
         folder.remove(name)?;
     }

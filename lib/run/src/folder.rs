@@ -1,18 +1,16 @@
 //! The run folder: marked as one, held by one run at a time, written file by file.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, BufWriter, Read, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use particle_file::Provenance;
 use same_file::Handle;
-use serde::Deserialize;
 
 use crate::drive::RunError;
+use crate::mark::{self, MARKER};
 use crate::request::RunFailure;
 
-/// The mark: what the folder is, and the file whose lock a run holds.
-pub(crate) const MARKER: &str = "bondline-run.toml";
 /// The state a run ended with; once it is there, the run has ended.
 pub(crate) const FINAL: &str = "final.mpts";
 /// What a run continues from.
@@ -27,24 +25,6 @@ pub(crate) const RESOLVED: &str = "resolved.toml";
 pub(crate) const SNAPSHOTS: &str = "snapshots";
 /// A file on its way to one of the names above, in the same folder as that.
 pub(crate) const ASIDE: &str = ".mpm-run.tmp";
-
-/// Layout of a run folder.
-const FORMAT: u32 = 1;
-
-/// Content of [`MARKER`].
-#[derive(Deserialize)]
-struct Mark {
-    format: u32,
-    tool: String,
-}
-
-fn mark(by: &Provenance) -> String {
-    format!(
-        "# A run folder: {} replaces its own files here and leaves all others alone.\n\
-         format = {FORMAT}\ntool = \"{}\"\nversion = \"{}\"\n",
-        by.tool, by.tool, by.version
-    )
-}
 
 /// A run folder held by this process, which no other run can hold at the same time.
 #[derive(Debug)]
@@ -110,7 +90,7 @@ impl RunFolder {
     fn hold(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
         let place = path.join(MARKER);
         if fs::symlink_metadata(&place).is_ok_and(|found| !found.is_file()) {
-            return Err(not_a_mark(&place));
+            return Err(mark::unknown(&place));
         }
         let open = File::options()
             .read(true)
@@ -129,7 +109,7 @@ impl RunFolder {
             }
             Err(TryLockError::Error(error)) => Some(error),
         };
-        complete(&mut marker, &mark(by), &by.tool, &place)?;
+        mark::complete(&mut marker, by, &place)?;
         sync_folder(path).map_err(RunError::write(path))?;
         Ok(Self {
             path: path.to_owned(),
@@ -169,12 +149,10 @@ impl RunFolder {
         let path = self.place(name);
         let within = path.parent().unwrap_or(&self.path);
         let aside = within.join(ASIDE);
+        let place = self.place(MARKER);
+        is_still(&self.marker, &place).map_err(RunError::write(&place))?;
         // A new file, so that nothing is written through a link.
-        let create = || {
-            self.check_held()?;
-            File::options().write(true).create_new(true).open(&aside)
-        };
-        let file = create().map_err(RunError::write(&path))?;
+        let file = File::create_new(&aside).map_err(RunError::write(&path))?;
         let write = || {
             let mut out = BufWriter::with_capacity(1 << 20, file);
             body(&mut out)?;
@@ -209,6 +187,21 @@ impl RunFolder {
         }
     }
 
+    /// Fails where nothing can be written, before anything is removed to make room for it.
+    ///
+    /// # Errors
+    /// The folder and the system's reason.
+    pub(crate) fn check_writable(&self) -> Result<(), RunError> {
+        for within in [self.path.clone(), self.place(SNAPSHOTS)] {
+            let aside = within.join(ASIDE);
+            match File::create_new(&aside).and_then(|_| fs::remove_file(&aside)) {
+                Err(e) if e.kind() == io::ErrorKind::NotFound => {}
+                tried => tried.map_err(RunError::write(&within))?,
+            }
+        }
+        Ok(())
+    }
+
     /// Makes the folder of the snapshots, in a run folder that must still be there.
     ///
     /// # Errors
@@ -221,45 +214,16 @@ impl RunFolder {
         }
         .map_err(RunError::write(&path))
     }
-
-    /// Fails when the folder was removed or replaced behind the run's back.
-    fn check_held(&self) -> io::Result<()> {
-        let ours = Handle::from_file(self.marker.try_clone()?)?;
-        if Handle::from_path(self.place(MARKER)).is_ok_and(|there| there == ours) {
-            return Ok(());
-        }
-        Err(io::Error::other(
-            "the run folder was removed or replaced while the run was writing into it",
-        ))
-    }
 }
 
-/// Reads the mark; an empty one, which a kill or a user may leave, is filled in.
-fn complete(marker: &mut File, wanted: &str, tool: &str, place: &Path) -> Result<(), RunFailure> {
-    let mut found = Vec::new();
-    let read = (&*marker).take(1 << 12).read_to_end(&mut found);
-    read.map_err(RunError::write(place))?;
-    if let Some(rest) = wanted.as_bytes().strip_prefix(found.as_slice()) {
-        if !rest.is_empty() {
-            let write = marker.write_all(rest).and_then(|()| marker.sync_all());
-            write.map_err(RunError::write(place))?;
-        }
+/// Fails when the open `file` at `path` was removed or replaced behind the run's back.
+pub(crate) fn is_still(file: &File, path: &Path) -> io::Result<()> {
+    let ours = Handle::from_file(file.try_clone()?)?;
+    if Handle::from_path(path).is_ok_and(|there| there == ours) {
         return Ok(());
     }
-    let known = (str::from_utf8(&found).ok())
-        .and_then(|text| toml::from_str::<Mark>(text).ok())
-        .is_some_and(|mark| mark.tool == tool && mark.format == FORMAT);
-    if known {
-        Ok(())
-    } else {
-        Err(not_a_mark(place))
-    }
-}
-
-fn not_a_mark(place: &Path) -> RunFailure {
-    RunFailure::Usage(format!(
-        "'{}' is not the mark of a run folder that this version knows: name another folder",
-        place.display()
+    Err(io::Error::other(
+        "it was removed or replaced while the run was on",
     ))
 }
 
@@ -281,7 +245,7 @@ fn sync_folder(path: &Path) -> io::Result<()> {
 pub(crate) mod tests {
     use super::*;
 
-    fn by(version: &str) -> Provenance {
+    pub(crate) fn by(version: &str) -> Provenance {
         Provenance {
             tool: "mpm-run".into(),
             version: version.into(),
@@ -308,21 +272,7 @@ pub(crate) mod tests {
             assert!(said.contains("another run is writing"), "{said}");
         }
         drop(first);
-        let text = fs::read_to_string(place.path().join(MARKER)).unwrap();
         assert!(RunFolder::find(place.path(), &by("2")).unwrap().is_some());
-        // A kill while it was written, or a user who vouches for an old run folder.
-        for cut in [0, 10, text.len() - 1] {
-            fs::write(place.path().join(MARKER), &text[..cut]).unwrap();
-            assert!(RunFolder::find(place.path(), &by("1")).unwrap().is_some());
-            assert_eq!(fs::read_to_string(place.path().join(MARKER)).unwrap(), text);
-        }
-        for other in ["[grid]\n", &text.replace("= 1", "= 2"), "\u{0}"] {
-            fs::write(place.path().join(MARKER), other).unwrap();
-            let said = RunFolder::find(place.path(), &by("1"))
-                .unwrap_err()
-                .to_string();
-            assert!(said.contains("not the mark"), "{said}");
-        }
     }
 
     #[test]
@@ -332,7 +282,10 @@ pub(crate) mod tests {
         fs::remove_file(place.path().join(MARKER)).unwrap();
         fs::write(place.path().join(MARKER), "").unwrap();
         let said = folder.write_text(SUMMARY, "2").unwrap_err().to_string();
-        assert!(said.contains("removed or replaced"), "{said}");
+        assert!(
+            said.contains("bondline-run.toml: it was removed or replaced"),
+            "{said}"
+        );
         assert_eq!(fs::read(place.path().join(SUMMARY)).unwrap(), b"1");
         assert!(!is_there(&place.path().join(ASIDE)));
     }

@@ -8,7 +8,7 @@ use physics::{Diagnostics, StepReport};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::drive::RunError;
-use crate::folder::{HISTORY, RunFolder};
+use crate::folder::{HISTORY, RunFolder, is_still};
 use crate::request::RunFailure;
 
 /// The columns, contract first, then what the two schemes add.
@@ -86,9 +86,13 @@ impl History {
     /// Brings all rows to the disk and says how far they go.
     ///
     /// # Errors
-    /// The file and the system's reason.
+    /// The file and the system's reason; also where the rows went into a file that is no longer there.
     pub(crate) fn sync(&self) -> Result<Mark, RunError> {
-        self.file.sync_data().map_err(RunError::write(&self.path))?;
+        let sync = || {
+            self.file.sync_data()?;
+            is_still(&self.file, &self.path)
+        };
+        sync().map_err(RunError::write(&self.path))?;
         Ok(Mark {
             bytes: self.bytes,
             hash: self.hash.digest(),
@@ -188,6 +192,17 @@ mod tests {
         let steps: Vec<_> = rows.iter().map(|row| row[0]).collect();
         assert_eq!(steps, ["step", "1", "12", "13"]);
         assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{text}");
+    }
+
+    /// 314e630 went on and ended well, without a history.
+    #[test]
+    fn a_history_that_is_removed_meanwhile_is_noticed() {
+        let (_place, folder) = held();
+        let mut history = History::create(&folder).unwrap();
+        fs::remove_file(folder.place(HISTORY)).unwrap();
+        add(&mut history, &[1]);
+        let said = history.sync().unwrap_err().to_string();
+        assert!(said.contains("history.csv: it was removed"), "{said}");
     }
 
     /// Bytes that are no text were said to be a failed write before.

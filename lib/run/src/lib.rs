@@ -14,6 +14,7 @@ mod history;
 mod invariants;
 mod left_out;
 mod load;
+mod mark;
 mod request;
 mod resolve;
 mod schemes;
