@@ -4,11 +4,13 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use studies::crash::{Row, campaign, faults, full_disk, report, together};
+use studies::crash::{Row, campaign, chains, faults, full_disk, report, together};
 use studies::study::origin;
 
 /// Rounds of two runs into one folder.
 const ROUNDS: usize = 100;
+/// Runs of each scheme that are interrupted several times.
+const CHAINS: u64 = 100;
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -40,6 +42,7 @@ fn study(results: &Path) -> Result<bool, String> {
     }
     if faults::available() {
         rows.extend(campaign::rows(1, tell)?);
+        rows.extend(chains::rows(CHAINS, tell)?);
     } else {
         left_out.push("kills and failing calls, as `strace` is not installed or may not trace");
     }

@@ -2,6 +2,7 @@
 //! they change their folder must, continued, end byte for byte as the run in one piece.
 
 pub mod campaign;
+pub mod chains;
 pub mod faults;
 pub mod full_disk;
 pub mod report;

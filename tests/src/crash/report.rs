@@ -29,6 +29,8 @@ pub fn page(rows: &[Row], head: &str, left_out: &[&str]) -> String {
          or an error of the disk), at every open, write, rename, sync, truncation, removal, mkdir and lock in\n\
          turn. Then the same command is given once more. A trial is as it must be when all files of the run\n\
          folder are byte for byte those of the run in one piece, the costs in `summary.json` aside, and none is left over.\n\
+         Runs are also killed or told to stop (SIGTERM) six times at places drawn by chance, the disk is full at each byte of\n\
+         the last row (a limit on the size of files), and a second run is started into the folder.\n\
          Calls that fail may end the run with status 1, 75 or, where nothing depends on them, 0.\n\n\
          | series | scheme | fault | trials | as they must be |\n|---|---|---|---|---|\n"
     );

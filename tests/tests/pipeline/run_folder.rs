@@ -4,7 +4,7 @@ use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
 
-use studies::crash::{campaign, faults, full_disk, together};
+use studies::crash::{campaign, chains, faults, full_disk, together};
 
 use crate::workbench::{Workbench, said};
 
@@ -336,6 +336,7 @@ fn a_run_killed_anywhere_goes_on_to_the_same_end() {
     let mut rows = Vec::new();
     if faults::available() {
         rows.extend(campaign::rows(19, |_| {}).unwrap());
+        rows.extend(chains::rows(4, |_| {}).unwrap());
     } else {
         println!("skipped: strace is not installed or may not trace");
     }
