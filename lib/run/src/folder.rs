@@ -276,6 +276,31 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn a_folder_without_locks_is_used_with_a_warning() {
+        let (place, mut folder) = held();
+        assert_eq!(folder.warning(), None);
+        folder.unlocked = Some(io::ErrorKind::Unsupported.into());
+        let said = folder.warning().unwrap();
+        assert!(said.contains(&place.path().display().to_string()), "{said}");
+        assert!(said.contains("cannot be locked (unsupported)"), "{said}");
+    }
+
+    #[test]
+    fn whether_files_can_be_made_is_tried_in_both_folders() {
+        let (place, folder) = held();
+        folder.make_snapshots().unwrap();
+        for within in [place.path().to_owned(), place.path().join(SNAPSHOTS)] {
+            folder.check_writable().unwrap();
+            assert!(!is_there(&within.join(ASIDE)));
+            fs::write(within.join(ASIDE), "theirs").unwrap();
+            assert!(folder.check_writable().is_err());
+            fs::remove_file(within.join(ASIDE)).unwrap();
+        }
+        fs::remove_dir(place.path().join(SNAPSHOTS)).unwrap();
+        folder.check_writable().unwrap();
+    }
+
+    #[test]
     fn a_folder_that_was_replaced_is_not_written_into() {
         let (place, folder) = held();
         folder.write_text(SUMMARY, "1").unwrap();
