@@ -8,7 +8,7 @@ use physics::{Array, Saved, StepReport};
 use crate::courant::Courant;
 use crate::drive::RunError;
 use crate::folder::{CHECKPOINT, RunFolder};
-use crate::history::Mark;
+use crate::history::Extent;
 
 /// Where a run is in time, and what it has written.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,7 +39,7 @@ pub struct Checkpoint {
     /// Which part of it was taken at which Courant number.
     pub courant: Vec<Courant>,
     /// How far its history went.
-    pub history: Mark,
+    pub history: Extent,
     /// State of the scheme.
     pub saved: Saved,
 }
@@ -200,7 +200,7 @@ pub fn read(folder: &Path, identity: &str) -> Result<Option<Checkpoint>, RunErro
     Ok(Some(Checkpoint {
         clock,
         courant,
-        history: Mark { bytes, hash },
+        history: Extent { bytes, hash },
         saved: Saved(saved),
     }))
 }
@@ -244,7 +244,7 @@ mod tests {
         let checkpoint = Checkpoint {
             clock,
             courant: courant.to_vec(),
-            history: Mark {
+            history: Extent {
                 bytes: 1 << 60,
                 hash: u64::MAX,
             },

@@ -66,8 +66,12 @@ impl RunFolder {
     /// What cannot become a run folder, or is held by another run by now.
     pub(crate) fn make(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
         fs::create_dir_all(path).map_err(RunError::write(path))?;
-        let names = [FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED, SNAPSHOTS];
-        if let Some(name) = names.iter().find(|name| is_there(&path.join(name))) {
+        let names = [
+            FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED, SNAPSHOTS, ASIDE,
+        ];
+        let taken = names.iter().find(|name| is_there(&path.join(name)));
+        // Another run may have marked it since; that one holds it or is said to be there.
+        if let Some(name) = taken.filter(|_| !is_there(&path.join(MARKER))) {
             return Err(RunFailure::Usage(format!(
                 "'{0}' holds '{name}' but is not marked as a run folder, so nothing in it is replaced or continued: \
                  name another folder, or, if it is a run of an earlier version, create an empty file '{1}' and use --overwrite",

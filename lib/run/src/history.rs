@@ -18,7 +18,7 @@ solver_iterations,capped_viscosity_fraction\n";
 
 /// How far a history went, and what it then held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Mark {
+pub struct Extent {
     /// Length, bytes.
     pub bytes: u64,
     /// XXH3-64 of them.
@@ -57,7 +57,7 @@ impl History {
     ///
     /// # Errors
     /// A history that no longer begins as the checkpoint left it (exit 3); a failed write.
-    pub(crate) fn resume(folder: &RunFolder, mark: Mark) -> Result<Self, RunFailure> {
+    pub(crate) fn resume(folder: &RunFolder, extent: Extent) -> Result<Self, RunFailure> {
         let path = folder.place(HISTORY);
         let unusable = |why: &str| {
             RunFailure::Data(format!(
@@ -69,8 +69,8 @@ impl History {
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Err(unusable("is missing")),
             opened => opened.map_err(RunError::write(&path))?,
         };
-        let (bytes, hash) = hash_start(&mut file, mark.bytes).map_err(RunError::write(&path))?;
-        if (bytes, hash.digest()) != (mark.bytes, mark.hash) {
+        let (bytes, hash) = hash_start(&mut file, extent.bytes).map_err(RunError::write(&path))?;
+        if (bytes, hash.digest()) != (extent.bytes, extent.hash) {
             return Err(unusable("is not what it was at the last checkpoint"));
         }
         let cut = (file.set_len(bytes)).and_then(|()| file.seek(SeekFrom::Start(bytes)));
@@ -87,13 +87,13 @@ impl History {
     ///
     /// # Errors
     /// The file and the system's reason; also where the rows went into a file that is no longer there.
-    pub(crate) fn sync(&self) -> Result<Mark, RunError> {
+    pub(crate) fn sync(&self) -> Result<Extent, RunError> {
         let sync = || {
             self.file.sync_data()?;
             is_still(&self.file, &self.path)
         };
         sync().map_err(RunError::write(&self.path))?;
-        Ok(Mark {
+        Ok(Extent {
             bytes: self.bytes,
             hash: self.hash.digest(),
         })
@@ -177,13 +177,13 @@ mod tests {
         let path = folder.place(HISTORY);
         let mut history = History::create(&folder).unwrap();
         add(&mut history, &[1, 12]);
-        let mark = history.sync().unwrap();
+        let extent = history.sync().unwrap();
         let kept = fs::read(&path).unwrap();
         add(&mut history, &[13, 14]);
         for torn in ["", "1", "12", "12,1.0"] {
             let text = fs::read_to_string(&path).unwrap() + torn;
             fs::write(&path, text).unwrap();
-            let mut resumed = History::resume(&folder, mark).unwrap();
+            let mut resumed = History::resume(&folder, extent).unwrap();
             assert_eq!(fs::read(&path).unwrap(), kept);
             add(&mut resumed, &[13]);
         }
@@ -211,17 +211,17 @@ mod tests {
         let (_place, folder) = held();
         let mut history = History::create(&folder).unwrap();
         add(&mut history, &[1, 2]);
-        let mark = history.sync().unwrap();
+        let extent = history.sync().unwrap();
         let whole = fs::read(folder.place(HISTORY)).unwrap();
         let mut garbled = whole.clone();
         garbled[200] = 0xff;
         for bytes in [&garbled[..], &whole[..whole.len() - 1], b""] {
             fs::write(folder.place(HISTORY), bytes).unwrap();
-            let said = History::resume(&folder, mark).err().unwrap().to_string();
+            let said = History::resume(&folder, extent).err().unwrap().to_string();
             assert!(said.contains("not what it was"), "{said}");
         }
         fs::remove_file(folder.place(HISTORY)).unwrap();
-        let said = History::resume(&folder, mark).err().unwrap().to_string();
+        let said = History::resume(&folder, extent).err().unwrap().to_string();
         assert!(said.contains("is missing"), "{said}");
     }
 }

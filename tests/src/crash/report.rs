@@ -31,7 +31,7 @@ pub fn page(rows: &[Row], head: &str, left_out: &[&str]) -> String {
          folder are byte for byte those of the run in one piece, the costs in `summary.json` aside, and none is left over.\n\
          Runs are also killed or told to stop (SIGTERM) six times at places drawn by chance, the disk is full at each byte of\n\
          the last row (a limit on the size of files), and a second run is started into the folder.\n\
-         Calls that fail may end the run with status 1, 75 or, where nothing depends on them, 0.\n\n\
+         Calls that fail may end the run with status 1, 75, for files that cannot be opened 2 or 3, or, where nothing depends on them, 0.\n\n\
          | series | scheme | fault | trials | as they must be |\n|---|---|---|---|---|\n"
     );
     for row in rows {

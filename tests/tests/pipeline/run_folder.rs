@@ -78,6 +78,9 @@ fn layouts() -> Vec<Layout> {
             put(b, "run/summary.json");
             put(b, "run/resolved.toml");
         }),
+        layout("no mark, unfinished file", PLAIN, [2, 2, 2], |b| {
+            put(b, "run/.mpm-run.tmp");
+        }),
         layout("no mark, history", PLAIN, [2, 2, 2], |b| {
             put(b, "run/history.csv");
         }),
