@@ -10,6 +10,7 @@
 #   make tradeoff stability options   error against run time; extreme cases; explicit options
 #   make load-control             the implicit clamp at its pressure limit, 400 presses
 #   make leave-out                what a scene pays for features it does not use
+#   make crash                    runs killed at every write, continued: all end the same
 #   make bench                    speed of the kernels and of the linear solver
 #   make figures man install clean help
 

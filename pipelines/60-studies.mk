@@ -50,3 +50,10 @@ leave-out:
 	@$(CARGO) build --release --quiet -p studies
 	@mkdir -p out/results
 	$(BIN)/leave_out pipelines/leave-out $(if $(ONLY),out/results,docs/results) $(ONLY)
+
+# Runs killed, or denied the disk, at every call by which they change their folder, and two runs
+# into one: all end as the run in one piece, or are refused. Kills need `strace`, the full disk `prlimit`.
+.PHONY: crash
+crash: $(BINARIES)
+	@$(CARGO) build --release --quiet -p studies
+	$(BIN)/crash docs/results

@@ -4,6 +4,7 @@
 
 pub mod case_text;
 pub mod closed_forms;
+pub mod crash;
 pub mod leave_out;
 pub mod load_control;
 pub mod method;

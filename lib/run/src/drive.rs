@@ -8,6 +8,7 @@ use physics::{Diagnostics, Failure, Scheme, StepLimit, StepReport, Stop};
 
 use crate::checkpoint::{self, Checkpoint, Clock};
 use crate::courant::Courant;
+use crate::folder::RunFolder;
 use crate::history::History;
 use crate::resolve::Setup;
 use crate::snapshot::SnapshotWriter;
@@ -67,7 +68,7 @@ impl RunError {
 }
 
 /// What the loop needs beside setup and scheme.
-pub struct Controls<'a> {
+pub(crate) struct Controls<'a> {
     /// Time between rows of the history, s.
     pub history_every_s: f64,
     /// Time between snapshots, s; infinite for none.
@@ -83,7 +84,7 @@ pub struct Controls<'a> {
 }
 
 /// What the loop did.
-pub struct Outcome {
+pub(crate) struct Outcome {
     /// How it ended.
     pub end: End,
     /// Clock at the end.
@@ -92,8 +93,6 @@ pub struct Outcome {
     pub stepping: Duration,
     /// Steps taken by this process.
     pub steps_here: u64,
-    /// Report of the last step.
-    pub last: StepReport,
     /// Diagnostics of the last state.
     pub diagnostics: Diagnostics,
 }
@@ -102,13 +101,13 @@ pub struct Outcome {
 ///
 /// # Errors
 /// An unstable state or an output that cannot be written.
-pub fn drive(
+pub(crate) fn drive(
     setup: &Setup,
     scheme: &mut dyn Scheme,
     clock: Clock,
     history: &mut History,
     snapshots: &SnapshotWriter,
-    folder: &Path,
+    folder: &RunFolder,
     controls: &mut Controls,
 ) -> Result<Outcome, RunError> {
     let mut state = Loop::new(clock);
@@ -134,6 +133,7 @@ pub fn drive(
             let checkpoint = Checkpoint {
                 clock: state.clock,
                 courant: controls.courant.clone(),
+                history: history.sync()?,
                 saved: scheme.save(),
             };
             checkpoint::write(folder, &controls.identity, &checkpoint)?;
@@ -149,9 +149,7 @@ struct Loop {
     clock: Clock,
     stepping: Duration,
     steps_here: u64,
-    last: StepReport,
     last_checkpoint: Instant,
-    row_written: bool,
 }
 
 impl Loop {
@@ -160,9 +158,7 @@ impl Loop {
             clock,
             stepping: Duration::ZERO,
             steps_here: 0,
-            last: StepReport::default(),
             last_checkpoint: Instant::now(),
-            row_written: true,
         }
     }
 
@@ -196,8 +192,8 @@ impl Loop {
         self.clock.time_s += report.dt_s;
         self.clock.travel_m = report.travel_m;
         self.steps_here += 1;
-        self.last = report;
-        self.row_written = false;
+        self.clock.last = report;
+        self.clock.row_missing = true;
     }
 
     fn fraction(&self, setup: &Setup) -> f64 {
@@ -236,17 +232,9 @@ impl Loop {
         history: &mut History,
     ) -> Result<(), RunError> {
         let gap = setup.initial_gap_m.map(|g| g - self.clock.travel_m);
-        self.row_written = true;
-        let path = history.path().to_owned();
-        history
-            .row(
-                self.clock.step,
-                self.clock.time_s,
-                gap,
-                &self.last,
-                &diagnostics,
-            )
-            .map_err(RunError::write(&path))
+        self.clock.row_missing = false;
+        let Clock { step, time_s, .. } = self.clock;
+        history.row(step, time_s, gap, &self.clock.last, &diagnostics)
     }
 
     fn finish(
@@ -257,15 +245,18 @@ impl Loop {
         history: &mut History,
     ) -> Result<Outcome, RunError> {
         let diagnostics = scheme.diagnostics();
-        if !self.row_written && end != End::Interrupted {
-            self.row(setup, diagnostics, history)?;
+        if end != End::Interrupted {
+            if self.clock.row_missing {
+                self.row(setup, diagnostics, history)?;
+            }
+            // Before the final state, which says that the run has ended.
+            history.sync()?;
         }
         Ok(Outcome {
             end,
             clock: self.clock,
             stepping: self.stepping,
             steps_here: self.steps_here,
-            last: self.last,
             diagnostics,
         })
     }

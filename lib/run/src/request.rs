@@ -1,18 +1,19 @@
 //! A run as a tool asks for it: case file, bond file, changed keys; then explained or executed.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use particle_file::{ParticleFile, Provenance};
 use physics::{Regime, StepReport};
 use xxhash_rust::xxh3::xxh3_64;
 
+use crate::begin::{self, Mode};
 use crate::case::{Case, CaseError};
 use crate::changes::changed;
-use crate::checkpoint::{self, Checkpoint, Clock};
+use crate::checkpoint::{Checkpoint, Clock};
 use crate::courant::{continued, without_cfl};
 use crate::drive::{self, Controls, RunError};
-use crate::folder::{self, Mode};
+use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
 use crate::history::History;
 use crate::invariants;
 use crate::left_out::left_out;
@@ -60,6 +61,8 @@ pub struct Request {
     setup: Setup,
     bond: Option<ParticleFile>,
     inputs: Vec<(String, u64)>,
+    /// Where they are: no output may stand there.
+    places: Vec<PathBuf>,
 }
 
 impl Request {
@@ -81,8 +84,14 @@ impl Request {
         let text = changed(&original, case, changes)?;
         let parsed = Case::parse(&text, case)?;
         let mut inputs = vec![(case.display().to_string(), xxh3_64(original.as_bytes()))];
+        let mut places = vec![case.to_owned()];
         let bond = match bond {
             Some(path) => {
+                places.push(if path == "-" {
+                    "/dev/stdin".into()
+                } else {
+                    path.into()
+                });
                 let file = ParticleFile::open(path).map_err(|e| RunFailure::Data(e.to_string()))?;
                 inputs.push((path.display().to_string(), file.content_hash()));
                 Some(file)
@@ -97,6 +106,7 @@ impl Request {
             setup,
             bond,
             inputs,
+            places,
         })
     }
 
@@ -123,12 +133,8 @@ impl Request {
         ))
     }
 
-    /// Whether `folder` already holds the end of this very run by this version.
-    pub fn has_ended(&self, folder: &Path, by: &Provenance) -> bool {
-        is_final_of(folder, &self.identity(by))
-    }
-
-    /// Runs into `folder`.
+    /// Runs into `folder`, with `warn` told what the user should know; `None` when `folder` holds
+    /// the end of this very run already.
     ///
     /// # Errors
     /// All kinds; an unstable state leaves the last good checkpoint.
@@ -139,36 +145,51 @@ impl Request {
         by: Provenance,
         interrupted: &dyn Fn() -> bool,
         progress: &mut dyn FnMut(f64, String),
-    ) -> Result<Summary, RunFailure> {
+        warn: &dyn Fn(String),
+    ) -> Result<Option<Summary>, RunFailure> {
         let identity = self.identity(&by);
         let continuable = self.identity_of(&without_cfl(&self.text), &by);
         let by = Provenance {
             inputs: self.inputs.clone(),
             ..by
         };
+        let found = RunFolder::find(folder, &by)?;
+        if let Some(found) = &found {
+            begin::make_room(found, &self.places)?;
+        }
+        if mode.resume && !mode.overwrite && is_final_of(folder, &identity) {
+            if let Some(found) = &found {
+                begin::tidy(found, &continuable)?;
+            }
+            return Ok(None);
+        }
         // What the scheme refuses must not cost a run folder.
         let mut scheme = schemes::build(&self.case, self.setup.scene_for_scheme())?;
         let cfl = schemes::cfl(&self.case);
-        let (clock, courant, mut history) =
-            match folder::start(folder, mode, &continuable, &self.text)? {
-                Some(Checkpoint {
-                    clock,
-                    courant,
-                    saved,
-                }) => {
-                    scheme.restore(&saved).map_err(RunFailure::Data)?;
-                    let history =
-                        History::resume(folder, clock.step).map_err(RunError::write(folder))?;
-                    folder::write_text(&folder.join(folder::RESOLVED), &self.text)?;
-                    folder::remove_summary(folder)?;
-                    (clock, continued(courant, clock.step, cfl), history)
-                }
-                None => (
-                    Clock::default(),
-                    continued(Vec::new(), 0, cfl),
-                    History::create(folder).map_err(RunError::write(folder))?,
-                ),
-            };
+        let folder = &match found {
+            Some(found) => found,
+            None => RunFolder::make(folder, &by)?,
+        };
+        folder.warning().into_iter().for_each(warn);
+        let start = begin::start(folder, mode, &continuable, &self.text, &by)?;
+        let (clock, courant, mut history) = match start {
+            Some(Checkpoint {
+                clock,
+                courant,
+                history,
+                saved,
+            }) => {
+                scheme.restore(&saved).map_err(RunFailure::Data)?;
+                let history = History::resume(folder, history)?;
+                begin::forget_what_came_after(folder, &clock, &self.text)?;
+                (clock, continued(courant, clock.step, cfl), history)
+            }
+            None => (
+                Clock::default(),
+                continued(Vec::new(), 0, cfl),
+                History::create(folder)?,
+            ),
+        };
         let mut controls = Controls {
             history_every_s: self.history_every(),
             snapshot_every_s: self.snapshot_every(),
@@ -213,15 +234,15 @@ impl Request {
                 provenance,
             },
         );
-        folder::write_text(
-            &folder.join(folder::SUMMARY),
+        folder.write_text(
+            SUMMARY,
             &(serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n"),
         )?;
         if outcome.end != drive::End::Interrupted {
             writer.write_final(&outcome.clock, scheme.as_ref())?;
-            checkpoint::remove(folder)?;
+            folder.remove(CHECKPOINT)?;
         }
-        Ok(summary)
+        Ok(Some(summary))
     }
 
     /// What makes two runs the same: the case as run, the inputs and the version.

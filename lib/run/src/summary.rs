@@ -83,6 +83,7 @@ impl Summary {
             capped_fraction,
             ..
         } = outcome.diagnostics;
+        let last = outcome.clock.last;
         let wall = outcome.stepping.as_secs_f64();
         let work = outcome.steps_here as f64 * facts.liquid_points as f64;
         Self {
@@ -92,7 +93,7 @@ impl Summary {
             time_s: outcome.clock.time_s,
             travel_m: outcome.clock.travel_m,
             gap_m: facts.initial_gap_m.map(|g| g - outcome.clock.travel_m),
-            final_pressure_pa: 0.5 * (outcome.last.pressure_bottom + outcome.last.pressure_top),
+            final_pressure_pa: 0.5 * (last.pressure_bottom + last.pressure_top),
             liquid_points: facts.liquid_points,
             kinetic_energy_j: kinetic_energy,
             capped_viscosity_fraction: capped_fraction,

@@ -9,4 +9,5 @@ mod interruption;
 mod real_volume;
 mod refusals;
 mod repeatability;
+mod run_folder;
 mod workbench;

@@ -24,6 +24,10 @@ const VERSION: &str = if cfg!(feature = "double") {
   mpm-run pf-xpic.toml --particles bond.mpts --explain
   mpm-run pf-xpic.toml --particles bond.mpts -o runs/pf-xpic --resume
 
+The run folder is marked by bondline-run.toml and held while a run is on. Written in it: resolved.toml,
+history.csv, snapshots/NNNN.mpts, checkpoint.mpts, summary.json and, last, final.mpts. Only these are ever
+replaced, where they prove to be a run's own; other files are left alone, or refused where they are in the way.
+
 Keys of the explicit scheme that are not the paper's, off unless given (docs/results/explicit-options.md):
   integrator.pressure = \"cell-mean\"            pressure from the mean volume ratio of each cell
   integrator.density_projection = \"0.04 cell\"  points evened out after that much motion
@@ -39,7 +43,7 @@ struct Arguments {
     /// tables describe the scene
     #[arg(long, value_name = "BOND")]
     particles: Option<PathBuf>,
-    /// Run folder
+    /// Run folder, made or marked as one (bondline-run.toml)
     #[arg(
         short,
         long,
@@ -57,7 +61,7 @@ struct Arguments {
     /// was another before; start if there is none, do nothing if the run has ended
     #[arg(long, conflicts_with = "explain")]
     resume: bool,
-    /// Replace another run in the run folder
+    /// Replace the files of another run in the run folder, and no others
     #[arg(long, conflicts_with = "explain")]
     overwrite: bool,
     #[command(flatten)]
@@ -92,10 +96,6 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     }
     cli::catch_interrupts()?;
     let by = Provenance::of_process(env!("CARGO_PKG_NAME"), VERSION, Vec::new());
-    if arguments.resume && !arguments.overwrite && request.has_ended(&folder, &by) {
-        cli::note(format!("{} has ended already", folder.display()));
-        return Ok(());
-    }
     let mut progress = Progress::new(&folder.display().to_string());
     let ended = request.execute(
         &folder,
@@ -106,9 +106,13 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         by,
         &cli::interrupted,
         &mut |fraction, state| progress.update(fraction, || state),
+        &|warning| cli::warn(warning),
     );
     progress.finish();
-    let summary = ended.map_err(failure)?;
+    let Some(summary) = ended.map_err(failure)? else {
+        cli::note(format!("{} has ended already", folder.display()));
+        return Ok(());
+    };
     cli::note(summary.sentence());
     match summary.end {
         End::Interrupted => Err(Failure::new(
