@@ -1,5 +1,5 @@
 use physics::{
-    Diagnostics, Failure, LiquidState, Motion, PidControl, Saved, Scene, Scheme, StageTime,
+    Amount, Diagnostics, Failure, LiquidState, Motion, PidControl, Saved, Scene, Scheme, StageTime,
     StepLimit, StepReport, Viscosity,
 };
 
@@ -78,7 +78,8 @@ impl Explicit {
                 scene.bodies.len()
             ));
         }
-        let plan = Plan::new(scene, settings);
+        let amount = Amount::of(&scene.points);
+        let plan = Plan::new(scene, &amount, settings);
         let lattice = Lattice::new(scene);
         let affine = settings.velocity_update == VelocityUpdate::Apic;
         let (cell, density) = (scene.grid.cell_m, scene.liquid.density);
@@ -123,7 +124,7 @@ impl Explicit {
                 .map(|clamp| PidControl::new(clamp, cell / scene.liquid.sound_speed())),
             projection: settings
                 .density_projection
-                .map(|every| Projection::new(every, scene.initial_speed())),
+                .map(|every| Projection::new(every, scene.speed_with(&amount))),
             state: State {
                 step: 0,
                 time_s: 0.0,

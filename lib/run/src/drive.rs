@@ -11,6 +11,7 @@ use crate::courant::Courant;
 use crate::history::History;
 use crate::resolve::Setup;
 use crate::snapshot::SnapshotWriter;
+use crate::verdict;
 
 /// Wall time between checkpoints.
 const CHECKPOINT_EVERY: Duration = Duration::from_secs(60);
@@ -119,6 +120,7 @@ pub fn drive(
         let begun = Instant::now();
         let report = scheme
             .advance(state.limit(setup))
+            .and_then(|report| verdict::step(setup, &report).map(|()| report))
             .map_err(|failure| RunError::Unstable {
                 failure,
                 step: state.clock.step,
@@ -238,6 +240,14 @@ impl Loop {
         let gap = setup.initial_gap_m.map(|g| g - self.clock.travel_m);
         self.row_written = true;
         let path = history.path().to_owned();
+        verdict::row(setup, &diagnostics, self.last.lost).map_err(|failure| {
+            RunError::Unstable {
+                failure,
+                step: self.clock.step,
+                time_s: self.clock.time_s,
+                checkpoint: path.parent().map_or(String::new(), checkpoint::where_last),
+            }
+        })?;
         history
             .row(
                 self.clock.step,

@@ -19,6 +19,7 @@ mod schemes;
 mod snapshot;
 mod summary;
 mod system;
+mod verdict;
 
 pub use courant::Courant;
 pub use drive::End;
@@ -27,3 +28,4 @@ pub use invariants::Invariants;
 pub use left_out::LeftOut;
 pub use request::{Request, RunFailure};
 pub use summary::{Stage, Summary};
+pub use verdict::Verdict;
