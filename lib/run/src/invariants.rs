@@ -260,8 +260,8 @@ mod tests {
         let scene = scene(vec![block()]);
         assert!((depth(&scene, [5.0 - 0.25, 2.5, 1.5]) - 0.25).abs() < 1e-12);
         // Out of the domain leads no way.
-        assert!((depth(&scene, [1.6, 2.5, 0.4]) - 0.6).abs() < 1e-12);
-        assert!((depth(&scene, [0.4, 2.5, 0.4]) - 1.8).abs() < 1e-12);
+        assert!((depth(&scene, [2.5, 2.5, 0.4]) - 0.6).abs() < 1e-12);
+        assert!((depth(&scene, [0.4, 2.5, 0.4]) - 2.5).abs() < 1e-12);
     }
 
     /// Before, the next body was taken for open space, and liquid under a clamp that had gone
