@@ -217,3 +217,141 @@ fn unexplained(scene: &Scene, liquid: &LiquidState, initial: f64) -> f64 {
         / initial
         - 1.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::resolve::resolve;
+
+    /// A box of 4 x 2 cells of 1 um full of liquid on a floor of one cell.
+    fn setup() -> Setup {
+        let text = r#"
+[grid]
+cell = "1 um"
+dimensions = 2
+[adhesive]
+density = "1000 kg/m3"
+bulk_modulus = "1 GPa"
+viscosity = "1 Pa s"
+[contact]
+law = "stick"
+[stop]
+time = "1 us"
+[integrator]
+scheme = "implicit"
+[[body]]
+material = "rigid"
+box = { min = ["0 um", "0 um", "0 um"], max = ["4 um", "2 um", "1 um"] }
+[[body]]
+material = "adhesive"
+box = { min = ["0 um", "2 um", "0 um"], max = ["4 um", "4 um", "1 um"] }
+"#;
+        let case = Case::parse(text, Path::new("case.toml")).unwrap();
+        resolve(&case, None).unwrap()
+    }
+
+    fn at_rest(setup: &Setup) -> LiquidState {
+        let points = setup.scene_for_scheme().points;
+        let n = points.position.len();
+        LiquidState {
+            position: (points.position.iter())
+                .map(|x| x.map(|x| x as f32))
+                .collect(),
+            velocity: vec![[0.0; 3]; n],
+            volume: points.volume.iter().map(|&v| v as f32).collect(),
+            pressure: vec![0.0; n],
+            shear_rate: vec![0.0; n],
+        }
+    }
+
+    fn judged(setup: &Setup, liquid: &LiquidState, lost: u64) -> Vec<String> {
+        let shifts = vec![[0.0; 3]; setup.scene.bodies.len()];
+        let volume = setup.liquid.volume_m3;
+        let found = crate::invariants::check(&setup.scene, volume, liquid, &shifts);
+        judge(setup, liquid, &found, lost).reasons
+    }
+
+    #[test]
+    fn a_state_is_judged_by_what_is_wrong_with_it() {
+        let setup = setup();
+        let sound = at_rest(&setup);
+        assert_eq!(judged(&setup, &sound, 0), Vec::<String>::new());
+        let said = |change: &dyn Fn(&mut LiquidState), lost| {
+            let mut liquid = sound.clone();
+            change(&mut liquid);
+            judged(&setup, &liquid, lost).join("; ")
+        };
+        let deep = said(&|l| l.position[3][1] = 1.4e-6, 0);
+        assert!(deep.contains("the deepest 0.60 cells"), "{deep}");
+        let shallow = said(&|l| l.position[3][1] = 1.6e-6, 0);
+        assert!(shallow.contains("more than 1 %"), "{shallow}");
+        let rounding = said(&|l| l.position[3][1] = 1.9999e-6, 0);
+        assert_eq!(rounding, "");
+        let nan = said(&|l| l.shear_rate[0] = f32::NAN, 0);
+        assert!(nan.contains("a shear rate of the liquid"), "{nan}");
+        let infinite = said(&|l| l.velocity[0][2] = f32::INFINITY, 0);
+        assert!(infinite.contains("a velocity of the liquid"), "{infinite}");
+        let grown = said(&|l| l.volume.iter_mut().for_each(|v| *v *= 1.01), 0);
+        assert!(grown.contains("+1.00 % off"), "{grown}");
+        let missing = said(
+            &|l| {
+                l.position.pop();
+                l.velocity.pop();
+            },
+            0,
+        );
+        assert!(missing.contains("31 are left and 0 went out"), "{missing}");
+        let gone = said(&|l| *l = LiquidState::default(), 32);
+        assert_eq!(gone, "no liquid is left in the domain");
+    }
+
+    #[test]
+    fn rows_hold_finite_numbers_and_volumes_within_the_pressure_law() {
+        let setup = setup();
+        let of = |factor: f64, energy: f64| Diagnostics {
+            volume: factor * setup.liquid.volume_m3,
+            kinetic_energy: energy,
+            ..Diagnostics::default()
+        };
+        let said = |factor, energy, lost| {
+            row(&setup, &of(factor, energy), lost).map_err(|failure| failure.0)
+        };
+        assert_eq!(said(1.0, 1.0, 0), Ok(()));
+        assert_eq!(said(0.9, 1.0, 0), Ok(()));
+        // Half of the points went out.
+        assert_eq!(said(0.5, 1.0, 16), Ok(()));
+        let small = said(0.89, 1.0, 0).unwrap_err();
+        assert!(small.contains("compressed by 11.0 %"), "{small}");
+        let large = said(1.2, 1.0, 0).unwrap_err();
+        assert!(large.contains("20.0 % larger than at rest"), "{large}");
+        let nan = said(1.0, f64::NAN, 0).unwrap_err();
+        assert!(nan.contains("kinetic energy is not a number"), "{nan}");
+    }
+
+    #[test]
+    fn a_step_reports_finite_numbers_and_no_body_in_another() {
+        let mut setup = setup();
+        setup.clamp_room = Some((1e-6, "bottom".into()));
+        let report = StepReport {
+            travel_m: 1e-6,
+            ..StepReport::default()
+        };
+        assert_eq!(step(&setup, &report), Ok(()));
+        let beyond = StepReport {
+            travel_m: 1.1e-6,
+            ..report
+        };
+        let said = step(&setup, &beyond).unwrap_err().0;
+        assert!(said.contains("has met 'bottom' after 1.0000 um"), "{said}");
+        let infinite = StepReport {
+            pressure_top: f64::NEG_INFINITY,
+            ..report
+        };
+        let said = step(&setup, &infinite).unwrap_err().0;
+        assert!(
+            said.contains("pressure on the upper body is infinite"),
+            "{said}"
+        );
+    }
+}

@@ -9,4 +9,6 @@ mod interruption;
 mod real_volume;
 mod refusals;
 mod repeatability;
+mod sweep;
+mod verdicts;
 mod workbench;

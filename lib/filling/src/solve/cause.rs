@@ -8,23 +8,22 @@ use super::{NEARLY, SolveError};
 const FAST: f64 = 1e6;
 /// Viscosity times compressibility of a step, eta/(K dt), beyond which it is named.
 const STIFF: f64 = 1e8;
-/// Part of a closed space by which walls may change it and still be called at rest.
-const AT_REST: f64 = 1e-12;
+/// Part of what walls displace in a closed space that may be left over by rounding.
+const BALANCED: f64 = 1e-6;
 
 /// The error with its likely cause; one that a step can live with stays as it is.
 pub(super) fn explained(error: SolveError, system: &SaddleSystem) -> SolveError {
-    let reached = match error {
+    match error {
         SolveError::NotConverged {
             residual,
             tolerance,
             ..
-        } if residual <= NEARLY * tolerance => return error,
-        SolveError::NotConverged { .. } | SolveError::Overflow { .. } => error.to_string(),
-        _ => return error,
-    };
-    SolveError::Unsolved {
-        reached,
-        cause: cause(system),
+        } if residual <= NEARLY * tolerance => error,
+        SolveError::NotConverged { .. } | SolveError::Overflow { .. } => SolveError::Unsolved {
+            error: Box::new(error),
+            cause: cause(system),
+        },
+        _ => error,
     }
 }
 
@@ -63,8 +62,8 @@ fn squeezed(system: &SaddleSystem) -> Option<usize> {
         let space = Space::around(cell, system.g, &faces, &mut seen);
         let of = |values: &[f64]| space.cells.iter().map(|&c| values[c]).collect::<Vec<f64>>();
         let sources = of(system.volume_source);
-        let (sum, size) = (sources.iter().sum::<f64>(), space.cells.len() as f64);
-        if !space.open && sum.abs() > AT_REST * size {
+        let moved: f64 = sources.iter().map(|s| s.abs()).sum();
+        if !space.open && sources.iter().sum::<f64>().abs() > BALANCED * moved {
             return Some(space.cells.len());
         }
     }

@@ -76,10 +76,10 @@ pub enum SolveError {
         residual: f64,
     },
     /// [`SolveError::NotConverged`] or [`SolveError::Overflow`] with what is to blame.
-    #[error("{reached}: {cause}")]
+    #[error("{error}: {cause}")]
     Unsolved {
         /// How far the iteration came.
-        reached: String,
+        error: Box<SolveError>,
         /// Its likely cause and what of the case to change.
         cause: String,
     },
