@@ -1,5 +1,5 @@
 use physics::{
-    Amount, Diagnostics, Failure, LiquidState, Motion, PidControl, Saved, Scene, Scheme, StageTime,
+    Diagnostics, Failure, LiquidState, Motion, PidControl, Saved, Scene, Scheme, StageTime,
     StepLimit, StepReport, Viscosity,
 };
 
@@ -78,8 +78,7 @@ impl Explicit {
                 scene.bodies.len()
             ));
         }
-        let amount = Amount::of(&scene.points);
-        let plan = Plan::new(scene, &amount, settings);
+        let plan = Plan::new(scene, &physics::Amount::of(&scene.points), settings);
         let lattice = Lattice::new(scene);
         let affine = settings.velocity_update == VelocityUpdate::Apic;
         let (cell, density) = (scene.grid.cell_m, scene.liquid.density);
@@ -124,7 +123,7 @@ impl Explicit {
                 .map(|clamp| PidControl::new(clamp, cell / scene.liquid.sound_speed())),
             projection: settings
                 .density_projection
-                .map(|every| Projection::new(every, scene.speed_with(&amount))),
+                .map(|every| Projection::new(every, scene.initial_speed())),
             state: State {
                 step: 0,
                 time_s: 0.0,

@@ -164,7 +164,11 @@ fn a_sealed_liquid_that_is_crushed_stops_the_run() {
     ];
     let bench = Workbench::new();
     for scheme in [&[][..], &[EXPLICIT]] {
-        let output = run(&bench, &changed(&[&sealed[..], scheme].concat()), &["--overwrite"]);
+        let output = run(
+            &bench,
+            &changed(&[&sealed[..], scheme].concat()),
+            &["--overwrite"],
+        );
         let said = said(&output);
         assert_eq!(output.status.code(), Some(1), "{said}");
         assert!(
