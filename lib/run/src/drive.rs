@@ -133,6 +133,7 @@ pub fn drive(
         state.write_due(setup, scheme, history, snapshots, controls)?;
         let stop = (controls.interrupted)();
         if stop || state.last_checkpoint.elapsed() >= CHECKPOINT_EVERY {
+            state.look(setup, &scheme.diagnostics(), folder)?;
             let checkpoint = Checkpoint {
                 clock: state.clock,
                 courant: controls.courant.clone(),
@@ -225,10 +226,26 @@ impl Loop {
             self.clock.next_history_s = self.clock.next_history_s.max(self.clock.time_s);
         }
         if self.clock.time_s >= self.clock.next_snapshot_s {
+            self.look(setup, &scheme.diagnostics(), folder_of(history.path()))?;
             snapshots.write_numbered(&mut self.clock, scheme)?;
             self.clock.next_snapshot_s += controls.snapshot_every_s;
         }
         Ok(())
+    }
+
+    /// Looks at the state before any of it is written.
+    fn look(
+        &self,
+        setup: &Setup,
+        diagnostics: &Diagnostics,
+        folder: &Path,
+    ) -> Result<(), RunError> {
+        verdict::state(setup, diagnostics, self.last.lost).map_err(|failure| RunError::Unstable {
+            failure,
+            step: self.clock.step,
+            time_s: self.clock.time_s,
+            checkpoint: checkpoint::where_last(folder),
+        })
     }
 
     fn row(
@@ -240,14 +257,7 @@ impl Loop {
         let gap = setup.initial_gap_m.map(|g| g - self.clock.travel_m);
         self.row_written = true;
         let path = history.path().to_owned();
-        verdict::row(setup, &diagnostics, self.last.lost).map_err(|failure| {
-            RunError::Unstable {
-                failure,
-                step: self.clock.step,
-                time_s: self.clock.time_s,
-                checkpoint: path.parent().map_or(String::new(), checkpoint::where_last),
-            }
-        })?;
+        self.look(setup, &diagnostics, folder_of(&path))?;
         history
             .row(
                 self.clock.step,
@@ -279,4 +289,9 @@ impl Loop {
             diagnostics,
         })
     }
+}
+
+/// The run folder that a file of it lies in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(path)
 }

@@ -83,11 +83,11 @@ pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
     }
 }
 
-/// Looks at the diagnostics of a row of the history.
+/// Looks at the diagnostics of a state that is to be written: row, snapshot or checkpoint.
 ///
 /// # Errors
 /// A number that is none, no liquid, or more pressure than Eq. 1 holds for.
-pub(crate) fn row(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Result<(), Failure> {
+pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Result<(), Failure> {
     finite(&[
         ("kinetic energy", diagnostics.kinetic_energy),
         ("viscous power", diagnostics.viscous_power),
@@ -315,7 +315,7 @@ box = { min = ["0 um", "2 um", "0 um"], max = ["4 um", "4 um", "1 um"] }
             ..Diagnostics::default()
         };
         let said = |factor, energy, lost| {
-            row(&setup, &of(factor, energy), lost).map_err(|failure| failure.0)
+            state(&setup, &of(factor, energy), lost).map_err(|failure| failure.0)
         };
         assert_eq!(said(1.0, 1.0, 0), Ok(()));
         assert_eq!(said(0.9, 1.0, 0), Ok(()));
