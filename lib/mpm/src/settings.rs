@@ -93,14 +93,14 @@ impl Settings {
             && !(cells > 0.0 && cells <= 1.0)
         {
             return Err(format!(
-                "density_projection is {cells:?} cells: it must be above 0 and at most 1 cell"
+                "density_projection is {cells} cells: it must be above 0 and at most 1 cell"
             ));
         }
         if let Some(cells) = self.separation
             && !(cells > 0.0 && cells <= MAX_SEPARATION)
         {
             return Err(format!(
-                "separation is {cells:?} cells: it must be above 0 and at most {MAX_SEPARATION} cells, farther than which no point reaches a node"
+                "separation is {cells} cells: it must be above 0 and at most {MAX_SEPARATION} cells, farther than which no point reaches a node"
             ));
         }
         match self.velocity_update {

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::folder;
 use crate::invariants::Invariants;
-use crate::resolve::Setup;
+use crate::resolve::{OVERLAP, Setup};
 
 /// Mean pressure over the bulk modulus to which Eq. 1 holds: 200 MPa at the paper's 1 GPa, where
 /// the measurements end that such laws with a universal C are fitted to. The mean volume change
@@ -75,10 +75,12 @@ pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
     ];
     finite(&numbers)?;
     match &setup.clamp_room {
-        Some((room_m, other)) if report.travel_m > room_m * (1.0 + 1e-6) => Err(Failure(format!(
-            "the clamp's body has met '{other}' after {:.4} um and would overlap it; an earlier stop, stop = \"closed\" or a lower max_pressure is needed",
-            1e6 * room_m
-        ))),
+        Some((room_m, other)) if report.travel_m > room_m + OVERLAP * setup.scene.grid.cell_m => {
+            Err(Failure(format!(
+                "the clamp's body has met '{other}' after {:.4} um and would overlap it; an earlier stop, stop = \"closed\" or a lower max_pressure is needed",
+                1e6 * room_m
+            )))
+        }
         _ => Ok(()),
     }
 }

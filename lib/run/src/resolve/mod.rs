@@ -16,6 +16,7 @@ use crate::case::{
 };
 
 pub use bond::Bond;
+pub(crate) use plausible::OVERLAP;
 use seed::Seeds;
 
 /// Most cells along an axis: a hundred times the largest tomograms; more is a mistake.

@@ -6,6 +6,10 @@ use super::meeting;
 use crate::case::CaseError;
 use crate::verdict::MOST_PRESSURE;
 
+/// Cells by which bodies may come to overlap: far below what walls are resolved to, and some scenes
+/// let touching bodies move against each other only to tell their reactions apart.
+pub(crate) const OVERLAP: f64 = 0.02;
+
 /// Refuses a scene in which nothing is pressed, bodies would overlap, or speeds or weights are
 /// beyond what a nearly incompressible liquid can follow.
 pub(super) fn check(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
@@ -26,7 +30,7 @@ pub(super) fn check(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
         // Where pressure may stop the clamp before, the run itself looks at its travel.
         let certain = matches!(scene.stop, Stop::Closed { .. }) || clamp.max_pressure.is_none();
         if let Some((room_m, other)) = clamp_room(scene).filter(|_| certain)
-            && travel_m > room_m * (1.0 + 1e-6)
+            && travel_m > room_m + OVERLAP * scene.grid.cell_m
         {
             return Err(CaseError(format!(
                 "the clamp would travel {:.4} um, but its body meets '{other}' after {:.4} um and bodies cannot overlap: a smaller [clamp] travel (or stop time) is needed",
@@ -113,10 +117,19 @@ fn apart(scene: &Scene) -> Result<(), CaseError> {
         (Stop::Closed { .. }, None) => return Ok(()),
     };
     match meeting::first(scene, false) {
-        Some(meeting) if meeting.time_s < end_s * (1.0 - 1e-6) => Err(CaseError(format!(
-            "the bodies '{}' and '{}' would overlap from {:.4e} s on, before the end at {end_s:.4e} s: other velocities or an earlier end are needed",
-            meeting.bodies[0].name, meeting.bodies[1].name, meeting.time_s
-        ))),
+        Some(meeting) if overlap(scene, &meeting, end_s) > OVERLAP * scene.grid.cell_m => {
+            Err(CaseError(format!(
+                "the bodies '{}' and '{}' would overlap from {:.4e} s on, before the end at {end_s:.4e} s: other velocities or an earlier end are needed",
+                meeting.bodies[0].name, meeting.bodies[1].name, meeting.time_s
+            )))
+        }
         _ => Ok(()),
     }
+}
+
+/// How far two bodies that meet have gone on at the end, m.
+fn overlap(scene: &Scene, meeting: &meeting::Meeting, end_s: f64) -> f64 {
+    let [a, b] = meeting.bodies.map(|body| scene.velocity(body.motion));
+    let square: f64 = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum();
+    square.sqrt() * (end_s - meeting.time_s)
 }
