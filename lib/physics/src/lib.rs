@@ -16,7 +16,7 @@ pub use material::{
     Liquid, Newtonian, Rheology, ShearRate, TAIT_C, Table, TableError, Tait, Viscosity,
 };
 pub use regime::Regime;
-pub use scene::{Boundary, Dimensions, GridBox, Points, Scene, Stop};
+pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Stop};
 pub use scheme::{
     Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
 };

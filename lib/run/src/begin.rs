@@ -21,6 +21,8 @@ pub struct Mode {
     pub resume: bool,
     /// Replace what belongs to another run.
     pub overwrite: bool,
+    /// Start although the forecast says that the run will not end.
+    pub however_long: bool,
 }
 
 /// Finds the checkpoint to start from; none to start anew, with the earlier run's files gone.

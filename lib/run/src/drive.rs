@@ -12,6 +12,7 @@ use crate::folder::RunFolder;
 use crate::history::History;
 use crate::resolve::Setup;
 use crate::snapshot::SnapshotWriter;
+use crate::verdict;
 
 /// Wall time between checkpoints.
 const CHECKPOINT_EVERY: Duration = Duration::from_secs(60);
@@ -110,14 +111,15 @@ pub(crate) fn drive(
     folder: &RunFolder,
     controls: &mut Controls,
 ) -> Result<Outcome, RunError> {
-    let mut state = Loop::new(clock);
+    let mut state = Loop::new(setup, folder, clock);
     loop {
-        if let Some(end) = state.end(setup) {
-            return state.finish(end, setup, scheme, history);
+        if let Some(end) = state.end() {
+            return state.finish(end, scheme, history);
         }
         let begun = Instant::now();
         let report = scheme
-            .advance(state.limit(setup))
+            .advance(state.limit())
+            .and_then(|report| verdict::step(setup, &report).map(|()| report))
             .map_err(|failure| RunError::Unstable {
                 failure,
                 step: state.clock.step,
@@ -126,10 +128,11 @@ pub(crate) fn drive(
             })?;
         state.stepping += begun.elapsed();
         state.took(report);
-        (controls.progress)(state.fraction(setup), state.clock.time_s, &report);
-        state.write_due(setup, scheme, history, snapshots, controls)?;
+        (controls.progress)(state.fraction(), state.clock.time_s, &report);
+        state.write_due(scheme, history, snapshots, controls)?;
         let stop = (controls.interrupted)();
         if stop || state.last_checkpoint.elapsed() >= CHECKPOINT_EVERY {
+            state.look(&scheme.diagnostics())?;
             let checkpoint = Checkpoint {
                 clock: state.clock,
                 courant: controls.courant.clone(),
@@ -140,21 +143,25 @@ pub(crate) fn drive(
             state.last_checkpoint = Instant::now();
         }
         if stop {
-            return state.finish(End::Interrupted, setup, scheme, history);
+            return state.finish(End::Interrupted, scheme, history);
         }
     }
 }
 
-struct Loop {
+struct Loop<'a> {
+    setup: &'a Setup,
+    folder: &'a RunFolder,
     clock: Clock,
     stepping: Duration,
     steps_here: u64,
     last_checkpoint: Instant,
 }
 
-impl Loop {
-    fn new(clock: Clock) -> Self {
+impl<'a> Loop<'a> {
+    fn new(setup: &'a Setup, folder: &'a RunFolder, clock: Clock) -> Self {
         Self {
+            setup,
+            folder,
             clock,
             stepping: Duration::ZERO,
             steps_here: 0,
@@ -162,25 +169,25 @@ impl Loop {
         }
     }
 
-    fn end(&self, setup: &Setup) -> Option<End> {
+    fn end(&self) -> Option<End> {
         // A relative hair, so that a sum of many steps that should meet the end does.
         let reached = |t: f64, goal: f64| t >= goal * (1.0 - 1e-12);
-        match setup.scene.stop {
+        match self.setup.scene.stop {
             Stop::Time(t) => reached(self.clock.time_s, t).then_some(End::Time),
             Stop::Closed { travel_m } => {
                 if self.clock.travel_m >= travel_m * (1.0 - 1e-9) {
                     Some(End::Closed)
                 } else {
-                    reached(self.clock.time_s, setup.time_limit_s).then_some(End::TimeLimit)
+                    reached(self.clock.time_s, self.setup.time_limit_s).then_some(End::TimeLimit)
                 }
             }
         }
     }
 
-    fn limit(&self, setup: &Setup) -> StepLimit {
+    fn limit(&self) -> StepLimit {
         StepLimit {
-            time_s: setup.time_limit_s - self.clock.time_s,
-            travel_m: match setup.scene.stop {
+            time_s: self.setup.time_limit_s - self.clock.time_s,
+            travel_m: match self.setup.scene.stop {
                 Stop::Closed { travel_m } => travel_m - self.clock.travel_m,
                 Stop::Time(_) => f64::INFINITY,
             },
@@ -196,9 +203,9 @@ impl Loop {
         self.clock.row_missing = true;
     }
 
-    fn fraction(&self, setup: &Setup) -> f64 {
-        let time = self.clock.time_s / setup.time_limit_s;
-        match setup.scene.stop {
+    fn fraction(&self) -> f64 {
+        let time = self.clock.time_s / self.setup.time_limit_s;
+        match self.setup.scene.stop {
             Stop::Closed { travel_m } => time.max(self.clock.travel_m / travel_m),
             Stop::Time(_) => time,
         }
@@ -206,32 +213,39 @@ impl Loop {
 
     fn write_due(
         &mut self,
-        setup: &Setup,
         scheme: &dyn Scheme,
         history: &mut History,
         snapshots: &SnapshotWriter,
         controls: &Controls,
     ) -> Result<(), RunError> {
         if self.clock.time_s >= self.clock.next_history_s {
-            self.row(setup, scheme.diagnostics(), history)?;
+            self.row(scheme.diagnostics(), history)?;
             self.clock.next_history_s += controls.history_every_s;
             // After a step longer than the interval, do not catch up with a burst of rows.
             self.clock.next_history_s = self.clock.next_history_s.max(self.clock.time_s);
         }
         if self.clock.time_s >= self.clock.next_snapshot_s {
+            self.look(&scheme.diagnostics())?;
             snapshots.write_numbered(&mut self.clock, scheme)?;
             self.clock.next_snapshot_s += controls.snapshot_every_s;
         }
         Ok(())
     }
 
-    fn row(
-        &mut self,
-        setup: &Setup,
-        diagnostics: Diagnostics,
-        history: &mut History,
-    ) -> Result<(), RunError> {
-        let gap = setup.initial_gap_m.map(|g| g - self.clock.travel_m);
+    /// Looks at the state before any of it is written.
+    fn look(&self, diagnostics: &Diagnostics) -> Result<(), RunError> {
+        let lost = self.clock.last.lost;
+        verdict::state(self.setup, diagnostics, lost).map_err(|failure| RunError::Unstable {
+            failure,
+            step: self.clock.step,
+            time_s: self.clock.time_s,
+            checkpoint: checkpoint::where_last(self.folder),
+        })
+    }
+
+    fn row(&mut self, diagnostics: Diagnostics, history: &mut History) -> Result<(), RunError> {
+        let gap = self.setup.initial_gap_m.map(|g| g - self.clock.travel_m);
+        self.look(&diagnostics)?;
         self.clock.row_missing = false;
         let Clock { step, time_s, .. } = self.clock;
         history.row(step, time_s, gap, &self.clock.last, &diagnostics)
@@ -240,14 +254,13 @@ impl Loop {
     fn finish(
         mut self,
         end: End,
-        setup: &Setup,
         scheme: &dyn Scheme,
         history: &mut History,
     ) -> Result<Outcome, RunError> {
         let diagnostics = scheme.diagnostics();
         if end != End::Interrupted {
             if self.clock.row_missing {
-                self.row(setup, diagnostics, history)?;
+                self.row(diagnostics, history)?;
             }
             // Before the final state, which says that the run has ended.
             history.sync()?;

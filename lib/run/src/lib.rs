@@ -21,6 +21,7 @@ mod schemes;
 mod snapshot;
 mod summary;
 mod system;
+mod verdict;
 
 pub use begin::Mode;
 pub use courant::Courant;
@@ -29,3 +30,4 @@ pub use invariants::Invariants;
 pub use left_out::LeftOut;
 pub use request::{Request, RunFailure};
 pub use summary::{Stage, Summary};
+pub use verdict::Verdict;

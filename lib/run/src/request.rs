@@ -22,6 +22,7 @@ use crate::resolve::{self, Setup};
 use crate::schemes;
 use crate::snapshot::{SnapshotWriter, is_final_of};
 use crate::summary::{Facts, Summary};
+use crate::verdict;
 
 /// Why a run could not be made ready or did not end well; tools map it to exit status.
 #[derive(Debug, thiserror::Error)]
@@ -110,15 +111,15 @@ impl Request {
         })
     }
 
-    /// Sentences about terms left out although the regime would need them, and about a step too
-    /// short for the run to end.
+    /// Sentences about terms left out although the regime would need them.
     pub fn warnings(&self) -> Vec<String> {
-        let mut said = Regime::of(&self.setup.scene).warnings();
+        Regime::of(&self.setup.scene, &self.setup.liquid).warnings()
+    }
+
+    /// What the run is forecast to need beyond all patience or memory, as a sentence.
+    fn excess(&self) -> Option<String> {
         // What keeps the scheme from starting is said when it is to start.
-        if let Ok(forecast) = schemes::forecast(&self.case, &self.setup) {
-            said.extend(forecast.warning());
-        }
-        said
+        schemes::forecast(&self.case, &self.setup).ok()?.excess()
     }
 
     /// The plan of the run as text.
@@ -139,7 +140,7 @@ impl Request {
     /// # Errors
     /// All kinds; an unstable state leaves the last good checkpoint.
     pub fn execute(
-        mut self,
+        self,
         folder: &Path,
         mode: Mode,
         by: Provenance,
@@ -163,7 +164,16 @@ impl Request {
             }
             return Ok(None);
         }
-        // What the scheme refuses must not cost a run folder.
+        // What is refused must not cost a run folder.
+        match self.excess() {
+            Some(excess) if mode.however_long => warn(excess),
+            Some(excess) => {
+                return Err(RunFailure::Usage(format!(
+                    "{excess}; --yes-really runs it all the same"
+                )));
+            }
+            None => {}
+        }
         let mut scheme = schemes::build(&self.case, self.setup.scene_for_scheme())?;
         let cfl = schemes::cfl(&self.case);
         let folder = &match found {
@@ -216,21 +226,28 @@ impl Request {
             &mut controls,
         )?;
         let scene = &self.setup.scene;
+        let liquid = scheme.liquid();
+        let invariants = invariants::check(
+            scene,
+            self.setup.liquid.volume_m3,
+            &liquid,
+            &scheme.displacements(),
+        );
         let summary = Summary::new(
             &outcome,
             Facts {
                 courant_numbers: controls.courant,
-                liquid_points: self.setup.liquid_points,
+                liquid_points: self.setup.liquid.points,
                 initial_gap_m: self.setup.initial_gap_m,
                 stages: scheme.stage_times(),
                 counts: scheme.counts(),
-                invariants: invariants::check(
-                    scene,
-                    self.setup.liquid_volume_m3,
-                    &scheme.liquid(),
-                    &scheme.displacements(),
+                verdict: verdict::judge(&self.setup, &liquid, &invariants, outcome.clock.last.lost),
+                invariants,
+                left_out: left_out(
+                    &self.setup,
+                    &self.case.integrator,
+                    self.case.output.snapshots > 0,
                 ),
-                left_out: left_out(scene, &self.case.integrator, self.case.output.snapshots > 0),
                 provenance,
             },
         );

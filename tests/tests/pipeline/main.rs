@@ -10,4 +10,6 @@ mod real_volume;
 mod refusals;
 mod repeatability;
 mod run_folder;
+mod sweep;
+mod verdicts;
 mod workbench;

@@ -33,7 +33,7 @@ Keys of the explicit scheme that are not the paper's, off unless given (docs/res
   integrator.density_projection = \"0.04 cell\"  points evened out after that much motion
   contact.separation = \"0.8 cell\"              how near liquid and wall touch at a node
 
-Exit status: 0 ok; 1 the run failed (unstable, cannot write); 2 usage or case file;
+Exit status: 0 ok, the results are sound; 1 the run failed (unstable, not sound, cannot write); 2 usage or case file;
 3 unreadable or corrupt data; 75 stopped early, continue with --resume."
 )]
 struct Arguments {
@@ -57,6 +57,9 @@ struct Arguments {
     /// Print the plan and what this scene leaves out, and run nothing
     #[arg(long)]
     explain: bool,
+    /// Run even where the forecast is more than 1e9 steps, a week, or the memory of this machine
+    #[arg(long)]
+    yes_really: bool,
     /// Continue from the run folder's last checkpoint, at the case's integrator.cfl even where it
     /// was another before; start if there is none, do nothing if the run has ended
     #[arg(long, conflicts_with = "explain")]
@@ -102,6 +105,7 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         run::Mode {
             resume: arguments.resume,
             overwrite: arguments.overwrite,
+            however_long: arguments.yes_really,
         },
         by,
         &cli::interrupted,
@@ -111,7 +115,7 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     progress.finish();
     let Some(summary) = ended.map_err(failure)? else {
         cli::note(format!("{} has ended already", folder.display()));
-        return Ok(());
+        return sound(run::Verdict::of_ended(&folder).as_ref());
     };
     cli::note(summary.sentence());
     match summary.end {
@@ -122,7 +126,15 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
                 folder.display()
             ),
         )),
-        _ => Ok(()),
+        _ => sound(Some(&summary.verdict)),
+    }
+}
+
+/// Exit status 0 is a claim that the results are sound.
+fn sound(verdict: Option<&run::Verdict>) -> Result<(), Failure> {
+    match verdict.and_then(run::Verdict::objection) {
+        Some(said) => Err(Failure::failed(said)),
+        None => Ok(()),
     }
 }
 

@@ -47,14 +47,17 @@ box = { min = ["0 um", "6 um", "0 um"], max = ["4 um", "16 um", "2 um"] }
 pub const RESUME: Mode = Mode {
     resume: true,
     overwrite: false,
+    however_long: false,
 };
 pub const OVERWRITE: Mode = Mode {
     resume: false,
     overwrite: true,
+    however_long: false,
 };
 pub const PLAIN: Mode = Mode {
     resume: false,
     overwrite: false,
+    however_long: false,
 };
 
 /// A folder with a case.
