@@ -33,7 +33,7 @@ mod staged;
 pub use apart::keep_apart;
 pub use common::{Common, main};
 pub use exit::{Failure, Status};
-pub use message::{detail, harmless, note, print, warn};
+pub use message::{cell, detail, harmless, note, print, warn};
 pub use output::Output;
 pub use progress::Progress;
 pub use provenance::{InputRecord, Record, hash_file, hash_reader};

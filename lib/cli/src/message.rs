@@ -73,9 +73,29 @@ pub fn harmless(text: &str) -> Cow<'_, str> {
     plain.into()
 }
 
+/// A name as a cell of a CSV table. One that a spreadsheet would take for a formula, because it
+/// begins with `=`, `+`, `-` or `@`, stands behind an apostrophe, and so does one that begins
+/// with an apostrophe: without the first apostrophe it is the name again. Control characters
+/// are written as in messages.
+pub fn cell(name: &str) -> Cow<'_, str> {
+    match name.starts_with(['=', '+', '-', '@', '\'', '\t']) {
+        true => format!("'{}", harmless(name)).into(),
+        false => harmless(name),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_name_is_a_formula_and_every_name_comes_back() {
+        for name in ["=1+1", "+a", "-a", "@a", "'a", "a=b", "µ", ""] {
+            let cell = cell(name);
+            assert_eq!(cell.strip_prefix('\'').unwrap_or(&cell), name);
+            assert!(!cell.starts_with(['=', '+', '-', '@']));
+        }
+    }
 
     #[test]
     fn what_steers_a_terminal_is_written_as_an_escape() {

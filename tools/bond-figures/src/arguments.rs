@@ -259,10 +259,22 @@ fn experiment(text: &OsStr) -> Result<Case, String> {
         name: "experiment".into(),
         path,
     });
-    case.ok_or_else(|| {
+    let case = case.ok_or_else(|| {
         let text = text.display();
         format!("'{text}' is not ADHESIVE=CSV, as in pf=experiment.csv")
-    })
+    })?;
+    plain(&case.adhesive)?;
+    Ok(case)
+}
+
+/// Refuses a name that a spreadsheet would take for a formula.
+fn plain(name: &str) -> Result<(), String> {
+    match cli::cell(name) == name {
+        true => Ok(()),
+        false => Err(format!(
+            "the name '{name}' would be a formula in a spreadsheet: it may not begin with one of = + - @ ' or have control characters"
+        )),
+    }
 }
 
 fn run(text: &OsStr) -> Result<Case, String> {
@@ -274,10 +286,12 @@ fn run(text: &OsStr) -> Result<Case, String> {
             path,
         })
     });
-    case.ok_or_else(|| {
+    let case = case.ok_or_else(|| {
         let text = text.display();
         format!("'{text}' is not ADHESIVE:RUN=CSV, as in pf:xpic=wp.csv")
-    })
+    })?;
+    plain(&case.adhesive).and(plain(&case.name))?;
+    Ok(case)
 }
 
 fn position(text: &str) -> Result<Position, String> {

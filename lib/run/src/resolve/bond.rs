@@ -2,7 +2,7 @@
 
 use physics::{Dimensions, GridBox, Motion, Points, RigidBody, VoxelBlock};
 
-use super::{Geometry, seed};
+use super::{Geometry, seed, within_limits};
 use crate::case::{Case, CaseError};
 
 /// What a bond file says, with the bond normal turned to y.
@@ -22,6 +22,8 @@ pub struct Bond {
     pub adhesive: VoxelBlock,
     /// How far the upper adherend was moved away, m.
     pub gap_m: f64,
+    /// Cells that a file of this length may ask for.
+    pub most_cells: u64,
 }
 
 pub(super) fn geometry(
@@ -55,6 +57,7 @@ pub(super) fn geometry(
         }
         cells[a] = (n - 1e-3).ceil().max(1.0) as usize;
     }
+    within_limits(cells, bond.most_cells)?;
     let mut min_m = bond.min_m;
     let depth = plane_strain.then_some(cell);
     if depth.is_some() {

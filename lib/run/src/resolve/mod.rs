@@ -4,6 +4,7 @@ mod bond;
 mod primitives;
 mod seed;
 
+use particle_file::limits;
 use physics::{
     Boundary, Clamp, Dimensions, Liquid, Newtonian, Pid, Points, RigidBody, Scene, ShearRate, Stop,
     Table, Tait, Viscosity, WallLaw,
@@ -94,6 +95,23 @@ pub fn resolve(case: &Case, bond: Option<Bond>) -> Result<Setup, CaseError> {
         ));
     }
     finish(case, dimensions, geometry)
+}
+
+/// Refuses a grid of more than `most` cells, or with more along an axis than any has.
+fn within_limits(cells: [usize; 3], most: u64) -> Result<(), CaseError> {
+    let [x, y, z] = cells;
+    let dims = cells.map(|n| n as u64);
+    if dims.iter().all(|&n| n <= limits::PER_AXIS) && limits::volume(dims) <= most {
+        return Ok(());
+    }
+    let in_all = match most {
+        u64::MAX => String::new(),
+        _ => format!(" and {most} in all for a bond file of this size"),
+    };
+    Err(CaseError(format!(
+        "the grid would have {x} x {y} x {z} cells; accepted are {} along an axis{in_all}: choose a larger cell or a smaller domain",
+        limits::PER_AXIS
+    )))
 }
 
 fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Setup, CaseError> {

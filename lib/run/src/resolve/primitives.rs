@@ -9,6 +9,8 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
     let cell = case.grid.cell.si();
     let depth = (dimensions == Dimensions::Two).then_some(cell);
     let grid = grid(case, cell, depth)?;
+    // Cells cost memory where liquid is, not where the domain is.
+    super::within_limits(grid.cells, u64::MAX)?;
     let mut points = Points::default();
     let mut bodies: Vec<RigidBody> = Vec::new();
     let mut filled: Vec<(usize, Corners)> = Vec::new();
