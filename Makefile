@@ -43,6 +43,7 @@ include pipelines/30-runs.mk
 include pipelines/40-metrics.mk
 include pipelines/50-figures.mk
 include pipelines/60-studies.mk
+include pipelines/65-gate.mk
 
 .PHONY: help
 help:

@@ -21,6 +21,7 @@ mod shear_rate;
 mod slice;
 mod table;
 mod table2;
+mod text;
 mod wp_map;
 
 pub use closing::Closing;

@@ -1,12 +1,11 @@
 use std::fmt::Write as _;
-use std::sync::OnceLock;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontTransform, TextStyle, register_font};
+use plotters::style::{FontTransform, TextStyle};
 
-use crate::Error;
-use crate::drawing::{Anchor, Drawing, Image, Item};
+use crate::drawing::{Anchor, Drawing, Image, Item, Point};
+use crate::{Error, text};
 
 /// Units of the SVG per logical pixel: the backend writes whole numbers.
 const SVG_SCALE: u32 = 8;
@@ -18,10 +17,7 @@ const PNG_SCALE: u32 = 2;
 /// The PNG is drawn this much larger and averaged, because the bitmap backend does not smooth
 /// the edges of thick lines and polygons.
 const SUPERSAMPLING: u32 = 2;
-/// The bitmap backend centres a box of size / 1.24 above the baseline's middle; capitals of
-/// DejaVu Sans are 0.63 of the size high and stand this much too high.
-const BITMAP_TEXT_RISE: f64 = 0.22;
-/// Family name of the embedded font; SVG viewers put their own sans-serif in its place.
+/// Family name in an SVG; viewers put their own sans-serif in its place.
 const FAMILY: &str = "sans-serif";
 
 impl Drawing {
@@ -34,7 +30,7 @@ impl Drawing {
         let (width, height) = (self.width * SVG_SCALE, self.height * SVG_SCALE);
         {
             let mut backend = SVGBackend::with_string(&mut text, (width, height));
-            replay(self, &mut backend, f64::from(SVG_SCALE), 0.0)?;
+            replay(self, &mut backend, f64::from(SVG_SCALE), svg_text)?;
         }
         // The backend cannot scale or embed pictures: the opening tag is written anew, and
         // the white ground and the pictures come right after it.
@@ -77,22 +73,20 @@ impl Drawing {
         }
         {
             let mut backend = BitMapBackend::with_buffer(&mut pixels, (width, height));
-            replay(self, &mut backend, f64::from(scale), BITMAP_TEXT_RISE)?;
+            replay(self, &mut backend, f64::from(scale), text::draw)?;
         }
         let averaged = average(&pixels, width as usize);
         encode_png(&averaged, width / SUPERSAMPLING, height / SUPERSAMPLING)
     }
 }
 
-/// Draws all but the images; `rise` is how far the backend puts text above its anchor, over
-/// the size of the text.
+/// Draws all but the images; `text_at` draws a text at a pixel with an anchor in a size.
 fn replay<B: DrawingBackend>(
     drawing: &Drawing,
     backend: &mut B,
     scale: f64,
-    rise: f64,
+    text_at: fn(&mut B, &str, Point, Anchor, f64) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    register()?;
     let pixel = |p: &[f64; 2]| ((p[0] * scale).round() as i32, (p[1] * scale).round() as i32);
     for item in &drawing.items {
         match item {
@@ -102,26 +96,35 @@ fn replay<B: DrawingBackend>(
                 width,
             } => {
                 let style = colour.stroke_width((width * scale).round().max(1.0) as u32);
-                backend.draw_path(points.iter().map(pixel), &style)
+                backend
+                    .draw_path(points.iter().map(pixel), &style)
+                    .map_err(failed)?;
             }
-            Item::Area { points, colour } => backend.fill_polygon(points.iter().map(pixel), colour),
+            Item::Area { points, colour } => backend
+                .fill_polygon(points.iter().map(pixel), colour)
+                .map_err(failed)?,
             Item::Text {
                 text,
                 at,
                 anchor,
                 size,
-            } => {
-                let down = rise * size;
-                let at = match anchor {
-                    Anchor::Upwards => [at[0] + down, at[1]],
-                    _ => [at[0], at[1] + down],
-                };
-                backend.draw_text(text, &text_style(*anchor, size * scale), pixel(&at))
-            }
+            } => text_at(backend, text, at.map(|x| x * scale), *anchor, size * scale)?,
         }
-        .map_err(failed)?;
     }
     backend.present().map_err(failed)
+}
+
+fn svg_text(
+    backend: &mut SVGBackend,
+    text: &str,
+    at: Point,
+    anchor: Anchor,
+    size: f64,
+) -> Result<(), Error> {
+    let [x, y] = at.map(|x| x.round() as i32);
+    backend
+        .draw_text(text, &text_style(anchor, size), (x, y))
+        .map_err(failed)
 }
 
 fn failed(error: impl std::fmt::Display) -> Error {
@@ -139,18 +142,6 @@ fn text_style(anchor: Anchor, size: f64) -> TextStyle<'static> {
         Anchor::Right => HPos::Right,
     };
     TextStyle::from(font).pos(Pos::new(across, VPos::Center))
-}
-
-/// Makes the embedded DejaVu Sans known to plotters, once per process.
-fn register() -> Result<(), Error> {
-    static REGISTERED: OnceLock<bool> = OnceLock::new();
-    let done = REGISTERED
-        .get_or_init(|| register_font(FAMILY, FontStyle::Normal, dejavu::sans::regular()).is_ok());
-    if *done {
-        Ok(())
-    } else {
-        Err(Error::Draw("the embedded font is not readable".into()))
-    }
 }
 
 /// The image with each pixel repeated until it has about `SVG_IMAGE` along its longer edge.

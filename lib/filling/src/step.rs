@@ -236,7 +236,7 @@ impl Implicit {
         }
     }
 
-    /// 1. to 6. Solves with steps of decreasing length until what was solved fits the step: neither
+    /// Steps 1 to 6: solves with steps of decreasing length until what was solved fits the step: neither
     /// liquid nor bodies overshoot the CFL number, and the bodies are where they were placed.
     fn solve(&mut self, limit: StepLimit) -> Result<(Trial, Solution), Failure> {
         let h = self.units.h;

@@ -6,6 +6,7 @@ mod bodies;
 mod clamp;
 mod material;
 mod regime;
+pub mod restored;
 mod scene;
 mod scheme;
 mod wall_law;

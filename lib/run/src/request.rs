@@ -1,6 +1,5 @@
 //! A run as a tool asks for it: case file, bond file, changed keys; then explained or executed.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use particle_file::{ParticleFile, Provenance};
@@ -72,16 +71,7 @@ impl Request {
     /// # Errors
     /// [`RunFailure::Usage`] and [`RunFailure::Data`].
     pub fn read(case: &Path, bond: Option<&Path>, changes: &[String]) -> Result<Self, RunFailure> {
-        let original = fs::read_to_string(case).map_err(|e| {
-            let why = match e.kind() {
-                std::io::ErrorKind::InvalidData => "it is not TOML text".to_owned(),
-                _ => e.to_string(),
-            };
-            RunFailure::Usage(format!(
-                "cannot read the case file '{}': {why}",
-                case.display()
-            ))
-        })?;
+        let original = load::case_text(case)?;
         let text = changed(&original, case, changes)?;
         let parsed = Case::parse(&text, case)?;
         let mut inputs = vec![(case.display().to_string(), xxh3_64(original.as_bytes()))];
@@ -93,7 +83,7 @@ impl Request {
                 } else {
                     path.into()
                 });
-                let file = ParticleFile::open(path).map_err(|e| RunFailure::Data(e.to_string()))?;
+                let file = ParticleFile::read(path).map_err(|e| RunFailure::Data(e.to_string()))?;
                 inputs.push((path.display().to_string(), file.content_hash()));
                 Some(file)
             }

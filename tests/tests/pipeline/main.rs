@@ -2,6 +2,12 @@
 //! repeatability, interruption, and what bad input gets. README.md of this crate says which
 //! test checks what.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "prints for developers"
+)]
+
 mod conservation;
 mod examples;
 mod forged;

@@ -2,6 +2,8 @@
 //! mutations beside it break. tests/README.md gives the reasons of the tolerances and the
 //! mutations of the source that were made by hand.
 
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
 use std::path::PathBuf;
 
 use studies::case_text::Viscosity;

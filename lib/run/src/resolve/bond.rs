@@ -1,5 +1,6 @@
 //! Scenes from a bond file: two adherends and a slab of adhesive between them.
 
+use particle_file::limits;
 use physics::{Dimensions, GridBox, Motion, RigidBody, VoxelBlock};
 
 use super::seed::Seeds;
@@ -23,6 +24,8 @@ pub struct Bond {
     pub adhesive: VoxelBlock,
     /// How far the upper adherend was moved away, m.
     pub gap_m: f64,
+    /// Cells that a file of this length may ask for.
+    pub most_cells: u64,
 }
 
 pub(super) fn geometry(
@@ -54,6 +57,13 @@ pub(super) fn geometry(
             )));
         }
         cells[a] = cells_along(n - 1e-3)?;
+    }
+    let [x, y, z] = cells;
+    if limits::volume(cells.map(|n| n as u64)) > bond.most_cells {
+        return Err(CaseError(format!(
+            "the grid would have {x} x {y} x {z} cells; accepted are {} in all for a bond file of this size: choose a larger cell",
+            bond.most_cells
+        )));
     }
     let mut min_m = bond.min_m;
     let depth = plane_strain.then_some(cell);

@@ -6,6 +6,7 @@ mod plausible;
 mod primitives;
 mod seed;
 
+use particle_file::limits;
 use physics::{
     Amount, Boundary, Clamp, Dimensions, Liquid, Newtonian, Pid, Points, RigidBody, Scene,
     ShearRate, Stop, Table, Tait, Viscosity, WallLaw,
@@ -19,16 +20,14 @@ pub use bond::Bond;
 pub(crate) use plausible::OVERLAP;
 use seed::Seeds;
 
-/// Most cells along an axis: a hundred times the largest tomograms; more is a mistake.
-const MOST_CELLS: f64 = 1e5;
-
 /// A number of cells along an axis, rounded up.
 fn cells_along(n: f64) -> Result<usize, CaseError> {
-    if n <= MOST_CELLS {
+    if n <= limits::PER_AXIS as f64 {
         return Ok(n.ceil().max(1.0) as usize);
     }
     Err(CaseError(format!(
-        "the domain is {n:.3e} cells long, more than {MOST_CELLS}: the cell is too small"
+        "the domain is {n:.3e} cells long, more than {}: the cell is too small",
+        limits::PER_AXIS
     )))
 }
 

@@ -1,0 +1,237 @@
+use ab_glyph_rasterizer::{Point as Place, Rasterizer, point};
+use plotters::backend::DrawingBackend;
+use plotters::style::{Color, RGBAColor};
+use skrifa::instance::{LocationRef, Size};
+use skrifa::outline::{DrawSettings, OutlineGlyphCollection, OutlinePen};
+use skrifa::{FontRef, GlyphId, MetadataProvider};
+
+use crate::Error;
+use crate::drawing::{Anchor, Point};
+
+/// The em of a font over the size by which plotters names it, so that text is as large in a
+/// PNG as in an SVG.
+const EM: f64 = 1.0 / 1.24;
+
+/// Draws black text of the embedded DejaVu Sans on pixels: lines of glyphs as they stand in
+/// the font, without kerning. Capitals and figures are centred on `at`.
+///
+/// # Errors
+/// [`Error::Draw`] when the font or the backend refuses.
+pub(crate) fn draw<B: DrawingBackend>(
+    backend: &mut B,
+    text: &str,
+    at: Point,
+    anchor: Anchor,
+    size: f64,
+) -> Result<(), Error> {
+    let line = Line::new(text, (EM * size) as f32)?;
+    let start = match anchor {
+        Anchor::Left => 0.0,
+        Anchor::Centre | Anchor::Upwards => 0.5 * line.width,
+        Anchor::Right => line.width,
+    };
+    let [left, top] = [start + line.margin, line.baseline - 0.5 * line.capitals];
+    let origin = at.map(|x| x.round() as i32);
+    let [left, top] = [left, top].map(|x| x.round() as i32);
+    let (width, height) = backend.get_size();
+    let mut failure = None;
+    line.ink.for_each_pixel_2d(|column, row, cover| {
+        let [right, down] = [column as i32 - left, row as i32 - top];
+        let [x, y] = match anchor {
+            Anchor::Upwards => [origin[0] + down, origin[1] - right - 1],
+            _ => [origin[0] + right, origin[1] + down],
+        };
+        let inside = (0..width as i32).contains(&x) && (0..height as i32).contains(&y);
+        if inside && cover > 0.0 && failure.is_none() {
+            let ink = RGBAColor(0, 0, 0, f64::from(cover.min(1.0))).to_backend_color();
+            failure = backend.draw_pixel((x, y), ink).err();
+        }
+    });
+    failure.map_or(Ok(()), |e| Err(Error::Draw(e.to_string())))
+}
+
+/// A line of text as the share of each pixel that its glyphs cover; lengths in pixels.
+struct Line {
+    ink: Rasterizer,
+    /// From the left edge to where the first glyph starts.
+    margin: f32,
+    /// From the top edge to the baseline.
+    baseline: f32,
+    /// Sum of the advances.
+    width: f32,
+    /// Height of the capitals.
+    capitals: f32,
+}
+
+impl Line {
+    fn new(text: &str, em: f32) -> Result<Self, Error> {
+        let unreadable = |_| Error::Draw("the embedded font is not readable".into());
+        let font = FontRef::new(dejavu::sans::regular()).map_err(unreadable)?;
+        let (size, place) = (Size::new(em), LocationRef::default());
+        let (metrics, advances) = (font.metrics(size, place), font.glyph_metrics(size, place));
+        // What the font lacks is drawn as its glyph 0, a box.
+        let glyphs: Vec<GlyphId> = (text.chars())
+            .map(|c| font.charmap().map(c).unwrap_or(GlyphId::NOTDEF))
+            .collect();
+        let advance = |&glyph| advances.advance_width(glyph).unwrap_or(0.0);
+        let width = glyphs.iter().map(advance).sum::<f32>();
+        // Glyphs may reach beyond their advance and the line's height: an em is enough.
+        let (margin, baseline) = (em, metrics.ascent + em);
+        let edges = [width + 2.0 * margin, baseline + em - metrics.descent];
+        let [columns, rows] = edges.map(|edge| edge.ceil() as usize);
+        let mut ink = Rasterizer::new(columns, rows);
+        let outlines = font.outline_glyphs();
+        let mut x = margin;
+        for glyph in &glyphs {
+            trace(
+                &outlines,
+                *glyph,
+                size,
+                &mut Pen::new(&mut ink, x, baseline),
+            )?;
+            x += advance(glyph);
+        }
+        let capitals = metrics.cap_height.unwrap_or(0.73 * em);
+        Ok(Self {
+            ink,
+            margin,
+            baseline,
+            width,
+            capitals,
+        })
+    }
+}
+
+fn trace(
+    outlines: &OutlineGlyphCollection,
+    glyph: GlyphId,
+    size: Size,
+    pen: &mut Pen,
+) -> Result<(), Error> {
+    let Some(outline) = outlines.get(glyph) else {
+        return Ok(());
+    };
+    let settings = DrawSettings::unhinted(size, LocationRef::default());
+    match outline.draw(settings, pen) {
+        Ok(_) => Ok(()),
+        Err(e) => Err(Error::Draw(e.to_string())),
+    }
+}
+
+/// Puts outlines, whose y points up from the baseline, among pixels, whose y points down.
+struct Pen<'a> {
+    ink: &'a mut Rasterizer,
+    origin: Place,
+    start: Place,
+    last: Place,
+}
+
+impl<'a> Pen<'a> {
+    fn new(ink: &'a mut Rasterizer, x: f32, y: f32) -> Self {
+        let origin = point(x, y);
+        Self {
+            ink,
+            origin,
+            start: origin,
+            last: origin,
+        }
+    }
+
+    fn place(&self, x: f32, y: f32) -> Place {
+        point(self.origin.x + x, self.origin.y - y)
+    }
+}
+
+impl OutlinePen for Pen<'_> {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.start = self.place(x, y);
+        self.last = self.start;
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        let to = self.place(x, y);
+        self.ink.draw_line(self.last, to);
+        self.last = to;
+    }
+
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        let to = self.place(x, y);
+        self.ink.draw_quad(self.last, self.place(cx, cy), to);
+        self.last = to;
+    }
+
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        let (a, b, to) = (self.place(ax, ay), self.place(bx, by), self.place(x, y));
+        self.ink.draw_cubic(self.last, a, b, to);
+        self.last = to;
+    }
+
+    fn close(&mut self) {
+        self.ink.draw_line(self.last, self.start);
+        self.last = self.start;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use plotters::backend::BitMapBackend;
+
+    use super::*;
+
+    const EDGE: u32 = 400;
+    const SIZE: f64 = 62.0;
+
+    /// Low and high corner of the ink, or none.
+    fn ink(text: &str, at: Point, anchor: Anchor) -> Option<[[i32; 2]; 2]> {
+        let mut pixels = vec![255_u8; (3 * EDGE * EDGE) as usize];
+        {
+            let mut backend = BitMapBackend::with_buffer(&mut pixels, (EDGE, EDGE));
+            draw(&mut backend, text, at, anchor, SIZE).unwrap();
+        }
+        let places = (0..EDGE * EDGE)
+            .filter(|i| pixels[3 * *i as usize] < 128)
+            .map(|i| [(i % EDGE) as i32, (i / EDGE) as i32]);
+        places.fold(None, |found, [x, y]| {
+            let [[x0, y0], [x1, y1]] = found.unwrap_or([[x, y]; 2]);
+            Some([[x0.min(x), y0.min(y)], [x1.max(x), y1.max(y)]])
+        })
+    }
+
+    /// DejaVu Sans: a capital H is 0.729 em high and advances by 0.752 em, with 0.098 em of
+    /// white on each side.
+    #[test]
+    fn a_capital_stands_where_its_anchor_says() {
+        let em = EM * SIZE;
+        let near = |found: i32, expected: f64| (f64::from(found) - expected).abs() <= 1.5;
+        let at = [200.0, 150.0];
+        let high = 0.5 * 0.729 * em;
+        for (anchor, start) in [
+            (Anchor::Left, 0.0),
+            (Anchor::Centre, -0.376 * em),
+            (Anchor::Right, -0.752 * em),
+        ] {
+            let [[x0, y0], [x1, y1]] = ink("H", at, anchor).unwrap();
+            assert!(
+                near(y0, 150.0 - high) && near(y1, 150.0 + high),
+                "{y0} {y1}"
+            );
+            let left = 200.0 + start;
+            assert!(near(x0, left + 0.098 * em), "{anchor:?}: {x0}");
+            assert!(near(x1, left + 0.654 * em), "{anchor:?}: {x1}");
+        }
+        let [[x0, y0], [x1, y1]] = ink("H", at, Anchor::Upwards).unwrap();
+        assert!(
+            near(x0, 200.0 - high) && near(x1, 200.0 + high),
+            "{x0} {x1}"
+        );
+        assert!(near(y0, 150.0 - 0.278 * em) && near(y1, 150.0 + 0.278 * em));
+    }
+
+    #[test]
+    fn text_that_the_font_lacks_or_the_picture_cuts_is_no_failure() {
+        assert_eq!(ink("", [9.0; 2], Anchor::Left), None);
+        assert!(ink("\u{4e2d}", [200.0; 2], Anchor::Left).is_some(), "a box");
+        let far = ink(&"\u{2588}".repeat(40), [0.0, 0.0], Anchor::Centre).unwrap();
+        assert_eq!((far[0], far[1][0]), ([0, 0], EDGE as i32 - 1));
+    }
+}

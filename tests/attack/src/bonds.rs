@@ -1,0 +1,100 @@
+use std::fs;
+
+use bondline::{Options, Placed, Plane, Specimen};
+use metrics::{Datum, Map, Reference, ShearRates, Side, State};
+use particle_file::{Kind, ParticleFile};
+use units::Axis;
+
+use crate::readers::{explained, scratch};
+use crate::runs::{self, SCHEMES};
+use crate::sign::signed;
+
+/// Opens a particle file as it is and signed anew, reads all of it and does with it what the
+/// tools do.
+pub(crate) fn feed(bytes: &[u8]) -> bool {
+    let _ = ParticleFile::from_bytes(bytes).map(|file| file.check());
+    let signed = signed(bytes);
+    let Ok(file) = ParticleFile::from_bytes(&signed) else {
+        return false;
+    };
+    let _ = (file.sum(), file.content_hash());
+    let mut volume = 0.0;
+    let _ = file.for_each_adhesive(|_, v| volume += v);
+    read_columns(&file);
+    measure(&file);
+    match file.header().kind {
+        Kind::Specimen => build(&file),
+        Kind::Bond => press(&signed),
+        Kind::State | Kind::Checkpoint => {}
+    }
+    file.check().is_ok()
+}
+
+fn read_columns(file: &ParticleFile) {
+    for column in file.columns() {
+        let name = &column.name;
+        let _ = (file.column::<f32>(name), file.column::<f64>(name));
+        let _ = (file.column::<u32>(name), file.column::<u64>(name));
+        let _ = (file.column::<u8>(name), file.vectors(name));
+    }
+    for section in file.sections() {
+        let _ = file.blob(&section.name);
+    }
+}
+
+fn measure(file: &ParticleFile) {
+    let _ = ShearRates::of_file(file, None);
+    let Ok(state) = State::of_file(file) else {
+        return;
+    };
+    for reference in [
+        Reference::Mid,
+        Reference::Adherend,
+        Reference::Fit,
+        Reference::Plane(2e-5),
+    ] {
+        let Ok(datum) = Datum::find(reference, &state) else {
+            continue;
+        };
+        let _ = metrics::penetration(&state, &datum);
+        let _ = metrics::depth_profile(&state, &datum);
+        let map = Map::new(&state, &datum, Side::Total);
+        let _ = metrics::table::write_map(&mut std::io::sink(), &map);
+    }
+    let _ = metrics::compare(&state, &state);
+}
+
+fn build(file: &ParticleFile) {
+    let block = |name| file.block_named(name).ok().map(Placed::of_block);
+    let Some((wood, adhesive)) = block("wood").zip(block("adhesive")) else {
+        return;
+    };
+    let Ok(specimen) = Specimen::new(wood, adhesive) else {
+        return;
+    };
+    let options = Options {
+        normal: Axis::from_index(file.header().normal.into()).unwrap_or(Axis::Y),
+        plane: Plane::Auto,
+        voxels_per_cell: 2,
+        gap_m: None,
+        tolerance: 0.5,
+    };
+    let _ = bondline::build(&specimen, &options);
+}
+
+/// Explains the bond and takes one step of it by both schemes.
+fn press(bytes: &[u8]) {
+    let bond = scratch().join("forged.mpts");
+    if fs::write(&bond, bytes).is_err() {
+        return;
+    }
+    for scheme in SCHEMES {
+        let Some(case) = runs::case_file(scheme) else {
+            return;
+        };
+        explained(&case, Some(&bond));
+        let folder = scratch().join("pressed");
+        let _ = fs::remove_dir_all(&folder);
+        let _ = runs::steps(&case, &bond, &folder, 1);
+    }
+}
