@@ -42,3 +42,8 @@ leave-out:
 	@$(CARGO) build --release --quiet -p studies
 	@mkdir -p out/results
 	$(BIN)/leave_out pipelines/leave-out $(if $(ONLY),out/results,docs/results) $(ONLY)
+
+# 50 000 forged particle files and checkpoints with right checksums: none panics, hangs or floods.
+.PHONY: forge
+forge:
+	$(CARGO) run --release --quiet -p attack --bin forge -- out/forge $(or $(COUNT),50000)
