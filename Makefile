@@ -8,7 +8,7 @@
 #   make test                     formatting, clippy, all tests
 #   make verify                   long studies: both schemes against closed forms
 #   make tradeoff stability options   error against run time; extreme cases; explicit options
-#   make leave-out                what a scene pays for features it does not use
+#   make leave-out forge          what a scene pays for features it does not use; forged files
 #   make bench                    speed of the kernels and of the linear solver
 #   make figures man install clean help
 

@@ -122,7 +122,7 @@ fn names_are_no_formulas_and_do_not_steer_a_terminal() {
     }
     let output = bench.run(
         "bond-figures",
-        &["table2", "--run", "=a:b=x.csv", "-o", "t.csv"],
+        &["table2", "--run", "+a:b=x.csv", "-o", "t.csv"],
     );
     assert!(said(&output).contains("formula"), "{}", said(&output));
 }

@@ -15,6 +15,8 @@ use rand_chacha::ChaCha8Rng;
 
 const LONGEST: Duration = Duration::from_secs(5);
 const MOST_GB: f64 = 4.0;
+/// Forgeries between two lines of the report.
+const TOLD_EVERY: u64 = 5000;
 /// Numbers at which arithmetic goes wrong.
 const NUMBERS: [f64; 16] = [
     0.0,
@@ -85,18 +87,21 @@ fn campaign(target: Target, count: u64, keep: &Path) -> bool {
         taken += u64::from(matches!(ended, Ok(true)));
         panics += u64::from(ended.is_err());
         slow += u64::from(took > LONGEST);
+        if (i + 1) % TOLD_EVERY == 0 || i + 1 == count {
+            println!(
+                "{}: {} forged in {:.0} s, {taken} taken, {panics} panics, {slow} longer than {} s (slowest {:.2} s), peak memory {:.2} GB",
+                target.name(),
+                i + 1,
+                begun.elapsed().as_secs_f64(),
+                LONGEST.as_secs(),
+                slowest.as_secs_f64(),
+                peak_gb()
+            );
+        }
         if ended.is_err() || took > LONGEST {
             let _ = std::fs::write(keep.join(format!("{}-{i}", target.name())), &input);
         }
     }
-    println!(
-        "{}: {count} forged in {:.0} s, {taken} taken, {panics} panics, {slow} longer than {} s (slowest {:.2} s), peak memory {:.2} GB",
-        target.name(),
-        begun.elapsed().as_secs_f64(),
-        LONGEST.as_secs(),
-        slowest.as_secs_f64(),
-        peak_gb()
-    );
     panics == 0 && slow == 0 && peak_gb() < MOST_GB
 }
 
