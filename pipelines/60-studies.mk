@@ -61,4 +61,4 @@ crash: $(BINARIES)
 # 50 000 forged particle files and checkpoints with right checksums: none panics, hangs or floods.
 .PHONY: forge
 forge:
-	$(CARGO) run --release --quiet -p attack --bin forge -- out/forge $(or $(COUNT),50000)
+	$(CARGO) run --release --quiet -p attack --bin forge -- out/forge $(or $(COUNT),50000) $(ONLY)

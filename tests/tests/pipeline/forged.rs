@@ -1,7 +1,8 @@
 //! Bond files that are sound as files but describe no bond: a sentence, never a panic, and no
 //! memory beyond what the file is worth.
 
-use std::fs::File;
+use std::fs::{self, File};
+use std::path::Path;
 
 use particle_file::{Block, Draft, Header, ParticleFile};
 
@@ -26,7 +27,6 @@ fn forge(bench: &Workbench, to: &str, change: impl Fn(&mut Header, &mut [Block])
 
 type Change = fn(&mut Header, &mut [Block]);
 
-/// The last four were taken before, and panicked or asked for memory that there is not.
 const FORGERIES: [(&str, Change); 16] = [
     ("gap of a kilometre", |h, _| h.set_attribute("gap_m", 1e3)),
     ("negative gap", |h, _| h.set_attribute("gap_m", -1e-6)),
@@ -83,4 +83,35 @@ fn forged_bonds_end_in_a_sentence() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Files that made tools panic, abort or write without end (their makers: tests/attack).
+#[test]
+fn files_found_by_attack_end_in_a_sentence() {
+    let bench = Workbench::with_bond();
+    let finds = Path::new(env!("CARGO_MANIFEST_DIR")).join("attack/finds/particle-file");
+    let mut wrong = Vec::new();
+    let mut count = 0;
+    for find in fs::read_dir(&finds).unwrap() {
+        fs::copy(find.unwrap().path(), bench.path("find.mpts")).unwrap();
+        count += 1;
+        for line in [
+            "wp-metrics find.mpts --reference plane=1um --map map.csv",
+            "wp-metrics find.mpts --profile profile.csv",
+            "particles export find.mpts -o labels.vti",
+            "particles export find.mpts -o labels.tif",
+            "bond-figures slice find.mpts -o slice.svg",
+            "build-bondline find.mpts -o built.mpts",
+            "mpm-run case.toml --particles find.mpts -o run --set integrator.scheme=implicit",
+        ] {
+            // 60 MB of output at most, and 4 GB of memory.
+            let output = bench.shell(&format!("ulimit -f 60000 -v 4000000; timeout 20 {line}"));
+            let code = output.status.code();
+            if code != Some(3) || said(&output).contains("panicked") {
+                wrong.push(format!("{line}: {code:?} {}", said(&output)));
+            }
+        }
+    }
+    assert!(count >= 4 && wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(!bench.path("run").exists());
 }

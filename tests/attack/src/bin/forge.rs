@@ -114,10 +114,14 @@ fn main() -> ExitCode {
         println!("cannot make the folder {}", keep.display());
         return ExitCode::FAILURE;
     }
+    let only = words.next().unwrap_or_default();
     let kinds = [Target::ParticleFile, Target::Checkpoint];
-    let harmless = kinds.map(|target| campaign(target, count, keep));
+    let mut harmless = true;
+    for target in kinds.into_iter().filter(|kind| kind.name().contains(&only)) {
+        harmless &= campaign(target, count, keep);
+    }
     match harmless {
-        [true, true] => ExitCode::SUCCESS,
-        _ => ExitCode::FAILURE,
+        true => ExitCode::SUCCESS,
+        false => ExitCode::FAILURE,
     }
 }
