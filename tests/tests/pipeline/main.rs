@@ -2,11 +2,11 @@
 //! repeatability, interruption, and what bad input gets. README.md of this crate says which
 //! test checks what.
 
+mod acer_volume;
 mod conservation;
 mod examples;
 mod forged;
 mod interruption;
-mod real_volume;
 mod refusals;
 mod repeatability;
 mod workbench;
