@@ -146,11 +146,6 @@ impl Explicit {
         self.state.corrections
     }
 
-    /// The plan the run follows.
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
-
     /// What the second half of a node's velocity holds.
     pub(crate) fn mode(&self) -> Mode {
         match self.settings.velocity_update {
