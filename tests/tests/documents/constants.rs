@@ -48,7 +48,7 @@ pub fn differences(root: &Path) -> Vec<String> {
     said
 }
 
-/// The constants of a source file; marks such as `u32::MAX` and values that are no numbers left out.
+/// The constants of a source file; marks such as `u32::MAX` and values that are not numbers left out.
 fn constants(name: &str, file: &str, text: &str) -> Vec<Constant> {
     let text = text.split("\nmod tests {").next().unwrap_or_default();
     let mut list = Vec::new();

@@ -1,3 +1,5 @@
+//! Liquid fractions: full where liquid is, whatever the offset of the walls and the threads.
+
 use std::collections::BTreeMap;
 
 use physics::{Boundary, Motion, RigidBody, VoxelBlock};

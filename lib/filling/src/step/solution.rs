@@ -8,12 +8,12 @@ use crate::fractions;
 use crate::operator::{self, Before, Dofs, Liquid, NONE, Operator, Sheared, System};
 use crate::solve::{Csr, SaddleReport, SolveError};
 
-/// Passes over a viscosity that depends on the shear rate: at most, and in the first step,
-/// which has no rates to start from.
+/// Largest number of passes over a viscosity that depends on the shear rate: usually, and in the first
+/// step, which has no rates to start from.
 const PASSES: [usize; 2] = [3, 8];
 /// Mean relative change of the viscosity below which no further pass is made.
 const SETTLED: f64 = 0.02;
-/// A solve that stops short of its tolerance by at most this factor is used.
+/// A solution whose residual exceeds the tolerance by at most this factor is accepted.
 const SHORT: f64 = 10.0;
 
 /// The flow of a step.
