@@ -1,7 +1,7 @@
 //! Density projection: moves particles so that the liquid keeps its density.
 //!
 //! Sampling and interpolation errors of the transport show as cells that hold too much or too
-//! little. The displacement that takes a part kappa of the error away and costs least,
+//! little. The least displacement that removes a fraction kappa of the error,
 //!
 //! min sum_f V_f d_f^2/2 with G d = kappa clip(r_c - 1) phi_c o_c,
 //!
@@ -15,11 +15,11 @@ use crate::operator::NONE;
 use crate::solve::{Csr, Poisson, SolveError};
 use crate::window::Window;
 
-/// Part of the density error that one step takes away.
+/// Fraction of the density error that one step removes.
 const KAPPA: f64 = 0.5;
 /// Largest relative error that counts.
 const CLIP: f64 = 0.3;
-/// Liquid fraction from which a cell may be drawn together; below, it is partly filled
+/// Liquid fraction from which a cell below unit density is contracted; below, it is partly filled
 /// because it is at the surface.
 const FULL: f32 = 0.85;
 /// Largest displacement of a face, cells: a cell in which particles crowd must not hold back the

@@ -55,41 +55,6 @@ impl Fractions {
         cells::densities(self, window, open);
     }
 
-    /// Deposited volume, cells: that of the particles.
-    pub fn deposited(&self, window: &Window) -> f64 {
-        let home = |c: usize| {
-            let cell = window.coordinates(c);
-            cell == window.home(cell)
-        };
-        let mut sum = 0.0;
-        for cell in (0..window.len()).filter(|&c| home(c)) {
-            for sub in sub_cells(window, cell) {
-                sum += f64::from(self.deposit[sub]);
-            }
-        }
-        sum / window.sub_per_cell() as f64
-    }
-
-    /// Volume of liquid by fractions, cells.
-    pub fn volume(&self, window: &Window, open: &[f32]) -> f64 {
-        let rows: Vec<f64> = (0..window.len() / window.cells[0])
-            .into_par_iter()
-            .map(|row| {
-                let mut sum = 0.0;
-                for cell in row * window.cells[0]..(row + 1) * window.cells[0] {
-                    let at = window.coordinates(cell);
-                    if self.cell[cell] > 0.0 && window.in_domain(at) {
-                        for sub in sub_cells(window, cell) {
-                            sum += f64::from(self.liquid[sub] * open[sub]);
-                        }
-                    }
-                }
-                sum
-            })
-            .collect();
-        rows.iter().sum::<f64>() / window.sub_per_cell() as f64
-    }
-
     /// Range of cells along x, per row of cells, that particles can reach with their hat.
     fn find_rows(&mut self, bins: &Bins, window: &Window) {
         let [nx, ny, nz] = window.cells;

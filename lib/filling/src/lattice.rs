@@ -50,18 +50,10 @@ impl Lattice {
         lattice
     }
 
-    /// Computes the geometry anew for bodies that moved or another window.
-    pub fn update(&mut self, solids: Solids, window: Window) {
-        self.solids = solids;
-        self.window = window;
-        self.fill();
-    }
-
     fn fill(&mut self) {
         self.fill_open();
         for axis in 0..self.window.domain.axes {
-            let mut faces = std::mem::take(&mut self.faces[axis]);
-            faces.resize(self.window.len(), OPEN);
+            let mut faces = vec![OPEN; self.window.len()];
             let row = self.window.cells[0];
             faces.par_chunks_mut(row).enumerate().for_each(|(r, row)| {
                 let (j, k) = (r % self.window.cells[1], r / self.window.cells[1]);
@@ -76,8 +68,7 @@ impl Lattice {
     fn fill_open(&mut self) {
         let window = self.window;
         let [nx, ny, _] = window.sub_cells();
-        let mut open = std::mem::take(&mut self.open);
-        open.resize(window.sub_len(), 1.0);
+        let mut open = vec![1.0; window.sub_len()];
         let width: [f64; 3] = std::array::from_fn(|a| 1.0 / window.parts(a) as f64);
         // Ends of the sub-cell `s` along an axis.
         let span = |axis: usize, s: usize| {
@@ -123,19 +114,5 @@ impl Lattice {
             (_, 1) => &[0, 2],
             _ => &[0, 1],
         }
-    }
-
-    /// Open volume of a cell, 0 to 1.
-    pub fn cell_open(&self, cell: [usize; 3]) -> f64 {
-        let w = &self.window;
-        let first = w.first_sub(cell);
-        let mut sum = 0.0;
-        for dz in 0..w.parts(2) {
-            for dy in 0..2 {
-                let row = first + dy * w.sub_stride(1) + dz * w.sub_stride(2);
-                sum += f64::from(self.open[row]) + f64::from(self.open[row + 1]);
-            }
-        }
-        sum / w.sub_per_cell() as f64
     }
 }

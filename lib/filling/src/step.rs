@@ -1,4 +1,4 @@
-//! One implicit time step.
+//! One implicit time step; the numbers of its stages are those of docs/methods.md section 3.1.
 
 mod checks;
 mod drive;
@@ -26,15 +26,15 @@ use solution::Solution;
 use stages::{Stage, Stages};
 use units::Units;
 
-/// A step whose solved speeds overshoot its CFL number by more than this factor is taken again; up to
-/// it, what was solved is followed for the shorter time.
+/// A step whose solved speeds exceed its CFL number by more than this factor is repeated; up to it, the
+/// solution is followed for the shorter time.
 const OVERSHOOT: f64 = 1.3;
 /// Cells by which the middle of a body's way may lie off the place that the step was solved for: its
 /// speed under load control is known only then. With a tenth of a cell a plate that is about to
 /// touch liquid can be held back before it does, step after step.
 const MISPLACED: f64 = 0.02;
-/// Part of the face velocities, the fastest, that the CFL number leaves out: jets through holes
-/// of a voxel must not set the time step of the whole bond. They cross [`JET_CFL`] cells at most.
+/// Fraction of the face velocities, the fastest, that the CFL number ignores: jets through holes of
+/// one voxel must not set the time step of the whole bond. They cross [`JET_CFL`] cells at most.
 const JETS: f64 = 1e-3;
 /// Most cells that any liquid crosses per step.
 const JET_CFL: f64 = 1.5;
@@ -172,7 +172,7 @@ impl Implicit {
             return Ok(dt);
         }
         Err(Failure(format!(
-            "step {}: nothing moves and no time is left, so no time step can be chosen",
+            "step {}: nothing moves and no time is left: there is no time step to take",
             self.steps + 1
         )))
     }
@@ -258,8 +258,8 @@ impl Implicit {
             }
         }
         Err(Failure(format!(
-            "step {}: the liquid gets faster the shorter the time step, {:.3e} m/s at last; \
-             a wall may push liquid that has no way out",
+            "step {}: no acceptable time step was found, for the liquid is the faster the shorter the step, \
+             {:.3e} m/s at last; a wall may push liquid that is enclosed on all sides",
             self.steps + 1,
             self.pace
         )))

@@ -9,14 +9,14 @@
 /// Derivation. The velocity is the mean over a control volume of thickness h1 = d + 1/2 at the
 /// wall. In a slit of width H driven by a pressure gradient the exact profile is
 /// u = s (x - x^2/H) with wall slope s, whose mean there is s (h1/2 - h1^2/(3 H)); the first
-/// term is the place of the mean in linear flow. Differences of means over equal volumes are
-/// exact, but that between the wall volume and the next lacks e = s (h1^2 - 1)/(3 H), which the
-/// inner volumes miss. Spreading it over the half slit,
+/// term is where the mean lies in linear flow. Differences of means over equal volumes are
+/// exact, but that between the wall volume and the next is short by e = s (h1^2 - 1)/(3 H). Spreading
+/// this defect over the half slit,
 ///
 /// d_eff = h1/2 - h1^2/(3 H) + (1 - 2 h1/H) (h1^2 - 1)/(3 H),
 ///
 /// makes the discrete flux exact for any offset of the walls. Where both walls bound one
-/// control volume u = H^2/12 G/eta wants d_eff = H/6.
+/// control volume, u = H^2/12 G/eta requires d_eff = H/6.
 pub fn effective_distance(d: f64, opposite: f64, path: f64) -> f64 {
     if d + opposite <= path + 1e-9 && opposite <= 1.0 + 1e-6 {
         return path / 6.0;

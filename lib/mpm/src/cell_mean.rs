@@ -30,8 +30,8 @@ fn cell_of(points: &Points, p: usize, axes: usize) -> usize {
 
 /// Replaces the volume rate of every point by that of its cell, the flux through the cell's
 /// faces; `tile.local` holds the nodal velocities. The mean over the points themselves would
-/// do only while they lie evenly: where they do not, liquid finds modes of the nodes that
-/// no point notices and is compressed without pressure.
+/// do only while they lie evenly: where they do not, the nodes have null-space modes that no point
+/// senses, by which liquid is compressed without pressure.
 pub(crate) fn share_rate(tile: &mut Tile, axes: usize) {
     const STRIDE: [usize; 3] = [1, HALO, HALO * HALO];
     let scale = 1.0 / (1 << (axes - 1)) as Real;

@@ -1,7 +1,7 @@
 //! Moving the points, and keeping them out of the bodies.
 //!
 //! Contact at nodes blurs a wall over about a cell. That is not enough for wood: behind a wall
-//! one voxel thick a node's velocity is the liquid's on either side, and points seep through. So
+//! one voxel thick a node's velocity is the liquid's on either side, and points leak through. So
 //! a point may not enter a solid voxel: its path is followed axis by axis, stopped at the
 //! first face, and the impulse goes to the body. Every such stop is counted.
 
@@ -28,7 +28,7 @@ pub(crate) struct Obstacle<'a> {
     pub(crate) velocity: [Real; 3],
 }
 
-/// The first point whose displacement is not a number or longer than a cell.
+/// The first point whose displacement is not a number or 0.9 of a cell or longer.
 pub(crate) type Fault = Option<u32>;
 
 /// Moves all points of a tile by their displacement and sorts out those that leave.
@@ -125,7 +125,7 @@ fn faces(tile: &Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Vec<FaceGrid> {
         .collect()
 }
 
-/// Whether a point at `d` after moving by `shift` has certainly crossed no face.
+/// Whether a point at `d` after moving by `shift` cannot have crossed a face.
 #[inline(always)]
 fn far(grids: &[FaceGrid], base: usize, d: &Quad, shift: &Quad) -> bool {
     let local = [

@@ -1,3 +1,5 @@
+//! The explicit scheme on a scene: its state, its start, and what it reports.
+
 use physics::{
     Diagnostics, Failure, LiquidState, Motion, PidControl, Saved, Scene, Scheme, StageTime,
     StepLimit, StepReport, Viscosity,
@@ -49,8 +51,8 @@ pub(crate) struct State {
     pub(crate) travel_m: f64,
     /// Displacement of each body, m.
     pub(crate) displacement: Vec<[f64; 3]>,
-    /// Largest stable step now, s; the Courant number is not in it, because a run may go on from
-    /// a saved state at another one.
+    /// Largest stable step now, s, without the Courant number, because a run may continue from a saved
+    /// state at another one.
     pub(crate) limit_s: f64,
     pub(crate) lost: u64,
     pub(crate) corrections: Corrections,
@@ -144,11 +146,6 @@ impl Explicit {
     /// Times points had to be kept out of the bodies.
     pub fn corrections(&self) -> Corrections {
         self.state.corrections
-    }
-
-    /// The plan the run follows.
-    pub fn plan(&self) -> &Plan {
-        &self.plan
     }
 
     /// What the second half of a node's velocity holds.

@@ -1,3 +1,5 @@
+//! What an explicit run of a scene will take: time step, its limits, steps, memory.
+
 use std::fmt;
 
 use physics::{Amount, Rheology, Scene, Stop, Viscosity};

@@ -1,5 +1,5 @@
 //! The precision of state and arithmetic: single, or double when built with the feature
-//! `double`, which shows what is rounding and what it costs. Sums over the whole run, positions
+//! `double`, which shows how large rounding errors are and what it costs. Sums over the whole run, positions
 //! of bodies and the clamp are in double precision in both.
 
 use physics::{Array, Saved};

@@ -1,3 +1,5 @@
+//! What of the explicit scheme a case chooses.
+
 /// Shape function between points and nodes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShapeFunction {
@@ -100,7 +102,7 @@ impl Settings {
             && !(cells > 0.0 && cells <= MAX_SEPARATION)
         {
             return Err(format!(
-                "separation is {cells} cells: it must be above 0 and at most {MAX_SEPARATION} cells, farther than which no point reaches a node"
+                "separation is {cells} cells: it must be above 0 and at most {MAX_SEPARATION} cells, beyond which no point reaches a node"
             ));
         }
         match self.velocity_update {

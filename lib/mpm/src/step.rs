@@ -46,7 +46,7 @@ const CHECK_EVERY: u64 = 64;
 /// nodes of slope^2 / weight of GIMP along an axis.
 const ALONE_VISCOUS: f64 = 0.4;
 const ALONE_ACOUSTIC: f64 = 0.25;
-/// Volume ratios beyond which Eq. 1 means nothing.
+/// Relative volume changes j outside which Eq. 1 has no meaning.
 const SOUND_J: std::ops::Range<Real> = -0.7..1.0;
 
 impl Explicit {
@@ -217,7 +217,7 @@ impl Explicit {
         }
         match fault {
             Some(id) => Err(Failure(format!(
-                "step {}: liquid point {id} would move by more than 0.9 of a cell or has no finite velocity: {}",
+                "step {}: liquid point {id} would move by more than 0.9 of a cell or its velocity is not finite: {}",
                 self.state.step + 1,
                 self.unstable(id)
             ))),
@@ -265,7 +265,7 @@ impl Explicit {
         }
     }
 
-    /// Looks at all points: stops an unsound run and renews the time step.
+    /// Checks all points: stops an unstable run and renews the limits of the time step.
     fn check(&mut self) -> Result<(), Failure> {
         let sound = self.scene.liquid.sound_speed();
         let (mut fastest, mut least): (f64, Real) = (0.0, 0.0);
@@ -327,8 +327,8 @@ impl Explicit {
             self.settings.cfl, self.plan.limit
         );
         if self.is_alone(id) {
-            // Nobody shares the nodes and keeps their velocity gradient from one step to the
-            // next, so that stress turns the gradient round in each.
+            // No other point shares the nodes and carries their velocity gradient to the next step, so
+            // that the stress reverses the gradient in each.
             return format!(
                 "the run is unstable where that point is alone, a drop smaller than a cell; {advice}, and such a drop needs {ALONE_VISCOUS} of the viscous and {ALONE_ACOUSTIC} of the acoustic limit"
             );

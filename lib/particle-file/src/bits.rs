@@ -141,11 +141,6 @@ impl BitGrid {
     pub fn words(&self) -> &[u64] {
         &self.words
     }
-
-    /// All words, rows (y, z) with y fastest.
-    pub fn into_words(self) -> Vec<u64> {
-        self.words
-    }
 }
 
 impl<'a> BitsRef<'a> {
@@ -192,14 +187,6 @@ impl<'a> BitsRef<'a> {
     /// All words, rows (y, z) with y fastest.
     pub fn words(&self) -> &'a [u64] {
         self.words
-    }
-
-    /// An owned copy.
-    pub fn to_grid(&self) -> BitGrid {
-        BitGrid {
-            dims: self.dims,
-            words: self.words.to_vec(),
-        }
     }
 
     /// The x of the set voxels of row (y, z), ascending.
@@ -298,7 +285,7 @@ mod tests {
     fn bits_behind_a_row_are_cleared_or_refused() {
         let filled = BitGrid::from_rows([70, 2, 2], |_, _, row| row.fill(u64::MAX));
         assert_eq!(filled.count(), 280);
-        let mut words = filled.into_words();
+        let mut words = filled.words().to_vec();
         assert!(BitGrid::from_words([70, 2, 2], words.clone()).is_some());
         assert!(BitGrid::from_words([70, 2, 3], words.clone()).is_none());
         words[3] |= 1 << 6; // x = 70 of the second row

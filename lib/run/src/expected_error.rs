@@ -63,6 +63,10 @@ fn quote(out: &mut String, case: &Case, row: &Measured) -> std::fmt::Result {
         "  measured with      {} cells across the lumen, walls off the nodes among them",
         row.cells
     )?;
+    writeln!(
+        out,
+        "                     slit and bond line against finer runs of the implicit scheme, no independent reference"
+    )?;
     let mut other = Vec::new();
     if case
         .contact

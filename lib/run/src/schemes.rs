@@ -123,9 +123,13 @@ fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
     Ok(settings)
 }
 
-/// Liquid particle-steps per second and thread of a scene with walls, from
-/// docs/results/bench.md; a filtered update costs about one more FLIP step per order.
-const EXPLICIT_SPEED: f64 = 5e6;
+/// Liquid particle-steps per second and thread of FLIP in a scene with walls, as measured
+/// (docs/results/README.md#speed-of-the-explicit-scheme).
+const EXPLICIT_SPEED: f64 = 11e6;
+/// What each further order of a velocity filter costs, in FLIP steps, by the same measurement.
+const FILTER_ORDER: f64 = 0.32;
+/// What an APIC step costs, in FLIP steps, by the same measurement.
+const APIC_STEP: f64 = 1.3;
 
 /// Latest over nominal end of a run whose clamp a pressure limit may hold.
 fn latest(setup: &Setup) -> f64 {
@@ -145,9 +149,10 @@ fn start_bytes(setup: &Setup) -> f64 {
 fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast, RunFailure> {
     let plan = mpm::Plan::new(&setup.scene, &setup.liquid, settings);
     let points = setup.liquid.points as f64;
-    let filter = match settings.velocity_update {
-        VelocityUpdate::Xpic(m) | VelocityUpdate::Fmpm(m) => 1.0 + 0.5 * f64::from(m - 1),
-        _ => 1.0,
+    let cost = match settings.velocity_update {
+        VelocityUpdate::Xpic(m) | VelocityUpdate::Fmpm(m) => 1.0 + FILTER_ORDER * f64::from(m - 1),
+        VelocityUpdate::Apic => APIC_STEP,
+        VelocityUpdate::Flip | VelocityUpdate::Pic => 1.0,
     };
     let mut notes = vec![format!(
         "limits             acoustic {:.3e} s, viscous {:.3e} s; the Courant number {} is of the smaller",
@@ -168,7 +173,7 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
         // Its step does not grow while the clamp is held.
         most_steps: plan.steps * latest(setup),
         memory_bytes: plan.memory_bytes + start_bytes(setup),
-        step_s: points * filter / (EXPLICIT_SPEED * rayon::current_num_threads() as f64),
+        step_s: points * cost / (EXPLICIT_SPEED * rayon::current_num_threads() as f64),
         notes,
     })
 }

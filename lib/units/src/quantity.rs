@@ -25,7 +25,7 @@ impl<D: Dimension> Quantity<D> {
     }
 
     /// A quantity from its value in SI.
-    pub fn from_si(si: f64) -> Self {
+    fn from_si(si: f64) -> Self {
         Self {
             si,
             dimension: PhantomData,

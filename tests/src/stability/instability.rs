@@ -205,7 +205,7 @@ fn last_step(run: &Run) -> Result<u64, String> {
     (steps.last().map(|&s| s as u64)).ok_or_else(|| "its history is empty".into())
 }
 
-/// How many particle files the run folder holds, all whole and without a number that is none;
+/// How many particle files the run folder holds, all whole and without a value that is not a number;
 /// the history likewise.
 ///
 /// # Errors

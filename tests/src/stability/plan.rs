@@ -1,4 +1,4 @@
-//! Which scenes by which methods: numerics.md section 11.
+//! Which scenes by which methods: docs/methods.md section 5.2.
 
 use super::scenes::{Press, Scene, chamber, free_drop, press, sealed_lumen, splash, torn};
 use super::trial::Trial;

@@ -159,7 +159,7 @@ drops. One value is varied at a time; sticking walls and CFL 0.5 unless said.
 
 - *ended*: `stable`; `noisy`, when the run ended but its kinetic energy was at some time more than ten
   times that of the scene's own motion; `refused` (exit 2) and `stopped` (exit 1) with the
-  sentence said; `BROKEN` would be a run that ended in numbers that are none, in a signal or not
+  sentence said; `BROKEN` would be a run that ended in values that are not numbers, in a signal or not
   at all, of which there must be none.
 - *energy*: largest kinetic energy over that of all liquid at the speed of the scene's own motion (in
   the lumen, for a press).

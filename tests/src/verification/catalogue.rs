@@ -38,7 +38,7 @@ fn all_methods() -> Vec<Method> {
     list
 }
 
-/// The scenes in the order of numerics.md section 9.
+/// The scenes in the order of docs/methods.md section 5.1.
 pub fn all() -> Vec<Entry> {
     [
         films(),

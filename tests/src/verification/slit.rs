@@ -1,6 +1,6 @@
 //! A piston pushes liquid from a reservoir, four slit widths wide, into a slit: the mission's
-//! own flow. Against a 24-cell run of another code (shared/data/slit-filling-reference.csv)
-//! and, for the slope, against lubrication theory.
+//! own flow. Against a 24-cell run of the implicit scheme's own prototype, no independent
+//! reference (docs/methods.md section 5), and, for the slope, against lubrication theory.
 
 use super::{LUMEN, Measured, Scene, window_mean};
 use crate::case_text::{Body, CaseText, PF};
@@ -10,7 +10,7 @@ use crate::outputs::Run;
 const SPEED: f64 = 0.5;
 
 /// Filled length in slit widths and the equivalent length that entrance and moving front add
-/// to it in the piston force (filling-solver.md section A, 24 cells per slit).
+/// to it in the piston force, by the 24-cell run of docs/methods.md section 5.
 const ENTRANCE: [(f64, f64); 4] = [(1.0, 0.25), (2.0, 0.22), (3.0, 0.22), (4.0, 0.22)];
 
 /// Slit of `n` cells, walls offset by `offset` cells along x and y.
@@ -51,7 +51,7 @@ pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
     Scene {
         name: format!("slit-n{n}-off{}-{}", offset[0], offset[1]),
         case,
-        against: "24-cell reference",
+        against: "24-cell prototype",
         measure: Box::new(move |run| {
             let (filled, force): (Vec<f64>, Vec<f64>) =
                 curve(run, n)?.iter().map(|p| (p[0], p[1])).unzip();

@@ -7,7 +7,7 @@ use crate::case_text::{Body, CaseText, PF};
 const PRESSURE: f64 = 1e6;
 
 /// Time to fill five widths in units of 12 eta/p: L^2/2 + e L with e = 0.25 + 0.013 (the
-/// 24-cell run of filling-solver.md section A: 13.83; here with the entrance of our piston).
+/// 24-cell run of docs/methods.md section 5: 13.83; here with the entrance of our piston).
 const TIME_TO_FIVE: f64 = 13.83;
 
 /// Slit of `n` cells, walls `offset` cells off the nodes along x.
@@ -49,7 +49,7 @@ pub fn scene(n: u32, offset: f64) -> Scene {
     Scene {
         name: format!("washburn-n{n}-off{offset}"),
         case,
-        against: "24-cell reference",
+        against: "24-cell prototype",
         measure: Box::new(move |run| {
             let time = run.history("time_s")?;
             let travel = run.history("displacement_m")?;

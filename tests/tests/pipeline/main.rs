@@ -8,12 +8,12 @@
     reason = "prints for developers"
 )]
 
+mod acer_volume;
 mod conservation;
 mod examples;
 mod forged;
 mod hostile;
 mod interruption;
-mod real_volume;
 mod refusals;
 mod repeatability;
 mod run_folder;

@@ -33,8 +33,9 @@ pub fn set_velocities(particles: &mut Particles, flow: &Flow, limit: Option<&[Ve
         });
 }
 
-/// Part of the range of the velocities around by which a profile may exceed them. The peak of plane
-/// Poiseuille flow over two cells would need one half, with which thin liquids are unstable again.
+/// Fraction of the range of the surrounding velocities by which a particle may exceed them. The peak of
+/// plane Poiseuille flow over two cells would need one half, with which liquids of low viscosity are
+/// unstable again.
 const PEAK: f32 = 0.125;
 
 /// `range` widened by the known velocities of the two faces of a cell along `axis` and of those

@@ -1,4 +1,4 @@
-//! Velocities a few cells into the air, for particles that reach it within a step.
+//! Velocities extrapolated a few cells into the air, for particles that reach it within a step.
 
 use rayon::prelude::*;
 
@@ -6,7 +6,7 @@ use crate::lattice::Lattice;
 use crate::operator::NONE;
 use crate::solids::OPEN;
 
-/// Layers of faces that get a velocity; a step goes less than two cells.
+/// Layers of faces that get a velocity; no particle moves two cells in a step.
 const LAYERS: usize = 3;
 
 /// Face velocities on the window: those of the solve, `u[active[axis][index]]`, and around them

@@ -1,9 +1,9 @@
 //! The velocity profile over the control volume of a face.
 
-/// Room between two walls below which they count as a staircase, cells.
+/// Distance between two walls below which they count as steps of one staircase, cells.
 const LEAST_ROOM: f64 = 0.5;
 
-/// Mean of a profile over the columns of a staircase below which it does not fit them.
+/// Mean of a profile over the columns of a staircase below which the profile is not used.
 const LEAST_MEAN: f64 = 0.3;
 
 /// Profile over the two tangential directions of a face, a biquadratic polynomial

@@ -1,3 +1,5 @@
+//! Particles carry the flux that was solved for, and pass no wall.
+
 use physics::{Boundary, Motion, RigidBody, ShearRate, VoxelBlock};
 
 use super::*;

@@ -1,3 +1,5 @@
+//! The density projection evens out the density and leaves free surfaces alone.
+
 use physics::{Boundary, Motion, RigidBody, VoxelBlock};
 
 use super::*;

@@ -1,4 +1,4 @@
-//! Liquid without holes: sampling noise of the particles must not look like bubbles.
+//! Closing of holes in the liquid: sampling noise of the particles must not look like bubbles.
 
 use rayon::prelude::*;
 

@@ -5,8 +5,8 @@ use crate::solids::{BodyId, FAR, OPEN, SIDE};
 
 /// Distances to walls are exact to this, cells.
 const TOUCH: f64 = 1e-6;
-/// Distance of a wall at the centre of the next face where that face is open and has the wall for
-/// itself: just too far to touch.
+/// Distance given to a wall at the centre of the next face where that face is open, so that the wall
+/// bounds that face's control volume alone: just too far to touch.
 const BEYOND: f64 = 1.0 + 2.0 * TOUCH;
 
 /// The column of half a face's control volume along one tangential direction, seen from the

@@ -10,9 +10,9 @@ impl Lattice {
     ///
     /// The face is probed at the points around its centre (4, in plane strain 2), on both
     /// sides of its plane. It is open when one is free; where others are not, because the centre
-    /// lies on a wall, only between cells that are one room each. A wall that lies strictly
+    /// lies on a wall, only between cells each of which is one room. A wall that lies strictly
     /// inside the neighbouring cell nearer to this face than to the opposite one closes it at any
-    /// point (leak stopper: such a wall closes no face by itself).
+    /// point (leak stopper: such a wall lies on no face of its own).
     pub(super) fn face_state(&self, axis: usize, cell: [usize; 3]) -> BodyId {
         if self.on_side(axis, cell) {
             return SIDE;

@@ -1,9 +1,9 @@
-//! Whether a cell is one room: its one pressure must not join what a wall parts.
+//! Whether a cell is one room: its single pressure must not join spaces that a wall separates.
 
 use super::{Lattice, PROBE};
 
 impl Lattice {
-    /// Whether the open sub-cells of a cell hang together by their faces.
+    /// Whether the open sub-cells of a cell are connected through their faces.
     pub(super) fn is_one_room(&self, cell: [usize; 3]) -> bool {
         let w = &self.window;
         let first = w.first_sub(cell);
@@ -32,8 +32,8 @@ impl Lattice {
         }
     }
 
-    /// Whether sub-cell number `bit` of a cell and the other one along `axis` meet in the open at
-    /// a corner of the face between them: walls are at least as thick as a sub-cell.
+    /// Whether some corner of the face between sub-cell number `bit` and the other one along `axis`
+    /// is open on both sides: walls are at least as thick as a sub-cell.
     fn passes(&self, cell: [usize; 3], bit: usize, axis: usize) -> bool {
         let w = &self.window;
         let corner = w.corner(cell);

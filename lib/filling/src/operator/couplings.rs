@@ -1,5 +1,5 @@
-//! How the unknowns couple to the velocities of the bodies: what moving bodies push and drag,
-//! and the forces on them.
+//! Coupling of the unknowns to the velocities of the bodies: the volume that moving bodies displace,
+//! the momentum that they drag, and the forces on them.
 //!
 //! Kept apart from the matrices so that another speed of the clamp within a step needs no new
 //! assembly.

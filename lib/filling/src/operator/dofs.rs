@@ -1,4 +1,4 @@
-//! Which faces and cells are unknowns of a step, and their numbers.
+//! Which faces and cells are unknowns of a step, and their numbering.
 
 use rayon::prelude::*;
 

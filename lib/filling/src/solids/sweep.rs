@@ -1,4 +1,4 @@
-//! Paths of points among moving bodies: nothing passes a wall, however thin.
+//! Swept collision of points with moving bodies: nothing passes a wall, however thin.
 
 use super::{Placed, Solids};
 

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::SolveError;
 use super::vector::{CHUNK, Real, Work, add_scaled, dot_chunk, for_chunks, for_chunks_sum, norm};
 
-/// A second orthogonalisation follows when the first leaves less than this of a vector.
+/// A vector is orthogonalised again when less than this fraction of its norm remains.
 const CANCELLED: f64 = 0.1;
 /// The estimated residual is driven this far below the tolerance, so that its rounding does not
 /// cost another cycle.

@@ -29,14 +29,14 @@ impl Load {
         check_length("sources of the load", self.source.len(), system.g.n_rows())?;
         if !self.is_felt() {
             return Err(SolveError::Matrix(
-                "a load on a body that nothing resists: its speed has no bound".into(),
+                "a load on a body without resistance: its speed is unbounded".into(),
             ));
         }
         if self.force > 0.0 && self.force.is_finite() && self.resistance >= 0.0 {
             return Ok(());
         }
         Err(SolveError::Matrix(format!(
-            "a load of {} against a resistance of {}; the one must be positive, the other not \
+            "a load of {} against a resistance of {}; the load must be positive and the resistance not \
              negative",
             self.force, self.resistance
         )))

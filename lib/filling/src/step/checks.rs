@@ -1,4 +1,4 @@
-//! What the scheme can take, and what it makes of a scene's bodies and points.
+//! Which scenes the scheme accepts, and its initial solids and particles.
 
 use physics::{Dimensions, Points, RigidBody, Scene};
 
@@ -9,7 +9,7 @@ use crate::reach::fill_sealed;
 use crate::solids::{MAX_BODIES, Solids};
 use crate::window::Domain;
 
-/// Voxels below this edge (cells) make walls whose steps add friction of their own.
+/// Edge of a voxel (cells) below which the steps of a wall add friction of their own.
 const FINE_VOXEL: f64 = 0.75;
 
 /// Refuses what the scheme cannot do.
@@ -26,15 +26,14 @@ pub(super) fn scene(scene: &Scene) -> Result<(), String> {
     let flat = scene.dimensions == Dimensions::Two;
     if flat && (scene.gravity[2] != 0.0 || scene.points.velocity.iter().any(|v| v[2] != 0.0)) {
         return Err(
-            "a scene in two dimensions moves or pulls along z; leave z velocities and gravity zero"
-                .into(),
+            "a scene in two dimensions has velocities or gravity along z; both must be zero".into(),
         );
     }
     let axes = if flat { 2 } else { 3 };
     for (axis, name) in ["x", "y", "z"].iter().enumerate().take(axes) {
         if scene.grid.cells[axis] < 2 {
             return Err(format!(
-                "the domain has one cell along {name}; two are the least"
+                "the domain has one cell along {name}; it needs at least two"
             ));
         }
     }

@@ -2,10 +2,10 @@
 
 use physics::{Clamp, Motion, PidControl};
 
-/// Part of the pressure limit by which a solve may exceed it.
+/// Relative excess over the pressure limit that is tolerated.
 const TOLERANCE: f64 = 5e-3;
-/// Slowest speed under load control, as part of the closing speed: liquid that springs back does
-/// not push the press open.
+/// Least speed under load control over the closing speed: the press does not reopen when compressed
+/// liquid expands.
 const SLOWEST: f64 = 1e-6;
 
 /// Speed of the clamp.

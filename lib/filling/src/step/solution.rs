@@ -8,8 +8,8 @@ use crate::fractions;
 use crate::operator::{self, Before, Dofs, Liquid, NONE, Operator, Sheared, System};
 use crate::solve::{Csr, NEARLY, SaddleReport, SolveError};
 
-/// Passes over a viscosity that depends on the shear rate: at most, and in the first step,
-/// which has no rates to start from.
+/// Largest number of passes over a viscosity that depends on the shear rate: usually, and in the first
+/// step, which has no rates to start from.
 const PASSES: [usize; 2] = [3, 8];
 /// Mean relative change of the viscosity below which no further pass is made.
 const SETTLED: f64 = 0.02;

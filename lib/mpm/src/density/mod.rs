@@ -1,8 +1,8 @@
 //! Density projection: moves the points so that the liquid fills its cells evenly.
 //!
 //! Errors of the points' motion show as cells that hold more or less liquid than there is room.
-//! Now and then a part kappa of that error is taken away by the displacement of least sum of
-//! squares,
+//! After a given distance of motion a fraction kappa of that error is removed by the displacement of
+//! least sum of squares,
 //!
 //! min sum_f a_f d_f^2/2 with sum_f s_f a_f d_f = kappa clip(r_c - 1) o_c,
 //!
@@ -25,7 +25,7 @@ use crate::real::Real;
 use crate::tiles::Tile;
 use cells::Cells;
 
-/// Part of the density error that one projection takes away.
+/// Fraction of the density error that one projection removes.
 const KAPPA: f64 = 0.5;
 /// Largest relative error that counts.
 const CLIP: f64 = 0.3;
@@ -108,7 +108,7 @@ impl Explicit {
         self.unseen |= self.grid.deliver();
         match fault {
             Some(id) => Err(Failure(format!(
-                "step {}: the density projection found no finite place for liquid point {id}: the run is unstable",
+                "step {}: the density projection moved liquid point {id} to a place that is not a number: the run is unstable",
                 self.state.step
             ))),
             None => Ok(()),

@@ -1,3 +1,5 @@
+//! One round of the velocity filter of XPIC and FMPM: nodes to points and back.
+
 use std::marker::PhantomData;
 
 use super::{layers, window};

@@ -1,3 +1,5 @@
+//! Nodes to points: velocity by every update, its gradient, and the displacement.
+
 use std::marker::PhantomData;
 
 use super::{layers, window};

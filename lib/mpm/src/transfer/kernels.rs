@@ -1,3 +1,5 @@
+//! The kernels of a run, chosen once by shape function, dimensions, update and viscosity law.
+
 use std::marker::PhantomData;
 
 use super::{Filter, G2p, P2g};

@@ -1,3 +1,5 @@
+//! Points to nodes: mass, momentum, impulse of the stress, and what contact needs.
+
 use std::marker::PhantomData;
 
 use super::{layers, window};

@@ -18,11 +18,6 @@ impl<D: Dimension> Positive<D> {
     {
         self.0.si()
     }
-
-    /// From a value in SI, for defaults.
-    pub fn from_si(si: f64) -> Self {
-        Self(Quantity::from_si(si))
-    }
 }
 
 impl<'de, D: Dimension> Deserialize<'de> for Positive<D> {

@@ -259,6 +259,7 @@ fn a_checkpoint_of_another_case_is_refused_or_replaced() {
     let both = Mode {
         resume: true,
         overwrite: true,
+        however_long: false,
     };
     let ended = bench.run_changed("run", both, END, &other).unwrap();
     assert!(ended.is_some_and(|summary| summary.end == run::End::Time));

@@ -1,4 +1,4 @@
-//! Every TIFF variant of the design's table, made here, gives the stored labels exactly.
+//! Every TIFF variant of docs/tiff.md, made here, gives the stored labels exactly.
 
 #[path = "../common/mod.rs"]
 mod common;

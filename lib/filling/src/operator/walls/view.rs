@@ -4,9 +4,9 @@ use super::{PathRule, Shifts, WallLink};
 use crate::lattice::{Column, Lattice};
 use crate::wall::{effective_distance, shift_of_mean};
 
-/// Free path, over the lesser of the two across a lumen, below which walls in both directions
-/// count no more where one control volume reaches to its middle: what a square duct of two
-/// control volumes wants (mean velocity 0.0351 G a^2/eta, mean wall slope G a/(4 eta)).
+/// Least combined free path over the lesser of the two across a lumen, where one control volume
+/// reaches from the wall to the middle: the value that is exact for a square duct of two control
+/// volumes (mean velocity 0.0351 G a^2/eta, mean wall slope G a/(4 eta)).
 const SQUARE: f64 = 0.85;
 
 /// What a face sees along its tangential directions.
