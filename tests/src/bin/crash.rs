@@ -1,6 +1,12 @@
 //! `make crash`: runs killed at every call by which they change their folder, and what becomes of
 //! them when they go on.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "prints for developers"
+)]
+
 use std::path::Path;
 use std::process::ExitCode;
 
