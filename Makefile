@@ -8,7 +8,9 @@
 #   make test                     formatting, clippy, all tests
 #   make verify                   long studies: both schemes against closed forms
 #   make tradeoff stability options   error against run time; extreme cases; explicit options
+#   make load-control             the implicit clamp at its pressure limit, 400 presses
 #   make leave-out                what a scene pays for features it does not use
+#   make crash                    runs killed at every write, continued: all end the same
 #   make bench                    speed of the kernels and of the linear solver
 #   make figures man install clean help
 
@@ -45,7 +47,7 @@ include pipelines/65-gate.mk
 
 .PHONY: help
 help:
-	@sed -n '3,14s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,15s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

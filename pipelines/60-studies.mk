@@ -35,6 +35,14 @@ options: $(BINARIES)
 	@mkdir -p out/results
 	$(BIN)/stability options $(if $(ONLY),out/results,docs/results) $(ONLY)
 
+# The implicit scheme's clamp at a pressure limit: 5 pressures x 5 viscosities x 8 scenes at two
+# Courant numbers; fails where a step breaks its Courant number or the closing is out of order.
+.PHONY: load-control
+load-control: $(BINARIES)
+	@$(CARGO) build --release --quiet -p studies
+	@mkdir -p out/results
+	$(BIN)/load_control $(if $(ONLY),out/results,docs/results) $(ONLY)
+
 # What a scene pays for features it does not use: the committed tree against builds without one
 # feature, made by the patches of pipelines/leave-out. ONLY="gravity sides" measures those.
 .PHONY: leave-out
@@ -42,3 +50,10 @@ leave-out:
 	@$(CARGO) build --release --quiet -p studies
 	@mkdir -p out/results
 	$(BIN)/leave_out pipelines/leave-out $(if $(ONLY),out/results,docs/results) $(ONLY)
+
+# Runs killed, or denied the disk, at every call by which they change their folder, and two runs
+# into one: all end as the run in one piece, or are refused. Kills need `strace`, the full disk `prlimit`.
+.PHONY: crash
+crash: $(BINARIES)
+	@$(CARGO) build --release --quiet -p studies
+	$(BIN)/crash docs/results

@@ -2,9 +2,17 @@
 //! long studies built on it. README.md beside this crate says which test checks which
 //! equation, with which tolerance and why.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "prints for developers"
+)]
+
 pub mod case_text;
 pub mod closed_forms;
+pub mod crash;
 pub mod leave_out;
+pub mod load_control;
 pub mod method;
 pub mod outputs;
 pub mod stability;

@@ -1,6 +1,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::aside;
 use crate::{Failure, Output};
 
 /// Refuses outputs that would replace a file that is read, or one another.
@@ -38,11 +39,9 @@ fn place(path: &Path) -> Option<PathBuf> {
     if let Ok(found) = fs::metadata(path) {
         return found.is_file().then(|| fs::canonicalize(path).ok())?;
     }
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    Some(fs::canonicalize(folder).ok()?.join(path.file_name()?))
+    let target = aside::behind_links(path).ok()?;
+    let folder = fs::canonicalize(aside::folder_of(&target)).ok()?;
+    Some(folder.join(target.file_name()?))
 }
 
 #[cfg(test)]
@@ -61,6 +60,8 @@ mod tests {
         assert!(check(&[file("b/../a")]).is_err());
         assert!(check(&[file("c"), file("b/../c")]).is_err());
         assert!(check(&[file("c"), file("b/c"), Output::Stdout]).is_ok());
+        std::os::unix::fs::symlink("b/new", inside("link")).unwrap();
+        assert!(check(&[file("link"), file("b/new")]).is_err());
         let null = || Output::File("/dev/null".into());
         assert!(check(&[null(), null()]).is_ok());
     }

@@ -50,7 +50,7 @@ pub fn main<A: Parser + CommandFactory>(
     }
     let arguments = match A::try_parse() {
         Ok(arguments) => arguments,
-        Err(error) => return usage(&error),
+        Err(error) => return usage(&error, &tool),
     };
     let ended = setup(common(&arguments)).and_then(|()| run(arguments));
     match ended {
@@ -62,8 +62,8 @@ pub fn main<A: Parser + CommandFactory>(
 /// `--generate WHAT` must work without the tool's required arguments, so it is looked for
 /// before the real parse; a wrong WHAT is left to that parse to refuse.
 fn requested_generation(command: &clap::Command) -> Option<Generate> {
-    let mut words =
-        (std::env::args().skip(1)).skip_while(|word| command.find_subcommand(word).is_some());
+    let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    let mut words = (words.skip(1)).skip_while(|word| command.find_subcommand(word).is_some());
     let what = match words.next()?.as_str() {
         "--generate" => words.next()?,
         word => word.strip_prefix("--generate=")?.to_owned(),
@@ -103,13 +103,19 @@ fn man_pages(command: &clap::Command, out: &mut Vec<u8>) -> io::Result<()> {
     Ok(())
 }
 
-fn usage(error: &clap::Error) -> ExitCode {
-    // A closed pipe while printing help is a quiet end.
-    let _ = error.print();
-    let _ = io::stdout().flush();
+fn usage(error: &clap::Error, tool: &str) -> ExitCode {
     match error.kind() {
-        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => ExitCode::SUCCESS,
-        _ => ExitCode::from(crate::Status::Usage as u8),
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+            match error.print().and_then(|()| io::stdout().flush()) {
+                Ok(()) => ExitCode::SUCCESS,
+                Err(error) => Failure::write(Output::Stdout, &error).report(tool),
+            }
+        }
+        _ => {
+            // It quotes the command line as it was given.
+            message::say(error.render().to_string().trim_end());
+            ExitCode::from(crate::Status::Usage as u8)
+        }
     }
 }
 

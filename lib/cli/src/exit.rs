@@ -2,6 +2,8 @@ use std::fmt;
 use std::io;
 use std::process::ExitCode;
 
+use crate::message;
+
 /// Exit statuses of every tool, documented here and in README.md only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
@@ -60,8 +62,8 @@ impl Failure {
     pub(crate) fn report(self, tool: &str) -> ExitCode {
         match self.0 {
             Kind::ClosedPipe => ExitCode::SUCCESS,
-            Kind::Said(status, message) => {
-                eprintln!("{tool}: {message}");
+            Kind::Said(status, sentence) => {
+                message::say(format_args!("{tool}: {sentence}"));
                 ExitCode::from(status as u8)
             }
         }

@@ -20,6 +20,7 @@
 //! ```
 
 mod apart;
+mod aside;
 mod common;
 mod exit;
 mod message;
@@ -27,12 +28,14 @@ mod output;
 mod progress;
 mod provenance;
 mod signals;
+mod staged;
 
 pub use apart::keep_apart;
 pub use common::{Common, main};
 pub use exit::{Failure, Status};
-pub use message::{detail, note, warn};
+pub use message::{cell, detail, harmless, note, print, warn};
 pub use output::Output;
 pub use progress::Progress;
 pub use provenance::{InputRecord, Record, hash_file, hash_reader};
 pub use signals::{catch_interrupts, interrupted};
+pub use staged::StagedFolder;

@@ -1,15 +1,17 @@
+use std::ffi::OsString;
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
+use crate::aside;
 use crate::{Failure, Record};
 
 /// Where a tool's data go: standard output (`-`) or a file.
 ///
 /// A regular file appears whole or not at all: it is written beside its target and renamed.
-/// Devices and pipes are written in place.
+/// Devices and pipes are written in place. A symbolic link is followed: what it points to is
+/// replaced or made, and the link stays.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Output {
     /// Standard output.
@@ -18,15 +20,13 @@ pub enum Output {
     File(PathBuf),
 }
 
-impl FromStr for Output {
-    type Err = std::convert::Infallible;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        Ok(if text == "-" {
+impl From<OsString> for Output {
+    fn from(text: OsString) -> Self {
+        if text == "-" {
             Output::Stdout
         } else {
             Output::File(text.into())
-        })
+        }
     }
 }
 
@@ -93,38 +93,23 @@ fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) 
         body(&mut out)?;
         return out.flush();
     }
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+    let target = aside::behind_links(path)?;
+    let folder = aside::folder_of(&target);
     if !folder.is_dir() {
         return Err(io::Error::other(format!(
             "there is no folder '{}'",
             folder.display()
         )));
     }
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".bondline-").suffix(".tmp");
-    allow_as_umask(&mut builder);
-    let mut file = builder.tempfile_in(folder)?;
+    let mut file = aside::file_for(&target)?;
     {
         let mut out = BufWriter::with_capacity(1 << 20, file.as_file_mut());
         body(&mut out)?;
         out.flush()?;
     }
-    file.persist(path).map_err(|e| e.error)?;
+    file.persist(target).map_err(|e| e.error)?;
     Ok(())
 }
-
-/// Temporary files are private by default; an output is readable as the user's umask says.
-#[cfg(unix)]
-fn allow_as_umask(builder: &mut tempfile::Builder) {
-    use std::os::unix::fs::PermissionsExt;
-    builder.permissions(fs::Permissions::from_mode(0o666));
-}
-
-#[cfg(not(unix))]
-fn allow_as_umask(_: &mut tempfile::Builder) {}
 
 #[cfg(test)]
 mod tests {
@@ -143,6 +128,30 @@ mod tests {
         assert!(failed.is_err());
         assert_eq!(fs::read(&target).unwrap(), b"old");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    /// The link was replaced by a file.
+    #[test]
+    fn a_link_stays_and_what_it_points_to_is_replaced_or_made() {
+        let folder = tempfile::tempdir().unwrap();
+        let inside = |name: &str| folder.path().join(name);
+        fs::create_dir(inside("elsewhere")).unwrap();
+        fs::write(inside("elsewhere/old"), b"old").unwrap();
+        let link = |to: &str, name: &str| std::os::unix::fs::symlink(to, inside(name)).unwrap();
+        link("elsewhere/old", "a");
+        link("elsewhere/new", "dangling");
+        link("dangling", "twice");
+        link("loop", "loop");
+        for (name, at) in [("a", "elsewhere/old"), ("twice", "elsewhere/new")] {
+            let output = Output::File(inside(name));
+            output.write(|out| out.write_all(b"x")).unwrap();
+            assert!(inside(name).is_symlink());
+            assert!(!inside(at).is_symlink() && fs::read(inside(at)).unwrap() == b"x");
+        }
+        assert!(inside("dangling").is_symlink());
+        let round = Output::File(inside("loop")).write(|out| out.write_all(b"x"));
+        assert!(round.is_err());
+        assert_eq!(fs::read_dir(inside("elsewhere")).unwrap().count(), 2);
     }
 
     #[test]

@@ -27,7 +27,7 @@ impl Progress {
                     .unwrap_or_else(|_| ProgressStyle::default_bar());
             ProgressBar::new(RESOLUTION)
                 .with_style(style)
-                .with_prefix(what.to_owned())
+                .with_prefix(message::harmless(what).into_owned())
         });
         let now = Instant::now();
         Self {
@@ -52,12 +52,12 @@ impl Progress {
             } else {
                 "time left unknown".to_owned()
             };
-            eprintln!(
+            message::say(format_args!(
                 "{}: {:.1} %, {}, {left}",
                 self.what,
                 100.0 * fraction,
                 state()
-            );
+            ));
         }
     }
 

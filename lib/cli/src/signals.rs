@@ -1,30 +1,95 @@
 use std::sync::Arc;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
 
-use crate::Failure;
+use crate::{Failure, Status, message};
 
 static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
-/// From now on SIGINT and SIGTERM only set the flag that [`interrupted`] reads; a second
-/// SIGINT, a user's second Ctrl-C, ends the process at once. Not so a second SIGTERM: GNU
-/// `timeout` and batch systems send one to the process and one to its group.
+/// Time between a signal and the end of a process that does not end by itself: an answer
+/// within 5 s is promised.
+const GRACE: Duration = Duration::from_secs(4);
+
+/// From now on SIGINT and SIGTERM set the flag that [`interrupted`] reads. A process that has
+/// not ended [`GRACE`] later, because it is in the middle of something long, is ended with exit
+/// 75; what it writes must be whole or absent at any moment. A second SIGINT, a user's second
+/// Ctrl-C, ends it at once. Not so a second SIGTERM: GNU `timeout` and batch systems send one
+/// to the process and one to its group.
+///
+/// Before this call, as in tools that never make it, a signal ends the process at once.
 ///
 /// # Errors
 /// Exit 1 when the system refuses the handler.
 pub fn catch_interrupts() -> Result<(), Failure> {
     let flag = FLAG.get_or_init(|| Arc::new(AtomicBool::new(false)));
-    let caught = signal_hook::flag::register_conditional_shutdown(SIGINT, 75, Arc::clone(flag))
-        .and_then(|_| signal_hook::flag::register(SIGINT, Arc::clone(flag)))
-        .and_then(|_| signal_hook::flag::register(SIGTERM, Arc::clone(flag)));
+    let end_now = i32::from(Status::Resumable as u8);
+    let caught =
+        signal_hook::flag::register_conditional_shutdown(SIGINT, end_now, Arc::clone(flag))
+            .and_then(|_| signal_hook::flag::register(SIGINT, Arc::clone(flag)))
+            .and_then(|_| signal_hook::flag::register(SIGTERM, Arc::clone(flag)))
+            .and_then(|_| Signals::new([SIGINT, SIGTERM]))
+            .and_then(|signals| {
+                std::thread::Builder::new()
+                    .name("signals".into())
+                    .spawn(move || end_after_grace(signals))
+            });
     caught
         .map(|_| ())
         .map_err(|e| Failure::failed(format!("cannot catch interrupts: {e}")))
 }
 
+fn end_after_grace(mut signals: Signals) {
+    if signals.forever().next().is_none() {
+        return;
+    }
+    std::thread::sleep(GRACE);
+    message::say(format_args!(
+        "stopped early, in the middle of a step that takes longer than {} s; continue with \
+         --resume from the last checkpoint, or from the start where there is none yet",
+        GRACE.as_secs()
+    ));
+    std::process::exit(i32::from(Status::Resumable as u8));
+}
+
 /// Whether the user asked the run to stop.
 pub fn interrupted() -> bool {
     FLAG.get().is_some_and(|flag| flag.load(Ordering::Relaxed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::process::Command;
+    use std::time::Instant;
+
+    const CHILD: &str = "BONDLINE_TEST_LONG_STEP";
+
+    /// A run looked at its flag between steps only: a long step outlived the signal.
+    #[test]
+    fn a_long_step_does_not_outlive_the_grace() {
+        if std::env::var_os(CHILD).is_some() {
+            catch_interrupts().unwrap();
+            Command::new("kill")
+                .arg(std::process::id().to_string())
+                .status()
+                .unwrap();
+            std::thread::sleep(Duration::from_secs(60));
+            std::process::exit(0);
+        }
+        let begun = Instant::now();
+        let name = "signals::tests::a_long_step_does_not_outlive_the_grace";
+        let ended = Command::new(std::env::current_exe().unwrap())
+            .args([name, "--exact", "--nocapture"])
+            .env(CHILD, "yes")
+            .output()
+            .unwrap();
+        assert_eq!(ended.status.code(), Some(75));
+        let said = String::from_utf8_lossy(&ended.stderr);
+        assert!(said.contains("continue with --resume"), "{said}");
+        assert!(begun.elapsed() < Duration::from_secs(30));
+    }
 }

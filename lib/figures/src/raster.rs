@@ -104,6 +104,7 @@ impl Raster {
     ) -> Result<(), particle_file::Error> {
         let positions = file.vectors("position")?;
         let volumes = file.column::<f32>("volume")?;
+        fits_its_box(file, volumes)?;
         let pressures = match colouring {
             Colouring::Plain => None,
             Colouring::Pressure => Some(file.column::<f32>("pressure")?),
@@ -147,4 +148,20 @@ impl Raster {
             self.low[1] + (row as f64 + 0.5) * self.pitch,
         ]
     }
+}
+
+/// Refuses points that are far larger than all there is: each is drawn over its whole edge.
+fn fits_its_box(file: &ParticleFile, volumes: &[f32]) -> Result<(), particle_file::Error> {
+    let [low, high] = file.header().bounds_m();
+    let room: f64 = (0..3)
+        .map(|a| (high[a] - low[a]).max(file.header().voxel_m))
+        .product();
+    let liquid: f64 = volumes.iter().map(|&v| f64::from(v)).sum();
+    if liquid <= 8.0 * room {
+        return Ok(());
+    }
+    Err(particle_file::Error::Corrupt {
+        file: file.name().to_owned(),
+        what: format!("has liquid points of {liquid:e} m3 in a box of {room:e} m3"),
+    })
 }

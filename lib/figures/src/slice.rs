@@ -1,4 +1,4 @@
-use particle_file::{Header, ParticleFile};
+use particle_file::ParticleFile;
 use units::Axis as Direction;
 
 use crate::axes::{Axis, NORMAL, SMALL};
@@ -144,7 +144,8 @@ fn scale_bar(width: f64) -> f64 {
 impl Panel {
     fn read(state: &Labelled, cut: Cut, colouring: Colouring) -> Result<Self, Error> {
         let file = ParticleFile::open(&state.path).map_err(|e| Error::Data(e.to_string()))?;
-        let [low, high] = bounds(file.header());
+        // The bodies may stand beyond the specimen's box before closing.
+        let [low, high] = file.header().bounds_m();
         let normal = cut.axis.index();
         let at = match cut.position {
             Position::At(at) => at,
@@ -179,20 +180,4 @@ impl Panel {
             pixels: raster.pixels,
         })
     }
-}
-
-/// Low and high corner of all there is: the specimen's box and the bodies, which may stand
-/// beyond it before closing.
-fn bounds(header: &Header) -> [[f64; 3]; 2] {
-    let blocks = header.blocks.iter();
-    blocks.fold(
-        [header.box_min_m, header.box_max_m],
-        |[low, high], block| {
-            let (from, to) = (block.origin_m, block.max_m());
-            [
-                std::array::from_fn(|axis| low[axis].min(from[axis])),
-                std::array::from_fn(|axis| high[axis].max(to[axis])),
-            ]
-        },
-    )
 }

@@ -2,6 +2,7 @@ use std::io::Read;
 use std::path::Path;
 
 use csv::StringRecord;
+use particle_file::limits;
 
 use crate::Error;
 
@@ -15,9 +16,19 @@ pub(crate) struct Table {
 impl Table {
     pub(crate) fn read(path: &Path) -> Result<Self, Error> {
         let name = path.display().to_string();
-        let file = std::fs::File::open(path)
-            .map_err(|e| Error::Data(format!("cannot read '{name}': {e}")))?;
-        Self::from_reader(file, name)
+        let unreadable = |e| Error::Data(format!("cannot read '{name}': {e}"));
+        let mut text = Vec::new();
+        let file = std::fs::File::open(path).map_err(unreadable)?;
+        file.take(limits::TABLE + 1)
+            .read_to_end(&mut text)
+            .map_err(unreadable)?;
+        if text.len() as u64 > limits::TABLE {
+            return Err(Error::Data(format!(
+                "'{name}' is no table: it has more than {} bytes",
+                limits::TABLE
+            )));
+        }
+        Self::from_reader(text.as_slice(), name)
     }
 
     pub(crate) fn from_reader(reader: impl Read, name: String) -> Result<Self, Error> {

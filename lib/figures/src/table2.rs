@@ -48,6 +48,8 @@ struct Paper {
     wp: [f64; 3],
 }
 
+/// What `wp-metrics` measures from.
+const REFERENCES: [&str; 4] = ["mid", "adherend", "plane", "fit"];
 const SIDES: [&str; 3] = ["bottom", "top", "total"];
 
 const fn paper(
@@ -187,6 +189,15 @@ impl Row {
             *value = wps[row_of(side)?];
         }
         let total = row_of("total")?;
+        // It goes into our own table, which people open in a spreadsheet.
+        if !REFERENCES.contains(&references[total]) {
+            return Err(Error::Data(format!(
+                "'{}' has the reference '{}', which is none of {}",
+                table.name(),
+                references[total],
+                REFERENCES.join(", ")
+            )));
+        }
         let name = source.name.to_lowercase();
         let same = |paper: &&Paper| {
             paper.adhesive.eq_ignore_ascii_case(&source.adhesive)

@@ -7,6 +7,8 @@
 //! A slab 19 cells thick between two blocks of wood with lumens of six cells, one voxel (half a
 //! cell) of wall around each; 197 cells across are a full-size run with 5.9 million particles.
 
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
 use std::time::Instant;
 
 use filling::advect::{self, Flow, Path};

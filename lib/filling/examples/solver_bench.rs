@@ -6,6 +6,8 @@
 //! ... 1e-3 32,48,48,12 64,56,64,12 128,56,128,19 128,72,200,19   # 38k, 96k, 0.54 M, 0.86 M cells
 //! ```
 
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
 #[path = "../tests/pseudo_wood/mod.rs"]
 mod pseudo_wood;
 

@@ -1,6 +1,6 @@
 //! What an implicit run of a scene will take.
 
-use physics::{Dimensions, Scene, Stop};
+use physics::{Amount, Dimensions, Scene, Stop};
 
 use crate::settings::Settings;
 
@@ -36,18 +36,18 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan for `scene`.
-    pub fn new(scene: &Scene, settings: &Settings) -> Self {
+    /// The plan for `scene` with `amount` of liquid.
+    pub fn new(scene: &Scene, amount: &Amount, settings: &Settings) -> Self {
         let h = scene.grid.cell_m;
         let axes = match scene.dimensions {
             Dimensions::Two => 2.0,
             Dimensions::Three => 3.0,
         };
         let cells: f64 = scene.grid.cells.iter().map(|&n| n as f64).product();
-        let liquid_cells = scene.liquid_volume() / h.powi(3);
+        let liquid_cells = amount.volume_m3 / h.powi(3);
         // Surfaces add faces to the d per cell inside.
         let unknowns = liquid_cells * (1.0 + 1.1 * axes);
-        let speed = scene.initial_speed();
+        let speed = scene.speed_with(amount);
         let dt_s = if speed > 0.0 {
             settings.cfl * h / speed
         } else {
@@ -55,18 +55,24 @@ impl Plan {
             (2.0 * settings.cfl * h / pull).sqrt()
         };
         let duration = match scene.stop {
+            // A clamp cannot go further than through the whole domain, however long it is held.
+            Stop::Time(time) if scene.clamp.is_some() => {
+                time.min(scene.grid.cells[1] as f64 * h / speed)
+            }
             Stop::Time(time) => time,
             Stop::Closed { travel_m } => travel_m / speed,
         };
         let steps = (SPEED_RATIO * duration / dt_s).ceil().max(1.0);
-        let points = scene.points.position.len() as f64;
+        let points = amount.points as f64;
         Self {
             cells,
             liquid_cells,
             unknowns,
             dt_s,
             steps,
-            memory_bytes: BYTES[0] * unknowns + BYTES[1] * window(scene) + BYTES[2] * points,
+            memory_bytes: BYTES[0] * unknowns
+                + BYTES[1] * window(scene, amount)
+                + BYTES[2] * points,
             cpu_s: steps
                 * ((SECONDS[0] * ITERATIONS + SECONDS[1]) * unknowns + SECONDS[2] * points),
         }
@@ -74,13 +80,9 @@ impl Plan {
 }
 
 /// Cells of the box around the liquid when it has spread as far as it is thick, at most all.
-fn window(scene: &Scene) -> f64 {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for x in &scene.points.position {
-        (low, high) = (low.min(x[1]), high.max(x[1]));
-    }
+fn window(scene: &Scene, amount: &Amount) -> f64 {
     let cells = scene.grid.cells;
-    let thick = (3.0 * (high - low) / scene.grid.cell_m)
+    let thick = (3.0 * (amount.high_m[1] - amount.low_m[1]) / scene.grid.cell_m)
         .min(cells[1] as f64)
         .max(1.0);
     cells[0] as f64 * cells[2] as f64 * thick

@@ -27,13 +27,13 @@ impl Settings {
     pub fn check(&self) -> Result<(), String> {
         if !(self.cfl > 0.0 && self.cfl <= 1.5) {
             return Err(format!(
-                "cfl is {}: the implicit scheme takes more than 0 and at most 1.5 cells per step",
+                "cfl is {:?}: the implicit scheme takes more than 0 and at most 1.5 cells per step",
                 self.cfl
             ));
         }
         if !(self.tolerance >= 1e-8 && self.tolerance <= 1e-2) {
             return Err(format!(
-                "the solver tolerance is {}: it must lie between 1e-8 and 1e-2",
+                "the solver tolerance is {:?}: it must lie between 1e-8 and 1e-2",
                 self.tolerance
             ));
         }

@@ -1,6 +1,8 @@
 //! Two voxel bodies closing on a slab of liquid, as the adherends of a bond do. Run with
 //! `--nocapture` to see the numbers.
 
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
 #[path = "common/plain.rs"]
 mod plain;
 

@@ -1,6 +1,8 @@
 //! A piston presses liquid from a box into a lumen in three dimensions: the pressure must grow
 //! with the filled length as in fully developed flow. Run with `--nocapture` to see the errors.
 
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
 #[path = "common/march.rs"]
 mod march;
 #[path = "common/plain.rs"]

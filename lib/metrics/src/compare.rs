@@ -117,7 +117,8 @@ impl<'a> Frame<'a> {
         let across = state.across();
         let mut reach = adhesive.bits.dims();
         for (axis, columns) in across.axes.into_iter().zip(across.columns) {
-            reach[axis.index()] = columns;
+            let within = &mut reach[axis.index()];
+            *within = columns.min(*within);
         }
         Self {
             state,

@@ -1,5 +1,5 @@
 use bondline::{Placed, Specimen};
-use particle_file::{Kind, Material, ParticleFile};
+use particle_file::{Kind, Material, ParticleFile, limits};
 use units::Axis;
 
 use crate::Error;
@@ -95,6 +95,7 @@ impl<'a> State<'a> {
                     .into(),
             ));
         }
+        worth_its_columns(file)?;
         let block = |name| file.block_named(name).map(Placed::of_block);
         let has = |name: &str| header.blocks.iter().any(|b| b.name == name);
         let wood = if has("wood-bottom") && has("wood-top") {
@@ -186,6 +187,19 @@ impl<'a> State<'a> {
         };
         blocks.into_iter().flatten()
     }
+}
+
+/// Refuses a file whose box has more columns across the bond than it is worth; the layers along
+/// the normal are bounded for every file.
+fn worth_its_columns(file: &ParticleFile) -> Result<(), Error> {
+    /// Bytes of a row of the map, the largest thing made of a column.
+    const ROW: u64 = 64;
+    let span = file.header().span();
+    let columns = limits::volume(span) / span[usize::from(file.header().normal)].max(1);
+    Ok(file.is_worth(
+        columns.saturating_mul(ROW),
+        "what is measured in each column",
+    )?)
 }
 
 fn points(file: &ParticleFile) -> Result<Adhesive<'_>, Error> {

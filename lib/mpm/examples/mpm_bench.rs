@@ -8,6 +8,8 @@
 //! liquid without bodies, scene "table" the first with the paper's PVA-PF table. Threads: `RAYON_NUM_THREADS`. Rates are per wall-clock second and,
 //! for machines that are shared, per second of processor time.
 
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
 use std::time::Instant;
 
 use mpm::{Explicit, PressureFrom, Settings, ShapeFunction, VelocityUpdate};

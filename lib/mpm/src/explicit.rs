@@ -78,7 +78,7 @@ impl Explicit {
                 scene.bodies.len()
             ));
         }
-        let plan = Plan::new(scene, settings);
+        let plan = Plan::new(scene, &physics::Amount::of(&scene.points), settings);
         let lattice = Lattice::new(scene);
         let affine = settings.velocity_update == VelocityUpdate::Apic;
         let (cell, density) = (scene.grid.cell_m, scene.liquid.density);

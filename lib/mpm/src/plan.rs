@@ -1,6 +1,6 @@
 use std::fmt;
 
-use physics::{Rheology, Scene, Stop, Viscosity};
+use physics::{Amount, Rheology, Scene, Stop, Viscosity};
 
 use crate::real::BYTES;
 use crate::settings::{Settings, VelocityUpdate};
@@ -37,16 +37,16 @@ pub struct Plan {
     /// Largest viscosity the step carries, Pa s; larger ones of a table are capped and counted.
     pub viscosity_cap: f64,
     /// Steps to the end if the clamp keeps its full speed.
-    pub steps: u64,
+    pub steps: f64,
     /// Memory of points and nodes, bytes.
-    pub memory_bytes: u64,
+    pub memory_bytes: f64,
 }
 
 impl Plan {
-    /// The plan for `scene`.
-    pub fn new(scene: &Scene, settings: &Settings) -> Self {
+    /// The plan for `scene` with `amount` of liquid.
+    pub fn new(scene: &Scene, amount: &Amount, settings: &Settings) -> Self {
         let (cell, density) = (scene.grid.cell_m, scene.liquid.density);
-        let acoustic_s = acoustic_limit(scene, scene.initial_speed(), 0.0);
+        let acoustic_s = acoustic_limit(scene, scene.speed_with(amount), 0.0);
         let smallest = match &scene.liquid.viscosity {
             Viscosity::Newtonian(law) => law.0,
             Viscosity::Table(law) => law
@@ -74,8 +74,8 @@ impl Plan {
             acoustic_s,
             viscous_s,
             viscosity_cap: density * cell * cell / (8.0 * dt_s),
-            steps: (duration / dt_s).ceil() as u64,
-            memory_bytes: memory(scene, settings),
+            steps: (duration / dt_s).ceil(),
+            memory_bytes: memory(scene, amount, settings),
         }
     }
 }
@@ -90,14 +90,13 @@ pub(crate) fn acoustic_limit(scene: &Scene, speed: f64, j: f64) -> f64 {
 
 /// Bytes of points and nodes: tiles and blocks at the filling that lumens a few cells wide
 /// leave, about a quarter.
-fn memory(scene: &Scene, settings: &Settings) -> u64 {
-    let points = scene.points.position.len() as u64;
+fn memory(scene: &Scene, amount: &Amount, settings: &Settings) -> f64 {
     let affine = settings.velocity_update == VelocityUpdate::Apic;
     let per_point = 6 + BYTES * if affine { 44 } else { 32 };
-    let volume = scene.liquid_volume() / scene.grid.cell_m.powi(3);
-    let tiles = (volume / 64.0 * 4.0).ceil() as u64 + 1;
+    let volume = amount.volume_m3 / scene.grid.cell_m.powi(3);
+    let tiles = (volume / 64.0 * 4.0).ceil() + 1.0;
     let bodies = scene.bodies.len() as u64;
     let per_tile = 216 * (8 * BYTES * (1 + u64::from(bodies > 0)) + 13);
     let per_block = 64 * (16 + 8 * BYTES + (24 + 8 * BYTES) * bodies) + 216 * 8;
-    points * per_point + tiles * (per_tile + 2 * per_block)
+    amount.points as f64 * per_point as f64 + tiles * (per_tile + 2 * per_block) as f64
 }

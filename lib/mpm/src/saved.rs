@@ -1,6 +1,7 @@
 //! Saving and restoring: points in their order in memory, so that sums keep theirs.
 
-use physics::{Array, Saved};
+use physics::restored;
+use physics::{Array, Motion, Saved};
 
 use crate::explicit::{Corrections, Explicit, State};
 use crate::lanes::{Oct, Quad};
@@ -85,6 +86,7 @@ impl Explicit {
         let bodies = self.scene.bodies.len();
         let displacement = sized(saved.f64s("displacement")?, 3 * bodies, "displacement")?;
         let count = |i: usize| u64::from(counts[2 * i]) | u64::from(counts[2 * i + 1]) << 32;
+        self.check_saved(saved, &points, clock, count(1), displacement)?;
         self.state = State {
             step: count(0),
             time_s: clock[0],
@@ -111,6 +113,68 @@ impl Explicit {
         self.grid.insert(points);
         self.unseen = true;
         Ok(())
+    }
+
+    /// Refuses what no run of this scene saves.
+    fn check_saved(
+        &self,
+        saved: &Saved,
+        points: &[([i32; 3], Point)],
+        clock: &[f64],
+        lost: u64,
+        displacement: &[f64],
+    ) -> Result<(), String> {
+        let present = || self.grid.tiles.iter().flat_map(|tile| &tile.points.place);
+        let total = present().count() + self.state.lost as usize;
+        restored::check_points(saved.u32s("id")?, total, lost)?;
+        let most = present().map(|place| place.0[3]).fold(0.0, Real::max);
+        for (at, point) in points {
+            self.check_point(*at, point, most)?;
+        }
+        restored::check_finite(clock, "clock")?;
+        restored::check_travel(&self.scene, clock[1])?;
+        let motions: Vec<Motion> = self.scene.bodies.iter().map(|body| body.motion).collect();
+        let displacement = displacement.as_chunks().0;
+        let cell = self.scene.grid.cell_m;
+        restored::check_bodies(&motions, displacement, clock[1], cell)?;
+        let (shortest, longest) = self.limits_s();
+        let speed = self.scene.clamp.map_or(0.0, |clamp| clamp.closing_speed);
+        if clock[0] < 0.0
+            || !(shortest..=longest).contains(&clock[2])
+            || !(0.0..=speed).contains(&clock[5])
+        {
+            return Err(format!(
+                "the clock of the checkpoint, {clock:?}, is not that of a run: its step limit must be from {shortest:e} to {longest:e} s and its closing speed from 0 to {speed} m/s"
+            ));
+        }
+        Ok(())
+    }
+
+    /// Refuses a point that is beside its node, has no volume, or values that are no numbers.
+    fn check_point(&self, at: [i32; 3], point: &Point, most: Real) -> Result<(), String> {
+        /// Rounding of an offset of half a cell.
+        const HALF: Real = 0.5001;
+        let lattice = &self.grid.lattice;
+        let place = point.place.0;
+        let axes = lattice.axes();
+        let near = (0..3).all(|a| place[a].abs() <= if a < axes { HALF } else { 1.0 });
+        let home = lattice
+            .fold(at)
+            .is_some_and(|folded| folded.node == at && folded.flip == 0);
+        let fits = home && near && (axes == 3 || at[2] == 0);
+        // A point alone may be anything that a step can make of it, but not nothing.
+        let volume = place[3] > 0.0 && place[3] <= most && point.motion.0[3] > -1.0;
+        let affine = point.affine.iter().flat_map(|q| q.0);
+        let mut values = (point.motion.0.into_iter())
+            .chain(point.stress.0)
+            .chain(affine);
+        match fits && volume && values.all(Real::is_finite) {
+            true => Ok(()),
+            false => Err(format!(
+                "point {} of the checkpoint cannot be: it is at node {at:?} with {place:?}, and moves by {:?}",
+                point.id, point.motion.0
+            )),
+        }
     }
 
     fn saved_points(&self, saved: &Saved) -> Result<Vec<([i32; 3], Point)>, String> {

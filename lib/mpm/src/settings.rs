@@ -85,7 +85,7 @@ impl Settings {
     pub fn check(&self) -> Result<(), String> {
         if !(self.cfl > 0.0 && self.cfl <= 1.5) {
             return Err(format!(
-                "cfl is {}: it must be above 0 and at most 1.5",
+                "cfl is {:?}: it must be above 0 and at most 1.5",
                 self.cfl
             ));
         }

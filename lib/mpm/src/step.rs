@@ -294,6 +294,14 @@ impl Explicit {
         Ok(())
     }
 
+    /// The shortest and the longest step limit (s) that a sound run can have.
+    pub(crate) fn limits_s(&self) -> (f64, f64) {
+        let fastest = 10.0 * self.scene.liquid.sound_speed();
+        let least = acoustic_limit(&self.scene, fastest, f64::from(SOUND_J.start));
+        let first = self.plan.acoustic_s.min(self.plan.viscous_s);
+        (least.min(first), self.plan.viscous_s)
+    }
+
     fn cause(&self, id: u32, j: Real) -> String {
         if self.is_alone(id) {
             self.unstable(id)

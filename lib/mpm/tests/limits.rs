@@ -3,7 +3,7 @@
 mod scenes;
 
 use mpm::{Explicit, Limit, Plan, Settings, ShapeFunction, VelocityUpdate};
-use physics::{Boundary, Motion, Newtonian, Scene, Scheme, Table, Viscosity};
+use physics::{Amount, Boundary, Motion, Newtonian, Scene, Scheme, Table, Viscosity};
 use scenes::{CELL, FREE, fill, scene, settings, solid};
 
 fn pool() -> Scene {
@@ -19,7 +19,7 @@ fn pool() -> Scene {
 fn the_plan_gives_the_limits_of_the_papers_materials() {
     let mut s = pool();
     let flip = settings(ShapeFunction::Gimp, VelocityUpdate::Flip, 0.5);
-    let plan = Plan::new(&s, &flip);
+    let plan = Plan::new(&s, &Amount::of(&s.points), &flip);
     println!("{plan:?}");
     // cell/c = 2.9 um / 913 m/s and rho cell^2/(8 eta), by hand.
     assert!((plan.acoustic_s / 3.1768e-9 - 1.0).abs() < 1e-3);
@@ -34,7 +34,7 @@ fn the_plan_gives_the_limits_of_the_papers_materials() {
         (501.187, 1.0),
     ]);
     s.liquid.viscosity = Viscosity::Table(table.unwrap());
-    let plan = Plan::new(&s, &flip);
+    let plan = Plan::new(&s, &Amount::of(&s.points), &flip);
     assert!((plan.viscous_s / 1.2615e-9 - 1.0).abs() < 1e-3);
     assert!((plan.viscosity_cap / 2.0 - 1.0).abs() < 1e-6);
     // At rest all of it is thicker than that.

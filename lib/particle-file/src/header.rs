@@ -3,6 +3,7 @@ use bincode::{Decode, Encode};
 
 use crate::bits::BitsRef;
 use crate::layout::Section;
+use crate::limits;
 
 /// Largest header accepted, also the decoder's limit, so that a forged length cannot make it
 /// allocate more. Long lists of input files are some 100 bytes per file.
@@ -184,11 +185,35 @@ impl Header {
         self.attributes.push((name.into(), value.to_string()));
     }
 
+    /// Voxels along x, y, z of the box around the file's box and its blocks.
+    pub fn span(&self) -> [u64; 3] {
+        let [low, high] = self.bounds_m();
+        std::array::from_fn(|a| ((high[a] - low[a]) / self.voxel_m).round().max(1.0) as u64)
+    }
+
+    /// Low and high corner of the box around the file's box and its blocks, m.
+    pub fn bounds_m(&self) -> [[f64; 3]; 2] {
+        let around = |[low, high]: [[f64; 3]; 2], block: &Block| {
+            let (from, to) = (block.origin_m, block.max_m());
+            [
+                std::array::from_fn(|a| low[a].min(from[a])),
+                std::array::from_fn(|a| high[a].max(to[a])),
+            ]
+        };
+        let own = [self.box_min_m, self.box_max_m];
+        self.blocks.iter().fold(own, around)
+    }
+
     /// Why these values cannot be those of a particle file, if so.
     pub(crate) fn fault(&self) -> Option<String> {
-        let positive = |x: f64| x.is_finite() && x > 0.0;
-        if !positive(self.voxel_m) {
-            return Some(format!("voxel edge {} m is not positive", self.voxel_m));
+        let edges = limits::VOXEL_M;
+        if !edges.contains(&self.voxel_m) {
+            return Some(format!(
+                "voxel edge {:e} m is not from {:e} to {:e} m",
+                self.voxel_m,
+                edges.start(),
+                edges.end()
+            ));
         }
         if self.normal > 2 {
             return Some(format!("bond normal {} is not 0, 1 or 2", self.normal));
@@ -200,22 +225,45 @@ impl Header {
         if !(self.time_s.is_finite() && self.time_s >= 0.0) {
             return Some(format!("time {} s is not 0 or positive", self.time_s));
         }
-        self.blocks.iter().find_map(|block| {
-            let fault = if block.dims.contains(&0) {
-                "number of voxels is zero"
-            } else if !positive(block.voxel_m) {
-                "voxel edge is not positive"
-            } else if !block
-                .max_m()
-                .iter()
-                .chain(&block.origin_m)
-                .all(|x| x.is_finite())
-            {
-                "corners are not finite"
-            } else {
-                return None;
-            };
-            Some(format!("the {fault} in block '{}'", block.name))
+        let fault_of = |block| self.block_fault(block);
+        self.blocks
+            .iter()
+            .find_map(fault_of)
+            .or_else(|| self.span_fault())
+    }
+
+    fn block_fault(&self, block: &Block) -> Option<String> {
+        let is_own = |edge: f64| (edge / self.voxel_m - 1.0).abs() < 1e-6;
+        let fault = if block.dims.contains(&0) {
+            "number of voxels is zero".into()
+        } else if block.dims.iter().any(|&n| n > limits::PER_AXIS) {
+            format!(
+                "number of voxels is above {} along an axis",
+                limits::PER_AXIS
+            )
+        } else if !is_own(block.voxel_m) {
+            format!("voxel edge is not the file's, {:e} m,", self.voxel_m)
+        } else {
+            return None;
+        };
+        Some(format!("the {fault} in block '{}'", block.name))
+    }
+
+    fn span_fault(&self) -> Option<String> {
+        let most = limits::FROM_ZERO * self.voxel_m;
+        let sound = |x: &f64| x.abs() <= most;
+        if !self.bounds_m().iter().flatten().all(sound) {
+            return Some(format!(
+                "a corner is further than {:e} voxels from zero",
+                limits::FROM_ZERO
+            ));
+        }
+        let [x, y, z] = self.span();
+        (x.max(y).max(z) > limits::SPAN_PER_AXIS).then(|| {
+            format!(
+                "its box and blocks span {x} x {y} x {z} voxels, more than {} along an axis",
+                limits::SPAN_PER_AXIS
+            )
         })
     }
 }

@@ -8,6 +8,7 @@ use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 
 use crate::bits::word_count;
 use crate::header::{Header, Kind, MAX_HEADER};
+use crate::limits;
 
 /// First bytes of every particle file; a transfer in text mode damages them.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89MPTS\r\n\x1a";
@@ -99,6 +100,17 @@ pub(crate) fn padded_header(len: usize) -> usize {
 
 /// Why the sections do not belong to this header, if so.
 pub(crate) fn fault(header: &Header, sections: &[Section]) -> Option<String> {
+    if sections.len() > limits::ARRAYS {
+        let (n, most) = (sections.len(), limits::ARRAYS);
+        return Some(format!("{n} arrays are more than {most}"));
+    }
+    let attributes = header.attributes.iter().map(|(name, _)| name);
+    if attributes
+        .chain(sections.iter().map(|s| &s.name))
+        .any(|name| name.len() > limits::NAME)
+    {
+        return Some(format!("a name has more than {} bytes", limits::NAME));
+    }
     let mut names = HashSet::with_capacity(sections.len());
     for section in sections {
         if section.name.is_empty() || !names.insert(&section.name) {

@@ -27,8 +27,10 @@ mod check;
 mod error;
 mod header;
 mod layout;
+pub mod limits;
 mod map;
 mod read;
+mod spool;
 mod sum;
 mod write;
 
@@ -38,6 +40,7 @@ pub use header::{Block, Header, Kind, Material, Provenance};
 pub use layout::{Element, Section};
 pub use map::Mapped;
 pub use read::{ParticleFile, Value};
+pub use spool::spool;
 pub use write::Draft;
 
 const _: () = assert!(

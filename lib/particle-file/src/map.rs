@@ -1,27 +1,46 @@
 use std::fs::File;
-use std::io;
+use std::io::{self, Read};
 use std::ops::Deref;
+use std::os::fd::AsFd;
 use std::path::Path;
 
 use memmap2::{Mmap, MmapMut};
 
+use crate::spool::spool;
+
 /// The bytes of a file, mapped; the only place of the workspace that maps files.
 ///
-/// `-` is standard input. What is not a regular file (a pipe) is spooled to a temporary
-/// file first.
+/// `-` is standard input. What is not a regular file (a pipe) is spooled first.
 #[derive(Debug)]
 pub struct Mapped(Mmap);
 
 impl Mapped {
-    /// Maps the file at `path`, or standard input for `-`.
+    /// Maps the file at `path`, or standard input for `-`. Of a pipe that does not begin as
+    /// `recognised` wants it no more than the beginning is taken.
     ///
     /// # Errors
-    /// The system's reason.
-    pub fn open(path: &Path) -> io::Result<Self> {
-        if path == Path::new("-") {
-            Self::standard_input()
-        } else {
-            Self::of(File::open(path)?)
+    /// The system's reason, or a pipe without an end.
+    pub fn open(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<Self> {
+        match opened(path, recognised)? {
+            Opened::Named(file) => map(&file),
+            Opened::Spooled(file) => map(&file),
+        }
+    }
+
+    /// As [`Mapped::open`], but a file that has a name is read into memory, where nobody can
+    /// change or truncate it any more: for what is used longer than it takes to read it.
+    ///
+    /// # Errors
+    /// As [`Mapped::open`].
+    pub fn read(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<Self> {
+        match opened(path, recognised)? {
+            Opened::Named(mut file) => {
+                let len = usize::try_from(file.metadata()?.len()).map_err(io::Error::other)?;
+                let mut bytes = MmapMut::map_anon(len.max(1))?;
+                file.read_exact(&mut bytes[..len])?;
+                Ok(Self(bytes.make_read_only()?))
+            }
+            Opened::Spooled(file) => map(&file),
         }
     }
 
@@ -34,32 +53,30 @@ impl Mapped {
         map[..bytes.len()].copy_from_slice(bytes);
         Ok(Self(map.make_read_only()?))
     }
+}
 
-    fn of(mut file: File) -> io::Result<Self> {
-        let kind = file.metadata()?;
-        if kind.is_dir() {
-            return Err(io::Error::other("it is a folder"));
-        }
-        if kind.is_file() {
-            return map(&file);
-        }
-        let mut spool = tempfile::tempfile()?;
-        io::copy(&mut file, &mut spool)?;
-        map(&spool)
-    }
+/// An opened input.
+enum Opened {
+    /// A regular file, which others can write to.
+    Named(File),
+    /// The private copy of a pipe.
+    Spooled(File),
+}
 
-    #[cfg(unix)]
-    fn standard_input() -> io::Result<Self> {
-        use std::os::fd::AsFd;
-        Self::of(io::stdin().as_fd().try_clone_to_owned()?.into())
+fn opened(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<Opened> {
+    let file = if path == Path::new("-") {
+        io::stdin().as_fd().try_clone_to_owned()?.into()
+    } else {
+        File::open(path)?
+    };
+    let kind = file.metadata()?;
+    if kind.is_dir() {
+        return Err(io::Error::other("it is a folder"));
     }
-
-    #[cfg(not(unix))]
-    fn standard_input() -> io::Result<Self> {
-        let mut spool = tempfile::tempfile()?;
-        io::copy(&mut io::stdin().lock(), &mut spool)?;
-        map(&spool)
+    if kind.is_file() {
+        return Ok(Opened::Named(file));
     }
+    Ok(Opened::Spooled(spool(file, recognised)?))
 }
 
 impl Deref for Mapped {

@@ -1,3 +1,4 @@
+use std::io;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -7,6 +8,7 @@ use crate::bits::BitsRef;
 use crate::error::Error;
 use crate::header::{Block, Header, Stored};
 use crate::layout::{self, END_LEN, Element, PREAMBLE, Preamble, Section};
+use crate::limits;
 use crate::map::Mapped;
 
 /// A type that columns are made of.
@@ -50,12 +52,26 @@ impl ParticleFile {
     /// damaged.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
+        Self::of_input(path, Mapped::open(path, Self::recognises))
+    }
+
+    /// As [`ParticleFile::open`], but nothing that happens to the file later matters: for one
+    /// that is needed as long as a run takes.
+    ///
+    /// # Errors
+    /// As [`ParticleFile::open`].
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        Self::of_input(path, Mapped::read(path, Self::recognises))
+    }
+
+    fn of_input(path: &Path, bytes: io::Result<Mapped>) -> Result<Self, Error> {
         let name = if path == Path::new("-") {
             "standard input".to_owned()
         } else {
             path.display().to_string()
         };
-        match Mapped::open(path) {
+        match bytes {
             Ok(bytes) => Self::from_mapped(name, bytes),
             Err(source) => Err(Error::Unreadable { file: name, source }),
         }
@@ -88,6 +104,31 @@ impl ParticleFile {
             }),
             Err(what) => Err(Error::Corrupt { file: name, what }),
         }
+    }
+
+    /// Refuses a file from which `what`, of so many bytes, would be made although the file is
+    /// too small to be worth them: a header can claim any box.
+    ///
+    /// # Errors
+    /// The bound and what is asked for.
+    pub fn is_worth(&self, bytes: u64, what: &str) -> Result<(), Error> {
+        let len = self.bytes.len() as u64;
+        let most = limits::made_of(len);
+        if bytes <= most {
+            return Ok(());
+        }
+        let [x, y, z] = self.header().span();
+        Err(self.corrupt(format!(
+            "has {len} bytes and claims a box of {x} x {y} x {z} voxels: {what} would take \
+             {bytes} bytes, and at most {most} are made of it ({} and {} for each of its bytes)",
+            limits::MADE_AT_LEAST,
+            limits::MADE_PER_BYTE
+        )))
+    }
+
+    /// Length of the file, bytes.
+    pub fn len_bytes(&self) -> u64 {
+        self.bytes.len() as u64
     }
 
     /// Whether `bytes` begin like a particle file.
@@ -212,9 +253,13 @@ impl ParticleFile {
     }
 
     fn missing(&self, wanted: String) -> Error {
-        let names: Vec<String> = (self.stored.sections.iter())
+        const NAMED: usize = 20;
+        let mut names: Vec<String> = (self.stored.sections.iter().take(NAMED))
             .map(|s| format!("'{}' ({:?} x {})", s.name, s.element, s.components))
             .collect();
+        if let Some(more) = self.stored.sections.len().checked_sub(NAMED + 1) {
+            names.push(format!("and {} more", more + 1));
+        }
         Error::Missing {
             file: self.name.clone(),
             wanted,

@@ -95,7 +95,7 @@ fn a_damaged_array_is_refused_on_use_and_spoils_no_other() {
 #[test]
 fn columns_come_back_in_every_type_and_only_in_their_own() {
     let (a, b, c) = ([1.5_f64, -0.0], [7_u32; 4], [u64::MAX, 0]);
-    let header = Header::new(Kind::State, 1e-6, 0, [0.0; 3], [1.0; 3]);
+    let header = Header::new(Kind::State, 1e-6, 0, [0.0; 3], [1e-3; 3]);
     let mut bytes = Vec::new();
     Draft::new(header)
         .column("a", 1, &a)
@@ -124,7 +124,7 @@ fn columns_come_back_in_every_type_and_only_in_their_own() {
 
 #[test]
 fn a_number_that_is_not_finite_is_found_by_row() {
-    let header = || Header::new(Kind::State, 1e-6, 0, [0.0; 3], [1.0; 3]);
+    let header = || Header::new(Kind::State, 1e-6, 0, [0.0; 3], [1e-3; 3]);
     let mut position = vec![0.5_f32; 3 * 40_000];
     position[3 * 30_001 + 1] = f32::NAN;
     position[3 * 35_000] = f32::INFINITY;
@@ -141,7 +141,7 @@ fn a_number_that_is_not_finite_is_found_by_row() {
 
 #[test]
 fn what_is_no_particle_file_is_not_written() {
-    let header = || Header::new(Kind::State, 1e-6, 1, [0.0; 3], [1.0; 3]);
+    let header = || Header::new(Kind::State, 1e-6, 1, [0.0; 3], [1e-3; 3]);
     let refused = |draft: Draft| {
         let mut out = Vec::new();
         let error = draft.write_to(&mut out).unwrap_err();
@@ -180,14 +180,45 @@ fn what_is_no_particle_file_is_not_written() {
             }),
             "corners",
         ),
+        // What follows was written and read before, and panicked or hung whoever used it.
+        (
+            Draft::new(Header {
+                voxel_m: 1e-15,
+                ..header()
+            }),
+            "not from 5e-13 to 2e9 m",
+        ),
+        (
+            Draft::new(Header {
+                box_max_m: [1e-3, 1e-3, 1e3],
+                ..header()
+            }),
+            "1000 x 1000 x 1000000000 voxels, more than 200000",
+        ),
+        (
+            Draft::new(Header {
+                box_min_m: [1e5; 3],
+                box_max_m: [1e5; 3],
+                ..header()
+            }),
+            "further than 1e9 voxels from zero",
+        ),
+        (
+            Draft::new(header()).block(block(2e-6), &grid),
+            "voxel edge is not the file's",
+        ),
+        (
+            Draft::new(header()).column(&"x".repeat(256), 1, &three),
+            "more than 255 bytes",
+        ),
         (
             Draft::new(header()).block(block(-1.0), &grid),
             "block 'wood'",
         ),
         (
             Draft::new(header())
-                .block(block(1.0), &grid)
-                .block(block(1.0), &grid),
+                .block(block(1e-6), &grid)
+                .block(block(1e-6), &grid),
             "twice",
         ),
         (

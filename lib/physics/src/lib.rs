@@ -6,6 +6,7 @@ mod bodies;
 mod clamp;
 mod material;
 mod regime;
+pub mod restored;
 mod scene;
 mod scheme;
 mod wall_law;
@@ -16,7 +17,7 @@ pub use material::{
     Liquid, Newtonian, Rheology, ShearRate, TAIT_C, Table, TableError, Tait, Viscosity,
 };
 pub use regime::Regime;
-pub use scene::{Boundary, Dimensions, GridBox, Points, Scene, Stop};
+pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Stop};
 pub use scheme::{
     Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
 };

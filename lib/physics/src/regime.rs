@@ -1,6 +1,6 @@
 use std::fmt;
 
-use crate::{Scene, Viscosity};
+use crate::{Amount, Scene, Viscosity};
 
 /// Surface tension of a typical wood adhesive, N/m (paper, below Eq. 4).
 const SURFACE_TENSION: f64 = 0.03;
@@ -27,11 +27,12 @@ pub struct Regime {
 }
 
 impl Regime {
-    /// The numbers of `scene`, for a lumen of six cells and its fastest driver.
-    pub fn of(scene: &Scene) -> Self {
+    /// The numbers of `scene` with `amount` of liquid, for a lumen of six cells and its fastest
+    /// driver.
+    pub fn of(scene: &Scene, amount: &Amount) -> Self {
         let liquid = &scene.liquid;
         let lumen = 6.0 * scene.grid.cell_m;
-        let speed = scene.initial_speed();
+        let speed = scene.speed_with(amount);
         let rate = 8.0 * speed / lumen;
         let eta = match &liquid.viscosity {
             Viscosity::Newtonian(law) => law.0,

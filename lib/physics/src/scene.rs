@@ -1,4 +1,4 @@
-use crate::{Clamp, Liquid, RigidBody, WallLaw};
+use crate::{Clamp, Liquid, Motion, RigidBody, WallLaw};
 
 /// Number of dimensions computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +54,71 @@ pub struct Points {
     pub volume: Vec<f64>,
 }
 
+/// How much liquid a scene starts with and where: what plans need, known before its points are
+/// made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Amount {
+    /// Material points.
+    pub points: u64,
+    /// Their volume at J = 1, m3.
+    pub volume_m3: f64,
+    /// Low corner of the box around them, m.
+    pub low_m: [f64; 3],
+    /// High corner of that box, m.
+    pub high_m: [f64; 3],
+    /// Speed of the fastest, m/s.
+    pub speed: f64,
+}
+
+impl Default for Amount {
+    /// No liquid.
+    fn default() -> Self {
+        Self {
+            points: 0,
+            volume_m3: 0.0,
+            low_m: [f64::INFINITY; 3],
+            high_m: [f64::NEG_INFINITY; 3],
+            speed: 0.0,
+        }
+    }
+}
+
+impl Amount {
+    /// That of `points`.
+    pub fn of(points: &Points) -> Self {
+        let mut sum = Self::default();
+        for ((&x, &v), &volume) in (points.position.iter())
+            .zip(&points.velocity)
+            .zip(&points.volume)
+        {
+            sum = sum.and(Self {
+                points: 1,
+                volume_m3: volume,
+                low_m: x,
+                high_m: x,
+                speed: norm(v),
+            });
+        }
+        sum
+    }
+
+    /// This and `other` together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            points: self.points.saturating_add(other.points),
+            volume_m3: self.volume_m3 + other.volume_m3,
+            low_m: std::array::from_fn(|a| self.low_m[a].min(other.low_m[a])),
+            high_m: std::array::from_fn(|a| self.high_m[a].max(other.high_m[a])),
+            speed: self.speed.max(other.speed),
+        }
+    }
+}
+
+fn norm(v: [f64; 3]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
 /// When a run ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
@@ -105,20 +170,22 @@ impl Scene {
 
     /// Largest speed known before the first step, m/s: bodies and initial liquid.
     pub fn initial_speed(&self) -> f64 {
-        let norm = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-        let liquid = self
-            .points
-            .velocity
-            .iter()
-            .map(|&v| norm(v))
-            .fold(0.0, f64::max);
-        self.bodies
-            .iter()
-            .map(|body| match body.motion {
-                crate::Motion::Fixed => 0.0,
-                crate::Motion::Constant(v) => norm(v),
-                crate::Motion::Clamped => self.clamp.map_or(0.0, |c| c.closing_speed),
-            })
-            .fold(liquid, f64::max)
+        self.speed_with(&Amount::of(&self.points))
+    }
+
+    /// The same for `liquid` instead of the scene's points.
+    pub fn speed_with(&self, liquid: &Amount) -> f64 {
+        (self.bodies.iter())
+            .map(|body| norm(self.velocity(body.motion)))
+            .fold(liquid.speed, f64::max)
+    }
+
+    /// Velocity of a body at the clamp's full speed, m/s.
+    pub fn velocity(&self, motion: Motion) -> [f64; 3] {
+        match motion {
+            Motion::Fixed => [0.0; 3],
+            Motion::Constant(v) => v,
+            Motion::Clamped => [0.0, -self.clamp.map_or(0.0, |c| c.closing_speed), 0.0],
+        }
     }
 }

@@ -1,13 +1,14 @@
 //! Checkpoints: all that a run needs to go on bit by bit.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use particle_file::{Draft, Header, Kind, ParticleFile};
-use physics::{Array, Saved};
+use physics::{Array, Saved, StepReport};
 
 use crate::courant::Courant;
 use crate::drive::RunError;
-use crate::snapshot::write_whole;
+use crate::folder::{CHECKPOINT, RunFolder};
+use crate::history::Extent;
 
 /// Where a run is in time, and what it has written.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,6 +25,10 @@ pub struct Clock {
     pub next_snapshot_s: f64,
     /// Snapshots written.
     pub snapshots: u32,
+    /// Report of the last step, which the end of a run quotes.
+    pub last: StepReport,
+    /// Whether that step has no row in the history.
+    pub row_missing: bool,
 }
 
 /// A run as its checkpoint holds it.
@@ -33,33 +38,34 @@ pub struct Checkpoint {
     pub clock: Clock,
     /// Which part of it was taken at which Courant number.
     pub courant: Vec<Courant>,
+    /// How far its history went.
+    pub history: Extent,
     /// State of the scheme.
     pub saved: Saved,
 }
 
-fn path(folder: &Path) -> PathBuf {
-    folder.join("checkpoint.mpts")
-}
-
 /// The end of a sentence that says where the last checkpoint is.
-pub(crate) fn where_last(folder: &Path) -> String {
-    if path(folder).exists() {
+pub(crate) fn where_last(folder: &RunFolder) -> String {
+    let path = folder.place(CHECKPOINT);
+    if path.exists() {
         format!(
             "; --resume goes on from the last good checkpoint, {}, at another integrator.cfl if wanted",
-            path(folder).display()
+            path.display()
         )
     } else {
         "; it came before the first checkpoint".into()
     }
 }
 
-/// Writes the run folder's checkpoint, replacing the one before.
+/// Writes the run folder's checkpoint, replacing the one before. What it counts on, history and
+/// snapshots, must be on the disk by then.
 pub(crate) fn write(
-    folder: &Path,
+    folder: &RunFolder,
     identity: &str,
     Checkpoint {
         clock,
         courant,
+        history,
         saved,
     }: &Checkpoint,
 ) -> Result<(), RunError> {
@@ -67,19 +73,31 @@ pub(crate) fn write(
     (header.time_s, header.step) = (clock.time_s, clock.step);
     header.set_attribute("identity", identity);
     header.set_attribute("snapshots", clock.snapshots);
+    header.set_attribute("row_missing", clock.row_missing);
+    header.set_attribute("history_bytes", history.bytes);
+    header.set_attribute("history_hash", history.hash);
+    header.set_attribute("lost", clock.last.lost);
+    header.set_attribute("iterations", clock.last.iterations);
     let times = [
         clock.time_s,
         clock.travel_m,
         clock.next_history_s,
         clock.next_snapshot_s,
     ];
+    let last = [
+        clock.last.dt_s,
+        clock.last.closing_speed,
+        clock.last.travel_m,
+        clock.last.pressure_bottom,
+        clock.last.pressure_top,
+    ];
     let courant: Vec<f64> = (courant.iter())
         .flat_map(|part| [part.after_step as f64, part.cfl])
         .collect();
-    let mut draft =
-        Draft::new(header)
-            .column("run.clock", 1, &times)
-            .column("run.courant", 1, &courant);
+    let mut draft = Draft::new(header)
+        .column("run.clock", 1, &times)
+        .column("run.last_step", 1, &last)
+        .column("run.courant", 1, &courant);
     for (name, array) in &saved.0 {
         draft = match array {
             Array::F32(values) => draft.column(name, 1, values),
@@ -87,16 +105,7 @@ pub(crate) fn write(
             Array::U32(values) => draft.column(name, 1, values),
         };
     }
-    write_whole(&path(folder), |out| draft.write_to(out))
-}
-
-/// Removes the checkpoint of a run that has ended: nothing is left to continue.
-pub(crate) fn remove(folder: &Path) -> Result<(), RunError> {
-    let path = path(folder);
-    match std::fs::remove_file(&path) {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(RunError::write(&path)(e)),
-        _ => Ok(()),
-    }
+    folder.write_whole(CHECKPOINT, |out| draft.write_to(out))
 }
 
 /// Reads the run folder's checkpoint, if there is one.
@@ -104,7 +113,7 @@ pub(crate) fn remove(folder: &Path) -> Result<(), RunError> {
 /// # Errors
 /// A checkpoint that is corrupt or belongs to another case, particle file or version.
 pub fn read(folder: &Path, identity: &str) -> Result<Option<Checkpoint>, RunError> {
-    let path = path(folder);
+    let path = folder.join(CHECKPOINT);
     if !path.exists() {
         return Ok(None);
     }
@@ -121,17 +130,50 @@ pub fn read(folder: &Path, identity: &str) -> Result<Option<Checkpoint>, RunErro
         ));
     }
     let numbers = |name| file.column::<f64>(name).map_err(|e| bad(e.to_string()));
-    let &[time_s, travel_m, next_history_s, next_snapshot_s] = numbers("run.clock")? else {
-        return Err(bad("its clock does not have four entries".into()));
+    let earlier = |what: &str| {
+        bad(format!(
+            "it has no {what} as this version needs it; use --overwrite to start anew"
+        ))
     };
-    let snapshots = header.attribute("snapshots").and_then(|t| t.parse().ok());
+    let &[time_s, travel_m, next_history_s, next_snapshot_s] = numbers("run.clock")? else {
+        return Err(earlier("clock"));
+    };
+    let Ok(
+        &[
+            dt_s,
+            closing_speed,
+            last_travel_m,
+            pressure_bottom,
+            pressure_top,
+        ],
+    ) = numbers("run.last_step")
+    else {
+        return Err(earlier("last step"));
+    };
     let clock = Clock {
         step: header.step,
         time_s,
         travel_m,
         next_history_s,
         next_snapshot_s,
-        snapshots: snapshots.ok_or_else(|| bad("its number of snapshots is missing".into()))?,
+        snapshots: attribute(header, "snapshots").ok_or_else(|| earlier("number of snapshots"))?,
+        last: StepReport {
+            dt_s,
+            closing_speed,
+            travel_m: last_travel_m,
+            pressure_bottom,
+            pressure_top,
+            lost: attribute(header, "lost").ok_or_else(|| earlier("count of lost points"))?,
+            iterations: attribute(header, "iterations").ok_or_else(|| earlier("iterations"))?,
+        },
+        row_missing: attribute(header, "row_missing").ok_or_else(|| earlier("row state"))?,
+    };
+    let (bytes, hash) = (
+        attribute(header, "history_bytes"),
+        attribute(header, "history_hash"),
+    );
+    let (Some(bytes), Some(hash)) = (bytes, hash) else {
+        return Err(earlier("length of the history"));
     };
     let courant = (numbers("run.courant")?.as_chunks().0.iter())
         .map(|&[after, cfl]| Courant {
@@ -158,17 +200,23 @@ pub fn read(folder: &Path, identity: &str) -> Result<Option<Checkpoint>, RunErro
     Ok(Some(Checkpoint {
         clock,
         courant,
+        history: Extent { bytes, hash },
         saved: Saved(saved),
     }))
+}
+
+fn attribute<T: std::str::FromStr>(header: &Header, name: &str) -> Option<T> {
+    header.attribute(name)?.parse().ok()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::folder::tests::held;
 
     #[test]
     fn a_checkpoint_comes_back_bit_by_bit_and_only_to_its_own_run() {
-        let folder = tempfile::tempdir().unwrap();
+        let (place, folder) = held();
         let clock = Clock {
             step: 7,
             time_s: 0.1 + 0.2,
@@ -176,6 +224,16 @@ mod tests {
             next_history_s: 0.3,
             next_snapshot_s: f64::INFINITY,
             snapshots: 3,
+            last: StepReport {
+                dt_s: 0.1,
+                closing_speed: 1.0,
+                travel_m: 1e-6,
+                pressure_bottom: -0.0,
+                pressure_top: 1e300,
+                lost: u64::MAX,
+                iterations: 7,
+            },
+            row_missing: true,
         };
         let saved = Saved(vec![
             ("a".into(), Array::F64(vec![1.0, -0.0, 1e-300])),
@@ -186,12 +244,16 @@ mod tests {
         let checkpoint = Checkpoint {
             clock,
             courant: courant.to_vec(),
+            history: Extent {
+                bytes: 1 << 60,
+                hash: u64::MAX,
+            },
             saved,
         };
-        assert_eq!(read(folder.path(), "x").unwrap(), None);
-        write(folder.path(), "x", &checkpoint).unwrap();
-        assert_eq!(read(folder.path(), "x").unwrap(), Some(checkpoint));
-        let said = read(folder.path(), "y").unwrap_err().to_string();
+        assert_eq!(read(place.path(), "x").unwrap(), None);
+        write(&folder, "x", &checkpoint).unwrap();
+        assert_eq!(read(place.path(), "x").unwrap(), Some(checkpoint));
+        let said = read(place.path(), "y").unwrap_err().to_string();
         assert!(said.contains("another case"), "{said}");
     }
 }

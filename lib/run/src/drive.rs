@@ -8,9 +8,11 @@ use physics::{Diagnostics, Failure, Scheme, StepLimit, StepReport, Stop};
 
 use crate::checkpoint::{self, Checkpoint, Clock};
 use crate::courant::Courant;
+use crate::folder::RunFolder;
 use crate::history::History;
 use crate::resolve::Setup;
 use crate::snapshot::SnapshotWriter;
+use crate::verdict;
 
 /// Wall time between checkpoints.
 const CHECKPOINT_EVERY: Duration = Duration::from_secs(60);
@@ -67,7 +69,7 @@ impl RunError {
 }
 
 /// What the loop needs beside setup and scheme.
-pub struct Controls<'a> {
+pub(crate) struct Controls<'a> {
     /// Time between rows of the history, s.
     pub history_every_s: f64,
     /// Time between snapshots, s; infinite for none.
@@ -83,7 +85,7 @@ pub struct Controls<'a> {
 }
 
 /// What the loop did.
-pub struct Outcome {
+pub(crate) struct Outcome {
     /// How it ended.
     pub end: End,
     /// Clock at the end.
@@ -92,8 +94,6 @@ pub struct Outcome {
     pub stepping: Duration,
     /// Steps taken by this process.
     pub steps_here: u64,
-    /// Report of the last step.
-    pub last: StepReport,
     /// Diagnostics of the last state.
     pub diagnostics: Diagnostics,
 }
@@ -102,23 +102,24 @@ pub struct Outcome {
 ///
 /// # Errors
 /// An unstable state or an output that cannot be written.
-pub fn drive(
+pub(crate) fn drive(
     setup: &Setup,
     scheme: &mut dyn Scheme,
     clock: Clock,
     history: &mut History,
     snapshots: &SnapshotWriter,
-    folder: &Path,
+    folder: &RunFolder,
     controls: &mut Controls,
 ) -> Result<Outcome, RunError> {
-    let mut state = Loop::new(clock);
+    let mut state = Loop::new(setup, folder, clock);
     loop {
-        if let Some(end) = state.end(setup) {
-            return state.finish(end, setup, scheme, history);
+        if let Some(end) = state.end() {
+            return state.finish(end, scheme, history);
         }
         let begun = Instant::now();
         let report = scheme
-            .advance(state.limit(setup))
+            .advance(state.limit())
+            .and_then(|report| verdict::step(setup, &report).map(|()| report))
             .map_err(|failure| RunError::Unstable {
                 failure,
                 step: state.clock.step,
@@ -127,64 +128,66 @@ pub fn drive(
             })?;
         state.stepping += begun.elapsed();
         state.took(report);
-        (controls.progress)(state.fraction(setup), state.clock.time_s, &report);
-        state.write_due(setup, scheme, history, snapshots, controls)?;
+        (controls.progress)(state.fraction(), state.clock.time_s, &report);
+        state.write_due(scheme, history, snapshots, controls)?;
         let stop = (controls.interrupted)();
         if stop || state.last_checkpoint.elapsed() >= CHECKPOINT_EVERY {
+            state.look(&scheme.diagnostics())?;
             let checkpoint = Checkpoint {
                 clock: state.clock,
                 courant: controls.courant.clone(),
+                history: history.sync()?,
                 saved: scheme.save(),
             };
             checkpoint::write(folder, &controls.identity, &checkpoint)?;
             state.last_checkpoint = Instant::now();
         }
         if stop {
-            return state.finish(End::Interrupted, setup, scheme, history);
+            return state.finish(End::Interrupted, scheme, history);
         }
     }
 }
 
-struct Loop {
+struct Loop<'a> {
+    setup: &'a Setup,
+    folder: &'a RunFolder,
     clock: Clock,
     stepping: Duration,
     steps_here: u64,
-    last: StepReport,
     last_checkpoint: Instant,
-    row_written: bool,
 }
 
-impl Loop {
-    fn new(clock: Clock) -> Self {
+impl<'a> Loop<'a> {
+    fn new(setup: &'a Setup, folder: &'a RunFolder, clock: Clock) -> Self {
         Self {
+            setup,
+            folder,
             clock,
             stepping: Duration::ZERO,
             steps_here: 0,
-            last: StepReport::default(),
             last_checkpoint: Instant::now(),
-            row_written: true,
         }
     }
 
-    fn end(&self, setup: &Setup) -> Option<End> {
+    fn end(&self) -> Option<End> {
         // A relative hair, so that a sum of many steps that should meet the end does.
         let reached = |t: f64, goal: f64| t >= goal * (1.0 - 1e-12);
-        match setup.scene.stop {
+        match self.setup.scene.stop {
             Stop::Time(t) => reached(self.clock.time_s, t).then_some(End::Time),
             Stop::Closed { travel_m } => {
                 if self.clock.travel_m >= travel_m * (1.0 - 1e-9) {
                     Some(End::Closed)
                 } else {
-                    reached(self.clock.time_s, setup.time_limit_s).then_some(End::TimeLimit)
+                    reached(self.clock.time_s, self.setup.time_limit_s).then_some(End::TimeLimit)
                 }
             }
         }
     }
 
-    fn limit(&self, setup: &Setup) -> StepLimit {
+    fn limit(&self) -> StepLimit {
         StepLimit {
-            time_s: setup.time_limit_s - self.clock.time_s,
-            travel_m: match setup.scene.stop {
+            time_s: self.setup.time_limit_s - self.clock.time_s,
+            travel_m: match self.setup.scene.stop {
                 Stop::Closed { travel_m } => travel_m - self.clock.travel_m,
                 Stop::Time(_) => f64::INFINITY,
             },
@@ -196,13 +199,13 @@ impl Loop {
         self.clock.time_s += report.dt_s;
         self.clock.travel_m = report.travel_m;
         self.steps_here += 1;
-        self.last = report;
-        self.row_written = false;
+        self.clock.last = report;
+        self.clock.row_missing = true;
     }
 
-    fn fraction(&self, setup: &Setup) -> f64 {
-        let time = self.clock.time_s / setup.time_limit_s;
-        match setup.scene.stop {
+    fn fraction(&self) -> f64 {
+        let time = self.clock.time_s / self.setup.time_limit_s;
+        match self.setup.scene.stop {
             Stop::Closed { travel_m } => time.max(self.clock.travel_m / travel_m),
             Stop::Time(_) => time,
         }
@@ -210,62 +213,63 @@ impl Loop {
 
     fn write_due(
         &mut self,
-        setup: &Setup,
         scheme: &dyn Scheme,
         history: &mut History,
         snapshots: &SnapshotWriter,
         controls: &Controls,
     ) -> Result<(), RunError> {
         if self.clock.time_s >= self.clock.next_history_s {
-            self.row(setup, scheme.diagnostics(), history)?;
+            self.row(scheme.diagnostics(), history)?;
             self.clock.next_history_s += controls.history_every_s;
             // After a step longer than the interval, do not catch up with a burst of rows.
             self.clock.next_history_s = self.clock.next_history_s.max(self.clock.time_s);
         }
         if self.clock.time_s >= self.clock.next_snapshot_s {
+            self.look(&scheme.diagnostics())?;
             snapshots.write_numbered(&mut self.clock, scheme)?;
             self.clock.next_snapshot_s += controls.snapshot_every_s;
         }
         Ok(())
     }
 
-    fn row(
-        &mut self,
-        setup: &Setup,
-        diagnostics: Diagnostics,
-        history: &mut History,
-    ) -> Result<(), RunError> {
-        let gap = setup.initial_gap_m.map(|g| g - self.clock.travel_m);
-        self.row_written = true;
-        let path = history.path().to_owned();
-        history
-            .row(
-                self.clock.step,
-                self.clock.time_s,
-                gap,
-                &self.last,
-                &diagnostics,
-            )
-            .map_err(RunError::write(&path))
+    /// Looks at the state before any of it is written.
+    fn look(&self, diagnostics: &Diagnostics) -> Result<(), RunError> {
+        let lost = self.clock.last.lost;
+        verdict::state(self.setup, diagnostics, lost).map_err(|failure| RunError::Unstable {
+            failure,
+            step: self.clock.step,
+            time_s: self.clock.time_s,
+            checkpoint: checkpoint::where_last(self.folder),
+        })
+    }
+
+    fn row(&mut self, diagnostics: Diagnostics, history: &mut History) -> Result<(), RunError> {
+        let gap = self.setup.initial_gap_m.map(|g| g - self.clock.travel_m);
+        self.look(&diagnostics)?;
+        self.clock.row_missing = false;
+        let Clock { step, time_s, .. } = self.clock;
+        history.row(step, time_s, gap, &self.clock.last, &diagnostics)
     }
 
     fn finish(
         mut self,
         end: End,
-        setup: &Setup,
         scheme: &dyn Scheme,
         history: &mut History,
     ) -> Result<Outcome, RunError> {
         let diagnostics = scheme.diagnostics();
-        if !self.row_written && end != End::Interrupted {
-            self.row(setup, diagnostics, history)?;
+        if end != End::Interrupted {
+            if self.clock.row_missing {
+                self.row(diagnostics, history)?;
+            }
+            // Before the final state, which says that the run has ended.
+            history.sync()?;
         }
         Ok(Outcome {
             end,
             clock: self.clock,
             stepping: self.stepping,
             steps_here: self.steps_here,
-            last: self.last,
             diagnostics,
         })
     }

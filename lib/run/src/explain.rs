@@ -8,6 +8,7 @@ use crate::case::{Case, SchemeName};
 use crate::expected_error;
 use crate::left_out::left_out;
 use crate::resolve::Setup;
+use crate::system;
 
 /// What a scheme expects of a run.
 #[derive(Clone, Debug)]
@@ -16,26 +17,44 @@ pub struct Forecast {
     pub dt_s: f64,
     /// Which limit sets it, in words.
     pub limit: String,
-    /// Steps to the nominal end.
+    /// Steps to the nominal end: the clamp keeps its full speed.
     pub steps: f64,
+    /// The same to the latest end, where a pressure limit holds the clamp back.
+    pub most_steps: f64,
     /// Largest resident memory, bytes.
     pub memory_bytes: f64,
-    /// Wall time on the threads at hand, s.
-    pub seconds: f64,
+    /// Wall time of a step on the threads at hand, s.
+    pub step_s: f64,
     /// Further lines: unknowns, caps.
     pub notes: Vec<String>,
 }
 
 /// Steps from which a run will not end: at a microsecond each they take weeks.
 const ENDLESS: f64 = 1e9;
+/// Wall time that nobody waits for unasked, s: a week.
+const PATIENCE: f64 = 7.0 * 86_400.0;
 
 impl Forecast {
-    /// A sentence where the time step is so short that the run will not end.
-    pub fn warning(&self) -> Option<String> {
-        (self.steps > ENDLESS).then(|| {
+    /// A sentence where the run will not end in time or not fit into memory.
+    pub fn excess(&self) -> Option<String> {
+        let seconds = self.most_steps * self.step_s;
+        // A forecast that is not a number is beyond all bounds too.
+        let fits = |value: f64, most: f64| value <= most;
+        if !(fits(self.most_steps, ENDLESS) && fits(seconds, PATIENCE)) {
+            return Some(format!(
+                "the run would take up to {:.1e} steps of {:.2e} s, {}, where {ENDLESS:e} steps or a week are the most; the limit that binds is {}; an earlier end (stop, time_limit), a coarser cell or another scheme is needed",
+                self.most_steps,
+                self.dt_s,
+                duration(seconds),
+                self.limit
+            ));
+        }
+        let machine = system::memory_bytes()? as f64;
+        (!fits(self.memory_bytes, machine)).then(|| {
             format!(
-                "the run needs about {:.1e} steps of {:.2e} s and will hardly end; the limit that binds is {}",
-                self.steps, self.dt_s, self.limit
+                "the run would need {:.1} GB of memory and this machine has {:.1} GB; a coarser cell, fewer points_per_direction or a smaller specimen is needed",
+                self.memory_bytes / 1e9,
+                machine / 1e9
             )
         })
     }
@@ -51,10 +70,10 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
     let _ = writeln!(
         out,
         "\nregime\n{}",
-        indent(&Regime::of(&setup.scene).to_string())
+        indent(&Regime::of(&setup.scene, &setup.liquid).to_string())
     );
     let _ = writeln!(out, "\nleft out");
-    for item in left_out(&setup.scene, &case.integrator, case.output.snapshots > 0) {
+    for item in left_out(setup, &case.integrator, case.output.snapshots > 0) {
         let _ = writeln!(out, "  {:<18} {}", item.what, item.why);
     }
     out
@@ -83,8 +102,7 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
     writeln!(
         out,
         "  liquid             {} material points, {:.4e} m3",
-        scene.points.position.len(),
-        scene.liquid_volume()
+        setup.liquid.points, setup.liquid.volume_m3
     )?;
     let liquid = &scene.liquid;
     let viscosity = match &liquid.viscosity {
@@ -177,8 +195,17 @@ fn cost(out: &mut String, setup: &Setup, forecast: &Forecast) -> std::fmt::Resul
     )?;
     writeln!(
         out,
-        "  steps              about {:.0} to {:.4e} s",
-        forecast.steps, setup.nominal_duration_s
+        "  steps              about {} to {:.4e} s{}",
+        count(forecast.steps),
+        setup.nominal_duration_s,
+        if forecast.most_steps > forecast.steps {
+            format!(
+                ", at most {} where the pressure limit holds the clamp",
+                count(forecast.most_steps)
+            )
+        } else {
+            String::new()
+        }
     )?;
     writeln!(
         out,
@@ -188,13 +215,28 @@ fn cost(out: &mut String, setup: &Setup, forecast: &Forecast) -> std::fmt::Resul
     writeln!(
         out,
         "  run time           {} on {} threads",
-        duration(forecast.seconds),
+        duration(forecast.steps * forecast.step_s),
         rayon::current_num_threads()
     )?;
-    for note in forecast.notes.iter().chain(&forecast.warning()) {
+    for note in &forecast.notes {
         writeln!(out, "  {note}")?;
     }
+    if let Some(excess) = forecast.excess() {
+        writeln!(
+            out,
+            "  refused            unless --yes-really is given: {excess}"
+        )?;
+    }
     Ok(())
+}
+
+/// A number of steps, in full where it is readable.
+fn count(steps: f64) -> String {
+    if steps < 1e9 {
+        format!("{steps:.0}")
+    } else {
+        format!("{steps:.2e}")
+    }
 }
 
 fn duration(seconds: f64) -> String {
@@ -211,21 +253,32 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_run_that_will_not_end_is_named_with_its_limit() {
-        let forecast = |steps| Forecast {
+    fn a_run_that_will_not_end_or_fit_is_named_with_its_limit() {
+        let forecast = |most_steps, memory_bytes| Forecast {
             dt_s: 6e-19,
             limit: "viscous".into(),
-            steps,
-            memory_bytes: 0.0,
-            seconds: 0.0,
+            steps: 1.0,
+            most_steps,
+            memory_bytes,
+            step_s: 1e-6,
             notes: Vec::new(),
         };
-        let said = forecast(6e13).warning().expect("a warning");
+        let said = forecast(6e13, 0.0).excess().expect("a refusal");
         assert!(
             said.contains("6.0e13 steps") && said.contains("viscous"),
             "{said}"
         );
         // The paper's own runs take some 50,000 steps, a full-size one some 1e5.
-        assert_eq!(forecast(1e6).warning(), None);
+        assert_eq!(forecast(1e6, 1e6).excess(), None);
+        assert!(forecast(f64::NAN, 0.0).excess().is_some());
+        let slow = Forecast {
+            step_s: 1.0,
+            ..forecast(1e6, 0.0)
+        };
+        assert!(slow.excess().is_some_and(|said| said.contains("11.6 days")));
+        if cfg!(target_os = "linux") {
+            let said = forecast(1.0, 1e18).excess().expect("a refusal");
+            assert!(said.contains("GB"), "{said}");
+        }
     }
 }

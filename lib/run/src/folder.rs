@@ -1,102 +1,337 @@
-//! The run folder: what of an earlier run is kept, continued or replaced.
+//! The run folder: marked as one, held by one run at a time, written file by file.
 
-use std::fs;
-use std::path::Path;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
 
-use crate::checkpoint::{self, Checkpoint};
+use particle_file::Provenance;
+use same_file::Handle;
+
 use crate::drive::RunError;
+use crate::mark::{self, MARKER};
 use crate::request::RunFailure;
-use crate::snapshot::write_whole;
 
-/// The case as run.
-pub(crate) const RESOLVED: &str = "resolved.toml";
-
+/// The state a run ended with; once it is there, the run has ended.
+pub(crate) const FINAL: &str = "final.mpts";
+/// What a run continues from.
+pub(crate) const CHECKPOINT: &str = "checkpoint.mpts";
 /// What a run was, did and cost.
 pub(crate) const SUMMARY: &str = "summary.json";
+/// One row per interval.
+pub(crate) const HISTORY: &str = "history.csv";
+/// The case as run.
+pub(crate) const RESOLVED: &str = "resolved.toml";
+/// The folder of the snapshots.
+pub(crate) const SNAPSHOTS: &str = "snapshots";
+/// A file on its way to one of the names above, in the same folder as that.
+pub(crate) const ASIDE: &str = ".mpm-run.tmp";
 
-/// How an existing run folder is treated.
-#[derive(Clone, Copy, Debug)]
-pub struct Mode {
-    /// Continue from its checkpoint.
-    pub resume: bool,
-    /// Replace what belongs to another run.
-    pub overwrite: bool,
+/// A run folder held by this process, which no other run can hold at the same time.
+#[derive(Debug)]
+pub(crate) struct RunFolder {
+    path: PathBuf,
+    /// Open and locked until the process ends, however it ends.
+    marker: File,
+    /// Why it could not be locked.
+    unlocked: Option<io::Error>,
 }
 
-/// Makes the run folder ready and finds the checkpoint to start from; none to start anew.
-///
-/// # Errors
-/// A folder that holds something else, a checkpoint that cannot be used, a failed write.
-pub(crate) fn start(
-    folder: &Path,
-    mode: Mode,
-    identity: &str,
-    text: &str,
-) -> Result<Option<Checkpoint>, RunFailure> {
-    if fs::metadata(folder).is_ok_and(|found| !found.is_dir()) {
-        return Err(RunFailure::Usage(format!(
-            "'{}' is a file; a run needs a folder",
-            folder.display()
-        )));
+impl RunFolder {
+    /// The folder at `path` if it is marked as a run folder, held from now on.
+    ///
+    /// # Errors
+    /// What is no folder, or is held by another run.
+    pub(crate) fn find(path: &Path, by: &Provenance) -> Result<Option<Self>, RunFailure> {
+        match fs::metadata(path) {
+            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(e) => return Err(RunError::write(path)(e).into()),
+            Ok(found) if found.is_dir() => {}
+            Ok(_) => {
+                return Err(RunFailure::Usage(format!(
+                    "'{}' is a file; a run needs a folder",
+                    path.display()
+                )));
+            }
+        }
+        if !is_there(&path.join(MARKER)) {
+            return Ok(None);
+        }
+        Self::hold(path, by).map(Some)
     }
-    fs::create_dir_all(folder).map_err(RunError::write(folder))?;
-    if mode.resume {
-        match checkpoint::read(folder, identity) {
-            Ok(Some(checkpoint)) => return Ok(Some(checkpoint)),
-            Ok(None) => {}
-            Err(error) if !mode.overwrite => return Err(error.into()),
-            Err(_) => {}
+
+    /// Makes a run folder at `path`, of a folder that is there too if it holds none of a run's
+    /// names.
+    ///
+    /// # Errors
+    /// What cannot become a run folder, or is held by another run by now.
+    pub(crate) fn make(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
+        fs::create_dir_all(path).map_err(RunError::write(path))?;
+        let names = [
+            FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED, SNAPSHOTS, ASIDE,
+        ];
+        let taken = names.iter().find(|name| is_there(&path.join(name)));
+        // Another run may have marked it since; that one holds it or is said to be there.
+        if let Some(name) = taken.filter(|_| !is_there(&path.join(MARKER))) {
+            return Err(RunFailure::Usage(format!(
+                "'{0}' holds '{name}' but is not marked as a run folder, so nothing in it is replaced or continued: \
+                 name another folder, or, if it is a run of an earlier version, create an empty file '{1}' and use --overwrite",
+                path.display(),
+                path.join(MARKER).display(),
+            )));
+        }
+        let held = Self::hold(path, by)?;
+        if let Some(parent) = fs::canonicalize(path)
+            .ok()
+            .as_deref()
+            .and_then(Path::parent)
+        {
+            sync_folder(parent).map_err(RunError::write(path))?;
+        }
+        Ok(held)
+    }
+
+    /// Opens and locks the marker and completes one that is empty or cut off.
+    fn hold(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
+        let place = path.join(MARKER);
+        if fs::symlink_metadata(&place).is_ok_and(|found| !found.is_file()) {
+            return Err(mark::unknown(&place));
+        }
+        let open = File::options()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&place);
+        let mut marker = open.map_err(RunError::write(&place))?;
+        let unlocked = match marker.try_lock() {
+            Ok(()) => None,
+            Err(TryLockError::WouldBlock) => {
+                return Err(RunFailure::Usage(format!(
+                    "another run is writing into '{}': wait for its end or name another folder",
+                    path.display()
+                )));
+            }
+            Err(TryLockError::Error(error)) => Some(error),
+        };
+        mark::complete(&mut marker, by, &place)?;
+        sync_folder(path).map_err(RunError::write(path))?;
+        Ok(Self {
+            path: path.to_owned(),
+            marker,
+            unlocked,
+        })
+    }
+
+    /// A warning where the file system has no locks: two runs would not notice each other.
+    pub(crate) fn warning(&self) -> Option<String> {
+        let error = self.unlocked.as_ref()?;
+        Some(format!(
+            "'{}' cannot be locked ({error}): see to it that no other run writes into it",
+            self.path.display()
+        ))
+    }
+
+    /// Where it is.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where `name` is or would be.
+    pub(crate) fn place(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes `name` whole or not at all: beside its place, to the disk, and then renamed.
+    ///
+    /// # Errors
+    /// The file and the system's reason.
+    pub(crate) fn write_whole(
+        &self,
+        name: &str,
+        body: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), RunError> {
+        let path = self.place(name);
+        let within = path.parent().unwrap_or(&self.path);
+        let aside = within.join(ASIDE);
+        let place = self.place(MARKER);
+        is_still(&self.marker, &place).map_err(RunError::write(&place))?;
+        // A new file, so that nothing is written through a link.
+        let file = File::create_new(&aside).map_err(RunError::write(&path))?;
+        let write = || {
+            let mut out = BufWriter::with_capacity(1 << 20, file);
+            body(&mut out)?;
+            out.into_inner().map_err(|e| e.into_error())?.sync_all()?;
+            fs::rename(&aside, &path)?;
+            sync_folder(within)
+        };
+        write().map_err(|error| {
+            // The failed attempt is of no use; that it cannot be removed changes nothing.
+            let _ = fs::remove_file(&aside);
+            RunError::write(&path)(error)
+        })
+    }
+
+    /// Writes a text file whole or not at all.
+    ///
+    /// # Errors
+    /// The file and the system's reason.
+    pub(crate) fn write_text(&self, name: &str, text: &str) -> Result<(), RunError> {
+        self.write_whole(name, |out| out.write_all(text.as_bytes()))
+    }
+
+    /// Removes the file `name`; one that is not there need not be removed.
+    ///
+    /// # Errors
+    /// The file and the system's reason.
+    pub(crate) fn remove(&self, name: &str) -> Result<(), RunError> {
+        let path = self.place(name);
+        match fs::remove_file(&path) {
+            Err(e) if e.kind() != io::ErrorKind::NotFound => Err(RunError::write(&path)(e)),
+            _ => Ok(()),
         }
     }
-    let holds = |name: &str| folder.join(name).exists();
-    // A run killed before its first checkpoint has nothing to lose.
-    let begun = || fs::read_to_string(folder.join(RESOLVED)).is_ok_and(|found| found == text);
-    let again = mode.resume && !holds("final.mpts") && begun();
-    if !mode.overwrite && !again && (holds("history.csv") || holds("final.mpts")) {
-        return Err(RunFailure::Usage(if mode.resume {
-            format!(
-                "'{}' holds another run, or the same of another version; use --overwrite to replace it",
-                folder.display()
-            )
-        } else {
-            format!(
-                "'{}' already holds a run; use --resume to continue it or --overwrite to replace it",
-                folder.display()
-            )
-        }));
-    }
-    for name in [
-        "final.mpts",
-        SUMMARY,
-        "checkpoint.mpts",
-        "history.csv",
-        RESOLVED,
-    ] {
-        remove(fs::remove_file(folder.join(name)), &folder.join(name))?;
-    }
-    remove(
-        fs::remove_dir_all(folder.join("snapshots")),
-        &folder.join("snapshots"),
-    )?;
-    write_text(&folder.join(RESOLVED), text)?;
-    Ok(None)
-}
 
-/// Removes the summary of a run that goes on: it would be wrong if the run fails.
-pub(crate) fn remove_summary(folder: &Path) -> Result<(), RunError> {
-    let path = folder.join(SUMMARY);
-    remove(fs::remove_file(&path), &path)
-}
+    /// Fails where nothing can be written, before anything is removed to make room for it.
+    ///
+    /// # Errors
+    /// The folder and the system's reason.
+    pub(crate) fn check_writable(&self) -> Result<(), RunError> {
+        for within in [self.path.clone(), self.place(SNAPSHOTS)] {
+            let aside = within.join(ASIDE);
+            match File::create_new(&aside).and_then(|_| fs::remove_file(&aside)) {
+                Err(e) if e.kind() == io::ErrorKind::NotFound => {}
+                tried => tried.map_err(RunError::write(&within))?,
+            }
+        }
+        Ok(())
+    }
 
-/// A file that is not there need not be removed.
-fn remove(result: std::io::Result<()>, path: &Path) -> Result<(), RunError> {
-    match result {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(RunError::write(path)(e)),
-        _ => Ok(()),
+    /// Makes the folder of the snapshots, in a run folder that must still be there.
+    ///
+    /// # Errors
+    /// The folder and the system's reason.
+    pub(crate) fn make_snapshots(&self) -> Result<(), RunError> {
+        let path = self.place(SNAPSHOTS);
+        match fs::create_dir(&path) {
+            Err(e) if e.kind() == io::ErrorKind::AlreadyExists => Ok(()),
+            made => made.and_then(|()| sync_folder(&self.path)),
+        }
+        .map_err(RunError::write(&path))
     }
 }
 
-/// Writes a text file whole or not at all.
-pub(crate) fn write_text(path: &Path, text: &str) -> Result<(), RunError> {
-    write_whole(path, |out| out.write_all(text.as_bytes()))
+/// Fails when the open `file` at `path` was removed or replaced behind the run's back.
+pub(crate) fn is_still(file: &File, path: &Path) -> io::Result<()> {
+    let ours = Handle::from_file(file.try_clone()?)?;
+    if Handle::from_path(path).is_ok_and(|there| there == ours) {
+        return Ok(());
+    }
+    Err(io::Error::other(
+        "it was removed or replaced while the run was on",
+    ))
+}
+
+/// Whether there is anything of this name, a dangling link too.
+pub(crate) fn is_there(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok()
+}
+
+/// Brings the names in a folder to the disk, where the file system can.
+fn sync_folder(path: &Path) -> io::Result<()> {
+    use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
+    match File::open(path).and_then(|folder| folder.sync_all()) {
+        Err(e) if matches!(e.kind(), InvalidInput | PermissionDenied | Unsupported) => Ok(()),
+        done => done,
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    pub(crate) fn by(version: &str) -> Provenance {
+        Provenance {
+            tool: "mpm-run".into(),
+            version: version.into(),
+            command: Vec::new(),
+            inputs: Vec::new(),
+        }
+    }
+
+    /// A run folder for a test, and what keeps it there.
+    pub(crate) fn held() -> (tempfile::TempDir, RunFolder) {
+        let place = tempfile::tempdir().unwrap();
+        let folder = RunFolder::make(place.path(), &by("1")).unwrap();
+        (place, folder)
+    }
+
+    #[test]
+    fn a_folder_is_held_once_and_found_again_by_any_version() {
+        let (place, first) = held();
+        for taken in [
+            RunFolder::find(place.path(), &by("1")).map(|_| ()),
+            RunFolder::make(place.path(), &by("1")).map(|_| ()),
+        ] {
+            let said = taken.unwrap_err().to_string();
+            assert!(said.contains("another run is writing"), "{said}");
+        }
+        drop(first);
+        assert!(RunFolder::find(place.path(), &by("2")).unwrap().is_some());
+    }
+
+    #[test]
+    fn a_folder_without_locks_is_used_with_a_warning() {
+        let (place, mut folder) = held();
+        assert_eq!(folder.warning(), None);
+        folder.unlocked = Some(io::ErrorKind::Unsupported.into());
+        let said = folder.warning().unwrap();
+        assert!(said.contains(&place.path().display().to_string()), "{said}");
+        assert!(said.contains("cannot be locked (unsupported)"), "{said}");
+    }
+
+    #[test]
+    fn whether_files_can_be_made_is_tried_in_both_folders() {
+        let (place, folder) = held();
+        folder.make_snapshots().unwrap();
+        for within in [place.path().to_owned(), place.path().join(SNAPSHOTS)] {
+            folder.check_writable().unwrap();
+            assert!(!is_there(&within.join(ASIDE)));
+            fs::write(within.join(ASIDE), "theirs").unwrap();
+            assert!(folder.check_writable().is_err());
+            fs::remove_file(within.join(ASIDE)).unwrap();
+        }
+        fs::remove_dir(place.path().join(SNAPSHOTS)).unwrap();
+        folder.check_writable().unwrap();
+    }
+
+    #[test]
+    fn a_folder_that_was_replaced_is_not_written_into() {
+        let (place, folder) = held();
+        folder.write_text(SUMMARY, "1").unwrap();
+        fs::remove_file(place.path().join(MARKER)).unwrap();
+        fs::write(place.path().join(MARKER), "").unwrap();
+        let said = folder.write_text(SUMMARY, "2").unwrap_err().to_string();
+        assert!(
+            said.contains("bondline-run.toml: it was removed or replaced"),
+            "{said}"
+        );
+        assert_eq!(fs::read(place.path().join(SUMMARY)).unwrap(), b"1");
+        assert!(!is_there(&place.path().join(ASIDE)));
+    }
+
+    #[test]
+    fn a_failed_write_leaves_the_old_file_and_no_litter() {
+        let (place, folder) = held();
+        folder.write_text(SUMMARY, "1").unwrap();
+        let full = |out: &mut dyn Write| {
+            out.write_all(b"half")?;
+            Err(io::Error::other("disk on fire"))
+        };
+        assert!(folder.write_whole(SUMMARY, full).is_err());
+        assert_eq!(fs::read(place.path().join(SUMMARY)).unwrap(), b"1");
+        // A file of that name, which a link could be, is not written through.
+        fs::write(place.path().join(ASIDE), "theirs").unwrap();
+        assert!(folder.write_text(SUMMARY, "2").is_err());
+        assert_eq!(fs::read(place.path().join(ASIDE)).unwrap(), b"theirs");
+    }
 }

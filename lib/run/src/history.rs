@@ -1,79 +1,119 @@
-//! `history.csv`: one row per interval, flushed as it is written.
+//! `history.csv`: one row per interval, each written at once.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::PathBuf;
 
 use physics::{Diagnostics, StepReport};
+use xxhash_rust::xxh3::Xxh3Default;
+
+use crate::drive::RunError;
+use crate::folder::{HISTORY, RunFolder, is_still};
+use crate::request::RunFailure;
 
 /// The columns, contract first, then what the two schemes add.
 const HEADER: &str = "step,time_s,dt_s,closing_speed_m_s,displacement_m,gap_m,pressure_bottom_Pa,\
 pressure_top_Pa,kinetic_energy_J,viscous_power_W,adhesive_volume_m3,max_speed_m_s,lost_particles,\
-solver_iterations,capped_viscosity_fraction";
+solver_iterations,capped_viscosity_fraction\n";
+
+/// How far a history went, and what it then held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Extent {
+    /// Length, bytes.
+    pub bytes: u64,
+    /// XXH3-64 of them.
+    pub hash: u64,
+}
 
 /// An open `history.csv`.
-pub struct History {
+pub(crate) struct History {
     file: File,
     path: PathBuf,
+    bytes: u64,
+    hash: Xxh3Default,
 }
 
 impl History {
     /// Starts a new history in `folder`.
     ///
     /// # Errors
-    /// The system's reason.
-    pub fn create(folder: &Path) -> io::Result<Self> {
-        let path = folder.join("history.csv");
-        let mut file = File::create(&path)?;
-        writeln!(file, "{HEADER}")?;
-        Ok(Self { file, path })
+    /// The file and the system's reason.
+    pub(crate) fn create(folder: &RunFolder) -> Result<Self, RunError> {
+        folder.write_text(HISTORY, HEADER)?;
+        let path = folder.place(HISTORY);
+        let open = File::options().append(true).open(&path);
+        let mut hash = Xxh3Default::new();
+        hash.update(HEADER.as_bytes());
+        Ok(Self {
+            file: open.map_err(RunError::write(&path))?,
+            path,
+            bytes: HEADER.len() as u64,
+            hash,
+        })
     }
 
-    /// Continues a history after `step`: rows of later steps, which a checkpoint does not
-    /// know, are dropped.
+    /// Continues a history from where a checkpoint left it. What came after, whole rows or a
+    /// part of one, is cut off.
     ///
     /// # Errors
-    /// The system's reason.
-    pub fn resume(folder: &Path, step: u64) -> io::Result<Self> {
-        let path = folder.join("history.csv");
-        let mut kept = String::from(HEADER);
-        kept.push('\n');
-        for line in BufReader::new(File::open(&path)?).lines().skip(1) {
-            let line = line?;
-            let row_step = line.split(',').next().and_then(|s| s.parse::<u64>().ok());
-            if row_step.is_some_and(|s| s <= step) {
-                kept.push_str(&line);
-                kept.push('\n');
-            }
+    /// A history that no longer begins as the checkpoint left it (exit 3); a failed write.
+    pub(crate) fn resume(folder: &RunFolder, extent: Extent) -> Result<Self, RunFailure> {
+        let path = folder.place(HISTORY);
+        let unusable = |why: &str| {
+            RunFailure::Data(format!(
+                "'{}' {why}, so the run cannot be continued; use --overwrite to start anew",
+                path.display()
+            ))
+        };
+        let mut file = match File::options().read(true).append(true).open(&path) {
+            Err(e) if e.kind() == io::ErrorKind::NotFound => return Err(unusable("is missing")),
+            opened => opened.map_err(RunError::write(&path))?,
+        };
+        let (bytes, hash) = hash_start(&mut file, extent.bytes).map_err(RunError::write(&path))?;
+        if (bytes, hash.digest()) != (extent.bytes, extent.hash) {
+            return Err(unusable("is not what it was at the last checkpoint"));
         }
-        let aside = path.with_extension("csv.tmp");
-        fs::write(&aside, kept)?;
-        fs::rename(&aside, &path)?;
-        let file = OpenOptions::new().append(true).open(&path)?;
-        Ok(Self { file, path })
+        let cut = (file.set_len(bytes)).and_then(|()| file.seek(SeekFrom::Start(bytes)));
+        cut.map_err(RunError::write(&path))?;
+        Ok(Self {
+            file,
+            path,
+            bytes,
+            hash,
+        })
     }
 
-    /// Where it is.
-    pub fn path(&self) -> &Path {
-        &self.path
+    /// Brings all rows to the disk and says how far they go.
+    ///
+    /// # Errors
+    /// The file and the system's reason; also where the rows went into a file that is no longer there.
+    pub(crate) fn sync(&self) -> Result<Extent, RunError> {
+        let sync = || {
+            self.file.sync_data()?;
+            is_still(&self.file, &self.path)
+        };
+        sync().map_err(RunError::write(&self.path))?;
+        Ok(Extent {
+            bytes: self.bytes,
+            hash: self.hash.digest(),
+        })
     }
 
     /// Appends a row. An unknown gap (no clamp) stays empty.
     ///
     /// # Errors
-    /// The system's reason.
-    pub fn row(
+    /// The file and the system's reason.
+    pub(crate) fn row(
         &mut self,
         step: u64,
         time_s: f64,
         gap_m: Option<f64>,
         report: &StepReport,
         diagnostics: &Diagnostics,
-    ) -> io::Result<()> {
+    ) -> Result<(), RunError> {
         let gap = gap_m.map_or(String::new(), |g| format!("{g:.9e}"));
-        writeln!(
-            self.file,
-            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}",
+        let row = format!(
+            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}\n",
             report.dt_s,
             report.closing_speed,
             report.travel_m,
@@ -86,50 +126,102 @@ impl History {
             report.lost,
             report.iterations,
             diagnostics.capped_fraction,
-        )
+        );
+        self.file.write_all(row.as_bytes()).map_err(|error| {
+            // Part of a row on a full disk is of no use; if it stays, --resume cuts it off.
+            let _ = self.file.set_len(self.bytes);
+            RunError::write(&self.path)(error)
+        })?;
+        self.bytes += row.len() as u64;
+        self.hash.update(row.as_bytes());
+        Ok(())
+    }
+}
+
+/// Hashes the first `bytes` of a file, or all of it if it is shorter; how many there were.
+fn hash_start(file: &mut File, bytes: u64) -> io::Result<(u64, Xxh3Default)> {
+    let mut hash = Xxh3Default::new();
+    let (mut start, mut read) = (file.take(bytes), 0);
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        match start.read(&mut buffer)? {
+            0 => return Ok((read, hash)),
+            n => {
+                hash.update(&buffer[..n]);
+                read += n as u64;
+            }
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use std::fs;
 
-    #[test]
-    fn resuming_drops_rows_after_the_checkpoint() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut history = History::create(folder.path()).unwrap();
-        for step in [1, 5, 9] {
+    use super::*;
+    use crate::folder::tests::held;
+
+    fn add(history: &mut History, steps: &[u64]) {
+        for &step in steps {
+            let (report, diagnostics) = (StepReport::default(), Diagnostics::default());
             history
-                .row(
-                    step,
-                    1e-9,
-                    None,
-                    &StepReport::default(),
-                    &Diagnostics::default(),
-                )
+                .row(step, 1e-9, None, &report, &diagnostics)
                 .unwrap();
         }
-        let mut history = History::resume(folder.path(), 5).unwrap();
-        history
-            .row(
-                6,
-                1e-9,
-                Some(1e-6),
-                &StepReport::default(),
-                &Diagnostics::default(),
-            )
-            .unwrap();
-        let text = fs::read_to_string(history.path()).unwrap();
-        let steps: Vec<_> = text
-            .lines()
-            .skip(1)
-            .map(|l| l.split(',').next().unwrap())
-            .collect();
-        assert_eq!(steps, ["1", "5", "6"]);
-        let columns = text
-            .lines()
-            .map(|l| l.split(',').count())
-            .collect::<Vec<_>>();
-        assert!(columns.iter().all(|&n| n == columns[0]), "{columns:?}");
+    }
+
+    /// The last row, cut off in the middle, was kept as a row of an earlier step before.
+    #[test]
+    fn resuming_drops_rows_after_the_checkpoint_and_parts_of_rows() {
+        let (_place, folder) = held();
+        let path = folder.place(HISTORY);
+        let mut history = History::create(&folder).unwrap();
+        add(&mut history, &[1, 12]);
+        let extent = history.sync().unwrap();
+        let kept = fs::read(&path).unwrap();
+        add(&mut history, &[13, 14]);
+        for torn in ["", "1", "12", "12,1.0"] {
+            let text = fs::read_to_string(&path).unwrap() + torn;
+            fs::write(&path, text).unwrap();
+            let mut resumed = History::resume(&folder, extent).unwrap();
+            assert_eq!(fs::read(&path).unwrap(), kept);
+            add(&mut resumed, &[13]);
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        let rows: Vec<Vec<&str>> = (text.lines().map(|l| l.split(',').collect())).collect();
+        let steps: Vec<_> = rows.iter().map(|row| row[0]).collect();
+        assert_eq!(steps, ["step", "1", "12", "13"]);
+        assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{text}");
+    }
+
+    /// 314e630 went on and ended well, without a history.
+    #[test]
+    fn a_history_that_is_removed_meanwhile_is_noticed() {
+        let (_place, folder) = held();
+        let mut history = History::create(&folder).unwrap();
+        fs::remove_file(folder.place(HISTORY)).unwrap();
+        add(&mut history, &[1]);
+        let said = history.sync().unwrap_err().to_string();
+        assert!(said.contains("history.csv: it was removed"), "{said}");
+    }
+
+    /// Bytes that are no text were said to be a failed write before.
+    #[test]
+    fn a_history_that_was_changed_is_not_continued() {
+        let (_place, folder) = held();
+        let mut history = History::create(&folder).unwrap();
+        add(&mut history, &[1, 2]);
+        let extent = history.sync().unwrap();
+        let whole = fs::read(folder.place(HISTORY)).unwrap();
+        let mut garbled = whole.clone();
+        garbled[200] = 0xff;
+        for bytes in [&garbled[..], &whole[..whole.len() - 1], b""] {
+            fs::write(folder.place(HISTORY), bytes).unwrap();
+            let said = History::resume(&folder, extent).err().unwrap().to_string();
+            assert!(said.contains("not what it was"), "{said}");
+        }
+        fs::remove_file(folder.place(HISTORY)).unwrap();
+        let said = History::resume(&folder, extent).err().unwrap().to_string();
+        assert!(said.contains("is missing"), "{said}");
     }
 }

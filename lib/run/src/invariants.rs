@@ -1,7 +1,7 @@
 //! Checks of a state that no scheme may take for granted: liquid in wood, liquid where it
 //! cannot have flowed, liquid volume.
 
-use physics::{LiquidState, Motion, RigidBody, Scene, VoxelBlock};
+use physics::{Dimensions, LiquidState, Motion, RigidBody, Scene, VoxelBlock};
 
 /// What was found in a state; counts of material points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
@@ -10,7 +10,7 @@ pub struct Invariants {
     pub points_in_wood: u64,
     /// Points deeper than one spacing inside a rigid body: beyond the discretisation.
     pub points_deep_in_wood: u64,
-    /// Deepest of them below the nearest open voxel face, m.
+    /// Deepest of them below the nearest place inside the domain that no body fills, m.
     pub deepest_m: f64,
     /// Points in voids that no open path connects to the bond plane.
     pub points_in_unreachable_voids: u64,
@@ -32,59 +32,88 @@ pub fn check(
         .iter()
         .map(|b| Reachable::of(b, scene))
         .collect();
+    let placed = Placed {
+        scene,
+        displacements,
+    };
     let mut found = Invariants::default();
     for position in &liquid.position {
         let at = position.map(f64::from);
-        for ((body, shift), reachable) in scene.bodies.iter().zip(displacements).zip(&reachable) {
-            let own: [f64; 3] = std::array::from_fn(|a| at[a] - shift[a]);
-            if let Some(block) = body.blocks.iter().find(|b| b.contains(own)) {
-                let depth = depth_in(block, own, 4.0 * scene.grid.cell_m);
-                found.points_in_wood += 1;
-                found.points_deep_in_wood += u64::from(depth > spacing);
-                found.deepest_m = found.deepest_m.max(depth);
-            } else if reachable.as_ref().is_some_and(|r| r.is_closed_void(own)) {
-                found.points_in_unreachable_voids += 1;
-            }
+        if placed.voxel(at).is_some() {
+            let depth = placed.depth(at, 4.0 * scene.grid.cell_m);
+            found.points_in_wood += 1;
+            found.points_deep_in_wood += u64::from(depth > spacing);
+            found.deepest_m = found.deepest_m.max(depth);
+            continue;
         }
+        let sealed = |(shift, reachable): (&[f64; 3], &Option<Reachable>)| {
+            let own: [f64; 3] = std::array::from_fn(|a| at[a] - shift[a]);
+            reachable.as_ref().is_some_and(|r| r.is_closed_void(own))
+        };
+        let voids = displacements
+            .iter()
+            .zip(&reachable)
+            .filter(|&pair| sealed(pair));
+        found.points_in_unreachable_voids += voids.count() as u64;
     }
     let volume: f64 = liquid.volume.iter().map(|&v| f64::from(v)).sum();
     found.volume_change = volume / initial_volume - 1.0;
     found
 }
 
-/// Distance from `point` in a solid voxel to the nearest face of an open one along an axis,
-/// looking no further than `far`.
-fn depth_in(block: &VoxelBlock, point: [f64; 3], far: f64) -> f64 {
-    let (origin, voxel, dims) = (block.origin(), block.voxel(), block.dims());
-    let index: [usize; 3] =
-        std::array::from_fn(|a| (((point[a] - origin[a]) / voxel[a]) as usize).min(dims[a] - 1));
-    let mut nearest = far;
-    for a in 0..3 {
-        for up in [false, true] {
-            let mut at = index;
-            loop {
-                let face = origin[a] + (at[a] + usize::from(up)) as f64 * voxel[a];
-                let distance = (face - point[a]).abs();
-                if distance >= nearest {
-                    break;
+/// The bodies of a scene where they are now.
+struct Placed<'a> {
+    scene: &'a Scene,
+    displacements: &'a [[f64; 3]],
+}
+
+impl Placed<'_> {
+    /// Low and high corner of a solid voxel that holds `point`.
+    fn voxel(&self, point: [f64; 3]) -> Option<[[f64; 3]; 2]> {
+        (self.scene.bodies.iter().zip(self.displacements)).find_map(|(body, shift)| {
+            let own: [f64; 3] = std::array::from_fn(|a| point[a] - shift[a]);
+            let block = body.blocks.iter().find(|b| b.contains(own))?;
+            let (origin, voxel) = (block.origin(), block.voxel());
+            let low: [f64; 3] = std::array::from_fn(|a| {
+                origin[a] + ((own[a] - origin[a]) / voxel[a]).floor() * voxel[a] + shift[a]
+            });
+            Some([low, std::array::from_fn(|a| low[a] + voxel[a])])
+        })
+    }
+
+    /// Distance from `point` in a body to the nearest place along an axis that no body fills and
+    /// that is inside the domain, looking no further than `far`.
+    fn depth(&self, point: [f64; 3], far: f64) -> f64 {
+        let (min, max) = (self.scene.grid.min_m, self.scene.grid.max_m());
+        // Into the next voxel.
+        let hair = 1e-6 * self.scene.grid.cell_m;
+        let mut nearest = far;
+        for a in 0..self.axes() {
+            for up in [false, true] {
+                let (mut at, mut face) = (point, point[a]);
+                while let Some([low, high]) = self.voxel(at) {
+                    face = if up { high[a] } else { low[a] };
+                    let beyond = if up { face + hair } else { face - hair };
+                    if (face - point[a]).abs() >= nearest || beyond == at[a] {
+                        break;
+                    }
+                    at[a] = beyond;
                 }
-                let next = if up {
-                    at[a].checked_add(1)
-                } else {
-                    at[a].checked_sub(1)
-                };
-                let open = next.is_none_or(|n| {
-                    at[a] = n;
-                    !block.solid(at[0], at[1], at[2])
-                });
-                if open {
-                    nearest = distance;
-                    break;
+                let inside = at[a] >= min[a] && at[a] <= max[a];
+                if inside && self.voxel(at).is_none() {
+                    nearest = nearest.min((face - point[a]).abs());
                 }
             }
         }
+        nearest
     }
-    nearest
+
+    fn axes(&self) -> usize {
+        match self.scene.dimensions {
+            Dimensions::Two => 2,
+            Dimensions::Three => 3,
+        }
+    }
 }
 
 /// The voids of one adherend that open paths through voxel faces connect to its bond surface.
@@ -172,6 +201,10 @@ impl<'a> Reachable<'a> {
 
 #[cfg(test)]
 mod tests {
+    use physics::{
+        Boundary, GridBox, Liquid, Newtonian, Points, ShearRate, Stop, Tait, Viscosity, WallLaw,
+    };
+
     use super::*;
 
     /// Floor at j = 0, a closed lumen at (2, 2) and an open one at x = 5.
@@ -181,11 +214,71 @@ mod tests {
         })
     }
 
+    /// A domain of 8 x 6 x 3 cells of 1 m with `bodies`.
+    fn scene(bodies: Vec<VoxelBlock>) -> Scene {
+        let body = |(i, block): (usize, VoxelBlock)| RigidBody {
+            name: format!("body {i}"),
+            blocks: vec![block],
+            motion: Motion::Fixed,
+        };
+        Scene {
+            dimensions: Dimensions::Three,
+            grid: GridBox {
+                cell_m: 1.0,
+                min_m: [0.0; 3],
+                cells: [8, 6, 3],
+            },
+            boundary: [Boundary::Symmetry; 3],
+            liquid: Liquid {
+                density: 1e3,
+                tait: Tait { bulk_modulus: 1e9 },
+                viscosity: Viscosity::Newtonian(Newtonian(1.0)),
+                shear_rate: ShearRate::Paper,
+                cavitation_pressure: None,
+            },
+            points: Points::default(),
+            bodies: bodies.into_iter().enumerate().map(body).collect(),
+            wall: WallLaw::Stick,
+            gravity: [0.0; 3],
+            clamp: None,
+            stop: Stop::Time(1.0),
+            bottom: None,
+            top: None,
+        }
+    }
+
+    fn depth(scene: &Scene, point: [f64; 3]) -> f64 {
+        let placed = Placed {
+            scene,
+            displacements: &vec![[0.0; 3]; scene.bodies.len()],
+        };
+        placed.depth(point, 4.0)
+    }
+
     #[test]
     fn depth_is_measured_to_the_nearest_open_face() {
-        let block = block();
-        assert!((depth_in(&block, [5.0 - 0.25, 2.5, 1.5], 4.0) - 0.25).abs() < 1e-12);
-        assert!((depth_in(&block, [0.9, 2.5, 0.4], 4.0) - 0.4).abs() < 1e-12);
+        let scene = scene(vec![block()]);
+        assert!((depth(&scene, [5.0 - 0.25, 2.5, 1.5]) - 0.25).abs() < 1e-12);
+        // Out of the domain leads no way.
+        assert!((depth(&scene, [2.5, 2.5, 0.4]) - 0.6).abs() < 1e-12);
+        assert!((depth(&scene, [0.4, 2.5, 0.4]) - 2.5).abs() < 1e-12);
+    }
+
+    /// Before, the next body was taken for open space, and liquid under a clamp that had gone
+    /// through the floor was as deep as the nearest face of either.
+    #[test]
+    fn another_body_beyond_a_face_is_no_way_out() {
+        let floor = VoxelBlock::solid_box([0.0; 3], [8.0, 3.0, 3.0]);
+        let plate = VoxelBlock::solid_box([0.0, 1.0, 0.0], [8.0, 5.0, 3.0]);
+        let scene = scene(vec![floor, plate]);
+        assert!((depth(&scene, [4.0, 2.5, 1.5]) - 2.5).abs() < 1e-12);
+        let at = LiquidState {
+            position: vec![[4.0, 2.5, 1.5]],
+            volume: vec![1.0],
+            ..LiquidState::default()
+        };
+        let found = check(&scene, 1.0, &at, &[[0.0; 3]; 2]);
+        assert_eq!((found.points_in_wood, found.points_deep_in_wood), (1, 1));
     }
 
     #[test]

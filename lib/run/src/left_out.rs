@@ -1,8 +1,9 @@
 //! What a run does not compute because its scene does not need it, and why.
 
-use physics::{Boundary, Dimensions, Regime, Scene, Viscosity, WallLaw};
+use physics::{Boundary, Dimensions, Regime, Viscosity, WallLaw};
 
 use crate::case::{Integrator, SchemeName, UpdateName};
+use crate::resolve::Setup;
 
 /// One thing left out.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -13,8 +14,9 @@ pub struct LeftOut {
     pub why: String,
 }
 
-/// Everything a run of `scene` leaves out.
-pub fn left_out(scene: &Scene, integrator: &Integrator, snapshots: bool) -> Vec<LeftOut> {
+/// Everything a run leaves out.
+pub(crate) fn left_out(setup: &Setup, integrator: &Integrator, snapshots: bool) -> Vec<LeftOut> {
+    let scene = &setup.scene;
     let mut list = Vec::new();
     let mut add = |what, why: String| list.push(LeftOut { what, why });
     if scene.dimensions == Dimensions::Two {
@@ -56,7 +58,7 @@ pub fn left_out(scene: &Scene, integrator: &Integrator, snapshots: bool) -> Vec<
             "no snapshots asked for".into(),
         );
     }
-    let regime = Regime::of(scene);
+    let regime = Regime::of(scene, &setup.liquid);
     add(
         "wood deformation",
         "adherends are rigid (paper section 2.2)".into(),

@@ -1,6 +1,7 @@
 //! From a case file to a run folder: reading and resolving the case, the time loop, and what
 //! a run writes (`history.csv`, snapshots, checkpoint, `final.mpts`, `summary.json`).
 
+mod begin;
 pub mod case;
 mod changes;
 mod checkpoint;
@@ -13,17 +14,20 @@ mod history;
 mod invariants;
 mod left_out;
 mod load;
+mod mark;
 mod request;
 mod resolve;
 mod schemes;
 mod snapshot;
 mod summary;
 mod system;
+mod verdict;
 
+pub use begin::Mode;
 pub use courant::Courant;
 pub use drive::End;
-pub use folder::Mode;
 pub use invariants::Invariants;
 pub use left_out::LeftOut;
 pub use request::{Request, RunFailure};
 pub use summary::{Stage, Summary};
+pub use verdict::Verdict;

@@ -1,18 +1,18 @@
 //! A run as a tool asks for it: case file, bond file, changed keys; then explained or executed.
 
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use particle_file::{ParticleFile, Provenance};
 use physics::{Regime, StepReport};
 use xxhash_rust::xxh3::xxh3_64;
 
+use crate::begin::{self, Mode};
 use crate::case::{Case, CaseError};
 use crate::changes::changed;
-use crate::checkpoint::{self, Checkpoint, Clock};
+use crate::checkpoint::{Checkpoint, Clock};
 use crate::courant::{continued, without_cfl};
 use crate::drive::{self, Controls, RunError};
-use crate::folder::{self, Mode};
+use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
 use crate::history::History;
 use crate::invariants;
 use crate::left_out::left_out;
@@ -21,6 +21,7 @@ use crate::resolve::{self, Setup};
 use crate::schemes;
 use crate::snapshot::{SnapshotWriter, is_final_of};
 use crate::summary::{Facts, Summary};
+use crate::verdict;
 
 /// Why a run could not be made ready or did not end well; tools map it to exit status.
 #[derive(Debug, thiserror::Error)]
@@ -60,6 +61,8 @@ pub struct Request {
     setup: Setup,
     bond: Option<ParticleFile>,
     inputs: Vec<(String, u64)>,
+    /// Where they are: no output may stand there.
+    places: Vec<PathBuf>,
 }
 
 impl Request {
@@ -68,22 +71,19 @@ impl Request {
     /// # Errors
     /// [`RunFailure::Usage`] and [`RunFailure::Data`].
     pub fn read(case: &Path, bond: Option<&Path>, changes: &[String]) -> Result<Self, RunFailure> {
-        let original = fs::read_to_string(case).map_err(|e| {
-            let why = match e.kind() {
-                std::io::ErrorKind::InvalidData => "it is not TOML text".to_owned(),
-                _ => e.to_string(),
-            };
-            RunFailure::Usage(format!(
-                "cannot read the case file '{}': {why}",
-                case.display()
-            ))
-        })?;
+        let original = load::case_text(case)?;
         let text = changed(&original, case, changes)?;
         let parsed = Case::parse(&text, case)?;
         let mut inputs = vec![(case.display().to_string(), xxh3_64(original.as_bytes()))];
+        let mut places = vec![case.to_owned()];
         let bond = match bond {
             Some(path) => {
-                let file = ParticleFile::open(path).map_err(|e| RunFailure::Data(e.to_string()))?;
+                places.push(if path == "-" {
+                    "/dev/stdin".into()
+                } else {
+                    path.into()
+                });
+                let file = ParticleFile::read(path).map_err(|e| RunFailure::Data(e.to_string()))?;
                 inputs.push((path.display().to_string(), file.content_hash()));
                 Some(file)
             }
@@ -97,18 +97,19 @@ impl Request {
             setup,
             bond,
             inputs,
+            places,
         })
     }
 
-    /// Sentences about terms left out although the regime would need them, and about a step too
-    /// short for the run to end.
+    /// Sentences about terms left out although the regime would need them.
     pub fn warnings(&self) -> Vec<String> {
-        let mut said = Regime::of(&self.setup.scene).warnings();
+        Regime::of(&self.setup.scene, &self.setup.liquid).warnings()
+    }
+
+    /// What the run is forecast to need beyond all patience or memory, as a sentence.
+    fn excess(&self) -> Option<String> {
         // What keeps the scheme from starting is said when it is to start.
-        if let Ok(forecast) = schemes::forecast(&self.case, &self.setup) {
-            said.extend(forecast.warning());
-        }
-        said
+        schemes::forecast(&self.case, &self.setup).ok()?.excess()
     }
 
     /// The plan of the run as text.
@@ -123,52 +124,72 @@ impl Request {
         ))
     }
 
-    /// Whether `folder` already holds the end of this very run by this version.
-    pub fn has_ended(&self, folder: &Path, by: &Provenance) -> bool {
-        is_final_of(folder, &self.identity(by))
-    }
-
-    /// Runs into `folder`.
+    /// Runs into `folder`, with `warn` told what the user should know; `None` when `folder` holds
+    /// the end of this very run already.
     ///
     /// # Errors
     /// All kinds; an unstable state leaves the last good checkpoint.
     pub fn execute(
-        mut self,
+        self,
         folder: &Path,
         mode: Mode,
         by: Provenance,
         interrupted: &dyn Fn() -> bool,
         progress: &mut dyn FnMut(f64, String),
-    ) -> Result<Summary, RunFailure> {
+        warn: &dyn Fn(String),
+    ) -> Result<Option<Summary>, RunFailure> {
         let identity = self.identity(&by);
         let continuable = self.identity_of(&without_cfl(&self.text), &by);
         let by = Provenance {
             inputs: self.inputs.clone(),
             ..by
         };
-        // What the scheme refuses must not cost a run folder.
+        let found = RunFolder::find(folder, &by)?;
+        if let Some(found) = &found {
+            begin::make_room(found, &self.places)?;
+        }
+        if mode.resume && !mode.overwrite && is_final_of(folder, &identity) {
+            if let Some(found) = &found {
+                begin::tidy(found, &continuable)?;
+            }
+            return Ok(None);
+        }
+        // What is refused must not cost a run folder.
+        match self.excess() {
+            Some(excess) if mode.however_long => warn(excess),
+            Some(excess) => {
+                return Err(RunFailure::Usage(format!(
+                    "{excess}; --yes-really runs it all the same"
+                )));
+            }
+            None => {}
+        }
         let mut scheme = schemes::build(&self.case, self.setup.scene_for_scheme())?;
         let cfl = schemes::cfl(&self.case);
-        let (clock, courant, mut history) =
-            match folder::start(folder, mode, &continuable, &self.text)? {
-                Some(Checkpoint {
-                    clock,
-                    courant,
-                    saved,
-                }) => {
-                    scheme.restore(&saved).map_err(RunFailure::Data)?;
-                    let history =
-                        History::resume(folder, clock.step).map_err(RunError::write(folder))?;
-                    folder::write_text(&folder.join(folder::RESOLVED), &self.text)?;
-                    folder::remove_summary(folder)?;
-                    (clock, continued(courant, clock.step, cfl), history)
-                }
-                None => (
-                    Clock::default(),
-                    continued(Vec::new(), 0, cfl),
-                    History::create(folder).map_err(RunError::write(folder))?,
-                ),
-            };
+        let folder = &match found {
+            Some(found) => found,
+            None => RunFolder::make(folder, &by)?,
+        };
+        folder.warning().into_iter().for_each(warn);
+        let start = begin::start(folder, mode, &continuable, &self.text, &by)?;
+        let (clock, courant, mut history) = match start {
+            Some(Checkpoint {
+                clock,
+                courant,
+                history,
+                saved,
+            }) => {
+                scheme.restore(&saved).map_err(RunFailure::Data)?;
+                let history = History::resume(folder, history)?;
+                begin::forget_what_came_after(folder, &clock, &self.text)?;
+                (clock, continued(courant, clock.step, cfl), history)
+            }
+            None => (
+                Clock::default(),
+                continued(Vec::new(), 0, cfl),
+                History::create(folder)?,
+            ),
+        };
         let mut controls = Controls {
             history_every_s: self.history_every(),
             snapshot_every_s: self.snapshot_every(),
@@ -195,33 +216,40 @@ impl Request {
             &mut controls,
         )?;
         let scene = &self.setup.scene;
+        let liquid = scheme.liquid();
+        let invariants = invariants::check(
+            scene,
+            self.setup.liquid.volume_m3,
+            &liquid,
+            &scheme.displacements(),
+        );
         let summary = Summary::new(
             &outcome,
             Facts {
                 courant_numbers: controls.courant,
-                liquid_points: self.setup.liquid_points,
+                liquid_points: self.setup.liquid.points,
                 initial_gap_m: self.setup.initial_gap_m,
                 stages: scheme.stage_times(),
                 counts: scheme.counts(),
-                invariants: invariants::check(
-                    scene,
-                    self.setup.liquid_volume_m3,
-                    &scheme.liquid(),
-                    &scheme.displacements(),
+                verdict: verdict::judge(&self.setup, &liquid, &invariants, outcome.clock.last.lost),
+                invariants,
+                left_out: left_out(
+                    &self.setup,
+                    &self.case.integrator,
+                    self.case.output.snapshots > 0,
                 ),
-                left_out: left_out(scene, &self.case.integrator, self.case.output.snapshots > 0),
                 provenance,
             },
         );
-        folder::write_text(
-            &folder.join(folder::SUMMARY),
+        folder.write_text(
+            SUMMARY,
             &(serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n"),
         )?;
         if outcome.end != drive::End::Interrupted {
             writer.write_final(&outcome.clock, scheme.as_ref())?;
-            checkpoint::remove(folder)?;
+            folder.remove(CHECKPOINT)?;
         }
-        Ok(summary)
+        Ok(Some(summary))
     }
 
     /// What makes two runs the same: the case as run, the inputs and the version.

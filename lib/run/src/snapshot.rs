@@ -1,15 +1,15 @@
 //! Snapshots: states of a run as particle files.
 
-use std::fs;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use particle_file::{Draft, Header, Kind, ParticleFile, Provenance};
 use physics::{LiquidState, Scheme, ShearRate};
 use units::Axis;
 
+use crate::begin::snapshot_name;
 use crate::checkpoint::Clock;
 use crate::drive::RunError;
+use crate::folder::{FINAL, RunFolder};
 use crate::load::swap;
 use crate::resolve::Setup;
 
@@ -17,24 +17,24 @@ const IDENTITY: &str = "identity";
 
 /// Whether `folder` holds the final state of the run with this identity.
 pub(crate) fn is_final_of(folder: &Path, identity: &str) -> bool {
-    ParticleFile::open(folder.join("final.mpts"))
+    ParticleFile::open(folder.join(FINAL))
         .is_ok_and(|file| file.header().attribute(IDENTITY) == Some(identity))
 }
 
 /// Writes states of one run.
-pub struct SnapshotWriter {
-    folder: PathBuf,
+pub(crate) struct SnapshotWriter<'a> {
+    folder: &'a RunFolder,
     header: Header,
     /// The bond file, whose wood blocks every state repeats at their current place.
     bond: Option<ParticleFile>,
     normal: Axis,
 }
 
-impl SnapshotWriter {
+impl<'a> SnapshotWriter<'a> {
     /// A writer into `folder`; wood comes from `bond` where there is one. `identity` says
     /// which run a state is of.
-    pub fn new(
-        folder: &Path,
+    pub(crate) fn new(
+        folder: &'a RunFolder,
         setup: &Setup,
         bond: Option<ParticleFile>,
         by: Provenance,
@@ -66,7 +66,7 @@ impl SnapshotWriter {
             },
         );
         Self {
-            folder: folder.to_owned(),
+            folder,
             header,
             bond,
             normal,
@@ -79,13 +79,8 @@ impl SnapshotWriter {
         clock: &mut Clock,
         scheme: &dyn Scheme,
     ) -> Result<(), RunError> {
-        let folder = self.folder.join("snapshots");
-        fs::create_dir_all(&folder).map_err(RunError::write(&folder))?;
-        self.write(
-            &folder.join(format!("{:04}.mpts", clock.snapshots)),
-            clock,
-            scheme,
-        )?;
+        self.folder.make_snapshots()?;
+        self.write(&snapshot_name(clock.snapshots), clock, scheme)?;
         clock.snapshots += 1;
         Ok(())
     }
@@ -94,11 +89,11 @@ impl SnapshotWriter {
     ///
     /// # Errors
     /// The file and the system's reason.
-    pub fn write_final(&self, clock: &Clock, scheme: &dyn Scheme) -> Result<(), RunError> {
-        self.write(&self.folder.join("final.mpts"), clock, scheme)
+    pub(crate) fn write_final(&self, clock: &Clock, scheme: &dyn Scheme) -> Result<(), RunError> {
+        self.write(FINAL, clock, scheme)
     }
 
-    fn write(&self, path: &Path, clock: &Clock, scheme: &dyn Scheme) -> Result<(), RunError> {
+    fn write(&self, name: &str, clock: &Clock, scheme: &dyn Scheme) -> Result<(), RunError> {
         let mut state = scheme.liquid();
         self.to_file_axes(&mut state);
         let mut header = self.header.clone();
@@ -124,7 +119,7 @@ impl SnapshotWriter {
             .column("volume", 1, &state.volume)
             .column("pressure", 1, &state.pressure)
             .column("shear_rate", 1, &state.shear_rate);
-        write_whole(path, |out| draft.write_to(out))
+        self.folder.write_whole(name, |out| draft.write_to(out))
     }
 
     fn to_file_axes(&self, state: &mut LiquidState) {
@@ -134,23 +129,4 @@ impl SnapshotWriter {
             }
         }
     }
-}
-
-/// Writes a file beside `path` and renames it, so that `path` is whole or absent.
-pub(crate) fn write_whole(
-    path: &Path,
-    body: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
-) -> Result<(), RunError> {
-    let aside = path.with_extension("tmp");
-    let write = || {
-        let mut out = std::io::BufWriter::with_capacity(1 << 20, fs::File::create(&aside)?);
-        body(&mut out)?;
-        out.into_inner().map_err(|e| e.into_error())?.sync_all()?;
-        fs::rename(&aside, path)
-    };
-    write().map_err(|error| {
-        // The failed attempt is of no use; that it cannot be removed changes nothing.
-        let _ = fs::remove_file(&aside);
-        RunError::write(path)(error)
-    })
 }

@@ -9,12 +9,15 @@ use crate::courant::Courant;
 use crate::drive::{End, Outcome};
 use crate::invariants::Invariants;
 use crate::left_out::LeftOut;
+use crate::verdict::Verdict;
 
 /// Content of `summary.json`.
 #[derive(Debug, Serialize)]
 pub struct Summary {
     /// How the run ended.
     pub end: End,
+    /// Whether the last state is sound.
+    pub verdict: Verdict,
     /// Steps since the start.
     pub steps: u64,
     /// Which of them were taken at which Courant number.
@@ -71,6 +74,7 @@ pub(crate) struct Facts {
     pub initial_gap_m: Option<f64>,
     pub stages: Vec<StageTime>,
     pub counts: Vec<(&'static str, u64)>,
+    pub verdict: Verdict,
     pub invariants: Invariants,
     pub left_out: Vec<LeftOut>,
     pub provenance: serde_json::Value,
@@ -83,16 +87,18 @@ impl Summary {
             capped_fraction,
             ..
         } = outcome.diagnostics;
+        let last = outcome.clock.last;
         let wall = outcome.stepping.as_secs_f64();
         let work = outcome.steps_here as f64 * facts.liquid_points as f64;
         Self {
             end: outcome.end,
+            verdict: facts.verdict,
             steps: outcome.clock.step,
             courant_numbers: facts.courant_numbers,
             time_s: outcome.clock.time_s,
             travel_m: outcome.clock.travel_m,
             gap_m: facts.initial_gap_m.map(|g| g - outcome.clock.travel_m),
-            final_pressure_pa: 0.5 * (outcome.last.pressure_bottom + outcome.last.pressure_top),
+            final_pressure_pa: 0.5 * (last.pressure_bottom + last.pressure_top),
             liquid_points: facts.liquid_points,
             kinetic_energy_j: kinetic_energy,
             capped_viscosity_fraction: capped_fraction,
@@ -128,7 +134,7 @@ impl Summary {
             format!(", gap {:.2} um", g.max(0.0) * 1e6)
         });
         format!(
-            "The run {end} after {} steps at {:.2} us{gap}, {:.3} MPa; volume {:+.3} %, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s.",
+            "The run {end} after {} steps at {:.2} us{gap}, {:.3} MPa; volume {:+.3} %, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
             self.steps,
             self.time_s * 1e6,
             self.final_pressure_pa / 1e6,
@@ -138,6 +144,11 @@ impl Summary {
             self.invariants.points_in_unreachable_voids,
             self.stepping_wall_s,
             self.particle_steps_per_s / 1e6,
+            if self.verdict.sound {
+                "sound"
+            } else {
+                "not sound"
+            },
         )
     }
 }

@@ -1,7 +1,7 @@
 //! MetaImage: a text header (`.mhd`) and raw pixels beside it or behind it
 //! (<https://itk.org/Wiki/ITK/MetaIO/Documentation>).
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use crate::Error;
 use crate::raw::RawVolume;
@@ -9,6 +9,8 @@ use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
 use crate::voxel_size::{VoxelSize, metres_of_unit};
 
+/// Spacings that can be meant, in whatever unit.
+const SPACING: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
 /// A header longer than this is none.
 const MAX_HEADER: usize = 1 << 16;
 
@@ -34,12 +36,41 @@ pub(crate) fn open(source: Source, path: &Path) -> Result<(RawVolume, Option<Vox
     let (sources, offset) = match &header.data {
         Data::Behind(offset) => (vec![source], *offset),
         Data::File(name) => {
-            let beside = path.parent().unwrap_or(Path::new("")).join(name);
+            let beside = data_file(path, name).map_err(|what| Error::file(&source, what))?;
             (vec![source, Source::open(&beside)?], header.skip)
         }
     };
     let volume = RawVolume::new(sources, format, header.dims[2], offset, header.big_endian)?;
     Ok((volume, voxel_size))
+}
+
+/// The file `name` in the folder of the header at `path`; nothing outside that folder is read,
+/// be it through `..` or a link.
+fn data_file(path: &Path, name: &Path) -> Result<PathBuf, String> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let refused = |why: &str| {
+        format!(
+            "its ElementDataFile '{}' {why}; accepted is a file in the header's own folder or in one inside it",
+            name.display()
+        )
+    };
+    let stays = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+    if !name.components().all(stays) {
+        return Err(refused("is an absolute path or has '..' in it"));
+    }
+    let beside = folder.join(name);
+    let unreadable = |e: std::io::Error| refused(&format!("cannot be read: {e}"));
+    let place = beside.canonicalize().map_err(unreadable)?;
+    if !place.starts_with(folder.canonicalize().map_err(unreadable)?) {
+        return Err(refused("is a link that leaves the folder"));
+    }
+    match place.is_file() {
+        true => Ok(beside),
+        false => Err(refused("is no regular file")),
+    }
 }
 
 enum Data {
@@ -101,7 +132,7 @@ impl Header {
             big_endian: flag("ElementByteOrderMSB") || flag("BinaryDataByteOrderMSB"),
             skip: number("HeaderSize", 0)?,
             data,
-            voxel_size: voxel_size(field("ElementSpacing"), field("DistanceUnits")),
+            voxel_size: voxel_size(field("ElementSpacing"), field("DistanceUnits"))?,
         })
     }
 }
@@ -156,20 +187,26 @@ fn sample_of(kind: &str) -> Option<Sample> {
 }
 
 /// MetaImage gives spacings a unit only by DistanceUnits; without it they are not a size.
-fn voxel_size(spacing: Option<(&str, usize)>, units: Option<(&str, usize)>) -> Option<VoxelSize> {
-    let metres = metres_of_unit(units?.0)?;
-    let edges: Vec<f64> = spacing?
-        .0
-        .split_whitespace()
-        .filter_map(|edge| edge.parse().ok())
+fn voxel_size(
+    spacing: Option<(&str, usize)>,
+    units: Option<(&str, usize)>,
+) -> Result<Option<VoxelSize>, String> {
+    let Some((text, line)) = spacing else {
+        return Ok(None);
+    };
+    let edges: Option<Vec<f64>> = (text.split_whitespace())
+        .map(|edge| edge.parse().ok().filter(|e| SPACING.contains(e)))
         .collect();
-    match *edges.as_slice() {
-        [x, y, z] => VoxelSize::new(
-            x * metres,
-            y * metres,
-            Some(z * metres),
-            "MetaImage spacing",
-        ),
-        _ => None,
-    }
+    let Some(&[x, y, z]) = edges.as_deref() else {
+        return Err(format!(
+            "line {line} of its header: accepted are three spacings along x, y, z from {:e} to {:e}",
+            SPACING.start(),
+            SPACING.end()
+        ));
+    };
+    let size = |metres| {
+        let [x, y, z] = [x, y, z].map(|edge| edge * metres);
+        VoxelSize::new(x, y, Some(z), "MetaImage spacing")
+    };
+    Ok(units.and_then(|(unit, _)| size(metres_of_unit(unit)?)))
 }

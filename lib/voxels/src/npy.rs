@@ -10,6 +10,8 @@ use crate::raw::RawVolume;
 use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
 
+/// A header longer than this is none; NumPy itself reads 10 000 bytes.
+const MAX_HEADER: usize = 1 << 16;
 const MAGIC: &[u8] = b"\x93NUMPY";
 
 pub(crate) fn is_npy(head: &[u8]) -> bool {
@@ -55,6 +57,9 @@ fn header(source: &Source) -> Result<(String, u64), Error> {
         [.., 2 | 3, _, a, b, c, d] => (u32::from_le_bytes([a, b, c, d]) as usize, 12),
         _ => return Err(corrupt()),
     };
+    if length > MAX_HEADER {
+        return Err(corrupt());
+    }
     let text = source
         .window(begin, length)
         .map_err(|e| Error::io(source, e))?;

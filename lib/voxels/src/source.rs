@@ -1,12 +1,14 @@
 use std::fmt;
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io::{self, Read};
 use std::os::fd::AsFd;
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::Error;
+use particle_file::spool;
+
+use crate::{Error, Stack};
 
 /// One input file, read at positions from any thread.
 ///
@@ -45,7 +47,10 @@ impl Source {
                 if meta.is_dir() {
                     return Err(io::Error::other("it is a folder"));
                 }
-                let file = if meta.is_file() { file } else { spool(file)? };
+                let file = match meta.is_file() {
+                    true => file,
+                    false => spool(file, Stack::recognises)?,
+                };
                 Self::held(path.to_owned(), name.clone(), file)
             })
             .map_err(|e| Error::io(&name, e))
@@ -149,11 +154,4 @@ pub(crate) fn quoted(path: &Path) -> String {
     } else {
         format!("'{}'", path.display())
     }
-}
-
-fn spool(mut pipe: File) -> io::Result<File> {
-    let mut file = tempfile::tempfile()?;
-    io::copy(&mut pipe, &mut file)?;
-    file.seek(SeekFrom::Start(0))?;
-    Ok(file)
 }

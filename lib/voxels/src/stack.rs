@@ -1,6 +1,8 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use particle_file::limits;
+
 use crate::raw::RawVolume;
 use crate::sample::PageFormat;
 use crate::source::{Source, quoted};
@@ -53,11 +55,12 @@ impl Stack {
             .map(|path| Source::open_slice(path))
             .collect::<Result<Vec<_>, _>>()?;
         let (pages, voxel_size) = tiff::open_slices(sources)?;
-        Ok(Self {
+        Self {
             name,
             pages: Pages::Tiff(pages),
             voxel_size,
-        })
+        }
+        .within_limits()
     }
 
     fn of_file(path: &Path) -> Result<Self, Error> {
@@ -91,11 +94,41 @@ impl Stack {
                 "it is not a stack; accepted are TIFF, BigTIFF, .npy and .mhd files and folders of TIFF slices",
             ));
         };
-        Ok(Self {
+        Self {
             name,
             pages,
             voxel_size,
-        })
+        }
+        .within_limits()
+    }
+
+    /// Refuses a stack that declares more voxels than its files can be worth.
+    fn within_limits(self) -> Result<Self, Error> {
+        let dims = self.dims().map(|n| n as u64);
+        let [x, y, z] = dims;
+        let bytes: u64 = self.sources().iter().map(Source::len).sum();
+        let most =
+            (bytes.saturating_mul(limits::VOXELS_PER_BYTE)).saturating_add(limits::MADE_AT_LEAST);
+        if dims.iter().any(|&n| n > limits::PER_AXIS) {
+            let what = format!(
+                "it declares {x} x {y} x {z} voxels, more than {} along an axis",
+                limits::PER_AXIS
+            );
+            return Err(Error::file(self.name, what));
+        }
+        if limits::volume(dims) > most {
+            let what = format!(
+                "it declares {x} x {y} x {z} voxels in {bytes} bytes, more than {} for each byte",
+                limits::VOXELS_PER_BYTE
+            );
+            return Err(Error::file(self.name, what));
+        }
+        Ok(self)
+    }
+
+    /// Whether a file that begins with `head` is of an accepted kind.
+    pub fn recognises(head: &[u8]) -> bool {
+        tiff::is_tiff(head) || npy::is_npy(head) || mhd::is_mhd(head)
     }
 
     /// The stack's name as it stands in messages.

@@ -1,5 +1,6 @@
 use std::fmt;
 
+use particle_file::limits;
 use units::{Length, Quantity};
 
 use crate::Error;
@@ -138,6 +139,17 @@ impl VoxelEdge {
         })?;
         let metres = stated.cube_edge().map_err(|what| Error::file(name, what))?;
         let from = stated.from;
+        let accepted = limits::VOXEL_M;
+        if !accepted.contains(&metres) {
+            return Err(Error::file(
+                name,
+                format!(
+                    "{from} says a voxel is {metres:e} m; accepted are {:e} to {:e} m: give the true edge with --voxel",
+                    accepted.start(),
+                    accepted.end()
+                ),
+            ));
+        }
         Ok(Self { metres, from })
     }
 }

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use common::*;
-use voxels::{Phases, Stack};
+use voxels::{Phases, Stack, VoxelEdge};
 
 fn slices(names: impl Fn(usize) -> String) -> (tempfile::TempDir, Vec<PathBuf>) {
     let folder = tempfile::tempdir().unwrap();
@@ -184,6 +184,83 @@ fn meta_images_beside_and_behind_their_header() {
         let sentence = refusal("a.mhd", bad.as_bytes());
         assert!(sentence.contains(said), "{sentence}");
     }
+}
+
+/// A header could name any file that its reader can read, and a device fills memory or disk.
+#[test]
+fn a_meta_image_reads_nothing_outside_its_folder() {
+    let [nx, ny, nz] = DIMS;
+    let folder = tempfile::tempdir().unwrap();
+    let inside = |name: &str| folder.path().join(name);
+    fs::create_dir_all(inside("own/deeper")).unwrap();
+    let raw = pages(|l| [l]).concat();
+    for name in ["secret.raw", "own/deeper/a.raw"] {
+        fs::write(inside(name), &raw).unwrap();
+    }
+    std::os::unix::fs::symlink(inside("secret.raw"), inside("own/link.raw")).unwrap();
+    std::os::unix::fs::symlink("deeper/a.raw", inside("own/fine.raw")).unwrap();
+    let opened = |file: &str| {
+        let header = format!(
+            "NDims = 3\nDimSize = {nx} {ny} {nz}\nElementType = MET_UCHAR\nElementDataFile = {file}\n"
+        );
+        fs::write(inside("own/a.mhd"), header).unwrap();
+        Stack::open(&[inside("own/a.mhd")]).map_err(|e| e.to_string())
+    };
+    for good in ["deeper/a.raw", "./deeper/a.raw", "fine.raw"] {
+        assert_eq!(opened(good).unwrap().dims(), DIMS);
+    }
+    let absolute = inside("own/deeper/a.raw").display().to_string();
+    for (bad, said) in [
+        ("../secret.raw", "has '..' in it"),
+        (&absolute, "absolute path"),
+        ("/dev/zero", "absolute path"),
+        ("link.raw", "a link that leaves the folder"),
+        ("deeper", "no regular file"),
+    ] {
+        let sentence = opened(bad).unwrap_err();
+        assert!(sentence.contains(said), "{bad}: {sentence}");
+        assert!(sentence.contains("header's own folder"), "{sentence}");
+    }
+}
+
+/// They became the size of a voxel, or of none.
+#[test]
+fn spacings_that_no_voxel_has_are_refused() {
+    let header = |spacing: &str, units: &str| {
+        format!(
+            "NDims = 3\nDimSize = 1 1 1\nElementType = MET_UCHAR\nElementSpacing = {spacing}\n{units}ElementDataFile = LOCAL\n0"
+        )
+    };
+    for spacing in [
+        "1e300 1e300 1e300",
+        "0 1 1",
+        "-1 -1 -1",
+        "nan 1 1",
+        "1 1",
+        "1 1 x",
+    ] {
+        for units in ["", "DistanceUnits = um\n"] {
+            let sentence = refusal("a.mhd", header(spacing, units).as_bytes());
+            assert!(sentence.contains("line 4 of its header"), "{sentence}");
+        }
+    }
+    let (_folder, path) = stored(
+        "a.mhd",
+        header("1e12 1e12 1e12", "DistanceUnits = m\n").as_bytes(),
+    );
+    let stack = Stack::open(&[path]).unwrap();
+    let said = VoxelEdge::resolve(None, stack.voxel_size(), "a.mhd").unwrap_err();
+    assert!(said.to_string().contains("a voxel is 1e12 m"), "{said}");
+}
+
+#[test]
+fn a_stack_beyond_the_limits_is_refused() {
+    let long = npy(1, "|u1", false, "100001, 1, 1", &[0; 100_001]);
+    let sentence = refusal("a.npy", &long);
+    assert!(
+        sentence.contains("more than 100000 along an axis"),
+        "{sentence}"
+    );
 }
 
 #[test]

@@ -1,5 +1,11 @@
 //! The design's collection of TIFF variants of one volume, where it is at hand.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "prints for developers"
+)]
+
 use std::path::{Path, PathBuf};
 
 use voxels::{Crop, Labels, Phases, Segmented, Stack, segment};

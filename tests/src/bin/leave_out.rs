@@ -1,5 +1,11 @@
 //! `make leave-out`: what a scene pays for features it does not use.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "prints for developers"
+)]
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

@@ -1,6 +1,12 @@
 //! `make stability`: stiff and extreme cases by both schemes. `make options`: what the options of
 //! the explicit scheme that are not the paper's change.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "prints for developers"
+)]
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;

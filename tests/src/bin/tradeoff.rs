@@ -1,6 +1,12 @@
 //! `make tradeoff`: error against CPU time over schemes and settings; writes a CSV, a figure, a
 //! page, and the table that `mpm-run --explain` quotes from.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "prints for developers"
+)]
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

@@ -1,6 +1,12 @@
 //! `make verify`: every verification scene by every scheme and update that applies, against its
 //! closed form or reference; writes case files, a CSV, plots and a page.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "prints for developers"
+)]
+
 use std::path::PathBuf;
 use std::process::ExitCode;
 

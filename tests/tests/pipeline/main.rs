@@ -2,6 +2,12 @@
 //! repeatability, interruption, and what bad input gets. README.md of this crate says which
 //! test checks what.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "prints for developers"
+)]
+
 mod conservation;
 mod examples;
 mod forged;
@@ -9,4 +15,7 @@ mod interruption;
 mod real_volume;
 mod refusals;
 mod repeatability;
+mod run_folder;
+mod sweep;
+mod verdicts;
 mod workbench;

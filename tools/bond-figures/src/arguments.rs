@@ -1,6 +1,9 @@
+use std::ffi::OsStr;
+use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use cli::Output;
 use figures::{Case, Colouring, Labelled, Position};
@@ -70,7 +73,7 @@ pub(crate) enum Figure {
 #[derive(Args)]
 pub(crate) struct Picture {
     /// Picture to write, .svg or .png; `-` is SVG on standard output; may be repeated
-    #[arg(short, long, value_name = "FILE", required = true)]
+    #[arg(short, long, value_name = "FILE", required = true, value_parser = given(Target::new))]
     pub(crate) output: Vec<Target>,
     #[command(flatten)]
     common: cli::Common,
@@ -79,7 +82,7 @@ pub(crate) struct Picture {
 #[derive(Args)]
 pub(crate) struct PressureArgs {
     /// A run: its folder or its history.csv; may be repeated
-    #[arg(long, value_name = "[LABEL=]RUNDIR", required = true, value_parser = labelled)]
+    #[arg(long, value_name = "[LABEL=]RUNDIR", required = true, value_parser = given(labelled))]
     pub(crate) run: Vec<Labelled>,
     /// Draw this pressure as a dashed line
     #[arg(long, value_name = "PRESSURE")]
@@ -94,7 +97,7 @@ pub(crate) struct PressureArgs {
 #[derive(Args)]
 pub(crate) struct MapArgs {
     /// A map as `wp-metrics --map` writes; may be repeated
-    #[arg(long, value_name = "[LABEL=]CSV", required = true, value_parser = labelled)]
+    #[arg(long, value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
     pub(crate) map: Vec<Labelled>,
     #[command(flatten)]
     pub(crate) picture: Picture,
@@ -103,7 +106,7 @@ pub(crate) struct MapArgs {
 #[derive(Args)]
 pub(crate) struct ShearArgs {
     /// Tables of `shear-stats`, one panel each
-    #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = labelled)]
+    #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
     pub(crate) files: Vec<Labelled>,
     #[command(flatten)]
     pub(crate) picture: Picture,
@@ -112,7 +115,7 @@ pub(crate) struct ShearArgs {
 #[derive(Args)]
 pub(crate) struct SliceArgs {
     /// Particle files, one panel each
-    #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = labelled)]
+    #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
     pub(crate) files: Vec<Labelled>,
     /// Axis that the slice is normal to: x, y or z
     #[arg(long, value_name = "AXIS", default_value = "z")]
@@ -132,10 +135,10 @@ pub(crate) struct SliceArgs {
 pub(crate) struct Table2Args {
     /// Table of `wp-metrics` of an experiment; may be repeated
     #[arg(long, value_name = "ADHESIVE=CSV", required_unless_present = "run",
-          value_parser = experiment)]
+          value_parser = given(experiment))]
     experiment: Vec<Case>,
     /// Table of `wp-metrics` of a run's final state; may be repeated
-    #[arg(long, value_name = "ADHESIVE:RUN=CSV", value_parser = run)]
+    #[arg(long, value_name = "ADHESIVE:RUN=CSV", value_parser = given(run))]
     run: Vec<Case>,
     /// CSV to write; `-` is standard output
     #[arg(short, long, value_name = "CSV")]
@@ -195,11 +198,9 @@ pub(crate) enum Format {
     Png,
 }
 
-impl FromStr for Target {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let Ok(output) = text.parse::<Output>();
+impl Target {
+    fn new(text: &OsStr) -> Result<Self, String> {
+        let output = Output::from(text.to_owned());
         let format = match &output {
             Output::Stdout => Format::Svg,
             Output::File(path) => match path.extension().and_then(|e| e.to_str()) {
@@ -207,7 +208,7 @@ impl FromStr for Target {
                 Some(e) if e.eq_ignore_ascii_case("png") => Format::Png,
                 _ => {
                     return Err(format!(
-                        "'{text}' is not a picture's name: it must end in .svg or .png"
+                        "{output} is not a picture's name: it must end in .svg or .png"
                     ));
                 }
             },
@@ -216,21 +217,32 @@ impl FromStr for Target {
     }
 }
 
+/// A parser of arguments that hold a path, which need not be UTF-8.
+fn given<T: Clone + Send + Sync + 'static>(
+    parse: fn(&OsStr) -> Result<T, String>,
+) -> impl TypedValueParser<Value = T> {
+    OsStringValueParser::new().try_map(move |text| parse(&text))
+}
+
+/// What is before and behind the first `=`.
+fn name_and_path(text: &OsStr) -> Option<(String, PathBuf)> {
+    let bytes = text.as_bytes();
+    let at = bytes.iter().position(|b| *b == b'=')?;
+    let name = String::from_utf8_lossy(&bytes[..at]).into_owned();
+    Some((name, OsStr::from_bytes(&bytes[at + 1..]).into()))
+}
+
 /// `LABEL=PATH`, or a path alone, whose last two names are its label.
-fn labelled(text: &str) -> Result<Labelled, String> {
-    let (label, path) = match text.split_once('=') {
-        Some((label, path)) => (label.to_owned(), path),
-        None => (short_name(Path::new(text)), text),
-    };
-    if label.is_empty() || path.is_empty() {
+fn labelled(text: &OsStr) -> Result<Labelled, String> {
+    let alone = || (short_name(Path::new(text)), PathBuf::from(text));
+    let (label, path) = name_and_path(text).unwrap_or_else(alone);
+    if label.is_empty() || path.as_os_str().is_empty() {
         return Err(format!(
-            "'{text}' needs a label and a path, as in FLIP=out/pf-flip"
+            "'{}' needs a label and a path, as in FLIP=out/pf-flip",
+            text.display()
         ));
     }
-    Ok(Labelled {
-        label,
-        path: PathBuf::from(path),
-    })
+    Ok(Labelled { label, path })
 }
 
 /// `xpic/final` for `out/quick/pf/xpic/final.mpts`.
@@ -241,25 +253,45 @@ fn short_name(path: &Path) -> String {
     names.join("/")
 }
 
-fn experiment(text: &str) -> Result<Case, String> {
-    let case = text.split_once('=').map(|(adhesive, path)| Case {
-        adhesive: adhesive.into(),
+fn experiment(text: &OsStr) -> Result<Case, String> {
+    let case = name_and_path(text).map(|(adhesive, path)| Case {
+        adhesive,
         name: "experiment".into(),
-        path: path.into(),
+        path,
     });
-    case.ok_or_else(|| format!("'{text}' is not ADHESIVE=CSV, as in pf=experiment.csv"))
+    let case = case.ok_or_else(|| {
+        let text = text.display();
+        format!("'{text}' is not ADHESIVE=CSV, as in pf=experiment.csv")
+    })?;
+    plain(&case.adhesive)?;
+    Ok(case)
 }
 
-fn run(text: &str) -> Result<Case, String> {
-    let parts = text
-        .split_once('=')
-        .and_then(|(name, path)| name.split_once(':').zip(Some(path)));
-    let case = parts.map(|((adhesive, name), path)| Case {
-        adhesive: adhesive.into(),
-        name: name.into(),
-        path: path.into(),
+/// Refuses a name that a spreadsheet would take for a formula.
+fn plain(name: &str) -> Result<(), String> {
+    match cli::cell(name) == name {
+        true => Ok(()),
+        false => Err(format!(
+            "the name '{name}' would be a formula in a spreadsheet: it may not begin with one of = + - @ ' or have control characters"
+        )),
+    }
+}
+
+fn run(text: &OsStr) -> Result<Case, String> {
+    let case = name_and_path(text).and_then(|(of, path)| {
+        let (adhesive, name) = of.split_once(':')?;
+        Some(Case {
+            adhesive: adhesive.into(),
+            name: name.into(),
+            path,
+        })
     });
-    case.ok_or_else(|| format!("'{text}' is not ADHESIVE:RUN=CSV, as in pf:xpic=wp.csv"))
+    let case = case.ok_or_else(|| {
+        let text = text.display();
+        format!("'{text}' is not ADHESIVE:RUN=CSV, as in pf:xpic=wp.csv")
+    })?;
+    plain(&case.adhesive).and(plain(&case.name))?;
+    Ok(case)
 }
 
 fn position(text: &str) -> Result<Position, String> {

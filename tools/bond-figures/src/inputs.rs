@@ -1,17 +1,19 @@
+use std::fs::File;
 use std::io;
+use std::os::fd::AsRawFd;
 use std::path::{Path, PathBuf};
 
 use cli::{Failure, InputRecord, Output, Record};
 use figures::{Case, Labelled};
-use tempfile::NamedTempFile;
+use particle_file::ParticleFile;
 
 /// The files of a figure; standard input is among them as a temporary file.
 pub(crate) struct Inputs {
     files: Vec<Labelled>,
     /// The files as the user named them.
     given: Vec<PathBuf>,
-    /// Keeps the copy of standard input until the figure is written.
-    _spooled: Option<NamedTempFile>,
+    /// Keeps the copy of standard input, which has no name, until the figure is written.
+    _spooled: Option<File>,
 }
 
 impl Inputs {
@@ -30,7 +32,7 @@ impl Inputs {
         };
         let placed = files.into_iter().map(|mut file| {
             if let Some(copy) = spooled.as_ref().filter(|_| from_pipe(&file.path)) {
-                file.path = copy.path().to_owned();
+                file.path = format!("/dev/fd/{}", copy.as_raw_fd()).into();
             }
             file
         });
@@ -96,8 +98,8 @@ impl Inputs {
     }
 }
 
-fn spool() -> io::Result<NamedTempFile> {
-    let mut copy = NamedTempFile::new()?;
-    io::copy(&mut io::stdin().lock(), &mut copy)?;
-    Ok(copy)
+/// Standard input, if it begins as a particle file or a text may.
+fn spool() -> io::Result<File> {
+    let known = |head: &[u8]| ParticleFile::recognises(head) || !head.contains(&0);
+    particle_file::spool(io::stdin().lock(), known)
 }

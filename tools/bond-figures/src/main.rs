@@ -50,9 +50,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             // The CSV may itself go to standard output; the text for reading then gives way.
             match &a.output {
                 Output::Stdout => cli::note(table.to_text().trim_end()),
-                Output::File(_) => {
-                    Output::Stdout.write(|out| out.write_all(table.to_text().as_bytes()))?;
-                }
+                Output::File(_) => cli::print(&table.to_text())?,
             }
             let record = inputs.record()?;
             a.output

@@ -24,12 +24,16 @@ const VERSION: &str = if cfg!(feature = "double") {
   mpm-run pf-xpic.toml --particles bond.mpts --explain
   mpm-run pf-xpic.toml --particles bond.mpts -o runs/pf-xpic --resume
 
+The run folder is marked by bondline-run.toml and held while a run is on. Written in it: resolved.toml,
+history.csv, snapshots/NNNN.mpts, checkpoint.mpts, summary.json and, last, final.mpts. Only these are ever
+replaced, where they prove to be a run's own; other files are left alone, or refused where they are in the way.
+
 Keys of the explicit scheme that are not the paper's, off unless given (docs/results/explicit-options.md):
   integrator.pressure = \"cell-mean\"            pressure from the mean volume ratio of each cell
   integrator.density_projection = \"0.04 cell\"  points evened out after that much motion
   contact.separation = \"0.8 cell\"              how near liquid and wall touch at a node
 
-Exit status: 0 ok; 1 the run failed (unstable, cannot write); 2 usage or case file;
+Exit status: 0 ok, the results are sound; 1 the run failed (unstable, not sound, cannot write); 2 usage or case file;
 3 unreadable or corrupt data; 75 stopped early, continue with --resume."
 )]
 struct Arguments {
@@ -39,7 +43,7 @@ struct Arguments {
     /// tables describe the scene
     #[arg(long, value_name = "BOND")]
     particles: Option<PathBuf>,
-    /// Run folder
+    /// Run folder, made or marked as one (bondline-run.toml)
     #[arg(
         short,
         long,
@@ -53,11 +57,14 @@ struct Arguments {
     /// Print the plan and what this scene leaves out, and run nothing
     #[arg(long)]
     explain: bool,
+    /// Run even where the forecast is more than 1e9 steps, a week, or the memory of this machine
+    #[arg(long)]
+    yes_really: bool,
     /// Continue from the run folder's last checkpoint, at the case's integrator.cfl even where it
     /// was another before; start if there is none, do nothing if the run has ended
     #[arg(long, conflicts_with = "explain")]
     resume: bool,
-    /// Replace another run in the run folder
+    /// Replace the files of another run in the run folder, and no others
     #[arg(long, conflicts_with = "explain")]
     overwrite: bool,
     #[command(flatten)]
@@ -92,23 +99,24 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     }
     cli::catch_interrupts()?;
     let by = Provenance::of_process(env!("CARGO_PKG_NAME"), VERSION, Vec::new());
-    if arguments.resume && !arguments.overwrite && request.has_ended(&folder, &by) {
-        cli::note(format!("{} has ended already", folder.display()));
-        return Ok(());
-    }
     let mut progress = Progress::new(&folder.display().to_string());
     let ended = request.execute(
         &folder,
         run::Mode {
             resume: arguments.resume,
             overwrite: arguments.overwrite,
+            however_long: arguments.yes_really,
         },
         by,
         &cli::interrupted,
         &mut |fraction, state| progress.update(fraction, || state),
+        &|warning| cli::warn(warning),
     );
     progress.finish();
-    let summary = ended.map_err(failure)?;
+    let Some(summary) = ended.map_err(failure)? else {
+        cli::note(format!("{} has ended already", folder.display()));
+        return sound(run::Verdict::of_ended(&folder).as_ref());
+    };
     cli::note(summary.sentence());
     match summary.end {
         End::Interrupted => Err(Failure::new(
@@ -118,7 +126,15 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
                 folder.display()
             ),
         )),
-        _ => Ok(()),
+        _ => sound(Some(&summary.verdict)),
+    }
+}
+
+/// Exit status 0 is a claim that the results are sound.
+fn sound(verdict: Option<&run::Verdict>) -> Result<(), Failure> {
+    match verdict.and_then(run::Verdict::objection) {
+        Some(said) => Err(Failure::failed(said)),
+        None => Ok(()),
     }
 }
 

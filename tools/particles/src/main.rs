@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use cli::{Common, Failure, Output};
+use cli::{Common, Failure};
 use particle_file::ParticleFile;
 
 /// Look into particle files (.mpts): what they hold, whether they are whole, their sum,
@@ -84,8 +84,7 @@ fn for_each(
 ) -> Result<(), Failure> {
     for path in files {
         let file = ParticleFile::open(path).map_err(Failure::data)?;
-        let text = text(&file)?;
-        Output::Stdout.write(|out| out.write_all(text.as_bytes()))?;
+        cli::print(&text(&file)?)?;
     }
     Ok(())
 }
@@ -96,7 +95,7 @@ fn check(files: &[PathBuf]) -> Result<(), Failure> {
     let mut faults = 0;
     for path in files {
         match ParticleFile::open(path).and_then(|file| file.check().map(|()| file)) {
-            Ok(file) => Output::Stdout.write(|out| writeln!(out, "{}: ok", file.name()))?,
+            Ok(file) => cli::print(&format!("{}: ok\n", file.name()))?,
             Err(fault) => {
                 if let Some(earlier) = last_fault.replace(fault) {
                     cli::warn(earlier);

@@ -93,7 +93,8 @@ fn open_file(path: &Path, options: &StackOptions) -> Result<Content, Failure> {
     } else {
         format!("'{}'", path.display())
     };
-    let bytes = Mapped::open(path)
+    let known = |head: &[u8]| ParticleFile::recognises(head) || Stack::recognises(head);
+    let bytes = Mapped::open(path, known)
         .map_err(|error| Failure::data(format!("cannot read {name}: {error}")))?;
     if ParticleFile::recognises(&bytes) {
         let own_name = match from_stdin {

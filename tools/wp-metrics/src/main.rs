@@ -167,7 +167,7 @@ fn measure(
         None => None,
     };
     Ok(PenetrationRows {
-        file: input.name.clone(),
+        file: cli::cell(&input.name).into_owned(),
         reference: arguments.reference,
         sides: penetration(&state, &datum),
         agreement,

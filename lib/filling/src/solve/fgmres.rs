@@ -55,16 +55,22 @@ pub(crate) fn fgmres<K: Operator>(
         history.pop();
         history.push(residual / size);
         let iterations = history.len() - 1;
-        let failed = |residual| SolveError::NotConverged {
-            iterations,
-            residual,
-            tolerance: limits.tolerance,
-        };
         if residual <= limits.tolerance * size {
             return Ok(history);
         }
-        if iterations >= limits.max_iterations || !residual.is_finite() {
-            return Err(failed(residual / size));
+        let overflow = |after: usize, residual: f64| SolveError::Overflow {
+            iteration: after + 1,
+            residual: residual / size,
+        };
+        if !residual.is_finite() {
+            return Err(overflow(iterations, residual));
+        }
+        if iterations >= limits.max_iterations {
+            return Err(SolveError::NotConverged {
+                iterations,
+                residual: residual / size,
+                tolerance: limits.tolerance,
+            });
         }
         let steps = limits.restart.min(limits.max_iterations - iterations);
         let target = MARGIN * limits.tolerance * size;
@@ -76,7 +82,7 @@ pub(crate) fn fgmres<K: Operator>(
             operator.apply(z, &mut space.vector);
             let (column, remaining) = orthogonalise(&space.basis[..=k], &mut space.vector);
             if !remaining.is_finite() {
-                return Err(failed(least_squares.residual() / size));
+                return Err(overflow(iterations + k, least_squares.residual()));
             }
             least_squares.push(column, remaining);
             history.push(least_squares.residual() / size);

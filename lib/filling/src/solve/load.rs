@@ -27,6 +27,11 @@ impl Load {
             system.a.n_rows(),
         )?;
         check_length("sources of the load", self.source.len(), system.g.n_rows())?;
+        if !self.is_felt() {
+            return Err(SolveError::Matrix(
+                "a load on a body that nothing resists: its speed has no bound".into(),
+            ));
+        }
         if self.force > 0.0 && self.force.is_finite() && self.resistance >= 0.0 {
             return Ok(());
         }
@@ -35,6 +40,12 @@ impl Load {
              negative",
             self.force, self.resistance
         )))
+    }
+
+    /// Whether the body's motion meets any resistance: a body that no liquid touches does not.
+    pub fn is_felt(&self) -> bool {
+        let acts = |values: &[f64]| values.iter().any(|v| *v != 0.0);
+        self.resistance != 0.0 || acts(&self.momentum) || acts(&self.source)
     }
 
     /// Factor of the force row that gives it the weight of the others: their right-hand side with

@@ -6,6 +6,7 @@
 //! number of threads: work is split into fixed ranges of rows, and sums are added in their order.
 
 mod amg;
+mod cause;
 mod chebyshev;
 mod csr;
 mod fgmres;
@@ -41,7 +42,11 @@ pub enum SolveError {
     #[error("linear system: {0}")]
     Matrix(String),
     /// A right-hand side or a guess holds an infinity or is not a number.
-    #[error("linear system: right-hand side or guess is not finite at row {row}")]
+    #[error(
+        "linear system: right-hand side or guess is not finite at row {row}; speeds, gravity or \
+         pressures of the case or of the step before are beyond all bounds, and a smaller \
+         integrator.cfl may help where the case is not to blame"
+    )]
     NotFinite {
         /// Its row.
         row: usize,
@@ -59,7 +64,29 @@ pub enum SolveError {
         /// Relative residual wanted.
         tolerance: f64,
     },
+    /// The iteration met numbers that are not finite.
+    #[error(
+        "linear solver: numbers beyond single precision in iteration {iteration}, from a \
+         relative residual of {residual:.1e}"
+    )]
+    Overflow {
+        /// The iteration, from 1.
+        iteration: usize,
+        /// Relative residual before it.
+        residual: f64,
+    },
+    /// [`SolveError::NotConverged`] or [`SolveError::Overflow`] with what is to blame.
+    #[error("{error}: {cause}")]
+    Unsolved {
+        /// How far the iteration came.
+        error: Box<SolveError>,
+        /// Its likely cause and what of the case to change.
+        cause: String,
+    },
 }
+
+/// A residual this many times the tolerance is near enough to be used.
+pub const NEARLY: f64 = 10.0;
 
 /// Refuses a length that does not fit.
 fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), SolveError> {

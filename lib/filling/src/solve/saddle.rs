@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::cause::explained;
 use super::chebyshev::Chebyshev;
 use super::csr::Csr;
 use super::fgmres::{KrylovSpace, Limits, Operator, fgmres};
@@ -117,8 +118,9 @@ impl SaddleSolver {
     ///
     /// # Errors
     /// [`SolveError::Length`] or [`SolveError::Matrix`] when the system is not as described,
-    /// [`SolveError::NotFinite`] for a right-hand side or guess that is not finite, and
-    /// [`SolveError::NotConverged`], with the best `u` and `p` found.
+    /// [`SolveError::NotFinite`] for a right-hand side or guess that is not finite,
+    /// [`SolveError::NotConverged`] up to [`NEARLY`](super::NEARLY) times the tolerance, with the
+    /// best `u` and `p` found, and [`SolveError::Unsolved`] beyond it.
     pub fn solve(
         &mut self,
         system: &SaddleSystem,
@@ -135,7 +137,7 @@ impl SaddleSolver {
             (result, preconditioner.totals())
         });
         spread(&x, u, p);
-        report
+        report.map_err(|error| explained(error, system))
     }
 
     /// As [`SaddleSolver::solve`] with the speed of a body unknown and the force on it known;
@@ -172,7 +174,7 @@ impl SaddleSolver {
         });
         *speed = weight * x.pop().unwrap_or_default();
         spread(&x, u, p);
-        report
+        report.map_err(|error| explained(error, system))
     }
 
     fn limits(&self) -> Limits {

@@ -55,6 +55,11 @@ impl Drive {
         }
     }
 
+    /// How each body moves.
+    pub(super) fn motions(&self) -> &[Motion] {
+        &self.motions
+    }
+
     /// Velocities of the bodies, m/s.
     pub(super) fn velocities(&self) -> Vec<[f64; 3]> {
         (self.motions.iter())

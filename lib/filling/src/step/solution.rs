@@ -6,15 +6,13 @@ use super::{Implicit, Stage, Trial};
 use crate::advect::{self, Flow};
 use crate::fractions;
 use crate::operator::{self, Before, Dofs, Liquid, NONE, Operator, Sheared, System};
-use crate::solve::{Csr, SaddleReport, SolveError};
+use crate::solve::{Csr, NEARLY, SaddleReport, SolveError};
 
 /// Passes over a viscosity that depends on the shear rate: at most, and in the first step,
 /// which has no rates to start from.
 const PASSES: [usize; 2] = [3, 8];
 /// Mean relative change of the viscosity below which no further pass is made.
 const SETTLED: f64 = 0.02;
-/// A solve that stops short of its tolerance by at most this factor is used.
-const SHORT: f64 = 10.0;
 
 /// The flow of a step.
 pub(super) struct Solution {
@@ -207,6 +205,11 @@ impl Implicit {
         let force = limit * self.area / self.units.force();
         let mut bodies = self.drive.velocities();
         let load = system.load(clamped, force);
+        if !load.is_felt() {
+            // No liquid touches the body: at any speed it stays below its limit.
+            self.drive.follow(f64::INFINITY);
+            return Ok(false);
+        }
         bodies[clamped] = [0.0; 3];
         system.steer(&bodies);
         let mut speed = self.drive.speed;
@@ -240,7 +243,7 @@ impl Implicit {
                 iterations,
                 residual,
                 tolerance,
-            }) if residual <= SHORT * tolerance => now.iterations += iterations as u32,
+            }) if residual <= NEARLY * tolerance => now.iterations += iterations as u32,
             Err(error) => return Err(self.failure(&error.to_string())),
         }
         Ok(())

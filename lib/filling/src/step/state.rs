@@ -1,5 +1,6 @@
 //! What the scheme shows and saves.
 
+use physics::restored;
 use physics::{
     Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
 };
@@ -104,16 +105,10 @@ impl Scheme for Implicit {
         let (volume, j) = (saved.f32s("volume")?, saved.f32s("volume_change")?);
         let (rates, id) = (saved.f32s("shear_rate")?, saved.u32s("point")?);
         let scalars = saved.f64s("scalars")?;
+        self.check_saved(saved, &position, &displacement)?;
         let lengths = [velocity.len(), volume.len(), j.len(), rates.len(), id.len()];
         if lengths.iter().any(|&l| l != n) {
             return Err("the arrays of the checkpoint differ in length".into());
-        }
-        if displacement.len() != self.displacement.len() {
-            return Err(format!(
-                "the checkpoint has {} rigid bodies, the scene {}",
-                displacement.len(),
-                self.displacement.len()
-            ));
         }
         let &[
             pace,
@@ -168,6 +163,54 @@ impl Implicit {
             }
             (None, Some(rates)) => rates.clone(),
             (None, None) => vec![0.0; self.particles.len()],
+        }
+    }
+}
+
+impl Implicit {
+    /// Refuses what no run of this scene saves.
+    fn check_saved(
+        &self,
+        saved: &Saved,
+        position: &[[f64; 3]],
+        displacement: &[[f64; 3]],
+    ) -> Result<(), String> {
+        /// Cells around the domain in which a point is still found, see [`crate::window::PAD`].
+        const BESIDE: f64 = 1.0;
+        let scalars = saved.f64s("scalars")?;
+        restored::check_finite(scalars, "scalars")?;
+        let scalar = |i: usize| scalars.get(i).copied().unwrap_or(f64::NAN);
+        if let Some(i) = scalars.iter().take(7).position(|&x| x < 0.0) {
+            return Err(format!(
+                "scalar {i} of the checkpoint, {}, is negative",
+                scalar(i)
+            ));
+        }
+        for name in ["velocity", "volume", "volume_change", "shear_rate"] {
+            restored::check_finite(saved.f32s(name)?, name)?;
+        }
+        let total = self.particles.len() + self.lost as usize;
+        restored::check_points(saved.u32s("point")?, total, scalar(3) as u64)?;
+        restored::check_bodies(self.drive.motions(), displacement, scalar(1), self.units.h)?;
+        let cells = self.domain.cells.map(|n| n as f64 + BESIDE);
+        let inside = |x: &[f64; 3]| (0..3).all(|a| (-BESIDE..=cells[a]).contains(&x[a]));
+        if let Some(p) = position.iter().position(|x| !inside(x)) {
+            return Err(format!(
+                "point {p} of the checkpoint is at {:?} in a domain of {:?} cells",
+                position[p], self.domain.cells
+            ));
+        }
+        let most = self.particles.volume.iter().copied().fold(0.0, f32::max);
+        let volumes = saved
+            .f32s("volume")?
+            .iter()
+            .zip(saved.f32s("volume_change")?);
+        let sound = |&v: &f32, &j: &f32| v > 0.0 && v <= most && j > -1.0;
+        match volumes.clone().position(|(v, j)| !sound(v, j)) {
+            None => Ok(()),
+            Some(p) => Err(format!(
+                "point {p} of the checkpoint has a volume that no run gives it: the largest is {most} cells"
+            )),
         }
     }
 }

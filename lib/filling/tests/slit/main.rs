@@ -1,6 +1,8 @@
 //! A piston presses liquid from a reservoir into a slit: pressure against filled length, volume,
 //! and no particle in a wall. Run with `--nocapture` to see the errors.
 
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
 mod constant_pressure;
 #[path = "../common/march.rs"]
 mod march;

@@ -25,14 +25,17 @@ fn failures_are_reported() {
         ..options(1e-8)
     };
     match SaddleSolver::new(few).solve(&problem.system(), &mut u, &mut p) {
-        Err(SolveError::NotConverged {
-            iterations: 3,
-            residual,
-            ..
-        }) => {
-            println!("residual after 3 iterations {residual:.2e}");
-            assert!((1e-8..0.5).contains(&residual));
-        }
+        Err(SolveError::Unsolved { error, .. }) => match *error {
+            SolveError::NotConverged {
+                iterations: 3,
+                residual,
+                ..
+            } => {
+                println!("residual after 3 iterations {residual:.2e}");
+                assert!((1e-8..0.5).contains(&residual));
+            }
+            other => panic!("{other:?}"),
+        },
         other => panic!("{other:?}"),
     }
     let mut solver = SaddleSolver::new(options(1e-3));
@@ -93,5 +96,53 @@ fn a_sealed_incompressible_pocket_fails_and_a_compressible_one_does_not() {
     assert!((mean / 1000.0 - 1.0).abs() < 1e-3);
     let error = run(0.0).unwrap_err();
     println!("{error}");
-    assert!(matches!(error, SolveError::NotConverged { residual, .. } if residual > 0.1));
+    let SolveError::Unsolved { error, cause } = error else {
+        panic!("{error:?}");
+    };
+    assert!(matches!(*error, SolveError::NotConverged { residual, .. } if residual > 0.1));
+    assert!(
+        cause.contains("20 cells of liquid that is enclosed"),
+        "{cause}"
+    );
+}
+
+/// Before, such systems failed with "relative residual ... after 0 iterations" and no reason.
+#[test]
+fn what_makes_a_system_unsolvable_is_named() {
+    let problem = Problem::new(&SMALL).unwrap();
+    let said = |change: &dyn Fn(&mut Vec<f64>, &mut Vec<f64>, &mut Vec<f64>)| {
+        let (mut c, mut friction, mut two_eta) = {
+            let system = problem.system();
+            (
+                system.c.to_vec(),
+                system.friction.to_vec(),
+                system.two_eta.to_vec(),
+            )
+        };
+        change(&mut c, &mut friction, &mut two_eta);
+        let (mut u, mut p) = (vec![0.0; problem.b.len()], vec![0.0; problem.c.len()]);
+        let system = SaddleSystem {
+            c: &c,
+            friction: &friction,
+            two_eta: &two_eta,
+            ..problem.system()
+        };
+        let few = SaddleOptions {
+            max_iterations: 3,
+            ..options(1e-8)
+        };
+        let solved = SaddleSolver::new(few).solve(&system, &mut u, &mut p);
+        solved.unwrap_err().to_string()
+    };
+    let beyond = said(&|_, _, two_eta| two_eta.fill(1e60));
+    assert!(
+        beyond.contains("beyond single precision in iteration 1,"),
+        "{beyond}"
+    );
+    let stiff = said(&|c, _, _| c.fill(1e20));
+    assert!(stiff.contains("a lower viscosity"), "{stiff}");
+    let fast = said(&|_, friction, _| friction.fill(1e20));
+    assert!(fast.contains("a higher viscosity"), "{fast}");
+    let plain = said(&|_, _, _| ());
+    assert!(plain.contains("integrator.cfl"), "{plain}");
 }

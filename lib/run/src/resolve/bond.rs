@@ -1,8 +1,10 @@
 //! Scenes from a bond file: two adherends and a slab of adhesive between them.
 
-use physics::{Dimensions, GridBox, Motion, Points, RigidBody, VoxelBlock};
+use particle_file::limits;
+use physics::{Dimensions, GridBox, Motion, RigidBody, VoxelBlock};
 
-use super::{Geometry, seed};
+use super::seed::Seeds;
+use super::{Geometry, cells_along};
 use crate::case::{Case, CaseError};
 
 /// What a bond file says, with the bond normal turned to y.
@@ -22,6 +24,8 @@ pub struct Bond {
     pub adhesive: VoxelBlock,
     /// How far the upper adherend was moved away, m.
     pub gap_m: f64,
+    /// Cells that a file of this length may ask for.
+    pub most_cells: u64,
 }
 
 pub(super) fn geometry(
@@ -35,7 +39,6 @@ pub(super) fn geometry(
             "[grid] domain is for [[body]] scenes; a bond file has its own box".into(),
         ));
     }
-    let voxel = bond.adhesive.voxel()[0];
     let plane_strain = dimensions == Dimensions::Two;
     if plane_strain && bond.adhesive.dims()[2] != 1 {
         return Err(CaseError(format!(
@@ -53,7 +56,14 @@ pub(super) fn geometry(
                 ["x", "y", "z"][a]
             )));
         }
-        cells[a] = (n - 1e-3).ceil().max(1.0) as usize;
+        cells[a] = cells_along(n - 1e-3)?;
+    }
+    let [x, y, z] = cells;
+    if limits::volume(cells.map(|n| n as u64)) > bond.most_cells {
+        return Err(CaseError(format!(
+            "the grid would have {x} x {y} x {z} cells; accepted are {} in all for a bond file of this size: choose a larger cell",
+            bond.most_cells
+        )));
     }
     let mut min_m = bond.min_m;
     let depth = plane_strain.then_some(cell);
@@ -65,7 +75,7 @@ pub(super) fn geometry(
         min_m,
         cells,
     };
-    let points = points(case, &bond.adhesive, voxel, cell, depth)?;
+    let seeds = seeds(case, &bond.adhesive, cell, depth)?;
     let body = |name: &str, block: &VoxelBlock, motion| RigidBody {
         name: name.into(),
         blocks: vec![deepen(block, depth)],
@@ -85,7 +95,7 @@ pub(super) fn geometry(
     ];
     Ok(Geometry {
         grid,
-        points,
+        seeds,
         bodies,
         bottom: Some(0),
         top: Some(1),
@@ -110,13 +120,13 @@ fn deepen(block: &VoxelBlock, depth: Option<f64>) -> VoxelBlock {
 }
 
 /// The same number of points in every adhesive voxel, on a regular lattice.
-fn points(
+fn seeds(
     case: &Case,
     block: &VoxelBlock,
-    voxel: f64,
     cell: f64,
     depth: Option<f64>,
-) -> Result<Points, CaseError> {
+) -> Result<Seeds, CaseError> {
+    let voxel = block.voxel()[0];
     let spacing = cell / f64::from(case.grid.points_per_direction);
     let per_edge = voxel / spacing;
     if per_edge < 0.99 || (per_edge - per_edge.round()).abs() > 1e-3 {
@@ -127,28 +137,9 @@ fn points(
             voxel * 1e6
         )));
     }
-    let [nx, ny, nz] = block.dims();
-    let per_voxel = (per_edge.round() as u64).pow(if depth.is_some() { 2 } else { 3 });
-    if block.count().saturating_mul(per_voxel) > seed::MOST_POINTS {
-        return Err(CaseError(
-            "the adhesive would need more than two thousand million material points".into(),
-        ));
-    }
-    let mut points = Points::default();
-    for k in 0..nz {
-        for j in 0..ny {
-            for i in 0..nx {
-                if block.solid(i, j, k) {
-                    let index = [i, j, k];
-                    let min = std::array::from_fn(|a| {
-                        block.origin()[a] + index[a] as f64 * block.voxel()[a]
-                    });
-                    let max = std::array::from_fn(|a| min[a] + block.voxel()[a]);
-                    seed::fill_box(&mut points, min, max, spacing, depth, [0.0; 3])
-                        .map_err(CaseError)?;
-                }
-            }
-        }
-    }
-    Ok(points)
+    Ok(Seeds::Voxels {
+        block: block.clone(),
+        spacing,
+        plane_strain_depth: depth,
+    })
 }

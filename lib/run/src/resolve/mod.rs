@@ -1,12 +1,15 @@
 //! A case and its bodies or bond file, resolved to a [`Scene`] in SI.
 
 mod bond;
+mod meeting;
+mod plausible;
 mod primitives;
 mod seed;
 
+use particle_file::limits;
 use physics::{
-    Boundary, Clamp, Dimensions, Liquid, Newtonian, Pid, Points, RigidBody, Scene, ShearRate, Stop,
-    Table, Tait, Viscosity, WallLaw,
+    Amount, Boundary, Clamp, Dimensions, Liquid, Newtonian, Pid, Points, RigidBody, Scene,
+    ShearRate, Stop, Table, Tait, Viscosity, WallLaw,
 };
 
 use crate::case::{
@@ -14,18 +17,32 @@ use crate::case::{
 };
 
 pub use bond::Bond;
+pub(crate) use plausible::OVERLAP;
+use seed::Seeds;
+
+/// A number of cells along an axis, rounded up.
+fn cells_along(n: f64) -> Result<usize, CaseError> {
+    if n <= limits::PER_AXIS as f64 {
+        return Ok(n.ceil().max(1.0) as usize);
+    }
+    Err(CaseError(format!(
+        "the domain is {n:.3e} cells long, more than {}: the cell is too small",
+        limits::PER_AXIS
+    )))
+}
 
 /// A run resolved to SI with what the run loop needs beside the scene.
 #[derive(Debug)]
 pub struct Setup {
-    /// The scene.
+    /// The scene; its points are made by [`Setup::scene_for_scheme`].
     pub scene: Scene,
-    /// Liquid material points of the scene.
-    pub liquid_points: u64,
-    /// Their volume at the start, m3.
-    pub liquid_volume_m3: f64,
+    /// How much liquid it starts with.
+    pub liquid: Amount,
+    seeds: Seeds,
     /// Latest end, s.
     pub time_limit_s: f64,
+    /// How far the clamp can travel before its body meets the one named, m.
+    pub clamp_room: Option<(f64, String)>,
     /// Gap between the adherends at the start, m; `None` without a clamp.
     pub initial_gap_m: Option<f64>,
     /// Duration that snapshots and history divide, s.
@@ -35,12 +52,11 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// The scene for a scheme, which takes the material points over: millions of them need not
-    /// stay in memory twice.
-    pub fn scene_for_scheme(&mut self) -> Scene {
-        let points = std::mem::take(&mut self.scene.points);
+    /// The scene with its material points, for a scheme that takes them over: millions of them
+    /// need not stay in memory twice, and a plan needs none.
+    pub fn scene_for_scheme(&self) -> Scene {
         Scene {
-            points,
+            points: self.seeds.points(),
             ..self.scene.clone()
         }
     }
@@ -49,7 +65,7 @@ impl Setup {
 /// Geometry of a scene: what differs between a bond file and `[[body]]` tables.
 struct Geometry {
     grid: physics::GridBox,
-    points: Points,
+    seeds: Seeds,
     bodies: Vec<RigidBody>,
     bottom: Option<usize>,
     top: Option<usize>,
@@ -88,11 +104,6 @@ pub fn resolve(case: &Case, bond: Option<Bond>) -> Result<Setup, CaseError> {
         }
         None => primitives::geometry(case, dimensions)?,
     };
-    if geometry.points.position.is_empty() {
-        return Err(CaseError(
-            "the scene holds no adhesive: no material point lies inside the grid".into(),
-        ));
-    }
     finish(case, dimensions, geometry)
 }
 
@@ -122,7 +133,7 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
         grid: geometry.grid,
         boundary: boundary(case, dimensions)?,
         liquid: liquid(&case.adhesive)?,
-        points: geometry.points,
+        points: Points::default(),
         wall: wall(case.contact.as_ref(), cell, !geometry.bodies.is_empty())?,
         bodies: geometry.bodies,
         gravity: case
@@ -134,11 +145,14 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
         bottom: geometry.bottom,
         top: geometry.top,
     };
+    let liquid = geometry.seeds.amount().map_err(CaseError)?;
+    plausible::check(&scene, &liquid)?;
     let initial_gap_m = scene.clamp.and(geometry.travel_m);
     Ok(Setup {
-        liquid_points: scene.points.position.len() as u64,
-        liquid_volume_m3: scene.liquid_volume(),
+        clamp_room: plausible::clamp_room(&scene),
         scene,
+        liquid,
+        seeds: geometry.seeds,
         time_limit_s,
         initial_gap_m,
         nominal_duration_s: nominal,

@@ -1,15 +1,16 @@
 //! Scenes described by `[[body]]` tables: the verification cases.
 
-use physics::{Dimensions, GridBox, Motion, Points, RigidBody, VoxelBlock};
+use physics::{Dimensions, GridBox, Motion, RigidBody, VoxelBlock};
 
-use super::{Geometry, seed};
+use super::seed::{Lattice, Seeds};
+use super::{Geometry, cells_along};
 use crate::case::{Body, BodyVelocity, BoxCorners, Case, CaseError, MaterialName};
 
 pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, CaseError> {
     let cell = case.grid.cell.si();
     let depth = (dimensions == Dimensions::Two).then_some(cell);
     let grid = grid(case, cell, depth)?;
-    let mut points = Points::default();
+    let mut lattices = Vec::new();
     let mut bodies: Vec<RigidBody> = Vec::new();
     let mut filled: Vec<(usize, Corners)> = Vec::new();
     for (index, body) in case.body.iter().enumerate() {
@@ -35,19 +36,20 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
                 }
                 filled.push((index, (min, max)));
                 let spacing = cell / f64::from(case.grid.points_per_direction);
-                seed::fill_box(&mut points, min, max, spacing, depth, velocity)
-                    .map_err(CaseError)?;
+                let lattice = Lattice::new(min, max, spacing, depth, velocity);
+                inside(&lattice, &grid)
+                    .map_err(|e| CaseError(format!("[[body]] number {}: {e}", index + 1)))?;
+                lattices.push(lattice);
             }
             MaterialName::Rigid => add_rigid(&mut bodies, body, min, max, case.clamp.is_some())?,
         }
     }
-    inside(&points, &grid)?;
     let moving = bodies.iter().position(|b| b.motion != Motion::Fixed);
     let fixed = bodies.iter().position(|b| b.motion == Motion::Fixed);
     let named = |name: &str| bodies.iter().position(|b| b.name == name);
     Ok(Geometry {
         grid,
-        points,
+        seeds: Seeds::Boxes(lattices),
         bottom: named("bottom").or(fixed),
         top: named("top").or(moving),
         bodies,
@@ -136,13 +138,7 @@ fn grid(case: &Case, cell: f64, depth: Option<f64>) -> Result<GridBox, CaseError
     };
     let mut cells = [0; 3];
     for a in 0..3 {
-        let n = ((max[a] - min[a]) / cell - 1e-6).ceil().max(1.0);
-        if n > 1e5 {
-            return Err(CaseError(format!(
-                "the domain is {n:.3e} cells long, more than 100000: the cell is too small"
-            )));
-        }
-        cells[a] = n as usize;
+        cells[a] = cells_along((max[a] - min[a]) / cell - 1e-6)?;
     }
     Ok(GridBox {
         cell_m: cell,
@@ -151,17 +147,15 @@ fn grid(case: &Case, cell: f64, depth: Option<f64>) -> Result<GridBox, CaseError
     })
 }
 
-fn inside(points: &Points, grid: &GridBox) -> Result<(), CaseError> {
-    let max = grid.max_m();
-    match points
-        .position
-        .iter()
-        .find(|p| (0..3).any(|a| p[a] < grid.min_m[a] || p[a] > max[a]))
-    {
-        Some(p) => Err(CaseError(format!(
-            "an adhesive body reaches out of the domain at ({:.4e}, {:.4e}, {:.4e}) m",
-            p[0], p[1], p[2]
-        ))),
-        None => Ok(()),
+fn inside(liquid: &Lattice, grid: &GridBox) -> Result<(), String> {
+    let (amount, max) = (liquid.amount(), grid.max_m());
+    for corner in [amount.low_m, amount.high_m] {
+        if (0..3).any(|a| corner[a] < grid.min_m[a] || corner[a] > max[a]) {
+            return Err(format!(
+                "the adhesive body reaches out of the domain at ({:.4e}, {:.4e}, {:.4e}) m",
+                corner[0], corner[1], corner[2]
+            ));
+        }
     }
+    Ok(())
 }

@@ -10,6 +10,8 @@ mod write;
 pub(crate) use ifd::is_tiff;
 pub use write::TiffWriter;
 
+use particle_file::limits;
+
 use crate::Error;
 use crate::sample::PageFormat;
 use crate::source::Source;
@@ -101,7 +103,8 @@ fn following_planes(
         );
         return Err(Error::file(source, what));
     };
-    (0..planes)
+    // One more than a stack may have, which is refused as a whole.
+    (0..planes.min(limits::PER_AXIS + 1))
         .map(|k| {
             let k = k as usize;
             page.following_plane(k, source.len())

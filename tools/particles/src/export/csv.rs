@@ -41,7 +41,7 @@ fn names(column: &Column) -> Vec<String> {
     if known.len() == column.components {
         return known.iter().map(|&name| name.to_owned()).collect();
     }
-    let name = column.name.replace([',', '"', '\n', '\r'], "_");
+    let name = cli::cell(column.name).replace([',', '"', '\n'], "_");
     match column.components {
         1 => vec![name],
         n => (0..n).map(|i| format!("{name}_{i}")).collect(),

@@ -1,7 +1,7 @@
 use std::io::{self, Write};
 
 use cli::Failure;
-use particle_file::{BitGrid, BitsRef, Block, Header, Material, ParticleFile};
+use particle_file::{BitGrid, BitsRef, Block, Header, Material, ParticleFile, limits};
 use voxels::TiffWriter;
 
 const WOOD: u8 = 128;
@@ -35,8 +35,8 @@ impl<'a> Labels<'a> {
     /// The labels of everything in `file`.
     ///
     /// # Errors
-    /// Exit 3 when an array is damaged, there are neither blocks nor points, or blocks have
-    /// other voxels than the file.
+    /// Exit 3 when an array is damaged, there are neither blocks nor points, or the file is too
+    /// small for as many labels.
     pub fn of(file: &'a ParticleFile) -> Result<Self, Failure> {
         let header = file.header();
         if header.blocks.is_empty() && header.particles == 0 {
@@ -159,15 +159,6 @@ fn low_corner(header: &Header) -> [f64; 3] {
 fn place<'a>(file: &'a ParticleFile, index: usize, low: [f64; 3]) -> Result<Placed<'a>, Failure> {
     let (block, bits) = file.block(index).map_err(Failure::data)?;
     let voxel_m = file.header().voxel_m;
-    if (block.voxel_m / voxel_m - 1.0).abs() > 1e-6 {
-        return Err(Failure::data(format!(
-            "block '{}' of '{}' has voxels of {:e} m, the file has {voxel_m:e} m; labels need \
-             equal voxels",
-            block.name,
-            file.name(),
-            block.voxel_m
-        )));
-    }
     Ok(Placed {
         label: label(block),
         at: std::array::from_fn(|a| ((block.origin_m[a] - low[a]) / voxel_m).round() as usize),
@@ -186,14 +177,8 @@ fn dims(file: &ParticleFile, blocks: &[Placed]) -> Result<[usize; 3], Failure> {
         }
         _ => blocks.iter().map(|b| end(b, a)).max().unwrap_or(1),
     });
-    // 64 G voxels: a page and the bits of the liquid are held in memory.
-    const MOST: f64 = (1_u64 << 36) as f64;
-    if dims.iter().map(|&n| n as f64).product::<f64>() > MOST {
-        let [nx, ny, nz] = dims;
-        return Err(Failure::data(format!(
-            "'{}' spans {nx} x {ny} x {nz} voxels, more than the {MOST:e} accepted",
-            file.name()
-        )));
-    }
+    let voxels = limits::volume(dims.map(|n| n as u64));
+    file.is_worth(voxels, "labels of a byte each")
+        .map_err(Failure::data)?;
     Ok(dims)
 }

@@ -1,9 +1,8 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::fs;
-use std::path::PathBuf;
+use std::path::Path;
 
-use cli::{Failure, Output, Record};
+use cli::{Failure, Output, Record, StagedFolder};
 use particle_file::ParticleFile;
 
 use super::labels::Labels;
@@ -22,17 +21,12 @@ pub fn write(files: &[ParticleFile], output: &Output, record: &Record) -> Result
         let what = "a pvd refers to files beside it and cannot go to standard output";
         return Err(Failure::usage(what));
     };
-    let folder = pvd.with_extension("");
-    let Some(folder_name) = folder.file_name().and_then(|n| n.to_str()) else {
-        return Err(Failure::usage(format!("{output} is no file name in UTF-8")));
-    };
-    let folder_name = escape(folder_name);
-    fs::create_dir_all(&folder)
-        .map_err(|e| Failure::write(format!("'{}'", folder.display()), &e))?;
+    let folder_name = folder_name(pvd);
     let mut parts = Parts {
-        folder,
+        folder: StagedFolder::new(&pvd.with_file_name(&folder_name))?,
         blocks: HashMap::new(),
     };
+    let folder_name = escape(&folder_name);
     let mut entries = String::new();
     for (number, file) in files.iter().enumerate() {
         let time_s = file.header().time_s;
@@ -42,6 +36,7 @@ pub fn write(files: &[ParticleFile], output: &Output, record: &Record) -> Result
             ));
         }
     }
+    parts.folder.put_in_place()?;
     output.write_with_record(record, |out| {
         write!(
             out,
@@ -51,9 +46,19 @@ pub fn write(files: &[ParticleFile], output: &Output, record: &Record) -> Result
     })
 }
 
+/// Name of the folder that belongs to `pvd`; XML holds Unicode without control characters only.
+fn folder_name(pvd: &Path) -> String {
+    let stem = pvd.file_stem().unwrap_or_default().to_string_lossy();
+    let name = stem.replace(char::is_control, "_");
+    match pvd.extension() {
+        Some(_) => name,
+        None => name + ".parts",
+    }
+}
+
 /// The files that a series refers to.
 struct Parts {
-    folder: PathBuf,
+    folder: StagedFolder,
     /// Name of the file of a block with this index, place and hash of its voxels.
     blocks: HashMap<(usize, [u64; 3], u64), String>,
 }
@@ -70,7 +75,7 @@ impl Parts {
         if file.header().particles > 0 {
             let name = format!("{number:04}.vtp");
             let points = Points::of(file)?;
-            Output::File(self.folder.join(&name))
+            Output::File(self.folder.path(&name))
                 .write(|out| vtk::write_points(&points, time_s, out))?;
             parts.push((0, name));
         }
@@ -85,7 +90,7 @@ impl Parts {
                 Entry::Vacant(new) => {
                     let name = format!("{number:04}-{}.vti", super::plain(&block.name));
                     let labels = Labels::of_block(block, bits);
-                    Output::File(self.folder.join(&name))
+                    Output::File(self.folder.path(&name))
                         .write(|out| vtk::write_labels(&labels, time_s, out))?;
                     new.insert(name).clone()
                 }

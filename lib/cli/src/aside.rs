@@ -1,0 +1,131 @@
+//! Files and folders written beside their target, which they replace when they are whole.
+
+use std::fs::{self, File};
+use std::io;
+use std::os::unix::fs::{MetadataExt, PermissionsExt};
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile, TempDir};
+use xxhash_rust::xxh3::xxh3_64;
+
+/// What Linux follows before it calls a chain of links a loop.
+const MOST_LINKS: usize = 40;
+const ENDING: &str = ".tmp";
+
+/// The path that `path` stands for once symbolic links are followed, whether or not there is
+/// something at their end.
+pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&path) {
+            Ok(target) => path = folder_of(&path).join(target),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("its symbolic links go round in a circle"))
+}
+
+/// The folder that `path` lies in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// An empty file beside `target` that nobody else takes for forgotten, readable as the user's
+/// umask says.
+pub(crate) fn file_for(target: &Path) -> io::Result<NamedTempFile> {
+    sweep(target);
+    loop {
+        let mut builder = Builder::new();
+        let prefix = prefix(target);
+        builder.prefix(&prefix).suffix(ENDING);
+        builder.permissions(fs::Permissions::from_mode(0o666));
+        let file = builder.tempfile_in(folder_of(target))?;
+        if claimed(file.as_file())? {
+            return Ok(file);
+        }
+    }
+}
+
+/// An empty folder beside `target`, claimed as long as the handle lives.
+pub(crate) fn folder_for(target: &Path) -> io::Result<(TempDir, File)> {
+    sweep(target);
+    loop {
+        let mut builder = Builder::new();
+        let prefix = prefix(target);
+        builder.prefix(&prefix).suffix(ENDING);
+        let folder = builder.tempdir_in(folder_of(target))?;
+        let handle = File::open(folder.path())?;
+        if claimed(&handle)? {
+            return Ok((folder, handle));
+        }
+    }
+}
+
+/// Locks what was just made; false when a sweep took it for forgotten in between.
+fn claimed(made: &File) -> io::Result<bool> {
+    // Where the file system knows no locks nothing is swept either.
+    let _ = made.lock();
+    Ok(made.metadata()?.nlink() > 0)
+}
+
+/// Names of what is written for `target` begin alike.
+fn prefix(target: &Path) -> String {
+    let name = target.file_name().unwrap_or_default();
+    format!(".bondline-{:016x}-", xxh3_64(name.as_encoded_bytes()))
+}
+
+/// Removes what a process that was killed left beside `target`: its lock went with it.
+fn sweep(target: &Path) {
+    let Ok(entries) = fs::read_dir(folder_of(target)) else {
+        return;
+    };
+    let prefix = prefix(target);
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        // Opening a pipe would wait for its other end.
+        let regular = entry.file_type().is_ok_and(|t| t.is_file() || t.is_dir());
+        if !(regular && name.starts_with(&prefix) && name.ends_with(ENDING)) {
+            continue;
+        }
+        let Ok(left) = File::open(entry.path()) else {
+            continue;
+        };
+        if left.try_lock().is_ok() {
+            // What cannot be removed stays, and nothing depends on it.
+            let _ = match entry.file_type().is_ok_and(|t| t.is_dir()) {
+                true => fs::remove_dir_all(entry.path()),
+                false => fs::remove_file(entry.path()),
+            };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A killed tool's temporary file stayed for ever.
+    #[test]
+    fn what_a_killed_process_left_is_swept_and_what_is_being_written_is_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("=a.csv");
+        let left = file_for(&target).unwrap().keep().unwrap();
+        drop(left.0);
+        let (dir, lock) = folder_for(&target).unwrap();
+        assert!(!left.1.exists(), "a forgotten file is swept");
+        let folder_left = dir.keep();
+        fs::write(folder_left.join("part"), b"x").unwrap();
+        let busy = file_for(&target).unwrap();
+        assert!(folder_left.exists(), "a claimed folder is not swept");
+        drop(lock);
+        let other = file_for(&folder.path().join("other")).unwrap();
+        assert!(folder_left.exists(), "it is not that target's");
+        let again = file_for(&target).unwrap();
+        assert!(!folder_left.exists(), "a forgotten folder is swept");
+        assert!(busy.path().exists() && other.path().exists() && again.path().exists());
+    }
+}

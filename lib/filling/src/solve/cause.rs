@@ -1,0 +1,102 @@
+//! Why a coupled system was not solved, and what of the case to change.
+
+use super::csr::Csr;
+use super::saddle::SaddleSystem;
+use super::{NEARLY, SolveError};
+
+/// Weight of inertia and friction over viscosity beyond which they are named as the cause.
+const FAST: f64 = 1e6;
+/// Viscosity times compressibility of a step, eta/(K dt), beyond which it is named.
+const STIFF: f64 = 1e8;
+/// Part of what walls displace in a closed space that may be left over by rounding.
+const BALANCED: f64 = 1e-6;
+
+/// The error with its likely cause; one that a step can live with stays as it is.
+pub(super) fn explained(error: SolveError, system: &SaddleSystem) -> SolveError {
+    match error {
+        SolveError::NotConverged {
+            residual,
+            tolerance,
+            ..
+        } if residual <= NEARLY * tolerance => error,
+        SolveError::NotConverged { .. } | SolveError::Overflow { .. } => SolveError::Unsolved {
+            error: Box::new(error),
+            cause: cause(system),
+        },
+        _ => error,
+    }
+}
+
+fn cause(system: &SaddleSystem) -> String {
+    let most = |list: &mut dyn Iterator<Item = f64>| list.fold(0.0, f64::max);
+    let viscosity = most(&mut system.two_eta.iter().copied());
+    let inertia = most(&mut system.friction.iter().copied()) / viscosity;
+    let stiffness = most(&mut system.c.iter().zip(system.two_eta).map(|(c, eta)| c * eta));
+    if let Some(cells) = squeezed(system) {
+        return format!(
+            "walls move into {cells} cells of liquid that is enclosed and has no way out but to be compressed; a max_pressure, a way out, less travel or a lower bulk_modulus is needed"
+        );
+    }
+    if stiffness > STIFF {
+        return format!(
+            "viscous stress is {stiffness:.0e} times what compresses the liquid in a step, eta/(K dt): a lower viscosity, a higher bulk_modulus or a slower motion is needed"
+        );
+    }
+    if inertia > FAST {
+        return format!(
+            "inertia is {inertia:.0e} times the viscous stress in a cell, rho h^2/(eta dt): a higher viscosity or scheme = \"explicit\" is needed"
+        );
+    }
+    "a smaller integrator.cfl makes the steps and their systems easier, a larger integrator.tolerance asks for less"
+        .into()
+}
+
+/// Cells of the first closed space (no cell of it at a free surface) whose walls change its volume.
+fn squeezed(system: &SaddleSystem) -> Option<usize> {
+    let faces = system.g.transpose();
+    let mut seen = vec![false; system.g.n_rows()];
+    for cell in 0..seen.len() {
+        if seen[cell] {
+            continue;
+        }
+        let space = Space::around(cell, system.g, &faces, &mut seen);
+        let of = |values: &[f64]| space.cells.iter().map(|&c| values[c]).collect::<Vec<f64>>();
+        let sources = of(system.volume_source);
+        let moved: f64 = sources.iter().map(|s| s.abs()).sum();
+        if !space.open && sources.iter().sum::<f64>().abs() > BALANCED * moved {
+            return Some(space.cells.len());
+        }
+    }
+    None
+}
+
+/// Connected cells.
+struct Space {
+    cells: Vec<usize>,
+    /// Whether one of them has a face to air.
+    open: bool,
+}
+
+impl Space {
+    fn around(start: usize, g: &Csr<f64>, faces: &Csr<f64>, seen: &mut [bool]) -> Self {
+        seen[start] = true;
+        let mut found = Self {
+            cells: vec![start],
+            open: false,
+        };
+        let mut next = 0;
+        while let Some(&cell) = found.cells.get(next) {
+            next += 1;
+            for &face in g.row(cell).0 {
+                let sides = faces.row(face as usize).0;
+                found.open |= sides.len() < 2;
+                for &side in sides {
+                    if !std::mem::replace(&mut seen[side as usize], true) {
+                        found.cells.push(side as usize);
+                    }
+                }
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,67 @@
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+
+/// Bytes from which a format is told.
+const HEAD: usize = 512;
+
+/// Copies a pipe to an unnamed temporary file, to be read in any order.
+///
+/// Of a pipe whose first bytes are not `recognised` only these are taken, so that a reader
+/// refuses it for what it is and a device without an end fills no disk. A pipe may take half of
+/// what is free in the folder of temporary files.
+///
+/// # Errors
+/// The system's reason, or a pipe that gives more.
+pub fn spool(mut pipe: impl Read, recognised: impl Fn(&[u8]) -> bool) -> io::Result<File> {
+    let mut file = tempfile::tempfile()?;
+    let mut head = Vec::with_capacity(HEAD);
+    pipe.by_ref().take(HEAD as u64).read_to_end(&mut head)?;
+    file.write_all(&head)?;
+    if recognised(&head) {
+        let free = rustix::fs::fstatvfs(&file)?;
+        copy(
+            pipe,
+            &mut file,
+            free.f_bavail.saturating_mul(free.f_frsize) / 2,
+        )?;
+    }
+    file.seek(SeekFrom::Start(0))?;
+    Ok(file)
+}
+
+/// Copies all of `pipe` unless it is more than `most` bytes.
+fn copy(pipe: impl Read, file: &mut File, most: u64) -> io::Result<()> {
+    if io::copy(&mut pipe.take(most.saturating_add(1)), file)? <= most {
+        return Ok(());
+    }
+    Err(io::Error::other(format!(
+        "the pipe gives more than {:.1} GB, half of what is free in '{}' for temporary files: \
+         write it to a file and give its name, or set TMPDIR to a larger disk",
+        most as f64 / 1e9,
+        std::env::temp_dir().display()
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn content(mut file: File) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).unwrap();
+        bytes
+    }
+
+    /// `/dev/zero` filled the disk.
+    #[test]
+    fn a_pipe_without_an_end_is_cut_or_refused() {
+        assert_eq!(content(spool(io::repeat(0), |_| false).unwrap()), [0; HEAD]);
+        let mut file = tempfile::tempfile().unwrap();
+        let said = copy(io::repeat(1), &mut file, 1 << 20).unwrap_err();
+        assert!(said.to_string().contains("TMPDIR"), "{said}");
+        let pipe = [vec![7; 600], vec![8; 3]].concat();
+        let whole = spool(pipe.as_slice(), |head| head == [7; HEAD]).unwrap();
+        assert_eq!(content(whole), pipe);
+        assert_eq!(content(spool([9].as_slice(), |_| true).unwrap()), [9]);
+    }
+}

@@ -1,0 +1,235 @@
+//! What of an earlier run in a run folder is kept, continued or replaced.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use particle_file::{Kind, ParticleFile, Provenance};
+use same_file::is_same_file;
+
+use crate::checkpoint::{self, Checkpoint, Clock};
+use crate::drive::RunError;
+use crate::folder::{
+    ASIDE, CHECKPOINT, FINAL, HISTORY, RESOLVED, RunFolder, SNAPSHOTS, SUMMARY, is_there,
+};
+use crate::request::RunFailure;
+
+/// How an existing run folder is treated.
+#[derive(Clone, Copy, Debug)]
+pub struct Mode {
+    /// Continue from its checkpoint.
+    pub resume: bool,
+    /// Replace what belongs to another run.
+    pub overwrite: bool,
+    /// Start although the forecast says that the run will not end.
+    pub however_long: bool,
+}
+
+/// Finds the checkpoint to start from; none to start anew, with the earlier run's files gone.
+///
+/// # Errors
+/// Another run that may not be replaced, a file in the way that is not the tool's own, a
+/// checkpoint that cannot be used, a failed write.
+pub(crate) fn start(
+    folder: &RunFolder,
+    mode: Mode,
+    identity: &str,
+    text: &str,
+    by: &Provenance,
+) -> Result<Option<Checkpoint>, RunFailure> {
+    let holds = |name: &str| is_there(&folder.place(name));
+    // A run with a final state has ended; a checkpoint beside it waits to be removed.
+    if mode.resume && !holds(FINAL) {
+        match checkpoint::read(folder.path(), identity) {
+            Ok(Some(checkpoint)) => {
+                prove_snapshots(folder, checkpoint.clock.snapshots, by)?;
+                return Ok(Some(checkpoint));
+            }
+            Ok(None) => {}
+            Err(error) if !mode.overwrite => return Err(error.into()),
+            Err(_) => {}
+        }
+    }
+    // A run killed before its first checkpoint has nothing to lose.
+    let begun = || fs::read_to_string(folder.place(RESOLVED)).is_ok_and(|found| found == text);
+    let again = mode.resume && !holds(FINAL) && begun();
+    let lost = [HISTORY, FINAL, CHECKPOINT].into_iter().any(holds);
+    if lost && !mode.overwrite && !again {
+        return Err(held_by_a_run(folder.path(), mode.resume));
+    }
+    clear(folder, by)?;
+    folder.write_text(RESOLVED, text)?;
+    Ok(None)
+}
+
+fn held_by_a_run(folder: &Path, resume: bool) -> RunFailure {
+    let folder = folder.display();
+    RunFailure::Usage(if resume {
+        format!(
+            "'{folder}' holds another run, or the same of another version; use --overwrite to replace it"
+        )
+    } else {
+        format!(
+            "'{folder}' already holds a run; use --resume to continue it or --overwrite to replace it"
+        )
+    })
+}
+
+/// Removes what a run left that goes on from `clock`, but not its history: snapshots of
+/// a course that may not come again, and a summary that would be wrong if the run fails.
+///
+/// # Errors
+/// A failed write.
+pub(crate) fn forget_what_came_after(
+    folder: &RunFolder,
+    clock: &Clock,
+    text: &str,
+) -> Result<(), RunFailure> {
+    for name in snapshots(folder, clock.snapshots)? {
+        folder.remove(&name)?;
+    }
+    folder.remove(SUMMARY)?;
+    folder.write_text(RESOLVED, text)?;
+    Ok(())
+}
+
+/// Removes the files of an earlier run, once all are known to be the tool's own; first those
+/// that make it worth keeping, so that a kill does not leave a run that only looks whole.
+fn clear(folder: &RunFolder, by: &Provenance) -> Result<(), RunFailure> {
+    if is_there(&folder.place(FINAL)) {
+        prove_state(folder, FINAL, by)?;
+    }
+    if is_there(&folder.place(CHECKPOINT)) {
+        prove(folder, CHECKPOINT, |file| {
+            file.header().kind == Kind::Checkpoint
+        })?;
+    }
+    prove_snapshots(folder, 0, by)?;
+    folder.check_writable()?;
+    for name in [FINAL, CHECKPOINT, SUMMARY, HISTORY] {
+        folder.remove(name)?;
+    }
+    for name in snapshots(folder, 0)? {
+        folder.remove(&name)?;
+    }
+    // One that holds other files stays.
+    let _ = fs::remove_dir(folder.place(SNAPSHOTS));
+    Ok(())
+}
+
+/// Removes what a kill after the final state left: its run has nothing to continue.
+///
+/// # Errors
+/// A failed removal.
+pub(crate) fn tidy(folder: &RunFolder, identity: &str) -> Result<(), RunFailure> {
+    if checkpoint::read(folder.path(), identity).is_ok_and(|found| found.is_some()) {
+        folder.remove(CHECKPOINT)?;
+    }
+    Ok(())
+}
+
+/// Refuses a folder in which something else stands at a name of the run's, or one of `inputs`;
+/// removes unfinished files that a killed run left.
+///
+/// # Errors
+/// What is in the way.
+pub(crate) fn make_room(folder: &RunFolder, inputs: &[PathBuf]) -> Result<(), RunFailure> {
+    let snapshots_folder = folder.place(SNAPSHOTS);
+    if fs::symlink_metadata(&snapshots_folder).is_ok_and(|found| !found.is_dir()) {
+        return Err(in_the_way(
+            &snapshots_folder,
+            "not a folder of the run's own",
+        ));
+    }
+    let asides = [ASIDE.to_owned(), format!("{SNAPSHOTS}/{ASIDE}")];
+    let mut names: Vec<String> = [FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED]
+        .map(String::from)
+        .into();
+    names.extend(asides.clone());
+    names.extend(snapshots(folder, 0)?);
+    for name in &names {
+        let path = folder.place(name);
+        let Ok(found) = fs::symlink_metadata(&path) else {
+            continue;
+        };
+        if !found.is_file() {
+            return Err(in_the_way(&path, "not a file of the run's own"));
+        }
+        if inputs.iter().any(|input| is_same(input, &path)) {
+            return Err(in_the_way(&path, "read by this run"));
+        }
+    }
+    for name in &asides {
+        folder.remove(name)?;
+    }
+    Ok(())
+}
+
+/// Whether a path is another name of the regular file `input`; opening a pipe would wait for its writer.
+fn is_same(input: &Path, path: &Path) -> bool {
+    fs::metadata(input).is_ok_and(|found| found.is_file())
+        && is_same_file(input, path).unwrap_or(false)
+}
+
+/// Names in the run folder of the snapshots from number `first` on.
+fn snapshots(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunError> {
+    let path = folder.place(SNAPSHOTS);
+    let entries = match fs::read_dir(&path) {
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries.map_err(RunError::write(&path))?,
+    };
+    let mut found = Vec::new();
+    for entry in entries {
+        let file = entry.map_err(RunError::write(&path))?.file_name();
+        let digits = file.to_str().and_then(|name| name.strip_suffix(".mpts"));
+        let Some(number) = digits.and_then(|digits| digits.parse().ok()) else {
+            continue;
+        };
+        let name = snapshot_name(number);
+        if number >= first && Path::new(&name).file_name() == Some(&file) {
+            found.push(name);
+        }
+    }
+    found.sort_unstable();
+    Ok(found)
+}
+
+/// Name of a snapshot in the run folder.
+pub(crate) fn snapshot_name(number: u32) -> String {
+    format!("{SNAPSHOTS}/{number:04}.mpts")
+}
+
+/// Fails unless the snapshots from number `first` on, which go, are states that this tool wrote.
+fn prove_snapshots(folder: &RunFolder, first: u32, by: &Provenance) -> Result<(), RunFailure> {
+    (snapshots(folder, first)?.iter()).try_for_each(|name| prove_state(folder, name, by))
+}
+
+/// Fails unless `name` is a state that this tool wrote.
+fn prove_state(folder: &RunFolder, name: &str, by: &Provenance) -> Result<(), RunFailure> {
+    prove(folder, name, |file| {
+        let header = file.header();
+        let writer = header.provenance.last();
+        header.kind == Kind::State && writer.is_some_and(|last| last.tool == by.tool)
+    })
+}
+
+/// Fails unless `name` is a sound particle file that `is_own`.
+fn prove(
+    folder: &RunFolder,
+    name: &str,
+    is_own: impl FnOnce(&ParticleFile) -> bool,
+) -> Result<(), RunFailure> {
+    let path = folder.place(name);
+    if ParticleFile::open(&path).is_ok_and(|file| is_own(&file)) {
+        Ok(())
+    } else {
+        Err(in_the_way(&path, "not a file that a run wrote"))
+    }
+}
+
+fn in_the_way(path: &Path, what: &str) -> RunFailure {
+    RunFailure::Usage(format!(
+        "'{}' is {what} and stands where the run writes: move it away or name another run folder",
+        path.display()
+    ))
+}

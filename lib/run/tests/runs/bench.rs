@@ -1,0 +1,155 @@
+//! A small scene and its runs.
+
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use particle_file::Provenance;
+use run::{Mode, Request, RunFailure, Summary};
+use tempfile::TempDir;
+
+/// Liquid between two plates; a row of the history and a snapshot now and then.
+const CASE: &str = r#"[grid]
+cell = "2 um"
+dimensions = 2
+domain = { min = ["0 um", "0 um", "0 um"], max = ["24 um", "30 um", "2 um"] }
+[adhesive]
+density = "1200 kg/m3"
+bulk_modulus = "1 GPa"
+viscosity = "1.3 Pa s"
+[contact]
+law = "stick"
+[clamp]
+closing_speed = "1 m/s"
+max_pressure = "2.5 MPa"
+travel = "4 um"
+stop = "STOP"
+[integrator]
+INTEGRATOR
+[output]
+history_every = "EVERY"
+snapshots = 3
+[[body]]
+material = "rigid"
+name = "bottom"
+box = { min = ["0 um", "0 um", "0 um"], max = ["24 um", "6 um", "2 um"] }
+[[body]]
+material = "rigid"
+name = "top"
+velocity = "clamp"
+box = { min = ["0 um", "16 um", "0 um"], max = ["24 um", "30 um", "2 um"] }
+[[body]]
+material = "adhesive"
+box = { min = ["0 um", "6 um", "0 um"], max = ["4 um", "16 um", "2 um"] }
+"#;
+
+pub const RESUME: Mode = Mode {
+    resume: true,
+    overwrite: false,
+    however_long: false,
+};
+pub const OVERWRITE: Mode = Mode {
+    resume: false,
+    overwrite: true,
+    however_long: false,
+};
+pub const PLAIN: Mode = Mode {
+    resume: false,
+    overwrite: false,
+    however_long: false,
+};
+
+/// A folder with a case.
+pub struct Bench(TempDir);
+
+impl Bench {
+    pub fn new(integrator: &str, stop: &str, every: &str) -> Self {
+        let bench = Self(tempfile::tempdir().unwrap());
+        let text = CASE.replace("INTEGRATOR", integrator).replace("STOP", stop);
+        fs::write(bench.path("case.toml"), text.replace("EVERY", every)).unwrap();
+        bench
+    }
+
+    /// About thirty explicit steps.
+    pub fn explicit() -> Self {
+        Self::new("scheme = \"explicit\"", "0.007 us", "0.001 us")
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Runs the case into `folder`, stopped after `steps` steps of this process.
+    pub fn run(
+        &self,
+        folder: &str,
+        mode: Mode,
+        steps: usize,
+    ) -> Result<Option<Summary>, RunFailure> {
+        self.run_changed(folder, mode, steps, &[])
+    }
+
+    pub fn run_changed(
+        &self,
+        folder: &str,
+        mode: Mode,
+        steps: usize,
+        changes: &[&str],
+    ) -> Result<Option<Summary>, RunFailure> {
+        let left = Cell::new(steps);
+        let stop = || {
+            left.set(left.get() - 1);
+            left.get() == 0
+        };
+        self.run_until(folder, mode, &stop, changes)
+    }
+
+    pub fn run_until(
+        &self,
+        folder: &str,
+        mode: Mode,
+        stop: &dyn Fn() -> bool,
+        changes: &[&str],
+    ) -> Result<Option<Summary>, RunFailure> {
+        let by = Provenance {
+            tool: "mpm-run".into(),
+            version: "test".into(),
+            command: Vec::new(),
+            inputs: Vec::new(),
+        };
+        let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+        let request = Request::read(&self.path("case.toml"), None, &changes)?;
+        let warn = |said: String| panic!("{said}");
+        request.execute(&self.path(folder), mode, by, stop, &mut |_, _| {}, &warn)
+    }
+
+    /// A run to its end, or stopped on the way, which must not fail.
+    pub fn ran(&self, folder: &str, mode: Mode, steps: usize) -> Summary {
+        let ended = self.run(folder, mode, steps).unwrap();
+        ended.expect("a run that has not ended")
+    }
+}
+
+/// The files of a run folder by name. The summary has the costs of the run and is left out.
+pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = everything(folder);
+    files.remove("summary.json");
+    files
+}
+
+/// All files below a folder by name.
+pub fn everything(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if path.is_dir() {
+            let below = everything(&path).into_iter();
+            files.extend(below.map(|(file, bytes)| (format!("{name}/{file}"), bytes)));
+        } else {
+            files.insert(name, fs::read(&path).unwrap());
+        }
+    }
+    files
+}

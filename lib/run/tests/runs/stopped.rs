@@ -1,0 +1,58 @@
+//! A run stopped after any of its steps, the last one too, and continued ends as one in one piece.
+
+use std::fs;
+
+use run::{End, Summary};
+
+use crate::bench::{Bench, RESUME, files};
+
+/// All of a summary but the costs.
+fn facts(summary: &Summary) -> String {
+    let mut value = serde_json::to_value(summary).unwrap();
+    for cost in [
+        "stepping_wall_s",
+        "cpu_s",
+        "particle_steps_per_s",
+        "peak_memory_bytes",
+        "stages",
+    ] {
+        value.as_object_mut().unwrap().remove(cost);
+    }
+    value.to_string()
+}
+
+/// On 314e630 a run stopped in its last step ended at 0 Pa, without its last row.
+fn stopped_after_any_step(integrator: &str, stop: &str, every: &str) {
+    let bench = Bench::new(integrator, stop, every);
+    let summary = bench.ran("whole", RESUME, usize::MAX);
+    let whole = bench.path("whole");
+    assert!(
+        summary.steps > 9 && summary.final_pressure_pa > 1.0,
+        "{summary:?}"
+    );
+    let rows = fs::read_to_string(whole.join("history.csv")).unwrap();
+    assert!(
+        rows.lines().count() < summary.steps as usize,
+        "a row for each step shows less"
+    );
+    for steps in 1..=summary.steps as usize {
+        let parts = format!("parts-{steps}");
+        assert_eq!(bench.ran(&parts, RESUME, steps).end, End::Interrupted);
+        let resumed = bench.ran(&parts, RESUME, usize::MAX);
+        assert_eq!(facts(&resumed), facts(&summary), "stopped after {steps}");
+        assert!(
+            files(&bench.path(&parts)) == files(&whole),
+            "stopped after {steps}"
+        );
+    }
+}
+
+#[test]
+fn an_explicit_run_stopped_after_any_step_ends_the_same() {
+    stopped_after_any_step("scheme = \"explicit\"", "0.007 us", "0.001 us");
+}
+
+#[test]
+fn an_implicit_run_stopped_after_any_step_ends_the_same() {
+    stopped_after_any_step("scheme = \"implicit\"\ncfl = 0.05", "1.45 us", "0.4 us");
+}

@@ -1,0 +1,199 @@
+//! Exit status 0 is a claim: what cannot be right is refused, what goes wrong ends with 1, and a
+//! sentence says what to change.
+
+use std::process::Output;
+
+use crate::workbench::{Workbench, said};
+
+/// A drop between two plates, the upper of which the clamp drives.
+pub const SMALL: &str = r#"
+[grid]
+cell = "2 um"
+dimensions = 2
+domain = { min = ["0 um", "0 um", "0 um"], max = ["24 um", "30 um", "2 um"] }
+[adhesive]
+density = "1200 kg/m3"
+bulk_modulus = "1 GPa"
+viscosity = "1.3 Pa s"
+[contact]
+law = "stick"
+[gravity]
+acceleration = ["0 m/s2", "0 m/s2", "0 m/s2"]
+[clamp]
+closing_speed = "1 m/s"
+max_pressure = "2.5 MPa"
+travel = "4 um"
+[integrator]
+scheme = "implicit"
+cfl = 0.5
+[output]
+history_every = "0.02 us"
+[[body]]
+material = "rigid"
+name = "bottom"
+box = { min = ["0 um", "0 um", "0 um"], max = ["24 um", "6 um", "2 um"] }
+[[body]]
+material = "rigid"
+name = "top"
+velocity = "clamp"
+box = { min = ["0 um", "16 um", "0 um"], max = ["24 um", "30 um", "2 um"] }
+[[body]]
+material = "adhesive"
+box = { min = ["0 um", "6 um", "0 um"], max = ["12 um", "14 um", "2 um"] }
+"#;
+
+/// [`SMALL`] with texts replaced.
+fn changed(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(SMALL.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    })
+}
+
+fn run(bench: &Workbench, case: &str, more: &[&str]) -> Output {
+    bench.write("case.toml", case);
+    bench.run(
+        "mpm-run",
+        &[&["-q", "case.toml", "-o", "run"], more].concat(),
+    )
+}
+
+const NO_LIMIT: (&str, &str) = ("max_pressure = \"2.5 MPa\"\n", "");
+const EXPLICIT: (&str, &str) = ("\"implicit\"", "\"explicit\"");
+const FIXED_PLATES: &str = "[[body]]\nmaterial = \"rigid\"\nname = \"bottom\"";
+
+/// On commit 314e630 all of these ran, most to exit status 0.
+#[test]
+fn what_cannot_be_right_is_refused_before_it_starts() {
+    let through = ("travel = \"4 um\"", "travel = \"20 um\"");
+    let start = SMALL.find(FIXED_PLATES).unwrap();
+    let end = SMALL.rfind("[[body]]").unwrap();
+    let plates = &SMALL[start..end];
+    let cases: &[(&[(&str, &str)], &str)] = &[
+        (&[through], "meets 'bottom' after 10.0000 um"),
+        (&[through, EXPLICIT], "meets 'bottom' after 10.0000 um"),
+        (
+            &[NO_LIMIT, ("travel = \"4 um\"", "stop = \"11 us\"")],
+            "meets 'bottom'",
+        ),
+        (&[("\"1 m/s\"", "\"1e30 m/s\""), EXPLICIT], "speed of sound"),
+        (&[("\"1 GPa\"", "\"1e-20 Pa\"")], "speed of sound"),
+        (
+            &[("[\"0 m/s2\", \"0 m/s2\"", "[\"0 m/s2\", \"-1e15 m/s2\"")],
+            "smaller acceleration",
+        ),
+        (&[(plates, "")], "[clamp] has nothing to move"),
+        (
+            &[("[\"0 um\", \"16 um\"", "[\"18 um\", \"16 um\"")],
+            "does not come near the adhesive",
+        ),
+        (
+            &[
+                ("[clamp]\nclosing_speed = \"1 m/s\"\n", "[stop]\n"),
+                NO_LIMIT,
+                ("travel = \"4 um\"", "time = \"12 us\""),
+                ("\"clamp\"", "[\"0 m/s\", \"-1 m/s\", \"0 m/s\"]"),
+            ],
+            "would overlap from 1.0000e-5 s on",
+        ),
+        (
+            &[("\"1.3 Pa s\"", "\"1e9 Pa s\""), EXPLICIT],
+            "--yes-really runs it all the same",
+        ),
+        (
+            &[("max = [\"12 um\"", "max = [\"12 m\"")],
+            "reaches out of the domain",
+        ),
+    ];
+    let bench = Workbench::new();
+    for (changes, sentence) in cases {
+        let output = run(&bench, &changed(changes), &[]);
+        let said = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{changes:?}: {said}");
+        assert!(said.contains(sentence), "{changes:?}: {said}");
+        assert!(!bench.path("run").exists(), "{changes:?}");
+    }
+}
+
+/// Before, the plan was printed with NaN in it, and every point of a plan was made only to be
+/// counted.
+#[test]
+fn a_plan_says_what_would_be_refused_and_needs_no_memory() {
+    let bench = Workbench::new();
+    let nan = run(
+        &bench,
+        &changed(&[("cfl = 0.5", "cfl = nan")]),
+        &["--explain"],
+    );
+    assert_eq!(nan.status.code(), Some(2), "{}", said(&nan));
+    let endless = changed(&[("\"1.3 Pa s\"", "\"1e9 Pa s\""), EXPLICIT]);
+    let output = run(&bench, &endless, &["--explain"]);
+    let plan = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert!(
+        plan.contains("refused            unless --yes-really"),
+        "{plan}"
+    );
+
+    let large = changed(&[
+        (
+            "max = [\"24 um\", \"30 um\", \"2 um\"] }\n[adhesive]",
+            "max = [\"0.2 m\", \"8 mm\", \"2 um\"] }\n[adhesive]",
+        ),
+        ("max = [\"12 um\", \"14 um\"", "max = [\"0.2 m\", \"8 mm\""),
+        ("\"0 um\", \"16 um\"", "\"0 um\", \"9 mm\""),
+        (
+            "\"24 um\", \"30 um\", \"2 um\"]",
+            "\"24 um\", \"10 mm\", \"2 um\"]",
+        ),
+        ("\"4 um\"", "\"2 mm\""),
+    ]);
+    bench.write("case.toml", large);
+    let output = bench.shell("ulimit -v 2000000; mpm-run case.toml --explain --threads 1");
+    let plan = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert!(plan.contains("1598800000 material points"), "{plan}");
+}
+
+/// Before, both schemes ended with exit status 0 and the volume 29 and 39 % off.
+#[test]
+fn a_sealed_liquid_that_is_crushed_stops_the_run() {
+    let sealed = [
+        NO_LIMIT,
+        ("max = [\"12 um\", \"14 um\"", "max = [\"24 um\", \"16 um\""),
+    ];
+    let bench = Workbench::new();
+    for scheme in [&[][..], &[EXPLICIT]] {
+        let output = run(
+            &bench,
+            &changed(&[&sealed[..], scheme].concat()),
+            &["--overwrite"],
+        );
+        let said = said(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(
+            said.contains("the liquid is compressed by") && said.contains("max_pressure"),
+            "{said}"
+        );
+    }
+    // Held at its pressure limit the same liquid is sound.
+    let output = run(&bench, &changed(&[sealed[1]]), &["--overwrite"]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+}
+
+/// A run that has ended is judged the same when it is asked for again.
+#[test]
+fn a_summary_has_the_verdict_and_a_run_not_sound_stays_so() {
+    let bench = Workbench::new();
+    let output = run(&bench, SMALL, &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let summary = String::from_utf8(bench.read("run/summary.json")).unwrap();
+    assert!(summary.contains("\"sound\": true"), "{summary}");
+    let worse = summary
+        .replace("\"sound\": true", "\"sound\": false")
+        .replace("\"reasons\": []", "\"reasons\": [\"it is forged\"]");
+    bench.write("run/summary.json", worse);
+    let again = bench.run("mpm-run", &["case.toml", "-o", "run", "--resume"]);
+    assert_eq!(again.status.code(), Some(1), "{}", said(&again));
+    assert!(said(&again).contains("not sound") && said(&again).contains("it is forged"));
+}
