@@ -49,10 +49,11 @@ pub(crate) fn steps(
     bond: &Path,
     folder: &Path,
     steps: usize,
-) -> Result<Summary, RunFailure> {
+) -> Result<Option<Summary>, RunFailure> {
     let mode = Mode {
         resume: true,
         overwrite: false,
+        however_long: false,
     };
     let by = Provenance {
         tool: "attack".into(),
@@ -65,7 +66,8 @@ pub(crate) fn steps(
         taken.set(taken.get() + 1);
         taken.get() >= steps
     };
-    Request::read(case, Some(bond), &[])?.execute(folder, mode, by, &interrupted, &mut |_, _| {})
+    let request = Request::read(case, Some(bond), &[])?;
+    request.execute(folder, mode, by, &interrupted, &mut |_, _| {}, &|_| {})
 }
 
 /// A run that was stopped after two steps: its files by name.
