@@ -11,6 +11,7 @@
 #   make load-control             the implicit clamp at its pressure limit, 400 presses
 #   make leave-out                what a scene pays for features it does not use
 #   make crash                    runs killed at every write, continued: all end the same
+#   make forge                    50 000 forged particle files and checkpoints
 #   make bench                    speed of the kernels and of the linear solver
 #   make figures man install clean help
 
@@ -47,7 +48,7 @@ include pipelines/65-gate.mk
 
 .PHONY: help
 help:
-	@sed -n '3,15s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,17s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

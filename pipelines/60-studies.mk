@@ -57,3 +57,8 @@ leave-out:
 crash: $(BINARIES)
 	@$(CARGO) build --release --quiet -p studies
 	$(BIN)/crash docs/results
+
+# 50 000 forged particle files and checkpoints with right checksums: none panics, hangs or floods.
+.PHONY: forge
+forge:
+	$(CARGO) run --release --quiet -p attack --bin forge -- out/forge $(or $(COUNT),50000) $(ONLY)

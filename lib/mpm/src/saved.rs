@@ -107,6 +107,7 @@ impl Explicit {
         }
         if let Some(projection) = &mut self.projection {
             let state = sized(saved.f64s("projection")?, 3, "projection")?;
+            restored::check_finite(state, "projection")?;
             projection.set_state([state[0], state[1], state[2]]);
         }
         self.grid = Grid::like(&self.grid);

@@ -241,6 +241,8 @@ impl Header {
                 "number of voxels is above {} along an axis",
                 limits::PER_AXIS
             )
+        } else if !block.origin_m.iter().all(|x| x.is_finite()) {
+            "low corner is not finite".into()
         } else if !is_own(block.voxel_m) {
             format!("voxel edge is not the file's, {:e} m,", self.voxel_m)
         } else {

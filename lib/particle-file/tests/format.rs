@@ -208,6 +208,16 @@ fn what_is_no_particle_file_is_not_written() {
             "voxel edge is not the file's",
         ),
         (
+            Draft::new(header()).block(
+                Block {
+                    origin_m: [0.0, 0.0, f64::NAN],
+                    ..block(1e-6)
+                },
+                &grid,
+            ),
+            "low corner is not finite",
+        ),
+        (
             Draft::new(header()).column(&"x".repeat(256), 1, &three),
             "more than 255 bytes",
         ),

@@ -31,6 +31,24 @@ pub struct Clock {
     pub row_missing: bool,
 }
 
+impl Clock {
+    /// Refuses what is no place in time; `header_s` is the time that the file's header says.
+    fn check(&self, header_s: f64) -> Result<(), String> {
+        /// Steps that a double counts one by one.
+        const MOST_STEPS: u64 = 1 << 53;
+        let due = |t: f64| t >= 0.0; // infinite where nothing is due
+        let sound = self.time_s == header_s
+            && self.travel_m.is_finite()
+            && due(self.next_history_s)
+            && due(self.next_snapshot_s)
+            && self.step <= MOST_STEPS;
+        match sound {
+            true => Ok(()),
+            false => Err(format!("its clock is not that of a run: {self:?}")),
+        }
+    }
+}
+
 /// A run as its checkpoint holds it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
@@ -175,6 +193,7 @@ pub fn read(folder: &Path, identity: &str) -> Result<Option<Checkpoint>, RunErro
     let (Some(bytes), Some(hash)) = (bytes, hash) else {
         return Err(earlier("length of the history"));
     };
+    clock.check(header.time_s).map_err(bad)?;
     let courant = (numbers("run.courant")?.as_chunks().0.iter())
         .map(|&[after, cfl]| Courant {
             after_step: after as u64,

@@ -1,6 +1,8 @@
 //! A short attack in every `make test`: mutations of sound inputs of all kinds, always the same
 //! ones. `make fuzz` is the long one.
 
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use std::thread;

@@ -1,5 +1,11 @@
 //! `make load-control`: the implicit scheme's clamp at a pressure limit.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "prints for developers"
+)]
+
 use std::path::Path;
 use std::process::ExitCode;
 

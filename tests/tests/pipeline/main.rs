@@ -11,6 +11,7 @@
 mod conservation;
 mod examples;
 mod forged;
+mod hostile;
 mod interruption;
 mod real_volume;
 mod refusals;

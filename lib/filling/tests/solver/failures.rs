@@ -110,7 +110,7 @@ fn a_sealed_incompressible_pocket_fails_and_a_compressible_one_does_not() {
 #[test]
 fn what_makes_a_system_unsolvable_is_named() {
     let problem = Problem::new(&SMALL).unwrap();
-    let said = |change: &dyn Fn(&mut Vec<f64>, &mut Vec<f64>, &mut Vec<f64>)| {
+    let said = |change: &dyn Fn([&mut Vec<f64>; 3])| {
         let (mut c, mut friction, mut two_eta) = {
             let system = problem.system();
             (
@@ -119,7 +119,7 @@ fn what_makes_a_system_unsolvable_is_named() {
                 system.two_eta.to_vec(),
             )
         };
-        change(&mut c, &mut friction, &mut two_eta);
+        change([&mut c, &mut friction, &mut two_eta]);
         let (mut u, mut p) = (vec![0.0; problem.b.len()], vec![0.0; problem.c.len()]);
         let system = SaddleSystem {
             c: &c,
@@ -134,15 +134,15 @@ fn what_makes_a_system_unsolvable_is_named() {
         let solved = SaddleSolver::new(few).solve(&system, &mut u, &mut p);
         solved.unwrap_err().to_string()
     };
-    let beyond = said(&|_, _, two_eta| two_eta.fill(1e60));
+    let beyond = said(&|[_, _, two_eta]| two_eta.fill(1e60));
     assert!(
         beyond.contains("beyond single precision in iteration 1,"),
         "{beyond}"
     );
-    let stiff = said(&|c, _, _| c.fill(1e20));
+    let stiff = said(&|[c, _, _]| c.fill(1e20));
     assert!(stiff.contains("a lower viscosity"), "{stiff}");
-    let fast = said(&|_, friction, _| friction.fill(1e20));
+    let fast = said(&|[_, friction, _]| friction.fill(1e20));
     assert!(fast.contains("a higher viscosity"), "{fast}");
-    let plain = said(&|_, _, _| ());
+    let plain = said(&|_| ());
     assert!(plain.contains("integrator.cfl"), "{plain}");
 }

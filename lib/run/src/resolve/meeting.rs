@@ -41,14 +41,14 @@ fn corners(block: &VoxelBlock) -> Corners {
 /// against the second; nothing where they do from the start.
 fn box_time(a: Corners, b: Corners, v: [f64; 3], slack: f64) -> Option<f64> {
     let (mut begin, mut end) = (f64::NEG_INFINITY, f64::INFINITY);
-    for i in 0..3 {
+    for (i, v) in v.into_iter().enumerate() {
         let (below, above) = (b.0[i] + slack - a.1[i], b.1[i] - slack - a.0[i]);
-        if v[i] == 0.0 {
+        if v == 0.0 {
             if !(below < 0.0 && above > 0.0) {
                 return None;
             }
         } else {
-            let (t, u) = (below / v[i], above / v[i]);
+            let (t, u) = (below / v, above / v);
             (begin, end) = (begin.max(t.min(u)), end.min(t.max(u)));
         }
     }

@@ -244,3 +244,22 @@ fn a_folder_takes_one_run_at_a_time() {
             .is_some()
     );
 }
+
+#[test]
+fn a_checkpoint_of_another_case_is_refused_or_replaced() {
+    let bench = Bench::explicit();
+    bench.ran("run", RESUME, 9);
+    let before = everything(&bench.path("run"));
+    let other = ["adhesive.viscosity=2 Pa s"];
+    match bench.run_changed("run", RESUME, END, &other) {
+        Err(RunFailure::Data(said)) => assert!(said.contains("another case"), "{said}"),
+        ended => panic!("{ended:?}"),
+    }
+    assert!(everything(&bench.path("run")) == before);
+    let both = Mode {
+        resume: true,
+        overwrite: true,
+    };
+    let ended = bench.run_changed("run", both, END, &other).unwrap();
+    assert!(ended.is_some_and(|summary| summary.end == run::End::Time));
+}
