@@ -4,3 +4,17 @@
 .PHONY: deny
 deny:
 	@pipelines/gate/deny.sh
+
+# Coverage-guided attack on every reader, FUZZ_SECONDS for each. ONLY="tiff npy" attacks those.
+# Needs a C++ compiler.
+FUZZ_SECONDS ?= 600
+.PHONY: fuzz
+fuzz:
+	@pipelines/gate/fuzz.sh $(FUZZ_SECONDS) $(or $(ONLY),particle-file checkpoint case tiff npy mhd)
+
+# Changes of the code that no test notices: a sample of MUTANTS changes of each crate, of which
+# 95 % must be noticed. ONLY="mpm run" takes those crates. Needs cargo-mutants.
+MUTANTS ?= 100
+.PHONY: mutants
+mutants:
+	@pipelines/gate/mutants.sh $(MUTANTS) $(or $(ONLY),metrics physics particle-file voxels run mpm filling)

@@ -43,6 +43,11 @@ for crate in "$@"; do
         --iterate --output "$out/$crate" "${arguments[@]}" || status=$?
     [ "$status" -le 3 ] || exit "$status"
     o=$out/$crate/mutants.out
+    tried=$(lines "$o"/{caught,previously_caught,timeout,missed,unviable}.txt)
+    if [ "$tried" -lt "$(lines "$out/$crate.sample")" ]; then
+        echo "mutants: $crate stopped after $tried; the next call goes on" >&2
+        exit 1
+    fi
     caught=$(lines "$o/caught.txt" "$o/previously_caught.txt")
     timeouts=$(lines "$o/timeout.txt")
     missed=$(lines "$o/missed.txt")

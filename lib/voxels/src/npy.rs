@@ -36,7 +36,6 @@ pub(crate) fn open(source: Source) -> Result<RawVolume, Error> {
     // they are put in order.
     let transposed = PageFormat {
         width: nz,
-        height: ny,
         ..format
     };
     let checked = RawVolume::new(vec![source], transposed, nx, data, header.big_endian)?;

@@ -211,6 +211,6 @@ pub(crate) fn meta_images() -> Vec<Vec<u8>> {
     vec![
         behind,
         header("MET_USHORT", "5 6 20", spaced, "a.raw"),
-        header("MET_FLOAT", "5 5 12", "CompressedData = False\n", "a.raw"),
+        header("MET_CHAR", "10 10 12", "CompressedData = False\n", "a.raw"),
     ]
 }
