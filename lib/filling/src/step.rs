@@ -149,7 +149,7 @@ impl Implicit {
         })
     }
 
-    /// 1. Time step: CFL cells of the fastest motion known, in equal parts of what is left.
+    /// Step 1, the time step: CFL cells of the fastest motion known, in equal parts of what is left.
     fn time_step(&self, limit: StepLimit) -> Result<f64, Failure> {
         let speed = self.pace.max(fastest(&self.drive.velocities()));
         let mut left = limit.time_s;
@@ -199,7 +199,7 @@ impl Implicit {
         self.rest.displaced(&moved)
     }
 
-    /// 2. and 3. Geometry in the middle of the step, and the liquid in it.
+    /// Steps 2 and 3: geometry in the middle of the step, and the liquid in it.
     fn place(&mut self, dt: f64) -> Trial {
         let bodies = self.drive.velocities();
         let solids = self.solids_after(&bodies, 0.5 * dt);
@@ -303,7 +303,7 @@ impl Implicit {
         })
     }
 
-    /// 7. and 8. Particles follow the flow, are projected, and take velocity and pressure.
+    /// Steps 7 and 8: particles follow the flow, are projected, and take velocity and pressure.
     fn transport(
         &mut self,
         lattice: &Lattice,

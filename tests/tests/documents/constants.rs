@@ -73,13 +73,19 @@ fn constants(name: &str, file: &str, text: &str) -> Vec<Constant> {
     list
 }
 
-fn rows(methods: &str) -> impl Iterator<Item = Vec<&str>> {
+/// The section on constants.
+fn section(methods: &str) -> &str {
     let section = methods.split("\n## 4. ").nth(1).unwrap_or_default();
-    let section = section.split("\n## ").next().unwrap_or_default();
-    (section.lines().filter(|line| line.starts_with("| "))).map(|line| {
-        line.split(" | ")
-            .map(|cell| cell.trim_matches(['|', ' ']))
-            .collect()
+    section.split("\n## ").next().unwrap_or_default()
+}
+
+fn rows(methods: &str) -> impl Iterator<Item = Vec<&str>> {
+    (section(methods)
+        .lines()
+        .filter(|line| line.starts_with("| ")))
+    .map(|line| {
+        let cells = line.split(" | ");
+        cells.map(|cell| cell.trim_matches(['|', ' '])).collect()
     })
 }
 
@@ -100,7 +106,7 @@ fn table(methods: &str) -> BTreeSet<Constant> {
     list
 }
 
-/// Names of tests in the last column and in the paragraph below the table.
+/// Names of tests in the last column of the table and in the paragraph below it.
 fn guards(methods: &str) -> Vec<String> {
     let named = |text: &str| -> Vec<String> {
         (text.split('`').skip(1).step_by(2))
@@ -108,10 +114,14 @@ fn guards(methods: &str) -> Vec<String> {
             .map(str::to_owned)
             .collect()
     };
-    rows(methods)
-        .filter(|row| row.len() > 5)
-        .flat_map(|row| named(row[row.len() - 1]))
-        .collect()
+    let below = section(methods)
+        .lines()
+        .filter(|line| !line.starts_with('|'));
+    let mut list = named(&below.collect::<Vec<_>>().join("\n"));
+    for row in rows(methods).filter(|row| row.len() > 5) {
+        list.extend(named(row[row.len() - 1]));
+    }
+    list
 }
 
 fn each_source(folder: &Path, inside: &str, seen: &mut impl FnMut(&str, &str)) {

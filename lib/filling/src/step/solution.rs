@@ -47,7 +47,7 @@ struct Unknowns {
 }
 
 impl Implicit {
-    /// 4. to 6. Assembles and solves, with viscosity passes and load control.
+    /// Steps 4 to 6: assembles and solves, with viscosity passes and load control.
     pub(super) fn solution(&mut self, trial: &Trial) -> Result<Solution, Failure> {
         let phi = std::mem::take(&mut self.fractions.liquid);
         let result = self.solve_with(trial, &phi);
