@@ -115,3 +115,14 @@ fn a_checkpoint_may_hold_any_number() {
         }
     }
 }
+
+#[test]
+fn the_span_is_that_of_the_box_and_of_all_blocks() {
+    let mut header = Header::new(Kind::State, 1e-6, 1, [2e-6; 3], [7e-6, 5e-6, 3e-6]);
+    assert_eq!(header.span(), [5, 3, 1]);
+    let bits = BitGrid::new([4, 4, 4]);
+    let block = |origin| Block::new("wood", Material::Rigid, origin, 1e-6, &bits);
+    header.blocks = vec![block([-1e-6, 2e-6, 2e-6]), block([2e-6, 6e-6, 2e-6])];
+    assert_eq!(header.bounds_m()[0], [-1e-6, 2e-6, 2e-6]);
+    assert_eq!(header.span(), [8, 8, 4]);
+}
