@@ -12,6 +12,9 @@
 #   make leave-out                what a scene pays for features it does not use
 #   make crash                    runs killed at every write, continued: all end the same
 #   make forge                    50 000 forged particle files and checkpoints
+#   make fuzz                     coverage-guided attack on every reader, FUZZ_SECONDS (600) each
+#   make mutants                  changes of the code that no test notices, MUTANTS (100) a crate
+#   make deny                     advisories, licences and sources of the dependencies
 #   make bench                    speed of the kernels and of the linear solver
 #   make figures man install clean help
 
@@ -48,7 +51,7 @@ include pipelines/65-gate.mk
 
 .PHONY: help
 help:
-	@sed -n '3,17s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,20s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

@@ -3,7 +3,7 @@
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
 
 fn header() -> Header {
-    Header::new(Kind::State, 1e-6, 1, [0.0; 3], [1.0; 3])
+    Header::new(Kind::State, 1e-6, 1, [0.0; 3], [3e-6; 3])
 }
 
 fn written(draft: &Draft) -> Result<Vec<u8>, String> {
@@ -73,7 +73,7 @@ fn numbers_that_are_none_are_in_no_header() {
         (|h| (h.box_min_m[2], h.box_max_m[2]) = (-1.5e308, 1.5e308)) as fn(&mut Header),
         |h| h.box_max_m[0] = f64::INFINITY,
         |h| h.box_min_m[1] = f64::NAN,
-        |h| h.box_max_m[1] = -1.0,
+        |h| h.box_max_m[1] = -1e-6,
     ] {
         refused(change, "corners");
     }
@@ -93,10 +93,9 @@ fn blocks_have_an_extent_and_a_place() {
         let said = written(&Draft::new(header()).block(block, &bits)).unwrap_err();
         assert!(said.contains(sentence), "{said}");
     };
-    refused([2, 0, 2], [0.0; 3], 1.0, "number of voxels is zero");
+    refused([2, 0, 2], [0.0; 3], 1e-6, "number of voxels is zero");
     refused([2, 2, 2], [0.0; 3], f64::NAN, "voxel edge");
-    refused([2, 2, 2], [0.0, f64::NAN, 0.0], 1.0, "corners");
-    refused([2, 2, 2], [1e308; 3], 1e308, "corners");
+    refused([2, 2, 2], [0.0, f64::NAN, 0.0], 1e-6, "low corner");
 }
 
 /// Only what describes a state must be finite: a scheme may keep what it likes.
@@ -115,4 +114,15 @@ fn a_checkpoint_may_hold_any_number() {
             assert_eq!(file.check().is_ok(), sound, "{kind}, single {single}");
         }
     }
+}
+
+#[test]
+fn the_span_is_that_of_the_box_and_of_all_blocks() {
+    let mut header = Header::new(Kind::State, 1e-6, 1, [2e-6; 3], [7e-6, 5e-6, 3e-6]);
+    assert_eq!(header.span(), [5, 3, 1]);
+    let bits = BitGrid::new([4, 4, 4]);
+    let block = |origin| Block::new("wood", Material::Rigid, origin, 1e-6, &bits);
+    header.blocks = vec![block([-1e-6, 2e-6, 2e-6]), block([2e-6, 6e-6, 2e-6])];
+    assert_eq!(header.bounds_m()[0], [-1e-6, 2e-6, 2e-6]);
+    assert_eq!(header.span(), [8, 8, 4]);
 }

@@ -10,7 +10,7 @@ const PARTICLES: usize = 32 + 4 + 8 + 1 + 48 + 8 + 8 + 8;
 const ELEMENT: usize = PARTICLES + 8 + 8 + 8 + 8 + 9;
 
 fn state<'a>(draft: impl FnOnce(Draft<'a>) -> Draft<'a>) -> Vec<u8> {
-    let header = Header::new(Kind::State, 1e-6, 1, [0.0; 3], [1.0; 3]);
+    let header = Header::new(Kind::State, 1e-6, 1, [0.0; 3], [3e-6; 3]);
     let mut bytes = Vec::new();
     draft(Draft::new(header)).write_to(&mut bytes).unwrap();
     bytes
