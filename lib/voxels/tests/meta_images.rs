@@ -91,7 +91,7 @@ fn a_stack_is_called_by_its_path_and_says_its_colours() {
     let data = pages(|l| [l, 0, l]).concat();
     let colours = meta_image("MET_UCHAR", "ElementNumberOfChannels = 3\n", &data);
     let (_folder, path) = stored("colours.mha", &colours);
-    let stack = Stack::open(&[path.clone()]).unwrap();
+    let stack = Stack::open(std::slice::from_ref(&path)).unwrap();
     assert_eq!(stack.name(), format!("'{}'", path.display()));
     assert_eq!(stack.format().to_string(), "21 x 13, unsigned 8 bits x 3");
 
