@@ -41,7 +41,7 @@ for target in "$@"; do
     last() { sed -nE "s/^#.* $1: ([0-9]+).*/\\1/p" "$out/$target.log" | tail -n 1; }
     found=no
     if [ "$status" -ne 0 ]; then
-        found=$(sed -nE 's/.*(panicked at [^:]+:[0-9]+).*/\1/p; s/.*ERROR: libFuzzer: ([a-z-]+).*/\1/p' "$out/$target.log" | head -n 1)
+        found=$(sed -nE 's/.*(panicked at [^:]+:[0-9]+).*/\1/p; s/.*ERROR: libFuzzer: ([a-z-]+).*/\1/p' "$out/$target.log" | head -n 1 | sed "s|$PWD/||")
         found=${found:-exit $status}
         failed=1
         echo "$target: $found; the input is $(sed -nE 's/.*Test unit written to (.*)/\1/p' "$out/$target.log" | tail -n 1)"
