@@ -20,7 +20,7 @@ coverage="-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4
 
 cargo run --release --quiet -p attack --example seeds -- "$out/seeds"
 (cd tests/fuzz && RUSTFLAGS=$(tr -s ' \n' ' ' <<<"$coverage") cargo build --release --quiet --target "$host")
-bin=tests/fuzz/target/$host/release
+bin=$(cd tests/fuzz && pwd)/target/$host/release
 
 # In memory where that can be: the readers read files.
 TMPDIR=$(mktemp -d --tmpdir="$([ -w /dev/shm ] && echo /dev/shm || echo "${TMPDIR:-/tmp}")")

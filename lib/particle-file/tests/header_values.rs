@@ -126,3 +126,16 @@ fn the_span_is_that_of_the_box_and_of_all_blocks() {
     assert_eq!(header.bounds_m()[0], [-1e-6, 2e-6, 2e-6]);
     assert_eq!(header.span(), [8, 8, 4]);
 }
+
+/// 32 MiB, and 64 bytes for each byte of the file.
+#[test]
+fn a_file_is_worth_so_much_and_no_more() {
+    let bytes = written(&Draft::new(header())).unwrap();
+    let file = ParticleFile::from_bytes(&bytes).unwrap();
+    let most = 33_554_432 + 64 * bytes.len() as u64;
+    file.is_worth(0, "a map").unwrap();
+    file.is_worth(most, "a map").unwrap();
+    let said = file.is_worth(most + 1, "a map").unwrap_err().to_string();
+    let claim = "claims a box of 3 x 3 x 3 voxels: a map would take";
+    assert!(said.contains(claim), "{said}");
+}
