@@ -90,7 +90,7 @@ impl Finder {
                 word = word.split("](").next().unwrap_or_default();
             }
             for name in word.split(|c: char| !(c.is_alphanumeric() || "_./-*#~$:".contains(c))) {
-                let name = name.trim_matches(['.', ':', '-']);
+                let name = name.trim_end_matches(['.', ':', '-']).trim_start_matches([':', '-']);
                 self.name(&text.file, name, &mut said);
                 let section = (words.get(i + 1).filter(|next| **next == "section"))
                     .and_then(|_| words.get(i + 2));
@@ -122,7 +122,7 @@ impl Finder {
             .any(|top| path.starts_with(top) && path.len() > top.len())
             || path.contains('/') && ENDINGS.iter().any(|e| path.ends_with(e))
             || path.len() > 3 && path.ends_with(".md");
-        if !checked || ELSEWHERE.iter().any(|e| path.starts_with(e)) || path.contains(':') {
+        if !checked || ELSEWHERE.iter().any(|e| path.starts_with(e)) || path.contains([':', '$']) {
             return;
         }
         match (self.find(file, path), heading) {
