@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../.."
 count=$1
 shift
 out=out/mutants
-table=docs/results/mutants.csv
+table=$out/mutants.csv
 least=95 # percent
 mkdir -p "$out"
 seed() { yes bondline; }

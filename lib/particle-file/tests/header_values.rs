@@ -139,3 +139,15 @@ fn a_file_is_worth_so_much_and_no_more() {
     let claim = "claims a box of 3 x 3 x 3 voxels: a map would take";
     assert!(said.contains(claim), "{said}");
 }
+
+#[test]
+fn a_block_is_written_with_the_extent_and_count_of_its_bits() {
+    let bits = BitGrid::from_fn([3, 2, 2], |x, _, _| x == 1);
+    let mut block = Block::new("wood", Material::Rigid, [0.0; 3], 1e-6, &bits);
+    (block.dims, block.count) = ([9; 3], 9);
+    let bytes = written(&Draft::new(header()).block(block, &bits)).unwrap();
+    let file = ParticleFile::from_bytes(&bytes).unwrap();
+    let (block, found) = file.block_named("wood").unwrap();
+    assert_eq!((block.dims, block.count), ([3, 2, 2], 4));
+    assert_eq!(found, bits.view());
+}
