@@ -348,3 +348,12 @@ fn what_contradicts_itself_is_refused() {
         }
     }
 }
+
+/// Boxes that touch share a face, which is no place.
+#[test]
+fn liquid_bodies_apart_and_side_by_side_add_up() {
+    let more = "[[body]]\nmaterial = \"adhesive\"\nbox = { min = [\"4 um\", \"20 um\", \"0 um\"], max = [\"16 um\", \"24 um\", \"8 um\"] }\n[[body]]\nmaterial = \"adhesive\"\nbox = { min = [\"4 um\", \"24 um\", \"0 um\"], max = [\"16 um\", \"26 um\", \"8 um\"] }\n[boundary]";
+    // 12 x 6 x 8 um, 12 x 4 x 8 um and 12 x 2 x 8 um, a point for each um3.
+    let said = plan(&[("[boundary]", more)], &[]).unwrap();
+    assert_says(&said, &["liquid 1152 material points, 1.1520e-15 m3"]);
+}
