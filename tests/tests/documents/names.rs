@@ -90,7 +90,9 @@ impl Finder {
                 word = word.split("](").next().unwrap_or_default();
             }
             for name in word.split(|c: char| !(c.is_alphanumeric() || "_./-*#~$:".contains(c))) {
-                let name = name.trim_end_matches(['.', ':', '-']).trim_start_matches([':', '-']);
+                let name = name
+                    .trim_end_matches(['.', ':', '-'])
+                    .trim_start_matches([':', '-']);
                 self.name(&text.file, name, &mut said);
                 let section = (words.get(i + 1).filter(|next| **next == "section"))
                     .and_then(|_| words.get(i + 2));
