@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::workbench::{Workbench, said};
+use crate::workbench::{Workbench, grooved, npy, said};
 
 const METRICS: &str = "wp-metrics --voxel 1.45um --labels void=0,wood=128,adhesive=255";
 
@@ -17,8 +17,11 @@ fn bench() -> Workbench {
     );
     fs::create_dir(bench.path("slices")).unwrap();
     bench.done("particles", &["export", "specimen.mpts", "-o", "a.tif"]);
+    bench.write("page.npy", npy([16, 32, 1], grooved));
+    bench.convert("page.npy", "page.mpts");
     for name in ["slices/003.tif", "slices/004.tif"] {
-        bench.write(name, bench.read("a.tif"));
+        bench.done("particles", &["export", "page.mpts", "-o", name]);
+        fs::remove_file(bench.path(&format!("{name}.provenance.json"))).unwrap();
     }
     bench
 }
@@ -52,11 +55,8 @@ fn metrics_leave_every_file_of_their_stacks() {
         refused(&bench, &format!("{METRICS} {line}"), kept, "is read");
     }
     for name in ["a.mhd", "slices"] {
-        bench.done(METRICS.split(' ').next().unwrap(), &{
-            let mut arguments: Vec<_> = METRICS.split(' ').skip(1).collect();
-            arguments.extend([name, "-o", "m.csv"]);
-            arguments
-        });
+        let output = bench.shell(&format!("{METRICS} {name} -o m.csv"));
+        assert!(output.status.success(), "{}", said(&output));
     }
 }
 
@@ -70,17 +70,18 @@ fn a_provenance_record_replaces_only_a_record() {
         "particles export y.provenance.json -f csv -o y",
         "particles export y.provenance.json -f pvd -o y",
         "wp-metrics bond.mpts y.provenance.json -o y",
-        "bond-figures slice y.provenance.json --normal z -o y",
-        "bond-figures slice - --normal z -o y < y.provenance.json",
+        "particles export - -f csv -o y < y.provenance.json",
     ] {
         refused(&bench, line, record, "is read and would be replaced");
     }
-    refused(
-        &bench,
-        "shear-stats y.provenance.json -o y",
-        record,
-        "is read",
-    );
+    let picture = "y.svg.provenance.json";
+    fs::copy(bench.path("bond.mpts"), bench.path(picture)).unwrap();
+    for line in [
+        "bond-figures slice y.svg.provenance.json --normal z -o y.svg",
+        "bond-figures slice - --normal z -o y.svg < y.svg.provenance.json",
+    ] {
+        refused(&bench, line, picture, "is read and would be replaced");
+    }
     bench.write("y.provenance.json", "{\"a file\": \"of mine\"}\n");
     for line in [
         "particles export bond.mpts -f npz -o y",
