@@ -1,8 +1,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::aside;
 use crate::{Failure, Output};
+use crate::{aside, provenance};
 
 /// Refuses outputs that would replace a file that is read, or one another.
 ///
@@ -12,25 +12,90 @@ pub fn keep_apart<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     outputs: impl IntoIterator<Item = &'a Output>,
 ) -> Result<(), Failure> {
-    let read: Vec<PathBuf> = inputs.into_iter().filter_map(place).collect();
-    let mut written = Vec::new();
+    let mut places = Places::read_at(inputs);
+    let mut outputs = outputs.into_iter();
+    outputs.try_for_each(|output| places.write_at(output))
+}
+
+/// As [`keep_apart`], for outputs written by [`Output::write_with_record`]: their records are
+/// outputs too, and replace nothing but records.
+///
+/// # Errors
+/// Exit 2 with the file that is named twice, or that stands where a record goes.
+pub fn keep_apart_with_records<'a>(
+    inputs: impl IntoIterator<Item = &'a Path>,
+    outputs: impl IntoIterator<Item = &'a Output>,
+) -> Result<(), Failure> {
+    let outputs: Vec<&Output> = outputs.into_iter().collect();
+    let mut places = Places::read_at(inputs);
+    for output in &outputs {
+        places.write_at(output)?;
+    }
     for output in outputs {
-        let Output::File(path) = output else { continue };
+        if let Some(record) = output.record_path() {
+            places.write_record_at(&record, output)?;
+            provenance::may_replace(&record)?;
+        }
+    }
+    Ok(())
+}
+
+/// Where the files of a command are.
+struct Places {
+    read: Vec<PathBuf>,
+    written: Vec<PathBuf>,
+}
+
+impl Places {
+    fn read_at<'a>(inputs: impl IntoIterator<Item = &'a Path>) -> Self {
+        // Standard input may be a file that has a name.
+        let stdin = Path::new("/dev/stdin");
+        let named = |path| if path == Path::new("-") { stdin } else { path };
+        Self {
+            read: (inputs.into_iter().map(named).filter_map(place)).collect(),
+            written: Vec::new(),
+        }
+    }
+
+    fn write_at(&mut self, output: &Output) -> Result<(), Failure> {
+        let Output::File(path) = output else {
+            return Ok(());
+        };
         // What cannot be placed cannot be written either, and is refused then.
-        let Some(place) = place(path) else { continue };
-        if read.contains(&place) {
+        let Some(place) = place(path) else {
+            return Ok(());
+        };
+        if self.read.contains(&place) {
             return Err(Failure::usage(format!(
                 "{output} is read and cannot be the output too: give another file name"
             )));
         }
-        if written.contains(&place) {
+        if self.written.contains(&place) {
             return Err(Failure::usage(format!(
                 "{output} is given for two outputs: give each a file name of its own"
             )));
         }
-        written.push(place);
+        self.written.push(place);
+        Ok(())
     }
-    Ok(())
+
+    fn write_record_at(&mut self, record: &Path, of: &Output) -> Result<(), Failure> {
+        let Some(place) = place(record) else {
+            return Ok(());
+        };
+        let other = match () {
+            () if self.read.contains(&place) => "is read",
+            () if self.written.contains(&place) => "is another output",
+            () => {
+                self.written.push(place);
+                return Ok(());
+            }
+        };
+        Err(Failure::usage(format!(
+            "'{}' {other} and would be replaced by the provenance record of {of}: give another file name",
+            record.display()
+        )))
+    }
 }
 
 /// Where a regular file is or would be; `None` for devices and pipes, which hold nothing that
@@ -64,5 +129,49 @@ mod tests {
         assert!(check(&[file("link"), file("b/new")]).is_err());
         let null = || Output::File("/dev/null".into());
         assert!(check(&[null(), null()]).is_ok());
+    }
+
+    /// Records replaced inputs, other outputs and files that were no records.
+    #[test]
+    fn a_record_is_an_output_and_replaces_only_records() {
+        let folder = tempfile::tempdir().unwrap();
+        let inside = |name: &str| folder.path().join(name);
+        let file = |name: &str| Output::File(inside(name));
+        let input = inside("a.csv.provenance.json");
+        let check =
+            |outputs: &[Output]| keep_apart_with_records([input.as_path()], outputs).is_ok();
+        fs::write(&input, b"x").unwrap();
+        assert!(!check(&[file("a.csv")]));
+        for pair in [["b", "b.provenance.json"], ["b.provenance.json", "b"]] {
+            assert!(!check(&pair.map(file)), "{pair:?}");
+        }
+        let record = crate::Record::new("tool", "1.0", Vec::new()).to_json();
+        let foreign = [
+            "",
+            "{}",
+            "[]",
+            "text",
+            &record.replace("tool\":", "tol\":"),
+            &record.replacen('{', "{\"more\": 1,", 1),
+            &(record.clone() + "x"),
+        ];
+        for content in foreign {
+            fs::write(inside("c.provenance.json"), content).unwrap();
+            assert!(!check(&[file("c")]), "{content}");
+            let written = file("c")
+                .write_with_record(&crate::Record::new("tool", "1.0", Vec::new()), |_| {
+                    panic!("a file is made that cannot have its record")
+                });
+            assert!(written.is_err() && !inside("c").exists());
+            assert_eq!(
+                fs::read_to_string(inside("c.provenance.json")).unwrap(),
+                content
+            );
+        }
+        fs::write(inside("c.provenance.json"), record).unwrap();
+        assert!(check(&[file("c"), file("d")]));
+        fs::create_dir(inside("d.provenance.json")).unwrap();
+        assert!(!check(&[file("d")]));
+        assert!(check(&["/dev/null".into()].map(Output::File)));
     }
 }

@@ -30,7 +30,7 @@ mod provenance;
 mod signals;
 mod staged;
 
-pub use apart::keep_apart;
+pub use apart::{keep_apart, keep_apart_with_records};
 pub use common::{Common, main};
 pub use exit::{Failure, Status};
 pub use message::{cell, detail, harmless, note, print, warn};

@@ -4,8 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use crate::aside;
 use crate::{Failure, Record};
+use crate::{aside, provenance};
 
 /// Where a tool's data go: standard output (`-`) or a file.
 ///
@@ -59,23 +59,29 @@ impl Output {
     }
 
     /// As [`Output::write`], for formats with no room for provenance (CSV, pictures): the
-    /// record goes into `<file>.provenance.json` beside the file.
+    /// record goes into `<file>.provenance.json` beside the file. Tools check the place of the
+    /// record before they work, by [`crate::keep_apart_with_records`].
     ///
     /// # Errors
-    /// As [`Output::write`].
+    /// As [`Output::write`]; exit 2 when a file that is no record stands where the record goes.
     pub fn write_with_record(
         &self,
         record: &Record,
         body: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
+        let Some(beside) = self.record_path() else {
+            return self.write(body);
+        };
+        provenance::may_replace(&beside)?;
         self.write(body)?;
+        Output::File(beside).write(|out| out.write_all(record.to_json().as_bytes()))
+    }
+
+    /// Where the provenance record of a regular file goes.
+    pub(crate) fn record_path(&self) -> Option<PathBuf> {
         match self {
-            Output::File(path) if !is_special(path) => {
-                let mut beside = path.clone().into_os_string();
-                beside.push(".provenance.json");
-                Output::File(beside.into()).write(|out| out.write_all(record.to_json().as_bytes()))
-            }
-            _ => Ok(()),
+            Output::File(path) if !is_special(path) => Some(provenance::beside(path)),
+            _ => None,
         }
     }
 }

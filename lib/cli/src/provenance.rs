@@ -1,12 +1,18 @@
-use std::fs::File;
-use std::io::{self, Read};
-use std::path::Path;
+use std::fs::{self, File};
+use std::io::{self, BufReader, Read};
+use std::path::{Path, PathBuf};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::Xxh3Default;
 
+use crate::Failure;
+
+/// What no record comes near: a hundred thousand inputs take some 20 MB.
+const LONGEST: u64 = 1 << 28;
+
 /// What made an output: tool, version, command line and the hash of each input.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Record {
     /// Name of the tool.
     pub tool: String,
@@ -19,7 +25,8 @@ pub struct Record {
 }
 
 /// One input file of a [`Record`].
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct InputRecord {
     /// Path as given on the command line.
     pub path: String,
@@ -48,6 +55,32 @@ impl Record {
         text.push('\n');
         text
     }
+}
+
+/// Where the record of the file at `path` goes.
+pub(crate) fn beside(path: &Path) -> PathBuf {
+    let mut beside = path.to_owned().into_os_string();
+    beside.push(".provenance.json");
+    beside.into()
+}
+
+/// Refuses to replace what stands at `path` unless it is a record.
+pub(crate) fn may_replace(path: &Path) -> Result<(), Failure> {
+    let free = matches!(fs::metadata(path), Err(e) if e.kind() == io::ErrorKind::NotFound);
+    if free || is_record(path) {
+        return Ok(());
+    }
+    Err(Failure::usage(format!(
+        "'{}' is no provenance record and would be replaced by one: give another file name",
+        path.display()
+    )))
+}
+
+fn is_record(path: &Path) -> bool {
+    // Opening a pipe would wait for its other end.
+    let regular = fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() <= LONGEST);
+    let read = || serde_json::from_reader::<_, Record>(BufReader::new(File::open(path).ok()?)).ok();
+    regular && read().is_some()
 }
 
 impl InputRecord {

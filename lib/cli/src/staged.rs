@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use crate::Failure;
-use crate::aside;
+use crate::{Failure, aside, provenance};
 
 /// A folder of files that belong together: written aside, and moved into their folder when all
 /// of them are whole. A tool that fails before leaves the folder as it was.
@@ -38,20 +37,38 @@ impl StagedFolder {
         self.aside.path().join(name)
     }
 
-    /// Moves the files into their folder, over others of the same names.
+    /// Moves the files into their folder, over those of the same names that are `ours`: parts of
+    /// an earlier output.
     ///
     /// # Errors
-    /// Exit 1 with the system's reason.
-    pub fn put_in_place(self) -> Result<(), Failure> {
+    /// Exit 2 where another file has one of the names, before anything is moved; exit 1 with
+    /// the system's reason.
+    pub fn put_in_place(self, ours: impl Fn(&Path) -> bool) -> Result<(), Failure> {
+        let moves = self.moves().map_err(|e| failure(&self.target, &e))?;
+        for (_, to) in &moves {
+            if let Ok(found) = to.symlink_metadata() {
+                // A file with a record of its own is an output that was asked for by its name.
+                let named = provenance::beside(to).exists();
+                if !found.is_file() || named || !ours(to) {
+                    return Err(Failure::usage(format!(
+                        "'{}' is no part of an earlier output and would be replaced: give another file name",
+                        to.display()
+                    )));
+                }
+            }
+        }
         let put = || {
             fs::create_dir_all(&self.target)?;
-            for entry in fs::read_dir(self.aside.path())? {
-                let entry = entry?;
-                fs::rename(entry.path(), self.target.join(entry.file_name()))?;
-            }
-            Ok(())
+            moves.iter().try_for_each(|(from, to)| fs::rename(from, to))
         };
         put().map_err(|e| failure(&self.target, &e))
+    }
+
+    /// Where each file is and where it goes.
+    fn moves(&self) -> io::Result<Vec<(PathBuf, PathBuf)>> {
+        let entries = fs::read_dir(self.aside.path())?;
+        let place = |entry: fs::DirEntry| (entry.path(), self.target.join(entry.file_name()));
+        entries.map(|entry| entry.map(place)).collect()
     }
 }
 

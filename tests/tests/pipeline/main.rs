@@ -9,6 +9,7 @@
 )]
 
 mod acer_volume;
+mod apart;
 mod conservation;
 mod examples;
 mod forged;

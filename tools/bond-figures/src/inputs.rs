@@ -78,7 +78,7 @@ impl Inputs {
         &'a self,
         outputs: impl IntoIterator<Item = &'a Output>,
     ) -> Result<(), Failure> {
-        cli::keep_apart(self.given.iter().map(PathBuf::as_path), outputs)
+        cli::keep_apart_with_records(self.given.iter().map(PathBuf::as_path), outputs)
     }
 
     /// The provenance of an output made of these files.

@@ -73,7 +73,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         cli::note(line);
     }
     let read = arguments.snapshots.iter().map(PathBuf::as_path);
-    cli::keep_apart(read, [&arguments.output])?;
+    cli::keep_apart_with_records(read, [&arguments.output])?;
     let mut states = Vec::new();
     let mut inputs = Vec::new();
     for path in &arguments.snapshots {

@@ -89,6 +89,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         slab: arguments.slab,
         seed: arguments.seed,
     };
+    cli::keep_apart_with_records([], [&arguments.output])?;
     let specimen = Specimen::grow(&recipe).map_err(|error| match error {
         RecipeError::Overfull { .. } => Failure::failed(error),
         _ => Failure::usage(error),

@@ -74,6 +74,15 @@ impl Input {
         }
     }
 
+    /// The files that a stack is read from: its slices, or its header and data.
+    pub fn stack_files(&self) -> impl Iterator<Item = &Path> {
+        let sources = match &self.content {
+            Content::Particles(_) => &[],
+            Content::Stack { stack, .. } => stack.sources(),
+        };
+        sources.iter().map(Source::path)
+    }
+
     /// The files read and their hashes.
     pub fn records(&self) -> Result<Vec<InputRecord>, Failure> {
         match &self.content {

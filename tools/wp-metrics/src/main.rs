@@ -100,10 +100,16 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         ));
     }
     let read = arguments.files.iter().chain(&arguments.compare);
-    cli::keep_apart(read.map(PathBuf::as_path), outputs(&arguments))?;
+    cli::keep_apart_with_records(read.map(PathBuf::as_path), outputs(&arguments))?;
     let options = stack_options(&arguments)?;
+    // Which files a stack is read from shows once it is open; nothing is written before.
+    let open = |path: &PathBuf| {
+        let input = Input::open(path, &options)?;
+        cli::keep_apart_with_records(input.stack_files(), outputs(&arguments))?;
+        Ok(input)
+    };
     let experiment = match &arguments.compare {
-        Some(path) => Some(Input::open(path, &options)?),
+        Some(path) => Some(open(path)?),
         None => None,
     };
     let mut record = Recorder::new(&arguments);
@@ -113,7 +119,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let mut files = Vec::new();
     for path in &arguments.files {
         // A row of numbers is all that stays of a file.
-        let input = Input::open(path, &options)?;
+        let input = open(path)?;
         record.add(&input)?;
         files.push(measure(&input, &arguments, experiment.as_ref(), &record)?);
     }

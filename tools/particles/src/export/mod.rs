@@ -57,7 +57,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         )));
     }
     let read = arguments.files.iter().map(PathBuf::as_path);
-    cli::keep_apart(read, [&arguments.output])?;
+    cli::keep_apart_with_records(read, [&arguments.output])?;
     let files = (arguments.files.iter())
         .map(|path| ParticleFile::open(path).map_err(Failure::data))
         .collect::<Result<Vec<_>, _>>()?;

@@ -11,10 +11,10 @@ use super::vtk;
 
 /// Writes `NAME.pvd` and beside it the folder `NAME` with the liquid of each file as
 /// `NNNN.vtp` (part 0) and its blocks as `NNNN-BLOCK.vti` (parts 1 and up). A block that
-/// stays where it was is written once.
+/// stays where it was is written once. In the folder only parts of earlier series are replaced.
 ///
 /// # Errors
-/// Exit 2 for standard output, exit 3 when an array is damaged, exit 1 when an output cannot
+/// Exit 2 for standard output and where another file has the name of a part, exit 3 when an array is damaged, exit 1 when an output cannot
 /// be written.
 pub fn write(files: &[ParticleFile], output: &Output, record: &Record) -> Result<(), Failure> {
     let Output::File(pvd) = output else {
@@ -36,7 +36,7 @@ pub fn write(files: &[ParticleFile], output: &Output, record: &Record) -> Result
             ));
         }
     }
-    parts.folder.put_in_place()?;
+    parts.folder.put_in_place(vtk::is_own)?;
     output.write_with_record(record, |out| {
         write!(
             out,

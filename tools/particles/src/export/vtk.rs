@@ -1,9 +1,14 @@
 //! VTK XML files with raw appended data: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::Path;
 
 use super::labels::Labels;
 use super::points::{Column, Points, Values};
+
+const POINTS: &str = "PolyData";
+const LABELS: &str = "ImageData";
 
 /// Writes the points of a file as PolyData, one vertex each.
 pub fn write_points(points: &Points, time_s: f64, out: &mut dyn Write) -> io::Result<()> {
@@ -12,7 +17,7 @@ pub fn write_points(points: &Points, time_s: f64, out: &mut dyn Write) -> io::Re
         return Err(io::Error::other("points without positions cannot be drawn"));
     };
     let n = points.rows as u64;
-    let mut document = Document::new("PolyData", time_s, "");
+    let mut document = Document::new(POINTS, time_s, "");
     document.open(&format!(
         "<Piece NumberOfPoints=\"{n}\" NumberOfVerts=\"{n}\" NumberOfLines=\"0\" \
          NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>"
@@ -45,7 +50,7 @@ pub fn write_labels(labels: &Labels, time_s: f64, out: &mut dyn Write) -> io::Re
         " WholeExtent=\"{extent}\" Origin=\"{x:e} {y:e} {z:e}\" Spacing=\"{edge:e} {edge:e} {edge:e}\""
     );
     let len = nx as u64 * ny as u64 * nz as u64;
-    let mut document = Document::new("ImageData", time_s, &place);
+    let mut document = Document::new(LABELS, time_s, &place);
     document.open(&format!(
         "<Piece Extent=\"{extent}\">\n<CellData Scalars=\"label\">"
     ));
@@ -55,6 +60,29 @@ pub fn write_labels(labels: &Labels, time_s: f64, out: &mut dyn Write) -> io::Re
     out.write_all(&len.to_le_bytes())?;
     labels.pages(|page| out.write_all(page))?;
     write_end(out)
+}
+
+/// What stands in front of the time in every file.
+const TIME: &str = "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" \
+                    NumberOfTuples=\"1\" format=\"ascii\">";
+
+/// The beginning of a file, up to the attributes of its data set.
+fn begin(data_set: &str) -> String {
+    format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"{data_set}\" version=\"1.0\" byte_order=\"LittleEndian\" \
+         header_type=\"UInt64\">\n\
+         <{data_set}"
+    )
+}
+
+/// Whether the file at `path` begins as those written here do.
+pub fn is_own(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(1024).read_to_end(&mut head));
+    let head = String::from_utf8_lossy(&head);
+    let own = |data_set| head.starts_with(&begin(data_set));
+    read.is_ok() && (own(POINTS) || own(LABELS)) && head.contains(TIME)
 }
 
 /// The XML in front of the appended bytes.
@@ -67,16 +95,8 @@ struct Document {
 
 impl Document {
     fn new(data_set: &'static str, time_s: f64, attributes: &str) -> Self {
-        let xml = format!(
-            "<?xml version=\"1.0\"?>\n\
-             <VTKFile type=\"{data_set}\" version=\"1.0\" byte_order=\"LittleEndian\" \
-             header_type=\"UInt64\">\n\
-             <{data_set}{attributes}>\n\
-             <FieldData>\n\
-             <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
-             format=\"ascii\">{time_s:e}</DataArray>\n\
-             </FieldData>\n"
-        );
+        let begin = begin(data_set);
+        let xml = format!("{begin}{attributes}>\n{TIME}{time_s:e}</DataArray>\n</FieldData>\n");
         Self {
             data_set,
             xml,
