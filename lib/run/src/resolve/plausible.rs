@@ -29,6 +29,19 @@ pub(super) fn check(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
         reached(scene, liquid, travel_m)?;
         // Where pressure may stop the clamp before, the run itself looks at its travel.
         let certain = matches!(scene.stop, Stop::Closed { .. }) || clamp.max_pressure.is_none();
+        if clamp.max_pressure.is_some() {
+            let (end_s, most_m) = match scene.stop {
+                Stop::Closed { travel_m } => (f64::INFINITY, travel_m),
+                Stop::Time(time) => (time, f64::INFINITY),
+            };
+            let slack = OVERLAP * scene.grid.cell_m;
+            if let Some(other) = meeting::possible(scene, end_s, most_m, slack) {
+                return Err(CaseError(format!(
+                    "where the clamp is when '{}' of given velocity comes into its way depends on [clamp] max_pressure, and bodies cannot overlap: no max_pressure, another velocity or an earlier end is needed",
+                    other.name
+                )));
+            }
+        }
         if let Some((room_m, other)) = clamp_room(scene).filter(|_| certain)
             && travel_m > room_m + OVERLAP * scene.grid.cell_m
         {
