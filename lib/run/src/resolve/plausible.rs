@@ -42,13 +42,14 @@ pub(super) fn check(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
                 )));
             }
         }
-        if let Some((room_m, other)) = clamp_room(scene).filter(|_| certain)
+        if let Some((room_m, other)) = clamp_room(scene)
+            .filter(|(room_m, _)| certain || *room_m < -OVERLAP * scene.grid.cell_m)
             && travel_m > room_m + OVERLAP * scene.grid.cell_m
         {
             return Err(CaseError(format!(
                 "the clamp would travel {:.4} um, but its body meets '{other}' after {:.4} um and bodies cannot overlap: a smaller [clamp] travel (or stop time) is needed",
                 1e6 * travel_m,
-                1e6 * room_m
+                1e6 * room_m.max(0.0)
             )));
         }
     }
@@ -133,7 +134,9 @@ fn apart(scene: &Scene) -> Result<(), CaseError> {
         Some(meeting) if overlap(scene, &meeting, end_s) > OVERLAP * scene.grid.cell_m => {
             Err(CaseError(format!(
                 "the bodies '{}' and '{}' would overlap from {:.4e} s on, before the end at {end_s:.4e} s: other velocities or an earlier end are needed",
-                meeting.bodies[0].name, meeting.bodies[1].name, meeting.time_s
+                meeting.bodies[0].name,
+                meeting.bodies[1].name,
+                meeting.time_s.max(0.0)
             )))
         }
         _ => Ok(()),
