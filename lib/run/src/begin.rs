@@ -66,7 +66,7 @@ fn held_by_a_run(folder: &Path, resume: bool) -> RunFailure {
     let folder = folder.display();
     RunFailure::Usage(if resume {
         format!(
-            "'{folder}' holds another run, or the same of another version; use --overwrite to replace it"
+            "'{folder}' holds another run, or the same of another version or at another integrator.cfl that has ended; use --overwrite to replace it"
         )
     } else {
         format!(

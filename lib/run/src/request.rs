@@ -148,10 +148,13 @@ impl Request {
         if let Some(found) = &found {
             begin::make_room(found, &self.places)?;
         }
-        if mode.resume && !mode.overwrite && is_final_of(folder, &identity) {
-            if let Some(found) = &found {
-                begin::tidy(found, &continuable)?;
-            }
+        // In a folder without the mark nothing is known to be a run's: making it one refuses.
+        if let Some(found) = &found
+            && mode.resume
+            && !mode.overwrite
+            && is_final_of(folder, &identity)?
+        {
+            begin::tidy(found, &continuable)?;
             return Ok(None);
         }
         // What is refused must not cost a run folder.

@@ -11,14 +11,28 @@ use crate::checkpoint::Clock;
 use crate::drive::RunError;
 use crate::folder::{FINAL, RunFolder};
 use crate::load::swap;
+use crate::request::RunFailure;
 use crate::resolve::Setup;
 
 const IDENTITY: &str = "identity";
 
-/// Whether `folder` holds the final state of the run with this identity.
-pub(crate) fn is_final_of(folder: &Path, identity: &str) -> bool {
-    ParticleFile::open(folder.join(FINAL))
-        .is_ok_and(|file| file.header().attribute(IDENTITY) == Some(identity))
+/// Whether `folder` holds the final state of the run with this identity, whole.
+///
+/// # Errors
+/// It does, but what it holds is damaged.
+pub(crate) fn is_final_of(folder: &Path, identity: &str) -> Result<bool, RunFailure> {
+    let Ok(file) = ParticleFile::open(folder.join(FINAL)) else {
+        return Ok(false);
+    };
+    if file.header().attribute(IDENTITY) != Some(identity) {
+        return Ok(false);
+    }
+    match file.check() {
+        Ok(()) => Ok(true),
+        Err(error) => Err(RunFailure::Data(format!(
+            "the run has ended, but its final state is damaged ({error}): use --overwrite to run it again"
+        ))),
+    }
 }
 
 /// Writes states of one run.

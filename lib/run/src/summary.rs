@@ -32,6 +32,8 @@ pub struct Summary {
     pub final_pressure_pa: f64,
     /// Liquid material points.
     pub liquid_points: u64,
+    /// Of them, those that left the domain.
+    pub points_left: u64,
     /// Kinetic energy of the liquid at the end, J.
     pub kinetic_energy_j: f64,
     /// Volume fraction whose viscosity was capped in the last step.
@@ -100,6 +102,7 @@ impl Summary {
             gap_m: facts.initial_gap_m.map(|g| g - outcome.clock.travel_m),
             final_pressure_pa: 0.5 * (last.pressure_bottom + last.pressure_top),
             liquid_points: facts.liquid_points,
+            points_left: last.lost,
             kinetic_energy_j: kinetic_energy,
             capped_viscosity_fraction: capped_fraction,
             stepping_wall_s: wall,
@@ -133,8 +136,12 @@ impl Summary {
         let gap = self.gap_m.map_or(String::new(), |g| {
             format!(", gap {:.2} um", g.max(0.0) * 1e6)
         });
+        let left = match self.points_left {
+            0 => String::new(),
+            n => format!(" ({n} points left through open sides)"),
+        };
         format!(
-            "The run {end} after {} steps at {:.2} us{gap}, {:.3} MPa; volume {:+.3} %, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
+            "The run {end} after {} steps at {:.2} us{gap}, {:.3} MPa; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
             self.steps,
             self.time_s * 1e6,
             self.final_pressure_pa / 1e6,

@@ -88,7 +88,7 @@ pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
 /// Looks at the diagnostics of a state that is to be written: row, snapshot or checkpoint.
 ///
 /// # Errors
-/// A number that is none, no liquid, or more pressure than Eq. 1 holds for.
+/// A number that is none, liquid faster than its sound, or more pressure than Eq. 1 holds for.
 pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Result<(), Failure> {
     finite(&[
         ("kinetic energy", diagnostics.kinetic_energy),
@@ -96,6 +96,11 @@ pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Resu
         ("volume of the liquid", diagnostics.volume),
         ("largest speed", diagnostics.max_speed),
     ])?;
+    if let Some(said) = faster_than_sound(&setup.scene, diagnostics.max_speed) {
+        return Err(Failure(format!(
+            "{said}; another integrator.cfl, a lower speed or a higher viscosity may help"
+        )));
+    }
     // Points differ in volume by the rounding of their lattices alone.
     let part = 1.0 - lost as f64 / setup.liquid.points as f64;
     let change = diagnostics.volume / (part * setup.liquid.volume_m3) - 1.0;
@@ -108,8 +113,16 @@ pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Resu
     );
     if change < most {
         return Err(Failure(format!(
-            "the liquid is compressed by {:.1} % on average, {pressure:.3e} Pa and {range}: a body presses liquid that cannot get away; a max_pressure, a way out or less travel is needed",
-            -100.0 * change
+            "the liquid is compressed by {:.1} % on average, {pressure:.3e} Pa and {range}: a body presses liquid that cannot get away; {}, a way out or less travel is needed",
+            -100.0 * change,
+            if scene
+                .clamp
+                .is_some_and(|clamp| clamp.max_pressure.is_some())
+            {
+                "a lower max_pressure"
+            } else {
+                "a max_pressure"
+            }
         )));
     }
     // Cavities that open at a tension given are meant.
@@ -122,6 +135,16 @@ pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Resu
     Ok(())
 }
 
+/// What is wrong with liquid of this largest speed (m/s), if it is too fast for any scheme here.
+fn faster_than_sound(scene: &Scene, speed: f64) -> Option<String> {
+    let sound = scene.liquid.sound_speed();
+    (speed > sound).then(|| {
+        format!(
+            "liquid moves at {speed:.3e} m/s, above its speed of sound sqrt(K/rho) = {sound:.3e} m/s, which no pressing gives it"
+        )
+    })
+}
+
 /// Mean relative volume change at [`MOST_PRESSURE`].
 fn compressed(scene: &Scene) -> f64 {
     let tait = scene.liquid.tait;
@@ -132,7 +155,7 @@ fn finite(numbers: &[(&str, f64)]) -> Result<(), Failure> {
     match numbers.iter().find(|(_, number)| !number.is_finite()) {
         None => Ok(()),
         Some((name, number)) => Err(Failure(format!(
-            "the {name} is {}: the state is no longer one of liquid; a smaller integrator.cfl may help, and --explain shows which numbers of the case are extreme",
+            "the {name} is {}: the state is no longer one of liquid; another integrator.cfl may help, and --explain shows which numbers of the case are extreme",
             if number.is_nan() {
                 "not a number"
             } else {
@@ -148,6 +171,7 @@ pub(crate) fn judge(setup: &Setup, liquid: &LiquidState, found: &Invariants, los
     if let Some(name) = not_finite(liquid) {
         reasons.push(format!("a {name} of the liquid is not a finite number"));
     }
+    reasons.extend(faster_than_sound(&setup.scene, largest_speed(liquid)));
     let (left, begun) = (liquid.position.len() as u64, setup.liquid.points);
     if left + lost != begun {
         reasons.push(format!(
@@ -187,6 +211,14 @@ pub(crate) fn judge(setup: &Setup, liquid: &LiquidState, found: &Invariants, los
         ));
     }
     Verdict::because(reasons)
+}
+
+/// Largest speed of a point, m/s.
+fn largest_speed(liquid: &LiquidState) -> f64 {
+    let square = |v: &[f32; 3]| v.iter().map(|&x| f64::from(x).powi(2)).sum::<f64>();
+    (liquid.velocity.iter().map(square))
+        .fold(0.0, f64::max)
+        .sqrt()
 }
 
 /// First kind of number of the state that is not finite somewhere.
@@ -294,6 +326,8 @@ box = { min = ["0 um", "2 um", "0 um"], max = ["4 um", "4 um", "1 um"] }
         assert!(nan.contains("a shear rate of the liquid"), "{nan}");
         let infinite = said(&|l| l.velocity[0][2] = f32::INFINITY, 0);
         assert!(infinite.contains("a velocity of the liquid"), "{infinite}");
+        let fast = said(&|l| l.velocity[0][1] = 1001.0, 0);
+        assert!(fast.contains("above its speed of sound"), "{fast}");
         let grown = said(&|l| l.volume.iter_mut().for_each(|v| *v *= 1.01), 0);
         assert!(grown.contains("+1.00 % off"), "{grown}");
         let missing = said(
@@ -327,6 +361,12 @@ box = { min = ["0 um", "2 um", "0 um"], max = ["4 um", "4 um", "1 um"] }
         assert!(small.contains("compressed by 11.0 %"), "{small}");
         let large = said(1.2, 1.0, 0).unwrap_err();
         assert!(large.contains("20.0 % larger than at rest"), "{large}");
+        let fast = Diagnostics {
+            max_speed: 1001.0,
+            ..of(1.0, 1.0)
+        };
+        let fast = state(&setup, &fast, 0).unwrap_err().0;
+        assert!(fast.contains("above its speed of sound"), "{fast}");
         let nan = said(1.0, f64::NAN, 0).unwrap_err();
         assert!(nan.contains("kinetic energy is not a number"), "{nan}");
     }

@@ -197,3 +197,129 @@ fn a_summary_has_the_verdict_and_a_run_not_sound_stays_so() {
     assert_eq!(again.status.code(), Some(1), "{}", said(&again));
     assert!(said(&again).contains("not sound") && said(&again).contains("it is forged"));
 }
+
+/// Before, 2e8 m/s in its history was sound.
+#[test]
+fn liquid_faster_than_its_sound_stops_the_run() {
+    let fast = changed(&[
+        ("cell = \"2 um\"", "cell = \"1 um\""),
+        ("\"1.3 Pa s\"", "\"0.01 Pa s\""),
+        (
+            "law = \"stick\"",
+            "law = \"partial-slip\"\ninfluence_length = \"0.01 cell\"",
+        ),
+        ("\"1 m/s\"", "\"5 m/s\""),
+        ("\"2.5 MPa\"", "\"0.3 MPa\""),
+        ("\"4 um\"", "\"1.5 um\""),
+        ("cfl = 0.5", "cfl = 0.02"),
+        ("\"0.02 us\"", "\"1e-9 us\""),
+        ("\"0 um\", \"16 um\"", "\"0 um\", \"9 um\""),
+        ("[\"12 um\", \"14 um\"", "[\"8 um\", \"8 um\""),
+    ]);
+    let bench = Workbench::new();
+    let output = run(&bench, &fast, &["--threads", "1"]);
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    let said = said(&output);
+    assert!(said.contains("above its speed of sound"), "{said}");
+}
+
+/// Before, all of these said "has ended already" with exit status 0.
+#[test]
+fn a_run_that_ended_is_sound_only_if_its_files_say_so() {
+    let bench = Workbench::new();
+    let output = run(&bench, SMALL, &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let asked = |status, sentence: &str| {
+        let again = bench.run("mpm-run", &["case.toml", "-o", "run", "--resume"]);
+        assert_eq!(again.status.code(), Some(status), "{}", said(&again));
+        assert!(said(&again).contains(sentence), "{}", said(&again));
+    };
+    asked(0, "has ended already");
+    let summary = bench.read("run/summary.json");
+    bench.write("run/summary.json", "{}");
+    asked(3, "does not say whether the results are sound");
+    std::fs::remove_file(bench.path("run/summary.json")).unwrap();
+    asked(3, "does not say whether the results are sound");
+    bench.write("run/summary.json", summary);
+    let whole = bench.read("run/final.mpts");
+    let mut flipped = whole.clone();
+    let middle = flipped.len() / 2;
+    flipped[middle] ^= 4;
+    bench.write("run/final.mpts", flipped);
+    asked(3, "its final state is damaged");
+    bench.write("run/final.mpts", whole);
+    std::fs::remove_file(bench.path("run/bondline-run.toml")).unwrap();
+    asked(2, "is not marked as a run folder");
+}
+
+/// Before, bodies went through each other with exit status 0.
+#[test]
+fn bodies_do_not_pass_through_each_other() {
+    let body = |name: &str, more: &str, low: &str, high: &str| {
+        format!(
+            "[[body]]\nmaterial = \"rigid\"\nname = \"{name}\"\n{more}\nbox = {{ min = {low}, max = {high} }}\n"
+        )
+    };
+    let last = SMALL.rfind("[[body]]").unwrap();
+    let with = |case: &str, bodies: &str| format!("{}{bodies}{}", &case[..last], &case[last..]);
+    let riser = body(
+        "riser",
+        "velocity = [\"0 m/s\", \"1 m/s\", \"0 m/s\"]",
+        "[\"18 um\", \"6 um\", \"0 um\"]",
+        "[\"22 um\", \"10 um\", \"2 um\"]",
+    );
+    let post = body(
+        "post",
+        "",
+        "[\"16 um\", \"6 um\", \"0 um\"]",
+        "[\"20 um\", \"16.1 um\", \"2 um\"]",
+    );
+    let start = SMALL.find(FIXED_PLATES).unwrap();
+    let through_a_side = format!(
+        "{}[boundary]\nx = \"periodic\"\n{}{}{}",
+        SMALL[..start]
+            .replace("[clamp]\nclosing_speed = \"1 m/s\"\n", "[stop]\n")
+            .replace("max_pressure = \"2.5 MPa\"\n", "")
+            .replace("travel = \"4 um\"", "time = \"8 us\""),
+        body(
+            "plate",
+            "velocity = [\"-1 m/s\", \"0 m/s\", \"0 m/s\"]",
+            "[\"2 um\", \"6 um\", \"0 um\"]",
+            "[\"6 um\", \"24 um\", \"2 um\"]"
+        ),
+        body(
+            "pillar",
+            "",
+            "[\"19 um\", \"6 um\", \"0 um\"]",
+            "[\"20 um\", \"24 um\", \"2 um\"]"
+        ),
+        SMALL[last..].replace(
+            "[\"0 um\", \"6 um\", \"0 um\"], max = [\"12 um\"",
+            "[\"10 um\", \"6 um\", \"0 um\"], max = [\"12 um\""
+        ),
+    );
+    let bench = Workbench::new();
+    for (case, sentence) in [
+        (with(SMALL, &riser), "when 'riser' of given velocity comes"),
+        (with(SMALL, &post), "its body meets 'post'"),
+        (through_a_side, "'plate' and 'pillar' would overlap"),
+    ] {
+        let output = run(&bench, &case, &[]);
+        let said = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{sentence}: {said}");
+        assert!(said.contains(sentence), "{said}");
+    }
+}
+
+/// Before, a file for each of four thousand million was begun.
+#[test]
+fn more_snapshots_than_anyone_reads_are_refused() {
+    let bench = Workbench::new();
+    let output = run(&bench, SMALL, &["--set", "output.snapshots=4000000000"]);
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert!(
+        said(&output).contains("more than 1000000"),
+        "{}",
+        said(&output)
+    );
+}

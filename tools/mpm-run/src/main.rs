@@ -114,8 +114,14 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     );
     progress.finish();
     let Some(summary) = ended.map_err(failure)? else {
+        let Some(verdict) = run::Verdict::of_ended(&folder) else {
+            return Err(Failure::data(format!(
+                "the run in '{}' has ended, but its summary.json does not say whether the results are sound: use --overwrite to run it again",
+                folder.display()
+            )));
+        };
         cli::note(format!("{} has ended already", folder.display()));
-        return sound(run::Verdict::of_ended(&folder).as_ref());
+        return sound(&verdict);
     };
     cli::note(summary.sentence());
     match summary.end {
@@ -126,13 +132,13 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
                 folder.display()
             ),
         )),
-        _ => sound(Some(&summary.verdict)),
+        _ => sound(&summary.verdict),
     }
 }
 
 /// Exit status 0 is a claim that the results are sound.
-fn sound(verdict: Option<&run::Verdict>) -> Result<(), Failure> {
-    match verdict.and_then(run::Verdict::objection) {
+fn sound(verdict: &run::Verdict) -> Result<(), Failure> {
+    match verdict.objection() {
         Some(said) => Err(Failure::failed(said)),
         None => Ok(()),
     }

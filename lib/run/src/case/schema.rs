@@ -226,10 +226,23 @@ pub enum PressureName {
 #[serde(deny_unknown_fields)]
 pub struct OutputTable {
     /// Snapshots over the nominal duration; none by default.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "snapshots")]
     pub snapshots: u32,
     /// Time between rows of the history; a thousandth of the nominal duration by default.
     pub history_every: Option<Positive<Time>>,
+}
+
+/// More than this is a mistake: a file each.
+const MOST_SNAPSHOTS: u32 = 1_000_000;
+
+fn snapshots<'de, R: serde::Deserializer<'de>>(reader: R) -> Result<u32, R::Error> {
+    let number = u32::deserialize(reader)?;
+    if number <= MOST_SNAPSHOTS {
+        return Ok(number);
+    }
+    Err(serde::de::Error::custom(format!(
+        "{number} snapshots are more than {MOST_SNAPSHOTS}: a file each is written"
+    )))
 }
 
 /// `[[body]]`

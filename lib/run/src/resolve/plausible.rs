@@ -29,13 +29,27 @@ pub(super) fn check(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
         reached(scene, liquid, travel_m)?;
         // Where pressure may stop the clamp before, the run itself looks at its travel.
         let certain = matches!(scene.stop, Stop::Closed { .. }) || clamp.max_pressure.is_none();
-        if let Some((room_m, other)) = clamp_room(scene).filter(|_| certain)
+        if clamp.max_pressure.is_some() {
+            let (end_s, most_m) = match scene.stop {
+                Stop::Closed { travel_m } => (f64::INFINITY, travel_m),
+                Stop::Time(time) => (time, f64::INFINITY),
+            };
+            let slack = OVERLAP * scene.grid.cell_m;
+            if let Some(other) = meeting::possible(scene, end_s, most_m, slack) {
+                return Err(CaseError(format!(
+                    "where the clamp is when '{}' of given velocity comes into its way depends on [clamp] max_pressure, and bodies cannot overlap: no max_pressure, another velocity or an earlier end is needed",
+                    other.name
+                )));
+            }
+        }
+        if let Some((room_m, other)) = clamp_room(scene)
+            .filter(|(room_m, _)| certain || *room_m < -OVERLAP * scene.grid.cell_m)
             && travel_m > room_m + OVERLAP * scene.grid.cell_m
         {
             return Err(CaseError(format!(
                 "the clamp would travel {:.4} um, but its body meets '{other}' after {:.4} um and bodies cannot overlap: a smaller [clamp] travel (or stop time) is needed",
                 1e6 * travel_m,
-                1e6 * room_m
+                1e6 * room_m.max(0.0)
             )));
         }
     }
@@ -120,7 +134,9 @@ fn apart(scene: &Scene) -> Result<(), CaseError> {
         Some(meeting) if overlap(scene, &meeting, end_s) > OVERLAP * scene.grid.cell_m => {
             Err(CaseError(format!(
                 "the bodies '{}' and '{}' would overlap from {:.4e} s on, before the end at {end_s:.4e} s: other velocities or an earlier end are needed",
-                meeting.bodies[0].name, meeting.bodies[1].name, meeting.time_s
+                meeting.bodies[0].name,
+                meeting.bodies[1].name,
+                meeting.time_s.max(0.0)
             )))
         }
         _ => Ok(()),
