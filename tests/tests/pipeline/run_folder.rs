@@ -296,8 +296,9 @@ fn a_run_folder_without_a_mark_is_replaced_only_when_vouched_for() {
             said(&refused)
         );
     }
-    // That it has ended can be said without touching it.
-    bench.pressed("run", &FAST, &["--resume"]);
+    // Nor is it vouched for that it ended well.
+    let refused = bench.press("run", &FAST, &["--resume"]);
+    assert_eq!(refused.status.code(), Some(2), "{}", said(&refused));
     assert!(!bench.path("run/bondline-run.toml").exists());
     bench.write("run/bondline-run.toml", "");
     bench.pressed("run", &other, &["--overwrite"]);
