@@ -161,10 +161,10 @@ pub(super) fn possible(scene: &Scene, end_s: f64, travel_m: f64, slack: f64) -> 
             .any(|(x, y)| {
                 // Times at which gap + rate t > 0 holds for all of these.
                 let mut sides = vec![(y.1[1] - x.0[1] + travel_m - slack, v[1])];
-                for i in 0..3 {
+                for (i, v) in v.into_iter().enumerate() {
                     let lowers = if i == 1 { closing } else { 0.0 };
-                    sides.push((y.1[i] - x.0[i] - slack, v[i] + lowers));
-                    sides.push((x.1[i] - y.0[i] - slack, -v[i]));
+                    sides.push((y.1[i] - x.0[i] - slack, v + lowers));
+                    sides.push((x.1[i] - y.0[i] - slack, -v));
                 }
                 let (mut begin, mut end) = (0.0_f64, end_s);
                 for (gap, rate) in sides {
