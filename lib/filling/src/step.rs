@@ -29,8 +29,6 @@ use units::Units;
 /// Part of the CFL number that the liquid is to cross in a step; a step in which it crosses more than the
 /// whole is solved again.
 const AIM: f64 = 0.97;
-/// Most by which the speeds are taken to grow from one step to the next, as they did in the last one.
-const GROWTH: f64 = 1.3;
 /// Cells by which the middle of a body's way may lie off the place that the step was solved for: its
 /// speed under load control is known only then. With a tenth of a cell a plate that is about to
 /// touch liquid can be held back before it does, step after step.
@@ -73,8 +71,6 @@ pub struct Implicit {
     flow: Option<Flow>,
     /// Speed that sets the time step, m/s, see [`Implicit::pace_of`].
     pace: f64,
-    /// The pace of the last step over that of the one before, from 1 to [`GROWTH`].
-    growth: f64,
     /// Clamp travel, m.
     travel: f64,
     steps: u64,
@@ -141,7 +137,6 @@ impl Implicit {
             solver: SaddleSolver::new(options),
             flow: None,
             pace: speed,
-            growth: 1.0,
             travel: 0.0,
             steps: 0,
             lost: 0,
@@ -156,7 +151,7 @@ impl Implicit {
 
     /// Step 1, the time step: CFL cells of the fastest motion known, in equal parts of what is left.
     fn time_step(&self, limit: StepLimit) -> Result<f64, Failure> {
-        let speed = (self.growth * self.pace / AIM).max(fastest(&self.drive.velocities()));
+        let speed = (self.pace / AIM).max(fastest(&self.drive.velocities()));
         let mut left = limit.time_s;
         if self.drive.clamped().is_some() && self.drive.speed > 0.0 {
             left = left.min(limit.travel_m / self.drive.speed);
@@ -246,7 +241,6 @@ impl Implicit {
     fn solve(&mut self, limit: StepLimit) -> Result<(Trial, Solution), Failure> {
         let h = self.units.h;
         let mut longest = limit.time_s;
-        let before = self.pace;
         for _ in 0..ATTEMPTS {
             let dt = self.time_step(limit)?.min(longest);
             let trial = self.place(dt);
@@ -255,12 +249,8 @@ impl Implicit {
             let cells = self.pace.max(fastest(&solution.bodies)) * dt / h;
             let misplaced = 0.5 * dt / h * apart(&trial.bodies, &solution.bodies);
             if cells <= self.settings.cfl * (1.0 + 1e-9) && misplaced <= MISPLACED {
-                if before > 0.0 {
-                    self.growth = (self.pace / before).clamp(1.0, GROWTH);
-                }
                 return Ok((trial, solution));
             }
-            self.growth = 1.0;
             if misplaced > MISPLACED {
                 longest = 0.5 * dt;
             }

@@ -6,7 +6,7 @@ use physics::{
 };
 use rayon::prelude::*;
 
-use super::{GROWTH, Implicit};
+use super::Implicit;
 use crate::advect;
 
 impl Scheme for Implicit {
@@ -82,7 +82,6 @@ impl Scheme for Implicit {
             self.pinched as f64,
             self.deflected as f64,
             self.power,
-            self.growth,
         ];
         scalars.extend(self.drive.state());
         let arrays = [
@@ -119,7 +118,6 @@ impl Scheme for Implicit {
             pinched,
             deflected,
             power,
-            growth,
             ref drive @ ..,
         ] = scalars
         else {
@@ -134,8 +132,7 @@ impl Scheme for Implicit {
         self.particles.j = j.to_vec();
         self.particles.id = id.to_vec();
         self.displacement = displacement;
-        (self.pace, self.growth) = (pace, growth);
-        (self.travel, self.power) = (travel, power);
+        (self.pace, self.travel, self.power) = (pace, travel, power);
         (self.steps, self.lost) = (steps as u64, lost as u64);
         (self.pinched, self.deflected) = (pinched as u64, deflected as u64);
         self.drive.set_state(drive);
@@ -183,16 +180,10 @@ impl Implicit {
         let scalars = saved.f64s("scalars")?;
         restored::check_finite(scalars, "scalars")?;
         let scalar = |i: usize| scalars.get(i).copied().unwrap_or(f64::NAN);
-        if let Some(i) = scalars.iter().take(8).position(|&x| x < 0.0) {
+        if let Some(i) = scalars.iter().take(7).position(|&x| x < 0.0) {
             return Err(format!(
                 "scalar {i} of the checkpoint, {}, is negative",
                 scalar(i)
-            ));
-        }
-        if !(1.0..=GROWTH).contains(&scalar(7)) {
-            return Err(format!(
-                "the checkpoint's speeds grew {}-fold in a step, where 1 to {GROWTH} is counted on",
-                scalar(7)
             ));
         }
         for name in ["velocity", "volume", "volume_change", "shear_rate"] {
