@@ -18,3 +18,9 @@ MUTANTS ?= 100
 .PHONY: mutants
 mutants:
 	@pipelines/gate/mutants.sh $(MUTANTS) $(or $(ONLY),metrics physics particle-file voxels run mpm filling)
+
+# Fingerprints of thirty small runs of both schemes with every option, to hold beside those of
+# another build: make pins >before; ...; make pins | diff before -
+.PHONY: pins
+pins: $(BINARIES)
+	@pipelines/gate/pins.sh $(BIN) out/pins
