@@ -3,6 +3,7 @@
 
 mod constants;
 mod names;
+mod quoted;
 
 use std::path::{Path, PathBuf};
 
@@ -65,5 +66,11 @@ fn broken_names_are_found() {
 #[test]
 fn the_table_of_constants_is_that_of_the_code() {
     let differences = constants::differences(&root());
+    assert!(differences.is_empty(), "\n{}", differences.join("\n"));
+}
+
+#[test]
+fn the_readme_quotes_the_tables_of_results() {
+    let differences = quoted::differences(&root());
     assert!(differences.is_empty(), "\n{}", differences.join("\n"));
 }

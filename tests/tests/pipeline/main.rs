@@ -15,6 +15,7 @@ mod examples;
 mod forged;
 mod hostile;
 mod interruption;
+mod quoted;
 mod refusals;
 mod repeatability;
 mod run_folder;
