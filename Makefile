@@ -30,6 +30,8 @@ VOXEL ?= 1.45 um
 NORMAL ?= y
 CARGO ?= cargo
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+# Runs share the cores side by side, unless make was told by -j how many may.
+SIDE_BY_SIDE = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
 PREFIX ?= $(HOME)/.local
 
 BIN := target/release

@@ -16,8 +16,10 @@ SLAB_medium_pva-pf := 78.3 um
 SLAB_full_pf := 55.1 um
 SLAB_full_pva-pf := 78.3 um
 
-XCT_pf := $(XCT_PF)
-XCT_pva-pf := $(XCT_PVA_PF)
+# Blanks of a path, for make.
+EMPTY :=
+XCT_pf := $(subst $(EMPTY) ,\ ,$(XCT_PF))
+XCT_pva-pf := $(subst $(EMPTY) ,\ ,$(XCT_PVA_PF))
 
 ifeq ($(XCT_PF)$(XCT_PVA_PF),)
 $(OUT)/%/specimen.tif: $(BIN)/synth-xct
@@ -31,7 +33,7 @@ else
 define experiment_rule
 $(OUT)/$(1)/experiment.mpts: $(XCT_$(1)) $(BIN)/xct2particles
 	@mkdir -p $$(@D)
-	$(BIN)/xct2particles $$< --voxel "$(VOXEL)" $(if $(LABELS),--labels "$(LABELS)") -o $$@
+	$(BIN)/xct2particles "$$<" --voxel "$(VOXEL)" $(if $(LABELS),--labels "$(LABELS)") -o $$@
 endef
 $(foreach a,$(ADHESIVES),$(eval $(call experiment_rule,$(a))))
 endif

@@ -6,7 +6,7 @@ RUN_THREADS ?= 1
 # The explicit runs of the full size take more than the week at which a run is refused unasked.
 RUN_FLAGS ?= $(if $(filter full,$(SCALE)),--yes-really)
 # A cell is two voxels, as in the paper.
-CELL = $(shell echo "$(VOXEL)" | awk '{ printf "%.9g %s", 2 * $$1, $$2 }')
+CELL = $(shell echo "$(VOXEL)" | awk '{ unit = $$0; sub(/^[-+0-9.eE ]*/, "", unit); printf "%.9g %s", 2 * $$0, unit }')
 
 FINALS := $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(OUT)/$(a)/$(r)/final.mpts))
 
@@ -19,4 +19,4 @@ $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call run_rule,$(a),$(r))))
 
 .PHONY: runs
 runs: $(BINARIES)
-	@$(MAKE) BUILT=1 --no-print-directory -j$(JOBS) $(FINALS)
+	@$(MAKE) BUILT=1 --no-print-directory $(SIDE_BY_SIDE) $(FINALS)

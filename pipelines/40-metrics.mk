@@ -20,5 +20,5 @@ $(OUT)/table2.csv: $(METRICS) $(EXPERIMENTS) $(BIN)/bond-figures
 # The bond files and runs come first and side by side; what follows is quick.
 .PHONY: table2
 table2: runs
-	@$(MAKE) BUILT=1 --no-print-directory -j$(JOBS) $(OUT)/table2.csv
+	@$(MAKE) BUILT=1 --no-print-directory $(SIDE_BY_SIDE) $(OUT)/table2.csv
 	@cat $(OUT)/table2.csv

@@ -5,7 +5,7 @@ FIGURES = $(foreach a,$(ADHESIVES),$(addprefix $(OUT)/figures/$(a)-,pressure.svg
 
 .PHONY: figures
 figures: runs
-	@$(MAKE) BUILT=1 --no-print-directory -j$(JOBS) $(FIGURES)
+	@$(MAKE) BUILT=1 --no-print-directory $(SIDE_BY_SIDE) $(FIGURES)
 	@echo "figures in $(OUT)/figures"
 
 define figure_rules
