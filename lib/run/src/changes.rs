@@ -100,7 +100,9 @@ mod tests {
         let text = changed(&body, Path::new("c"), &["body.0.box.min.1=0.5 m".into()]).unwrap();
         let case = Case::parse(&text, Path::new("c")).unwrap();
         assert_eq!(case.body[0].corners.min[1].si(), 0.5);
-        assert!(changed(&body, Path::new("c"), &["body.1.box.min.1=0.5 m".into()]).is_err());
+        for absent in ["body.1.box.min.1=0.5 m", "body.0.box.min.3=0.5 m"] {
+            assert!(changed(&body, Path::new("c"), &[absent.into()]).is_err());
+        }
         assert!(changed(original, Path::new("c"), &["nonsense".into()]).is_err());
         let said = changed(original, Path::new("c"), &["grid.cel=1".into()])
             .unwrap_err()

@@ -281,4 +281,16 @@ mod tests {
             assert!(said.contains("GB"), "{said}");
         }
     }
+
+    #[test]
+    fn durations_are_told_in_the_unit_that_suits_them() {
+        for (seconds, said) in [
+            (90.0, "90.0 s"),
+            (600.0, "10.0 min"),
+            (9000.0, "2.5 h"),
+            (216_000.0, "2.5 days"),
+        ] {
+            assert_eq!(duration(seconds), said);
+        }
+    }
 }

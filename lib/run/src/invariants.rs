@@ -130,9 +130,6 @@ impl<'a> Reachable<'a> {
         let [block] = body.blocks.as_slice() else {
             return None;
         };
-        if block.dims()[0] * block.dims()[1] < 4 {
-            return None;
-        }
         let is_top = scene.top.is_some_and(|i| scene.bodies[i].name == body.name)
             || matches!(body.motion, Motion::Clamped);
         let surface = if is_top { 0 } else { block.dims()[1] - 1 };
@@ -279,6 +276,91 @@ mod tests {
         };
         let found = check(&scene, 1.0, &at, &[[0.0; 3]; 2]);
         assert_eq!((found.points_in_wood, found.points_deep_in_wood), (1, 1));
+    }
+
+    /// A void that winds along every axis both ways, in voxels of 2 x 4 x 8 m away from the origin.
+    #[test]
+    fn a_winding_void_is_reached_from_the_bond_alone() {
+        let path = [
+            [3, 3, 0],
+            [3, 2, 0],
+            [2, 2, 0],
+            [2, 1, 0],
+            [2, 1, 1],
+            [2, 1, 2],
+            [3, 1, 2],
+            [3, 0, 2],
+            [4, 0, 2],
+            [4, 0, 1],
+            [4, 1, 1],
+            [4, 2, 1],
+        ];
+        let wood = [0, 3, 2];
+        let open = |at| path.contains(&at) || at == [0, 2, 2];
+        let block =
+            VoxelBlock::from_fn([10.0, 20.0, 30.0], [2.0, 4.0, 8.0], [5, 4, 3], |i, j, k| {
+                !open([i, j, k])
+            });
+        let middle = |[i, j, k]: [usize; 3]| {
+            [
+                11.0 + 2.0 * i as f64,
+                22.0 + 4.0 * j as f64,
+                34.0 + 8.0 * k as f64,
+            ]
+        };
+        let mut scene = scene(vec![block]);
+        let closed_voids = |scene: &Scene, at: [usize; 3]| {
+            Reachable::of(&scene.bodies[0], scene)
+                .unwrap()
+                .is_closed_void(middle(at))
+        };
+        assert!(path.into_iter().all(|at| !closed_voids(&scene, at)));
+        assert!(closed_voids(&scene, [0, 2, 2]));
+        assert!(!closed_voids(&scene, wood), "wood is no void");
+        // Seen from below, as an upper adherend is, the path does not begin at the bond.
+        scene.top = Some(0);
+        assert!(
+            path[..7].iter().all(|&at| !closed_voids(&scene, at)),
+            "it comes down to j = 0"
+        );
+        scene.bodies[0].blocks[0] =
+            VoxelBlock::from_fn([10.0, 20.0, 30.0], [2.0, 4.0, 8.0], [5, 4, 3], |i, j, k| {
+                j == 0 || !open([i, j, k])
+            });
+        assert!(closed_voids(&scene, path[0]));
+    }
+
+    /// The same block moved: what holds at rest holds with it.
+    #[test]
+    fn a_displaced_body_is_looked_at_where_it_is() {
+        let shift = [0.5, -3.0, 2.0];
+        // Wood but for a void at the bond, i = 1, and a closed one, i = 3.
+        let block =
+            VoxelBlock::from_fn([10.0, 20.0, 30.0], [2.0, 4.0, 8.0], [5, 4, 3], |i, j, k| {
+                !(i == 1 && j == 3 && k == 1 || i == 3 && j == 1 && k == 1)
+            });
+        let mut scene = scene(vec![block]);
+        scene.grid.cells = [40, 60, 80];
+        let at = |[x, y, z]: [f64; 3]| [x + shift[0], y + shift[1], z + shift[2]].map(|x| x as f32);
+        let liquid = LiquidState {
+            // In the void at the bond, in the closed one, a quarter under the side of the block, and 1
+            // under the floor of the void at the bond.
+            position: [
+                [13.0, 34.0, 42.0],
+                [17.0, 26.0, 42.0],
+                [19.75, 29.0, 42.0],
+                [13.0, 31.0, 42.0],
+            ]
+            .map(at)
+            .to_vec(),
+            volume: vec![0.5; 4],
+            ..LiquidState::default()
+        };
+        let found = check(&scene, 2.5, &liquid, &[shift]);
+        assert_eq!(found.points_in_unreachable_voids, 1);
+        assert_eq!((found.points_in_wood, found.points_deep_in_wood), (2, 1));
+        assert!((found.deepest_m - 1.0).abs() < 1e-5, "{}", found.deepest_m);
+        assert!((found.volume_change + 0.2).abs() < 1e-6);
     }
 
     #[test]
