@@ -152,7 +152,7 @@ const HEADER: &str =
 
 const INTRODUCTION: &str = "# Stability on stiff and extreme cases
 
-`make stability` runs small scenes (tests/src/stability) through the real `mpm-run`: a slab of PF 16
+`make stability` runs small scenes (lib/studies/src/stability) through the real `mpm-run`: a slab of PF 16
 cells wide and 4 thick, walls a quarter cell off the nodes, pressed at 1 m/s and at most 2.5 MPa into
 a lumen of 6 cells by 1.5 cells of travel, and variations of it; sealed chambers; liquid torn apart;
 drops. One value is varied at a time; sticking walls and CFL 0.5 unless said.

@@ -67,7 +67,7 @@ impl Finder {
 
     /// All documents, scripts and sources.
     pub fn texts(&self) -> Vec<Text> {
-        let own = "tests/tests/documents/";
+        let own = "tests/documents/";
         (self.files.iter())
             .filter(|f| !f.starts_with(own))
             .filter(|f| {

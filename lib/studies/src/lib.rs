@@ -1,6 +1,6 @@
 //! Verification of the real `mpm-run` against closed forms and converged references, and the
-//! long studies built on it. README.md beside this crate says which test checks which
-//! equation, with which tolerance and why.
+//! long studies built on it. tests/README.md says which test checks which equation, with which
+//! tolerance and why.
 
 #![allow(
     clippy::print_stdout,

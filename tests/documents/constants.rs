@@ -25,7 +25,7 @@ pub fn differences(root: &Path) -> Vec<String> {
             functions.push_str(text)
         });
     }
-    for more in ["lib/physics/src", "tests/tests"] {
+    for more in ["lib/physics/src", "tests/pipeline", "tests/verification"] {
         each_source(&root.join(more), "", &mut |_, text| {
             functions.push_str(text)
         });
