@@ -5,7 +5,7 @@
 .PHONY: verify
 verify: $(BINARIES)
 	@$(CARGO) build --release --quiet -p studies
-	$(BIN)/verify pipelines/cases/verification $(if $(ONLY),out/results,docs/results) $(ONLY)
+	$(BIN)/verify $(if $(ONLY),out/results,docs/results) $(ONLY)
 
 # Error against CPU time over schemes, settings and precision. Also writes the errors that `mpm-run --explain`
 # quotes, which is compiled in: build again after it.

@@ -43,9 +43,9 @@ impl Outcome {
 
 /// Where a study keeps its files.
 pub struct Folders {
-    /// Case files; committed.
+    /// Case files.
     pub cases: PathBuf,
-    /// Run folders; not committed.
+    /// Run folders.
     pub runs: PathBuf,
 }
 

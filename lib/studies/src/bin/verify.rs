@@ -15,11 +15,11 @@ use studies::verification::{catalogue, plots, report};
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let [cases, results, only @ ..] = words.as_slice() else {
-        eprintln!("usage: verify CASE_FOLDER RESULT_FOLDER [NAME_PART...]");
+    let [results, only @ ..] = words.as_slice() else {
+        eprintln!("usage: verify RESULT_FOLDER [NAME_PART...]");
         return ExitCode::from(2);
     };
-    match study(cases.into(), results.into(), only) {
+    match study(results.into(), only) {
         Ok(0) => ExitCode::SUCCESS,
         Ok(failed) => {
             eprintln!("verify: {failed} runs failed");
@@ -33,7 +33,7 @@ fn main() -> ExitCode {
 }
 
 /// Runs everything whose name contains one of `only`; returns how many runs failed.
-fn study(cases: PathBuf, results: PathBuf, only: &[String]) -> Result<usize, String> {
+fn study(results: PathBuf, only: &[String]) -> Result<usize, String> {
     let wanted = |name: &str| only.is_empty() || only.iter().any(|part| name.contains(part));
     let entries: Vec<_> = catalogue::all()
         .into_iter()
@@ -46,8 +46,11 @@ fn study(cases: PathBuf, results: PathBuf, only: &[String]) -> Result<usize, Str
             methods.map(move |method| Job { scene, method })
         })
         .collect();
-    let runs = PathBuf::from("out/verify");
-    let outcomes = run_all(&jobs, &Folders { cases, runs });
+    let folders = Folders {
+        cases: PathBuf::from("out/verify/cases"),
+        runs: PathBuf::from("out/verify"),
+    };
+    let outcomes = run_all(&jobs, &folders);
     report::write(&results, &entries, &outcomes)?;
     plots::write(&results, &outcomes)?;
     Ok(outcomes.iter().filter(|o| o.measured.is_err()).count())

@@ -70,7 +70,7 @@ fn page(outcomes: &[Outcome]) -> String {
     let mut out = String::from("# Verification\n\n");
     let _ = writeln!(out, "{}", provenance("make verify", outcomes));
     out.push_str(
-        "Every case is a file `pipelines/cases/verification/CASE-SCHEME.toml`; updates other than \
+        "Every case is written to `out/verify/cases/CASE-SCHEME.toml` (`make verify ONLY=CASE` writes and runs one); updates other than \
          FLIP are `--set` on it. Errors are relative, in per cent of the reference, unless the \
          quantity says otherwise; n is cells across the lumen, off the offset of the walls from \
          the nodes in cells. All numbers: [verification.csv](verification.csv). Implicit runs \
