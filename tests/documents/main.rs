@@ -1,6 +1,7 @@
 //! What documents, comments and help texts name exists: documents, links, sections, paths of the
-//! repository; and the table of constants in docs/methods.md is that of the code.
+//! repository, commits named in results; and the table of constants in docs/methods.md is that of the code.
 
+mod commits;
 mod constants;
 mod names;
 
@@ -66,4 +67,12 @@ fn broken_names_are_found() {
 fn the_table_of_constants_is_that_of_the_code() {
     let differences = constants::differences(&root());
     assert!(differences.is_empty(), "\n{}", differences.join("\n"));
+}
+
+#[test]
+fn commits_named_in_results_exist() {
+    match commits::missing(&root()) {
+        Ok(missing) => assert!(missing.is_empty(), "\n{}", missing.join("\n")),
+        Err(why) => eprintln!("commits of results not looked up: {why}"),
+    }
 }

@@ -4,12 +4,10 @@
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
-use std::path::PathBuf;
-
 use studies::case_text::Viscosity;
+use studies::job::{Job, run_one};
 use studies::load_control::{self, report::sound, scenes::SHAPES};
 use studies::method::Method;
-use studies::study::{Folders, Job, run_one};
 use studies::verification::lumen::Section;
 use studies::verification::{
     Scene, acoustic, channel, clamp, column, disc, drop, duct, galilean, incline, sealed, squeeze,
@@ -19,13 +17,8 @@ use studies::verification::{
 /// Largest error by magnitude of the quantities whose names begin with `what`.
 fn error(scene: &Scene, method: Method, what: &str) -> f64 {
     let folder = tempfile::tempdir().unwrap();
-    let inside = |name: &str| -> PathBuf { folder.path().join(name) };
-    let folders = Folders {
-        cases: inside("cases"),
-        runs: inside("runs"),
-    };
     let label = method.label.clone();
-    let outcome = run_one(&Job { scene, method }, &folders);
+    let outcome = run_one(&Job { scene, method }, folder.path());
     let list = outcome.measured.unwrap_or_else(|said| panic!("{said}"));
     let errors = list.iter().filter(|m| m.what.starts_with(what));
     let worst = errors

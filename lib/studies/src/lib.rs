@@ -11,9 +11,11 @@
 pub mod case_text;
 pub mod closed_forms;
 pub mod crash;
+pub mod job;
 pub mod leave_out;
 pub mod load_control;
 pub mod method;
+pub mod options;
 pub mod outputs;
 pub mod stability;
 pub mod study;

@@ -1,8 +1,10 @@
 //! Ways to run a scene: scheme, velocity update and what else a user can set.
 
 use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
 
-use crate::outputs;
+use crate::outputs::{self, Run};
+use crate::study::{ended, said};
 
 /// A scheme with its options, as `--set` arguments on the scheme's plain case file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -122,10 +124,35 @@ impl Method {
         self
     }
 
-    /// The `mpm-run` that runs this method.
-    pub fn program(&self) -> PathBuf {
+    /// Runs `case` into `folder` with one thread; `more` are further arguments.
+    ///
+    /// # Errors
+    /// `mpm-run` could not be started, or took too long.
+    pub fn attempt(&self, case: &Path, folder: &Path, more: &[&str]) -> Result<Output, String> {
         let own = || outputs::bin_folder().join("mpm-run");
-        self.program.clone().unwrap_or_else(own)
+        let mut command = Command::new(self.program.clone().unwrap_or_else(own));
+        command.arg(case).arg("-o").arg(folder);
+        command.args(["--overwrite", "--quiet", "--threads", "1"]);
+        command.args(more);
+        for change in &self.set {
+            command.args(["--set", change]);
+        }
+        ended(&mut command)
+    }
+
+    /// The same, which must end well.
+    ///
+    /// # Errors
+    /// What `mpm-run` said on standard error, with its exit status.
+    pub fn run(&self, case: &Path, folder: &Path, more: &[&str]) -> Result<Run, String> {
+        let output = self.attempt(case, folder, more)?;
+        if !output.status.success() {
+            let (case, code) = (case.display(), output.status.code());
+            return Err(format!("{case}: exit {code:?}: {}", said(&output)));
+        }
+        Ok(Run {
+            folder: folder.to_owned(),
+        })
     }
 
     /// This method by another name.

@@ -1,8 +1,7 @@
-//! Running the real `mpm-run` and reading what it wrote.
+//! The built tools, and reading what the real `mpm-run` wrote.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use particle_file::ParticleFile;
 
@@ -17,37 +16,6 @@ pub fn bin_folder() -> PathBuf {
     let here = std::env::current_exe().unwrap_or_default();
     let folder = here.ancestors().find(|p| p.join("mpm-run").is_file());
     folder.map_or_else(|| PathBuf::from("target/release"), Path::to_path_buf)
-}
-
-/// Runs `case` into `folder` by `program`, a build of `mpm-run`; `more` are further arguments.
-///
-/// # Errors
-/// What `mpm-run` said on standard error, with its exit status.
-pub fn run(program: &Path, case: &Path, folder: &Path, more: &[&str]) -> Result<Run, String> {
-    let output = Command::new(program)
-        .arg(case)
-        .arg("-o")
-        .arg(folder)
-        .args(["--overwrite", "--quiet"])
-        .args(more)
-        .output()
-        .map_err(|e| {
-            format!(
-                "{} cannot be started: {e}; build the workspace first",
-                program.display()
-            )
-        })?;
-    if !output.status.success() {
-        return Err(format!(
-            "{}: exit {:?}: {}",
-            case.display(),
-            output.status.code(),
-            String::from_utf8_lossy(&output.stderr).trim()
-        ));
-    }
-    Ok(Run {
-        folder: folder.to_owned(),
-    })
 }
 
 impl Run {

@@ -1,120 +1,153 @@
-//! Runs scenes by methods through the real `mpm-run`, as many at a time as the machine has
-//! processors, and measures each.
+//! What all studies share: provenance, pieces of work side by side, the time limit, result files.
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, mpsc};
+use std::time::Duration;
 
-use crate::method::Method;
-use crate::outputs;
-use crate::verification::{Measured, Scene};
+/// What a run may take. The longest, `make tradeoff` with twelve cells, takes 95 CPU seconds.
+const LIMIT: Duration = Duration::from_secs(600);
 
-/// One scene by one method.
-pub struct Job<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// The method.
-    pub method: Method,
+/// What numbers depend on: the commit named by a page is the last that changed any of these.
+const SOURCES: [&str; 6] = [
+    "lib",
+    "tools",
+    "pipelines",
+    "Cargo.toml",
+    "Cargo.lock",
+    "rust-toolchain.toml",
+];
+
+/// A study, called as its make target.
+pub struct Study {
+    name: String,
+    origin: String,
+    results: PathBuf,
+    only: Vec<String>,
 }
 
-/// What a job gave.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    /// Name of the scene.
-    pub scene: String,
-    /// The method.
-    pub method: Method,
-    /// Measured errors, or why there are none.
-    pub measured: Result<Vec<Measured>, String>,
-    /// Folder of the run.
-    pub folder: PathBuf,
-    /// Steps; NaN if it did not end.
-    pub steps: f64,
-    /// User and system time of the run, s; NaN if it did not end.
-    pub cpu_s: f64,
-}
+impl Study {
+    /// The study `name`, which writes its pages to `results`, on what is named by a word that holds
+    /// one of `only`, or on all.
+    ///
+    /// # Errors
+    /// The system's reason why there is no folder of results.
+    pub fn begin(name: &str, results: &Path, only: &[String]) -> Result<Self, String> {
+        std::fs::create_dir_all(results).map_err(|e| format!("{}: {e}", results.display()))?;
+        Ok(Self {
+            name: name.to_owned(),
+            // At the beginning: what is edited while the study is on has not been measured.
+            origin: origin(&format!("make {name}")),
+            results: results.to_owned(),
+            only: only.to_owned(),
+        })
+    }
 
-impl Outcome {
-    /// The measured quantity of this name.
-    pub fn measured(&self, what: &str) -> Option<&Measured> {
-        self.measured.as_ref().ok()?.iter().find(|m| m.what == what)
+    /// The folder of its cases and runs.
+    pub fn folder(&self) -> PathBuf {
+        Path::new("out").join(&self.name)
+    }
+
+    /// Whether a part of this name is to be done.
+    pub fn wants(&self, name: &str) -> bool {
+        self.whole() || self.only.iter().any(|part| name.contains(part))
+    }
+
+    /// Whether all of it is to be done.
+    pub fn whole(&self) -> bool {
+        self.only.is_empty()
+    }
+
+    /// First words of a page: what made it, when, of which commit, on what machine.
+    pub fn origin(&self) -> &str {
+        &self.origin
+    }
+
+    /// First lines of a page on runs of one thread each that took these CPU times (s; NaN for one
+    /// that did not end).
+    pub fn head(&self, cpu_s: impl Iterator<Item = f64>) -> String {
+        let all: Vec<f64> = cpu_s.collect();
+        let sum: f64 = all.iter().filter(|s| s.is_finite()).sum();
+        format!(
+            "{}, {} runs of one thread each, {sum:.0} CPU seconds in all.\n",
+            self.origin,
+            all.len()
+        )
+    }
+
+    /// Writes a file of results.
+    ///
+    /// # Errors
+    /// The system's reason.
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), String> {
+        let path = self.results.join(name);
+        std::fs::write(&path, content).map_err(|e| format!("{}: {e}", path.display()))
+    }
+
+    /// Writes a table with the columns named in `header`, by commas.
+    ///
+    /// # Errors
+    /// The system's reason.
+    pub fn write_csv(
+        &self,
+        name: &str,
+        header: &str,
+        rows: impl IntoIterator<Item = Vec<String>>,
+    ) -> Result<(), String> {
+        let path = self.results.join(name);
+        let failed = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
+        let mut table = csv::Writer::from_path(&path).map_err(|e| failed(&e))?;
+        table
+            .write_record(header.split(','))
+            .map_err(|e| failed(&e))?;
+        for row in rows {
+            table.write_record(row).map_err(|e| failed(&e))?;
+        }
+        table.flush().map_err(|e| failed(&e))
     }
 }
 
-/// Where a study keeps its files.
-pub struct Folders {
-    /// Case files.
-    pub cases: PathBuf,
-    /// Run folders.
-    pub runs: PathBuf,
-}
-
-/// The case file of `scene` for the scheme of `method`, written into `folder`; whole at any time,
-/// because runs of other methods may be reading it.
-///
-/// # Errors
-/// The system's reason.
-pub fn write_case(folder: &Path, scene: &Scene, method: &Method) -> Result<PathBuf, String> {
-    let scheme = method.scheme;
-    let path = folder.join(format!("{}-{}.toml", scene.name, scheme.name()));
-    let aside = folder.join(format!("{}-{}.tmp", scene.name, method.file_label()));
-    std::fs::create_dir_all(folder)
-        .and_then(|()| std::fs::write(&aside, scene.case.text(scheme.integrator())))
-        .and_then(|()| std::fs::rename(&aside, &path))
-        .map_err(|e| format!("{}: {e}", path.display()))?;
-    Ok(path)
-}
-
-/// Runs one job with one thread.
-pub fn run_one(job: &Job, folders: &Folders) -> Outcome {
-    let scene = job.scene;
-    let folder = folders
-        .runs
-        .join(format!("{}-{}", scene.name, job.method.file_label()));
-    let mut arguments = vec!["--threads", "1"];
-    for change in &job.method.set {
-        arguments.extend(["--set", change]);
-    }
-    let run = write_case(&folders.cases, scene, &job.method)
-        .and_then(|case| outputs::run(&job.method.program(), &case, &folder, &arguments));
-    let number = |key: &str| {
-        let run = run.as_ref().ok()?;
-        run.summary(key)
+/// What made a page, when, of which commit, on what machine.
+pub fn origin(command: &str) -> String {
+    let said = |program: &str, arguments: &[&str]| {
+        let output = Command::new(program).args(arguments).output().ok()?;
+        let text = String::from_utf8(output.stdout).ok()?;
+        Some(text.trim().to_owned()).filter(|t| !t.is_empty())
     };
-    Outcome {
-        scene: scene.name.clone(),
-        method: job.method.clone(),
-        steps: number("steps").unwrap_or(f64::NAN),
-        cpu_s: number("cpu_s").unwrap_or(f64::NAN),
-        measured: run.and_then(|run| (scene.measure)(&run)),
-        folder,
-    }
+    let unknown = || "unknown".to_owned();
+    let git = |first: &[&str]| said("git", &[first, &["--"], &SOURCES].concat());
+    let date = said("date", &["-u", "+%Y-%m-%d %H:%M UTC"]).unwrap_or_else(unknown);
+    let commit = git(&["log", "-1", "--format=%h"]).unwrap_or_else(unknown);
+    let changed = match git(&["status", "--porcelain"]) {
+        Some(_) => " with changes not yet committed",
+        None => "",
+    };
+    let processor = std::fs::read_to_string("/proc/cpuinfo")
+        .ok()
+        .and_then(|text| {
+            let line = text.lines().find(|l| l.starts_with("model name"))?;
+            Some(line.split(':').nth(1)?.trim().to_owned())
+        })
+        .unwrap_or_else(unknown);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    format!(
+        "Written by `{command}` on {date}: commit {commit}{changed}, {processor} ({cores} processors)"
+    )
 }
 
-/// Runs all jobs and gives their outcomes in the order of the jobs; says each on standard output
-/// as it ends.
-pub fn run_all(jobs: &[Job], folders: &Folders) -> Vec<Outcome> {
-    side_by_side(jobs.len(), |i| {
-        let outcome = run_one(&jobs[i], folders);
-        say(&outcome);
-        outcome
-    })
-}
-
-/// Does `count` pieces of work, as many at a time as there are processors; results in order.
-pub fn side_by_side<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+/// Does `work` on each of `list`, as many at a time as there are processors; results in order.
+pub fn side_by_side<P: Sync, T: Send>(list: &[P], work: impl Fn(&P) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::new());
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {
-        for _ in 0..workers.min(count) {
+        for _ in 0..workers.min(list.len()) {
             scope.spawn(|| {
                 loop {
                     let i = next.fetch_add(1, Ordering::Relaxed);
-                    if i >= count {
-                        return;
-                    }
-                    let result = work(i);
+                    let Some(piece) = list.get(i) else { return };
+                    let result = work(piece);
                     if let Ok(mut done) = done.lock() {
                         done.push((i, result));
                     }
@@ -127,63 +160,43 @@ pub fn side_by_side<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> 
     done.into_iter().map(|(_, result)| result).collect()
 }
 
-fn say(outcome: &Outcome) {
-    let head = format!("{:<28} {:<12}", outcome.scene, outcome.method.label);
-    match &outcome.measured {
-        Ok(list) => {
-            for m in list {
-                println!(
-                    "{head} {:<36} {:+10.3e}  {:7.1} s",
-                    m.what, m.error, outcome.cpu_s
-                );
-            }
+/// What `command` ended with, whatever its exit status.
+///
+/// # Errors
+/// It could not be started, or was killed because it took longer than the studies' time limit.
+pub fn ended(command: &mut Command) -> Result<Output, String> {
+    let name = command.get_program().display().to_string();
+    let child = command
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(|e| format!("{name} cannot be started: {e}; build the workspace first"))?;
+    let id = child.id().to_string();
+    let (end, ends) = mpsc::channel();
+    std::thread::spawn(move || end.send(child.wait_with_output()));
+    match ends.recv_timeout(LIMIT) {
+        Ok(output) => output.map_err(|e| format!("{name}: {e}")),
+        Err(_) => {
+            // Nobody is left to hear what became of the signal.
+            let _ = Command::new("kill").args(["-KILL", &id]).status();
+            Err(format!("not ended after {} s", LIMIT.as_secs()))
         }
-        Err(said) => println!("{head} FAILED: {said}"),
     }
 }
 
-/// First words of a results page: what made it, when, and on what machine.
-pub fn origin(command: &str) -> String {
-    let said = |program: &str, arguments: &[&str]| {
-        let output = std::process::Command::new(program)
-            .args(arguments)
-            .output()
-            .ok()?;
-        let text = String::from_utf8(output.stdout).ok()?;
-        Some(text.trim().to_owned()).filter(|t| !t.is_empty())
-    };
-    let unknown = || "unknown".to_owned();
-    let date = said("date", &["-u", "+%Y-%m-%d %H:%M UTC"]).unwrap_or_else(unknown);
-    let commit = said("git", &["rev-parse", "--short", "HEAD"]).unwrap_or_else(unknown);
-    let changed = said("git", &["status", "--porcelain", "lib", "tools", "tests"]);
-    let processor = std::fs::read_to_string("/proc/cpuinfo")
-        .ok()
-        .and_then(|text| {
-            let line = text.lines().find(|l| l.starts_with("model name"))?;
-            Some(line.split(':').nth(1)?.trim().to_owned())
-        })
-        .unwrap_or_else(unknown);
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    format!(
-        "Written by `{command}` on {date}: commit {commit}{}, {processor} ({cores} processors)",
-        if changed.is_some() {
-            " with changes not yet committed"
-        } else {
-            ""
-        },
-    )
+/// What a tool said on standard error.
+pub fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).trim().to_owned()
 }
 
-/// First lines of a results page: its origin and the cost of its runs.
-pub fn provenance(command: &str, outcomes: &[Outcome]) -> String {
-    let cpu: f64 = outcomes
-        .iter()
-        .map(|o| o.cpu_s)
-        .filter(|s| s.is_finite())
-        .sum();
-    format!(
-        "{}, {} runs of one thread each, {cpu:.0} CPU seconds in all.\n",
-        origin(command),
-        outcomes.len()
-    )
+/// Each of `list` once, in the order of their first places.
+pub fn distinct<T: PartialEq>(list: impl Iterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for one in list {
+        if !found.contains(&one) {
+            found.push(one);
+        }
+    }
+    found
 }

@@ -3,8 +3,9 @@
 use std::os::unix::process::ExitStatusExt;
 
 use super::faults::{self, Fault, Point};
-use super::scene::{Place, Scene, said, same};
+use super::scene::{Place, Scene, same};
 use super::{Row, all_wrong};
+use crate::study::said;
 
 /// A run as it is started, interrupted, and recovered.
 struct Series {

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::process::Output;
 
 use super::scene::Place;
+use crate::study::ended;
 
 /// The calls by which a run changes or holds its folder; those a system lacks are left out.
 const CALLS: [&str; 16] = [
@@ -136,5 +137,5 @@ fn strace(
     for (point, fault) in faults {
         words.extend(["-e".to_owned(), fault.injection(point)]);
     }
-    (place.command(&words, more).output()).map_err(|e| format!("strace: {e}"))
+    ended(&mut place.command(&words, more))
 }

@@ -2,8 +2,9 @@
 
 use std::fs;
 
-use super::scene::{Place, Scene, said, same};
+use super::scene::{Place, Scene, same};
 use super::{Row, all_wrong};
+use crate::study::{ended, said};
 
 /// Whether the limit can be set to a byte.
 pub fn available() -> bool {
@@ -43,7 +44,7 @@ pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>, Strin
                 ];
                 let mut words: Vec<String> = words.map(String::from).into();
                 words.push(limit.to_string());
-                let output = (place.command(&words, &more).output()).map_err(|e| e.to_string())?;
+                let output = ended(&mut place.command(&words, &more))?;
                 if output.status.code() != Some(1) || !said(&output).contains("history.csv") {
                     return Err(format!("{limit}: {:?}, {}", output.status, said(&output)));
                 }

@@ -9,6 +9,8 @@ pub mod report;
 pub mod scene;
 pub mod together;
 
+use crate::study::{Study, side_by_side};
+
 /// What came of one series of trials.
 #[derive(Clone, Debug)]
 pub struct Row {
@@ -36,26 +38,42 @@ impl Row {
     }
 }
 
-/// Does trials side by side on all processors; the sentences of those that failed.
+/// Rounds of two runs into one folder.
+const ROUNDS: usize = 100;
+/// Runs of each scheme that are interrupted several times.
+const CHAINS: u64 = 100;
+
+/// The study, all of it whatever is asked for.
+///
+/// # Errors
+/// What keeps the trials from being made.
+pub fn run(study: &Study) -> Result<bool, String> {
+    let tell = |row: &Row| println!("{}", row.line());
+    let (mut rows, mut left_out) = (Vec::new(), Vec::new());
+    for row in [together::at_once(ROUNDS)?, together::meanwhile(ROUNDS)?] {
+        tell(&row);
+        rows.push(row);
+    }
+    if full_disk::available() {
+        rows.extend(full_disk::rows(1, tell)?);
+    } else {
+        left_out.push("the full disk, as `prlimit` is not installed");
+    }
+    if faults::available() {
+        rows.extend(campaign::rows(1, tell)?);
+        rows.extend(chains::rows(CHAINS, tell)?);
+    } else {
+        left_out.push("kills and failing calls, as `strace` is not installed or may not trace");
+    }
+    report::write(study, &rows, &left_out)?;
+    Ok(left_out.is_empty() && rows.iter().all(|row| row.wrong.is_empty()))
+}
+
+/// Does trials side by side; the sentences of those that failed.
 fn all_wrong<T: Sync>(
     trials: &[T],
     trial: impl Fn(&T) -> Result<(), String> + Sync,
 ) -> Vec<String> {
-    let next = std::sync::atomic::AtomicUsize::new(0);
-    let wrong = std::sync::Mutex::new(Vec::new());
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(|| {
-                while let Some(one) =
-                    trials.get(next.fetch_add(1, std::sync::atomic::Ordering::Relaxed))
-                {
-                    if let (Err(said), Ok(mut wrong)) = (trial(one), wrong.lock()) {
-                        wrong.push(said);
-                    }
-                }
-            });
-        }
-    });
-    wrong.into_inner().unwrap_or_default()
+    let done = side_by_side(trials, trial);
+    done.into_iter().filter_map(Result::err).collect()
 }

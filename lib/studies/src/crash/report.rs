@@ -1,30 +1,32 @@
-//! The tables of the campaign.
+//! `crash.csv` and `crash.md`.
 
 use std::fmt::Write;
 
 use super::Row;
+use crate::study::Study;
 
-/// One line for each series, scheme and fault.
-pub fn csv(rows: &[Row]) -> String {
-    let mut text = String::from("series,scheme,fault,trials,wrong\n");
-    for row in rows {
-        let _ = writeln!(
-            text,
-            "\"{}\",{},{},{},{}",
-            row.series,
-            row.scheme,
-            row.fault,
-            row.trials,
-            row.wrong.len()
-        );
-    }
-    text
+/// Writes the table and the page; `left_out` is what could not be done.
+///
+/// # Errors
+/// The system's reason.
+pub fn write(study: &Study, rows: &[Row], left_out: &[&str]) -> Result<(), String> {
+    let fields = rows.iter().map(|row| {
+        let [trials, wrong] = [row.trials, row.wrong.len()].map(|count| count.to_string());
+        vec![
+            row.series.into(),
+            row.scheme.into(),
+            row.fault.into(),
+            trials,
+            wrong,
+        ]
+    });
+    study.write_csv("crash.csv", "series,scheme,fault,trials,wrong", fields)?;
+    study.write("crash.md", page(rows, study.origin(), left_out))
 }
 
-/// The page, with `head` as its first lines and what could not be done in `left_out`.
-pub fn page(rows: &[Row], head: &str, left_out: &[&str]) -> String {
+fn page(rows: &[Row], origin: &str, left_out: &[&str]) -> String {
     let mut text = format!(
-        "# Runs that are killed\n\n{head}\n\
+        "# Runs that are killed\n\n{origin}.\n\n\
          A run of about thirty steps of each scheme is killed (SIGKILL), or a call of it fails (no space left,\n\
          or an error of the disk), at every open, write, rename, sync, truncation, removal, mkdir and lock in\n\
          turn. Then the same command is given once more. A trial is as it must be when all files of the run\n\

@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Command;
 
 use tempfile::TempDir;
 
 use crate::case_text::{Body, CaseText};
 use crate::method::Scheme;
 use crate::outputs::bin_folder;
+use crate::study::{ended, said};
 
 /// Keys of `summary.json` that say what a run cost, which no two runs share.
 const COSTS: [&str; 5] = [
@@ -103,8 +104,7 @@ impl Place {
             .args(["case.toml", "-o", "run", "--quiet", "--threads", "1"])
             .args(["--set", "output.snapshots=4"])
             .args(more)
-            .current_dir(self.path())
-            .stdin(Stdio::null());
+            .current_dir(self.path());
         command
     }
 
@@ -113,18 +113,13 @@ impl Place {
     /// # Errors
     /// What it said where it did not end well.
     pub fn done(&self, more: &[&str]) -> Result<(), String> {
-        let output = (self.command(&[], more).output()).map_err(|e| e.to_string())?;
+        let output = ended(&mut self.command(&[], more))?;
         if output.status.success() {
             Ok(())
         } else {
             Err(format!("{:?}: {}", output.status, said(&output)))
         }
     }
-}
-
-/// What a tool said on standard error.
-pub fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).trim().to_owned()
 }
 
 /// The files below a run folder, by name.

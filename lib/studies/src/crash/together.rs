@@ -6,8 +6,9 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use super::Row;
-use super::scene::{Place, Scene, said, same};
+use super::scene::{Place, Scene, same};
 use crate::method::Scheme;
+use crate::study::{ended, said};
 
 const SCENE: Scene = Scene(Scheme::Explicit);
 
@@ -77,7 +78,7 @@ pub fn meanwhile(rounds: usize) -> Result<Row, String> {
     ];
     let mut wrong = Vec::new();
     for way in ways.iter().cycle().take(rounds) {
-        let second = (second(&place, way).output()).map_err(|e| e.to_string())?;
+        let second = ended(&mut second(&place, way))?;
         let told = said(&second);
         if second.status.code() != Some(2) || !told.contains("another run is writing") {
             wrong.push(format!("{way:?}: {:?}, {told}", second.status));
@@ -109,7 +110,7 @@ pub fn meanwhile(rounds: usize) -> Result<Row, String> {
 
 fn start(place: &Place, more: &[&str]) -> Result<Child, String> {
     let mut command = place.command(&[], more);
-    (command.stderr(Stdio::piped()).spawn()).map_err(|e| e.to_string())
+    (command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn()).map_err(|e| e.to_string())
 }
 
 /// A run into `run`, or into the folder that `way` names.

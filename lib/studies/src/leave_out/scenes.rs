@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::case_text::{Body, CaseText};
+use crate::job::write_case;
 use crate::method::Method;
-use crate::study::write_case;
 use crate::verification::{Scene, slit};
 
 const CELL: f64 = 2.9e-6;

@@ -6,9 +6,10 @@ pub mod scenes;
 
 use std::path::Path;
 
+use crate::job::write_text;
 use crate::method::{Method, Scheme};
-use crate::outputs::{self, Run};
-use crate::study::side_by_side;
+use crate::outputs::Run;
+use crate::study::{Study, side_by_side};
 use scenes::{CELL, SHAPES, Shape};
 
 /// Pressure limits, Pa.
@@ -113,17 +114,10 @@ pub fn row(shape: Shape, pressure: f64, viscosity: f64, folder: &Path) -> Result
         .case(pressure, viscosity)
         .text(Scheme::Implicit.integrator());
     let case = folder.join(format!("{name}.toml"));
-    std::fs::create_dir_all(folder)
-        .and_then(|()| std::fs::write(&case, text))
-        .map_err(|e| format!("{}: {e}", case.display()))?;
+    write_text(&case, &text)?;
     let course = |cfl: f64| {
-        let set = format!("integrator.cfl={cfl}");
-        let run = outputs::run(
-            &Method::implicit().program(),
-            &case,
-            &folder.join(format!("{name}-{cfl}")),
-            &["--threads", "1", "--set", &set],
-        )?;
+        let method = Method::implicit().setting(format!("integrator.cfl={cfl}"));
+        let run = method.run(&case, &folder.join(format!("{name}-{cfl}")), &[])?;
         Course::of(&run, &shape, pressure, cfl)
     };
     let courses = [course(COURANT[0])?, course(COURANT[1])?];
@@ -145,25 +139,23 @@ pub fn row(shape: Shape, pressure: f64, viscosity: f64, folder: &Path) -> Result
     })
 }
 
-/// All presses in the order scene, pressure, viscosity, those whose name contains one of `only`.
+/// The study.
 ///
 /// # Errors
-/// What a run said.
-pub fn rows(only: &[&str], folder: &Path) -> Result<Vec<Row>, String> {
+/// What a run or the system said.
+pub fn run(study: &Study) -> Result<bool, String> {
     let mut wanted = Vec::new();
-    for shape in SHAPES {
-        if only.is_empty() || only.iter().any(|part| shape.name.contains(part)) {
-            for pressure in PRESSURES {
-                wanted.extend(VISCOSITIES.map(|viscosity| (shape, pressure, viscosity)));
-            }
+    for shape in SHAPES.into_iter().filter(|shape| study.wants(shape.name)) {
+        for pressure in PRESSURES {
+            wanted.extend(VISCOSITIES.map(|viscosity| (shape, pressure, viscosity)));
         }
     }
-    side_by_side(wanted.len(), |i| {
-        let (shape, pressure, viscosity) = wanted[i];
-        row(shape, pressure, viscosity, folder)
-    })
-    .into_iter()
-    .collect()
+    let done = side_by_side(&wanted, |&(shape, pressure, viscosity)| {
+        row(shape, pressure, viscosity, &study.folder())
+    });
+    let rows = done.into_iter().collect::<Result<Vec<Row>, String>>()?;
+    report::write(study, &rows)?;
+    Ok(report::sound(&rows))
 }
 
 /// Pairs of rows that differ in one step of pressure or viscosity and of which the easier press

@@ -1,32 +1,46 @@
-//! The rows as CSV and as a page.
+//! `load-control.csv` and `load-control.md`.
 
 use std::fmt::Write;
 
 use super::{COURANT, Row, out_of_order, scenes::SHAPES};
+use crate::study::Study;
 
-/// The rows as CSV.
-pub fn csv(rows: &[Row]) -> String {
-    let mut out = String::from("scene,pressure_Pa,viscosity_Pa_s");
+/// Writes the table and the page.
+///
+/// # Errors
+/// The system's reason.
+pub fn write(study: &Study, rows: &[Row]) -> Result<(), String> {
+    let mut header = String::from("scene,pressure_Pa,viscosity_Pa_s");
     for cfl in COURANT {
-        // Writing to a string cannot fail.
-        let _ = write!(
-            out,
-            ",closed_s_{cfl},clamp_over_cfl_{cfl},points_cross_cells_{cfl},pressure_over_limit_{cfl},cpu_s_{cfl}"
-        );
+        let columns = [
+            "closed_s",
+            "clamp_over_cfl",
+            "points_cross_cells",
+            "pressure_over_limit",
+            "cpu_s",
+        ];
+        header.extend(columns.map(|column| format!(",{column}_{cfl}")));
     }
-    out.push_str(",way_difference,thickness_difference\n");
-    for row in rows {
-        let _ = write!(out, "{},{},{}", row.shape.name, row.pressure, row.viscosity);
+    header.push_str(",way_difference,thickness_difference");
+    let fields = rows.iter().map(|row| {
+        let mut list = vec![
+            row.shape.name.into(),
+            row.pressure.to_string(),
+            row.viscosity.to_string(),
+        ];
         for c in &row.courses {
-            let _ = write!(
-                out,
-                ",{:.5e},{:.6},{:.4},{:.5},{:.2}",
-                c.closed_s, c.clamp, c.points_cross, c.overshoot, c.cpu_s
-            );
+            list.push(format!("{:.5e}", c.closed_s));
+            list.push(format!("{:.6}", c.clamp));
+            list.push(format!("{:.4}", c.points_cross));
+            list.push(format!("{:.5}", c.overshoot));
+            list.push(format!("{:.2}", c.cpu_s));
         }
-        let _ = writeln!(out, ",{:.5},{:.5}", row.difference, row.thickness);
-    }
-    out
+        list.extend([row.difference, row.thickness].map(|x| format!("{x:.5}")));
+        list
+    });
+    study.write_csv("load-control.csv", &header, fields)?;
+    let head = study.head(rows.iter().flat_map(|row| &row.courses).map(|c| c.cpu_s));
+    study.write("load-control.md", page(rows, &head))
 }
 
 /// Largest difference between the Courant numbers.
@@ -43,8 +57,7 @@ pub fn sound(rows: &[Row]) -> bool {
     }) && out_of_order(rows).is_empty()
 }
 
-/// The page.
-pub fn page(rows: &[Row], head: &str) -> String {
+fn page(rows: &[Row], head: &str) -> String {
     let worst = |of: &dyn Fn(&Row) -> f64, rows: &[&Row]| {
         rows.iter().map(|row| of(row)).fold(0.0, f64::max)
     };

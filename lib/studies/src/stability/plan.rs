@@ -299,7 +299,7 @@ fn numerics(plan: &mut Plan) {
                 .collect();
             plan.add("shape", format!("{shape}, {name}"), scene, &shaped);
         }
-        for (label, keys) in super::options::OPTIONS {
+        for (label, keys) in crate::options::OPTIONS {
             let with: Vec<Method> = usual()
                 .into_iter()
                 .filter(|m| m.scheme == Scheme::Explicit)

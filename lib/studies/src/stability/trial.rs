@@ -1,19 +1,19 @@
 //! One run: how it ended and what it kept.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::Output;
 
 use super::scenes::{Balance, Scene};
 use crate::case_text::{PF, Viscosity};
+use crate::job::write_text;
 use crate::method::{Method, Scheme};
-use crate::outputs::{Run, bin_folder};
+use crate::outputs::Run;
+use crate::study::said;
 
 /// Tait constant of paper Eq. 1.
 const TAIT_C: f64 = 0.0894;
 /// Explicit steps of a trial at most: where more would be needed, the row says so.
 const MOST_STEPS: f64 = 20_000.0;
-/// Wall seconds after which a run is told to stop.
-const PATIENCE: u32 = 120;
 /// Kinetic energy over that of the scene's own motion from which a run that ended counts as
 /// noisy: the speeds of the points are then noise, not flow.
 const NOISY: f64 = 10.0;
@@ -112,7 +112,7 @@ impl Trial {
     /// Runs it, with case and run folder below `folder`.
     ///
     /// # Errors
-    /// When the program cannot be started or a case not be written.
+    /// When its case cannot be written.
     pub fn run(self, folder: &Path) -> Result<Row, String> {
         let whole = self.scene.duration;
         let seconds = match self.method.scheme {
@@ -125,29 +125,14 @@ impl Trial {
             .scene
             .lasting(seconds)
             .text(self.method.scheme.integrator());
-        let failed = |e: std::io::Error| format!("{}: {e}", case.display());
-        std::fs::create_dir_all(folder).map_err(failed)?;
-        std::fs::write(&case, text).map_err(failed)?;
+        write_text(&case, &text)?;
         let cfl = format!("integrator.cfl={}", self.cfl);
-        let mut command = Command::new("timeout");
-        command
-            .arg(PATIENCE.to_string())
-            .arg(bin_folder().join("mpm-run"))
-            .arg(&case)
-            .arg("-o")
-            .arg(&out)
-            .args(["--overwrite", "--quiet", "--threads", "1", "--set", &cfl]);
-        for change in &self.method.set {
-            command.args(["--set", change]);
-        }
-        let output = command
-            .output()
-            .map_err(|e| format!("mpm-run cannot be started: {e}; build the workspace first"))?;
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        Ok(self.judge(output.status.code(), &said, out, seconds / whole))
+        let ended = self.method.attempt(&case, &out, &["--set", &cfl]);
+        Ok(self.judge(ended, out, seconds / whole))
     }
 
-    fn judge(self, code: Option<i32>, said: &str, folder: PathBuf, part: f64) -> Row {
+    fn judge(self, ended: Result<Output, String>, folder: PathBuf, part: f64) -> Row {
+        let said = ended.as_ref().map_or(String::new(), said);
         let warning = said.lines().find(|l| l.starts_with("warning"));
         let sentence = || {
             let last = said.lines().last().unwrap_or("").trim();
@@ -171,14 +156,14 @@ impl Trial {
             trial: self,
         };
         let measured = row.measure(&run);
-        row.verdict = match (code, measured) {
-            (Some(0), Ok(())) if row.energy > NOISY => Verdict::Noisy,
-            (Some(0), Ok(())) => Verdict::Stable,
-            (Some(0), Err(said)) => Verdict::Broken(format!("ended, but {said}")),
-            (Some(1), _) => Verdict::Stopped(sentence()),
-            (Some(2), _) => Verdict::Refused(sentence()),
-            (Some(124), _) => Verdict::Broken(format!("not ended after {PATIENCE} s")),
-            (code, _) => Verdict::Broken(format!("exit {code:?}: {}", sentence())),
+        row.verdict = match (ended.map(|output| output.status.code()), measured) {
+            (Ok(Some(0)), Ok(())) if row.energy > NOISY => Verdict::Noisy,
+            (Ok(Some(0)), Ok(())) => Verdict::Stable,
+            (Ok(Some(0)), Err(said)) => Verdict::Broken(format!("ended, but {said}")),
+            (Ok(Some(1)), _) => Verdict::Stopped(sentence()),
+            (Ok(Some(2)), _) => Verdict::Refused(sentence()),
+            (Ok(code), _) => Verdict::Broken(format!("exit {code:?}: {}", sentence())),
+            (Err(said), _) => Verdict::Broken(said),
         };
         row
     }

@@ -7,8 +7,8 @@ use std::process::Command;
 use super::settings::Setting;
 use super::{Flow, Row};
 use crate::method::{Method, Scheme};
-use crate::outputs::{Run, bin_folder, run};
-use crate::study::side_by_side;
+use crate::outputs::{Run, bin_folder};
+use crate::study::{ended, said, side_by_side};
 
 /// Size in voxels, and the slab.
 const SPECIMEN: [&str; 6] = ["--size", "24x72x24", "--slab", "11.6 um", "--seed", "1"];
@@ -42,8 +42,7 @@ pub fn rows(settings: &[Setting], folder: &Path) -> Result<Vec<Row>, String> {
         reference.pressure, reference.wp, reference.cpu_s
     );
     let chosen: Vec<&Setting> = settings.iter().filter(|s| s.bond).collect();
-    let rows = side_by_side(chosen.len(), |i| {
-        let setting = chosen[i];
+    let rows = side_by_side(&chosen, |&setting| {
         // Six cells are two voxels each, as in the paper.
         let cell = 17.4 / f64::from(setting.cells);
         let runs = folder.join(setting.method.file_label());
@@ -107,14 +106,11 @@ fn specimen(folder: &Path) -> Result<PathBuf, String> {
 }
 
 fn tool(name: &str, arguments: &[&str]) -> Result<String, String> {
-    let output = Command::new(bin_folder().join(name))
-        .args(arguments)
-        .output()
-        .map_err(|e| format!("{name} cannot be started: {e}"))?;
+    let output = ended(Command::new(bin_folder().join(name)).args(arguments))?;
     if output.status.success() {
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     } else {
-        Err(String::from_utf8_lossy(&output.stderr).trim().to_owned())
+        Err(said(&output))
     }
 }
 
@@ -126,7 +122,7 @@ fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Cl
     };
     let bond = bond.display().to_string();
     let cell = format!("grid.cell=\"{cell_um} um\"");
-    let mut arguments = vec!["--threads", "1", "--particles", &bond];
+    let mut arguments = vec!["--particles", &bond];
     let fixed = [
         cell.as_str(),
         // The wall law's length does not go with the cell here.
@@ -135,13 +131,10 @@ fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Cl
         "output.history_every=\"0.1 us\"",
         "output.snapshots=0",
     ];
-    for change in fixed
-        .into_iter()
-        .chain(method.set.iter().map(String::as_str))
-    {
+    for change in fixed {
         arguments.extend(["--set", change]);
     }
-    let run = run(&method.program(), Path::new(case), folder, &arguments)?;
+    let run = method.run(Path::new(case), folder, &arguments)?;
     Ok(Closed {
         pressure: late_pressure(&run)?,
         wp: weighted_penetration(&run)?,

@@ -5,9 +5,33 @@ pub mod bond;
 pub mod report;
 pub mod settings;
 
-use crate::study::{Folders, Job, Outcome, run_all};
+use std::path::Path;
+
+use crate::job::{Job, Outcome, run_all};
+use crate::study::Study;
 use crate::verification::{Scene, channel, incline, slit};
 use settings::Setting;
+
+/// The build of `mpm-run` with the feature `double`.
+const DOUBLE: &str = "target/double/release/mpm-run";
+
+/// The study, with the settings so named.
+///
+/// # Errors
+/// What a tool said without which there is no bond line or no reference for it, or the system.
+pub fn run(study: &Study) -> Result<bool, String> {
+    let mut settings = settings::all(Path::new(DOUBLE));
+    settings.retain(|setting| study.wants(&setting.method.label));
+    let mut rows = bond::rows(&settings, &study.folder().join("bond"))?;
+    let bonds = rows.iter().filter(|r| r.flow == Flow::BondPressure);
+    let mut cpu_s: Vec<f64> = bonds.map(|r| r.cpu_s).collect();
+    let (more, outcomes) = boxes(&settings, &study.folder());
+    rows.extend(more);
+    cpu_s.extend(outcomes.iter().map(|o| o.cpu_s));
+    mark_front(&mut rows);
+    report::write(study, &rows, &study.head(cpu_s.into_iter()))?;
+    Ok(true)
+}
 
 /// The flows, in the order of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,7 +119,7 @@ pub struct Row {
 }
 
 /// Runs the settings on the flows of boxes.
-pub fn boxes(settings: &[Setting], folders: &Folders) -> (Vec<Row>, Vec<Outcome>) {
+fn boxes(settings: &[Setting], folder: &Path) -> (Vec<Row>, Vec<Outcome>) {
     let flows = [Flow::Slit, Flow::Channel, Flow::Incline];
     let mut parts: Vec<(Flow, &Setting, Scene)> = Vec::new();
     for flow in flows {
@@ -111,7 +135,7 @@ pub fn boxes(settings: &[Setting], folders: &Folders) -> (Vec<Row>, Vec<Outcome>
             method: setting.method.clone(),
         })
         .collect();
-    let outcomes = run_all(&jobs, folders);
+    let outcomes = run_all(&jobs, folder);
     let mut rows = Vec::new();
     for flow in flows {
         for setting in settings {
@@ -148,7 +172,7 @@ fn row(flow: Flow, setting: &Setting, outcomes: &[&Outcome]) -> Row {
 }
 
 /// Marks the rows of each flow that nothing cheaper matches.
-pub fn mark_front(rows: &mut [Row]) {
+fn mark_front(rows: &mut [Row]) {
     let all: Vec<(Flow, f64, f64)> = rows.iter().map(|r| (r.flow, r.cpu_s, r.error)).collect();
     for row in rows {
         let beaten = all.iter().any(|&(flow, cpu, error)| {

@@ -2,65 +2,53 @@
 //! --explain` quotes from.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use figures::{Mark, Plot};
 
 use super::{Flow, Row};
 use crate::method::{Method, Scheme};
-use crate::study::{Outcome, provenance};
+use crate::study::Study;
 use crate::verification::report::percent;
 
-/// Writes `tradeoff.csv`, `tradeoff.md` and the figures into `results`, and the table of expected
-/// errors to `quoted`.
+/// Where `mpm-run --explain` finds what it quotes.
+const QUOTED: &str = "lib/run/src/expected_error.csv";
+
+/// Writes `tradeoff.csv`, `tradeoff.md`, the figures and, after the whole study, the table of
+/// expected errors.
 ///
 /// # Errors
 /// The system's reason.
-pub fn write(
-    results: &Path,
-    quoted: &Path,
-    rows: &[Row],
-    outcomes: &[Outcome],
-) -> Result<(), String> {
-    std::fs::create_dir_all(results).map_err(|e| format!("{}: {e}", results.display()))?;
-    let save = |path: &Path, bytes: &[u8]| {
-        std::fs::write(path, bytes).map_err(|e| format!("{}: {e}", path.display()))
-    };
-    save(&results.join("tradeoff.csv"), table(rows).as_bytes())?;
+pub fn write(study: &Study, rows: &[Row], head: &str) -> Result<(), String> {
+    let columns = "flow,scheme,method,varied,cells,set,error,cpu_s,pareto,failed";
+    study.write_csv("tradeoff.csv", columns, rows.iter().map(fields))?;
     for (flow, name) in [(Flow::Slit, "slit"), (Flow::BondPressure, "bond")] {
-        let png = plot(rows, flow)
-            .draw()
-            .and_then(|d| d.to_png())
-            .map_err(|e| e.to_string())?;
-        save(&results.join(format!("tradeoff-{name}.png")), &png)?;
+        let drawing = plot(rows, flow).draw().and_then(|d| d.to_png());
+        study.write(
+            &format!("tradeoff-{name}.png"),
+            drawing.map_err(|e| e.to_string())?,
+        )?;
     }
-    save(
-        &results.join("tradeoff.md"),
-        page(rows, outcomes).as_bytes(),
-    )?;
-    save(quoted, expected(rows).as_bytes())
+    study.write("tradeoff.md", page(rows, head))?;
+    if study.whole() {
+        std::fs::write(QUOTED, expected(rows)).map_err(|e| format!("{QUOTED}: {e}"))?;
+    }
+    Ok(())
 }
 
-fn table(rows: &[Row]) -> String {
-    let mut csv = String::from("flow,scheme,method,varied,cells,set,error,cpu_s,pareto,failed\n");
-    for r in rows {
-        let method = &r.setting.method;
-        let _ = writeln!(
-            csv,
-            "\"{}\",{},\"{}\",{},{},\"{}\",{:.4e},{:.2},{},\"{}\"",
-            r.flow.name(),
-            method.scheme.name(),
-            method.label,
-            r.setting.varied,
-            r.setting.cells,
-            method.set.join(" ").replace('"', "'"),
-            r.error,
-            r.cpu_s,
-            r.pareto,
-            r.failed.as_deref().unwrap_or("").replace('"', "'")
-        );
-    }
-    csv
+fn fields(r: &Row) -> Vec<String> {
+    let method = &r.setting.method;
+    vec![
+        r.flow.name().into(),
+        method.scheme.name().into(),
+        method.label.clone(),
+        r.setting.varied.into(),
+        r.setting.cells.to_string(),
+        method.set.join(" "),
+        format!("{:.4e}", r.error),
+        format!("{:.2}", r.cpu_s),
+        r.pareto.to_string(),
+        r.failed.clone().unwrap_or_default(),
+    ]
 }
 
 fn plot(rows: &[Row], flow: Flow) -> Plot {
@@ -106,18 +94,14 @@ voxel. Cells are those across a lumen of 17.4 um (6 are two voxels each, 12 one)
 of one run on one thread, to 0.01 s. The explicit scheme is f32 with f64 sums over \
 the run, its rows *f64* by the build with the feature `double`; the implicit scheme is f64 with f32 \
 coefficients. \
-**Bold**: nothing cheaper is as accurate (the Pareto front).";
+**Bold**: nothing cheaper is as accurate (the Pareto front). All settings: [tradeoff.csv](tradeoff.csv).";
 
-fn page(rows: &[Row], outcomes: &[Outcome]) -> String {
-    let mut out = String::from("# Error against run time\n\n");
-    let _ = writeln!(
-        out,
-        "{}\n{HEAD}\n",
-        provenance("make tradeoff", outcomes).replace("in all.", "in all, the bond line apart.")
-    );
+fn page(rows: &[Row], head: &str) -> String {
+    let mut out = format!("# Error against run time\n\n{head}\n{HEAD}\n\n");
     out.push_str("![Piston into slit](tradeoff-slit.png)\n![Bond line](tradeoff-bond.png)\n\n");
     advice(&mut out, rows);
-    settings_table(&mut out, rows);
+    front(&mut out, rows);
+    failed(&mut out, rows);
     out
 }
 
@@ -177,38 +161,40 @@ const ADVICE: &str = "\
 
 ";
 
-fn settings_table(out: &mut String, rows: &[Row]) {
-    out.push_str("## All settings\n\nError, CPU seconds.\n");
-    let mut varied = "";
-    for r in rows.iter().filter(|r| r.flow == Flow::Slit) {
-        if r.setting.varied != varied {
-            varied = r.setting.varied;
-            let names = Flow::ALL.map(Flow::name).join(" | ");
-            let _ = write!(
-                out,
-                "\n### {varied}\n\n| setting | {names} |\n|---|{}\n",
-                "---|".repeat(Flow::ALL.len())
-            );
+/// The settings that nothing cheaper matches on some flow, and those as a case has them by default.
+fn front(out: &mut String, rows: &[Row]) {
+    let names = Flow::ALL.map(Flow::name).join(" | ");
+    let _ = writeln!(
+        out,
+        "## Settings on the front, and plain ones\n\nError, CPU seconds.\n\n| setting | {names} |\n|---|{}",
+        "---|".repeat(Flow::ALL.len())
+    );
+    for setting in rows
+        .iter()
+        .filter(|r| r.flow == Flow::Slit)
+        .map(|r| &r.setting)
+    {
+        let label = &setting.method.label;
+        let own = || rows.iter().filter(|r| r.setting.method.label == *label);
+        if setting.varied != "update" && !own().any(|r| r.pareto) {
+            continue;
         }
-        let label = &r.setting.method.label;
-        let cells = Flow::ALL.map(|flow| {
-            let found = rows
-                .iter()
-                .find(|o| o.flow == flow && o.setting.method.label == *label);
-            found.map_or(String::new(), cell)
-        });
+        let cells =
+            Flow::ALL.map(|flow| own().find(|r| r.flow == flow).map_or(String::new(), cell));
         let _ = writeln!(out, "| {label} | {} |", cells.join(" | "));
     }
-    let failed: Vec<&Row> = rows.iter().filter(|r| r.failed.is_some()).collect();
-    if !failed.is_empty() {
-        out.push_str("\n### Failed\n\n");
-        for r in failed {
-            let said = r.failed.as_deref().unwrap_or("").replace('\n', " ");
+}
+
+fn failed(out: &mut String, rows: &[Row]) {
+    out.push_str("\n## Failed\n\n");
+    for r in rows {
+        if let Some(said) = &r.failed {
+            let flow = r.flow.name();
             let _ = writeln!(
                 out,
-                "- {}, {}: {said}",
+                "- {}, {flow}: {}",
                 r.setting.method.label,
-                r.flow.name()
+                said.replace('\n', " ")
             );
         }
     }

@@ -25,7 +25,27 @@ pub mod taylor_green;
 pub mod washburn;
 
 use crate::case_text::CaseText;
+use crate::job::{Job, run_all};
 use crate::outputs::Run;
+use crate::study::Study;
+
+/// The study, on the scenes so named; whether all runs ended.
+///
+/// # Errors
+/// The system's reason.
+pub fn run(study: &Study) -> Result<bool, String> {
+    let mut entries = catalogue::all();
+    entries.retain(|(scene, _)| study.wants(&scene.name));
+    let mut jobs: Vec<Job> = Vec::new();
+    for (scene, methods) in &entries {
+        let methods = methods.iter().cloned();
+        jobs.extend(methods.map(|method| Job { scene, method }));
+    }
+    let outcomes = run_all(&jobs, &study.folder());
+    report::write(study, &entries, &outcomes)?;
+    plots::write(study, &outcomes)?;
+    Ok(outcomes.iter().all(|o| o.measured.is_ok()))
+}
 
 /// Width of the lumen of all scenes, m (paper section 2.3).
 pub const LUMEN: f64 = 17.4e-6;

@@ -1,18 +1,17 @@
 //! Figures of the verification page.
 
-use std::path::Path;
-
 use figures::{Clouds, Drawing, Mark, Plot};
 
 use super::{LUMEN, incline, slit};
+use crate::job::Outcome;
 use crate::outputs::Run;
-use crate::study::Outcome;
+use crate::study::Study;
 
 /// Writes the figures whose runs are among `outcomes`.
 ///
 /// # Errors
 /// What a figure lacks, or the system's reason.
-pub fn write(results: &Path, outcomes: &[Outcome]) -> Result<(), String> {
+pub fn write(study: &Study, outcomes: &[Outcome]) -> Result<(), String> {
     let done = |scene: &str, label: &str| {
         let found = outcomes
             .iter()
@@ -22,44 +21,19 @@ pub fn write(results: &Path, outcomes: &[Outcome]) -> Result<(), String> {
         })
     };
     let save = |name: &str, drawing: Result<Drawing, figures::Error>| {
-        let path = results.join(format!("verification-{name}.png"));
-        let bytes = drawing
-            .and_then(|d| d.to_png())
-            .map_err(|e| format!("{name}: {e}"))?;
-        std::fs::write(&path, bytes).map_err(|e| format!("{}: {e}", path.display()))
+        let bytes = drawing.and_then(|d| d.to_png());
+        study.write(
+            &format!("verification-{name}.png"),
+            bytes.map_err(|e| format!("{name}: {e}"))?,
+        )
     };
     let aligned = "incline-n6-off0";
     let main = ["FLIP", "XPIC(5)", "implicit"];
     let runs = main.map(|label| done(aligned, label));
     if let [Some(flip), Some(xpic), Some(implicit)] = &runs {
         let runs = [flip, xpic, implicit];
-        save(
-            "incline",
-            profiles(
-                "Film at 0.5 ms, floor on the nodes",
-                &main,
-                &runs,
-                &[0.0; 3],
-            ),
-        )?;
+        save("incline", profiles(&main, &runs))?;
         save("incline-points", points(&main, &runs))?;
-    }
-    for (name, label) in [("xpic", "XPIC(5)"), ("implicit", "implicit")] {
-        let offsets = [0.0, 0.25, 0.5, 0.75];
-        let runs: Vec<Run> = offsets
-            .iter()
-            .filter_map(|o| done(&format!("incline-n6-off{o}"), label))
-            .collect();
-        if runs.len() == offsets.len() {
-            let labels = offsets.map(|o| format!("floor {o} cell off"));
-            let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
-            let title = format!("Film by {label}, floor off the nodes");
-            let runs: Vec<&Run> = runs.iter().collect();
-            save(
-                &format!("incline-{name}"),
-                profiles(&title, &labels, &runs, &offsets),
-            )?;
-        }
     }
     let channel = channel(outcomes);
     if let Some(plot) = channel {
@@ -75,20 +49,15 @@ pub fn write(results: &Path, outcomes: &[Outcome]) -> Result<(), String> {
     Ok(())
 }
 
-/// Velocity over height of films whose floors lie `offsets` cells off the nodes, with Eq. 5.
-fn profiles(
-    title: &str,
-    labels: &[&str],
-    runs: &[&Run],
-    offsets: &[f64],
-) -> Result<Drawing, figures::Error> {
+/// Velocity over height of films whose floor lies on the nodes, with Eq. 5.
+fn profiles(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
     let mut plot = Plot::new(
-        title,
+        "Film at 0.5 ms, floor on the nodes",
         "height over thickness",
         "velocity over v_max of Eq. 5",
     );
-    for ((label, run), &offset) in labels.iter().zip(runs).zip(offsets) {
-        let spots = incline::profile(run, 6, offset).map_err(figures::Error::Data)?;
+    for (label, run) in labels.iter().zip(runs) {
+        let spots = incline::profile(run, 6, 0.0).map_err(figures::Error::Data)?;
         let places = spots.iter().map(|(at, v)| [at[1], *v]).collect();
         plot = plot.with(label, Mark::Dots, places);
     }

@@ -1,79 +1,87 @@
 //! The verification page and table.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use super::catalogue::Entry;
 use super::families::FAMILIES;
 use super::goals::{GOALS, Goal};
 use super::{Measured, Scene};
-use crate::study::{Outcome, provenance};
+use crate::job::Outcome;
+use crate::study::{Study, distinct};
 
 /// Order of the methods in tables.
 const COLUMNS: [&str; 9] = [
     "FLIP", "PIC", "APIC", "XPIC(2)", "XPIC(3)", "XPIC(5)", "FMPM(2)", "FMPM(5)", "implicit",
 ];
 
-/// Writes `verification.csv` and `verification.md` into `results`.
+/// Writes `verification.csv` and `verification.md`.
 ///
 /// # Errors
 /// The system's reason.
-pub fn write(results: &Path, entries: &[Entry], outcomes: &[Outcome]) -> Result<(), String> {
-    std::fs::create_dir_all(results).map_err(|e| format!("{}: {e}", results.display()))?;
-    let save = |name: &str, text: String| {
-        let path = results.join(name);
-        std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
-    };
-    save("verification.csv", table(entries, outcomes))?;
-    save("verification.md", page(outcomes))
+pub fn write(study: &Study, entries: &[Entry], outcomes: &[Outcome]) -> Result<(), String> {
+    let columns = "case,scheme,method,set,against,quantity,value,reference,error,order,steps,cpu_s";
+    let rows = outcomes.iter().flat_map(|o| fields(o, entries, outcomes));
+    study.write_csv("verification.csv", columns, rows)?;
+    let head = study.head(outcomes.iter().map(|o| o.cpu_s));
+    study.write("verification.md", page(&head, outcomes))
 }
 
-fn table(entries: &[Entry], outcomes: &[Outcome]) -> String {
-    let mut csv =
-        String::from("case,scheme,method,set,against,quantity,value,reference,error,steps,cpu_s\n");
-    for o in outcomes {
-        let against = entries
-            .iter()
-            .find(|(scene, _)| scene.name == o.scene)
-            .map_or("", |(scene, _)| scene.against);
-        let head = format!(
-            "{},{},{},{},{against}",
-            o.scene,
-            o.method.scheme.name(),
-            o.method.label,
-            o.method.set.join(" ").replace('"', "'")
-        );
-        match &o.measured {
-            Ok(list) => {
-                for m in list {
-                    let what = m.what.replace(',', ";");
-                    let _ = writeln!(
-                        csv,
-                        "{head},{what},{:.6e},{:.6e},{:.4e},{},{:.2}",
-                        m.value, m.reference, m.error, o.steps, o.cpu_s
-                    );
-                }
-            }
-            Err(said) => {
-                let _ = writeln!(
-                    csv,
-                    "{head},failed: {},,,,,",
-                    said.replace([',', '\n'], ";")
-                );
-            }
+/// The rows of a run in the table.
+fn fields(o: &Outcome, entries: &[Entry], outcomes: &[Outcome]) -> Vec<Vec<String>> {
+    let scene = entries.iter().find(|(scene, _)| scene.name == o.scene);
+    let head = || {
+        vec![
+            o.scene.clone(),
+            o.method.scheme.name().into(),
+            o.method.label.clone(),
+            o.method.set.join(" "),
+            scene.map_or(String::new(), |(scene, _)| scene.against.into()),
+        ]
+    };
+    let row = |m: &Measured| {
+        let order = order(o, m, outcomes).map_or(String::new(), |order| format!("{order:.1}"));
+        let numbers = [
+            m.what.clone(),
+            format!("{:.6e}", m.value),
+            format!("{:.6e}", m.reference),
+            format!("{:.4e}", m.error),
+            order,
+            o.steps.to_string(),
+            format!("{:.2}", o.cpu_s),
+        ];
+        [head(), numbers.into()].concat()
+    };
+    match &o.measured {
+        Ok(list) => list.iter().map(row).collect(),
+        Err(said) => {
+            let mut row = head();
+            row.push(format!("failed: {said}"));
+            row.resize(12, String::new());
+            vec![row]
         }
     }
-    csv
 }
 
-fn page(outcomes: &[Outcome]) -> String {
-    let mut out = String::from("# Verification\n\n");
-    let _ = writeln!(out, "{}", provenance("make verify", outcomes));
+/// Observed order from half as many cells; means little where an error passes zero.
+fn order(o: &Outcome, m: &Measured, outcomes: &[Outcome]) -> Option<f64> {
+    let (series, Some(cells)) = Scene::resolution(&o.scene) else {
+        return None;
+    };
+    let coarse = outcomes.iter().find(|c| {
+        c.method == o.method && Scene::resolution(&c.scene) == (series.clone(), Some(cells / 2))
+    })?;
+    let before = coarse.measured(&m.what).filter(|_| !m.counted)?;
+    Some((before.error / m.error).abs().log2())
+}
+
+fn page(head: &str, outcomes: &[Outcome]) -> String {
+    let mut out = format!("# Verification\n\n{head}\n");
     out.push_str(
-        "Every case is written to `out/verify/cases/CASE-SCHEME.toml` (`make verify ONLY=CASE` writes and runs one); updates other than \
-         FLIP are `--set` on it. Errors are relative, in per cent of the reference, unless the \
-         quantity says otherwise; n is cells across the lumen, off the offset of the walls from \
-         the nodes in cells. All numbers: [verification.csv](verification.csv). Implicit runs \
+        "Every case is written to `out/verify/cases/CASE-SCHEME.toml` (`make verify ONLY=CASE` writes and \
+         runs one); updates other than FLIP are `--set` on it. Errors are relative, in per cent of the reference, \
+         unless the quantity says otherwise; n is cells across the lumen, off the offset of the walls from \
+         the nodes in cells. Below stands the worst error of each family by each method, with the rest of its case's name; all cases, with the order observed from half as many cells, \
+         are in [verification.csv](verification.csv). Implicit runs \
          solve to 1e-4; those from rest to a steady flow take short steps (column `set`), because \
          at the usual Courant number the first step is as long as the run. The explicit scheme is the paper's, with none of its options.\n\n",
     );
@@ -85,7 +93,6 @@ fn page(outcomes: &[Outcome]) -> String {
         if !of_family.is_empty() {
             let _ = writeln!(out, "## {text}\n");
             family_table(&mut out, &of_family);
-            order_table(&mut out, &of_family);
         }
     }
     out
@@ -132,97 +139,41 @@ fn worst(goal: &Goal, outcomes: &[Outcome]) -> Option<f64> {
     errors.max_by(|a, b| a.abs().total_cmp(&b.abs()))
 }
 
+/// The worst error of each quantity at each resolution by each method, and what failed.
 fn family_table(out: &mut String, outcomes: &[&Outcome]) {
     let mut methods = distinct(outcomes.iter().map(|o| o.method.label.as_str()));
     methods.sort_by_key(|label| COLUMNS.iter().position(|c| c == label));
-    let scenes = distinct(outcomes.iter().map(|o| o.scene.as_str()));
-    let _ = writeln!(out, "| case | quantity | {} |", methods.join(" | "));
+    let _ = writeln!(out, "| quantity | n | {} |", methods.join(" | "));
     let _ = writeln!(out, "|---|---|{}", "---|".repeat(methods.len()));
-    for scene in scenes {
-        let runs: Vec<_> = outcomes.iter().filter(|o| o.scene == scene).collect();
-        let whats = distinct(
-            runs.iter()
-                .filter_map(|o| o.measured.as_ref().ok())
-                .flatten()
-                .map(|m| m.what.as_str()),
-        );
-        for what in whats {
-            let cell = |method: &&str| {
-                let run = runs.iter().find(|o| o.method.label == **method)?;
-                Some(match &run.measured {
-                    Ok(_) => run.measured(what).map_or(String::new(), error),
-                    Err(_) => "failed".to_owned(),
-                })
-            };
-            let cells: Vec<String> = methods
-                .iter()
-                .map(|m| cell(m).unwrap_or_default())
-                .collect();
-            let _ = writeln!(out, "| {scene} | {what} | {} |", cells.join(" | "));
-        }
-        for run in runs {
-            if let Err(said) = &run.measured {
-                let _ = writeln!(out, "| {scene} | {} failed | {said} |", run.method.label);
-            }
+    let all = outcomes.iter().flat_map(|o| {
+        let (_, cells) = Scene::resolution(&o.scene);
+        let whats = o.measured.iter().flatten().map(|m| m.what.as_str());
+        whats.map(move |what| (what, cells))
+    });
+    for (what, cells) in distinct(all) {
+        let cell = |label: &&str| {
+            let own = outcomes.iter().filter(|o| o.method.label == **label);
+            let errors = own.filter_map(|o| {
+                let (series, n) = Scene::resolution(&o.scene);
+                let m = o.measured(what).filter(|_| n == cells)?;
+                Some((m, series))
+            });
+            let worst = errors.max_by(|a, b| a.0.error.abs().total_cmp(&b.0.error.abs()));
+            worst.map_or(String::new(), |(m, series)| match series.split_once('-') {
+                Some((_, place)) => format!("{} ({place})", error(m)),
+                None => error(m),
+            })
+        };
+        let row: Vec<String> = methods.iter().map(cell).collect();
+        let n = cells.map_or(String::new(), |n| n.to_string());
+        let _ = writeln!(out, "| {what} | {n} | {} |", row.join(" | "));
+    }
+    for o in outcomes {
+        if let Err(said) = &o.measured {
+            let _ = writeln!(out, "| {}, {} failed: {said} |", o.scene, o.method.label);
         }
     }
     out.push('\n');
-}
-
-/// Errors of the series of 3, 6 and 12 cells with the order observed from each to the next. An
-/// order means little where an error passes zero.
-fn order_table(out: &mut String, outcomes: &[&Outcome]) {
-    let mut rows = String::new();
-    for coarse in outcomes {
-        let (series, Some(3)) = Scene::resolution(&coarse.scene) else {
-            continue;
-        };
-        let finer = |n: u32| {
-            outcomes.iter().find(|o| {
-                o.method == coarse.method
-                    && Scene::resolution(&o.scene) == (series.clone(), Some(n))
-            })
-        };
-        for m in coarse.measured.iter().flatten().filter(|m| !m.counted) {
-            let errors: Vec<f64> = std::iter::once(m.error)
-                .chain([6, 12].iter().map_while(|&n| {
-                    let found = finer(n)?.measured(&m.what)?;
-                    Some(found.error)
-                }))
-                .collect();
-            if errors.len() > 1 {
-                let orders: Vec<String> = errors
-                    .windows(2)
-                    .map(|pair| format!("{:.1}", (pair[0] / pair[1]).abs().log2()))
-                    .collect();
-                let errors: Vec<String> = errors.iter().map(|&e| percent(e)).collect();
-                let _ = writeln!(
-                    rows,
-                    "| {series} | {} | {} | {} | {} |",
-                    m.what,
-                    coarse.method.label,
-                    errors.join(", "),
-                    orders.join(", ")
-                );
-            }
-        }
-    }
-    if !rows.is_empty() {
-        let _ = writeln!(
-            out,
-            "Observed order from 3 to 6 (to 12) cells:\n\n| series | quantity | method | errors | order |\n|---|---|---|---|---|\n{rows}"
-        );
-    }
-}
-
-fn distinct<'a>(words: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut list: Vec<&str> = Vec::new();
-    for word in words {
-        if !list.contains(&word) {
-            list.push(word);
-        }
-    }
-    list
 }
 
 fn error(m: &Measured) -> String {
