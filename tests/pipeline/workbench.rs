@@ -26,25 +26,8 @@ pub const VOID: u8 = 0;
 pub const WOOD: u8 = 128;
 pub const ADHESIVE: u8 = 255;
 
-/// Pressing fast and thin enough that a bond line closes within a few hundred steps.
-pub const CASE: &str = r#"[grid]
-cell = "2.9 um"
-[adhesive]
-density = "1.2 g/cm3"
-bulk_modulus = "1 GPa"
-viscosity = "300 cP"
-[contact]
-law = "partial-slip"
-influence_length = "0.01 cell"
-[clamp]
-closing_speed = "10 m/s"
-max_pressure = "2.5 MPa"
-stop = "closed"
-[integrator]
-scheme = "explicit"
-[output]
-snapshots = 3
-"#;
+/// The case of a small bond line, of a few hundred steps.
+pub const CASE: &str = include_str!("../press.toml");
 
 /// The update rules and schemes of the six runs and their counterparts, as `--set` values.
 pub const METHODS: [&[&str]; 3] = [

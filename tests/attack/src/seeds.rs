@@ -1,3 +1,5 @@
+//! Small sound inputs of every kind, from which mutations start.
+
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;

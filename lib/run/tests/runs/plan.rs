@@ -1,7 +1,7 @@
 //! What a case means: the plan of a run against numbers worked out by hand, and what of a case
 //! is refused.
 
-use run::Request;
+use crate::bench::Bench;
 
 /// A slab of adhesive of 12 x 6 x 8 um on a floor, under a plate that the clamp drives.
 const CASE: &str = r#"
@@ -41,16 +41,13 @@ order = 5
 
 /// The plan of [`CASE`] after replacements, or the sentence that refuses it.
 fn plan(replaced: &[(&str, &str)], changes: &[&str]) -> Result<String, String> {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("case.toml");
     let text = replaced.iter().fold(CASE.to_owned(), |text, (from, to)| {
         assert!(text.contains(from), "{from}");
         text.replace(from, to)
     });
-    std::fs::write(&path, text).unwrap();
-    let changes: Vec<String> = changes.iter().map(|c| (*c).to_owned()).collect();
-    let request = Request::read(&path, None, &changes).map_err(|e| e.to_string())?;
-    request.explain().map_err(|e| e.to_string())
+    let request = Bench::with(&text).read(changes);
+    let plan = request.and_then(|request| request.explain());
+    plan.map_err(|e| e.to_string())
 }
 
 #[track_caller]

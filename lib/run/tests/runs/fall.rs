@@ -1,9 +1,9 @@
 //! A run as its folder tells it: a drop in free fall, whose speed, energy and place are known.
 
-use std::path::Path;
+use particle_file::ParticleFile;
+use run::{End, Summary};
 
-use particle_file::{ParticleFile, Provenance};
-use run::{End, Mode, Request, Summary};
+use crate::bench::{Bench, PLAIN};
 
 /// Acceleration along -y, m/s2.
 const G: f64 = 1e6;
@@ -35,31 +35,10 @@ snapshots = 4
 history_every = "0.1 us"
 "#;
 
-fn fall(scheme: &str, folder: &Path) -> Summary {
-    let case = folder.join("case.toml");
-    std::fs::write(&case, CASE.replace("SCHEME", scheme)).unwrap();
-    let by = Provenance {
-        tool: "test".into(),
-        version: "0".into(),
-        command: vec!["fall".into()],
-        inputs: Vec::new(),
-    };
-    let mode = Mode {
-        resume: false,
-        overwrite: false,
-        however_long: false,
-    };
+fn fall(bench: &Bench) -> Summary {
     let mut fractions = Vec::new();
     let mut progress = |fraction, _| fractions.push(fraction);
-    let request = Request::read(&case, None, &[]).unwrap();
-    let ended = request.execute(
-        &folder.join("run"),
-        mode,
-        by,
-        &|| false,
-        &mut progress,
-        &|_| {},
-    );
+    let ended = bench.run_told("run", PLAIN, &|| false, &mut progress, &[]);
     let summary = ended.unwrap().expect("a run that had not ended");
     assert_eq!(
         fractions.len() as u64,
@@ -75,8 +54,8 @@ fn near(found: f64, expected: f64, relative: f64) -> bool {
 }
 
 /// The columns of `history.csv` by name.
-fn column(folder: &Path, name: &str) -> Vec<String> {
-    let text = std::fs::read_to_string(folder.join("run/history.csv")).unwrap();
+fn column(bench: &Bench, name: &str) -> Vec<String> {
+    let text = std::fs::read_to_string(bench.path("run/history.csv")).unwrap();
     let mut lines = text.lines();
     let at = lines
         .next()
@@ -89,15 +68,15 @@ fn column(folder: &Path, name: &str) -> Vec<String> {
         .collect()
 }
 
-fn numbers(folder: &Path, name: &str) -> Vec<f64> {
-    let text = column(folder, name);
+fn numbers(bench: &Bench, name: &str) -> Vec<f64> {
+    let text = column(bench, name);
     text.iter().map(|number| number.parse().unwrap()).collect()
 }
 
 /// `error` is relative to the last speed; that of the implicit scheme is made in its first step.
 fn a_drop_falls(scheme: &str, error: f64) {
-    let folder = tempfile::tempdir().unwrap();
-    let summary = fall(scheme, folder.path());
+    let bench = Bench::with(&CASE.replace("SCHEME", scheme));
+    let summary = fall(&bench);
     assert_eq!((summary.end, summary.gap_m), (End::Time, None));
     assert!(near(summary.time_s, TIME, 1e-9), "{}", summary.time_s);
     // Eight points in each of 4 x 4 x 2 cells.
@@ -117,41 +96,35 @@ fn a_drop_falls(scheme: &str, error: f64) {
         summary.sentence()
     );
 
-    let times = numbers(folder.path(), "time_s");
-    let steps = numbers(folder.path(), "step");
+    let times = numbers(&bench, "time_s");
+    let steps = numbers(&bench, "step");
     assert!(times.is_sorted_by(|a, b| a < b) && steps.is_sorted_by(|a, b| a < b));
     assert_eq!(steps[0], 1.0, "a row after the first step");
     assert_eq!(*steps.last().unwrap(), summary.steps as f64);
     assert!(near(*times.last().unwrap(), TIME, 1e-9));
     // A row for every tenth of the time, after the first step past it, and one for the end.
-    let longest = numbers(folder.path(), "dt_s")
-        .into_iter()
-        .fold(0.0, f64::max);
+    let longest = numbers(&bench, "dt_s").into_iter().fold(0.0, f64::max);
     let gaps = times.windows(2).map(|pair| pair[1] - pair[0]);
     assert!(
         gaps.clone().all(|gap| gap < 0.1 * TIME + 2.0 * longest),
         "{times:?}"
     );
     assert!((9..=12).contains(&times.len()), "{times:?}");
-    for (time, speed) in times.iter().zip(numbers(folder.path(), "max_speed_m_s")) {
+    for (time, speed) in times.iter().zip(numbers(&bench, "max_speed_m_s")) {
         assert!(
             (speed - G * time).abs() < error * G * TIME,
             "{speed} at {time}"
         );
     }
-    let volumes = numbers(folder.path(), "adhesive_volume_m3");
+    let volumes = numbers(&bench, "adhesive_volume_m3");
     assert!(volumes.iter().all(|&v| near(v, VOLUME, 1e-3)));
     assert!(
-        column(folder.path(), "gap_m").iter().all(String::is_empty),
+        column(&bench, "gap_m").iter().all(String::is_empty),
         "no clamp"
     );
-    assert!(
-        numbers(folder.path(), "lost_particles")
-            .iter()
-            .all(|&n| n == 0.0)
-    );
+    assert!(numbers(&bench, "lost_particles").iter().all(|&n| n == 0.0));
 
-    let run = folder.path().join("run");
+    let run = bench.path("run");
     assert!(!run.join("checkpoint.mpts").exists(), "nothing to continue");
     // Due at the start and after each quarter of the time.
     for i in 0..4 {
