@@ -27,7 +27,7 @@ TMPDIR=$(mktemp -d --tmpdir="$([ -w /dev/shm ] && echo /dev/shm || echo "${TMPDI
 export TMPDIR RAYON_NUM_THREADS=1
 trap 'rm -rf "$TMPDIR"' EXIT
 
-commit=$(git rev-parse --short HEAD)$(git diff --quiet HEAD -- lib tools || echo "+")
+commit=$(git log -1 --format=%h -- lib tools tests)$(git diff --quiet HEAD -- lib tools tests || echo "+")
 machine=$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1 | tr ',' ' ')
 [ -f "$table" ] || echo "date,commit,machine,target,seconds,executions,edges,features,inputs_kept,peak_rss_mb,slowest_s,found" >"$table"
 failed=0

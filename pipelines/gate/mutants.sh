@@ -57,7 +57,7 @@ for crate in "$@"; do
     fi
     share=$(awk "BEGIN { printf \"%.1f\", 100 * ($caught + $timeouts) / ($caught + $timeouts + $missed) }")
     [ -f "$table" ] || echo "date,commit,crate,sample,caught,timeouts,missed,unviable,caught_percent" >"$table"
-    echo "$(date -I),$(git rev-parse --short HEAD),$crate,$size,$caught,$timeouts,$missed,$unviable,$share" | tee -a "$table"
+    echo "$(date -I),$(git log -1 --format=%h -- lib tools),$crate,$size,$caught,$timeouts,$missed,$unviable,$share" | tee -a "$table"
     awk "BEGIN { exit !($share < $least) }" && failed=1
 done
 exit "$failed"

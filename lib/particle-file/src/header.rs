@@ -65,7 +65,7 @@ pub struct Block {
 }
 
 /// One tool that had a hand in a file; the last entry wrote it.
-#[derive(Clone, Debug, PartialEq, Eq, Encode, Decode)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Encode, Decode)]
 pub struct Provenance {
     /// Name of the tool.
     pub tool: String,

@@ -15,7 +15,7 @@ use crate::folder::{
 use crate::request::RunFailure;
 
 /// How an existing run folder is treated.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Mode {
     /// Continue from its checkpoint.
     pub resume: bool,

@@ -1,3 +1,5 @@
+//! What is done with a forged particle file: read, measured, built into a bond, pressed.
+
 use std::fs;
 
 use bondline::{Options, Placed, Plane, Specimen};

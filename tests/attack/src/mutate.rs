@@ -1,3 +1,5 @@
+//! Seeded changes of bytes.
+
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

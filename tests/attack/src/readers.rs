@@ -1,3 +1,5 @@
+//! Where forged files lie, and the plan of a forged case.
+
 use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;

@@ -1,3 +1,5 @@
+//! Runs of a few steps, and what they do with a forged checkpoint.
+
 use std::cell::Cell;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,26 +16,7 @@ pub(crate) const SCHEMES: [&str; 2] = ["explicit", "implicit"];
 
 /// A case for the small bond of the seeds.
 pub(crate) fn case_text(scheme: &str) -> String {
-    format!(
-        r#"[grid]
-cell = "2.9 um"
-[adhesive]
-density = "1.2 g/cm3"
-bulk_modulus = "1 GPa"
-viscosity = "300 cP"
-[contact]
-law = "partial-slip"
-influence_length = "0.01 cell"
-[clamp]
-closing_speed = "10 m/s"
-max_pressure = "2.5 MPa"
-stop = "closed"
-[integrator]
-scheme = "{scheme}"
-[output]
-snapshots = 3
-"#
-    )
+    include_str!("../../press.toml").replace("\"explicit\"", &format!("\"{scheme}\""))
 }
 
 /// The case of `scheme` as a file.
@@ -52,14 +35,12 @@ pub(crate) fn steps(
 ) -> Result<Option<Summary>, RunFailure> {
     let mode = Mode {
         resume: true,
-        overwrite: false,
-        however_long: false,
+        ..Mode::default()
     };
     let by = Provenance {
         tool: "attack".into(),
         version: "0".into(),
-        command: Vec::new(),
-        inputs: Vec::new(),
+        ..Provenance::default()
     };
     let taken = Cell::new(0);
     let interrupted = || {

@@ -1,3 +1,5 @@
+//! What is done with a forged stack.
+
 use std::fs;
 
 use voxels::{Crop, Grey, Phases, Stack, VoxelEdge, segment};

@@ -44,31 +44,34 @@ material = "adhesive"
 box = { min = ["0 um", "6 um", "0 um"], max = ["4 um", "16 um", "2 um"] }
 "#;
 
-pub const RESUME: Mode = Mode {
-    resume: true,
-    overwrite: false,
-    however_long: false,
-};
-pub const OVERWRITE: Mode = Mode {
-    resume: false,
-    overwrite: true,
-    however_long: false,
-};
 pub const PLAIN: Mode = Mode {
     resume: false,
     overwrite: false,
     however_long: false,
+};
+pub const RESUME: Mode = Mode {
+    resume: true,
+    ..PLAIN
+};
+pub const OVERWRITE: Mode = Mode {
+    overwrite: true,
+    ..PLAIN
 };
 
 /// A folder with a case.
 pub struct Bench(TempDir);
 
 impl Bench {
-    pub fn new(integrator: &str, stop: &str, every: &str) -> Self {
+    pub fn with(case: &str) -> Self {
         let bench = Self(tempfile::tempdir().unwrap());
-        let text = CASE.replace("INTEGRATOR", integrator).replace("STOP", stop);
-        fs::write(bench.path("case.toml"), text.replace("EVERY", every)).unwrap();
+        fs::write(bench.path("case.toml"), case).unwrap();
         bench
+    }
+
+    /// Liquid between two plates.
+    pub fn new(integrator: &str, stop: &str, every: &str) -> Self {
+        let text = CASE.replace("INTEGRATOR", integrator).replace("STOP", stop);
+        Self::with(&text.replace("EVERY", every))
     }
 
     /// About thirty explicit steps.
@@ -78,6 +81,11 @@ impl Bench {
 
     pub fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
+    }
+
+    pub fn read(&self, changes: &[&str]) -> Result<Request, RunFailure> {
+        let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+        Request::read(&self.path("case.toml"), None, &changes)
     }
 
     /// Runs the case into `folder`, stopped after `steps` steps of this process.
@@ -112,16 +120,25 @@ impl Bench {
         stop: &dyn Fn() -> bool,
         changes: &[&str],
     ) -> Result<Option<Summary>, RunFailure> {
+        self.run_told(folder, mode, stop, &mut |_, _| {}, changes)
+    }
+
+    pub fn run_told(
+        &self,
+        folder: &str,
+        mode: Mode,
+        stop: &dyn Fn() -> bool,
+        progress: &mut dyn FnMut(f64, String),
+        changes: &[&str],
+    ) -> Result<Option<Summary>, RunFailure> {
         let by = Provenance {
             tool: "mpm-run".into(),
             version: "test".into(),
-            command: Vec::new(),
-            inputs: Vec::new(),
+            ..Provenance::default()
         };
-        let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-        let request = Request::read(&self.path("case.toml"), None, &changes)?;
         let warn = |said: String| panic!("{said}");
-        request.execute(&self.path(folder), mode, by, stop, &mut |_, _| {}, &warn)
+        let request = self.read(changes)?;
+        request.execute(&self.path(folder), mode, by, stop, progress, &warn)
     }
 
     /// A run to its end, or stopped on the way, which must not fail.

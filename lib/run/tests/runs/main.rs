@@ -1,5 +1,8 @@
-//! Runs of a small scene by the library, and what they keep, continue and replace in their folder.
+//! Plans and runs of small scenes by the library, and what runs keep, continue and replace in their
+//! folder.
 
 mod bench;
+mod fall;
+mod plan;
 mod replaced;
 mod stopped;

@@ -81,9 +81,7 @@ fn only_states_and_checkpoints_of_a_run_are_replaced() {
         let mut header = Header::new(kind, 1.0, 1, [0.0; 3], [1.0; 3]);
         header.provenance.push(Provenance {
             tool: tool.into(),
-            version: "test".into(),
-            command: Vec::new(),
-            inputs: Vec::new(),
+            ..Provenance::default()
         });
         let mut bytes = Vec::new();
         Draft::new(header).write_to(&mut bytes).unwrap();
@@ -258,8 +256,7 @@ fn a_checkpoint_of_another_case_is_refused_or_replaced() {
     assert!(everything(&bench.path("run")) == before);
     let both = Mode {
         resume: true,
-        overwrite: true,
-        however_long: false,
+        ..OVERWRITE
     };
     let ended = bench.run_changed("run", both, END, &other).unwrap();
     assert!(ended.is_some_and(|summary| summary.end == run::End::Time));

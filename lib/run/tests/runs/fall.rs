@@ -1,0 +1,172 @@
+//! A run as its folder tells it: a drop in free fall, whose speed, energy and place are known.
+
+use particle_file::ParticleFile;
+use run::{End, Summary};
+
+use crate::bench::{Bench, PLAIN};
+
+/// Acceleration along -y, m/s2.
+const G: f64 = 1e6;
+/// End of the run, s.
+const TIME: f64 = 1e-6;
+/// A drop of 8 x 8 x 4 um of 1200 kg/m3.
+const VOLUME: f64 = 256e-18;
+
+const CASE: &str = r#"
+[grid]
+cell = "2 um"
+domain = { min = ["0 um", "0 um", "0 um"], max = ["20 um", "20 um", "4 um"] }
+[adhesive]
+density = "1.2 g/cm3"
+bulk_modulus = "0.1 GPa"
+viscosity = "100 cP"
+[[body]]
+material = "adhesive"
+box = { min = ["6 um", "10 um", "0 um"], max = ["14 um", "18 um", "4 um"] }
+[gravity]
+acceleration = ["0 m/s2", "-1e6 m/s2", "0 m/s2"]
+[stop]
+time = "1 us"
+[integrator]
+scheme = "SCHEME"
+cfl = 0.02
+[output]
+snapshots = 4
+history_every = "0.1 us"
+"#;
+
+fn fall(bench: &Bench) -> Summary {
+    let mut fractions = Vec::new();
+    let mut progress = |fraction, _| fractions.push(fraction);
+    let ended = bench.run_told("run", PLAIN, &|| false, &mut progress, &[]);
+    let summary = ended.unwrap().expect("a run that had not ended");
+    assert_eq!(
+        fractions.len() as u64,
+        summary.steps,
+        "told after every step"
+    );
+    assert!(fractions.is_sorted() && (fractions[fractions.len() - 1] - 1.0).abs() < 1e-9);
+    summary
+}
+
+fn near(found: f64, expected: f64, relative: f64) -> bool {
+    (found / expected - 1.0).abs() < relative
+}
+
+/// The columns of `history.csv` by name.
+fn column(bench: &Bench, name: &str) -> Vec<String> {
+    let text = std::fs::read_to_string(bench.path("run/history.csv")).unwrap();
+    let mut lines = text.lines();
+    let at = lines
+        .next()
+        .unwrap()
+        .split(',')
+        .position(|n| n == name)
+        .unwrap();
+    lines
+        .map(|line| line.split(',').nth(at).unwrap().to_owned())
+        .collect()
+}
+
+fn numbers(bench: &Bench, name: &str) -> Vec<f64> {
+    let text = column(bench, name);
+    text.iter().map(|number| number.parse().unwrap()).collect()
+}
+
+/// `error` is relative to the last speed; that of the implicit scheme is made in its first step.
+fn a_drop_falls(scheme: &str, error: f64) {
+    let bench = Bench::with(&CASE.replace("SCHEME", scheme));
+    let summary = fall(&bench);
+    assert_eq!((summary.end, summary.gap_m), (End::Time, None));
+    assert!(near(summary.time_s, TIME, 1e-9), "{}", summary.time_s);
+    // Eight points in each of 4 x 4 x 2 cells.
+    assert_eq!(summary.liquid_points, 256);
+    assert_eq!(summary.travel_m, 0.0);
+    let energy = 0.5 * 1200.0 * VOLUME * (G * TIME).powi(2);
+    assert!(
+        near(summary.kinetic_energy_j, energy, 2.0 * error),
+        "{}",
+        summary.kinetic_energy_j
+    );
+    assert!(summary.invariants.volume_change.abs() < 1e-3);
+    assert_eq!(summary.invariants.points_in_wood, 0);
+    assert!(
+        summary.sentence().contains("reached its time"),
+        "{}",
+        summary.sentence()
+    );
+
+    let times = numbers(&bench, "time_s");
+    let steps = numbers(&bench, "step");
+    assert!(times.is_sorted_by(|a, b| a < b) && steps.is_sorted_by(|a, b| a < b));
+    assert_eq!(steps[0], 1.0, "a row after the first step");
+    assert_eq!(*steps.last().unwrap(), summary.steps as f64);
+    assert!(near(*times.last().unwrap(), TIME, 1e-9));
+    // A row for every tenth of the time, after the first step past it, and one for the end.
+    let longest = numbers(&bench, "dt_s").into_iter().fold(0.0, f64::max);
+    let gaps = times.windows(2).map(|pair| pair[1] - pair[0]);
+    assert!(
+        gaps.clone().all(|gap| gap < 0.1 * TIME + 2.0 * longest),
+        "{times:?}"
+    );
+    assert!((9..=12).contains(&times.len()), "{times:?}");
+    for (time, speed) in times.iter().zip(numbers(&bench, "max_speed_m_s")) {
+        assert!(
+            (speed - G * time).abs() < error * G * TIME,
+            "{speed} at {time}"
+        );
+    }
+    let volumes = numbers(&bench, "adhesive_volume_m3");
+    assert!(volumes.iter().all(|&v| near(v, VOLUME, 1e-3)));
+    assert!(
+        column(&bench, "gap_m").iter().all(String::is_empty),
+        "no clamp"
+    );
+    assert!(numbers(&bench, "lost_particles").iter().all(|&n| n == 0.0));
+
+    let run = bench.path("run");
+    assert!(!run.join("checkpoint.mpts").exists(), "nothing to continue");
+    // Due at the start and after each quarter of the time.
+    for i in 0..4 {
+        let snapshot = ParticleFile::open(run.join(format!("snapshots/{i:04}.mpts"))).unwrap();
+        let (time, due) = (snapshot.header().time_s, 0.25 * f64::from(i) * TIME);
+        assert!(time >= due && time < due + 2.0 * longest, "{i}: {time}");
+        assert_falls(&snapshot, error, longest);
+    }
+    assert!(!run.join("snapshots/0005.mpts").exists());
+    let end = ParticleFile::open(run.join("final.mpts")).unwrap();
+    assert_eq!(end.header().step, summary.steps);
+    assert_eq!(end.header().attribute("cell_m"), Some("0.000002"));
+    assert_falls(&end, error, longest);
+    end.check().unwrap();
+}
+
+/// The centre of the drop has fallen by g t^2 / 2 from y = 14 um; a step of `longest` that moves
+/// at its last speed adds half of what it speeds up by.
+fn assert_falls(state: &ParticleFile, error: f64, longest: f64) {
+    let (places, time) = (state.vectors("position").unwrap(), state.header().time_s);
+    assert_eq!(places.len(), 256);
+    let mean = |a: usize| places.iter().map(|p| f64::from(p[a])).sum::<f64>() / 256.0;
+    let fallen = 0.5 * G * time * time;
+    let off = (mean(1) - (14e-6 - fallen)).abs();
+    let (rounded, most) = (error * G * TIME * TIME, 0.5 * G * time * longest);
+    assert!(off < rounded + most, "{off} at {time}");
+    assert!((mean(0) - 10e-6).abs() < 1e-9 && (mean(2) - 2e-6).abs() < 1e-9);
+    let speeds = state.vectors("velocity").unwrap();
+    let mean = speeds.iter().map(|v| f64::from(v[1])).sum::<f64>() / 256.0;
+    assert!(
+        (mean + G * time).abs() < error * G * TIME,
+        "{mean} at {time}"
+    );
+}
+
+#[test]
+fn a_drop_falls_by_the_explicit_scheme() {
+    a_drop_falls("explicit", 5e-3);
+}
+
+#[test]
+fn a_drop_falls_by_the_implicit_scheme() {
+    // A step that was cut short after it was solved kept the speed of the longer one: 3 %.
+    a_drop_falls("implicit", 0.01);
+}
