@@ -19,7 +19,7 @@ tradeoff: $(BINARIES)
 .PHONY: bench
 bench:
 	$(CARGO) run --release --quiet -p mpm --example mpm_bench
-	$(CARGO) run --release --quiet -p filling --example solver_bench -- 1e-3 32,48,48,12 64,56,64,12
+	$(CARGO) run --release --quiet -p saddle-point --example solver_bench -- 1e-3 32,48,48,12 64,56,64,12
 
 # Stiff and extreme cases by both schemes: all end well, are refused or stop with a reason.
 .PHONY: stability

@@ -12,8 +12,8 @@
 use rayon::prelude::*;
 
 use crate::operator::NONE;
-use crate::solve::{Csr, Poisson, SolveError};
 use crate::window::Window;
+use saddle_point::{Csr, Poisson, SolveError};
 
 /// Fraction of the density error that one step removes.
 const KAPPA: f64 = 0.5;

@@ -13,7 +13,6 @@ mod plan;
 pub mod reach;
 mod settings;
 pub mod solids;
-pub mod solve;
 mod step;
 pub mod wall;
 pub mod window;

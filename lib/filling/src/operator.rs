@@ -21,8 +21,8 @@ mod walls;
 use rayon::prelude::*;
 
 use crate::lattice::Lattice;
-use crate::solve::{Csr, Load, SaddleSystem, SolveError};
 use couplings::Couplings;
+use saddle_point::{Csr, Load, SaddleSystem, SolveError};
 use terms::Velocity;
 
 pub use dofs::{Dofs, Liquid, NONE};

@@ -19,9 +19,9 @@ use crate::operator::{PathRule, Scales};
 use crate::particles::{Bins, Particles};
 use crate::settings::Settings;
 use crate::solids::Solids;
-use crate::solve::{SaddleOptions, SaddleSolver};
 use crate::window::{Domain, Window};
 use drive::Drive;
+use saddle_point::{SaddleOptions, SaddleSolver};
 use solution::Solution;
 use stages::{Stage, Stages};
 use units::Units;
@@ -341,7 +341,7 @@ impl Implicit {
             Ok(path.follow(particles, |x| field.at(x)))
         });
         let projected =
-            projected.map_err(|e: crate::solve::SolveError| self.failure(&e.to_string()))?;
+            projected.map_err(|e: saddle_point::SolveError| self.failure(&e.to_string()))?;
         moved.lost += projected.lost;
         moved.pinched += projected.pinched;
         self.deflected += moved.deflected;

@@ -6,7 +6,7 @@ use super::{Implicit, Stage, Trial};
 use crate::advect::{self, Flow};
 use crate::fractions;
 use crate::operator::{self, Before, Dofs, Liquid, NONE, Operator, Sheared, System};
-use crate::solve::{Csr, NEARLY, SaddleReport, SolveError};
+use saddle_point::{Csr, NEARLY, SaddleReport, SolveError};
 
 /// Largest number of passes over a viscosity that depends on the shear rate: usually, and in the first
 /// step, which has no rates to start from.

@@ -3,9 +3,9 @@
 use filling::lattice::Lattice;
 use filling::operator::{Before, Liquid, Operator, PathRule, Scales};
 use filling::solids::Solids;
-use filling::solve::{SaddleOptions, SaddleSolver};
 use filling::window::{Domain, Window};
 use physics::{Boundary, Motion, RigidBody, VoxelBlock};
+use saddle_point::{SaddleOptions, SaddleSolver};
 
 use crate::staircase;
 

@@ -1,9 +1,9 @@
 //! Approximate inverse of the velocity block: a Chebyshev polynomial in the Jacobi-scaled matrix.
 
-use super::SolveError;
-use super::csr::Csr;
-use super::packed::PackedMatrix;
-use super::vector::{Real, Work, for_chunks, for_chunks_pair, reset};
+use crate::SolveError;
+use crate::csr::Csr;
+use crate::packed::PackedMatrix;
+use crate::vector::{Real, Work, for_chunks, for_chunks_pair, reset};
 
 /// Sweeps that tighten the bound of the largest eigenvalue.
 const BOUND_SWEEPS: usize = 6;

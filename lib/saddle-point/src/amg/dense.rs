@@ -1,7 +1,7 @@
 //! Cholesky factor of the coarsest operator.
 
-use crate::solve::csr::Csr;
-use crate::solve::vector::{Real, Work};
+use crate::csr::Csr;
+use crate::vector::{Real, Work};
 
 /// A pivot below this fraction of its diagonal entry marks a row that depends on earlier ones
 /// (a closed pocket without compressibility); its unknown is set to zero.

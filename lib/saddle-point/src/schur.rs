@@ -1,11 +1,11 @@
 //! Approximate inverse of the pressure Schur complement.
 
-use super::SolveError;
-use super::csr::Csr;
-use super::pcg::PcgSpace;
-use super::poisson::Poisson;
-use super::saddle::SaddleSystem;
-use super::vector::{Real, Work, for_chunks};
+use crate::SolveError;
+use crate::csr::Csr;
+use crate::pcg::PcgSpace;
+use crate::poisson::Poisson;
+use crate::saddle::SaddleSystem;
+use crate::vector::{Real, Work, for_chunks};
 
 /// `S^-1 ~ 2 eta I + (G D_B^-1 G^T + C)^-1`: the viscous part by the local viscosity, and the part
 /// of inertia and lumen friction `D_B` by a Poisson solve (after Cahouet & Chabard 1988, Int. J.

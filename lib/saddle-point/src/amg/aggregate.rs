@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::solve::SolveError;
-use crate::solve::csr::Csr;
-use crate::solve::vector::{CHUNK, Work, for_chunks};
+use crate::SolveError;
+use crate::csr::Csr;
+use crate::vector::{CHUNK, Work, for_chunks};
 
 /// Marks a row that belongs to no aggregate: it has no neighbours and the smoother solves it.
 const NONE: u32 = u32::MAX;

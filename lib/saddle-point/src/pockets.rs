@@ -1,7 +1,7 @@
 //! Closed pockets: connected cells on which a Poisson operator is singular.
 
-use super::csr::Csr;
-use super::vector::Real;
+use crate::csr::Csr;
+use crate::vector::Real;
 
 /// A row sum below this fraction of the diagonal counts as zero.
 const ROUNDING: f64 = 1e-12;

@@ -8,8 +8,8 @@ mod poisson;
 mod pseudo_wood;
 mod sizes;
 
-use filling::solve::{Csr, SaddleOptions, SaddleReport, SaddleSolver, SolveError};
 use pseudo_wood::{Case, Problem};
+use saddle_point::{Csr, SaddleOptions, SaddleReport, SaddleSolver, SolveError};
 
 const SMALL: Case = Case {
     cells: [10, 14, 5],

@@ -2,14 +2,14 @@
 
 use std::time::{Duration, Instant};
 
-use super::cause::explained;
-use super::chebyshev::Chebyshev;
-use super::csr::Csr;
-use super::fgmres::{KrylovSpace, Limits, Operator, fgmres};
-use super::load::{Bordered, Load, LoadedOperator};
-use super::schur::Schur;
-use super::vector::{Real, Work, for_chunks};
-use super::{SolveError, check_length};
+use crate::cause::explained;
+use crate::chebyshev::Chebyshev;
+use crate::csr::Csr;
+use crate::fgmres::{KrylovSpace, Limits, Operator, fgmres};
+use crate::load::{Bordered, Load, LoadedOperator};
+use crate::schur::Schur;
+use crate::vector::{Real, Work, for_chunks};
+use crate::{SolveError, check_length};
 
 /// The saddle-point system `[A, -G^T; -G, -C] [u; p] = [b; -g]` and what its preconditioner needs.
 ///
@@ -283,7 +283,7 @@ impl Operator for SaddleOperator<'_> {
 }
 
 /// `[Ahat, 0; -G, -Shat]^-1`.
-pub(super) struct BlockTriangular<'a> {
+pub(crate) struct BlockTriangular<'a> {
     g: &'a Csr<f64>,
     chebyshev: Chebyshev,
     schur: Schur,
@@ -306,7 +306,7 @@ impl<'a> BlockTriangular<'a> {
     }
 
     /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`.
-    pub(super) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+    pub(crate) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
         let (r_u, r_p) = r.split_at(self.g.n_columns());
         z.resize(r.len(), Work::default());
         let (velocity, pressure) = z.split_at_mut(r_u.len());

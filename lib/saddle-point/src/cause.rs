@@ -1,8 +1,8 @@
 //! Why a coupled system was not solved, and what of the case to change.
 
-use super::csr::Csr;
-use super::saddle::SaddleSystem;
-use super::{NEARLY, SolveError};
+use crate::csr::Csr;
+use crate::saddle::SaddleSystem;
+use crate::{NEARLY, SolveError};
 
 /// Weight of inertia and friction over viscosity beyond which they are named as the cause.
 const FAST: f64 = 1e6;
@@ -12,7 +12,7 @@ const STIFF: f64 = 1e8;
 const BALANCED: f64 = 1e-6;
 
 /// The error with its likely cause; one that a step can live with stays as it is.
-pub(super) fn explained(error: SolveError, system: &SaddleSystem) -> SolveError {
+pub(crate) fn explained(error: SolveError, system: &SaddleSystem) -> SolveError {
     match error {
         SolveError::NotConverged {
             residual,

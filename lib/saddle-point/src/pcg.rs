@@ -1,8 +1,8 @@
 //! Conjugate gradients preconditioned by multigrid.
 
-use super::amg::{Amg, Workspace};
-use super::csr::Csr;
-use super::vector::{
+use crate::amg::{Amg, Workspace};
+use crate::csr::Csr;
+use crate::vector::{
     Real, Work, add_scaled, dot, dot_chunk, for_chunks, for_chunks_sum, norm, reset,
 };
 

@@ -1,11 +1,11 @@
 //! The scalar operator `G W G^T + C` of pressure and density corrections, and its solution.
 
-use super::amg::Amg;
-use super::csr::Csr;
-use super::pcg::{PcgSpace, pcg};
-use super::pockets::ClosedPockets;
-use super::vector::Work;
-use super::{SolveError, check_length};
+use crate::amg::Amg;
+use crate::csr::Csr;
+use crate::pcg::{PcgSpace, pcg};
+use crate::pockets::ClosedPockets;
+use crate::vector::Work;
+use crate::{SolveError, check_length};
 
 /// `L = G W G^T + C` with its multigrid hierarchy; `G` is cells x faces, `W` and `C` diagonal.
 ///

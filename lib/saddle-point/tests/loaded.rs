@@ -2,8 +2,8 @@
 
 mod pseudo_wood;
 
-use filling::solve::{Load, SaddleOptions, SaddleSolver, SaddleSystem, SolveError};
 use pseudo_wood::{Case, Problem};
+use saddle_point::{Load, SaddleOptions, SaddleSolver, SaddleSystem, SolveError};
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()

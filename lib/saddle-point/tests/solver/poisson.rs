@@ -1,6 +1,6 @@
 //! The multigrid solver of the pressure operator.
 
-use filling::solve::Poisson;
+use saddle_point::Poisson;
 
 use crate::pseudo_wood::{Case, Problem};
 use crate::{MEDIUM, distance, pockets};

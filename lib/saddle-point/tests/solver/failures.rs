@@ -1,6 +1,6 @@
 //! Systems that are solved already or cannot be solved.
 
-use filling::solve::{Csr, SaddleOptions, SaddleSolver, SaddleSystem, SolveError};
+use saddle_point::{Csr, SaddleOptions, SaddleSolver, SaddleSystem, SolveError};
 
 use crate::pseudo_wood::Problem;
 use crate::{SMALL, options, pockets, solve};

@@ -1,7 +1,7 @@
 //! Against dense factorisation.
 
-use filling::solve::Csr;
 use nalgebra::{DMatrix, DVector};
+use saddle_point::Csr;
 
 use crate::pseudo_wood::{Case, Problem};
 use crate::{SMALL, distance, solve};

@@ -2,7 +2,7 @@
 //! friction, fluxes and compressibility, scaled by the reference viscosity.
 
 use super::{Case, Cell, Wood};
-use filling::solve::{Csr, RowEntries, SaddleSystem, SolveError};
+use saddle_point::{Csr, RowEntries, SaddleSystem, SolveError};
 
 /// Cell edge, m; density, kg/m3; time step, s; speed of the upper block, m/s.
 const EDGE: f64 = 2.9e-6;

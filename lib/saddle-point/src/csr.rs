@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::SolveError;
-use super::vector::{CHUNK, Real, for_chunks};
+use crate::SolveError;
+use crate::vector::{CHUNK, Real, for_chunks};
 
 /// A sparse matrix by rows: `columns` and `values` of row `i` are the entries
 /// `row_start[i]..row_start[i + 1]`, columns ascending and unique.

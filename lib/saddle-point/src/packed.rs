@@ -8,9 +8,9 @@
 
 use rayon::prelude::*;
 
-use super::SolveError;
-use super::csr::Csr;
-use super::vector::{CHUNK, Work};
+use crate::SolveError;
+use crate::csr::Csr;
+use crate::vector::{CHUNK, Work};
 
 /// Rows handled together.
 pub(crate) const LANES: usize = 8;

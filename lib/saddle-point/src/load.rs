@@ -1,9 +1,9 @@
 //! A body of unknown speed under a known force, as one more unknown of the coupled system.
 
-use super::fgmres::Operator;
-use super::saddle::BlockTriangular;
-use super::vector::{Real, Work, add_scaled, dot, norm};
-use super::{SaddleSystem, SolveError, check_length};
+use crate::fgmres::Operator;
+use crate::saddle::BlockTriangular;
+use crate::vector::{Real, Work, add_scaled, dot, norm};
+use crate::{SaddleSystem, SolveError, check_length};
 
 /// How a body's speed V enters the system, and the force that is to act on it:
 /// `[A, -G^T, -m; -G, -C, s; -m^T, s^T, d] [u; p; V] = [b; -g; F]`, with b and g for V = 0.
@@ -20,7 +20,7 @@ pub struct Load {
 }
 
 impl Load {
-    pub(super) fn check(&self, system: &SaddleSystem) -> Result<(), SolveError> {
+    pub(crate) fn check(&self, system: &SaddleSystem) -> Result<(), SolveError> {
         check_length(
             "momenta of the load",
             self.momentum.len(),
@@ -50,7 +50,7 @@ impl Load {
 
     /// Factor of the force row that gives it the weight of the others: their right-hand side with
     /// the body moving at `speed` over the force.
-    pub(super) fn weight(&self, system: &SaddleSystem, speed: f64) -> f64 {
+    pub(crate) fn weight(&self, system: &SaddleSystem, speed: f64) -> f64 {
         let sum = |known: &[f64], unit: &[f64]| {
             let moving: Vec<f64> = (known.iter().zip(unit))
                 .map(|(known, unit)| known + speed * unit)
@@ -75,10 +75,10 @@ impl Load {
 }
 
 /// The system with the body's row and column, both scaled by a weight.
-pub(super) struct LoadedOperator<'a, K> {
-    pub(super) inner: &'a K,
-    pub(super) load: &'a Load,
-    pub(super) weight: f64,
+pub(crate) struct LoadedOperator<'a, K> {
+    pub(crate) inner: &'a K,
+    pub(crate) load: &'a Load,
+    pub(crate) weight: f64,
 }
 
 impl<K: Operator> Operator for LoadedOperator<'_, K> {
@@ -99,7 +99,7 @@ impl<K: Operator> Operator for LoadedOperator<'_, K> {
 
 /// The preconditioner M of the system without the body, bordered: with the column k of V and
 /// z = M^-1 k, V = (r_V - k^T M^-1 r)/(d - k^T z) and x = M^-1 r - V z.
-pub(super) struct Bordered<'a> {
+pub(crate) struct Bordered<'a> {
     inner: BlockTriangular<'a>,
     column: Vec<Work>,
     response: Vec<Work>,
@@ -107,7 +107,7 @@ pub(super) struct Bordered<'a> {
 }
 
 impl<'a> Bordered<'a> {
-    pub(super) fn new(mut inner: BlockTriangular<'a>, load: &Load, weight: f64) -> Self {
+    pub(crate) fn new(mut inner: BlockTriangular<'a>, load: &Load, weight: f64) -> Self {
         let column = load.column(weight);
         let mut response = Vec::new();
         inner.apply(&column, &mut response);
@@ -121,11 +121,11 @@ impl<'a> Bordered<'a> {
         }
     }
 
-    pub(super) fn inner(&self) -> &BlockTriangular<'a> {
+    pub(crate) fn inner(&self) -> &BlockTriangular<'a> {
         &self.inner
     }
 
-    pub(super) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+    pub(crate) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
         let (r, force) = r.split_at(r.len() - 1);
         self.inner.apply(r, z);
         let speed = (f64::from(force[0]) - dot(&self.column, z)) / self.pivot;

@@ -1,7 +1,7 @@
 //! Cost of the saddle-point solver on synthetic wood.
 //!
 //! ```text
-//! cargo run --release -p filling --example solver_bench -- [tolerance [nx,ny,nz,gap ...]]
+//! cargo run --release -p saddle-point --example solver_bench -- [tolerance [nx,ny,nz,gap ...]]
 //! RAYON_NUM_THREADS=1 cargo run ...
 //! ... 1e-3 32,48,48,12 64,56,64,12 128,56,128,19 128,72,200,19   # 38k, 96k, 0.54 M, 0.86 M cells
 //! ```
@@ -14,8 +14,8 @@ mod pseudo_wood;
 use std::error::Error;
 use std::time::Instant;
 
-use filling::solve::{SaddleOptions, SaddleReport, SaddleSolver};
 use pseudo_wood::{Case, Problem};
+use saddle_point::{SaddleOptions, SaddleReport, SaddleSolver};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);

@@ -1,7 +1,7 @@
 //! One multigrid cycle.
 
 use super::{Amg, Bottom, Level};
-use crate::solve::vector::{Work, add_scaled, dot, for_chunks, norm, reset};
+use crate::vector::{Work, add_scaled, dot, for_chunks, norm, reset};
 
 /// Jacobi weights of the two sweeps: inverse Chebyshev points of the interval [0.25, 2], the part
 /// of the spectrum of `D^-1 A` that aggregates of eight cannot represent. The bound 2 holds for

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::SolveError;
-use super::vector::{CHUNK, Real, Work, add_scaled, dot_chunk, for_chunks, for_chunks_sum, norm};
+use crate::SolveError;
+use crate::vector::{CHUNK, Real, Work, add_scaled, dot_chunk, for_chunks, for_chunks_sum, norm};
 
 /// A vector is orthogonalised again when less than this fraction of its norm remains.
 const CANCELLED: f64 = 0.1;
