@@ -2,6 +2,7 @@
 
 mod checks;
 mod drive;
+mod failure;
 mod solution;
 mod stages;
 mod state;
@@ -340,8 +341,7 @@ impl Implicit {
             };
             Ok(path.follow(particles, |x| field.at(x)))
         });
-        let projected =
-            projected.map_err(|e: saddle_point::SolveError| self.failure(&e.to_string()))?;
+        let projected = projected.map_err(|error| self.unsolved(error))?;
         moved.lost += projected.lost;
         moved.pinched += projected.pinched;
         self.deflected += moved.deflected;
@@ -365,10 +365,6 @@ impl Implicit {
             return Err(self.failure("all liquid has left the domain"));
         }
         Ok(())
-    }
-
-    fn failure(&self, what: &str) -> Failure {
-        Failure(format!("step {}: {what}", self.steps + 1))
     }
 }
 

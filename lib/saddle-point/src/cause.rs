@@ -1,14 +1,40 @@
-//! Why a coupled system was not solved, and what of the case to change.
+//! Why a saddle-point system was not solved.
 
 use crate::csr::Csr;
 use crate::saddle::SaddleSystem;
 use crate::{NEARLY, SolveError};
 
+/// What of a system is likely to blame where the iteration fails.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Cause {
+    /// Sources of a closed space, no cell of it at a free surface, that compression alone takes up.
+    #[error("sources of {cells} connected cells without a free surface do not balance")]
+    Unbalanced {
+        /// Its cells.
+        cells: usize,
+    },
+    /// Viscosity against compressibility.
+    #[error("viscosity times compressibility is {ratio:.0e}")]
+    Stiff {
+        /// eta/(K dt), the largest 2 eta C.
+        ratio: f64,
+    },
+    /// Inertia against viscosity.
+    #[error("inertia and friction are {ratio:.0e} times the viscosity")]
+    Inertial {
+        /// rho h^2/(eta dt), the largest D_B over the largest 2 eta.
+        ratio: f64,
+    },
+    /// None of these.
+    #[error("for no cause that is known")]
+    Unknown,
+}
+
 /// Weight of inertia and friction over viscosity beyond which they are named as the cause.
 const FAST: f64 = 1e6;
-/// Viscosity times compressibility of a step, eta/(K dt), beyond which it is named.
+/// Viscosity times compressibility beyond which it is named.
 const STIFF: f64 = 1e8;
-/// Part of what walls displace in a closed space that may be left over by rounding.
+/// Part of the sources of a closed space that may be left over by rounding.
 const BALANCED: f64 = 1e-6;
 
 /// The error with its likely cause; one that a step can live with stays as it is.
@@ -27,32 +53,24 @@ pub(crate) fn explained(error: SolveError, system: &SaddleSystem) -> SolveError 
     }
 }
 
-fn cause(system: &SaddleSystem) -> String {
+fn cause(system: &SaddleSystem) -> Cause {
     let most = |list: &mut dyn Iterator<Item = f64>| list.fold(0.0, f64::max);
     let viscosity = most(&mut system.two_eta.iter().copied());
     let inertia = most(&mut system.friction.iter().copied()) / viscosity;
     let stiffness = most(&mut system.c.iter().zip(system.two_eta).map(|(c, eta)| c * eta));
-    if let Some(cells) = squeezed(system) {
-        return format!(
-            "walls move into {cells} cells of liquid that is enclosed and has no way out but to be compressed; a max_pressure, a way out, less travel or a lower bulk_modulus is needed"
-        );
+    if let Some(cells) = unbalanced(system) {
+        Cause::Unbalanced { cells }
+    } else if stiffness > STIFF {
+        Cause::Stiff { ratio: stiffness }
+    } else if inertia > FAST {
+        Cause::Inertial { ratio: inertia }
+    } else {
+        Cause::Unknown
     }
-    if stiffness > STIFF {
-        return format!(
-            "viscous stress is {stiffness:.0e} times what compresses the liquid in a step, eta/(K dt): a lower viscosity, a higher bulk_modulus or a slower motion is needed"
-        );
-    }
-    if inertia > FAST {
-        return format!(
-            "inertia is {inertia:.0e} times the viscous stress in a cell, rho h^2/(eta dt): a higher viscosity or scheme = \"explicit\" is needed"
-        );
-    }
-    "a smaller integrator.cfl makes the steps and their systems easier, a larger integrator.tolerance asks for less"
-        .into()
 }
 
-/// Cells of the first closed space (no cell of it at a free surface) whose walls change its volume.
-fn squeezed(system: &SaddleSystem) -> Option<usize> {
+/// Cells of the first closed space (no cell of it at a free surface) whose sources do not balance.
+fn unbalanced(system: &SaddleSystem) -> Option<usize> {
     let faces = system.g.transpose();
     let mut seen = vec![false; system.g.n_rows()];
     for cell in 0..seen.len() {

@@ -1,7 +1,8 @@
-//! Linear solver of the implicit staggered scheme.
+//! Linear solver of the saddle-point systems of viscous flow on staggered grids.
 //!
-//! Each step solves one saddle-point system for face velocities and cell pressures
-//! ([`SaddleSolver`]) and one scalar Poisson problem for the density projection ([`Poisson`]).
+//! It solves `[A, -G^T; -G, -C] [u; p] = [b; -g]` for face velocities and cell pressures
+//! ([`SaddleSolver`]), the same with one more unknown, the speed of a body under a known force
+//! ([`Load`]), and the scalar Poisson problem `G W G^T + C` alone ([`Poisson`]).
 //! Matrices are assembled row by row with [`Csr::assemble`]. Every result is bit-identical for any
 //! number of threads: work is split into fixed ranges of rows, and sums are added in their order.
 
@@ -19,6 +20,7 @@ mod saddle;
 mod schur;
 mod vector;
 
+pub use cause::Cause;
 pub use csr::{Csr, RowEntries};
 pub use load::Load;
 pub use poisson::Poisson;
@@ -42,11 +44,7 @@ pub enum SolveError {
     #[error("linear system: {0}")]
     Matrix(String),
     /// A right-hand side or a guess holds an infinity or is not a number.
-    #[error(
-        "linear system: right-hand side or guess is not finite at row {row}; speeds, gravity or \
-         pressures of the case or of the step before are beyond all bounds, and a smaller \
-         integrator.cfl may help where the case is not to blame"
-    )]
+    #[error("linear system: right-hand side or guess is not finite at row {row}")]
     NotFinite {
         /// Its row.
         row: usize,
@@ -80,8 +78,8 @@ pub enum SolveError {
     Unsolved {
         /// How far the iteration came.
         error: Box<SolveError>,
-        /// Its likely cause and what of the case to change.
-        cause: String,
+        /// Its likely cause.
+        cause: Cause,
     },
 }
 

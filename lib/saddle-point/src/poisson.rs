@@ -1,4 +1,4 @@
-//! The scalar operator `G W G^T + C` of pressure and density corrections, and its solution.
+//! The scalar operator `G W G^T + C`, and its solution.
 
 use crate::amg::Amg;
 use crate::csr::Csr;
@@ -9,7 +9,7 @@ use crate::{SolveError, check_length};
 
 /// `L = G W G^T + C` with its multigrid hierarchy; `G` is cells x faces, `W` and `C` diagonal.
 ///
-/// The density projection uses it alone ([`Poisson::solve`]); in the saddle-point solve
+/// It may be solved alone ([`Poisson::solve`]), to move volume; in the saddle-point solve
 /// `L^-1` with `W = D_B^-1` is the friction part of the pressure preconditioner.
 ///
 /// `C` may be zero. Cells cut off from every free surface then form closed pockets in which the

@@ -1,4 +1,4 @@
-//! The coupled velocity-pressure system of one implicit step and its solution.
+//! The coupled velocity-pressure system and its solution.
 
 use std::time::{Duration, Instant};
 
@@ -25,8 +25,8 @@ pub struct SaddleSystem<'a> {
     /// Compressibility of every cell, not negative.
     pub c: &'a [f64],
     /// `D_B` of every face, positive: liquid volume times
-    /// `rho/dt + 12 eta/h^2 (1/H_1^2 + 1/H_2^2)` with the free paths `H` across the lumen. Walls
-    /// that slip count less, frictionless ones not at all: with their paths included the
+    /// `rho/dt + 12 eta/h^2 (1/H_1^2 + 1/H_2^2)` with the widths `H` from wall to wall. Walls
+    /// that slip count less, frictionless ones not at all: with their widths included the
     /// iterations double.
     pub friction: &'a [f64],
     /// Twice the viscosity of every cell, not multiplied by its volume.

@@ -160,7 +160,7 @@ impl Implicit {
         let bodies = self.drive.velocities();
         let mut system = (self.stages)
             .time(Stage::Assembly, || operator.assemble(&bodies, before))
-            .map_err(|e| self.failure(&e.to_string()))?;
+            .map_err(|error| self.unsolved(error))?;
         let clamped = self.drive.clamped();
         let solved = match (clamped, self.drive.held()) {
             (Some(clamped), Some(limit)) => self.solve_held(&mut system, clamped, limit, now)?,
@@ -244,7 +244,7 @@ impl Implicit {
                 residual,
                 tolerance,
             }) if residual <= NEARLY * tolerance => now.iterations += iterations as u32,
-            Err(error) => return Err(self.failure(&error.to_string())),
+            Err(error) => return Err(self.unsolved(error)),
         }
         Ok(())
     }
