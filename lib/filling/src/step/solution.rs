@@ -3,9 +3,9 @@
 use physics::Failure;
 
 use super::{Implicit, Stage, Trial};
-use crate::advect::{self, Flow};
-use crate::fractions;
-use crate::operator::{self, Before, Dofs, Liquid, NONE, Operator, Sheared, System};
+use crate::liquid::{self, Volumes};
+use crate::system::{self, Before, Dofs, NONE, Operator, Sheared, System};
+use crate::transport::{self, Flow};
 use saddle_point::{Csr, NEARLY, SaddleReport, SolveError};
 
 /// Largest number of passes over a viscosity that depends on the shear rate: usually, and in the first
@@ -58,10 +58,10 @@ impl Implicit {
     fn solve_with(&mut self, trial: &Trial, phi: &[f32]) -> Result<Solution, Failure> {
         let lattice = &trial.lattice;
         let scales = self.scales(trial.dt);
-        let liquid = Liquid::new(lattice, phi);
+        let volumes = Volumes::new(lattice, phi);
         let mut operator = self
             .stages
-            .time(Stage::Assembly, || Operator::new(lattice, &liquid, scales));
+            .time(Stage::Assembly, || Operator::new(lattice, &volumes, scales));
         let start = self.carried(&operator);
         let mut now = Unknowns {
             u: start.u.clone(),
@@ -74,7 +74,7 @@ impl Implicit {
             pressure: &start.p,
             stiffness: &stiffness,
         };
-        let varies = operator::varies(&self.liquid.viscosity);
+        let varies = system::varies(&self.liquid.viscosity);
         if varies {
             self.update_viscosity(&mut operator, &now.u);
         }
@@ -92,8 +92,8 @@ impl Implicit {
                 .map(|&c| field[c as usize])
                 .collect()
         };
-        let (density, fraction) = (pick(&self.fractions.density), pick(&liquid.fraction));
-        let volume = pick(&liquid.volume);
+        let (density, fraction) = (pick(&self.fractions.density), pick(&volumes.fraction));
+        let volume = pick(&volumes.cell);
         Ok(Solution {
             pressure: self.spread(&operator, &now.p),
             bodies: self.drive.velocities(),
@@ -120,14 +120,14 @@ impl Implicit {
             let mut u = vec![0.0; dofs.faces.len()];
             let mut field = Vec::new();
             for axis in 0..window.domain.axes {
-                fractions::velocities(particles, bins, window, axis, &mut field);
+                liquid::velocities(particles, bins, window, axis, &mut field);
                 for (u, face) in u.iter_mut().zip(&dofs.faces) {
                     if usize::from(face.0) == axis {
                         *u = f64::from(field[face.1 as usize]);
                     }
                 }
             }
-            fractions::pressures(particles, bins, window, self.liquid.tait, &mut field);
+            liquid::pressures(particles, bins, window, self.liquid.tait, &mut field);
             let p = (dofs.cells.iter())
                 .map(|&cell| f64::from(field[cell as usize]) / units.pressure())
                 .collect();
@@ -255,10 +255,10 @@ impl Implicit {
         let influence = self.wall.influence_length() / self.units.h;
         let (lattice, liquid, units) = (operator.lattice, &self.liquid, self.units);
         self.stages.time(Stage::Assembly, || {
-            let value = advect::extend(lattice, &operator.dofs.face, u);
+            let value = transport::extend(lattice, &operator.dofs.face, u);
             let flow = Flow::new(lattice, &value, &operator.dofs.face, &bodies, influence);
             let field = Sheared {
-                flow: &flow,
+                deviator: |x| flow.deviator_norm(x),
                 u,
                 bodies: &bodies,
             };

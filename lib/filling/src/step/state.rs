@@ -7,7 +7,7 @@ use physics::{
 use rayon::prelude::*;
 
 use super::Implicit;
-use crate::advect;
+use crate::transport;
 
 impl Scheme for Implicit {
     fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
@@ -159,7 +159,7 @@ impl Implicit {
     fn shear_rates(&self) -> Vec<f32> {
         match (&self.flow, &self.restored_rates) {
             (Some(flow), _) => {
-                advect::shear_rates(&self.particles, flow, self.liquid.shear_rate, self.units.h)
+                transport::shear_rates(&self.particles, flow, self.liquid.shear_rate, self.units.h)
             }
             (None, Some(rates)) => rates.clone(),
             (None, None) => vec![0.0; self.particles.len()],
@@ -175,7 +175,7 @@ impl Implicit {
         position: &[[f64; 3]],
         displacement: &[[f64; 3]],
     ) -> Result<(), String> {
-        /// Cells around the domain in which a point is still found, see [`crate::window::PAD`].
+        /// Cells around the domain in which a point is still found, see [`crate::geometry::PAD`].
         const BESIDE: f64 = 1.0;
         let scalars = saved.f64s("scalars")?;
         restored::check_finite(scalars, "scalars")?;

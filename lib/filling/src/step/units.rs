@@ -2,7 +2,7 @@
 
 use physics::{GridBox, Liquid};
 
-use crate::operator::reference_viscosity;
+use crate::system::reference_viscosity;
 
 /// Scales of a scene.
 #[derive(Clone, Copy, Debug)]

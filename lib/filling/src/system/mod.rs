@@ -1,0 +1,318 @@
+//! The unknowns and the coupled system of one step: viscosity, mass and wall friction A, fluxes G,
+//! compressibility C, and the forces on bodies that follow from a solution.
+//!
+//! Per step the scheme minimises over the face velocities u, with pressures p as multipliers,
+//!
+//! E = sum_f rho V_f/(2 dt) (u - u*)^2 + sum_c eta phi_c o_c sum_d (D_d u_d)^2
+//!   + 1/2 sum_e eta phi_e (shear of the edge)^2 + 1/2 sum_walls A_s beta (u_f - U_b)^2
+//!   - sum_c phi_c p_c Phi_c - sum_c phi_c o_c (p_c^2/2 - p_c p*_c)/(K dt),
+//!
+//! which gives [A, -G^T; -G, -C] [u; p] = [b; -g]. Velocities are in m/s, lengths in cells h,
+//! viscosities in units of a reference eta_0, pressures in units of eta_0/h, forces in units of
+//! eta_0 h; in plane strain the depth is one cell.
+
+mod couplings;
+mod dofs;
+mod fluxes;
+mod terms;
+mod viscosity;
+mod walls;
+
+use rayon::prelude::*;
+
+use crate::geometry::Lattice;
+use crate::liquid::Volumes;
+use couplings::Couplings;
+use saddle_point::{Csr, Load, SaddleSystem, SolveError};
+use terms::Velocity;
+
+pub(crate) use dofs::{Dofs, NONE};
+pub(crate) use viscosity::{Sheared, reference_viscosity, varies};
+
+#[cfg(test)]
+mod statics;
+pub(crate) use walls::PathRule;
+
+use walls::Walls;
+
+/// Smallest liquid volume, in cells, that a face's mass counts with.
+const LEAST_MASS: f64 = 0.02;
+/// Unknowns per task and partial sum; part of the result of sums.
+const CHUNK: usize = 1 << 12;
+
+/// Numbers that scale the terms of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scales {
+    /// Inertia, rho h^2/(eta_0 dt).
+    pub(crate) inertia: f64,
+    /// Compressibility, eta_0/(K dt).
+    pub(crate) compressibility: f64,
+    /// Body force per face volume, rho h^2 g/eta_0, m/s.
+    pub(crate) gravity: [f64; 3],
+    /// 1/(k h): influence length of the wall law, cells; infinite without friction.
+    pub(crate) influence_length: f64,
+    /// Which free path the wall law takes.
+    pub(crate) path: PathRule,
+}
+
+/// Geometry, liquid and unknowns of a step, from which its system is assembled.
+pub(crate) struct Operator<'a> {
+    /// Geometry.
+    pub(crate) lattice: &'a Lattice,
+    /// Liquid volumes.
+    pub(crate) volumes: &'a Volumes<'a>,
+    /// Viscosity of each cell over eta_0; empty when it is eta_0 everywhere.
+    viscosity: Vec<f32>,
+    /// Unknowns.
+    pub(crate) dofs: Dofs,
+    /// Walls at the face unknowns.
+    pub(crate) walls: Walls,
+    /// Liquid volume of the control volume of each face unknown, in cells.
+    pub(crate) face_volume: Vec<f64>,
+    scales: Scales,
+}
+
+/// The assembled system of a step, for bodies at given speeds.
+pub(crate) struct System {
+    a: Csr<f64>,
+    /// Liquid fluxes, cells x faces.
+    pub(crate) g: Csr<f64>,
+    c: Vec<f64>,
+    friction: Vec<f64>,
+    two_eta: Vec<f64>,
+    mass: Vec<f64>,
+    couplings: Couplings,
+    /// Right-hand sides with all bodies at rest.
+    resting: [Vec<f64>; 2],
+    bodies: Vec<[f64; 3]>,
+    b: Vec<f64>,
+    source: Vec<f64>,
+}
+
+impl System {
+    /// What the solver takes.
+    pub(crate) fn saddle(&self) -> SaddleSystem<'_> {
+        SaddleSystem {
+            a: &self.a,
+            g: &self.g,
+            c: &self.c,
+            friction: &self.friction,
+            two_eta: &self.two_eta,
+            b: &self.b,
+            volume_source: &self.source,
+        }
+    }
+
+    /// Sets the velocities of the bodies, m/s.
+    pub(crate) fn steer(&mut self, bodies: &[[f64; 3]]) {
+        self.bodies = bodies.to_vec();
+        let couplings = &self.couplings;
+        let [momentum, source] = &self.resting;
+        self.b = (momentum.par_iter().enumerate())
+            .map(|(face, b)| b + couplings.dragged(face, bodies))
+            .collect();
+        self.source = (source.par_iter().enumerate())
+            .map(|(cell, g)| g + couplings.displaced(cell, bodies))
+            .collect();
+    }
+
+    /// How the speed of body `clamped` against y enters the system, for a force of `force` on it
+    /// along y (units of eta_0 h); to be solved with that body at rest.
+    pub(crate) fn load(&self, clamped: usize, force: f64) -> Load {
+        let mut unit = vec![[0.0; 3]; self.bodies.len()];
+        unit[clamped][1] = -1.0;
+        let mut resting = self.bodies.clone();
+        resting[clamped] = [0.0; 3];
+        let couplings = &self.couplings;
+        let rigid = |bodies: &[[f64; 3]]| couplings.forces(bodies, &[], &[]).0[clamped][1];
+        Load {
+            momentum: (0..self.b.len())
+                .into_par_iter()
+                .map(|face| couplings.dragged(face, &unit))
+                .collect(),
+            source: (0..self.source.len())
+                .into_par_iter()
+                .map(|cell| couplings.displaced(cell, &unit))
+                .collect(),
+            resistance: rigid(&unit),
+            force: force - rigid(&resting),
+        }
+    }
+
+    /// Forces of the liquid on the bodies, in units of eta_0 h, and the power dissipated by
+    /// viscosity and wall friction, in units of eta_0 h (m/s)^2.
+    pub(crate) fn reactions(&self, u: &[f64], p: &[f64]) -> (Vec<[f64; 3]>, f64) {
+        let (forces, of_bodies) = self.couplings.forces(&self.bodies, u, p);
+        let mut product = vec![0.0; u.len()];
+        self.a.multiply(u, &mut product);
+        let of_liquid: f64 = (product.iter().zip(u).zip(&self.mass))
+            .map(|((product, u), mass)| u * (product - mass * u))
+            .sum();
+        (forces, of_liquid + of_bodies)
+    }
+}
+
+/// What is known of the liquid before the step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Before<'a> {
+    /// Velocity of each face unknown carried by the particles, m/s.
+    pub(crate) velocity: &'a [f64],
+    /// Pressure of each pressure unknown carried by the particles, scaled.
+    pub(crate) pressure: &'a [f64],
+    /// Resistance of the liquid at that pressure to a change of its present volume, over K.
+    pub(crate) stiffness: &'a [f64],
+}
+
+impl<'a> Operator<'a> {
+    /// The operator for the liquid of `volumes` in `lattice`.
+    pub(crate) fn new(lattice: &'a Lattice, volumes: &'a Volumes<'a>, scales: Scales) -> Self {
+        let dofs = Dofs::new(lattice, volumes);
+        let friction = scales.influence_length.is_finite();
+        let walls = Walls::new(lattice, volumes.phi, &dofs, scales.path, friction);
+        let face_volume = dofs
+            .faces
+            .par_iter()
+            .with_min_len(CHUNK)
+            .map(|&(axis, index)| face_volume(lattice, volumes, axis.into(), index as usize))
+            .collect();
+        Self {
+            lattice,
+            volumes,
+            viscosity: Vec::new(),
+            dofs,
+            walls,
+            face_volume,
+            scales,
+        }
+    }
+
+    #[inline]
+    fn eta(&self, cell: usize) -> f64 {
+        self.viscosity.get(cell).map_or(1.0, |&eta| f64::from(eta))
+    }
+
+    fn face_viscosity(&self, axis: usize, index: usize) -> f64 {
+        let below = index - self.lattice.window.stride(axis);
+        self.mean_viscosity([index, below])
+    }
+
+    fn edge_viscosity(&self, cells: [usize; 4]) -> f64 {
+        self.mean_viscosity(cells)
+    }
+
+    /// Viscosity around a place, by the liquid in the cells that meet there.
+    fn mean_viscosity<const N: usize>(&self, cells: [usize; N]) -> f64 {
+        if self.viscosity.is_empty() {
+            return 1.0;
+        }
+        let (mut sum, mut volume) = (0.0, 0.0);
+        for cell in cells {
+            let v = f64::from(self.volumes.cell[cell]);
+            sum += v * self.eta(cell);
+            volume += v;
+        }
+        if volume > 0.0 { sum / volume } else { 1.0 }
+    }
+
+    /// Assembles the system for bodies that move at `bodies` (m/s).
+    ///
+    /// # Errors
+    /// When an entry is not finite.
+    pub(crate) fn assemble(
+        &self,
+        bodies: &[[f64; 3]],
+        before: Before,
+    ) -> Result<System, SolveError> {
+        let n = self.dofs.faces.len();
+        let a = Csr::assemble(n, n, |face, entries| {
+            entries.add(face, self.mass(face));
+            self.terms(face, |term| {
+                let own = coefficient(term.parts(), face);
+                for &(velocity, c) in term.parts() {
+                    if let Velocity::Face(other) = velocity {
+                        entries.add(other as usize, term.weight * own * c);
+                    }
+                }
+            });
+        })?;
+        let flux = couplings::fluxes(self);
+        let g = Csr::assemble(self.dofs.cells.len(), n, |cell, entries| {
+            for &(column, area) in flux.of(cell).iter().filter(|e| (e.0 as usize) < n) {
+                entries.add(column as usize, area);
+            }
+        })?;
+        let c = self.compressibility(before.stiffness);
+        let mut system = System {
+            friction: (0..n).map(|face| self.darcy(face)).collect(),
+            two_eta: (self.dofs.cells.iter())
+                .map(|&cell| 2.0 * self.eta(cell as usize))
+                .collect(),
+            mass: (0..n).map(|face| self.mass(face)).collect(),
+            couplings: Couplings::new(self, bodies.len(), &flux),
+            resting: [
+                self.momentum(before.velocity),
+                (c.iter().zip(before.pressure))
+                    .map(|(c, p)| c * p)
+                    .collect(),
+            ],
+            a,
+            g,
+            c,
+            bodies: Vec::new(),
+            b: Vec::new(),
+            source: Vec::new(),
+        };
+        system.steer(bodies);
+        Ok(system)
+    }
+
+    fn mass(&self, face: usize) -> f64 {
+        self.scales.inertia * self.face_volume[face].max(LEAST_MASS)
+    }
+
+    /// D_B of the pressure preconditioner: V_f [rho h^2/(eta_0 dt) + 12 eta sum H^-2], with less
+    /// friction where walls slip: slip by a length l multiplies the flux of a slit by 1 + 6 l/H.
+    fn darcy(&self, face: usize) -> f64 {
+        let (axis, index) = self.dofs.faces[face];
+        let eta = self.face_viscosity(axis.into(), index as usize);
+        let paths = match f64::from(self.walls.inverse_paths[face]) {
+            0.0 => 0.0,
+            paths => paths / (1.0 + 6.0 * self.scales.influence_length * paths.sqrt()),
+        };
+        self.face_volume[face].max(LEAST_MASS) * (self.scales.inertia + 12.0 * eta * paths)
+    }
+
+    fn compressibility(&self, stiffness: &[f64]) -> Vec<f64> {
+        (self.dofs.cells.iter().zip(stiffness))
+            .map(|(&cell, stiffness)| {
+                self.scales.compressibility * f64::from(self.volumes.cell[cell as usize])
+                    / stiffness
+            })
+            .collect()
+    }
+
+    /// b with all bodies at rest: inertia and body force.
+    fn momentum(&self, velocity: &[f64]) -> Vec<f64> {
+        (self.dofs.faces.iter().enumerate())
+            .map(|(face, &(axis, _))| {
+                self.mass(face) * velocity[face]
+                    + self.face_volume[face] * self.scales.gravity[usize::from(axis)]
+            })
+            .collect()
+    }
+}
+
+/// Coefficient of an unknown in a term.
+fn coefficient(parts: &[(Velocity, f64)], face: usize) -> f64 {
+    let own = |part: &&(Velocity, f64)| part.0 == Velocity::Face(face as u32);
+    parts.iter().filter(own).map(|part| part.1).sum()
+}
+
+/// Liquid volume that moves with a face: of its control volume, and of the slivers merged
+/// into its area.
+fn face_volume(lattice: &Lattice, volumes: &Volumes, axis: usize, index: usize) -> f64 {
+    let cell = lattice.window.coordinates(index);
+    let (wet, open) = volumes.of_face(lattice, axis, cell);
+    let merged = lattice.aperture(axis, cell).merged;
+    wet + if open > 0.0 { merged * wet / open } else { 0.0 }
+}
