@@ -7,7 +7,7 @@ use super::Implicit;
 
 impl Implicit {
     pub(super) fn failure(&self, what: &str) -> Failure {
-        Failure(format!("step {}: {what}", self.steps + 1))
+        Failure(format!("step {}: {what}", self.state.steps + 1))
     }
 
     /// A system of the step that was not solved.

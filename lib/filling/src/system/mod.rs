@@ -31,7 +31,7 @@ pub(crate) use viscosity::{Sheared, reference_viscosity, varies};
 
 #[cfg(test)]
 mod statics;
-pub(crate) use walls::PathRule;
+pub(crate) use walls::WidthRule;
 
 use walls::Walls;
 
@@ -51,8 +51,8 @@ pub(crate) struct Scales {
     pub(crate) gravity: [f64; 3],
     /// 1/(k h): influence length of the wall law, cells; infinite without friction.
     pub(crate) influence_length: f64,
-    /// Which free path the wall law takes.
-    pub(crate) path: PathRule,
+    /// Which width of the lumen the wall law takes.
+    pub(crate) width: WidthRule,
 }
 
 /// Geometry, liquid and unknowns of a step, from which its system is assembled.
@@ -168,7 +168,7 @@ impl<'a> Operator<'a> {
     pub(crate) fn new(lattice: &'a Lattice, volumes: &'a Volumes<'a>, scales: Scales) -> Self {
         let dofs = Dofs::new(lattice, volumes);
         let friction = scales.influence_length.is_finite();
-        let walls = Walls::new(lattice, volumes.phi, &dofs, scales.path, friction);
+        let walls = Walls::new(lattice, volumes.phi, &dofs, scales.width, friction);
         let face_volume = dofs
             .faces
             .par_iter()
@@ -275,11 +275,11 @@ impl<'a> Operator<'a> {
     fn darcy(&self, face: usize) -> f64 {
         let (axis, index) = self.dofs.faces[face];
         let eta = self.face_viscosity(axis.into(), index as usize);
-        let paths = match f64::from(self.walls.inverse_paths[face]) {
+        let widths = match f64::from(self.walls.inverse_widths[face]) {
             0.0 => 0.0,
-            paths => paths / (1.0 + 6.0 * self.scales.influence_length * paths.sqrt()),
+            widths => widths / (1.0 + 6.0 * self.scales.influence_length * widths.sqrt()),
         };
-        self.face_volume[face].max(LEAST_MASS) * (self.scales.inertia + 12.0 * eta * paths)
+        self.face_volume[face].max(LEAST_MASS) * (self.scales.inertia + 12.0 * eta * widths)
     }
 
     fn compressibility(&self, stiffness: &[f64]) -> Vec<f64> {

@@ -7,7 +7,7 @@ mod motion;
 
 pub(crate) use carry::{set_velocities, set_volume_changes, shear_rates};
 pub(crate) use flow::{Flow, extend};
-pub(crate) use motion::{Moved, Path};
+pub(crate) use motion::Path;
 
 #[cfg(test)]
 mod tests;

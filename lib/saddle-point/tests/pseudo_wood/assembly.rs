@@ -9,8 +9,8 @@ const EDGE: f64 = 2.9e-6;
 const DENSITY: f64 = 1200.0;
 const TIME_STEP: f64 = 1e-6;
 const SPEED: f64 = -1.0;
-/// Free paths are capped at this many cells.
-const LONGEST_PATH: i64 = 40;
+/// Widths of lumens are capped at this many cells.
+const WIDEST: i64 = 40;
 const NONE: u32 = u32::MAX;
 
 /// An assembled problem.
@@ -328,9 +328,9 @@ impl Stokes {
             if walls == 0 {
                 continue;
             }
-            let path = self.free_path(face, tangent);
+            let width = self.width(face, tangent);
             let open = self.volume(face) / self.sides(face).count() as f64 * 2.0;
-            let distance = open * (0.5 - 1.0 / (3.0 * path));
+            let distance = open * (0.5 - 1.0 / (3.0 * width));
             let wet = 0.5 * self.sides(face).count() as f64;
             let stiffness = self.mean_viscosity(face) * 0.5 * walls as f64 / distance * wet;
             entries.add(row, stiffness);
@@ -342,14 +342,14 @@ impl Stokes {
     }
 
     /// Free length along `tangent` through a face.
-    fn free_path(&self, face: &Face, tangent: usize) -> f64 {
+    fn width(&self, face: &Face, tangent: usize) -> f64 {
         let mut length = 1;
         for step in [-1, 1] {
-            for far in 1..LONGEST_PATH {
+            for far in 1..WIDEST {
                 let beside = shift(face.at, tangent, step * far);
                 let pair = [beside, shift(beside, face.axis, -1)].map(|at| self.wood.at(at));
                 if pair.contains(&Cell::Outside) {
-                    return LONGEST_PATH as f64;
+                    return WIDEST as f64;
                 }
                 if pair.into_iter().any(Cell::is_body) {
                     break;
@@ -357,14 +357,14 @@ impl Stokes {
                 length += 1;
             }
         }
-        length.min(LONGEST_PATH) as f64
+        length.min(WIDEST) as f64
     }
 
     /// Friction and inertia of the liquid around a face, for the pressure preconditioner.
     fn friction(&self, face: &Face) -> f64 {
         let lumen: f64 = (0..3)
             .filter(|&tangent| tangent != face.axis)
-            .map(|tangent| 12.0 / self.free_path(face, tangent).powi(2))
+            .map(|tangent| 12.0 / self.width(face, tangent).powi(2))
             .sum();
         let lumen = if self.case.friction { lumen } else { 0.0 };
         self.volume(face) * (self.inverse_time() + self.mean_viscosity(face) * lumen)

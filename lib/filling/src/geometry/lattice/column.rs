@@ -38,15 +38,15 @@ impl Column {
         self.body[side] < OPEN && self.distance[side] <= 1.0 + TOUCH
     }
 
-    /// Free path H across the lumen, at most [`FAR`]. A symmetry plane mirrors the lumen.
-    pub(crate) fn free_path(&self) -> f64 {
+    /// Width H of the lumen, from wall to wall, at most [`FAR`]. A symmetry plane mirrors the lumen.
+    pub(crate) fn width(&self) -> f64 {
         let [a, b] = self.distance;
-        let path = match self.body.map(|body| body == SIDE) {
+        let width = match self.body.map(|body| body == SIDE) {
             [false, false] => a + b,
             [true, false] | [false, true] => 2.0 * (a + b),
             [true, true] => FAR,
         };
-        path.min(FAR)
+        width.min(FAR)
     }
 }
 

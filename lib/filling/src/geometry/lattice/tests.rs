@@ -1,4 +1,4 @@
-//! Geometry on the half-cell lattice: exact volumes and areas, free paths, and walls that
+//! Geometry on the half-cell lattice: exact volumes and areas, widths, and walls that
 //! hold whatever their thickness and offset.
 
 use crate::geometry::Lattice;
@@ -185,7 +185,7 @@ fn areas_add_up_to_the_cross_section() {
 }
 
 #[test]
-fn free_paths_end_at_walls_and_mirror_at_symmetry_planes() {
+fn widths_end_at_walls_and_mirror_at_symmetry_planes() {
     let floor = VoxelBlock::solid_box([0.0, -1.0, 0.0], [8.0, 1.25, 1.0]);
     let roof = VoxelBlock::solid_box([0.0, 5.5, 0.0], [4.0, 7.0, 1.0]);
     let l = lattice(domain([8, 10, 1], 2), vec![vec![floor], vec![roof]]);
@@ -193,11 +193,8 @@ fn free_paths_end_at_walls_and_mirror_at_symmetry_planes() {
     let column = l.column(0, at([2.0, 2.0, 0.0]), 1, 0);
     assert!((column.distance[0] - 1.25).abs() < 1e-9 && (column.distance[1] - 3.0).abs() < 1e-9);
     assert_eq!(column.body, [0, 1]);
-    assert!((column.free_path() - 4.25).abs() < 1e-9);
+    assert!((column.width() - 4.25).abs() < 1e-9);
     assert!(!column.touches(0));
     let mirrored = l.column(0, at([6.0, 2.0, 0.0]), 1, 1);
-    assert!(
-        (mirrored.free_path() - 2.0 * 8.75).abs() < 1e-9,
-        "{mirrored:?}"
-    );
+    assert!((mirrored.width() - 2.0 * 8.75).abs() < 1e-9, "{mirrored:?}");
 }

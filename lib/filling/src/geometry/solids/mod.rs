@@ -16,7 +16,7 @@ pub(crate) const SIDE: BodyId = 255;
 pub(crate) const OPEN: BodyId = 254;
 /// Largest number of bodies a scene may have.
 pub(crate) const MAX_BODIES: usize = 250;
-/// Rays end after this many cells: a free path this long has no effect on the wall law.
+/// Rays end after this many cells: a lumen this wide has no effect on the wall law.
 pub(crate) const FAR: f64 = 64.0;
 /// Points this close (cells) to a surface count as on it.
 const TOUCH: f64 = 1e-7;

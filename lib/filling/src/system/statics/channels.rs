@@ -2,7 +2,7 @@
 //! against the cells. Run with `--nocapture` to see the errors.
 
 use super::flow::{Flow, duct, tube_of_voxels, worst};
-use crate::system::PathRule;
+use crate::system::WidthRule;
 use physics::VoxelBlock;
 
 /// Flux through a plane channel of `n` cells whose lower wall is at `offset`, over the exact
@@ -81,12 +81,12 @@ fn round_tubes_of_voxels() {
     for (voxel, rule, tolerances) in [
         (
             1.0,
-            PathRule::Combined,
+            WidthRule::Combined,
             [[0.03, 0.06], [0.05, 0.07], [0.04, 0.05]],
         ),
         (
             0.5,
-            PathRule::Normal,
+            WidthRule::Normal,
             [[0.03, 0.12], [0.02, 0.03], [0.01, 0.03]],
         ),
     ] {

@@ -4,7 +4,7 @@ use crate::geometry::Lattice;
 use crate::geometry::Solids;
 use crate::geometry::{Domain, Window};
 use crate::liquid::Volumes;
-use crate::system::{Before, Operator, PathRule, Scales};
+use crate::system::{Before, Operator, Scales, WidthRule};
 use physics::{Boundary, Motion, RigidBody, VoxelBlock};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
@@ -16,7 +16,7 @@ pub(crate) struct Flow {
     pub(crate) bodies: Vec<Vec<VoxelBlock>>,
     /// Influence length of the wall law, cells.
     pub(crate) slip: f64,
-    pub(crate) path: PathRule,
+    pub(crate) width: WidthRule,
     pub(crate) gravity: [f64; 3],
     pub(crate) speeds: Vec<[f64; 3]>,
 }
@@ -39,7 +39,7 @@ impl Flow {
                 axes,
             },
             slip: 0.0,
-            path: PathRule::Combined,
+            width: WidthRule::Combined,
             gravity: [0.0; 3],
             speeds: vec![[0.0; 3]; bodies.len()],
             bodies,
@@ -72,7 +72,7 @@ impl Flow {
             compressibility: 1e-12,
             gravity: self.gravity,
             influence_length: self.slip,
-            path: self.path,
+            width: self.width,
         };
         let operator = Operator::new(&lattice, &liquid, scales);
         let (n, m) = (operator.dofs.faces.len(), operator.dofs.cells.len());
@@ -166,7 +166,7 @@ fn in_tube(j: usize, k: usize, voxel: f64, radius: f64, centre: [f64; 2]) -> boo
 }
 
 /// Flux of a tube made of voxels over that by finite differences in the same staircase.
-pub(crate) fn tube_of_voxels(radius: f64, shift: [f64; 2], voxel: f64, path: PathRule) -> f64 {
+pub(crate) fn tube_of_voxels(radius: f64, shift: [f64; 2], voxel: f64, width: WidthRule) -> f64 {
     let n = (2.0 * radius).ceil() as usize + 4;
     let centre = shift.map(|s| 0.5 * n as f64 + s - 0.5);
     let voxels = (n as f64 / voxel) as usize;
@@ -178,6 +178,6 @@ pub(crate) fn tube_of_voxels(radius: f64, shift: [f64; 2], voxel: f64, path: Pat
         |_, j, k| !tube(j, k),
     );
     let mut flow = Flow::new([3, n, n], 3, vec![vec![block]]);
-    flow.path = path;
+    flow.width = width;
     flow.periodic_flux() / (staircase::flux(voxels, tube) * voxel.powi(4))
 }

@@ -4,7 +4,7 @@
 /// so that the friction of a wall is eta (u - U)/d_eff.
 ///
 /// `d` is the distance from the face's centre to the wall, `opposite` that to the wall on the
-/// other side and `path` the free path H across the lumen (both at least `d`).
+/// other side and `width` that of the lumen, H (both at least `d`).
 ///
 /// Derivation. The velocity is the mean over a control volume of thickness h1 = d + 1/2 at the
 /// wall. In a slit of width H driven by a pressure gradient the exact profile is
@@ -17,13 +17,13 @@
 ///
 /// makes the discrete flux exact for any offset of the walls. Where both walls bound one
 /// control volume, u = H^2/12 G/eta requires d_eff = H/6.
-pub(crate) fn effective_distance(d: f64, opposite: f64, path: f64) -> f64 {
-    if d + opposite <= path + 1e-9 && opposite <= 1.0 + 1e-6 {
-        return path / 6.0;
+pub(crate) fn effective_distance(d: f64, opposite: f64, width: f64) -> f64 {
+    if d + opposite <= width + 1e-9 && opposite <= 1.0 + 1e-6 {
+        return width / 6.0;
     }
     let h1 = d + 0.5;
-    let lack = (1.0 - 2.0 * h1 / path) * (h1 * h1 - 1.0);
-    (0.5 * h1 + (lack - h1 * h1) / (3.0 * path)).max(0.1 * h1)
+    let lack = (1.0 - 2.0 * h1 / width) * (h1 * h1 - 1.0);
+    (0.5 * h1 + (lack - h1 * h1) / (3.0 * width)).max(0.1 * h1)
 }
 
 /// Place (cells) of the mean over a control volume that a wall at distance `d` from the face's

@@ -1,4 +1,4 @@
-//! Friction of walls on face velocities, and the free paths that go with it.
+//! Friction of walls on face velocities, and the widths of the lumens that go with it.
 
 mod effective_distance;
 mod view;
@@ -14,9 +14,9 @@ const CHUNK: usize = 1 << 12;
 /// No entry in [`Walls::shifts`].
 const CENTRED: u32 = u32::MAX;
 
-/// Which free path enters the wall law in 3D.
+/// Which width H of the lumen enters the wall law in 3D.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum PathRule {
+pub(crate) enum WidthRule {
     /// H_n, across the lumen along the wall's normal: for walls made of voxels of half a cell,
     /// whose steps already add friction.
     Normal,
@@ -44,7 +44,7 @@ pub(crate) struct Walls {
     start: Vec<u32>,
     links: Vec<WallLink>,
     /// Sum over the tangential directions of H^-2, cells^-2, per face unknown.
-    pub(crate) inverse_paths: Vec<f32>,
+    pub(crate) inverse_widths: Vec<f32>,
     /// Where the shifts of a face unknown are in `shifts`, or [`CENTRED`].
     place: Vec<u32>,
     shifts: Vec<Shifts>,
@@ -59,7 +59,7 @@ type Shifts = [[f32; 4]; 2];
 struct Part {
     counts: Vec<u32>,
     links: Vec<WallLink>,
-    paths: Vec<f32>,
+    inverse_widths: Vec<f32>,
     shifts: Vec<Option<Shifts>>,
 }
 
@@ -69,7 +69,7 @@ impl Walls {
         lattice: &Lattice,
         phi: &[f32],
         dofs: &Dofs,
-        rule: PathRule,
+        rule: WidthRule,
         friction: bool,
     ) -> Self {
         let parts: Vec<Part> = (dofs.faces.par_chunks(CHUNK))
@@ -79,7 +79,8 @@ impl Walls {
                     let before = part.links.len();
                     let cell = lattice.window.coordinates(index as usize);
                     let view = View::new(lattice, axis.into(), cell);
-                    part.paths.push(view.inverse_paths(lattice) as f32);
+                    part.inverse_widths
+                        .push(view.inverse_widths(lattice) as f32);
                     part.shifts.push(view.shifts());
                     if friction {
                         view.push_links(lattice, phi, rule, &mut part.links);
@@ -105,7 +106,7 @@ impl Walls {
                 walls.shifts.extend(shifts);
             }
             walls.links.extend(part.links);
-            walls.inverse_paths.extend(part.paths);
+            walls.inverse_widths.extend(part.inverse_widths);
         }
         walls
     }

@@ -1,10 +1,10 @@
 //! The walls that one face velocity sees.
 
 use super::effective_distance::{effective_distance, shift_of_mean};
-use super::{PathRule, Shifts, WallLink};
+use super::{Shifts, WallLink, WidthRule};
 use crate::geometry::{Column, Lattice};
 
-/// Least combined free path over the lesser of the two across a lumen, where one control volume
+/// Least combined width over the lesser of the two across a lumen, where one control volume
 /// reaches from the wall to the middle: the value that is exact for a square duct of two control
 /// volumes (mean velocity 0.0351 G a^2/eta, mean wall slope G a/(4 eta)).
 const SQUARE: f64 = 0.85;
@@ -38,10 +38,10 @@ impl View {
         }
     }
 
-    /// Mean free path along a tangential direction.
-    fn path(&self, t: usize) -> f64 {
+    /// Mean width of the lumen along a tangential direction.
+    fn width(&self, t: usize) -> f64 {
         let open = self.columns[t].iter().filter(|c| !c.blocked());
-        let (sum, count) = open.fold((0.0, 0), |(s, n), c| (s + c.free_path(), n + 1));
+        let (sum, count) = open.fold((0.0, 0), |(s, n), c| (s + c.width(), n + 1));
         if count == 0 {
             1.0
         } else {
@@ -49,9 +49,9 @@ impl View {
         }
     }
 
-    pub(super) fn inverse_paths(&self, lattice: &Lattice) -> f64 {
+    pub(super) fn inverse_widths(&self, lattice: &Lattice) -> f64 {
         (0..lattice.tangents(self.axis).len())
-            .map(|t| self.path(t).max(0.5).powi(-2))
+            .map(|t| self.width(t).max(0.5).powi(-2))
             .sum()
     }
 
@@ -79,7 +79,7 @@ impl View {
         &self,
         lattice: &Lattice,
         phi: &[f32],
-        rule: PathRule,
+        rule: WidthRule,
         links: &mut Vec<WallLink>,
     ) {
         let mut links = Collector {
@@ -90,7 +90,7 @@ impl View {
         let count = lattice.column_count();
         for (t, &tangent) in tangents.iter().enumerate().filter(|(t, _)| self.near[*t]) {
             let across = match rule {
-                PathRule::Combined if tangents.len() == 2 => Some(self.path(1 - t)),
+                WidthRule::Combined if tangents.len() == 2 => Some(self.width(1 - t)),
                 _ => None,
             };
             for index in 0..count {
@@ -170,19 +170,19 @@ struct Collector<'a> {
 }
 
 impl Collector<'_> {
-    /// The wall of `column` at `side`, in a lumen of free path `across` along the other
+    /// The wall of `column` at `side`, in a lumen of width `across` along the other
     /// tangential direction if that is to count.
     fn add(&mut self, column: Column, side: usize, area: f64, across: Option<f64>) {
-        let along = column.free_path();
+        let along = column.width();
         let (d, opposite) = (column.distance[side], column.distance[1 - side]);
-        let path = across.map_or(along, |a| {
+        let width = across.map_or(along, |a| {
             let least = SQUARE * along.min(a).min(2.0 * (d + 0.5));
             (along.powi(-2) + a.powi(-2)).powf(-0.5).max(least)
         });
         let link = WallLink {
             body: column.body[side],
             area: area as f32,
-            distance: effective_distance(d, opposite, path.max(d)) as f32,
+            distance: effective_distance(d, opposite, width.max(d)) as f32,
             viscosity: 1.0,
         };
         let equal = |l: &&mut WallLink| l.body == link.body && l.distance == link.distance;

@@ -32,14 +32,13 @@ const TOLERANCE: f64 = 0.1;
 const MAX_ITERATIONS: usize = 100;
 
 /// Liquid in the cells whose pressure is an unknown, in their order.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Cells<'a> {
+pub(crate) struct Cells {
     /// Density r, 1 when full.
-    pub(crate) density: &'a [f32],
+    pub(crate) density: Vec<f32>,
     /// Liquid fraction phi of the open volume.
-    pub(crate) fraction: &'a [f32],
+    pub(crate) fraction: Vec<f32>,
     /// Liquid volume phi o, cells.
-    pub(crate) volume: &'a [f32],
+    pub(crate) volume: Vec<f32>,
 }
 
 /// Displacement (cells) of each face unknown that reduces the density error, and the number of
@@ -53,14 +52,14 @@ pub(crate) fn displacement(
     g: &Csr<f64>,
     g_transposed: &Csr<f64>,
     face_volume: &[f64],
-    cells: Cells,
+    cells: &Cells,
 ) -> Result<(Vec<f64>, usize), SolveError> {
     let weight: Vec<f64> = (face_volume.iter())
         .map(|v| 1.0 / v.max(LEAST_VOLUME))
         .collect();
     let rhs: Vec<f64> = (cells.density.iter())
-        .zip(cells.fraction)
-        .zip(cells.volume)
+        .zip(&cells.fraction)
+        .zip(&cells.volume)
         .map(|((&r, &phi), &volume)| {
             let error = (f64::from(r) - 1.0).clamp(-CLIP, CLIP);
             if error < 0.0 && phi < FULL {

@@ -6,7 +6,7 @@ use super::*;
 use crate::geometry::{Domain, Lattice, Solids, Window};
 use crate::liquid::tests::at;
 use crate::liquid::{Bins, Fractions, Particles, Volumes};
-use crate::system::{Before, Operator, PathRule, Scales};
+use crate::system::{Before, Operator, Scales, WidthRule};
 use crate::transport::Path;
 
 /// Root mean square and mean of r - 1 over the full cells.
@@ -33,7 +33,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
         compressibility: 0.0,
         gravity: [0.0; 3],
         influence_length: 0.0,
-        path: PathRule::Normal,
+        width: WidthRule::Normal,
     };
     let operator = Operator::new(lattice, &volumes, scales);
     let dofs = &operator.dofs;
@@ -45,18 +45,16 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
     let system = operator.assemble(&[[0.0; 3]], before).unwrap();
     let pick =
         |field: &[f32]| -> Vec<f32> { dofs.cells.iter().map(|&c| field[c as usize]).collect() };
-    let (density, fraction) = (pick(&fractions.density), pick(&volumes.fraction));
-    let volume = pick(&volumes.cell);
     let cells = Cells {
-        density: &density,
-        fraction: &fraction,
-        volume: &volume,
+        density: pick(&fractions.density),
+        fraction: pick(&volumes.fraction),
+        volume: pick(&volumes.cell),
     };
     let (moves, iterations) = displacement(
         &system.g,
         &system.g.transpose(),
         &operator.face_volume,
-        cells,
+        &cells,
     )
     .unwrap();
     assert!(moves.iter().all(|d| d.abs() <= LONGEST));
@@ -161,11 +159,11 @@ fn one_crowded_cell_does_not_hold_back_the_rest() {
     let passage = [0.02, 1.0];
     let g = Csr::assemble(2, 2, |row, entries| entries.add(row, passage[row])).unwrap();
     let cells = Cells {
-        density: &[1.3, 1.1],
-        fraction: &[1.0; 2],
-        volume: &[1.0; 2],
+        density: vec![1.3, 1.1],
+        fraction: vec![1.0; 2],
+        volume: vec![1.0; 2],
     };
-    let (moves, _) = displacement(&g, &g.transpose(), &[1.0; 2], cells).unwrap();
+    let (moves, _) = displacement(&g, &g.transpose(), &[1.0; 2], &cells).unwrap();
     let wanted = KAPPA * 0.1;
     println!("{moves:?}, {wanted} wanted of the second");
     assert_eq!(moves[0].abs(), LONGEST);

@@ -215,7 +215,7 @@ impl Builder<'_> {
         Across::wall(
             velocity,
             above,
-            [d, opposite, column.free_path(), self.influence],
+            [d, opposite, column.width(), self.influence],
         )
     }
 

@@ -52,23 +52,23 @@ impl Across {
         }
     }
 
-    /// A wall at distance `d`, below or `above`, with the opposite wall at `opposite`, free path
-    /// `path` and influence length `l`, all in cells.
+    /// A wall at distance `d`, below or `above`, with the opposite wall at `opposite`, width
+    /// of the lumen `width` and influence length `l`, all in cells.
     ///
     /// The nearest walls of two columns may leave next to no room between them (a staircase
     /// through the face); no profile fits there, and the variation is left out.
-    pub(super) fn wall(velocity: f64, above: bool, [d, opposite, path, l]: [f64; 4]) -> Self {
+    pub(super) fn wall(velocity: f64, above: bool, [d, opposite, width, l]: [f64; 4]) -> Self {
         if d + opposite < LEAST_ROOM {
             return Self::FLAT;
         }
         let h1 = d + if opposite > 1.0 + 1e-6 { 0.5 } else { opposite };
-        let path = path.max(h1);
-        let mean = 0.5 * h1 + l - h1 * h1 / (3.0 * path);
+        let width = width.max(h1);
+        let mean = 0.5 * h1 + l - h1 * h1 / (3.0 * width);
         let way = if above { -1.0 } else { 1.0 };
         let g = [
-            (d + l - d * d / path) / mean,
-            way * (1.0 - 2.0 * d / path) / mean,
-            -1.0 / (path * mean),
+            (d + l - d * d / width) / mean,
+            way * (1.0 - 2.0 * d / width) / mean,
+            -1.0 / (width * mean),
         ];
         Across::Wall { velocity, g }
     }
@@ -175,11 +175,11 @@ mod tests {
     fn the_mean_is_kept_and_walls_stick() {
         let free = Across::free([-0.7, 0.2], [1.3, 1.0]);
         for d in [0.05, 0.25, 0.5, 0.75, 1.0] {
-            for path in [2.0, 3.0, 12.0] {
+            for width in [2.0, 3.0, 12.0] {
                 for l in [0.0, 0.01, 3.0] {
-                    let low = Across::wall(0.4, false, [d, path - d, path, l]);
-                    let high = Across::wall(0.4, true, [d, path - d, path, l]);
-                    let h = [-d, if path - d > 1.0 { 0.5 } else { path - d }];
+                    let low = Across::wall(0.4, false, [d, width - d, width, l]);
+                    let high = Across::wall(0.4, true, [d, width - d, width, l]);
+                    let h = [-d, if width - d > 1.0 { 0.5 } else { width - d }];
                     let up = [-h[1], d];
                     let bulk = [-0.5, 0.5];
                     for (across, a, b) in [

@@ -1,17 +1,83 @@
-//! Which scenes the scheme accepts, and its initial solids and particles.
+//! What never changes in a run, made of the scene; and what of a scene the scheme refuses.
 
-use physics::{Dimensions, Points, RigidBody, Scene};
+use physics::{Dimensions, Liquid, Points, RigidBody, Scene, WallLaw};
 
 use super::Units;
 use crate::geometry::{Domain, MAX_BODIES, Solids, fill_sealed};
 use crate::liquid::Particles;
-use crate::system::PathRule;
+use crate::settings::Settings;
+use crate::system::{Scales, WidthRule};
 
 /// Edge of a voxel (cells) below which the steps of a wall add friction of their own.
 const FINE_VOXEL: f64 = 0.75;
 
+/// What never changes in a run.
+pub(super) struct Setup {
+    pub(super) settings: Settings,
+    pub(super) units: Units,
+    pub(super) domain: Domain,
+    pub(super) liquid: Liquid,
+    wall: WallLaw,
+    pub(super) gravity: [f64; 3],
+    width: WidthRule,
+    pub(super) bottom: Option<usize>,
+    pub(super) top: Option<usize>,
+    /// Area that pressures refer to, m2.
+    pub(super) area: f64,
+    /// Bodies before any displacement.
+    pub(super) rest: Solids,
+    /// Voxels of voids that no liquid can reach, filled in.
+    pub(super) sealed: u64,
+}
+
+impl Setup {
+    /// The setup of a scene that passed [`check`], and its particles.
+    ///
+    /// # Errors
+    /// When a point lies in a body or outside the domain.
+    pub(super) fn new(scene: Scene, settings: Settings) -> Result<(Self, Particles), String> {
+        let units = Units::new(&scene.grid, &scene.liquid, scene.initial_speed());
+        let domain = Domain::new(&scene.grid, scene.boundary, scene.dimensions);
+        let (width, area) = (width_rule(&scene), scene.grid.area_m2());
+        let (rest, particles, sealed) = contents(scene.bodies, scene.points, domain, units)?;
+        let setup = Self {
+            settings,
+            units,
+            domain,
+            liquid: scene.liquid,
+            wall: scene.wall,
+            gravity: scene.gravity,
+            width,
+            bottom: scene.bottom,
+            top: scene.top,
+            area,
+            rest,
+            sealed,
+        };
+        Ok((setup, particles))
+    }
+
+    /// Influence length of the wall law, cells; infinite without friction.
+    pub(super) fn influence_length(&self) -> f64 {
+        self.wall.influence_length() / self.units.h
+    }
+
+    /// Scales of the terms of a step of `dt` (s).
+    pub(super) fn scales(&self, dt: f64) -> Scales {
+        let Units { h, eta, .. } = self.units;
+        let weight = self.liquid.density * h * h / eta;
+        Scales {
+            inertia: weight / dt,
+            compressibility: eta / (self.liquid.tait.bulk_modulus * dt),
+            gravity: self.gravity.map(|g| weight * g),
+            influence_length: self.influence_length(),
+            width: self.width,
+        }
+    }
+}
+
 /// Refuses what the scheme cannot do.
-pub(super) fn scene(scene: &Scene) -> Result<(), String> {
+pub(super) fn check(scene: &Scene) -> Result<(), String> {
     if scene.points.position.is_empty() {
         return Err("the scene holds no liquid: nothing would move".into());
     }
@@ -38,8 +104,8 @@ pub(super) fn scene(scene: &Scene) -> Result<(), String> {
     Ok(())
 }
 
-/// Which free path suits the scene's voxels.
-pub(super) fn path_rule(scene: &Scene) -> PathRule {
+/// Which width of lumens suits the scene's voxels.
+fn width_rule(scene: &Scene) -> WidthRule {
     let blocks = scene.bodies.iter().flat_map(|body| &body.blocks);
     let fine = blocks.into_iter().any(|block| {
         let edge = block.voxel();
@@ -47,9 +113,9 @@ pub(super) fn path_rule(scene: &Scene) -> PathRule {
             && edge.iter().any(|e| *e < FINE_VOXEL * scene.grid.cell_m)
     });
     if fine {
-        PathRule::Normal
+        WidthRule::Normal
     } else {
-        PathRule::Combined
+        WidthRule::Combined
     }
 }
 
@@ -58,7 +124,7 @@ pub(super) fn path_rule(scene: &Scene) -> PathRule {
 ///
 /// # Errors
 /// When a point lies in a body or outside the domain.
-pub(super) fn contents(
+fn contents(
     mut bodies: Vec<RigidBody>,
     points: Points,
     domain: Domain,
