@@ -1,7 +1,7 @@
 //! Why a saddle-point system was not solved.
 
 use crate::csr::Csr;
-use crate::saddle::SaddleSystem;
+use crate::system::SaddleSystem;
 use crate::{NEARLY, SolveError};
 
 /// What of a system is likely to blame where the iteration fails.

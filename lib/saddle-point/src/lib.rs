@@ -18,13 +18,15 @@ mod pockets;
 mod poisson;
 mod saddle;
 mod schur;
+mod system;
 mod vector;
 
 pub use cause::Cause;
 pub use csr::{Csr, RowEntries};
 pub use load::Load;
 pub use poisson::Poisson;
-pub use saddle::{SaddleOptions, SaddleReport, SaddleSolver, SaddleSystem};
+pub use saddle::{SaddleOptions, SaddleReport, SaddleSolver};
+pub use system::SaddleSystem;
 pub use vector::Real;
 
 /// Why a linear system was not solved.

@@ -1,41 +1,16 @@
-//! The coupled velocity-pressure system and its solution.
+//! Solution of the coupled velocity-pressure system.
 
 use std::time::{Duration, Instant};
 
+use crate::SolveError;
 use crate::cause::explained;
 use crate::chebyshev::Chebyshev;
 use crate::csr::Csr;
 use crate::fgmres::{KrylovSpace, Limits, Operator, fgmres};
 use crate::load::{Bordered, Load, LoadedOperator};
 use crate::schur::Schur;
+use crate::system::SaddleSystem;
 use crate::vector::{Real, Work, for_chunks};
-use crate::{SolveError, check_length};
-
-/// The saddle-point system `[A, -G^T; -G, -C] [u; p] = [b; -g]` and what its preconditioner needs.
-///
-/// All values are scaled alike, momentum rows by `1/eta_0` with lengths in cells and the pressure
-/// by `h/eta_0`, so that `A` and `G` have entries of order one.
-#[derive(Clone, Copy)]
-pub struct SaddleSystem<'a> {
-    /// Velocity block, faces x faces: mass, viscosity and wall friction. Symmetric positive
-    /// definite.
-    pub a: &'a Csr<f64>,
-    /// Flux operator, cells x faces.
-    pub g: &'a Csr<f64>,
-    /// Compressibility of every cell, not negative.
-    pub c: &'a [f64],
-    /// `D_B` of every face, positive: liquid volume times
-    /// `rho/dt + 12 eta/h^2 (1/H_1^2 + 1/H_2^2)` with the widths `H` from wall to wall. Walls
-    /// that slip count less, frictionless ones not at all: with their widths included the
-    /// iterations double.
-    pub friction: &'a [f64],
-    /// Twice the viscosity of every cell, not multiplied by its volume.
-    pub two_eta: &'a [f64],
-    /// Momentum right-hand side `b`, one per face.
-    pub b: &'a [f64],
-    /// Volume source `g`, one per cell: `G u + C p = g`.
-    pub volume_source: &'a [f64],
-}
 
 /// Settings of the solver.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,10 +102,10 @@ impl SaddleSolver {
         u: &mut [f64],
         p: &mut [f64],
     ) -> Result<SaddleReport, SolveError> {
-        check(system, u, p)?;
+        system.check(u, p)?;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
         let (limits, space) = (self.limits(), &mut self.space);
-        let (rhs, options) = (right_hand_side(system), &self.options);
+        let (rhs, options) = (system.right_hand_side(), &self.options);
         let report = prepared(system, options, |operator, mut preconditioner| {
             let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
             let result = fgmres(operator, precondition, &rhs, &mut x, limits, space);
@@ -153,12 +128,12 @@ impl SaddleSolver {
         p: &mut [f64],
         speed: &mut f64,
     ) -> Result<SaddleReport, SolveError> {
-        check(system, u, p)?;
+        system.check(u, p)?;
         load.check(system)?;
         let weight = load.weight(system, *speed);
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
         x.push(*speed / weight);
-        let mut rhs = right_hand_side(system);
+        let mut rhs = system.right_hand_side();
         rhs.push(weight * load.force);
         let (limits, space, options) = (self.limits(), &mut self.space, &self.options);
         let report = prepared(system, options, |inner, preconditioner| {
@@ -216,46 +191,10 @@ fn prepared(
     })
 }
 
-fn right_hand_side(system: &SaddleSystem) -> Vec<f64> {
-    let sources = system.volume_source.iter().map(|g| -g);
-    system.b.iter().copied().chain(sources).collect()
-}
-
 fn spread(x: &[f64], u: &mut [f64], p: &mut [f64]) {
     let (x_u, x_p) = x.split_at(u.len());
     u.copy_from_slice(x_u);
     p.copy_from_slice(x_p);
-}
-
-fn check(system: &SaddleSystem, u: &[f64], p: &[f64]) -> Result<(), SolveError> {
-    let (faces, cells) = (system.a.n_rows(), system.g.n_rows());
-    for (what, found, expected) in [
-        ("columns of the velocity block", system.a.n_columns(), faces),
-        ("columns of the flux operator", system.g.n_columns(), faces),
-        ("compressibilities", system.c.len(), cells),
-        ("face frictions", system.friction.len(), faces),
-        ("cell viscosities", system.two_eta.len(), cells),
-        ("momentum right-hand side", system.b.len(), faces),
-        ("volume sources", system.volume_source.len(), cells),
-        ("velocities", u.len(), faces),
-        ("pressures", p.len(), cells),
-    ] {
-        check_length(what, found, expected)?;
-    }
-    for values in [system.b, system.volume_source, u, p] {
-        if let Some(row) = values.iter().position(|v| !v.is_finite()) {
-            return Err(SolveError::NotFinite { row });
-        }
-    }
-    for (what, values) in [("friction", system.friction), ("viscosity", system.two_eta)] {
-        if let Some(at) = values.iter().position(|v| !(*v > 0.0 && v.is_finite())) {
-            return Err(SolveError::Matrix(format!(
-                "{what} {} at index {at}; it must be positive and finite",
-                values[at]
-            )));
-        }
-    }
-    Ok(())
 }
 
 struct SaddleOperator<'a> {

@@ -4,7 +4,7 @@ use crate::SolveError;
 use crate::csr::Csr;
 use crate::pcg::PcgSpace;
 use crate::poisson::Poisson;
-use crate::saddle::SaddleSystem;
+use crate::system::SaddleSystem;
 use crate::vector::{Real, Work, for_chunks};
 
 /// `S^-1 ~ 2 eta I + (G D_B^-1 G^T + C)^-1`: the viscous part by the local viscosity, and the part

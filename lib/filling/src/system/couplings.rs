@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use super::terms::Velocity;
-use super::{CHUNK, Operator, coefficient};
+use super::{CHUNK, Operator};
 
 /// Rows of (column, coefficient), one per unknown.
 #[derive(Clone, Debug, Default)]
@@ -54,7 +54,7 @@ impl Couplings {
         let n = 3 * bodies;
         let drag = gather(operator.dofs.faces.len(), n * n, |face, row, between| {
             operator.terms(face, |term| {
-                let own = term.weight * coefficient(term.parts(), face);
+                let own = term.weight * term.coefficient(face);
                 for &(velocity, c) in term.parts() {
                     if let Velocity::Body(component) = velocity {
                         add(row, component, own * c);

@@ -32,37 +32,8 @@ impl Dofs {
     /// Numbers the unknowns where `volumes` has liquid.
     pub(crate) fn new(lattice: &Lattice, volumes: &Volumes) -> Self {
         let window = &lattice.window;
-        let wet = |index: usize| {
-            f64::from(volumes.fraction[index]) >= WET_CELL && volumes.cell[index] > 1e-6
-        };
-        let mine = |cell: [usize; 3]| window.inner(cell) && window.home(cell) == cell;
-        let active = |axis: usize, cell: [usize; 3]| {
-            let index = window.index(cell);
-            let below = index - window.stride(axis);
-            lattice.face(axis, index) == OPEN
-                && (window.in_domain(cell) || window.in_domain(window.coordinates(below)))
-                && (wet(index) || wet(below) || volumes.of_face(lattice, axis, cell).0 > WET_FACE)
-        };
         let axes = window.domain.axes;
-        // One bit per axis for an active low face, one for a wet cell; rows are independent.
-        let mut flags = vec![0_u8; window.len()];
-        flags
-            .par_chunks_mut(window.cells[0])
-            .enumerate()
-            .for_each(|(r, row)| {
-                let (j, k) = (r % window.cells[1], r / window.cells[1]);
-                for (i, flag) in row.iter_mut().enumerate() {
-                    let cell = [i, j, k];
-                    if mine(cell) && !lonely(lattice, volumes, cell) {
-                        for axis in (0..axes).filter(|&a| active(a, cell)) {
-                            *flag |= 1 << axis;
-                        }
-                        if window.in_domain(cell) && wet(window.index(cell)) {
-                            *flag |= 8;
-                        }
-                    }
-                }
-            });
+        let flags = flags(lattice, volumes);
         let mut dofs = Self {
             face: std::array::from_fn(|a| {
                 if a < axes {
@@ -113,6 +84,42 @@ impl Dofs {
             }
         }
     }
+}
+
+/// Of each cell one bit per axis for a low face that is an unknown, and 8 for a pressure that may be.
+fn flags(lattice: &Lattice, volumes: &Volumes) -> Vec<u8> {
+    let window = &lattice.window;
+    let wet =
+        |index: usize| f64::from(volumes.fraction[index]) >= WET_CELL && volumes.cell[index] > 1e-6;
+    let mine = |cell: [usize; 3]| window.inner(cell) && window.home(cell) == cell;
+    let active = |axis: usize, cell: [usize; 3]| {
+        let index = window.index(cell);
+        let below = index - window.stride(axis);
+        lattice.face(axis, index) == OPEN
+            && (window.in_domain(cell) || window.in_domain(window.coordinates(below)))
+            && (wet(index) || wet(below) || volumes.of_face(lattice, axis, cell).0 > WET_FACE)
+    };
+    let axes = window.domain.axes;
+    // Rows are independent.
+    let mut flags = vec![0_u8; window.len()];
+    flags
+        .par_chunks_mut(window.cells[0])
+        .enumerate()
+        .for_each(|(r, row)| {
+            let (j, k) = (r % window.cells[1], r / window.cells[1]);
+            for (i, flag) in row.iter_mut().enumerate() {
+                let cell = [i, j, k];
+                if mine(cell) && !lonely(lattice, volumes, cell) {
+                    for axis in (0..axes).filter(|&a| active(a, cell)) {
+                        *flag |= 1 << axis;
+                    }
+                    if window.in_domain(cell) && wet(window.index(cell)) {
+                        *flag |= 8;
+                    }
+                }
+            }
+        });
+    flags
 }
 
 /// Whether no liquid is in or next to a cell, so that it can hold no unknown.

@@ -23,7 +23,7 @@ pub(super) enum Velocity {
 /// 1/2 weight (sum of coefficient times velocity)^2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Term {
-    pub(crate) weight: f64,
+    pub(super) weight: f64,
     parts: [(Velocity, f64); 4],
     count: usize,
 }
@@ -37,12 +37,18 @@ impl Term {
         }
     }
 
-    pub(crate) fn parts(&self) -> &[(Velocity, f64)] {
+    pub(super) fn parts(&self) -> &[(Velocity, f64)] {
         &self.parts[..self.count]
     }
 
+    /// Coefficient of a face unknown.
+    pub(super) fn coefficient(&self, face: usize) -> f64 {
+        let own = |part: &&(Velocity, f64)| part.0 == Velocity::Face(face as u32);
+        self.parts().iter().filter(own).map(|part| part.1).sum()
+    }
+
     /// The unknown that counts this term in sums over all terms: its lowest one.
-    pub(crate) fn owner(&self) -> Option<u32> {
+    pub(super) fn owner(&self) -> Option<u32> {
         let faces = self.parts().iter().filter_map(|part| match part.0 {
             Velocity::Face(face) => Some(face),
             _ => None,

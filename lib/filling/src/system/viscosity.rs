@@ -66,12 +66,6 @@ impl Operator<'_> {
     }
 }
 
-/// Viscosity that a scene's liquid has at the shear rate of a lumen of six cells, to scale
-/// equations with.
-pub(crate) fn reference_viscosity(law: &Viscosity, speed: f64, cell_m: f64) -> f64 {
-    law.at(8.0 * speed / (6.0 * cell_m))
-}
-
 /// Whether a law needs rates at all.
 pub(crate) fn varies(law: &Viscosity) -> bool {
     matches!(law, Viscosity::Table(_))

@@ -1,6 +1,7 @@
 //! Swept collision of points with moving bodies: nothing passes a wall, however thin.
 
-use super::{Placed, Solids};
+use super::Solids;
+use super::placed::Placed;
 
 /// Distance (cells) at which a deflected point stays off a wall.
 const CLEARANCE: f64 = 0.02;

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::profile::{Across, Profile};
+use super::seen::{Seen, TOUCH, extent, see};
 use super::{LEAST_RUN, tangents};
 use crate::geometry::{Column, Lattice, OPEN, SIDE};
 use crate::system::NONE;
@@ -10,8 +11,6 @@ use crate::system::NONE;
 /// A wall this close ahead (cells) leaves a sliver, in which a face's velocity follows from the
 /// wall's and the next face's.
 const SLIVER: f64 = 0.5;
-/// Distances to walls are exact to this.
-const TOUCH: f64 = 1e-6;
 /// Faces per task.
 const CHUNK: usize = 1 << 12;
 
@@ -275,74 +274,5 @@ impl Builder<'_> {
             1.0
         };
         Some((f64::from(self.value[axis][next]), width))
-    }
-}
-
-/// What a face sees along its tangents; the second one sees nothing in plane strain.
-fn see(lattice: &Lattice, axis: usize, index: usize) -> [Seen; 2] {
-    let cell = lattice.window.coordinates(index);
-    tangents(axis).map(|t| {
-        let mut seen = Seen::default();
-        if t >= lattice.window.domain.axes || lattice.clear(axis, cell, t) {
-            return seen;
-        }
-        for column in 0..lattice.column_count() {
-            seen.add(&lattice.column(axis, cell, t, column));
-        }
-        seen
-    })
-}
-
-struct Seen {
-    /// Nearest walls below and above.
-    nearest: Column,
-    /// Open columns.
-    columns: u8,
-    /// Whether they reach to walls at different distances.
-    uneven: bool,
-    /// Bit 0: the control volume reaches beyond the face's edge above, bit 1: below.
-    reaches: u8,
-}
-
-impl Default for Seen {
-    fn default() -> Self {
-        Self {
-            nearest: Column::FREE,
-            columns: 0,
-            uneven: false,
-            reaches: 0,
-        }
-    }
-}
-
-/// How far a control volume reaches below and above the face's centre in a column.
-fn extent(column: &Column) -> [f64; 2] {
-    [0, 1].map(|side| {
-        if column.touches(side) {
-            column.distance[side]
-        } else {
-            0.5
-        }
-    })
-}
-
-impl Seen {
-    fn add(&mut self, column: &Column) {
-        if column.blocked() {
-            return;
-        }
-        for side in 0..2 {
-            let distance = column.distance[side];
-            let differs = (extent(&self.nearest)[side] - extent(column)[side]).abs() > TOUCH;
-            self.uneven |= differs && self.columns > 0;
-            if distance < self.nearest.distance[side] {
-                self.nearest.distance[side] = distance;
-                self.nearest.body[side] = column.body[side];
-            }
-            if column.touches(side) && distance > 0.5 + TOUCH {
-                self.reaches |= if side == 1 { 1 } else { 2 };
-            }
-        }
-        self.columns += 1;
     }
 }

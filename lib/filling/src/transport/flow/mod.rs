@@ -10,6 +10,7 @@
 mod extend;
 mod faces;
 mod profile;
+mod seen;
 
 use crate::geometry::{BodyId, Lattice, OPEN, Window};
 use crate::system::NONE;
