@@ -9,3 +9,6 @@ pub(crate) use lattice::{Column, Lattice};
 pub(crate) use sealed::fill_sealed;
 pub(crate) use solids::{BodyId, MAX_BODIES, OPEN, SIDE, Solids};
 pub(crate) use window::{Domain, Window};
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -119,11 +119,7 @@ impl Particles {
         // Placing has moved each offset to the next cell's.
         start.rotate_right(1);
         start[0] = 0;
-        permute(&mut self.position, &order);
-        permute(&mut self.velocity, &order);
-        permute(&mut self.volume, &order);
-        permute(&mut self.j, &order);
-        permute(&mut self.id, &order);
+        self.take(&order);
     }
 
     /// Removes the particles that `keep` refuses, and returns how many.
@@ -134,13 +130,18 @@ impl Particles {
             .collect();
         let removed = self.len() - kept.len();
         if removed > 0 {
-            permute(&mut self.position, &kept);
-            permute(&mut self.velocity, &kept);
-            permute(&mut self.volume, &kept);
-            permute(&mut self.j, &kept);
-            permute(&mut self.id, &kept);
+            self.take(&kept);
         }
         removed
+    }
+
+    /// Takes the particles of these places, in this order.
+    fn take(&mut self, places: &[u32]) {
+        permute(&mut self.position, places);
+        permute(&mut self.velocity, places);
+        permute(&mut self.volume, places);
+        permute(&mut self.j, places);
+        permute(&mut self.id, places);
     }
 }
 

@@ -49,20 +49,15 @@ impl Scheme for Implicit {
         let volume = |p: usize| {
             f64::from(particles.volume[p]) * (1.0 + f64::from(particles.j[p])) * units.volume()
         };
-        let pressure = |p: usize| self.setup.liquid.tait.pressure(f64::from(particles.j[p])) as f32;
-        let at = |p: &u32| *p as usize;
+        let tait = self.setup.liquid.tait;
         LiquidState {
-            position: (order.par_iter().map(at))
-                .map(|p| units.to_metres(particles.position[p]).map(|x| x as f32))
-                .collect(),
-            velocity: order
-                .par_iter()
-                .map(at)
-                .map(|p| particles.velocity[p])
-                .collect(),
-            volume: order.par_iter().map(at).map(|p| volume(p) as f32).collect(),
-            pressure: order.par_iter().map(at).map(pressure).collect(),
-            shear_rate: order.par_iter().map(at).map(|p| rates[p]).collect(),
+            position: of(&order, |p| {
+                units.to_metres(particles.position[p]).map(|x| x as f32)
+            }),
+            velocity: of(&order, |p| particles.velocity[p]),
+            volume: of(&order, |p| volume(p) as f32),
+            pressure: of(&order, |p| tait.pressure(f64::from(particles.j[p])) as f32),
+            shear_rate: of(&order, |p| rates[p]),
         }
     }
 
@@ -233,6 +228,10 @@ impl Implicit {
             )),
         }
     }
+}
+
+fn of<T: Send>(particles: &[u32], value: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    particles.par_iter().map(|&p| value(p as usize)).collect()
 }
 
 fn triples<T: Copy>(flat: &[T], name: &str) -> Result<Vec<[T; 3]>, String> {

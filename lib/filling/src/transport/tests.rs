@@ -1,27 +1,14 @@
 //! Particles carry the flux that was solved for, and pass no wall.
 
-use physics::{Boundary, Motion, RigidBody, ShearRate, VoxelBlock};
+use physics::{Boundary, ShearRate, VoxelBlock};
 
 use super::*;
-use crate::geometry::{Domain, Lattice, OPEN, Solids, Window};
+use crate::geometry::tests::{lattice, solids, whole};
+use crate::geometry::{Domain, Lattice, OPEN};
 use crate::liquid::tests::{at, sequence};
 use crate::system::NONE;
 
 const SIDES: [Boundary; 3] = [Boundary::Symmetry; 3];
-
-fn solids(domain: Domain, blocks: Vec<VoxelBlock>) -> Solids {
-    let body = RigidBody {
-        name: "wall".into(),
-        blocks,
-        motion: Motion::Fixed,
-    };
-    Solids::new(vec![body], domain, [0.0; 3], 1.0)
-}
-
-fn whole(domain: Domain, solids: Solids) -> Lattice {
-    let to = domain.cells.map(|n| n as i64);
-    Lattice::new(solids, Window::around(domain, [0; 3], to))
-}
 
 /// A straight channel along x between walls at `low` and `high` in y and, in 3D, z.
 struct Channel {
@@ -52,7 +39,7 @@ impl Channel {
             blocks.push(VoxelBlock::solid_box([0.0, a, -1.0], [6.0, b, c]));
             blocks.push(VoxelBlock::solid_box([0.0, a, d], [6.0, b, end]));
         }
-        let lattice = whole(domain, solids(domain, blocks));
+        let lattice = lattice(domain, vec![blocks]);
         Self {
             lattice,
             low,
@@ -258,7 +245,7 @@ fn nothing_passes_a_wall_of_one_voxel() {
     let mut deepest: f64 = 0.0;
     for step in 0..20 {
         let low = [4.0 + 0.05 * f64::from(step), 4.35, 4.7];
-        let rest = solids(domain, vec![shell(low)]);
+        let rest = solids(domain, vec![vec![shell(low)]]);
         let mut y = 0.0;
         let inside = |x: [f64; 3], y: f64| {
             (0..3).all(|a| {
@@ -306,11 +293,11 @@ fn a_common_velocity_only_translates() {
     for off in [0.0, 0.2, 0.5, 0.85] {
         let floor = VoxelBlock::solid_box([0.0, 2.0 + off, 0.0], [12.0, 4.0 + off, 1.0]);
         let post = VoxelBlock::solid_box([5.3, 4.0 + off, 0.0], [6.9, 8.0, 1.0]);
-        let rest = solids(domain, vec![floor, post]);
+        let rest = solids(domain, vec![vec![floor, post]]);
         let v = [0.4, -0.3, 0.0];
         let after = rest.displaced(&[v]);
         let middle = rest.displaced(&[v.map(|x| 0.5 * x)]);
-        let l = whole(domain, middle);
+        let l = whole(middle);
         let mut active: [Vec<u32>; 3] = std::array::from_fn(|_| vec![NONE; l.window.len()]);
         for (axis, active) in active.iter_mut().enumerate().take(2) {
             for (index, dof) in active.iter_mut().enumerate() {

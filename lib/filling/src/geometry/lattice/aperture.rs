@@ -24,6 +24,11 @@ impl Aperture {
         bodies: [(OPEN, 0.0); 4],
     };
 
+    const NONE: Self = Self {
+        open: 0.0,
+        ..Self::WHOLE
+    };
+
     /// Adds a sliver, which lies in front of `body`.
     fn merge(&mut self, body: BodyId, area: f64) {
         self.open += area;
@@ -56,18 +61,12 @@ impl Lattice {
         let index = self.window.index(cell);
         let state = self.faces[axis][index];
         if state == SIDE {
-            return Aperture {
-                open: 0.0,
-                ..Aperture::WHOLE
-            };
+            return Aperture::NONE;
         }
         if state == OPEN && self.surroundings_open(axis, cell) {
             return Aperture::WHOLE;
         }
-        let mut aperture = Aperture {
-            open: 0.0,
-            ..Aperture::WHOLE
-        };
+        let mut aperture = Aperture::NONE;
         let covered = self.covered(axis, cell);
         let total: f64 = covered.bodies.iter().map(|b| b.1).sum();
         let shrink = if total > 1.0 { 1.0 / total } else { 1.0 };
@@ -235,10 +234,7 @@ impl Lattice {
 
     /// Area of a face that each body covers.
     fn covered(&self, axis: usize, cell: [usize; 3]) -> Aperture {
-        let mut covered = Aperture {
-            open: 0.0,
-            ..Aperture::WHOLE
-        };
+        let mut covered = Aperture::NONE;
         for quadrant in 0..self.column_count() {
             if self.quadrant_sides(axis, cell, quadrant) != [1.0, 1.0] {
                 for (body, area) in self.covered_quadrant(axis, cell, quadrant).bodies {

@@ -44,23 +44,18 @@ impl Lattice {
             open: Vec::new(),
             faces: [const { Vec::new() }; 3],
         };
-        lattice.fill();
-        lattice
-    }
-
-    fn fill(&mut self) {
-        self.fill_open();
-        for axis in 0..self.window.domain.axes {
-            let mut faces = vec![OPEN; self.window.len()];
-            let row = self.window.cells[0];
-            faces.par_chunks_mut(row).enumerate().for_each(|(r, row)| {
-                let (j, k) = (r % self.window.cells[1], r / self.window.cells[1]);
+        lattice.fill_open();
+        let [nx, ny, _] = window.cells;
+        for axis in 0..window.domain.axes {
+            let mut faces = vec![OPEN; window.len()];
+            faces.par_chunks_mut(nx).enumerate().for_each(|(r, row)| {
                 for (i, face) in row.iter_mut().enumerate() {
-                    *face = self.face_state(axis, [i, j, k]);
+                    *face = lattice.face_state(axis, [i, r % ny, r / ny]);
                 }
             });
-            self.faces[axis] = faces;
+            lattice.faces[axis] = faces;
         }
+        lattice
     }
 
     fn fill_open(&mut self) {
@@ -114,6 +109,3 @@ impl Lattice {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

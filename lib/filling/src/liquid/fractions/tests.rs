@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use physics::{Boundary, Motion, RigidBody, VoxelBlock};
+use physics::{Boundary, VoxelBlock};
 
 use super::*;
-use crate::geometry::{Domain, Lattice, Solids};
+use crate::geometry::{Domain, Lattice, tests};
 use crate::liquid::tests::{at, sequence};
 
 fn lattice(
@@ -19,16 +19,7 @@ fn lattice(
         boundary,
         axes,
     };
-    let body = RigidBody {
-        name: "wall".into(),
-        blocks,
-        motion: Motion::Fixed,
-    };
-    let solids = Solids::new(vec![body], domain, [0.0; 3], 1.0);
-    Lattice::new(
-        solids,
-        Window::around(domain, [0; 3], cells.map(|n| n as i64)),
-    )
+    tests::lattice(domain, vec![blocks])
 }
 
 fn liquid(lattice: &Lattice, particles: &mut Particles) -> Fractions {

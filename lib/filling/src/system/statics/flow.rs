@@ -1,11 +1,9 @@
 //! Steady flows without particles: all open sub-cells of a region are liquid.
 
-use crate::geometry::Lattice;
-use crate::geometry::Solids;
-use crate::geometry::{Domain, Window};
+use crate::geometry::{Domain, Lattice, tests};
 use crate::liquid::Volumes;
 use crate::system::{Before, Operator, Scales, WidthRule};
-use physics::{Boundary, Motion, RigidBody, VoxelBlock};
+use physics::{Boundary, VoxelBlock};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
 use super::staircase;
@@ -33,11 +31,7 @@ pub(crate) struct Solved {
 impl Flow {
     pub(crate) fn new(cells: [usize; 3], axes: usize, bodies: Vec<Vec<VoxelBlock>>) -> Self {
         Self {
-            domain: Domain {
-                cells,
-                boundary: [Boundary::Symmetry; 3],
-                axes,
-            },
+            domain: tests::domain(cells, axes),
             slip: 0.0,
             width: WidthRule::Combined,
             gravity: [0.0; 3],
@@ -55,16 +49,7 @@ impl Flow {
 
     /// The steady flow of liquid in the open sub-cells whose centre is in `wet`.
     pub(crate) fn solve(&self, wet: impl Fn([f64; 3]) -> bool) -> Solved {
-        let bodies = (self.bodies.iter().enumerate())
-            .map(|(i, blocks)| RigidBody {
-                name: format!("body {i}"),
-                blocks: blocks.clone(),
-                motion: Motion::Fixed,
-            })
-            .collect();
-        let solids = Solids::new(bodies, self.domain, [0.0; 3], 1.0);
-        let to = self.domain.cells.map(|n| n as i64);
-        let lattice = Lattice::new(solids, Window::around(self.domain, [0; 3], to));
+        let lattice = tests::lattice(self.domain, self.bodies.clone());
         let phi = fractions(&lattice, wet);
         let liquid = Volumes::new(&lattice, &phi);
         let scales = Scales {

@@ -1,9 +1,10 @@
 //! The density projection evens out the density and leaves free surfaces alone.
 
-use physics::{Boundary, Motion, RigidBody, VoxelBlock};
+use physics::VoxelBlock;
 
 use super::*;
-use crate::geometry::{Domain, Lattice, Solids, Window};
+use crate::geometry::Lattice;
+use crate::geometry::tests::{domain, lattice};
 use crate::liquid::tests::at;
 use crate::liquid::{Bins, Fractions, Particles, Volumes};
 use crate::system::{Before, Operator, Scales, WidthRule};
@@ -73,23 +74,12 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
 /// with a free surface at one end.
 fn perturbed(axes: usize) -> (Lattice, Particles) {
     let depth = if axes == 3 { 6 } else { 1 };
-    let domain = Domain {
-        cells: [30, 10, depth],
-        boundary: [Boundary::Symmetry; 3],
-        axes,
-    };
     let end = depth as f64;
-    let body = RigidBody {
-        name: "walls".into(),
-        blocks: vec![
-            VoxelBlock::solid_box([0.0, 0.0, 0.0], [30.0, 1.3, end]),
-            VoxelBlock::solid_box([0.0, 7.3, 0.0], [30.0, 10.0, end]),
-        ],
-        motion: Motion::Fixed,
-    };
-    let solids = Solids::new(vec![body], domain, [0.0; 3], 1.0);
-    let to = domain.cells.map(|n| n as i64);
-    let lattice = Lattice::new(solids, Window::around(domain, [0; 3], to));
+    let walls = vec![
+        VoxelBlock::solid_box([0.0, 0.0, 0.0], [30.0, 1.3, end]),
+        VoxelBlock::solid_box([0.0, 7.3, 0.0], [30.0, 10.0, end]),
+    ];
+    let lattice = lattice(domain([30, 10, depth], axes), vec![walls]);
     let mut points = Vec::new();
     for k in 0..if axes == 3 { 2 * depth } else { 1 } {
         for j in 0..12 {

@@ -52,7 +52,7 @@ fn extend_once(lattice: &Lattice, axis: usize, value: &mut [f32]) {
                         passable(lattice, axis, cell, t, 1).then(|| index + stride),
                     ]
                 });
-                mean_of(value, across)
+                self::mean(value, across)
             })?;
             Some((index as u32, mean))
         })
@@ -62,13 +62,9 @@ fn extend_once(lattice: &Lattice, axis: usize, value: &mut [f32]) {
     }
 }
 
-fn mean(value: &[f32], places: [Option<usize>; 2]) -> Option<f32> {
-    mean_of(value, places.into_iter())
-}
-
-fn mean_of(value: &[f32], places: impl Iterator<Item = Option<usize>>) -> Option<f32> {
+fn mean(value: &[f32], places: impl IntoIterator<Item = Option<usize>>) -> Option<f32> {
     let (mut sum, mut n) = (0.0, 0.0);
-    for v in places.flatten().filter_map(|p| value.get(p)) {
+    for v in places.into_iter().flatten().filter_map(|p| value.get(p)) {
         if !v.is_nan() {
             sum += v;
             n += 1.0;

@@ -29,17 +29,16 @@ pub(super) struct Face {
 
 impl Face {
     /// Velocity at a distance towards the wall below (0) or above (1), falling linearly from
-    /// `value` at the face to the wall's.
+    /// `value` at the face to the wall's, which counts as 0 without `MOTION`.
     #[inline]
-    pub(super) fn towards_wall(&self, side: usize, distance: f64, value: f64) -> f64 {
-        let wall = f64::from(self.wall[side]);
-        wall + (value - wall) * self.share(side, distance)
-    }
-
-    /// Part of the velocity relative to the wall that is left at a distance towards it.
-    #[inline]
-    pub(super) fn share(&self, side: usize, distance: f64) -> f64 {
-        (1.0 - distance / f64::from(self.run[side])).max(0.0)
+    pub(super) fn towards_wall<const MOTION: bool>(
+        &self,
+        side: usize,
+        distance: f64,
+        value: f64,
+    ) -> f64 {
+        let wall = if MOTION { self.wall[side].into() } else { 0.0 };
+        wall + (value - wall) * (1.0 - distance / f64::from(self.run[side])).max(0.0)
     }
 }
 

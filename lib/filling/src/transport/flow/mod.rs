@@ -74,7 +74,7 @@ impl Flow {
             .enumerate()
             .take(self.window.domain.axes)
         {
-            *v = self.component(axis, index, cell, local, |face, at| {
+            *v = self.component::<true>(axis, index, cell, local, |face, at| {
                 f64::from(face.profile.value(at))
             });
         }
@@ -88,18 +88,18 @@ impl Flow {
         for (axis, out) in all.iter_mut().enumerate().take(self.window.domain.axes) {
             let tangents = tangents(axis);
             let value = |f: &Face, at: [f32; 2]| f64::from(f.profile.value(at));
-            out.value = self.component(axis, index, cell, local, value);
+            out.value = self.component::<true>(axis, index, cell, local, value);
             for (which, &t) in tangents.iter().enumerate() {
                 if t < self.window.domain.axes {
                     let slope = |f: &Face, at: [f32; 2]| f64::from(f.profile.slope(at, which));
-                    out.gradient[t] = self.slope(axis, index, cell, local, slope);
+                    out.gradient[t] = self.component::<false>(axis, index, cell, local, slope);
                 }
             }
             let mut low = local;
             let mut high = local;
             low[axis] = cell[axis] as f64;
             high[axis] = cell[axis] as f64 + 1.0;
-            let at = |x| self.component(axis, index, cell, x, value);
+            let at = |x| self.component::<true>(axis, index, cell, x, value);
             out.gradient[axis] = at(high) - at(low);
         }
         all
@@ -120,9 +120,10 @@ impl Flow {
         (local, cell, self.window.index(cell))
     }
 
-    /// A component from the profiles of the two faces of a cell along `axis`.
+    /// A component from the profiles of the two faces of a cell along `axis`; without `MOTION`
+    /// walls are at rest, as a tangential derivative has them.
     #[inline]
-    fn component(
+    fn component<const MOTION: bool>(
         &self,
         axis: usize,
         index: usize,
@@ -136,8 +137,9 @@ impl Flow {
         let high_face = self.resolve(axis, high, cell, local);
         match (low_face, high_face) {
             (Some((a, x)), Some((b, y))) => (1.0 - along) * eval(a, x) + along * eval(b, y),
-            (Some((face, at)), None) => face.towards_wall(1, along, eval(face, at)),
-            (None, Some((face, at))) => face.towards_wall(0, 1.0 - along, eval(face, at)),
+            (Some((face, at)), None) => face.towards_wall::<MOTION>(1, along, eval(face, at)),
+            (None, Some((face, at))) => face.towards_wall::<MOTION>(0, 1.0 - along, eval(face, at)),
+            (None, None) if !MOTION => 0.0,
             (None, None) => {
                 let body = |index: usize| {
                     let id = self.closed[axis][index];
@@ -149,27 +151,6 @@ impl Flow {
                 };
                 (1.0 - along) * body(index) + along * body(high)
             }
-        }
-    }
-
-    /// A tangential derivative: as [`Flow::component`], but at rest in walls.
-    fn slope(
-        &self,
-        axis: usize,
-        index: usize,
-        cell: [usize; 3],
-        local: [f64; 3],
-        eval: impl Fn(&Face, [f32; 2]) -> f64,
-    ) -> f64 {
-        let along = local[axis] - cell[axis] as f64;
-        let high = index + self.window.stride(axis);
-        let low_face = self.resolve(axis, index, cell, local);
-        let high_face = self.resolve(axis, high, cell, local);
-        match (low_face, high_face) {
-            (Some((a, x)), Some((b, y))) => (1.0 - along) * eval(a, x) + along * eval(b, y),
-            (Some((face, at)), None) => eval(face, at) * face.share(1, along),
-            (None, Some((face, at))) => eval(face, at) * face.share(0, 1.0 - along),
-            (None, None) => 0.0,
         }
     }
 

@@ -1,12 +1,12 @@
 //! Geometry on the half-cell lattice: exact volumes and areas, widths, and walls that
 //! hold whatever their thickness and offset.
 
-use crate::geometry::Lattice;
-use crate::geometry::{Domain, Window};
-use crate::geometry::{OPEN, Solids};
 use physics::{Boundary, Motion, RigidBody, VoxelBlock};
 
-fn domain(cells: [usize; 3], axes: usize) -> Domain {
+use super::*;
+
+/// A domain between symmetry planes.
+pub(crate) fn domain(cells: [usize; 3], axes: usize) -> Domain {
     Domain {
         cells,
         boundary: [Boundary::Symmetry; 3],
@@ -14,17 +14,25 @@ fn domain(cells: [usize; 3], axes: usize) -> Domain {
     }
 }
 
-fn lattice(domain: Domain, bodies: Vec<Vec<VoxelBlock>>) -> Lattice {
-    let bodies = bodies
-        .into_iter()
-        .enumerate()
-        .map(|(i, blocks)| RigidBody {
-            name: format!("body {i}"),
-            blocks,
-            motion: Motion::Fixed,
-        })
-        .collect();
-    let solids = Solids::new(bodies, domain, [0.0; 3], 1.0);
+/// Bodies of blocks, in cells.
+pub(crate) fn solids(domain: Domain, bodies: Vec<Vec<VoxelBlock>>) -> Solids {
+    let body = |blocks| RigidBody {
+        name: "body".into(),
+        blocks,
+        motion: Motion::Fixed,
+    };
+    let bodies = bodies.into_iter().map(body).collect();
+    Solids::new(bodies, domain, [0.0; 3], 1.0)
+}
+
+/// The lattice of a whole domain with such bodies.
+pub(crate) fn lattice(domain: Domain, bodies: Vec<Vec<VoxelBlock>>) -> Lattice {
+    whole(solids(domain, bodies))
+}
+
+/// The lattice of the whole domain.
+pub(crate) fn whole(solids: Solids) -> Lattice {
+    let domain = solids.domain;
     let to = domain.cells.map(|n| n as i64);
     Lattice::new(solids, Window::around(domain, [0; 3], to))
 }
