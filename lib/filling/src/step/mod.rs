@@ -1,10 +1,10 @@
 //! The scheme, and one step of it: the eight stages of docs/methods.md section 3.1.
 
-mod checkpoint;
 mod controlled;
 mod drive;
 mod failure;
 mod length;
+mod scheme;
 mod setup;
 mod solution;
 mod stages;

@@ -11,6 +11,7 @@
 //! viscosities in units of a reference eta_0, pressures in units of eta_0/h, forces in units of
 //! eta_0 h; in plane strain the depth is one cell.
 
+mod assembly;
 mod couplings;
 mod dofs;
 mod fluxes;
@@ -19,13 +20,9 @@ mod terms;
 mod viscosity;
 mod walls;
 
-use rayon::prelude::*;
-use saddle_point::{Csr, Load, SaddleSystem};
-
-use couplings::Couplings;
-
+pub(crate) use assembly::{Before, System};
 pub(crate) use dofs::{Dofs, NONE};
-pub(crate) use operator::{Before, Operator};
+pub(crate) use operator::Operator;
 pub(crate) use viscosity::{Sheared, varies};
 pub(crate) use walls::WidthRule;
 
@@ -48,84 +45,4 @@ pub(crate) struct Scales {
     pub(crate) influence_length: f64,
     /// Which width of the lumen the wall law takes.
     pub(crate) width: WidthRule,
-}
-
-/// The assembled system of a step, for bodies at given speeds.
-pub(crate) struct System {
-    a: Csr<f64>,
-    /// Liquid fluxes, cells x faces.
-    pub(crate) g: Csr<f64>,
-    c: Vec<f64>,
-    friction: Vec<f64>,
-    two_eta: Vec<f64>,
-    mass: Vec<f64>,
-    couplings: Couplings,
-    /// Right-hand sides with all bodies at rest.
-    resting: [Vec<f64>; 2],
-    bodies: Vec<[f64; 3]>,
-    b: Vec<f64>,
-    source: Vec<f64>,
-}
-
-impl System {
-    /// What the solver takes.
-    pub(crate) fn saddle(&self) -> SaddleSystem<'_> {
-        SaddleSystem {
-            a: &self.a,
-            g: &self.g,
-            c: &self.c,
-            friction: &self.friction,
-            two_eta: &self.two_eta,
-            b: &self.b,
-            volume_source: &self.source,
-        }
-    }
-
-    /// Sets the velocities of the bodies, m/s.
-    pub(crate) fn steer(&mut self, bodies: &[[f64; 3]]) {
-        self.bodies = bodies.to_vec();
-        let couplings = &self.couplings;
-        let [momentum, source] = &self.resting;
-        self.b = (momentum.par_iter().enumerate())
-            .map(|(face, b)| b + couplings.dragged(face, bodies))
-            .collect();
-        self.source = (source.par_iter().enumerate())
-            .map(|(cell, g)| g + couplings.displaced(cell, bodies))
-            .collect();
-    }
-
-    /// How the speed of body `clamped` against y enters the system, for a force of `force` on it
-    /// along y (units of eta_0 h); to be solved with that body at rest.
-    pub(crate) fn load(&self, clamped: usize, force: f64) -> Load {
-        let mut unit = vec![[0.0; 3]; self.bodies.len()];
-        unit[clamped][1] = -1.0;
-        let mut resting = self.bodies.clone();
-        resting[clamped] = [0.0; 3];
-        let couplings = &self.couplings;
-        let rigid = |bodies: &[[f64; 3]]| couplings.forces(bodies, &[], &[]).0[clamped][1];
-        Load {
-            momentum: (0..self.b.len())
-                .into_par_iter()
-                .map(|face| couplings.dragged(face, &unit))
-                .collect(),
-            source: (0..self.source.len())
-                .into_par_iter()
-                .map(|cell| couplings.displaced(cell, &unit))
-                .collect(),
-            resistance: rigid(&unit),
-            force: force - rigid(&resting),
-        }
-    }
-
-    /// Forces of the liquid on the bodies, in units of eta_0 h, and the power dissipated by
-    /// viscosity and wall friction, in units of eta_0 h (m/s)^2.
-    pub(crate) fn reactions(&self, u: &[f64], p: &[f64]) -> (Vec<[f64; 3]>, f64) {
-        let (forces, of_bodies) = self.couplings.forces(&self.bodies, u, p);
-        let mut product = vec![0.0; u.len()];
-        self.a.multiply(u, &mut product);
-        let of_liquid: f64 = (product.iter().zip(u).zip(&self.mass))
-            .map(|((product, u), mass)| u * (product - mass * u))
-            .sum();
-        (forces, of_liquid + of_bodies)
-    }
 }

@@ -121,7 +121,7 @@ impl Operator<'_> {
         if wet <= 0.0 {
             return;
         }
-        let eta = self.edge_viscosity([at, at - si, at - sj, at - si - sj]) * wet / open;
+        let eta = self.mean_viscosity([at, at - si, at - sj, at - si - sj]) * wet / open;
         let seen = |low: usize, axis: usize, t: usize| {
             let (a, b) = (velocities[low]?, velocities[low + 1]?);
             let (sight, distance) = self.sight(axis, t, cell, [a, b]);

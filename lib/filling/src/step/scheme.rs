@@ -1,4 +1,4 @@
-//! What the scheme shows and saves.
+//! `physics::Scheme` of the implicit scheme: what it shows, saves and restores.
 
 use physics::restored;
 use physics::{
