@@ -25,7 +25,7 @@ tradeoff: $(BINARIES)
 .PHONY: bench
 bench:
 	$(CARGO) run --release --quiet -p mpm --example mpm_bench
-	$(CARGO) run --release --quiet -p filling --example solver_bench -- 1e-3 32,48,48,12 64,56,64,12
+	$(CARGO) run --release --quiet -p saddle-point --example solver_bench -- 1e-3 32,48,48,12 64,56,64,12
 
 # What a scene pays for features it does not use: the committed tree against builds without one
 # feature, made by the patches of pipelines/leave-out. ONLY="gravity sides" measures those.

@@ -1,8 +1,11 @@
-//! The table of constants in docs/methods.md against `lib/filling` and `lib/mpm`.
+//! The table of constants in docs/methods.md against the crates of the two schemes.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+
+/// Whose constants the table holds.
+const CRATES: [&str; 3] = ["filling", "saddle-point", "mpm"];
 
 /// Crate, file from the crate's `src`, name and value.
 type Constant = [String; 4];
@@ -13,7 +16,7 @@ pub fn differences(root: &Path) -> Vec<String> {
     let methods = fs::read_to_string(root.join("docs/methods.md")).expect("docs/methods.md");
     let (table, mut said) = (table(&methods), Vec::new());
     let (mut code, mut functions) = (BTreeSet::new(), String::new());
-    for name in ["filling", "mpm"] {
+    for name in CRATES {
         let lib = root.join("lib").join(name);
         each_source(&lib.join("src"), "", &mut |file, text| {
             functions.push_str(text);
@@ -89,13 +92,17 @@ fn rows(methods: &str) -> impl Iterator<Item = Vec<&str>> {
     })
 }
 
-/// The rows of the table; those below the heading that names `mpm` are of that crate.
+/// The rows of the table, each of the crate that the last heading with a crate's name says.
 fn table(methods: &str) -> BTreeSet<Constant> {
     let mut list = BTreeSet::new();
-    let mut name = "filling";
+    let mut name = "";
     for row in rows(methods) {
-        if row[0].starts_with("**") && row[0].contains("`mpm`") {
-            name = "mpm";
+        let is_heading = row[0].starts_with("**");
+        let named = |name: &&str| row[0].contains(&format!("`{name}`"));
+        if let Some(of) = CRATES.into_iter().find(named)
+            && is_heading
+        {
+            name = of;
         }
         if let [constant, file, value, ..] = row[..]
             && constant.starts_with('`')

@@ -2,21 +2,17 @@
 //! and walls at the true voxel faces, for viscous liquid pressed into narrow lumens.
 //!
 //! Lengths inside are in cells, pressures and viscosities scaled by the liquid's viscosity.
+//! Each room uses only those before it: `geometry` (where the bodies are, and the lattice around
+//! them), `liquid` (particles and what they fill), `system` (unknowns and equations), `transport`
+//! (particles follow the flow), `step` (the order of a step).
 
-pub mod advect;
-pub mod density;
-pub mod fractions;
-pub mod lattice;
-pub mod operator;
-pub mod particles;
+mod geometry;
+mod liquid;
 mod plan;
-pub mod reach;
 mod settings;
-pub mod solids;
-pub mod solve;
 mod step;
-pub mod wall;
-pub mod window;
+mod system;
+mod transport;
 
 pub use plan::Plan;
 pub use settings::Settings;

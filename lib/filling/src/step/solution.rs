@@ -1,12 +1,13 @@
-//! The coupled solve of a step under the clamp's control.
+//! Stages 4 to 6: what the particles carry to the unknowns, and passes over the viscosity.
 
 use physics::Failure;
 
 use super::{Implicit, Stage, Trial};
-use crate::advect::{self, Flow};
-use crate::fractions;
-use crate::operator::{self, Before, Dofs, Liquid, NONE, Operator, Sheared, System};
-use crate::solve::{Csr, NEARLY, SaddleReport, SolveError};
+use crate::liquid::{self, Volumes};
+use crate::system::{self, Before, Dofs, NONE, Operator, Sheared};
+use crate::transport::density::Cells;
+use crate::transport::{self, Flow};
+use saddle_point::Csr;
 
 /// Largest number of passes over a viscosity that depends on the shear rate: usually, and in the first
 /// step, which has no rates to start from.
@@ -30,38 +31,37 @@ pub(super) struct Solution {
     /// Dissipated power, W.
     pub(super) power: f64,
     pub(super) iterations: u32,
-    /// For the density projection: fluxes, volumes of the faces, and of the pressure unknowns
-    /// density, liquid fraction and liquid volume.
+    /// For the density projection: fluxes, liquid volumes of the faces, and the liquid in the
+    /// pressure unknowns.
     pub(super) g: Csr<f64>,
     pub(super) face_volume: Vec<f64>,
-    pub(super) density: Vec<f32>,
-    pub(super) fraction: Vec<f32>,
-    pub(super) volume: Vec<f32>,
+    pub(super) cells: Cells,
 }
 
-/// Unknowns of a solve: start values and result.
-struct Unknowns {
-    u: Vec<f64>,
-    p: Vec<f64>,
-    iterations: u32,
+/// Unknowns of a solve, scaled: start values and result.
+pub(super) struct Unknowns {
+    pub(super) u: Vec<f64>,
+    pub(super) p: Vec<f64>,
+    pub(super) iterations: u32,
 }
 
 impl Implicit {
-    /// Steps 4 to 6: assembles and solves, with viscosity passes and load control.
-    pub(super) fn solution(&mut self, trial: &Trial) -> Result<Solution, Failure> {
-        let phi = std::mem::take(&mut self.fractions.liquid);
+    /// Stages 4 to 6: assembles, solves and finds the forces, with viscosity passes and load control.
+    pub(super) fn solve(&mut self, trial: &Trial) -> Result<Solution, Failure> {
+        let phi = std::mem::take(&mut self.workspace.fractions.liquid);
         let result = self.solve_with(trial, &phi);
-        self.fractions.liquid = phi;
+        self.workspace.fractions.liquid = phi;
         result
     }
 
     fn solve_with(&mut self, trial: &Trial, phi: &[f32]) -> Result<Solution, Failure> {
         let lattice = &trial.lattice;
-        let scales = self.scales(trial.dt);
-        let liquid = Liquid::new(lattice, phi);
+        let scales = self.setup.scales(trial.dt);
+        let volumes = Volumes::new(lattice, phi);
         let mut operator = self
+            .workspace
             .stages
-            .time(Stage::Assembly, || Operator::new(lattice, &liquid, scales));
+            .time(Stage::Assembly, || Operator::new(lattice, &volumes, scales));
         let start = self.carried(&operator);
         let mut now = Unknowns {
             u: start.u.clone(),
@@ -74,7 +74,7 @@ impl Implicit {
             pressure: &start.p,
             stiffness: &stiffness,
         };
-        let varies = operator::varies(&self.liquid.viscosity);
+        let varies = system::varies(&self.setup.liquid.viscosity);
         if varies {
             self.update_viscosity(&mut operator, &now.u);
         }
@@ -82,7 +82,7 @@ impl Implicit {
         let (system, forces, power) = loop {
             let solved = self.controlled(&operator, before, &mut now)?;
             pass += 1;
-            let most = PASSES[usize::from(self.steps == 0)];
+            let most = PASSES[usize::from(self.state.steps == 0)];
             if !varies || pass == most || self.update_viscosity(&mut operator, &now.u) < SETTLED {
                 break solved;
             }
@@ -92,20 +92,21 @@ impl Implicit {
                 .map(|&c| field[c as usize])
                 .collect()
         };
-        let (density, fraction) = (pick(&self.fractions.density), pick(&liquid.fraction));
-        let volume = pick(&liquid.volume);
+        let cells = Cells {
+            density: pick(&self.workspace.fractions.density),
+            fraction: pick(&volumes.fraction),
+            volume: pick(&volumes.cell),
+        };
         Ok(Solution {
             pressure: self.spread(&operator, &now.p),
-            bodies: self.drive.velocities(),
-            speed: self.drive.speed,
+            bodies: self.state.drive.velocities(),
+            speed: self.state.drive.speed,
             forces,
-            power: power * self.units.force(),
+            power: power * self.setup.units.force(),
             iterations: now.iterations,
             u: now.u,
             g: system.g,
-            density,
-            fraction,
-            volume,
+            cells,
             face_volume: operator.face_volume,
             dofs: operator.dofs,
         })
@@ -114,20 +115,20 @@ impl Implicit {
     /// Velocities and scaled pressures that the particles carry to the unknowns.
     fn carried(&mut self, operator: &Operator) -> Unknowns {
         let window = &operator.lattice.window;
-        let (dofs, units) = (&operator.dofs, self.units);
-        let (particles, bins) = (&self.particles, &self.bins);
-        self.stages.time(Stage::Fractions, || {
+        let (dofs, units) = (&operator.dofs, self.setup.units);
+        let (particles, bins) = (&self.state.particles, &self.workspace.bins);
+        self.workspace.stages.time(Stage::Fractions, || {
             let mut u = vec![0.0; dofs.faces.len()];
             let mut field = Vec::new();
             for axis in 0..window.domain.axes {
-                fractions::velocities(particles, bins, window, axis, &mut field);
+                liquid::velocities(particles, bins, window, axis, &mut field);
                 for (u, face) in u.iter_mut().zip(&dofs.faces) {
                     if usize::from(face.0) == axis {
                         *u = f64::from(field[face.1 as usize]);
                     }
                 }
             }
-            fractions::pressures(particles, bins, window, self.liquid.tait, &mut field);
+            liquid::pressures(particles, bins, window, self.setup.liquid.tait, &mut field);
             let p = (dofs.cells.iter())
                 .map(|&cell| f64::from(field[cell as usize]) / units.pressure())
                 .collect();
@@ -141,7 +142,7 @@ impl Implicit {
 
     /// -dp/d(ln J)/K at scaled pressures: the slope of Tait's law against the present volume.
     fn stiffness(&self, pressure: &[f64]) -> Vec<f64> {
-        let (tait, unit) = (self.liquid.tait, self.units.pressure());
+        let (tait, unit) = (self.setup.liquid.tait, self.setup.units.pressure());
         (pressure.iter())
             .map(|p| {
                 let j = tait.volume_change(p * unit);
@@ -150,115 +151,16 @@ impl Implicit {
             .collect()
     }
 
-    /// Solves at the clamp's speed or, where it is held at its pressure limit, for that speed.
-    fn controlled(
-        &mut self,
-        operator: &Operator,
-        before: Before,
-        now: &mut Unknowns,
-    ) -> Result<(System, Vec<[f64; 3]>, f64), Failure> {
-        let bodies = self.drive.velocities();
-        let mut system = (self.stages)
-            .time(Stage::Assembly, || operator.assemble(&bodies, before))
-            .map_err(|e| self.failure(&e.to_string()))?;
-        let clamped = self.drive.clamped();
-        let solved = match (clamped, self.drive.held()) {
-            (Some(clamped), Some(limit)) => self.solve_held(&mut system, clamped, limit, now)?,
-            _ => false,
-        };
-        if !solved {
-            self.solve_system(&system, now)?;
-        }
-        let (forces, power) = self.reactions(&system, now);
-        let Some(clamped) = clamped else {
-            return Ok((system, forces, power));
-        };
-        let speed = self.drive.speed;
-        let pressure = forces[clamped][1] * self.units.force() / self.area;
-        let Some(limit) = self.drive.exceeded(pressure) else {
-            return Ok((system, forces, power));
-        };
-        let factor = self.drive.speed / speed;
-        for x in now.u.iter_mut().chain(&mut now.p) {
-            *x *= factor;
-        }
-        if !self.solve_held(&mut system, clamped, limit, now)? {
-            self.solve_system(&system, now)?;
-        }
-        let (forces, power) = self.reactions(&system, now);
-        Ok((system, forces, power))
-    }
-
-    fn reactions(&mut self, system: &System, now: &Unknowns) -> (Vec<[f64; 3]>, f64) {
-        (self.stages).time(Stage::Forces, || system.reactions(&now.u, &now.p))
-    }
-
-    /// Solves for the speed at which the pressure on body `clamped` is `limit` (Pa); `false`
-    /// where the clamp cannot move like that, and moves as near to it as it can.
-    fn solve_held(
-        &mut self,
-        system: &mut System,
-        clamped: usize,
-        limit: f64,
-        now: &mut Unknowns,
-    ) -> Result<bool, Failure> {
-        let force = limit * self.area / self.units.force();
-        let mut bodies = self.drive.velocities();
-        let load = system.load(clamped, force);
-        if !load.is_felt() {
-            // No liquid touches the body: at any speed it stays below its limit.
-            self.drive.follow(f64::INFINITY);
-            return Ok(false);
-        }
-        bodies[clamped] = [0.0; 3];
-        system.steer(&bodies);
-        let mut speed = self.drive.speed;
-        let solver = &mut self.solver;
-        let outcome = (self.stages).time(Stage::Solve, || {
-            solver.solve_loaded(&system.saddle(), &load, &mut now.u, &mut now.p, &mut speed)
-        });
-        self.count(outcome, now)?;
-        let follows = self.drive.follow(speed);
-        system.steer(&self.drive.velocities());
-        Ok(follows)
-    }
-
-    fn solve_system(&mut self, system: &System, now: &mut Unknowns) -> Result<(), Failure> {
-        let solver = &mut self.solver;
-        let outcome = (self.stages).time(Stage::Solve, || {
-            solver.solve(&system.saddle(), &mut now.u, &mut now.p)
-        });
-        self.count(outcome, now)
-    }
-
-    /// Counts the iterations of a solve that converged, or nearly.
-    fn count(
-        &self,
-        outcome: Result<SaddleReport, SolveError>,
-        now: &mut Unknowns,
-    ) -> Result<(), Failure> {
-        match outcome {
-            Ok(report) => now.iterations += report.iterations() as u32,
-            Err(SolveError::NotConverged {
-                iterations,
-                residual,
-                tolerance,
-            }) if residual <= NEARLY * tolerance => now.iterations += iterations as u32,
-            Err(error) => return Err(self.failure(&error.to_string())),
-        }
-        Ok(())
-    }
-
     /// Viscosities at the rates of the velocities `u`; how much they changed.
     fn update_viscosity(&mut self, operator: &mut Operator, u: &[f64]) -> f64 {
-        let bodies = self.drive.velocities();
-        let influence = self.wall.influence_length() / self.units.h;
-        let (lattice, liquid, units) = (operator.lattice, &self.liquid, self.units);
-        self.stages.time(Stage::Assembly, || {
-            let value = advect::extend(lattice, &operator.dofs.face, u);
+        let bodies = self.state.drive.velocities();
+        let influence = self.setup.influence_length();
+        let (lattice, liquid, units) = (operator.lattice, &self.setup.liquid, self.setup.units);
+        self.workspace.stages.time(Stage::Assembly, || {
+            let value = transport::extend(lattice, &operator.dofs.face, u);
             let flow = Flow::new(lattice, &value, &operator.dofs.face, &bodies, influence);
             let field = Sheared {
-                flow: &flow,
+                deviator: |x| flow.deviator_norm(x),
                 u,
                 bodies: &bodies,
             };
@@ -274,7 +176,7 @@ impl Implicit {
                 let home = window.index(window.home(window.coordinates(index)));
                 match operator.dofs.cell[home] {
                     NONE => 0.0,
-                    cell => (p[cell as usize] * self.units.pressure()) as f32,
+                    cell => (p[cell as usize] * self.setup.units.pressure()) as f32,
                 }
             })
             .collect()

@@ -1,227 +1,60 @@
-//! What the scheme shows and saves.
+//! What changes from step to step.
 
-use physics::restored;
-use physics::{
-    Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
-};
-use rayon::prelude::*;
+use super::Drive;
+use crate::liquid::Particles;
+use crate::transport::Flow;
 
-use super::Implicit;
-use crate::advect;
+/// What the next step goes on from.
+pub(super) struct State {
+    pub(super) particles: Particles,
+    /// Displacement of each body, m.
+    pub(super) displacement: Vec<[f64; 3]>,
+    pub(super) drive: Drive,
+    /// Speed that sets the time step, m/s.
+    pub(super) pace: f64,
+    /// Clamp travel, m.
+    pub(super) travel: f64,
+    pub(super) steps: u64,
+    /// Power of viscosity and friction in the last step, W.
+    pub(super) power: f64,
+    pub(super) rates: Rates,
+    pub(super) counts: Counts,
+}
 
-impl Scheme for Implicit {
-    fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
-        self.step(limit)
-    }
+/// What the shear rates of the particles follow from.
+pub(super) enum Rates {
+    /// Nothing has moved yet.
+    Zero,
+    /// Velocity in the last step.
+    Of(Flow),
+    /// Those of a restored state, 1/s.
+    Restored(Vec<f32>),
+}
 
-    fn diagnostics(&self) -> Diagnostics {
-        let square = |v: [f32; 3]| v.iter().map(|&c| f64::from(c).powi(2)).sum::<f64>();
-        let particles = &self.particles;
-        let parts: Vec<(f64, f64)> = (particles.velocity.par_chunks(1 << 14))
-            .zip(particles.volume.par_chunks(1 << 14))
-            .map(|(velocities, volumes)| {
-                let mut sum = (0.0, 0.0_f64);
-                for (&v, &volume) in velocities.iter().zip(volumes) {
-                    let square = square(v);
-                    sum = (sum.0 + square * f64::from(volume), sum.1.max(square));
-                }
-                sum
-            })
-            .collect();
-        let (energy, fastest) = (parts.iter()).fold((0.0, 0.0_f64), |sum, part| {
-            (sum.0 + part.0, sum.1.max(part.1))
-        });
-        Diagnostics {
-            kinetic_energy: 0.5 * self.liquid.density * energy * self.units.volume(),
-            viscous_power: self.power,
-            volume: particles.total_volume() * self.units.volume(),
-            max_speed: fastest.sqrt(),
-            capped_fraction: 0.0,
-        }
-    }
+/// Particles so far that ...
+#[derive(Default)]
+pub(super) struct Counts {
+    /// ... left through open sides.
+    pub(super) lost: u64,
+    /// ... a wall turned back.
+    pub(super) deflected: u64,
+    /// ... found no free place nearby between closing walls.
+    pub(super) pinched: u64,
+}
 
-    fn liquid(&self) -> LiquidState {
-        let (particles, units) = (&self.particles, self.units);
-        let rates = self.shear_rates();
-        // In the order of the scene's points.
-        let mut order: Vec<u32> = (0..particles.len() as u32).collect();
-        order.par_sort_unstable_by_key(|&p| particles.id[p as usize]);
-        let volume = |p: usize| {
-            f64::from(particles.volume[p]) * (1.0 + f64::from(particles.j[p])) * units.volume()
-        };
-        let pressure = |p: usize| self.liquid.tait.pressure(f64::from(particles.j[p])) as f32;
-        let at = |p: &u32| *p as usize;
-        LiquidState {
-            position: (order.par_iter().map(at))
-                .map(|p| units.to_metres(particles.position[p]).map(|x| x as f32))
-                .collect(),
-            velocity: order
-                .par_iter()
-                .map(at)
-                .map(|p| particles.velocity[p])
-                .collect(),
-            volume: order.par_iter().map(at).map(|p| volume(p) as f32).collect(),
-            pressure: order.par_iter().map(at).map(pressure).collect(),
-            shear_rate: order.par_iter().map(at).map(|p| rates[p]).collect(),
-        }
-    }
-
-    fn displacements(&self) -> Vec<[f64; 3]> {
-        self.displacement.clone()
-    }
-
-    fn save(&self) -> Saved {
-        let particles = &self.particles;
-        let flat = |v: &[[f64; 3]]| v.iter().flatten().copied().collect::<Vec<f64>>();
-        let velocity = particles.velocity.iter().flatten().copied().collect();
-        let mut scalars = vec![
-            self.pace,
-            self.travel,
-            self.steps as f64,
-            self.lost as f64,
-            self.pinched as f64,
-            self.deflected as f64,
-            self.power,
-        ];
-        scalars.extend(self.drive.state());
-        let arrays = [
-            ("position", Array::F64(flat(&particles.position))),
-            ("velocity", Array::F32(velocity)),
-            ("volume", Array::F32(particles.volume.clone())),
-            ("volume_change", Array::F32(particles.j.clone())),
-            ("shear_rate", Array::F32(self.shear_rates())),
-            ("point", Array::U32(particles.id.clone())),
-            ("displacement", Array::F64(flat(&self.displacement))),
-            ("scalars", Array::F64(scalars)),
-        ];
-        Saved(arrays.map(|(name, array)| (name.to_string(), array)).into())
-    }
-
-    fn restore(&mut self, saved: &Saved) -> Result<(), String> {
-        let position = triples(saved.f64s("position")?, "position")?;
-        let n = position.len();
-        let velocity = triples(saved.f32s("velocity")?, "velocity")?;
-        let displacement = triples(saved.f64s("displacement")?, "displacement")?;
-        let (volume, j) = (saved.f32s("volume")?, saved.f32s("volume_change")?);
-        let (rates, id) = (saved.f32s("shear_rate")?, saved.u32s("point")?);
-        let scalars = saved.f64s("scalars")?;
-        self.check_saved(saved, &position, &displacement)?;
-        let lengths = [velocity.len(), volume.len(), j.len(), rates.len(), id.len()];
-        if lengths.iter().any(|&l| l != n) {
-            return Err("the arrays of the checkpoint differ in length".into());
-        }
-        let &[
+impl State {
+    /// The state at the start, with the fastest motion known (m/s).
+    pub(super) fn new(particles: Particles, drive: Drive, pace: f64) -> Self {
+        Self {
+            particles,
+            displacement: vec![[0.0; 3]; drive.motions().len()],
+            drive,
             pace,
-            travel,
-            steps,
-            lost,
-            pinched,
-            deflected,
-            power,
-            ref drive @ ..,
-        ] = scalars
-        else {
-            return Err("the checkpoint's scalars are not those of the implicit scheme".into());
-        };
-        let Ok(drive) = <[f64; 5]>::try_from(drive) else {
-            return Err("the checkpoint's clamp state is not that of the implicit scheme".into());
-        };
-        self.particles.position = position;
-        self.particles.velocity = velocity;
-        self.particles.volume = volume.to_vec();
-        self.particles.j = j.to_vec();
-        self.particles.id = id.to_vec();
-        self.displacement = displacement;
-        (self.pace, self.travel, self.power) = (pace, travel, power);
-        (self.steps, self.lost) = (steps as u64, lost as u64);
-        (self.pinched, self.deflected) = (pinched as u64, deflected as u64);
-        self.drive.set_state(drive);
-        self.flow = None;
-        self.restored_rates = Some(rates.to_vec());
-        Ok(())
-    }
-
-    fn stage_times(&self) -> Vec<StageTime> {
-        self.stages.report()
-    }
-
-    fn counts(&self) -> Vec<(&'static str, u64)> {
-        vec![
-            ("particles turned back by walls", self.deflected),
-            ("particles pinched between closing walls", self.pinched),
-            ("voxels of voids that no liquid can reach", self.sealed),
-        ]
-    }
-}
-
-impl Implicit {
-    /// Shear rate of each particle, 1/s; 0 before the first step.
-    fn shear_rates(&self) -> Vec<f32> {
-        match (&self.flow, &self.restored_rates) {
-            (Some(flow), _) => {
-                advect::shear_rates(&self.particles, flow, self.liquid.shear_rate, self.units.h)
-            }
-            (None, Some(rates)) => rates.clone(),
-            (None, None) => vec![0.0; self.particles.len()],
+            travel: 0.0,
+            steps: 0,
+            power: 0.0,
+            rates: Rates::Zero,
+            counts: Counts::default(),
         }
-    }
-}
-
-impl Implicit {
-    /// Refuses what no run of this scene saves.
-    fn check_saved(
-        &self,
-        saved: &Saved,
-        position: &[[f64; 3]],
-        displacement: &[[f64; 3]],
-    ) -> Result<(), String> {
-        /// Cells around the domain in which a point is still found, see [`crate::window::PAD`].
-        const BESIDE: f64 = 1.0;
-        let scalars = saved.f64s("scalars")?;
-        restored::check_finite(scalars, "scalars")?;
-        let scalar = |i: usize| scalars.get(i).copied().unwrap_or(f64::NAN);
-        if let Some(i) = scalars.iter().take(7).position(|&x| x < 0.0) {
-            return Err(format!(
-                "scalar {i} of the checkpoint, {}, is negative",
-                scalar(i)
-            ));
-        }
-        for name in ["velocity", "volume", "volume_change", "shear_rate"] {
-            restored::check_finite(saved.f32s(name)?, name)?;
-        }
-        let total = self.particles.len() + self.lost as usize;
-        restored::check_points(saved.u32s("point")?, total, scalar(3) as u64)?;
-        restored::check_bodies(self.drive.motions(), displacement, scalar(1), self.units.h)?;
-        let cells = self.domain.cells.map(|n| n as f64 + BESIDE);
-        let inside = |x: &[f64; 3]| (0..3).all(|a| (-BESIDE..=cells[a]).contains(&x[a]));
-        if let Some(p) = position.iter().position(|x| !inside(x)) {
-            return Err(format!(
-                "point {p} of the checkpoint is at {:?} in a domain of {:?} cells",
-                position[p], self.domain.cells
-            ));
-        }
-        let most = self.particles.volume.iter().copied().fold(0.0, f32::max);
-        let volumes = saved
-            .f32s("volume")?
-            .iter()
-            .zip(saved.f32s("volume_change")?);
-        let sound = |&v: &f32, &j: &f32| v > 0.0 && v <= most && j > -1.0;
-        match volumes.clone().position(|(v, j)| !sound(v, j)) {
-            None => Ok(()),
-            Some(p) => Err(format!(
-                "point {p} of the checkpoint has a volume that no run gives it: the largest is {most} cells"
-            )),
-        }
-    }
-}
-
-fn triples<T: Copy>(flat: &[T], name: &str) -> Result<Vec<[T; 3]>, String> {
-    let (triples, rest) = flat.as_chunks::<3>();
-    if rest.is_empty() {
-        Ok(triples.to_vec())
-    } else {
-        Err(format!(
-            "array '{name}' of the checkpoint is not made of triples"
-        ))
     }
 }

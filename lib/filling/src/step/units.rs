@@ -2,8 +2,6 @@
 
 use physics::{GridBox, Liquid};
 
-use crate::operator::reference_viscosity;
-
 /// Scales of a scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units {
@@ -16,11 +14,13 @@ pub(super) struct Units {
 }
 
 impl Units {
+    /// Units for a liquid whose viscosity is scaled by that at the shear rate of a lumen of six
+    /// cells at `speed` (m/s).
     pub(super) fn new(grid: &GridBox, liquid: &Liquid, speed: f64) -> Self {
         Self {
             h: grid.cell_m,
             low: grid.min_m,
-            eta: reference_viscosity(&liquid.viscosity, speed, grid.cell_m),
+            eta: liquid.viscosity.at(8.0 * speed / (6.0 * grid.cell_m)),
         }
     }
 

@@ -1,0 +1,14 @@
+//! Where the rigid bodies are, and the lattice of cells, faces and sub-cells among them.
+
+mod lattice;
+mod sealed;
+mod solids;
+mod window;
+
+pub(crate) use lattice::{Column, Lattice};
+pub(crate) use sealed::fill_sealed;
+pub(crate) use solids::{BodyId, MAX_BODIES, OPEN, SIDE, Solids};
+pub(crate) use window::{Domain, Window};
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,0 +1,167 @@
+//! Where the rigid bodies are: point, ray and overlap queries by voxel index arithmetic.
+
+mod placed;
+mod sweep;
+
+use std::sync::Arc;
+
+use physics::{Boundary, RigidBody};
+
+use crate::geometry::Domain;
+use placed::Placed;
+
+/// Index of a body in the scene, or [`SIDE`] or [`OPEN`].
+pub(crate) type BodyId = u8;
+/// Not a body: the symmetry plane at a side of the domain.
+pub(crate) const SIDE: BodyId = 255;
+/// Not a body: nothing there.
+pub(crate) const OPEN: BodyId = 254;
+/// Largest number of bodies a scene may have.
+pub(crate) const MAX_BODIES: usize = 250;
+/// Rays end after this many cells: a lumen this wide has no effect on the wall law.
+pub(crate) const FAR: f64 = 64.0;
+
+/// A stretch of solid met by a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hit {
+    /// Distance to its near surface, cells; 0 when the ray starts in it.
+    pub(crate) near: f64,
+    /// Distance to its far surface, cells.
+    pub(crate) far: f64,
+    /// Whose surface it is.
+    pub(crate) body: BodyId,
+}
+
+/// All rigid bodies of a scene at one moment, in cell units of the domain.
+#[derive(Clone, Debug)]
+pub(crate) struct Solids {
+    blocks: Vec<Placed>,
+    /// Sides of the domain.
+    pub(crate) domain: Domain,
+}
+
+impl Solids {
+    /// The bodies of a scene, undisplaced, in a domain with low corner `min_m` and cells of
+    /// `cell_m`. Periodic sides get images of the bodies as far as rays reach.
+    pub(crate) fn new(
+        bodies: Vec<RigidBody>,
+        domain: Domain,
+        min_m: [f64; 3],
+        cell_m: f64,
+    ) -> Self {
+        let mut blocks = Vec::new();
+        for (id, body) in bodies.into_iter().enumerate() {
+            for block in body.blocks {
+                let origin = std::array::from_fn(|a| (block.origin()[a] - min_m[a]) / cell_m);
+                blocks.push(Placed {
+                    body: id as BodyId,
+                    rest: origin,
+                    origin,
+                    edge: std::array::from_fn(|a| block.voxel()[a] / cell_m),
+                    block: Arc::new(block),
+                });
+            }
+        }
+        for axis in (0..domain.axes).filter(|&a| domain.periodic(a)) {
+            let period = domain.cells[axis] as f64;
+            let images = (FAR / period).ceil() as i64;
+            for block in &mut blocks {
+                block.clip(axis, period);
+            }
+            let originals = blocks.clone();
+            for shift in (-images..=images).filter(|&s| s != 0) {
+                blocks.extend(originals.iter().cloned().map(|mut image| {
+                    image.rest[axis] += shift as f64 * period;
+                    image.origin = image.rest;
+                    image
+                }));
+            }
+        }
+        Self { blocks, domain }
+    }
+
+    /// The same bodies displaced from their first place by `displacement[body]` cells.
+    pub(crate) fn displaced(&self, displacement: &[[f64; 3]]) -> Self {
+        let mut moved = self.clone();
+        for block in &mut moved.blocks {
+            let by = displacement[usize::from(block.body)];
+            block.origin = std::array::from_fn(|a| block.rest[a] + by[a]);
+        }
+        moved
+    }
+
+    /// The body whose voxel holds `point`; low faces belong to a voxel, high faces do not.
+    /// Bodies only: domain sides are not looked at.
+    #[inline]
+    pub(crate) fn at(&self, point: [f64; 3]) -> Option<BodyId> {
+        self.blocks
+            .iter()
+            .find(|block| block.contains(point))
+            .map(|block| block.body)
+    }
+
+    /// First solid along `axis` from `from`, upwards or downwards, no farther than `reach`
+    /// cells. A symmetry plane of the domain is a hit with body [`SIDE`].
+    pub(crate) fn ray(&self, from: [f64; 3], axis: usize, up: bool, reach: f64) -> Option<Hit> {
+        let mut first: Option<Hit> = None;
+        let mut limit = reach;
+        if self.domain.boundary[axis] == Boundary::Symmetry {
+            let to_side = if up {
+                self.domain.cells[axis] as f64 - from[axis]
+            } else {
+                from[axis]
+            };
+            if to_side <= limit {
+                limit = to_side;
+                first = Some(Hit {
+                    near: to_side.max(0.0),
+                    far: f64::INFINITY,
+                    body: SIDE,
+                });
+            }
+        }
+        for block in &self.blocks {
+            if let Some((near, far)) = block.ray(from, axis, up, limit)
+                && first.is_none_or(|hit| near < hit.near)
+            {
+                limit = near;
+                first = Some(Hit {
+                    near,
+                    far,
+                    body: block.body,
+                });
+            }
+        }
+        first
+    }
+
+    /// Calls `found(body, volume)` for every block that overlaps the box `low..high`, in the
+    /// order of the blocks. An axis with `low == high` counts as a plane cut there: the
+    /// volume is then an area.
+    pub(crate) fn overlaps(
+        &self,
+        low: [f64; 3],
+        high: [f64; 3],
+        mut found: impl FnMut(BodyId, f64),
+    ) {
+        for block in &self.blocks {
+            let volume = block.overlap(low, high);
+            if volume > 0.0 {
+                found(block.body, volume);
+            }
+        }
+    }
+
+    /// Subtracts the solid part from `open`, the open fractions of one row of sub-cells that
+    /// covers the intervals `y` and `z`; its first sub-cell begins at `x0` and is `dx` wide.
+    pub(crate) fn carve_row(&self, y: [f64; 2], z: [f64; 2], x0: f64, dx: f64, open: &mut [f32]) {
+        let area = (y[1] - y[0]) * (z[1] - z[0]);
+        for block in &self.blocks {
+            block.carve(y, z, x0, dx, 1.0 / area, open);
+        }
+        for o in open {
+            // Rounding of a sum of overlaps must not leave a sub-cell that is almost solid.
+            *o = if *o < 1e-5 { 0.0 } else { *o };
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Means over the cells.
+
+use physics::Tait;
+use rayon::prelude::*;
+
+use super::{Fractions, HAT, around, collapse};
+use crate::geometry::Window;
+use crate::liquid::{Bins, Particles};
+
+/// Weights of the density of a cell: its own sub-cells double, the next ones on each side
+/// single. Even, so centred between the two sub-cells of the cell.
+const OWN_TWICE: [f32; 4] = [1.0, 2.0, 2.0, 1.0];
+
+/// A cell has a density when its surroundings are open by at least this part of what they are
+/// in free space.
+const ENOUGH_OPEN: f32 = 0.2;
+
+/// Fills [`Fractions::density`].
+pub(super) fn densities(fractions: &mut Fractions, window: &Window, open: &[f32]) {
+    let Fractions {
+        density,
+        deposit,
+        rows,
+        ..
+    } = fractions;
+    // The same weights seen through the hat of the deposit.
+    let mut wide = [0.0; 6];
+    for (i, own) in OWN_TWICE.iter().enumerate() {
+        for (j, hat) in HAT.iter().enumerate() {
+            wide[i + j] += own * hat;
+        }
+    }
+    let free: f32 = (0..window.domain.axes).map(|_| 6.0_f32).product();
+    let [sx, sy, sz] = window.sub_cells();
+    let lines = [(sy, 2), (sz, window.parts(2))];
+    density.resize(window.len(), 1.0);
+    let nx = window.cells[0];
+    density
+        .par_chunks_mut(nx)
+        .enumerate()
+        .for_each(|(row, out)| {
+            out.fill(1.0);
+            let cells = rows[row].clone();
+            if cells.is_empty() {
+                return;
+            }
+            let (j, k) = (row % window.cells[1], row / window.cells[1]);
+            let at = [2 * j, window.parts(2) * k];
+            let span = 2 * cells.start..2 * cells.end;
+            let mass = collapse(deposit, sx, at, lines, span.clone(), &OWN_TWICE);
+            let room = collapse(open, sx, at, lines, span.clone(), &wide);
+            for i in cells {
+                let room = around(&room, 2 * i, span.start, &wide);
+                if room > ENOUGH_OPEN * free {
+                    out[i] = around(&mass, 2 * i, span.start, &OWN_TWICE) / room;
+                }
+            }
+        });
+}
+
+/// Mean pressure (Pa) of the particles of each cell by `tait`, the p* of the compressibility
+/// term; a cell without particles takes the mean of its face neighbours that have some, else 0.
+pub(crate) fn pressures(
+    particles: &Particles,
+    bins: &Bins,
+    window: &Window,
+    tait: Tait,
+    pressure: &mut Vec<f32>,
+) {
+    let mut own = Vec::new();
+    own.par_extend((0..window.len()).into_par_iter().map(|cell| {
+        let home = window.home(window.coordinates(cell));
+        let range = bins.of(window.index(home));
+        if range.is_empty() {
+            return f32::NAN;
+        }
+        let n = range.len() as f64;
+        let sum: f64 = range
+            .map(|p| tait.pressure(f64::from(particles.j[p])))
+            .sum();
+        (sum / n) as f32
+    }));
+    pressure.clear();
+    pressure.par_extend((0..window.len()).into_par_iter().map(|cell| {
+        if !own[cell].is_nan() {
+            return own[cell];
+        }
+        let (mut sum, mut n) = (0.0, 0.0_f32);
+        for axis in 0..window.domain.axes {
+            let stride = window.stride(axis);
+            let below = cell.checked_sub(stride).map(|c| own[c]);
+            let above = own.get(cell + stride).copied();
+            for p in [below, above].into_iter().flatten().filter(|p| !p.is_nan()) {
+                sum += p;
+                n += 1.0;
+            }
+        }
+        if n > 0.0 { sum / n } else { 0.0 }
+    }));
+}

@@ -1,0 +1,143 @@
+//! Closing of holes in the liquid: sampling noise of the particles must not look like bubbles.
+
+use rayon::prelude::*;
+
+use super::{Fractions, sub_cells};
+use crate::geometry::Window;
+
+/// Air pockets of at most this many cells, enclosed by liquid, are noise.
+const LARGEST_HOLE: usize = 4;
+
+/// Fills small enclosed air pockets and the inside of the liquid: a cell without an air cell
+/// among its 3^d neighbours is full.
+pub(super) fn close(fractions: &mut Fractions, window: &Window, open: &[f32]) {
+    let nx = window.cells[0];
+    let rows = &fractions.rows;
+    let cell = &fractions.cell;
+    let mut kinds = vec![Kind::Solid; window.len()];
+    kinds.par_chunks_mut(nx).enumerate().for_each(|(row, out)| {
+        for (i, kind) in out.iter_mut().enumerate() {
+            let index = row * nx + i;
+            *kind = if sub_cells(window, index).all(|s| open[s] <= 1e-6) {
+                Kind::Solid
+            } else if rows[row].contains(&i) && cell[index] >= 0.5 {
+                Kind::Liquid
+            } else {
+                Kind::Air
+            };
+        }
+    });
+    let holes: Vec<u32> = (0..kinds.len())
+        .into_par_iter()
+        .filter(|&c| rows[c / nx].contains(&(c % nx)) && is_hole(&kinds, window, open, c))
+        .map(|c| c as u32)
+        .collect();
+    for &hole in &holes {
+        kinds[hole as usize] = Kind::Liquid;
+    }
+    let full: Vec<bool> = (0..kinds.len())
+        .into_par_iter()
+        .map(|c| {
+            kinds[c] == Kind::Liquid
+                && neighbours(window, c).all(|n| n.is_some_and(|n| kinds[n] != Kind::Air))
+        })
+        .collect();
+    for hole in holes {
+        fill(fractions, window, hole as usize);
+    }
+    let Fractions { liquid, cell, .. } = fractions;
+    let (sx, sy) = (window.sub_cells()[0], window.sub_cells()[1]);
+    liquid.par_chunks_mut(sx).enumerate().for_each(|(r, out)| {
+        let base = (r / sy / window.parts(2) * window.cells[1] + r % sy / 2) * nx;
+        for (phi, &full) in out.chunks_exact_mut(2).zip(&full[base..]) {
+            if full {
+                phi.fill(1.0);
+            }
+        }
+    });
+    cell.par_iter_mut().zip(&full).for_each(|(phi, &full)| {
+        if full {
+            *phi = 1.0;
+        }
+    });
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Solid,
+    Liquid,
+    Air,
+}
+
+fn fill(fractions: &mut Fractions, window: &Window, cell: usize) {
+    for sub in sub_cells(window, cell) {
+        fractions.liquid[sub] = 1.0;
+    }
+    fractions.cell[cell] = 1.0;
+}
+
+/// All 3^d neighbours; `None` for those outside the window.
+fn neighbours(window: &Window, cell: usize) -> impl Iterator<Item = Option<usize>> + use<> {
+    let at = window.coordinates(cell);
+    let inner = window.inner(at);
+    let (row, layer) = (window.stride(1) as isize, window.stride(2) as isize);
+    let planes = if window.parts(2) == 2 { -1..=1 } else { 0..=0 };
+    planes.flat_map(move |c: isize| {
+        (-1..=1).flat_map(move |b: isize| {
+            (-1..=1).map(move |a: isize| {
+                inner.then(|| (cell as isize + c * layer + b * row + a) as usize)
+            })
+        })
+    })
+}
+
+/// Whether an air cell belongs to a pocket of at most [`LARGEST_HOLE`] cells all of whose open
+/// neighbours are liquid and whose surface is liquid for at least one half: small pores ahead
+/// of the liquid have more wall than liquid around them.
+fn is_hole(kinds: &[Kind], window: &Window, open: &[f32], cell: usize) -> bool {
+    if kinds[cell] != Kind::Air {
+        return false;
+    }
+    let mut pocket = vec![cell];
+    let (mut wet, mut dry) = (0, 0);
+    let mut next = 0;
+    while next < pocket.len() {
+        let from = pocket[next];
+        next += 1;
+        if !window.inner(window.coordinates(from)) {
+            return false;
+        }
+        for axis in 0..window.domain.axes {
+            for up in [false, true] {
+                let stride = window.stride(axis);
+                let to = if up { from + stride } else { from - stride };
+                if !joined(window, open, from, to, axis, up) {
+                    dry += 1;
+                    continue;
+                }
+                match kinds[to] {
+                    Kind::Solid => dry += 1,
+                    Kind::Liquid => wet += 1,
+                    Kind::Air if pocket.contains(&to) => {}
+                    Kind::Air if pocket.len() == LARGEST_HOLE => return false,
+                    Kind::Air => pocket.push(to),
+                }
+            }
+        }
+    }
+    wet >= dry
+}
+
+/// Whether open sub-cells of two neighbouring cells touch across their common face.
+fn joined(window: &Window, open: &[f32], from: usize, to: usize, axis: usize, up: bool) -> bool {
+    let (low, high) = if up { (from, to) } else { (to, from) };
+    let low = window.first_sub(window.coordinates(low)) + window.sub_stride(axis);
+    let high = window.first_sub(window.coordinates(high));
+    let others = [(axis + 1) % 3, (axis + 2) % 3];
+    (0..window.parts(others[0])).any(|a| {
+        (0..window.parts(others[1])).any(|b| {
+            let shift = a * window.sub_stride(others[0]) + b * window.sub_stride(others[1]);
+            open[low + shift] > 0.0 && open[high + shift] > 0.0
+        })
+    })
+}

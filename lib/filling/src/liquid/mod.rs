@@ -1,0 +1,12 @@
+//! The liquid: its particles, and what of the lattice they fill and carry.
+
+mod fractions;
+mod particles;
+mod volumes;
+
+pub(crate) use fractions::{Fractions, pressures, velocities};
+pub(crate) use particles::{Bins, Particles};
+pub(crate) use volumes::Volumes;
+
+#[cfg(test)]
+pub(crate) use particles::tests;

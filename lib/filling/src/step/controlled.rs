@@ -1,0 +1,109 @@
+//! Stages 5 and 6: the linear solve at the clamp's speed or pressure limit, and the forces.
+
+use physics::Failure;
+use saddle_point::{NEARLY, SaddleReport, SolveError};
+
+use super::solution::Unknowns;
+use super::{Implicit, Stage};
+use crate::system::{Before, Operator, System};
+
+impl Implicit {
+    /// Solves at the clamp's speed or, where it is held at its pressure limit, for that speed.
+    pub(super) fn controlled(
+        &mut self,
+        operator: &Operator,
+        before: Before,
+        now: &mut Unknowns,
+    ) -> Result<(System, Vec<[f64; 3]>, f64), Failure> {
+        let bodies = self.state.drive.velocities();
+        let mut system = (self.workspace.stages)
+            .time(Stage::Assembly, || operator.assemble(&bodies, before))
+            .map_err(|error| self.unsolved(error))?;
+        let clamped = self.state.drive.clamped();
+        let solved = match (clamped, self.state.drive.held()) {
+            (Some(clamped), Some(limit)) => self.solve_held(&mut system, clamped, limit, now)?,
+            _ => false,
+        };
+        if !solved {
+            self.solve_system(&system, now)?;
+        }
+        let (forces, power) = self.reactions(&system, now);
+        let Some(clamped) = clamped else {
+            return Ok((system, forces, power));
+        };
+        let speed = self.state.drive.speed;
+        let pressure = forces[clamped][1] * self.setup.units.force() / self.setup.area;
+        let Some(limit) = self.state.drive.exceeded(pressure) else {
+            return Ok((system, forces, power));
+        };
+        let factor = self.state.drive.speed / speed;
+        for x in now.u.iter_mut().chain(&mut now.p) {
+            *x *= factor;
+        }
+        if !self.solve_held(&mut system, clamped, limit, now)? {
+            self.solve_system(&system, now)?;
+        }
+        let (forces, power) = self.reactions(&system, now);
+        Ok((system, forces, power))
+    }
+
+    fn reactions(&mut self, system: &System, now: &Unknowns) -> (Vec<[f64; 3]>, f64) {
+        (self.workspace.stages).time(Stage::Forces, || system.reactions(&now.u, &now.p))
+    }
+
+    /// Solves for the speed at which the pressure on body `clamped` is `limit` (Pa); `false`
+    /// where the clamp cannot move like that, and moves as near to it as it can.
+    fn solve_held(
+        &mut self,
+        system: &mut System,
+        clamped: usize,
+        limit: f64,
+        now: &mut Unknowns,
+    ) -> Result<bool, Failure> {
+        let force = limit * self.setup.area / self.setup.units.force();
+        let mut bodies = self.state.drive.velocities();
+        let load = system.load(clamped, force);
+        if !load.is_felt() {
+            // No liquid touches the body: at any speed it stays below its limit.
+            self.state.drive.follow(f64::INFINITY);
+            return Ok(false);
+        }
+        bodies[clamped] = [0.0; 3];
+        system.steer(&bodies);
+        let mut speed = self.state.drive.speed;
+        let solver = &mut self.workspace.solver;
+        let outcome = (self.workspace.stages).time(Stage::Solve, || {
+            solver.solve_loaded(&system.saddle(), &load, &mut now.u, &mut now.p, &mut speed)
+        });
+        self.count(outcome, now)?;
+        let follows = self.state.drive.follow(speed);
+        system.steer(&self.state.drive.velocities());
+        Ok(follows)
+    }
+
+    fn solve_system(&mut self, system: &System, now: &mut Unknowns) -> Result<(), Failure> {
+        let solver = &mut self.workspace.solver;
+        let outcome = (self.workspace.stages).time(Stage::Solve, || {
+            solver.solve(&system.saddle(), &mut now.u, &mut now.p)
+        });
+        self.count(outcome, now)
+    }
+
+    /// Counts the iterations of a solve that converged, or nearly.
+    fn count(
+        &self,
+        outcome: Result<SaddleReport, SolveError>,
+        now: &mut Unknowns,
+    ) -> Result<(), Failure> {
+        match outcome {
+            Ok(report) => now.iterations += report.iterations() as u32,
+            Err(SolveError::NotConverged {
+                iterations,
+                residual,
+                tolerance,
+            }) if residual <= NEARLY * tolerance => now.iterations += iterations as u32,
+            Err(error) => return Err(self.unsolved(error)),
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,48 @@
+//! What a failed solve says of the case, and what of it to change.
+
+use physics::Failure;
+use saddle_point::{Cause, SolveError};
+
+use super::Implicit;
+
+impl Implicit {
+    pub(super) fn failure(&self, what: &str) -> Failure {
+        Failure(format!("step {}: {what}", self.state.steps + 1))
+    }
+
+    /// A system of the step that was not solved.
+    pub(super) fn unsolved(&self, error: SolveError) -> Failure {
+        self.failure(&sentence(&error))
+    }
+}
+
+fn sentence(error: &SolveError) -> String {
+    match error {
+        SolveError::NotFinite { .. } => format!(
+            "{error}; speeds, gravity or pressures of the case or of the step before are beyond all \
+             bounds, and a smaller integrator.cfl may help where the case is not to blame"
+        ),
+        SolveError::Unsolved { error, cause } => format!("{error}: {}", advice(*cause)),
+        _ => error.to_string(),
+    }
+}
+
+fn advice(cause: Cause) -> String {
+    match cause {
+        Cause::Unbalanced { cells } => format!(
+            "walls move into {cells} cells of liquid that is enclosed and has no way out but to be \
+             compressed; a max_pressure, a way out, less travel or a lower bulk_modulus is needed"
+        ),
+        Cause::Stiff { ratio } => format!(
+            "viscous stress is {ratio:.0e} times what compresses the liquid in a step, eta/(K dt): \
+             a lower viscosity, a higher bulk_modulus or a slower motion is needed"
+        ),
+        Cause::Inertial { ratio } => format!(
+            "inertia is {ratio:.0e} times the viscous stress in a cell, rho h^2/(eta dt): a higher \
+             viscosity or scheme = \"explicit\" is needed"
+        ),
+        Cause::Unknown => "a smaller integrator.cfl makes the steps and their systems easier, a \
+                           larger integrator.tolerance asks for less"
+            .into(),
+    }
+}

@@ -1,0 +1,97 @@
+//! How long a step is, and whether what was solved fits it.
+
+use physics::{Failure, StepLimit};
+use rayon::prelude::*;
+
+use super::{Implicit, Solution, Trial};
+
+/// Part of the CFL number that the liquid is to cross in a step; a step in which it crosses more than the
+/// whole is solved again.
+const AIM: f64 = 0.97;
+/// Cells by which the middle of a body's way may lie off the place that the step was solved for: its
+/// speed under load control is known only then. With a tenth of a cell a plate that is about to
+/// touch liquid can be held back before it does, step after step.
+const MISPLACED: f64 = 0.02;
+/// Fraction of the face velocities, the fastest, that the CFL number ignores: jets through holes of
+/// one voxel must not set the time step of the whole bond. They cross [`JET_CFL`] cells at most.
+const JETS: f64 = 1e-3;
+/// Most cells that any liquid crosses per step.
+const JET_CFL: f64 = 1.5;
+
+/// Whether a solution fits the step that it was solved for.
+pub(super) enum Fit {
+    Good,
+    /// Liquid or bodies overshoot the CFL number; the pace is known better now.
+    Fast,
+    /// The bodies are not where they were placed.
+    Misplaced,
+}
+
+impl Implicit {
+    /// Stage 1: CFL cells of the fastest motion known, in equal parts of what is left, s.
+    pub(super) fn time_step(&self, limit: StepLimit) -> Result<f64, Failure> {
+        let (setup, drive) = (&self.setup, &self.state.drive);
+        let speed = (self.state.pace / AIM).max(fastest(&drive.velocities()));
+        let mut left = limit.time_s;
+        if drive.clamped().is_some() && drive.speed > 0.0 {
+            left = left.min(limit.travel_m / drive.speed);
+        }
+        let step = if speed > 0.0 {
+            setup.settings.cfl * setup.units.h / speed
+        } else {
+            // From rest under a body force: the distance fallen in the step.
+            let pull = setup.gravity.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+            (2.0 * setup.settings.cfl * setup.units.h / pull).sqrt()
+        };
+        let dt = if step < left {
+            left / (left / step).ceil()
+        } else {
+            left
+        };
+        if dt > 0.0 && dt.is_finite() {
+            return Ok(dt);
+        }
+        Err(self.failure("nothing moves and no time is left: there is no time step to take"))
+    }
+
+    /// Whether neither liquid nor bodies overshoot the CFL number, and the bodies are where they
+    /// were placed; the solution sets the pace.
+    pub(super) fn fit(&mut self, trial: &Trial, solution: &Solution) -> Fit {
+        let (cfl, h) = (self.setup.settings.cfl, self.setup.units.h);
+        self.state.pace = pace(&solution.u, cfl);
+        let cells = self.state.pace.max(fastest(&solution.bodies)) * trial.dt / h;
+        let misplaced = 0.5 * trial.dt / h * apart(&trial.bodies, &solution.bodies);
+        if misplaced > MISPLACED {
+            Fit::Misplaced
+        } else if cells <= cfl * (1.0 + 1e-9) {
+            Fit::Good
+        } else {
+            Fit::Fast
+        }
+    }
+}
+
+/// The speed (m/s) that is to cross `cfl` cells per step: that of all liquid but [`JETS`], or more
+/// where jets would cross more than [`JET_CFL`].
+fn pace(u: &[f64], cfl: f64) -> f64 {
+    let mut speeds: Vec<f32> = u.par_iter().map(|u| u.abs() as f32).collect();
+    let Some(last) = speeds.len().checked_sub(1) else {
+        return 0.0;
+    };
+    let place = ((1.0 - JETS) * last as f64).ceil() as usize;
+    let (_, &mut most, jets) = speeds.select_nth_unstable_by(place, f32::total_cmp);
+    let fastest = jets.iter().fold(most, |m, &u| m.max(u));
+    f64::from(most).max(f64::from(fastest) * cfl / JET_CFL.max(cfl))
+}
+
+/// Largest component of velocities, m/s.
+fn fastest(velocities: &[[f64; 3]]) -> f64 {
+    (velocities.iter().flatten()).fold(0.0, |most, v| most.max(v.abs()))
+}
+
+/// Largest difference of a component between velocities, m/s.
+fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    (a.iter().flatten())
+        .zip(b.iter().flatten())
+        .fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+}

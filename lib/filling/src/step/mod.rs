@@ -1,0 +1,202 @@
+//! The scheme, and one step of it: the eight stages of docs/methods.md section 3.1.
+
+mod controlled;
+mod drive;
+mod failure;
+mod length;
+mod scheme;
+mod setup;
+mod solution;
+mod stages;
+mod state;
+mod transport;
+mod units;
+
+use physics::{Failure, Motion, Scene, StepLimit, StepReport};
+use saddle_point::{SaddleOptions, SaddleSolver};
+
+use crate::geometry::{Lattice, Solids, Window};
+use crate::liquid::{Bins, Fractions};
+use crate::settings::Settings;
+use crate::transport::Flow;
+use drive::Drive;
+use length::Fit;
+use setup::Setup;
+use solution::Solution;
+use stages::{Stage, Stages};
+use state::{Rates, State};
+use units::Units;
+
+/// Attempts at a step of acceptable length.
+const ATTEMPTS: usize = 12;
+
+/// The implicit scheme on a scene: a staggered, coupled pressure-viscosity solve per step with
+/// the particles as markers.
+pub struct Implicit {
+    setup: Setup,
+    state: State,
+    workspace: Workspace,
+}
+
+/// Memory kept from one step to the next, no part of the state; and the time spent.
+struct Workspace {
+    bins: Bins,
+    fractions: Fractions,
+    solver: SaddleSolver,
+    stages: Stages,
+}
+
+/// A step that is being tried.
+struct Trial {
+    /// Its length, s.
+    dt: f64,
+    /// Velocities that the bodies were placed by, m/s.
+    bodies: Vec<[f64; 3]>,
+    /// Geometry with the bodies in the middle of their way.
+    lattice: Lattice,
+}
+
+impl Implicit {
+    /// The scheme for `scene`.
+    ///
+    /// # Errors
+    /// A sentence on what this scheme cannot do with the scene or the settings.
+    pub fn new(scene: Scene, settings: Settings) -> Result<Self, String> {
+        settings.check()?;
+        setup::check(&scene)?;
+        let motions: Vec<Motion> = scene.bodies.iter().map(|body| body.motion).collect();
+        let (clamp, speed) = (scene.clamp, scene.initial_speed());
+        let (setup, particles) = Setup::new(scene, settings)?;
+        let acoustic = setup.units.h / setup.liquid.sound_speed();
+        let options = SaddleOptions {
+            tolerance: settings.tolerance,
+            ..SaddleOptions::default()
+        };
+        Ok(Self {
+            state: State::new(particles, Drive::new(motions, clamp, acoustic), speed),
+            setup,
+            workspace: Workspace {
+                bins: Bins::default(),
+                fractions: Fractions::default(),
+                solver: SaddleSolver::new(options),
+                stages: Stages::default(),
+            },
+        })
+    }
+
+    /// Takes one step; see [`physics::Scheme::advance`]. Stages 1 to 6 are repeated with steps of
+    /// decreasing length until what was solved fits the step.
+    fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
+        self.state.rates = Rates::Zero;
+        let mut longest = limit.time_s;
+        for _ in 0..ATTEMPTS {
+            // 1. Time step.
+            let dt = self.time_step(limit)?.min(longest);
+            // 2. Geometry.
+            let trial = self.place(dt);
+            // 3. Liquid on the lattice.
+            self.fill(&trial.lattice);
+            // 4 to 6. Assembly, solve and forces, in passes where the viscosity varies.
+            let solution = self.solve(&trial)?;
+            match self.fit(&trial, &solution) {
+                Fit::Fast => continue,
+                Fit::Misplaced => longest = 0.5 * dt,
+                Fit::Good => return self.follow(&trial, &solution, limit),
+            }
+        }
+        Err(self.failure(&format!(
+            "no acceptable time step was found, for the liquid is the faster the shorter the step, \
+             {:.3e} m/s at last; a wall may push liquid that is enclosed on all sides",
+            self.state.pace
+        )))
+    }
+
+    /// The rest of a step whose solution fits it.
+    fn follow(
+        &mut self,
+        trial: &Trial,
+        solution: &Solution,
+        limit: StepLimit,
+    ) -> Result<StepReport, Failure> {
+        let mut dt = trial.dt;
+        if self.state.drive.clamped().is_some() {
+            // Load control may have sped the clamp up.
+            dt = dt.min(limit.travel_m / solution.speed);
+        }
+        let lattice = &trial.lattice;
+        let after = self.solids_after(&solution.bodies, dt);
+        // 7. Transport.
+        let (value, flow) = self.transport(lattice, solution, &after, dt);
+        // 8. Density projection; then particles take what is there, bodies and time advance.
+        self.project(lattice, solution, &after)?;
+        self.take_up(lattice, solution, &value, &flow)?;
+        Ok(self.advance_bodies(solution, flow, dt))
+    }
+
+    /// Bodies displaced by where they are now and a time at given velocities.
+    fn solids_after(&self, bodies: &[[f64; 3]], time: f64) -> Solids {
+        let moved: Vec<[f64; 3]> = (self.state.displacement.iter().zip(bodies))
+            .map(|(d, v)| std::array::from_fn(|a| (d[a] + v[a] * time) / self.setup.units.h))
+            .collect();
+        self.setup.rest.displaced(&moved)
+    }
+
+    /// Stage 2: geometry with the bodies in the middle of their way.
+    fn place(&mut self, dt: f64) -> Trial {
+        let bodies = self.state.drive.velocities();
+        let solids = self.solids_after(&bodies, 0.5 * dt);
+        let (from, to) = self.state.particles.extent();
+        let window = Window::around(self.setup.domain, from, to);
+        let stages = &mut self.workspace.stages;
+        Trial {
+            dt,
+            bodies,
+            lattice: stages.time(Stage::Geometry, || Lattice::new(solids, window)),
+        }
+    }
+
+    /// Stage 3: what of the lattice the particles fill.
+    fn fill(&mut self, lattice: &Lattice) {
+        let Workspace {
+            bins,
+            fractions,
+            stages,
+            ..
+        } = &mut self.workspace;
+        let particles = &mut self.state.particles;
+        stages.time(Stage::Fractions, || {
+            particles.sort(&lattice.window, bins);
+            fractions.update(particles, bins, &lattice.window, &lattice.open);
+        });
+    }
+
+    /// Bodies, clamp and time advance by `dt` (s); what the step reports.
+    fn advance_bodies(&mut self, solution: &Solution, flow: Flow, dt: f64) -> StepReport {
+        let Self { setup, state, .. } = self;
+        for (displacement, v) in state.displacement.iter_mut().zip(&solution.bodies) {
+            *displacement = std::array::from_fn(|a| displacement[a] + v[a] * dt);
+        }
+        if state.drive.clamped().is_some() {
+            state.travel += solution.speed * dt;
+        }
+        let pressure = |body: Option<usize>, way: f64| {
+            body.map_or(0.0, |b| {
+                way * solution.forces[b][1] * setup.units.force() / setup.area
+            })
+        };
+        let (bottom, top) = (pressure(setup.bottom, -1.0), pressure(setup.top, 1.0));
+        state.drive.observe(top, dt);
+        state.steps += 1;
+        state.power = solution.power;
+        state.rates = Rates::Of(flow);
+        StepReport {
+            dt_s: dt,
+            closing_speed: solution.speed,
+            travel_m: state.travel,
+            pressure_bottom: bottom,
+            pressure_top: top,
+            lost: state.counts.lost,
+            iterations: solution.iterations,
+        }
+    }
+}

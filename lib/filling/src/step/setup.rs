@@ -1,0 +1,181 @@
+//! What never changes in a run, made of the scene; and what of a scene the scheme refuses.
+
+use physics::{Dimensions, Liquid, Points, RigidBody, Scene, WallLaw};
+
+use super::Units;
+use crate::geometry::{Domain, MAX_BODIES, Solids, fill_sealed};
+use crate::liquid::Particles;
+use crate::settings::Settings;
+use crate::system::{Scales, WidthRule};
+
+/// Edge of a voxel (cells) below which the steps of a wall add friction of their own.
+const FINE_VOXEL: f64 = 0.75;
+
+/// What never changes in a run.
+pub(super) struct Setup {
+    pub(super) settings: Settings,
+    pub(super) units: Units,
+    pub(super) domain: Domain,
+    pub(super) liquid: Liquid,
+    wall: WallLaw,
+    pub(super) gravity: [f64; 3],
+    width: WidthRule,
+    pub(super) bottom: Option<usize>,
+    pub(super) top: Option<usize>,
+    /// Area that pressures refer to, m2.
+    pub(super) area: f64,
+    /// Bodies before any displacement.
+    pub(super) rest: Solids,
+    /// Voxels of voids that no liquid can reach, filled in.
+    pub(super) sealed: u64,
+}
+
+impl Setup {
+    /// The setup of a scene that passed [`check`], and its particles.
+    ///
+    /// # Errors
+    /// When a point lies in a body or outside the domain.
+    pub(super) fn new(scene: Scene, settings: Settings) -> Result<(Self, Particles), String> {
+        let units = Units::new(&scene.grid, &scene.liquid, scene.initial_speed());
+        let domain = Domain::new(&scene.grid, scene.boundary, scene.dimensions);
+        let (width, area) = (width_rule(&scene), scene.grid.area_m2());
+        let (rest, particles, sealed) = contents(scene.bodies, scene.points, domain, units)?;
+        let setup = Self {
+            settings,
+            units,
+            domain,
+            liquid: scene.liquid,
+            wall: scene.wall,
+            gravity: scene.gravity,
+            width,
+            bottom: scene.bottom,
+            top: scene.top,
+            area,
+            rest,
+            sealed,
+        };
+        Ok((setup, particles))
+    }
+
+    /// Influence length of the wall law, cells; infinite without friction.
+    pub(super) fn influence_length(&self) -> f64 {
+        self.wall.influence_length() / self.units.h
+    }
+
+    /// Scales of the terms of a step of `dt` (s).
+    pub(super) fn scales(&self, dt: f64) -> Scales {
+        let Units { h, eta, .. } = self.units;
+        let weight = self.liquid.density * h * h / eta;
+        Scales {
+            inertia: weight / dt,
+            compressibility: eta / (self.liquid.tait.bulk_modulus * dt),
+            gravity: self.gravity.map(|g| weight * g),
+            influence_length: self.influence_length(),
+            width: self.width,
+        }
+    }
+}
+
+/// Refuses what the scheme cannot do.
+pub(super) fn check(scene: &Scene) -> Result<(), String> {
+    if scene.points.position.is_empty() {
+        return Err("the scene holds no liquid: nothing would move".into());
+    }
+    if scene.bodies.len() > MAX_BODIES {
+        return Err(format!(
+            "the scene has {} rigid bodies; the implicit scheme takes at most {MAX_BODIES}",
+            scene.bodies.len()
+        ));
+    }
+    let flat = scene.dimensions == Dimensions::Two;
+    if flat && (scene.gravity[2] != 0.0 || scene.points.velocity.iter().any(|v| v[2] != 0.0)) {
+        return Err(
+            "a scene in two dimensions has velocities or gravity along z; both must be zero".into(),
+        );
+    }
+    let axes = if flat { 2 } else { 3 };
+    for (axis, name) in ["x", "y", "z"].iter().enumerate().take(axes) {
+        if scene.grid.cells[axis] < 2 {
+            return Err(format!(
+                "the domain has one cell along {name}; it needs at least two"
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Which width of lumens suits the scene's voxels.
+fn width_rule(scene: &Scene) -> WidthRule {
+    let blocks = scene.bodies.iter().flat_map(|body| &body.blocks);
+    let fine = blocks.into_iter().any(|block| {
+        let edge = block.voxel();
+        block.dims().iter().product::<usize>() > 1
+            && edge.iter().any(|e| *e < FINE_VOXEL * scene.grid.cell_m)
+    });
+    if fine {
+        WidthRule::Normal
+    } else {
+        WidthRule::Combined
+    }
+}
+
+/// Bodies, with the voids that no liquid can reach filled in, particles, and the number of
+/// voxels filled in.
+///
+/// # Errors
+/// When a point lies in a body or outside the domain.
+fn contents(
+    mut bodies: Vec<RigidBody>,
+    points: Points,
+    domain: Domain,
+    units: Units,
+) -> Result<(Solids, Particles, u64), String> {
+    let positions: Vec<[f64; 3]> = points.position.iter().map(|&x| units.to_cells(x)).collect();
+    let mut closed = 0;
+    for body in &mut bodies {
+        for block in &mut body.blocks {
+            if block.dims().iter().product::<usize>() > 1 {
+                let low = units.to_cells(block.origin());
+                let edge = block.voxel().map(|e| e / units.h);
+                let (filled, sealed) = fill_sealed(block, &domain, low, edge);
+                // Liquid that starts in a sealed void stays there.
+                if sealed > 0
+                    && !points
+                        .position
+                        .iter()
+                        .any(|&x| filled.contains(x) && !block.contains(x))
+                {
+                    *block = filled;
+                    closed += sealed;
+                }
+            }
+        }
+    }
+    let solids = Solids::new(bodies, domain, units.low, units.h);
+    for (point, &x) in positions.iter().enumerate() {
+        let inside = (0..3).all(|a| x[a] >= 0.0 && x[a] <= domain.cells[a] as f64);
+        if !inside {
+            return Err(format!("liquid point {point} lies outside the domain"));
+        }
+        if solids.at(x).is_some() {
+            return Err(format!(
+                "liquid point {point} lies in a rigid body; liquid and bodies must not overlap"
+            ));
+        }
+    }
+    let n = positions.len();
+    let particles = Particles {
+        position: positions,
+        velocity: points
+            .velocity
+            .iter()
+            .map(|v| v.map(|v| v as f32))
+            .collect(),
+        volume: (points.volume.iter())
+            .map(|v| (v / units.h.powi(3)) as f32)
+            .collect(),
+        j: vec![0.0; n],
+        id: (0..n as u32).collect(),
+    };
+    Ok((solids, particles, closed))
+}

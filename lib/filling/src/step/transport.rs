@@ -1,0 +1,90 @@
+//! Stages 7 and 8: the particles follow the flow and keep their density.
+
+use physics::Failure;
+
+use super::{Implicit, Solution, Stage};
+use crate::geometry::{Lattice, Solids};
+use crate::transport::{self, Flow, Path, density};
+
+/// Reynolds number of a cell above which what particles carry is limited: inertia feeds on itself
+/// from 0.3 on; below, the limit would only damp flows followed in many short steps.
+const THIN: f64 = 0.1;
+
+impl Implicit {
+    /// Stage 7: particles follow the flow for `dt` (s) while the bodies move to `after`. Returns
+    /// the face velocities, those in air included, and the flow between them.
+    pub(super) fn transport(
+        &mut self,
+        lattice: &Lattice,
+        solution: &Solution,
+        after: &Solids,
+        dt: f64,
+    ) -> ([Vec<f32>; 3], Flow) {
+        let path = Path {
+            before: &self.solids_after(&solution.bodies, 0.0),
+            after,
+            scale: dt / self.setup.units.h,
+        };
+        let (influence, face) = (self.setup.influence_length(), &solution.dofs.face);
+        let particles = &mut self.state.particles;
+        let (value, flow, moved) = self.workspace.stages.time(Stage::Advection, || {
+            let value = transport::extend(lattice, face, &solution.u);
+            let flow = Flow::new(lattice, &value, face, &solution.bodies, influence);
+            let moved = path.follow(particles, |x| flow.velocity(x));
+            (value, flow, moved)
+        });
+        let counts = &mut self.state.counts;
+        counts.deflected += moved.deflected;
+        counts.lost += moved.lost;
+        counts.pinched += moved.pinched;
+        (value, flow)
+    }
+
+    /// Stage 8: moves particles such that the liquid keeps its density.
+    pub(super) fn project(
+        &mut self,
+        lattice: &Lattice,
+        solution: &Solution,
+        after: &Solids,
+    ) -> Result<(), Failure> {
+        let path = Path {
+            before: after,
+            after,
+            scale: 1.0,
+        };
+        let particles = &mut self.state.particles;
+        let projected = self.workspace.stages.time(Stage::Density, || {
+            let (g, volume) = (&solution.g, &solution.face_volume);
+            let (moves, _) = density::displacement(g, &g.transpose(), volume, &solution.cells)?;
+            let field = density::Field::new(&lattice.window, &solution.dofs.face, &moves);
+            Ok(path.follow(particles, |x| field.at(x)))
+        });
+        let moved = projected.map_err(|error| self.unsolved(error))?;
+        self.state.counts.lost += moved.lost;
+        self.state.counts.pinched += moved.pinched;
+        Ok(())
+    }
+
+    /// The particles take velocity and pressure where they are.
+    pub(super) fn take_up(
+        &mut self,
+        lattice: &Lattice,
+        solution: &Solution,
+        value: &[Vec<f32>; 3],
+        flow: &Flow,
+    ) -> Result<(), Failure> {
+        let (liquid, units, pace) = (&self.setup.liquid, self.setup.units, self.state.pace);
+        let particles = &mut self.state.particles;
+        self.workspace.stages.time(Stage::Advection, || {
+            let thin = liquid.density * pace * units.h / units.eta > THIN;
+            transport::set_velocities(particles, flow, thin.then_some(value));
+            let lowest = (liquid.cavitation_pressure).map_or(f64::NEG_INFINITY, |p| -p);
+            let (window, pressure) = (&lattice.window, &solution.pressure);
+            transport::set_volume_changes(particles, window, pressure, liquid.tait, lowest);
+        });
+        if self.state.particles.is_empty() {
+            return Err(self.failure("all liquid has left the domain"));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,192 @@
+//! The assembled system of a step, and the forces that follow from its solution.
+
+use rayon::prelude::*;
+use saddle_point::{Csr, Load, SaddleSystem, SolveError};
+
+use super::Operator;
+use super::couplings::{self, Couplings};
+use super::terms::Velocity;
+
+/// Smallest liquid volume, in cells, that a face's mass counts with.
+const LEAST_MASS: f64 = 0.02;
+
+/// The assembled system of a step, for bodies at given speeds.
+pub(crate) struct System {
+    a: Csr<f64>,
+    /// Liquid fluxes, cells x faces.
+    pub(crate) g: Csr<f64>,
+    c: Vec<f64>,
+    friction: Vec<f64>,
+    two_eta: Vec<f64>,
+    mass: Vec<f64>,
+    couplings: Couplings,
+    /// Right-hand sides with all bodies at rest.
+    resting: [Vec<f64>; 2],
+    bodies: Vec<[f64; 3]>,
+    b: Vec<f64>,
+    source: Vec<f64>,
+}
+
+impl System {
+    /// What the solver takes.
+    pub(crate) fn saddle(&self) -> SaddleSystem<'_> {
+        SaddleSystem {
+            a: &self.a,
+            g: &self.g,
+            c: &self.c,
+            friction: &self.friction,
+            two_eta: &self.two_eta,
+            b: &self.b,
+            volume_source: &self.source,
+        }
+    }
+
+    /// Sets the velocities of the bodies, m/s.
+    pub(crate) fn steer(&mut self, bodies: &[[f64; 3]]) {
+        self.bodies = bodies.to_vec();
+        let couplings = &self.couplings;
+        let [momentum, source] = &self.resting;
+        self.b = (momentum.par_iter().enumerate())
+            .map(|(face, b)| b + couplings.dragged(face, bodies))
+            .collect();
+        self.source = (source.par_iter().enumerate())
+            .map(|(cell, g)| g + couplings.displaced(cell, bodies))
+            .collect();
+    }
+
+    /// How the speed of body `clamped` against y enters the system, for a force of `force` on it
+    /// along y (units of eta_0 h); to be solved with that body at rest.
+    pub(crate) fn load(&self, clamped: usize, force: f64) -> Load {
+        let mut unit = vec![[0.0; 3]; self.bodies.len()];
+        unit[clamped][1] = -1.0;
+        let mut resting = self.bodies.clone();
+        resting[clamped] = [0.0; 3];
+        let couplings = &self.couplings;
+        let rigid = |bodies: &[[f64; 3]]| couplings.forces(bodies, &[], &[]).0[clamped][1];
+        Load {
+            momentum: (0..self.b.len())
+                .into_par_iter()
+                .map(|face| couplings.dragged(face, &unit))
+                .collect(),
+            source: (0..self.source.len())
+                .into_par_iter()
+                .map(|cell| couplings.displaced(cell, &unit))
+                .collect(),
+            resistance: rigid(&unit),
+            force: force - rigid(&resting),
+        }
+    }
+
+    /// Forces of the liquid on the bodies, in units of eta_0 h, and the power dissipated by
+    /// viscosity and wall friction, in units of eta_0 h (m/s)^2.
+    pub(crate) fn reactions(&self, u: &[f64], p: &[f64]) -> (Vec<[f64; 3]>, f64) {
+        let (forces, of_bodies) = self.couplings.forces(&self.bodies, u, p);
+        let mut product = vec![0.0; u.len()];
+        self.a.multiply(u, &mut product);
+        let of_liquid: f64 = (product.iter().zip(u).zip(&self.mass))
+            .map(|((product, u), mass)| u * (product - mass * u))
+            .sum();
+        (forces, of_liquid + of_bodies)
+    }
+}
+
+/// What is known of the liquid before the step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Before<'a> {
+    /// Velocity of each face unknown carried by the particles, m/s.
+    pub(crate) velocity: &'a [f64],
+    /// Pressure of each pressure unknown carried by the particles, scaled.
+    pub(crate) pressure: &'a [f64],
+    /// Resistance of the liquid at that pressure to a change of its present volume, over K.
+    pub(crate) stiffness: &'a [f64],
+}
+
+impl Operator<'_> {
+    /// Assembles the system for bodies that move at `bodies` (m/s).
+    ///
+    /// # Errors
+    /// When an entry is not finite.
+    pub(crate) fn assemble(
+        &self,
+        bodies: &[[f64; 3]],
+        before: Before,
+    ) -> Result<System, SolveError> {
+        let n = self.dofs.faces.len();
+        let a = Csr::assemble(n, n, |face, entries| {
+            entries.add(face, self.mass(face));
+            self.terms(face, |term| {
+                let own = term.coefficient(face);
+                for &(velocity, c) in term.parts() {
+                    if let Velocity::Face(other) = velocity {
+                        entries.add(other as usize, term.weight * own * c);
+                    }
+                }
+            });
+        })?;
+        let flux = couplings::fluxes(self);
+        let g = Csr::assemble(self.dofs.cells.len(), n, |cell, entries| {
+            for &(column, area) in flux.of(cell).iter().filter(|e| (e.0 as usize) < n) {
+                entries.add(column as usize, area);
+            }
+        })?;
+        let c = self.compressibility(before.stiffness);
+        let mut system = System {
+            friction: (0..n).map(|face| self.darcy(face)).collect(),
+            two_eta: (self.dofs.cells.iter())
+                .map(|&cell| 2.0 * self.eta(cell as usize))
+                .collect(),
+            mass: (0..n).map(|face| self.mass(face)).collect(),
+            couplings: Couplings::new(self, bodies.len(), &flux),
+            resting: [
+                self.momentum(before.velocity),
+                (c.iter().zip(before.pressure))
+                    .map(|(c, p)| c * p)
+                    .collect(),
+            ],
+            a,
+            g,
+            c,
+            bodies: Vec::new(),
+            b: Vec::new(),
+            source: Vec::new(),
+        };
+        system.steer(bodies);
+        Ok(system)
+    }
+
+    fn mass(&self, face: usize) -> f64 {
+        self.scales.inertia * self.face_volume[face].max(LEAST_MASS)
+    }
+
+    /// D_B of the pressure preconditioner: V_f [rho h^2/(eta_0 dt) + 12 eta sum H^-2], with less
+    /// friction where walls slip: slip by a length l multiplies the flux of a slit by 1 + 6 l/H.
+    fn darcy(&self, face: usize) -> f64 {
+        let (axis, index) = self.dofs.faces[face];
+        let (axis, index) = (usize::from(axis), index as usize);
+        let eta = self.mean_viscosity([index, index - self.lattice.window.stride(axis)]);
+        let widths = match f64::from(self.walls.inverse_widths[face]) {
+            0.0 => 0.0,
+            widths => widths / (1.0 + 6.0 * self.scales.influence_length * widths.sqrt()),
+        };
+        self.face_volume[face].max(LEAST_MASS) * (self.scales.inertia + 12.0 * eta * widths)
+    }
+
+    fn compressibility(&self, stiffness: &[f64]) -> Vec<f64> {
+        (self.dofs.cells.iter().zip(stiffness))
+            .map(|(&cell, stiffness)| {
+                self.scales.compressibility * f64::from(self.volumes.cell[cell as usize])
+                    / stiffness
+            })
+            .collect()
+    }
+
+    /// b with all bodies at rest: inertia and body force.
+    fn momentum(&self, velocity: &[f64]) -> Vec<f64> {
+        (self.dofs.faces.iter().enumerate())
+            .map(|(face, &(axis, _))| {
+                self.mass(face) * velocity[face]
+                    + self.face_volume[face] * self.scales.gravity[usize::from(axis)]
+            })
+            .collect()
+    }
+}

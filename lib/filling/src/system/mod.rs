@@ -1,0 +1,48 @@
+//! The unknowns and the coupled system of one step: viscosity, mass and wall friction A, fluxes G,
+//! compressibility C, and the forces on bodies that follow from a solution.
+//!
+//! Per step the scheme minimises over the face velocities u, with pressures p as multipliers,
+//!
+//! E = sum_f rho V_f/(2 dt) (u - u*)^2 + sum_c eta phi_c o_c sum_d (D_d u_d)^2
+//!   + 1/2 sum_e eta phi_e (shear of the edge)^2 + 1/2 sum_walls A_s beta (u_f - U_b)^2
+//!   - sum_c phi_c p_c Phi_c - sum_c phi_c o_c (p_c^2/2 - p_c p*_c)/(K dt),
+//!
+//! which gives [A, -G^T; -G, -C] [u; p] = [b; -g]. Velocities are in m/s, lengths in cells h,
+//! viscosities in units of a reference eta_0, pressures in units of eta_0/h, forces in units of
+//! eta_0 h; in plane strain the depth is one cell.
+
+mod assembly;
+mod couplings;
+mod dofs;
+mod fluxes;
+mod operator;
+mod terms;
+mod viscosity;
+mod walls;
+
+pub(crate) use assembly::{Before, System};
+pub(crate) use dofs::{Dofs, NONE};
+pub(crate) use operator::Operator;
+pub(crate) use viscosity::{Sheared, varies};
+pub(crate) use walls::WidthRule;
+
+#[cfg(test)]
+mod statics;
+
+/// Unknowns per task and partial sum; part of the result of sums.
+const CHUNK: usize = 1 << 12;
+
+/// Numbers that scale the terms of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scales {
+    /// Inertia, rho h^2/(eta_0 dt).
+    pub(crate) inertia: f64,
+    /// Compressibility, eta_0/(K dt).
+    pub(crate) compressibility: f64,
+    /// Body force per face volume, rho h^2 g/eta_0, m/s.
+    pub(crate) gravity: [f64; 3],
+    /// 1/(k h): influence length of the wall law, cells; infinite without friction.
+    pub(crate) influence_length: f64,
+    /// Which width of the lumen the wall law takes.
+    pub(crate) width: WidthRule,
+}

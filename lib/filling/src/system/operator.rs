@@ -1,0 +1,78 @@
+//! Geometry, liquid and unknowns of a step together.
+
+use rayon::prelude::*;
+
+use super::dofs::Dofs;
+use super::walls::Walls;
+use super::{CHUNK, Scales};
+use crate::geometry::Lattice;
+use crate::liquid::Volumes;
+
+/// Geometry, liquid and unknowns of a step, from which its system is assembled.
+pub(crate) struct Operator<'a> {
+    /// Geometry.
+    pub(crate) lattice: &'a Lattice,
+    /// Liquid volumes.
+    pub(crate) volumes: &'a Volumes<'a>,
+    /// Viscosity of each cell over eta_0; empty when it is eta_0 everywhere.
+    pub(super) viscosity: Vec<f32>,
+    /// Unknowns.
+    pub(crate) dofs: Dofs,
+    /// Walls at the face unknowns.
+    pub(crate) walls: Walls,
+    /// Liquid volume of the control volume of each face unknown, in cells.
+    pub(crate) face_volume: Vec<f64>,
+    pub(super) scales: Scales,
+}
+
+impl<'a> Operator<'a> {
+    /// The operator for the liquid of `volumes` in `lattice`.
+    pub(crate) fn new(lattice: &'a Lattice, volumes: &'a Volumes<'a>, scales: Scales) -> Self {
+        let dofs = Dofs::new(lattice, volumes);
+        let friction = scales.influence_length.is_finite();
+        let walls = Walls::new(lattice, volumes.phi, &dofs, scales.width, friction);
+        let face_volume = dofs
+            .faces
+            .par_iter()
+            .with_min_len(CHUNK)
+            .map(|&(axis, index)| face_volume(lattice, volumes, axis.into(), index as usize))
+            .collect();
+        Self {
+            lattice,
+            volumes,
+            viscosity: Vec::new(),
+            dofs,
+            walls,
+            face_volume,
+            scales,
+        }
+    }
+
+    #[inline]
+    pub(super) fn eta(&self, cell: usize) -> f64 {
+        self.viscosity.get(cell).map_or(1.0, |&eta| f64::from(eta))
+    }
+
+    /// Viscosity around a place, by the liquid in the cells that meet there.
+    pub(super) fn mean_viscosity<const N: usize>(&self, cells: [usize; N]) -> f64 {
+        if self.viscosity.is_empty() {
+            return 1.0;
+        }
+        let (mut sum, mut volume) = (0.0, 0.0);
+        for cell in cells {
+            let v = f64::from(self.volumes.cell[cell]);
+            sum += v * self.eta(cell);
+            volume += v;
+        }
+        if volume > 0.0 { sum / volume } else { 1.0 }
+    }
+}
+
+/// Liquid volume that moves with a face: of its control volume, and of the slivers merged
+/// into its area.
+fn face_volume(lattice: &Lattice, volumes: &Volumes, axis: usize, index: usize) -> f64 {
+    let cell = lattice.window.coordinates(index);
+    let (wet, open) = volumes.of_face(lattice, axis, cell);
+    let merged = lattice.aperture(axis, cell).merged;
+    wet + if open > 0.0 { merged * wet / open } else { 0.0 }
+}

@@ -1,0 +1,111 @@
+//! Steady flow in straight channels against closed forms, at every offset of the walls
+//! against the cells. Run with `--nocapture` to see the errors.
+
+use super::flow::{Flow, duct, tube_of_voxels, worst};
+use crate::system::WidthRule;
+use physics::VoxelBlock;
+
+/// Flux through a plane channel of `n` cells whose lower wall is at `offset`, over the exact
+/// one n^3/12 (1 + 6 l/n) per body force, with influence length `slip` in cells.
+fn plane_channel(n: f64, offset: f64, slip: f64) -> f64 {
+    let height = n as usize + 6;
+    let low = 2.0 + offset;
+    let walls = vec![
+        VoxelBlock::solid_box([-9.0, -9.0, 0.0], [20.0, low, 1.0]),
+        VoxelBlock::solid_box([-9.0, low + n, 0.0], [20.0, 99.0, 1.0]),
+    ];
+    let mut flow = Flow::new([4, height, 1], 2, vec![walls]);
+    flow.slip = slip;
+    let exact = n.powi(3) / 12.0 * (1.0 + 6.0 * slip / n);
+    flow.periodic_flux() / exact
+}
+
+#[test]
+fn plane_channel_flux_at_every_offset() {
+    for (n, tolerance) in [(3.0, 0.01), (6.0, 0.001), (12.0, 0.001)] {
+        for slip in [0.0, 0.01, 1.0] {
+            let error = worst((0..20).map(|i| plane_channel(n, 0.05 * f64::from(i), slip) - 1.0));
+            println!("channel of {n} cells, influence length {slip}: flux error {error:+.4}");
+            assert!(error.abs() < tolerance, "{n} cells, slip {slip}: {error}");
+        }
+    }
+}
+
+/// Passages of one and two voxels of half a cell, also where their walls go through the centres
+/// of faces.
+#[test]
+fn passages_of_one_and_two_voxels() {
+    for (width, offsets, tolerance) in [(1.0, [0.0, 0.5], 0.01), (0.5, [0.0, 0.5], 0.01)] {
+        for offset in offsets {
+            let flat = plane_channel(width, offset, 0.0) - 1.0;
+            println!("passage of {width} cells, offset {offset}: flux error {flat:+.4}");
+            assert!(flat.abs() < tolerance, "{width} at {offset}: {flat}");
+        }
+    }
+    // The walls one cell apart are exact; what is left comes from the other two.
+    for (offset, tolerance) in [([0.0; 2], 0.09), ([0.5, 0.0], 0.01), ([0.5, 0.5], 0.07)] {
+        let error = duct(1.0, 4.0, offset) - 1.0;
+        println!("duct of 1 x 4 cells, walls off by {offset:?}: flux error {error:+.4}");
+        assert!(error.abs() < tolerance, "{offset:?}: {error}");
+    }
+}
+
+/// The same channel with other walls' distances would miss by far more than the tolerance.
+#[test]
+fn a_wall_a_quarter_cell_off_is_seen() {
+    let moved = plane_channel(6.25, 0.0, 0.0) * (6.25_f64 / 6.0).powi(3);
+    assert!((moved - 1.13).abs() < 0.01, "{moved}");
+}
+
+#[test]
+fn rectangular_ducts() {
+    for (a, b, tolerance) in [
+        (6.0, 6.0, 0.01),
+        (3.0, 3.0, 0.05),
+        (3.0, 12.0, 0.01),
+        (12.0, 12.0, 0.005),
+    ] {
+        for offset in [[0.0, 0.0], [0.25, 0.125], [0.5, 0.25], [0.75, 0.375]] {
+            let error = duct(a, b, offset) - 1.0;
+            println!("duct {a} x {b} cells, walls off by {offset:?}: flux error {error:+.4}");
+            assert!(error.abs() < tolerance, "{a} x {b}, {offset:?}: {error}");
+        }
+    }
+}
+
+/// Tubes of voxels against finite differences in the same staircase, at sixteen places.
+#[test]
+fn round_tubes_of_voxels() {
+    let quarters = [0.0, 0.25, 0.5, 0.75];
+    // Of the mean over the places and of the worst one.
+    for (voxel, rule, tolerances) in [
+        (
+            1.0,
+            WidthRule::Combined,
+            [[0.03, 0.06], [0.05, 0.07], [0.04, 0.05]],
+        ),
+        (
+            0.5,
+            WidthRule::Normal,
+            [[0.03, 0.12], [0.02, 0.03], [0.01, 0.03]],
+        ),
+    ] {
+        for (radius, [tolerance, limit]) in [1.5, 3.0, 6.0].into_iter().zip(tolerances) {
+            let errors: Vec<f64> = (quarters.iter())
+                .flat_map(|&y| quarters.map(|z| [y, z]))
+                .map(|shift| tube_of_voxels(radius, shift, voxel, rule) - 1.0)
+                .collect();
+            let n = errors.len() as f64;
+            let mean = errors.iter().sum::<f64>() / n;
+            let spread = (errors.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / n).sqrt();
+            let largest = worst(errors);
+            println!(
+                "tube of radius {radius} cells, voxel {voxel} cells: flux error {mean:+.3} +- {spread:.3} over {n} places, {largest:+.3} at worst"
+            );
+            assert!(
+                mean.abs() < tolerance && largest.abs() < limit,
+                "{mean}, {largest}"
+            );
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! Steady flows against closed forms; run with `--nocapture` to see the errors.
+
+mod bodies;
+mod channels;
+mod flow;
+#[path = "../../../tests/common/staircase.rs"]
+mod staircase;

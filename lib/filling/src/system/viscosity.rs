@@ -1,0 +1,72 @@
+//! Viscosity that depends on the shear rate, lagged by one pass (Picard).
+
+use physics::{Liquid, Viscosity};
+use rayon::prelude::*;
+
+use super::Operator;
+
+/// Velocities from which shear rates are taken.
+pub(crate) struct Sheared<'a, D> {
+    /// |dev D| (m/s per cell) between the faces, at points given in cells.
+    pub(crate) deviator: D,
+    /// Velocity of each face unknown, m/s.
+    pub(crate) u: &'a [f64],
+    /// Velocities of the bodies, m/s.
+    pub(crate) bodies: &'a [[f64; 3]],
+}
+
+impl Operator<'_> {
+    /// Sets the viscosities of cells and walls by the law of `liquid` at the rates of `field`,
+    /// in units of `reference` (Pa s), for cells of `cell_m`. Returns the mean relative change
+    /// over the liquid; infinite where there was no viscosity before.
+    ///
+    /// At a wall the rate is (u - U)/(d_eff + l), that of the wall law (paper Eq. 3), without
+    /// the factor of the paper's convention for rates in the liquid.
+    pub(crate) fn set_viscosity<D: Fn([f64; 3]) -> f64 + Sync>(
+        &mut self,
+        liquid: &Liquid,
+        reference: f64,
+        cell_m: f64,
+        field: &Sheared<D>,
+    ) -> f64 {
+        let law = &liquid.viscosity;
+        let at = |rate: f64| (law.at(rate) / reference) as f32;
+        let window = self.lattice.window;
+        let wet = |index: usize| self.volumes.cell[index] > 0.0;
+        let mut viscosity: Vec<f32> = (0..window.len())
+            .into_par_iter()
+            .map(|index| {
+                let cell = window.coordinates(index);
+                if !wet(index) || window.home(cell) != cell {
+                    return 0.0;
+                }
+                let centre = window.corner(cell).map(|x| x + 0.5);
+                at(liquid.shear_rate.factor() * (field.deviator)(centre) / cell_m)
+            })
+            .collect();
+        // Edges on a periodic side average over cells and images of cells.
+        for index in (0..window.len()).filter(|&index| wet(index)) {
+            viscosity[index] = viscosity[window.index(window.home(window.coordinates(index)))];
+        }
+        let change: f64 = (self.dofs.cells.iter())
+            .map(|&cell| {
+                let before = self.viscosity.get(cell as usize).copied().unwrap_or(0.0);
+                f64::from((viscosity[cell as usize] - before).abs() / before)
+            })
+            .sum();
+        self.viscosity = viscosity;
+        let length = self.scales.influence_length;
+        let faces = &self.dofs.faces;
+        self.walls.set_viscosity(|face, link| {
+            let axis = usize::from(faces[face].0);
+            let slip = (field.u[face] - field.bodies[usize::from(link.body)][axis]).abs();
+            at(slip / (f64::from(link.distance) + length) / cell_m)
+        });
+        change / self.dofs.cells.len().max(1) as f64
+    }
+}
+
+/// Whether a law needs rates at all.
+pub(crate) fn varies(law: &Viscosity) -> bool {
+    matches!(law, Viscosity::Table(_))
+}

@@ -1,0 +1,161 @@
+//! The density projection evens out the density and leaves free surfaces alone.
+
+use physics::VoxelBlock;
+
+use super::*;
+use crate::geometry::Lattice;
+use crate::geometry::tests::{domain, lattice};
+use crate::liquid::tests::at;
+use crate::liquid::{Bins, Fractions, Particles, Volumes};
+use crate::system::{Before, Operator, Scales, WidthRule};
+use crate::transport::Path;
+
+/// Root mean square and mean of r - 1 over the full cells.
+fn error(fractions: &Fractions) -> [f64; 2] {
+    let full = (fractions.cell.iter().zip(&fractions.density)).filter(|(phi, _)| **phi >= 0.999);
+    let errors: Vec<f64> = full.map(|(_, &r)| f64::from(r) - 1.0).collect();
+    let n = errors.len() as f64;
+    [
+        (errors.iter().map(|e| e * e).sum::<f64>() / n).sqrt(),
+        errors.iter().sum::<f64>() / n,
+    ]
+}
+
+/// One projection of liquid in a channel; density error before it, and iterations.
+fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
+    let window = &lattice.window;
+    let mut bins = Bins::default();
+    particles.sort(window, &mut bins);
+    let mut fractions = Fractions::default();
+    fractions.update(particles, &bins, window, &lattice.open);
+    let volumes = Volumes::new(lattice, &fractions.liquid);
+    let scales = Scales {
+        inertia: 1.0,
+        compressibility: 0.0,
+        gravity: [0.0; 3],
+        influence_length: 0.0,
+        width: WidthRule::Normal,
+    };
+    let operator = Operator::new(lattice, &volumes, scales);
+    let dofs = &operator.dofs;
+    let before = Before {
+        velocity: &vec![0.0; dofs.faces.len()],
+        pressure: &vec![0.0; dofs.cells.len()],
+        stiffness: &vec![1.0; dofs.cells.len()],
+    };
+    let system = operator.assemble(&[[0.0; 3]], before).unwrap();
+    let pick =
+        |field: &[f32]| -> Vec<f32> { dofs.cells.iter().map(|&c| field[c as usize]).collect() };
+    let cells = Cells {
+        density: pick(&fractions.density),
+        fraction: pick(&volumes.fraction),
+        volume: pick(&volumes.cell),
+    };
+    let (moves, iterations) = displacement(
+        &system.g,
+        &system.g.transpose(),
+        &operator.face_volume,
+        &cells,
+    )
+    .unwrap();
+    assert!(moves.iter().all(|d| d.abs() <= LONGEST));
+    let field = Field::new(window, &dofs.face, &moves);
+    let path = Path {
+        before: &lattice.solids,
+        after: &lattice.solids,
+        scale: 1.0,
+    };
+    let moved = path.follow(particles, |x| field.at(x));
+    assert_eq!(moved.pinched, 0);
+    (error(&fractions), iterations)
+}
+
+/// Liquid that is 15 % too dense here and too thin there in a channel with walls off the cells,
+/// with a free surface at one end.
+fn perturbed(axes: usize) -> (Lattice, Particles) {
+    let depth = if axes == 3 { 6 } else { 1 };
+    let end = depth as f64;
+    let walls = vec![
+        VoxelBlock::solid_box([0.0, 0.0, 0.0], [30.0, 1.3, end]),
+        VoxelBlock::solid_box([0.0, 7.3, 0.0], [30.0, 10.0, end]),
+    ];
+    let lattice = lattice(domain([30, 10, depth], axes), vec![walls]);
+    let mut points = Vec::new();
+    for k in 0..if axes == 3 { 2 * depth } else { 1 } {
+        for j in 0..12 {
+            for i in 0..40 {
+                let x = 0.25 + 0.5 * f64::from(i);
+                let wave = 0.3 * (std::f64::consts::PI * x / 5.0).sin();
+                let z = if axes == 3 {
+                    0.25 + 0.5 * k as f64
+                } else {
+                    0.5
+                };
+                points.push([x + wave, 1.55 + 0.5 * f64::from(j), z]);
+            }
+        }
+    }
+    (lattice, at(points, if axes == 3 { 0.125 } else { 0.25 }))
+}
+
+#[test]
+fn the_density_of_perturbed_liquid_evens_out() {
+    for axes in [2, 3] {
+        let (lattice, mut particles) = perturbed(axes);
+        let volume = particles.total_volume();
+        let mut errors = Vec::new();
+        for _ in 0..10 {
+            let (error, iterations) = project(&lattice, &mut particles);
+            assert!(iterations < 20, "{iterations} iterations");
+            errors.push(error);
+        }
+        for (step, [rms, mean]) in errors.iter().enumerate() {
+            println!("{axes}D step {step}: density error rms {rms:.4}, mean {mean:+.4}");
+        }
+        assert!(errors[0][0] > 0.1, "not perturbed");
+        assert!(errors[1][0] < 0.65 * errors[0][0] && errors[9][0] < 0.3 * errors[0][0]);
+        assert!(errors[9][1].abs() < 0.015);
+        assert_eq!(particles.total_volume(), volume);
+        let inside = |x: &[f64; 3]| x[1] > 1.3 && x[1] < 7.3;
+        assert!(particles.position.iter().all(inside));
+    }
+}
+
+/// Fewer particles per cell at the free surface than inside is no error: nothing moves there.
+#[test]
+fn a_partly_filled_surface_is_left_alone() {
+    let (lattice, mut particles) = perturbed(2);
+    particles
+        .position
+        .iter_mut()
+        .enumerate()
+        .for_each(|(p, x)| {
+            x[0] = 0.25 + 0.5 * (particles.id[p] % 40) as f64;
+        });
+    particles.retain(|x| x[0] < 16.0 || ((x[0] * 2.0) as u64).is_multiple_of(2) && x[0] < 17.0);
+    let before: f64 = particles.position.iter().map(|x| x[0]).fold(0.0, f64::max);
+    for _ in 0..5 {
+        project(&lattice, &mut particles);
+    }
+    let after: f64 = particles.position.iter().map(|x| x[0]).fold(0.0, f64::max);
+    println!("surface at {before:.3} before, {after:.3} after five projections");
+    assert!((after - before).abs() < 0.15);
+}
+
+/// A crowded cell behind a narrow passage asks for more than the longest displacement; liquid
+/// elsewhere moves as if it were not there.
+#[test]
+fn one_crowded_cell_does_not_hold_back_the_rest() {
+    let passage = [0.02, 1.0];
+    let g = Csr::assemble(2, 2, |row, entries| entries.add(row, passage[row])).unwrap();
+    let cells = Cells {
+        density: vec![1.3, 1.1],
+        fraction: vec![1.0; 2],
+        volume: vec![1.0; 2],
+    };
+    let (moves, _) = displacement(&g, &g.transpose(), &[1.0; 2], &cells).unwrap();
+    let wanted = KAPPA * 0.1;
+    println!("{moves:?}, {wanted} wanted of the second");
+    assert_eq!(moves[0].abs(), LONGEST);
+    assert!((moves[1].abs() / wanted - 1.0).abs() < 0.01);
+}

@@ -1,0 +1,122 @@
+//! Moving particles through a step.
+
+use physics::Boundary;
+use rayon::prelude::*;
+
+use crate::geometry::{Domain, Solids};
+use crate::liquid::Particles;
+
+/// Particles per task and partial count.
+const CHUNK: usize = 1 << 13;
+/// Distance (cells) that particles keep from symmetry planes.
+const CLEARANCE: f64 = 1e-6;
+
+/// Where and when particles move: bodies at the start and the end of the step.
+#[derive(Clone, Copy)]
+pub(crate) struct Path<'a> {
+    /// Bodies at the start.
+    pub(crate) before: &'a Solids,
+    /// Bodies at the end.
+    pub(crate) after: &'a Solids,
+    /// Cells per velocity unit: the time step over the cell for velocities in m/s.
+    pub(crate) scale: f64,
+}
+
+/// What a move met.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Moved {
+    /// Particles that a wall deflected.
+    pub(crate) deflected: u64,
+    /// Largest distance (cells) that one would have been behind its wall.
+    pub(crate) deepest: f64,
+    /// Particles between closing walls that found no free place nearby; they are in a solid.
+    pub(crate) pinched: u64,
+    /// Particles that left through an open side, and were removed.
+    pub(crate) lost: u64,
+}
+
+impl Path<'_> {
+    /// Moves the particles along `velocity` by the midpoint rule, and off walls; those that leave
+    /// through an open side are removed.
+    pub(crate) fn follow(
+        &self,
+        particles: &mut Particles,
+        velocity: impl Fn([f64; 3]) -> [f64; 3] + Sync,
+    ) -> Moved {
+        let counts: Vec<Moved> = (particles.position.par_chunks_mut(CHUNK))
+            .map(|chunk| {
+                let mut moved = Moved::default();
+                for x in chunk {
+                    let first = velocity(*x);
+                    let half = self.shifted(*x, first, 0.5);
+                    let second = velocity(self.inside(half));
+                    *x = self.step(*x, self.shifted(*x, second, 1.0), &mut moved);
+                }
+                moved
+            })
+            .collect();
+        let mut moved = Moved::default();
+        for part in counts {
+            moved.deflected += part.deflected;
+            moved.deepest = moved.deepest.max(part.deepest);
+            moved.pinched += part.pinched;
+        }
+        let domain = self.after.domain;
+        if (0..domain.axes).any(|a| domain.boundary[a] == Boundary::Open) {
+            moved.lost = particles
+                .retain(|x| (0..domain.axes).all(|a| x[a] >= 0.0 && x[a] < domain.cells[a] as f64))
+                as u64;
+        }
+        moved
+    }
+
+    #[inline]
+    fn shifted(&self, x: [f64; 3], velocity: [f64; 3], part: f64) -> [f64; 3] {
+        std::array::from_fn(|a| x[a] + part * self.scale * velocity[a])
+    }
+
+    /// A point kept in the domain, so that the window has a cell for it.
+    #[inline]
+    fn inside(&self, mut x: [f64; 3]) -> [f64; 3] {
+        let domain = &self.after.domain;
+        for (a, x) in x.iter_mut().enumerate().take(domain.axes) {
+            if !domain.periodic(a) {
+                *x = x.clamp(CLEARANCE, domain.cells[a] as f64 - CLEARANCE);
+            }
+        }
+        x
+    }
+
+    fn step(&self, from: [f64; 3], to: [f64; 3], moved: &mut Moved) -> [f64; 3] {
+        let domain = &self.after.domain;
+        let to = symmetric(domain, to);
+        let end = self.before.deflect(self.after, from, to);
+        if end.depth > 0.0 {
+            moved.deflected += 1;
+            moved.deepest = moved.deepest.max(end.depth);
+        }
+        moved.pinched += u64::from(end.pinched);
+        let mut x = symmetric(domain, end.point);
+        for (a, x) in x.iter_mut().enumerate() {
+            if domain.periodic(a) {
+                let n = domain.cells[a] as f64;
+                *x = x.rem_euclid(n);
+                // A tiny negative place wraps to the end itself.
+                if *x >= n {
+                    *x = 0.0;
+                }
+            }
+        }
+        x
+    }
+}
+
+/// Keeps a point off the symmetry planes.
+fn symmetric(domain: &Domain, mut x: [f64; 3]) -> [f64; 3] {
+    for (a, x) in x.iter_mut().enumerate().take(domain.axes) {
+        if domain.boundary[a] == Boundary::Symmetry {
+            *x = x.clamp(CLEARANCE, domain.cells[a] as f64 - CLEARANCE);
+        }
+    }
+    x
+}

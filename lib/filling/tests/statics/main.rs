@@ -1,7 +1,0 @@
-//! Steady flows against closed forms; run with `--nocapture` to see the errors.
-
-mod bodies;
-mod channels;
-mod flow;
-#[path = "../common/staircase.rs"]
-mod staircase;

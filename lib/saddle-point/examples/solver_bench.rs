@@ -1,0 +1,121 @@
+//! Cost of the saddle-point solver on synthetic wood.
+//!
+//! ```text
+//! cargo run --release -p saddle-point --example solver_bench -- [tolerance [nx,ny,nz,gap ...]]
+//! RAYON_NUM_THREADS=1 cargo run ...
+//! ... 1e-3 32,48,48,12 64,56,64,12 128,56,128,19 128,72,200,19   # 38k, 96k, 0.54 M, 0.86 M cells
+//! ```
+
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
+#[path = "../tests/pseudo_wood/mod.rs"]
+mod pseudo_wood;
+
+use std::error::Error;
+use std::time::Instant;
+
+use pseudo_wood::{Case, Problem};
+use saddle_point::{SaddleOptions, SaddleReport, SaddleSolver};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let tolerance = arguments.next().map_or(Ok(1e-4), |text| text.parse())?;
+    let sizes: Vec<String> = arguments.collect();
+    let sizes = if sizes.is_empty() {
+        vec!["32,48,48,12".to_owned(), "64,56,64,12".to_owned()]
+    } else {
+        sizes
+    };
+    println!("threads {}", rayon::current_num_threads());
+    println!(
+        "{:>8} {:>8} {:>9} {:>14} {:>6} {:>7} {:>7} {:>7} {:>7} {:>6}",
+        "cells",
+        "faces",
+        "entries",
+        "its 1e-2/3/4",
+        "cycles",
+        "setup_s",
+        "wall_s",
+        "cpu_s",
+        "MiB",
+        "bound"
+    );
+    for size in sizes {
+        let numbers = size
+            .split(',')
+            .map(str::parse)
+            .collect::<Result<Vec<usize>, _>>()?;
+        let [x, y, z, gap] = numbers[..] else {
+            return Err(format!("size {size}; nx,ny,nz,gap expected").into());
+        };
+        row(
+            Case {
+                cells: [x, y, z],
+                gap,
+                ..Case::default()
+            },
+            tolerance,
+        )?;
+    }
+    Ok(())
+}
+
+fn row(case: Case, tolerance: f64) -> Result<(), Box<dyn Error>> {
+    let problem = Problem::new(&case)?;
+    let (mut u, mut p) = (vec![0.0; problem.b.len()], vec![0.0; problem.c.len()]);
+    let mut solver = SaddleSolver::new(SaddleOptions {
+        tolerance,
+        ..SaddleOptions::default()
+    });
+    let (started, cpu) = (Instant::now(), cpu_seconds()?);
+    let report = solver.solve(&problem.system(), &mut u, &mut p)?;
+    let (wall, cpu) = (started.elapsed().as_secs_f64(), cpu_seconds()? - cpu);
+    println!(
+        "{:8} {:8} {:9} {:>14} {:6} {:7.2} {:7.2} {:7.2} {:7} {:6.3}",
+        p.len(),
+        u.len(),
+        problem.a.n_entries(),
+        iterations(&report),
+        report.cycles,
+        report.setup.as_secs_f64(),
+        wall,
+        cpu,
+        peak_mebibytes()?,
+        report.eigenvalue_bound,
+    );
+    Ok(())
+}
+
+/// Iterations to 1e-2, 1e-3 and 1e-4, where reached.
+fn iterations(report: &SaddleReport) -> String {
+    let to = |tolerance: f64| {
+        (report.history.iter().position(|&r| r <= tolerance))
+            .map_or("-".to_owned(), |n| n.to_string())
+    };
+    format!("{}/{}/{}", to(1e-2), to(1e-3), to(1e-4))
+}
+
+/// Processor time of all threads of this process (Linux), s.
+fn cpu_seconds() -> Result<f64, Box<dyn Error>> {
+    let mut nanoseconds = 0u64;
+    for task in std::fs::read_dir("/proc/self/task")? {
+        let text = std::fs::read_to_string(task?.path().join("schedstat"))?;
+        nanoseconds += text.split(' ').next().unwrap_or("0").parse::<u64>()?;
+    }
+    Ok(nanoseconds as f64 * 1e-9)
+}
+
+/// Largest memory in use so far (Linux), MiB.
+fn peak_mebibytes() -> Result<u64, Box<dyn Error>> {
+    let text = std::fs::read_to_string("/proc/self/status")?;
+    let line = text
+        .lines()
+        .find(|line| line.starts_with("VmHWM"))
+        .unwrap_or_default();
+    Ok(line
+        .split_whitespace()
+        .nth(1)
+        .unwrap_or("0")
+        .parse::<u64>()?
+        / 1024)
+}

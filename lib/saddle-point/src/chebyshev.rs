@@ -1,0 +1,127 @@
+//! Approximate inverse of the velocity block: a Chebyshev polynomial in the Jacobi-scaled matrix.
+
+use crate::SolveError;
+use crate::csr::Csr;
+use crate::packed::PackedMatrix;
+use crate::vector::{Real, Work, for_chunks, for_chunks_pair, reset};
+
+/// Sweeps that tighten the bound of the largest eigenvalue.
+const BOUND_SWEEPS: usize = 6;
+
+/// `p(A) ~ A^-1` for a symmetric positive definite `A` with diagonal `D`: `S q(S A S) S` with
+/// `S = D^-1/2` and `q` the Chebyshev iteration of given degree on `[bound/ratio, bound]`
+/// (Golub & Van Loan, Matrix Computations, 4th ed., section 11.2.8).
+pub(crate) struct Chebyshev {
+    /// `S A S`.
+    scaled: PackedMatrix,
+    /// `D^-1/2`.
+    scale: Vec<Work>,
+    bound: f64,
+    degree: usize,
+    ratio: f64,
+    /// Scaled right-hand side, and the last two iterates.
+    rhs: Vec<Work>,
+    now: Vec<Work>,
+    before: Vec<Work>,
+}
+
+impl Chebyshev {
+    pub(crate) fn new(a: &Csr<f64>, degree: usize, ratio: f64) -> Result<Self, SolveError> {
+        let mut scale = a.diagonal();
+        if let Some(row) = scale.iter().position(|&d| d <= 0.0) {
+            return Err(SolveError::Matrix(format!(
+                "diagonal {} of velocity row {row}; the velocity block must be positive definite",
+                scale[row]
+            )));
+        }
+        for_chunks(&mut scale, |_, part| {
+            part.iter_mut().for_each(|d| *d = 1.0 / d.sqrt());
+        });
+        let scaled = PackedMatrix::new(a, &scale)?;
+        let len = scaled.padded_len();
+        let (mut now, mut before) = (vec![0.0; len], vec![0.0; len]);
+        Ok(Self {
+            bound: largest_eigenvalue_bound(&scaled, a.n_rows(), &mut now, &mut before),
+            scaled,
+            scale: scale.into_iter().map(Work::nearest).collect(),
+            degree,
+            ratio,
+            rhs: vec![0.0; len],
+            now,
+            before,
+        })
+    }
+
+    /// Guaranteed upper bound of the eigenvalues of `D^-1 A`.
+    pub(crate) fn bound(&self) -> f64 {
+        self.bound
+    }
+
+    /// `x ~ A^-1 b`.
+    pub(crate) fn apply(&mut self, b: &[Work], x: &mut [Work]) {
+        let n = b.len();
+        let (low, high) = (self.bound / self.ratio, self.bound);
+        let (centre, half_width) = (0.5 * (high + low), 0.5 * (high - low));
+        let sigma = centre / half_width;
+        let first = Work::nearest(1.0 / centre);
+        let len = self.before.len();
+        reset(&mut self.before, len);
+        let scale = &self.scale;
+        for_chunks_pair(&mut self.rhs[..n], &mut self.now[..n], |start, rhs, now| {
+            for (i, (rhs, now)) in rhs.iter_mut().zip(now).enumerate() {
+                *rhs = b[start + i] * scale[start + i];
+                *now = first * *rhs;
+            }
+        });
+        let mut rho = 1.0 / sigma;
+        for _ in 1..self.degree {
+            let next = 1.0 / (2.0 * sigma - rho);
+            let momentum = Work::nearest(next * rho);
+            let step = Work::nearest(2.0 * next / half_width);
+            rho = next;
+            let (rhs, now) = (&self.rhs, &self.now);
+            self.scaled
+                .for_blocks(now, &mut self.before, |row, product, old| {
+                    let (rhs, now) = (&rhs[row..], &now[row..]);
+                    for (i, old) in old.iter_mut().enumerate() {
+                        let residual = rhs[i] - now[i] - product[i];
+                        *old = now[i] + momentum * (now[i] - *old) + step * residual;
+                    }
+                });
+            std::mem::swap(&mut self.before, &mut self.now);
+        }
+        for_chunks(x, |start, part| {
+            for (i, x) in part.iter_mut().enumerate() {
+                *x = self.now[start + i] * scale[start + i];
+            }
+        });
+    }
+}
+
+/// Upper bound of the spectral radius of `I + M` for symmetric `M` with zero diagonal: for any
+/// positive `w`, `rho(I + M) <= rho(I + |M|) <= max_i ((I + |M|) w)_i / w_i` (Collatz 1942).
+/// Each sweep `w <- (I + |M|) w` tightens the bound; unlike a power iteration it is never too low,
+/// which would make the polynomial amplify the missed modes.
+///
+/// `w` and `next` are zeros of the padded length and are left so.
+fn largest_eigenvalue_bound(
+    matrix: &PackedMatrix,
+    n: usize,
+    w: &mut Vec<Work>,
+    next: &mut Vec<Work>,
+) -> f64 {
+    w[..n].fill(1.0);
+    let mut bound = f64::INFINITY;
+    for _ in 0..BOUND_SWEEPS {
+        matrix.multiply_absolute(w, next);
+        let ratios = next[..n].iter().zip(&w[..n]).map(|(a, b)| a / b);
+        bound = bound.min(f64::from(ratios.fold(1.0, Work::max)));
+        std::mem::swap(w, next);
+    }
+    for vector in [w, next] {
+        let len = vector.len();
+        reset(vector, len);
+    }
+    // Room for the rounding of single-precision sums.
+    bound * (1.0 + 1e-5)
+}

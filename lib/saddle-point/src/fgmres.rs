@@ -1,0 +1,236 @@
+//! Flexible GMRES (Saad 1993, SIAM J. Sci. Comput. 14, 461-469) with restarts.
+
+use rayon::prelude::*;
+
+use crate::SolveError;
+use crate::vector::{CHUNK, Real, Work, add_scaled, dot_chunk, for_chunks, for_chunks_sum, norm};
+
+/// A vector is orthogonalised again when less than this fraction of its norm remains.
+const CANCELLED: f64 = 0.1;
+/// The estimated residual is driven this far below the tolerance, so that its rounding does not
+/// cost another cycle.
+const MARGIN: f64 = 0.98;
+
+/// The linear operator of the system, in double precision.
+pub(crate) trait Operator: Sync {
+    /// `y = K x`.
+    fn apply<X: Real>(&self, x: &[X], y: &mut [f64]);
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    pub(crate) tolerance: f64,
+    pub(crate) max_iterations: usize,
+    pub(crate) restart: usize,
+}
+
+/// Krylov basis and its preconditioned images, kept between solves.
+#[derive(Default)]
+pub(crate) struct KrylovSpace {
+    basis: Vec<Vec<Work>>,
+    preconditioned: Vec<Vec<Work>>,
+    vector: Vec<f64>,
+}
+
+/// Solves `K x = b` from `x`; returns the relative residual before every iteration and after the
+/// last. The last entry is the true residual, the others are those of the recurrence.
+pub(crate) fn fgmres<K: Operator>(
+    operator: &K,
+    mut precondition: impl FnMut(&[Work], &mut Vec<Work>),
+    b: &[f64],
+    x: &mut [f64],
+    limits: Limits,
+    space: &mut KrylovSpace,
+) -> Result<Vec<f64>, SolveError> {
+    let size = norm(b);
+    if size == 0.0 {
+        x.fill(0.0);
+        return Ok(vec![0.0]);
+    }
+    space.vector.resize(b.len(), 0.0);
+    let mut history = Vec::new();
+    loop {
+        let residual = true_residual(operator, b, x, &mut space.vector);
+        history.pop();
+        history.push(residual / size);
+        let iterations = history.len() - 1;
+        if residual <= limits.tolerance * size {
+            return Ok(history);
+        }
+        let overflow = |after: usize, residual: f64| SolveError::Overflow {
+            iteration: after + 1,
+            residual: residual / size,
+        };
+        if !residual.is_finite() {
+            return Err(overflow(iterations, residual));
+        }
+        if iterations >= limits.max_iterations {
+            return Err(SolveError::NotConverged {
+                iterations,
+                residual: residual / size,
+                tolerance: limits.tolerance,
+            });
+        }
+        let steps = limits.restart.min(limits.max_iterations - iterations);
+        let target = MARGIN * limits.tolerance * size;
+        let mut least_squares = LeastSquares::new(residual);
+        normalise(&space.vector, residual, slot(&mut space.basis, 0));
+        for k in 0..steps {
+            let z = slot(&mut space.preconditioned, k);
+            precondition(&space.basis[k], z);
+            operator.apply(z, &mut space.vector);
+            let (column, remaining) = orthogonalise(&space.basis[..=k], &mut space.vector);
+            if !remaining.is_finite() {
+                return Err(overflow(iterations + k, least_squares.residual()));
+            }
+            least_squares.push(column, remaining);
+            history.push(least_squares.residual() / size);
+            if least_squares.residual() <= target || remaining == 0.0 {
+                break;
+            }
+            normalise(&space.vector, remaining, slot(&mut space.basis, k + 1));
+        }
+        for (z, y) in space.preconditioned.iter().zip(least_squares.solve()) {
+            add_scaled(x, y, z);
+        }
+    }
+}
+
+/// `out = b - K x`; returns its norm.
+fn true_residual<K: Operator>(operator: &K, b: &[f64], x: &[f64], out: &mut [f64]) -> f64 {
+    operator.apply(x, out);
+    let square = for_chunks_sum(out, |start, part| {
+        for (out, &b) in part.iter_mut().zip(&b[start..]) {
+            *out = b - *out;
+        }
+        dot_chunk(part, part)
+    });
+    square.sqrt()
+}
+
+/// Vector `index` of `vectors`, made if it does not exist yet.
+fn slot(vectors: &mut Vec<Vec<Work>>, index: usize) -> &mut Vec<Work> {
+    if vectors.len() <= index {
+        vectors.resize_with(index + 1, Vec::new);
+    }
+    &mut vectors[index]
+}
+
+fn normalise(vector: &[f64], length: f64, out: &mut Vec<Work>) {
+    out.resize(vector.len(), Work::default());
+    let factor = 1.0 / length;
+    for_chunks(out, |start, part| {
+        for (out, &v) in part.iter_mut().zip(&vector[start..]) {
+            *out = Work::nearest(factor * v);
+        }
+    });
+}
+
+/// Removes from `vector` its components along `basis` by classical Gram-Schmidt, twice where
+/// little is left; returns the components and the norm of the remainder.
+fn orthogonalise(basis: &[Vec<Work>], vector: &mut [f64]) -> (Vec<f64>, f64) {
+    let before = norm(vector);
+    let mut column = components(basis, vector);
+    let mut remaining = subtract(basis, &column, vector);
+    if remaining < CANCELLED * before {
+        let again = components(basis, vector);
+        remaining = subtract(basis, &again, vector);
+        for (total, more) in column.iter_mut().zip(again) {
+            *total += more;
+        }
+    }
+    (column, remaining)
+}
+
+/// `(v_j, vector)` for every basis vector, in one pass over `vector`.
+fn components(basis: &[Vec<Work>], vector: &[f64]) -> Vec<f64> {
+    let parts: Vec<Vec<f64>> = (vector.par_chunks(CHUNK).enumerate())
+        .map(|(chunk, part)| {
+            let range = chunk * CHUNK..chunk * CHUNK + part.len();
+            basis
+                .iter()
+                .map(|v| dot_chunk(&v[range.clone()], part))
+                .collect()
+        })
+        .collect();
+    let mut sums = vec![0.0; basis.len()];
+    for part in parts {
+        for (sum, value) in sums.iter_mut().zip(part) {
+            *sum += value;
+        }
+    }
+    sums
+}
+
+/// `vector -= sum_j column_j v_j`; returns the norm of the result.
+fn subtract(basis: &[Vec<Work>], column: &[f64], vector: &mut [f64]) -> f64 {
+    let square = for_chunks_sum(vector, |start, part| {
+        for (v, &h) in basis.iter().zip(column) {
+            for (out, &v) in part.iter_mut().zip(&v[start..]) {
+                *out -= h * f64::from(v);
+            }
+        }
+        dot_chunk(part, part)
+    });
+    square.sqrt()
+}
+
+/// The small least-squares problem `min |beta e_1 - H y|`, kept triangular by Givens rotations.
+struct LeastSquares {
+    /// Columns of the triangular factor.
+    columns: Vec<Vec<f64>>,
+    rotations: Vec<(f64, f64)>,
+    rhs: Vec<f64>,
+}
+
+impl LeastSquares {
+    fn new(beta: f64) -> Self {
+        Self {
+            columns: Vec::new(),
+            rotations: Vec::new(),
+            rhs: vec![beta],
+        }
+    }
+
+    /// Appends column `(h_0..h_k, below)` of the Hessenberg matrix.
+    fn push(&mut self, mut column: Vec<f64>, below: f64) {
+        for (i, &(cosine, sine)) in self.rotations.iter().enumerate() {
+            let (upper, lower) = (column[i], column[i + 1]);
+            column[i] = cosine * upper + sine * lower;
+            column[i + 1] = cosine * lower - sine * upper;
+        }
+        let k = self.rotations.len();
+        let length = column[k].hypot(below);
+        let (cosine, sine) = if length > 0.0 {
+            (column[k] / length, below / length)
+        } else {
+            (1.0, 0.0)
+        };
+        column[k] = length;
+        let last = self.rhs[k];
+        self.rhs[k] = cosine * last;
+        self.rhs.push(-sine * last);
+        self.rotations.push((cosine, sine));
+        self.columns.push(column);
+    }
+
+    /// Norm of the residual.
+    fn residual(&self) -> f64 {
+        self.rhs.last().map_or(0.0, |r| r.abs())
+    }
+
+    /// Coefficients of the minimiser; a direction without effect gets none.
+    fn solve(&self) -> Vec<f64> {
+        let n = self.columns.len();
+        let mut y = self.rhs[..n].to_vec();
+        for i in (0..n).rev() {
+            let pivot = self.columns[i][i];
+            y[i] = if pivot > 0.0 { y[i] / pivot } else { 0.0 };
+            for j in 0..i {
+                y[j] -= self.columns[i][j] * y[i];
+            }
+        }
+        y
+    }
+}

@@ -1,0 +1,102 @@
+//! Linear solver of the saddle-point systems of viscous flow on staggered grids.
+//!
+//! It solves `[A, -G^T; -G, -C] [u; p] = [b; -g]` for face velocities and cell pressures
+//! ([`SaddleSolver`]), the same with one more unknown, the speed of a body under a known force
+//! ([`Load`]), and the scalar Poisson problem `G W G^T + C` alone ([`Poisson`]).
+//! Matrices are assembled row by row with [`Csr::assemble`]. Every result is bit-identical for any
+//! number of threads: work is split into fixed ranges of rows, and sums are added in their order.
+
+mod amg;
+mod cause;
+mod chebyshev;
+mod csr;
+mod fgmres;
+mod load;
+mod packed;
+mod pcg;
+mod pockets;
+mod poisson;
+mod saddle;
+mod schur;
+mod system;
+mod vector;
+
+pub use cause::Cause;
+pub use csr::{Csr, RowEntries};
+pub use load::Load;
+pub use poisson::Poisson;
+pub use saddle::{SaddleOptions, SaddleReport, SaddleSolver};
+pub use system::SaddleSystem;
+pub use vector::Real;
+
+/// Why a linear system was not solved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SolveError {
+    /// Arrays that belong together differ in length.
+    #[error("{what}: {found} given, {expected} expected")]
+    Length {
+        /// Which array.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that fits.
+        expected: usize,
+    },
+    /// A matrix or diagonal is not of the kind described.
+    #[error("linear system: {0}")]
+    Matrix(String),
+    /// A right-hand side or a guess holds an infinity or is not a number.
+    #[error("linear system: right-hand side or guess is not finite at row {row}")]
+    NotFinite {
+        /// Its row.
+        row: usize,
+    },
+    /// The iteration did not reach its tolerance.
+    #[error(
+        "linear solver: relative residual {residual:.1e} after {iterations} iterations, \
+         {tolerance:.1e} wanted"
+    )]
+    NotConverged {
+        /// Iterations done.
+        iterations: usize,
+        /// Relative residual reached.
+        residual: f64,
+        /// Relative residual wanted.
+        tolerance: f64,
+    },
+    /// The iteration met numbers that are not finite.
+    #[error(
+        "linear solver: numbers beyond single precision in iteration {iteration}, from a \
+         relative residual of {residual:.1e}"
+    )]
+    Overflow {
+        /// The iteration, from 1.
+        iteration: usize,
+        /// Relative residual before it.
+        residual: f64,
+    },
+    /// [`SolveError::NotConverged`] or [`SolveError::Overflow`] with what is to blame.
+    #[error("{error}: {cause}")]
+    Unsolved {
+        /// How far the iteration came.
+        error: Box<SolveError>,
+        /// Its likely cause.
+        cause: Cause,
+    },
+}
+
+/// A residual this many times the tolerance is near enough to be used.
+pub const NEARLY: f64 = 10.0;
+
+/// Refuses a length that does not fit.
+fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), SolveError> {
+    if found == expected {
+        Ok(())
+    } else {
+        Err(SolveError::Length {
+            what,
+            found,
+            expected,
+        })
+    }
+}

@@ -1,0 +1,135 @@
+//! A body of unknown speed under a known force, as one more unknown of the coupled system.
+
+use crate::fgmres::Operator;
+use crate::saddle::BlockTriangular;
+use crate::vector::{Real, Work, add_scaled, dot, norm};
+use crate::{SaddleSystem, SolveError, check_length};
+
+/// How a body's speed V enters the system, and the force that is to act on it:
+/// `[A, -G^T, -m; -G, -C, s; -m^T, s^T, d] [u; p; V] = [b; -g; F]`, with b and g for V = 0.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Load {
+    /// m: momentum that unit speed drags into each face.
+    pub momentum: Vec<f64>,
+    /// s: volume that unit speed displaces in each cell.
+    pub source: Vec<f64>,
+    /// d: force per speed that the body feels with the liquid at rest and without pressure.
+    pub resistance: f64,
+    /// F: force wanted.
+    pub force: f64,
+}
+
+impl Load {
+    pub(crate) fn check(&self, system: &SaddleSystem) -> Result<(), SolveError> {
+        check_length(
+            "momenta of the load",
+            self.momentum.len(),
+            system.a.n_rows(),
+        )?;
+        check_length("sources of the load", self.source.len(), system.g.n_rows())?;
+        if !self.is_felt() {
+            return Err(SolveError::Matrix(
+                "a load on a body without resistance: its speed is unbounded".into(),
+            ));
+        }
+        if self.force > 0.0 && self.force.is_finite() && self.resistance >= 0.0 {
+            return Ok(());
+        }
+        Err(SolveError::Matrix(format!(
+            "a load of {} against a resistance of {}; the load must be positive and the resistance not \
+             negative",
+            self.force, self.resistance
+        )))
+    }
+
+    /// Whether the body's motion meets any resistance: a body that no liquid touches does not.
+    pub fn is_felt(&self) -> bool {
+        let acts = |values: &[f64]| values.iter().any(|v| *v != 0.0);
+        self.resistance != 0.0 || acts(&self.momentum) || acts(&self.source)
+    }
+
+    /// Factor of the force row that gives it the weight of the others: their right-hand side with
+    /// the body moving at `speed` over the force.
+    pub(crate) fn weight(&self, system: &SaddleSystem, speed: f64) -> f64 {
+        let sum = |known: &[f64], unit: &[f64]| {
+            let moving: Vec<f64> = (known.iter().zip(unit))
+                .map(|(known, unit)| known + speed * unit)
+                .collect();
+            norm(&moving)
+        };
+        let size = sum(system.b, &self.momentum).hypot(sum(system.volume_source, &self.source));
+        if size > 0.0 {
+            size / self.force
+        } else {
+            1.0 / self.force
+        }
+    }
+
+    /// The column of V without its last entry, times `weight`.
+    fn column(&self, weight: f64) -> Vec<Work> {
+        let momentum = self.momentum.iter().map(|m| Work::nearest(-weight * m));
+        momentum
+            .chain(self.source.iter().map(|s| Work::nearest(weight * s)))
+            .collect()
+    }
+}
+
+/// The system with the body's row and column, both scaled by a weight.
+pub(crate) struct LoadedOperator<'a, K> {
+    pub(crate) inner: &'a K,
+    pub(crate) load: &'a Load,
+    pub(crate) weight: f64,
+}
+
+impl<K: Operator> Operator for LoadedOperator<'_, K> {
+    fn apply<X: Real>(&self, x: &[X], y: &mut [f64]) {
+        let (load, weight) = (self.load, self.weight);
+        let (x, speed) = x.split_at(x.len() - 1);
+        let (y, force) = y.split_at_mut(y.len() - 1);
+        self.inner.apply(x, y);
+        let speed: f64 = speed[0].into();
+        let (y_u, y_p) = y.split_at_mut(load.momentum.len());
+        add_scaled(y_u, -weight * speed, &load.momentum);
+        add_scaled(y_p, weight * speed, &load.source);
+        let (u, p) = x.split_at(load.momentum.len());
+        force[0] = weight * (dot(&load.source, p) - dot(&load.momentum, u))
+            + weight * weight * load.resistance * speed;
+    }
+}
+
+/// The preconditioner M of the system without the body, bordered: with the column k of V and
+/// z = M^-1 k, V = (r_V - k^T M^-1 r)/(d - k^T z) and x = M^-1 r - V z.
+pub(crate) struct Bordered<'a> {
+    inner: BlockTriangular<'a>,
+    column: Vec<Work>,
+    response: Vec<Work>,
+    pivot: f64,
+}
+
+impl<'a> Bordered<'a> {
+    pub(crate) fn new(mut inner: BlockTriangular<'a>, load: &Load, weight: f64) -> Self {
+        let column = load.column(weight);
+        let mut response = Vec::new();
+        inner.apply(&column, &mut response);
+        // Positive for a preconditioner near enough to the system, which resists.
+        let pivot = weight * weight * load.resistance - dot(&column, &response);
+        Self {
+            inner,
+            column,
+            response,
+            pivot: pivot.abs().max(f64::MIN_POSITIVE),
+        }
+    }
+
+    pub(crate) fn inner(&self) -> &BlockTriangular<'a> {
+        &self.inner
+    }
+
+    pub(crate) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+        let (r, force) = r.split_at(r.len() - 1);
+        self.inner.apply(r, z);
+        let speed = (f64::from(force[0]) - dot(&self.column, z)) / self.pivot;
+        add_scaled(z, -speed, &self.response);
+        z.push(Work::nearest(speed));
+    }
+}

@@ -1,0 +1,262 @@
+//! Solution of the coupled velocity-pressure system.
+
+use std::time::{Duration, Instant};
+
+use crate::SolveError;
+use crate::cause::explained;
+use crate::chebyshev::Chebyshev;
+use crate::csr::Csr;
+use crate::fgmres::{KrylovSpace, Limits, Operator, fgmres};
+use crate::load::{Bordered, Load, LoadedOperator};
+use crate::schur::Schur;
+use crate::system::SaddleSystem;
+use crate::vector::{Real, Work, for_chunks};
+
+/// Settings of the solver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SaddleOptions {
+    /// Residual to reach, relative to the norm of the right-hand side.
+    pub tolerance: f64,
+    /// Iterations after which the solve fails.
+    pub max_iterations: usize,
+    /// Krylov vectors before a restart; memory is 8 bytes x unknowns x this.
+    pub restart: usize,
+    /// Degree of the Chebyshev polynomial that stands for `A^-1`.
+    pub chebyshev_degree: usize,
+    /// Its interval: largest over smallest eigenvalue of `D^-1 A` treated.
+    pub chebyshev_ratio: f64,
+    /// Conjugate gradient steps, each with a multigrid cycle, for the Poisson problem in the
+    /// pressure preconditioner.
+    pub inner_cycles: usize,
+}
+
+impl Default for SaddleOptions {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-3,
+            max_iterations: 200,
+            restart: 30,
+            chebyshev_degree: 20,
+            chebyshev_ratio: 320.0,
+            inner_cycles: 2,
+        }
+    }
+}
+
+/// What a solve did.
+#[derive(Clone, Debug)]
+pub struct SaddleReport {
+    /// Relative residual at the start and after every iteration.
+    pub history: Vec<f64>,
+    /// Multigrid cycles of all inner solves.
+    pub cycles: usize,
+    /// Upper bound of the eigenvalues of `D^-1 A` used.
+    pub eigenvalue_bound: f64,
+    /// Time to build the preconditioner.
+    pub setup: Duration,
+    /// Time of the iteration.
+    pub iteration: Duration,
+}
+
+impl SaddleReport {
+    /// Number of iterations.
+    pub fn iterations(&self) -> usize {
+        self.history.len().saturating_sub(1)
+    }
+
+    /// Relative residual reached.
+    pub fn residual(&self) -> f64 {
+        self.history.last().copied().unwrap_or(0.0)
+    }
+}
+
+/// Solver of [`SaddleSystem`]s; keeps its memory from one step to the next, nothing else.
+#[derive(Default)]
+pub struct SaddleSolver {
+    options: SaddleOptions,
+    space: KrylovSpace,
+}
+
+impl SaddleSolver {
+    /// A solver with given settings.
+    pub fn new(options: SaddleOptions) -> Self {
+        Self {
+            options,
+            space: KrylovSpace::default(),
+        }
+    }
+
+    /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per
+    /// cell), which take the solution. The preconditioner is block lower triangular: a Chebyshev
+    /// polynomial in `A` for the velocities, then friction Poisson solve plus local viscosity for
+    /// the pressures. Results do not depend on the number of threads.
+    ///
+    /// # Errors
+    /// [`SolveError::Length`] or [`SolveError::Matrix`] when the system is not as described,
+    /// [`SolveError::NotFinite`] for a right-hand side or guess that is not finite,
+    /// [`SolveError::NotConverged`] up to [`NEARLY`](super::NEARLY) times the tolerance, with the
+    /// best `u` and `p` found, and [`SolveError::Unsolved`] beyond it.
+    pub fn solve(
+        &mut self,
+        system: &SaddleSystem,
+        u: &mut [f64],
+        p: &mut [f64],
+    ) -> Result<SaddleReport, SolveError> {
+        system.check(u, p)?;
+        let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
+        let (limits, space) = (self.limits(), &mut self.space);
+        let (rhs, options) = (system.right_hand_side(), &self.options);
+        let report = prepared(system, options, |operator, mut preconditioner| {
+            let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
+            let result = fgmres(operator, precondition, &rhs, &mut x, limits, space);
+            (result, preconditioner.totals())
+        });
+        spread(&x, u, p);
+        report.map_err(|error| explained(error, system))
+    }
+
+    /// As [`SaddleSolver::solve`] with the speed of a body unknown and the force on it known;
+    /// `system` has it at rest. `speed` holds a guess and takes the solution.
+    ///
+    /// # Errors
+    /// As [`SaddleSolver::solve`].
+    pub fn solve_loaded(
+        &mut self,
+        system: &SaddleSystem,
+        load: &Load,
+        u: &mut [f64],
+        p: &mut [f64],
+        speed: &mut f64,
+    ) -> Result<SaddleReport, SolveError> {
+        system.check(u, p)?;
+        load.check(system)?;
+        let weight = load.weight(system, *speed);
+        let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
+        x.push(*speed / weight);
+        let mut rhs = system.right_hand_side();
+        rhs.push(weight * load.force);
+        let (limits, space, options) = (self.limits(), &mut self.space, &self.options);
+        let report = prepared(system, options, |inner, preconditioner| {
+            let operator = LoadedOperator {
+                inner,
+                load,
+                weight,
+            };
+            let mut bordered = Bordered::new(preconditioner, load, weight);
+            let precondition = |r: &[Work], z: &mut Vec<Work>| bordered.apply(r, z);
+            let result = fgmres(&operator, precondition, &rhs, &mut x, limits, space);
+            (result, bordered.inner().totals())
+        });
+        *speed = weight * x.pop().unwrap_or_default();
+        spread(&x, u, p);
+        report.map_err(|error| explained(error, system))
+    }
+
+    fn limits(&self) -> Limits {
+        Limits {
+            tolerance: self.options.tolerance,
+            max_iterations: self.options.max_iterations,
+            restart: self.options.restart.max(1),
+        }
+    }
+}
+
+/// Multigrid cycles and eigenvalue bound of a preconditioner.
+type Totals = (usize, f64);
+type Iterated = (Result<Vec<f64>, SolveError>, Totals);
+
+/// Runs `iterate` on the operator and the preconditioner of `system`, and reports on it.
+fn prepared(
+    system: &SaddleSystem,
+    options: &SaddleOptions,
+    iterate: impl FnOnce(&SaddleOperator, BlockTriangular) -> Iterated + Send,
+) -> Result<SaddleReport, SolveError> {
+    // On the thread pool throughout: its threads need not be woken for every product.
+    rayon::scope(|_| {
+        let started = Instant::now();
+        let operator = SaddleOperator {
+            system: *system,
+            g_transposed: system.g.transpose(),
+        };
+        let preconditioner = BlockTriangular::new(&operator, options)?;
+        let setup = started.elapsed();
+        let (result, (cycles, eigenvalue_bound)) = iterate(&operator, preconditioner);
+        Ok(SaddleReport {
+            history: result?,
+            cycles,
+            eigenvalue_bound,
+            setup,
+            iteration: started.elapsed() - setup,
+        })
+    })
+}
+
+fn spread(x: &[f64], u: &mut [f64], p: &mut [f64]) {
+    let (x_u, x_p) = x.split_at(u.len());
+    u.copy_from_slice(x_u);
+    p.copy_from_slice(x_p);
+}
+
+struct SaddleOperator<'a> {
+    system: SaddleSystem<'a>,
+    g_transposed: Csr<f64>,
+}
+
+impl Operator for SaddleOperator<'_> {
+    fn apply<X: Real>(&self, x: &[X], y: &mut [f64]) {
+        let (u, p) = x.split_at(self.system.a.n_rows());
+        let (y_u, y_p) = y.split_at_mut(u.len());
+        for_chunks(y_u, |start, part| {
+            for (i, y) in part.iter_mut().enumerate() {
+                *y = self.system.a.row_times_wide(start + i, u)
+                    - self.g_transposed.row_times_wide(start + i, p);
+            }
+        });
+        for_chunks(y_p, |start, part| {
+            for (i, y) in part.iter_mut().enumerate() {
+                let cell = start + i;
+                *y = -self.system.g.row_times_wide(cell, u) - self.system.c[cell] * p[cell].into();
+            }
+        });
+    }
+}
+
+/// `[Ahat, 0; -G, -Shat]^-1`.
+pub(crate) struct BlockTriangular<'a> {
+    g: &'a Csr<f64>,
+    chebyshev: Chebyshev,
+    schur: Schur,
+    residual: Vec<Work>,
+}
+
+impl<'a> BlockTriangular<'a> {
+    fn new(operator: &SaddleOperator<'a>, options: &SaddleOptions) -> Result<Self, SolveError> {
+        let system = operator.system;
+        Ok(Self {
+            g: system.g,
+            chebyshev: Chebyshev::new(system.a, options.chebyshev_degree, options.chebyshev_ratio)?,
+            schur: Schur::new(&system, &operator.g_transposed, options.inner_cycles)?,
+            residual: vec![Work::default(); system.g.n_rows()],
+        })
+    }
+
+    fn totals(&self) -> Totals {
+        (self.schur.cycles, self.chebyshev.bound())
+    }
+
+    /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`.
+    pub(crate) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+        let (r_u, r_p) = r.split_at(self.g.n_columns());
+        z.resize(r.len(), Work::default());
+        let (velocity, pressure) = z.split_at_mut(r_u.len());
+        self.chebyshev.apply(r_u, velocity);
+        let (g, velocity) = (self.g, &*velocity);
+        for_chunks(&mut self.residual, |start, part| {
+            for (i, out) in part.iter_mut().enumerate() {
+                let flux = g.row_times_wide(start + i, velocity);
+                *out = r_p[start + i] + Work::nearest(flux);
+            }
+        });
+        self.schur.apply_negative(&mut self.residual, pressure);
+    }
+}

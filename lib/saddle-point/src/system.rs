@@ -1,0 +1,70 @@
+//! The saddle-point system, and what is refused of one.
+
+use crate::csr::Csr;
+use crate::{SolveError, check_length};
+
+/// The saddle-point system `[A, -G^T; -G, -C] [u; p] = [b; -g]` and what its preconditioner needs.
+///
+/// All values are scaled alike, momentum rows by `1/eta_0` with lengths in cells and the pressure
+/// by `h/eta_0`, so that `A` and `G` have entries of order one.
+#[derive(Clone, Copy)]
+pub struct SaddleSystem<'a> {
+    /// Velocity block, faces x faces: mass, viscosity and wall friction. Symmetric positive
+    /// definite.
+    pub a: &'a Csr<f64>,
+    /// Flux operator, cells x faces.
+    pub g: &'a Csr<f64>,
+    /// Compressibility of every cell, not negative.
+    pub c: &'a [f64],
+    /// `D_B` of every face, positive: liquid volume times
+    /// `rho/dt + 12 eta/h^2 (1/H_1^2 + 1/H_2^2)` with the widths `H` from wall to wall. Walls
+    /// that slip count less, frictionless ones not at all: with their widths included the
+    /// iterations double.
+    pub friction: &'a [f64],
+    /// Twice the viscosity of every cell, not multiplied by its volume.
+    pub two_eta: &'a [f64],
+    /// Momentum right-hand side `b`, one per face.
+    pub b: &'a [f64],
+    /// Volume source `g`, one per cell: `G u + C p = g`.
+    pub volume_source: &'a [f64],
+}
+
+impl SaddleSystem<'_> {
+    /// `[b; -g]`.
+    pub(crate) fn right_hand_side(&self) -> Vec<f64> {
+        let sources = self.volume_source.iter().map(|g| -g);
+        self.b.iter().copied().chain(sources).collect()
+    }
+
+    /// Refuses lengths that do not fit, with those of the guess, and values that are not as described.
+    pub(crate) fn check(&self, u: &[f64], p: &[f64]) -> Result<(), SolveError> {
+        let (faces, cells) = (self.a.n_rows(), self.g.n_rows());
+        for (what, found, expected) in [
+            ("columns of the velocity block", self.a.n_columns(), faces),
+            ("columns of the flux operator", self.g.n_columns(), faces),
+            ("compressibilities", self.c.len(), cells),
+            ("face frictions", self.friction.len(), faces),
+            ("cell viscosities", self.two_eta.len(), cells),
+            ("momentum right-hand side", self.b.len(), faces),
+            ("volume sources", self.volume_source.len(), cells),
+            ("velocities", u.len(), faces),
+            ("pressures", p.len(), cells),
+        ] {
+            check_length(what, found, expected)?;
+        }
+        for values in [self.b, self.volume_source, u, p] {
+            if let Some(row) = values.iter().position(|v| !v.is_finite()) {
+                return Err(SolveError::NotFinite { row });
+            }
+        }
+        for (what, values) in [("friction", self.friction), ("viscosity", self.two_eta)] {
+            if let Some(at) = values.iter().position(|v| !(*v > 0.0 && v.is_finite())) {
+                return Err(SolveError::Matrix(format!(
+                    "{what} {} at index {at}; it must be positive and finite",
+                    values[at]
+                )));
+            }
+        }
+        Ok(())
+    }
+}

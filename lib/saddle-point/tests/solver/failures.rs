@@ -1,0 +1,120 @@
+//! Systems that are solved already or cannot be solved.
+
+use saddle_point::{Cause, Csr, SaddleOptions, SaddleSolver, SaddleSystem, SolveError};
+
+use crate::pseudo_wood::Problem;
+use crate::{SMALL, options, pockets, solve};
+
+#[test]
+fn the_solution_is_its_own_guess() {
+    let problem = Problem::new(&SMALL).unwrap();
+    let (mut u, mut p, _) = solve(&problem, 1e-6).unwrap();
+    let kept = u.clone();
+    let mut solver = SaddleSolver::new(options(2e-6));
+    let report = solver.solve(&problem.system(), &mut u, &mut p).unwrap();
+    assert_eq!(report.iterations(), 0);
+    assert_eq!(u, kept);
+}
+
+/// What a changed problem says after three iterations, and its cause.
+fn failure(change: fn(&mut Problem)) -> (SolveError, Cause) {
+    let mut problem = Problem::new(&SMALL).unwrap();
+    change(&mut problem);
+    let (mut u, mut p) = (vec![0.0; problem.b.len()], vec![0.0; problem.c.len()]);
+    let few = SaddleOptions {
+        max_iterations: 3,
+        ..options(1e-8)
+    };
+    match SaddleSolver::new(few).solve(&problem.system(), &mut u, &mut p) {
+        Err(SolveError::Unsolved { error, cause }) => (*error, cause),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn failures_are_reported() {
+    let problem = Problem::new(&SMALL).unwrap();
+    let (mut u, mut p) = (vec![0.0; problem.b.len()], vec![0.0; problem.c.len()]);
+    let (few, _) = failure(|_| ());
+    assert!(
+        matches!(few, SolveError::NotConverged { iterations: 3, residual, .. } if (1e-8..0.5).contains(&residual)),
+        "{few}"
+    );
+    let mut solver = SaddleSolver::new(options(1e-3));
+    let mut b = problem.b.clone();
+    b[7] = f64::NAN;
+    let system = SaddleSystem {
+        b: &b,
+        ..problem.system()
+    };
+    let error = solver.solve(&system, &mut u, &mut p).unwrap_err();
+    assert_eq!(error, SolveError::NotFinite { row: 7 });
+
+    let negative = Csr::assemble(problem.b.len(), problem.b.len(), |row, entries| {
+        entries.add(row, if row == 11 { -1.0 } else { 1.0 });
+    });
+    let system = SaddleSystem {
+        a: &negative.unwrap(),
+        ..problem.system()
+    };
+    let error = solver.solve(&system, &mut u, &mut p).unwrap_err();
+    assert!(error.to_string().contains("row 11"), "{error}");
+
+    let error = solver
+        .solve(&problem.system(), &mut u[1..], &mut p)
+        .unwrap_err();
+    assert!(matches!(
+        error,
+        SolveError::Length {
+            what: "velocities",
+            ..
+        }
+    ));
+}
+
+#[test]
+fn a_sealed_incompressible_pocket_fails_and_a_compressible_one_does_not() {
+    let (g, friction) = pockets(20, 20);
+    let a = Csr::assemble(40, 40, |row, entries| entries.add(row, 2.0)).unwrap();
+    let (b, source) = (vec![0.0; 40], vec![0.1; 40]);
+    let run = |c: f64| {
+        let (mut u, mut p) = (vec![0.0; 40], vec![0.0; 40]);
+        let system = SaddleSystem {
+            a: &a,
+            g: &g,
+            c: &[c; 40],
+            friction: &friction,
+            two_eta: &[2.0; 40],
+            b: &b,
+            volume_source: &source,
+        };
+        let result = SaddleSolver::new(options(1e-6)).solve(&system, &mut u, &mut p);
+        assert!(u.iter().chain(&p).all(|v| v.is_finite()));
+        result.map(|_| p)
+    };
+    let p = run(1e-4).unwrap();
+    let mean = p[..20].iter().sum::<f64>() / 20.0;
+    println!("pressure of the sealed pocket {mean:.1}, source over compressibility 1000");
+    assert!((mean / 1000.0 - 1.0).abs() < 1e-3);
+    let error = run(0.0).unwrap_err();
+    println!("{error}");
+    let SolveError::Unsolved { error, cause } = error else {
+        panic!("{error:?}");
+    };
+    assert!(matches!(*error, SolveError::NotConverged { residual, .. } if residual > 0.1));
+    assert_eq!(cause, Cause::Unbalanced { cells: 20 });
+}
+
+#[test]
+fn what_makes_a_system_unsolvable_is_named() {
+    let (beyond, _) = failure(|problem| problem.two_eta.fill(1e60));
+    assert!(
+        matches!(beyond, SolveError::Overflow { iteration: 1, .. }),
+        "{beyond}"
+    );
+    let (_, stiff) = failure(|problem| problem.c.fill(1e20));
+    assert!(matches!(stiff, Cause::Stiff { .. }), "{stiff}");
+    let (_, fast) = failure(|problem| problem.friction.fill(1e20));
+    assert!(matches!(fast, Cause::Inertial { .. }), "{fast}");
+    assert_eq!(failure(|_| ()).1, Cause::Unknown);
+}

@@ -1,0 +1,101 @@
+//! Iterations over sizes and materials; the same result by any number of threads.
+
+use crate::poisson::poisson;
+use crate::pseudo_wood::{Case, Problem};
+use crate::{MEDIUM, solve};
+
+#[test]
+fn iterations_do_not_grow_with_the_domain() {
+    let iterations = [[24, 40, 16], [32, 48, 48]].map(|cells| {
+        let problem = Problem::new(&Case { cells, ..MEDIUM }).unwrap();
+        let (_, p, report) = solve(&problem, 1e-4).unwrap();
+        println!(
+            "{} cells: {} iterations to 1e-4",
+            p.len(),
+            report.iterations()
+        );
+        assert!(report.residual() <= 1e-4);
+        report.iterations()
+    });
+    assert!(2 * iterations[1] <= 3 * iterations[0] && iterations[1] <= 24);
+}
+
+#[test]
+#[ignore = "a minute; 0.5 M cells"]
+fn iterations_do_not_grow_up_to_full_size() {
+    for (cells, gap) in [([64, 56, 64], 12), ([128, 56, 128], 19)] {
+        let problem = Problem::new(&Case {
+            cells,
+            gap,
+            ..MEDIUM
+        })
+        .unwrap();
+        let (_, p, report) = solve(&problem, 1e-4).unwrap();
+        println!(
+            "{} cells: {} iterations to 1e-4",
+            p.len(),
+            report.iterations()
+        );
+        assert!(report.iterations() <= 26);
+    }
+}
+
+#[test]
+fn materials_walls_and_slivers() {
+    let cases: [(_, fn(&mut Case), _); 10] = [
+        ("PF", |_| (), 30),
+        ("viscosity 1e-3", |c| c.viscosity = 1e-3, 24),
+        ("viscosity 1e3", |c| c.viscosity = 1e3, 24),
+        ("contrast 210", |c| c.contrast = 210.0, 36),
+        ("bulk modulus 1e7", |c| c.bulk_modulus = 1e7, 24),
+        ("bulk modulus 1e10", |c| c.bulk_modulus = 1e10, 36),
+        ("incompressible", |c| c.bulk_modulus = f64::INFINITY, 36),
+        ("frictionless", |c| c.friction = false, 40),
+        ("slivers 0.02", |c| c.sliver = 0.02, 40),
+        (
+            "slivers, contrast",
+            |c| (c.sliver, c.contrast, c.viscosity) = (0.02, 210.0, 1e2),
+            75,
+        ),
+    ];
+    for (name, change, most) in cases {
+        let mut case = MEDIUM;
+        change(&mut case);
+        let (_, _, report) = solve(&Problem::new(&case).unwrap(), 1e-6).unwrap();
+        println!("{name}: {} iterations to 1e-6", report.iterations());
+        assert!(
+            report.iterations() <= most,
+            "{name}: {} > {most}",
+            report.iterations()
+        );
+    }
+}
+
+#[test]
+fn identical_for_any_number_of_threads() {
+    let problem = Problem::new(&Case {
+        contrast: 10.0,
+        ..MEDIUM
+    })
+    .unwrap();
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            let (u, p, report) = solve(&problem, 1e-4).unwrap();
+            let poisson = poisson(&problem, &problem.c);
+            let mut psi = Vec::new();
+            poisson
+                .solve(&problem.volume_source, &mut psi, 1e-6, 100)
+                .unwrap();
+            (u, p, psi, report.history)
+        })
+    };
+    let one = with(1);
+    assert!(one.0.len() > 3 * (1 << 14), "too small to be split");
+    for threads in [2, 3] {
+        assert!(one == with(threads), "{threads} threads differ");
+    }
+}
