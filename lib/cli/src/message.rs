@@ -75,10 +75,10 @@ pub fn harmless(text: &str) -> Cow<'_, str> {
 
 /// A name as a cell of a CSV table. One that a spreadsheet would take for a formula, because it
 /// begins with `=`, `+`, `-` or `@`, stands behind an apostrophe, and so does one that begins
-/// with an apostrophe: without the first apostrophe it is the name again. Control characters
-/// are written as in messages.
+/// with an apostrophe: without the first apostrophe it is the name again. `-` alone, standard
+/// input, is no formula. Control characters are written as in messages.
 pub fn cell(name: &str) -> Cow<'_, str> {
-    match name.starts_with(['=', '+', '-', '@', '\'', '\t']) {
+    match name != "-" && name.starts_with(['=', '+', '-', '@', '\'', '\t']) {
         true => format!("'{}", harmless(name)).into(),
         false => harmless(name),
     }
@@ -95,6 +95,7 @@ mod tests {
             assert_eq!(cell.strip_prefix('\'').unwrap_or(&cell), name);
             assert!(!cell.starts_with(['=', '+', '-', '@']));
         }
+        assert_eq!(cell("-"), "-");
     }
 
     #[test]

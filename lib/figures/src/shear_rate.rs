@@ -76,8 +76,8 @@ impl ShearRates {
     }
 
     fn key(&self, drawing: &mut Drawing) {
-        let y = 20.0;
-        let mut x = LEFT;
+        // From the edge of the figure: from the axis on, it would not fit above a single panel.
+        let (mut x, y) = (24.0, 20.0);
         for (_, _, name, opacity) in BANDS {
             let swatch = vec![
                 [x, y - 7.0],
@@ -89,7 +89,6 @@ impl ShearRates {
             drawing.text(name, [x + 32.0, y], Anchor::Left, SMALL);
             x += 122.0;
         }
-        // The last band's entry leaves room for two lines in a panel of one.
         for (name, width, dashed) in [("median", 3.0, false), ("max", 1.4, true)] {
             let points = [[x, y], [x + 20.0, y]];
             if dashed {

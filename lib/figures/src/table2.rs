@@ -147,9 +147,14 @@ impl Table2 {
 
     /// The table for reading, with a heading.
     pub fn to_text(&self) -> String {
-        let mut text = String::from(
-            "Weighted penetration (um)        this specimen                   paper (another specimen)\n\
-             adhesive  case               bottom     top   total    slab   bottom     top   total\n",
+        let longest = self.rows.iter().map(|row| row.case.chars().count());
+        let wide = longest.max().unwrap_or(0).max(16) + 1;
+        let mut text = format!(
+            "{:<w$}this specimen                   paper (another specimen)\n\
+             adhesive  {:<wide$}  bottom     top   total    slab   bottom     top   total\n",
+            "Weighted penetration (um)",
+            "case",
+            w = wide + 16
         );
         for row in &self.rows {
             let number = |wp: f64| {
@@ -161,7 +166,7 @@ impl Table2 {
             };
             let ours: String = row.wp.into_iter().chain([row.slab]).map(number).collect();
             let paper: String = row.paper_wp().map(number).concat();
-            text += &format!("{:<9} {:<17}{ours} {paper}\n", row.adhesive, row.case);
+            text += &format!("{:<9} {:<wide$}{ours} {paper}\n", row.adhesive, row.case);
         }
         text + "slab: the unpenetrated slab of the same volume, t/sqrt(12)\n"
     }

@@ -24,17 +24,19 @@ const VERSION: &str = if cfg!(feature = "double") {
   mpm-run pf-xpic.toml --particles bond.mpts --explain
   mpm-run pf-xpic.toml --particles bond.mpts -o runs/pf-xpic --resume
 
-The run folder is marked by bondline-run.toml and held while a run is on. Written in it: resolved.toml,
-history.csv, snapshots/NNNN.mpts, checkpoint.mpts, summary.json and, last, final.mpts. Only these are ever
-replaced, where they prove to be a run's own; other files are left alone, or refused where they are in the way.
+The run folder is marked by bondline-run.toml and held while a run is on. Written in it: \
+resolved.toml, history.csv, snapshots/NNNN.mpts, checkpoint.mpts, summary.json and, last, \
+final.mpts. Only these are ever replaced, where they prove to be a run's own; other files are \
+left alone, or refused where they are in the way.
 
-Keys of the explicit scheme that are not the paper's, off unless given (docs/results/explicit-options.md):
-  integrator.pressure = \"cell-mean\"            pressure from the mean volume ratio of each cell
-  integrator.density_projection = \"0.04 cell\"  points evened out after that much motion
-  contact.separation = \"0.8 cell\"              how near liquid and wall touch at a node
+Keys of the explicit scheme that are not the paper's, off unless given \
+(docs/results/explicit-options.md):
+  integrator.pressure = \"cell-mean\"            pressure from the mean of a cell
+  integrator.density_projection = \"0.04 cell\"  points evened out after that way
+  contact.separation = \"0.8 cell\"              how near liquid and wall touch
 
-Exit status: 0 ok, the results are sound; 1 the run failed (unstable, not sound, cannot write); 2 usage or case file;
-3 unreadable or corrupt data; 75 stopped early, continue with --resume."
+Exit status: 0 ok, the results are sound; 1 the run failed (unstable, not sound, cannot write); \
+2 usage or case file; 3 unreadable or corrupt data; 75 stopped early, continue with --resume."
 )]
 struct Arguments {
     /// Case file (TOML)

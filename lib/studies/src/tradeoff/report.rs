@@ -186,7 +186,9 @@ fn front(out: &mut String, rows: &[Row]) {
 }
 
 fn failed(out: &mut String, rows: &[Row]) {
-    out.push_str("\n## Failed\n\n");
+    if rows.iter().any(|r| r.failed.is_some()) {
+        out.push_str("\n## Failed\n\n");
+    }
     for r in rows {
         if let Some(said) = &r.failed {
             let flow = r.flow.name();
