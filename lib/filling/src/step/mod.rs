@@ -188,7 +188,7 @@ impl Implicit {
         state.drive.observe(top, dt);
         state.steps += 1;
         state.power = solution.power;
-        state.rates = Rates::Of(flow);
+        state.rates = Rates::Of(Box::new(flow));
         StepReport {
             dt_s: dt,
             closing_speed: solution.speed,

@@ -26,7 +26,7 @@ pub(super) enum Rates {
     /// Nothing has moved yet.
     Zero,
     /// Velocity in the last step.
-    Of(Flow),
+    Of(Box<Flow>),
     /// Those of a restored state, 1/s.
     Restored(Vec<f32>),
 }
