@@ -1,6 +1,7 @@
 """A piston presses liquid into a slit: Stokes flow behind a tracked front.
 
-`run` writes one refinement, `report` compares several and writes the reference. See README.md.
+`run` writes one refinement, `report` compares several and writes the reference, `static` is the
+limit of a flat front. See README.md.
 """
 
 import argparse
@@ -108,6 +109,18 @@ def run(options):
     np.savetxt(options.out, rows, fmt="%.5f", delimiter=",", header=HEAD, comments="")
 
 
+def static(options):
+    """Pressure and force in front of 3.5 filled widths: front flat, piston two widths off."""
+    for k in [1, 2, 4]:
+        front = np.stack([np.linspace(0, 0.5, 10 * k + 1), np.full(10 * k + 1, 3.5)], 1)
+        size = dict(entrance=0.02, contact=0.02, seal=1 / 96, far=0.1, front=0.05)
+        mesh = Mesh(2.0, front, {name: s / k for name, s in size.items()})
+        none = np.zeros(len(mesh.corners))
+        for sides in ["stick", "mirror"]:
+            _, p, force, _ = stokes(mesh, sides, 0.0, none)
+            print(k, len(mesh.t), sides, f"middle pressure {middle(mesh, p, 2.0):.5f} force {force:.5f}")
+
+
 class Curve:
     """A run's columns, smooth: its contact line moves by jumps, two steps apart."""
 
@@ -168,6 +181,7 @@ def main():
     one.add_argument("--touch", type=float, default=0.001, help="distance at which liquid touches a wall")
     one.add_argument("--contact", type=float, default=0.015, help="elements at the contact line")
     one.add_argument("out")
+    jobs.add_parser("static", help="a filled slit with a flat front").set_defaults(job=static)
     many = jobs.add_parser("report", help="compare runs, write the reference")
     many.set_defaults(job=report)
     many.add_argument("runs", help="folder of runs")
