@@ -24,7 +24,7 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
     ),
     (
         "slit",
-        "A piston presses liquid into a slit\n\nForce on the piston at four filled lengths against a 24-cell run of the implicit scheme's own prototype, of which only the static limit was confirmed from outside (methods.md section 5); density is the volume of the points in the reservoir over the room there, minus one.\n\n![Force over filled length, 6 cells, walls on the nodes](verification-slit.png)",
+        "A piston presses liquid into a slit\n\nForce on the piston at four filled lengths against finite elements behind a tracked front (lib/studies/reference), the piston's corners as sharp as a cell; density is the volume of the points in the reservoir over the room there, minus one.\n\n![Force over filled length, 6 cells, walls on the nodes](verification-slit.png)",
     ),
     (
         "piston",
@@ -32,7 +32,7 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
     ),
     (
         "washburn",
-        "Filling a slit at constant pressure\n\nTime to five widths against a 24-cell run of the implicit scheme's own prototype, of which only the static limit was confirmed from outside (methods.md section 5); the error of L(t) is half that of the time.",
+        "Filling a slit at constant pressure\n\nTime to five widths against finite elements behind a tracked front (lib/studies/reference), the piston's corners as sharp as a cell; the error of L(t) is half that of the time.",
     ),
     (
         "washburn3d",

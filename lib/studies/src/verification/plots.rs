@@ -119,5 +119,5 @@ fn slit_forces(runs: &[(&str, Run)]) -> Result<Plot, String> {
             rows.into_iter().filter(|p| p[0] > 0.2).collect(),
         );
     }
-    Ok(plot.with("24-cell prototype", Mark::Dots, slit::reference()))
+    Ok(plot.with("finite elements", Mark::Dots, slit::reference(6)))
 }

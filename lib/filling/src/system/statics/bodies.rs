@@ -68,7 +68,7 @@ fn couette_slip_velocity() {
 
 /// Mean pressure at depth y = 0.25 H over the middle half of a reservoir 4 H wide and 2 H deep
 /// that a piston empties at unit speed into a slit of width H filled to `length` H, over
-/// 12 eta V_s/H: an independent Taylor-Hood solution gives length + 0.343 (3.843 at 3.5 H).
+/// 12 eta V_s/H: Taylor-Hood elements (lib/studies/reference) give length + 0.343 (3.843 at 3.5 H).
 fn slit_pressure(n: usize, length: f64, offset: f64) -> f64 {
     let h = n as f64;
     let (x0, top) = (1.0 + offset, 1.0 + 2.0 * h);
