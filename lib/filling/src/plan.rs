@@ -95,7 +95,7 @@ fn stages(scene: &Scene) -> Stages {
         .and("density projection", None)
         .and(
             "shear rate of points between snapshots",
-            Some("known where a state is written, and in cells before".into()),
+            Some("known where a state is written".into()),
         )
 }
 

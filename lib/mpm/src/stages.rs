@@ -19,29 +19,14 @@ pub(crate) fn stages(scene: &Scene, settings: &Settings) -> Stages {
         VelocityUpdate::Xpic(_) | VelocityUpdate::Fmpm(_) => Some("order 1 is plain PIC".into()),
         _ => Some("only xpic and fmpm pass velocities between points and nodes again".into()),
     };
+    let no_field = settings.velocity_update != VelocityUpdate::Apic;
+    let own_pressure = settings.pressure == PressureFrom::Point;
+    let no_projection = settings.density_projection.is_none();
     Stages::of(scene)
         .and(FILTER, filter)
-        .and(
-            AFFINE,
-            absent(
-                settings.velocity_update != VelocityUpdate::Apic,
-                "only points of apic carry one",
-            ),
-        )
-        .and(
-            CELL_MEAN,
-            absent(
-                settings.pressure == PressureFrom::Point,
-                "pressure = \"point\": each point's own",
-            ),
-        )
-        .and(
-            PROJECTION,
-            absent(
-                settings.density_projection.is_none(),
-                "no density_projection",
-            ),
-        )
+        .and(AFFINE, absent(no_field, "only points of apic carry one"))
+        .and(CELL_MEAN, absent(own_pressure, "each point has its own"))
+        .and(PROJECTION, absent(no_projection, "no density_projection"))
         .and("shear rate of points", None)
 }
 

@@ -2,9 +2,11 @@
 
 use physics::{Amount, PidControl, Scene, Viscosity};
 
+use crate::collide::Obstacle;
 use crate::contact::separation_limit;
 use crate::density::Projection;
 use crate::explicit::{Corrections, Explicit, State};
+use crate::fields::point::VOLUME;
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::Lattice;
 use crate::material::{Constant, Segments, Stress};
@@ -79,66 +81,58 @@ impl Explicit {
 
     /// The scene's points with their nearest nodes.
     fn initial_points(&self, scene: &Scene) -> Result<Vec<([i32; 3], Point)>, String> {
-        let lattice = &self.grid.lattice;
-        let (cell, min) = (scene.grid.cell_m, scene.grid.min_m);
+        let here = &self.state.displacement;
+        let rest = self.obstacles(here, here, &vec![[0.0; 3]; scene.bodies.len()]);
+        let ids = 0..scene.points.position.len();
+        ids.map(|id| self.initial_point(scene, id, &rest)).collect()
+    }
+
+    fn initial_point(
+        &self,
+        scene: &Scene,
+        id: usize,
+        rest: &[Obstacle],
+    ) -> Result<([i32; 3], Point), String> {
+        let (lattice, cell) = (&self.grid.lattice, scene.grid.cell_m);
         let axes = lattice.axes();
-        let rest = self.obstacles(
-            &self.state.displacement,
-            &self.state.displacement,
-            &vec![[0.0; 3]; scene.bodies.len()],
-        );
-        let mut points = Vec::with_capacity(scene.points.position.len());
         let liquid = &scene.points;
-        for (id, ((x, v), volume)) in liquid
-            .position
-            .iter()
-            .zip(&liquid.velocity)
-            .zip(&liquid.volume)
-            .enumerate()
-        {
-            let mut node = [0; 3];
-            let mut place = Lanes4([0.0, 0.0, 0.0, (volume / cell.powi(3)) as Real]);
-            for a in 0..3 {
-                let at = (x[a] - min[a]) / cell;
-                if !(0.0..=scene.grid.cells[a] as f64).contains(&at) {
-                    return Err(format!(
-                        "liquid point {id} at {x:?} m lies outside the grid, which ends at {:?} m",
-                        scene.grid.max_m()
-                    ));
-                }
-                node[a] = if a < axes { at.round() as i32 } else { 0 };
-                place.0[a] = (at - f64::from(node[a])) as Real;
-            }
-            if let Some(b) = rest.iter().position(|body| {
-                body.parts
-                    .iter()
-                    .any(|part| part.contains(node, &place, &body.to, lattice))
-            }) {
+        let (x, v) = (liquid.position[id], liquid.velocity[id]);
+        let (mut node, mut place, mut motion) = ([0; 3], Lanes4::ZERO, Lanes4::ZERO);
+        place.0[VOLUME] = (liquid.volume[id] / cell.powi(3)) as Real;
+        for a in 0..3 {
+            let at = (x[a] - scene.grid.min_m[a]) / cell;
+            if !(0.0..=scene.grid.cells[a] as f64).contains(&at) {
                 return Err(format!(
-                    "liquid point {id} at {x:?} m lies inside the rigid body '{}'",
-                    scene.bodies[b].name
+                    "liquid point {id} at {x:?} m lies outside the grid, which ends at {:?} m",
+                    scene.grid.max_m()
                 ));
             }
-            let Some(folded) = lattice.fold(node) else {
-                return Err(format!(
-                    "liquid point {id} at {x:?} m is on no node of the grid"
-                ));
-            };
-            let motion = Lanes4([
-                v[0] as Real,
-                v[1] as Real,
-                if axes == 3 { v[2] as Real } else { 0.0 },
-                0.0,
-            ]);
-            let point = Point {
-                id: id as u32,
-                place,
-                motion,
-                stress: Lanes8::ZERO,
-                affine: [Lanes4::ZERO; 3],
-            };
-            points.push((folded.node, point));
+            node[a] = if a < axes { at.round() as i32 } else { 0 };
+            place.0[a] = (at - f64::from(node[a])) as Real;
+            motion.0[a] = if a < axes { v[a] as Real } else { 0.0 };
         }
-        Ok(points)
+        let inside = |body: &Obstacle| {
+            let mut parts = body.parts.iter();
+            parts.any(|part| part.contains(node, &place, &body.to, lattice))
+        };
+        if let Some(b) = rest.iter().position(inside) {
+            return Err(format!(
+                "liquid point {id} at {x:?} m lies inside the rigid body '{}'",
+                scene.bodies[b].name
+            ));
+        }
+        let Some(folded) = lattice.fold(node) else {
+            return Err(format!(
+                "liquid point {id} at {x:?} m is on no node of the grid"
+            ));
+        };
+        let point = Point {
+            id: id as u32,
+            place,
+            motion,
+            stress: Lanes8::ZERO,
+            affine: [Lanes4::ZERO; 3],
+        };
+        Ok((folded.node, point))
     }
 }

@@ -1,6 +1,6 @@
 //! The stages of a step: which of them a run has, and why it does without the others.
 
-use crate::{Boundary, Dimensions, Scene, Viscosity, WallLaw};
+use crate::{Boundary, Choice, Dimensions, Scene, Viscosity, WallLaw};
 
 /// One stage of a step.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,47 +39,33 @@ impl Stages {
     /// The stages that every scheme has or not by its scene alone.
     pub fn of(scene: &Scene) -> Self {
         let absent = |absent: bool, why: &str| absent.then(|| why.to_owned());
-        let axes = match scene.dimensions {
-            Dimensions::Two => 2,
-            Dimensions::Three => 3,
+        let flat = scene.dimensions == Dimensions::Two;
+        let no_side = |kind: Boundary| {
+            let sides = &scene.boundary[..if flat { 2 } else { 3 }];
+            absent(!sides.contains(&kind), &format!("no {} side", kind.name()))
         };
-        let sides = |kind: Boundary| scene.boundary[..axes].contains(&kind);
         let no_body = absent(scene.bodies.is_empty(), "the scene has no rigid body");
-        let no_friction = absent(
-            scene.wall == WallLaw::Frictionless,
-            "frictionless walls (k = 0)",
-        );
+        let frictionless = scene.wall == WallLaw::Frictionless;
+        let no_friction = absent(frictionless, "frictionless walls (k = 0)");
         let no_table = match &scene.liquid.viscosity {
             Viscosity::Newtonian(law) => Some(format!("Newtonian liquid, {} Pa s", law.0)),
             Viscosity::Table(_) => None,
         };
+        let no_force = absent(scene.gravity == [0.0; 3], "no [gravity]");
         let no_clamp = absent(scene.clamp.is_none(), "no [clamp]");
-        let no_limit = absent(
-            scene.clamp.is_none_or(|clamp| clamp.max_pressure.is_none()),
-            "constant closing speed: no max_pressure",
-        );
+        let unlimited = scene.clamp.is_none_or(|clamp| clamp.max_pressure.is_none());
+        let no_limit = absent(unlimited, "constant closing speed: no max_pressure");
+        let no_depth = absent(flat, "plane strain: one layer of cells, no z velocity");
         Self::default()
-            .and(
-                Self::THIRD_DIMENSION,
-                absent(axes == 2, "plane strain: one layer of cells, no z velocity"),
-            )
+            .and(Self::THIRD_DIMENSION, no_depth)
             .and(Self::CONTACT, no_body.clone())
             .and(Self::FRICTION, no_body.or(no_friction))
             .and(Self::TABLE, no_table)
-            .and(
-                Self::FORCE,
-                absent(scene.gravity == [0.0; 3], "no [gravity]"),
-            )
+            .and(Self::FORCE, no_force)
             .and(Self::CLAMP, no_clamp.clone())
             .and(Self::LOAD, no_clamp.or(no_limit))
-            .and(
-                Self::MIRRORS,
-                absent(!sides(Boundary::Symmetry), "no symmetry side"),
-            )
-            .and(
-                Self::PERIODIC,
-                absent(!sides(Boundary::Periodic), "no periodic side"),
-            )
+            .and(Self::MIRRORS, no_side(Boundary::Symmetry))
+            .and(Self::PERIODIC, no_side(Boundary::Periodic))
     }
 
     /// These and one more, with the reason if it is absent.

@@ -138,6 +138,8 @@ fn rows() -> impl Iterator<Item = Measured> {
 
 #[cfg(test)]
 mod tests {
+    use mpm::{PressureFrom, ShapeFunction, VelocityUpdate};
+
     use super::*;
 
     fn key(words: [&str; 6]) -> [String; 6] {
@@ -148,6 +150,11 @@ mod tests {
     fn every_line_of_the_table_is_a_row_with_the_slit_measured_or_failed() {
         assert_eq!(rows().count(), TABLE.lines().count() - 1);
         assert!(rows().any(|row| row.errors[0].is_some()));
+        for Measured { key, .. } in rows().filter(|row| row.key[0] == SchemeName::Explicit.name()) {
+            VelocityUpdate::named(&key[1]).unwrap();
+            ShapeFunction::named(&key[3]).unwrap();
+            PressureFrom::named(&key[4]).unwrap();
+        }
     }
 
     #[test]

@@ -176,6 +176,11 @@ impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
                 motion[p].0[a] = new;
                 shift[p].0[a] = self.dt_over_cell * travel;
             }
+            if !U::WHOLE {
+                // Nobody reads it: a lane that is in no result is left out of the sums above,
+                // whose vectors of eight then fall apart.
+                shift[p].0[node::ONE] = second.0[node::ONE];
+            }
         }
     }
 }

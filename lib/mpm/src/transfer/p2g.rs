@@ -71,33 +71,13 @@ impl<S: Shape, const D: usize, const AFFINE: bool> P2g<'_, S, D, AFFINE> {
             let weights = S::weights(d);
             let mass = d.0[VOLUME];
             let volume = mass * (1.0 + v.0[J]);
+            let affine = if AFFINE {
+                Some(&points.affine[p])
+            } else {
+                None
+            };
             let k = -self.dt_over_cell * volume;
-            let [xx, yy, zz, xy, xz, yz, ..] = stress[p].0;
-            let mut q = Lanes8([
-                mass,
-                mass * v.0[0],
-                mass * v.0[1],
-                mass * v.0[2],
-                0.0,
-                0.0,
-                0.0,
-                volume,
-            ]);
-            let mut flux = [
-                Lanes8([0.0, 0.0, 0.0, 0.0, k * xx, k * xy, k * xz, 0.0]),
-                Lanes8([0.0, 0.0, 0.0, 0.0, k * xy, k * yy, k * yz, 0.0]),
-                Lanes8([0.0, 0.0, 0.0, 0.0, k * xz, k * yz, k * zz, 0.0]),
-            ];
-            if AFFINE {
-                let affine = &points.affine[p];
-                for (a, f) in flux.iter_mut().enumerate().take(D) {
-                    for l in 0..3 {
-                        let c = mass * affine[a].0[l];
-                        q.0[sum::MOMENTUM + l] -= c * d.0[a];
-                        f.0[sum::MOMENTUM + l] = c;
-                    }
-                }
-            }
+            let (q, flux) = carried::<D>(d, v, volume, stress[p].scaled(k), affine);
             let nodes = &mut local[base..base + window(D)];
             for layer in 0..layers(D) {
                 let (top, side, along) = if D == 3 {
@@ -130,6 +110,37 @@ impl<S: Shape, const D: usize, const AFFINE: bool> P2g<'_, S, D, AFFINE> {
             }
         }
     }
+}
+
+/// What a point gives to the nodes, as in [`sum`]: the part that goes with the weights, and along each
+/// axis the part that goes with their slopes. `impulse` is -dt volume/cell times its stress.
+#[inline(always)]
+fn carried<const D: usize>(
+    d: Lanes4,
+    v: Lanes4,
+    volume: Real,
+    impulse: Lanes8,
+    affine: Option<&[Lanes4; 3]>,
+) -> (Lanes8, [Lanes8; 3]) {
+    let mass = d.0[VOLUME];
+    let [xx, yy, zz, xy, xz, yz, ..] = impulse.0;
+    let [px, py, pz] = [mass * v.0[0], mass * v.0[1], mass * v.0[2]];
+    let mut q = Lanes8([mass, px, py, pz, 0.0, 0.0, 0.0, volume]);
+    let mut flux = [
+        Lanes8([0.0, 0.0, 0.0, 0.0, xx, xy, xz, 0.0]),
+        Lanes8([0.0, 0.0, 0.0, 0.0, xy, yy, yz, 0.0]),
+        Lanes8([0.0, 0.0, 0.0, 0.0, xz, yz, zz, 0.0]),
+    ];
+    if let Some(affine) = affine {
+        for (a, f) in flux.iter_mut().enumerate().take(D) {
+            for l in 0..3 {
+                let c = mass * affine[a].0[l];
+                q.0[sum::MOMENTUM + l] -= c * d.0[a];
+                f.0[sum::MOMENTUM + l] = c;
+            }
+        }
+    }
+    (q, flux)
 }
 
 /// Adds the sums of [`wall_sum`]: mass-weighted position relative to each node, volume gradient.

@@ -87,23 +87,10 @@ impl Integrator {
     ) -> Vec<Slice> {
         let (origin, voxel) = (block.origin[axis] + shift, block.voxel[axis]);
         let count = block.solid.dims()[axis];
-        let mut slices = Vec::new();
         if axis == 2 && !self.lattice.three {
-            for index in 0..count {
-                let low = (origin + index as f64 * voxel).max(0.0);
-                let high = (origin + (index + 1) as f64 * voxel).min(1.0);
-                if high > low {
-                    let w = (high - low) as Real;
-                    slices.push(Slice {
-                        index,
-                        w,
-                        g: 0.0,
-                        m: 0.0,
-                    });
-                }
-            }
-            return slices;
+            return depth_slices(origin, voxel, count);
         }
+        let mut slices = Vec::new();
         let n = f64::from(self.lattice.cells[axis]);
         let x = f64::from(g);
         let boundary = self.lattice.boundary[axis];
@@ -144,4 +131,19 @@ impl Integrator {
         }
         slices
     }
+}
+
+/// Integrals over the voxels along the depth of plane strain, one cell, where the shape function is 1.
+fn depth_slices(origin: f64, voxel: f64, count: usize) -> Vec<Slice> {
+    let slice = |index: usize| {
+        let low = (origin + index as f64 * voxel).max(0.0);
+        let high = (origin + (index + 1) as f64 * voxel).min(1.0);
+        (high > low).then_some(Slice {
+            index,
+            w: (high - low) as Real,
+            g: 0.0,
+            m: 0.0,
+        })
+    };
+    (0..count).filter_map(slice).collect()
 }
