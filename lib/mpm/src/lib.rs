@@ -23,6 +23,7 @@ mod explicit;
 mod lanes;
 mod lattice;
 mod material;
+mod minimal;
 mod nodes;
 mod plan;
 mod real;
@@ -37,5 +38,6 @@ mod transfer;
 mod walls;
 
 pub use explicit::{Corrections, Explicit};
+pub use minimal::Minimal;
 pub use plan::{Limit, Plan};
 pub use settings::{PressureFrom, Settings, ShapeFunction, VelocityUpdate};

@@ -40,7 +40,7 @@ impl Stage {
 }
 
 /// Steps between checks of the whole state, which also renew the time step.
-const CHECK_EVERY: u64 = 64;
+pub(crate) const CHECK_EVERY: u64 = 64;
 /// Courant numbers of the two limits below which a point alone in its cells is stable with any
 /// shape but the hat: dt 2 nu q < 1 and 3 (c dt)^2 q < 2, q at most 28/3 per cell^2, the sum over
 /// nodes of slope^2 / weight of GIMP along an axis.
