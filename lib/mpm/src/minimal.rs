@@ -22,7 +22,7 @@ use crate::lattice::{EDGE, HALO};
 use crate::real::Real;
 use crate::simd::dispatch;
 use crate::step::CHECK_EVERY;
-use points::{Law, NodesToPoints, Point, PointsToNodes};
+use points::{Law, Moves, NodesToPoints, Point, PointsToNodes, Stresses};
 use tiles::{Block, Tile, Tiles};
 
 /// A drop in free flight.
@@ -94,12 +94,10 @@ impl Minimal {
         let (blocks, law) = (&self.blocks, &self.law);
         self.tiles.par_iter_mut().enumerate().for_each(|(t, tile)| {
             grid.gather(t, tile, blocks);
-            dispatch(NodesToPoints {
-                tile,
-                law,
-                dt: dt as Real,
-                dt_over_cell,
-            });
+            dispatch(NodesToPoints { tile, dt_over_cell });
+            let dt = dt as Real;
+            dispatch(Stresses { tile, law, dt });
+            dispatch(Moves(tile));
         });
         self.deliver()?;
         self.steps += 1;
@@ -121,10 +119,9 @@ impl Minimal {
             let [vx, vy, vz] = v.map(|v| v as Real);
             let point = Point {
                 id: id as u32,
-                window: 0,
                 place: Quad([x, y, z, mass]),
                 motion: Quad([vx, vy, vz, 0.0]),
-                stress: [0.0; 6],
+                stress: Oct::ZERO,
             };
             self.grid.insert(&mut self.tiles, node, point)?;
         }
@@ -146,14 +143,16 @@ impl Minimal {
     /// Renews the limit of the time step by the fastest and the most compressed point.
     fn check(&mut self) -> Result<(), Failure> {
         let (mut fastest, mut least): (f64, Real) = (0.0, 0.0);
-        for point in self.tiles.iter().flat_map(|tile| &tile.points) {
-            let [vx, vy, vz, j] = point.motion.0;
-            let square = f64::from(vx * vx + vy * vy + vz * vz);
-            if !(square + f64::from(j)).is_finite() {
-                return Err(Failure(format!("liquid point {} is unstable", point.id)));
+        for points in self.tiles.iter().map(|tile| &tile.points) {
+            for (motion, id) in points.motion.iter().zip(&points.id) {
+                let [vx, vy, vz, j] = motion.0;
+                let square = f64::from(vx * vx + vy * vy + vz * vz);
+                if !(square + f64::from(j)).is_finite() {
+                    return Err(Failure(format!("liquid point {id} is unstable")));
+                }
+                fastest = fastest.max(square);
+                least = least.min(j);
             }
-            fastest = fastest.max(square);
-            least = least.min(j);
         }
         self.limit_s = limit(&self.scene, fastest.sqrt(), f64::from(least));
         Ok(())
@@ -162,23 +161,24 @@ impl Minimal {
     /// The drop after the last step, its points in the scene's order; no shear rates.
     pub fn liquid(&self) -> LiquidState {
         let (cell, min) = (self.scene.grid.cell_m, self.scene.grid.min_m);
-        let mut points: Vec<(u32, [f64; 3], &Point)> = Vec::new();
+        let mut order: Vec<(u32, usize, usize)> = Vec::new();
         for (t, tile) in self.tiles.iter().enumerate() {
-            let origin = self.grid.origin(t);
-            points.extend(tile.points.iter().map(|point| {
-                let local = point.node();
-                let at = |a: usize| f64::from(origin[a] + local[a]) + f64::from(point.place.0[a]);
-                (point.id, std::array::from_fn(at), point)
-            }));
+            let ids = tile.points.id.iter().enumerate();
+            order.extend(ids.map(|(p, &id)| (id, t, p)));
         }
-        points.sort_unstable_by_key(|point| point.0);
+        order.sort_unstable();
         let density = self.scene.liquid.density as Real;
         let mut state = LiquidState::default();
-        for (_, at, point) in points {
-            let [vx, vy, vz, j] = point.motion.0;
-            let volume = f64::from(point.place.0[3]) * cell.powi(3) * (1.0 + f64::from(j));
-            let metres = std::array::from_fn(|a| (min[a] + at[a] * cell) as f32);
-            state.position.push(metres);
+        for (_, t, p) in order {
+            let (points, origin) = (&self.tiles[t].points, self.grid.origin(t));
+            let (node, place) = (points.node(p), points.place[p].0);
+            let metres = |a: usize| {
+                let offset = f64::from(origin[a] + node[a]) + f64::from(place[a]);
+                (min[a] + offset * cell) as f32
+            };
+            let [vx, vy, vz, j] = points.motion[p].0;
+            let volume = f64::from(place[3]) * cell.powi(3) * (1.0 + f64::from(j));
+            state.position.push(std::array::from_fn(metres));
             state.velocity.push([vx, vy, vz].map(|v| v as f32));
             state.volume.push(volume as f32);
             let pressure = self.law.pressure(j) * density;

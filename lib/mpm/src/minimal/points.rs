@@ -8,31 +8,85 @@ use crate::lattice::{EDGE, HALO};
 use crate::real::{Real, exp_m1};
 use crate::simd::Kernel;
 
-/// A material point.
+/// A material point on its way to another tile.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     pub(super) id: u32,
-    /// Where its 3 x 3 x 3 nodes begin in the halo of its tile.
-    pub(super) window: u32,
-    /// Offset from its nearest node, and mass.
     pub(super) place: Quad,
-    /// Velocity and j = J - 1.
     pub(super) motion: Quad,
-    /// xx yy zz xy xz yz.
-    pub(super) stress: [Real; 6],
+    pub(super) stress: Oct,
 }
 
-impl Point {
-    /// Its nearest node, from the lowest of its tile.
-    pub(super) fn node(&self) -> [i32; 3] {
-        let w = self.window as usize;
+/// The points of a tile in lists of equal length.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Points {
+    pub(super) id: Vec<u32>,
+    /// Where a point's 3 x 3 x 3 nodes begin in the halo of the tile.
+    window: Vec<u16>,
+    /// Offset from the nearest node, and mass.
+    pub(super) place: Vec<Quad>,
+    /// Velocity and j = J - 1.
+    pub(super) motion: Vec<Quad>,
+    /// xx yy zz xy xz yz, and two lanes not used.
+    stress: Vec<Oct>,
+    /// Displacement in this step.
+    shift: Vec<Quad>,
+    /// Derivatives of the velocity along x, y, z (m/s per cell).
+    gradient: Vec<[Quad; 3]>,
+}
+
+impl Points {
+    /// Adds a point with its nearest node, counted from the lowest of the tile.
+    pub(super) fn push(&mut self, node: [i32; 3], point: Point) {
+        self.id.push(point.id);
+        self.window.push(window(node));
+        self.place.push(point.place);
+        self.motion.push(point.motion);
+        self.stress.push(point.stress);
+        self.shift.push(Quad::ZERO);
+        self.gradient.push([Quad::ZERO; 3]);
+    }
+
+    /// Takes out point `p`; the last one takes its place.
+    fn swap_remove(&mut self, p: usize) -> Point {
+        self.window.swap_remove(p);
+        self.shift.swap_remove(p);
+        self.gradient.swap_remove(p);
+        Point {
+            id: self.id.swap_remove(p),
+            place: self.place.swap_remove(p),
+            motion: self.motion.swap_remove(p),
+            stress: self.stress.swap_remove(p),
+        }
+    }
+
+    /// The nearest node of point `p`, from the lowest of the tile.
+    pub(super) fn node(&self, p: usize) -> [i32; 3] {
+        let w = usize::from(self.window[p]);
         [w % HALO, w / HALO % HALO, w / (HALO * HALO)].map(|x| x as i32)
+    }
+
+    /// The same after it has moved, to which its offset then refers.
+    #[inline(never)]
+    fn find_node(&mut self, p: usize) -> [i32; 3] {
+        let mut node = self.node(p);
+        for (a, n) in node.iter_mut().enumerate() {
+            let d = &mut self.place[p].0[a];
+            if *d >= 0.5 {
+                *d -= 1.0;
+                *n += 1;
+            } else if *d < -0.5 {
+                *d += 1.0;
+                *n -= 1;
+            }
+        }
+        node
     }
 }
 
 /// Window of the node (x, y, z), each 0..4, of a tile.
-pub(super) fn window(node: [i32; 3]) -> u32 {
-    ((node[2] * HALO as i32 + node[1]) * HALO as i32 + node[0]) as u32
+fn window(node: [i32; 3]) -> u16 {
+    ((node[2] * HALO as i32 + node[1]) * HALO as i32 + node[0]) as u16
 }
 
 /// Halo entries from the first to the last node of a window, and from one layer to the next.
@@ -71,17 +125,20 @@ impl Kernel for PointsToNodes<'_> {
     fn run<const FMA: bool>(self) {
         let Tile { points, halo, .. } = self.tile;
         halo.fill(Oct::ZERO);
-        for point in points {
-            let (w, g) = gimp(point.place);
-            let ([.., mass], [vx, vy, vz, j]) = (point.place.0, point.motion.0);
+        let n = points.id.len();
+        let (places, motions) = (&points.place[..n], &points.motion[..n]);
+        let (stresses, windows) = (&points.stress[..n], &points.window[..n]);
+        for p in 0..n {
+            let (w, g) = gimp(places[p]);
+            let ([.., mass], [vx, vy, vz, j]) = (places[p].0, motions[p].0);
+            let [xx, yy, zz, xy, xz, yz, ..] = stresses[p].0;
             let volume = mass * (1.0 + j);
             let k = -self.dt_over_cell * volume;
-            let [xx, yy, zz, xy, xz, yz] = point.stress.map(|s| k * s);
             let sums = [mass, mass * vx, mass * vy, mass * vz, 0.0, 0.0, 0.0, volume];
-            let stress_x = Oct([0.0, 0.0, 0.0, 0.0, xx, xy, xz, 0.0]);
-            let stress_y = Oct([0.0, 0.0, 0.0, 0.0, xy, yy, yz, 0.0]);
-            let stress_z = Oct([0.0, 0.0, 0.0, 0.0, xz, yz, zz, 0.0]);
-            let window = point.window as usize;
+            let stress_x = Oct([0.0, 0.0, 0.0, 0.0, k * xx, k * xy, k * xz, 0.0]);
+            let stress_y = Oct([0.0, 0.0, 0.0, 0.0, k * xy, k * yy, k * yz, 0.0]);
+            let stress_z = Oct([0.0, 0.0, 0.0, 0.0, k * xz, k * yz, k * zz, 0.0]);
+            let window = usize::from(windows[p]);
             let nodes = &mut halo[window..window + WINDOW];
             // The weight of a node is a product over the axes: z, then y, then x.
             for layer in 0..3 {
@@ -104,13 +161,11 @@ impl Kernel for PointsToNodes<'_> {
     }
 }
 
-/// Steps 6 to 8: velocity, its gradient, j, stress and place of a tile's points. `halo` holds the
-/// velocities of the nodes.
+/// Step 6: velocity and displacement of a tile's points, and the gradient of velocity there; `halo`
+/// holds the velocities of the nodes. FLIP adds the nodes' change of velocity; the displacement is by
+/// their velocity in the middle of that change.
 pub(super) struct NodesToPoints<'a> {
     pub(super) tile: &'a mut Tile,
-    pub(super) law: &'a Law,
-    /// s.
-    pub(super) dt: Real,
     /// s/m.
     pub(super) dt_over_cell: Real,
 }
@@ -118,47 +173,36 @@ pub(super) struct NodesToPoints<'a> {
 impl Kernel for NodesToPoints<'_> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        let Tile {
-            points,
-            halo,
-            leaving,
-        } = self.tile;
-        let mut p = 0;
-        while p < points.len() {
-            let point = &mut points[p];
-            let (value, gradient) = gather::<FMA>(halo, point);
-            let [vx, vy, vz, weight, change @ .., _] = value.0;
-            // Divided by the sum of the weights as it was rounded.
-            let inverse = 1.0 / weight;
-            let plus = [vx * inverse, vy * inverse, vz * inverse];
-            for a in 0..3 {
-                point.motion.0[a] += change[a];
-                let travel = plus[a] - 0.5 * change[a];
-                point.place.0[a] += self.dt_over_cell * travel;
-            }
-            self.law.update(point, &gradient, self.dt);
-            let [x, y, z, _] = point.place.0;
-            if x.abs() < 0.5 && y.abs() < 0.5 && z.abs() < 0.5 {
-                p += 1;
-                continue;
-            }
-            let node = nearest_node(point);
-            if node.iter().all(|n| (0..EDGE as i32).contains(n)) {
-                point.window = window(node);
-                p += 1;
-            } else {
-                leaving.push((node, points.swap_remove(p)));
-            }
+        let Tile { points, halo, .. } = self.tile;
+        let n = points.id.len();
+        let (places, windows) = (&points.place[..n], &points.window[..n]);
+        let (motion, shift) = (&mut points.motion[..n], &mut points.shift[..n]);
+        let gradient = &mut points.gradient[..n];
+        for p in 0..n {
+            let window = usize::from(windows[p]);
+            let (value, slope) = gather::<FMA>(&halo[window..window + WINDOW], places[p]);
+            gradient[p] = slope.map(low);
+            // Over the sum of the weights as it was rounded.
+            let plus = low(value).scaled(1.0 / value.0[3]);
+            let [.., x, y, z, zero] = value.0;
+            let change = Quad([x, y, z, zero]);
+            motion[p] = motion[p].add_scaled::<false>(1.0, change);
+            let travel = plus.add_scaled::<false>(-0.5, change);
+            shift[p] = travel.scaled(self.dt_over_cell);
         }
     }
 }
 
+/// Lanes 0 to 3.
+#[inline(always)]
+fn low(x: Oct) -> Quad {
+    Quad([x.0[0], x.0[1], x.0[2], x.0[3]])
+}
+
 /// Nodal velocities at a point, and their derivatives along x, y, z (per cell).
 #[inline(always)]
-fn gather<const FMA: bool>(halo: &[Oct], point: &Point) -> (Oct, [Oct; 3]) {
-    let (w, g) = gimp(point.place);
-    let window = point.window as usize;
-    let nodes = &halo[window..window + WINDOW];
+fn gather<const FMA: bool>(nodes: &[Oct], place: Quad) -> (Oct, [Oct; 3]) {
+    let (w, g) = gimp(place);
     let (mut value, mut slope) = (Oct::ZERO, [Oct::ZERO; 3]);
     for layer in 0..3 {
         let (mut plane, mut plane_x, mut plane_y) = (Oct::ZERO, Oct::ZERO, Oct::ZERO);
@@ -180,23 +224,6 @@ fn gather<const FMA: bool>(halo: &[Oct], point: &Point) -> (Oct, [Oct; 3]) {
         slope[2] = slope[2].add_scaled::<FMA>(gz, plane);
     }
     (value, slope)
-}
-
-/// The nearest node of a point that has moved, from the lowest of its tile; its offset is then from there.
-#[inline]
-fn nearest_node(point: &mut Point) -> [i32; 3] {
-    let mut node = point.node();
-    for a in 0..3 {
-        let d = &mut point.place.0[a];
-        if *d >= 0.5 {
-            *d -= 1.0;
-            node[a] += 1;
-        } else if *d < -0.5 {
-            *d += 1.0;
-            node[a] -= 1;
-        }
-    }
-    node
 }
 
 /// The liquid's law (paper Eqs. 1 and 2), its constants over the density.
@@ -223,24 +250,73 @@ impl Law {
     pub(super) fn pressure(&self, j: Real) -> Real {
         self.stiffness * exp_m1(-j * (1.0 / TAIT_C) as Real)
     }
+}
 
-    /// Volume change and stress, 2 eta D' - p, of a point after a step of `dt` with the velocity
-    /// gradient of which `x`, `y`, `z` are the derivatives along the axes.
+/// Step 7: volume change and stress, 2 eta D' - p, of a tile's points.
+pub(super) struct Stresses<'a> {
+    pub(super) tile: &'a mut Tile,
+    pub(super) law: &'a Law,
+    /// s.
+    pub(super) dt: Real,
+}
+
+impl Kernel for Stresses<'_> {
     #[inline(always)]
-    fn update(&self, point: &mut Point, [x, y, z]: &[Oct; 3], dt: Real) {
-        let trace = (x.0[0] + y.0[1] + z.0[2]) * self.per_cell;
-        let j = &mut point.motion.0[3];
-        *j += (1.0 + *j) * (dt * trace);
-        let (k, p) = (2.0 * self.viscosity, self.pressure(*j));
-        let third = trace / 3.0;
-        let half = 0.5 * self.per_cell;
-        point.stress = [
-            k * (x.0[0] * self.per_cell - third) - p,
-            k * (y.0[1] * self.per_cell - third) - p,
-            k * (z.0[2] * self.per_cell - third) - p,
-            k * ((x.0[1] + y.0[0]) * half),
-            k * ((x.0[2] + z.0[0]) * half),
-            k * ((y.0[2] + z.0[1]) * half),
-        ];
+    fn run<const FMA: bool>(self) {
+        let Self { tile, law, dt } = self;
+        let points = &mut tile.points;
+        let n = points.id.len();
+        let gradient = &points.gradient[..n];
+        let (motion, stress) = (&mut points.motion[..n], &mut points.stress[..n]);
+        for p in 0..n {
+            let [x, y, z] = &gradient[p];
+            let trace = (x.0[0] + y.0[1] + z.0[2]) * law.per_cell;
+            let j = &mut motion[p].0[3];
+            *j += (1.0 + *j) * (dt * trace);
+            let (k, pressure) = (2.0 * law.viscosity, law.pressure(*j));
+            let third = trace / 3.0;
+            let half = 0.5 * law.per_cell;
+            stress[p].0 = [
+                k * (x.0[0] * law.per_cell - third) - pressure,
+                k * (y.0[1] * law.per_cell - third) - pressure,
+                k * (z.0[2] * law.per_cell - third) - pressure,
+                k * ((x.0[1] + y.0[0]) * half),
+                k * ((x.0[2] + z.0[0]) * half),
+                k * ((y.0[2] + z.0[1]) * half),
+                0.0,
+                0.0,
+            ];
+        }
+    }
+}
+
+/// Step 8: moves a tile's points, those that come nearest to another tile's node into `leaving`.
+pub(super) struct Moves<'a>(pub(super) &'a mut Tile);
+
+impl Kernel for Moves<'_> {
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let Tile {
+            points, leaving, ..
+        } = self.0;
+        let mut p = 0;
+        while p < points.id.len() {
+            let (shift, mut d) = (points.shift[p], points.place[p]);
+            for a in 0..3 {
+                d.0[a] += shift.0[a];
+            }
+            points.place[p] = d;
+            if d.0[0].abs() < 0.5 && d.0[1].abs() < 0.5 && d.0[2].abs() < 0.5 {
+                p += 1;
+                continue;
+            }
+            let node = points.find_node(p);
+            if node.iter().all(|n| (0..EDGE as i32).contains(n)) {
+                points.window[p] = window(node);
+                p += 1;
+            } else {
+                leaving.push((node, points.swap_remove(p)));
+            }
+        }
     }
 }

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use physics::Failure;
 
-use super::points::{Point, window};
+use super::points::{Point, Points};
 use super::{EDGE, HALO};
 use crate::lanes::Oct;
 
@@ -18,7 +18,7 @@ pub(super) type Block = [Oct; EDGE * EDGE * EDGE];
 /// Points, and the nodes that they reach.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tile {
-    pub(super) points: Vec<Point>,
+    pub(super) points: Points,
     /// Sums over the points, later velocities, of 6 x 6 x 6 nodes; empty before the first point.
     pub(super) halo: Vec<Oct>,
     /// Points that leave the tile, with their nearest nodes from its lowest one.
@@ -67,7 +67,7 @@ impl Tiles {
         &self,
         tiles: &mut [Tile],
         node: [i32; 3],
-        mut point: Point,
+        point: Point,
     ) -> Result<(), Failure> {
         let along = node.map(|n| n as usize / EDGE);
         if (0..3).any(|a| along[a] < 1 || along[a] + 1 >= self.counts[a]) {
@@ -79,8 +79,7 @@ impl Tiles {
         let steps = self.steps();
         let tile = &mut tiles[(0..3).map(|a| along[a] * steps[a]).sum::<usize>()];
         tile.halo.resize(HALO * HALO * HALO, Oct::ZERO);
-        point.window = window(node.map(|n| n % EDGE as i32));
-        tile.points.push(point);
+        tile.points.push(node.map(|n| n % EDGE as i32), point);
         Ok(())
     }
 
@@ -99,7 +98,7 @@ impl Tiles {
         let mut sums = [Oct::ZERO; EDGE * EDGE * EDGE];
         for (t, d) in self.around(b) {
             let Tile { points, halo, .. } = &tiles[t];
-            if !points.is_empty() {
+            if !points.id.is_empty() {
                 each_row(d, |nodes, entries| {
                     for (sum, more) in sums[nodes].iter_mut().zip(&halo[entries]) {
                         *sum = sum.add_scaled::<false>(1.0, *more);
@@ -112,7 +111,7 @@ impl Tiles {
 
     /// Copies the velocities of the nodes around to the halo of tile `t`.
     pub(super) fn gather(&self, t: usize, tile: &mut Tile, blocks: &[Block]) {
-        if !tile.points.is_empty() {
+        if !tile.points.id.is_empty() {
             for (b, d) in self.around(t) {
                 // Seen from the block, the tile lies on the other side.
                 each_row(d.map(|d| 2 - d), |nodes, entries| {
@@ -125,6 +124,7 @@ impl Tiles {
 
 /// Rows of nodes along x that a block shares with the halo of a tile at `d` (0 below, 1 at the block
 /// itself, 2 above, along each axis): the nodes in the block, and the entries of the halo.
+#[inline(always)]
 fn each_row(d: [usize; 3], mut see: impl FnMut(Range<usize>, Range<usize>)) {
     /// First node in the block, first entry in the halo, how many.
     const SHARED: [[usize; 3]; 3] = [[0, EDGE + 1, 1], [0, 1, EDGE], [EDGE - 1, 0, 1]];
