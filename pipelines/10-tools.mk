@@ -27,7 +27,7 @@ test:
 # beside the repository, they run.
 SHARED_TESTS = @echo "left out: five tests, for ../shared/data is absent"
 ifneq ($(wildcard ../shared/data/*.tif),)
-SHARED_TESTS = $(CARGO) test --release -p voxels -p wp-metrics -p studies -- --ignored shared_data
+SHARED_TESTS = $(CARGO) test --release -p voxels -p wp-metrics -p tests -- --ignored shared_data
 endif
 
 .PHONY: man

@@ -1,47 +1,31 @@
 # Long studies; their results are committed under docs/results/.
 
-# Every verification scene by every method that applies, against closed forms. ONLY="slit
-# channel" runs those whose names contain one of the words and writes to out/results.
-.PHONY: verify
-verify: $(BINARIES)
-	@$(CARGO) build --release --quiet -p studies
-	$(BIN)/verify pipelines/cases/verification $(if $(ONLY),out/results,docs/results) $(ONLY)
+# verify        every verification scene by every method that applies, against closed forms
+# stability     stiff and extreme cases by both schemes: all end well, are refused or stop with a reason
+# options       what the options of the explicit scheme that are not the paper's change
+# load-control  the implicit scheme's clamp at a pressure limit: 5 pressures x 5 viscosities x 8 scenes at two
+#               Courant numbers; fails where a step breaks its Courant number or the closing is out of order
+# crash         runs killed, or denied the disk, at every call by which they change their folder, and two runs
+#               into one: all end as the run in one piece, or are refused. Needs `strace` and `prlimit`
+#
+# ONLY="slit channel" takes what has one of the words in its name and writes to out/results.
+STUDY = @$(BIN)/study $@ $(if $(ONLY),out/results,docs/results) $(ONLY)
+.PHONY: verify stability options load-control crash
+verify stability options load-control crash: $(BINARIES)
+	$(STUDY)
 
 # Error against CPU time over schemes, settings and precision. Also writes the errors that `mpm-run --explain`
 # quotes, which is compiled in: build again after it.
 .PHONY: tradeoff
 tradeoff: $(BINARIES)
-	@$(CARGO) build --release --quiet -p studies
 	@$(CARGO) build --release --quiet -p mpm-run --features double --target-dir target/double
-	$(BIN)/tradeoff docs/results lib/run/src/expected_error.csv target/double/release/mpm-run
+	$(STUDY)
 
 # Speed of the kernels and of the linear solver.
 .PHONY: bench
 bench:
 	$(CARGO) run --release --quiet -p mpm --example mpm_bench
 	$(CARGO) run --release --quiet -p filling --example solver_bench -- 1e-3 32,48,48,12 64,56,64,12
-
-# Stiff and extreme cases by both schemes: all end well, are refused or stop with a reason.
-.PHONY: stability
-stability: $(BINARIES)
-	@$(CARGO) build --release --quiet -p studies
-	@mkdir -p out/results
-	$(BIN)/stability scenes $(if $(ONLY),out/results,docs/results) $(ONLY)
-
-# What the options of the explicit scheme that are not the paper's change; prints the table.
-.PHONY: options
-options: $(BINARIES)
-	@$(CARGO) build --release --quiet -p studies
-	@mkdir -p out/results
-	$(BIN)/stability options $(if $(ONLY),out/results,docs/results) $(ONLY)
-
-# The implicit scheme's clamp at a pressure limit: 5 pressures x 5 viscosities x 8 scenes at two
-# Courant numbers; fails where a step breaks its Courant number or the closing is out of order.
-.PHONY: load-control
-load-control: $(BINARIES)
-	@$(CARGO) build --release --quiet -p studies
-	@mkdir -p out/results
-	$(BIN)/load_control $(if $(ONLY),out/results,docs/results) $(ONLY)
 
 # What a scene pays for features it does not use: the committed tree against builds without one
 # feature, made by the patches of pipelines/leave-out. ONLY="gravity sides" measures those.
@@ -50,13 +34,6 @@ leave-out:
 	@$(CARGO) build --release --quiet -p studies
 	@mkdir -p out/results
 	$(BIN)/leave_out pipelines/leave-out $(if $(ONLY),out/results,docs/results) $(ONLY)
-
-# Runs killed, or denied the disk, at every call by which they change their folder, and two runs
-# into one: all end as the run in one piece, or are refused. Kills need `strace`, the full disk `prlimit`.
-.PHONY: crash
-crash: $(BINARIES)
-	@$(CARGO) build --release --quiet -p studies
-	$(BIN)/crash docs/results
 
 # 50 000 forged particle files and checkpoints with right checksums: none panics, hangs or floods.
 .PHONY: forge

@@ -103,18 +103,17 @@ pub(crate) fn bond() -> Vec<u8> {
 
 /// Cases of bonds and of scenes with bodies.
 pub(crate) fn cases() -> Vec<Vec<u8>> {
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../pipelines/cases");
-    let names = [
-        "pf-implicit.toml",
-        "pva-pf-xpic.toml",
-        "verification/drop-explicit.toml",
-        "verification/clamp-travel3-implicit.toml",
-        "verification/duct-square-n3-implicit.toml",
-        "verification/disc8-n2-off0-implicit.toml",
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let files = [
+        "../../pipelines/cases/pf-implicit.toml",
+        "../../pipelines/cases/pva-pf-xpic.toml",
+        "seeds/free-drop.toml",
+        "seeds/clamp.toml",
+        "seeds/duct.toml",
     ];
-    let read = |name: &str| fs::read(cases.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let own = SCHEMES.map(|scheme| case_text(scheme).into_bytes());
-    own.into_iter().chain(names.map(read)).collect()
+    let read = |name: &str| fs::read(own.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let plain = SCHEMES.map(|scheme| case_text(scheme).into_bytes());
+    plain.into_iter().chain(files.map(read)).collect()
 }
 
 /// Values of the stacks, one a voxel: 0, 1 or 2.

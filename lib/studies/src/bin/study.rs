@@ -1,0 +1,43 @@
+//! `make verify tradeoff stability options load-control crash`: one study, named as its make target.
+
+#![allow(clippy::print_stderr, reason = "prints for developers")]
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use studies::study::Study;
+use studies::{crash, load_control, options, stability, tradeoff, verification};
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let run = match words.first().map(String::as_str) {
+        Some("verify") => verification::run,
+        Some("tradeoff") => tradeoff::run,
+        Some("stability") => stability::run,
+        Some("options") => options::run,
+        Some("load-control") => load_control::run,
+        Some("crash") => crash::run,
+        _ => {
+            eprintln!(
+                "usage: study verify|tradeoff|stability|options|load-control|crash RESULT_FOLDER [PART_OF_NAME...]"
+            );
+            return ExitCode::from(2);
+        }
+    };
+    let [name, results, only @ ..] = words.as_slice() else {
+        eprintln!("study: name the folder of results");
+        return ExitCode::from(2);
+    };
+    let done = Study::begin(name, Path::new(results), only).and_then(|study| run(&study));
+    match done {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => {
+            eprintln!("{name}: not all is as it should be; see {results}");
+            ExitCode::FAILURE
+        }
+        Err(said) => {
+            eprintln!("{name}: {said}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Faults at chosen system calls, by `strace --inject`.
+
+use std::collections::HashMap;
+use std::process::Output;
+
+use super::scene::Place;
+use crate::study::ended;
+
+/// The calls by which a run changes or holds its folder; those a system lacks are left out.
+const CALLS: [&str; 16] = [
+    "openat",
+    "write",
+    "writev",
+    "pwrite64",
+    "rename",
+    "renameat",
+    "renameat2",
+    "fsync",
+    "fdatasync",
+    "ftruncate",
+    "unlink",
+    "unlinkat",
+    "rmdir",
+    "mkdir",
+    "mkdirat",
+    "flock",
+];
+
+/// The n-th call of a name by one thread, from 1 on.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Point {
+    /// Name of the call.
+    pub call: String,
+    /// Its number.
+    pub nth: usize,
+}
+
+impl std::fmt::Display for Point {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {}", self.call, self.nth)
+    }
+}
+
+/// What happens at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// SIGKILL before the call.
+    Kill,
+    /// SIGTERM at the call.
+    Terminate,
+    /// The call does nothing and fails, for the reason that fits it.
+    Fail,
+}
+
+impl Fault {
+    fn injection(self, point: &Point) -> String {
+        let what = match self {
+            Fault::Kill => "signal=KILL",
+            Fault::Terminate => "signal=TERM",
+            Fault::Fail => match point.call.as_str() {
+                "fsync" | "fdatasync" | "unlink" | "unlinkat" => "error=EIO",
+                "flock" => "error=ENOLCK",
+                _ => "error=ENOSPC",
+            },
+        };
+        format!("inject={}:{what}:when={}", point.call, point.nth)
+    }
+}
+
+/// Whether `strace` is there and allowed to trace.
+pub fn available() -> bool {
+    let traced = std::process::Command::new("strace")
+        .args(["-qq", "-o", "/dev/null", "true"])
+        .output();
+    traced.is_ok_and(|output| output.status.success())
+}
+
+/// Runs `mpm-run` in `place` with `faults`.
+///
+/// # Errors
+/// The system's reason.
+pub fn run(place: &Place, more: &[&str], faults: &[(&Point, Fault)]) -> Result<Output, String> {
+    strace(place, more, "/dev/null", faults)
+}
+
+/// The points of a run with `faults`, those after the last fault only, and what it wrote at each.
+///
+/// # Errors
+/// A trace that cannot be made.
+pub fn points(
+    place: &Place,
+    more: &[&str],
+    faults: &[(&Point, Fault)],
+) -> Result<Vec<(Point, String)>, String> {
+    strace(place, more, "trace", faults)?;
+    let trace = std::fs::read(place.path().join("trace")).map_err(|e| e.to_string())?;
+    let trace = String::from_utf8_lossy(&trace);
+    let mut counts: HashMap<(&str, &str), usize> = HashMap::new();
+    let mut points = Vec::new();
+    for line in trace.lines() {
+        let (thread, rest) = line.split_once(' ').unwrap_or(("", line));
+        let rest = rest.trim_start();
+        if rest.starts_with("---") {
+            points.clear();
+        }
+        let Some((call, arguments)) = rest
+            .split_once('(')
+            .filter(|(call, _)| CALLS.contains(call))
+        else {
+            continue;
+        };
+        let nth = counts.entry((thread, call)).or_default();
+        *nth += 1;
+        let point = Point {
+            call: call.into(),
+            nth: *nth,
+        };
+        // Another thread's call of the same number is the same point to strace.
+        if points.iter().all(|(known, _)| *known != point) {
+            points.push((point, arguments.to_owned()));
+        }
+    }
+    Ok(points)
+}
+
+fn strace(
+    place: &Place,
+    more: &[&str],
+    to: &str,
+    faults: &[(&Point, Fault)],
+) -> Result<Output, String> {
+    let calls = CALLS.map(|call| format!("?{call}")).join(",");
+    let mut words: Vec<String> = ["strace", "-f", "-qq", "-o", to, "-e"]
+        .map(String::from)
+        .into();
+    words.push(format!("trace={calls}"));
+    for (point, fault) in faults {
+        words.extend(["-e".to_owned(), fault.injection(point)]);
+    }
+    ended(&mut place.command(&words, more))
+}

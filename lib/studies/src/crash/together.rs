@@ -1,0 +1,127 @@
+//! Two runs into one folder.
+
+use std::fs;
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use super::Row;
+use super::scene::{Place, Scene, same};
+use crate::method::Scheme;
+use crate::study::{ended, said};
+
+const SCENE: Scene = Scene(Scheme::Explicit);
+
+/// Two started at the same moment, `rounds` times: one ends well, the other exits 2.
+///
+/// # Errors
+/// The system's reason.
+pub fn at_once(rounds: usize) -> Result<Row, String> {
+    let whole = Place::new(SCENE)?;
+    whole.done(&[])?;
+    let round = || {
+        let place = Place::new(SCENE)?;
+        let [one, other] = [start(&place, &[])?, start(&place, &[])?];
+        let mut codes = Vec::new();
+        for child in [one, other] {
+            let output = child.wait_with_output().map_err(|e| e.to_string())?;
+            codes.push(output.status.code());
+        }
+        codes.sort_unstable();
+        if codes != [Some(0), Some(2)] {
+            return Err(format!("ended with {codes:?}"));
+        }
+        same(&whole.run_folder(), &place.run_folder())
+    };
+    Ok(Row {
+        series: "two runs started at once",
+        scheme: SCENE.name(),
+        fault: "second run",
+        trials: rounds,
+        wrong: (0..rounds).filter_map(|_| round().err()).collect(),
+    })
+}
+
+/// `rounds` second runs while a first one is on, by several ways and spellings: all exit 2, and the
+/// first goes on undisturbed.
+///
+/// # Errors
+/// The system's reason.
+pub fn meanwhile(rounds: usize) -> Result<Row, String> {
+    let place = Place::new(SCENE)?;
+    std::os::unix::fs::symlink("run", place.path().join("link")).map_err(|e| e.to_string())?;
+    // Minutes, of which the seconds of the second runs are needed.
+    let long = [
+        "clamp.stop=\"3 us\"",
+        "integrator.cfl=0.002",
+        "output.history_every=\"1e-5 us\"",
+    ];
+    let long: Vec<&str> = long.iter().flat_map(|change| ["--set", *change]).collect();
+    let mut first = start(&place, &long)?;
+    let rows = || {
+        fs::read_to_string(place.run_folder().join("history.csv")).map_or(0, |t| t.lines().count())
+    };
+    let begun = Instant::now();
+    while rows() < 3 {
+        if begun.elapsed() > Duration::from_secs(60) {
+            return Err("the first run did not begin".into());
+        }
+        sleep(Duration::from_millis(2));
+    }
+    let absolute = place.run_folder().display().to_string();
+    let ways: [&[&str]; 5] = [
+        &[],
+        &["--resume"],
+        &["--overwrite"],
+        &["--overwrite", "--resume", "-o", "./link/../link/"],
+        &["--overwrite", "-o", &absolute],
+    ];
+    let mut wrong = Vec::new();
+    for way in ways.iter().cycle().take(rounds) {
+        let second = ended(&mut second(&place, way))?;
+        let told = said(&second);
+        if second.status.code() != Some(2) || !told.contains("another run is writing") {
+            wrong.push(format!("{way:?}: {:?}, {told}", second.status));
+        }
+    }
+    if let Some(ended) = first.try_wait().map_err(|e| e.to_string())? {
+        return Err(format!("the first run was too short: {ended}"));
+    }
+    let told = Command::new("kill")
+        .args(["-TERM", &first.id().to_string()])
+        .status();
+    told.map_err(|e| e.to_string())?;
+    let ended = first.wait_with_output().map_err(|e| e.to_string())?;
+    if ended.status.code() != Some(75) {
+        return Err(format!(
+            "the first run: {:?}, {}",
+            ended.status,
+            said(&ended)
+        ));
+    }
+    Ok(Row {
+        series: "second run while the first is on",
+        scheme: SCENE.name(),
+        fault: "second run",
+        trials: rounds,
+        wrong,
+    })
+}
+
+fn start(place: &Place, more: &[&str]) -> Result<Child, String> {
+    let mut command = place.command(&[], more);
+    (command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn()).map_err(|e| e.to_string())
+}
+
+/// A run into `run`, or into the folder that `way` names.
+fn second(place: &Place, way: &[&str]) -> Command {
+    let mut command = Command::new(crate::outputs::bin_folder().join("mpm-run"));
+    command
+        .args(["case.toml", "--quiet"])
+        .args(way)
+        .current_dir(place.path());
+    if !way.contains(&"-o") {
+        command.args(["-o", "run"]);
+    }
+    command
+}

@@ -1,0 +1,158 @@
+//! `make options`: what the explicit scheme's options change on the flows it is wrong on, piston
+//! into slit and channel, against the same references as `make verify`.
+
+use std::fmt::Write;
+
+use crate::job::{Job, Outcome, run_all};
+use crate::method::{Method, Scheme};
+use crate::study::Study;
+use crate::verification::{Scene, acoustic, channel, slit, squeeze};
+
+/// The options by name, with the keys they set.
+pub const OPTIONS: [(&str, &[&str]); 5] = [
+    ("cell mean", &["integrator.pressure=cell-mean"]),
+    ("projection", &["integrator.density_projection=0.04cell"]),
+    ("separation 0.6", &["contact.separation=0.6cell"]),
+    ("separation 1.0", &["contact.separation=1.0cell"]),
+    (
+        "cell mean, projection",
+        &[
+            "integrator.pressure=cell-mean",
+            "integrator.density_projection=0.04cell",
+        ],
+    ),
+];
+
+/// Offsets of the walls against the nodes, cells.
+const OFFSETS: [f64; 3] = [0.0, 0.25, 0.5];
+/// Cells across slit and channel.
+const CELLS: u32 = 6;
+
+/// Methods: the paper's two, APIC, each with every option; the implicit scheme beside them.
+fn methods() -> Vec<Method> {
+    let mut list = Vec::new();
+    for plain in [Method::flip(), Method::xpic(5), Method::apic()] {
+        list.push(plain.clone());
+        for (name, keys) in OPTIONS {
+            let label = format!("{}, {name}", plain.label);
+            let with = keys.iter().fold(plain.clone(), |m, key| m.setting(*key));
+            list.push(with.called(label));
+        }
+    }
+    list.push(Method::implicit());
+    list
+}
+
+/// What is measured: where the paper's scheme is wrong, and flows that an option must not spoil.
+fn scenes() -> Vec<Scene> {
+    let mut list: Vec<Scene> = (OFFSETS.iter())
+        .map(|&offset| slit::scene(CELLS, [offset, 0.0]))
+        .collect();
+    list.extend(OFFSETS.map(|offset| channel::scene(CELLS, offset, None, 3e-6)));
+    list.extend(OFFSETS.map(|offset| squeeze::scene(CELLS, offset)));
+    list.push(acoustic::scene(0.001));
+    list
+}
+
+/// The study, on the scenes so named.
+///
+/// # Errors
+/// The system's reason.
+pub fn run(study: &Study) -> Result<bool, String> {
+    let mut scenes = scenes();
+    scenes.retain(|s| study.wants(&s.name));
+    // The implicit scheme's usual step is as long as these runs: `make verify` has it.
+    let short = |scene: &Scene| ["squeeze", "acoustic"].contains(&scene.family());
+    let mut jobs: Vec<Job> = Vec::new();
+    for scene in &scenes {
+        for method in methods() {
+            if method.scheme == Scheme::Explicit || !short(scene) {
+                jobs.push(Job { scene, method });
+            }
+        }
+    }
+    let outcomes = run_all(&jobs, &study.folder());
+    let columns = "case,method,quantity,error,steps,cpu_s,said";
+    study.write_csv(
+        "explicit-options.csv",
+        columns,
+        outcomes.iter().flat_map(fields),
+    )?;
+    let head = study.head(outcomes.iter().map(|o| o.cpu_s));
+    let page = PAGE
+        .replace("{head}", &head)
+        .replace("{table}", &table(&scenes, &outcomes));
+    study.write("explicit-options.md", page)?;
+    Ok(true)
+}
+
+/// The page around the table.
+const PAGE: &str = include_str!("page.txt");
+
+/// The errors of a run, or why there are none.
+fn fields(o: &Outcome) -> Vec<Vec<String>> {
+    let head = || vec![o.scene.clone(), o.method.label.clone()];
+    match &o.measured {
+        Ok(list) => (list.iter())
+            .map(|m| {
+                let (error, cpu) = (format!("{:.4e}", m.error), format!("{:.1}", o.cpu_s));
+                let more = [
+                    m.what.clone(),
+                    error,
+                    o.steps.to_string(),
+                    cpu,
+                    String::new(),
+                ];
+                [head(), more.into()].concat()
+            })
+            .collect(),
+        Err(said) => {
+            let more = ["", "", "", "", said].map(String::from);
+            vec![[head(), more.into()].concat()]
+        }
+    }
+}
+
+/// The largest errors as a table: a row per method, a column per scene but for the sound wave.
+fn table(scenes: &[Scene], outcomes: &[Outcome]) -> String {
+    let names = || {
+        scenes
+            .iter()
+            .map(|s| s.name.as_str())
+            .filter(|name| !name.starts_with("acoustic"))
+    };
+    let columns: Vec<&str> = names().collect();
+    let mut out = format!(
+        "| method | {} |\n|---|{}\n",
+        columns.join(" | "),
+        "---|".repeat(columns.len())
+    );
+    for method in methods() {
+        let cells = names().map(|scene| {
+            let found = outcomes
+                .iter()
+                .find(|o| o.scene == scene && o.method == method);
+            found.map_or(String::new(), cell)
+        });
+        let _ = writeln!(
+            out,
+            "| {} | {} |",
+            method.label,
+            cells.collect::<Vec<_>>().join(" | ")
+        );
+    }
+    out
+}
+
+/// The largest error of what is compared, in per cent, or that the run stopped.
+fn cell(outcome: &Outcome) -> String {
+    let compared = ["piston force", "mean velocity", "force on the top"];
+    let Ok(list) = &outcome.measured else {
+        return "stopped".into();
+    };
+    let errors = list
+        .iter()
+        .filter(|m| compared.iter().any(|what| m.what.starts_with(what)));
+    let largest = errors.max_by(|a, b| a.error.abs().total_cmp(&b.error.abs()));
+    largest.map_or(String::new(), |m| format!("{:+.0}", 100.0 * m.error))
+}

@@ -1,0 +1,70 @@
+//! The built tools, and reading what the real `mpm-run` wrote.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use particle_file::ParticleFile;
+
+/// A finished run.
+pub struct Run {
+    /// Its folder.
+    pub folder: PathBuf,
+}
+
+/// The folder of the built tools: where this program itself was built.
+pub fn bin_folder() -> PathBuf {
+    let here = std::env::current_exe().unwrap_or_default();
+    let folder = here.ancestors().find(|p| p.join("mpm-run").is_file());
+    folder.map_or_else(|| PathBuf::from("target/release"), Path::to_path_buf)
+}
+
+impl Run {
+    /// A column of `history.csv`.
+    ///
+    /// # Errors
+    /// When it is missing or not numeric.
+    pub fn history(&self, column: &str) -> Result<Vec<f64>, String> {
+        let path = self.folder.join("history.csv");
+        let mut reader = csv::Reader::from_path(&path).map_err(|e| e.to_string())?;
+        let header = reader.headers().map_err(|e| e.to_string())?.clone();
+        let index: HashMap<_, _> = header
+            .iter()
+            .enumerate()
+            .map(|(i, n)| (n.to_owned(), i))
+            .collect();
+        let &i = index
+            .get(column)
+            .ok_or_else(|| format!("{} has no column {column}", path.display()))?;
+        reader
+            .records()
+            .map(|row| {
+                let row = row.map_err(|e| e.to_string())?;
+                row.get(i)
+                    .unwrap_or("")
+                    .parse::<f64>()
+                    .map_err(|e| format!("{column}: {e}"))
+            })
+            .collect()
+    }
+
+    /// The last state.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn last(&self) -> Result<ParticleFile, String> {
+        ParticleFile::open(self.folder.join("final.mpts")).map_err(|e| e.to_string())
+    }
+
+    /// A number of `summary.json`, by its key at any depth.
+    pub fn summary(&self, key: &str) -> Option<f64> {
+        let text = std::fs::read_to_string(self.folder.join("summary.json")).ok()?;
+        let after = text.split(&format!("\"{key}\":")).nth(1)?;
+        after
+            .trim_start()
+            .split([',', '\n', '}'])
+            .next()?
+            .trim()
+            .parse()
+            .ok()
+    }
+}

@@ -1,0 +1,33 @@
+//! `make stability`: small scenes with stiff and extreme values through the real `mpm-run`.
+//! Whatever a case asks for, the automatic time step keeps it stable or the run refuses it or
+//! stops with a reason; nothing ends in NaN silently.
+
+pub mod instability;
+pub mod plan;
+pub mod report;
+pub mod scenes;
+pub mod trial;
+
+use crate::study::{Study, side_by_side};
+use trial::{Row, Trial, Verdict};
+
+/// The study, on what is varied or has a value so named.
+///
+/// # Errors
+/// What keeps a trial from being made.
+pub fn run(study: &Study) -> Result<bool, String> {
+    let mut trials = plan::trials();
+    trials.retain(|t| study.wants(t.varied) || study.wants(&t.value));
+    let done = side_by_side(&trials, |trial: &Trial| {
+        let row = trial.clone().run(&study.folder());
+        row.inspect(|row| println!("{}", report::said(row)))
+    });
+    let rows = done.into_iter().collect::<Result<Vec<Row>, String>>()?;
+    let unstable: Vec<_> = (instability::trials().iter().enumerate())
+        .filter(|(_, trial)| study.wants(trial.scene))
+        .map(|(i, trial)| trial.run(&study.folder().join(format!("checkpoint-{i}"))))
+        .collect();
+    report::write(study, &rows, &instability::section(&unstable))?;
+    let broken = |row: &Row| matches!(row.verdict, Verdict::Broken(_));
+    Ok(!rows.iter().any(broken) && unstable.iter().all(Result::is_ok))
+}

@@ -1,0 +1,221 @@
+//! `stability.csv` and `stability.md`.
+
+use std::fmt::Write;
+
+use super::trial::{Row, Verdict};
+use crate::method::Scheme;
+use crate::study::{Study, distinct};
+
+impl Verdict {
+    fn word(&self) -> &'static str {
+        match self {
+            Verdict::Stable => "stable",
+            Verdict::Noisy => "noisy",
+            Verdict::Refused(_) => "refused",
+            Verdict::Stopped(_) => "stopped",
+            Verdict::Broken(_) => "BROKEN",
+        }
+    }
+
+    /// What was said.
+    pub fn sentence(&self) -> &str {
+        match self {
+            Verdict::Stable | Verdict::Noisy => "",
+            Verdict::Refused(said) | Verdict::Stopped(said) | Verdict::Broken(said) => said,
+        }
+    }
+}
+
+/// A number, or nothing where there is none.
+fn number(x: f64) -> String {
+    if x.is_finite() {
+        format!("{x:.4e}")
+    } else {
+        String::new()
+    }
+}
+
+const COLUMNS: &str = "varied,value,method,cfl,verdict,part_computed,steps,cpu_s,energy_over_flow,\
+travel_over_full_speed,J_min,J_max,lost_points,balance_error,sentence,warning";
+
+/// Writes the table and the page, which ends with `more`.
+///
+/// # Errors
+/// The system's reason.
+pub fn write(study: &Study, rows: &[Row], more: &str) -> Result<(), String> {
+    let fields = rows.iter().map(|row| {
+        let trial = &row.trial;
+        let mut list = [trial.varied, &trial.value, &trial.method.label]
+            .map(String::from)
+            .to_vec();
+        list.extend([trial.cfl.to_string(), row.verdict.word().into()]);
+        let [low, high] = row.j;
+        let numbers = [
+            row.part,
+            row.steps,
+            row.cpu_s,
+            row.energy,
+            row.travel,
+            low,
+            high,
+            row.lost,
+            row.balance,
+        ];
+        list.extend(numbers.map(number));
+        list.extend([row.verdict.sentence().into(), row.warning.clone()]);
+        list
+    });
+    study.write_csv("stability.csv", COLUMNS, fields)?;
+    let head = study.head(rows.iter().map(|row| row.cpu_s));
+    study.write("stability.md", page(rows, &head) + more)
+}
+
+/// A line for the terminal.
+pub fn said(row: &Row) -> String {
+    let trial = &row.trial;
+    format!(
+        "{:<22} {:<30} {:<9} {:>5} {:?} energy {:.2e} J {:.3} to {:.3} balance {:+.1e} {:.1} s",
+        trial.varied,
+        trial.value,
+        trial.method.label,
+        trial.cfl,
+        row.verdict,
+        row.energy,
+        row.j[0],
+        row.j[1],
+        row.balance,
+        row.cpu_s
+    )
+}
+
+/// The page; `head` says what made it.
+fn page(rows: &[Row], head: &str) -> String {
+    let mut out = format!("{INTRODUCTION}\n{head}\n");
+    summary(&mut out, rows);
+    not_stable(&mut out, rows);
+    closing(&mut out, rows);
+    out
+}
+
+/// How many runs ended how, for each quantity varied.
+fn summary(out: &mut String, rows: &[Row]) {
+    let words = ["stable", "noisy", "refused", "stopped", "BROKEN"];
+    let _ = writeln!(
+        out,
+        "## In short\n\n| varied | {} |\n|---|---|---|---|---|---|",
+        words.join(" | ")
+    );
+    let line = |name: &str, of: &dyn Fn(&Row) -> bool| {
+        let count = |word| {
+            rows.iter()
+                .filter(|row| of(row) && row.verdict.word() == word)
+                .count()
+        };
+        format!(
+            "| {name} | {} |\n",
+            words.map(|word| count(word).to_string()).join(" | ")
+        )
+    };
+    for varied in distinct(rows.iter().map(|row| row.trial.varied)) {
+        out.push_str(&line(varied, &|row| row.trial.varied == varied));
+    }
+    for scheme in [Scheme::Explicit, Scheme::Implicit] {
+        let name = format!("**all {}**", scheme.name());
+        out.push_str(&line(&name, &|row| row.trial.method.scheme == scheme));
+    }
+}
+
+/// What was varied, to what, and how it ended.
+fn kind(row: &Row) -> (&str, &str, &str) {
+    (row.trial.varied, &row.trial.value, row.verdict.word())
+}
+
+/// A row for each value at which methods ended in the same word, but for the stable ones.
+fn not_stable(out: &mut String, rows: &[Row]) {
+    out.push_str("\n## Not stable\n\n| varied | value | ended | methods | said by the first |\n|---|---|---|---|---|\n");
+    let rows: Vec<&Row> = rows
+        .iter()
+        .filter(|row| row.verdict != Verdict::Stable)
+        .collect();
+    for of in distinct(rows.iter().map(|row| kind(row))) {
+        let same: Vec<&&Row> = rows.iter().filter(|row| kind(row) == of).collect();
+        let methods: Vec<&str> = same
+            .iter()
+            .map(|row| row.trial.method.label.as_str())
+            .collect();
+        let sentence = same[0].verdict.sentence();
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} | {sentence} |",
+            of.0,
+            of.1,
+            of.2,
+            methods.join(", ")
+        );
+    }
+}
+
+/// How far the clamp of a press closes where the pressure limit holds it back.
+fn closing(out: &mut String, rows: &[Row]) {
+    let methods = ["FLIP", "XPIC(5)", "APIC", "APIC, cell mean", "implicit"];
+    let _ = writeln!(
+        out,
+        "{CLOSING}| press | {} |\n|---|---|---|---|---|---|",
+        methods.join(" | ")
+    );
+    let rows = rows
+        .iter()
+        .filter(|row| LOCKING.contains(&row.trial.varied));
+    let rows: Vec<&Row> = rows.collect();
+    for of in distinct(
+        rows.iter()
+            .map(|row| (row.trial.varied, row.trial.value.as_str())),
+    ) {
+        let travel = |label| {
+            let found = rows.iter().find(|row| {
+                (row.trial.varied, row.trial.value.as_str()) == of
+                    && row.trial.method.label == label
+            });
+            found.map_or(String::new(), |row| format!("{:.3}", row.travel))
+        };
+        let _ = writeln!(
+            out,
+            "| {} {} | {} |",
+            of.0,
+            of.1,
+            methods.map(travel).join(" | ")
+        );
+    }
+}
+
+/// What is varied where the explicit scheme locks.
+const LOCKING: [&str; 3] = ["bulk modulus", "lumen width", "slab thickness"];
+
+const CLOSING: &str = "
+## How far a press closes
+
+Travel of the clamp over that at its closing speed; less than 1 where the pressure limit of 2.5 MPa holds it back. Where the explicit
+scheme's stays near 0 and the implicit one's does not, the liquid has locked (explicit-options.md).
+
+";
+
+const INTRODUCTION: &str = "# Stability on stiff and extreme cases
+
+`make stability` runs small scenes (lib/studies/src/stability) through the real `mpm-run`: a slab of PF 16
+cells wide and 4 thick, walls a quarter cell off the nodes, pressed at 1 m/s and at most 2.5 MPa into
+a lumen of 6 cells by 1.5 cells of travel, and variations of it; sealed chambers; liquid torn apart;
+drops. One value is varied at a time; sticking walls and CFL 0.5 unless said. A run ends `stable`;
+`noisy`, when its kinetic energy was at some time more than ten times that of the scene's own motion; `refused`
+(exit 2) and `stopped` (exit 1) with a sentence; `BROKEN` would be a run that ended in values that
+are not numbers, in a signal or not at all, of which there must be none. All runs are in
+[stability.csv](stability.csv), where
+
+- `part_computed` is the part of the scene's motion that was computed: explicit runs take at most 20,000 steps; a balance of
+  forces then is of the start-up, not of the flow;
+- `energy_over_flow` is the largest kinetic energy over that of all liquid at the speed of the scene's own motion (in the lumen, for a press);
+- `travel_over_full_speed` is how far the clamp moved over how far it would have at its closing speed;
+- `J_min` and `J_max` are the volume ratios of the points at the end, from their pressures by Eq. 1;
+- `lost_points` left the domain or lie deeper than a point spacing in a wall;
+- `balance_error` is the difference of the mean forces on upper and lower body in the later half of the run over
+  the larger of them, or over rho v^2 if that is more; for free drops the change of mean velocity over the speed.
+";

@@ -1,0 +1,243 @@
+//! One run: how it ended and what it kept.
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use super::scenes::{Balance, Scene};
+use crate::case_text::{PF, Viscosity};
+use crate::job::write_text;
+use crate::method::{Method, Scheme};
+use crate::outputs::Run;
+use crate::study::said;
+
+/// Tait constant of paper Eq. 1.
+const TAIT_C: f64 = 0.0894;
+/// Explicit steps of a trial at most: where more would be needed, the row says so.
+const MOST_STEPS: f64 = 20_000.0;
+/// Kinetic energy over that of the scene's own motion from which a run that ended counts as
+/// noisy: the speeds of the points are then noise, not flow.
+const NOISY: f64 = 10.0;
+
+/// A scene by a method.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// What is varied, e.g. "viscosity".
+    pub varied: &'static str,
+    /// Its value.
+    pub value: String,
+    /// The scene.
+    pub scene: Scene,
+    /// The method.
+    pub method: Method,
+    /// Courant number.
+    pub cfl: f64,
+}
+
+/// How a trial ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// It ended and its energy is that of the flow.
+    Stable,
+    /// It ended, but most of its kinetic energy is noise.
+    Noisy,
+    /// Not accepted: the sentence.
+    Refused(String),
+    /// Stopped with exit status 1: the sentence.
+    Stopped(String),
+    /// Anything else: a fault of the program.
+    Broken(String),
+}
+
+/// A row of the table.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The trial.
+    pub trial: Trial,
+    /// How it ended.
+    pub verdict: Verdict,
+    /// What was computed of the scene's motion, 1 for all of it.
+    pub part: f64,
+    /// Steps and CPU seconds; NaN if it did not end.
+    pub steps: f64,
+    /// CPU seconds.
+    pub cpu_s: f64,
+    /// Largest kinetic energy over that of the scene's own motion.
+    pub energy: f64,
+    /// Smallest and largest J at the end.
+    pub j: [f64; 2],
+    /// Points lost through sides, or inside bodies deeper than a point spacing.
+    pub lost: f64,
+    /// What a clamped body has moved over what it would have at its closing speed.
+    pub travel: f64,
+    /// Error of the balance, see [`Balance`].
+    pub balance: f64,
+    /// Warnings, first sentence.
+    pub warning: String,
+}
+
+/// rho h^2 / (8 eta) and h / c, the shorter times `cfl`: the explicit step.
+fn explicit_step(scene: &Scene, cfl: f64) -> f64 {
+    let eta = match &scene.case.viscosity {
+        Viscosity::Newtonian(eta) => *eta,
+        Viscosity::Table(rows) => rows.iter().map(|r| r[1]).fold(f64::INFINITY, f64::min),
+    };
+    let h = scene.case.cell;
+    let sound = (scene.case.bulk_modulus / PF[0]).sqrt();
+    cfl * (h / (sound + scene.speed)).min(PF[0] * h * h / (8.0 * eta))
+}
+
+impl Trial {
+    /// Name of its files.
+    fn name(&self) -> String {
+        let plain = |text: &str| {
+            text.chars()
+                .map(|c| {
+                    if c.is_ascii_alphanumeric() || c == '.' || c == '-' {
+                        c
+                    } else {
+                        '_'
+                    }
+                })
+                .collect::<String>()
+        };
+        format!(
+            "{}-{}-{}-cfl{}",
+            plain(self.varied),
+            plain(&self.value),
+            self.method.file_label(),
+            self.cfl
+        )
+    }
+
+    /// Runs it, with case and run folder below `folder`.
+    ///
+    /// # Errors
+    /// When its case cannot be written.
+    pub fn run(self, folder: &Path) -> Result<Row, String> {
+        let whole = self.scene.duration;
+        let seconds = match self.method.scheme {
+            Scheme::Explicit => whole.min(MOST_STEPS * explicit_step(&self.scene, self.cfl)),
+            Scheme::Implicit => whole,
+        };
+        let case = folder.join(format!("{}.toml", self.name()));
+        let out = folder.join(self.name());
+        let text = self
+            .scene
+            .lasting(seconds)
+            .text(self.method.scheme.integrator());
+        write_text(&case, &text)?;
+        let cfl = format!("integrator.cfl={}", self.cfl);
+        let ended = self.method.attempt(&case, &out, &["--set", &cfl]);
+        Ok(self.judge(ended, out, seconds / whole))
+    }
+
+    fn judge(self, ended: Result<Output, String>, folder: PathBuf, part: f64) -> Row {
+        let said = ended.as_ref().map_or(String::new(), said);
+        let warning = said.lines().find(|l| l.starts_with("warning"));
+        let sentence = || {
+            let last = said.lines().last().unwrap_or("").trim();
+            last.strip_prefix("mpm-run: ").unwrap_or(last).to_owned()
+        };
+        let run = Run { folder };
+        let mut row = Row {
+            verdict: Verdict::Stable,
+            part,
+            steps: f64::NAN,
+            cpu_s: f64::NAN,
+            energy: f64::NAN,
+            j: [f64::NAN; 2],
+            lost: f64::NAN,
+            travel: f64::NAN,
+            balance: f64::NAN,
+            warning: warning
+                .unwrap_or("")
+                .trim_start_matches("warning: ")
+                .to_owned(),
+            trial: self,
+        };
+        let measured = row.measure(&run);
+        row.verdict = match (ended.map(|output| output.status.code()), measured) {
+            (Ok(Some(0)), Ok(())) if row.energy > NOISY => Verdict::Noisy,
+            (Ok(Some(0)), Ok(())) => Verdict::Stable,
+            (Ok(Some(0)), Err(said)) => Verdict::Broken(format!("ended, but {said}")),
+            (Ok(Some(1)), _) => Verdict::Stopped(sentence()),
+            (Ok(Some(2)), _) => Verdict::Refused(sentence()),
+            (Ok(code), _) => Verdict::Broken(format!("exit {code:?}: {}", sentence())),
+            (Err(said), _) => Verdict::Broken(said),
+        };
+        row
+    }
+}
+
+impl Row {
+    /// Reads what the run left; NaN anywhere is an error.
+    fn measure(&mut self, run: &Run) -> Result<(), String> {
+        let energy = run.history("kinetic_energy_J")?;
+        if energy.iter().any(|e| !e.is_finite()) {
+            return Err("its history has an energy that is not a number".into());
+        }
+        let volume = run.history("adhesive_volume_m3")?;
+        let scene = &self.trial.scene;
+        // The volume of the first row: the liquid has hardly been compressed yet.
+        let mass = PF[0] * volume.first().copied().unwrap_or(f64::NAN);
+        let own = 0.5 * mass * scene.speed.powi(2);
+        self.energy = energy.iter().copied().fold(0.0, f64::max) / own;
+        let lost = run.history("lost_particles")?;
+        self.lost = lost.last().copied().unwrap_or(f64::NAN);
+        if let Some(deep) = run.summary("points_deep_in_wood") {
+            self.lost += deep;
+        }
+        self.steps = run.summary("steps").unwrap_or(f64::NAN);
+        self.cpu_s = run.summary("cpu_s").unwrap_or(f64::NAN);
+        if scene.travel > 0.0 {
+            let moved = run.history("displacement_m")?.last().copied();
+            self.travel = moved.unwrap_or(f64::NAN) / (scene.travel * self.part);
+        }
+        self.balance = balance(run, scene)?;
+        self.j = volume_ratios(run, scene)?;
+        Ok(())
+    }
+}
+
+/// Error of what the scene balances.
+fn balance(run: &Run, scene: &Scene) -> Result<f64, String> {
+    match scene.balance {
+        Balance::None => Ok(f64::NAN),
+        Balance::Forces => {
+            let bottom = run.history("pressure_bottom_Pa")?;
+            let top = run.history("pressure_top_Pa")?;
+            let late = |list: &[f64]| {
+                let later = &list[list.len() / 2..];
+                later.iter().sum::<f64>() / later.len() as f64
+            };
+            let (top, bottom) = (late(&top), late(&bottom));
+            // What turning a stream of the scene's speed takes: forces may differ by it.
+            let inertia = PF[0] * scene.speed.powi(2);
+            Ok((top - bottom) / top.abs().max(bottom.abs()).max(inertia))
+        }
+        Balance::Momentum(start) => {
+            let file = run.last()?;
+            let velocity = file.vectors("velocity").map_err(|e| e.to_string())?;
+            let mean: [f64; 2] = [0, 1].map(|a| {
+                velocity.iter().map(|v| f64::from(v[a])).sum::<f64>() / velocity.len() as f64
+            });
+            Ok(f64::hypot(mean[0] - start[0], mean[1] - start[1]) / scene.speed)
+        }
+    }
+}
+
+/// Smallest and largest J of the final state, from the pressures by Eq. 1.
+fn volume_ratios(run: &Run, scene: &Scene) -> Result<[f64; 2], String> {
+    let file = run.last()?;
+    let pressure = file.column::<f32>("pressure").map_err(|e| e.to_string())?;
+    let scale = TAIT_C * scene.case.bulk_modulus;
+    let j = |p: f32| 1.0 - TAIT_C * (f64::from(p) / scale).ln_1p();
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for &p in pressure {
+        if !p.is_finite() {
+            return Err("its final state has a pressure that is not a number".into());
+        }
+        (low, high) = (low.min(j(p)), high.max(j(p)));
+    }
+    Ok([low, high])
+}

@@ -1,0 +1,179 @@
+//! The small bond line of the trade-off study: a synthetic specimen closed at constant speed,
+//! against the implicit scheme with the finest cells.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::settings::Setting;
+use super::{Flow, Row};
+use crate::method::{Method, Scheme};
+use crate::outputs::{Run, bin_folder};
+use crate::study::{ended, said, side_by_side};
+
+/// Size in voxels, and the slab.
+const SPECIMEN: [&str; 6] = ["--size", "24x72x24", "--slab", "11.6 um", "--seed", "1"];
+const VOXEL: &str = "1.45 um";
+
+/// Edge of a cell of the reference, um: half a voxel.
+const FINEST: f64 = 0.725;
+
+/// Mean clamp pressure over the second half of the closing (Pa), WP (um) and CPU time (s).
+#[derive(Clone, Copy, Debug)]
+struct Closed {
+    pressure: f64,
+    wp: f64,
+    cpu_s: f64,
+}
+
+/// Runs the settings that ask for it.
+///
+/// # Errors
+/// What a tool said when there is no specimen or no reference.
+pub fn rows(settings: &[Setting], folder: &Path) -> Result<Vec<Row>, String> {
+    let bond = specimen(folder)?;
+    let reference = close(
+        &bond,
+        &Method::implicit(),
+        FINEST,
+        &folder.join("reference"),
+    )?;
+    println!(
+        "bond line, implicit, cells of {FINEST} um: {:.4e} Pa, WP {:.4} um, {:.0} s",
+        reference.pressure, reference.wp, reference.cpu_s
+    );
+    let chosen: Vec<&Setting> = settings.iter().filter(|s| s.bond).collect();
+    let rows = side_by_side(&chosen, |&setting| {
+        // Six cells are two voxels each, as in the paper.
+        let cell = 17.4 / f64::from(setting.cells);
+        let runs = folder.join(setting.method.file_label());
+        let closed = close(&bond, &setting.method, cell, &runs);
+        compared(setting, &closed, &reference)
+    });
+    Ok(rows.into_iter().flatten().collect())
+}
+
+/// Pressure and WP of a run against the reference; said on standard output too.
+fn compared(setting: &Setting, closed: &Result<Closed, String>, reference: &Closed) -> [Row; 2] {
+    let row = |flow, of: fn(&Closed) -> f64| {
+        let error = |c: &Closed| (of(c) / of(reference) - 1.0).abs();
+        let row = Row {
+            flow,
+            setting: setting.clone(),
+            error: closed.as_ref().map_or(f64::NAN, error),
+            cpu_s: closed.as_ref().map_or(f64::NAN, |c| c.cpu_s),
+            failed: closed.as_ref().err().cloned(),
+            pareto: false,
+        };
+        println!(
+            "{:<20} {:<36} {:.3e} {:7.1} s {}",
+            flow.name(),
+            setting.method.label,
+            row.error,
+            row.cpu_s,
+            row.failed.as_deref().unwrap_or("")
+        );
+        row
+    };
+    [
+        row(Flow::BondPressure, |c| c.pressure),
+        row(Flow::BondWp, |c| c.wp),
+    ]
+}
+
+/// Makes the bond file.
+fn specimen(folder: &Path) -> Result<PathBuf, String> {
+    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let path = |name: &str| folder.join(name).display().to_string();
+    let (stack, whole, bond) = (
+        path("specimen.tif"),
+        path("specimen.mpts"),
+        path("bond.mpts"),
+    );
+    let mut synth = vec![
+        "--quiet",
+        "--adhesive",
+        "pf",
+        "--voxel",
+        VOXEL,
+        "-o",
+        &stack,
+    ];
+    synth.extend(SPECIMEN);
+    tool("synth-xct", &synth)?;
+    tool("xct2particles", &["--quiet", &stack, "-o", &whole])?;
+    tool("build-bondline", &["--quiet", &whole, "-o", &bond])?;
+    Ok(bond.into())
+}
+
+fn tool(name: &str, arguments: &[&str]) -> Result<String, String> {
+    let output = ended(Command::new(bin_folder().join(name)).args(arguments))?;
+    if output.status.success() {
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    } else {
+        Err(said(&output))
+    }
+}
+
+/// Closes the bond line at 1 m/s, whatever the pressure.
+fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Closed, String> {
+    let case = match method.scheme {
+        Scheme::Explicit => "pipelines/cases/pf-flip.toml",
+        Scheme::Implicit => "pipelines/cases/pf-implicit.toml",
+    };
+    let bond = bond.display().to_string();
+    let cell = format!("grid.cell=\"{cell_um} um\"");
+    let mut arguments = vec!["--particles", &bond];
+    let fixed = [
+        cell.as_str(),
+        // The wall law's length does not go with the cell here.
+        "contact.influence_length=\"29 nm\"",
+        "clamp.max_pressure=\"100 MPa\"",
+        "output.history_every=\"0.1 us\"",
+        "output.snapshots=0",
+    ];
+    for change in fixed {
+        arguments.extend(["--set", change]);
+    }
+    let run = method.run(Path::new(case), folder, &arguments)?;
+    Ok(Closed {
+        pressure: late_pressure(&run)?,
+        wp: weighted_penetration(&run)?,
+        cpu_s: run.summary("cpu_s").unwrap_or(f64::NAN),
+    })
+}
+
+/// Mean of both reactions over the second half of the travel, by trapezoids.
+fn late_pressure(run: &Run) -> Result<f64, String> {
+    let travel = run.history("displacement_m")?;
+    let sides = [
+        run.history("pressure_bottom_Pa")?,
+        run.history("pressure_top_Pa")?,
+    ];
+    let end = travel.last().copied().ok_or("the history is empty")?;
+    let (mut work, mut length) = (0.0, 0.0);
+    for i in 1..travel.len() {
+        let (from, to) = (travel[i - 1].max(0.5 * end), travel[i]);
+        if to > from {
+            let at = |i: usize| 0.5 * (sides[0][i] + sides[1][i]);
+            work += 0.5 * (at(i - 1) + at(i)) * (to - from);
+            length += to - from;
+        }
+    }
+    Ok(work / length)
+}
+
+/// WP of all adhesive about the bond plane, um.
+fn weighted_penetration(run: &Run) -> Result<f64, String> {
+    let state = run.folder.join("final.mpts").display().to_string();
+    let table = tool("wp-metrics", &["--quiet", &state])?;
+    let mut lines = table.lines();
+    let header = lines.next().unwrap_or_default();
+    let column = header.split(',').position(|name| name == "wp_um");
+    let total = lines.find(|line| line.split(',').nth(1) == Some("total"));
+    let value = total
+        .zip(column)
+        .and_then(|(line, i)| line.split(',').nth(i));
+    value
+        .and_then(|v| v.parse().ok())
+        .ok_or_else(|| "wp-metrics printed no total".to_owned())
+}

@@ -1,0 +1,186 @@
+//! Error against CPU time: what scheme, update, shape function, cell size, points, Courant
+//! number, bulk modulus, solver tolerance, options and precision cost and give on four flows.
+
+pub mod bond;
+pub mod report;
+pub mod settings;
+
+use std::path::Path;
+
+use crate::job::{Job, Outcome, run_all};
+use crate::study::Study;
+use crate::verification::{Scene, channel, incline, slit};
+use settings::Setting;
+
+/// The build of `mpm-run` with the feature `double`.
+const DOUBLE: &str = "target/double/release/mpm-run";
+
+/// The study, with the settings so named.
+///
+/// # Errors
+/// What a tool said without which there is no bond line or no reference for it, or the system.
+pub fn run(study: &Study) -> Result<bool, String> {
+    let mut settings = settings::all(Path::new(DOUBLE));
+    settings.retain(|setting| study.wants(&setting.method.label));
+    let mut rows = bond::rows(&settings, &study.folder().join("bond"))?;
+    let bonds = rows.iter().filter(|r| r.flow == Flow::BondPressure);
+    let mut cpu_s: Vec<f64> = bonds.map(|r| r.cpu_s).collect();
+    let (more, outcomes) = boxes(&settings, &study.folder());
+    rows.extend(more);
+    cpu_s.extend(outcomes.iter().map(|o| o.cpu_s));
+    mark_front(&mut rows);
+    report::write(study, &rows, &study.head(cpu_s.into_iter()))?;
+    Ok(true)
+}
+
+/// The flows, in the order of the page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// Piston into slit: piston force at one and two filled widths, walls on the nodes and a
+    /// quarter cell off.
+    Slit,
+    /// Channel: mean velocity, walls on the nodes, a quarter and half a cell off.
+    Channel,
+    /// Film on an incline: profile, floor on the nodes.
+    Incline,
+    /// A small synthetic bond line: mean clamp pressure over the second half of the closing.
+    BondPressure,
+    /// The same bond line: weighted penetration when closed.
+    BondWp,
+}
+
+impl Flow {
+    /// Every flow.
+    pub const ALL: [Flow; 5] = [
+        Flow::Slit,
+        Flow::Channel,
+        Flow::Incline,
+        Flow::BondPressure,
+        Flow::BondWp,
+    ];
+
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Flow::Slit => "piston into slit",
+            Flow::Channel => "channel",
+            Flow::Incline => "incline",
+            Flow::BondPressure => "bond line, pressure",
+            Flow::BondWp => "bond line, WP",
+        }
+    }
+
+    /// Scenes of this flow with `n` cells across the lumen; none where it is not one of boxes.
+    fn scenes(self, n: u32) -> Vec<Scene> {
+        match self {
+            Flow::Slit => [0.0, 0.25]
+                .map(|offset| {
+                    let mut scene = slit::scene(n, [offset, 0.0]);
+                    // To two and a quarter of its four and a half widths.
+                    scene.case.stop = scene.case.stop.map(|t| 0.52 * t);
+                    scene
+                })
+                .into(),
+            Flow::Channel => [0.0, 0.25, 0.5]
+                .map(|offset| channel::scene(n, offset, None, 3e-6))
+                .into(),
+            Flow::Incline => vec![incline::scene(n, 0.0, 5e-6)],
+            Flow::BondPressure | Flow::BondWp => Vec::new(),
+        }
+    }
+
+    /// Beginning of the name of the quantity whose error counts.
+    fn quantity(self) -> &'static str {
+        match self {
+            Flow::Slit => "piston force",
+            Flow::Channel => "mean velocity",
+            Flow::Incline => "rms profile",
+            Flow::BondPressure | Flow::BondWp => "",
+        }
+    }
+}
+
+/// Error and cost of a setting on a flow.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The flow.
+    pub flow: Flow,
+    /// The setting.
+    pub setting: Setting,
+    /// Root mean square of the relative errors over the flow's runs and quantities; NaN when a
+    /// run failed.
+    pub error: f64,
+    /// CPU time of one run, s.
+    pub cpu_s: f64,
+    /// What a failed run said.
+    pub failed: Option<String>,
+    /// Whether nothing cheaper is as accurate.
+    pub pareto: bool,
+}
+
+/// Runs the settings on the flows of boxes.
+fn boxes(settings: &[Setting], folder: &Path) -> (Vec<Row>, Vec<Outcome>) {
+    let flows = [Flow::Slit, Flow::Channel, Flow::Incline];
+    let mut parts: Vec<(Flow, &Setting, Scene)> = Vec::new();
+    for flow in flows {
+        for setting in settings {
+            let scenes = flow.scenes(setting.cells);
+            parts.extend(scenes.into_iter().map(|scene| (flow, setting, scene)));
+        }
+    }
+    let jobs: Vec<Job> = parts
+        .iter()
+        .map(|(_, setting, scene)| Job {
+            scene,
+            method: setting.method.clone(),
+        })
+        .collect();
+    let outcomes = run_all(&jobs, folder);
+    let mut rows = Vec::new();
+    for flow in flows {
+        for setting in settings {
+            let of_row = parts
+                .iter()
+                .zip(&outcomes)
+                .filter(|((f, s, _), _)| *f == flow && std::ptr::eq(*s, setting))
+                .map(|(_, outcome)| outcome);
+            rows.push(row(flow, setting, &of_row.collect::<Vec<_>>()));
+        }
+    }
+    (rows, outcomes)
+}
+
+fn row(flow: Flow, setting: &Setting, outcomes: &[&Outcome]) -> Row {
+    let failed = outcomes.iter().find_map(|o| o.measured.clone().err());
+    let errors: Vec<f64> = outcomes
+        .iter()
+        .filter_map(|o| o.measured.as_ref().ok())
+        .flatten()
+        .filter(|m| m.what.starts_with(flow.quantity()))
+        .map(|m| m.error)
+        .collect();
+    let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
+    let cpu: f64 = outcomes.iter().map(|o| o.cpu_s).sum();
+    Row {
+        flow,
+        setting: setting.clone(),
+        error: if failed.is_some() { f64::NAN } else { rms },
+        cpu_s: cpu / outcomes.len() as f64,
+        failed,
+        pareto: false,
+    }
+}
+
+/// Marks the rows of each flow that nothing cheaper matches.
+fn mark_front(rows: &mut [Row]) {
+    let all: Vec<(Flow, f64, f64)> = rows.iter().map(|r| (r.flow, r.cpu_s, r.error)).collect();
+    for row in rows {
+        let beaten = all.iter().any(|&(flow, cpu, error)| {
+            flow == row.flow
+                && cpu <= row.cpu_s
+                && error <= row.error
+                && (cpu < row.cpu_s || error < row.error)
+        });
+        row.pareto = row.error.is_finite() && !beaten;
+    }
+}

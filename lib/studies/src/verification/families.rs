@@ -1,0 +1,81 @@
+//! What the verification page says about each family of scenes.
+
+/// Heading and text of each family, in the order of the page.
+pub(super) const FAMILIES: &[(&str, &str)] = &[
+    (
+        "incline",
+        "Film on an incline (paper Eq. 5, Fig. 4)\n\nGravity of the earth, 50 degrees, 6 cells; 0.5 ms with the floor on the nodes as in the paper, 0.05 ms elsewhere (the film is steady after 1 us).\n\n![Profiles at 0.5 ms, floor on the nodes](verification-incline.png)\n![Points at 0.5 ms coloured by velocity](verification-incline-points.png)",
+    ),
+    (
+        "channel",
+        "Channel (plane Poiseuille), with and without slip\n\nMean velocity against rho g H^2/(12 eta) (1 + 6 l/H).\n\n![Error over the offset of the walls, 6 cells](verification-channel.png)",
+    ),
+    (
+        "table",
+        "Viscosity table in a channel\n\nEta linear in log10 of the rate, 20 to 5 Pa s; mean velocity against quadrature of the profile. Noise of FLIP's velocities counts as shear and thins the liquid.",
+    ),
+    (
+        "couette",
+        "Couette flow with partial slip\n\nSlip velocity at the resting wall, from a line through the middle half of the gap: an error of 1 % in its slope is one of 5 % here.",
+    ),
+    (
+        "duct",
+        "Lumens in three dimensions\n\nDeveloped flow through a square and a tube of voxels (tube: two voxels on the edge of a cell, tube1: one); 7 cells put the walls half a cell off. The staircase itself slows the flow by 9 % against a circle of the same area: the second row of a tube compares with finite differences in the same staircase.",
+    ),
+    (
+        "slit",
+        "A piston presses liquid into a slit\n\nForce on the piston at four filled lengths against a 24-cell run of the implicit scheme's own prototype, of which only the static limit was confirmed from outside (methods.md section 5); density is the volume of the points in the reservoir over the room there, minus one.\n\n![Force over filled length, 6 cells, walls on the nodes](verification-slit.png)",
+    ),
+    (
+        "piston",
+        "A piston presses liquid into a square lumen and a tube\n\nPressure against developed flow (finite differences in the same staircase) plus the equivalent length of entrance and front.",
+    ),
+    (
+        "washburn",
+        "Filling a slit at constant pressure\n\nTime to five widths against a 24-cell run of the implicit scheme's own prototype, of which only the static limit was confirmed from outside (methods.md section 5); the error of L(t) is half that of the time.",
+    ),
+    (
+        "washburn3d",
+        "Filling a square lumen and a tube at constant pressure\n\nTime from one to two diameters, as for the piston.",
+    ),
+    (
+        "squeeze",
+        "Squeeze film between plates\n\nAgainst 8 eta V a^3/h^3 per length, a as long as what was pressed out makes it.",
+    ),
+    (
+        "disc8",
+        "Squeeze film of a disc\n\nAgainst 3 pi eta R^4 V/(2 h^3), R of the voxels' area and as wide as what was pressed out makes it.",
+    ),
+    (
+        "tait",
+        "Compression\n\nA closed column by 2 %, pressure against paper Eq. 1. The piston moves off the nodes, so that the explicit scheme compresses the column 3 % less than it is; the law of each point is exact.",
+    ),
+    (
+        "acoustic",
+        "Standing sound wave\n\nHalf a wave over 32 cells: frequency against c^2 = K/rho, damping per period against (4/3 eta) k^2/(2 rho); what is beyond it at 0.001 Pa s is the update's own.",
+    ),
+    (
+        "column",
+        "Liquid at rest under a body force\n\nA free surface, 12 cells.",
+    ),
+    (
+        "vortex",
+        "Taylor-Green vortex\n\nDecay of the kinetic energy against 4 nu k^2. At 0.05 Pa s the explicit scheme rings instead of decaying: it holds div v = 0 on every point, which gives flows of constant volume a stiffness of about K (k cell)^4 (locking). The implicit scheme is made for flows without inertia; its error here is that of backward Euler steps.",
+    ),
+    (
+        "drop",
+        "Momentum\n\nA free drop whose quarters move differently, 0.5 us.",
+    ),
+    (
+        "galilean",
+        "Galilean invariance\n\nLiquid and walls all at 0.5 m/s, walls 0.3 cell off the nodes, until all has moved by three cells.",
+    ),
+    (
+        "sealed",
+        "Sealed lumens\n\nUnder 2.5 MPa behind walls of 1 and 2 voxels.",
+    ),
+    (
+        "clamp",
+        "Load control\n\nA squeeze film closed under a pressure limit of 2.5 MPa. The resistance of the explicit scheme jumps where the moving wall crosses nodes, by more than its controller can follow without overshoot.",
+    ),
+];

@@ -1,0 +1,168 @@
+//! The verification scenes: for each a case text and a measure of its error.
+
+pub mod acoustic;
+pub mod catalogue;
+pub mod channel;
+pub mod clamp;
+pub mod column;
+pub mod couette;
+pub mod disc;
+pub mod drop;
+pub mod duct;
+mod families;
+pub mod galilean;
+pub mod goals;
+pub mod incline;
+pub mod lumen;
+pub mod piston;
+pub mod plots;
+pub mod report;
+pub mod sealed;
+pub mod slit;
+pub mod squeeze;
+pub mod tait;
+pub mod taylor_green;
+pub mod washburn;
+
+use crate::case_text::CaseText;
+use crate::job::{Job, run_all};
+use crate::outputs::Run;
+use crate::study::Study;
+
+/// The study, on the scenes so named; whether all runs ended.
+///
+/// # Errors
+/// The system's reason.
+pub fn run(study: &Study) -> Result<bool, String> {
+    let mut entries = catalogue::all();
+    entries.retain(|(scene, _)| study.wants(&scene.name));
+    let mut jobs: Vec<Job> = Vec::new();
+    for (scene, methods) in &entries {
+        let methods = methods.iter().cloned();
+        jobs.extend(methods.map(|method| Job { scene, method }));
+    }
+    let outcomes = run_all(&jobs, &study.folder());
+    report::write(study, &entries, &outcomes)?;
+    plots::write(study, &outcomes)?;
+    Ok(outcomes.iter().all(|o| o.measured.is_ok()))
+}
+
+/// Width of the lumen of all scenes, m (paper section 2.3).
+pub const LUMEN: f64 = 17.4e-6;
+
+/// Measures a run; an error is a sentence.
+pub type Measure = Box<dyn Fn(&Run) -> Result<Vec<Measured>, String> + Send + Sync>;
+
+/// A scene with the error of a run of it.
+pub struct Scene {
+    /// Name of the case file, e.g. "channel-n6-off0.25": its family, the cells across the lumen
+    /// where other scenes differ in them alone, and the rest.
+    pub name: String,
+    /// The case.
+    pub case: CaseText,
+    /// What is compared, with its equation.
+    pub against: &'static str,
+    /// Named errors of a run.
+    pub measure: Measure,
+}
+
+impl Scene {
+    /// First word of the name.
+    pub fn family(&self) -> &str {
+        self.name.split('-').next().unwrap_or_default()
+    }
+
+    /// Cells across the lumen, if the name says so, and the name without them: scenes that agree
+    /// in the latter are one refinement series.
+    pub fn resolution(name: &str) -> (String, Option<u32>) {
+        let cells = |part: &str| part.strip_prefix('n')?.parse::<u32>().ok();
+        let found = name.split('-').find_map(cells);
+        let series: Vec<&str> = name.split('-').filter(|p| cells(p).is_none()).collect();
+        (series.join("-"), found)
+    }
+}
+
+/// One number measured against its reference.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// What, e.g. "mean velocity".
+    pub what: String,
+    /// Value of the run.
+    pub value: f64,
+    /// Value of the closed form or reference.
+    pub reference: f64,
+    /// Error as stated: relative unless `what` says otherwise.
+    pub error: f64,
+    /// Whether the error is a number of things, not a share.
+    pub counted: bool,
+}
+
+impl Measured {
+    /// A value with its relative error.
+    pub fn relative(what: impl Into<String>, value: f64, reference: f64) -> Self {
+        Self {
+            what: what.into(),
+            value,
+            reference,
+            error: value / reference - 1.0,
+            counted: false,
+        }
+    }
+
+    /// An error that is itself the value, e.g. a noise relative to a maximum.
+    pub fn absolute(what: impl Into<String>, error: f64) -> Self {
+        Self {
+            what: what.into(),
+            value: error,
+            reference: 0.0,
+            error,
+            counted: false,
+        }
+    }
+
+    /// A number of things that should be none.
+    pub fn count(what: impl Into<String>, number: usize) -> Self {
+        Self {
+            counted: true,
+            ..Self::absolute(what, number as f64)
+        }
+    }
+}
+
+/// Speed of the upper wall towards the lower one, m/s, that raises the pressure to 1 MPa by the
+/// time `until` (s). The wall law is unilateral: without pressure, as in the adhesive that a
+/// clamp presses, liquid would slip off the walls.
+pub(crate) fn pressing(until: f64) -> f64 {
+    1e6 / crate::case_text::PF[1] * LUMEN / until
+}
+
+/// Position (m) and velocity (m/s) of a material point.
+pub(crate) type Point = ([f64; 3], [f64; 3]);
+
+/// Positions and velocities of the final state.
+pub(crate) fn final_points(run: &Run) -> Result<Vec<Point>, String> {
+    let file = run.last()?;
+    let read = |name| file.vectors(name).map_err(|e| e.to_string());
+    let (position, velocity) = (read("position")?, read("velocity")?);
+    let pairs = position.iter().zip(velocity);
+    Ok(pairs
+        .map(|(x, v)| (x.map(f64::from), v.map(f64::from)))
+        .collect())
+}
+
+/// Mean velocity along x of the final state, m/s.
+pub(crate) fn mean_velocity(run: &Run) -> Result<f64, String> {
+    let points = final_points(run)?;
+    Ok(points.iter().map(|(_, v)| v[0]).sum::<f64>() / points.len() as f64)
+}
+
+/// Rows of a column in a window of another, averaged.
+pub(crate) fn window_mean(x: &[f64], y: &[f64], from: f64, to: f64) -> Option<f64> {
+    let inside: Vec<f64> = x
+        .iter()
+        .zip(y)
+        .filter(|(x, _)| (from..to).contains(*x))
+        .map(|(_, y)| *y)
+        .collect();
+    (!inside.is_empty()).then(|| inside.iter().sum::<f64>() / inside.len() as f64)
+}

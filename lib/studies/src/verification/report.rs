@@ -1,0 +1,196 @@
+//! The verification page and table.
+
+use std::fmt::Write as _;
+
+use super::catalogue::Entry;
+use super::families::FAMILIES;
+use super::goals::{GOALS, Goal};
+use super::{Measured, Scene};
+use crate::job::Outcome;
+use crate::study::{Study, distinct};
+
+/// Order of the methods in tables.
+const COLUMNS: [&str; 9] = [
+    "FLIP", "PIC", "APIC", "XPIC(2)", "XPIC(3)", "XPIC(5)", "FMPM(2)", "FMPM(5)", "implicit",
+];
+
+/// Writes `verification.csv` and `verification.md`.
+///
+/// # Errors
+/// The system's reason.
+pub fn write(study: &Study, entries: &[Entry], outcomes: &[Outcome]) -> Result<(), String> {
+    let columns = "case,scheme,method,set,against,quantity,value,reference,error,order,steps,cpu_s";
+    let rows = outcomes.iter().flat_map(|o| fields(o, entries, outcomes));
+    study.write_csv("verification.csv", columns, rows)?;
+    let head = study.head(outcomes.iter().map(|o| o.cpu_s));
+    study.write("verification.md", page(&head, outcomes))
+}
+
+/// The rows of a run in the table.
+fn fields(o: &Outcome, entries: &[Entry], outcomes: &[Outcome]) -> Vec<Vec<String>> {
+    let scene = entries.iter().find(|(scene, _)| scene.name == o.scene);
+    let head = || {
+        vec![
+            o.scene.clone(),
+            o.method.scheme.name().into(),
+            o.method.label.clone(),
+            o.method.set.join(" "),
+            scene.map_or(String::new(), |(scene, _)| scene.against.into()),
+        ]
+    };
+    let row = |m: &Measured| {
+        let order = order(o, m, outcomes).map_or(String::new(), |order| format!("{order:.1}"));
+        let numbers = [
+            m.what.clone(),
+            format!("{:.6e}", m.value),
+            format!("{:.6e}", m.reference),
+            format!("{:.4e}", m.error),
+            order,
+            o.steps.to_string(),
+            format!("{:.2}", o.cpu_s),
+        ];
+        [head(), numbers.into()].concat()
+    };
+    match &o.measured {
+        Ok(list) => list.iter().map(row).collect(),
+        Err(said) => {
+            let mut row = head();
+            row.push(format!("failed: {said}"));
+            row.resize(12, String::new());
+            vec![row]
+        }
+    }
+}
+
+/// Observed order from half as many cells; means little where an error passes zero.
+fn order(o: &Outcome, m: &Measured, outcomes: &[Outcome]) -> Option<f64> {
+    let (series, Some(cells)) = Scene::resolution(&o.scene) else {
+        return None;
+    };
+    let coarse = outcomes.iter().find(|c| {
+        c.method == o.method && Scene::resolution(&c.scene) == (series.clone(), Some(cells / 2))
+    })?;
+    let before = coarse.measured(&m.what).filter(|_| !m.counted)?;
+    Some((before.error / m.error).abs().log2())
+}
+
+fn page(head: &str, outcomes: &[Outcome]) -> String {
+    let mut out = format!("# Verification\n\n{head}\n");
+    out.push_str(
+        "Every case is written to `out/verify/cases/CASE-SCHEME.toml` (`make verify ONLY=CASE` writes and \
+         runs one); updates other than FLIP are `--set` on it. Errors are relative, in per cent of the reference, \
+         unless the quantity says otherwise; n is cells across the lumen, off the offset of the walls from \
+         the nodes in cells. Below stands the worst error of each family by each method, with the rest of its case's name; all cases, with the order observed from half as many cells, \
+         are in [verification.csv](verification.csv). Implicit runs \
+         solve to 1e-4; those from rest to a steady flow take short steps (column `set`), because \
+         at the usual Courant number the first step is as long as the run. The explicit scheme is the paper's, with none of its options.\n\n",
+    );
+    goals(&mut out, outcomes);
+    for (family, text) in FAMILIES {
+        let prefix = format!("{family}-");
+        let of = |o: &&Outcome| o.scene == *family || o.scene.starts_with(&prefix);
+        let of_family: Vec<&Outcome> = outcomes.iter().filter(of).collect();
+        if !of_family.is_empty() {
+            let _ = writeln!(out, "## {text}\n");
+            family_table(&mut out, &of_family);
+        }
+    }
+    out
+}
+
+/// Goals with the worst error found.
+fn goals(out: &mut String, outcomes: &[Outcome]) {
+    out.push_str(
+        "## Goals\n\n| case | method | quantity | goal | worst | |\n|---|---|---|---|---|---|\n",
+    );
+    for goal in GOALS {
+        let Some(worst) = worst(goal, outcomes) else {
+            continue;
+        };
+        let reached = if worst.abs() <= goal.limit {
+            "reached"
+        } else {
+            "**missed**"
+        };
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} | {} | {reached} |",
+            goal.cases,
+            goal.method,
+            goal.quantity,
+            percent(goal.limit).trim_start_matches('+'),
+            percent(worst)
+        );
+    }
+    out.push('\n');
+}
+
+fn worst(goal: &Goal, outcomes: &[Outcome]) -> Option<f64> {
+    let of = outcomes
+        .iter()
+        .filter(|o| goal.is_about(&o.scene, &o.method.label));
+    let errors = of.filter_map(|o| {
+        let list = o.measured.as_ref().ok()?;
+        let about = list.iter().filter(|m| m.what.starts_with(goal.quantity));
+        about
+            .map(|m| m.error)
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()))
+    });
+    errors.max_by(|a, b| a.abs().total_cmp(&b.abs()))
+}
+
+/// The worst error of each quantity at each resolution by each method, and what failed.
+fn family_table(out: &mut String, outcomes: &[&Outcome]) {
+    let mut methods = distinct(outcomes.iter().map(|o| o.method.label.as_str()));
+    methods.sort_by_key(|label| COLUMNS.iter().position(|c| c == label));
+    let _ = writeln!(out, "| quantity | n | {} |", methods.join(" | "));
+    let _ = writeln!(out, "|---|---|{}", "---|".repeat(methods.len()));
+    let all = outcomes.iter().flat_map(|o| {
+        let (_, cells) = Scene::resolution(&o.scene);
+        let whats = o.measured.iter().flatten().map(|m| m.what.as_str());
+        whats.map(move |what| (what, cells))
+    });
+    for (what, cells) in distinct(all) {
+        let cell = |label: &&str| {
+            let own = outcomes.iter().filter(|o| o.method.label == **label);
+            let errors = own.filter_map(|o| {
+                let (series, n) = Scene::resolution(&o.scene);
+                let m = o.measured(what).filter(|_| n == cells)?;
+                Some((m, series))
+            });
+            let worst = errors.max_by(|a, b| a.0.error.abs().total_cmp(&b.0.error.abs()));
+            worst.map_or(String::new(), |(m, series)| match series.split_once('-') {
+                Some((_, place)) => format!("{} ({place})", error(m)),
+                None => error(m),
+            })
+        };
+        let row: Vec<String> = methods.iter().map(cell).collect();
+        let n = cells.map_or(String::new(), |n| n.to_string());
+        let _ = writeln!(out, "| {what} | {n} | {} |", row.join(" | "));
+    }
+    for o in outcomes {
+        if let Err(said) = &o.measured {
+            let _ = writeln!(out, "| {}, {} failed: {said} |", o.scene, o.method.label);
+        }
+    }
+    out.push('\n');
+}
+
+fn error(m: &Measured) -> String {
+    if m.counted {
+        format!("{}", m.error)
+    } else {
+        percent(m.error)
+    }
+}
+
+/// A share in per cent with what digits it needs.
+pub(crate) fn percent(share: f64) -> String {
+    match 100.0 * share {
+        0.0 => "0".into(),
+        p if p.abs() < 0.01 => format!("{p:+.1e} %"),
+        p if p.abs() < 1.0 => format!("{p:+.2} %"),
+        p if p.abs() < 100.0 => format!("{p:+.1} %"),
+        p => format!("{p:+.0} %"),
+    }
+}

@@ -1,0 +1,78 @@
+//! What documents, comments and help texts name exists: documents, links, sections, paths of the
+//! repository, commits named in results; and the table of constants in docs/methods.md is that of the code.
+
+mod commits;
+mod constants;
+mod names;
+
+use std::path::{Path, PathBuf};
+
+use names::Finder;
+
+fn root() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    root.canonicalize().expect("the repository")
+}
+
+#[test]
+fn every_name_in_documents_and_comments_exists() {
+    let finder = Finder::new(root());
+    let broken: Vec<String> = finder
+        .texts()
+        .iter()
+        .flat_map(|t| finder.broken(t))
+        .collect();
+    assert!(broken.is_empty(), "\n{}", broken.join("\n"));
+}
+
+/// The test above can fail: each of these names something that is not there.
+#[test]
+fn broken_names_are_found() {
+    let finder = Finder::new(root());
+    let markdown = |text: &str| finder.broken(&names::Text::new("docs/some.md", text));
+    let comment = |text: &str| finder.broken(&names::Text::new("lib/mpm/src/some.rs", text));
+    for text in [
+        "[a page](nowhere.md)",
+        "[a page](methods.md#no-such-heading)",
+        "[a heading](#no-such-heading)",
+        "as in methods.md section 99.1",
+        "see numerics.md for it",
+        "`lib/mpm/src/no_such_file.rs`",
+        "in `physics/src/no_such_file.rs`",
+        "run `pipelines/examples/no-such.sh`",
+        "run `make no-such-target`",
+    ] {
+        assert_eq!(markdown(text).len(), 1, "{text}: {:?}", markdown(text));
+    }
+    for text in [
+        "/// As in docs/results/bench.md.",
+        "//! docs/methods.md\n//! section 99",
+        "fn f() {} // lib/nowhere/src/lib.rs",
+    ] {
+        assert_eq!(comment(text).len(), 1, "{text}: {:?}", comment(text));
+    }
+    for text in [
+        "[methods](methods.md#3-the-implicit-scheme), methods.md section 2.6, ../README.md",
+        "`lib/mpm/src/step.rs`, `pipelines/cases/*.toml`, `make test`, <https://nowhere.md/a/b.rs>",
+    ] {
+        assert_eq!(markdown(text), Vec::<String>::new());
+    }
+    assert_eq!(
+        comment("let x = \"docs/nowhere.md\";"),
+        Vec::<String>::new()
+    );
+}
+
+#[test]
+fn the_table_of_constants_is_that_of_the_code() {
+    let differences = constants::differences(&root());
+    assert!(differences.is_empty(), "\n{}", differences.join("\n"));
+}
+
+#[test]
+fn commits_named_in_results_exist() {
+    match commits::missing(&root()) {
+        Ok(missing) => assert!(missing.is_empty(), "\n{}", missing.join("\n")),
+        Err(why) => eprintln!("commits of results not looked up: {why}"),
+    }
+}

@@ -1,0 +1,221 @@
+//! Cheap verification scenes through the real `mpm-run`, each within a tolerance that the
+//! mutations beside it break. tests/README.md gives the reasons of the tolerances and the
+//! mutations of the source that were made by hand.
+
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
+use studies::case_text::Viscosity;
+use studies::job::{Job, run_one};
+use studies::load_control::{self, report::sound, scenes::SHAPES};
+use studies::method::Method;
+use studies::verification::lumen::Section;
+use studies::verification::{
+    Scene, acoustic, channel, clamp, column, disc, drop, duct, galilean, incline, sealed, squeeze,
+    tait, taylor_green,
+};
+
+/// Largest error by magnitude of the quantities whose names begin with `what`.
+fn error(scene: &Scene, method: Method, what: &str) -> f64 {
+    let folder = tempfile::tempdir().unwrap();
+    let label = method.label.clone();
+    let outcome = run_one(&Job { scene, method }, folder.path());
+    let list = outcome.measured.unwrap_or_else(|said| panic!("{said}"));
+    let errors = list.iter().filter(|m| m.what.starts_with(what));
+    let worst = errors
+        .map(|m| m.error)
+        .max_by(|a, b| a.abs().total_cmp(&b.abs()))
+        .unwrap_or_else(|| panic!("{}: nothing named {what}", scene.name));
+    println!("{} {label}: {what} {worst:+.3e}", scene.name);
+    worst
+}
+
+fn assert_within(tolerance: f64, scene: &Scene, method: Method, what: &str) {
+    let found = error(scene, method, what);
+    assert!(
+        found.abs() <= tolerance,
+        "{}: {what} is off by {found:+.3e}, more than {tolerance:e}",
+        scene.name
+    );
+}
+
+/// The same comparison must fail for a scene with a mistake in it.
+fn assert_caught(tolerance: f64, scene: &Scene, method: Method, what: &str) {
+    let found = error(scene, method, what);
+    assert!(
+        found.abs() > tolerance,
+        "{}: a mutated case is off by {found:+.3e} only, within {tolerance:e}",
+        scene.name
+    );
+}
+
+/// The scene with a viscosity 5 % too high.
+fn thicker(mut scene: Scene) -> Scene {
+    if let Viscosity::Newtonian(eta) = &mut scene.case.viscosity {
+        *eta *= 1.05;
+    }
+    scene
+}
+
+/// The scene with the wall of this index a quarter cell higher at its low side.
+fn lifted(mut scene: Scene, wall: usize) -> Scene {
+    scene.case.bodies[wall].min[1] += 0.25 * scene.case.cell;
+    scene
+}
+
+#[test]
+fn a_film_on_an_incline() {
+    let film = || incline::scene(6, 0.0, 5e-6);
+    let what = "rms profile";
+    for (tolerance, method) in [
+        (0.01, Method::flip()),
+        (0.01, Method::xpic(5)),
+        (0.015, Method::implicit()),
+    ] {
+        assert_within(tolerance, &film(), method.clone(), what);
+        assert_caught(tolerance, &thicker(film()), method, what);
+    }
+    assert_within(0.001, &film(), Method::xpic(5), "rms v_y");
+    let mut sunk = film();
+    sunk.case.bodies[0].max[1] -= 0.25 * sunk.case.cell;
+    assert_caught(0.01, &sunk, Method::xpic(5), what);
+}
+
+#[test]
+fn flow_through_a_channel() {
+    let what = "mean velocity";
+    for offset in [0.0, 0.25, 0.5] {
+        let scene = || channel::scene(6, offset, None, 3e-6);
+        assert_within(0.015, &scene(), Method::implicit(), what);
+        assert_caught(0.015, &thicker(scene()), Method::implicit(), what);
+        assert_caught(0.015, &lifted(scene(), 1), Method::implicit(), what);
+    }
+    // The bulk of the explicit scheme's flow is right where its walls are: on the nodes.
+    let scene = || channel::scene(6, 0.0, None, 3e-6);
+    assert_within(0.06, &scene(), Method::xpic(5), what);
+    assert_caught(0.06, &lifted(scene(), 1), Method::xpic(5), what);
+}
+
+#[test]
+fn flow_through_lumens_in_three_dimensions() {
+    let what = "mean velocity";
+    let square = || duct::scene(Section::Square, 6, 2e-6);
+    assert_within(0.01, &square(), Method::implicit(), what);
+    assert_caught(0.01, &thicker(square()), Method::implicit(), what);
+    assert_caught(0.01, &lifted(square(), 0), Method::implicit(), what);
+    let tube = duct::scene(Section::Round(1), 6, 2e-6);
+    let same = "mean velocity, same staircase";
+    assert_within(0.045, &tube, Method::implicit(), same);
+}
+
+#[test]
+fn squeeze_films() {
+    let short = || Method::implicit().setting("integrator.cfl=0.01");
+    for (tolerance, scene) in [
+        (0.02, squeeze::scene(3, 0.25)),
+        (0.025, disc::scene(8, 2, 0.0)),
+    ] {
+        assert_within(tolerance, &scene, short(), "force on the top");
+        let thick = thicker(scene);
+        assert_caught(tolerance, &thick, short(), "force on the top");
+    }
+}
+
+#[test]
+fn compression_and_sound() {
+    for method in Method::updates() {
+        assert_within(2e-6, &tait::scene(), method, "rms pressure");
+    }
+    // Damping by the viscosity: 4/3 eta of the deviator; all of 2 eta D would damp half as
+    // much again, 3.2 % more of the wave per period.
+    let wave = || acoustic::scene(0.5);
+    for method in [Method::flip(), Method::apic(), Method::fmpm(5)] {
+        assert_within(0.002, &wave(), method.clone(), "frequency");
+        assert_within(0.001, &wave(), method.clone(), "1 + damping");
+        assert_caught(0.001, &thicker(wave()), method, "1 + damping");
+    }
+}
+
+#[test]
+fn a_vortex_decays() {
+    let vortex = || taylor_green::scene(12, 1.3);
+    for method in [Method::flip(), Method::xpic(5), Method::fmpm(5)] {
+        assert_within(0.03, &vortex(), method.clone(), "decay rate");
+    }
+    assert_caught(0.03, &thicker(vortex()), Method::xpic(5), "decay rate");
+}
+
+#[test]
+fn a_column_stands_on_its_floor() {
+    for method in [Method::flip(), Method::xpic(5)] {
+        assert_within(1e-3, &column::scene(0.0, 6e-6), method, "weight");
+    }
+}
+
+#[test]
+fn momentum_is_kept() {
+    for method in Method::updates() {
+        assert_within(1e-5, &drop::scene(0.2e-6), method, "momentum");
+    }
+}
+
+#[test]
+fn a_common_velocity_changes_nothing() {
+    for law in ["stick", "partial-slip", "frictionless"] {
+        let mut scene = galilean::scene(law, 0.3);
+        scene.case.stop = Some(1e-6);
+        let mut methods = Method::updates();
+        methods.push(Method::implicit());
+        for method in methods {
+            assert_within(1e-6, &scene, method, "largest drift");
+        }
+    }
+}
+
+#[test]
+fn sealed_lumens_do_not_leak() {
+    for voxels in [1, 2] {
+        for offset in [0.25, 0.5] {
+            for method in [Method::flip(), Method::xpic(2), Method::implicit()] {
+                assert_within(0.0, &sealed::scene(voxels, offset), method, "points leaked");
+            }
+        }
+    }
+    // A roof that is not there is noticed.
+    let mut open = sealed::scene(2, 0.25);
+    open.case.bodies.remove(1);
+    open.case.clamp = open.case.clamp.map(|text| text.replace("0.400 us", "8 us"));
+    assert_caught(0.0, &open, Method::implicit(), "points leaked");
+}
+
+#[test]
+fn the_clamp_keeps_its_limit_and_stops_when_closed() {
+    let scene = clamp::scene(3.0);
+    assert_within(0.01, &scene, Method::implicit(), "overshoot");
+    assert_within(0.01, &scene, Method::implicit(), "worst error");
+    assert_within(0.0, &scene, Method::implicit(), "speed outside");
+    assert_within(1e-9, &scene, Method::implicit(), "travel");
+}
+
+/// At 0.1 MPa a step once went 1.44 cells at a Courant number of 0.5, and the run "closed" a tenth
+/// into its time; at 0.03 MPa and 6 Pa s the solver was asked for the speed of a plate in the air.
+#[test]
+fn a_clamp_at_its_limit_keeps_the_courant_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let film_under_air = SHAPES[1];
+    let rows = [(1e5, 1.3), (3e5, 1.3), (3e4, 6.0)].map(|(pressure, viscosity)| {
+        load_control::row(film_under_air, pressure, viscosity, folder.path()).unwrap()
+    });
+    for row in &rows {
+        let [usual, small] = &row.courses;
+        println!(
+            "{} Pa, {} Pa s: clamp {:.3} of the Courant number, closed after {:.4e} and {:.4e} s, gap off by {:.3}",
+            row.pressure, row.viscosity, usual.clamp, usual.closed_s, small.closed_s, row.thickness
+        );
+    }
+    assert!(sound(&rows));
+    let [low, high] = [&rows[0], &rows[1]].map(|row| row.courses[0].closed_s);
+    assert!(
+        (low / high / 3.0 - 1.0).abs() < 0.2,
+        "three times the pressure, a third of the time"
+    );
+}
