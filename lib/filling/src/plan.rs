@@ -1,6 +1,6 @@
 //! What an implicit run of a scene will take.
 
-use physics::{Amount, Dimensions, Scene, Stop};
+use physics::{Amount, Dimensions, Scene, Stages, Stop};
 
 use crate::settings::Settings;
 
@@ -17,7 +17,7 @@ const SECONDS: [f64; 3] = [0.17e-6, 1.5e-6, 1e-6];
 const BYTES: [f64; 3] = [450.0, 260.0, 100.0];
 
 /// Size and cost of a run; cheap, nothing is allocated.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Cells of the domain.
     pub cells: f64,
@@ -33,6 +33,8 @@ pub struct Plan {
     pub memory_bytes: f64,
     /// Processor seconds: wall time is that over the number of cores.
     pub cpu_s: f64,
+    /// What a step consists of.
+    pub stages: Stages,
 }
 
 impl Plan {
@@ -75,8 +77,26 @@ impl Plan {
                 + BYTES[2] * points,
             cpu_s: steps
                 * ((SECONDS[0] * ITERATIONS + SECONDS[1]) * unknowns + SECONDS[2] * points),
+            stages: stages(scene),
         }
     }
+}
+
+/// The stages of a run of `scene`.
+fn stages(scene: &Scene) -> Stages {
+    let list = Stages::of(scene);
+    let gains = scene.clamp.and_then(|clamp| clamp.pid);
+    let no_pid = match (list.has(Stages::LOAD), gains) {
+        (true, Some(_)) => None,
+        (true, None) => Some("no pid: the limit is an equation of the solve"),
+        (false, _) => Some("no pressure limit"),
+    };
+    list.and("PID", no_pid.map(str::to_owned))
+        .and("density projection", None)
+        .and(
+            "shear rate of points between snapshots",
+            Some("known where a state is written, and in cells before".into()),
+        )
 }
 
 /// Cells of the box around the liquid when it has spread as far as it is thick, at most all.

@@ -9,15 +9,13 @@
 
 use rayon::prelude::*;
 
+use crate::fields::point::{J, VOLUME};
 use crate::lattice::HALO;
 use crate::material::Stress;
 use crate::nodes::Block;
 use crate::real::Real;
-use crate::tiles::{NOWHERE, Points, Tile};
-use crate::topology::{Grid, unlink};
-
-/// What the points of a cell add up to: volume at J = 1 (cells) and that times j = J - 1.
-pub(crate) type CellSum = [Real; 2];
+use crate::tiles::{NOWHERE, Points, Tile, unlink};
+use crate::topology::Grid;
 
 /// Entry of the halo that stands for a point's cell: its lowest node.
 #[inline]
@@ -72,7 +70,7 @@ pub(crate) fn equalise(grid: &mut Grid, stress: &Stress) {
 fn sum(tile: &mut Tile, axes: usize) {
     tile.cells.fill([0.0; 2]);
     for p in 0..tile.points.len() {
-        let (volume, j) = (tile.points.place[p].0[3], tile.points.motion[p].0[3]);
+        let (volume, j) = (tile.points.place[p].0[VOLUME], tile.points.motion[p].0[J]);
         let cell = &mut tile.cells[cell_of(&tile.points, p, axes)];
         cell[0] += volume;
         cell[1] += volume * j;
@@ -102,7 +100,7 @@ fn apply(tile: &mut Tile, blocks: &[Block], axes: usize, stress: &Stress) {
     }
     for p in 0..tile.points.len() {
         let [volume, sum] = tile.cells[cell_of(&tile.points, p, axes)];
-        let j = &mut tile.points.motion[p].0[3];
+        let j = &mut tile.points.motion[p].0[J];
         let before = stress.pressure(*j);
         *j = sum / volume;
         let change = before - stress.pressure(*j);

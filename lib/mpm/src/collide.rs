@@ -7,16 +7,13 @@
 
 use physics::Boundary;
 
-use crate::lanes::Quad;
+use crate::fields::point::VOLUME;
+use crate::lanes::Lanes4;
 use crate::lattice::{EDGE, HALO, Lattice};
 use crate::real::Real;
 use crate::simd::{Kernel, dispatch};
 use crate::tiles::{Tile, base_of};
 use crate::walls::BlockShape;
-
-/// Distance (cells) from a face at which a stopped point is left: above the resolution of
-/// positions, far below anything physical.
-const STAND_OFF: f64 = 1e-5;
 
 /// A body while points move: its parts and where it is.
 pub(crate) struct Obstacle<'a> {
@@ -30,6 +27,11 @@ pub(crate) struct Obstacle<'a> {
 
 /// The first point whose displacement is not a number or 0.9 of a cell or longer.
 pub(crate) type Fault = Option<u32>;
+
+/// Of two tiles' faults the one of the lowest point.
+pub(crate) fn first_fault(a: Fault, b: Fault) -> Fault {
+    a.into_iter().chain(b).min()
+}
 
 /// Moves all points of a tile by their displacement and sorts out those that leave.
 pub(crate) fn move_points(tile: &mut Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Fault {
@@ -91,10 +93,10 @@ impl Kernel for Move<'_> {
 /// Faces of a block's voxels in the coordinates of a tile: offset from its lowest node (cells)
 /// times `scale` plus `origin` is an integer on a face.
 struct FaceGrid {
-    scale: Quad,
-    origin: Quad,
+    scale: Lanes4,
+    origin: Lanes4,
     /// How far (voxels) the block moves in the step, and a margin for rounding.
-    margin: Quad,
+    margin: Lanes4,
 }
 
 /// The face grids of the bodies near a tile.
@@ -105,7 +107,7 @@ fn faces(tile: &Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Vec<FaceGrid> {
         .filter(|(b, _)| tile.bodies >> b & 1 == 1);
     near.flat_map(|(_, body)| body.parts.iter().map(move |part| (body, part)))
         .map(|(body, part)| {
-            let (mut scale, mut origin, mut margin) = (Quad::ZERO, Quad::ZERO, Quad::ZERO);
+            let (mut scale, mut origin, mut margin) = (Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO);
             for a in 0..3 {
                 let inverse = 1.0 / part.voxel[a];
                 let low = (f64::from(tile.origin[a]) - body.to[a] - part.origin[a]) * inverse;
@@ -127,7 +129,7 @@ fn faces(tile: &Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Vec<FaceGrid> {
 
 /// Whether a point at `d` after moving by `shift` cannot have crossed a face.
 #[inline(always)]
-fn far(grids: &[FaceGrid], base: usize, d: &Quad, shift: &Quad) -> bool {
+fn far(grids: &[FaceGrid], base: usize, d: &Lanes4, shift: &Lanes4) -> bool {
     let local = [
         (base % HALO) as Real,
         (base / HALO % HALO) as Real,
@@ -151,7 +153,7 @@ fn far(grids: &[FaceGrid], base: usize, d: &Quad, shift: &Quad) -> bool {
 fn move_point(
     tile: &mut Tile,
     p: usize,
-    mut d: Quad,
+    mut d: Lanes4,
     lattice: &Lattice,
     bodies: &[Obstacle],
 ) -> bool {
@@ -182,7 +184,13 @@ fn move_point(
 
 /// Finds the nearest node and applies the sides; says whether the point is still inside.
 #[inline]
-fn settle(tile: &mut Tile, p: usize, node: &mut [i32; 3], d: &mut Quad, lattice: &Lattice) -> bool {
+fn settle(
+    tile: &mut Tile,
+    p: usize,
+    node: &mut [i32; 3],
+    d: &mut Lanes4,
+    lattice: &Lattice,
+) -> bool {
     for a in 0..lattice.axes() {
         let n = lattice.cells[a];
         let outside = (node[a] == 0 && d.0[a] < 0.0) || (node[a] == n && d.0[a] > 0.0);
@@ -212,12 +220,12 @@ fn collide(
     tile: &mut Tile,
     p: usize,
     node: [i32; 3],
-    d: &mut Quad,
+    d: &mut Lanes4,
     lattice: &Lattice,
     bodies: &[Obstacle],
 ) {
     let start = tile.points.place[p];
-    let mass = f64::from(start.0[3]);
+    let mass = f64::from(start.0[VOLUME]);
     let mut hit = false;
     for (b, body) in bodies.iter().enumerate() {
         if tile.bodies >> b & 1 == 0 {
@@ -245,72 +253,5 @@ fn collide(
             body.parts.iter().any(inside)
         });
         tile.hits.trapped += u64::from(trapped);
-    }
-}
-
-impl BlockShape {
-    /// Position of a point in voxels of this block displaced by `shift`.
-    fn voxels(&self, node: [i32; 3], d: &Quad, shift: &[f64; 3], lattice: &Lattice) -> [f64; 3] {
-        std::array::from_fn(|a| {
-            let mut x = f64::from(node[a]) + f64::from(d.0[a]) - shift[a] - self.origin[a];
-            if lattice.boundary[a] == Boundary::Periodic && a < lattice.axes() {
-                x = x.rem_euclid(f64::from(lattice.cells[a]));
-            }
-            x / self.voxel[a]
-        })
-    }
-
-    fn solid_at(&self, x: [f64; 3]) -> bool {
-        x.iter().all(|&x| x >= 0.0) && {
-            let [i, j, k] = x.map(|x| x as usize);
-            self.solid.solid(i, j, k)
-        }
-    }
-
-    /// Whether a point is in a solid voxel of this block displaced by `shift`.
-    pub(crate) fn contains(
-        &self,
-        node: [i32; 3],
-        d: &Quad,
-        shift: &[f64; 3],
-        lattice: &Lattice,
-    ) -> bool {
-        self.solid_at(self.voxels(node, d, shift, lattice))
-    }
-
-    /// Follows a point from `start` to `end` axis by axis and stops it before solid voxels.
-    /// Gives the directions (-1, 0, 1) in which it was stopped, `None` if it was not.
-    fn sweep(
-        &self,
-        node: [i32; 3],
-        start: &Quad,
-        end: &mut Quad,
-        (from, to): (&[f64; 3], &[f64; 3]),
-        lattice: &Lattice,
-    ) -> Option<[i8; 3]> {
-        let mut at = self.voxels(node, start, from, lattice);
-        let target = self.voxels(node, end, to, lattice);
-        if at.map(f64::floor) == target.map(f64::floor) || self.solid_at(at) {
-            return None;
-        }
-        let mut stops = [0_i8; 3];
-        for a in 0..3 {
-            let free = at[a];
-            at[a] = target[a];
-            if !self.solid_at(at) {
-                continue;
-            }
-            let up = target[a] > free;
-            stops[a] = if up { 1 } else { -1 };
-            let stand_off = STAND_OFF / self.voxel[a];
-            let stopped = if up {
-                target[a].floor() - stand_off
-            } else {
-                target[a].floor() + 1.0 + stand_off
-            };
-            at[a] = stopped;
-            end.0[a] += ((stopped - target[a]) * self.voxel[a]) as Real;
-        }
-        (stops != [0; 3]).then_some(stops)
     }
 }

@@ -2,7 +2,8 @@
 
 use physics::{Rheology, WallLaw};
 
-use crate::lanes::Oct;
+use crate::fields::{body, wall_sum};
+use crate::lanes::Lanes8;
 use crate::real::Real;
 use crate::settings::ShapeFunction;
 
@@ -51,19 +52,20 @@ fn dot(a: [Real; 3], b: [Real; 3]) -> Real {
 pub(crate) fn meeting(
     body: usize,
     velocity: [Real; 3],
-    rigid: &Oct,
-    (mass, volume, sums): (Real, Real, &Oct),
+    rigid: &Lanes8,
+    (mass, volume, sums): (Real, Real, &Lanes8),
     planes: u8,
     limit: Real,
 ) -> Option<Meeting> {
-    let [rigid_volume, ..] = rigid.0;
-    let mut normal = [rigid.0[1], rigid.0[2], rigid.0[3]];
+    let rigid_volume = rigid.0[body::VOLUME];
+    let mut normal = std::array::from_fn(|a| rigid.0[body::GRADIENT + a]);
     let mut apart = [0.0; 3];
     for a in 0..3 {
         if planes & (1 << a) != 0 {
             normal[a] = 0.0;
         } else {
-            apart[a] = sums.0[a] / mass - rigid.0[4 + a] / rigid_volume;
+            apart[a] =
+                sums.0[wall_sum::MOMENT + a] / mass - rigid.0[body::MOMENT + a] / rigid_volume;
         }
     }
     // The body's gradient is exact, so it gives the normal (the rigid bias of the public code);
@@ -71,7 +73,7 @@ pub(crate) fn meeting(
     if dot(normal, normal) < 1e-4 * rigid_volume * rigid_volume {
         for a in 0..3 {
             if planes & (1 << a) == 0 {
-                normal[a] = -sums.0[3 + a];
+                normal[a] = -sums.0[wall_sum::GRADIENT + a];
             }
         }
     }

@@ -52,5 +52,5 @@ macro_rules! lanes {
     };
 }
 
-lanes!(Oct, 8, 32, "Eight lanes.");
-lanes!(Quad, 4, 16, "Four lanes.");
+lanes!(Lanes8, 8, 32, "Eight lanes.");
+lanes!(Lanes4, 4, 16, "Four lanes.");

@@ -1,6 +1,8 @@
 //! Nodes of the background grid and what the sides of the domain do to them.
 
-use physics::{Boundary, Dimensions, Scene};
+use physics::{Boundary, Scene};
+
+use crate::stages::Present;
 
 /// Nodes along the edge of a tile or block.
 pub(crate) const EDGE: usize = 4;
@@ -26,11 +28,11 @@ pub(crate) struct Folded {
 }
 
 impl Lattice {
-    pub(crate) fn new(scene: &Scene) -> Self {
+    pub(crate) fn new(scene: &Scene, present: Present) -> Self {
         Self {
             cells: scene.grid.cells.map(|n| n as i32),
             boundary: scene.boundary,
-            three: scene.dimensions == Dimensions::Three,
+            three: present.three,
         }
     }
 
@@ -100,6 +102,21 @@ impl Lattice {
         let z = if self.three { g(key >> 42) } else { 0 };
         [g(key & mask), g(key >> 21 & mask), z]
     }
+}
+
+/// Halo entries from the first to the last node of a window.
+pub(crate) const fn window(dimensions: usize) -> usize {
+    let plane = 2 * HALO + 3;
+    if dimensions == 3 {
+        2 * HALO * HALO + plane
+    } else {
+        plane
+    }
+}
+
+/// Window layers along z.
+pub(crate) const fn layers(dimensions: usize) -> usize {
+    if dimensions == 3 { 3 } else { 1 }
 }
 
 /// Index within a block of node (x, y, z) counted from the block's lowest.

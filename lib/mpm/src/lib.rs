@@ -1,6 +1,6 @@
 //! The explicit scheme: the paper's multimaterial material point method (MPM).
 //!
-//! A step reads as in [`Explicit`]'s `advance`: points to nodes, contact with the rigid bodies
+//! A step reads as in `step.rs`: points to nodes, contact with the rigid bodies
 //! and sides, momentum update, contact again, velocity filter, nodes to points, stress.
 //! Equations and order: Sulsky, Chen & Schreyer (10.1016/0045-7825(94)90112-0), XPIC:
 //! Hammerquist & Nairn (10.1016/j.cma.2017.01.035), contact: Nairn, Hammerquist & Smith
@@ -9,6 +9,11 @@
 //! Liquid points live in tiles of 4 x 4 x 4 nodes, each point with its nearest node and its
 //! offset from it; nodes live in blocks of the same size, which exist only where liquid is.
 //! Lengths inside are in cells, masses in (density x cell^3), velocities in m/s.
+//!
+//! Modules use one another in one direction, each only those named before it:
+//! `real`, `fields`, `lanes`, `simd`, `settings`, `stages` | `lattice`, `shape`, `contact`, `walls` |
+//! `tiles`, `nodes`, `topology`, `halo` | `material`, `transfer`, `cell_mean`, `collide`, `density` |
+//! `plan`, `explicit`, `start`, `checks`, `step`, `saved`, `scheme`.
 
 // Loops over axes and lanes index several short arrays at once.
 #![allow(clippy::needless_range_loop)]
@@ -16,10 +21,13 @@
 #![allow(clippy::unnecessary_cast, clippy::useless_conversion)]
 
 mod cell_mean;
+mod checks;
 mod collide;
 mod contact;
 mod density;
 mod explicit;
+mod fields;
+mod halo;
 mod lanes;
 mod lattice;
 mod material;
@@ -28,16 +36,19 @@ mod nodes;
 mod plan;
 mod real;
 mod saved;
+mod scheme;
 mod settings;
 mod shape;
 mod simd;
+mod stages;
+mod start;
 mod step;
 mod tiles;
 mod topology;
 mod transfer;
 mod walls;
 
-pub use explicit::{Corrections, Explicit};
+pub use explicit::Explicit;
 pub use minimal::Minimal;
 pub use plan::{Limit, Plan};
 pub use settings::{PressureFrom, Settings, ShapeFunction, VelocityUpdate};

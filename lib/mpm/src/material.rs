@@ -2,6 +2,7 @@
 
 use physics::{Liquid, Rheology, TAIT_C, Table};
 
+use crate::fields::point::J;
 use crate::real::{Real, exp_m1};
 use crate::tiles::Points;
 
@@ -102,7 +103,7 @@ impl Stress {
         for p in 0..n {
             let [x, y, z] = &gradient[p];
             let trace = (x.0[0] + y.0[1] + z.0[2]) * self.per_cell;
-            let j = &mut motion[p].0[3];
+            let j = &mut motion[p].0[J];
             *j += (1.0 + *j) * (dt * trace);
             let third = trace / 3.0;
             let xx = x.0[0] * self.per_cell - third;
@@ -141,7 +142,7 @@ mod tests {
     use physics::{Newtonian, ShearRate, Tait, Viscosity};
 
     use super::*;
-    use crate::lanes::{Oct, Quad};
+    use crate::lanes::{Lanes4, Lanes8};
     use crate::tiles::Point;
 
     fn liquid() -> Liquid {
@@ -177,10 +178,10 @@ mod tests {
         let mut points = Points::default();
         let point = Point {
             id: 0,
-            place: Quad([0.0, 0.0, 0.0, 0.125]),
-            motion: Quad::ZERO,
-            stress: Oct::ZERO,
-            affine: [Quad::ZERO; 3],
+            place: Lanes4([0.0, 0.0, 0.0, 0.125]),
+            motion: Lanes4::ZERO,
+            stress: Lanes8::ZERO,
+            affine: [Lanes4::ZERO; 3],
         };
         points.push(&point, 0, false);
         let rate = 1e5_f64;

@@ -17,7 +17,7 @@ mod tiles;
 use physics::{Boundary, Dimensions, Failure, LiquidState, Scene, Viscosity};
 use rayon::prelude::*;
 
-use crate::lanes::{Oct, Quad};
+use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{EDGE, HALO};
 use crate::real::Real;
 use crate::simd::dispatch;
@@ -63,7 +63,7 @@ impl Minimal {
             limit_s: limit(scene, scene.initial_speed(), 0.0),
             steps: 0,
             tiles: vec![Tile::default(); grid.count()],
-            blocks: vec![[Oct::ZERO; EDGE * EDGE * EDGE]; grid.count()],
+            blocks: vec![[Lanes8::ZERO; EDGE * EDGE * EDGE]; grid.count()],
             grid,
             scene: scene.clone(),
         };
@@ -119,9 +119,9 @@ impl Minimal {
             let [vx, vy, vz] = v.map(|v| v as Real);
             let point = Point {
                 id: id as u32,
-                place: Quad([x, y, z, mass]),
-                motion: Quad([vx, vy, vz, 0.0]),
-                stress: Oct::ZERO,
+                place: Lanes4([x, y, z, mass]),
+                motion: Lanes4([vx, vy, vz, 0.0]),
+                stress: Lanes8::ZERO,
             };
             self.grid.insert(&mut self.tiles, node, point)?;
         }
@@ -206,7 +206,7 @@ fn advance_nodes(block: &mut Block, sums: &Block) {
     for (velocity, sum) in block.iter_mut().zip(sums) {
         let [mass, momentum @ .., _, _, _, _] = sum.0;
         let [_, _, _, _, impulse @ .., _] = sum.0;
-        *velocity = Oct::ZERO;
+        *velocity = Lanes8::ZERO;
         if mass > 0.0 {
             for a in 0..3 {
                 let before = momentum[a] / mass;

@@ -2,13 +2,14 @@
 
 use physics::{Rheology, WallLaw};
 
-use crate::cell_mean::CellSum;
 use crate::contact::{Meeting, meeting};
-use crate::lanes::{Oct, Quad};
+use crate::fields::{body, node, sum, wall_sum};
+use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{Lattice, block_node};
 use crate::real::Real;
-use crate::tiles::Tile;
-use crate::topology::Extras;
+use crate::settings::Mode;
+use crate::stages::Present;
+use crate::tiles::{CellSum, Tile};
 use crate::walls::NearBody;
 
 /// One halo entry of a tile that adds to a node.
@@ -30,8 +31,8 @@ pub(crate) struct Block {
     pub(crate) sources: Vec<Source>,
     /// Mirror planes each node lies on, bit per axis.
     planes: Vec<u8>,
-    /// v+ in lanes 0..3; the increment or v* in lanes 4..7.
-    pub(crate) velocity: Vec<Oct>,
+    /// v+ and the increment or v*, see `fields.rs`.
+    pub(crate) velocity: Vec<Lanes8>,
     /// Bodies near this block, one entry per body; filled before a step.
     pub(crate) walls: Vec<NearBody>,
     /// Impulse on each body in this step, density cell^3 m/s.
@@ -42,10 +43,10 @@ pub(crate) struct Block {
 }
 
 /// What the velocity filter keeps at nodes; empty without one.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Filtered {
-    /// w_l of the recursion in lanes 0..3; lane 3 is 1 where there is mass.
-    w: Vec<Quad>,
+    /// w_l of the recursion, and 1 where there is mass.
+    w: Vec<Lanes4>,
     meetings: Vec<Option<Meeting>>,
 }
 
@@ -63,46 +64,29 @@ pub(crate) struct NodeStep<'a, R> {
     pub(crate) mode: Mode,
 }
 
-/// What the second half of a node's velocity lanes is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Mode {
-    /// The increment (FLIP): points keep their own velocity, and contact before the forces
-    /// does not reach them.
-    Increment,
-    /// Nothing: points take v+.
-    Replace,
-    /// v*, the sum of the recursion from the velocity before the forces (XPIC).
-    FilterBefore,
-    /// v*, the sum of the recursion from v+ (FMPM).
-    FilterAfter,
-}
-
 impl Block {
-    pub(crate) fn new(key: u64, lattice: &Lattice, bodies: usize, extras: Extras) -> Self {
+    pub(crate) fn new(key: u64, lattice: &Lattice, bodies: usize, present: Present) -> Self {
         let origin = lattice.tile_origin(key);
         let n = lattice.block_len();
         let planes = (0..n).map(|i| {
             let local = block_node(i);
             lattice.planes(std::array::from_fn(|a| origin[a] + local[a]))
         });
-        let filter = if extras.filtered {
-            Filtered {
-                w: vec![Quad::ZERO; n],
-                meetings: vec![None; n],
-            }
-        } else {
-            Filtered::default()
+        let filtered = if present.filter { n } else { 0 };
+        let filter = Filtered {
+            w: vec![Lanes4::ZERO; filtered],
+            meetings: vec![None; filtered],
         };
         Self {
             origin,
             first: Vec::new(),
             sources: Vec::new(),
             planes: planes.collect(),
-            velocity: vec![Oct::ZERO; n],
+            velocity: vec![Lanes8::ZERO; n],
             walls: Vec::with_capacity(bodies),
             reaction: vec![[0.0; 3]; bodies],
             filter,
-            cells: vec![[0.0; 2]; if extras.cell_sums { n } else { 0 }],
+            cells: vec![[0.0; 2]; if present.cell_mean { n } else { 0 }],
         }
     }
 
@@ -111,18 +95,18 @@ impl Block {
     }
 
     /// w_l of the filter at a node.
-    pub(crate) fn filtered(&self, node: usize) -> Quad {
+    pub(crate) fn filtered(&self, node: usize) -> Lanes4 {
         self.filter.w[node]
     }
 
     /// The body of most volume at `node`, if any is there.
-    fn body_at(&self, node: usize) -> Option<(usize, &Oct)> {
-        let mut largest: Option<(usize, &Oct)> = None;
+    fn body_at(&self, node: usize) -> Option<(usize, &Lanes8)> {
+        let mut largest: Option<(usize, &Lanes8)> = None;
         for (body, near) in self.walls.iter().enumerate() {
             let Some(value) = near.values.get(node) else {
                 continue;
             };
-            if value.0[0] > largest.map_or(1e-6, |(_, v)| v.0[0]) {
+            if value.0[body::VOLUME] > largest.map_or(1e-6, |(_, v)| v.0[body::VOLUME]) {
                 largest = Some((body, value));
             }
         }
@@ -137,19 +121,27 @@ impl Block {
             if self.first[node] == self.first[node + 1] {
                 continue;
             }
-            let sum = self.sum(node, |s| &tiles[s.tile as usize].local, [1, 4]);
-            let mass = sum.0[0];
+            let sum = self.sum(
+                node,
+                |s| &tiles[s.tile as usize].local,
+                [sum::MOMENTUM, sum::IMPULSE],
+            );
+            let mass = sum.0[sum::MASS];
             if mass <= 0.0 {
-                self.velocity[node] = Oct::ZERO;
+                self.velocity[node] = Lanes8::ZERO;
                 if let Some(w) = self.filter.w.get_mut(node) {
-                    *w = Quad::ZERO;
+                    *w = Lanes4::ZERO;
                 }
                 continue;
             }
             let found = if walls { self.body_at(node) } else { None };
             let meeting = found.and_then(|(body, rigid)| {
-                let sums = self.sum(node, |s| &tiles[s.tile as usize].wall_local, [0, 3]);
-                let liquid = (mass, sum.0[7], &sums);
+                let sums = self.sum(
+                    node,
+                    |s| &tiles[s.tile as usize].wall_local,
+                    [wall_sum::MOMENT, wall_sum::GRADIENT],
+                );
+                let liquid = (mass, sum.0[sum::VOLUME], &sums);
                 let velocity = step.velocities[body];
                 meeting(
                     body,
@@ -168,10 +160,10 @@ impl Block {
     fn sum<'a>(
         &self,
         node: usize,
-        values: impl Fn(&Source) -> &'a Vec<Oct>,
+        values: impl Fn(&Source) -> &'a Vec<Lanes8>,
         vectors: [usize; 2],
-    ) -> Oct {
-        let mut sum = Oct::ZERO;
+    ) -> Lanes8 {
+        let mut sum = Lanes8::ZERO;
         for source in self.sources_of(node) {
             let mut value = values(source)[usize::from(source.local)];
             if source.flip != 0 {
@@ -188,7 +180,7 @@ impl Block {
     fn advance_node<R: Rheology>(
         &mut self,
         node: usize,
-        sum: &Oct,
+        sum: &Lanes8,
         meeting: Option<Meeting>,
         step: &NodeStep<R>,
     ) {
@@ -227,7 +219,7 @@ impl Block {
             Mode::Increment => std::array::from_fn(|a| after[a] - before[a]),
             _ => after,
         };
-        self.velocity[node] = Oct([
+        self.velocity[node] = Lanes8([
             after[0], after[1], after[2], 1.0, second[0], second[1], second[2], 1.0,
         ]);
         if matches!(step.mode, Mode::FilterBefore | Mode::FilterAfter) {
@@ -236,7 +228,7 @@ impl Block {
             } else {
                 after
             };
-            self.filter.w[node] = Quad([w[0], w[1], w[2], 1.0]);
+            self.filter.w[node] = Lanes4([w[0], w[1], w[2], 1.0]);
             self.filter.meetings[node] = touching;
         }
     }
@@ -245,7 +237,7 @@ impl Block {
     /// body's velocity is zero for l >= 2, so contact only restrains.
     pub(crate) fn refine<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
         for node in 0..self.velocity.len() {
-            if self.filter.w[node].0[3] == 0.0 {
+            if self.filter.w[node].0[node::ONE] == 0.0 {
                 continue;
             }
             let mut sum = [0.0; 4];
@@ -256,7 +248,7 @@ impl Block {
                     *s += if flipped { -value.0[a] } else { value.0[a] };
                 }
             }
-            let mass = sum[3];
+            let mass = sum[node::ONE];
             let old = self.filter.w[node].0;
             let free = hold(
                 self.planes[node],
@@ -270,9 +262,9 @@ impl Block {
                     *r += f64::from(mass * (free[a] - w[a]));
                 }
             }
-            self.filter.w[node] = Quad([w[0], w[1], w[2], 1.0]);
+            self.filter.w[node] = Lanes4([w[0], w[1], w[2], 1.0]);
             for (a, w) in w.iter().enumerate() {
-                self.velocity[node].0[4 + a] += w;
+                self.velocity[node].0[node::SECOND + a] += w;
             }
         }
     }

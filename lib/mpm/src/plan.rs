@@ -2,10 +2,11 @@
 
 use std::fmt;
 
-use physics::{Amount, Rheology, Scene, Stop, Viscosity};
+use physics::{Amount, Rheology, Scene, Stages, Stop, Viscosity};
 
 use crate::real::BYTES;
 use crate::settings::{Settings, VelocityUpdate};
+use crate::stages::stages;
 
 /// What sets the time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +27,7 @@ impl fmt::Display for Limit {
 }
 
 /// What an explicit run of a scene will take; cheap, nothing is allocated.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Time step at the start, s: cfl times the smaller limit.
     pub dt_s: f64,
@@ -42,6 +43,8 @@ pub struct Plan {
     pub steps: f64,
     /// Memory of points and nodes, bytes.
     pub memory_bytes: f64,
+    /// What a step consists of.
+    pub stages: Stages,
 }
 
 impl Plan {
@@ -78,6 +81,7 @@ impl Plan {
             viscosity_cap: density * cell * cell / (8.0 * dt_s),
             steps: (duration / dt_s).ceil(),
             memory_bytes: memory(scene, amount, settings),
+            stages: stages(scene, settings),
         }
     }
 }

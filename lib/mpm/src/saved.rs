@@ -4,9 +4,9 @@ use physics::restored;
 use physics::{Array, Motion, Saved};
 
 use crate::explicit::{Corrections, Explicit, State};
-use crate::lanes::{Oct, Quad};
+use crate::fields::point::{J, VOLUME};
+use crate::lanes::{Lanes4, Lanes8};
 use crate::real::{self, Real, array};
-use crate::settings::VelocityUpdate;
 use crate::tiles::Point;
 use crate::topology::Grid;
 
@@ -19,10 +19,6 @@ fn words(counts: [u64; 4]) -> Vec<u32> {
 }
 
 impl Explicit {
-    fn is_affine(&self) -> bool {
-        self.settings.velocity_update == VelocityUpdate::Apic
-    }
-
     pub(crate) fn to_saved(&self) -> Saved {
         let (mut id, mut node) = (Vec::new(), Vec::new());
         let (mut place, mut motion, mut stress) = (Vec::new(), Vec::new(), Vec::new());
@@ -65,7 +61,7 @@ impl Explicit {
                 Array::F64(state.displacement.iter().flatten().copied().collect()),
             ),
         ];
-        if self.is_affine() {
+        if self.present.affine {
             arrays.push(("affine", array(affine)));
         }
         if let Some(projection) = &self.projection {
@@ -112,7 +108,6 @@ impl Explicit {
         }
         self.grid = Grid::like(&self.grid);
         self.grid.insert(points);
-        self.unseen = true;
         Ok(())
     }
 
@@ -128,7 +123,7 @@ impl Explicit {
         let present = || self.grid.tiles.iter().flat_map(|tile| &tile.points.place);
         let total = present().count() + self.state.lost as usize;
         restored::check_points(saved.u32s("id")?, total, lost)?;
-        let most = present().map(|place| place.0[3]).fold(0.0, Real::max);
+        let most = present().map(|place| place.0[VOLUME]).fold(0.0, Real::max);
         for (at, point) in points {
             self.check_point(*at, point, most)?;
         }
@@ -164,7 +159,7 @@ impl Explicit {
             .is_some_and(|folded| folded.node == at && folded.flip == 0);
         let fits = home && near && (axes == 3 || at[2] == 0);
         // A point alone may be anything that a step can make of it, but not nothing.
-        let volume = place[3] > 0.0 && place[3] <= most && point.motion.0[3] > -1.0;
+        let volume = place[VOLUME] > 0.0 && place[VOLUME] <= most && point.motion.0[J] > -1.0;
         let affine = point.affine.iter().flat_map(|q| q.0);
         let mut values = (point.motion.0.into_iter())
             .chain(point.stress.0)
@@ -185,12 +180,12 @@ impl Explicit {
         let place = sized(real::saved(saved, "place")?, 4 * n, "place")?;
         let motion = sized(real::saved(saved, "motion")?, 4 * n, "motion")?;
         let stress = sized(real::saved(saved, "stress")?, 8 * n, "stress")?;
-        let affine = if self.is_affine() {
+        let affine = if self.present.affine {
             sized(real::saved(saved, "affine")?, 12 * n, "affine")?
         } else {
             &[]
         };
-        let quad = |a: &[Real], i: usize| Quad([a[i], a[i + 1], a[i + 2], a[i + 3]]);
+        let quad = |a: &[Real], i: usize| Lanes4([a[i], a[i + 1], a[i + 2], a[i + 3]]);
         let cells = self.grid.lattice.cells;
         (0..n)
             .map(|p| {
@@ -204,10 +199,10 @@ impl Explicit {
                     id: id[p],
                     place: quad(place, 4 * p),
                     motion: quad(motion, 4 * p),
-                    stress: Oct(std::array::from_fn(|l| stress[8 * p + l])),
+                    stress: Lanes8(std::array::from_fn(|l| stress[8 * p + l])),
                     affine: std::array::from_fn(|a| {
                         if affine.is_empty() {
-                            Quad::ZERO
+                            Lanes4::ZERO
                         } else {
                             quad(affine, 12 * p + 4 * a)
                         }

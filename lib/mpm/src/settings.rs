@@ -1,5 +1,7 @@
 //! What of the explicit scheme a case chooses.
 
+use physics::Choice;
+
 /// Shape function between points and nodes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShapeFunction {
@@ -12,6 +14,14 @@ pub enum ShapeFunction {
     /// Hat function of classic MPM. A node with little mass feels full forces, so that liquid
     /// whose surface lies off the nodes is unstable at any step; such a run stops and says so.
     Linear,
+}
+
+impl Choice for ShapeFunction {
+    const NAMED: &'static [(&'static str, Self)] = &[
+        ("gimp", Self::Gimp),
+        ("bspline2", Self::Bspline2),
+        ("linear", Self::Linear),
+    ];
 }
 
 /// How points take their velocity from the nodes.
@@ -30,6 +40,53 @@ pub enum VelocityUpdate {
     Apic,
 }
 
+impl Choice for VelocityUpdate {
+    const NAMED: &'static [(&'static str, Self)] = &[
+        ("flip", Self::Flip),
+        ("pic", Self::Pic),
+        ("xpic", Self::Xpic(0)),
+        ("fmpm", Self::Fmpm(0)),
+        ("apic", Self::Apic),
+    ];
+}
+
+impl VelocityUpdate {
+    /// The order m of XPIC and FMPM, 1 of all others.
+    pub fn order(self) -> u32 {
+        match self {
+            Self::Xpic(m) | Self::Fmpm(m) => m,
+            Self::Flip | Self::Pic | Self::Apic => 1,
+        }
+    }
+
+    /// What the nodes keep for it.
+    pub(crate) fn mode(self) -> Mode {
+        match self {
+            Self::Flip => Mode::Increment,
+            Self::Xpic(2..) => Mode::FilterBefore,
+            Self::Fmpm(2..) => Mode::FilterAfter,
+            Self::Apic => Mode::Affine,
+            Self::Pic | Self::Xpic(_) | Self::Fmpm(_) => Mode::Replace,
+        }
+    }
+}
+
+/// What the second half of a node's velocity lanes is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mode {
+    /// The increment (FLIP): points keep their own velocity, and contact before the forces
+    /// does not reach them.
+    Increment,
+    /// Nothing: points take v+.
+    Replace,
+    /// Nothing: points take v+ and an affine field of it (APIC).
+    Affine,
+    /// v*, the sum of the recursion from the velocity before the forces (XPIC).
+    FilterBefore,
+    /// v*, the sum of the recursion from v+ (FMPM).
+    FilterAfter,
+}
+
 /// Whose volume change sets a point's pressure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PressureFrom {
@@ -38,6 +95,11 @@ pub enum PressureFrom {
     Point,
     /// The mean of its cell.
     CellMean,
+}
+
+impl Choice for PressureFrom {
+    const NAMED: &'static [(&'static str, Self)] =
+        &[("point", Self::Point), ("cell-mean", Self::CellMean)];
 }
 
 /// What of the explicit scheme a case chooses.

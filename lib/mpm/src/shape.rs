@@ -3,19 +3,19 @@
 //! All three reach at most one node to either side of a point's nearest node, so that with the
 //! offset d in [-1/2, 1/2] (cells) three weights per axis are all there is.
 
-use crate::lanes::Quad;
+use crate::lanes::Lanes4;
 
 /// Weights and slopes (per cell) on the nodes -1, 0, +1 around the nearest one; lanes are axes.
 #[derive(Clone, Copy)]
 pub(crate) struct Weights {
-    pub(crate) w: [Quad; 3],
-    pub(crate) g: [Quad; 3],
+    pub(crate) w: [Lanes4; 3],
+    pub(crate) g: [Lanes4; 3],
 }
 
 /// A shape function; kernels are generic over it.
 pub(crate) trait Shape: Send + Sync + 'static {
     /// Weights at offsets `d` in cells.
-    fn weights(d: Quad) -> Weights;
+    fn weights(d: Lanes4) -> Weights;
 }
 
 /// Uniform GIMP: the hat averaged over a box of half a cell.
@@ -27,8 +27,8 @@ pub(crate) struct Linear;
 
 /// From the weights and slopes on the outer nodes; partition of unity gives the middle one.
 #[inline(always)]
-fn complete(left: Quad, right: Quad, left_slope: Quad, right_slope: Quad) -> Weights {
-    let (mut middle, mut middle_slope) = (Quad::ZERO, Quad::ZERO);
+fn complete(left: Lanes4, right: Lanes4, left_slope: Lanes4, right_slope: Lanes4) -> Weights {
+    let (mut middle, mut middle_slope) = (Lanes4::ZERO, Lanes4::ZERO);
     for a in 0..4 {
         middle.0[a] = 1.0 - left.0[a] - right.0[a];
         middle_slope.0[a] = -(left_slope.0[a] + right_slope.0[a]);
@@ -41,8 +41,9 @@ fn complete(left: Quad, right: Quad, left_slope: Quad, right_slope: Quad) -> Wei
 
 impl Shape for Gimp {
     #[inline(always)]
-    fn weights(d: Quad) -> Weights {
-        let (mut l, mut r, mut gl, mut gr) = (Quad::ZERO, Quad::ZERO, Quad::ZERO, Quad::ZERO);
+    fn weights(d: Lanes4) -> Weights {
+        let (mut l, mut r, mut gl, mut gr) =
+            (Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO);
         for a in 0..4 {
             // Part of the box beyond the node, at most all of it.
             let s = (d.0[a] + 0.25).clamp(0.0, 0.5);
@@ -58,8 +59,9 @@ impl Shape for Gimp {
 
 impl Shape for Bspline2 {
     #[inline(always)]
-    fn weights(d: Quad) -> Weights {
-        let (mut l, mut r, mut gl, mut gr) = (Quad::ZERO, Quad::ZERO, Quad::ZERO, Quad::ZERO);
+    fn weights(d: Lanes4) -> Weights {
+        let (mut l, mut r, mut gl, mut gr) =
+            (Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO);
         for a in 0..4 {
             let s = 0.5 + d.0[a];
             let t = 0.5 - d.0[a];
@@ -74,8 +76,9 @@ impl Shape for Bspline2 {
 
 impl Shape for Linear {
     #[inline(always)]
-    fn weights(d: Quad) -> Weights {
-        let (mut l, mut r, mut gl, mut gr) = (Quad::ZERO, Quad::ZERO, Quad::ZERO, Quad::ZERO);
+    fn weights(d: Lanes4) -> Weights {
+        let (mut l, mut r, mut gl, mut gr) =
+            (Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO);
         for a in 0..4 {
             let right = d.0[a] >= 0.0;
             r.0[a] = d.0[a].max(0.0);
@@ -117,7 +120,7 @@ mod tests {
         let mut worst = 0.0_f64;
         for i in 0..=100 {
             let d = -0.5 + f64::from(i) / 100.0;
-            let weights = S::weights(Quad([d as Real; 4]));
+            let weights = S::weights(Lanes4([d as Real; 4]));
             for (node, offset) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
                 let w = f64::from(weights.w[node].0[1]);
                 worst = worst.max((w - reference(d - offset)).abs());

@@ -1,23 +1,23 @@
 //! Liquid points, grouped by the tile of nodes that they are nearest to.
 
-use crate::cell_mean::CellSum;
-use crate::lanes::{Oct, Quad};
+use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{HALO, Lattice, block_node};
-use crate::topology::Extras;
+use crate::real::Real;
+use crate::stages::Present;
 
 /// All that one point carries; the unit in which points move between tiles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
     pub(crate) id: u32,
     /// Offset from the nearest node (cells) and volume at J = 1 (cells).
-    pub(crate) place: Quad,
+    pub(crate) place: Lanes4,
     /// Velocity (m/s) and j = J - 1.
-    pub(crate) motion: Quad,
+    pub(crate) motion: Lanes4,
     /// Stress over density (m2/s2): xx yy zz xy xz yz, then shear rate (1/s) and viscosity
     /// over density (m2/s).
-    pub(crate) stress: Oct,
+    pub(crate) stress: Lanes8,
     /// Affine velocity field (m/s per cell): its derivative along x, y, z. APIC only.
-    pub(crate) affine: [Quad; 3],
+    pub(crate) affine: [Lanes4; 3],
 }
 
 /// Points of a tile in flat arrays of equal length.
@@ -26,15 +26,15 @@ pub(crate) struct Points {
     pub(crate) id: Vec<u32>,
     /// Where the 3 x 3 x 3 nodes of a point begin in its tile's halo.
     pub(crate) base: Vec<u16>,
-    pub(crate) place: Vec<Quad>,
-    pub(crate) motion: Vec<Quad>,
-    pub(crate) stress: Vec<Oct>,
+    pub(crate) place: Vec<Lanes4>,
+    pub(crate) motion: Vec<Lanes4>,
+    pub(crate) stress: Vec<Lanes8>,
     /// Empty unless APIC.
-    pub(crate) affine: Vec<[Quad; 3]>,
+    pub(crate) affine: Vec<[Lanes4; 3]>,
     /// Scratch: displacement of this step (cells); before that S w1 of XPIC (m/s).
-    pub(crate) shift: Vec<Quad>,
+    pub(crate) shift: Vec<Lanes4>,
     /// Scratch: velocity gradient (m/s per cell), derivatives along x, y, z.
-    pub(crate) gradient: Vec<[Quad; 3]>,
+    pub(crate) gradient: Vec<[Lanes4; 3]>,
 }
 
 impl Points {
@@ -51,8 +51,8 @@ impl Points {
         if affine {
             self.affine.push(point.affine);
         }
-        self.shift.push(Quad::ZERO);
-        self.gradient.push([Quad::ZERO; 3]);
+        self.shift.push(Lanes4::ZERO);
+        self.gradient.push([Lanes4::ZERO; 3]);
     }
 
     pub(crate) fn get(&self, p: usize) -> Point {
@@ -61,7 +61,7 @@ impl Points {
             place: self.place[p],
             motion: self.motion[p],
             stress: self.stress[p],
-            affine: self.affine.get(p).copied().unwrap_or([Quad::ZERO; 3]),
+            affine: self.affine.get(p).copied().unwrap_or([Lanes4::ZERO; 3]),
         }
     }
 
@@ -79,8 +79,22 @@ impl Points {
     }
 }
 
+/// What the points of a cell add up to: volume at J = 1 (cells) and that times j = J - 1.
+pub(crate) type CellSum = [Real; 2];
+
 /// No node: out of every point's reach.
 pub(crate) const NOWHERE: u32 = u32::MAX;
+
+/// A link of a halo: block and node in one word.
+pub(crate) fn link(block: usize, node: usize) -> u32 {
+    (block << 6 | node) as u32
+}
+
+/// Block and node of a link.
+#[inline]
+pub(crate) fn unlink(link: u32) -> (usize, usize) {
+    (link as usize >> 6, link as usize & 63)
+}
 
 /// What the collision of points with bodies did in one step, summed over a tile.
 #[derive(Clone, Copy, Debug, Default)]
@@ -97,17 +111,17 @@ pub(crate) struct Tile {
     /// Its lowest node.
     pub(crate) origin: [i32; 3],
     pub(crate) points: Points,
-    /// Block and node of every halo node as `topology::unlink` reads them, or [`NOWHERE`].
+    /// Block and node of every halo node as [`unlink`] reads them, or [`NOWHERE`].
     pub(crate) links: Vec<u32>,
     /// Mirrored axes of every halo node; empty when no node is mirrored.
     pub(crate) flips: Vec<u8>,
     /// Sums over this tile's points, or nodal values gathered for them.
-    pub(crate) local: Vec<Oct>,
+    pub(crate) local: Vec<Lanes8>,
     /// Sums that contact needs; empty without bodies.
-    pub(crate) wall_local: Vec<Oct>,
+    pub(crate) wall_local: Vec<Lanes8>,
     /// Nodal values in and point sums out of the velocity filter; empty without one.
-    pub(crate) filter_in: Vec<Quad>,
-    pub(crate) filter_out: Vec<Quad>,
+    pub(crate) filter_in: Vec<Lanes4>,
+    pub(crate) filter_out: Vec<Lanes4>,
     /// Sums over this tile's points by cell, at the lowest node of each, or whole sums gathered
     /// for them; empty unless the pressure is a cell's.
     pub(crate) cells: Vec<CellSum>,
@@ -127,7 +141,7 @@ pub(crate) struct Tile {
 }
 
 impl Tile {
-    pub(crate) fn new(key: u64, lattice: &Lattice, extras: Extras, bodies: usize) -> Self {
+    pub(crate) fn new(key: u64, lattice: &Lattice, present: Present, bodies: usize) -> Self {
         let n = lattice.halo_len();
         let origin = lattice.tile_origin(key);
         let mut at_side = vec![false; n];
@@ -145,23 +159,11 @@ impl Tile {
             points: Points::default(),
             links: Vec::new(),
             flips: Vec::new(),
-            local: vec![Oct::ZERO; n],
-            wall_local: if bodies > 0 {
-                vec![Oct::ZERO; n]
-            } else {
-                Vec::new()
-            },
-            filter_in: if extras.filtered {
-                vec![Quad::ZERO; n]
-            } else {
-                Vec::new()
-            },
-            filter_out: if extras.filtered {
-                vec![Quad::ZERO; n]
-            } else {
-                Vec::new()
-            },
-            cells: vec![[0.0; 2]; if extras.cell_sums { n } else { 0 }],
+            local: vec![Lanes8::ZERO; n],
+            wall_local: vec![Lanes8::ZERO; if present.contact { n } else { 0 }],
+            filter_in: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
+            filter_out: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
+            cells: vec![[0.0; 2]; if present.cell_mean { n } else { 0 }],
             near_wall: vec![false; n],
             bodies: 0,
             leaving: Vec::new(),

@@ -2,9 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+use rayon::prelude::*;
+
 use crate::lattice::{HALO, Lattice, block_index};
 use crate::nodes::{Block, Source};
-use crate::tiles::{NOWHERE, Point, Tile, base_of, bases};
+use crate::stages::Present;
+use crate::tiles::{NOWHERE, Point, Tile, base_of, bases, link, unlink};
+use crate::walls::{BlockShape, Integrator, NearBody};
 
 /// Tiles where liquid is and the blocks of nodes that it reaches, both ordered by key, which
 /// fixes the order of every sum.
@@ -15,22 +19,13 @@ pub(crate) struct Grid {
     block_keys: Vec<u64>,
     tile_of: HashMap<u64, usize>,
     bodies: usize,
-    extras: Extras,
-}
-
-/// What tiles and blocks carry beside the least that a step needs.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Extras {
-    /// Arrays of the velocity filter.
-    pub(crate) filtered: bool,
-    /// The points' affine velocity fields.
-    pub(crate) affine: bool,
-    /// Sums over cells.
-    pub(crate) cell_sums: bool,
+    present: Present,
+    /// Tiles changed since the bodies' reach was marked on them.
+    unseen: bool,
 }
 
 impl Grid {
-    pub(crate) fn new(lattice: Lattice, bodies: usize, extras: Extras) -> Self {
+    pub(crate) fn new(lattice: Lattice, bodies: usize, present: Present) -> Self {
         Self {
             lattice,
             tiles: Vec::new(),
@@ -38,17 +33,18 @@ impl Grid {
             block_keys: Vec::new(),
             tile_of: HashMap::new(),
             bodies,
-            extras,
+            present,
+            unseen: true,
         }
     }
 
     /// An empty grid made like `other`.
     pub(crate) fn like(other: &Self) -> Self {
-        Self::new(other.lattice.clone(), other.bodies, other.extras)
+        Self::new(other.lattice.clone(), other.bodies, other.present)
     }
 
-    /// Adds points with their nearest nodes, making tiles as needed; says whether tiles changed.
-    pub(crate) fn insert(&mut self, points: impl IntoIterator<Item = ([i32; 3], Point)>) -> bool {
+    /// Adds points with their nearest nodes, making tiles as needed.
+    pub(crate) fn insert(&mut self, points: impl IntoIterator<Item = ([i32; 3], Point)>) {
         let mut new: BTreeMap<u64, Tile> = BTreeMap::new();
         for (node, point) in points {
             let key = self.lattice.tile_key(node);
@@ -56,29 +52,29 @@ impl Grid {
                 Some(&t) => &mut self.tiles[t],
                 None => new
                     .entry(key)
-                    .or_insert_with(|| Tile::new(key, &self.lattice, self.extras, self.bodies)),
+                    .or_insert_with(|| Tile::new(key, &self.lattice, self.present, self.bodies)),
             };
             let origin = tile.origin;
             let base = base_of(std::array::from_fn(|a| node[a] - origin[a]));
-            tile.points.push(&point, base, self.extras.affine);
+            tile.points.push(&point, base, self.present.affine);
         }
         if new.is_empty() {
-            return false;
+            return;
         }
         self.tiles.retain(|tile| tile.points.len() > 0);
         self.tiles.extend(new.into_values());
         self.tiles.sort_by_key(|tile| tile.key);
         self.link();
-        true
+        self.unseen = true;
     }
 
-    /// Delivers the points that left their tiles, in tile order; says whether tiles changed.
-    pub(crate) fn deliver(&mut self) -> bool {
+    /// Delivers the points that left their tiles, in tile order.
+    pub(crate) fn deliver(&mut self) {
         let mut leaving = Vec::new();
         for tile in &mut self.tiles {
             leaving.append(&mut tile.leaving);
         }
-        !leaving.is_empty() && self.insert(leaving)
+        self.insert(leaving);
     }
 
     /// Rebuilds the links between tiles and blocks.
@@ -105,7 +101,7 @@ impl Grid {
             index.insert(key, b);
             self.blocks.push(
                 old.remove(&key)
-                    .unwrap_or_else(|| Block::new(key, lattice, self.bodies, self.extras)),
+                    .unwrap_or_else(|| Block::new(key, lattice, self.bodies, self.present)),
             );
         }
         let mut sources: Vec<Vec<(usize, Source)>> = vec![Vec::new(); self.blocks.len()];
@@ -139,8 +135,24 @@ impl Grid {
         }
     }
 
+    /// Integrals of the bodies, displaced by `shifts` (cells), at the nodes.
+    pub(crate) fn see_bodies(
+        &mut self,
+        parts: &[Vec<BlockShape>],
+        shifts: &[[f64; 3]],
+        integrator: &Integrator,
+    ) {
+        let changed = (self.blocks.par_iter_mut())
+            .map(|block| see(block, parts, shifts, integrator))
+            .reduce(|| false, |a, b| a | b);
+        if changed || self.unseen {
+            self.unseen = false;
+            self.mark_walls();
+        }
+    }
+
     /// Marks the cells of every tile from which a body is within reach.
-    pub(crate) fn mark_walls(&mut self) {
+    fn mark_walls(&mut self) {
         let layers = if self.lattice.three { 3 } else { 1 };
         for tile in &mut self.tiles {
             let mut at = vec![false; tile.links.len()];
@@ -167,15 +179,32 @@ impl Grid {
     }
 }
 
-/// A link: block and node in one word.
-fn link(block: usize, node: usize) -> u32 {
-    (block << 6 | node) as u32
-}
-
-/// Block and node of a link.
-#[inline]
-pub(crate) fn unlink(link: u32) -> (usize, usize) {
-    (link as usize >> 6, link as usize & 63)
+/// Brings what a block knows of the bodies to their displacements (cells); says whether the
+/// nodes within their reach changed.
+fn see(
+    block: &mut Block,
+    parts: &[Vec<BlockShape>],
+    shifts: &[[f64; 3]],
+    integrator: &Integrator,
+) -> bool {
+    let mut changed = false;
+    for (body, (parts, &shift)) in parts.iter().zip(shifts).enumerate() {
+        match block.walls.get_mut(body) {
+            None => {
+                block
+                    .walls
+                    .push(NearBody::new(parts, block.origin, shift, integrator));
+                changed = true;
+            }
+            Some(near) if near.is_stale(shift) => {
+                *near = NearBody::new(parts, block.origin, shift, integrator);
+                changed = true;
+            }
+            Some(_) => {}
+        }
+        block.walls[body].update(parts, block.origin, shift, integrator);
+    }
+    changed
 }
 
 /// Block key, node in the block and mirrored axes of every halo node of a tile.

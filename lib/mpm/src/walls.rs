@@ -7,40 +7,18 @@
 //! For uniform GIMP the hat is integrated: its mean over a voxel is the GIMP weight of a
 //! material point of that voxel, so the sums equal those of the paper's rigid points.
 
+mod block;
 mod integrals;
 
-use physics::{RigidBody, VoxelBlock};
-
-use crate::lanes::Oct;
+use crate::lanes::Lanes8;
 use crate::lattice::{EDGE, block_index};
 use crate::real::Real;
+pub(crate) use block::BlockShape;
 pub(crate) use integrals::Integrator;
 use integrals::Slice;
 
 /// How far (cells) a body may move along y before lateral sums are looked for again.
 const MARGIN: f64 = 0.5;
-
-/// A voxel block in cells, counted from the low corner of the grid.
-#[derive(Clone, Debug)]
-pub(crate) struct BlockShape {
-    pub(crate) origin: [f64; 3],
-    pub(crate) voxel: [f64; 3],
-    pub(crate) solid: VoxelBlock,
-}
-
-impl BlockShape {
-    /// The blocks of a body.
-    pub(crate) fn of(body: &RigidBody, min_m: [f64; 3], cell_m: f64) -> Vec<Self> {
-        body.blocks
-            .iter()
-            .map(|block| Self {
-                origin: std::array::from_fn(|a| (block.origin()[a] - min_m[a]) / cell_m),
-                voxel: block.voxel().map(|v| v / cell_m),
-                solid: block.clone(),
-            })
-            .collect()
-    }
-}
 
 /// Lateral sums of one voxel block for the nodes of one block of nodes.
 #[derive(Clone, Debug)]
@@ -62,7 +40,7 @@ pub(crate) struct NearBody {
     /// Displacement for which the values hold.
     values_at: [f64; 3],
     /// Per node: volume, its gradient (3), its first moment (3), in cells.
-    pub(crate) values: Vec<Oct>,
+    pub(crate) values: Vec<Lanes8>,
     /// Bit i: node i may feel the body before it is looked for again.
     pub(crate) near: u64,
 }
@@ -90,7 +68,7 @@ impl NearBody {
             columns,
             built_at: shift,
             values_at: [f64::NAN; 3],
-            values: vec![Oct::ZERO; n],
+            values: vec![Lanes8::ZERO; n],
             near,
         }
     }
@@ -114,7 +92,7 @@ impl NearBody {
             return;
         }
         self.values_at = shift;
-        self.values.fill(Oct::ZERO);
+        self.values.fill(Lanes8::ZERO);
         for columns in &self.columns {
             for y in 0..EDGE {
                 let slices =
@@ -206,7 +184,7 @@ fn columns(
 
 #[cfg(test)]
 mod tests {
-    use physics::Boundary;
+    use physics::{Boundary, VoxelBlock};
 
     use super::*;
     use crate::lattice::Lattice;
@@ -222,7 +200,7 @@ mod tests {
 
     /// Sums over the material points of the voxels, half a cell each, with GIMP weights.
     fn rigid_points(block: &BlockShape, shift: [f64; 3], node: [i32; 3]) -> [f64; 4] {
-        use crate::lanes::Quad;
+        use crate::lanes::Lanes4;
         use crate::shape::{Gimp, Shape};
         let mut sum = [0.0; 4];
         let dims = block.solid.dims();
@@ -237,13 +215,13 @@ mod tests {
                     });
                     let nearest = x.map(f64::round);
                     let d: [f64; 3] = std::array::from_fn(|a| x[a] - nearest[a]);
-                    let w = Gimp::weights(Quad([d[0] as Real, d[1] as Real, d[2] as Real, 0.0]));
+                    let w = Gimp::weights(Lanes4([d[0] as Real, d[1] as Real, d[2] as Real, 0.0]));
                     let offset: [f64; 3] =
                         std::array::from_fn(|a| f64::from(node[a]) - nearest[a] + 1.0);
                     if offset.iter().any(|o| !(0.0..=2.0).contains(o)) {
                         continue;
                     }
-                    let pick = |q: &[Quad; 3], a: usize| f64::from(q[offset[a] as usize].0[a]);
+                    let pick = |q: &[Lanes4; 3], a: usize| f64::from(q[offset[a] as usize].0[a]);
                     let v = 0.125;
                     sum[0] += v * pick(&w.w, 0) * pick(&w.w, 1) * pick(&w.w, 2);
                     sum[1] += v * pick(&w.g, 0) * pick(&w.w, 1) * pick(&w.w, 2);

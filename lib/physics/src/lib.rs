@@ -3,15 +3,18 @@
 //! control, and the regime numbers that justify what is left out.
 
 mod bodies;
+mod choice;
 mod clamp;
 mod material;
 mod regime;
 pub mod restored;
 mod scene;
 mod scheme;
+mod stages;
 mod wall_law;
 
 pub use bodies::{Motion, RigidBody, VoxelBlock};
+pub use choice::Choice;
 pub use clamp::{Clamp, Pid, PidControl};
 pub use material::{
     Liquid, Newtonian, Rheology, ShearRate, TAIT_C, Table, TableError, Tait, Viscosity,
@@ -21,4 +24,5 @@ pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Stop};
 pub use scheme::{
     Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
 };
+pub use stages::{Stage, Stages};
 pub use wall_law::WallLaw;

@@ -1,4 +1,4 @@
-use crate::{Clamp, Liquid, Motion, RigidBody, WallLaw};
+use crate::{Choice, Clamp, Liquid, Motion, RigidBody, WallLaw};
 
 /// Number of dimensions computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,14 +10,23 @@ pub enum Dimensions {
 }
 
 /// What happens at the two sides of the domain normal to an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Boundary {
     /// Mirror: no flow through, no friction.
+    #[default]
     Symmetry,
     /// What leaves on one side enters on the other.
     Periodic,
     /// Zero traction; liquid that reaches it is lost and counted.
     Open,
+}
+
+impl Choice for Boundary {
+    const NAMED: &'static [(&'static str, Self)] = &[
+        ("symmetry", Self::Symmetry),
+        ("periodic", Self::Periodic),
+        ("open", Self::Open),
+    ];
 }
 
 /// The box of cubic cells that a run computes in.

@@ -1,4 +1,4 @@
-use crate::Rheology;
+use crate::{Choice, Rheology};
 
 /// Law of the shear stress between liquid and wall (paper Eq. 3):
 /// tau_w = k eta(k dv) dv, with k = 1/(influence length).
@@ -13,6 +13,19 @@ pub enum WallLaw {
     },
     /// k -> infinity.
     Stick,
+}
+
+impl Choice for WallLaw {
+    const NAMED: &'static [(&'static str, Self)] = &[
+        ("frictionless", Self::Frictionless),
+        (
+            "partial-slip",
+            Self::PartialSlip {
+                influence_length_m: 0.0,
+            },
+        ),
+        ("stick", Self::Stick),
+    ];
 }
 
 impl WallLaw {

@@ -3,7 +3,9 @@
 
 use std::fmt::Write;
 
-use crate::case::{Case, PressureName, SchemeName, ShapeName, UpdateName};
+use physics::Choice;
+
+use crate::case::{Case, SchemeName};
 
 /// Written by `make tradeoff`; not to be edited.
 const TABLE: &str = include_str!("expected_error.csv");
@@ -95,32 +97,21 @@ fn quote(out: &mut String, case: &Case, row: &Measured) -> std::fmt::Result {
 fn key(case: &Case) -> [String; 6] {
     let table = &case.integrator;
     if table.scheme == SchemeName::Implicit {
-        return ["implicit", "", "", "", "", ""].map(str::to_owned);
+        return [table.scheme.name(), "", "", "", "", ""].map(str::to_owned);
     }
-    let update = match table.velocity_update.unwrap_or(UpdateName::Flip) {
-        UpdateName::Flip => "flip",
-        UpdateName::Pic => "pic",
-        UpdateName::Xpic => "xpic",
-        UpdateName::Fmpm => "fmpm",
-        UpdateName::Apic => "apic",
-    };
-    let shape = match case.grid.shape.unwrap_or_default() {
-        ShapeName::Gimp => "gimp",
-        ShapeName::Bspline2 => "bspline2",
-        ShapeName::Linear => "linear",
-    };
-    let pressure = match table.pressure.unwrap_or_default() {
-        PressureName::Point => "point",
-        PressureName::CellMean => "cell-mean",
-    };
-    let projection = if table.density_projection.is_some() {
-        "yes"
-    } else {
-        "no"
+    let projection = match table.density_projection {
+        Some(_) => "yes",
+        None => "no",
     };
     let order = table.order.map_or(String::new(), |m| m.to_string());
-    let [scheme, update, shape, pressure, projection] =
-        ["explicit", update, shape, pressure, projection].map(str::to_owned);
+    let [scheme, update, shape, pressure, projection] = [
+        table.scheme.name(),
+        table.velocity_update.unwrap_or_default().name(),
+        case.grid.shape.unwrap_or_default().name(),
+        table.pressure.unwrap_or_default().name(),
+        projection,
+    ]
+    .map(str::to_owned);
     [scheme, update, order, shape, pressure, projection]
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use physics::{Boundary, Dimensions, Motion, Regime, Stop, Viscosity, WallLaw};
+use physics::{Choice, Dimensions, Motion, Regime, Stages, Stop, Viscosity, WallLaw};
 
 use crate::case::{Case, SchemeName};
 use crate::expected_error;
@@ -27,6 +27,8 @@ pub struct Forecast {
     pub step_s: f64,
     /// Further lines: unknowns, caps.
     pub notes: Vec<String>,
+    /// What a step consists of.
+    pub stages: Stages,
 }
 
 /// Steps from which a run will not end: at a microsecond each they take weeks.
@@ -73,7 +75,7 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
         indent(&Regime::of(&setup.scene, &setup.liquid).to_string())
     );
     let _ = writeln!(out, "\nleft out");
-    for item in left_out(setup, &case.integrator, case.output.snapshots > 0) {
+    for item in left_out(case, setup, &forecast.stages) {
         let _ = writeln!(out, "  {:<18} {}", item.what, item.why);
     }
     out
@@ -133,8 +135,6 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
     }
     if !scene.bodies.is_empty() {
         let law = match scene.wall {
-            WallLaw::Frictionless => "frictionless".to_owned(),
-            WallLaw::Stick => "stick".to_owned(),
             WallLaw::PartialSlip { influence_length_m } => {
                 format!(
                     "partial slip, influence length {:.4e} m (k = {:.3e} 1/m)",
@@ -142,22 +142,12 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
                     1.0 / influence_length_m
                 )
             }
+            law => law.name().to_owned(),
         };
         writeln!(out, "  walls              {law}")?;
     }
-    let side = |b: Boundary| match b {
-        Boundary::Symmetry => "symmetry",
-        Boundary::Periodic => "periodic",
-        Boundary::Open => "open",
-    };
-    let [x, y, z] = scene.boundary;
-    writeln!(
-        out,
-        "  sides              x {}, y {}, z {}",
-        side(x),
-        side(y),
-        side(z)
-    )?;
+    let [x, y, z] = scene.boundary.map(Choice::name);
+    writeln!(out, "  sides              x {x}, y {y}, z {z}")?;
     if let Some(clamp) = scene.clamp {
         let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
             format!("at most {:.4} MPa", p / 1e6)
@@ -262,6 +252,7 @@ mod tests {
             memory_bytes,
             step_s: 1e-6,
             notes: Vec::new(),
+            stages: Stages::default(),
         };
         let said = forecast(6e13, 0.0).excess().expect("a refusal");
         assert!(

@@ -167,6 +167,7 @@ impl Request {
             }
             None => {}
         }
+        let stages = schemes::forecast(&self.case, &self.setup)?.stages;
         let mut scheme = schemes::build(&self.case, self.setup.scene_for_scheme())?;
         let cfl = schemes::cfl(&self.case);
         let folder = &match found {
@@ -236,11 +237,7 @@ impl Request {
                 counts: scheme.counts(),
                 verdict: verdict::judge(&self.setup, &liquid, &invariants, outcome.clock.last.lost),
                 invariants,
-                left_out: left_out(
-                    &self.setup,
-                    &self.case.integrator,
-                    self.case.output.snapshots > 0,
-                ),
+                left_out: left_out(&self.case, &self.setup, &stages),
                 provenance,
             },
         );

@@ -1,10 +1,10 @@
 //! The scheme a case asks for, with its settings and its forecast.
 
 use filling::Implicit;
-use mpm::{Explicit, PressureFrom, ShapeFunction, VelocityUpdate};
-use physics::{Scene, Scheme};
+use mpm::{Explicit, PressureFrom, VelocityUpdate};
+use physics::{Choice, Scene, Scheme};
 
-use crate::case::{Case, CaseError, PressureName, SchemeName, ShapeName, UpdateName};
+use crate::case::{Case, CaseError, SchemeName};
 use crate::explain::Forecast;
 use crate::request::RunFailure;
 use crate::resolve::Setup;
@@ -47,38 +47,29 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
             "[integrator] tolerance is for scheme = \"implicit\" only".into(),
         ));
     }
-    let order = |name: &str| {
-        table.order.map(u32::from).ok_or_else(|| {
-            CaseError(format!(
-                "[integrator] velocity_update = \"{name}\" needs an order, such as order = 5"
-            ))
-        })
+    let update = table.velocity_update.unwrap_or_default();
+    let velocity_update = match (update, table.order.map(u32::from)) {
+        (VelocityUpdate::Xpic(_), Some(order)) => VelocityUpdate::Xpic(order),
+        (VelocityUpdate::Fmpm(_), Some(order)) => VelocityUpdate::Fmpm(order),
+        (VelocityUpdate::Xpic(_) | VelocityUpdate::Fmpm(_), None) => {
+            return Err(CaseError(format!(
+                "[integrator] velocity_update = \"{}\" needs an order, such as order = 5",
+                update.name()
+            )));
+        }
+        (_, Some(_)) => {
+            return Err(CaseError(
+                "[integrator] order is for velocity_update = \"xpic\" and \"fmpm\" only".into(),
+            ));
+        }
+        (update, None) => update,
     };
     let cell = case.grid.cell.si();
-    let update = table.velocity_update.unwrap_or(UpdateName::Flip);
-    if table.order.is_some() && !matches!(update, UpdateName::Xpic | UpdateName::Fmpm) {
-        return Err(CaseError(
-            "[integrator] order is for velocity_update = \"xpic\" and \"fmpm\" only".into(),
-        ));
-    }
     let settings = mpm::Settings {
-        shape: match case.grid.shape.unwrap_or_default() {
-            ShapeName::Gimp => ShapeFunction::Gimp,
-            ShapeName::Bspline2 => ShapeFunction::Bspline2,
-            ShapeName::Linear => ShapeFunction::Linear,
-        },
-        velocity_update: match update {
-            UpdateName::Flip => VelocityUpdate::Flip,
-            UpdateName::Pic => VelocityUpdate::Pic,
-            UpdateName::Xpic => VelocityUpdate::Xpic(order("xpic")?),
-            UpdateName::Fmpm => VelocityUpdate::Fmpm(order("fmpm")?),
-            UpdateName::Apic => VelocityUpdate::Apic,
-        },
+        shape: case.grid.shape.unwrap_or_default(),
+        velocity_update,
         cfl: cfl(case),
-        pressure: match table.pressure.unwrap_or_default() {
-            PressureName::Point => PressureFrom::Point,
-            PressureName::CellMean => PressureFrom::CellMean,
-        },
+        pressure: table.pressure.unwrap_or_default(),
         density_projection: table.density_projection.map(|length| length.cells(cell)),
         separation: (case.contact.as_ref())
             .and_then(|contact| contact.separation)
@@ -150,9 +141,8 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
     let plan = mpm::Plan::new(&setup.scene, &setup.liquid, settings);
     let points = setup.liquid.points as f64;
     let cost = match settings.velocity_update {
-        VelocityUpdate::Xpic(m) | VelocityUpdate::Fmpm(m) => 1.0 + FILTER_ORDER * f64::from(m - 1),
         VelocityUpdate::Apic => APIC_STEP,
-        VelocityUpdate::Flip | VelocityUpdate::Pic => 1.0,
+        update => 1.0 + FILTER_ORDER * f64::from(update.order() - 1),
     };
     let mut notes = vec![format!(
         "limits             acoustic {:.3e} s, viscous {:.3e} s; the Courant number {} is of the smaller",
@@ -175,6 +165,7 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
         memory_bytes: plan.memory_bytes + start_bytes(setup),
         step_s: points * cost / (EXPLICIT_SPEED * rayon::current_num_threads() as f64),
         notes,
+        stages: plan.stages,
     })
 }
 
@@ -211,5 +202,6 @@ fn implicit_forecast(settings: &filling::Settings, setup: &Setup) -> Forecast {
             "unknowns           {:.2e} velocities and pressures in {:.2e} liquid cells",
             plan.unknowns, plan.liquid_cells
         )],
+        stages: plan.stages,
     }
 }

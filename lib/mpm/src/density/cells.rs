@@ -3,12 +3,23 @@
 use physics::Boundary;
 
 use super::room::covered;
-use super::{CLIP, FULL, KAPPA, LONGEST, SLIVER};
 use crate::collide::Obstacle;
-use crate::lanes::Quad;
+use crate::fields::point::{J, VOLUME};
+use crate::lanes::Lanes4;
 use crate::lattice::{EDGE, Lattice};
 use crate::real::Real;
 use crate::tiles::Tile;
+
+/// Fraction of the density error that one projection removes.
+const KAPPA: f64 = 0.5;
+/// Largest relative error that counts.
+const CLIP: f64 = 0.3;
+/// Liquid over room from which a cell resists; below, it is air with spray.
+const FULL: f64 = 0.5;
+/// Open part of a cell below which it counts as wall.
+const SLIVER: f64 = 0.1;
+/// Longest displacement, cells.
+const LONGEST: f64 = 0.25;
 
 /// No cell.
 pub(super) const NONE: u32 = u32::MAX;
@@ -117,7 +128,7 @@ impl<'a> Cells<'a> {
             for p in 0..tile.points.len() {
                 let node = tile.node_of(tile.points.base[p]);
                 let d = tile.points.place[p].0.map(f64::from);
-                let volume = d[3] * (1.0 + f64::from(tile.points.motion[p].0[3]));
+                let volume = d[VOLUME] * (1.0 + f64::from(tile.points.motion[p].0[J]));
                 let half = 0.5 * volume.max(0.0).powf(1.0 / axes as f64).min(1.0);
                 let (own, part) = own_cell(node, &tile.points.place[p]);
                 let Some(home) = self.meet(own, bodies) else {
@@ -230,10 +241,10 @@ impl<'a> Cells<'a> {
     }
 
     /// Displacement (cells) of a point: linear between the faces of its cell.
-    pub(super) fn displacement(&self, node: [i32; 3], d: &Quad) -> Quad {
+    pub(super) fn displacement(&self, node: [i32; 3], d: &Lanes4) -> Lanes4 {
         let (own, part) = own_cell(node, d);
         let c = self.at(own);
-        let mut shift = Quad::ZERO;
+        let mut shift = Lanes4::ZERO;
         if c != NONE {
             for a in 0..self.lattice.axes() {
                 let (low, high) = (
@@ -245,15 +256,10 @@ impl<'a> Cells<'a> {
         }
         shift
     }
-
-    /// Solves for the displacement.
-    pub(super) fn solve(&mut self) {
-        super::solve::potential(&mut self.list);
-    }
 }
 
 /// The cell a point is in and its place there, 0 to 1.
-fn own_cell(node: [i32; 3], d: &Quad) -> ([i32; 3], [f64; 3]) {
+fn own_cell(node: [i32; 3], d: &Lanes4) -> ([i32; 3], [f64; 3]) {
     let mut own = node;
     let part = std::array::from_fn(|a| {
         if d.0[a] < 0.0 {

@@ -14,27 +14,13 @@ mod cells;
 mod room;
 mod solve;
 
-use physics::Failure;
 use rayon::prelude::*;
 
-use crate::collide::{Obstacle, move_points};
-use crate::explicit::Explicit;
-use crate::lanes::Quad;
+use crate::collide::{Fault, Obstacle, first_fault, move_points};
+use crate::lanes::Lanes4;
 use crate::lattice::Lattice;
-use crate::real::Real;
 use crate::tiles::Tile;
 use cells::Cells;
-
-/// Fraction of the density error that one projection removes.
-const KAPPA: f64 = 0.5;
-/// Largest relative error that counts.
-const CLIP: f64 = 0.3;
-/// Liquid over room from which a cell resists; below, it is air with spray.
-const FULL: f64 = 0.5;
-/// Open part of a cell below which it counts as wall.
-const SLIVER: f64 = 0.1;
-/// Longest displacement, cells.
-const LONGEST: f64 = 0.25;
 
 /// When to project.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +55,7 @@ impl Projection {
     }
 
     /// Whether a projection is due after a step of `cells` at unit speed.
-    fn due(&mut self, cells: f64) -> bool {
+    pub(crate) fn due(&mut self, cells: f64) -> bool {
         self.moved += self.speed * cells;
         let due = self.moved >= self.every;
         if due {
@@ -80,40 +66,17 @@ impl Projection {
     }
 }
 
-impl Explicit {
-    /// Projects after a step of `dt` (s) if it is due.
-    pub(crate) fn project(&mut self, dt: f64) -> Result<(), Failure> {
-        let cell = self.scene.grid.cell_m;
-        if !(self.projection.as_mut()).is_some_and(|projection| projection.due(dt / cell)) {
-            return Ok(());
-        }
-        let mut tiles = std::mem::take(&mut self.grid.tiles);
-        let here = &self.state.displacement;
-        let velocities: Vec<[Real; 3]> = (self.body_velocities(0.0).iter())
-            .map(|v| v.map(|v| v as Real))
-            .collect();
-        let bodies = self.obstacles(here, here, &velocities);
-        let lattice = &self.grid.lattice;
-        let mut cells = Cells::new(&tiles, lattice, &bodies);
-        cells.solve();
-        let fault = tiles
-            .par_iter_mut()
-            .map(|tile| {
-                displace(tile, &cells, lattice, &bodies);
-                move_points(tile, lattice, &bodies)
-            })
-            .reduce(|| None, |a, b| a.or(b).map(|x| b.map_or(x, |b| b.min(x))));
-        self.grid.tiles = tiles;
-        self.state.lost += self.grid.tiles.iter().map(|tile| tile.lost).sum::<u64>();
-        self.unseen |= self.grid.deliver();
-        match fault {
-            Some(id) => Err(Failure(format!(
-                "step {}: the density projection moved liquid point {id} to a place that is not a number: the run is unstable",
-                self.state.step
-            ))),
-            None => Ok(()),
-        }
-    }
+/// Moves the points of `tiles` to even density around `bodies`, which rest.
+pub(crate) fn project(tiles: &mut [Tile], lattice: &Lattice, bodies: &[Obstacle]) -> Fault {
+    let mut cells = Cells::new(tiles, lattice, bodies);
+    solve::potential(&mut cells.list);
+    tiles
+        .par_iter_mut()
+        .map(|tile| {
+            displace(tile, &cells, lattice, bodies);
+            move_points(tile, lattice, bodies)
+        })
+        .reduce(|| None, first_fault)
 }
 
 /// Sets the displacement of a tile's points. One that would lead into a body is left out, so
@@ -123,14 +86,14 @@ fn displace(tile: &mut Tile, cells: &Cells, lattice: &Lattice, bodies: &[Obstacl
         let base = tile.points.base[p];
         let (node, d) = (tile.node_of(base), tile.points.place[p]);
         let mut shift = cells.displacement(node, &d);
-        let target = Quad(std::array::from_fn(|l| d.0[l] + shift.0[l]));
+        let target = Lanes4(std::array::from_fn(|l| d.0[l] + shift.0[l]));
         let blocked = tile.near_wall[usize::from(base)]
             && bodies
                 .iter()
                 .flat_map(|body| body.parts.iter().map(move |part| (body, part)))
                 .any(|(body, part)| part.contains(node, &target, &body.to, lattice));
         if blocked {
-            shift = Quad::ZERO;
+            shift = Lanes4::ZERO;
         }
         tile.points.shift[p] = shift;
     }

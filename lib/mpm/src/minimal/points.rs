@@ -3,8 +3,8 @@
 use physics::{Liquid, Newtonian, TAIT_C};
 
 use super::tiles::Tile;
-use crate::lanes::{Oct, Quad};
-use crate::lattice::{EDGE, HALO};
+use crate::lanes::{Lanes4, Lanes8};
+use crate::lattice::{EDGE, HALO, window};
 use crate::real::{Real, exp_m1};
 use crate::simd::Kernel;
 
@@ -12,9 +12,9 @@ use crate::simd::Kernel;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     pub(super) id: u32,
-    pub(super) place: Quad,
-    pub(super) motion: Quad,
-    pub(super) stress: Oct,
+    pub(super) place: Lanes4,
+    pub(super) motion: Lanes4,
+    pub(super) stress: Lanes8,
 }
 
 /// The points of a tile in lists of equal length.
@@ -24,27 +24,27 @@ pub(super) struct Points {
     /// Where a point's 3 x 3 x 3 nodes begin in the halo of the tile.
     window: Vec<u16>,
     /// Offset from the nearest node, and mass.
-    pub(super) place: Vec<Quad>,
+    pub(super) place: Vec<Lanes4>,
     /// Velocity and j = J - 1.
-    pub(super) motion: Vec<Quad>,
+    pub(super) motion: Vec<Lanes4>,
     /// xx yy zz xy xz yz, and two lanes not used.
-    stress: Vec<Oct>,
+    stress: Vec<Lanes8>,
     /// Displacement in this step.
-    shift: Vec<Quad>,
+    shift: Vec<Lanes4>,
     /// Derivatives of the velocity along x, y, z (m/s per cell).
-    gradient: Vec<[Quad; 3]>,
+    gradient: Vec<[Lanes4; 3]>,
 }
 
 impl Points {
     /// Adds a point with its nearest node, counted from the lowest of the tile.
     pub(super) fn push(&mut self, node: [i32; 3], point: Point) {
         self.id.push(point.id);
-        self.window.push(window(node));
+        self.window.push(first(node));
         self.place.push(point.place);
         self.motion.push(point.motion);
         self.stress.push(point.stress);
-        self.shift.push(Quad::ZERO);
-        self.gradient.push([Quad::ZERO; 3]);
+        self.shift.push(Lanes4::ZERO);
+        self.gradient.push([Lanes4::ZERO; 3]);
     }
 
     /// Takes out point `p`; the last one takes its place.
@@ -84,20 +84,16 @@ impl Points {
     }
 }
 
-/// Window of the node (x, y, z), each 0..4, of a tile.
-fn window(node: [i32; 3]) -> u16 {
+/// Where the 3 x 3 x 3 nodes around a tile's node (x, y, z), each 0..4, begin in its halo.
+fn first(node: [i32; 3]) -> u16 {
     ((node[2] * HALO as i32 + node[1]) * HALO as i32 + node[0]) as u16
 }
-
-/// Halo entries from the first to the last node of a window, and from one layer to the next.
-const LAYER: usize = HALO * HALO;
-const WINDOW: usize = 2 * LAYER + 2 * HALO + 3;
 
 /// Weights S and slopes S' (per cell) of a point at offset `d` from its nearest node on the nodes -1,
 /// 0, +1 of each axis: the hat averaged over the point's box of half a cell.
 #[inline(always)]
-fn gimp(d: Quad) -> ([Quad; 3], [Quad; 3]) {
-    let (mut w, mut g) = ([Quad::ZERO; 3], [Quad::ZERO; 3]);
+fn gimp(d: Lanes4) -> ([Lanes4; 3], [Lanes4; 3]) {
+    let (mut w, mut g) = ([Lanes4::ZERO; 3], [Lanes4::ZERO; 3]);
     for a in 0..4 {
         // Part of the box beyond the node, at most all of it.
         let s = (d.0[a] + 0.25).clamp(0.0, 0.5);
@@ -124,7 +120,7 @@ impl Kernel for PointsToNodes<'_> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Tile { points, halo, .. } = self.tile;
-        halo.fill(Oct::ZERO);
+        halo.fill(Lanes8::ZERO);
         let n = points.id.len();
         let (places, motions) = (&points.place[..n], &points.motion[..n]);
         let (stresses, windows) = (&points.stress[..n], &points.window[..n]);
@@ -135,21 +131,21 @@ impl Kernel for PointsToNodes<'_> {
             let volume = mass * (1.0 + j);
             let k = -self.dt_over_cell * volume;
             let sums = [mass, mass * vx, mass * vy, mass * vz, 0.0, 0.0, 0.0, volume];
-            let stress_x = Oct([0.0, 0.0, 0.0, 0.0, k * xx, k * xy, k * xz, 0.0]);
-            let stress_y = Oct([0.0, 0.0, 0.0, 0.0, k * xy, k * yy, k * yz, 0.0]);
-            let stress_z = Oct([0.0, 0.0, 0.0, 0.0, k * xz, k * yz, k * zz, 0.0]);
-            let window = usize::from(windows[p]);
-            let nodes = &mut halo[window..window + WINDOW];
+            let stress_x = Lanes8([0.0, 0.0, 0.0, 0.0, k * xx, k * xy, k * xz, 0.0]);
+            let stress_y = Lanes8([0.0, 0.0, 0.0, 0.0, k * xy, k * yy, k * yz, 0.0]);
+            let stress_z = Lanes8([0.0, 0.0, 0.0, 0.0, k * xz, k * yz, k * zz, 0.0]);
+            let first = usize::from(windows[p]);
+            let nodes = &mut halo[first..first + window(3)];
             // The weight of a node is a product over the axes: z, then y, then x.
             for layer in 0..3 {
                 let (wz, gz) = (w[layer].0[2], g[layer].0[2]);
-                let sums = Oct(sums).scaled(wz).add_scaled::<FMA>(gz, stress_z);
+                let sums = Lanes8(sums).scaled(wz).add_scaled::<FMA>(gz, stress_z);
                 let (stress_y, stress_x) = (stress_y.scaled(wz), stress_x.scaled(wz));
                 for row in 0..3 {
                     let (wy, gy) = (w[row].0[1], g[row].0[1]);
                     let sums = sums.scaled(wy).add_scaled::<FMA>(gy, stress_y);
                     let stress_x = stress_x.scaled(wy);
-                    let at = layer * LAYER + row * HALO;
+                    let at = layer * HALO * HALO + row * HALO;
                     for i in 0..3 {
                         nodes[at + i] = nodes[at + i]
                             .add_scaled::<FMA>(w[i].0[0], sums)
@@ -179,13 +175,13 @@ impl Kernel for NodesToPoints<'_> {
         let (motion, shift) = (&mut points.motion[..n], &mut points.shift[..n]);
         let gradient = &mut points.gradient[..n];
         for p in 0..n {
-            let window = usize::from(windows[p]);
-            let (value, slope) = gather::<FMA>(&halo[window..window + WINDOW], places[p]);
+            let first = usize::from(windows[p]);
+            let (value, slope) = gather::<FMA>(&halo[first..first + window(3)], places[p]);
             gradient[p] = slope.map(low);
             // Over the sum of the weights as it was rounded.
             let plus = low(value).scaled(1.0 / value.0[3]);
             let [.., x, y, z, zero] = value.0;
-            let change = Quad([x, y, z, zero]);
+            let change = Lanes4([x, y, z, zero]);
             motion[p] = motion[p].add_scaled::<false>(1.0, change);
             let travel = plus.add_scaled::<false>(-0.5, change);
             shift[p] = travel.scaled(self.dt_over_cell);
@@ -195,20 +191,20 @@ impl Kernel for NodesToPoints<'_> {
 
 /// Lanes 0 to 3.
 #[inline(always)]
-fn low(x: Oct) -> Quad {
-    Quad([x.0[0], x.0[1], x.0[2], x.0[3]])
+fn low(x: Lanes8) -> Lanes4 {
+    Lanes4([x.0[0], x.0[1], x.0[2], x.0[3]])
 }
 
 /// Nodal velocities at a point, and their derivatives along x, y, z (per cell).
 #[inline(always)]
-fn gather<const FMA: bool>(nodes: &[Oct], place: Quad) -> (Oct, [Oct; 3]) {
+fn gather<const FMA: bool>(nodes: &[Lanes8], place: Lanes4) -> (Lanes8, [Lanes8; 3]) {
     let (w, g) = gimp(place);
-    let (mut value, mut slope) = (Oct::ZERO, [Oct::ZERO; 3]);
+    let (mut value, mut slope) = (Lanes8::ZERO, [Lanes8::ZERO; 3]);
     for layer in 0..3 {
-        let (mut plane, mut plane_x, mut plane_y) = (Oct::ZERO, Oct::ZERO, Oct::ZERO);
+        let (mut plane, mut plane_x, mut plane_y) = (Lanes8::ZERO, Lanes8::ZERO, Lanes8::ZERO);
         for row in 0..3 {
-            let at = layer * LAYER + row * HALO;
-            let (mut line, mut line_x) = (Oct::ZERO, Oct::ZERO);
+            let at = layer * HALO * HALO + row * HALO;
+            let (mut line, mut line_x) = (Lanes8::ZERO, Lanes8::ZERO);
             for i in 0..3 {
                 line = line.add_scaled::<FMA>(w[i].0[0], nodes[at + i]);
                 line_x = line_x.add_scaled::<FMA>(g[i].0[0], nodes[at + i]);
@@ -312,7 +308,7 @@ impl Kernel for Moves<'_> {
             }
             let node = points.find_node(p);
             if node.iter().all(|n| (0..EDGE as i32).contains(n)) {
-                points.window[p] = window(node);
+                points.window[p] = first(node);
                 p += 1;
             } else {
                 leaving.push((node, points.swap_remove(p)));

@@ -10,17 +10,17 @@ use physics::Failure;
 
 use super::points::{Point, Points};
 use super::{EDGE, HALO};
-use crate::lanes::Oct;
+use crate::lanes::Lanes8;
 
 /// Velocities or sums of the 4 x 4 x 4 nodes of a tile.
-pub(super) type Block = [Oct; EDGE * EDGE * EDGE];
+pub(super) type Block = [Lanes8; EDGE * EDGE * EDGE];
 
 /// Points, and the nodes that they reach.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tile {
     pub(super) points: Points,
     /// Sums over the points, later velocities, of 6 x 6 x 6 nodes; empty before the first point.
-    pub(super) halo: Vec<Oct>,
+    pub(super) halo: Vec<Lanes8>,
     /// Points that leave the tile, with their nearest nodes from its lowest one.
     pub(super) leaving: Vec<([i32; 3], Point)>,
 }
@@ -78,7 +78,7 @@ impl Tiles {
         }
         let steps = self.steps();
         let tile = &mut tiles[(0..3).map(|a| along[a] * steps[a]).sum::<usize>()];
-        tile.halo.resize(HALO * HALO * HALO, Oct::ZERO);
+        tile.halo.resize(HALO * HALO * HALO, Lanes8::ZERO);
         tile.points.push(node.map(|n| n % EDGE as i32), point);
         Ok(())
     }
@@ -95,7 +95,7 @@ impl Tiles {
 
     /// Sums of all points at the nodes of block `b`.
     pub(super) fn sums(&self, b: usize, tiles: &[Tile]) -> Block {
-        let mut sums = [Oct::ZERO; EDGE * EDGE * EDGE];
+        let mut sums = [Lanes8::ZERO; EDGE * EDGE * EDGE];
         for (t, d) in self.around(b) {
             let Tile { points, halo, .. } = &tiles[t];
             if !points.id.is_empty() {
@@ -126,9 +126,9 @@ impl Tiles {
 /// itself, 2 above, along each axis): the nodes in the block, and the entries of the halo.
 #[inline(always)]
 fn each_row(d: [usize; 3], mut see: impl FnMut(Range<usize>, Range<usize>)) {
-    /// First node in the block, first entry in the halo, how many.
-    const SHARED: [[usize; 3]; 3] = [[0, EDGE + 1, 1], [0, 1, EDGE], [EDGE - 1, 0, 1]];
-    let [x, y, z] = d.map(|d| SHARED[d]);
+    // First node in the block, first entry in the halo, how many.
+    let shared = [[0, EDGE + 1, 1], [0, 1, EDGE], [EDGE - 1, 0, 1]];
+    let [x, y, z] = d.map(|d| shared[d]);
     for k in 0..z[2] {
         for j in 0..y[2] {
             let node = ((z[0] + k) * EDGE + y[0] + j) * EDGE + x[0];

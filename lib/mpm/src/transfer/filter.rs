@@ -2,9 +2,10 @@
 
 use std::marker::PhantomData;
 
-use super::{layers, window};
-use crate::lanes::Quad;
-use crate::lattice::HALO;
+use crate::fields::node;
+use crate::fields::point::VOLUME;
+use crate::lanes::Lanes4;
+use crate::lattice::{HALO, layers, window};
 use crate::shape::Shape;
 use crate::simd::Kernel;
 use crate::tiles::Tile;
@@ -27,7 +28,7 @@ impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
             filter_out,
             ..
         } = self.tile;
-        filter_out.fill(Quad::ZERO);
+        filter_out.fill(Lanes4::ZERO);
         let n = points.len();
         let (place, bases, shift) = (
             &points.place[..n],
@@ -38,9 +39,9 @@ impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
             let base = usize::from(bases[p]);
             let weights = S::weights(place[p]);
             let (w, nodes) = (&weights.w, &filter_in[base..base + window(D)]);
-            let mut value = Quad::ZERO;
+            let mut value = Lanes4::ZERO;
             for layer in 0..layers(D) {
-                let mut plane = Quad::ZERO;
+                let mut plane = Lanes4::ZERO;
                 for row in 0..3 {
                     let at = layer * HALO * HALO + row * HALO;
                     let line = nodes[at]
@@ -55,12 +56,12 @@ impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
                     plane
                 };
             }
-            // Lane 3 is 1 at every node: the sum of the weights as it was rounded.
-            let value = value.scaled(1.0 / value.0[3]);
+            // Every node has 1 there: the sum of the weights as it was rounded.
+            let value = value.scaled(1.0 / value.0[node::ONE]);
             if self.keep {
                 shift[p] = value;
             }
-            let momentum = value.scaled(place[p].0[3]);
+            let momentum = value.scaled(place[p].0[VOLUME]);
             let nodes = &mut filter_out[base..base + window(D)];
             for layer in 0..layers(D) {
                 let plane = if D == 3 {

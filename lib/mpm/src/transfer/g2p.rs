@@ -2,42 +2,99 @@
 
 use std::marker::PhantomData;
 
-use super::{layers, window};
-use crate::lanes::{Oct, Quad};
-use crate::lattice::HALO;
+use crate::fields::node;
+use crate::lanes::{Lanes4, Lanes8};
+use crate::lattice::{HALO, layers, window};
 use crate::real::Real;
-use crate::settings::VelocityUpdate;
 use crate::shape::{Shape, Weights};
 use crate::simd::Kernel;
 use crate::tiles::Tile;
 
 /// Nodes to points: new velocity, velocity gradient and displacement.
 ///
-/// `tile.local` holds the nodal velocity v+ in lanes 0..3; lanes 4..7 hold its increment for
-/// FLIP and the filtered velocity v* for XPIC and FMPM; lanes 3 and 7 are 1.
-pub(crate) struct G2p<'a, S, const D: usize, const AFFINE: bool> {
+/// `tile.local` holds the nodal velocities of [`node`].
+pub(crate) struct G2p<'a, S, U, const D: usize> {
     pub(crate) tile: &'a mut Tile,
     /// dt over cell, s/m.
     pub(crate) dt_over_cell: Real,
-    pub(crate) update: VelocityUpdate,
-    pub(crate) shape: PhantomData<S>,
+    pub(crate) of: PhantomData<(S, U)>,
+}
+
+/// A velocity update: the table of docs/methods.md, section 2.3. Kernels are generic over it.
+pub(crate) trait Update {
+    /// Points carry an affine field.
+    const AFFINE: bool = false;
+    /// The second half of a nodal value is a velocity and not an increment.
+    const WHOLE: bool = true;
+
+    /// New velocity of a point and the velocity of its displacement, along one axis, from its
+    /// own (`old`), S v+ (`plus`), S of the second half (`second`) and S w_1 (`drift`).
+    fn apply(old: Real, plus: Real, second: Real, drift: Real) -> (Real, Real);
+}
+
+/// FLIP.
+pub(crate) struct Increment;
+/// PIC, and the filters of order 1.
+pub(crate) struct Replace;
+/// APIC.
+pub(crate) struct Affine;
+/// XPIC of order 2 and more.
+pub(crate) struct FilterBefore;
+/// FMPM of order 2 and more.
+pub(crate) struct FilterAfter;
+
+impl Update for Increment {
+    const WHOLE: bool = false;
+    #[inline(always)]
+    fn apply(old: Real, plus: Real, second: Real, _: Real) -> (Real, Real) {
+        (old + second, plus - 0.5 * second)
+    }
+}
+
+impl Update for Replace {
+    #[inline(always)]
+    fn apply(_: Real, plus: Real, _: Real, _: Real) -> (Real, Real) {
+        (plus, plus)
+    }
+}
+
+impl Update for Affine {
+    const AFFINE: bool = true;
+    #[inline(always)]
+    fn apply(_: Real, plus: Real, _: Real, _: Real) -> (Real, Real) {
+        (plus, plus)
+    }
+}
+
+impl Update for FilterBefore {
+    #[inline(always)]
+    fn apply(old: Real, _: Real, second: Real, drift: Real) -> (Real, Real) {
+        (second, drift + 0.5 * (second - old))
+    }
+}
+
+impl Update for FilterAfter {
+    #[inline(always)]
+    fn apply(_: Real, plus: Real, second: Real, _: Real) -> (Real, Real) {
+        (second, plus)
+    }
 }
 
 /// A nodal field and its gradient (per cell) at a point.
 struct Field {
-    value: Oct,
-    slope: [Oct; 3],
+    value: Lanes8,
+    slope: [Lanes8; 3],
 }
 
 #[inline(always)]
-fn gather<const D: usize, const FMA: bool>(nodes: &[Oct], weights: &Weights) -> Field {
-    let mut value = Oct::ZERO;
-    let mut slope = [Oct::ZERO; 3];
+fn gather<const D: usize, const FMA: bool>(nodes: &[Lanes8], weights: &Weights) -> Field {
+    let mut value = Lanes8::ZERO;
+    let mut slope = [Lanes8::ZERO; 3];
     for layer in 0..layers(D) {
-        let (mut plane, mut plane_x, mut plane_y) = (Oct::ZERO, Oct::ZERO, Oct::ZERO);
+        let (mut plane, mut plane_x, mut plane_y) = (Lanes8::ZERO, Lanes8::ZERO, Lanes8::ZERO);
         for row in 0..3 {
             let at = layer * HALO * HALO + row * HALO;
-            let (mut line, mut line_x) = (Oct::ZERO, Oct::ZERO);
+            let (mut line, mut line_x) = (Lanes8::ZERO, Lanes8::ZERO);
             for i in 0..3 {
                 line = line.add_scaled::<FMA>(weights.w[i].0[0], nodes[at + i]);
                 line_x = line_x.add_scaled::<FMA>(weights.g[i].0[0], nodes[at + i]);
@@ -62,7 +119,11 @@ fn gather<const D: usize, const FMA: bool>(nodes: &[Oct], weights: &Weights) -> 
 /// First moments of the nodal velocity about the point over the moments of inertia of the
 /// weights: the affine field of APIC.
 #[inline(always)]
-fn affine<const D: usize, const FMA: bool>(nodes: &[Oct], weights: &Weights, d: Quad) -> Field {
+fn affine<const D: usize, const FMA: bool>(
+    nodes: &[Lanes8],
+    weights: &Weights,
+    d: Lanes4,
+) -> Field {
     let mut moments = Weights {
         w: weights.w,
         g: weights.g,
@@ -77,7 +138,7 @@ fn affine<const D: usize, const FMA: bool>(nodes: &[Oct], weights: &Weights, d: 
     gather::<D, FMA>(nodes, &moments)
 }
 
-impl<S: Shape, const D: usize, const AFFINE: bool> Kernel for G2p<'_, S, D, AFFINE> {
+impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Tile { points, local, .. } = self.tile;
@@ -91,36 +152,27 @@ impl<S: Shape, const D: usize, const AFFINE: bool> Kernel for G2p<'_, S, D, AFFI
             let nodes = &local[base..base + window(D)];
             let field = gather::<D, FMA>(nodes, &weights);
             for (to, from) in gradient[p].iter_mut().zip(&field.slope) {
-                *to = low(from);
+                *to = after(from);
             }
-            // Lanes 3 and 7 are 1 at every node: the sum of the weights as it was rounded. A
+            // Every node has 1 there: the sum of the weights as it was rounded. A
             // velocity that is replaced each step would drift by that rounding.
-            let plus = low(&field.value).scaled(1.0 / field.value.0[3]);
-            if AFFINE {
+            let plus = after(&field.value).scaled(1.0 / field.value.0[node::ONE]);
+            if U::AFFINE {
                 let affine = affine::<D, FMA>(nodes, &weights, place[p]);
                 for (to, from) in points.affine[p].iter_mut().zip(&affine.slope) {
-                    // Lane 3 is the sum of the moments, zero but for rounding, which times the
+                    // Beside it is the sum of the moments, zero but for rounding, which times the
                     // velocity itself would be a gradient of liquid that moves as one.
-                    *to = low(from).add_scaled::<FMA>(-from.0[3], plus);
+                    *to = after(from).add_scaled::<FMA>(-from.0[node::ONE], plus);
                 }
             }
-            let second = match self.update {
-                VelocityUpdate::Flip => high(&field.value),
-                _ => high(&field.value).scaled(1.0 / field.value.0[7]),
+            let second = if U::WHOLE {
+                second(&field.value).scaled(1.0 / field.value.0[node::SECOND_ONE])
+            } else {
+                second(&field.value)
             };
             let (old, drift) = (motion[p], shift[p]);
             for a in 0..D {
-                let (new, travel) = match self.update {
-                    VelocityUpdate::Flip => (old.0[a] + second.0[a], plus.0[a] - 0.5 * second.0[a]),
-                    VelocityUpdate::Pic | VelocityUpdate::Apic => (plus.0[a], plus.0[a]),
-                    VelocityUpdate::Xpic(1) => (plus.0[a], plus.0[a]),
-                    VelocityUpdate::Xpic(_) => {
-                        let new = second.0[a];
-                        (new, drift.0[a] + 0.5 * (new - old.0[a]))
-                    }
-                    VelocityUpdate::Fmpm(1) => (plus.0[a], plus.0[a]),
-                    VelocityUpdate::Fmpm(_) => (second.0[a], plus.0[a]),
-                };
+                let (new, travel) = U::apply(old.0[a], plus.0[a], second.0[a], drift.0[a]);
                 motion[p].0[a] = new;
                 shift[p].0[a] = self.dt_over_cell * travel;
             }
@@ -129,11 +181,11 @@ impl<S: Shape, const D: usize, const AFFINE: bool> Kernel for G2p<'_, S, D, AFFI
 }
 
 #[inline(always)]
-fn low(x: &Oct) -> Quad {
-    Quad([x.0[0], x.0[1], x.0[2], x.0[3]])
+fn after(x: &Lanes8) -> Lanes4 {
+    Lanes4(std::array::from_fn(|a| x.0[node::AFTER + a]))
 }
 
 #[inline(always)]
-fn high(x: &Oct) -> Quad {
-    Quad([x.0[4], x.0[5], x.0[6], x.0[7]])
+fn second(x: &Lanes8) -> Lanes4 {
+    Lanes4(std::array::from_fn(|a| x.0[node::SECOND + a]))
 }

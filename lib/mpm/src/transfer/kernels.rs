@@ -2,10 +2,12 @@
 
 use std::marker::PhantomData;
 
-use super::{Filter, G2p, P2g};
+use super::filter::Filter;
+use super::g2p::{Affine, FilterAfter, FilterBefore, G2p, Increment, Replace, Update};
+use super::p2g::P2g;
 use crate::material::{Constant, Flow, Segments, Stress};
 use crate::real::Real;
-use crate::settings::{ShapeFunction, VelocityUpdate};
+use crate::settings::{Mode, ShapeFunction};
 use crate::shape::{Bspline2, Gimp, Linear, Shape};
 use crate::simd::{Kernel, dispatch};
 use crate::tiles::Tile;
@@ -16,30 +18,39 @@ pub(crate) struct Kernels {
     /// Points to nodes, with dt over cell.
     pub(crate) p2g: fn(&mut Tile, Real),
     /// Nodes to points, with dt over cell.
-    pub(crate) g2p: fn(&mut Tile, Real, VelocityUpdate),
+    pub(crate) g2p: fn(&mut Tile, Real),
     /// One round of the velocity filter; whether to keep the gathered value.
     pub(crate) filter: fn(&mut Tile, bool),
 }
 
 impl Kernels {
-    pub(crate) fn new(shape: ShapeFunction, three: bool, affine: bool) -> Self {
+    pub(crate) fn new(shape: ShapeFunction, three: bool, mode: Mode) -> Self {
         match shape {
-            ShapeFunction::Gimp => Self::of::<Gimp>(three, affine),
-            ShapeFunction::Bspline2 => Self::of::<Bspline2>(three, affine),
-            ShapeFunction::Linear => Self::of::<Linear>(three, affine),
+            ShapeFunction::Gimp => Self::of::<Gimp>(three, mode),
+            ShapeFunction::Bspline2 => Self::of::<Bspline2>(three, mode),
+            ShapeFunction::Linear => Self::of::<Linear>(three, mode),
         }
     }
 
-    fn of<S: Shape>(three: bool, affine: bool) -> Self {
-        match (three, affine) {
-            (true, true) => Self::exact::<S, 3, true>(),
-            (true, false) => Self::exact::<S, 3, false>(),
-            (false, true) => Self::exact::<S, 2, true>(),
-            (false, false) => Self::exact::<S, 2, false>(),
+    fn of<S: Shape>(three: bool, mode: Mode) -> Self {
+        if three {
+            Self::within::<S, 3>(mode)
+        } else {
+            Self::within::<S, 2>(mode)
         }
     }
 
-    fn exact<S: Shape, const D: usize, const AFFINE: bool>() -> Self {
+    fn within<S: Shape, const D: usize>(mode: Mode) -> Self {
+        match mode {
+            Mode::Increment => Self::exact::<S, Increment, D, false>(),
+            Mode::Replace => Self::exact::<S, Replace, D, false>(),
+            Mode::Affine => Self::exact::<S, Affine, D, true>(),
+            Mode::FilterBefore => Self::exact::<S, FilterBefore, D, false>(),
+            Mode::FilterAfter => Self::exact::<S, FilterAfter, D, false>(),
+        }
+    }
+
+    fn exact<S: Shape, U: Update, const D: usize, const AFFINE: bool>() -> Self {
         Self {
             p2g: |tile, dt_over_cell| {
                 let shape = PhantomData::<S>;
@@ -49,13 +60,12 @@ impl Kernels {
                     shape,
                 });
             },
-            g2p: |tile, dt_over_cell, update| {
-                let shape = PhantomData::<S>;
-                dispatch(G2p::<S, D, AFFINE> {
+            g2p: |tile, dt_over_cell| {
+                let of = PhantomData;
+                dispatch(G2p::<S, U, D> {
                     tile,
                     dt_over_cell,
-                    update,
-                    shape,
+                    of,
                 });
             },
             filter: |tile, keep| {
@@ -78,13 +88,13 @@ impl AnyFlow {
     /// Volume change, shear rate and stress of a tile's points after a step of `dt`.
     pub(crate) fn update(&self, tile: &mut Tile, stress: &Stress, dt: Real) {
         match self {
-            Self::Constant(flow) => dispatch(Update {
+            Self::Constant(flow) => dispatch(Refresh {
                 tile,
                 stress,
                 flow,
                 dt,
             }),
-            Self::Segments(flow) => dispatch(Update {
+            Self::Segments(flow) => dispatch(Refresh {
                 tile,
                 stress,
                 flow,
@@ -94,14 +104,14 @@ impl AnyFlow {
     }
 }
 
-struct Update<'a, F> {
+struct Refresh<'a, F> {
     tile: &'a mut Tile,
     stress: &'a Stress,
     flow: &'a F,
     dt: Real,
 }
 
-impl<F: Flow> Kernel for Update<'_, F> {
+impl<F: Flow> Kernel for Refresh<'_, F> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         self.stress

@@ -2,9 +2,10 @@
 
 use std::marker::PhantomData;
 
-use super::{layers, window};
-use crate::lanes::{Oct, Quad};
-use crate::lattice::HALO;
+use crate::fields::point::{J, VOLUME};
+use crate::fields::{sum, wall_sum};
+use crate::lanes::{Lanes4, Lanes8};
+use crate::lattice::{HALO, layers, window};
 use crate::real::Real;
 use crate::shape::{Shape, Weights};
 use crate::simd::Kernel;
@@ -24,13 +25,13 @@ const OFFSET: [Real; 3] = [-1.0, 0.0, 1.0];
 
 /// Lanes 0..4 weighted for momentum that varies linearly (APIC), 4..8 for stress.
 #[inline(always)]
-fn slope<const AFFINE: bool>(weights: &Weights, node: usize, axis: usize) -> Oct {
+fn slope<const AFFINE: bool>(weights: &Weights, node: usize, axis: usize) -> Lanes8 {
     let g = weights.g[node].0[axis];
     if AFFINE {
         let w = OFFSET[node] * weights.w[node].0[axis];
-        Oct([w, w, w, w, g, g, g, g])
+        Lanes8([w, w, w, w, g, g, g, g])
     } else {
-        Oct([g; 8])
+        Lanes8([g; 8])
     }
 }
 
@@ -57,9 +58,9 @@ impl<S: Shape, const D: usize, const AFFINE: bool> P2g<'_, S, D, AFFINE> {
             near_wall,
             ..
         } = self.tile;
-        local.fill(Oct::ZERO);
+        local.fill(Lanes8::ZERO);
         if WALLS {
-            wall_local.fill(Oct::ZERO);
+            wall_local.fill(Lanes8::ZERO);
         }
         let n = points.len();
         let (place, motion) = (&points.place[..n], &points.motion[..n]);
@@ -68,11 +69,11 @@ impl<S: Shape, const D: usize, const AFFINE: bool> P2g<'_, S, D, AFFINE> {
             let base = usize::from(bases[p]);
             let (d, v) = (place[p], motion[p]);
             let weights = S::weights(d);
-            let mass = d.0[3];
-            let volume = mass * (1.0 + v.0[3]);
+            let mass = d.0[VOLUME];
+            let volume = mass * (1.0 + v.0[J]);
             let k = -self.dt_over_cell * volume;
             let [xx, yy, zz, xy, xz, yz, ..] = stress[p].0;
-            let mut q = Oct([
+            let mut q = Lanes8([
                 mass,
                 mass * v.0[0],
                 mass * v.0[1],
@@ -83,17 +84,17 @@ impl<S: Shape, const D: usize, const AFFINE: bool> P2g<'_, S, D, AFFINE> {
                 volume,
             ]);
             let mut flux = [
-                Oct([0.0, 0.0, 0.0, 0.0, k * xx, k * xy, k * xz, 0.0]),
-                Oct([0.0, 0.0, 0.0, 0.0, k * xy, k * yy, k * yz, 0.0]),
-                Oct([0.0, 0.0, 0.0, 0.0, k * xz, k * yz, k * zz, 0.0]),
+                Lanes8([0.0, 0.0, 0.0, 0.0, k * xx, k * xy, k * xz, 0.0]),
+                Lanes8([0.0, 0.0, 0.0, 0.0, k * xy, k * yy, k * yz, 0.0]),
+                Lanes8([0.0, 0.0, 0.0, 0.0, k * xz, k * yz, k * zz, 0.0]),
             ];
             if AFFINE {
                 let affine = &points.affine[p];
                 for (a, f) in flux.iter_mut().enumerate().take(D) {
                     for l in 0..3 {
                         let c = mass * affine[a].0[l];
-                        q.0[1 + l] -= c * d.0[a];
-                        f.0[1 + l] = c;
+                        q.0[sum::MOMENTUM + l] -= c * d.0[a];
+                        f.0[sum::MOMENTUM + l] = c;
                     }
                 }
             }
@@ -131,21 +132,21 @@ impl<S: Shape, const D: usize, const AFFINE: bool> P2g<'_, S, D, AFFINE> {
     }
 }
 
-/// Adds mass-weighted position relative to each node (lanes 0..3) and volume gradient (3..6).
+/// Adds the sums of [`wall_sum`]: mass-weighted position relative to each node, volume gradient.
 #[inline(always)]
 fn wall_sums<const D: usize, const FMA: bool>(
-    nodes: &mut [Oct],
+    nodes: &mut [Lanes8],
     weights: &Weights,
-    d: Quad,
+    d: Lanes4,
     mass: Real,
     volume: Real,
 ) {
-    let scale = Oct([mass, mass, mass, volume, volume, volume, 0.0, 0.0]);
+    let scale = Lanes8([mass, mass, mass, volume, volume, volume, 0.0, 0.0]);
     let lanes = |node: usize, axis: usize| {
         let w = weights.w[node].0[axis];
-        let mut r = Oct([w; 8]);
-        r.0[axis] = w * (d.0[axis] - OFFSET[node]);
-        r.0[3 + axis] = weights.g[node].0[axis];
+        let mut r = Lanes8([w; 8]);
+        r.0[wall_sum::MOMENT + axis] = w * (d.0[axis] - OFFSET[node]);
+        r.0[wall_sum::GRADIENT + axis] = weights.g[node].0[axis];
         r
     };
     let x = [lanes(0, 0), lanes(1, 0), lanes(2, 0)];
@@ -154,7 +155,8 @@ fn wall_sums<const D: usize, const FMA: bool>(
             scale.times(lanes(layer, 2))
         } else {
             let mut flat = scale;
-            (flat.0[2], flat.0[5]) = (0.0, 0.0);
+            flat.0[wall_sum::MOMENT + 2] = 0.0;
+            flat.0[wall_sum::GRADIENT + 2] = 0.0;
             flat
         };
         for row in 0..3 {

@@ -2,7 +2,7 @@
 
 use physics::Boundary;
 
-use super::BlockShape;
+use super::block::BlockShape;
 use crate::lattice::Lattice;
 use crate::real::Real;
 use crate::settings::ShapeFunction;

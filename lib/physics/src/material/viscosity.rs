@@ -1,10 +1,18 @@
+use crate::Choice;
+
 /// How the shear rate in eta(rate) is computed from D' = dev sym grad v.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShearRate {
     /// The paper's 2 |dev D|, below its Eq. 2.
+    #[default]
     Paper,
     /// sqrt(2 D':D'), which is the shear rate of a rheometer in simple shear.
     Rheometer,
+}
+
+impl Choice for ShearRate {
+    const NAMED: &'static [(&'static str, Self)] =
+        &[("paper", Self::Paper), ("rheometer", Self::Rheometer)];
 }
 
 impl ShearRate {

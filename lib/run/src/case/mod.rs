@@ -8,9 +8,8 @@ mod value;
 use std::path::Path;
 
 pub use schema::{
-    Adhesive, Axes, Body, BoundaryName, BoxCorners, Case, ClampTable, Contact, Grid, Integrator,
-    LawName, MaterialName, OutputTable, PidGains, PressureName, SchemeName, ShapeName,
-    ShearRateName, UpdateName,
+    Adhesive, Axes, Body, BoxCorners, Case, ClampTable, Contact, Grid, Integrator, MaterialName,
+    OutputTable, PidGains, SchemeName,
 };
 pub use value::{BodyVelocity, CellLength, Positive, StopRule};
 
@@ -93,7 +92,12 @@ order = 5
         let said = refusal("\"2.9 um\"", "\"-2.9 um\"");
         assert!(said.contains("greater than zero"), "{said}");
         let said = refusal("\"xpic\"", "\"xpicc\"");
-        assert!(said.contains("fmpm"), "{said}");
+        let wanted =
+            "'xpicc' is not accepted: \"flip\", \"pic\", \"xpic\", \"fmpm\" or \"apic\" is needed";
+        assert!(
+            said.starts_with("case.toml:17:19: ") && said.ends_with(wanted),
+            "{said}"
+        );
         let said = refusal("stop = \"closed\"", "stop = \"later\"");
         assert!(said.contains("closed") && said.contains("ms"), "{said}");
     }

@@ -1,9 +1,11 @@
 //! The tables and keys of a case file.
 
+use mpm::{PressureFrom, ShapeFunction, VelocityUpdate};
+use physics::{Boundary, Choice, ShearRate, WallLaw};
 use serde::Deserialize;
-use units::{Acceleration, Density, Length, Pressure, Quantity, ShearRate, Speed, Time, Viscosity};
+use units::{Acceleration, Density, Length, Pressure, Quantity, Speed, Time, Viscosity};
 
-use super::value::{BodyVelocity, CellLength, Positive, StopRule};
+use super::value::{BodyVelocity, CellLength, Positive, StopRule, choice, some_choice};
 
 /// A case file.
 #[derive(Clone, Debug, Deserialize)]
@@ -44,7 +46,8 @@ pub struct Grid {
     #[serde(default = "three")]
     pub dimensions: u8,
     /// Shape function of the explicit scheme; the paper's by default.
-    pub shape: Option<ShapeName>,
+    #[serde(default, deserialize_with = "some_choice")]
+    pub shape: Option<ShapeFunction>,
     /// Material points per cell edge at the start.
     #[serde(default = "two")]
     pub points_per_direction: u8,
@@ -60,19 +63,6 @@ fn two() -> u8 {
     2
 }
 
-/// `shape`
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ShapeName {
-    /// Uniform generalised interpolation, the paper's.
-    #[default]
-    Gimp,
-    /// Quadratic B-spline.
-    Bspline2,
-    /// Linear hat functions.
-    Linear,
-}
-
 /// `[adhesive]`
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -84,23 +74,12 @@ pub struct Adhesive {
     /// Newtonian viscosity.
     pub viscosity: Option<Positive<Viscosity>>,
     /// Viscosity against shear rate.
-    pub viscosity_table: Option<Vec<(Positive<ShearRate>, Positive<Viscosity>)>>,
+    pub viscosity_table: Option<Vec<(Positive<units::ShearRate>, Positive<Viscosity>)>>,
     /// Convention of the rate in eta(rate).
-    #[serde(default)]
-    pub shear_rate: ShearRateName,
+    #[serde(default, deserialize_with = "choice")]
+    pub shear_rate: ShearRate,
     /// Largest tension the liquid carries.
     pub cavitation_pressure: Option<Positive<Pressure>>,
-}
-
-/// `shear_rate`
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ShearRateName {
-    /// 2 |dev D|.
-    #[default]
-    Paper,
-    /// sqrt(2 D:D).
-    Rheometer,
 }
 
 /// `[contact]`
@@ -108,23 +87,12 @@ pub enum ShearRateName {
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Which law.
-    pub law: LawName,
+    #[serde(deserialize_with = "choice")]
+    pub law: WallLaw,
     /// 1/k of Eq. 3, for partial slip.
     pub influence_length: Option<CellLength>,
     /// Explicit: largest separation of liquid and wall at a node at which they touch.
     pub separation: Option<CellLength>,
-}
-
-/// `law`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum LawName {
-    /// k = 0.
-    Frictionless,
-    /// Eq. 3.
-    PartialSlip,
-    /// k infinite.
-    Stick,
 }
 
 /// `[clamp]`
@@ -167,16 +135,19 @@ pub struct PidGains {
 #[serde(deny_unknown_fields)]
 pub struct Integrator {
     /// Explicit or implicit.
+    #[serde(deserialize_with = "choice")]
     pub scheme: SchemeName,
     /// Explicit: how particle velocities are updated.
-    pub velocity_update: Option<UpdateName>,
+    #[serde(default, deserialize_with = "some_choice")]
+    pub velocity_update: Option<VelocityUpdate>,
     /// Order of xpic and fmpm.
     pub order: Option<u8>,
     /// Courant number of the limit that binds.
     pub cfl: Option<f64>,
     /// Explicit: whose volume change sets a point's pressure; its own, as in the paper, by
     /// default.
-    pub pressure: Option<PressureName>,
+    #[serde(default, deserialize_with = "some_choice")]
+    pub pressure: Option<PressureFrom>,
     /// Explicit: how far the fastest point moves between two projections of the points to
     /// uniform density; none, as in the paper, by default.
     pub density_projection: Option<CellLength>,
@@ -185,8 +156,7 @@ pub struct Integrator {
 }
 
 /// `scheme`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SchemeName {
     /// The paper's material point method.
     Explicit,
@@ -194,31 +164,9 @@ pub enum SchemeName {
     Implicit,
 }
 
-/// `velocity_update`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum UpdateName {
-    /// Fluid implicit particle.
-    Flip,
-    /// Particle in cell.
-    Pic,
-    /// XPIC of order m.
-    Xpic,
-    /// FMPM of order m.
-    Fmpm,
-    /// Affine particle in cell.
-    Apic,
-}
-
-/// `pressure`
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum PressureName {
-    /// From the point's own J.
-    #[default]
-    Point,
-    /// From the mean J of the points of its cell.
-    CellMean,
+impl Choice for SchemeName {
+    const NAMED: &'static [(&'static str, Self)] =
+        &[("explicit", Self::Explicit), ("implicit", Self::Implicit)];
 }
 
 /// `[output]`
@@ -293,27 +241,14 @@ pub struct Gravity {
 #[serde(deny_unknown_fields)]
 pub struct Axes {
     /// Sides normal to x.
-    #[serde(default)]
-    pub x: BoundaryName,
+    #[serde(default, deserialize_with = "choice")]
+    pub x: Boundary,
     /// Sides normal to y.
-    #[serde(default)]
-    pub y: BoundaryName,
+    #[serde(default, deserialize_with = "choice")]
+    pub y: Boundary,
     /// Sides normal to z.
-    #[serde(default)]
-    pub z: BoundaryName,
-}
-
-/// One axis of `[boundary]`
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum BoundaryName {
-    /// Mirror.
-    #[default]
-    Symmetry,
-    /// Wrapped.
-    Periodic,
-    /// Outflow.
-    Open,
+    #[serde(default, deserialize_with = "choice")]
+    pub z: Boundary,
 }
 
 /// `[stop]`

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use physics::Choice;
 use serde::Deserialize;
 use serde::de::{self, Deserializer};
 use units::{Dimension, Length, Quantity, Speed, Time};
@@ -134,6 +135,18 @@ impl<'de> Deserialize<'de> for BodyVelocity {
             _ => Err(de::Error::custom(format!("a body's velocity is {wanted}"))),
         }
     }
+}
+
+/// The alternative that a word names.
+pub(super) fn choice<'de, R: Deserializer<'de>, C: Choice>(reader: R) -> Result<C, R::Error> {
+    C::named(&String::deserialize(reader)?).map_err(de::Error::custom)
+}
+
+/// The same where a case may leave it out.
+pub(super) fn some_choice<'de, R: Deserializer<'de>, C: Choice>(
+    reader: R,
+) -> Result<Option<C>, R::Error> {
+    choice(reader).map(Some)
 }
 
 fn text<'de, R: Deserializer<'de>>(reader: R, wanted: &'static str) -> Result<String, R::Error> {

@@ -8,13 +8,11 @@ mod seed;
 
 use particle_file::limits;
 use physics::{
-    Amount, Boundary, Clamp, Dimensions, Liquid, Newtonian, Pid, Points, RigidBody, Scene,
-    ShearRate, Stop, Table, Tait, Viscosity, WallLaw,
+    Amount, Boundary, Clamp, Dimensions, Liquid, Newtonian, Pid, Points, RigidBody, Scene, Stop,
+    Table, Tait, Viscosity, WallLaw,
 };
 
-use crate::case::{
-    Adhesive, BoundaryName, Case, CaseError, Contact, LawName, ShearRateName, StopRule,
-};
+use crate::case::{Adhesive, Case, CaseError, Contact, StopRule};
 
 pub use bond::Bond;
 pub(crate) use plausible::OVERLAP;
@@ -196,22 +194,18 @@ fn stop(
 }
 
 fn boundary(case: &Case, dimensions: Dimensions) -> Result<[Boundary; 3], CaseError> {
-    let named = [case.boundary.x, case.boundary.y, case.boundary.z];
-    if dimensions == Dimensions::Two && named[2] != BoundaryName::Symmetry {
+    let sides = [case.boundary.x, case.boundary.y, case.boundary.z];
+    if dimensions == Dimensions::Two && sides[2] != Boundary::Symmetry {
         return Err(CaseError(
             "[boundary] z has no meaning in plane strain (dimensions = 2)".into(),
         ));
     }
-    if case.clamp.is_some() && named[1] == BoundaryName::Periodic {
+    if case.clamp.is_some() && sides[1] == Boundary::Periodic {
         return Err(CaseError(
             "[boundary] y = \"periodic\" has no meaning with [clamp], which closes the bond along y: use \"symmetry\" or \"open\"".into(),
         ));
     }
-    Ok(named.map(|name| match name {
-        BoundaryName::Symmetry => Boundary::Symmetry,
-        BoundaryName::Periodic => Boundary::Periodic,
-        BoundaryName::Open => Boundary::Open,
-    }))
+    Ok(sides)
 }
 
 fn liquid(adhesive: &Adhesive) -> Result<Liquid, CaseError> {
@@ -241,10 +235,7 @@ fn liquid(adhesive: &Adhesive) -> Result<Liquid, CaseError> {
             bulk_modulus: adhesive.bulk_modulus.si(),
         },
         viscosity,
-        shear_rate: match adhesive.shear_rate {
-            ShearRateName::Paper => ShearRate::Paper,
-            ShearRateName::Rheometer => ShearRate::Rheometer,
-        },
+        shear_rate: adhesive.shear_rate,
         cavitation_pressure: adhesive.cavitation_pressure.map(|p| p.si()),
     })
 }
@@ -260,16 +251,15 @@ fn wall(contact: Option<&Contact>, cell: f64, walls: bool) -> Result<WallLaw, Ca
         };
     };
     match (contact.law, contact.influence_length) {
-        (LawName::PartialSlip, Some(l)) => Ok(WallLaw::PartialSlip {
+        (WallLaw::PartialSlip { .. }, Some(l)) => Ok(WallLaw::PartialSlip {
             influence_length_m: l.si(cell),
         }),
-        (LawName::PartialSlip, None) => Err(CaseError(
+        (WallLaw::PartialSlip { .. }, None) => Err(CaseError(
             "[contact] law = \"partial-slip\" needs influence_length, such as \"0.01 cell\"".into(),
         )),
-        (LawName::Frictionless | LawName::Stick, Some(_)) => Err(CaseError(
+        (WallLaw::Frictionless | WallLaw::Stick, Some(_)) => Err(CaseError(
             "[contact] influence_length is for law = \"partial-slip\" only".into(),
         )),
-        (LawName::Frictionless, None) => Ok(WallLaw::Frictionless),
-        (LawName::Stick, None) => Ok(WallLaw::Stick),
+        (law, None) => Ok(law),
     }
 }

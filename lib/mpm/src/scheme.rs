@@ -1,0 +1,103 @@
+//! What a run asks of the scheme: `physics::Scheme`.
+
+use physics::{Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport};
+
+use crate::explicit::{Corrections, Explicit};
+use crate::fields::point;
+use crate::real::Real;
+
+impl Scheme for Explicit {
+    fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
+        self.step(limit)
+    }
+
+    fn diagnostics(&self) -> Diagnostics {
+        let (cell, density) = (self.scene.grid.cell_m, self.scene.liquid.density);
+        let volume = cell.powi(3);
+        let mut sum = Diagnostics::default();
+        let mut capped = 0.0;
+        for tile in &self.grid.tiles {
+            let points = &tile.points;
+            for p in 0..points.len() {
+                let [vx, vy, vz, j] = points.motion[p].0.map(f64::from);
+                let v0 = f64::from(points.place[p].0[point::VOLUME]) * volume;
+                let now = v0 * (1.0 + j);
+                let square = vx * vx + vy * vy + vz * vz;
+                let rate = f64::from(points.stress[p].0[point::SHEAR_RATE]);
+                let viscosity = f64::from(points.stress[p].0[point::VISCOSITY]) * density;
+                // 2 eta D':D' with rate = f |D'|
+                let norm = rate / self.scene.liquid.shear_rate.factor();
+                sum.kinetic_energy += 0.5 * density * v0 * square;
+                sum.viscous_power += 2.0 * viscosity * norm * norm * now;
+                sum.volume += now;
+                sum.max_speed = sum.max_speed.max(square.sqrt());
+                if self.scene.liquid.viscosity.at(rate) > 1.001 * self.plan.viscosity_cap {
+                    capped += now;
+                }
+            }
+        }
+        sum.capped_fraction = if sum.volume > 0.0 {
+            capped / sum.volume
+        } else {
+            0.0
+        };
+        sum
+    }
+
+    fn liquid(&self) -> LiquidState {
+        let (cell, min) = (self.scene.grid.cell_m, self.scene.grid.min_m);
+        let mut order: Vec<(u32, usize, usize)> = Vec::new();
+        for (t, tile) in self.grid.tiles.iter().enumerate() {
+            order.extend(tile.points.id.iter().enumerate().map(|(p, &id)| (id, t, p)));
+        }
+        order.sort_unstable();
+        let mut state = LiquidState::default();
+        for (_, t, p) in order {
+            let tile = &self.grid.tiles[t];
+            let points = &tile.points;
+            let node = tile.node_of(points.base[p]);
+            let [vx, vy, vz, j] = points.motion[p].0;
+            state.position.push(std::array::from_fn(|a| {
+                let offset = f64::from(node[a]) + f64::from(points.place[p].0[a]);
+                (min[a] + offset * cell) as f32
+            }));
+            state.velocity.push([vx, vy, vz].map(|v| v as f32));
+            let v0 = f64::from(points.place[p].0[point::VOLUME]) * cell.powi(3);
+            state.volume.push((v0 * (1.0 + f64::from(j))) as f32);
+            let pressure = self.stress.pressure(j) * self.scene.liquid.density as Real;
+            state.pressure.push(pressure as f32);
+            state
+                .shear_rate
+                .push(points.stress[p].0[point::SHEAR_RATE] as f32);
+        }
+        state
+    }
+
+    fn displacements(&self) -> Vec<[f64; 3]> {
+        self.state.displacement.clone()
+    }
+
+    fn save(&self) -> Saved {
+        self.to_saved()
+    }
+
+    fn restore(&mut self, saved: &Saved) -> Result<(), String> {
+        self.take_saved(saved)
+    }
+
+    fn counts(&self) -> Vec<(&'static str, u64)> {
+        let Corrections { stopped, trapped } = self.state.corrections;
+        let mut counts = vec![
+            ("points stopped at walls", stopped),
+            ("points trapped in walls", trapped),
+        ];
+        if let Some(projection) = &self.projection {
+            counts.push(("density projections", projection.count));
+        }
+        counts
+    }
+
+    fn stage_times(&self) -> Vec<StageTime> {
+        self.clock.times()
+    }
+}

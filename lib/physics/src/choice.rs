@@ -1,0 +1,35 @@
+//! The words that name the alternatives of a choice, the same in case files, tables and messages.
+
+use std::mem::discriminant;
+
+/// A choice whose alternatives have names.
+pub trait Choice: Copy + 'static {
+    /// The alternatives by name, in the order of messages; one that carries a number carries none
+    /// yet (0) here.
+    const NAMED: &'static [(&'static str, Self)];
+
+    /// The name of this alternative.
+    fn name(self) -> &'static str {
+        let own = |(_, other): &&(&str, Self)| discriminant(other) == discriminant(&self);
+        Self::NAMED.iter().find(own).map_or("", |(name, _)| name)
+    }
+
+    /// The alternative that `word` names.
+    ///
+    /// # Errors
+    /// A sentence with the names there are.
+    fn named(word: &str) -> Result<Self, String> {
+        let found = Self::NAMED.iter().find(|(name, _)| *name == word);
+        found.map(|(_, choice)| *choice).ok_or_else(|| {
+            let names: Vec<_> = Self::NAMED
+                .iter()
+                .map(|(n, _)| format!("\"{n}\""))
+                .collect();
+            let (last, others) = names.split_last().map_or(("", &[][..]), |(l, o)| (l, o));
+            format!(
+                "'{word}' is not accepted: {} or {last} is needed",
+                others.join(", ")
+            )
+        })
+    }
+}

@@ -1,0 +1,107 @@
+//! The stages of a step: which of them a run has, and why it does without the others.
+
+use crate::{Boundary, Dimensions, Scene, Viscosity, WallLaw};
+
+/// One stage of a step.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stage {
+    /// Its name in plans and summaries.
+    pub name: &'static str,
+    /// Why the run does without it, in a few words with numbers; `None` where it has it.
+    pub absent: Option<String>,
+}
+
+/// The stages of a scheme on one scene. A scheme makes the list once per run, and its step does
+/// what the list has: what is printed as left out is what is not done.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Stages(Vec<Stage>);
+
+impl Stages {
+    /// Motion along z.
+    pub const THIRD_DIMENSION: &str = "third dimension";
+    /// Rigid bodies.
+    pub const CONTACT: &str = "wall contact";
+    /// Eq. 3.
+    pub const FRICTION: &str = "wall friction";
+    /// A viscosity that depends on the shear rate.
+    pub const TABLE: &str = "viscosity table";
+    /// Gravity.
+    pub const FORCE: &str = "body force";
+    /// A body that the clamp drives.
+    pub const CLAMP: &str = "clamp control";
+    /// A clamp that a pressure limit holds back.
+    pub const LOAD: &str = "load control";
+    /// Sides that mirror.
+    pub const MIRRORS: &str = "mirror images";
+    /// Sides that wrap around.
+    pub const PERIODIC: &str = "periodic images";
+
+    /// The stages that every scheme has or not by its scene alone.
+    pub fn of(scene: &Scene) -> Self {
+        let absent = |absent: bool, why: &str| absent.then(|| why.to_owned());
+        let axes = match scene.dimensions {
+            Dimensions::Two => 2,
+            Dimensions::Three => 3,
+        };
+        let sides = |kind: Boundary| scene.boundary[..axes].contains(&kind);
+        let no_body = absent(scene.bodies.is_empty(), "the scene has no rigid body");
+        let no_friction = absent(
+            scene.wall == WallLaw::Frictionless,
+            "frictionless walls (k = 0)",
+        );
+        let no_table = match &scene.liquid.viscosity {
+            Viscosity::Newtonian(law) => Some(format!("Newtonian liquid, {} Pa s", law.0)),
+            Viscosity::Table(_) => None,
+        };
+        let no_clamp = absent(scene.clamp.is_none(), "no [clamp]");
+        let no_limit = absent(
+            scene.clamp.is_none_or(|clamp| clamp.max_pressure.is_none()),
+            "constant closing speed: no max_pressure",
+        );
+        Self::default()
+            .and(
+                Self::THIRD_DIMENSION,
+                absent(axes == 2, "plane strain: one layer of cells, no z velocity"),
+            )
+            .and(Self::CONTACT, no_body.clone())
+            .and(Self::FRICTION, no_body.or(no_friction))
+            .and(Self::TABLE, no_table)
+            .and(
+                Self::FORCE,
+                absent(scene.gravity == [0.0; 3], "no [gravity]"),
+            )
+            .and(Self::CLAMP, no_clamp.clone())
+            .and(Self::LOAD, no_clamp.or(no_limit))
+            .and(
+                Self::MIRRORS,
+                absent(!sides(Boundary::Symmetry), "no symmetry side"),
+            )
+            .and(
+                Self::PERIODIC,
+                absent(!sides(Boundary::Periodic), "no periodic side"),
+            )
+    }
+
+    /// These and one more, with the reason if it is absent.
+    #[must_use]
+    pub fn and(mut self, name: &'static str, absent: Option<String>) -> Self {
+        self.0.push(Stage { name, absent });
+        self
+    }
+
+    /// Whether the run has the stage `name`.
+    pub fn has(&self, name: &str) -> bool {
+        self.iter().any(|s| s.name == name && s.absent.is_none())
+    }
+
+    /// All of them, present or absent.
+    pub fn iter(&self) -> impl Iterator<Item = &Stage> {
+        self.0.iter()
+    }
+
+    /// Names of those that the run has.
+    pub fn present(&self) -> Vec<&'static str> {
+        let present = self.iter().filter(|stage| stage.absent.is_none());
+        present.map(|stage| stage.name).collect()
+    }
+}
