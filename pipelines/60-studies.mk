@@ -7,11 +7,13 @@
 #               Courant numbers; fails where a step breaks its Courant number or the closing is out of order
 # crash         runs killed, or denied the disk, at every call by which they change their folder, and two runs
 #               into one: all end as the run in one piece, or are refused. Needs `strace` and `prlimit`
+# leave-out     what a scene pays for what it does not use: the explicit scheme against its minimal twin, the
+#               stages of the implicit one; fails beyond 2 %. Instructions need `valgrind`
 #
 # ONLY="slit channel" takes what has one of the words in its name and writes to out/results.
 STUDY = @$(BIN)/study $@ $(if $(ONLY),out/results,docs/results) $(ONLY)
-.PHONY: verify stability options load-control crash
-verify stability options load-control crash: $(BINARIES)
+.PHONY: verify stability options load-control leave-out crash
+verify stability options load-control leave-out crash: $(BINARIES)
 	$(STUDY)
 
 # Error against CPU time over schemes, settings and precision. Also writes the errors that `mpm-run --explain`
@@ -26,14 +28,6 @@ tradeoff: $(BINARIES)
 bench:
 	$(CARGO) run --release --quiet -p mpm --example mpm_bench
 	$(CARGO) run --release --quiet -p saddle-point --example solver_bench -- 1e-3 32,48,48,12 64,56,64,12
-
-# What a scene pays for features it does not use: the committed tree against builds without one
-# feature, made by the patches of pipelines/leave-out. ONLY="gravity sides" measures those.
-.PHONY: leave-out
-leave-out:
-	@$(CARGO) build --release --quiet -p studies
-	@mkdir -p out/results
-	$(BIN)/leave_out pipelines/leave-out $(if $(ONLY),out/results,docs/results) $(ONLY)
 
 # 50 000 forged particle files and checkpoints with right checksums: none panics, hangs or floods.
 .PHONY: forge

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Folders of the top level whose paths are checked wherever they are named.
 const TOP: [&str; 5] = ["lib/", "tools/", "tests/", "docs/", "pipelines/"];
 /// Endings of names that are paths of the repository when they hold a slash.
-const ENDINGS: [&str; 6] = [".rs", ".md", ".toml", ".mk", ".sh", ".patch"];
+const ENDINGS: [&str; 5] = [".rs", ".md", ".toml", ".mk", ".sh"];
 /// Where outputs lie, and what belongs to others.
 const ELSEWHERE: [&str; 6] = ["out/", "target/", "/", "~", "http", "$"];
 

@@ -31,6 +31,7 @@ mod halo;
 mod lanes;
 mod lattice;
 mod material;
+mod minimal;
 mod nodes;
 mod plan;
 mod real;
@@ -48,5 +49,6 @@ mod transfer;
 mod walls;
 
 pub use explicit::Explicit;
+pub use minimal::Minimal;
 pub use plan::{Limit, Plan};
 pub use settings::{PressureFrom, Settings, ShapeFunction, VelocityUpdate};

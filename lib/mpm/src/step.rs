@@ -14,7 +14,7 @@ use crate::settings::Mode;
 use crate::stages::Part;
 
 /// Steps between checks of the whole state, which also renew the time step.
-const CHECK_EVERY: u64 = 64;
+pub(crate) const CHECK_EVERY: u64 = 64;
 
 impl Explicit {
     pub(crate) fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {

@@ -9,7 +9,7 @@ use crate::method::{Method, Scheme};
 const CFL: f64 = 0.5;
 
 /// The paper's PVA-PF (Table 1).
-const PVA_PF: [[f64; 2]; 4] = [
+pub const PVA_PF: [[f64; 2]; 4] = [
     [1.0, 210.0],
     [6.30957, 87.0],
     [39.8107, 1.7],

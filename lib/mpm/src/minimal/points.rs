@@ -1,0 +1,318 @@
+//! Points, their law, and what they give to and take from the nodes.
+
+use physics::{Liquid, Newtonian, TAIT_C};
+
+use super::tiles::Tile;
+use crate::lanes::{Lanes4, Lanes8};
+use crate::lattice::{EDGE, HALO, window};
+use crate::real::{Real, exp_m1};
+use crate::simd::Kernel;
+
+/// A material point on its way to another tile.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point {
+    pub(super) id: u32,
+    pub(super) place: Lanes4,
+    pub(super) motion: Lanes4,
+    pub(super) stress: Lanes8,
+}
+
+/// The points of a tile in lists of equal length.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Points {
+    pub(super) id: Vec<u32>,
+    /// Where a point's 3 x 3 x 3 nodes begin in the halo of the tile.
+    window: Vec<u16>,
+    /// Offset from the nearest node, and mass.
+    pub(super) place: Vec<Lanes4>,
+    /// Velocity and j = J - 1.
+    pub(super) motion: Vec<Lanes4>,
+    /// xx yy zz xy xz yz, and two lanes not used.
+    stress: Vec<Lanes8>,
+    /// Displacement in this step.
+    shift: Vec<Lanes4>,
+    /// Derivatives of the velocity along x, y, z (m/s per cell).
+    gradient: Vec<[Lanes4; 3]>,
+}
+
+impl Points {
+    /// Adds a point with its nearest node, counted from the lowest of the tile.
+    pub(super) fn push(&mut self, node: [i32; 3], point: Point) {
+        self.id.push(point.id);
+        self.window.push(first(node));
+        self.place.push(point.place);
+        self.motion.push(point.motion);
+        self.stress.push(point.stress);
+        self.shift.push(Lanes4::ZERO);
+        self.gradient.push([Lanes4::ZERO; 3]);
+    }
+
+    /// Takes out point `p`; the last one takes its place.
+    fn swap_remove(&mut self, p: usize) -> Point {
+        self.window.swap_remove(p);
+        self.shift.swap_remove(p);
+        self.gradient.swap_remove(p);
+        Point {
+            id: self.id.swap_remove(p),
+            place: self.place.swap_remove(p),
+            motion: self.motion.swap_remove(p),
+            stress: self.stress.swap_remove(p),
+        }
+    }
+
+    /// The nearest node of point `p`, from the lowest of the tile.
+    pub(super) fn node(&self, p: usize) -> [i32; 3] {
+        let w = usize::from(self.window[p]);
+        [w % HALO, w / HALO % HALO, w / (HALO * HALO)].map(|x| x as i32)
+    }
+
+    /// The same after it has moved, to which its offset then refers.
+    #[inline(never)]
+    fn find_node(&mut self, p: usize) -> [i32; 3] {
+        let mut node = self.node(p);
+        for (a, n) in node.iter_mut().enumerate() {
+            let d = &mut self.place[p].0[a];
+            if *d >= 0.5 {
+                *d -= 1.0;
+                *n += 1;
+            } else if *d < -0.5 {
+                *d += 1.0;
+                *n -= 1;
+            }
+        }
+        node
+    }
+}
+
+/// Where the 3 x 3 x 3 nodes around a tile's node (x, y, z), each 0..4, begin in its halo.
+fn first(node: [i32; 3]) -> u16 {
+    ((node[2] * HALO as i32 + node[1]) * HALO as i32 + node[0]) as u16
+}
+
+/// Weights S and slopes S' (per cell) of a point at offset `d` from its nearest node on the nodes -1,
+/// 0, +1 of each axis: the hat averaged over the point's box of half a cell.
+#[inline(always)]
+fn gimp(d: Lanes4) -> ([Lanes4; 3], [Lanes4; 3]) {
+    let (mut w, mut g) = ([Lanes4::ZERO; 3], [Lanes4::ZERO; 3]);
+    for a in 0..4 {
+        // Part of the box beyond the node, at most all of it.
+        let s = (d.0[a] + 0.25).clamp(0.0, 0.5);
+        let t = 0.5 - s;
+        w[0].0[a] = t * t + (-d.0[a] - 0.25).max(0.0);
+        w[2].0[a] = s * s + (d.0[a] - 0.25).max(0.0);
+        w[1].0[a] = 1.0 - w[0].0[a] - w[2].0[a];
+        g[0].0[a] = -2.0 * t;
+        g[2].0[a] = 2.0 * s;
+        g[1].0[a] = -(g[0].0[a] + g[2].0[a]);
+    }
+    (w, g)
+}
+
+/// Step 2: mass m S, momentum m v S, impulse of the stress -dt V sigma grad S and volume V S of the
+/// points, summed at the nodes of a tile's halo.
+pub(super) struct PointsToNodes<'a> {
+    pub(super) tile: &'a mut Tile,
+    /// s/m.
+    pub(super) dt_over_cell: Real,
+}
+
+impl Kernel for PointsToNodes<'_> {
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let Tile { points, halo, .. } = self.tile;
+        halo.fill(Lanes8::ZERO);
+        let n = points.id.len();
+        let (places, motions) = (&points.place[..n], &points.motion[..n]);
+        let (stresses, windows) = (&points.stress[..n], &points.window[..n]);
+        for p in 0..n {
+            let (w, g) = gimp(places[p]);
+            let ([.., mass], [vx, vy, vz, j]) = (places[p].0, motions[p].0);
+            let [xx, yy, zz, xy, xz, yz, ..] = stresses[p].0;
+            let volume = mass * (1.0 + j);
+            let k = -self.dt_over_cell * volume;
+            let sums = [mass, mass * vx, mass * vy, mass * vz, 0.0, 0.0, 0.0, volume];
+            let stress_x = Lanes8([0.0, 0.0, 0.0, 0.0, k * xx, k * xy, k * xz, 0.0]);
+            let stress_y = Lanes8([0.0, 0.0, 0.0, 0.0, k * xy, k * yy, k * yz, 0.0]);
+            let stress_z = Lanes8([0.0, 0.0, 0.0, 0.0, k * xz, k * yz, k * zz, 0.0]);
+            let first = usize::from(windows[p]);
+            let nodes = &mut halo[first..first + window(3)];
+            // The weight of a node is a product over the axes: z, then y, then x.
+            for layer in 0..3 {
+                let (wz, gz) = (w[layer].0[2], g[layer].0[2]);
+                let sums = Lanes8(sums).scaled(wz).add_scaled::<FMA>(gz, stress_z);
+                let (stress_y, stress_x) = (stress_y.scaled(wz), stress_x.scaled(wz));
+                for row in 0..3 {
+                    let (wy, gy) = (w[row].0[1], g[row].0[1]);
+                    let sums = sums.scaled(wy).add_scaled::<FMA>(gy, stress_y);
+                    let stress_x = stress_x.scaled(wy);
+                    let at = layer * HALO * HALO + row * HALO;
+                    for i in 0..3 {
+                        nodes[at + i] = nodes[at + i]
+                            .add_scaled::<FMA>(w[i].0[0], sums)
+                            .add_scaled::<FMA>(g[i].0[0], stress_x);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Step 6: velocity and displacement of a tile's points, and the gradient of velocity there; `halo`
+/// holds the velocities of the nodes. FLIP adds the nodes' change of velocity; the displacement is by
+/// their velocity in the middle of that change.
+pub(super) struct NodesToPoints<'a> {
+    pub(super) tile: &'a mut Tile,
+    /// s/m.
+    pub(super) dt_over_cell: Real,
+}
+
+impl Kernel for NodesToPoints<'_> {
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let Tile { points, halo, .. } = self.tile;
+        let n = points.id.len();
+        let (places, windows) = (&points.place[..n], &points.window[..n]);
+        let (motion, shift) = (&mut points.motion[..n], &mut points.shift[..n]);
+        let gradient = &mut points.gradient[..n];
+        for p in 0..n {
+            let first = usize::from(windows[p]);
+            let (value, slope) = gather::<FMA>(&halo[first..first + window(3)], places[p]);
+            gradient[p] = slope.map(low);
+            // Over the sum of the weights as it was rounded.
+            let plus = low(value).scaled(1.0 / value.0[3]);
+            let [.., x, y, z, zero] = value.0;
+            let change = Lanes4([x, y, z, zero]);
+            motion[p] = motion[p].add_scaled::<false>(1.0, change);
+            let travel = plus.add_scaled::<false>(-0.5, change);
+            shift[p] = travel.scaled(self.dt_over_cell);
+        }
+    }
+}
+
+/// Lanes 0 to 3.
+#[inline(always)]
+fn low(x: Lanes8) -> Lanes4 {
+    Lanes4([x.0[0], x.0[1], x.0[2], x.0[3]])
+}
+
+/// Nodal velocities at a point, and their derivatives along x, y, z (per cell).
+#[inline(always)]
+fn gather<const FMA: bool>(nodes: &[Lanes8], place: Lanes4) -> (Lanes8, [Lanes8; 3]) {
+    let (w, g) = gimp(place);
+    let (mut value, mut slope) = (Lanes8::ZERO, [Lanes8::ZERO; 3]);
+    for layer in 0..3 {
+        let (mut plane, mut plane_x, mut plane_y) = (Lanes8::ZERO, Lanes8::ZERO, Lanes8::ZERO);
+        for row in 0..3 {
+            let at = layer * HALO * HALO + row * HALO;
+            let (mut line, mut line_x) = (Lanes8::ZERO, Lanes8::ZERO);
+            for i in 0..3 {
+                line = line.add_scaled::<FMA>(w[i].0[0], nodes[at + i]);
+                line_x = line_x.add_scaled::<FMA>(g[i].0[0], nodes[at + i]);
+            }
+            plane = plane.add_scaled::<FMA>(w[row].0[1], line);
+            plane_x = plane_x.add_scaled::<FMA>(w[row].0[1], line_x);
+            plane_y = plane_y.add_scaled::<FMA>(g[row].0[1], line);
+        }
+        let (wz, gz) = (w[layer].0[2], g[layer].0[2]);
+        value = value.add_scaled::<FMA>(wz, plane);
+        slope[0] = slope[0].add_scaled::<FMA>(wz, plane_x);
+        slope[1] = slope[1].add_scaled::<FMA>(wz, plane_y);
+        slope[2] = slope[2].add_scaled::<FMA>(gz, plane);
+    }
+    (value, slope)
+}
+
+/// The liquid's law (paper Eqs. 1 and 2), its constants over the density.
+pub(super) struct Law {
+    /// C K, m2/s2.
+    stiffness: Real,
+    /// m2/s.
+    viscosity: Real,
+    /// Cells per metre.
+    per_cell: Real,
+}
+
+impl Law {
+    pub(super) fn new(liquid: &Liquid, viscosity: Newtonian, cell: f64) -> Self {
+        Self {
+            stiffness: (TAIT_C * liquid.tait.bulk_modulus / liquid.density) as Real,
+            viscosity: (viscosity.0 / liquid.density) as Real,
+            per_cell: (1.0 / cell) as Real,
+        }
+    }
+
+    /// Eq. 1, p = C K (exp((1 - J)/C) - 1).
+    #[inline(always)]
+    pub(super) fn pressure(&self, j: Real) -> Real {
+        self.stiffness * exp_m1(-j * (1.0 / TAIT_C) as Real)
+    }
+}
+
+/// Step 7: volume change and stress, 2 eta D' - p, of a tile's points.
+pub(super) struct Stresses<'a> {
+    pub(super) tile: &'a mut Tile,
+    pub(super) law: &'a Law,
+    /// s.
+    pub(super) dt: Real,
+}
+
+impl Kernel for Stresses<'_> {
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let Self { tile, law, dt } = self;
+        let points = &mut tile.points;
+        let n = points.id.len();
+        let gradient = &points.gradient[..n];
+        let (motion, stress) = (&mut points.motion[..n], &mut points.stress[..n]);
+        for p in 0..n {
+            let [x, y, z] = &gradient[p];
+            let trace = (x.0[0] + y.0[1] + z.0[2]) * law.per_cell;
+            let j = &mut motion[p].0[3];
+            *j += (1.0 + *j) * (dt * trace);
+            let (k, pressure) = (2.0 * law.viscosity, law.pressure(*j));
+            let third = trace / 3.0;
+            let half = 0.5 * law.per_cell;
+            stress[p].0 = [
+                k * (x.0[0] * law.per_cell - third) - pressure,
+                k * (y.0[1] * law.per_cell - third) - pressure,
+                k * (z.0[2] * law.per_cell - third) - pressure,
+                k * ((x.0[1] + y.0[0]) * half),
+                k * ((x.0[2] + z.0[0]) * half),
+                k * ((y.0[2] + z.0[1]) * half),
+                0.0,
+                0.0,
+            ];
+        }
+    }
+}
+
+/// Step 8: moves a tile's points, those that come nearest to another tile's node into `leaving`.
+pub(super) struct Moves<'a>(pub(super) &'a mut Tile);
+
+impl Kernel for Moves<'_> {
+    #[inline(always)]
+    fn run<const FMA: bool>(self) {
+        let Tile {
+            points, leaving, ..
+        } = self.0;
+        let mut p = 0;
+        while p < points.id.len() {
+            let (shift, mut d) = (points.shift[p], points.place[p]);
+            for a in 0..3 {
+                d.0[a] += shift.0[a];
+            }
+            points.place[p] = d;
+            if d.0[0].abs() < 0.5 && d.0[1].abs() < 0.5 && d.0[2].abs() < 0.5 {
+                p += 1;
+                continue;
+            }
+            let node = points.find_node(p);
+            if node.iter().all(|n| (0..EDGE as i32).contains(n)) {
+                points.window[p] = first(node);
+                p += 1;
+            } else {
+                leaving.push((node, points.swap_remove(p)));
+            }
+        }
+    }
+}
