@@ -177,9 +177,9 @@ impl Implicit {
         )))
     }
 
-    /// The speed that is to cross CFL cells per step: that of all liquid but [`JETS`], or more
+    /// The speed that is to cross `cfl` cells per step: that of all liquid but [`JETS`], or more
     /// where jets would cross more than [`JET_CFL`].
-    fn pace_of(&self, u: &[f64]) -> f64 {
+    fn pace_of(u: &[f64], cfl: f64) -> f64 {
         let mut speeds: Vec<f32> = u.par_iter().map(|u| u.abs() as f32).collect();
         let Some(last) = speeds.len().checked_sub(1) else {
             return 0.0;
@@ -187,8 +187,7 @@ impl Implicit {
         let place = ((1.0 - JETS) * last as f64).ceil() as usize;
         let (_, &mut most, jets) = speeds.select_nth_unstable_by(place, f32::total_cmp);
         let fastest = jets.iter().fold(most, |m, &u| m.max(u));
-        let jet_cfl = JET_CFL.max(self.settings.cfl);
-        f64::from(most).max(f64::from(fastest) * self.settings.cfl / jet_cfl)
+        f64::from(most).max(f64::from(fastest) * cfl / JET_CFL.max(cfl))
     }
 
     /// Bodies displaced by where they are now and a time at given velocities.
@@ -245,7 +244,7 @@ impl Implicit {
             let dt = self.time_step(limit)?.min(longest);
             let trial = self.place(dt);
             let solution = self.solution(&trial)?;
-            self.pace = self.pace_of(&solution.u);
+            self.pace = Self::pace_of(&solution.u, self.settings.cfl);
             let cells = self.pace.max(fastest(&solution.bodies)) * dt / h;
             let misplaced = 0.5 * dt / h * apart(&trial.bodies, &solution.bodies);
             if cells <= self.settings.cfl * (1.0 + 1e-9) && misplaced <= MISPLACED {
@@ -382,4 +381,21 @@ fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     (a.iter().flatten())
         .zip(b.iter().flatten())
         .fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thousandth_of_the_faces_may_be_jets_of_one_and_a_half_cells() {
+        let pace = |jets: usize, speed: f64| {
+            let u: Vec<f64> = (0..10_000)
+                .map(|face| if face < jets { speed } else { 1.0 })
+                .collect();
+            Implicit::pace_of(&u, 0.5)
+        };
+        assert_eq!((pace(9, 2.0), pace(12, 2.0)), (1.0, 2.0));
+        assert!((pace(9, 30.0) / 10.0 - 1.0).abs() < 1e-6);
+    }
 }

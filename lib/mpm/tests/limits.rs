@@ -95,6 +95,9 @@ fn bad_settings_and_points_are_refused() {
     let gimp = ShapeFunction::Gimp;
     assert!(refused(&s, gimp, VelocityUpdate::Flip, 0.0).contains("cfl"));
     assert!(refused(&s, gimp, VelocityUpdate::Xpic(0), 0.5).contains("order"));
+    assert!(refused(&s, gimp, VelocityUpdate::Xpic(21), 0.5).contains("1 to 20"));
+    let most = settings(gimp, VelocityUpdate::Xpic(20), 0.5);
+    assert!(Explicit::new(&s, &most).is_ok());
     let linear = ShapeFunction::Linear;
     assert!(refused(&s, linear, VelocityUpdate::Apic, 0.5).contains("apic"));
     let mut sunk = s.clone();

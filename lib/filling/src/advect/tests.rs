@@ -343,6 +343,28 @@ fn a_common_velocity_only_translates() {
     }
 }
 
+/// Particles cross less than two faces in a step and need one more beyond.
+#[test]
+fn three_layers_of_air_get_a_velocity() {
+    let domain = Domain {
+        cells: [12, 4, 1],
+        boundary: SIDES,
+        axes: 2,
+    };
+    let l = whole(domain, solids(domain, vec![]));
+    let w = &l.window;
+    let solved = |index: usize| w.face_centre(0, w.coordinates(index))[0] < 4.5;
+    let active = std::array::from_fn(|_| {
+        (0..w.len())
+            .map(|i| if solved(i) { 0 } else { NONE })
+            .collect()
+    });
+    let value = extend(&l, &active, &[2.0]);
+    let at = |x: f64| value[0][w.index(w.local([x, 1.5, 0.5]).map(|x| x as usize))];
+    assert_eq!([4.0, 5.0, 6.0, 7.0].map(at), [2.0; 4]);
+    assert!(at(8.0).is_nan());
+}
+
 #[test]
 fn particles_leave_through_open_sides_only() {
     let domain = Domain {

@@ -100,3 +100,32 @@ impl Space {
         found
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A residual up to ten times the tolerance is one that a step can live with.
+    #[test]
+    fn a_solution_nearly_there_needs_no_cause() {
+        let one = Csr::assemble(1, 1, |_, entries| entries.add(0, 1.0)).unwrap();
+        let system = SaddleSystem {
+            a: &one,
+            g: &one,
+            c: &[0.0],
+            friction: &[1.0],
+            two_eta: &[2.0],
+            b: &[0.0],
+            volume_source: &[0.0],
+        };
+        let said = |residual: f64| {
+            let error = SolveError::NotConverged {
+                iterations: 1,
+                residual,
+                tolerance: 1e-5,
+            };
+            explained(error.clone(), &system) == error
+        };
+        assert!(said(0.9e-4) && !said(1.1e-4));
+    }
+}

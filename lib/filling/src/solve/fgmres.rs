@@ -234,3 +234,22 @@ impl LeastSquares {
         y
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is left of a vector along a basis that is a thousandth off orthogonal: nothing after a
+    /// second pass, where a fourteenth of it remains; where a seventh does, one pass is enough.
+    #[test]
+    fn a_cancelled_vector_is_orthogonalised_twice() {
+        let basis: [Vec<Work>; 2] = [vec![1.0, 0.0, 0.0], vec![1e-3, 1.0, 0.0]];
+        let along = |rest: f64| {
+            let mut vector = vec![0.0, 1.0, rest];
+            orthogonalise(&basis, &mut vector);
+            dot_chunk(&basis[0], &vector).abs()
+        };
+        let (twice, once) = (along(0.07), along(0.14));
+        assert!(twice < 1e-5 && once > 5e-4, "{twice:e} and {once:e}");
+    }
+}

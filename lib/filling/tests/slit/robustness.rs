@@ -2,7 +2,8 @@
 
 use filling::{Implicit, Settings};
 use physics::{
-    Boundary, Motion, Newtonian, Scene, Scheme, StepLimit, Table, Tait, Viscosity, VoxelBlock,
+    Array, Boundary, Motion, Newtonian, Scene, Scheme, StepLimit, Table, Tait, Viscosity,
+    VoxelBlock,
 };
 
 use crate::{SPEED, at, march, plain, run, scene};
@@ -170,4 +171,34 @@ fn same_bits_for_any_threads_and_after_a_restart() {
     let usual = positions(1, 6, 99);
     assert_eq!(usual, positions(3, 6, 99), "three threads");
     assert_eq!(usual, positions(2, 6, 3), "two threads and a restart");
+}
+
+#[test]
+fn a_checkpoint_holds_no_point_more_than_a_cell_beside_the_domain() {
+    let new = || Implicit::new(scene(6, [0.0; 2]), Settings::default()).unwrap();
+    let restored = |x: f64| {
+        let mut saved = new().save();
+        for (name, array) in &mut saved.0 {
+            if let Array::F64(positions) = array
+                && name == "position"
+            {
+                positions[0] = x;
+            }
+        }
+        new().restore(&saved)
+    };
+    assert_eq!(restored(-0.9), Ok(()));
+    assert!(restored(-1.1).unwrap_err().contains("point 0"));
+}
+
+#[test]
+fn a_scene_has_at_most_250_bodies() {
+    let of = |bodies: usize| {
+        let mut scene = scene(6, [0.0; 2]);
+        let nothing = plain::body("nothing", vec![], Motion::Fixed);
+        scene.bodies.resize(bodies, nothing);
+        Implicit::new(scene, Settings::default()).err()
+    };
+    assert_eq!(of(250), None);
+    assert!(of(251).unwrap().contains("at most 250"));
 }
