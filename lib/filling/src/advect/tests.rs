@@ -295,6 +295,39 @@ fn nothing_passes_a_wall_of_one_voxel() {
     assert!(deepest > 0.5, "the walls were never tried");
 }
 
+/// Flow at speed 1 against a wall `ahead` of the face at x = 4, and its speed at `x`.
+fn against_a_wall(ahead: f64, x: f64) -> f64 {
+    let domain = Domain {
+        cells: [8, 4, 1],
+        boundary: SIDES,
+        axes: 2,
+    };
+    let wall = VoxelBlock::solid_box([4.0 + ahead, 0.0, 0.0], [8.0, 4.0, 1.0]);
+    let l = whole(domain, solids(domain, vec![wall]));
+    let w = &l.window;
+    let known = |i: usize| l.face(0, i) == OPEN && w.face_centre(0, w.coordinates(i))[0] < 4.5;
+    let active: [Vec<u32>; 3] = std::array::from_fn(|axis| {
+        let of = |i: usize| if axis == 0 && known(i) { 0 } else { NONE };
+        (0..w.len()).map(of).collect()
+    });
+    let value = std::array::from_fn(|axis| {
+        let of = |&dof: &u32| if dof == NONE { f32::NAN } else { 1.0 };
+        active[axis].iter().map(of).collect()
+    });
+    Flow::new(&l, &value, &active, &[[0.0; 3]], 0.0).velocity([x, 1.5, 0.5])[0]
+}
+
+/// Less than half a cell before a wall, a face is on the line from the one behind to the wall; the
+/// slope ahead of it is that over three tenths of a cell at most.
+#[test]
+fn a_velocity_falls_to_the_wall_ahead() {
+    let near = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-6, "{found}");
+    near(against_a_wall(0.55, 4.0), 1.0);
+    near(against_a_wall(0.45, 4.0), 0.45 / 1.45);
+    near(against_a_wall(0.45, 4.225), 0.5 * 0.45 / 1.45);
+    near(against_a_wall(0.1, 4.05), 0.1 / 1.1 * (1.0 - 0.05 / 0.3));
+}
+
 /// A particle that a wall turns back is left a fiftieth of a cell before it.
 #[test]
 fn a_deflected_particle_keeps_clear_of_the_wall() {
