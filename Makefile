@@ -14,6 +14,7 @@
 #   make forge                    50 000 forged particle files and checkpoints
 #   make fuzz                     coverage-guided attack on every reader, FUZZ_SECONDS (600) each
 #   make mutants                  changes of the code that no test notices, MUTANTS (100) a crate
+#   make constants                half and twice each numerical constant: tests, small runs
 #   make deny                     advisories, licences and sources of the dependencies
 #   make bench                    speed of the kernels and of the linear solver
 #   make figures man install clean help
@@ -53,7 +54,7 @@ include pipelines/65-gate.mk
 
 .PHONY: help
 help:
-	@sed -n '3,20s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,21s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

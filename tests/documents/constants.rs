@@ -119,7 +119,9 @@ fn table(methods: &str) -> BTreeSet<Constant> {
 fn guards(methods: &str) -> Vec<String> {
     let named = |text: &str| -> Vec<String> {
         (text.split('`').skip(1).step_by(2))
-            .filter(|s| s.contains('_') && s.chars().all(|c| c.is_ascii_lowercase() || c == '_'))
+            .filter(|s| {
+                s.contains('_') && s.chars().all(|c| matches!(c, 'a'..='z' | '0'..='9' | '_'))
+            })
             .map(str::to_owned)
             .collect()
     };

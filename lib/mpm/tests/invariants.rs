@@ -4,7 +4,7 @@
 mod scenes;
 
 use mpm::{Explicit, ShapeFunction, VelocityUpdate};
-use physics::{Boundary, LiquidState, Motion, Scene, Scheme, WallLaw};
+use physics::{Array, Boundary, LiquidState, Motion, Scene, Scheme, WallLaw};
 use scenes::{CELL, FREE, fill, press, scene, settings, solid};
 
 const UPDATES: [VelocityUpdate; 7] = [
@@ -212,4 +212,40 @@ fn a_saved_run_goes_on_bit_by_bit() {
         assert!(same(&straight, &resumed), "{update:?}");
         assert!(resumed.restore(&physics::Saved::default()).is_err());
     }
+}
+
+/// `run` after its restart from a state in which `change` saw the numbers of the array `name`.
+fn restarted(name: &str, change: impl Fn(&mut [f32])) -> Result<Explicit, String> {
+    let mut s = scene([8, 8, 1], [Boundary::Periodic; 3]);
+    s.boundary[2] = Boundary::Symmetry;
+    fill(&mut s, [0.0; 3], [8.0, 8.0, 1.0], |_| [0.0; 3]);
+    let flip = settings(ShapeFunction::Gimp, VelocityUpdate::Flip, 0.1);
+    let mut run = Explicit::new(&s, &flip).unwrap();
+    let mut saved = run.save();
+    for (array, values) in &mut saved.0 {
+        if let (true, Array::F32(values)) = (array == name, values) {
+            change(values);
+        }
+    }
+    run.restore(&saved).map(|()| run)
+}
+
+#[test]
+fn a_checkpoint_holds_points_at_their_nodes() {
+    let at = |offset: f32| restarted("place", |place| place[0] = offset).err();
+    assert_eq!(at(0.500_05), None);
+    assert!(at(0.500_2).unwrap().contains("cannot be"));
+}
+
+/// Liquid at rest, evenly compressed or expanded: nothing moves, and step 64 looks at it.
+#[test]
+fn a_volume_beyond_the_law_is_seen_within_64_steps() {
+    let steps = |j: f32| {
+        let even = |motion: &mut [f32]| motion.iter_mut().skip(3).step_by(4).for_each(|x| *x = j);
+        let mut run = restarted("motion", even).unwrap();
+        (1..200).find(|_| run.advance(FREE).is_err())
+    };
+    assert_eq!((steps(0.95), steps(-0.65)), (None, None));
+    assert_eq!(steps(1.05), Some(64));
+    assert_eq!(steps(-0.75), Some(64));
 }

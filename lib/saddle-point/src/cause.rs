@@ -118,3 +118,53 @@ impl Space {
         found
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two cells and the face between them, closed.
+    fn pair() -> Csr<f64> {
+        Csr::assemble(2, 1, |cell, entries| entries.add(0, [1.0, -1.0][cell])).unwrap()
+    }
+
+    /// What `said` makes of the pair with a friction, a compressibility and a source left over.
+    fn of<T>([friction, c, left]: [f64; 3], said: impl Fn(&SaddleSystem) -> T) -> T {
+        let one = Csr::assemble(1, 1, |_, entries| entries.add(0, 1.0)).unwrap();
+        said(&SaddleSystem {
+            a: &one,
+            g: &pair(),
+            c: &[c; 2],
+            friction: &[friction],
+            two_eta: &[1.0; 2],
+            b: &[0.0],
+            volume_source: &[0.5, -0.5 + left],
+        })
+    }
+
+    #[test]
+    fn causes_are_named_from_their_limits_on() {
+        for (below, above, word) in [
+            ([0.9e6, 0.0, 0.0], [1.1e6, 0.0, 0.0], "Inertial"),
+            ([0.0, 0.9e8, 0.0], [0.0, 1.1e8, 0.0], "Stiff"),
+            ([0.0, 0.0, 0.9e-6], [0.0, 0.0, 1.1e-6], "Unbalanced"),
+        ] {
+            let named = |of_what| format!("{:?}", of(of_what, cause)).starts_with(word);
+            assert!(!named(below) && named(above), "{word}");
+        }
+    }
+
+    /// A residual up to ten times the tolerance is one that a step can live with.
+    #[test]
+    fn a_solution_nearly_there_needs_no_cause() {
+        let kept = |residual: f64| {
+            let error = SolveError::NotConverged {
+                iterations: 1,
+                residual,
+                tolerance: 1e-5,
+            };
+            of([0.0; 3], |system| explained(error.clone(), system) == error)
+        };
+        assert!(kept(0.9e-4) && !kept(1.1e-4));
+    }
+}

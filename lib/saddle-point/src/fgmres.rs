@@ -234,3 +234,61 @@ impl LeastSquares {
         y
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+
+    /// diag(1, 2, ..), and how often it was applied.
+    struct Diagonal(AtomicUsize);
+
+    impl Operator for Diagonal {
+        fn apply<X: Real>(&self, x: &[X], y: &mut [f64]) {
+            self.0.fetch_add(1, Ordering::Relaxed);
+            for (row, (y, &x)) in y.iter_mut().zip(x).enumerate() {
+                *y = (row + 1) as f64 * x.into();
+            }
+        }
+    }
+
+    /// Residuals by iteration, and how often the operator was applied.
+    fn solve(tolerance: f64) -> (Vec<f64>, usize) {
+        let (diagonal, mut x) = (Diagonal(AtomicUsize::new(0)), vec![0.0; 30]);
+        let limits = Limits {
+            tolerance,
+            max_iterations: 25,
+            restart: 25,
+        };
+        let identity = |from: &[Work], to: &mut Vec<Work>| to.clone_from(&from.to_vec());
+        let space = &mut KrylovSpace::default();
+        let history = fgmres(&diagonal, identity, &[1.0; 30], &mut x, limits, space).unwrap();
+        (history, diagonal.0.into_inner())
+    }
+
+    /// An estimate just below the tolerance ends the cycle, one just above does not: neither an
+    /// iteration too many nor a cycle for rounding, which would apply the operator once more.
+    #[test]
+    fn one_cycle_reaches_the_tolerance_and_no_more() {
+        let r = solve(1e-4).0[8];
+        let below = solve(r / 0.9);
+        assert_eq!((below.0.len() - 1, below.1), (8, 10));
+        let above = solve(r / 1.5);
+        assert_eq!(above.1, above.0.len() - 1 + 2, "{:?}", above.0);
+    }
+
+    /// What is left of a vector along a basis that is a thousandth off orthogonal: nothing after a
+    /// second pass, where a fourteenth of it remains; where a seventh does, one pass is enough.
+    #[test]
+    fn a_cancelled_vector_is_orthogonalised_twice() {
+        let basis: [Vec<Work>; 2] = [vec![1.0, 0.0, 0.0], vec![1e-3, 1.0, 0.0]];
+        let along = |rest: f64| {
+            let mut vector = vec![0.0, 1.0, rest];
+            orthogonalise(&basis, &mut vector);
+            dot_chunk(&basis[0], &vector).abs()
+        };
+        let (twice, once) = (along(0.07), along(0.14));
+        assert!(twice < 1e-5 && once > 5e-4, "{twice:e} and {once:e}");
+    }
+}

@@ -206,3 +206,15 @@ fn widths_end_at_walls_and_mirror_at_symmetry_planes() {
     let mirrored = l.column(0, at([6.0, 2.0, 0.0]), 1, 1);
     assert!((mirrored.width() - 2.0 * 8.75).abs() < 1e-9, "{mirrored:?}");
 }
+
+#[test]
+fn free_paths_end_after_64_cells() {
+    let wall = |at: f64| {
+        let block = VoxelBlock::solid_box([0.0, at, 0.0], [4.0, at + 1.0, 1.0]);
+        let l = lattice(domain([4, 90, 1], 2), vec![vec![block]]);
+        let cell = l.window.local([2.0, 2.0, 0.0]).map(|x| x as usize);
+        l.column(0, cell, 1, 1).distance[1]
+    };
+    assert!((wall(66.0) - 63.5).abs() < 1e-9, "{}", wall(66.0));
+    assert_eq!(wall(67.0), 64.0);
+}

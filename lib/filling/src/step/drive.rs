@@ -140,3 +140,22 @@ impl Drive {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_clamp_is_held_above_half_a_percent_and_never_opens() {
+        let clamp = Clamp {
+            closing_speed: 2.0,
+            max_pressure: Some(1e6),
+            pid: None,
+        };
+        let mut drive = Drive::new(vec![Motion::Clamped], Some(clamp), 1e-9);
+        assert_eq!(drive.exceeded(1.004e6), None);
+        assert_eq!(drive.exceeded(1.006e6), Some(1e6));
+        assert!(!drive.follow(-1.0));
+        assert!((drive.speed / 2e-6 - 1.0).abs() < 1e-9, "{}", drive.speed);
+    }
+}

@@ -95,3 +95,18 @@ fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
         .zip(b.iter().flatten())
         .fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_thousandth_of_the_faces_may_be_jets_of_one_and_a_half_cells() {
+        let paced = |jets: usize, speed: f64| {
+            let u: Vec<f64> = (0..10_000)
+                .map(|face| if face < jets { speed } else { 1.0 })
+                .collect();
+            super::pace(&u, 0.5)
+        };
+        assert_eq!((paced(9, 2.0), paced(12, 2.0)), (1.0, 2.0));
+        assert!((paced(9, 30.0) / 10.0 - 1.0).abs() < 1e-6);
+    }
+}

@@ -129,3 +129,43 @@ fn lonely(lattice: &Lattice, volumes: &Volumes, cell: [usize; 3]) -> bool {
     volumes.cell[index] == 0.0
         && (0..window.domain.axes).all(|a| volumes.cell[index - window.stride(a)] == 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Domain, Solids, Window};
+    use physics::Boundary;
+
+    /// Liquid up to x = 3 and a cell beyond it that is filled in part.
+    #[test]
+    fn half_a_cell_has_a_pressure_and_a_twentieth_of_a_face_a_velocity() {
+        let domain = Domain {
+            cells: [8, 4, 1],
+            boundary: [Boundary::Symmetry; 3],
+            axes: 2,
+        };
+        let window = Window::around(domain, [0; 3], [8, 4, 1]);
+        let lattice = Lattice::new(Solids::new(vec![], domain, [0.0; 3], 1.0), window);
+        let at = |x: f64| window.local([x, 1.5, 0.5]).map(|x| x as usize);
+        let unknowns = |filled: f32| {
+            let mut phi = vec![0.0; window.sub_len()];
+            for index in 0..window.len() {
+                let x = window.coordinates(index)[0];
+                let first = window.first_sub(window.coordinates(index));
+                for sub in [0, 1].map(|y| first + y * window.sub_stride(1)) {
+                    let filled = [1.0, filled, 0.0]
+                        [usize::from(x >= at(3.5)[0]) + usize::from(x > at(3.5)[0])];
+                    phi[sub..sub + 2].fill(filled);
+                }
+            }
+            let dofs = Dofs::new(&lattice, &Volumes::new(&lattice, &phi));
+            let cell = dofs.cell[window.index(at(3.5))];
+            let beyond = dofs.face[0][window.index(at(4.5))];
+            (cell != NONE, beyond != NONE)
+        };
+        assert_eq!(unknowns(0.51), (true, true));
+        assert_eq!(unknowns(0.49), (false, true));
+        assert_eq!(unknowns(0.11), (false, true));
+        assert_eq!(unknowns(0.09), (false, false));
+    }
+}

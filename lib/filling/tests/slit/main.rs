@@ -150,6 +150,8 @@ fn compare(n: usize, offset: [f64; 2]) -> f64 {
         filled.in_walls
     );
     assert_eq!(filled.in_walls, 0);
+    // 14 steps a cell: no step is shorter than it must be.
+    assert!(filled.steps < 16 * n);
     mean
 }
 

@@ -1,8 +1,9 @@
 //! Stiff and extreme liquids and time steps; and results that do not depend on threads or stops.
 
-use filling::{Implicit, Settings};
+use filling::{Implicit, Plan, Settings};
 use physics::{
-    Boundary, Motion, Newtonian, Scene, Scheme, StepLimit, Table, Tait, Viscosity, VoxelBlock,
+    Amount, Array, Boundary, Dimensions, Motion, Newtonian, Scene, Scheme, StepLimit, Stop, Table,
+    Tait, Viscosity, VoxelBlock,
 };
 
 use crate::{SPEED, at, march, plain, run, scene};
@@ -170,4 +171,59 @@ fn same_bits_for_any_threads_and_after_a_restart() {
     let usual = positions(1, 6, 99);
     assert_eq!(usual, positions(3, 6, 99), "three threads");
     assert_eq!(usual, positions(2, 6, 3), "two threads and a restart");
+}
+
+#[test]
+fn a_checkpoint_holds_no_point_more_than_a_cell_beside_the_domain() {
+    let new = || Implicit::new(scene(6, [0.0; 2]), Settings::default()).unwrap();
+    let restored = |x: f64| {
+        let mut saved = new().save();
+        for (name, array) in &mut saved.0 {
+            if let Array::F64(positions) = array
+                && name == "position"
+            {
+                positions[0] = x;
+            }
+        }
+        new().restore(&saved)
+    };
+    assert_eq!(restored(-0.9), Ok(()));
+    assert!(restored(-1.1).unwrap_err().contains("point 0"));
+}
+
+#[test]
+fn a_scene_has_at_most_250_bodies() {
+    let of = |bodies: usize| {
+        let mut scene = scene(6, [0.0; 2]);
+        let nothing = plain::body("nothing", vec![], Motion::Fixed);
+        scene.bodies.resize(bodies, nothing);
+        Implicit::new(scene, Settings::default()).err()
+    };
+    assert_eq!(of(250), None);
+    assert!(of(251).unwrap().contains("at most 250"));
+}
+
+/// What the numbers of a step were measured at: 0.75 million liquid cells, 8 points each.
+#[test]
+fn the_forecast_is_that_of_the_measured_run() {
+    let mut scene = scene(6, [0.0; 2]);
+    scene.dimensions = Dimensions::Three;
+    scene.grid.cells = [250, 100, 250];
+    scene.stop = Stop::Time(1e-4);
+    let h = scene.grid.cell_m;
+    let amount = Amount {
+        points: 6_000_000,
+        volume_m3: 750e3 * h.powi(3),
+        low_m: [0.0; 3],
+        high_m: [250.0 * h, 12.0 * h, 250.0 * h],
+        speed: 0.0,
+    };
+    let plan = Plan::new(&scene, &amount, &Settings::default());
+    let (unknowns, gap) = (3.225e6, 36.0 * 62_500.0);
+    println!("{plan:?}");
+    // The liquid four times as fast as the piston, half a cell a step.
+    assert_eq!(plan.steps, (1e-4 * 4.0 * SPEED / (0.5 * h)).ceil());
+    assert!((plan.memory_bytes / (450.0 * unknowns + 260.0 * gap + 600e6) - 1.0).abs() < 1e-9);
+    // 25 iterations of 0.55 s, 4.8 s to assemble, 6 s for the points.
+    assert!((plan.cpu_s / plan.steps / (25.0 * 0.548 + 4.84 + 6.0) - 1.0).abs() < 0.01);
 }

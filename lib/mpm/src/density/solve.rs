@@ -5,6 +5,7 @@ use super::cells::{Cell, NONE};
 
 /// Relative residual at which to stop: what is left is taken away by later projections.
 const TOLERANCE: f64 = 0.05;
+/// Hardly reached: [`SHIFT`] bounds the condition number by 12 000, which takes 202 at the most.
 const MAX_ITERATIONS: usize = 200;
 /// Added to the diagonal, cells: lets liquid closed in by walls have a potential.
 const SHIFT: f64 = 1e-3;
@@ -67,4 +68,53 @@ fn apply(cells: &[Cell], diagonal: &[f64], x: &[f64]) -> Vec<f64> {
         sum
     };
     cells.iter().enumerate().map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row of full cells between a wall and air.
+    fn row(sources: &[f64]) -> Vec<Cell> {
+        let cell = |(c, &source)| {
+            let mut cell = Cell::default();
+            (cell.full, cell.source) = (true, source);
+            cell.next = [[NONE; 2]; 3];
+            cell.area[0] = [if c > 0 { 1.0 } else { 0.0 }, 1.0];
+            if c > 0 {
+                cell.next[0][0] = c as u32 - 1;
+            }
+            if c + 1 < sources.len() {
+                cell.next[0][1] = c as u32 + 1;
+            }
+            cell
+        };
+        sources.iter().enumerate().map(cell).collect()
+    }
+
+    /// Sources that alternate: the residual falls from 0.069 to 0.032 of them in the last step but one.
+    #[test]
+    fn a_twentieth_of_the_error_is_left_for_later() {
+        let sources: Vec<f64> = (0..24).map(|c| [1.0, -1.0][c % 2]).collect();
+        let mut cells = row(&sources);
+        potential(&mut cells);
+        let psi: Vec<f64> = cells.iter().map(|cell| cell.psi).collect();
+        let square: f64 = (0..24)
+            .map(|c| {
+                let low = if c > 0 { psi[c] - psi[c - 1] } else { 0.0 };
+                let high = psi[c] - psi.get(c + 1).unwrap_or(&0.0);
+                (sources[c] - SHIFT * psi[c] - low - high).powi(2)
+            })
+            .sum();
+        let left = (square / 24.0).sqrt();
+        assert!((0.025..0.05).contains(&left), "{left}");
+    }
+
+    #[test]
+    fn closed_in_liquid_has_a_potential() {
+        let mut cells = row(&[0.15]);
+        cells[0].area = Default::default();
+        potential(&mut cells);
+        assert!((cells[0].psi - 150.0).abs() < 1e-6, "{}", cells[0].psi);
+    }
 }

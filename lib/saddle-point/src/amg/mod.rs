@@ -87,3 +87,25 @@ fn inverse_diagonal(matrix: &Csr<f64>) -> Vec<Work> {
     });
     inverse
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn systems_of_up_to_256_rows_are_factorised() {
+        let levels = |n: usize| {
+            let chain = Csr::assemble(n, n, |row, entries| {
+                entries.add(row, 2.0);
+                if row > 0 {
+                    entries.add(row - 1, -1.0);
+                }
+                if row + 1 < n {
+                    entries.add(row + 1, -1.0);
+                }
+            });
+            Amg::new(&chain.unwrap()).unwrap().rows_per_level().len()
+        };
+        assert_eq!((levels(256), levels(257)), (1, 2));
+    }
+}

@@ -46,7 +46,7 @@ fn poisson_converges_at_a_rate_independent_of_size() {
         assert!(error < 2e-8);
         iterations
     });
-    assert!(2 * iterations[1] <= 3 * iterations[0] && iterations[1] < 40);
+    assert!(2 * iterations[1] <= 3 * iterations[0] && iterations[1] < 31);
 }
 
 #[test]

@@ -142,20 +142,36 @@ fn a_partly_filled_surface_is_left_alone() {
     assert!((after - before).abs() < 0.15);
 }
 
-/// A crowded cell behind a narrow passage asks for more than the longest displacement; liquid
-/// elsewhere moves as if it were not there.
+/// Cells with a passage each: half of an error of at most 0.3 is taken away, by a quarter of a cell
+/// at most; a crowded cell behind a narrow passage does not hold back the rest, and where the
+/// liquid fraction is below 0.85 there is no lack of liquid but its surface.
 #[test]
-fn one_crowded_cell_does_not_hold_back_the_rest() {
-    let passage = [0.02, 1.0];
-    let g = Csr::assemble(2, 2, |row, entries| entries.add(row, passage[row])).unwrap();
+fn a_cell_alone_moves_by_its_error() {
+    let passage = [1.0, 1.0, 0.5, 1.0, 1.0];
+    let g = Csr::assemble(5, 5, |row, entries| entries.add(row, passage[row])).unwrap();
     let cells = Cells {
-        density: vec![1.3, 1.1],
-        fraction: vec![1.0; 2],
-        volume: vec![1.0; 2],
+        density: vec![1.1, 2.0, 2.0, 0.9, 0.9],
+        fraction: vec![1.0, 1.0, 1.0, 0.84, 0.86],
+        volume: vec![1.0; 5],
     };
-    let (moves, _) = displacement(&g, &g.transpose(), &[1.0; 2], &cells).unwrap();
-    let wanted = KAPPA * 0.1;
-    println!("{moves:?}, {wanted} wanted of the second");
-    assert_eq!(moves[0].abs(), LONGEST);
-    assert!((moves[1].abs() / wanted - 1.0).abs() < 0.01);
+    let (moves, _) = displacement(&g, &g.transpose(), &[1.0; 5], &cells).unwrap();
+    for (moved, wanted) in moves.iter().zip([0.05, 0.15, 0.25, 0.0, -0.05]) {
+        assert!((moved - wanted).abs() < 1e-3, "{moves:?}");
+    }
+}
+
+/// Two faces of one cell share what it pushes out by their volumes, of which 0.02 counts at least.
+#[test]
+fn a_face_with_next_to_no_liquid_takes_its_share() {
+    let g = Csr::assemble(1, 2, |_, entries| {
+        (0..2).for_each(|face| entries.add(face, 1.0))
+    });
+    let g = g.unwrap();
+    let cells = Cells {
+        density: vec![1.1],
+        fraction: vec![1.0],
+        volume: vec![1.0],
+    };
+    let (moves, _) = displacement(&g, &g.transpose(), &[0.001, 1.0], &cells).unwrap();
+    assert!((moves[0] / moves[1] / 50.0 - 1.0).abs() < 1e-3, "{moves:?}");
 }

@@ -229,6 +229,20 @@ mod tests {
         }
     }
 
+    /// Half a cell of room makes a profile; so does one whose mean over a staircase is a third of
+    /// its own, while at a quarter nothing is left to be scaled.
+    #[test]
+    fn a_profile_needs_room_and_a_mean() {
+        let room = |opposite: f64| Across::wall(0.0, false, [0.25, opposite, 1.0, 0.0]);
+        assert!(room(0.2) == Across::FLAT && room(0.3) != Across::FLAT);
+        // Parabola between walls one cell apart, mean (1 - 6 s^2 - 4 s^3)/(1 + 2 s) over s beyond.
+        let mean_over = |s: f64| {
+            let across = Across::wall(0.0, false, [0.5, 0.5, 1.0, 0.0]);
+            across.with_mean_over([[0.5 + s; 2]].into_iter())
+        };
+        assert!(mean_over(0.26) != Across::FLAT && mean_over(0.29) == Across::FLAT);
+    }
+
     /// The means of a parabola over three control volumes give it back.
     #[test]
     fn parabolas_are_exact_in_the_bulk() {
