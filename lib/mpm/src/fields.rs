@@ -50,7 +50,7 @@ pub(crate) mod node {
     pub(crate) const ONE: Lane = 3;
     /// The increment, or v* of a filter.
     pub(crate) const SECOND: Lane = 4;
-    /// 1, beside the second.
+    /// 1 beside a velocity, 0 beside an increment.
     pub(crate) const SECOND_ONE: Lane = 7;
 }
 

@@ -219,8 +219,13 @@ impl Block {
             Mode::Increment => std::array::from_fn(|a| after[a] - before[a]),
             _ => after,
         };
+        let whole = if step.mode == Mode::Increment {
+            0.0
+        } else {
+            1.0
+        };
         self.velocity[node] = Lanes8([
-            after[0], after[1], after[2], 1.0, second[0], second[1], second[2], 1.0,
+            after[0], after[1], after[2], 1.0, second[0], second[1], second[2], whole,
         ]);
         if matches!(step.mode, Mode::FilterBefore | Mode::FilterAfter) {
             let w = if step.mode == Mode::FilterBefore {

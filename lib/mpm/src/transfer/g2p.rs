@@ -27,9 +27,10 @@ pub(crate) trait Update {
     /// The second half of a nodal value is a velocity and not an increment.
     const WHOLE: bool = true;
 
-    /// New velocity of a point and the velocity of its displacement, along one axis, from its
-    /// own (`old`), S v+ (`plus`), S of the second half (`second`) and S w_1 (`drift`).
-    fn apply(old: Real, plus: Real, second: Real, drift: Real) -> (Real, Real);
+    /// New velocity of a point and the velocity of its displacement from its own (`old`), S v+
+    /// (`plus`), S of the second half (`second`) and S w_1 (`drift`). In whole lanes: with three of
+    /// four in use the gathers behind them would be computed lane by lane.
+    fn apply(old: Lanes4, plus: Lanes4, second: Lanes4, drift: Lanes4) -> (Lanes4, Lanes4);
 }
 
 /// FLIP.
@@ -46,14 +47,15 @@ pub(crate) struct FilterAfter;
 impl Update for Increment {
     const WHOLE: bool = false;
     #[inline(always)]
-    fn apply(old: Real, plus: Real, second: Real, _: Real) -> (Real, Real) {
-        (old + second, plus - 0.5 * second)
+    fn apply(old: Lanes4, plus: Lanes4, second: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
+        let new = old.add_scaled::<false>(1.0, second);
+        (new, plus.add_scaled::<false>(-0.5, second))
     }
 }
 
 impl Update for Replace {
     #[inline(always)]
-    fn apply(_: Real, plus: Real, _: Real, _: Real) -> (Real, Real) {
+    fn apply(_: Lanes4, plus: Lanes4, _: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
         (plus, plus)
     }
 }
@@ -61,21 +63,22 @@ impl Update for Replace {
 impl Update for Affine {
     const AFFINE: bool = true;
     #[inline(always)]
-    fn apply(_: Real, plus: Real, _: Real, _: Real) -> (Real, Real) {
+    fn apply(_: Lanes4, plus: Lanes4, _: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
         (plus, plus)
     }
 }
 
 impl Update for FilterBefore {
     #[inline(always)]
-    fn apply(old: Real, _: Real, second: Real, drift: Real) -> (Real, Real) {
-        (second, drift + 0.5 * (second - old))
+    fn apply(old: Lanes4, _: Lanes4, second: Lanes4, drift: Lanes4) -> (Lanes4, Lanes4) {
+        let change = second.add_scaled::<false>(-1.0, old);
+        (second, drift.add_scaled::<false>(0.5, change))
     }
 }
 
 impl Update for FilterAfter {
     #[inline(always)]
-    fn apply(_: Real, plus: Real, second: Real, _: Real) -> (Real, Real) {
+    fn apply(_: Lanes4, plus: Lanes4, second: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
         (second, plus)
     }
 }
@@ -171,10 +174,16 @@ impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
                 second(&field.value)
             };
             let (old, drift) = (motion[p], shift[p]);
-            for a in 0..D {
-                let (new, travel) = U::apply(old.0[a], plus.0[a], second.0[a], drift.0[a]);
-                motion[p].0[a] = new;
-                shift[p].0[a] = self.dt_over_cell * travel;
+            let (new, travel) = U::apply(old, plus, second, drift);
+            let travel = travel.scaled(self.dt_over_cell);
+            if U::WHOLE {
+                for a in 0..D {
+                    motion[p].0[a] = new.0[a];
+                    shift[p].0[a] = travel.0[a];
+                }
+            } else {
+                // The increment is zero beside the velocity, at j, and along z in plane strain.
+                (motion[p], shift[p]) = (new, travel);
             }
             if !U::WHOLE {
                 // Nobody reads it: a lane that is in no result is left out of the sums above,
