@@ -35,11 +35,13 @@ impl Placed {
         }
     }
 
+    #[inline]
     fn index(&self, axis: usize, x: f64) -> Option<usize> {
         let s = (x - self.origin[axis]) / self.edge[axis];
         (s >= 0.0 && s < self.block.dims()[axis] as f64).then_some(s as usize)
     }
 
+    #[inline]
     pub(super) fn contains(&self, point: [f64; 3]) -> bool {
         let Some(i) = self.index(0, point[0]) else {
             return false;
@@ -125,6 +127,7 @@ impl Placed {
     }
 
     /// Near and far distance of the first run of solid voxels along a ray.
+    #[inline]
     pub(super) fn ray(
         &self,
         from: [f64; 3],
