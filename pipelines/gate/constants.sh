@@ -18,6 +18,7 @@ fixed=' (SIDE|OPEN|FAR|LANES|WINDOW|UNIT|HALO|EDGE|FIRST|STRIDE|OFFSET|COUNT|TER
 # The table of docs/methods.md, a constant a line: crate, file under src, name, value.
 constants() {
     awk -F ' *\\| *' '/^## 4/ { crate = "filling" } /^## 5/ { exit } /^\| \*\*`mpm`/ { crate = "mpm" }
+        /^\| \*\*`saddle-point`/ { crate = "saddle-point" }
         crate && /^\| `/ { gsub("`", ""); print crate, $3, $2, $4 }' docs/methods.md | grep -vE "$fixed"
 }
 
@@ -38,7 +39,7 @@ make_tree() {
         find "$new/lib/$crate/src" -name '*.rs' -exec sed -i -E "s/\{$name\}/$value/
             /^ *(\/\/|(pub(\(.*\))? )?use )/!s/([^/])\b$name\b(\(\))?/\1$name()/g" {} +
     done < <(constants | sort -u -k1,1 -k3,3)
-    for crate in filling mpm; do
+    for crate in filling saddle-point mpm; do
         cp pipelines/gate/tuned.rs "$new/lib/$crate/src/"
         sed -i '0,/^mod \|^pub mod /s//mod tuned;\n&/' "$new/lib/$crate/src/lib.rs"
     done
@@ -54,7 +55,7 @@ build() {
     local crate
     cd "$tree"
     nice cargo build --release --quiet --target-dir "$target" -p mpm-run 2>"$out/build.log"
-    for crate in filling mpm; do
+    for crate in filling saddle-point mpm; do
         nice cargo test --release --no-run --target-dir "$target" -p "$crate" 2>&1 |
             tee -a "$out/build.log" | sed -n "s|.*Executable.*(\.\./|$out/|; s|)$||p" >"$out/tests-$crate"
     done

@@ -195,6 +195,15 @@ fn the_clamp_holds_its_pressure() {
         last / limit
     );
     assert!(over < 1.01 && (last / limit - 1.0).abs() < 0.01 && speed < 0.9);
+    // Its speed is known only after a solve; without another one a slower clamp left a rest of its
+    // way to ever smaller steps.
+    let ways = closed
+        .history
+        .windows(2)
+        .map(|pair| pair[0][0] - pair[1][0]);
+    let least = ways.fold(f64::INFINITY, f64::min);
+    println!("smallest step {least:.2e} cells");
+    assert!(least > 0.01, "{least} cells in a step");
 }
 
 /// Square lumens of six cells between walls of one cell, displaced against each other.

@@ -53,7 +53,7 @@ impl Minimal {
             && scene.bodies.is_empty()
             && scene.gravity == [0.0; 3]
             && scene.liquid.cavitation_pressure.is_none();
-        if !free || !(cfl > 0.0 && cfl <= 1.0) {
+        if !(free && cfl > 0.0 && cfl <= 1.0) {
             return Err("the scene is not a free drop in three dimensions".into());
         }
         let grid = Tiles::new(scene.grid.cells);

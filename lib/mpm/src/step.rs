@@ -57,7 +57,7 @@ impl Explicit {
         self.state.travel_m += speed * dt;
         let report = self.report(dt, speed);
         if self.present.load {
-            self.steer(&report);
+            self.steer(dt);
         }
         if self.present.projection {
             self.project(dt)?;
@@ -176,43 +176,37 @@ impl Explicit {
         }
     }
 
-    /// Impulse on the bodies as pressure over the bond area.
     fn report(&self, dt: f64, speed: f64) -> StepReport {
-        let (cell, density) = (self.scene.grid.cell_m, self.scene.liquid.density);
-        let unit = density * cell.powi(3) / (dt * self.scene.grid.area_m2());
-        let force = |body: Option<usize>, sign: f64| {
-            body.map_or(0.0, |b| {
-                let nodes: f64 = self
-                    .grid
-                    .blocks
-                    .iter()
-                    .map(|block| block.reaction[b][1])
-                    .sum();
-                let points: f64 = self.grid.tiles.iter().map(|tile| tile.push[b][1]).sum();
-                sign * (nodes + points) * unit
-            })
-        };
+        let pressure = |body: Option<usize>| body.map_or(0.0, |b| self.push(b, dt));
         StepReport {
             dt_s: dt,
             closing_speed: speed,
             travel_m: self.state.travel_m,
-            pressure_bottom: force(self.scene.bottom, -1.0),
-            pressure_top: force(self.scene.top, 1.0),
+            pressure_bottom: -pressure(self.scene.bottom),
+            pressure_top: pressure(self.scene.top),
             lost: self.state.lost,
             iterations: 0,
         }
     }
 
-    /// Clamp control on the mean of the two pressures, which differ by the liquid's inertia.
-    fn steer(&mut self, report: &StepReport) {
-        let pressure = match (self.scene.bottom, self.scene.top) {
-            (Some(_), Some(_)) => 0.5 * (report.pressure_bottom + report.pressure_top),
-            (Some(_), None) => report.pressure_bottom,
-            (None, Some(_)) => report.pressure_top,
-            (None, None) => return,
-        };
-        if let Some(control) = &mut self.control {
-            control.observe(pressure, report.dt_s);
+    /// Impulse on a body along y in a step of `dt` (s) as pressure over the bond area, Pa.
+    fn push(&self, body: usize, dt: f64) -> f64 {
+        let (cell, density) = (self.scene.grid.cell_m, self.scene.liquid.density);
+        let nodes: f64 = (self.grid.blocks.iter())
+            .map(|block| block.reaction[body][1])
+            .sum();
+        let points: f64 = (self.grid.tiles.iter())
+            .map(|tile| tile.push[body][1])
+            .sum();
+        (nodes + points) * density * cell.powi(3) / (dt * self.scene.grid.area_m2())
+    }
+
+    /// Clamp control on the pressure that the body it drives feels (the paper's section 2.2: the contact
+    /// forces on one side of the bond).
+    fn steer(&mut self, dt: f64) {
+        if let (Some(body), Some(mut control)) = (self.scene.clamped(), self.control) {
+            control.observe(self.push(body, dt), dt);
+            self.control = Some(control);
         }
     }
 

@@ -189,6 +189,11 @@ impl Scene {
             .fold(liquid.speed, f64::max)
     }
 
+    /// The body that the clamp drives, and whose pressure it is controlled by.
+    pub fn clamped(&self) -> Option<usize> {
+        (self.bodies.iter()).position(|body| body.motion == Motion::Clamped)
+    }
+
     /// Velocity of a body at the clamp's full speed, m/s.
     pub fn velocity(&self, motion: Motion) -> [f64; 3] {
         match motion {

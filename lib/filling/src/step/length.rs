@@ -17,14 +17,20 @@ const MISPLACED: f64 = 0.02;
 const JETS: f64 = 1e-3;
 /// Most cells that any liquid crosses per step.
 const JET_CFL: f64 = 1.5;
+/// Part of the clamp's way left by which the step that ends it may miss the end.
+pub(super) const MISSED: f64 = 1e-3;
 
 /// Whether a solution fits the step that it was solved for.
+#[derive(Clone, Copy)]
 pub(super) enum Fit {
     Good,
     /// Liquid or bodies overshoot the CFL number; the pace is known better now.
     Fast,
     /// The bodies are not where they were placed.
     Misplaced,
+    /// The clamp goes beyond the end of its way, or not all of it in a step that was to end it; its
+    /// speed is known now.
+    Missed,
 }
 
 impl Implicit {
@@ -55,19 +61,32 @@ impl Implicit {
     }
 
     /// Whether neither liquid nor bodies overshoot the CFL number, and the bodies are where they
-    /// were placed; the solution sets the pace.
-    pub(super) fn fit(&mut self, trial: &Trial, solution: &Solution) -> Fit {
+    /// were placed; whether the clamp is to end its way in this step, and does. The solution sets the pace.
+    pub(super) fn fit(&mut self, trial: &Trial, solution: &Solution, limit: StepLimit) -> Fit {
         let (cfl, h) = (self.setup.settings.cfl, self.setup.units.h);
         self.state.pace = pace(&solution.u, cfl);
         let cells = self.state.pace.max(fastest(&solution.bodies)) * trial.dt / h;
         let misplaced = 0.5 * trial.dt / h * apart(&trial.bodies, &solution.bodies);
         if misplaced > MISPLACED {
             Fit::Misplaced
-        } else if cells <= cfl * (1.0 + 1e-9) {
-            Fit::Good
-        } else {
+        } else if cells > cfl * (1.0 + 1e-9) {
             Fit::Fast
+        } else if self.misses(trial, solution, limit) {
+            Fit::Missed
+        } else {
+            Fit::Good
         }
+    }
+
+    fn misses(&self, trial: &Trial, solution: &Solution, limit: StepLimit) -> bool {
+        let Some(clamped) = self.state.drive.clamped() else {
+            return false;
+        };
+        // Part of the way by which a step at a speed goes beyond its end.
+        let beyond = |speed: f64| speed * trial.dt / limit.travel_m - 1.0;
+        let (guess, solved) = (beyond(-trial.bodies[clamped][1]), beyond(solution.speed));
+        let last = guess > -1e-9;
+        solved > MISSED || last && solved < -MISSED
     }
 }
 

@@ -20,7 +20,7 @@ use crate::liquid::{Bins, Fractions};
 use crate::settings::Settings;
 use crate::transport::Flow;
 use drive::Drive;
-use length::Fit;
+use length::{Fit, MISSED};
 use setup::Setup;
 use solution::Solution;
 use stages::{Stage, Stages};
@@ -89,6 +89,7 @@ impl Implicit {
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
         self.state.rates = Rates::Zero;
         let mut longest = limit.time_s;
+        let mut last = Fit::Good;
         for _ in 0..ATTEMPTS {
             // 1. Time step.
             let dt = self.time_step(limit)?.min(longest);
@@ -98,17 +99,14 @@ impl Implicit {
             self.fill(&trial.lattice);
             // 4 to 6. Assembly, solve and forces, in passes where the viscosity varies.
             let solution = self.solve(&trial)?;
-            match self.fit(&trial, &solution) {
-                Fit::Fast => continue,
+            last = self.fit(&trial, &solution, limit);
+            match last {
+                Fit::Fast | Fit::Missed => continue,
                 Fit::Misplaced => longest = 0.5 * dt,
                 Fit::Good => return self.follow(&trial, &solution, limit),
             }
         }
-        Err(self.failure(&format!(
-            "no acceptable time step was found, for the liquid is the faster the shorter the step, \
-             {:.3e} m/s at last; a wall may push liquid that is enclosed on all sides",
-            self.state.pace
-        )))
+        Err(self.no_step(last))
     }
 
     /// The rest of a step whose solution fits it.
@@ -120,8 +118,10 @@ impl Implicit {
     ) -> Result<StepReport, Failure> {
         let mut dt = trial.dt;
         if self.state.drive.clamped().is_some() {
-            // Load control may have sped the clamp up.
-            dt = dt.min(limit.travel_m / solution.speed);
+            let end = limit.travel_m / solution.speed;
+            if (dt / end - 1.0).abs() <= MISSED {
+                dt = end;
+            }
         }
         let lattice = &trial.lattice;
         let after = self.solids_after(&solution.bodies, dt);
@@ -185,7 +185,8 @@ impl Implicit {
             })
         };
         let (bottom, top) = (pressure(setup.bottom, -1.0), pressure(setup.top, 1.0));
-        state.drive.observe(top, dt);
+        let clamped = pressure(state.drive.clamped(), 1.0);
+        state.drive.observe(clamped, dt);
         state.steps += 1;
         state.power = solution.power;
         state.rates = Rates::Of(Box::new(flow));
