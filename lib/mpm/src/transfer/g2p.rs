@@ -185,11 +185,6 @@ impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
                 // The increment is zero beside the velocity, at j, and along z in plane strain.
                 (motion[p], shift[p]) = (new, travel);
             }
-            if !U::WHOLE {
-                // Nobody reads it: a lane that is in no result is left out of the sums above,
-                // whose vectors of eight then fall apart.
-                shift[p].0[node::ONE] = second.0[node::ONE];
-            }
         }
     }
 }
