@@ -43,6 +43,19 @@ impl Path<'_> {
         particles: &mut Particles,
         velocity: impl Fn([f64; 3]) -> [f64; 3] + Sync,
     ) -> Moved {
+        if self.after.is_empty() {
+            self.follow_by::<false>(particles, velocity)
+        } else {
+            self.follow_by::<true>(particles, velocity)
+        }
+    }
+
+    /// The same, where there are `WALLS` or none.
+    fn follow_by<const WALLS: bool>(
+        &self,
+        particles: &mut Particles,
+        velocity: impl Fn([f64; 3]) -> [f64; 3] + Sync,
+    ) -> Moved {
         let counts: Vec<Moved> = (particles.position.par_chunks_mut(CHUNK))
             .map(|chunk| {
                 let mut moved = Moved::default();
@@ -50,7 +63,12 @@ impl Path<'_> {
                     let first = velocity(*x);
                     let half = self.shifted(*x, first, 0.5);
                     let second = velocity(self.inside(half));
-                    *x = self.step(*x, self.shifted(*x, second, 1.0), &mut moved);
+                    let end = symmetric(&self.after.domain, self.shifted(*x, second, 1.0));
+                    *x = self.wrapped(if WALLS {
+                        self.off_walls(*x, end, &mut moved)
+                    } else {
+                        end
+                    });
                 }
                 moved
             })
@@ -87,16 +105,21 @@ impl Path<'_> {
         x
     }
 
-    fn step(&self, from: [f64; 3], to: [f64; 3], moved: &mut Moved) -> [f64; 3] {
-        let domain = &self.after.domain;
-        let to = symmetric(domain, to);
+    /// The end of a path to `to` that passes no wall.
+    fn off_walls(&self, from: [f64; 3], to: [f64; 3], moved: &mut Moved) -> [f64; 3] {
         let end = self.before.deflect(self.after, from, to);
         if end.depth > 0.0 {
             moved.deflected += 1;
             moved.deepest = moved.deepest.max(end.depth);
         }
         moved.pinched += u64::from(end.pinched);
-        let mut x = symmetric(domain, end.point);
+        symmetric(&self.after.domain, end.point)
+    }
+
+    /// A point that has left through a periodic side where it comes in again.
+    #[inline]
+    fn wrapped(&self, mut x: [f64; 3]) -> [f64; 3] {
+        let domain = &self.after.domain;
         for (a, x) in x.iter_mut().enumerate() {
             if domain.periodic(a) {
                 let n = domain.cells[a] as f64;

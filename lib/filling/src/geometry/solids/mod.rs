@@ -80,6 +80,11 @@ impl Solids {
         Self { blocks, domain }
     }
 
+    /// Whether there are no bodies.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.blocks.is_empty()
+    }
+
     /// The same bodies displaced from their first place by `displacement[body]` cells.
     pub(crate) fn displaced(&self, displacement: &[[f64; 3]]) -> Self {
         let mut moved = self.clone();
