@@ -135,7 +135,9 @@ impl Trial {
         text.history_every = 1e-5 * self.case.duration;
         fs::write(&case, text.text(self.method.scheme.integrator())).map_err(|e| e.to_string())?;
         for _ in 0..ATTEMPTS {
-            let mut run = (self.command(folder, self.cfl).arg("--overwrite"))
+            // The rows of an attempt before would have this one stopped before it can answer.
+            let _ = fs::remove_dir_all(folder.join("run"));
+            let mut run = (self.command(folder, self.cfl))
                 .spawn()
                 .map_err(|e| e.to_string())?;
             let history = folder.join("run/history.csv");
