@@ -137,7 +137,8 @@ impl Trial {
         for _ in 0..ATTEMPTS {
             // The rows of an attempt before would have this one stopped before it can answer.
             let _ = fs::remove_dir_all(folder.join("run"));
-            let mut run = (self.command(folder, self.cfl))
+            let mut run = self
+                .command(folder, self.cfl)
                 .spawn()
                 .map_err(|e| e.to_string())?;
             let history = folder.join("run/history.csv");
