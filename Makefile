@@ -16,6 +16,7 @@
 #   make mutants                  changes of the code that no test notices, MUTANTS (100) a crate
 #   make constants                half and twice each numerical constant: tests, small runs
 #   make deny                     advisories, licences and sources of the dependencies
+#   make pins                     fingerprints of thirty small runs, to compare builds by
 #   make bench                    speed of the kernels and of the linear solver
 #   make figures man install clean help
 

@@ -1,6 +1,8 @@
 # Stage 5: figures of the paper from the tools' outputs.
 
-SHEARS := $(ADHESIVES:%=$(OUT)/%/xpic/shear.csv)
+# The run that shear rates and slices are drawn of.
+SHOWN := $(firstword $(filter xpic,$(RUNS)) $(RUNS))
+EXPERIMENT := $(if $(XCT_PF)$(XCT_PVA_PF),experiment,synthetic experiment)
 FIGURES = $(foreach a,$(ADHESIVES),$(addprefix $(OUT)/figures/$(a)-,pressure.svg map.svg shear.svg slice.png start.png))
 
 .PHONY: figures
@@ -15,14 +17,14 @@ $(OUT)/figures/$(1)-pressure.svg: $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(BIN)/bond
 
 $(OUT)/figures/$(1)-map.svg: $(RUNS:%=$(OUT)/$(1)/%/wp.csv) $(OUT)/$(1)/experiment.csv $(BIN)/bond-figures
 	@mkdir -p $$(@D)
-	$(BIN)/bond-figures map --map "synthetic experiment=$(OUT)/$(1)/experiment-map.csv" \
+	$(BIN)/bond-figures map --map "$(EXPERIMENT)=$(OUT)/$(1)/experiment-map.csv" \
 	    $(foreach r,$(RUNS),--map "$(r)=$(OUT)/$(1)/$(r)/map.csv") -o $$@
 
-$(OUT)/figures/$(1)-shear.svg: $(OUT)/$(1)/xpic/shear.csv $(BIN)/bond-figures
+$(OUT)/figures/$(1)-shear.svg: $(OUT)/$(1)/$(SHOWN)/shear.csv $(BIN)/bond-figures
 	@mkdir -p $$(@D)
 	$(BIN)/bond-figures shear $$< -o $$@
 
-$(OUT)/figures/$(1)-slice.png: $(OUT)/$(1)/xpic/final.mpts $(BIN)/bond-figures
+$(OUT)/figures/$(1)-slice.png: $(OUT)/$(1)/$(SHOWN)/final.mpts $(BIN)/bond-figures
 	@mkdir -p $$(@D)
 	$(BIN)/bond-figures slice $$< -o $$@
 

@@ -4,6 +4,7 @@
 #
 #   measure-an-experiment.sh STACK.tif "1.45 um" OUT_FOLDER
 set -euo pipefail
+[ $# -ge 3 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 stack=$1 voxel=$2 out=$3
 mkdir -p "$out"
 

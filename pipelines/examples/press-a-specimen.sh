@@ -3,6 +3,7 @@
 #
 #   press-a-specimen.sh STACK.tif "1.45 um" CASE.toml OUT_FOLDER [more arguments of mpm-run]
 set -euo pipefail
+[ $# -ge 4 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 stack=$1 voxel=$2 case=$3 out=$4
 shift 4
 mkdir -p "$out"

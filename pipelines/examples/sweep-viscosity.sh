@@ -4,6 +4,7 @@
 #
 #   sweep-viscosity.sh BOND.mpts CASE.toml OUT_FOLDER "100 cP" "1300 cP" "10000 cP"
 set -euo pipefail
+[ $# -ge 4 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 bond=$1 case=$2 out=$3
 shift 3
 mkdir -p "$out"

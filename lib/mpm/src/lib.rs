@@ -13,7 +13,8 @@
 //! Modules use one another in one direction, each only those named before it:
 //! `real`, `fields`, `lanes`, `simd`, `settings`, `stages` | `lattice`, `shape`, `contact`, `walls` |
 //! `tiles`, `nodes`, `topology`, `halo` | `material`, `transfer`, `cell_mean`, `collide`, `density` |
-//! `plan`, `explicit`, `start`, `checks`, `step`, `saved`, `scheme`.
+//! `plan`, `explicit`, `start`, `checks`, `step`, `saved`, `scheme`. Beside them stands `minimal`, the
+//! scheme at its least, on `real`, `lanes`, `simd` and `lattice` alone but for the steps between checks.
 
 // Loops over axes and lanes index several short arrays at once.
 #![allow(clippy::needless_range_loop)]

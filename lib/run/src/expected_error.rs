@@ -67,7 +67,7 @@ fn quote(out: &mut String, case: &Case, row: &Measured) -> std::fmt::Result {
     )?;
     writeln!(
         out,
-        "                     slit and bond line against finer runs of the implicit scheme, no independent reference"
+        "                     slit against finite elements; bond line against finer runs of the implicit scheme, no independent reference"
     )?;
     let mut other = Vec::new();
     if case

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, mpsc};
 use std::time::Duration;
 
@@ -26,6 +26,8 @@ pub struct Study {
     origin: String,
     results: PathBuf,
     only: Vec<String>,
+    /// Something was named so.
+    found: AtomicBool,
 }
 
 impl Study {
@@ -42,6 +44,7 @@ impl Study {
             origin: origin(&format!("make {name}")),
             results: results.to_owned(),
             only: only.to_owned(),
+            found: AtomicBool::new(only.is_empty()),
         })
     }
 
@@ -52,7 +55,23 @@ impl Study {
 
     /// Whether a part of this name is to be done.
     pub fn wants(&self, name: &str) -> bool {
-        self.whole() || self.only.iter().any(|part| name.contains(part))
+        let wanted = self.whole() || self.only.iter().any(|part| name.contains(part));
+        self.found.fetch_or(wanted, Ordering::Relaxed);
+        wanted
+    }
+
+    /// Refuses parts of names of which none was asked for.
+    ///
+    /// # Errors
+    /// The parts.
+    pub fn check_only(&self) -> Result<(), String> {
+        if self.found.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        Err(format!(
+            "nothing has one of '{}' in its name",
+            self.only.join(" ")
+        ))
     }
 
     /// Whether all of it is to be done.

@@ -1,13 +1,8 @@
 //! The unknowns and the coupled system of one step: viscosity, mass and wall friction A, fluxes G,
 //! compressibility C, and the forces on bodies that follow from a solution.
 //!
-//! Per step the scheme minimises over the face velocities u, with pressures p as multipliers,
-//!
-//! E = sum_f rho V_f/(2 dt) (u - u*)^2 + sum_c eta phi_c o_c sum_d (D_d u_d)^2
-//!   + 1/2 sum_e eta phi_e (shear of the edge)^2 + 1/2 sum_walls A_s beta (u_f - U_b)^2
-//!   - sum_c phi_c p_c Phi_c - sum_c phi_c o_c (p_c^2/2 - p_c p*_c)/(K dt),
-//!
-//! which gives [A, -G^T; -G, -C] [u; p] = [b; -g]. Velocities are in m/s, lengths in cells h,
+//! What a step minimises, and the system [A, -G^T; -G, -C] [u; p] = [b; -g] that follows, is in
+//! docs/methods.md section 3.4. Velocities are in m/s, lengths in cells h,
 //! viscosities in units of a reference eta_0, pressures in units of eta_0/h, forces in units of
 //! eta_0 h; in plane strain the depth is one cell.
 

@@ -29,7 +29,11 @@ fn main() -> ExitCode {
         eprintln!("study: name the folder of results");
         return ExitCode::from(2);
     };
-    let done = Study::begin(name, Path::new(results), only).and_then(|study| run(&study));
+    let done = Study::begin(name, Path::new(results), only).and_then(|study| {
+        let done = run(&study)?;
+        study.check_only()?;
+        Ok(done)
+    });
     match done {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => {
