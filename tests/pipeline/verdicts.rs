@@ -323,3 +323,41 @@ fn more_snapshots_than_anyone_reads_are_refused() {
         said(&output)
     );
 }
+
+/// A slit whose clamp meets its limit in the very step that ends its way: the held speed then follows the
+/// length of the step, by inertia or in a closed space, and no attempt at ending exactly comes nearer.
+#[test]
+fn a_clamp_that_meets_its_limit_in_its_last_step_closes() {
+    let bench = Workbench::new();
+    let text = include_str!("../../pipelines/gate/pins/slit.toml")
+        .replace(
+            "[stop]\ntime = \"12 us\"",
+            "[clamp]\nclosing_speed = \"1 m/s\"\nmax_pressure = \"0.3 MPa\"\ntravel = \"0.1 um\"",
+        )
+        .replace("[\"0 m/s\", \"-0.5 m/s\", \"0 m/s\"]", "\"clamp\"");
+    bench.write("slit.toml", text);
+    for viscosity in ["1 cP", "10 cP", "100 cP"] {
+        let set = format!("adhesive.viscosity={viscosity}");
+        let folder = viscosity.replace(' ', "");
+        let said = bench.run(
+            "mpm-run",
+            &["-q", "slit.toml", "--set", &set, "-o", &folder],
+        );
+        assert!(said.status.success(), "{viscosity}: {said:?}");
+        let history = String::from_utf8(bench.read(&format!("{folder}/history.csv"))).unwrap();
+        let names = history.lines().next().unwrap().split(',');
+        let row: Vec<&str> = history.lines().last().unwrap().split(',').collect();
+        let last = |name: &str| {
+            let place = names.clone().position(|n| n == name).unwrap();
+            row[place].parse::<f64>().unwrap()
+        };
+        assert!(
+            (last("displacement_m") / 1e-7 - 1.0).abs() < 1e-6,
+            "{viscosity}: {history}"
+        );
+        assert!(
+            last("pressure_top_Pa") < 0.3e6 * 1.005,
+            "{viscosity}: {history}"
+        );
+    }
+}

@@ -51,7 +51,7 @@ impl Stages {
             Viscosity::Newtonian(law) => Some(format!("Newtonian liquid, {} Pa s", law.0)),
             Viscosity::Table(_) => None,
         };
-        let no_force = absent(scene.gravity == [0.0; 3], "no [gravity]");
+        let no_force = absent(scene.gravity == [0.0; 3], "gravity is zero");
         let no_clamp = absent(scene.clamp.is_none(), "no [clamp]");
         let unlimited = scene.clamp.is_none_or(|clamp| clamp.max_pressure.is_none());
         let no_limit = absent(unlimited, "constant closing speed: no max_pressure");

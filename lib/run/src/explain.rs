@@ -76,7 +76,7 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
     );
     let _ = writeln!(out, "\nleft out");
     for item in left_out(case, setup, &forecast.stages) {
-        let _ = writeln!(out, "  {:<18} {}", format!("{}:", item.what), item.why);
+        let _ = writeln!(out, "  {:<18} {}", item.what, item.why);
     }
     out
 }

@@ -91,7 +91,7 @@ fn a_free_drop_needs_next_to_nothing() {
             "the scene has no rigid body",
             "the scene has no rigid body",
             "Newtonian liquid, 1.3 Pa s",
-            "no [gravity]"
+            "gravity is zero"
         ]
     );
     let names: Vec<_> = plain.iter().map(|stage| stage.name).collect();

@@ -14,12 +14,12 @@ impl Implicit {
     /// Attempts at a step of which none was acceptable, the last for this reason.
     pub(super) fn no_step(&self, last: Fit) -> Failure {
         let why = match last {
-            Fit::Misplaced | Fit::Missed => format!(
+            Fit::Misplaced => format!(
                 "the speed at which the clamp holds its max_pressure is another in each attempt, \
                  {:.3e} m/s at last: a lower closing_speed or a higher max_pressure is needed",
                 self.state.drive.speed
             ),
-            Fit::Fast | Fit::Good => format!(
+            Fit::Fast | Fit::Missed | Fit::Good => format!(
                 "the liquid is the faster the shorter the step, {:.3e} m/s at last: a wall may push \
                  liquid that is enclosed on all sides",
                 self.state.pace

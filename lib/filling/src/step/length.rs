@@ -18,7 +18,7 @@ const JETS: f64 = 1e-3;
 /// Most cells that any liquid crosses per step.
 const JET_CFL: f64 = 1.5;
 /// Part of the clamp's way left by which the step that ends it may miss the end.
-pub(super) const MISSED: f64 = 1e-3;
+const MISSED: f64 = 1e-3;
 
 /// Whether a solution fits the step that it was solved for.
 #[derive(Clone, Copy)]
@@ -75,6 +75,22 @@ impl Implicit {
             Fit::Missed
         } else {
             Fit::Good
+        }
+    }
+
+    /// How long an accepted step is, s: as it was solved for, or to the end of the clamp's way where that
+    /// is before, or next to it and within the bounds of the step.
+    pub(super) fn length(&self, trial: &Trial, solution: &Solution, limit: StepLimit) -> f64 {
+        if self.state.drive.clamped().is_none() {
+            return trial.dt;
+        }
+        let end = limit.travel_m / solution.speed;
+        let cells = self.state.pace.max(fastest(&solution.bodies)) * end / self.setup.units.h;
+        let near = (trial.dt / end - 1.0).abs() <= MISSED;
+        if near && end <= limit.time_s && cells <= self.setup.settings.cfl * (1.0 + 1e-9) {
+            end
+        } else {
+            trial.dt.min(end)
         }
     }
 

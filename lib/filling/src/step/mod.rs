@@ -20,13 +20,16 @@ use crate::liquid::{Bins, Fractions};
 use crate::settings::Settings;
 use crate::transport::Flow;
 use drive::Drive;
-use length::{Fit, MISSED};
+use length::Fit;
 use setup::Setup;
 use solution::Solution;
 use stages::{Stage, Stages};
 use state::{Rates, State};
 use units::Units;
 
+/// Attempts at ending the clamp's way exactly. Where its speed under load control follows the step,
+/// as in closed spaces and from rest, more do not come nearer; then the step is taken as it is.
+const CLOSER: usize = 3;
 /// Attempts at a step of acceptable length.
 const ATTEMPTS: usize = 12;
 
@@ -89,7 +92,7 @@ impl Implicit {
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
         self.state.rates = Rates::Zero;
         let mut longest = limit.time_s;
-        let mut last = Fit::Good;
+        let (mut last, mut misses) = (Fit::Good, 0);
         for _ in 0..ATTEMPTS {
             // 1. Time step.
             let dt = self.time_step(limit)?.min(longest);
@@ -101,9 +104,10 @@ impl Implicit {
             let solution = self.solve(&trial)?;
             last = self.fit(&trial, &solution, limit);
             match last {
-                Fit::Fast | Fit::Missed => continue,
+                Fit::Fast => continue,
+                Fit::Missed if misses < CLOSER => misses += 1,
                 Fit::Misplaced => longest = 0.5 * dt,
-                Fit::Good => return self.follow(&trial, &solution, limit),
+                Fit::Good | Fit::Missed => return self.follow(&trial, &solution, limit),
             }
         }
         Err(self.no_step(last))
@@ -116,13 +120,7 @@ impl Implicit {
         solution: &Solution,
         limit: StepLimit,
     ) -> Result<StepReport, Failure> {
-        let mut dt = trial.dt;
-        if self.state.drive.clamped().is_some() {
-            let end = limit.travel_m / solution.speed;
-            if (dt / end - 1.0).abs() <= MISSED {
-                dt = end;
-            }
-        }
+        let dt = self.length(trial, solution, limit);
         let lattice = &trial.lattice;
         let after = self.solids_after(&solution.bodies, dt);
         // 7. Transport.

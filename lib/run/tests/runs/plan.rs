@@ -88,7 +88,7 @@ fn a_pressed_slab_by_the_explicit_scheme() {
             "lumens 8.7 cells across 17.4 um",
             "measured with 12 cells across the lumen",
             "viscosity table Newtonian liquid, 0.3 Pa s",
-            "body force no [gravity]",
+            "body force gravity is zero",
             "periodic images no periodic side",
             "capillary pressure 10.0 kPa in a six-cell lumen, 0.40 % of the pressure limit",
         ],
