@@ -11,8 +11,8 @@ pub struct Stage {
     pub absent: Option<String>,
 }
 
-/// The stages of a scheme on one scene. A scheme makes the list once per run, and its step does
-/// what the list has: what is printed as left out is what is not done.
+/// The stages of a scheme on one scene, made by the scheme and printed as what it leaves out. The
+/// explicit step is resolved from it; the implicit one asks scene and clamp itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Stages(Vec<Stage>);
 
