@@ -15,6 +15,7 @@ mod examples;
 mod forged;
 mod hostile;
 mod interruption;
+mod limit;
 mod quoted;
 mod refusals;
 mod repeatability;

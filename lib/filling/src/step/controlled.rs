@@ -32,7 +32,7 @@ impl Implicit {
             return Ok((system, forces, power));
         };
         let speed = self.state.drive.speed;
-        let pressure = forces[clamped][1] * self.setup.units.force() / self.setup.area;
+        let pressure = self.setup.pressure(&forces, clamped);
         let Some(limit) = self.state.drive.exceeded(pressure) else {
             return Ok((system, forces, power));
         };

@@ -4,9 +4,9 @@ use physics::{Clamp, Motion, PidControl};
 
 /// Relative excess over the pressure limit that is tolerated.
 const TOLERANCE: f64 = 5e-3;
-/// Least speed under load control over the closing speed: the press does not reopen when compressed
-/// liquid expands.
-const SLOWEST: f64 = 1e-6;
+
+/// Relative excess over it beyond which a clamp that stands no longer keeps its limit.
+const BROKEN: f64 = 0.02;
 
 /// Speed of the clamp.
 #[derive(Clone, Copy, Debug)]
@@ -101,15 +101,24 @@ impl Drive {
     }
 
     /// Takes the speed (m/s) that the limit asks for; `false` where the clamp cannot follow it and
-    /// moves at the nearest speed that it can.
+    /// moves at the nearest speed that it can: it goes no faster than at full speed, and stands where
+    /// compressed liquid would open it.
     pub(super) fn follow(&mut self, speed: f64) -> bool {
         let Control::Limit { clamp, held, .. } = &mut self.control else {
             return true;
         };
         let full = clamp.closing_speed;
         *held = speed < full;
-        self.speed = speed.clamp(SLOWEST * full, full);
+        self.speed = speed.clamp(0.0, full);
         self.speed == speed
+    }
+
+    /// The limit (Pa) where `pressure` (Pa) shows that the clamp cannot keep it.
+    pub(super) fn broken(&self, pressure: f64) -> Option<f64> {
+        match self.control {
+            Control::Limit { limit, .. } if pressure > limit * (1.0 + BROKEN) => Some(limit),
+            _ => None,
+        }
     }
 
     /// Takes in the pressure (Pa) of a step of `dt` (s) that is over.
@@ -156,6 +165,10 @@ mod tests {
         assert_eq!(drive.exceeded(1.004e6), None);
         assert_eq!(drive.exceeded(1.006e6), Some(1e6));
         assert!(!drive.follow(-1.0));
-        assert!((drive.speed / 2e-6 - 1.0).abs() < 1e-9, "{}", drive.speed);
+        assert_eq!((drive.speed, drive.held()), (0.0, Some(1e6)));
+        assert_eq!(
+            (drive.broken(1.019e6), drive.broken(1.021e6)),
+            (None, Some(1e6))
+        );
     }
 }

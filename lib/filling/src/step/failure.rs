@@ -28,6 +28,18 @@ impl Implicit {
         self.failure(&format!("no acceptable time step was found: {why}"))
     }
 
+    /// Whether the pressure on the clamp's body is within its limit.
+    pub(super) fn keeps_limit(&self, forces: &[[f64; 3]]) -> Result<(), Failure> {
+        let drive = &self.state.drive;
+        let pressure = (drive.clamped()).map_or(0.0, |body| self.setup.pressure(forces, body));
+        drive.broken(pressure).map_or(Ok(()), |limit| {
+            Err(self.failure(&format!(
+                "liquid presses the clamp's body with {pressure:.3e} Pa, above the max_pressure of {limit:.3e} Pa, \
+                 and the clamp does not go back: other bodies or a force press the liquid too"
+            )))
+        })
+    }
+
     /// A system of the step that was not solved.
     pub(super) fn unsolved(&self, error: SolveError) -> Failure {
         self.failure(&sentence(&error))
@@ -49,7 +61,8 @@ fn advice(cause: Cause) -> String {
     match cause {
         Cause::Unbalanced { cells } => format!(
             "walls move into {cells} cells of liquid that is enclosed and has no way out but to be \
-             compressed; a max_pressure, a way out, less travel or a lower bulk_modulus is needed"
+             compressed; a max_pressure, a way out, less travel, a lower bulk_modulus or an earlier \
+             end is needed"
         ),
         Cause::Stiff { ratio } => format!(
             "viscous stress is {ratio:.0e} times what compresses the liquid in a step, eta/(K dt): \

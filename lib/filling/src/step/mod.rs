@@ -120,6 +120,7 @@ impl Implicit {
         solution: &Solution,
         limit: StepLimit,
     ) -> Result<StepReport, Failure> {
+        self.keeps_limit(&solution.forces)?;
         let dt = self.length(trial, solution, limit);
         let lattice = &trial.lattice;
         let after = self.solids_after(&solution.bodies, dt);
@@ -178,9 +179,7 @@ impl Implicit {
             state.travel += solution.speed * dt;
         }
         let pressure = |body: Option<usize>, way: f64| {
-            body.map_or(0.0, |b| {
-                way * solution.forces[b][1] * setup.units.force() / setup.area
-            })
+            body.map_or(0.0, |body| way * setup.pressure(&solution.forces, body))
         };
         let (bottom, top) = (pressure(setup.bottom, -1.0), pressure(setup.top, 1.0));
         let clamped = pressure(state.drive.clamped(), 1.0);

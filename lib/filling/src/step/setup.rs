@@ -57,6 +57,11 @@ impl Setup {
         Ok((setup, particles))
     }
 
+    /// Pressure (Pa) that forces, in the solver's unit, push a body up with.
+    pub(super) fn pressure(&self, forces: &[[f64; 3]], body: usize) -> f64 {
+        forces[body][1] * self.units.force() / self.area
+    }
+
     /// Influence length of the wall law, cells; infinite without friction.
     pub(super) fn influence_length(&self) -> f64 {
         self.wall.influence_length() / self.units.h

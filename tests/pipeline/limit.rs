@@ -1,0 +1,67 @@
+//! A pressure limit holds: in sealed liquid for as long as one likes, or the run says that it does not.
+
+use crate::verdicts::SMALL;
+use crate::workbench::{Workbench, said};
+
+/// A chamber full of liquid that has no way out.
+fn chamber(time_limit: &str, more: &str) -> String {
+    SMALL
+        .replace("max = [\"12 um\", \"14 um\"", "max = [\"24 um\", \"16 um\"")
+        .replace(
+            "travel = \"4 um\"",
+            &format!("travel = \"4 um\"\ntime_limit = \"{time_limit}\""),
+        )
+        + more
+}
+
+/// Largest pressure on the upper body, Pa.
+fn largest_pressure(bench: &Workbench) -> f64 {
+    let history = std::fs::read_to_string(bench.path("run/history.csv")).unwrap();
+    let mut lines = history.lines();
+    let column = (lines.next().unwrap().split(','))
+        .position(|name| name == "pressure_top_Pa")
+        .unwrap();
+    lines
+        .map(|line| line.split(',').nth(column).unwrap().parse().unwrap())
+        .fold(0.0, f64::max)
+}
+
+/// Before, the clamp went on at a millionth of its speed: 13 and 78 MPa within a second, "sound".
+#[test]
+fn sealed_liquid_is_held_at_the_limit_for_a_second() {
+    let bench = Workbench::new();
+    for modulus in ["0.1 GPa", "1 GPa"] {
+        let case = chamber("1 s", "").replace("1 GPa", modulus);
+        bench.write("case.toml", &case);
+        let output = bench.run("mpm-run", &["-q", "case.toml", "-o", "run", "--overwrite"]);
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+        let over = largest_pressure(&bench) / 2.5e6 - 1.0;
+        println!("sealed at {modulus}: {over:+.1e} of the limit at most");
+        assert!(over < 1e-3, "{modulus}: {over}");
+    }
+}
+
+/// The clamp stands, and another body goes on pressing.
+#[test]
+fn a_limit_that_cannot_be_kept_stops_the_run() {
+    let ram = r#"
+[[body]]
+material = "rigid"
+name = "ram"
+velocity = ["0.5 m/s", "0 m/s", "0 m/s"]
+box = { min = ["-20 um", "6 um", "0 um"], max = ["4 um", "12 um", "2 um"] }
+[[body]]
+material = "adhesive"
+box = { min = ["0 um", "12 um", "0 um"], max = ["4 um", "16 um", "2 um"] }
+"#;
+    let case = chamber("4 us", ram).replace(
+        "[\"0 um\", \"6 um\", \"0 um\"]",
+        "[\"4 um\", \"6 um\", \"0 um\"]",
+    );
+    let bench = Workbench::new();
+    bench.write("case.toml", &case);
+    let output = bench.run("mpm-run", &["-q", "case.toml", "-o", "run"]);
+    let said = said(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("above the max_pressure"), "{said}");
+}
