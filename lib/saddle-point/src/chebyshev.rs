@@ -52,6 +52,25 @@ impl Chebyshev {
         })
     }
 
+    /// `D^-1/2`.
+    pub(crate) fn scale(&self) -> &[Work] {
+        &self.scale
+    }
+
+    /// What the `x` of the last [`Chebyshev::apply`] leaves of `S (b - A x)`, plus `S more(row)`;
+    /// and the diagonal of `S`.
+    pub(crate) fn residual(&mut self, more: impl Fn(usize) -> Work + Sync) -> (&[Work], &[Work]) {
+        let (rhs, now, scale) = (&self.rhs, &self.now, &self.scale);
+        self.scaled
+            .for_blocks(now, &mut self.before, |first, product, out| {
+                for (i, (out, scale)) in out.iter_mut().zip(&scale[first..]).enumerate() {
+                    let row = first + i;
+                    *out = rhs[row] - now[row] - product[i] + scale * more(row);
+                }
+            });
+        (&self.before, scale)
+    }
+
     /// Guaranteed upper bound of the eigenvalues of `D^-1 A`.
     pub(crate) fn bound(&self) -> f64 {
         self.bound

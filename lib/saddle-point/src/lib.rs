@@ -19,6 +19,7 @@ mod poisson;
 mod saddle;
 mod schur;
 mod system;
+mod vanka;
 mod vector;
 
 pub use cause::Cause;

@@ -1,7 +1,7 @@
 //! A body of unknown speed under a known force, as one more unknown of the coupled system.
 
 use crate::fgmres::Operator;
-use crate::saddle::BlockTriangular;
+use crate::saddle::Preconditioner;
 use crate::vector::{Real, Work, add_scaled, dot, norm};
 use crate::{SaddleSystem, SolveError, check_length};
 
@@ -100,14 +100,14 @@ impl<K: Operator> Operator for LoadedOperator<'_, K> {
 /// The preconditioner M of the system without the body, bordered: with the column k of V and
 /// z = M^-1 k, V = (r_V - k^T M^-1 r)/(d - k^T z) and x = M^-1 r - V z.
 pub(crate) struct Bordered<'a> {
-    inner: BlockTriangular<'a>,
+    inner: Preconditioner<'a>,
     column: Vec<Work>,
     response: Vec<Work>,
     pivot: f64,
 }
 
 impl<'a> Bordered<'a> {
-    pub(crate) fn new(mut inner: BlockTriangular<'a>, load: &Load, weight: f64) -> Self {
+    pub(crate) fn new(mut inner: Preconditioner<'a>, load: &Load, weight: f64) -> Self {
         let column = load.column(weight);
         let mut response = Vec::new();
         inner.apply(&column, &mut response);
@@ -121,7 +121,7 @@ impl<'a> Bordered<'a> {
         }
     }
 
-    pub(crate) fn inner(&self) -> &BlockTriangular<'a> {
+    pub(crate) fn inner(&self) -> &Preconditioner<'a> {
         &self.inner
     }
 

@@ -10,6 +10,7 @@ use crate::fgmres::{KrylovSpace, Limits, Operator, fgmres};
 use crate::load::{Bordered, Load, LoadedOperator};
 use crate::schur::Schur;
 use crate::system::SaddleSystem;
+use crate::vanka::Vanka;
 use crate::vector::{Real, Work, for_chunks};
 
 /// Settings of the solver.
@@ -36,9 +37,9 @@ impl Default for SaddleOptions {
             tolerance: 1e-3,
             max_iterations: 200,
             restart: 30,
-            chebyshev_degree: 20,
+            chebyshev_degree: 14,
             chebyshev_ratio: 320.0,
-            inner_cycles: 2,
+            inner_cycles: 1,
         }
     }
 }
@@ -89,7 +90,8 @@ impl SaddleSolver {
     /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per
     /// cell), which take the solution. The preconditioner is block lower triangular: a Chebyshev
     /// polynomial in `A` for the velocities, then friction Poisson solve plus local viscosity for
-    /// the pressures. Results do not depend on the number of threads.
+    /// the pressures; then a sweep that couples both cell by cell. Results do not depend on the
+    /// number of threads.
     ///
     /// # Errors
     /// [`SolveError::Length`] or [`SolveError::Matrix`] when the system is not as described,
@@ -169,7 +171,7 @@ type Iterated = (Result<Vec<f64>, SolveError>, Totals);
 fn prepared(
     system: &SaddleSystem,
     options: &SaddleOptions,
-    iterate: impl FnOnce(&SaddleOperator, BlockTriangular) -> Iterated + Send,
+    iterate: impl FnOnce(&SaddleOperator, Preconditioner) -> Iterated + Send,
 ) -> Result<SaddleReport, SolveError> {
     // On the thread pool throughout: its threads need not be woken for every product.
     rayon::scope(|_| {
@@ -178,7 +180,7 @@ fn prepared(
             system: *system,
             g_transposed: system.g.transpose(),
         };
-        let preconditioner = BlockTriangular::new(&operator, options)?;
+        let preconditioner = Preconditioner::new(&operator, options)?;
         let setup = started.elapsed();
         let (result, (cycles, eigenvalue_bound)) = iterate(&operator, preconditioner);
         Ok(SaddleReport {
@@ -221,22 +223,33 @@ impl Operator for SaddleOperator<'_> {
     }
 }
 
-/// `[Ahat, 0; -G, -Shat]^-1`.
-pub(crate) struct BlockTriangular<'a> {
+/// `[Ahat, 0; -G, -Shat]^-1`, then one sweep of [`Vanka`] on what that leaves.
+pub(crate) struct Preconditioner<'a> {
     g: &'a Csr<f64>,
+    g_transposed: &'a Csr<f64>,
+    c: &'a [f64],
     chebyshev: Chebyshev,
     schur: Schur,
-    residual: Vec<Work>,
+    vanka: Vanka,
+    /// Right-hand side of the pressure solve, and what that leaves of the volume balance.
+    volume: Vec<Work>,
+    left: Vec<Work>,
 }
 
-impl<'a> BlockTriangular<'a> {
-    fn new(operator: &SaddleOperator<'a>, options: &SaddleOptions) -> Result<Self, SolveError> {
+impl<'a> Preconditioner<'a> {
+    fn new(operator: &'a SaddleOperator<'a>, options: &SaddleOptions) -> Result<Self, SolveError> {
         let system = operator.system;
+        let chebyshev =
+            Chebyshev::new(system.a, options.chebyshev_degree, options.chebyshev_ratio)?;
         Ok(Self {
             g: system.g,
-            chebyshev: Chebyshev::new(system.a, options.chebyshev_degree, options.chebyshev_ratio)?,
+            g_transposed: &operator.g_transposed,
+            c: system.c,
+            vanka: Vanka::new(&system, chebyshev.scale()),
+            chebyshev,
             schur: Schur::new(&system, &operator.g_transposed, options.inner_cycles)?,
-            residual: vec![Work::default(); system.g.n_rows()],
+            volume: vec![Work::default(); system.g.n_rows()],
+            left: Vec::new(),
         })
     }
 
@@ -244,19 +257,31 @@ impl<'a> BlockTriangular<'a> {
         (self.schur.cycles, self.chebyshev.bound())
     }
 
-    /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`.
+    /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`; then the sweep.
     pub(crate) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
         let (r_u, r_p) = r.split_at(self.g.n_columns());
         z.resize(r.len(), Work::default());
         let (velocity, pressure) = z.split_at_mut(r_u.len());
         self.chebyshev.apply(r_u, velocity);
-        let (g, velocity) = (self.g, &*velocity);
-        for_chunks(&mut self.residual, |start, part| {
+        let (g, u) = (self.g, &*velocity);
+        for_chunks(&mut self.volume, |start, part| {
             for (i, out) in part.iter_mut().enumerate() {
-                let flux = g.row_times_wide(start + i, velocity);
+                let flux = g.row_times_wide(start + i, u);
                 *out = r_p[start + i] + Work::nearest(flux);
             }
         });
-        self.schur.apply_negative(&mut self.residual, pressure);
+        self.left.clone_from(&self.volume);
+        self.schur.apply_negative(&mut self.volume, pressure);
+        let (c, p) = (self.c, &*pressure);
+        for_chunks(&mut self.left, |start, part| {
+            for (i, left) in part.iter_mut().enumerate() {
+                *left += Work::nearest(c[start + i]) * p[start + i];
+            }
+        });
+        let g_transposed = self.g_transposed;
+        let push = |face| Work::nearest(g_transposed.row_times_wide(face, p));
+        let (momentum, scale) = self.chebyshev.residual(push);
+        let left = (momentum, &self.left[..]);
+        self.vanka.sweep(left, scale, velocity, pressure);
     }
 }
