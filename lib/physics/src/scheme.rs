@@ -168,4 +168,8 @@ pub trait Scheme {
     fn stage_times(&self) -> Vec<StageTime>;
     /// Named counts for the summary: how often the scheme had to step in, since the start.
     fn counts(&self) -> Vec<(&'static str, u64)>;
+    /// What the scheme itself knows against its results, a clause.
+    fn objection(&self) -> Option<String> {
+        None
+    }
 }

@@ -235,7 +235,8 @@ impl Request {
                 initial_gap_m: self.setup.initial_gap_m,
                 stages: scheme.stage_times(),
                 counts: scheme.counts(),
-                verdict: verdict::judge(&self.setup, &liquid, &invariants, outcome.clock.last.lost),
+                verdict: verdict::judge(&self.setup, &liquid, &invariants, outcome.clock.last.lost)
+                    .and(scheme.objection()),
                 invariants,
                 left_out: left_out(&self.case, &self.setup, &stages),
                 provenance,

@@ -43,6 +43,12 @@ impl Verdict {
         }
     }
 
+    /// This one, and what the scheme says against its results.
+    pub(crate) fn and(mut self, objection: Option<String>) -> Self {
+        self.reasons.extend(objection);
+        Self::because(self.reasons)
+    }
+
     /// That of the run that ended in `folder`; `None` where its summary does not say.
     pub fn of_ended(folder: &Path) -> Option<Self> {
         let text = fs::read_to_string(folder.join(folder::SUMMARY)).ok()?;
@@ -340,6 +346,14 @@ box = { min = ["0 um", "2 um", "0 um"], max = ["4 um", "4 um", "1 um"] }
         assert!(missing.contains("31 are left and 0 went out"), "{missing}");
         let gone = said(&|l| *l = LiquidState::default(), 32);
         assert_eq!(gone, "no liquid is left in the domain");
+    }
+
+    #[test]
+    fn an_objection_of_the_scheme_counts() {
+        let none = || Verdict::because(Vec::new());
+        assert!(none().and(None).sound);
+        let said = none().and(Some("it did not settle".into())).objection();
+        assert!(said.unwrap().ends_with(": it did not settle"));
     }
 
     #[test]

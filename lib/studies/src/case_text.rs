@@ -14,8 +14,10 @@ pub struct Body {
     pub min: [f64; 3],
     /// High corner, m.
     pub max: [f64; 3],
-    /// Velocity: `None` at rest, or the text of the key.
-    pub velocity: Option<String>,
+    /// How it moves.
+    pub motion: Motion,
+    /// Speed along -y besides, m/s, at which it presses the liquid: [`CaseText::released`] has none.
+    pub pressing: f64,
     /// Name, where a reaction is reported by it.
     pub name: Option<&'static str>,
 }
@@ -27,7 +29,8 @@ impl Body {
             material: "rigid",
             min,
             max,
-            velocity: None,
+            motion: Motion::Rest,
+            pressing: 0.0,
             name: None,
         }
     }
@@ -38,23 +41,27 @@ impl Body {
             material: "adhesive",
             min,
             max,
-            velocity: None,
+            motion: Motion::Rest,
+            pressing: 0.0,
             name: None,
         }
     }
 
     /// This body at a constant velocity, m/s.
     pub fn moving(mut self, v: [f64; 3]) -> Self {
-        self.velocity = Some(format!(
-            "[\"{} m/s\", \"{} m/s\", \"{} m/s\"]",
-            v[0], v[1], v[2]
-        ));
+        self.motion = Motion::Constant(v);
+        self
+    }
+
+    /// This body also moving along -y at `speed` (m/s), to press the liquid.
+    pub fn pressing(mut self, speed: f64) -> Self {
+        self.pressing = speed;
         self
     }
 
     /// This body driven by the clamp.
     pub fn clamped(mut self) -> Self {
-        self.velocity = Some("\"clamp\"".into());
+        self.motion = Motion::Clamped;
         self
     }
 
@@ -63,6 +70,29 @@ impl Body {
         self.name = Some(name);
         self
     }
+
+    /// The text of its velocity; `None` at rest.
+    fn velocity(&self) -> Option<String> {
+        let [x, y, z] = match self.motion {
+            Motion::Clamped => return Some("\"clamp\"".into()),
+            Motion::Constant(v) => v,
+            Motion::Rest if self.pressing == 0.0 => return None,
+            Motion::Rest => [0.0; 3],
+        };
+        let y = y - self.pressing;
+        Some(format!("[\"{x} m/s\", \"{y} m/s\", \"{z} m/s\"]"))
+    }
+}
+
+/// How a body of a scene moves.
+#[derive(Clone, Copy, Debug)]
+pub enum Motion {
+    /// Not at all.
+    Rest,
+    /// At a velocity, m/s.
+    Constant([f64; 3]),
+    /// Driven by the clamp.
+    Clamped,
 }
 
 /// A case to be written.
@@ -133,6 +163,16 @@ impl CaseText {
         Self::new(title, cell, 2, [x, y, cell])
     }
 
+    /// The same with no body that presses. The explicit scheme needs them, because its wall law is
+    /// unilateral: without pressure, as in the adhesive that a clamp presses, liquid would slip off its
+    /// walls. The implicit scheme's walls hold liquid at any pressure.
+    pub fn released(mut self) -> Self {
+        for body in &mut self.bodies {
+            body.pressing = 0.0;
+        }
+        self
+    }
+
     /// The TOML text with the `[integrator]` lines given.
     pub fn text(&self, integrator: &str) -> String {
         let mut out = String::new();
@@ -195,7 +235,7 @@ impl CaseText {
         for body in &self.bodies {
             writeln!(out, "\n[[body]]\nmaterial = \"{}\"", body.material)?;
             writeln!(out, "box = {}", corners(body.min, body.max))?;
-            if let Some(velocity) = &body.velocity {
+            if let Some(velocity) = body.velocity() {
                 writeln!(out, "velocity = {velocity}")?;
             }
             if let Some(name) = body.name {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::method::Method;
+use crate::method::{Method, Scheme};
 use crate::study::side_by_side;
 use crate::verification::{Measured, Scene};
 
@@ -39,14 +39,19 @@ impl Outcome {
     }
 }
 
-/// The case file of `scene` for the scheme of `method`, written into `folder`.
+/// The case file of `scene` for the scheme of `method`, written into `folder`; nothing presses in that
+/// of the implicit scheme.
 ///
 /// # Errors
 /// The system's reason.
 pub fn write_case(folder: &Path, scene: &Scene, method: &Method) -> Result<PathBuf, String> {
     let scheme = method.scheme;
     let path = folder.join(format!("{}-{}.toml", scene.name, scheme.name()));
-    write_text(&path, &scene.case.text(scheme.integrator()))?;
+    let case = match scheme {
+        Scheme::Explicit => scene.case.clone(),
+        Scheme::Implicit => scene.case.clone().released(),
+    };
+    write_text(&path, &case.text(scheme.integrator()))?;
     Ok(path)
 }
 

@@ -8,7 +8,7 @@ mod window;
 pub(crate) use lattice::{Column, Lattice};
 pub(crate) use sealed::fill_sealed;
 pub(crate) use solids::{BodyId, MAX_BODIES, OPEN, SIDE, Solids};
-pub(crate) use window::{Domain, Window};
+pub(crate) use window::{Domain, PAD, Window};
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -7,6 +7,9 @@ use super::solution::Unknowns;
 use super::{Implicit, Stage};
 use crate::system::{Before, Operator, System};
 
+/// A solved system, the forces on the bodies in the solver's unit, and the power dissipated.
+pub(super) type Solved = (System, Vec<[f64; 3]>, f64);
+
 impl Implicit {
     /// Solves at the clamp's speed or, where it is held at its pressure limit, for that speed.
     pub(super) fn controlled(
@@ -14,7 +17,7 @@ impl Implicit {
         operator: &Operator,
         before: Before,
         now: &mut Unknowns,
-    ) -> Result<(System, Vec<[f64; 3]>, f64), Failure> {
+    ) -> Result<Solved, Failure> {
         let bodies = self.state.drive.velocities();
         let mut system = (self.workspace.stages)
             .time(Stage::Assembly, || operator.assemble(&bodies, before))

@@ -3,6 +3,7 @@
 mod controlled;
 mod drive;
 mod failure;
+mod last;
 mod length;
 mod scheme;
 mod setup;
@@ -18,8 +19,10 @@ use saddle_point::{SaddleOptions, SaddleSolver};
 use crate::geometry::{Lattice, Solids, Window};
 use crate::liquid::{Bins, Fractions};
 use crate::settings::Settings;
-use crate::transport::Flow;
+use crate::system;
+use crate::transport::Field;
 use drive::Drive;
+use last::LastFlow;
 use length::Fit;
 use setup::Setup;
 use solution::Solution;
@@ -107,7 +110,7 @@ impl Implicit {
                 Fit::Fast => continue,
                 Fit::Missed if misses < CLOSER => misses += 1,
                 Fit::Misplaced => longest = 0.5 * dt,
-                Fit::Good | Fit::Missed => return self.follow(&trial, &solution, limit),
+                Fit::Good | Fit::Missed => return self.follow(&trial, solution, limit),
             }
         }
         Err(self.no_step(last))
@@ -117,19 +120,19 @@ impl Implicit {
     fn follow(
         &mut self,
         trial: &Trial,
-        solution: &Solution,
+        mut solution: Solution,
         limit: StepLimit,
     ) -> Result<StepReport, Failure> {
         self.keeps_limit(&solution.forces)?;
-        let dt = self.length(trial, solution, limit);
+        let dt = self.length(trial, &solution, limit);
         let lattice = &trial.lattice;
         let after = self.solids_after(&solution.bodies, dt);
         // 7. Transport.
-        let (value, flow) = self.transport(lattice, solution, &after, dt);
+        let field = self.transport(lattice, &mut solution, &after, dt);
         // 8. Density projection; then particles take what is there, bodies and time advance.
-        self.project(lattice, solution, &after)?;
-        self.take_up(lattice, solution, &value, &flow)?;
-        Ok(self.advance_bodies(solution, flow, dt))
+        self.project(lattice, &solution, &after)?;
+        self.take_up(lattice, &solution, &field)?;
+        Ok(self.advance_bodies(&solution, field, dt))
     }
 
     /// Bodies displaced by where they are now and a time at given velocities.
@@ -170,7 +173,7 @@ impl Implicit {
     }
 
     /// Bodies, clamp and time advance by `dt` (s); what the step reports.
-    fn advance_bodies(&mut self, solution: &Solution, flow: Flow, dt: f64) -> StepReport {
+    fn advance_bodies(&mut self, solution: &Solution, field: Field, dt: f64) -> StepReport {
         let Self { setup, state, .. } = self;
         for (displacement, v) in state.displacement.iter_mut().zip(&solution.bodies) {
             *displacement = std::array::from_fn(|a| displacement[a] + v[a] * dt);
@@ -186,6 +189,9 @@ impl Implicit {
         state.drive.observe(clamped, dt);
         state.steps += 1;
         state.power = solution.power;
+        let Field { value, flow } = field;
+        let varies = system::varies(&setup.liquid.viscosity);
+        state.last = varies.then(|| LastFlow::new(flow.window, value));
         state.rates = Rates::Of(Box::new(flow));
         StepReport {
             dt_s: dt,

@@ -6,8 +6,9 @@ use physics::{
 };
 use rayon::prelude::*;
 
-use super::{Implicit, Rates};
-use crate::transport;
+use super::solution::PASSES;
+use super::{Implicit, LastFlow, Rates};
+use crate::{system, transport};
 
 impl Scheme for Implicit {
     fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
@@ -76,6 +77,7 @@ impl Scheme for Implicit {
             self.state.counts.lost as f64,
             self.state.counts.pinched as f64,
             self.state.counts.deflected as f64,
+            self.state.counts.unsettled as f64,
             self.state.power,
         ];
         scalars.extend(self.state.drive.state());
@@ -89,7 +91,9 @@ impl Scheme for Implicit {
             ("displacement", Array::F64(flat(&self.state.displacement))),
             ("scalars", Array::F64(scalars)),
         ];
-        Saved(arrays.map(|(name, array)| (name.to_string(), array)).into())
+        let mut arrays: Vec<_> = arrays.map(|(name, array)| (name.to_string(), array)).into();
+        arrays.extend((self.state.last.iter()).flat_map(LastFlow::save));
+        Saved(arrays)
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), String> {
@@ -112,6 +116,7 @@ impl Scheme for Implicit {
             lost,
             pinched,
             deflected,
+            unsettled,
             power,
             ref drive @ ..,
         ] = scalars
@@ -120,6 +125,11 @@ impl Scheme for Implicit {
         };
         let Ok(drive) = <[f64; 5]>::try_from(drive) else {
             return Err("the checkpoint's clamp state is not that of the implicit scheme".into());
+        };
+        let keeps = steps > 0.0 && system::varies(&self.setup.liquid.viscosity);
+        self.state.last = match keeps {
+            true => Some(LastFlow::restore(saved, self.setup.domain)?),
+            false => None,
         };
         self.state.particles.position = position;
         self.state.particles.velocity = velocity;
@@ -131,6 +141,7 @@ impl Scheme for Implicit {
         (self.state.steps, self.state.counts.lost) = (steps as u64, lost as u64);
         (self.state.counts.pinched, self.state.counts.deflected) =
             (pinched as u64, deflected as u64);
+        self.state.counts.unsettled = unsettled as u64;
         self.state.drive.set_state(drive);
         self.state.rates = Rates::Restored(rates.to_vec());
         Ok(())
@@ -141,7 +152,7 @@ impl Scheme for Implicit {
     }
 
     fn counts(&self) -> Vec<(&'static str, u64)> {
-        vec![
+        let mut counts = vec![
             (
                 "particles turned back by walls",
                 self.state.counts.deflected,
@@ -154,7 +165,25 @@ impl Scheme for Implicit {
                 "voxels of voids that no liquid can reach",
                 self.setup.sealed,
             ),
-        ]
+        ];
+        if system::varies(&self.setup.liquid.viscosity) {
+            let unsettled = self.state.counts.unsettled;
+            counts.push(("steps whose viscosity did not settle", unsettled));
+        }
+        counts
+    }
+
+    fn objection(&self) -> Option<String> {
+        /// Part of the steps that may be so.
+        const MOST_UNSETTLED: f64 = 0.1;
+        let (steps, unsettled) = (self.state.steps, self.state.counts.unsettled);
+        (unsettled as f64 > MOST_UNSETTLED * steps as f64).then(|| {
+            format!(
+                "in {unsettled} of {steps} steps {PASSES} passes did not find the viscosity of the flow, \
+                 which makes their pressures uncertain by more than 1 %; a viscosity_table \
+                 whose stress falls with the rate, or whose viscosity rises with it, may be why"
+            )
+        })
     }
 }
 
@@ -184,7 +213,7 @@ impl Implicit {
         let scalars = saved.f64s("scalars")?;
         restored::check_finite(scalars, "scalars")?;
         let scalar = |i: usize| scalars.get(i).copied().unwrap_or(f64::NAN);
-        if let Some(i) = scalars.iter().take(7).position(|&x| x < 0.0) {
+        if let Some(i) = scalars.iter().take(8).position(|&x| x < 0.0) {
             return Err(format!(
                 "scalar {i} of the checkpoint, {}, is negative",
                 scalar(i)

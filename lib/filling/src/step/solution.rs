@@ -2,18 +2,20 @@
 
 use physics::Failure;
 
+use super::controlled::Solved;
 use super::{Implicit, Stage, Trial};
 use crate::liquid::{self, Volumes};
 use crate::system::{self, Before, Dofs, NONE, Operator, Sheared};
+use crate::transport::Field;
 use crate::transport::density::Cells;
-use crate::transport::{self, Flow};
 use saddle_point::Csr;
 
-/// Largest number of passes over a viscosity that depends on the shear rate: usually, and in the first
-/// step, which has no rates to start from.
-const PASSES: [usize; 2] = [3, 8];
-/// Mean relative change of the viscosity below which no further pass is made.
-const SETTLED: f64 = 0.02;
+/// Largest number of passes over a viscosity that depends on the shear rate.
+pub(super) const PASSES: usize = 20;
+/// Relative change of the viscosity, weighted by dissipation, below which no further pass is made.
+const SETTLED: f64 = 1e-3;
+/// The same after the last pass from which the viscosity does not count as that of the flow.
+const UNSETTLED: f64 = 0.01;
 
 /// The flow of a step.
 pub(super) struct Solution {
@@ -31,11 +33,20 @@ pub(super) struct Solution {
     /// Dissipated power, W.
     pub(super) power: f64,
     pub(super) iterations: u32,
+    /// Where the viscosity depends on the shear rate: what that asked for.
+    pub(super) viscous: Option<Viscous>,
     /// For the density projection: fluxes, liquid volumes of the faces, and the liquid in the
     /// pressure unknowns.
     pub(super) g: Csr<f64>,
     pub(super) face_volume: Vec<f64>,
     pub(super) cells: Cells,
+}
+
+/// The flow that a viscosity was taken from.
+pub(super) struct Viscous {
+    pub(super) field: Field,
+    /// Whether the viscosity that was solved with is that of this flow.
+    pub(super) settled: bool,
 }
 
 /// Unknowns of a solve, scaled: start values and result.
@@ -74,18 +85,10 @@ impl Implicit {
             pressure: &start.p,
             stiffness: &stiffness,
         };
-        let varies = system::varies(&self.setup.liquid.viscosity);
-        if varies {
-            self.update_viscosity(&mut operator, &now.u);
-        }
-        let mut pass = 0;
-        let (system, forces, power) = loop {
-            let solved = self.controlled(&operator, before, &mut now)?;
-            pass += 1;
-            let most = PASSES[usize::from(self.state.steps == 0)];
-            if !varies || pass == most || self.update_viscosity(&mut operator, &now.u) < SETTLED {
-                break solved;
-            }
+        let ((system, forces, power), viscous) = if system::varies(&self.setup.liquid.viscosity) {
+            self.solve_passes(&mut operator, before, &mut now)?
+        } else {
+            (self.controlled(&operator, before, &mut now)?, None)
         };
         let pick = |field: &[f32]| {
             (operator.dofs.cells.iter())
@@ -104,6 +107,7 @@ impl Implicit {
             forces,
             power: power * self.setup.units.force(),
             iterations: now.iterations,
+            viscous,
             u: now.u,
             g: system.g,
             cells,
@@ -151,20 +155,45 @@ impl Implicit {
             .collect()
     }
 
-    /// Viscosities at the rates of the velocities `u`; how much they changed.
-    fn update_viscosity(&mut self, operator: &mut Operator, u: &[f64]) -> f64 {
+    /// Stages 4 to 6 in passes over the viscosity, until it is that of the flow; and that flow.
+    fn solve_passes(
+        &mut self,
+        operator: &mut Operator,
+        before: Before,
+        now: &mut Unknowns,
+    ) -> Result<(Solved, Option<Viscous>), Failure> {
+        let carried = before.velocity;
+        let start = (self.state.last.as_ref()).map_or(carried.to_vec(), |last| {
+            last.at(&operator.lattice.window, &operator.dofs, carried)
+        });
+        self.update_viscosity(operator, &start);
+        let mut pass = 0;
+        loop {
+            let solved = self.controlled(operator, before, now)?;
+            pass += 1;
+            let (field, change) = self.update_viscosity(operator, &now.u);
+            if change < SETTLED || pass == PASSES {
+                let settled = change < UNSETTLED;
+                return Ok((solved, Some(Viscous { field, settled })));
+            }
+        }
+    }
+
+    /// Viscosities at the rates of the velocities `u`; the flow of these, and how much the
+    /// viscosities changed.
+    fn update_viscosity(&mut self, operator: &mut Operator, u: &[f64]) -> (Field, f64) {
         let bodies = self.state.drive.velocities();
+        let (liquid, units) = (&self.setup.liquid, self.setup.units);
         let influence = self.setup.influence_length();
-        let (lattice, liquid, units) = (operator.lattice, &self.setup.liquid, self.setup.units);
         self.workspace.stages.time(Stage::Assembly, || {
-            let value = transport::extend(lattice, &operator.dofs.face, u);
-            let flow = Flow::new(lattice, &value, &operator.dofs.face, &bodies, influence);
-            let field = Sheared {
-                deviator: |x| flow.deviator_norm(x),
+            let field = Field::new(operator.lattice, &operator.dofs.face, u, &bodies, influence);
+            let sheared = Sheared {
+                deviator: |x| field.flow.deviator_norm(x),
                 u,
                 bodies: &bodies,
             };
-            operator.set_viscosity(liquid, units.eta, units.h, &field)
+            let change = operator.set_viscosity(liquid, units.eta, units.h, &sheared);
+            (field, change)
         })
     }
 

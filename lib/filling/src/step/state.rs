@@ -1,6 +1,6 @@
 //! What changes from step to step.
 
-use super::Drive;
+use super::{Drive, LastFlow};
 use crate::liquid::Particles;
 use crate::transport::Flow;
 
@@ -18,6 +18,8 @@ pub(super) struct State {
     /// Power of viscosity and friction in the last step, W.
     pub(super) power: f64,
     pub(super) rates: Rates,
+    /// Where the viscosity depends on the shear rate: what the next step takes rates from.
+    pub(super) last: Option<LastFlow>,
     pub(super) counts: Counts,
 }
 
@@ -31,7 +33,7 @@ pub(super) enum Rates {
     Restored(Vec<f32>),
 }
 
-/// Particles so far that ...
+/// How often so far: particles that ...
 #[derive(Default)]
 pub(super) struct Counts {
     /// ... left through open sides.
@@ -40,6 +42,8 @@ pub(super) struct Counts {
     pub(super) deflected: u64,
     /// ... found no free place nearby between closing walls.
     pub(super) pinched: u64,
+    /// ...; and steps whose viscosity did not become that of their flow.
+    pub(super) unsettled: u64,
 }
 
 impl State {
@@ -54,6 +58,7 @@ impl State {
             steps: 0,
             power: 0.0,
             rates: Rates::Zero,
+            last: None,
             counts: Counts::default(),
         }
     }

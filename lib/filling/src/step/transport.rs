@@ -4,7 +4,7 @@ use physics::Failure;
 
 use super::{Implicit, Solution, Stage};
 use crate::geometry::{Lattice, Solids};
-use crate::transport::{self, Flow, Path, density};
+use crate::transport::{self, Field, Path, density};
 
 /// Reynolds number of a cell above which what particles carry is limited: inertia feeds on itself
 /// from 0.3 on; below, the limit would only damp flows followed in many short steps.
@@ -12,32 +12,34 @@ const THIN: f64 = 0.1;
 
 impl Implicit {
     /// Stage 7: particles follow the flow for `dt` (s) while the bodies move to `after`. Returns
-    /// the face velocities, those in air included, and the flow between them.
+    /// that flow.
     pub(super) fn transport(
         &mut self,
         lattice: &Lattice,
-        solution: &Solution,
+        solution: &mut Solution,
         after: &Solids,
         dt: f64,
-    ) -> ([Vec<f32>; 3], Flow) {
+    ) -> Field {
         let path = Path {
             before: &self.solids_after(&solution.bodies, 0.0),
             after,
             scale: dt / self.setup.units.h,
         };
-        let (influence, face) = (self.setup.influence_length(), &solution.dofs.face);
+        let (viscous, influence) = (solution.viscous.take(), self.setup.influence_length());
+        self.state.counts.unsettled += u64::from(viscous.as_ref().is_some_and(|v| !v.settled));
+        let (u, face, bodies) = (&solution.u, &solution.dofs.face, &solution.bodies);
         let particles = &mut self.state.particles;
-        let (value, flow, moved) = self.workspace.stages.time(Stage::Advection, || {
-            let value = transport::extend(lattice, face, &solution.u);
-            let flow = Flow::new(lattice, &value, face, &solution.bodies, influence);
-            let moved = path.follow(particles, |x| flow.velocity(x));
-            (value, flow, moved)
+        let (field, moved) = self.workspace.stages.time(Stage::Advection, || {
+            let known = viscous.map(|v| v.field);
+            let field = known.unwrap_or_else(|| Field::new(lattice, face, u, bodies, influence));
+            let moved = path.follow(particles, |x| field.flow.velocity(x));
+            (field, moved)
         });
         let counts = &mut self.state.counts;
         counts.deflected += moved.deflected;
         counts.lost += moved.lost;
         counts.pinched += moved.pinched;
-        (value, flow)
+        field
     }
 
     /// Stage 8: moves particles such that the liquid keeps its density.
@@ -70,8 +72,7 @@ impl Implicit {
         &mut self,
         lattice: &Lattice,
         solution: &Solution,
-        value: &[Vec<f32>; 3],
-        flow: &Flow,
+        Field { value, flow }: &Field,
     ) -> Result<(), Failure> {
         let (liquid, units, pace) = (&self.setup.liquid, self.setup.units, self.state.pace);
         let particles = &mut self.state.particles;

@@ -17,8 +17,10 @@ pub(crate) struct Sheared<'a, D> {
 
 impl Operator<'_> {
     /// Sets the viscosities of cells and walls by the law of `liquid` at the rates of `field`,
-    /// in units of `reference` (Pa s), for cells of `cell_m`. Returns the mean relative change
-    /// over the liquid; infinite where there was no viscosity before.
+    /// in units of `reference` (Pa s), for cells of `cell_m`. Returns the relative change, weighted
+    /// by dissipation in cells and at walls: a bound of the relative change that follows of the power
+    /// dissipated, and so of the forces on moving bodies, since viscous flow makes that power least.
+    /// It means nothing where there was no viscosity before.
     ///
     /// At a wall the rate is (u - U)/(d_eff + l), that of the wall law (paper Eq. 3), without
     /// the factor of the paper's convention for rates in the liquid.
@@ -33,36 +35,47 @@ impl Operator<'_> {
         let at = |rate: f64| (law.at(rate) / reference) as f32;
         let window = self.lattice.window;
         let wet = |index: usize| self.volumes.cell[index] > 0.0;
-        let mut viscosity: Vec<f32> = (0..window.len())
+        let (mut viscosity, deviator): (Vec<f32>, Vec<f32>) = (0..window.len())
             .into_par_iter()
             .map(|index| {
                 let cell = window.coordinates(index);
                 if !wet(index) || window.home(cell) != cell {
-                    return 0.0;
+                    return (0.0, 0.0);
                 }
-                let centre = window.corner(cell).map(|x| x + 0.5);
-                at(liquid.shear_rate.factor() * (field.deviator)(centre) / cell_m)
+                let deviator = (field.deviator)(window.corner(cell).map(|x| x + 0.5));
+                let eta = at(liquid.shear_rate.factor() * deviator / cell_m);
+                (eta, deviator as f32)
             })
-            .collect();
+            .unzip();
         // Edges on a periodic side average over cells and images of cells.
         for index in (0..window.len()).filter(|&index| wet(index)) {
             viscosity[index] = viscosity[window.index(window.home(window.coordinates(index)))];
         }
-        let change: f64 = (self.dofs.cells.iter())
-            .map(|&cell| {
-                let before = self.viscosity.get(cell as usize).copied().unwrap_or(0.0);
-                f64::from((viscosity[cell as usize] - before).abs() / before)
-            })
-            .sum();
+        // Power and its change by that of the viscosity.
+        let (mut power, mut change) = (0.0, 0.0);
+        let mut count = |shear: f64, before: f64, after: f32| {
+            power += shear * before;
+            change += shear * (f64::from(after) - before).abs();
+        };
+        for &cell in &self.dofs.cells {
+            let cell = cell as usize;
+            let volume = f64::from(self.volumes.cell[cell]);
+            let shear = 2.0 * f64::from(deviator[cell]).powi(2) * volume;
+            count(shear, self.eta(cell), viscosity[cell]);
+        }
         self.viscosity = viscosity;
         let length = self.scales.influence_length;
         let faces = &self.dofs.faces;
         self.walls.set_viscosity(|face, link| {
             let axis = usize::from(faces[face].0);
             let slip = (field.u[face] - field.bodies[usize::from(link.body)][axis]).abs();
-            at(slip / (f64::from(link.distance) + length) / cell_m)
+            let run = f64::from(link.distance) + length;
+            let eta = at(slip / run / cell_m);
+            let shear = slip * slip * f64::from(link.area) / run;
+            count(shear, link.viscosity.into(), eta);
+            eta
         });
-        change / self.dofs.cells.len().max(1) as f64
+        if power > 0.0 { change / power } else { 0.0 }
     }
 }
 

@@ -2,10 +2,12 @@
 
 mod carry;
 pub(crate) mod density;
+mod field;
 mod flow;
 mod motion;
 
 pub(crate) use carry::{set_velocities, set_volume_changes, shear_rates};
+pub(crate) use field::Field;
 pub(crate) use flow::{Flow, extend};
 pub(crate) use motion::Path;
 

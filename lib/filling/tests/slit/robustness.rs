@@ -139,23 +139,49 @@ fn a_constant_table_is_newtonian() {
     assert!((filling - 1.0).abs() < 2e-3 && (channel - 1.0).abs() < 2e-3);
 }
 
+/// A law whose stress grows with the rate, from the piston's 3e4 1/s to the slit's 7e5 1/s.
+fn thinning() -> Viscosity {
+    Viscosity::Table(Table::new(&[(1e4, 5.0), (1e6, 1.0)]).unwrap())
+}
+
+/// One that thickens a thousandfold between the rates met: passes swing about it.
+fn thickening() -> Viscosity {
+    Viscosity::Table(Table::new(&[(1e5, 1.0), (1e6, 1e3)]).unwrap())
+}
+
+/// The slit's scene with a liquid of this viscosity, after `steps` steps.
+fn stepped(viscosity: &Viscosity, steps: usize) -> Implicit {
+    let mut scheme = fresh(viscosity);
+    (0..steps).for_each(|_| step(&mut scheme));
+    scheme
+}
+
+fn fresh(viscosity: &Viscosity) -> Implicit {
+    let mut scene = scene(6, [0.25, 0.0]);
+    scene.liquid.viscosity = viscosity.clone();
+    Implicit::new(scene, Settings::default()).unwrap()
+}
+
+fn step(scheme: &mut Implicit) {
+    let limit = StepLimit {
+        time_s: 1.0 / SPEED,
+        travel_m: f64::INFINITY,
+    };
+    scheme.advance(limit).unwrap();
+}
+
 /// Positions after `steps` steps, saved and restored into a new scheme after `stop` of them.
-fn positions(threads: usize, steps: usize, stop: usize) -> Vec<[u32; 3]> {
+fn positions(viscosity: &Viscosity, threads: usize, steps: usize, stop: usize) -> Vec<[u32; 3]> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     pool.build().unwrap().install(|| {
-        let new = || Implicit::new(scene(6, [0.25, 0.0]), Settings::default()).unwrap();
-        let mut scheme = new();
-        for step in 0..steps {
-            if step == stop {
+        let mut scheme = fresh(viscosity);
+        for taken in 0..steps {
+            if taken == stop {
                 let saved = scheme.save();
-                scheme = new();
+                scheme = fresh(viscosity);
                 scheme.restore(&saved).unwrap();
             }
-            let limit = StepLimit {
-                time_s: 1.0 / SPEED,
-                travel_m: f64::INFINITY,
-            };
-            scheme.advance(limit).unwrap();
+            step(&mut scheme);
         }
         let liquid = scheme.liquid();
         liquid
@@ -168,9 +194,57 @@ fn positions(threads: usize, steps: usize, stop: usize) -> Vec<[u32; 3]> {
 
 #[test]
 fn same_bits_for_any_threads_and_after_a_restart() {
-    let usual = positions(1, 6, 99);
-    assert_eq!(usual, positions(3, 6, 99), "three threads");
-    assert_eq!(usual, positions(2, 6, 3), "two threads and a restart");
+    for viscosity in [Viscosity::Newtonian(Newtonian(crate::ETA)), thinning()] {
+        let of = |threads, stop| positions(&viscosity, threads, 6, stop);
+        let usual = of(1, 99);
+        assert_eq!(usual, of(3, 99), "three threads");
+        assert_eq!(usual, of(2, 3), "two threads and a restart");
+    }
+}
+
+/// A table's viscosity starts from the face velocities of the step before, which a checkpoint holds.
+#[test]
+fn a_checkpoint_holds_face_velocities_where_the_viscosity_needs_them() {
+    let newtonian = stepped(&Viscosity::Newtonian(Newtonian(1.0)), 1).save();
+    assert!(newtonian.f32s("face_velocity").is_err());
+    let saved = stepped(&thinning(), 1).save();
+    let forged = |name: &str, change: &dyn Fn(&mut Array)| {
+        let mut forged = saved.clone();
+        let array = forged.0.iter_mut().find(|(n, _)| n == name);
+        change(&mut array.unwrap().1);
+        fresh(&thinning()).restore(&forged).unwrap_err()
+    };
+    let f64s = |i: usize, by: f64| {
+        move |array: &mut Array| match array {
+            Array::F64(values) => values[i] += by,
+            _ => unreachable!(),
+        }
+    };
+    for (i, by) in [
+        (0, -9.0),
+        (1, 0.5),
+        (2, 1.0),
+        (3, -1.0),
+        (4, 1e9),
+        (5, f64::NAN),
+    ] {
+        let said = forged("window", &f64s(i, by));
+        assert!(said.contains("window"), "{i} {by}: {said}");
+    }
+    let said = forged("face_velocity", &|array| {
+        if let Array::F32(values) = array {
+            values[0] = f32::INFINITY;
+        }
+    });
+    assert!(said.contains("is infinite"), "{said}");
+}
+
+/// A run says where its viscosity is not that of its flow.
+#[test]
+fn a_viscosity_that_does_not_settle_is_told() {
+    assert_eq!(stepped(&thinning(), 3).objection(), None);
+    let said = stepped(&thickening(), 3).objection().unwrap();
+    assert!(said.contains("20 passes"), "{said}");
 }
 
 #[test]

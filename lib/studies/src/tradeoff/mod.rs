@@ -8,6 +8,7 @@ pub mod settings;
 use std::path::Path;
 
 use crate::job::{Job, Outcome, run_all};
+use crate::method::Scheme;
 use crate::study::Study;
 use crate::verification::{Scene, channel, incline, slit};
 use settings::Setting;
@@ -70,8 +71,14 @@ impl Flow {
         }
     }
 
-    /// Scenes of this flow with `n` cells across the lumen; none where it is not one of boxes.
-    fn scenes(self, n: u32) -> Vec<Scene> {
+    /// Scenes of this flow with `n` cells across the lumen for a scheme; none where it is not one of
+    /// boxes. An implicit step is as long as the runs of the explicit scheme from rest: its channel has two,
+    /// and its film one that is long enough, for the error of a backward Euler step not to show.
+    fn scenes(self, n: u32, scheme: Scheme) -> Vec<Scene> {
+        let until = |explicit: f64, factor: f64| match scheme {
+            Scheme::Explicit => explicit,
+            Scheme::Implicit => factor * explicit,
+        };
         match self {
             Flow::Slit => [0.0, 0.25]
                 .map(|offset| {
@@ -82,9 +89,9 @@ impl Flow {
                 })
                 .into(),
             Flow::Channel => [0.0, 0.25, 0.5]
-                .map(|offset| channel::scene(n, offset, None, 3e-6))
+                .map(|offset| channel::scene(n, offset, None, until(3e-6, 10.0)))
                 .into(),
-            Flow::Incline => vec![incline::scene(n, 0.0, 5e-6)],
+            Flow::Incline => vec![incline::scene(n, 0.0, until(5e-6, 100.0))],
             Flow::BondPressure | Flow::BondWp => Vec::new(),
         }
     }
@@ -124,7 +131,7 @@ fn boxes(settings: &[Setting], folder: &Path) -> (Vec<Row>, Vec<Outcome>) {
     let mut parts: Vec<(Flow, &Setting, Scene)> = Vec::new();
     for flow in flows {
         for setting in settings {
-            let scenes = flow.scenes(setting.cells);
+            let scenes = flow.scenes(setting.cells, setting.method.scheme);
             parts.extend(scenes.into_iter().map(|scene| (flow, setting, scene)));
         }
     }

@@ -1,7 +1,7 @@
 //! Couette flow with partial slip: the speed of the liquid at the walls.
 
 use super::{LUMEN, Measured, Scene, final_points, pressing};
-use crate::case_text::{Body, CaseText};
+use crate::case_text::{Body, CaseText, PF};
 use crate::closed_forms::couette_slip;
 
 const SPEED: f64 = 0.5;
@@ -22,7 +22,8 @@ pub fn scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
         bodies: vec![
             Body::wall([0.0; 3], [width, low, cell]).named("bottom"),
             Body::wall([-1e-3, high, 0.0], [1e-3, top + cell, cell])
-                .moving([SPEED, -pressing(until), 0.0])
+                .moving([SPEED, 0.0, 0.0])
+                .pressing(pressing(until))
                 .named("top"),
             Body::liquid([0.0, low, 0.0], [width, high, cell]),
         ],
@@ -49,11 +50,17 @@ pub fn scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
                 .filter(|(y, _)| (0.25 * LUMEN..=0.75 * LUMEN).contains(y))
                 .collect();
             let slip_speed = line_at_zero(&points);
-            Ok(vec![Measured::relative(
-                "slip velocity",
-                slip_speed,
-                couette_slip(LUMEN, slip * LUMEN, SPEED),
-            )])
+            let exact = couette_slip(LUMEN, slip * LUMEN, SPEED);
+            // Power over the wall's speed and area, which is exact where the law of the walls counts.
+            let power = *run.history("viscous_power_W")?.last().unwrap_or(&f64::NAN);
+            Ok(vec![
+                Measured::relative("slip velocity", slip_speed, exact),
+                Measured::relative(
+                    "stress, from the power dissipated",
+                    power / (SPEED * width * cell),
+                    PF[2] * exact / (slip * LUMEN),
+                ),
+            ])
         }),
     }
 }

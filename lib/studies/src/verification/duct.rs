@@ -20,7 +20,7 @@ pub fn scene(section: Section, n: u32, until: f64) -> Scene {
     };
     let mut bodies = vec![
         body(Body::wall, &shape.roof)
-            .moving([0.0, -pressing(until), 0.0])
+            .pressing(pressing(until))
             .named("top"),
     ];
     let sides = shape.sides.iter();

@@ -12,9 +12,17 @@ pub struct Goal {
     pub quantity: &'static str,
     /// Largest error.
     pub limit: f64,
+    /// Why it is out of reach, where it is.
+    pub why: Option<&'static str>,
 }
 
 impl Goal {
+    /// This goal, out of reach for the reason given.
+    const fn because(mut self, why: &'static str) -> Self {
+        self.why = Some(why);
+        self
+    }
+
     /// Whether a run of `scene` by the method of this label counts.
     pub fn is_about(&self, scene: &str, label: &str) -> bool {
         let method = match self.method {
@@ -44,8 +52,21 @@ const fn goal(
         method,
         quantity,
         limit,
+        why: None,
     }
 }
+
+/// Couette flow: its walls are those of Poiseuille flow, and the line through points a poor measure.
+const COUETTE: &str = "the distance of walls is that of Poiseuille flow, which makes the stress of shear \
+    too large by 2/(3 n (n + 1.2)), the row above; the line through points makes 3 to 4 times as much of it";
+/// Force on the piston at the first width.
+const SLIT: &str = "at L = 1 H, quarter off: entrance and front add 0.4 of a cell (0.066 H) too much, 5.4 to 5.8 % at \
+    Courant numbers 0.5 to 0.1, 2.7 % at 12 cells; 2.8 % and less from 2 H on";
+/// Filling at constant pressure.
+const FRONT: &str = "half a cell off alone, -1.2 and -1.4 % elsewhere; 0.92 % at 12 cells";
+/// Density in the reservoir.
+const COUNTED: &str = "points counted: about 520, of 0.19 % each, which leave twelve abreast; 0.5 % at Courant \
+    numbers 0.25 and 0.1";
 
 /// The numbers the project set out to reach.
 pub const GOALS: &[Goal] = &[
@@ -68,14 +89,56 @@ pub const GOALS: &[Goal] = &[
         &["channel-n6"],
         "implicit",
         "mean velocity",
-        0.03,
+        0.02,
     ),
     goal(
         "channel, 3 cells, any offset",
         &["channel-n3"],
         "implicit",
         "mean velocity",
-        0.08,
+        0.05,
+    ),
+    goal(
+        "table in a channel, 3 cells",
+        &["table-n3"],
+        "implicit",
+        "mean velocity",
+        0.025,
+    ),
+    goal(
+        "table in a channel, 6 cells",
+        &["table-n6"],
+        "implicit",
+        "mean velocity",
+        0.02,
+    ),
+    goal(
+        "table in a channel, 12 cells",
+        &["table-n12"],
+        "implicit",
+        "mean velocity",
+        0.007,
+    ),
+    goal(
+        "table in a channel, 24 cells",
+        &["table-n24"],
+        "implicit",
+        "mean velocity",
+        0.0025,
+    ),
+    goal(
+        "incline, 12 cells",
+        &["incline-n12"],
+        "implicit",
+        "rms profile",
+        0.005,
+    ),
+    goal(
+        "couette, 6 cells, any offset",
+        &["couette-n6"],
+        "implicit",
+        "stress",
+        0.02,
     ),
     goal(
         "couette, 6 cells, any offset",
@@ -83,13 +146,14 @@ pub const GOALS: &[Goal] = &[
         "implicit",
         "slip velocity",
         0.02,
-    ),
+    )
+    .because(COUETTE),
     goal(
         "square duct, 6 cells",
         &["duct-square-n6"],
         "implicit",
         "mean velocity",
-        0.03,
+        0.02,
     ),
     goal(
         "slit, 6 cells, aligned and quarter off",
@@ -97,7 +161,8 @@ pub const GOALS: &[Goal] = &[
         "implicit",
         "piston force",
         0.05,
-    ),
+    )
+    .because(SLIT),
     goal(
         "slit, 6 cells, half a cell off",
         &["slit-n6-off0.5"],
@@ -106,12 +171,20 @@ pub const GOALS: &[Goal] = &[
         0.08,
     ),
     goal(
-        "filling at constant pressure, 6 cells",
-        &["washburn-n6"],
+        "filling at constant pressure, 3 cells",
+        &["washburn-n3"],
         "implicit",
         "L(t)",
         0.05,
     ),
+    goal(
+        "filling at constant pressure, 6 cells",
+        &["washburn-n6"],
+        "implicit",
+        "L(t)",
+        0.02,
+    )
+    .because(FRONT),
     goal(
         "squeeze film, plates, from 3 cells",
         &["squeeze-n3", "squeeze-n6"],
@@ -132,7 +205,8 @@ pub const GOALS: &[Goal] = &[
         "implicit",
         "density",
         0.005,
-    ),
+    )
+    .because(COUNTED),
     goal(
         "sealed lumens",
         &["sealed"],

@@ -130,8 +130,7 @@ impl Measured {
 }
 
 /// Speed of the upper wall towards the lower one, m/s, that raises the pressure to 1 MPa by the
-/// time `until` (s). The wall law is unilateral: without pressure, as in the adhesive that a
-/// clamp presses, liquid would slip off the walls.
+/// time `until` (s), see [`CaseText::released`].
 pub(crate) fn pressing(until: f64) -> f64 {
     1e6 / crate::case_text::PF[1] * LUMEN / until
 }
@@ -148,6 +147,21 @@ pub(crate) fn final_points(run: &Run) -> Result<Vec<Point>, String> {
     Ok(pairs
         .map(|(x, v)| (x.map(f64::from), v.map(f64::from)))
         .collect())
+}
+
+/// Mean velocity along x of the final state (m/s), against the mean of `exact` (m/s) at the height over
+/// `low` (m) of each point: the mean over places alone is off by 1/(8 n^2).
+pub(crate) fn mean_against(
+    run: &Run,
+    low: f64,
+    exact: impl Fn(f64) -> f64,
+) -> Result<Measured, String> {
+    let points = final_points(run)?;
+    let n = points.len() as f64;
+    let found = points.iter().map(|(_, v)| v[0]).sum::<f64>() / n;
+    let height = |x: &[f64; 3]| (x[1] - low).clamp(0.0, LUMEN);
+    let right = points.iter().map(|(x, _)| exact(height(x))).sum::<f64>() / n;
+    Ok(Measured::relative("mean velocity", found, right))
 }
 
 /// Mean velocity along x of the final state, m/s.

@@ -122,7 +122,7 @@ impl Walls {
     }
 
     /// Sets the viscosity of every link by `viscosity(face, link)`.
-    pub(super) fn set_viscosity(&mut self, viscosity: impl Fn(usize, &WallLink) -> f32) {
+    pub(super) fn set_viscosity(&mut self, mut viscosity: impl FnMut(usize, &WallLink) -> f32) {
         for face in 0..self.start.len() - 1 {
             for link in &mut self.links[self.start[face] as usize..self.start[face + 1] as usize] {
                 link.viscosity = viscosity(face, link);

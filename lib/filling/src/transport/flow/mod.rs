@@ -24,7 +24,7 @@ const LEAST_RUN: f64 = 0.3;
 
 /// Velocity between the faces of a window.
 pub(crate) struct Flow {
-    pub(super) window: Window,
+    pub(crate) window: Window,
     /// Place in `faces` of the low face of each cell along each axis, or [`NONE`].
     slot: [Vec<u32>; 3],
     faces: Vec<Face>,
