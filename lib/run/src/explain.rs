@@ -5,10 +5,10 @@ use std::fmt::Write;
 use physics::{Choice, Dimensions, Motion, Regime, Stages, Stop, Viscosity, WallLaw};
 
 use crate::case::{Case, SchemeName};
-use crate::expected_error;
 use crate::left_out::left_out;
 use crate::resolve::Setup;
 use crate::system;
+use crate::{chords, expected_error};
 
 /// What a scheme expects of a run.
 #[derive(Clone, Debug)]
@@ -69,6 +69,7 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
     let _ = scene(&mut out, case, setup);
     let _ = cost(&mut out, setup, forecast);
     out.push_str(&expected_error::text(case));
+    out.push_str(&chords::text(&setup.scene));
     let _ = writeln!(
         out,
         "\nregime\n{}",

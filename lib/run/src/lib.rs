@@ -5,6 +5,7 @@ mod begin;
 pub mod case;
 mod changes;
 mod checkpoint;
+mod chords;
 mod courant;
 mod drive;
 mod expected_error;

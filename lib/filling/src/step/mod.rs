@@ -102,7 +102,7 @@ impl Implicit {
             // 2. Geometry.
             let trial = self.place(dt);
             // 3. Liquid on the lattice.
-            self.fill(&trial.lattice);
+            self.fill(&trial);
             // 4 to 6. Assembly, solve and forces, in passes where the viscosity varies.
             let solution = self.solve(&trial)?;
             last = self.fit(&trial, &solution, limit);
@@ -158,7 +158,7 @@ impl Implicit {
     }
 
     /// Stage 3: what of the lattice the particles fill.
-    fn fill(&mut self, lattice: &Lattice) {
+    fn fill(&mut self, trial: &Trial) {
         let Workspace {
             bins,
             fractions,
@@ -167,8 +167,8 @@ impl Implicit {
         } = &mut self.workspace;
         let particles = &mut self.state.particles;
         stages.time(Stage::Fractions, || {
-            particles.sort(&lattice.window, bins);
-            fractions.update(particles, bins, &lattice.window, &lattice.open);
+            particles.sort(&trial.lattice.window, bins);
+            fractions.update(particles, bins, &trial.lattice, &trial.bodies);
         });
     }
 

@@ -2,15 +2,16 @@
 
 use rayon::prelude::*;
 
-use super::{Fractions, sub_cells};
-use crate::geometry::Window;
+use super::{Fractions, films, sub_cells};
+use crate::geometry::{Lattice, Window};
 
 /// Air pockets of at most this many cells, enclosed by liquid, are noise.
 const LARGEST_HOLE: usize = 4;
 
-/// Fills small enclosed air pockets and the inside of the liquid: a cell without an air cell
-/// among its 3^d neighbours is full.
-pub(super) fn close(fractions: &mut Fractions, window: &Window, open: &[f32]) {
+/// Fills small enclosed air pockets, films under liquid and the inside of the liquid: a cell without
+/// an air cell among its 3^d neighbours is full. `bodies` are the bodies' velocities.
+pub(super) fn close(fractions: &mut Fractions, lattice: &Lattice, bodies: &[[f64; 3]]) {
+    let (window, open) = (&lattice.window, &lattice.open);
     let nx = window.cells[0];
     let rows = &fractions.rows;
     let cell = &fractions.cell;
@@ -27,11 +28,13 @@ pub(super) fn close(fractions: &mut Fractions, window: &Window, open: &[f32]) {
             };
         }
     });
-    let holes: Vec<u32> = (0..kinds.len())
+    let near = |c: usize| rows[c / nx].contains(&(c % nx));
+    let mut holes: Vec<u32> = (0..kinds.len())
         .into_par_iter()
-        .filter(|&c| rows[c / nx].contains(&(c % nx)) && is_hole(&kinds, window, open, c))
+        .filter(|&c| near(c) && is_hole(&kinds, window, open, c))
         .map(|c| c as u32)
         .collect();
+    holes.extend(films::find(&kinds, lattice, bodies, near));
     for &hole in &holes {
         kinds[hole as usize] = Kind::Liquid;
     }
@@ -62,8 +65,9 @@ pub(super) fn close(fractions: &mut Fractions, window: &Window, open: &[f32]) {
     });
 }
 
+/// What a cell holds.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+pub(super) enum Kind {
     Solid,
     Liquid,
     Air,
@@ -77,7 +81,10 @@ fn fill(fractions: &mut Fractions, window: &Window, cell: usize) {
 }
 
 /// All 3^d neighbours; `None` for those outside the window.
-fn neighbours(window: &Window, cell: usize) -> impl Iterator<Item = Option<usize>> + use<> {
+pub(super) fn neighbours(
+    window: &Window,
+    cell: usize,
+) -> impl Iterator<Item = Option<usize>> + use<> {
     let at = window.coordinates(cell);
     let inner = window.inner(at);
     let (row, layer) = (window.stride(1) as isize, window.stride(2) as isize);

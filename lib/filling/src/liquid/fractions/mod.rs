@@ -9,13 +9,14 @@
 
 mod cells;
 mod deposit;
+mod films;
 mod holes;
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::geometry::Window;
+use crate::geometry::{Lattice, Window};
 use crate::liquid::{Bins, Particles};
 
 pub(crate) use cells::pressures;
@@ -45,19 +46,20 @@ pub(crate) struct Fractions {
 const HAT: [f32; 3] = [0.0625, 0.875, 0.0625];
 
 impl Fractions {
-    /// Liquid of `particles`, sorted into `bins`, in a window with open fractions `open`.
+    /// Liquid of `particles`, sorted into `bins`, on a lattice between bodies of the velocities `bodies`.
     pub(crate) fn update(
         &mut self,
         particles: &Particles,
         bins: &Bins,
-        window: &Window,
-        open: &[f32],
+        lattice: &Lattice,
+        bodies: &[[f64; 3]],
     ) {
+        let (window, open) = (&lattice.window, &lattice.open);
         deposit::volumes(particles, bins, window, &mut self.deposit);
         self.find_rows(bins, window);
         self.fill_sub_cells(window, open);
         self.fill_cells(window, open);
-        holes::close(self, window, open);
+        holes::close(self, lattice, bodies);
         cells::densities(self, window, open);
     }
 

@@ -8,7 +8,7 @@ use super::*;
 use crate::geometry::{Domain, Lattice, tests};
 use crate::liquid::tests::{at, sequence};
 
-fn lattice(
+pub(super) fn lattice(
     cells: [usize; 3],
     boundary: [Boundary; 3],
     axes: usize,
@@ -26,7 +26,7 @@ fn liquid(lattice: &Lattice, particles: &mut Particles) -> Fractions {
     let mut bins = Bins::default();
     particles.sort(&lattice.window, &mut bins);
     let mut fractions = Fractions::default();
-    fractions.update(particles, &bins, &lattice.window, &lattice.open);
+    fractions.update(particles, &bins, lattice, &[[0.0; 3]; 2]);
     fractions
 }
 
@@ -44,7 +44,7 @@ fn total(window: &Window, of: impl Fn(usize) -> f32) -> f64 {
 }
 
 /// Particles half a cell apart that fill a box.
-fn regular(low: [f64; 3], high: [f64; 3], axes: usize) -> Particles {
+pub(super) fn regular(low: [f64; 3], high: [f64; 3], axes: usize) -> Particles {
     let n: [usize; 3] = std::array::from_fn(|a| {
         if a < axes {
             (2.0 * (high[a] - low[a])).round() as usize
@@ -69,7 +69,7 @@ fn regular(low: [f64; 3], high: [f64; 3], axes: usize) -> Particles {
     at(points, volume as f32)
 }
 
-const SIDES: [Boundary; 3] = [Boundary::Symmetry; 3];
+pub(super) const SIDES: [Boundary; 3] = [Boundary::Symmetry; 3];
 
 /// A channel filled wall to wall: full everywhere at any wall offset. The density at the walls is
 /// a little high, because regular particles spread less into them than o~ does.

@@ -27,7 +27,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
     let mut bins = Bins::default();
     particles.sort(window, &mut bins);
     let mut fractions = Fractions::default();
-    fractions.update(particles, &bins, window, &lattice.open);
+    fractions.update(particles, &bins, lattice, &[[0.0; 3]; 2]);
     let volumes = Volumes::new(lattice, &fractions.liquid);
     let scales = Scales {
         inertia: 1.0,

@@ -1,0 +1,170 @@
+//! How wide the lumens next to the bond are: chords of the voids, in voxels and cells, for `--explain`.
+
+use physics::{RigidBody, Scene, VoxelBlock};
+
+/// Layers of voxels from the bond surface into the wood that are looked at.
+const LAYERS: usize = 32;
+/// Cells across a lumen below which the implicit scheme is off by more than a tenth in places
+/// (docs/results/verification.md: three cells; docs/results/tradeoff.md: bond line).
+const FEWEST: f64 = 5.0;
+
+/// The lines of `--explain`; empty where the bodies are boxes or have no lumens.
+pub(crate) fn text(scene: &Scene) -> String {
+    let sides = [(scene.bottom, true), (scene.top, false)];
+    let blocks = sides.map(|(body, up)| Some((single(scene.bodies.get(body?)?)?, up)));
+    let mut lengths = Lengths::default();
+    for (block, up) in blocks.into_iter().flatten() {
+        lengths.add(&across_grain(block, up));
+    }
+    let block = blocks.into_iter().flatten().next();
+    let (Some(chord), Some((block, _))) = (lengths.median(), block) else {
+        return String::new();
+    };
+    let (voxel, cell) = (block.voxel()[0], scene.grid.cell_m);
+    let cells = chord as f64 * voxel / cell;
+    let mut out = format!(
+        "  lumens at the bond {chord} voxels across the grain, {cells:.1} cells (median by volume of {} chords)\n",
+        lengths.count()
+    );
+    if cells < FEWEST && cell > 1.01 * voxel {
+        out += &format!(
+            "  proposed           one voxel a cell, grid.cell = \"{:.6} um\": fewer than {FEWEST} cells across leave pressure and flow off by a tenth and more\n",
+            1e6 * voxel
+        );
+    }
+    out
+}
+
+/// The block of an adherend of voxels.
+fn single(body: &RigidBody) -> Option<&VoxelBlock> {
+    match body.blocks.as_slice() {
+        [block] if block.dims() != [1; 3] => Some(block),
+        _ => None,
+    }
+}
+
+/// How many runs of void have each length, voxels.
+#[derive(Clone, Debug, Default)]
+struct Lengths(Vec<u64>);
+
+impl Lengths {
+    fn push(&mut self, length: usize) {
+        if length >= self.0.len() {
+            self.0.resize(length + 1, 0);
+        }
+        self.0[length] += 1;
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.0.resize(self.0.len().max(other.0.len()), 0);
+        for (own, more) in self.0.iter_mut().zip(&other.0) {
+            *own += more;
+        }
+    }
+
+    fn count(&self) -> u64 {
+        self.0.iter().sum()
+    }
+
+    /// Half of the void volume is in runs up to this one: what flows there counts, and pits and rays,
+    /// many and short, do not.
+    fn median(&self) -> Option<usize> {
+        let volume = |(length, n): (usize, &u64)| length as u64 * n;
+        let all: u64 = self.0.iter().enumerate().map(volume).sum();
+        let mut below = 0;
+        self.0.iter().enumerate().position(|run| {
+            below += volume(run);
+            2 * below >= all && all > 0
+        })
+    }
+}
+
+/// Chords of the voids from wood to wood along the bond, near its surface: at the upper end of the
+/// block or at the lower one. Of the two directions that in which voids are shorter; the other is
+/// the grain.
+fn across_grain(block: &VoxelBlock, up: bool) -> Lengths {
+    let [nx, ny, nz] = block.dims();
+    let depth = LAYERS.min(ny);
+    let layers = if up { ny - depth..ny } else { 0..depth };
+    let mut found = [Runs::default(), Runs::default()];
+    for j in layers {
+        for k in 0..nz {
+            found[0].line(nx, |i| block.solid(i, j, k));
+        }
+        for i in 0..nx {
+            found[1].line(nz, |k| block.solid(i, j, k));
+        }
+    }
+    let [x, z] = found;
+    if x.mean() <= z.mean() {
+        x.chords
+    } else {
+        z.chords
+    }
+}
+
+/// Runs of void along lines that wood interrupts.
+#[derive(Default)]
+struct Runs {
+    /// Those with wood at both ends.
+    chords: Lengths,
+    /// Void voxels and runs of all kinds.
+    total: [u64; 2],
+}
+
+impl Runs {
+    fn line(&mut self, length: usize, solid: impl Fn(usize) -> bool) {
+        let mut start = 0;
+        for end in 0..=length {
+            if end < length && !solid(end) {
+                continue;
+            }
+            if end > start {
+                self.total[0] += (end - start) as u64;
+                self.total[1] += 1;
+                if start > 0 && end < length {
+                    self.chords.push(end - start);
+                }
+            }
+            start = end + 1;
+        }
+    }
+
+    /// Mean length, voxels; none is longer than any.
+    fn mean(&self) -> f64 {
+        match self.total {
+            [_, 0] => f64::INFINITY,
+            [voxels, runs] => voxels as f64 / runs as f64,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lumens of seven voxels along z or x, walls of five with pits of one, which are more; end walls that close
+    /// a lumen here and there. The void deep below the bond and the run at the side do not count.
+    #[test]
+    fn the_median_chord_across_the_grain_at_the_bond() {
+        for along_z in [true, false] {
+            let wood = |i: usize, j: usize, k: usize| {
+                let (across, along) = if along_z { (i, k) } else { (k, i) };
+                let deep = j < 20;
+                !deep && (across % 12 < 5 && across % 12 != 2 || along % 50 == 20)
+            };
+            let block = VoxelBlock::from_fn([0.0; 3], [1e-6; 3], [90, 60, 90], wood);
+            let chords = across_grain(&block, true);
+            assert_eq!(chords.median(), Some(7));
+            assert_eq!(chords.count(), 32 * 88 * (7 + 8));
+        }
+    }
+
+    #[test]
+    fn solid_wood_and_open_space_have_no_chords() {
+        for solid in [true, false] {
+            let block = VoxelBlock::from_fn([0.0; 3], [1e-6; 3], [8; 3], |_, _, _| solid);
+            assert_eq!(across_grain(&block, false).median(), None);
+        }
+    }
+}
