@@ -3,6 +3,7 @@
 #   make                          the paper's six runs and their implicit counterparts on two
 #                                 small synthetic specimens; ends with Table 2
 #   make SCALE=small|medium|full  the same on larger specimens
+#   make ERROR=no                 without the errors of Table 2, which take finer implicit runs
 #   make XCT_PF=a.tif XCT_PVA_PF=b.tif VOXEL="1.45 um" [LABELS=void=0,wood=1,adhesive=2]
 #                                 the same on your own stacks
 #   make test                     formatting, clippy, all tests
@@ -55,7 +56,7 @@ include pipelines/65-gate.mk
 
 .PHONY: help
 help:
-	@sed -n '3,21s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,22s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

@@ -3,8 +3,11 @@
 METRICS := $(FINALS:%/final.mpts=%/wp.csv)
 EXPERIMENTS := $(ADHESIVES:%=$(OUT)/%/experiment.csv)
 
-$(OUT)/%/wp.csv: $(OUT)/%/final.mpts $(BIN)/wp-metrics
-	$(BIN)/wp-metrics $< --map $(@D)/map.csv --profile $(@D)/depth.csv -o $@
+define wp_rule
+$(OUT)/$(1)/wp.csv: $(OUT)/$(1)/final.mpts $(2) $(BIN)/wp-metrics
+	$(BIN)/wp-metrics $$< --pressure $(2:%=--finer %) --map $$(@D)/map.csv --profile $$(@D)/depth.csv -o $$@
+endef
+$(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call wp_rule,$(a)/$(r),$(if $(filter $(r),$(FINER)),$(OUT)/$(a)/$(r)-finer/final.mpts)))))
 
 $(OUT)/%/experiment.csv: $(OUT)/%/experiment.mpts $(BIN)/wp-metrics
 	$(BIN)/wp-metrics $< --map $(@D)/experiment-map.csv --profile $(@D)/experiment-depth.csv -o $@
@@ -15,10 +18,11 @@ $(OUT)/%/shear.csv: $(OUT)/%/final.mpts $(BIN)/shear-stats
 $(OUT)/table2.csv: $(METRICS) $(EXPERIMENTS) $(BIN)/bond-figures
 	$(BIN)/bond-figures table2 \
 	    $(foreach a,$(ADHESIVES),--experiment $(a)=$(OUT)/$(a)/experiment.csv) \
-	    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run $(a):$(r)=$(OUT)/$(a)/$(r)/wp.csv)) -o $@
+	    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run $(a):$(r)=$(OUT)/$(a)/$(r)/wp.csv)) \
+	    $(if $(FINER),--errors $(OUT)/errors.csv) -o $@
 
 # The bond files and runs come first and side by side; what follows is quick.
 .PHONY: table2
 table2: runs
 	@$(MAKE) BUILT=1 --no-print-directory $(SIDE_BY_SIDE) $(OUT)/table2.csv
-	@cat $(OUT)/table2.csv
+	@cat $(OUT)/table2.csv $(if $(FINER),$(OUT)/errors.csv)

@@ -11,9 +11,10 @@ figures: runs
 	@echo "figures in $(OUT)/figures"
 
 define figure_rules
-$(OUT)/figures/$(1)-pressure.svg: $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(BIN)/bond-figures
+$(OUT)/figures/$(1)-pressure.svg: $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(FINER:%=$(OUT)/$(1)/%-finer/final.mpts) $(BIN)/bond-figures
 	@mkdir -p $$(@D)
-	$(BIN)/bond-figures pressure $(foreach r,$(RUNS),--run "$(r)=$(OUT)/$(1)/$(r)") --limit "2.5 MPa" -o $$@
+	$(BIN)/bond-figures pressure $(foreach r,$(RUNS),--run "$(r)=$(OUT)/$(1)/$(r)") \
+	    $(foreach r,$(FINER),--finer "$(r)=$(OUT)/$(1)/$(r)-finer") --limit "2.5 MPa" -o $$@
 
 $(OUT)/figures/$(1)-map.svg: $(RUNS:%=$(OUT)/$(1)/%/wp.csv) $(OUT)/$(1)/experiment.csv $(BIN)/bond-figures
 	@mkdir -p $$(@D)

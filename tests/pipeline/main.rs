@@ -10,6 +10,7 @@
 
 mod acer_volume;
 mod apart;
+mod cell_error;
 mod conservation;
 mod examples;
 mod forged;

@@ -1,5 +1,5 @@
 use crate::axes::{Axis, Frame, NORMAL, extent};
-use crate::colour::{BLACK, DISTINCT};
+use crate::colour::{BLACK, DISTINCT, faded, series};
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::legend::{self, Stroke};
 use crate::table::Table;
@@ -19,8 +19,10 @@ struct Run {
     label: String,
     /// s
     time: Vec<f64>,
-    /// Pa; mean of both adherends
+    /// Pa; on the upper body, which the clamp drives
     pressure: Vec<f64>,
+    /// Time and the ends of what the pressure may be in cells of no size, where a finer run was given.
+    band: Vec<[f64; 3]>,
     /// m/s
     speed: Vec<f64>,
 }
@@ -32,19 +34,34 @@ const PRESSURE_HEIGHT: f64 = 300.0;
 const SPEED_HEIGHT: f64 = 150.0;
 
 impl Closing {
-    /// Reads the histories of runs. `limit` (Pa) is drawn as a dashed line.
+    /// Reads the histories of runs, and of some of them in cells half as large, by the same label: what
+    /// these say of the pressure is drawn as a band. `limit` (Pa) is drawn as a dashed line.
     ///
     /// # Errors
     /// [`Error::Data`] for an unreadable history, a missing column, or one without numbers;
-    /// [`Error::Request`] for more runs than can be told apart.
-    pub fn read(runs: &[Labelled], limit: Option<f64>, title: &str) -> Result<Self, Error> {
+    /// [`Error::Request`] for more runs than can be told apart, or a finer run of none of them.
+    pub fn read(
+        runs: &[Labelled],
+        finer: &[Labelled],
+        limit: Option<f64>,
+        title: &str,
+    ) -> Result<Self, Error> {
         if runs.len() > DISTINCT {
             return Err(Error::Request(format!(
                 "{} runs are too many for one figure: {DISTINCT} can be told apart",
                 runs.len()
             )));
         }
-        let runs = runs.iter().map(Run::read).collect::<Result<_, _>>()?;
+        let mut runs: Vec<Run> = runs.iter().map(Run::read).collect::<Result<_, _>>()?;
+        for fine in finer {
+            let Some(run) = runs.iter_mut().find(|run| run.label == fine.label) else {
+                return Err(Error::Request(format!(
+                    "the finer run '{}' has the label of no run",
+                    fine.label
+                )));
+            };
+            run.band = run.band(&Run::read(fine)?);
+        }
         Ok(Self {
             runs,
             limit,
@@ -83,7 +100,13 @@ impl Closing {
         let time = |title: String| Axis::over(title, first.min(0.0) / unit, last / unit);
         let (above, below) = (time(String::new()), time(format!("time ({name})")));
         let pressures = self.runs.iter().flat_map(|run| run.pressure.iter());
-        let pressures = pressures.copied().chain(self.limit).chain([0.0]);
+        let bands = self.runs.iter().flat_map(|run| &run.band);
+        let bands = bands.flat_map(|[_, low, high]| [*low, *high]);
+        let pressures = pressures
+            .copied()
+            .chain(bands)
+            .chain(self.limit)
+            .chain([0.0]);
         // Room above the limit and the full speed, which else lie on the frame.
         let roomy = |title: &str, (low, high): (f64, f64)| Axis::over(title, low, 1.08 * high);
         let pressure = roomy("pressure (MPa)", extent(pressures.map(|p| p * 1e-6)));
@@ -94,6 +117,15 @@ impl Closing {
         if let Some(limit) = self.limit {
             let ends = [0.0, f64::MAX].map(|t| upper.place(&above, &pressure, [t, limit * 1e-6]));
             drawing.dashes(&ends, BLACK, 1.2, [4.0, 4.0]);
+        }
+        for (i, run) in self.runs.iter().enumerate() {
+            let end = |t: f64, p: f64| upper.place(&above, &pressure, [t / unit, p * 1e-6]);
+            let lower_ends = run.band.iter().map(|&[t, low, _]| end(t, low));
+            let upper_ends = run.band.iter().rev().map(|&[t, _, high]| end(t, high));
+            drawing.area(
+                lower_ends.chain(upper_ends).collect(),
+                faded(series(i), 0.25),
+            );
         }
         for (i, run) in self.runs.iter().enumerate() {
             let stroke = Stroke::of_series(i);
@@ -111,16 +143,39 @@ impl Closing {
 impl Run {
     fn read(source: &Labelled) -> Result<Self, Error> {
         let table = Table::read(&source.path)?;
-        let [bottom, top] = [
-            table.data("pressure_bottom_Pa")?,
-            table.data("pressure_top_Pa")?,
-        ];
         Ok(Self {
             label: source.label.clone(),
             time: table.data("time_s")?,
-            pressure: bottom.iter().zip(top).map(|(b, t)| 0.5 * (b + t)).collect(),
+            pressure: table.data("pressure_top_Pa")?,
+            band: Vec::new(),
             speed: table.data("closing_speed_m_s")?,
         })
+    }
+
+    /// What the run `fine` in cells half as large says of the pressure in cells of no size: first
+    /// order +- the difference, as in `wp-metrics --finer`, at equal times.
+    fn band(&self, fine: &Self) -> Vec<[f64; 3]> {
+        let ends = |(&time, &fine): (&f64, &f64)| {
+            let coarse = self.pressure_at(time)?;
+            let ends = [fine, 3.0 * fine - 2.0 * coarse];
+            Some([time, ends[0].min(ends[1]), ends[0].max(ends[1])])
+        };
+        let rows = fine.time.iter().zip(&fine.pressure);
+        let band = rows.filter_map(ends);
+        band.filter(|row| row.iter().all(|x| x.is_finite()))
+            .collect()
+    }
+
+    /// The pressure at a time between the first row and the last.
+    fn pressure_at(&self, time: f64) -> Option<f64> {
+        let after = self.time.partition_point(|&t| t < time);
+        let (t1, p1) = (*self.time.get(after)?, self.pressure[after]);
+        if t1 == time {
+            return Some(p1);
+        }
+        let before = after.checked_sub(1)?;
+        let (t0, p0) = (self.time[before], self.pressure[before]);
+        Some(p0 + (p1 - p0) * (time - t0) / (t1 - t0))
     }
 }
 

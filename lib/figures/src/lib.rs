@@ -6,6 +6,7 @@
 //! are not there: a missing column or an empty file is an [`Error`].
 
 mod axes;
+mod cell_error;
 mod closing;
 mod clouds;
 mod colour;
@@ -24,6 +25,7 @@ mod table2;
 mod text;
 mod wp_map;
 
+pub use cell_error::CellErrors;
 pub use closing::Closing;
 pub use clouds::{Clouds, Spot};
 pub use drawing::Drawing;

@@ -58,6 +58,11 @@ impl Table {
         &self.name
     }
 
+    /// Whether there is such a column.
+    pub(crate) fn has(&self, column: &str) -> bool {
+        self.headers.iter().any(|header| header == column)
+    }
+
     /// The cells of a column.
     pub(crate) fn texts(&self, column: &str) -> Result<Vec<&str>, Error> {
         let index = self.index(column)?;

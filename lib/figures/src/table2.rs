@@ -50,7 +50,7 @@ struct Paper {
 
 /// What `wp-metrics` measures from.
 const REFERENCES: [&str; 4] = ["mid", "adherend", "plane", "fit"];
-const SIDES: [&str; 3] = ["bottom", "top", "total"];
+pub(crate) const SIDES: [&str; 3] = ["bottom", "top", "total"];
 
 const fn paper(
     adhesive: &'static str,

@@ -4,7 +4,9 @@ use std::io::{self, Write};
 
 use units::Axis;
 
-use crate::{Agreement, DepthLayer, Map, Penetration, Reference, ShearRates};
+use crate::{
+    Agreement, CellError, DepthLayer, Extrapolated, Map, Penetration, Reference, ShearRates,
+};
 
 /// Micrometres with six digits behind the point.
 fn um(metres: f64) -> String {
@@ -23,6 +25,10 @@ fn um3(cubic_metres: f64) -> String {
     format!("{:.4}", 1e18 * cubic_metres)
 }
 
+fn pascal(pressure: f64) -> String {
+    format!("{pressure:.6e}")
+}
+
 /// One file's rows of the table of `wp-metrics`.
 pub struct PenetrationRows {
     /// The file as the user named it.
@@ -33,10 +39,16 @@ pub struct PenetrationRows {
     pub sides: [Penetration; 3],
     /// Agreement with an experiment, when asked for.
     pub agreement: Option<[Agreement; 3]>,
+    /// Pressure on the body that the clamp drives, Pa, when asked for.
+    pub pressure_pa: Option<f64>,
+    /// Each side and the pressure carried on to cells of no size, when a finer run was given.
+    pub cell_error: Option<([CellError; 3], Extrapolated)>,
 }
 
 /// `file,side,reference,plane_m,wp_um,slab_wp_um,ep_um,max_depth_um,p99_depth_um,volume_um3,voxels`,
-/// then `dice,map_correlation` when the files were compared.
+/// then `dice,map_correlation` when the files were compared, `pressure_pa` when asked for, and
+/// `wp_extrapolated_um,wp_error_um,ep_extrapolated_um,ep_error_um,pressure_extrapolated_pa,pressure_error_pa`
+/// when a finer run was given.
 ///
 /// # Errors
 /// What `out` says.
@@ -58,6 +70,19 @@ pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::
     if files.iter().any(|f| f.agreement.is_some()) {
         header.extend(["dice", "map_correlation"]);
     }
+    if files.iter().any(|f| f.pressure_pa.is_some()) {
+        header.push("pressure_pa");
+    }
+    if files.iter().any(|f| f.cell_error.is_some()) {
+        header.extend([
+            "wp_extrapolated_um",
+            "wp_error_um",
+            "ep_extrapolated_um",
+            "ep_error_um",
+            "pressure_extrapolated_pa",
+            "pressure_error_pa",
+        ]);
+    }
     table.write_record(header).map_err(unwrapped)?;
     for file in files {
         for (i, p) in file.sides.iter().enumerate() {
@@ -77,6 +102,12 @@ pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::
             if let Some(agreement) = file.agreement {
                 row.push(format!("{:.6}", agreement[i].dice));
                 row.push(format!("{:.6}", agreement[i].map_correlation));
+            }
+            row.extend(file.pressure_pa.map(pascal));
+            if let Some((sides, pressure)) = &file.cell_error {
+                let CellError { wp_m, ep_m } = sides[i];
+                row.extend([wp_m.value, wp_m.error, ep_m.value, ep_m.error].map(um));
+                row.extend([pressure.value, pressure.error].map(pascal));
             }
             table.write_record(row).map_err(unwrapped)?;
         }

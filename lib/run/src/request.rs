@@ -199,7 +199,7 @@ impl Request {
             snapshot_every_s: self.snapshot_every(),
             interrupted,
             progress: &mut |fraction, time_s, report: &StepReport| {
-                let pressure = 0.5 * (report.pressure_bottom + report.pressure_top) / 1e6;
+                let pressure = report.pressure_top / 1e6;
                 progress(
                     fraction,
                     format!("{:.3} us, {pressure:.3} MPa", time_s * 1e6),

@@ -15,6 +15,8 @@ use crate::request::RunFailure;
 use crate::resolve::Setup;
 
 const IDENTITY: &str = "identity";
+/// Pressure on the upper body, which a clamp drives, in the step before, Pa.
+const PRESSURE: &str = "pressure_pa";
 
 /// Whether `folder` holds the final state of the run with this identity, whole.
 ///
@@ -112,6 +114,7 @@ impl<'a> SnapshotWriter<'a> {
         self.to_file_axes(&mut state);
         let mut header = self.header.clone();
         (header.time_s, header.step) = (clock.time_s, clock.step);
+        header.set_attribute(PRESSURE, clock.last.pressure_top);
         let mut draft = Draft::new(header);
         let displacements = scheme.displacements();
         if let Some(bond) = &self.bond {

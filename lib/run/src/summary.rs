@@ -28,7 +28,7 @@ pub struct Summary {
     pub travel_m: f64,
     /// Gap left, m.
     pub gap_m: Option<f64>,
-    /// Mean of the reactions of the last step, Pa.
+    /// Pressure on the upper body, which a clamp drives and controls, in the last step, Pa.
     pub final_pressure_pa: f64,
     /// Liquid material points.
     pub liquid_points: u64,
@@ -100,7 +100,7 @@ impl Summary {
             time_s: outcome.clock.time_s,
             travel_m: outcome.clock.travel_m,
             gap_m: facts.initial_gap_m.map(|g| g - outcome.clock.travel_m),
-            final_pressure_pa: 0.5 * (last.pressure_bottom + last.pressure_top),
+            final_pressure_pa: last.pressure_top,
             liquid_points: facts.liquid_points,
             points_left: last.lost,
             kinetic_energy_j: kinetic_energy,

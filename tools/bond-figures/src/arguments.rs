@@ -66,7 +66,8 @@ pub(crate) enum Figure {
     #[command(after_help = "Examples:
   bond-figures table2 --experiment pf=experiment.csv --run pf:xpic=xpic.csv -o table2.csv
   bond-figures table2 --run pf:flip=flip.csv --run pva-pf:flip=pva-flip.csv -o -
-  wp-metrics final.mpts -o wp.csv && bond-figures table2 --run \"pf:XPIC(5)=wp.csv\" -o -")]
+  wp-metrics final.mpts -o wp.csv && bond-figures table2 --run \"pf:XPIC(5)=wp.csv\" -o -
+  bond-figures table2 --run pf:implicit=wp.csv --errors errors.csv -o table2.csv")]
     Table2(Table2Args),
 }
 
@@ -84,6 +85,10 @@ pub(crate) struct PressureArgs {
     /// A run: its folder or its history.csv; may be repeated
     #[arg(long, value_name = "[LABEL=]RUNDIR", required = true, value_parser = given(labelled))]
     pub(crate) run: Vec<Labelled>,
+    /// The same in cells half as large, by the LABEL of its run: its pressure gets a band, in cells of
+    /// no size by first order +- the difference; may be repeated
+    #[arg(long, value_name = "LABEL=RUNDIR", value_parser = given(labelled))]
+    pub(crate) finer: Vec<Labelled>,
     /// Draw this pressure as a dashed line
     #[arg(long, value_name = "PRESSURE")]
     pub(crate) limit: Option<Limit>,
@@ -140,6 +145,10 @@ pub(crate) struct Table2Args {
     /// Table of `wp-metrics` of a run's final state; may be repeated
     #[arg(long, value_name = "ADHESIVE:RUN=CSV", value_parser = given(run))]
     run: Vec<Case>,
+    /// Write what finer runs say of the errors (of tables by `wp-metrics --finer`): WP, EP and
+    /// pressure carried on to cells of no size, and how far the other runs are from them
+    #[arg(long, value_name = "CSV")]
+    pub(crate) errors: Option<Output>,
     /// CSV to write; `-` is standard output
     #[arg(short, long, value_name = "CSV")]
     pub(crate) output: Output,
@@ -148,6 +157,11 @@ pub(crate) struct Table2Args {
 }
 
 impl Table2Args {
+    /// How many of the cases are experiments.
+    pub(crate) fn experiments(&self) -> usize {
+        self.experiment.len()
+    }
+
     /// Experiments, then runs.
     pub(crate) fn cases(&self) -> Vec<Case> {
         self.experiment.iter().chain(&self.run).cloned().collect()

@@ -6,9 +6,9 @@ mod inputs;
 use std::process::ExitCode;
 
 use cli::{Failure, Output};
-use figures::{Closing, Cut, Drawing, Error, ShearRates, Slices, Table2, WpMap};
+use figures::{Case, CellErrors, Closing, Cut, Drawing, Error, ShearRates, Slices, Table2, WpMap};
 
-use arguments::{Arguments, Figure, Format, Picture};
+use arguments::{Arguments, Figure, Format, Picture, Table2Args};
 use inputs::Inputs;
 
 fn main() -> ExitCode {
@@ -18,10 +18,12 @@ fn main() -> ExitCode {
 fn run(arguments: Arguments) -> Result<(), Failure> {
     match arguments.figure {
         Figure::Pressure(a) => {
-            let inputs = Inputs::of_runs(a.run)?;
+            let runs = a.run.len();
+            let inputs = Inputs::of_runs(a.run.into_iter().chain(a.finer).collect())?;
+            let (run, finer) = inputs.files().split_at(runs);
             let limit = a.limit.map(|pressure| pressure.0);
             let title = a.title.as_deref().unwrap_or_default();
-            let figure = Closing::read(inputs.files(), limit, title).map_err(failure)?;
+            let figure = Closing::read(run, finer, limit, title).map_err(failure)?;
             write(&figure.draw(), &a.picture, &inputs)
         }
         Figure::Map(a) => {
@@ -45,18 +47,41 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         Figure::Table2(a) => {
             let (inputs, cases) = Inputs::of_cases(a.cases())?;
-            inputs.keep_from([&a.output])?;
+            inputs.keep_from([&a.output].into_iter().chain(&a.errors))?;
             let table = Table2::read(&cases).map_err(failure)?;
+            let errors = errors(&a, &cases[a.experiments()..])?;
+            let mut text = table.to_text();
+            text.extend(errors.iter().map(CellErrors::to_text));
             // The CSV may itself go to standard output; the text for reading then gives way.
             match &a.output {
-                Output::Stdout => cli::note(table.to_text().trim_end()),
-                Output::File(_) => cli::print(&table.to_text())?,
+                Output::Stdout => cli::note(text.trim_end()),
+                Output::File(_) => cli::print(&text)?,
             }
             let record = inputs.record()?;
+            if let (Some(output), Some(errors)) = (&a.errors, &errors) {
+                output.write_with_record(&record, |out| errors.write_csv(out))?;
+            }
             a.output
                 .write_with_record(&record, |out| table.write_csv(out))
         }
     }
+}
+
+/// What finer runs say of the errors of `runs`.
+fn errors(arguments: &Table2Args, runs: &[Case]) -> Result<Option<CellErrors>, Failure> {
+    if arguments.errors.as_ref() == Some(&Output::Stdout) {
+        return Err(Failure::usage("--errors goes to a file, not to '-'"));
+    }
+    let errors = match runs {
+        [] => None,
+        runs => CellErrors::read(runs).map_err(failure)?,
+    };
+    if arguments.errors.is_some() && errors.is_none() {
+        return Err(Failure::usage(
+            "--errors: no run has an error; give the table that wp-metrics --finer writes",
+        ));
+    }
+    Ok(errors)
 }
 
 /// Writes the picture to each of its outputs.

@@ -30,7 +30,7 @@ fn folder() -> tempfile::TempDir {
     write("empty.csv", "");
     write("header.csv", HISTORY.lines().next().unwrap());
     write("other.csv", "time_s,speed\n0,1\n");
-    write("words.csv", &HISTORY.replace("1e6", "much"));
+    write("words.csv", &HISTORY.replace("1.1e6", "much"));
     let row = |side: &str| format!("a.mpts,{side},mid,9.5,6.7\n");
     let rows = ["bottom", "top", "total"].map(row).concat();
     write(
@@ -121,6 +121,18 @@ fn table_2_prints_for_reading_and_writes_csv() {
         "{csv}"
     );
     assert_eq!(csv.lines().count(), 3);
+    assert!(!text.contains("With errors"), "{text}");
+    let asked = figures(
+        folder.path(),
+        &[&cases[..], &["u.csv", "--errors", "e.csv"]].concat(),
+    );
+    assert_eq!(asked.status.code(), Some(2), "{}", said(&asked));
+    assert!(
+        said(&asked).contains("wp-metrics --finer"),
+        "{}",
+        said(&asked)
+    );
+    assert!(!folder.path().join("u.csv").exists());
     let piped = figures(folder.path(), &[&cases[..], &["-"]].concat());
     assert_eq!(piped.stdout, csv.as_bytes());
     assert!(said(&piped).contains("another specimen"));
@@ -135,11 +147,11 @@ fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
         ("header.csv", "at least one row"),
         (
             "other.csv",
-            "no column pressure_bottom_Pa: it has time_s, speed",
+            "no column pressure_top_Pa: it has time_s, speed",
         ),
         (
             "words.csv",
-            "row 2 below the header, column pressure_bottom_Pa: 'much'",
+            "row 2 below the header, column pressure_top_Pa: 'much'",
         ),
     ] {
         let output = figures(folder.path(), &["pressure", "--run", file, "-o", "bad.svg"]);

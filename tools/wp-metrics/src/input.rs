@@ -64,6 +64,21 @@ impl Input {
         }
     }
 
+    /// A number that `mpm-run` notes at the states of a run.
+    pub fn noted(&self, name: &str) -> Result<f64, Failure> {
+        let text = match &self.content {
+            Content::Particles(file) => file.header().attribute(name),
+            Content::Stack { .. } => None,
+        };
+        let number = text.and_then(|text| text.parse().ok());
+        number.filter(|n: &f64| n.is_finite()).ok_or_else(|| {
+            Failure::usage(format!(
+                "'{}' does not say its {name}: a state of a run, made anew where an earlier version made it, is needed",
+                self.name
+            ))
+        })
+    }
+
     /// A failure to measure this input.
     pub fn failure(&self, error: &metrics::Error) -> Failure {
         let said = format!("'{}': {error}", self.name);

@@ -10,7 +10,10 @@ use clap::Parser;
 use cli::{Failure, InputRecord, Output, Record};
 use input::{Input, StackOptions};
 use metrics::table::{self, PenetrationRows};
-use metrics::{Datum, Map, Reference, Side, compare, depth_profile, penetration};
+use metrics::{
+    Datum, LEAST_RATIO, Map, Reference, Side, State, cell_error, compare, depth_profile,
+    extrapolated, penetration,
+};
 use units::{Axis, Length, Quantity};
 use voxels::{Grey, Labels, Phases};
 
@@ -25,7 +28,8 @@ use voxels::{Grey, Labels, Phases};
     after_help = "Examples:
   wp-metrics run/final.mpts run/snapshots/*.mpts -o wp.csv
   wp-metrics stack.tif --voxel 1.45um --reference plane=226.2um --map map.csv --profile depth.csv
-  wp-metrics run/final.mpts --compare specimen.mpts"
+  wp-metrics run/final.mpts --compare specimen.mpts
+  wp-metrics run/final.mpts --finer run-in-half-cells/final.mpts"
 )]
 struct Arguments {
     /// Particle files, TIFF, .npy or .mhd stacks or folders of slices; `-` is standard input
@@ -51,6 +55,13 @@ struct Arguments {
     /// the maps
     #[arg(long, value_name = "EXPERIMENT")]
     compare: Option<PathBuf>,
+    /// Add WP, EP and pressure carried on to cells of no size, and their errors, from the end of
+    /// the same run in cells at most half as large: first order, error the difference (one FILE only)
+    #[arg(long, value_name = "STATE")]
+    finer: Option<PathBuf>,
+    /// Add the pressure on the body that the clamp drives (states of runs; with --finer always)
+    #[arg(long)]
+    pressure: bool,
     /// Voxel edge of stacks [default: from their metadata]
     #[arg(long, value_name = "LEN", help_heading = "Image stacks")]
     voxel: Option<Quantity<Length>>,
@@ -88,6 +99,11 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
+    if arguments.files.len() > 1 && arguments.finer.is_some() {
+        return Err(Failure::usage(
+            "--finer belongs to one file, but several are given: run wp-metrics on each",
+        ));
+    }
     if arguments.files.len() > 1 && (arguments.map.is_some() || arguments.profile.is_some()) {
         return Err(Failure::usage(
             "--map and --profile describe one file, but several are given: run wp-metrics on each",
@@ -99,7 +115,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             "two tables on standard output cannot be told apart: give all but one of -o, --map and --profile a file",
         ));
     }
-    let read = arguments.files.iter().chain(&arguments.compare);
+    let read = arguments.files.iter();
+    let read = read.chain(&arguments.compare).chain(&arguments.finer);
     cli::keep_apart_with_records(read.map(PathBuf::as_path), outputs(&arguments))?;
     let options = stack_options(&arguments)?;
     // Which files a stack is read from shows once it is open; nothing is written before.
@@ -108,20 +125,25 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         cli::keep_apart_with_records(input.stack_files(), outputs(&arguments))?;
         Ok(input)
     };
-    let experiment = match &arguments.compare {
-        Some(path) => Some(open(path)?),
-        None => None,
-    };
+    let experiment = arguments.compare.as_ref().map(open).transpose()?;
+    let finer = arguments.finer.as_ref().map(open).transpose()?;
     let mut record = Recorder::new(&arguments);
-    if let Some(experiment) = &experiment {
-        record.add(experiment)?;
+    for beside in experiment.iter().chain(&finer) {
+        record.add(beside)?;
     }
     let mut files = Vec::new();
     for path in &arguments.files {
         // A row of numbers is all that stays of a file.
         let input = open(path)?;
         record.add(&input)?;
-        files.push(measure(&input, &arguments, experiment.as_ref(), &record)?);
+        let mut rows = measure(&input, &arguments, experiment.as_ref(), &record)?;
+        if arguments.pressure || finer.is_some() {
+            rows.pressure_pa = Some(input.noted(PRESSURE)?);
+        }
+        if let Some(finer) = &finer {
+            carry_on(&mut rows, &input, finer, &arguments)?;
+        }
+        files.push(rows);
     }
     arguments.output.write_with_record(&record.finish(), |out| {
         table::write_penetration(out, &files)
@@ -177,8 +199,52 @@ fn measure(
         reference: arguments.reference,
         sides: penetration(&state, &datum),
         agreement,
+        pressure_pa: None,
+        cell_error: None,
     })
 }
+
+/// Adds what the same run in smaller cells says of the error of `rows`.
+fn carry_on(
+    rows: &mut PenetrationRows,
+    input: &Input,
+    finer: &Input,
+    arguments: &Arguments,
+) -> Result<(), Failure> {
+    let ratio = input.noted("cell_m")? / finer.noted("cell_m")?;
+    // A hair for the rounding of lengths written as text.
+    if !(ratio >= LEAST_RATIO * (1.0 - 1e-6)) {
+        return Err(Failure::usage(format!(
+            "'{}' has cells {ratio:.3} times smaller than '{}': at least {LEAST_RATIO} is needed for their difference to be an error",
+            finer.name, input.name
+        )));
+    }
+    let (state, fine) = (
+        input.state(arguments.normal)?,
+        finer.state(arguments.normal)?,
+    );
+    if !same_bond(&state, &fine) {
+        return Err(Failure::usage(format!(
+            "'{}' and '{}' are of different bonds: --finer takes the same run in smaller cells",
+            input.name, finer.name
+        )));
+    }
+    let datum = Datum::find(arguments.reference, &fine).map_err(|e| finer.failure(&e))?;
+    let sides = cell_error(&rows.sides, &penetration(&fine, &datum), ratio);
+    let pressure = extrapolated(input.noted(PRESSURE)?, finer.noted(PRESSURE)?, ratio);
+    rows.cell_error = Some((sides, pressure));
+    Ok(())
+}
+
+/// Whether two states have the same wood, wherever it is now.
+fn same_bond<'a>(a: &State<'a>, b: &State<'a>) -> bool {
+    let wood =
+        |state| State::wood_blocks(state).map(|w| (w.bits.dims(), w.bits.words(), w.voxel_m));
+    wood(a).eq(wood(b))
+}
+
+/// What `mpm-run` calls the pressure on the body that the clamp drives, Pa.
+const PRESSURE: &str = "pressure_pa";
 
 /// Collects what the outputs were made from. Hashing reads every input whole, so it is done
 /// only when an output is a file, beside which a record can stand.

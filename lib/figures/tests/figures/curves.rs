@@ -24,7 +24,7 @@ fn pressure_and_speed_have_units_labels_and_both_lines() {
         folder.labelled("XPIC(5)", history(2.4e6)),
         folder.labelled("frictionless", history(1.2e6)),
     ];
-    let drawing = Closing::read(&runs, Some(2.5e6), "PF").unwrap().draw();
+    let drawing = Closing::read(&runs, &[], Some(2.5e6), "PF").unwrap().draw();
     let said = texts(&drawing);
     for text in [
         "pressure (MPa)",
@@ -55,7 +55,7 @@ fn lines_stand_at_the_height_of_their_data() {
             folder.labelled("a", history(peak)),
             folder.labelled("b", history(2e6)),
         ];
-        let drawing = Closing::read(&runs, None, "").unwrap().draw();
+        let drawing = Closing::read(&runs, &[], None, "").unwrap().draw();
         let ([width, _], pixels) = pixels(&drawing);
         // Below the legend, above the speed panel.
         let rows = 120..680_usize;
@@ -73,17 +73,52 @@ fn lines_stand_at_the_height_of_their_data() {
     assert!((ratio - 0.5).abs() < 0.02);
 }
 
+/// A run at 1 MPa and its finer one at 1.2: in cells of no size 1.4 +- 0.2 by first order.
+#[test]
+fn the_band_of_a_finer_run_stands_where_the_extrapolation_is() {
+    let folder = Folder::new();
+    let flat = |peak: f64| {
+        let header = "time_s,closing_speed_m_s,pressure_top_Pa\n";
+        format!("{header}0,1,{peak}\n1e-5,1,{peak}\n2e-5,1,{peak}\n")
+    };
+    let run = folder.labelled("a", flat(1e6));
+    let mut fine = folder.labelled("fine", flat(1.2e6));
+    let unknown = Closing::read(&[run.clone()], &[fine.clone()], None, "");
+    assert!(matches!(unknown, Err(Error::Request(said)) if said.contains("the label of no run")));
+    fine.label = "a".into();
+    let drawing = Closing::read(&[run], &[fine], None, "").unwrap().draw();
+    let ([width, _], pixels) = pixels(&drawing);
+    let column = |row: usize| pixels[row * width as usize + width as usize / 2 + 30];
+    let [r, g, b] = BLUE.map(u32::from);
+    // A quarter of the blue over white, which no line has.
+    let faded = [r, g, b].map(|c| (c + 3 * 255) / 4);
+    let near = |row: &usize| {
+        let found = column(*row).map(u32::from);
+        found
+            .iter()
+            .zip(faded)
+            .all(|(f, wanted)| f.abs_diff(wanted) <= 2)
+    };
+    let band: Vec<usize> = (60..680).filter(near).collect();
+    let line: Vec<usize> = (60..680).filter(|row| column(*row) == BLUE).collect();
+    let (top, bottom, line) = (band[0], band[band.len() - 1], line[line.len() / 2]);
+    println!("rows: band {top} to {bottom}, line {line}");
+    // The line stands at 1.0, the band from 1.2 to 1.6.
+    let ratio = (line - bottom) as f64 / (bottom - top) as f64;
+    assert!((ratio - 0.5).abs() < 0.03, "{ratio}");
+}
+
 #[test]
 fn gaps_and_single_rows_are_drawn_and_nothing_else() {
     let folder = Folder::new();
     let header = "time_s,closing_speed_m_s,pressure_bottom_Pa,pressure_top_Pa\n";
     let one = folder.labelled("one", format!("{header}1e-6,1,1e6,1e6\n"));
-    let (_, dot) = pixels(&Closing::read(&[one], None, "").unwrap().draw());
+    let (_, dot) = pixels(&Closing::read(&[one], &[], None, "").unwrap().draw());
     let blue = share(&dot, BLUE);
     println!("one row: {blue:.6} of the picture is its mark and legend");
     assert!(blue > 1e-4 && blue < 3e-3);
     let gap = format!("{header}0,1,1e6,1e6\n1e-6,1,NaN,NaN\n2e-6,1,,\n3e-6,1,1e6,1e6\n");
-    let gap = Closing::read(&[folder.labelled("gap", gap)], None, "")
+    let gap = Closing::read(&[folder.labelled("gap", gap)], &[], None, "")
         .unwrap()
         .draw();
     let ([width, _], with_gap) = pixels(&gap);
@@ -93,7 +128,7 @@ fn gaps_and_single_rows_are_drawn_and_nothing_else() {
     assert!(column.into_iter().all(|pixel| pixel != BLUE));
     let all_nan = folder.labelled("nan", format!("{header}0,1,NaN,NaN\n"));
     assert!(matches!(
-        Closing::read(&[all_nan], None, ""),
+        Closing::read(&[all_nan], &[], None, ""),
         Err(Error::Data(_))
     ));
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use figures::{Case, Table2};
+use figures::{Case, CellErrors, Table2};
 
 use crate::Folder;
 
@@ -68,4 +68,66 @@ fn table_2_has_ours_the_slab_and_the_papers_numbers_labelled() {
         .unwrap_err()
         .to_string();
     assert!(said.contains("several states"), "{said}");
+}
+
+/// The table of `wp-metrics --finer` with WP 7.15 +- 0.25 in total, of a run with `wp` as run.
+fn finer(wp: f64) -> String {
+    let mut text = String::from("file,side,reference,wp_um,slab_wp_um,ep_um,pressure_pa");
+    text += ",wp_extrapolated_um,wp_error_um,ep_extrapolated_um,ep_error_um,pressure_extrapolated_pa,pressure_error_pa\n";
+    for side in ["bottom", "top", "total"] {
+        let _ = writeln!(
+            text,
+            "a.mpts,{side},mid,{wp},4.2,5,2.4e6,7.15,0.25,4.5,0.5,2.1e6,3e5"
+        );
+    }
+    text
+}
+
+#[test]
+fn implicit_runs_have_errors_and_the_others_their_difference() {
+    let folder = Folder::new();
+    let case = |name: &str, text: String| Case {
+        adhesive: "pf".into(),
+        name: name.into(),
+        path: folder.file(name, text),
+    };
+    let plain = wp(8.0, 9.0, 8.5);
+    let pressed = finer(8.5)
+        .lines()
+        .map(|line| line.split(',').take(7).collect::<Vec<_>>().join(",") + "\n")
+        .collect();
+    let runs = [
+        case("flip", pressed),
+        case("frictionless", plain.clone()),
+        case("implicit", finer(7.65)),
+        case("implicit-frictionless", finer(6.0).replace("7.15", "6.5")),
+    ];
+    let errors = CellErrors::read(&runs).unwrap().unwrap();
+    let mut csv = Vec::new();
+    errors.write_csv(&mut csv).unwrap();
+    let csv = String::from_utf8(csv).unwrap();
+    println!("{csv}{}", errors.to_text());
+    for row in [
+        "pf,flip,wp,total,um,8.5000,,0.2500,implicit,1.3500",
+        "pf,flip,pressure,total,MPa,2.4000,,0.3000,implicit,0.3000",
+        "pf,frictionless,wp,total,um,8.5000,,0.2500,implicit-frictionless,2.0000",
+        "pf,implicit,wp,total,um,7.6500,7.1500,0.2500,,",
+        "pf,implicit,ep,top,um,5.0000,4.5000,0.5000,,",
+    ] {
+        assert!(
+            csv.lines().any(|line| line == row),
+            "{row} is not in\n{csv}"
+        );
+    }
+    let text = errors.to_text();
+    let line = |name: &str| text.lines().rfind(|l| l.contains(name)).unwrap().to_owned();
+    assert!(line(" flip").contains("+1.35"), "{text}");
+    assert!(
+        line(" implicit ").contains("7.15 +- 0.25")
+            && line(" implicit ").contains("2.100 +- 0.300"),
+        "{text}"
+    );
+    // A pressure that the table does not have is not made up.
+    assert!(line(" frictionless").trim_end().ends_with('-'), "{text}");
+    assert!(CellErrors::read(&[case("alone", plain)]).unwrap().is_none());
 }
