@@ -94,7 +94,7 @@ fn table_2_and_the_pressure_figure_take_the_errors() {
 #[test]
 fn what_is_no_finer_run_of_the_same_bond_is_refused() {
     let bench = pressed();
-    bench.shell("synth-xct -q --size 16x32x16 --seed 3 -o - | xct2particles -q - -o - | build-bondline -q - -o other.mpts");
+    bench.shell("synth-xct -q --adhesive pf --size 24x48x24 --slab '11.6 um' --voxel '1.45 um' --seed 3 -o - | xct2particles -q - -o - | build-bondline -q - -o other.mpts");
     bench.done(
         "mpm-run",
         &[

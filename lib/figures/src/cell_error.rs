@@ -181,7 +181,7 @@ impl CellErrors {
         text += &format!("{:<9} {:<wide$}", "adhesive", "case");
         for q in &QUANTITIES {
             let side = if q.unit == "um" { q.side } else { "end" };
-            text += &format!("{:>17}", format!("{} {side} ({})", q.name, q.unit));
+            text += &format!("{:>19}", format!("{} {side} ({})", q.name, q.unit));
         }
         for of_run in self
             .rows
@@ -189,7 +189,7 @@ impl CellErrors {
         {
             text += &format!("\n{:<9} {:<wide$}", of_run[0].adhesive, of_run[0].case);
             for row in of_run {
-                text += &format!("{:>17}", self.cell(row));
+                text += &format!("{:>19}", self.cell(row));
             }
         }
         text + "\n"

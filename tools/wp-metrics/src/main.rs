@@ -213,7 +213,7 @@ fn carry_on(
 ) -> Result<(), Failure> {
     let ratio = input.noted("cell_m")? / finer.noted("cell_m")?;
     // A hair for the rounding of lengths written as text.
-    if !(ratio >= LEAST_RATIO * (1.0 - 1e-6)) {
+    if ratio.is_nan() || ratio < LEAST_RATIO * (1.0 - 1e-6) {
         return Err(Failure::usage(format!(
             "'{}' has cells {ratio:.3} times smaller than '{}': at least {LEAST_RATIO} is needed for their difference to be an error",
             finer.name, input.name

@@ -1,6 +1,7 @@
 //! Lines over an axis: closing, shear rates, plots.
 
 use std::fmt::Write as _;
+use std::slice::from_ref;
 
 use figures::{Closing, Error, Mark, Plot, ShearRates};
 
@@ -83,7 +84,7 @@ fn the_band_of_a_finer_run_stands_where_the_extrapolation_is() {
     };
     let run = folder.labelled("a", flat(1e6));
     let mut fine = folder.labelled("fine", flat(1.2e6));
-    let unknown = Closing::read(&[run.clone()], &[fine.clone()], None, "");
+    let unknown = Closing::read(from_ref(&run), from_ref(&fine), None, "");
     assert!(matches!(unknown, Err(Error::Request(said)) if said.contains("the label of no run")));
     fine.label = "a".into();
     let drawing = Closing::read(&[run], &[fine], None, "").unwrap().draw();
