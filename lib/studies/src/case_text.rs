@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use crate::voxels::Voxels;
+
 /// Phenol formaldehyde of the paper: density kg/m3, bulk modulus Pa, viscosity Pa s.
 pub const PF: [f64; 3] = [1200.0, 1e9, 1.3];
 
@@ -122,6 +124,8 @@ pub struct CaseText {
     pub stop: Option<f64>,
     /// Bodies.
     pub bodies: Vec<Body>,
+    /// Wood and liquid of a bond file, in place of box and bodies.
+    pub voxels: Option<Voxels>,
     /// Rows of the history, as the time between them, s.
     pub history_every: f64,
 }
@@ -154,6 +158,7 @@ impl CaseText {
             boundary: ["symmetry"; 3],
             stop: None,
             bodies: Vec::new(),
+            voxels: None,
             history_every: 0.05e-6,
         }
     }
@@ -191,7 +196,9 @@ impl CaseText {
             um(self.cell),
             self.dimensions
         )?;
-        writeln!(out, "domain = {}", corners(self.domain[0], self.domain[1]))?;
+        if self.voxels.is_none() {
+            writeln!(out, "domain = {}", corners(self.domain[0], self.domain[1]))?;
+        }
         writeln!(
             out,
             "\n[adhesive]\ndensity = \"{} kg/m3\"\nbulk_modulus = \"{} Pa\"",

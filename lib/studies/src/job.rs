@@ -72,9 +72,17 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), String> {
 /// Runs one job in `folder`, which keeps its case in `cases`.
 pub fn run_one(job: &Job, folder: &Path) -> Outcome {
     let (scene, method) = (job.scene, &job.method);
-    let run = write_case(&folder.join("cases"), scene, method);
+    let cases = folder.join("cases");
     let folder = folder.join(format!("{}-{}", scene.name, method.file_label()));
-    let run = run.and_then(|case| method.run(&case, &folder, &[]));
+    let run = write_case(&cases, scene, method).and_then(|case| {
+        let Some(voxels) = &scene.case.voxels else {
+            return method.run(&case, &folder, &[]);
+        };
+        let bond = case.with_extension("mpts");
+        voxels.write(&bond)?;
+        let bond = bond.display().to_string();
+        method.run(&case, &folder, &["--particles", &bond])
+    });
     let number = |key: &str| {
         let run = run.as_ref().ok()?;
         run.summary(key)

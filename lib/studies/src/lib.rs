@@ -21,3 +21,4 @@ pub mod stability;
 pub mod study;
 pub mod tradeoff;
 pub mod verification;
+pub mod voxels;

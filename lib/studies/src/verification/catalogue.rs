@@ -4,7 +4,7 @@ use super::lumen::Section;
 use super::piston::Drive;
 use super::{
     Scene, acoustic, channel, clamp, column, couette, disc, drop, duct, galilean, incline, piston,
-    sealed, slit, squeeze, tait, taylor_green, washburn,
+    sealed, slit, spheres, squeeze, tait, taylor_green, washburn,
 };
 use crate::case_text::PF;
 use crate::method::Method;
@@ -49,6 +49,7 @@ pub fn all() -> Vec<Entry> {
         channels(),
         lumens(),
         filling(),
+        arrays(),
         squeezing(),
         liquids(),
         invariants(),
@@ -170,6 +171,21 @@ fn filling() -> Vec<Entry> {
     for section in [Section::Square, Section::Round(2)] {
         for n in [3, 6] {
             list.push((piston::scene(section, n, Drive::Pressure(1e6)), implicit()));
+        }
+    }
+    list
+}
+
+fn arrays() -> Vec<Entry> {
+    let mut list = Vec::new();
+    for n in [8, 16, 24] {
+        for which in 0..spheres::DRAG.len() {
+            let mut methods = vec![short_steps(0.005)];
+            // The explicit scheme takes minutes with 24 cells.
+            if n < 24 {
+                methods.extend([Method::flip(), Method::xpic(5)]);
+            }
+            list.push((spheres::scene(n, which), methods));
         }
     }
     list

@@ -39,6 +39,10 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
         "Filling a square lumen and a tube at constant pressure\n\nTime from one to two diameters, as for the piston.",
     ),
     (
+        "spheres",
+        "A simple cubic array of spheres\n\nFlow through spheres made of voxels of half a cell, n cells a period, five volume fractions (particle file beside the case file; a quarter of the period, mirrored): permeability against the drag of smooth spheres (Sangani & Acrivos 1982; Zick & Homsy 1982, Table 2) and against the same voxels by lattice Boltzmann, refined (lib/studies/reference/spheres.csv). The staircase lets 5 to 23 % less through than the smooth sphere, and coarse walls make up for a part of that. The explicit scheme's liquid leaves walls behind which there is no pressure; with 24 cells it takes minutes and is left out.",
+    ),
+    (
         "squeeze",
         "Squeeze film between plates\n\nAgainst 8 eta V a^3/h^3 per length, a as long as what was pressed out makes it.",
     ),

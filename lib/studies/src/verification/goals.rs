@@ -200,6 +200,21 @@ pub const GOALS: &[Goal] = &[
         0.02,
     ),
     goal(
+        "spheres, gap of 4 cells or more",
+        &[
+            "spheres-n8-0.064",
+            "spheres-n16-0.064",
+            "spheres-n16-0.125",
+            "spheres-n16-0.216",
+            "spheres-n24-0.064",
+            "spheres-n24-0.125",
+            "spheres-n24-0.216",
+        ],
+        "implicit",
+        "permeability, same voxels",
+        0.04,
+    ),
+    goal(
         "slit, 6 and 12 cells, volume",
         &["slit-n6", "slit-n12"],
         "implicit",

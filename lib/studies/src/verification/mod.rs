@@ -19,6 +19,7 @@ pub mod plots;
 pub mod report;
 pub mod sealed;
 pub mod slit;
+pub mod spheres;
 pub mod squeeze;
 pub mod tait;
 pub mod taylor_green;
