@@ -253,13 +253,13 @@ fn unexplained(scene: &Scene, liquid: &LiquidState, initial: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::case::Case;
     use crate::resolve::resolve;
 
     /// A box of 4 x 2 cells of 1 um full of liquid on a floor of one cell.
-    fn setup() -> Setup {
+    pub(crate) fn setup() -> Setup {
         let text = r#"
 [grid]
 cell = "1 um"
@@ -340,6 +340,18 @@ box = { min = ["0 um", "2 um", "0 um"], max = ["4 um", "4 um", "1 um"] }
         assert!(missing.contains("31 are left and 0 went out"), "{missing}");
         let gone = said(&|l| *l = LiquidState::default(), 32);
         assert_eq!(gone, "no liquid is left in the domain");
+    }
+
+    #[test]
+    fn only_a_state_with_reasons_against_it_is_objected_to() {
+        assert_eq!(Verdict::because(Vec::new()).objection(), None);
+        let reasons = ["no liquid is left", "a volume is off"].map(str::to_owned);
+        let said = Verdict::because(reasons.into()).objection().unwrap();
+        assert!(said.starts_with("the results are not sound"), "{said}");
+        assert!(
+            said.ends_with(": no liquid is left; a volume is off"),
+            "{said}"
+        );
     }
 
     #[test]
