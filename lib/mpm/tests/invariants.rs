@@ -266,6 +266,11 @@ fn a_checkpoint_holds_a_step_limit_that_a_run_can_have() {
         run.restore(&saved).err()
     };
     assert_eq!(refused(0.97e-9), None);
+    // Liquid crushed to 0.3 of its volume that moves at ten times its sound.
+    let crushed = (s.liquid.tait.stiffness(-0.7) / s.liquid.density).sqrt();
+    let shortest = CELL / (crushed + 10.0 * s.liquid.sound_speed());
+    assert_eq!(refused(1.001 * shortest), None);
+    assert!(refused(0.999 * shortest).is_some());
     for limit_s in [0.98e-9, 1e-13, 0.0, -1e-9] {
         let said = refused(limit_s).expect("a refusal");
         assert!(said.contains("its step limit must be from"), "{said}");
