@@ -57,7 +57,8 @@ fn a_finer_run_gives_errors_and_changes_nothing_else() {
         }
     }
     // The pressure is that of the last row of the history, on the body that the clamp drives.
-    let (history, column) = table(&String::from_utf8(bench.read("implicit/history.csv")).unwrap());
+    let text = String::from_utf8(bench.read("implicit/history.csv")).unwrap();
+    let (history, column) = table(&text);
     let last = number(history.last().unwrap(), column("pressure_top_Pa"));
     let pressure = number(&rows[2], at("pressure_pa"));
     assert!(

@@ -249,3 +249,30 @@ fn a_volume_beyond_the_law_is_seen_within_64_steps() {
     assert_eq!(steps(1.05), Some(64));
     assert_eq!(steps(-0.75), Some(64));
 }
+
+/// Of PF at cells of 2.9 um the viscous limit is 0.97038 ns, and no sound run needs a step of 0.1 ps.
+#[test]
+fn a_checkpoint_holds_a_step_limit_that_a_run_can_have() {
+    let s = drifting(WallLaw::Stick);
+    let flip = settings(ShapeFunction::Gimp, VelocityUpdate::Flip, 0.1);
+    let refused = |limit_s: f64| {
+        let mut run = Explicit::new(&s, &flip).unwrap();
+        let mut saved = run.save();
+        for (name, values) in &mut saved.0 {
+            if let ("clock", Array::F64(values)) = (name.as_str(), values) {
+                values[2] = limit_s;
+            }
+        }
+        run.restore(&saved).err()
+    };
+    assert_eq!(refused(0.97e-9), None);
+    // Liquid crushed to 0.3 of its volume that moves at ten times its sound.
+    let crushed = (s.liquid.tait.stiffness(-0.7) / s.liquid.density).sqrt();
+    let shortest = CELL / (crushed + 10.0 * s.liquid.sound_speed());
+    assert_eq!(refused(1.001 * shortest), None);
+    assert!(refused(0.999 * shortest).is_some());
+    for limit_s in [0.98e-9, 1e-13, 0.0, -1e-9] {
+        let said = refused(limit_s).expect("a refusal");
+        assert!(said.contains("its step limit must be from"), "{said}");
+    }
+}

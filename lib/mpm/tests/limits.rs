@@ -4,7 +4,7 @@ mod scenes;
 
 use mpm::{Explicit, Limit, Plan, Settings, ShapeFunction, VelocityUpdate};
 use physics::{Amount, Boundary, Motion, Newtonian, Scene, Scheme, Table, Viscosity};
-use scenes::{CELL, FREE, fill, scene, settings, solid};
+use scenes::{CELL, DENSITY, FREE, VISCOSITY, fill, scene, settings, solid};
 
 fn pool() -> Scene {
     let mut s = scene([8, 10, 8], [Boundary::Symmetry; 3]);
@@ -107,4 +107,54 @@ fn bad_settings_and_points_are_refused() {
     assert!(said.contains("point 7") && said.contains("floor"));
     sunk.points.position[7][1] = 11.0 * CELL;
     assert!(refused(&sunk, gimp, VelocityUpdate::Flip, 0.5).contains("outside the grid"));
+}
+
+/// A drop of 16 points flies out of an open side; two that lie on sides stay.
+#[test]
+fn points_that_leave_an_open_side_are_counted() {
+    let mut s = scene(
+        [8, 8, 1],
+        [Boundary::Open, Boundary::Open, Boundary::Symmetry],
+    );
+    fill(&mut s, [4.0, 3.0, 0.0], [6.0, 5.0, 1.0], |_| {
+        [150.0, 0.0, 0.0]
+    });
+    for x in [0.0, 8.0] {
+        s.points.position.push([x * CELL, 7.0 * CELL, 0.5 * CELL]);
+        s.points.velocity.push([0.0; 3]);
+        s.points.volume.push(0.25 * CELL.powi(3));
+    }
+    let settings = settings(ShapeFunction::Gimp, VelocityUpdate::Flip, 0.5);
+    let mut scheme = Explicit::new(&s, &settings).unwrap();
+    let start = scheme.diagnostics();
+    let volume = 4.0 * CELL.powi(3);
+    let energy = 0.5 * DENSITY * volume * 150.0_f64.powi(2);
+    assert!((start.kinetic_energy / energy - 1.0).abs() < 1e-6);
+    assert!((start.volume / (1.125 * volume) - 1.0).abs() < 1e-6);
+    assert!((start.max_speed - 150.0).abs() < 1e-4);
+    let mut lost = 0;
+    for _ in 0..240 {
+        lost = scheme.advance(FREE).unwrap().lost;
+        assert_eq!(scheme.liquid().position.len() as u64 + lost, 18);
+    }
+    assert_eq!(lost, 16);
+}
+
+/// eta (du/dy)^2 V, but for the points next to the surface, whose gradient is half seen.
+#[test]
+fn a_shear_flow_dissipates_what_its_viscosity_takes() {
+    let rate = 1e5;
+    let mut s = scene(
+        [24, 24, 1],
+        [Boundary::Open, Boundary::Open, Boundary::Symmetry],
+    );
+    fill(&mut s, [4.0, 4.0, 0.0], [20.0, 20.0, 1.0], |x| {
+        [rate * (x[1] - 12.0) * CELL, 0.0, 0.0]
+    });
+    let settings = settings(ShapeFunction::Gimp, VelocityUpdate::Flip, 0.5);
+    let mut scheme = Explicit::new(&s, &settings).unwrap();
+    scheme.advance(FREE).unwrap();
+    let power = scheme.diagnostics().viscous_power;
+    let whole = VISCOSITY * rate * rate * 256.0 * CELL.powi(3);
+    assert!((power / whole - 1.0).abs() < 0.1, "{}", power / whole);
 }

@@ -4,7 +4,7 @@
 mod scenes;
 
 use mpm::{Explicit, PressureFrom, Settings, ShapeFunction, VelocityUpdate};
-use physics::{Boundary, Motion, Scheme};
+use physics::{Boundary, Motion, Scene, Scheme};
 use scenes::{CELL, FREE, fill, press, scene, settings, solid};
 
 fn with_all(update: VelocityUpdate) -> Settings {
@@ -208,11 +208,20 @@ fn points_of_a_cell_share_their_volume_ratio_and_volume_is_kept() {
         pressure: PressureFrom::CellMean,
         ..settings(ShapeFunction::Gimp, VelocityUpdate::Flip, 0.5)
     };
-    let mut run = Explicit::new(&s, &settings).unwrap();
-    for _ in 0..100 {
-        run.advance(FREE).unwrap();
+    let after = |s: &Scene| {
+        let mut run = Explicit::new(s, &settings).unwrap();
+        for _ in 0..100 {
+            run.advance(FREE).unwrap();
+        }
+        run.liquid()
+    };
+    let liquid = after(&s);
+    // Half of the mass under half of the force moves and compresses alike.
+    let mut half = s.clone();
+    half.points.volume.iter_mut().for_each(|v| *v *= 0.5);
+    for (half, whole) in after(&half).volume.iter().zip(&liquid.volume) {
+        assert!((2.0 * half / whole - 1.0).abs() < 1e-6);
     }
-    let liquid = run.liquid();
     let mut of_cell = std::collections::HashMap::new();
     let (mut least, mut most) = (f32::INFINITY, 0.0_f32);
     for (x, &v) in liquid.position.iter().zip(&liquid.volume) {

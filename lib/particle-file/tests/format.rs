@@ -271,3 +271,18 @@ fn realistic_wood_takes_less_than_two_bytes_per_voxel() {
         "{per_voxel} bytes per wood voxel"
     );
 }
+
+/// Readers take no header above 16 MiB, so none is written: the file would be lost.
+#[test]
+fn a_header_that_no_reader_takes_is_not_written() {
+    let written = |bytes: usize| {
+        let mut header = example::header();
+        header.set_attribute("notes", "x".repeat(bytes));
+        let mut file = Vec::new();
+        Draft::new(header).write_to(&mut file).map(|()| file)
+    };
+    let large = written((1 << 24) - 4096).unwrap();
+    ParticleFile::from_bytes(&large).unwrap().check().unwrap();
+    let said = written(1 << 24).unwrap_err().to_string();
+    assert!(said.contains("its header has"), "{said}");
+}

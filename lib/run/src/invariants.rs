@@ -278,6 +278,20 @@ mod tests {
         assert_eq!((found.points_in_wood, found.points_deep_in_wood), (1, 1));
     }
 
+    /// No way out is looked for beyond four cells.
+    #[test]
+    fn a_point_in_a_domain_full_of_wood_is_four_cells_deep() {
+        let mut scene = scene(vec![VoxelBlock::solid_box([-9.0; 3], [99.0; 3])]);
+        scene.grid.cell_m = 0.5;
+        let at = LiquidState {
+            position: vec![[2.0, 1.5, 0.75]],
+            volume: vec![1.0],
+            ..LiquidState::default()
+        };
+        let found = check(&scene, 1.0, &at, &[[0.0; 3]]);
+        assert_eq!((found.deepest_m, found.points_deep_in_wood), (2.0, 1));
+    }
+
     /// A void that winds along every axis both ways, in voxels of 2 x 4 x 8 m away from the origin.
     #[test]
     fn a_winding_void_is_reached_from_the_bond_alone() {

@@ -205,3 +205,22 @@ fn implicit_forecast(settings: &filling::Settings, setup: &Setup) -> Forecast {
         stages: plan.stages,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::tests::setup;
+
+    #[test]
+    fn threads_share_the_time_of_an_implicit_run() {
+        let (mut setup, settings) = (setup(), filling::Settings::default());
+        // Half a cell of 1 um in 50 ns: 20 steps.
+        setup.liquid.speed = 10.0;
+        let plan = filling::Plan::new(&setup.scene, &setup.liquid, &settings);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
+        let forecast = (pool.unwrap()).install(|| implicit_forecast(&settings, &setup));
+        assert!(forecast.steps > 2.0, "{}", forecast.steps);
+        let run_s = forecast.step_s * forecast.steps;
+        assert!((run_s / plan.cpu_s - 0.5).abs() < 1e-12, "{run_s} s");
+    }
+}

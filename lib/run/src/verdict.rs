@@ -259,13 +259,13 @@ fn unexplained(scene: &Scene, liquid: &LiquidState, initial: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::case::Case;
     use crate::resolve::resolve;
 
     /// A box of 4 x 2 cells of 1 um full of liquid on a floor of one cell.
-    fn setup() -> Setup {
+    pub(crate) fn setup() -> Setup {
         let text = r#"
 [grid]
 cell = "1 um"
@@ -354,6 +354,18 @@ box = { min = ["0 um", "2 um", "0 um"], max = ["4 um", "4 um", "1 um"] }
         assert!(none().and(None).sound);
         let said = none().and(Some("it did not settle".into())).objection();
         assert!(said.unwrap().ends_with(": it did not settle"));
+    }
+
+    #[test]
+    fn only_a_state_with_reasons_against_it_is_objected_to() {
+        assert_eq!(Verdict::because(Vec::new()).objection(), None);
+        let reasons = ["no liquid is left", "a volume is off"].map(str::to_owned);
+        let said = Verdict::because(reasons.into()).objection().unwrap();
+        assert!(said.starts_with("the results are not sound"), "{said}");
+        assert!(
+            said.ends_with(": no liquid is left; a volume is off"),
+            "{said}"
+        );
     }
 
     #[test]

@@ -144,3 +144,48 @@ fn largest_eigenvalue_bound(
     // Room for the rounding of single-precision sums.
     bound * (1.0 + 1e-5)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of degree k on [l, h], with T_k the Chebyshev polynomial and s = (h + l)/(h - l), an eigenvector of
+    /// eigenvalue e is left with T_k(s - 2 e/(h - l)) / T_k(s) of its residual.
+    #[test]
+    fn the_residual_is_the_chebyshev_polynomial() {
+        // D^-1 A has the eigenvalues 1.6 and 0.4, with S x = (1, 1) and (1, -1).
+        let entries = [[4.0, 1.2], [1.2, 1.0]];
+        let a = Csr::assemble(2, 2, |row, list| {
+            list.add(0, entries[row][0]);
+            list.add(1, entries[row][1]);
+        });
+        let a = a.unwrap();
+        let polynomial = |k: usize, x: f64| {
+            (1..k)
+                .fold((1.0, x), |(last, now), _| (now, 2.0 * x * now - last))
+                .1
+        };
+        for (degree, ratio) in [(1, 30.0), (2, 4.0), (3, 30.0), (6, 10.0)] {
+            let mut inverse = Chebyshev::new(&a, degree, ratio).unwrap();
+            let high = inverse.bound();
+            assert!((high - 1.6).abs() < 1e-4, "{high}");
+            let half = 0.5 * (high - high / ratio);
+            let centre = high - half;
+            for (sign, eigenvalue) in [(1.0, 1.6), (-1.0, 0.4)] {
+                let b = [2.0, sign as Work];
+                let mut x = [0.0; 2];
+                inverse.apply(&b, &mut x);
+                let left = polynomial(degree, (centre - eigenvalue) / half)
+                    / polynomial(degree, centre / half);
+                for (row, b) in b.into_iter().enumerate() {
+                    let ax: f64 = (0..2).map(|c| entries[row][c] * f64::from(x[c])).sum();
+                    let found = 1.0 - ax / f64::from(b);
+                    assert!(
+                        (found - left).abs() < 1e-4,
+                        "{degree} {eigenvalue}: {found} {left}"
+                    );
+                }
+            }
+        }
+    }
+}

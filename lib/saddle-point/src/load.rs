@@ -133,3 +133,40 @@ impl<'a> Bordered<'a> {
         z.push(Work::nearest(speed));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Csr;
+
+    /// Two faces and a cell, with 3 and 4 N on the faces that rest and the body's speed adding 2 and 8 to
+    /// the second and the cell.
+    #[test]
+    fn the_force_row_weighs_what_the_others_do() {
+        let a = Csr::assemble(2, 2, |row, entries| entries.add(row, 1.0)).unwrap();
+        let g = Csr::assemble(1, 2, |_, entries| entries.add(0, 1.0)).unwrap();
+        let load = Load {
+            momentum: vec![0.0, 1.0],
+            source: vec![4.0],
+            resistance: 1.0,
+            force: 4.0,
+        };
+        let weight = |b: &[f64; 2], speed: f64| {
+            let system = SaddleSystem {
+                a: &a,
+                g: &g,
+                c: &[0.0],
+                friction: &[0.0; 2],
+                two_eta: &[1.0],
+                b,
+                volume_source: &[0.0],
+            };
+            load.check(&system).unwrap();
+            load.weight(&system, speed)
+        };
+        // sqrt(3^2 + (4 + 2)^2 + 8^2) = sqrt(109).
+        assert!((weight(&[3.0, 4.0], 2.0) - 109_f64.sqrt() / 4.0).abs() < 1e-12);
+        assert_eq!(weight(&[3.0, 4.0], 0.0), 5.0 / 4.0);
+        assert_eq!(weight(&[0.0; 2], 0.0), 1.0 / 4.0, "nothing moves anything");
+    }
+}

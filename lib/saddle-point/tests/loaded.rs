@@ -56,7 +56,8 @@ fn the_speed_that_a_force_drives() {
     );
     assert!((speed / wanted - 1.0).abs() < 1e-5);
     assert!(error < 1e-4 * largest);
-    assert!(report.iterations() <= known.iterations() + 10);
+    // The preconditioner eliminates the speed: it costs no iterations.
+    assert!(report.iterations() <= known.iterations() + 2);
 
     let pulling = Load {
         force: -1.0,

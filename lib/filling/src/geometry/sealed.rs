@@ -130,4 +130,23 @@ mod tests {
         let (_, sealed) = fill_sealed(&block, &domain, [1.0, 0.0, 0.0], [0.5; 3]);
         assert_eq!(sealed, 2);
     }
+
+    /// A slot along x through a block of 12 x 3 voxels of half a cell, open to both of its ends.
+    #[test]
+    fn a_slot_is_sealed_where_symmetry_planes_close_both_ends() {
+        let block = VoxelBlock::from_fn([0.0; 3], [0.5, 0.5, 1.0], [12, 3, 1], |_, j, _| j != 1);
+        let sealed = |cells: usize, low: f64, boundary: Boundary| {
+            let domain = Domain {
+                cells: [cells, 4, 1],
+                boundary: [boundary, Boundary::Symmetry, Boundary::Symmetry],
+                axes: 2,
+            };
+            fill_sealed(&block, &domain, [low, 1.0, 0.0], [0.5, 0.5, 1.0]).1
+        };
+        assert_eq!(sealed(6, 0.0, Boundary::Symmetry), 12);
+        assert_eq!(sealed(8, 0.0, Boundary::Symmetry), 0, "open at x = 6 of 8");
+        assert_eq!(sealed(8, 2.0, Boundary::Symmetry), 0, "open at x = 2 of 8");
+        assert_eq!(sealed(6, 0.0, Boundary::Open), 0);
+        assert_eq!(sealed(6, 0.0, Boundary::Periodic), 0);
+    }
 }

@@ -218,3 +218,16 @@ fn free_paths_end_after_64_cells() {
     assert!((wall(66.0) - 63.5).abs() < 1e-9, "{}", wall(66.0));
     assert_eq!(wall(67.0), 64.0);
 }
+
+/// The velocity at a face between two bodies is that of the one above.
+#[test]
+fn a_face_between_two_bodies_belongs_to_the_upper_one() {
+    let below = VoxelBlock::solid_box([0.0, 0.0, 0.0], [3.0, 6.0, 6.0]);
+    let above = VoxelBlock::solid_box([3.0, 0.0, 0.0], [6.0; 3]);
+    let l = lattice(domain([6; 3], 3), vec![vec![below], vec![above]]);
+    let at = |i: usize| {
+        let cell = l.window.local([i as f64, 2.0, 2.0]);
+        l.face(0, l.window.index(cell.map(|x| x.round() as usize)))
+    };
+    assert_eq!([at(2), at(3), at(4)], [0, 1, 1]);
+}

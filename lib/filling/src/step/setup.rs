@@ -184,3 +184,48 @@ fn contents(
     };
     Ok((solids, particles, closed))
 }
+
+#[cfg(test)]
+mod tests {
+    use physics::{Newtonian, ShearRate, Tait, Viscosity};
+
+    use super::*;
+    use crate::geometry::tests::{domain, solids};
+
+    /// Cells of 2 m, 3 kg/m3, 0.5 Pa s, 8 Pa: rho h^2/eta = 24 s.
+    #[test]
+    fn inertia_compressibility_and_weight_are_against_viscosity() {
+        let domain = domain([4, 4, 1], 2);
+        let setup = Setup {
+            settings: Settings::default(),
+            units: Units {
+                h: 2.0,
+                low: [0.0; 3],
+                eta: 0.5,
+            },
+            domain,
+            liquid: Liquid {
+                density: 3.0,
+                tait: Tait { bulk_modulus: 8.0 },
+                viscosity: Viscosity::Newtonian(Newtonian(0.5)),
+                shear_rate: ShearRate::Paper,
+                cavitation_pressure: None,
+            },
+            wall: WallLaw::PartialSlip {
+                influence_length_m: 0.5,
+            },
+            gravity: [0.0, -10.0, 0.0],
+            width: WidthRule::Normal,
+            bottom: None,
+            top: None,
+            area: 1.0,
+            rest: solids(domain, vec![]),
+            sealed: 0,
+        };
+        let scales = setup.scales(0.25);
+        // rho h^2/(eta dt), eta/(K dt), rho h^2 g/eta and the length in cells.
+        assert_eq!((scales.inertia, scales.compressibility), (96.0, 0.25));
+        assert_eq!(scales.gravity, [0.0, -240.0, 0.0]);
+        assert_eq!(scales.influence_length, 0.25);
+    }
+}

@@ -207,3 +207,52 @@ impl Operator<'_> {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use physics::VoxelBlock;
+
+    use super::*;
+    use crate::geometry::tests::{domain, lattice};
+    use crate::liquid::Volumes;
+    use crate::system::{Scales, WidthRule};
+
+    /// Part of the columns between the centres of two faces along `axis`, neighbours along `t`, that is free
+    /// beside a wall a fifth of a cell thick that covers one half of them, the lower or the `upper` along
+    /// an axis.
+    fn sight(axis: usize, t: usize, halved: usize, upper: bool) -> f64 {
+        let (mut low, mut high) = ([0.0; 3], [6.0; 3]);
+        (low[t], high[t]) = (2.9, 3.1);
+        // The faces lie at 3 along their axis, and from 3 to 4 along the others.
+        let middle = if halved == axis { 3.0 } else { 3.5 };
+        if upper {
+            low[halved] = middle;
+        } else {
+            high[halved] = middle;
+        }
+        let wall = VoxelBlock::solid_box(low, high);
+        let lattice = lattice(domain([6; 3], 3), vec![vec![wall]]);
+        let phi = vec![1.0; lattice.window.sub_len()];
+        let volumes = Volumes::new(&lattice, &phi);
+        let scales = Scales {
+            inertia: 1.0,
+            compressibility: 0.0,
+            gravity: [0.0; 3],
+            influence_length: 0.0,
+            width: WidthRule::Normal,
+        };
+        let operator = Operator::new(&lattice, &volumes, scales);
+        let cell = lattice.window.local([3.0; 3]).map(|x| x.round() as usize);
+        operator.sight(axis, t, cell, [Velocity::Still; 2]).0
+    }
+
+    #[test]
+    fn a_wall_hides_the_columns_that_it_crosses_and_no_other() {
+        for (axis, t) in [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)] {
+            for halved in [axis, 3 - axis - t] {
+                assert_eq!(sight(axis, t, halved, false), 0.5, "{axis} {t} {halved}");
+                assert_eq!(sight(axis, t, halved, true), 0.5, "{axis} {t} {halved}");
+            }
+        }
+    }
+}

@@ -83,3 +83,48 @@ impl Operator<'_> {
 pub(crate) fn varies(law: &Viscosity) -> bool {
     matches!(law, Viscosity::Table(_))
 }
+
+#[cfg(test)]
+mod tests {
+    use physics::{Newtonian, ShearRate, Tait};
+
+    use super::*;
+    use crate::geometry::tests::{domain, lattice};
+    use crate::liquid::Volumes;
+    use crate::system::{Scales, WidthRule};
+
+    #[test]
+    fn the_change_told_is_that_of_the_viscosity() {
+        let lattice = lattice(domain([4, 4, 1], 2), vec![]);
+        let phi = vec![1.0; lattice.window.sub_len()];
+        let volumes = Volumes::new(&lattice, &phi);
+        let scales = Scales {
+            inertia: 1.0,
+            compressibility: 0.0,
+            gravity: [0.0; 3],
+            influence_length: 0.0,
+            width: WidthRule::Normal,
+        };
+        let mut operator = Operator::new(&lattice, &volumes, scales);
+        let u = vec![0.0; operator.dofs.faces.len()];
+        let field = Sheared {
+            deviator: |_: [f64; 3]| 0.0,
+            u: &u,
+            bodies: &[],
+        };
+        let mut change = |eta: f64| {
+            let liquid = Liquid {
+                density: 1.0,
+                tait: Tait { bulk_modulus: 1.0 },
+                viscosity: Viscosity::Newtonian(Newtonian(eta)),
+                shear_rate: ShearRate::Paper,
+                cavitation_pressure: None,
+            };
+            operator.set_viscosity(&liquid, 2.0, 1.0, &field)
+        };
+        change(2.0);
+        assert_eq!(change(2.0), 0.0);
+        assert!((change(6.0) - 2.0).abs() < 1e-6, "three times as viscous");
+        assert!((change(3.0) - 0.5).abs() < 1e-6, "half of it");
+    }
+}

@@ -96,3 +96,61 @@ impl BlockShape {
         (stops != [0; 3]).then_some(stops)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A floor up to y = 3 and a ceiling from y = 7 on, of voxels of half a cell.
+    fn gap() -> BlockShape {
+        BlockShape {
+            origin: [0.0; 3],
+            voxel: [0.5; 3],
+            solid: VoxelBlock::from_fn([0.0; 3], [1.0; 3], [20, 20, 20], |_, j, _| {
+                !(6..14).contains(&j)
+            }),
+        }
+    }
+
+    /// Where a point that goes from `start` to `end` (x, y) while the body rises by `rise` comes to, and in
+    /// which directions it was stopped.
+    fn swept(start: [f64; 2], end: [f64; 2], rise: f64) -> ([f64; 2], Option<[i8; 3]>) {
+        let lattice = Lattice {
+            cells: [10; 3],
+            boundary: [Boundary::Open; 3],
+            three: true,
+        };
+        let node = [5; 3];
+        let from_node =
+            |x: [f64; 2]| Lanes4([(x[0] - 5.0) as Real, (x[1] - 5.0) as Real, 0.0, 0.0]);
+        let (start, mut d) = (from_node(start), from_node(end));
+        let shifts = (&[0.0; 3], &[0.0, rise, 0.0]);
+        let stops = gap().sweep(node, &start, &mut d, shifts, &lattice);
+        ([0, 1].map(|a| 5.0 + f64::from(d.0[a])), stops)
+    }
+
+    #[test]
+    fn a_point_is_stopped_before_the_face_it_comes_to() {
+        for (start, end, rise, at, stops) in [
+            ([5.2, 4.0], [5.4, 3.2], 0.0, [5.4, 3.2], None),
+            ([5.2, 3.6], [5.4, 2.8], 0.0, [5.4, 3.0], Some([0, -1, 0])),
+            ([5.2, 6.7], [4.9, 7.3], 0.0, [4.9, 7.0], Some([0, 1, 0])),
+            // The floor comes up to a point at rest, and the ceiling up and away.
+            ([5.2, 3.2], [5.2, 3.2], 0.5, [5.2, 3.5], Some([0, -1, 0])),
+            ([5.2, 6.7], [5.2, 7.3], 0.5, [5.2, 7.3], None),
+            // A point in wood is left there.
+            ([5.2, 2.8], [5.2, 2.2], 0.0, [5.2, 2.2], None),
+        ] {
+            let (found, stopped) = swept(start, end, rise);
+            assert_eq!(stopped, stops, "{start:?} to {end:?}");
+            let off = (0..2).fold(0.0, |m: f64, a| m.max((found[a] - at[a]).abs()));
+            assert!(off < 2.0 * STAND_OFF, "{found:?}, not {at:?}");
+            if let Some([_, way, _]) = stops {
+                assert!(
+                    (at[1] - found[1]) * f64::from(way) > 0.0,
+                    "not before the face"
+                );
+            }
+        }
+    }
+}

@@ -147,3 +147,38 @@ fn depth_slices(origin: f64, voxel: f64, count: usize) -> Vec<Slice> {
     };
     (0..count).filter_map(slice).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By the midpoint rule from beyond the reach on.
+    #[test]
+    fn integrals_are_those_of_the_shape_function() {
+        const STEP: f64 = 1e-3;
+        let lattice = Lattice {
+            cells: [4; 3],
+            boundary: [Boundary::Open; 3],
+            three: true,
+        };
+        for shape in [ShapeFunction::Gimp, ShapeFunction::Bspline2] {
+            let of = Integrator::new(&lattice, shape);
+            let (mut sum, mut moment) = (0.0, 0.0);
+            for i in 0..4000 {
+                let x = f64::from(i) * STEP - 2.0;
+                assert!(
+                    (of.integral(x) - sum).abs() < 1e-6,
+                    "{shape:?} at {x}: {sum}"
+                );
+                assert!(
+                    (of.moment(x) - moment).abs() < 1e-6,
+                    "{shape:?} at {x}: {moment}"
+                );
+                let middle = x + 0.5 * STEP;
+                sum += STEP * of.value(middle);
+                moment += STEP * middle * of.value(middle);
+            }
+            assert!((sum - 1.0).abs() < 1e-6 && moment.abs() < 1e-6, "{shape:?}");
+        }
+    }
+}

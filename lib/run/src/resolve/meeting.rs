@@ -225,6 +225,12 @@ mod tests {
         assert!((at([0.0, -2.0, 0.0]).unwrap() - 1.0).abs() < 1e-6);
         assert_eq!(at([0.0, 2.0, 0.0]), None, "it moves away");
         assert_eq!(at([8.0, -2.0, 0.0]), None, "it has passed by then");
+        let far = ([-10.0, 3.0, 0.0], [-6.0, 4.0, 1.0]);
+        assert_eq!(
+            box_time(far, floor, [2.0, -2.0, 0.0], 1e-9, 2),
+            None,
+            "it has fallen past the floor before it comes over it"
+        );
         let beside = ([4.0, 0.0, 0.0], [5.0, 4.0, 1.0]);
         assert_eq!(box_time(plate, beside, [0.0, -2.0, 0.0], 1e-9, 2), None);
         let within = ([0.0; 3], [4.0, 3.1, 1.0]);

@@ -37,7 +37,12 @@ history_every = "0.1 us"
 
 fn fall(bench: &Bench) -> Summary {
     let mut fractions = Vec::new();
-    let mut progress = |fraction, _| fractions.push(fraction);
+    let mut progress = |fraction: f64, said: String| {
+        let time: f64 = said.split(' ').next().unwrap().parse().unwrap();
+        // Told to a thousandth of the run's 1 us.
+        assert!((fraction - time).abs() < 6e-4, "{fraction}: {said}");
+        fractions.push(fraction);
+    };
     let ended = bench.run_told("run", PLAIN, &|| false, &mut progress, &[]);
     let summary = ended.unwrap().expect("a run that had not ended");
     assert_eq!(

@@ -2,7 +2,9 @@
 //! folder.
 
 mod bench;
+mod bond;
 mod fall;
 mod plan;
+mod refused;
 mod replaced;
 mod stopped;

@@ -186,3 +186,70 @@ fn jacobi(level: &Level, weight: Work, b: &[Work], x: &[Work], out: &mut [Work])
         }
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::csr::Csr;
+
+    /// The Laplacian of a cube of `n` cells an edge whose sides are held at zero.
+    fn cube(n: usize) -> Csr<f64> {
+        let rows = n * n * n;
+        let assembled = Csr::assemble(rows, rows, |row, entries| {
+            entries.add(row, 6.0);
+            for stride in [1, n, n * n] {
+                let place = row / stride % n;
+                if place > 0 {
+                    entries.add(row - stride, -1.0);
+                }
+                if place + 1 < n {
+                    entries.add(row + stride, -1.0);
+                }
+            }
+        });
+        assembled.unwrap()
+    }
+
+    /// Steps of conjugate gradients are best in the energy: what is left of the right-hand side is
+    /// orthogonal to the solution, and the energy x.Ax = x.b of two steps is more than that of the best
+    /// multiple of one cycle.
+    #[test]
+    fn steps_on_a_level_are_the_best_in_the_energy() {
+        let n = 20;
+        let amg = Amg::new(&cube(n)).unwrap();
+        let rows = amg.rows_per_level();
+        assert_eq!(rows.len(), 3, "{rows:?}");
+        let matrix = &amg.levels[1].matrix;
+        let product = |x: &[Work]| -> Vec<Work> {
+            (0..rows[1]).map(|row| matrix.row_times(row, x)).collect()
+        };
+        let mut most = 0.0_f64;
+        // From the smoothest to nearly the roughest right-hand side, which takes fewer steps.
+        for waves in [1, 2, 5, 100, 450] {
+            let wave = std::f64::consts::PI * f64::from(waves) / rows[1] as f64;
+            let b: Vec<Work> = (0..rows[1])
+                .map(|row| (wave * (row as f64 + 0.5)).sin() as Work)
+                .collect();
+            let mut workspace = Workspace::default();
+            workspace.fit(&amg);
+            let (next, rest) = workspace.levels[1..].split_first_mut().unwrap();
+            next.rhs.copy_from_slice(&b);
+            amg.descend(1, &b, &mut next.solution, &mut next.scratch, rest);
+            let (x, ax) = (&next.solution, product(&next.solution));
+            let single = dot(x, &b).powi(2) / dot(x, &ax);
+            amg.accelerate(1, next, rest);
+            let x = &next.solution;
+            let (ax, energy) = (product(x), dot(x, &b));
+            let left: Vec<Work> = b.iter().zip(&ax).map(|(b, ax)| b - ax).collect();
+            assert!(dot(x, &left).abs() < 1e-4 * energy, "{waves} waves");
+            assert!(norm(&left) < 0.3 * norm(&b), "{waves} waves");
+            assert!(energy > single * (1.0 - 1e-5), "{waves} waves");
+            most = most.max(energy / single);
+        }
+        println!(
+            "a second step adds {:.2e} of the energy at most",
+            most - 1.0
+        );
+        assert!(most > 1.0 + 1e-4, "no second step was taken");
+    }
+}

@@ -118,3 +118,12 @@ fn what_makes_a_system_unsolvable_is_named() {
     assert!(matches!(fast, Cause::Inertial { .. }), "{fast}");
     assert_eq!(failure(|_| ()).1, Cause::Unknown);
 }
+
+/// Indices are of 32 bits, of which the last number is kept free.
+#[test]
+fn a_matrix_too_wide_for_its_indices_is_refused() {
+    let wide = |columns: usize| Csr::<f64>::assemble(1, columns, |_, entries| entries.add(7, 1.0));
+    assert_eq!(wide(u32::MAX as usize - 1).unwrap().row(0).0, [7]);
+    let said = wide(u32::MAX as usize).unwrap_err().to_string();
+    assert!(said.contains("exceeds the 32-bit index range"), "{said}");
+}

@@ -1,5 +1,7 @@
 //! Iterations over sizes and materials; the same result by any number of threads.
 
+use std::time::Instant;
+
 use crate::poisson::poisson;
 use crate::pseudo_wood::{Case, Problem};
 use crate::{MEDIUM, solve};
@@ -8,6 +10,7 @@ use crate::{MEDIUM, solve};
 fn iterations_do_not_grow_with_the_domain() {
     let iterations = [[24, 40, 16], [32, 48, 48]].map(|cells| {
         let problem = Problem::new(&Case { cells, ..MEDIUM }).unwrap();
+        let started = Instant::now();
         let (_, p, report) = solve(&problem, 1e-4).unwrap();
         println!(
             "{} cells: {} iterations to 1e-4",
@@ -15,6 +18,8 @@ fn iterations_do_not_grow_with_the_domain() {
             report.iterations()
         );
         assert!(report.residual() <= 1e-4);
+        // Its parts are no longer than the whole.
+        assert!(report.setup + report.iteration <= started.elapsed());
         report.iterations()
     });
     assert!(2 * iterations[1] <= 3 * iterations[0] && iterations[1] <= 28);

@@ -255,6 +255,27 @@ mod tests {
         }
     }
 
+    /// Readers other than ours go from directory to directory.
+    #[test]
+    fn every_directory_but_the_last_names_the_next() {
+        for big in [false, true] {
+            let (_, folder) = read_back(big);
+            let file = std::fs::File::open(folder.path().join("a.tif")).unwrap();
+            let mut decoder = tiff::decoder::Decoder::new(std::io::BufReader::new(file)).unwrap();
+            for z in 0..3_u8 {
+                assert_eq!(decoder.dimensions().unwrap(), (5, 4));
+                let first = match decoder.read_image().unwrap() {
+                    tiff::decoder::DecodingResult::U8(page) => page[0],
+                    other => panic!("{other:?}"),
+                };
+                assert_eq!((first, decoder.more_images()), (20 * z, z < 2));
+                if z < 2 {
+                    decoder.next_image().unwrap();
+                }
+            }
+        }
+    }
+
     #[test]
     fn missing_pages_are_noticed() {
         let writer = TiffWriter::new(Vec::new(), [2, 2, 2], 1e-6).unwrap();

@@ -34,11 +34,7 @@ impl Lattice {
         for corner in 0..1_usize << tangents.len() {
             let mut point = centre;
             for (bit, &t) in tangents.iter().enumerate() {
-                point[t] += if corner >> bit & 1 == 1 {
-                    PROBE
-                } else {
-                    -PROBE
-                };
+                point[t] = centre[t] + [-PROBE, PROBE][corner >> bit & 1];
             }
             match self.solid_at_plane(axis, point) {
                 Some(body) => closing = body,

@@ -56,3 +56,49 @@ impl Lattice {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use physics::VoxelBlock;
+
+    use crate::geometry::tests::{domain, lattice};
+
+    /// Whether the cell at (3, 3) around which boxes leave a way is one room.
+    fn is_one_room(axes: usize, boxes: &[([f64; 3], [f64; 3])]) -> bool {
+        let cells = [8, 8, if axes == 3 { 8 } else { 1 }];
+        let blocks = boxes
+            .iter()
+            .map(|&(low, high)| VoxelBlock::solid_box(low, high));
+        let lattice = lattice(domain(cells, axes), vec![blocks.collect()]);
+        let cell = lattice
+            .window
+            .local([3.0, 3.0, if axes == 3 { 3.0 } else { 0.0 }]);
+        lattice.is_one_room(cell.map(|x| x.round() as usize))
+    }
+
+    /// A passage through the cell along x of a fifth of its height, with a wall as thick as a
+    /// sub-cell on one side.
+    #[test]
+    fn a_passage_beside_a_wall_joins_the_halves_of_a_cell() {
+        for low in [3.0, 3.3, 3.5, 3.8] {
+            let floor = ([0.0; 3], [8.0, low, 8.0]);
+            let roof = ([0.0, low + 0.2, 0.0], [8.0; 3]);
+            assert!(is_one_room(2, &[floor, roof]), "{low}");
+            assert!(is_one_room(3, &[floor, roof]), "{low}");
+            let front = ([0.0; 3], [8.0, 8.0, low]);
+            let back = ([0.0, 0.0, low + 0.2], [8.0; 3]);
+            assert!(is_one_room(3, &[front, back]), "{low} along z");
+            // A column of a fifth by a fifth.
+            assert!(is_one_room(3, &[floor, roof, front, back]), "{low} both");
+        }
+    }
+
+    #[test]
+    fn a_wall_across_makes_two_rooms() {
+        for axis in 0..3 {
+            let (mut low, mut high) = ([0.0; 3], [8.0; 3]);
+            (low[axis], high[axis]) = (3.25, 3.75);
+            assert!(!is_one_room(3, &[(low, high)]), "{axis}");
+        }
+    }
+}

@@ -98,3 +98,46 @@ pub(crate) fn pressures(
         if n > 0.0 { sum / n } else { 0.0 }
     }));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::tests::{domain, lattice};
+    use crate::liquid::tests::at;
+
+    /// Particles of 1 and 3 Pa in one cell and of 8 Pa in the next but one.
+    #[test]
+    fn cells_without_particles_take_the_mean_of_their_neighbours() {
+        let lattice = lattice(domain([8, 4, 1], 2), vec![]);
+        let window = &lattice.window;
+        let tait = Tait { bulk_modulus: 1e6 };
+        let mut particles = at(
+            vec![[2.2, 1.5, 0.5], [2.8, 1.5, 0.5], [4.5, 1.5, 0.5]],
+            0.25,
+        );
+        particles.j = [1.0, 3.0, 8.0]
+            .map(|p| tait.volume_change(p) as f32)
+            .to_vec();
+        let mut bins = Bins::default();
+        particles.sort(window, &mut bins);
+        let mut pressure = Vec::new();
+        pressures(&particles, &bins, window, tait, &mut pressure);
+        let of = |i: usize, j: usize| {
+            let cell = window
+                .local([i as f64, j as f64, 0.0])
+                .map(|x| x.round() as usize);
+            pressure[window.index(cell)]
+        };
+        for (i, j, expected) in [
+            (2, 1, 2.0),
+            (4, 1, 8.0),
+            (3, 1, 5.0),
+            (1, 1, 2.0),
+            (4, 2, 8.0),
+            (3, 2, 0.0),
+            (6, 3, 0.0),
+        ] {
+            assert!((of(i, j) - expected).abs() < 1e-3, "{i} {j}: {}", of(i, j));
+        }
+    }
+}

@@ -148,3 +148,44 @@ fn joined(window: &Window, open: &[f32], from: usize, to: usize, axis: usize, up
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::tests::{domain, lattice};
+
+    /// Two neighbours of which one sub-cell each is open: they meet where these touch.
+    #[test]
+    fn cells_are_joined_where_open_sub_cells_touch() {
+        for axes in [2, 3] {
+            let lattice = lattice(domain([4, 4, if axes == 3 { 4 } else { 1 }], axes), vec![]);
+            let window = &lattice.window;
+            let cell = [2, 2, if axes == 3 { 2 } else { 0 }];
+            let from = window.index(cell);
+            let parts = |cell: [usize; 3]| -> Vec<([usize; 3], usize)> {
+                let first = window.first_sub(cell);
+                let place = |bit: usize| [bit & 1, bit >> 1 & 1, bit >> 2];
+                let sub = |at: [usize; 3]| {
+                    first + (0..3).map(|a| at[a] * window.sub_stride(a)).sum::<usize>()
+                };
+                (0..window.sub_per_cell())
+                    .map(|bit| (place(bit), sub(place(bit))))
+                    .collect()
+            };
+            for (axis, up) in (0..axes).flat_map(|axis| [(axis, false), (axis, true)]) {
+                let mut next = cell;
+                next[axis] = if up { 3 } else { 1 };
+                for (own, own_sub) in parts(cell) {
+                    for (others, other_sub) in parts(next) {
+                        let mut open = vec![0.0; window.sub_len()];
+                        (open[own_sub], open[other_sub]) = (1.0, 1.0);
+                        let beside = (0..3).all(|a| a == axis || own[a] == others[a]);
+                        let facing = own[axis] == usize::from(up) && others[axis] != own[axis];
+                        let found = joined(window, &open, from, window.index(next), axis, up);
+                        assert_eq!(found, beside && facing, "{axis} {up} {own:?} {others:?}");
+                    }
+                }
+            }
+        }
+    }
+}

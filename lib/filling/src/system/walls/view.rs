@@ -192,3 +192,36 @@ impl Collector<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::tests::{domain, lattice};
+
+    /// Sub-cells that tell their place: 100 x + 10 y + z.
+    #[test]
+    fn a_column_is_as_wet_as_the_sub_cells_on_its_side_of_the_face() {
+        let lattice = lattice(domain([4; 3], 3), vec![]);
+        let window = &lattice.window;
+        let [nx, ny, nz] = window.sub_cells();
+        let place = |sub: usize| [sub % nx, sub / nx % ny, sub / (nx * ny)];
+        let weight = [100.0, 10.0, 1.0];
+        let value = |at: [f64; 3]| (0..3).map(|a| weight[a] * at[a]).sum::<f64>();
+        let phi: Vec<f32> = (0..nx * ny * nz)
+            .map(|sub| value(place(sub).map(|x| x as f64)) as f32)
+            .collect();
+        let cell = [2; 3];
+        for (axis, tangent) in [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)] {
+            let view = View::new(&lattice, axis, cell);
+            for index in 0..4 {
+                // Sub-cells 4 and 5 are those of the cell, 3 the last one below the face.
+                let mut at = [4.0; 3];
+                at[axis] = if index & 1 == 1 { 4.0 } else { 3.0 };
+                at[tangent] = 4.5;
+                at[3 - axis - tangent] = if index & 2 == 2 { 5.0 } else { 4.0 };
+                let found = view.wetted(&lattice, &phi, cell, tangent, index);
+                assert!((found - value(at)).abs() < 1e-9, "{axis} {tangent} {index}");
+            }
+        }
+    }
+}

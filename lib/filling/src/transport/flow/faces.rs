@@ -158,7 +158,7 @@ impl Builder<'_> {
         for corner in 0..1_usize << tangents.len() {
             let mut point = centre;
             for (bit, &t) in tangents.iter().enumerate() {
-                point[t] += if corner >> bit & 1 == 1 { 0.25 } else { -0.25 };
+                point[t] += [-0.25, 0.25][corner >> bit & 1];
             }
             match self.lattice.solids.ray(point, axis, up, 1.0) {
                 Some(hit) if hit.near > farthest => (farthest, body) = (hit.near, hit.body),

@@ -62,7 +62,7 @@ impl Seen {
         for side in 0..2 {
             let distance = column.distance[side];
             let differs = (extent(&self.nearest)[side] - extent(column)[side]).abs() > TOUCH;
-            self.uneven |= differs && self.columns > 0;
+            self.uneven |= differs && self.columns != 0;
             if distance < self.nearest.distance[side] {
                 self.nearest.distance[side] = distance;
                 self.nearest.body[side] = column.body[side];
@@ -72,5 +72,48 @@ impl Seen {
             }
         }
         self.columns += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wall of body 3 above at these distances, one column each.
+    fn seen(above: &[f64]) -> Seen {
+        let mut seen = Seen::default();
+        for &distance in above {
+            let mut column = Column::FREE;
+            (column.distance[1], column.body[1]) = (distance, 3);
+            seen.add(&column);
+        }
+        seen
+    }
+
+    #[test]
+    fn the_nearest_wall_counts_and_one_of_two_distances_is_uneven() {
+        let one = seen(&[0.3]);
+        assert!(!one.uneven, "one column is as far as itself");
+        assert_eq!((one.nearest.distance[1], one.nearest.body[1]), (0.3, 3));
+        assert!(!seen(&[0.3, 0.3]).uneven);
+        let two = seen(&[0.8, 0.3, 0.7]);
+        assert!(two.uneven && two.nearest.distance[1] == 0.3);
+        assert_eq!(
+            two.reaches, 1,
+            "columns of 0.7 and 0.8 go beyond the edge above"
+        );
+        assert_eq!(seen(&[0.3, 0.5]).reaches, 0);
+        // Beyond a cell a wall is not near: the control volume ends half a cell away.
+        assert!(!seen(&[1.5, 2.5]).uneven && seen(&[1.5]).reaches == 0);
+    }
+
+    #[test]
+    fn a_column_that_is_solid_at_the_centre_shows_nothing() {
+        let mut seen = seen(&[0.3]);
+        seen.add(&Column {
+            distance: [0.0; 2],
+            body: [1; 2],
+        });
+        assert!(!seen.uneven && seen.columns == 1 && seen.nearest.body[1] == 3);
     }
 }

@@ -1,0 +1,222 @@
+//! A scene from a bond file: what is read of it, turned to the scene's axes and made of it, against
+//! numbers worked out by hand, and what of it is refused.
+
+use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile};
+use run::{Request, RunFailure};
+
+use crate::bench::{Bench, PLAIN};
+
+/// Edge of a voxel, m.
+const VOXEL: f64 = 2e-6;
+/// How far the upper adherend was moved away, m.
+const GAP: f64 = 5e-6;
+
+const CASE: &str = r#"
+[grid]
+cell = "1 um"
+[adhesive]
+density = "1200 kg/m3"
+bulk_modulus = "1 GPa"
+viscosity = "1 Pa s"
+[contact]
+law = "stick"
+[clamp]
+closing_speed = "1 m/s"
+stop = "closed"
+[integrator]
+scheme = "implicit"
+[output]
+snapshots = 0
+"#;
+
+/// A bond along z of 4 x `wide` voxels: wood three voxels thick with a pit of two, adhesive of two
+/// layers, wood of two. `change` has the last word on the header.
+fn bond(bench: &Bench, wide: usize, change: impl FnOnce(&mut Header)) {
+    let gap_voxels = GAP / VOXEL;
+    let parts = [
+        ("wood-bottom", Material::Rigid, 3, 0.0),
+        ("wood-top", Material::Rigid, 2, 3.0 + gap_voxels),
+        ("adhesive", Material::Adhesive, 2, 3.0),
+    ];
+    let high = [4.0, wide as f64, 5.0 + gap_voxels].map(|n| n * VOXEL);
+    let mut header = Header::new(Kind::Bond, VOXEL, 2, [0.0; 3], high);
+    header.set_attribute("gap_m", GAP);
+    change(&mut header);
+    let bits = parts.map(|(name, _, layers, _)| {
+        BitGrid::from_fn([4, wide, layers], |x, y, z| {
+            !(name == "wood-bottom" && x == 1 && y == 0 && z > 0)
+        })
+    });
+    let mut draft = Draft::new(header);
+    for ((name, material, _, low), bits) in parts.into_iter().zip(&bits) {
+        let origin = [0.0, 0.0, low * VOXEL];
+        draft = draft.block(Block::new(name, material, origin, VOXEL, bits), bits);
+    }
+    let mut bytes = Vec::new();
+    draft.write_to(&mut bytes).unwrap();
+    std::fs::write(bench.path("bond.mpts"), bytes).unwrap();
+}
+
+fn read(bench: &Bench, changes: &[&str]) -> Result<Request, RunFailure> {
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    let bond = bench.path("bond.mpts");
+    Request::read(&bench.path("case.toml"), Some(&bond), &changes)
+}
+
+/// The plan with single blanks.
+fn plan(bench: &Bench, changes: &[&str]) -> String {
+    let said = read(bench, changes).unwrap().explain().unwrap();
+    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    said.lines().map(|line| words(line) + "\n").collect()
+}
+
+#[test]
+fn the_bond_normal_is_turned_to_y_and_every_adhesive_voxel_filled() {
+    let bench = Bench::with(CASE);
+    bond(&bench, 8, |_| {});
+    let said = plan(&bench, &[]);
+    for line in [
+        "grid 8 x 15 x 16 cells of 1.0000 um, 3D",
+        // 4 x 8 x 2 voxels of 8 um3, four points along each of their edges.
+        "liquid 4096 material points, 5.1200e-16 m3",
+        "rigid body wood-bottom: 94 voxels, at rest",
+        "rigid body wood-top: 64 voxels, driven by the clamp",
+        "end closed after 5.00 um of travel",
+    ] {
+        assert!(said.contains(line), "'{line}' is not in\n{said}");
+    }
+    let said = plan(
+        &bench,
+        &["clamp.travel=3 um", "grid.points_per_direction=3"],
+    );
+    assert!(said.contains("liquid 13824 material points, 5.1200e-16 m3"));
+    assert!(said.contains("end closed after 3.00 um of travel"));
+}
+
+#[test]
+fn plane_strain_is_one_voxel_thick_and_one_cell_deep() {
+    let bench = Bench::with(CASE);
+    bond(&bench, 1, |_| {});
+    let said = plan(&bench, &["grid.dimensions=2"]);
+    for line in [
+        "grid 8 x 15 x 1 cells of 1.0000 um, plane strain",
+        // 4 x 2 voxels of 4 um2, 1 um deep.
+        "liquid 128 material points, 3.2000e-17 m3",
+        "rigid body wood-bottom: 10 voxels, at rest",
+    ] {
+        assert!(said.contains(line), "'{line}' is not in\n{said}");
+    }
+}
+
+/// A state is written in the axes of its bond file, with the upper wood where it is.
+#[test]
+fn states_are_written_in_the_axes_of_the_bond() {
+    let bench = Bench::with(CASE);
+    bond(&bench, 1, |_| {});
+    let request = read(&bench, &["grid.dimensions=2", "clamp.stop=0.3 us"]).unwrap();
+    let folder = bench.path("run");
+    let ended = request.execute(
+        &folder,
+        PLAIN,
+        particle_file::Provenance::default(),
+        &|| false,
+        &mut |_, _| {},
+        &|said| panic!("{said}"),
+    );
+    let summary = ended.unwrap().unwrap();
+    assert!((summary.travel_m - 3e-7).abs() < 1e-15);
+    let state = ParticleFile::open(folder.join("final.mpts")).unwrap();
+    assert_eq!(state.header().normal, 2);
+    let (top, bits) = state.block_named("wood-top").unwrap();
+    assert_eq!(bits.dims(), [4, 1, 2]);
+    let low = 11e-6 - summary.travel_m;
+    assert!((top.origin_m[2] - low).abs() < 1e-12, "{:?}", top.origin_m);
+    let (bottom, bits) = state.block_named("wood-bottom").unwrap();
+    assert_eq!((bottom.origin_m, bits.count()), ([0.0; 3], 10));
+    let places = state.vectors("position").unwrap();
+    assert_eq!(places.len(), 128);
+    let (low, high) = (places.iter()).fold((f32::MAX, f32::MIN), |(low, high), at| {
+        (low.min(at[2]), high.max(at[2]))
+    });
+    // Points begin an eighth of a voxel within the slab of 6 to 10 um. Nothing touches it, and
+    // what spreads them evenly moves them by less than a tenth of a cell.
+    let off = (low - 6.25e-6).abs().max((high - 9.75e-6).abs());
+    assert!(off < 1e-7, "{off}");
+}
+
+#[test]
+fn bonds_and_cells_that_do_not_fit_are_refused() {
+    let bench = Bench::with(CASE);
+    let said = |changes: &[&str]| read(&bench, changes).unwrap_err().to_string();
+    bond(&bench, 8, |_| {});
+    for (changes, sentence) in [
+        (
+            &["grid.dimensions=2"][..],
+            "one voxel thick along z, but this one has 8",
+        ),
+        (&["grid.cell=3 um"], "2.667 cells of 3.0000 um wide along x"),
+        (
+            &["grid.cell=1.6 um"],
+            "puts 2.500 points along a voxel of 2.0000 um",
+        ),
+        (
+            &["grid.cell=4 um", "grid.points_per_direction=1"],
+            "puts 0.500 points along a voxel",
+        ),
+        (
+            &[r#"grid.domain={ min = ["0 um", "0 um", "0 um"], max = ["8 um", "8 um", "8 um"] }"#],
+            "a bond file has its own box",
+        ),
+        // 4e6 cells are accepted however small the file.
+        (
+            &["grid.cell=0.05 um"],
+            "160 x 300 x 320 cells; accepted are",
+        ),
+    ] {
+        assert!(
+            said(changes).contains(sentence),
+            "{changes:?}: {}",
+            said(changes)
+        );
+    }
+    let body = "\n[[body]]\nmaterial = \"rigid\"\nbox = { min = [\"0 um\", \"0 um\", \"0 um\"], max = [\"1 um\", \"1 um\", \"1 um\"] }\n";
+    let both = Bench::with(&(CASE.to_owned() + body));
+    bond(&both, 8, |_| {});
+    let refused = read(&both, &[]).unwrap_err().to_string();
+    assert!(
+        refused.contains("only one of them can describe the scene"),
+        "{refused}"
+    );
+    let neither = bench.read(&[]).unwrap_err().to_string();
+    assert!(neither.contains("nothing describes the scene"), "{neither}");
+}
+
+#[test]
+fn a_file_that_is_no_bond_is_refused() {
+    let bench = Bench::with(CASE);
+    bond(&bench, 8, |header| header.kind = Kind::Specimen);
+    match read(&bench, &[]) {
+        Err(RunFailure::Usage(said)) => assert!(said.contains("no bond file but holds a specimen")),
+        other => panic!("{other:?}"),
+    }
+    let corrupt = |sentence: &str, change: &dyn Fn(&mut Header)| {
+        bond(&bench, 8, change);
+        match read(&bench, &[]) {
+            Err(RunFailure::Data(said)) => assert!(said.contains(sentence), "{said}"),
+            other => panic!("{sentence}: {other:?}"),
+        }
+    };
+    corrupt("gap_m is missing", &|header| header.attributes.clear());
+    corrupt("not a length", &|header| {
+        header.set_attribute("gap_m", -1e-6)
+    });
+    // The box may be larger by a cell, 64 voxels at most, and rounding.
+    bond(&bench, 8, |header| header.box_max_m[0] += 64.0 * VOXEL);
+    read(&bench, &[]).unwrap();
+    corrupt("the same to a cell", &|header| {
+        header.box_max_m[0] += 66.0 * VOXEL
+    });
+    corrupt("the same to a cell", &|header| {
+        header.box_min_m[2] -= 66.0 * VOXEL
+    });
+}

@@ -1,0 +1,128 @@
+//! What of a case is refused, in which words.
+
+use crate::plan::{CASE, IMPLICIT, plan};
+
+#[test]
+fn what_contradicts_itself_is_refused() {
+    let liquid_above = "[[body]]\nmaterial = \"adhesive\"\nbox = { min = [\"4 um\", \"9 um\", \"0 um\"], max = [\"16 um\", \"16 um\", \"8 um\"] }\n[boundary]";
+    for (replaced, changes, sentence) in [
+        (&[][..], &["grid.dimensions=4"][..], "dimensions = 4"),
+        (&[], &["grid.points_per_direction=0"], "1 to 4"),
+        (&[], &["grid.points_per_direction=5"], "1 to 4"),
+        (&[], &["grid.cell=1e-5 um"], "cells long"),
+        (
+            &[],
+            &["integrator.tolerance=1e-6"],
+            "tolerance is for scheme = \"implicit\"",
+        ),
+        (&[("order = 5\n", "")], &[], "needs an order"),
+        (&[], &["integrator.velocity_update=flip"], "order is for"),
+        (
+            &[("\"explicit\"", "\"implicit\"")],
+            &[],
+            "velocity_update is for scheme = \"explicit\"",
+        ),
+        (&IMPLICIT, &["grid.shape=linear"], "shape is for"),
+        (
+            &IMPLICIT,
+            &["contact.separation=1 cell"],
+            "separation is for",
+        ),
+        (&IMPLICIT, &["integrator.pressure=point"], "pressure is for"),
+        (
+            &[("influence_length = \"0.01 cell\"", "")],
+            &[],
+            "needs influence_length",
+        ),
+        (
+            &[("\"partial-slip\"", "\"stick\"")],
+            &[],
+            "influence_length is for",
+        ),
+        (
+            &[(
+                "[contact]\nlaw = \"partial-slip\"\ninfluence_length = \"0.01 cell\"\n",
+                "",
+            )],
+            &[],
+            "[contact] law is needed",
+        ),
+        (&[("viscosity = \"300 cP\"\n", "")], &[], "needs viscosity"),
+        (&[("travel = \"3 um\"\n", "")], &[], "travel"),
+        (&[], &["clamp.pid={ kp = -1.0, ki = 0.0, kd = 0.0 }"], "pid"),
+        (&[], &["boundary.y=periodic"], "no meaning with [clamp]"),
+        (
+            &[],
+            &["grid.dimensions=2", "boundary.z=open"],
+            "plane strain",
+        ),
+        (
+            &[],
+            &["stop.time=1 us"],
+            "[stop] is for runs without [clamp]",
+        ),
+        (&[("[boundary]", liquid_above)], &[], "overlaps number 1"),
+        (
+            &[],
+            &["contact.influence_length=0 cell"],
+            "greater than zero",
+        ),
+        (&[], &["clamp.stop=never"], "closed"),
+        (&[], &["grid=1"], "grid"),
+        (&[], &["grid.cell"], "KEY=VALUE"),
+        (&[], &["=1"], "the key is empty"),
+        (
+            &[("[\"16 um\", \"10 um\"", "[\"21 um\", \"10 um\"")],
+            &["grid.cell=1 um"],
+            "out of the domain",
+        ),
+    ] {
+        match plan(replaced, changes) {
+            Ok(said) => panic!("{replaced:?} {changes:?} is accepted:\n{said}"),
+            Err(said) => assert!(said.contains(sentence), "{replaced:?} {changes:?}: {said}"),
+        }
+    }
+}
+
+/// The plate of [`CASE`] stands 6 um above the floor, and sound is 912.9 m/s fast.
+#[test]
+fn bodies_that_would_meet_or_outrun_sound_are_refused() {
+    let unlimited = ("max_pressure = \"2.5 MPa\"\n", "");
+    let said = |replaced: &[(&str, &str)], changes: &[&str]| plan(replaced, changes).unwrap_err();
+    plan(&[unlimited], &["clamp.travel=6 um"]).unwrap();
+    let deep = said(&[unlimited], &["clamp.travel=7 um"]);
+    assert!(deep.contains("meets 'wall' after 6.0000 um"), "{deep}");
+    // Where the pressure may hold the clamp before, the run itself sees to it.
+    plan(&[], &["clamp.travel=7 um"]).unwrap_err();
+    plan(&[], &["clamp.stop=3.5 us"]).unwrap();
+
+    let low = [("[\"16 um\", \"10 um\"", "[\"16 um\", \"6 um\"")];
+    plan(&low, &[]).unwrap();
+    let far = said(&low, &["clamp.travel=1 um"]);
+    assert!(far.contains("nothing would be pressed"), "{far}");
+
+    let fast = said(&[], &["clamp.closing_speed=913 m/s"]);
+    assert!(fast.contains("[clamp] closing_speed is 9.1300e2"), "{fast}");
+    let adhesive = "material = \"adhesive\"\n";
+    let thrown = format!("{adhesive}velocity = [\"0 m/s\", \"-913 m/s\", \"0 m/s\"]\n");
+    let fast = said(&[(adhesive, &thrown)], &[]);
+    assert!(fast.contains("velocity of an adhesive body is"), "{fast}");
+
+    let free = |speed: &str| {
+        let velocity = format!("velocity = [\"0 m/s\", \"{speed}\", \"0 m/s\"]\n");
+        let clamp = CASE.find("[clamp]").unwrap()..CASE.find("[integrator]").unwrap();
+        plan(
+            &[
+                ("velocity = \"clamp\"\n", &velocity),
+                (&CASE[clamp], "[stop]\ntime = \"0.3 us\"\n"),
+            ],
+            &[],
+        )
+    };
+    // 0.3 us at 20 m/s take it to the floor, and at 21 m/s into it.
+    free("-20 m/s").unwrap();
+    let met = free("-21 m/s").unwrap_err();
+    assert!(met.contains("overlap from 2.8571e-7 s on"), "{met}");
+    let fast = free("913 m/s").unwrap_err();
+    assert!(fast.contains("velocity of a rigid body is"), "{fast}");
+}
