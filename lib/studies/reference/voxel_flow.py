@@ -1,11 +1,9 @@
 """Permeability of voxels by lbmpy, a public lattice Boltzmann code: TRT, D3Q19, walls half way between nodes.
 
-    voxel_flow.py spheres VOXELS FRACTION SPLIT...
-    voxel_flow.py grain STACK.tif PAGE ROW COLUMN EDGE SPLIT...
+    voxel_flow.py VOXELS FRACTION SPLIT...
 
-Splits each voxel into so many along each axis and prints the permeability of each split, over that of smooth
-spheres (Zick & Homsy 1982) or over the square of a voxel's edge (wood is label 128; flow along the pages), and
-what they converge to."""
+Splits each voxel into so many along each axis and prints the permeability of each split over that of smooth
+spheres (Zick & Homsy 1982), and what they converge to."""
 
 import sys
 
@@ -55,7 +53,7 @@ def permeability(solid, split, every, tolerance=1e-5):
 REST = {0.064: 0.867, 0.125: 0.878, 0.216: 0.849, 0.343: 0.815, 0.45: 0.796}
 
 
-def limit(found, rest=0.85):
+def limit(found, rest):
     """What values by split converge to: powers EDGE and 2 taken out of splits 2, 3 and 4, or `rest` of the
     change from 1 to 2."""
     if all(split in found for split in (2, 3, 4)):
@@ -71,23 +69,15 @@ def sphere(voxels, fraction):
     return x[:, None, None] ** 2 + x[:, None] ** 2 + x**2 < radius**2, radius
 
 
-def main(what, *words):
-    if what == "spheres":
-        voxels, fraction = int(words[0]), float(words[1])
-        solid, radius = sphere(voxels, fraction)
-        unit, every, splits = voxels**3 / (6 * np.pi * radius * DRAG[fraction]), 20, words[2:]
-    else:
-        import tifffile
-
-        page, row, column, edge = map(int, words[1:5])
-        solid = tifffile.imread(words[0])[page : page + edge, row : row + edge, column : column + edge] == 128
-        unit, every, splits, fraction = 1.0, 25, words[5:], None
-    found = {}
+def main(voxels, fraction, *splits):
+    voxels, fraction = int(voxels), float(fraction)
+    solid, radius = sphere(voxels, fraction)
+    unit, found = voxels**3 / (6 * np.pi * radius * DRAG[fraction]), {}
     for split in map(int, splits):
-        found[split] = permeability(solid, split, every) / unit
+        found[split] = permeability(solid, split, 20) / unit
         print(split, found[split], flush=True)
     if 1 in found and 2 in found:
-        print("limit", limit(found, REST.get(fraction, 0.85)))
+        print("limit", limit(found, REST[fraction]))
 
 
 main(*sys.argv[1:])

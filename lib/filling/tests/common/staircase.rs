@@ -1,14 +1,23 @@
 //! Developed flow through a lumen of voxels by finite differences.
 
-/// Squares per voxel edge.
-const FINE: usize = 4;
+/// Squares per voxel edge, and the weights that take errors of the powers 4/3 (the velocity beside a
+/// re-entrant edge is r^(2/3)) and 2 out of their fluxes: 0.7 % is left with 3 voxels across a tube,
+/// 0.1 % with 6. Four squares alone are off by 5, 2.5 and, with 12 voxels, 1.3 %.
+const FINE: [(usize, f64); 3] = [(2, 1.40724), (3, -6.71364), (4, 6.30640)];
 
-/// Flux through the open voxels of n x n, in voxels^4, per pressure gradient over viscosity:
-/// central differences on squares of 1/[`FINE`] voxel, conjugate gradients. The rim is wall.
+/// Flux through the open voxels of n x n, in voxels^4, per pressure gradient over viscosity, by
+/// central differences. The rim is wall.
 pub fn flux(n: usize, open: impl Fn(usize, usize) -> bool) -> f64 {
-    let m = n * FINE;
+    FINE.map(|(fine, weight)| weight * differences(n, fine, &open))
+        .iter()
+        .sum()
+}
+
+/// The flux with squares of 1/`fine` voxel, by conjugate gradients.
+fn differences(n: usize, fine: usize, open: &impl Fn(usize, usize) -> bool) -> f64 {
+    let m = n * fine;
     let inside: Vec<bool> = (0..m * m)
-        .map(|v| open(v % m / FINE, v / m / FINE))
+        .map(|v| open(v % m / fine, v / m / fine))
         .collect();
     let apply = |x: &[f64]| -> Vec<f64> {
         let flow = |v: usize| {
@@ -40,5 +49,5 @@ pub fn flux(n: usize, open: impl Fn(usize, usize) -> bool) -> f64 {
             way[v] = residual[v] + size / last * way[v];
         }
     }
-    u.iter().sum::<f64>() / (FINE as f64).powi(4)
+    u.iter().sum::<f64>() / (fine as f64).powi(4)
 }

@@ -59,14 +59,20 @@ impl Section {
 }
 
 impl Section {
-    /// [`Self::resistance`] of the lumen's own staircase walls: central differences on a quarter
-    /// with [`FINE`] squares per voxel edge, successive over-relaxation.
+    /// [`Self::resistance`] of the lumen's own staircase walls, from central differences with
+    /// the numbers of squares per voxel edge in [`FINE`].
     pub fn staircase_resistance(self, n: u32) -> f64 {
+        let flows = FINE.map(|(fine, weight)| weight / self.differences(n, fine));
+        1.0 / flows.iter().sum::<f64>()
+    }
+
+    /// The same with `fine` squares per voxel edge on a quarter, by successive over-relaxation.
+    fn differences(self, n: u32, fine: usize) -> f64 {
         let rows = self.rows(n);
         let voxels = 2.0 * rows.len() as f64;
-        let m = rows.len() * FINE;
+        let m = rows.len() * fine;
         let wide: Vec<usize> = (0..m)
-            .map(|j| (rows[j / FINE] * voxels).round() as usize * FINE)
+            .map(|j| (rows[j / fine] * voxels).round() as usize * fine)
             .collect();
         let relaxation = 2.0 / (1.0 + std::f64::consts::FRAC_PI_2 / m as f64);
         let mut u = vec![0.0; m * m];
@@ -107,8 +113,10 @@ impl Section {
     }
 }
 
-/// Squares per voxel edge of the finite differences.
-const FINE: usize = 4;
+/// Squares per voxel edge of the finite differences, and the weights that take errors of the powers
+/// 4/3 (the velocity beside a re-entrant edge is r^(2/3)) and 2 out of their mean velocities: four squares
+/// alone are 2.5 % too fast with 6 voxels across a tube and 1.3 % with 12.
+const FINE: [(usize, f64); 3] = [(2, 1.40724), (3, -6.71364), (4, 6.30640)];
 
 /// A rectangle of a cross-section by its corners (across, up) from the lumen's axis, m.
 #[derive(Clone, Copy, Debug)]
@@ -160,7 +168,7 @@ mod tests {
     #[test]
     fn resistances() {
         let square = Section::Square.staircase_resistance(6);
-        assert!((square / 28.454 - 1.0).abs() < 0.003, "{square}");
+        assert!((square / 28.454 - 1.0).abs() < 0.001, "{square}");
         for (voxels, n) in [(1, 6), (2, 6), (2, 12), (2, 24)] {
             let tube = Section::Round(voxels);
             println!(

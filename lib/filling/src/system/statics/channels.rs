@@ -82,12 +82,12 @@ fn round_tubes_of_voxels() {
         (
             1.0,
             WidthRule::Combined,
-            [[0.03, 0.06], [0.05, 0.07], [0.04, 0.05]],
+            [[0.05, 0.10], [0.08, 0.10], [0.05, 0.06]],
         ),
         (
             0.5,
             WidthRule::Normal,
-            [[0.03, 0.12], [0.02, 0.03], [0.01, 0.03]],
+            [[0.05, 0.14], [0.03, 0.04], [0.02, 0.03]],
         ),
     ] {
         for (radius, [tolerance, limit]) in [1.5, 3.0, 6.0].into_iter().zip(tolerances) {
