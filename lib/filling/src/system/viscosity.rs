@@ -108,7 +108,7 @@ mod tests {
         let mut operator = Operator::new(&lattice, &volumes, scales);
         let u = vec![0.0; operator.dofs.faces.len()];
         let field = Sheared {
-            deviator: |_: [f64; 3]| 0.0,
+            deviator: |_: [f64; 3]| 1.0,
             u: &u,
             bodies: &[],
         };
