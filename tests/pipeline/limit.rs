@@ -43,7 +43,7 @@ fn sealed_liquid_is_held_at_the_limit_for_a_second() {
 
 /// The clamp stands, and another body goes on pressing.
 #[test]
-fn a_limit_that_cannot_be_kept_stops_the_run() {
+fn a_limit_that_is_not_kept_in_the_end_is_no_sound_run() {
     let ram = r#"
 [[body]]
 material = "rigid"
@@ -63,5 +63,5 @@ box = { min = ["0 um", "12 um", "0 um"], max = ["4 um", "16 um", "2 um"] }
     let output = bench.run("mpm-run", &["-q", "case.toml", "-o", "run"]);
     let said = said(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(said.contains("above the max_pressure"), "{said}");
+    assert!(said.contains("above its max_pressure"), "{said}");
 }

@@ -5,7 +5,7 @@ use physics::{Clamp, Motion, PidControl};
 /// Relative excess over the pressure limit that is tolerated.
 const TOLERANCE: f64 = 5e-3;
 
-/// Relative excess over it beyond which a clamp that stands no longer keeps its limit.
+/// Relative excess over it from which a step does not keep the limit.
 const BROKEN: f64 = 0.02;
 
 /// Speed of the clamp.
@@ -31,6 +31,8 @@ pub(super) struct Drive {
     control: Control,
     /// Closing speed now, m/s.
     pub(super) speed: f64,
+    /// Steps that did not keep the pressure limit, and the pressure of the last step if it is one, Pa.
+    pub(super) broken: (u64, f64),
 }
 
 impl Drive {
@@ -52,6 +54,7 @@ impl Drive {
             motions,
             control,
             speed: clamp.map_or(0.0, |c| c.closing_speed),
+            broken: (0, 0.0),
         }
     }
 
@@ -74,6 +77,11 @@ impl Drive {
     /// Index of the body that the clamp moves.
     pub(super) fn clamped(&self) -> Option<usize> {
         self.motions.iter().position(|m| *m == Motion::Clamped)
+    }
+
+    /// Whether the scheme itself keeps a pressure limit.
+    pub(super) fn is_limited(&self) -> bool {
+        matches!(self.control, Control::Limit { .. })
     }
 
     /// The pressure (Pa) at which the clamp is held, its speed being unknown.
@@ -113,35 +121,34 @@ impl Drive {
         self.speed == speed
     }
 
-    /// The limit (Pa) where `pressure` (Pa) shows that the clamp cannot keep it.
-    pub(super) fn broken(&self, pressure: f64) -> Option<f64> {
-        match self.control {
-            Control::Limit { limit, .. } if pressure > limit * (1.0 + BROKEN) => Some(limit),
-            _ => None,
-        }
-    }
-
     /// Takes in the pressure (Pa) of a step of `dt` (s) that is over.
     pub(super) fn observe(&mut self, pressure: f64, dt: f64) {
-        if let Control::Pid(pid) = &mut self.control {
-            pid.observe(pressure, dt);
-            self.speed = pid.speed();
+        match &mut self.control {
+            Control::Pid(pid) => {
+                pid.observe(pressure, dt);
+                self.speed = pid.speed();
+            }
+            Control::Limit { limit, .. } if pressure > *limit * (1.0 + BROKEN) => {
+                self.broken = (self.broken.0 + 1, pressure);
+            }
+            Control::Limit { .. } | Control::Free => self.broken.1 = 0.0,
         }
     }
 
     /// The changing part, for checkpoints.
-    pub(super) fn state(&self) -> [f64; 5] {
+    pub(super) fn state(&self) -> [f64; 7] {
         let pid = match &self.control {
             Control::Pid(pid) => pid.state(),
             _ => [0.0; 3],
         };
         let held = f64::from(u8::from(self.held().is_some()));
-        [self.speed, held, pid[0], pid[1], pid[2]]
+        let (steps, pressure) = (self.broken.0 as f64, self.broken.1);
+        [self.speed, held, steps, pressure, pid[0], pid[1], pid[2]]
     }
 
     /// Goes back to a saved changing part.
-    pub(super) fn set_state(&mut self, [speed, was_held, a, b, c]: [f64; 5]) {
-        self.speed = speed;
+    pub(super) fn set_state(&mut self, [speed, was_held, steps, pressure, a, b, c]: [f64; 7]) {
+        (self.speed, self.broken) = (speed, (steps as u64, pressure));
         match &mut self.control {
             Control::Pid(pid) => pid.set_state([a, b, c]),
             Control::Limit { held, .. } => *held = was_held != 0.0,
@@ -166,9 +173,10 @@ mod tests {
         assert_eq!(drive.exceeded(1.006e6), Some(1e6));
         assert!(!drive.follow(-1.0));
         assert_eq!((drive.speed, drive.held()), (0.0, Some(1e6)));
-        assert_eq!(
-            (drive.broken(1.019e6), drive.broken(1.021e6)),
-            (None, Some(1e6))
-        );
+        let broken = [1.019e6, 1.021e6, 1.03e6, 1e6].map(|pressure| {
+            drive.observe(pressure, 1e-9);
+            drive.broken
+        });
+        assert_eq!(broken, [(0, 0.0), (1, 1.021e6), (2, 1.03e6), (2, 0.0)]);
     }
 }

@@ -28,18 +28,6 @@ impl Implicit {
         self.failure(&format!("no acceptable time step was found: {why}"))
     }
 
-    /// Whether the pressure on the clamp's body is within its limit.
-    pub(super) fn keeps_limit(&self, forces: &[[f64; 3]]) -> Result<(), Failure> {
-        let drive = &self.state.drive;
-        let pressure = (drive.clamped()).map_or(0.0, |body| self.setup.pressure(forces, body));
-        drive.broken(pressure).map_or(Ok(()), |limit| {
-            Err(self.failure(&format!(
-                "liquid presses the clamp's body with {pressure:.3e} Pa, above the max_pressure of {limit:.3e} Pa, \
-                 and the clamp does not go back: other bodies or a force press the liquid too"
-            )))
-        })
-    }
-
     /// A system of the step that was not solved.
     pub(super) fn unsolved(&self, error: SolveError) -> Failure {
         self.failure(&sentence(&error))

@@ -123,7 +123,6 @@ impl Implicit {
         mut solution: Solution,
         limit: StepLimit,
     ) -> Result<StepReport, Failure> {
-        self.keeps_limit(&solution.forces)?;
         let dt = self.length(trial, &solution, limit);
         let lattice = &trial.lattice;
         let after = self.solids_after(&solution.bodies, dt);

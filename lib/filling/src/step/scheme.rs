@@ -123,7 +123,7 @@ impl Scheme for Implicit {
         else {
             return Err("the checkpoint's scalars are not those of the implicit scheme".into());
         };
-        let Ok(drive) = <[f64; 5]>::try_from(drive) else {
+        let Ok(drive) = <[f64; 7]>::try_from(drive) else {
             return Err("the checkpoint's clamp state is not that of the implicit scheme".into());
         };
         let keeps = steps > 0.0 && system::varies(&self.setup.liquid.viscosity);
@@ -166,6 +166,9 @@ impl Scheme for Implicit {
                 self.setup.sealed,
             ),
         ];
+        if self.state.drive.is_limited() {
+            counts.push(("steps above the pressure limit", self.state.drive.broken.0));
+        }
         if system::varies(&self.setup.liquid.viscosity) {
             let unsettled = self.state.counts.unsettled;
             counts.push(("steps whose viscosity did not settle", unsettled));
@@ -177,13 +180,23 @@ impl Scheme for Implicit {
         /// Part of the steps that may be so.
         const MOST_UNSETTLED: f64 = 0.1;
         let (steps, unsettled) = (self.state.steps, self.state.counts.unsettled);
-        (unsettled as f64 > MOST_UNSETTLED * steps as f64).then(|| {
+        let viscosity = (unsettled as f64 > MOST_UNSETTLED * steps as f64).then(|| {
             format!(
                 "in {unsettled} of {steps} steps {PASSES} passes did not find the viscosity of the flow, \
                  which makes their pressures uncertain by more than 1 %; a viscosity_table \
                  whose stress falls with the rate, or whose viscosity rises with it, may be why"
             )
-        })
+        });
+        let pressure = self.state.drive.broken.1;
+        let limit = (pressure > 0.0).then(|| {
+            format!(
+                "liquid presses the clamp's body with {pressure:.3e} Pa in the last step, above its \
+                 max_pressure: the clamp stands and does not go back, and other bodies, a force or the \
+                 liquid's own inertia press on; a later end may help"
+            )
+        });
+        let said: Vec<String> = viscosity.into_iter().chain(limit).collect();
+        (!said.is_empty()).then(|| said.join("; "))
     }
 }
 

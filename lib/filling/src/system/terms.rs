@@ -91,8 +91,7 @@ impl Operator<'_> {
         }
     }
 
-    /// Stretching of a cell along `axis`: 2 eta (D u)^2 / 2 over its liquid volume. A body that closes
-    /// a face of an air cell is not touched by the liquid in there, whose surface lies between.
+    /// Stretching of a cell along `axis`: 2 eta (D u)^2 / 2 over its liquid volume.
     fn normal_term(&self, axis: usize, cell: usize, each: &mut impl FnMut(&Term)) {
         let weight = 2.0 * self.eta(cell) * f64::from(self.volumes.cell[cell]);
         if weight <= 0.0 {
@@ -100,18 +99,8 @@ impl Operator<'_> {
         }
         let high = cell + self.lattice.window.stride(axis);
         if let (Some(low), Some(high)) = (self.velocity(axis, cell), self.velocity(axis, high)) {
-            let body = [low, high].iter().any(|v| matches!(v, Velocity::Body(_)));
-            if !body || self.has_pressure(cell) {
-                each(&Term::pair(weight, low, high));
-            }
+            each(&Term::pair(weight, low, high));
         }
-    }
-
-    /// Whether the pressure of a cell, or of the cell that it is an image of, is an unknown.
-    fn has_pressure(&self, cell: usize) -> bool {
-        let window = &self.lattice.window;
-        let home = window.home(window.coordinates(cell));
-        self.dofs.cell[window.index(home)] != NONE
     }
 
     /// Shear around the edge at the low corner of cell `at` in the plane of axes `i` and `j`:
