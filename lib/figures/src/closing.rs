@@ -39,7 +39,8 @@ impl Closing {
     ///
     /// # Errors
     /// [`Error::Data`] for an unreadable history, a missing column, or one without numbers;
-    /// [`Error::Request`] for more runs than can be told apart, or a finer run of none of them.
+    /// [`Error::Request`] for more runs than can be told apart, or a finer run of none of them, of
+    /// several, or given twice.
     pub fn read(
         runs: &[Labelled],
         finer: &[Labelled],
@@ -53,13 +54,20 @@ impl Closing {
             )));
         }
         let mut runs: Vec<Run> = runs.iter().map(Run::read).collect::<Result<_, _>>()?;
-        for fine in finer {
-            let Some(run) = runs.iter_mut().find(|run| run.label == fine.label) else {
+        for (place, fine) in finer.iter().enumerate() {
+            let mut named = runs.iter_mut().filter(|run| run.label == fine.label);
+            let (Some(run), None) = (named.next(), named.next()) else {
                 return Err(Error::Request(format!(
-                    "the finer run '{}' has the label of no run",
+                    "the finer run '{}' has the label of no run, or of several",
                     fine.label
                 )));
             };
+            if finer[..place].iter().any(|other| other.label == fine.label) {
+                return Err(Error::Request(format!(
+                    "two finer runs have the label '{}'",
+                    fine.label
+                )));
+            }
             run.band = run.band(&Run::read(fine)?);
         }
         Ok(Self {

@@ -27,8 +27,15 @@ pub(crate) fn text(scene: &Scene) -> String {
         lengths.count()
     );
     if cells < FEWEST && cell > 1.01 * voxel {
+        // One given in cells would become shorter with them.
+        let length = scene.wall.influence_length();
+        let same_walls = if length > 0.0 && length.is_finite() {
+            format!(" and contact.influence_length = \"{:.6} um\"", 1e6 * length)
+        } else {
+            String::new()
+        };
         out += &format!(
-            "  proposed           one voxel a cell, grid.cell = \"{:.6} um\": fewer than {FEWEST} cells across leave pressure and flow off by a tenth and more\n",
+            "  proposed           one voxel a cell, grid.cell = \"{:.6} um\"{same_walls}: fewer than {FEWEST} cells across leave pressure and flow off by a tenth and more\n",
             1e6 * voxel
         );
     }

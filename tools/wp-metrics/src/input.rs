@@ -64,6 +64,14 @@ impl Input {
         }
     }
 
+    /// Simulated time of a state, s; 0 of anything else.
+    pub fn time_s(&self) -> f64 {
+        match &self.content {
+            Content::Particles(file) => file.header().time_s,
+            Content::Stack { .. } => 0.0,
+        }
+    }
+
     /// A number that `mpm-run` notes at the states of a run.
     pub fn noted(&self, name: &str) -> Result<f64, Failure> {
         let text = match &self.content {
