@@ -153,7 +153,7 @@ fn what_is_no_finer_run_of_the_same_bond_is_refused() {
 /// that air was left out, and the linear solver did not converge in step 2.
 #[test]
 fn a_finer_run_of_a_viscosity_table_is_solved() {
-    let bench = Workbench::new();
+    let bench = crate::quoted::bench();
     let made = bench.shell(
         "synth-xct -q --adhesive pva-pf --size 24x48x24 --slab '11.6 um' --voxel '1.45 um' --seed 2 -o - |
          xct2particles -q - -o - | build-bondline -q - -o pva.mpts

@@ -10,7 +10,7 @@ fn root() -> PathBuf {
 }
 
 /// A bench in which paths from the top of the repository lead somewhere.
-fn bench() -> Workbench {
+pub fn bench() -> Workbench {
     let bench = Workbench::new();
     let cases = root().join("pipelines").canonicalize().unwrap();
     std::os::unix::fs::symlink(cases, bench.path("pipelines")).unwrap();
