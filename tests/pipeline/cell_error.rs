@@ -149,7 +149,7 @@ fn what_is_no_finer_run_of_the_same_bond_is_refused() {
     }
 }
 
-/// Half-size cells of a table's liquid under a plate that nears it through air: for a day the viscous stress across
+/// Half-size cells of a table's liquid under a plate that nears it through air: for an hour the viscous stress across
 /// that air was left out, and the linear solver did not converge in step 2.
 #[test]
 fn a_finer_run_of_a_viscosity_table_is_solved() {

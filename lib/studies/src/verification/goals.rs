@@ -61,9 +61,9 @@ const COUETTE: &str = "the distance of walls is that of Poiseuille flow, which m
     too large by 2/(3 n (n + 1.2)), the row above; the line through points makes 3 to 4 times as much of it";
 /// Force on the piston at the first width.
 const SLIT: &str = "at L = 1 H, quarter off: entrance and front add 0.4 of a cell (0.066 H) too much, 5.4 to 5.8 % at \
-    Courant numbers 0.5 to 0.1, 2.7 % at 12 cells; 2.8 % and less from 2 H on";
+    Courant numbers 0.5 to 0.1, 2.3 % at 12 cells; 2.8 % and less from 2 H on";
 /// Filling at constant pressure.
-const FRONT: &str = "half a cell off alone, -1.2 and -1.4 % elsewhere; 0.92 % at 12 cells";
+const FRONT: &str = "half a cell off alone, -1.2 % elsewhere; 1.1 % at 12 cells";
 /// Density in the reservoir.
 const COUNTED: &str = "points counted: about 520, of 0.19 % each, which leave twelve abreast; 0.5 % at Courant \
     numbers 0.25 and 0.1";
