@@ -5,7 +5,7 @@ use physics::{Clamp, Motion, PidControl};
 /// Relative excess over the pressure limit that is tolerated.
 const TOLERANCE: f64 = 5e-3;
 
-/// Relative excess over it from which a step does not keep the limit.
+/// Relative excess over the pressure limit from which a step does not keep it.
 const BROKEN: f64 = 0.02;
 
 /// Speed of the clamp.
