@@ -10,6 +10,7 @@ mod geometry;
 mod liquid;
 mod plan;
 mod settings;
+mod stages;
 mod step;
 mod system;
 mod transport;

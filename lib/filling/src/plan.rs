@@ -3,6 +3,7 @@
 use physics::{Amount, Dimensions, Scene, Stages, Stop};
 
 use crate::settings::Settings;
+use crate::stages::stages;
 
 /// Speed of the liquid that sets the time step over that of the body that drives it, averaged
 /// over a run: wood closing on a slab gives 1.5 at first and 6 towards the end.
@@ -80,23 +81,6 @@ impl Plan {
             stages: stages(scene),
         }
     }
-}
-
-/// The stages of a run of `scene`.
-fn stages(scene: &Scene) -> Stages {
-    let list = Stages::of(scene);
-    let gains = scene.clamp.and_then(|clamp| clamp.pid);
-    let no_pid = match (list.has(Stages::LOAD), gains) {
-        (true, Some(_)) => None,
-        (true, None) => Some("no pid: the limit is an equation of the solve"),
-        (false, _) => Some("no pressure limit"),
-    };
-    list.and("PID", no_pid.map(str::to_owned))
-        .and("density projection", None)
-        .and(
-            "shear rate of points between snapshots",
-            Some("known where a state is written".into()),
-        )
 }
 
 /// Cells of the box around the liquid when it has spread as far as it is thick, at most all.

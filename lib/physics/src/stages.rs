@@ -11,8 +11,8 @@ pub struct Stage {
     pub absent: Option<String>,
 }
 
-/// The stages of a scheme on one scene, made by the scheme and printed as what it leaves out. The
-/// explicit step is resolved from it; the implicit one asks scene and clamp itself.
+/// The stages of a scheme on one scene: its step is resolved from this list, which is printed as
+/// what it leaves out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Stages(Vec<Stage>);
 

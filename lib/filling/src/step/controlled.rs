@@ -4,7 +4,7 @@ use physics::Failure;
 use saddle_point::{NEARLY, SaddleReport, SolveError};
 
 use super::solution::Unknowns;
-use super::{Implicit, Stage};
+use super::{Implicit, Part};
 use crate::system::{Before, Operator, System};
 
 /// A solved system, the forces on the bodies in the solver's unit, and the power dissipated.
@@ -19,8 +19,8 @@ impl Implicit {
         now: &mut Unknowns,
     ) -> Result<Solved, Failure> {
         let bodies = self.state.drive.velocities();
-        let mut system = (self.workspace.stages)
-            .time(Stage::Assembly, || operator.assemble(&bodies, before))
+        let mut system = (self.workspace.clock)
+            .time(Part::Assembly, || operator.assemble(&bodies, before))
             .map_err(|error| self.unsolved(error))?;
         let clamped = self.state.drive.clamped();
         let solved = match (clamped, self.state.drive.held()) {
@@ -51,7 +51,7 @@ impl Implicit {
     }
 
     fn reactions(&mut self, system: &System, now: &Unknowns) -> (Vec<[f64; 3]>, f64) {
-        (self.workspace.stages).time(Stage::Forces, || system.reactions(&now.u, &now.p))
+        (self.workspace.clock).time(Part::Forces, || system.reactions(&now.u, &now.p))
     }
 
     /// Solves for the speed at which the pressure on body `clamped` is `limit` (Pa); `false`
@@ -75,7 +75,7 @@ impl Implicit {
         system.steer(&bodies);
         let mut speed = self.state.drive.speed;
         let solver = &mut self.workspace.solver;
-        let outcome = (self.workspace.stages).time(Stage::Solve, || {
+        let outcome = (self.workspace.clock).time(Part::Solve, || {
             solver.solve_loaded(&system.saddle(), &load, &mut now.u, &mut now.p, &mut speed)
         });
         self.count(outcome, now)?;
@@ -86,7 +86,7 @@ impl Implicit {
 
     fn solve_system(&mut self, system: &System, now: &mut Unknowns) -> Result<(), Failure> {
         let solver = &mut self.workspace.solver;
-        let outcome = (self.workspace.stages).time(Stage::Solve, || {
+        let outcome = (self.workspace.clock).time(Part::Solve, || {
             solver.solve(&system.saddle(), &mut now.u, &mut now.p)
         });
         self.count(outcome, now)

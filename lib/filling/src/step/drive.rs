@@ -2,6 +2,8 @@
 
 use physics::{Clamp, Motion, PidControl};
 
+use crate::stages::Present;
+
 /// Relative excess over the pressure limit that is tolerated.
 const TOLERANCE: f64 = 5e-3;
 
@@ -37,18 +39,21 @@ pub(super) struct Drive {
 
 impl Drive {
     /// `acoustic_time` is how long sound takes to cross a cell, s.
-    pub(super) fn new(motions: Vec<Motion>, clamp: Option<Clamp>, acoustic_time: f64) -> Self {
+    pub(super) fn new(
+        motions: Vec<Motion>,
+        clamp: Option<Clamp>,
+        acoustic_time: f64,
+        present: Present,
+    ) -> Self {
         let limited = clamp.and_then(|clamp| Some((clamp, clamp.max_pressure?)));
         let control = match limited {
-            Some((clamp, _)) if clamp.pid.is_some() => {
-                Control::Pid(PidControl::new(clamp, acoustic_time))
-            }
-            Some((clamp, limit)) => Control::Limit {
+            Some((clamp, _)) if present.pid => Control::Pid(PidControl::new(clamp, acoustic_time)),
+            Some((clamp, limit)) if present.load => Control::Limit {
                 clamp,
                 limit,
                 held: false,
             },
-            None => Control::Free,
+            _ => Control::Free,
         };
         Self {
             motions,
@@ -77,11 +82,6 @@ impl Drive {
     /// Index of the body that the clamp moves.
     pub(super) fn clamped(&self) -> Option<usize> {
         self.motions.iter().position(|m| *m == Motion::Clamped)
-    }
-
-    /// Whether the scheme itself keeps a pressure limit.
-    pub(super) fn is_limited(&self) -> bool {
-        matches!(self.control, Control::Limit { .. })
     }
 
     /// The pressure (Pa) at which the clamp is held, its speed being unknown.
@@ -168,7 +168,13 @@ mod tests {
             max_pressure: Some(1e6),
             pid: None,
         };
-        let mut drive = Drive::new(vec![Motion::Clamped], Some(clamp), 1e-9);
+        let present = Present {
+            friction: false,
+            table: false,
+            load: true,
+            pid: false,
+        };
+        let mut drive = Drive::new(vec![Motion::Clamped], Some(clamp), 1e-9, present);
         assert_eq!(drive.exceeded(1.004e6), None);
         assert_eq!(drive.exceeded(1.006e6), Some(1e6));
         assert!(!drive.follow(-1.0));

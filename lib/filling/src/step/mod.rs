@@ -1,5 +1,6 @@
 //! The scheme, and one step of it: the eight stages of docs/methods.md section 3.1.
 
+mod clock;
 mod controlled;
 mod drive;
 mod failure;
@@ -8,7 +9,6 @@ mod length;
 mod scheme;
 mod setup;
 mod solution;
-mod stages;
 mod state;
 mod transport;
 mod units;
@@ -19,14 +19,13 @@ use saddle_point::{SaddleOptions, SaddleSolver};
 use crate::geometry::{Lattice, Solids, Window};
 use crate::liquid::{Bins, Fractions};
 use crate::settings::Settings;
-use crate::system;
 use crate::transport::Field;
+use clock::{Clock, Part};
 use drive::Drive;
 use last::LastFlow;
 use length::Fit;
 use setup::Setup;
 use solution::Solution;
-use stages::{Stage, Stages};
 use state::{Rates, State};
 use units::Units;
 
@@ -49,7 +48,7 @@ struct Workspace {
     bins: Bins,
     fractions: Fractions,
     solver: SaddleSolver,
-    stages: Stages,
+    clock: Clock,
 }
 
 /// A step that is being tried.
@@ -79,13 +78,17 @@ impl Implicit {
             ..SaddleOptions::default()
         };
         Ok(Self {
-            state: State::new(particles, Drive::new(motions, clamp, acoustic), speed),
+            state: State::new(
+                particles,
+                Drive::new(motions, clamp, acoustic, setup.present),
+                speed,
+            ),
             setup,
             workspace: Workspace {
                 bins: Bins::default(),
                 fractions: Fractions::default(),
                 solver: SaddleSolver::new(options),
-                stages: Stages::default(),
+                clock: Clock::default(),
             },
         })
     }
@@ -148,11 +151,11 @@ impl Implicit {
         let solids = self.solids_after(&bodies, 0.5 * dt);
         let (from, to) = self.state.particles.extent();
         let window = Window::around(self.setup.domain, from, to);
-        let stages = &mut self.workspace.stages;
+        let clock = &mut self.workspace.clock;
         Trial {
             dt,
             bodies,
-            lattice: stages.time(Stage::Geometry, || Lattice::new(solids, window)),
+            lattice: clock.time(Part::Geometry, || Lattice::new(solids, window)),
         }
     }
 
@@ -161,11 +164,11 @@ impl Implicit {
         let Workspace {
             bins,
             fractions,
-            stages,
+            clock,
             ..
         } = &mut self.workspace;
         let particles = &mut self.state.particles;
-        stages.time(Stage::Fractions, || {
+        clock.time(Part::Fractions, || {
             particles.sort(&trial.lattice.window, bins);
             fractions.update(particles, bins, &trial.lattice, &trial.bodies);
         });
@@ -189,8 +192,7 @@ impl Implicit {
         state.steps += 1;
         state.power = solution.power;
         let Field { value, flow } = field;
-        let varies = system::varies(&setup.liquid.viscosity);
-        state.last = varies.then(|| LastFlow::new(flow.window, value));
+        state.last = (setup.present.table).then(|| LastFlow::new(flow.window, value));
         state.rates = Rates::Of(Box::new(flow));
         StepReport {
             dt_s: dt,

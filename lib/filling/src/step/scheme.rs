@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::solution::PASSES;
 use super::{Implicit, LastFlow, Rates};
-use crate::{system, transport};
+use crate::transport;
 
 impl Scheme for Implicit {
     fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
@@ -126,7 +126,7 @@ impl Scheme for Implicit {
         let Ok(drive) = <[f64; 7]>::try_from(drive) else {
             return Err("the checkpoint's clamp state is not that of the implicit scheme".into());
         };
-        let keeps = steps > 0.0 && system::varies(&self.setup.liquid.viscosity);
+        let keeps = steps > 0.0 && self.setup.present.table;
         self.state.last = match keeps {
             true => Some(LastFlow::restore(saved, self.setup.domain)?),
             false => None,
@@ -148,7 +148,7 @@ impl Scheme for Implicit {
     }
 
     fn stage_times(&self) -> Vec<StageTime> {
-        self.workspace.stages.report()
+        self.workspace.clock.report()
     }
 
     fn counts(&self) -> Vec<(&'static str, u64)> {
@@ -166,10 +166,10 @@ impl Scheme for Implicit {
                 self.setup.sealed,
             ),
         ];
-        if self.state.drive.is_limited() {
+        if self.setup.present.load && !self.setup.present.pid {
             counts.push(("steps above the pressure limit", self.state.drive.broken.0));
         }
-        if system::varies(&self.setup.liquid.viscosity) {
+        if self.setup.present.table {
             let unsettled = self.state.counts.unsettled;
             counts.push(("steps whose viscosity did not settle", unsettled));
         }

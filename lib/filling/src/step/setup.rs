@@ -6,6 +6,7 @@ use super::Units;
 use crate::geometry::{Domain, MAX_BODIES, Solids, fill_sealed};
 use crate::liquid::Particles;
 use crate::settings::Settings;
+use crate::stages::{Present, stages};
 use crate::system::{Scales, WidthRule};
 
 /// Edge of a voxel (cells) below which the steps of a wall add friction of their own.
@@ -14,6 +15,7 @@ const FINE_VOXEL: f64 = 0.75;
 /// What never changes in a run.
 pub(super) struct Setup {
     pub(super) settings: Settings,
+    pub(super) present: Present,
     pub(super) units: Units,
     pub(super) domain: Domain,
     pub(super) liquid: Liquid,
@@ -36,12 +38,14 @@ impl Setup {
     /// # Errors
     /// When a point lies in a body or outside the domain.
     pub(super) fn new(scene: Scene, settings: Settings) -> Result<(Self, Particles), String> {
+        let present = Present::from(&stages(&scene));
         let units = Units::new(&scene.grid, &scene.liquid, scene.initial_speed());
         let domain = Domain::new(&scene.grid, scene.boundary, scene.dimensions);
         let (width, area) = (width_rule(&scene), scene.grid.area_m2());
         let (rest, particles, sealed) = contents(scene.bodies, scene.points, domain, units)?;
         let setup = Self {
             settings,
+            present,
             units,
             domain,
             liquid: scene.liquid,
@@ -64,7 +68,11 @@ impl Setup {
 
     /// Influence length of the wall law, cells; infinite without friction.
     pub(super) fn influence_length(&self) -> f64 {
-        self.wall.influence_length() / self.units.h
+        if self.present.friction {
+            self.wall.influence_length() / self.units.h
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// Scales of the terms of a step of `dt` (s).
@@ -198,6 +206,12 @@ mod tests {
         let domain = domain([4, 4, 1], 2);
         let setup = Setup {
             settings: Settings::default(),
+            present: Present {
+                friction: true,
+                table: false,
+                load: false,
+                pid: false,
+            },
             units: Units {
                 h: 2.0,
                 low: [0.0; 3],

@@ -3,9 +3,9 @@
 use physics::Failure;
 
 use super::controlled::Solved;
-use super::{Implicit, Stage, Trial};
+use super::{Implicit, Part, Trial};
 use crate::liquid::{self, Volumes};
-use crate::system::{self, Before, Dofs, NONE, Operator, Sheared};
+use crate::system::{Before, Dofs, NONE, Operator, Sheared};
 use crate::transport::Field;
 use crate::transport::density::Cells;
 use saddle_point::Csr;
@@ -71,8 +71,8 @@ impl Implicit {
         let volumes = Volumes::new(lattice, phi);
         let mut operator = self
             .workspace
-            .stages
-            .time(Stage::Assembly, || Operator::new(lattice, &volumes, scales));
+            .clock
+            .time(Part::Assembly, || Operator::new(lattice, &volumes, scales));
         let start = self.carried(&operator);
         let mut now = Unknowns {
             u: start.u.clone(),
@@ -85,7 +85,7 @@ impl Implicit {
             pressure: &start.p,
             stiffness: &stiffness,
         };
-        let ((system, forces, power), viscous) = if system::varies(&self.setup.liquid.viscosity) {
+        let ((system, forces, power), viscous) = if self.setup.present.table {
             self.solve_passes(&mut operator, before, &mut now)?
         } else {
             (self.controlled(&operator, before, &mut now)?, None)
@@ -121,7 +121,7 @@ impl Implicit {
         let window = &operator.lattice.window;
         let (dofs, units) = (&operator.dofs, self.setup.units);
         let (particles, bins) = (&self.state.particles, &self.workspace.bins);
-        self.workspace.stages.time(Stage::Fractions, || {
+        self.workspace.clock.time(Part::Fractions, || {
             let mut u = vec![0.0; dofs.faces.len()];
             let mut field = Vec::new();
             for axis in 0..window.domain.axes {
@@ -185,7 +185,7 @@ impl Implicit {
         let bodies = self.state.drive.velocities();
         let (liquid, units) = (&self.setup.liquid, self.setup.units);
         let influence = self.setup.influence_length();
-        self.workspace.stages.time(Stage::Assembly, || {
+        self.workspace.clock.time(Part::Assembly, || {
             let field = Field::new(operator.lattice, &operator.dofs.face, u, &bodies, influence);
             let sheared = Sheared {
                 deviator: |x| field.flow.deviator_norm(x),

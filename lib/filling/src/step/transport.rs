@@ -2,7 +2,7 @@
 
 use physics::Failure;
 
-use super::{Implicit, Solution, Stage};
+use super::{Implicit, Part, Solution};
 use crate::geometry::{Lattice, Solids};
 use crate::transport::{self, Field, Path, density};
 
@@ -29,7 +29,7 @@ impl Implicit {
         self.state.counts.unsettled += u64::from(viscous.as_ref().is_some_and(|v| !v.settled));
         let (u, face, bodies) = (&solution.u, &solution.dofs.face, &solution.bodies);
         let particles = &mut self.state.particles;
-        let (field, moved) = self.workspace.stages.time(Stage::Advection, || {
+        let (field, moved) = self.workspace.clock.time(Part::Advection, || {
             let known = viscous.map(|v| v.field);
             let field = known.unwrap_or_else(|| Field::new(lattice, face, u, bodies, influence));
             let moved = path.follow(particles, |x| field.flow.velocity(x));
@@ -55,7 +55,7 @@ impl Implicit {
             scale: 1.0,
         };
         let particles = &mut self.state.particles;
-        let projected = self.workspace.stages.time(Stage::Density, || {
+        let projected = self.workspace.clock.time(Part::Density, || {
             let (g, volume) = (&solution.g, &solution.face_volume);
             let (moves, _) = density::displacement(g, &g.transpose(), volume, &solution.cells)?;
             let field = density::Field::new(&lattice.window, &solution.dofs.face, &moves);
@@ -76,7 +76,7 @@ impl Implicit {
     ) -> Result<(), Failure> {
         let (liquid, units, pace) = (&self.setup.liquid, self.setup.units, self.state.pace);
         let particles = &mut self.state.particles;
-        self.workspace.stages.time(Stage::Advection, || {
+        self.workspace.clock.time(Part::Advection, || {
             let thin = liquid.density * pace * units.h / units.eta > THIN;
             transport::set_velocities(particles, flow, thin.then_some(value));
             let lowest = (liquid.cavitation_pressure).map_or(f64::NEG_INFINITY, |p| -p);

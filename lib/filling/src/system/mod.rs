@@ -18,7 +18,7 @@ mod walls;
 pub(crate) use assembly::{Before, System};
 pub(crate) use dofs::{Dofs, NONE};
 pub(crate) use operator::Operator;
-pub(crate) use viscosity::{Sheared, varies};
+pub(crate) use viscosity::Sheared;
 pub(crate) use walls::WidthRule;
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Viscosity that depends on the shear rate, lagged by one pass (Picard).
 
-use physics::{Liquid, Viscosity};
+use physics::Liquid;
 use rayon::prelude::*;
 
 use super::Operator;
@@ -79,14 +79,9 @@ impl Operator<'_> {
     }
 }
 
-/// Whether a law needs rates at all.
-pub(crate) fn varies(law: &Viscosity) -> bool {
-    matches!(law, Viscosity::Table(_))
-}
-
 #[cfg(test)]
 mod tests {
-    use physics::{Newtonian, ShearRate, Tait};
+    use physics::{Newtonian, ShearRate, Tait, Viscosity};
 
     use super::*;
     use crate::geometry::tests::{domain, lattice};

@@ -1,12 +1,12 @@
-//! Wall time per stage of the step.
+//! Wall time of each part of the step.
 
 use std::time::{Duration, Instant};
 
 use physics::StageTime;
 
-/// Stages in the order of the algorithm.
+/// Parts of a step whose time is reported, in its order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stage {
+pub(super) enum Part {
     Geometry,
     Fractions,
     Assembly,
@@ -28,14 +28,14 @@ const NAMES: [&str; 7] = [
 
 /// Time spent so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Stages([Duration; 7]);
+pub(super) struct Clock([Duration; 7]);
 
-impl Stages {
+impl Clock {
     /// Runs `work` and counts its time.
-    pub(super) fn time<T>(&mut self, stage: Stage, work: impl FnOnce() -> T) -> T {
+    pub(super) fn time<T>(&mut self, part: Part, work: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let result = work();
-        self.0[stage as usize] += start.elapsed();
+        self.0[part as usize] += start.elapsed();
         result
     }
 
