@@ -18,7 +18,8 @@
 #   make constants                half and twice each numerical constant: tests, small runs
 #   make deny                     advisories, licences and sources of the dependencies
 #   make pins                     fingerprints of thirty small runs, to compare builds by
-#   make bench                    speed of the kernels and of the linear solver
+#   make bench                    cost per cell and step, memory; BASE=folder: beside an older build
+#   make kernels                  speed of the explicit kernels and of the linear solver alone
 #   make figures man install clean help
 
 .DELETE_ON_ERROR:

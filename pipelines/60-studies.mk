@@ -12,8 +12,11 @@
 #
 # ONLY="slit channel" takes what has one of the words in its name and writes to out/results.
 STUDY = @$(BIN)/study $@ $(if $(ONLY),out/results,docs/results) $(ONLY)
-.PHONY: verify stability options load-control leave-out crash
-verify stability options load-control leave-out crash: $(BINARIES)
+# bench         what both schemes cost per liquid cell, point and step, at several sizes and numbers of threads;
+#               beside an older build: make bench BASE=/path/to/its/target/release
+.PHONY: verify stability options load-control leave-out crash bench
+export BASE
+verify stability options load-control leave-out crash bench: $(BINARIES)
 	$(STUDY)
 
 # Error against CPU time over schemes, settings and precision. Also writes the errors that `mpm-run --explain`
@@ -23,9 +26,9 @@ tradeoff: $(BINARIES)
 	@$(CARGO) build --release --quiet -p mpm-run --features double --target-dir target/double
 	$(STUDY)
 
-# Speed of the kernels and of the linear solver.
-.PHONY: bench
-bench:
+# Speed of the kernels alone and of the linear solver.
+.PHONY: kernels
+kernels:
 	$(CARGO) run --release --quiet -p mpm --example mpm_bench
 	$(CARGO) run --release --quiet -p saddle-point --example solver_bench -- 1e-3 32,48,48,12 64,56,64,12
 

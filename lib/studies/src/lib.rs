@@ -8,6 +8,7 @@
     reason = "prints for developers"
 )]
 
+pub mod bench;
 pub mod case_text;
 pub mod closed_forms;
 pub mod crash;

@@ -1,0 +1,113 @@
+//! What the bench writes: a page and a table.
+
+use std::fmt::Write as _;
+
+use super::Row;
+use super::runs::Cost;
+use crate::study::Study;
+
+const COLUMNS: &str = "size,case,threads,liquid_cells,points,steps,cpu_us_per_cell_step,\
+                       cpu_over_base,points_steps_per_cpu_s,wall_s_per_step,bytes_per_cell,stages";
+
+/// A row in words.
+pub fn line(row: &Row) -> String {
+    let per_cell = 1e6 * row.cost.cpu_s / row.cost.cells();
+    let ratio = ratio(row).map_or(String::new(), |r| format!(", {r:.2} of the base"));
+    format!(
+        "{:<32} {per_cell:8.3} us per cell and step{ratio}",
+        row.piece.name()
+    )
+}
+
+/// Processor time over that of the older build.
+fn ratio(row: &Row) -> Option<f64> {
+    let base = row.base.as_ref()?;
+    Some((row.cost.cpu_s * row.cost.steps) / (base.cpu_s * base.steps))
+}
+
+/// Writes `bench.csv` and `bench.md`.
+///
+/// # Errors
+/// The system's reason.
+pub fn write(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> Result<(), String> {
+    study.write_csv("bench.csv", COLUMNS, rows.iter().map(fields))?;
+    study.write("bench.md", page(study, rows, bandwidth))
+}
+
+fn fields(row: &Row) -> Vec<String> {
+    let Cost {
+        steps,
+        points,
+        cpu_s,
+        wall_s,
+        memory,
+        ..
+    } = row.cost;
+    let cells = row.cost.cells();
+    vec![
+        row.piece.size.name.into(),
+        row.piece.case.into(),
+        row.piece.threads.to_string(),
+        format!("{cells:.0}"),
+        format!("{points:.0}"),
+        steps.to_string(),
+        format!("{:.4}", 1e6 * cpu_s / cells),
+        ratio(row).map_or(String::new(), |r| format!("{r:.3}")),
+        format!("{:.4e}", points / cpu_s),
+        format!("{wall_s:.4}"),
+        format!("{:.0}", memory / cells),
+        stages(row),
+    ]
+}
+
+/// Parts of the time that are 1 % or more.
+fn stages(row: &Row) -> String {
+    let shown = row.cost.stages.iter().filter(|(_, part)| *part >= 0.01);
+    let shown: Vec<String> = shown
+        .map(|(name, part)| format!("{name} {:.0} %", 100.0 * part))
+        .collect();
+    shown.join(", ")
+}
+
+fn page(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> String {
+    let mut page = format!("# Speed and memory\n\n{}.\n\n", study.origin());
+    page.push_str(
+        "Synthetic specimens of the paper's wood and slab, pressed from the start for some steps; the \
+         times are differences of two runs of different length, so that reading and writing do not count. \
+         A liquid cell is eight material points. Ratio: processor time for the same time of the press \
+         over that of the build named by `BASE`, run next to it. Memory is the peak of the whole process.\n\n",
+    );
+    let streams: Vec<String> = bandwidth
+        .iter()
+        .map(|(n, rate)| format!("{:.1} GB/s with {n}", rate / 1e9))
+        .collect();
+    let _ = writeln!(
+        page,
+        "Memory streams (triad, threads): {}. The column of bytes says what could be streamed in the time that \
+         a step takes per liquid cell.\n",
+        streams.join(", ")
+    );
+    page.push_str(
+        "| specimen | case | threads | liquid cells | CPU us per cell and step | ratio | points x steps per CPU s | \
+         streamable bytes per cell and step | memory per cell | wall s per step | stages |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    let one = bandwidth.first().map_or(f64::NAN, |b| b.1);
+    for row in rows {
+        let (cost, cells) = (&row.cost, row.cost.cells());
+        let _ = writeln!(
+            page,
+            "| {} | {} | {} | {cells:.0} | {:.3} | {} | {:.3} M | {:.0} | {:.0} B | {:.3} | {} |",
+            row.piece.size.name,
+            row.piece.case,
+            row.piece.threads,
+            1e6 * cost.cpu_s / cells,
+            ratio(row).map_or("-".into(), |r| format!("{r:.2}")),
+            cost.points / cost.cpu_s / 1e6,
+            cost.cpu_s / cells * one,
+            cost.memory / cells,
+            cost.wall_s,
+            stages(row)
+        );
+    }
+    page
+}
