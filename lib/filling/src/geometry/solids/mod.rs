@@ -1,6 +1,7 @@
 //! Where the rigid bodies are: point, ray and overlap queries by voxel index arithmetic.
 
 mod placed;
+mod rows;
 mod sweep;
 
 use std::sync::Arc;
@@ -9,6 +10,7 @@ use physics::{Boundary, RigidBody};
 
 use crate::geometry::Domain;
 use placed::Placed;
+use rows::Rows;
 
 /// Index of a body in the scene, or [`SIDE`] or [`OPEN`].
 pub(crate) type BodyId = u8;
@@ -58,7 +60,7 @@ impl Solids {
                     rest: origin,
                     origin,
                     edge: std::array::from_fn(|a| block.voxel()[a] / cell_m),
-                    block: Arc::new(block),
+                    rows: Arc::new(Rows::new(block, domain.axes)),
                 });
             }
         }
