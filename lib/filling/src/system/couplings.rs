@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 
+use super::edges::Edges;
 use super::terms::Velocity;
 use super::{CHUNK, Operator};
 
@@ -50,10 +51,10 @@ pub(crate) struct Couplings {
 }
 
 impl Couplings {
-    pub(super) fn new(operator: &Operator, bodies: usize, flux: &Rows) -> Self {
+    pub(super) fn new(operator: &Operator, edges: &Edges, bodies: usize, flux: &Rows) -> Self {
         let n = 3 * bodies;
         let drag = gather(operator.dofs.faces.len(), n * n, |face, row, between| {
-            operator.terms(face, |term| {
+            operator.terms(edges, face, |term| {
                 let own = term.weight * term.coefficient(face);
                 for &(velocity, c) in term.parts() {
                     if let Velocity::Body(component) = velocity {

@@ -125,47 +125,62 @@ impl Placed {
         }
     }
 
-    /// Near and far distance of the first run of solid voxels along a ray, no farther than `reach`;
-    /// the run ends with the first voxel beyond it.
+    /// The row of voxels along `axis` that the line through `from` runs in.
     #[inline]
-    pub(super) fn ray(
-        &self,
-        from: [f64; 3],
-        axis: usize,
-        up: bool,
-        reach: f64,
-    ) -> Option<(f64, f64)> {
+    pub(super) fn row(&self, from: [f64; 3], axis: usize) -> Option<Row<'_>> {
         let mut voxel = [0_usize; 3];
         for t in (0..3).filter(|&t| t != axis) {
             voxel[t] = self.index(t, from[t])?;
         }
-        let (edge, n) = (self.edge[axis], self.rows.block.dims()[axis]);
-        let along = from[axis] - self.origin[axis];
-        let row = self.rows.along(axis, voxel);
+        Some(Row {
+            bits: self.rows.along(axis, voxel),
+            len: self.rows.block.dims()[axis],
+            edge: self.edge[axis],
+            along: from[axis] - self.origin[axis],
+        })
+    }
+}
+
+/// A row of voxels, and a point of the line through it from which rays start.
+pub(super) struct Row<'a> {
+    bits: &'a [u64],
+    len: usize,
+    edge: f64,
+    /// Place of the point from the low end of the row.
+    along: f64,
+}
+
+impl Row<'_> {
+    /// Near and far distance of the first run of solid voxels upwards or downwards, no farther than
+    /// `reach`; the run ends with the first voxel beyond it.
+    #[inline]
+    pub(super) fn ray(&self, up: bool, reach: f64) -> Option<(f64, f64)> {
+        let &Self { along, edge, len, bits } = self;
+        // Distances to the faces between the voxels, counted from 0 to `len`, by which the ray
+        // enters them.
         if up {
+            let enter = |face: usize| face as f64 * edge - along;
             let start = ((along + TOUCH) / edge).floor().max(0.0) as usize;
-            // Distance to the surface by which the ray enters voxel v.
-            let enter = |v: usize| v as f64 * edge - along;
-            let beyond = n.min(((along + reach) / edge).max(0.0) as usize + 2);
-            let first = rows::next(row, start, beyond, true);
+            let beyond = len.min(((along + reach) / edge).max(0.0) as usize + 2);
+            let first = rows::next(bits, start, beyond, true);
             if first >= beyond || enter(first) > reach {
                 return None;
             }
-            let mut end = rows::next(row, first + 1, beyond, false);
+            let mut end = rows::next(bits, first + 1, beyond, false);
             while end > first + 1 && enter(end - 1) > reach {
                 end -= 1;
             }
             Some((enter(first).max(0.0), enter(end)))
         } else {
-            // Voxels are counted by their high faces.
-            let start = (((along - TOUCH) / edge).floor() + 1.0).clamp(0.0, n as f64) as usize;
-            let enter = |high: usize| along - high as f64 * edge;
+            let enter = |face: usize| along - face as f64 * edge;
+            let start = ((along - TOUCH) / edge).floor() + 1.0;
+            let start = start.clamp(0.0, len as f64) as usize;
             let beyond = (((along - reach) / edge).max(0.0) as usize).saturating_sub(1);
-            let first = rows::previous(row, start, beyond, true);
+            let first = rows::previous(bits, start, beyond, true);
             if first <= beyond || enter(first) > reach {
                 return None;
             }
-            let mut end = rows::previous(row, first - 1, beyond, false);
+            let mut end = rows::previous(bits, first - 1, beyond, false);
             while end < first - 1 && enter(end + 1) > reach {
                 end += 1;
             }
@@ -195,7 +210,7 @@ mod tests {
             let surface = if up { v as f64 } else { (v + 1) as f64 };
             (surface * edge - along) * step as f64
         };
-        while (-1..=n).contains(&v) && !solid(v) {
+        while (-200..n + 200).contains(&v) && !solid(v) {
             v += step;
         }
         let near = distance(v);
@@ -234,7 +249,7 @@ mod tests {
             }
             for axis in 0..3 {
                 for up in [false, true] {
-                    let found = placed.ray(from, axis, up, REACH);
+                    let found = placed.row(from, axis).and_then(|row| row.ray(up, REACH));
                     assert_eq!(found, walked(&placed, from, axis, up), "{from:?} {axis} {up}");
                     hits += usize::from(found.is_some());
                 }
