@@ -116,7 +116,7 @@ impl Operator<'_> {
         let edges = Edges::new(self);
         let a = Csr::assemble(n, n, |face, entries| {
             entries.add(face, self.mass(face));
-            self.terms(&edges, face, |term| {
+            self.terms::<false>(&edges, face, |term| {
                 let own = term.coefficient(face);
                 for &(velocity, c) in term.parts() {
                     if let Velocity::Face(other) = velocity {

@@ -18,9 +18,11 @@ pub(super) struct Edge {
     pub(super) volume: [f64; 2],
     /// Part of the columns across which the two velocities along i, and those along j, see each
     /// other; 0 where there are no two.
-    pub(super) sight: [f64; 2],
+    pub(super) sight: [f32; 2],
     /// Distances between the places of these velocities, cells.
     pub(super) distance: [f64; 2],
+    /// Whether one of the velocities is a body's.
+    pub(super) walled: bool,
 }
 
 /// The edges around the faces that are unknowns, by plane and by the cell at whose low corner they
@@ -44,6 +46,7 @@ impl Edges {
                 volume: [whole; 2],
                 sight: [1.0; 2],
                 distance: [1.0; 2],
+                walled: false,
             },
         };
         let planes = [(0, 1), (0, 2), (1, 2)].into_iter();
@@ -124,8 +127,9 @@ impl Operator<'_> {
         let (along, across) = (seen(0, i, j), seen(2, j, i));
         Some(Edge {
             volume: [wet, open],
-            sight: [along.0, across.0],
+            sight: [along.0 as f32, across.0 as f32],
             distance: [along.1, across.1],
+            walled: velocities.iter().flatten().any(|v| v.is_body()),
         })
     }
 

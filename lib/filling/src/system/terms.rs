@@ -7,8 +7,8 @@
 
 use super::Operator;
 use super::dofs::NONE;
-use super::edges::Edges;
-use crate::geometry::{OPEN, SIDE};
+use super::edges::{Edge, Edges};
+use crate::geometry::{BodyId, OPEN, SIDE};
 
 /// A velocity in a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,9 +16,19 @@ pub(super) enum Velocity {
     /// Unknown number.
     Face(u32),
     /// Component `axis` of a body's velocity, as 3 body + axis.
-    Body(usize),
+    Body(u32),
     /// Known to be zero: the normal velocity at a symmetry plane.
     Still,
+}
+
+impl Velocity {
+    pub(super) fn of_body(body: BodyId, axis: usize) -> Self {
+        Self::Body(3 * u32::from(body) + axis as u32)
+    }
+
+    pub(super) fn is_body(self) -> bool {
+        matches!(self, Self::Body(_))
+    }
 }
 
 /// 1/2 weight (sum of coefficient times velocity)^2.
@@ -69,37 +79,54 @@ impl Operator<'_> {
         match self.lattice.face(axis, index) {
             OPEN => None,
             SIDE => Some(Velocity::Still),
-            body => Some(Velocity::Body(3 * usize::from(body) + axis)),
+            body => Some(Velocity::of_body(body, axis)),
         }
     }
 
-    /// Calls `each` with every term that face unknown `face` takes part in.
-    pub(super) fn terms(&self, edges: &Edges, face: usize, mut each: impl FnMut(&Term)) {
+    /// Calls `each` with every term that face unknown `face` takes part in; with `BODIES`, only with
+    /// those that a body takes part in as well.
+    pub(super) fn terms<const BODIES: bool>(
+        &self,
+        edges: &Edges,
+        face: usize,
+        mut each: impl FnMut(&Term),
+    ) {
         let (axis, index) = self.dofs.faces[face];
         let (axis, index) = (usize::from(axis), index as usize);
         let window = &self.lattice.window;
-        self.normal_term(axis, index - window.stride(axis), &mut each);
-        self.normal_term(axis, index, &mut each);
+        self.normal_term::<BODIES>(axis, index - window.stride(axis), &mut each);
+        self.normal_term::<BODIES>(axis, index, &mut each);
         for &t in self.lattice.tangents(axis) {
-            self.edge_terms(edges, [axis, t], index, &mut each);
-            self.edge_terms(edges, [axis, t], index + window.stride(t), &mut each);
+            for at in [index, index + window.stride(t)] {
+                if let Some(edge) = edges.at(axis, t, at)
+                    && (edge.walled || !BODIES)
+                {
+                    self.edge_terms(&edge, [axis, t], at, &mut each);
+                }
+            }
         }
         for link in self.walls.of(face) {
             let weight = f64::from(link.viscosity * link.area)
                 / (f64::from(link.distance) + self.scales.influence_length);
-            let wall = Velocity::Body(3 * usize::from(link.body) + axis);
+            let wall = Velocity::of_body(link.body, axis);
             each(&Term::pair(weight, wall, Velocity::Face(face as u32)));
         }
     }
 
     /// Stretching of a cell along `axis`: 2 eta (D u)^2 / 2 over its liquid volume.
-    fn normal_term(&self, axis: usize, cell: usize, each: &mut impl FnMut(&Term)) {
-        let weight = 2.0 * self.eta(cell) * f64::from(self.volumes.cell[cell]);
-        if weight <= 0.0 {
-            return;
-        }
+    fn normal_term<const BODIES: bool>(
+        &self,
+        axis: usize,
+        cell: usize,
+        each: &mut impl FnMut(&Term),
+    ) {
         let high = cell + self.lattice.window.stride(axis);
-        if let (Some(low), Some(high)) = (self.velocity(axis, cell), self.velocity(axis, high)) {
+        let (low, high) = (self.velocity(axis, cell), self.velocity(axis, high));
+        let (Some(low), Some(high)) = (low, high) else {
+            return;
+        };
+        let weight = 2.0 * self.eta(cell) * f64::from(self.volumes.cell[cell]);
+        if weight > 0.0 && (low.is_body() || high.is_body() || !BODIES) {
             each(&Term::pair(weight, low, high));
         }
     }
@@ -110,14 +137,11 @@ impl Operator<'_> {
     /// the distances between the places of the velocities.
     fn edge_terms(
         &self,
-        edges: &Edges,
+        edge: &Edge,
         [i, j]: [usize; 2],
         at: usize,
         each: &mut impl FnMut(&Term),
     ) {
-        let Some(edge) = edges.at(i, j, at) else {
-            return;
-        };
         let window = &self.lattice.window;
         let (si, sj) = (window.stride(i), window.stride(j));
         let faces = [(i, at - sj), (i, at), (j, at - si), (j, at)];
@@ -126,7 +150,8 @@ impl Operator<'_> {
         let eta = self.mean_viscosity([at, at - si, at - sj, at - si - sj]) * wet / open;
         let seen = |low: usize, which: usize| {
             let (a, b) = (velocities[low]?, velocities[low + 1]?);
-            (edge.sight[which] > 0.0).then_some((edge.sight[which], edge.distance[which], a, b))
+            let sight = f64::from(edge.sight[which]);
+            (sight > 0.0).then_some((sight, edge.distance[which], a, b))
         };
         let (along, across) = (seen(0, 0), seen(2, 1));
         let mut both = 0.0;

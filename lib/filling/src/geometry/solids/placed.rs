@@ -160,7 +160,7 @@ impl Row<'_> {
         // enters them.
         if up {
             let enter = |face: usize| face as f64 * edge - along;
-            let start = ((along + TOUCH) / edge).floor().max(0.0) as usize;
+            let start = ((along + TOUCH).max(0.0) / edge) as usize;
             let beyond = len.min(((along + reach) / edge).max(0.0) as usize + 2);
             let first = rows::next(bits, start, beyond, true);
             if first >= beyond || enter(first) > reach {
@@ -173,8 +173,10 @@ impl Row<'_> {
             Some((enter(first).max(0.0), enter(end)))
         } else {
             let enter = |face: usize| along - face as f64 * edge;
-            let start = ((along - TOUCH) / edge).floor() + 1.0;
-            let start = start.clamp(0.0, len as f64) as usize;
+            if along < TOUCH {
+                return None;
+            }
+            let start = len.min(((along - TOUCH) / edge) as usize + 1);
             let beyond = (((along - reach) / edge).max(0.0) as usize).saturating_sub(1);
             let first = rows::previous(bits, start, beyond, true);
             if first <= beyond || enter(first) > reach {
