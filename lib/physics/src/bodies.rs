@@ -106,6 +106,7 @@ impl VoxelBlock {
     }
 
     /// Number of voxels along x, y, z.
+    #[inline]
     pub fn dims(&self) -> [usize; 3] {
         self.dims
     }
@@ -125,6 +126,7 @@ impl VoxelBlock {
     }
 
     /// The bits of row (j, k), x fastest.
+    #[inline]
     pub fn row(&self, j: usize, k: usize) -> &[u64] {
         let start = (k * self.dims[1] + j) * self.words_per_row;
         &self.bits[start..start + self.words_per_row]

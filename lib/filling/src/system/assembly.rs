@@ -5,6 +5,7 @@ use saddle_point::{Csr, Load, SaddleSystem, SolveError};
 
 use super::Operator;
 use super::couplings::{self, Couplings};
+use super::edges::Edges;
 use super::terms::Velocity;
 
 /// Smallest liquid volume, in cells, that a face's mass counts with.
@@ -112,9 +113,10 @@ impl Operator<'_> {
         before: Before,
     ) -> Result<System, SolveError> {
         let n = self.dofs.faces.len();
+        let edges = Edges::new(self);
         let a = Csr::assemble(n, n, |face, entries| {
             entries.add(face, self.mass(face));
-            self.terms(face, |term| {
+            self.terms::<false>(&edges, face, |term| {
                 let own = term.coefficient(face);
                 for &(velocity, c) in term.parts() {
                     if let Velocity::Face(other) = velocity {
@@ -136,7 +138,7 @@ impl Operator<'_> {
                 .map(|&cell| 2.0 * self.eta(cell as usize))
                 .collect(),
             mass: (0..n).map(|face| self.mass(face)).collect(),
-            couplings: Couplings::new(self, bodies.len(), &flux),
+            couplings: Couplings::new(self, &edges, bodies.len(), &flux),
             resting: [
                 self.momentum(before.velocity),
                 (c.iter().zip(before.pressure))

@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 
+use super::edges::Edges;
 use super::terms::Velocity;
 use super::{CHUNK, Operator};
 
@@ -50,14 +51,14 @@ pub(crate) struct Couplings {
 }
 
 impl Couplings {
-    pub(super) fn new(operator: &Operator, bodies: usize, flux: &Rows) -> Self {
+    pub(super) fn new(operator: &Operator, edges: &Edges, bodies: usize, flux: &Rows) -> Self {
         let n = 3 * bodies;
         let drag = gather(operator.dofs.faces.len(), n * n, |face, row, between| {
-            operator.terms(face, |term| {
+            operator.terms::<true>(edges, face, |term| {
                 let own = term.weight * term.coefficient(face);
                 for &(velocity, c) in term.parts() {
                     if let Velocity::Body(component) = velocity {
-                        add(row, component, own * c);
+                        add(row, component as usize, own * c);
                     }
                 }
                 if term.owner() != Some(face as u32) {
@@ -66,7 +67,7 @@ impl Couplings {
                 for &(a, ca) in term.parts() {
                     for &(b, cb) in term.parts() {
                         if let (Velocity::Body(a), Velocity::Body(b)) = (a, b) {
-                            between[a * n + b] += term.weight * ca * cb;
+                            between[a as usize * n + b as usize] += term.weight * ca * cb;
                         }
                     }
                 }
@@ -143,7 +144,7 @@ pub(super) fn fluxes(operator: &Operator) -> Rows {
     let (rows, _) = gather(operator.dofs.cells.len(), 0, |cell, row, _| {
         operator.flux(cell, |velocity, area| match velocity {
             Velocity::Face(face) => add(row, face as usize, area),
-            Velocity::Body(component) => add(row, faces + component, area),
+            Velocity::Body(component) => add(row, faces + component as usize, area),
             Velocity::Still => {}
         });
     });

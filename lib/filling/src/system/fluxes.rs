@@ -21,7 +21,7 @@ impl Operator<'_> {
                     each(velocity, weight * aperture.open);
                 }
                 for (body, area) in aperture.bodies.into_iter().filter(|b| b.1 != 0.0) {
-                    each(Velocity::Body(3 * usize::from(body) + axis), weight * area);
+                    each(Velocity::of_body(body, axis), weight * area);
                 }
             }
         }

@@ -9,6 +9,7 @@
 mod assembly;
 mod couplings;
 mod dofs;
+mod edges;
 mod fluxes;
 mod operator;
 mod terms;

@@ -7,7 +7,8 @@
 
 use super::Operator;
 use super::dofs::NONE;
-use crate::geometry::{OPEN, SIDE};
+use super::edges::{Edge, Edges};
+use crate::geometry::{BodyId, OPEN, SIDE};
 
 /// A velocity in a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,9 +16,19 @@ pub(super) enum Velocity {
     /// Unknown number.
     Face(u32),
     /// Component `axis` of a body's velocity, as 3 body + axis.
-    Body(usize),
+    Body(u32),
     /// Known to be zero: the normal velocity at a symmetry plane.
     Still,
+}
+
+impl Velocity {
+    pub(super) fn of_body(body: BodyId, axis: usize) -> Self {
+        Self::Body(3 * u32::from(body) + axis as u32)
+    }
+
+    pub(super) fn is_body(self) -> bool {
+        matches!(self, Self::Body(_))
+    }
 }
 
 /// 1/2 weight (sum of coefficient times velocity)^2.
@@ -68,37 +79,54 @@ impl Operator<'_> {
         match self.lattice.face(axis, index) {
             OPEN => None,
             SIDE => Some(Velocity::Still),
-            body => Some(Velocity::Body(3 * usize::from(body) + axis)),
+            body => Some(Velocity::of_body(body, axis)),
         }
     }
 
-    /// Calls `each` with every term that face unknown `face` takes part in.
-    pub(super) fn terms(&self, face: usize, mut each: impl FnMut(&Term)) {
+    /// Calls `each` with every term that face unknown `face` takes part in; with `BODIES`, only with
+    /// those that a body takes part in as well.
+    pub(super) fn terms<const BODIES: bool>(
+        &self,
+        edges: &Edges,
+        face: usize,
+        mut each: impl FnMut(&Term),
+    ) {
         let (axis, index) = self.dofs.faces[face];
         let (axis, index) = (usize::from(axis), index as usize);
         let window = &self.lattice.window;
-        self.normal_term(axis, index - window.stride(axis), &mut each);
-        self.normal_term(axis, index, &mut each);
+        self.normal_term::<BODIES>(axis, index - window.stride(axis), &mut each);
+        self.normal_term::<BODIES>(axis, index, &mut each);
         for &t in self.lattice.tangents(axis) {
-            self.edge_terms(axis, t, index, &mut each);
-            self.edge_terms(axis, t, index + window.stride(t), &mut each);
+            for at in [index, index + window.stride(t)] {
+                if let Some(edge) = edges.at(axis, t, at)
+                    && (edge.walled || !BODIES)
+                {
+                    self.edge_terms(&edge, [axis, t], at, &mut each);
+                }
+            }
         }
         for link in self.walls.of(face) {
             let weight = f64::from(link.viscosity * link.area)
                 / (f64::from(link.distance) + self.scales.influence_length);
-            let wall = Velocity::Body(3 * usize::from(link.body) + axis);
+            let wall = Velocity::of_body(link.body, axis);
             each(&Term::pair(weight, wall, Velocity::Face(face as u32)));
         }
     }
 
     /// Stretching of a cell along `axis`: 2 eta (D u)^2 / 2 over its liquid volume.
-    fn normal_term(&self, axis: usize, cell: usize, each: &mut impl FnMut(&Term)) {
-        let weight = 2.0 * self.eta(cell) * f64::from(self.volumes.cell[cell]);
-        if weight <= 0.0 {
-            return;
-        }
+    fn normal_term<const BODIES: bool>(
+        &self,
+        axis: usize,
+        cell: usize,
+        each: &mut impl FnMut(&Term),
+    ) {
         let high = cell + self.lattice.window.stride(axis);
-        if let (Some(low), Some(high)) = (self.velocity(axis, cell), self.velocity(axis, high)) {
+        let (low, high) = (self.velocity(axis, cell), self.velocity(axis, high));
+        let (Some(low), Some(high)) = (low, high) else {
+            return;
+        };
+        let weight = 2.0 * self.eta(cell) * f64::from(self.volumes.cell[cell]);
+        if weight > 0.0 && (low.is_body() || high.is_body() || !BODIES) {
             each(&Term::pair(weight, low, high));
         }
     }
@@ -107,27 +135,25 @@ impl Operator<'_> {
     /// eta/2 [w (D_j u_i + D_i u_j)^2 + (w_i - w)(D_j u_i)^2 + (w_j - w)(D_i u_j)^2] with w_i
     /// the part of the edge across which the two u_i see each other, w = min(w_i, w_j), each over
     /// the distances between the places of the velocities.
-    fn edge_terms(&self, i: usize, j: usize, at: usize, each: &mut impl FnMut(&Term)) {
+    fn edge_terms(
+        &self,
+        edge: &Edge,
+        [i, j]: [usize; 2],
+        at: usize,
+        each: &mut impl FnMut(&Term),
+    ) {
         let window = &self.lattice.window;
         let (si, sj) = (window.stride(i), window.stride(j));
         let faces = [(i, at - sj), (i, at), (j, at - si), (j, at)];
         let velocities = faces.map(|(axis, index)| self.velocity(axis, index));
-        if velocities.contains(&Some(Velocity::Still)) {
-            return;
-        }
-        let cell = window.coordinates(at);
-        let first = window.first_sub(cell) - window.sub_stride(i) - window.sub_stride(j);
-        let (wet, open) = (self.volumes).of_block(self.lattice, first, [2, 2, window.parts(2)]);
-        if wet <= 0.0 {
-            return;
-        }
+        let [wet, open] = edge.volume;
         let eta = self.mean_viscosity([at, at - si, at - sj, at - si - sj]) * wet / open;
-        let seen = |low: usize, axis: usize, t: usize| {
+        let seen = |low: usize, which: usize| {
             let (a, b) = (velocities[low]?, velocities[low + 1]?);
-            let (sight, distance) = self.sight(axis, t, cell, [a, b]);
-            (sight > 0.0).then_some((sight, distance, a, b))
+            let sight = f64::from(edge.sight[which]);
+            (sight > 0.0).then_some((sight, edge.distance[which], a, b))
         };
-        let (along, across) = (seen(0, i, j), seen(2, j, i));
+        let (along, across) = (seen(0, 0), seen(2, 1));
         let mut both = 0.0;
         if let (Some((sight, di, a, b)), Some((other, dj, c, d))) = (along, across) {
             both = sight.min(other);
@@ -140,107 +166,6 @@ impl Operator<'_> {
         for (sight, distance, low, high) in [along, across].into_iter().flatten() {
             if sight > both {
                 each(&Term::pair(eta * (sight - both) / distance, low, high));
-            }
-        }
-    }
-
-    /// Part of the columns between the centre of the face along `axis` below `cell` and that
-    /// of `cell`, neighbours along `t` with velocities `between`, that no wall crosses, and the
-    /// distance between the places of the two velocities, cells.
-    fn sight(&self, axis: usize, t: usize, cell: [usize; 3], between: [Velocity; 2]) -> (f64, f64) {
-        let window = &self.lattice.window;
-        let other = 3 - axis - t;
-        let first = window.first_sub(cell) - window.sub_stride(axis) - window.sub_stride(t);
-        let count = self.lattice.column_count();
-        let mut below = cell;
-        below[t] -= 1;
-        // A closed face may have its centre exactly on the wall that closes it.
-        let [low_open, high_open] =
-            [below, cell].map(|c| self.lattice.face(axis, window.index(c)) == OPEN);
-        let which = usize::from(self.lattice.tangents(axis)[0] != t);
-        let shift = |velocity: Velocity, column: usize| match velocity {
-            Velocity::Face(face) => self.walls.shift(face as usize, which, column),
-            _ => 0.0,
-        };
-        let (mut free, mut conductance) = (0.0, 0.0);
-        for index in 0..count {
-            let mut sub = first + (index & 1) * window.sub_stride(axis);
-            if other < window.domain.axes {
-                sub += (index >> 1) * window.sub_stride(other);
-            }
-            let step = window.sub_stride(t);
-            let open = |s: usize| self.lattice.open[s];
-            // Sub-cells of the column beyond the centres of closed faces.
-            let beyond = [
-                if low_open { 1.0 } else { open(sub - step) },
-                if high_open { 1.0 } else { open(sub + 2 * step) },
-            ];
-            let clear = match ([open(sub), open(sub + step)], beyond) {
-                ([a, b], _) if a == 0.0 || b == 0.0 => false,
-                (_, [a, b]) if a == 0.0 || b == 0.0 => false,
-                ([1.0, 1.0], [1.0, 1.0]) => true,
-                _ => {
-                    let up = self.lattice.column(axis, below, t, index).distance[1];
-                    let down = self.lattice.column(axis, cell, t, index).distance[0];
-                    up.min(down) > 1.0 + 1e-6
-                }
-            };
-            if clear {
-                free += 1.0;
-                conductance += 1.0 / (1.0 + shift(between[1], index) - shift(between[0], index));
-            }
-        }
-        (
-            free / count as f64,
-            if free > 0.0 { free / conductance } else { 1.0 },
-        )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use physics::VoxelBlock;
-
-    use super::*;
-    use crate::geometry::tests::{domain, lattice};
-    use crate::liquid::Volumes;
-    use crate::system::{Scales, WidthRule};
-
-    /// Part of the columns between the centres of two faces along `axis`, neighbours along `t`, that is free
-    /// beside a wall a fifth of a cell thick that covers one half of them, the lower or the `upper` along
-    /// an axis.
-    fn sight(axis: usize, t: usize, halved: usize, upper: bool) -> f64 {
-        let (mut low, mut high) = ([0.0; 3], [6.0; 3]);
-        (low[t], high[t]) = (2.9, 3.1);
-        // The faces lie at 3 along their axis, and from 3 to 4 along the others.
-        let middle = if halved == axis { 3.0 } else { 3.5 };
-        if upper {
-            low[halved] = middle;
-        } else {
-            high[halved] = middle;
-        }
-        let wall = VoxelBlock::solid_box(low, high);
-        let lattice = lattice(domain([6; 3], 3), vec![vec![wall]]);
-        let phi = vec![1.0; lattice.window.sub_len()];
-        let volumes = Volumes::new(&lattice, &phi);
-        let scales = Scales {
-            inertia: 1.0,
-            compressibility: 0.0,
-            gravity: [0.0; 3],
-            influence_length: 0.0,
-            width: WidthRule::Normal,
-        };
-        let operator = Operator::new(&lattice, &volumes, scales);
-        let cell = lattice.window.local([3.0; 3]).map(|x| x.round() as usize);
-        operator.sight(axis, t, cell, [Velocity::Still; 2]).0
-    }
-
-    #[test]
-    fn a_wall_hides_the_columns_that_it_crosses_and_no_other() {
-        for (axis, t) in [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)] {
-            for halved in [axis, 3 - axis - t] {
-                assert_eq!(sight(axis, t, halved, false), 0.5, "{axis} {t} {halved}");
-                assert_eq!(sight(axis, t, halved, true), 0.5, "{axis} {t} {halved}");
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The areas that a face velocity and the bodies at it carry.
 
-use super::{Lattice, PROBE};
+use super::{Lattice, PROBE, Uniform};
 use crate::geometry::{BodyId, OPEN, SIDE};
 
 /// Area of a face by who moves there. The parts add up to the whole face, so that the volume
@@ -197,25 +197,32 @@ impl Lattice {
     /// its half along the b-th tangential direction.
     pub(crate) fn quadrant_open(&self, axis: usize, cell: [usize; 3], quadrant: usize) -> f64 {
         let whole = 1.0 / self.column_count() as f64;
-        match self.quadrant_sides(axis, cell, quadrant) {
-            [1.0, 1.0] => whole,
-            [0.0, _] | [_, 0.0] => 0.0,
-            _ => {
-                let covered = self.covered_quadrant(axis, cell, quadrant);
-                let total: f64 = covered.bodies.iter().map(|b| b.1).sum();
-                (whole - total).max(0.0)
-            }
+        let sides = self.quadrant_sides(axis, cell, quadrant);
+        if sides.iter().all(|side| side.open == 1) {
+            whole
+        } else if sides.iter().any(|side| side.solid == 1) {
+            0.0
+        } else {
+            let covered = self.covered_quadrant(axis, cell, quadrant);
+            let total: f64 = covered.bodies.iter().map(|b| b.1).sum();
+            (whole - total).max(0.0)
         }
     }
 
-    /// Open fractions of the sub-cells below and above a quadrant.
-    fn quadrant_sides(&self, axis: usize, cell: [usize; 3], quadrant: usize) -> [f32; 2] {
-        let window = &self.window;
-        let mut sub = window.first_sub(cell);
-        for (bit, &t) in self.tangents(axis).iter().enumerate() {
-            sub += (quadrant >> bit & 1) * window.sub_stride(t);
+    /// The sub-cells below and above a quadrant, as bit 0.
+    fn quadrant_sides(&self, axis: usize, cell: [usize; 3], quadrant: usize) -> [Uniform; 2] {
+        let mut bit = 0;
+        for (n, &t) in self.tangents(axis).iter().enumerate() {
+            bit += (quadrant >> n & 1) << t;
         }
-        [self.open[sub - window.sub_stride(axis)], self.open[sub]]
+        let index = self.window.index(cell);
+        [(index - self.window.stride(axis), bit + (1 << axis)), (index, bit)].map(|(cell, bit)| {
+            let Uniform { open, solid } = self.uniform[cell];
+            Uniform {
+                open: open >> bit & 1,
+                solid: solid >> bit & 1,
+            }
+        })
     }
 
     /// Area of a quadrant that each body covers.
@@ -236,7 +243,8 @@ impl Lattice {
     fn covered(&self, axis: usize, cell: [usize; 3]) -> Aperture {
         let mut covered = Aperture::NONE;
         for quadrant in 0..self.column_count() {
-            if self.quadrant_sides(axis, cell, quadrant) != [1.0, 1.0] {
+            let sides = self.quadrant_sides(axis, cell, quadrant);
+            if sides.iter().any(|side| side.open == 0) {
                 for (body, area) in self.covered_quadrant(axis, cell, quadrant).bodies {
                     covered.add(body, area);
                 }

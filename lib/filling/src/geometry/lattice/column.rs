@@ -1,6 +1,6 @@
 //! The walls a face velocity sees along a tangential direction.
 
-use super::Lattice;
+use super::{Lattice, half};
 use crate::geometry::solids::FAR;
 use crate::geometry::{BodyId, OPEN, SIDE};
 
@@ -85,8 +85,9 @@ impl Lattice {
             from[other] += if index & 2 == 2 { QUARTER } else { -QUARTER };
         }
         let mut column = Column::FREE;
-        for side in 0..2 {
-            if let Some(hit) = self.solids.ray(from, tangent, side == 1, FAR) {
+        let hits = self.solids.rays(from, tangent, FAR);
+        for (side, hit) in hits.into_iter().enumerate() {
+            if let Some(hit) = hit {
                 column.distance[side] = hit.near;
                 column.body[side] = hit.body;
                 if (hit.near - 1.0).abs() < TOUCH
@@ -108,19 +109,13 @@ impl Lattice {
         if cell[axis] == 0 || cell[tangent] == 0 || cell[tangent] + 1 >= w.cells[tangent] {
             return false;
         }
-        let other = 3 - axis - tangent;
-        let mut start = w.first_sub(cell) - w.sub_stride(axis);
-        start -= 2 * w.sub_stride(tangent);
-        (0..2).all(|a| {
-            (0..6).all(|t| {
-                (0..w.parts(other)).all(|o| {
-                    let sub = start
-                        + a * w.sub_stride(axis)
-                        + t * w.sub_stride(tangent)
-                        + o * w.sub_stride(other);
-                    self.open[sub] == 1.0
-                })
-            })
+        let all = self.all_parts();
+        let (low, high) = (all & half(axis, false), all & half(axis, true));
+        let start = w.index(cell) - w.stride(tangent);
+        (0..3).all(|t| {
+            let above = start + t * w.stride(tangent);
+            let below = above - w.stride(axis);
+            self.uniform[above].open & low == low && self.uniform[below].open & high == high
         })
     }
 }

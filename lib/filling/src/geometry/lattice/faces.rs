@@ -17,7 +17,7 @@ impl Lattice {
         if self.on_side(axis, cell) {
             return SIDE;
         }
-        match self.uniform(axis, cell) {
+        match self.both_uniform(axis, cell) {
             Some(true) => return OPEN,
             Some(false) => {
                 let mut centre = self.window.face_centre(axis, cell);
@@ -73,28 +73,18 @@ impl Lattice {
 
     /// `Some(true)` when both cells at the face are open throughout, `Some(false)` when both
     /// are solid throughout.
-    fn uniform(&self, axis: usize, cell: [usize; 3]) -> Option<bool> {
-        let w = &self.window;
+    fn both_uniform(&self, axis: usize, cell: [usize; 3]) -> Option<bool> {
         if cell[axis] == 0 {
             return None;
         }
-        let mut low = cell;
-        low[axis] -= 1;
-        let first = self.open[w.first_sub(cell)];
-        if first != 0.0 && first != 1.0 {
-            return None;
+        let index = self.window.index(cell);
+        let both = [index, index - self.window.stride(axis)].map(|i| self.uniform[i]);
+        let all = self.all_parts();
+        if both.iter().all(|cell| cell.open == all) {
+            Some(true)
+        } else {
+            (both.iter().all(|cell| cell.solid == all)).then_some(false)
         }
-        for start in [w.first_sub(low), w.first_sub(cell)] {
-            for dz in 0..w.parts(2) {
-                for dy in 0..2 {
-                    let row = start + dy * w.sub_stride(1) + dz * w.sub_stride(2);
-                    if self.open[row] != first || self.open[row + 1] != first {
-                        return None;
-                    }
-                }
-            }
-        }
-        Some(first == 1.0)
     }
 
     /// The body just above or below a point of a face plane.

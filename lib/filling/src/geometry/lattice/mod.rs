@@ -9,6 +9,7 @@ mod aperture;
 mod column;
 mod faces;
 mod rooms;
+mod uniform;
 
 use physics::Boundary;
 use rayon::prelude::*;
@@ -16,6 +17,8 @@ use rayon::prelude::*;
 use crate::geometry::{BodyId, OPEN, Solids, Window};
 
 pub(crate) use column::Column;
+pub(crate) use uniform::half;
+use uniform::{Uniform, uniform};
 
 /// Distance from a point at which its neighbourhood is probed: a wall exactly on the centre
 /// of a face must be seen from both of its sides.
@@ -30,6 +33,8 @@ pub(crate) struct Lattice {
     pub(crate) solids: Solids,
     /// Open volume fraction of each sub-cell; 0 beyond symmetry planes.
     pub(crate) open: Vec<f32>,
+    /// Which sub-cells of each cell are open or solid throughout.
+    pub(crate) uniform: Vec<Uniform>,
     /// State of the low face of each cell along x, y, z: [`OPEN`], or who closes it: a body
     /// or [`crate::geometry::SIDE`]. Empty along z in plane strain.
     pub(crate) faces: [Vec<BodyId>; 3],
@@ -42,9 +47,11 @@ impl Lattice {
             window,
             solids,
             open: Vec::new(),
+            uniform: Vec::new(),
             faces: [const { Vec::new() }; 3],
         };
         lattice.fill_open();
+        lattice.uniform = uniform(&window, &lattice.open);
         let [nx, ny, _] = window.cells;
         for axis in 0..window.domain.axes {
             let mut faces = vec![OPEN; window.len()];
@@ -89,6 +96,12 @@ impl Lattice {
             }
         });
         self.open = open;
+    }
+
+    /// Bits of all sub-cells of a cell.
+    #[inline]
+    pub(crate) fn all_parts(&self) -> u8 {
+        u8::MAX >> (8 - self.window.sub_per_cell())
     }
 
     /// State of the low face along `axis` of a cell, see [`Lattice::faces`].

@@ -6,6 +6,10 @@ impl Lattice {
     /// Whether the open sub-cells of a cell are connected through their faces.
     pub(super) fn is_one_room(&self, cell: [usize; 3]) -> bool {
         let w = &self.window;
+        let whole = self.uniform[w.index(cell)].open;
+        if whole == self.all_parts() {
+            return true;
+        }
         let first = w.first_sub(cell);
         let parts = [2, 2, w.parts(2)];
         let mut open = 0_u8;
@@ -20,7 +24,11 @@ impl Lattice {
             for bit in (0..w.sub_per_cell()).filter(|bit| reached >> bit & 1 == 1) {
                 for axis in (0..3).filter(|&a| parts[a] == 2) {
                     let other = 1_u8 << (bit ^ 1 << axis);
-                    if open & other != 0 && next & other == 0 && self.passes(cell, bit, axis) {
+                    let both = other | 1 << bit;
+                    if open & other != 0
+                        && next & other == 0
+                        && (whole & both == both || self.passes(cell, bit, axis))
+                    {
                         next |= other;
                     }
                 }

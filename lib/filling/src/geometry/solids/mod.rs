@@ -1,6 +1,7 @@
 //! Where the rigid bodies are: point, ray and overlap queries by voxel index arithmetic.
 
 mod placed;
+mod rows;
 mod sweep;
 
 use std::sync::Arc;
@@ -8,7 +9,8 @@ use std::sync::Arc;
 use physics::{Boundary, RigidBody};
 
 use crate::geometry::Domain;
-use placed::Placed;
+use placed::{Placed, Row};
+use rows::Rows;
 
 /// Index of a body in the scene, or [`SIDE`] or [`OPEN`].
 pub(crate) type BodyId = u8;
@@ -30,6 +32,17 @@ pub(crate) struct Hit {
     pub(crate) far: f64,
     /// Whose surface it is.
     pub(crate) body: BodyId,
+}
+
+/// Puts the first solid of a row in the place of `first` if it is nearer.
+#[inline]
+fn nearer(first: &mut Option<Hit>, body: BodyId, row: &Row, up: bool, reach: f64) {
+    let limit = first.map_or(reach, |hit| hit.near);
+    if let Some((near, far)) = row.ray(up, limit)
+        && first.is_none_or(|hit| near < hit.near)
+    {
+        *first = Some(Hit { near, far, body });
+    }
 }
 
 /// All rigid bodies of a scene at one moment, in cell units of the domain.
@@ -58,7 +71,7 @@ impl Solids {
                     rest: origin,
                     origin,
                     edge: std::array::from_fn(|a| block.voxel()[a] / cell_m),
-                    block: Arc::new(block),
+                    rows: Arc::new(Rows::new(block, domain.axes)),
                 });
             }
         }
@@ -108,36 +121,42 @@ impl Solids {
     /// First solid along `axis` from `from`, upwards or downwards, no farther than `reach`
     /// cells. A symmetry plane of the domain is a hit with body [`SIDE`].
     pub(crate) fn ray(&self, from: [f64; 3], axis: usize, up: bool, reach: f64) -> Option<Hit> {
-        let mut first: Option<Hit> = None;
-        let mut limit = reach;
-        if self.domain.boundary[axis] == Boundary::Symmetry {
-            let to_side = if up {
-                self.domain.cells[axis] as f64 - from[axis]
-            } else {
-                from[axis]
-            };
-            if to_side <= limit {
-                limit = to_side;
-                first = Some(Hit {
-                    near: to_side.max(0.0),
-                    far: f64::INFINITY,
-                    body: SIDE,
-                });
-            }
-        }
+        let mut first = self.side(from, axis, up, reach);
         for block in &self.blocks {
-            if let Some((near, far)) = block.ray(from, axis, up, limit)
-                && first.is_none_or(|hit| near < hit.near)
-            {
-                limit = near;
-                first = Some(Hit {
-                    near,
-                    far,
-                    body: block.body,
-                });
+            if let Some(row) = block.row(from, axis) {
+                nearer(&mut first, block.body, &row, up, reach);
             }
         }
         first
+    }
+
+    /// The first solids along `axis` from `from` downwards and upwards, as of [`Solids::ray`].
+    pub(crate) fn rays(&self, from: [f64; 3], axis: usize, reach: f64) -> [Option<Hit>; 2] {
+        let mut first = [false, true].map(|up| self.side(from, axis, up, reach));
+        for block in &self.blocks {
+            if let Some(row) = block.row(from, axis) {
+                nearer(&mut first[0], block.body, &row, false, reach);
+                nearer(&mut first[1], block.body, &row, true, reach);
+            }
+        }
+        first
+    }
+
+    /// The symmetry plane that a ray meets.
+    fn side(&self, from: [f64; 3], axis: usize, up: bool, reach: f64) -> Option<Hit> {
+        if self.domain.boundary[axis] != Boundary::Symmetry {
+            return None;
+        }
+        let to_side = if up {
+            self.domain.cells[axis] as f64 - from[axis]
+        } else {
+            from[axis]
+        };
+        (to_side <= reach).then_some(Hit {
+            near: to_side.max(0.0),
+            far: f64::INFINITY,
+            body: SIDE,
+        })
     }
 
     /// Calls `found(body, volume)` for every block that overlaps the box `low..high`, in the

@@ -109,7 +109,7 @@ impl Placed {
     fn entry(&self, after: &Placed, from: [f64; 3], to: [f64; 3]) -> Option<Entry> {
         let a: [f64; 3] = std::array::from_fn(|i| (from[i] - self.origin[i]) / self.edge[i]);
         let b: [f64; 3] = std::array::from_fn(|i| (to[i] - after.origin[i]) / self.edge[i]);
-        let dims = self.block.dims().map(|n| n as f64);
+        let dims = self.rows.block.dims().map(|n| n as f64);
         if (0..3).any(|i| a[i].max(b[i]) < 0.0 || a[i].min(b[i]) > dims[i]) {
             return None;
         }
@@ -139,7 +139,7 @@ impl Placed {
             voxel[axis] += step[axis];
             leave[axis] += (step[axis] as f64) / way[axis];
             let [i, j, k] = voxel;
-            if i >= 0 && j >= 0 && k >= 0 && self.block.solid(i as usize, j as usize, k as usize) {
+            if i >= 0 && j >= 0 && k >= 0 && self.rows.block.solid(i as usize, j as usize, k as usize) {
                 let up = step[axis] > 0;
                 let border = if up { voxel[axis] } else { voxel[axis] + 1 };
                 return Some(Entry {

@@ -52,7 +52,7 @@ pub(crate) struct Walls {
 
 /// Places of a velocity from its face's centre, along each tangential direction (cells), in the
 /// columns of the control volume: it is the mean over the part that walls bound.
-type Shifts = [[f32; 4]; 2];
+pub(super) type Shifts = [[f32; 4]; 2];
 
 /// What a task finds.
 #[derive(Default)]
@@ -111,13 +111,13 @@ impl Walls {
         walls
     }
 
-    /// Place of a face unknown's velocity from the face's centre along its tangential direction
-    /// number `which` in a column of its control volume, cells.
+    /// Places of a face unknown's velocity from the face's centre; `None` where it is there in all
+    /// columns.
     #[inline]
-    pub(super) fn shift(&self, face: usize, which: usize, column: usize) -> f64 {
+    pub(super) fn shifts(&self, face: usize) -> Option<&Shifts> {
         match self.place[face] {
-            CENTRED => 0.0,
-            place => self.shifts[place as usize][which][column].into(),
+            CENTRED => None,
+            place => Some(&self.shifts[place as usize]),
         }
     }
 
