@@ -8,6 +8,7 @@ use crate::chebyshev::Chebyshev;
 use crate::csr::Csr;
 use crate::fgmres::{KrylovSpace, Limits, Operator, fgmres};
 use crate::load::{Bordered, Load, LoadedOperator};
+use crate::scaled::Scaled;
 use crate::schur::Schur;
 use crate::system::SaddleSystem;
 use crate::vanka::Vanka;
@@ -108,9 +109,9 @@ impl SaddleSolver {
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
         let (limits, space) = (self.limits(), &mut self.space);
         let (rhs, options) = (system.right_hand_side(), &self.options);
-        let report = prepared(system, options, |operator, mut preconditioner| {
+        let report = prepared(system, options, |mut operator, mut preconditioner| {
             let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
-            let result = fgmres(operator, precondition, &rhs, &mut x, limits, space);
+            let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
             (result, preconditioner.totals())
         });
         spread(&x, u, p);
@@ -139,14 +140,14 @@ impl SaddleSolver {
         rhs.push(weight * load.force);
         let (limits, space, options) = (self.limits(), &mut self.space, &self.options);
         let report = prepared(system, options, |inner, preconditioner| {
-            let operator = LoadedOperator {
+            let mut operator = LoadedOperator {
                 inner,
                 load,
                 weight,
             };
             let mut bordered = Bordered::new(preconditioner, load, weight);
             let precondition = |r: &[Work], z: &mut Vec<Work>| bordered.apply(r, z);
-            let result = fgmres(&operator, precondition, &rhs, &mut x, limits, space);
+            let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
             (result, bordered.inner().totals())
         });
         *speed = weight * x.pop().unwrap_or_default();
@@ -171,18 +172,21 @@ type Iterated = (Result<Vec<f64>, SolveError>, Totals);
 fn prepared(
     system: &SaddleSystem,
     options: &SaddleOptions,
-    iterate: impl FnOnce(&SaddleOperator, Preconditioner) -> Iterated + Send,
+    iterate: impl FnOnce(SaddleOperator, Preconditioner) -> Iterated + Send,
 ) -> Result<SaddleReport, SolveError> {
     // On the thread pool throughout: its threads need not be woken for every product.
     rayon::scope(|_| {
         let started = Instant::now();
+        let (scaled, g_transposed) = (Scaled::new(system.a)?, system.g.transpose());
         let operator = SaddleOperator {
             system: *system,
-            g_transposed: system.g.transpose(),
+            g_transposed: &g_transposed,
+            scaled: &scaled,
+            scratch: Vec::new(),
         };
         let preconditioner = Preconditioner::new(&operator, options)?;
         let setup = started.elapsed();
-        let (result, (cycles, eigenvalue_bound)) = iterate(&operator, preconditioner);
+        let (result, (cycles, eigenvalue_bound)) = iterate(operator, preconditioner);
         Ok(SaddleReport {
             history: result?,
             cycles,
@@ -201,17 +205,18 @@ fn spread(x: &[f64], u: &mut [f64], p: &mut [f64]) {
 
 struct SaddleOperator<'a> {
     system: SaddleSystem<'a>,
-    g_transposed: Csr<f64>,
+    g_transposed: &'a Csr<f64>,
+    scaled: &'a Scaled,
+    /// Scaled velocities.
+    scratch: Vec<f64>,
 }
 
-impl Operator for SaddleOperator<'_> {
-    fn apply<X: Real>(&self, x: &[X], y: &mut [f64]) {
-        let (u, p) = x.split_at(self.system.a.n_rows());
-        let (y_u, y_p) = y.split_at_mut(u.len());
+impl SaddleOperator<'_> {
+    /// The rest of the product, with `A u` in `y_u`.
+    fn add_fluxes<X: Real>(&self, u: &[X], p: &[X], y_u: &mut [f64], y_p: &mut [f64]) {
         for_chunks(y_u, |start, part| {
             for (i, y) in part.iter_mut().enumerate() {
-                *y = self.system.a.row_times_wide(start + i, u)
-                    - self.g_transposed.row_times_wide(start + i, p);
+                *y -= self.g_transposed.row_times_wide(start + i, p);
             }
         });
         for_chunks(y_p, |start, part| {
@@ -223,12 +228,30 @@ impl Operator for SaddleOperator<'_> {
     }
 }
 
+impl Operator for SaddleOperator<'_> {
+    fn apply_exactly(&self, x: &[f64], y: &mut [f64]) {
+        let (u, p) = x.split_at(self.system.a.n_rows());
+        let (y_u, y_p) = y.split_at_mut(u.len());
+        self.system.a.multiply(u, y_u);
+        self.add_fluxes(u, p, y_u, y_p);
+    }
+
+    fn apply(&mut self, x: &[Work], y: &mut [f64]) {
+        let (u, p) = x.split_at(self.system.a.n_rows());
+        let (y_u, y_p) = y.split_at_mut(u.len());
+        self.scaled.multiply(u, &mut self.scratch, y_u);
+        self.add_fluxes(u, p, y_u, y_p);
+    }
+}
+
 /// `[Ahat, 0; -G, -Shat]^-1`, then one sweep of [`Vanka`] on what that leaves.
 pub(crate) struct Preconditioner<'a> {
     g: &'a Csr<f64>,
     g_transposed: &'a Csr<f64>,
     c: &'a [f64],
-    chebyshev: Chebyshev,
+    chebyshev: Chebyshev<'a>,
+    /// `D^-1/2` of the velocity block.
+    scale: &'a [Work],
     schur: Schur,
     vanka: Vanka,
     /// Right-hand side of the pressure solve, and what that leaves of the volume balance.
@@ -237,17 +260,17 @@ pub(crate) struct Preconditioner<'a> {
 }
 
 impl<'a> Preconditioner<'a> {
-    fn new(operator: &'a SaddleOperator<'a>, options: &SaddleOptions) -> Result<Self, SolveError> {
-        let system = operator.system;
-        let chebyshev =
-            Chebyshev::new(system.a, options.chebyshev_degree, options.chebyshev_ratio)?;
+    fn new(operator: &SaddleOperator<'a>, options: &SaddleOptions) -> Result<Self, SolveError> {
+        let (system, scaled) = (operator.system, operator.scaled);
+        let (degree, ratio) = (options.chebyshev_degree, options.chebyshev_ratio);
         Ok(Self {
             g: system.g,
-            g_transposed: &operator.g_transposed,
+            g_transposed: operator.g_transposed,
             c: system.c,
-            vanka: Vanka::new(&system, chebyshev.scale()),
-            chebyshev,
-            schur: Schur::new(&system, &operator.g_transposed, options.inner_cycles)?,
+            vanka: Vanka::new(&system, &scaled.scale),
+            chebyshev: Chebyshev::new(scaled, degree, ratio),
+            scale: &scaled.scale,
+            schur: Schur::new(&system, operator.g_transposed, options.inner_cycles)?,
             volume: vec![Work::default(); system.g.n_rows()],
             left: Vec::new(),
         })
@@ -280,8 +303,7 @@ impl<'a> Preconditioner<'a> {
         });
         let g_transposed = self.g_transposed;
         let push = |face| Work::nearest(g_transposed.row_times_wide(face, p));
-        let (momentum, scale) = self.chebyshev.residual(push);
-        let left = (momentum, &self.left[..]);
-        self.vanka.sweep(left, scale, velocity, pressure);
+        let left = (self.chebyshev.residual(push), &self.left[..]);
+        self.vanka.sweep(left, self.scale, velocity, pressure);
     }
 }
