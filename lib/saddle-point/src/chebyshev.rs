@@ -1,8 +1,10 @@
 //! Approximate inverse of the velocity block: a Chebyshev polynomial in the Jacobi-scaled matrix.
 
+use rayon::prelude::*;
+
 use crate::packed::{Absolute, Finish, LANES, PackedMatrix};
 use crate::scaled::Scaled;
-use crate::vector::{Real, Work, for_chunks, for_chunks_pair, reset};
+use crate::vector::{CHUNK, Real, Work, for_chunks, for_chunks_pair, reset};
 
 /// Sweeps that tighten the bound of the largest eigenvalue.
 const BOUND_SWEEPS: usize = 6;
@@ -61,8 +63,7 @@ impl<'a> Chebyshev<'a> {
         let (centre, half_width) = (0.5 * (high + low), 0.5 * (high - low));
         let sigma = centre / half_width;
         let first = Work::nearest(1.0 / centre);
-        let len = self.before.len();
-        reset(&mut self.before, len);
+        for_chunks(&mut self.before[..n], |_, part| part.fill(0.0));
         let scale = &self.scaled.scale;
         for_chunks_pair(&mut self.rhs[..n], &mut self.now[..n], |start, rhs, now| {
             for (i, (rhs, now)) in rhs.iter_mut().zip(now).enumerate() {
@@ -128,7 +129,7 @@ impl Finish for Step<'_> {
 
 /// Upper bound of the spectral radius of `I + M` for symmetric `M` with zero diagonal: for any
 /// positive `w`, `rho(I + M) <= rho(I + |M|) <= max_i ((I + |M|) w)_i / w_i` (Collatz 1942).
-/// Each sweep `w <- (I + |M|) w` tightens the bound; unlike a power iteration it is never too low,
+/// Each sweep `w <- (I + |M|) w` tightens the bound, that of the last is taken; unlike a power iteration it is never too low,
 /// which would make the polynomial amplify the missed modes.
 ///
 /// `w` and `next` are zeros of the padded length and are left so.
@@ -139,19 +140,22 @@ fn largest_eigenvalue_bound(
     next: &mut Vec<Work>,
 ) -> f64 {
     w[..n].fill(1.0);
-    let mut bound = f64::INFINITY;
     for _ in 0..BOUND_SWEEPS {
         matrix.for_blocks(w, next, Absolute(w));
-        let ratios = next[..n].iter().zip(&w[..n]).map(|(a, b)| a / b);
-        bound = bound.min(f64::from(ratios.fold(1.0, Work::max)));
         std::mem::swap(w, next);
     }
+    let bound = (w[..n].par_chunks(CHUNK).zip(next[..n].par_chunks(CHUNK)))
+        .map(|(after, before)| {
+            let ratios = after.iter().zip(before).map(|(a, b)| a / b);
+            ratios.fold(1.0, Work::max)
+        })
+        .reduce(|| 1.0, Work::max);
     for vector in [w, next] {
         let len = vector.len();
         reset(vector, len);
     }
     // Room for the rounding of single-precision sums.
-    bound * (1.0 + 1e-5)
+    f64::from(bound) * (1.0 + 1e-5)
 }
 
 #[cfg(test)]

@@ -27,9 +27,6 @@ pub struct SaddleOptions {
     pub chebyshev_degree: usize,
     /// Its interval: largest over smallest eigenvalue of `D^-1 A` treated.
     pub chebyshev_ratio: f64,
-    /// Conjugate gradient steps, each with a multigrid cycle, for the Poisson problem in the
-    /// pressure preconditioner.
-    pub inner_cycles: usize,
 }
 
 impl Default for SaddleOptions {
@@ -38,9 +35,8 @@ impl Default for SaddleOptions {
             tolerance: 1e-3,
             max_iterations: 200,
             restart: 30,
-            chebyshev_degree: 14,
-            chebyshev_ratio: 320.0,
-            inner_cycles: 1,
+            chebyshev_degree: 24,
+            chebyshev_ratio: 400.0,
         }
     }
 }
@@ -50,8 +46,6 @@ impl Default for SaddleOptions {
 pub struct SaddleReport {
     /// Relative residual at the start and after every iteration.
     pub history: Vec<f64>,
-    /// Multigrid cycles of all inner solves.
-    pub cycles: usize,
     /// Upper bound of the eigenvalues of `D^-1 A` used.
     pub eigenvalue_bound: f64,
     /// Time to build the preconditioner.
@@ -90,7 +84,7 @@ impl SaddleSolver {
 
     /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per
     /// cell), which take the solution. The preconditioner is block lower triangular: a Chebyshev
-    /// polynomial in `A` for the velocities, then friction Poisson solve plus local viscosity for
+    /// polynomial in `A` for the velocities, then a friction Poisson cycle plus local viscosity for
     /// the pressures; then a sweep that couples both cell by cell. Results do not depend on the
     /// number of threads.
     ///
@@ -112,7 +106,7 @@ impl SaddleSolver {
         let report = prepared(system, options, |mut operator, mut preconditioner| {
             let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
             let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
-            (result, preconditioner.totals())
+            (result, preconditioner.bound())
         });
         spread(&x, u, p);
         report.map_err(|error| explained(error, system))
@@ -148,7 +142,7 @@ impl SaddleSolver {
             let mut bordered = Bordered::new(preconditioner, load, weight);
             let precondition = |r: &[Work], z: &mut Vec<Work>| bordered.apply(r, z);
             let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
-            (result, bordered.inner().totals())
+            (result, bordered.inner().bound())
         });
         *speed = weight * x.pop().unwrap_or_default();
         spread(&x, u, p);
@@ -164,9 +158,8 @@ impl SaddleSolver {
     }
 }
 
-/// Multigrid cycles and eigenvalue bound of a preconditioner.
-type Totals = (usize, f64);
-type Iterated = (Result<Vec<f64>, SolveError>, Totals);
+/// History of residuals, and the eigenvalue bound of the preconditioner.
+type Iterated = (Result<Vec<f64>, SolveError>, f64);
 
 /// Runs `iterate` on the operator and the preconditioner of `system`, and reports on it.
 fn prepared(
@@ -186,10 +179,9 @@ fn prepared(
         };
         let preconditioner = Preconditioner::new(&operator, options)?;
         let setup = started.elapsed();
-        let (result, (cycles, eigenvalue_bound)) = iterate(operator, preconditioner);
+        let (result, eigenvalue_bound) = iterate(operator, preconditioner);
         Ok(SaddleReport {
             history: result?,
-            cycles,
             eigenvalue_bound,
             setup,
             iteration: started.elapsed() - setup,
@@ -270,14 +262,14 @@ impl<'a> Preconditioner<'a> {
             vanka: Vanka::new(&system, &scaled.scale),
             chebyshev: Chebyshev::new(scaled, degree, ratio),
             scale: &scaled.scale,
-            schur: Schur::new(&system, operator.g_transposed, options.inner_cycles)?,
+            schur: Schur::new(&system, operator.g_transposed)?,
             volume: vec![Work::default(); system.g.n_rows()],
             left: Vec::new(),
         })
     }
 
-    fn totals(&self) -> Totals {
-        (self.schur.cycles, self.chebyshev.bound())
+    fn bound(&self) -> f64 {
+        self.chebyshev.bound()
     }
 
     /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`; then the sweep.
