@@ -28,17 +28,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     println!("threads {}", rayon::current_num_threads());
     println!(
-        "{:>8} {:>8} {:>9} {:>14} {:>6} {:>7} {:>7} {:>7} {:>7} {:>6}",
-        "cells",
-        "faces",
-        "entries",
-        "its 1e-2/3/4",
-        "cycles",
-        "setup_s",
-        "wall_s",
-        "cpu_s",
-        "MiB",
-        "bound"
+        "{:>8} {:>8} {:>9} {:>14} {:>7} {:>7} {:>7} {:>7} {:>6}",
+        "cells", "faces", "entries", "its 1e-2/3/4", "setup_s", "wall_s", "cpu_s", "MiB", "bound"
     );
     for size in sizes {
         let numbers = size
@@ -71,12 +62,11 @@ fn row(case: Case, tolerance: f64) -> Result<(), Box<dyn Error>> {
     let report = solver.solve(&problem.system(), &mut u, &mut p)?;
     let (wall, cpu) = (started.elapsed().as_secs_f64(), cpu_seconds()? - cpu);
     println!(
-        "{:8} {:8} {:9} {:>14} {:6} {:7.2} {:7.2} {:7.2} {:7} {:6.3}",
+        "{:8} {:8} {:9} {:>14} {:7.2} {:7.2} {:7.2} {:7} {:6.3}",
         p.len(),
         u.len(),
         problem.a.n_entries(),
         iterations(&report),
-        report.cycles,
         report.setup.as_secs_f64(),
         wall,
         cpu,

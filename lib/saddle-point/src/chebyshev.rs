@@ -1,9 +1,10 @@
 //! Approximate inverse of the velocity block: a Chebyshev polynomial in the Jacobi-scaled matrix.
 
-use crate::SolveError;
-use crate::csr::Csr;
-use crate::packed::PackedMatrix;
-use crate::vector::{Real, Work, for_chunks, for_chunks_pair, reset};
+use rayon::prelude::*;
+
+use crate::packed::{Absolute, Finish, LANES, PackedMatrix};
+use crate::scaled::Scaled;
+use crate::vector::{CHUNK, Real, Work, for_chunks, for_chunks_pair, reset};
 
 /// Sweeps that tighten the bound of the largest eigenvalue.
 const BOUND_SWEEPS: usize = 6;
@@ -11,11 +12,8 @@ const BOUND_SWEEPS: usize = 6;
 /// `p(A) ~ A^-1` for a symmetric positive definite `A` with diagonal `D`: `S q(S A S) S` with
 /// `S = D^-1/2` and `q` the Chebyshev iteration of given degree on `[bound/ratio, bound]`
 /// (Golub & Van Loan, Matrix Computations, 4th ed., section 11.2.8).
-pub(crate) struct Chebyshev {
-    /// `S A S`.
-    scaled: PackedMatrix,
-    /// `D^-1/2`.
-    scale: Vec<Work>,
+pub(crate) struct Chebyshev<'a> {
+    scaled: &'a Scaled,
     bound: f64,
     degree: usize,
     ratio: f64,
@@ -25,50 +23,32 @@ pub(crate) struct Chebyshev {
     before: Vec<Work>,
 }
 
-impl Chebyshev {
-    pub(crate) fn new(a: &Csr<f64>, degree: usize, ratio: f64) -> Result<Self, SolveError> {
-        let mut scale = a.diagonal();
-        if let Some(row) = scale.iter().position(|&d| d <= 0.0) {
-            return Err(SolveError::Matrix(format!(
-                "diagonal {} of velocity row {row}; the velocity block must be positive definite",
-                scale[row]
-            )));
-        }
-        for_chunks(&mut scale, |_, part| {
-            part.iter_mut().for_each(|d| *d = 1.0 / d.sqrt());
-        });
-        let scaled = PackedMatrix::new(a, &scale)?;
-        let len = scaled.padded_len();
+impl<'a> Chebyshev<'a> {
+    pub(crate) fn new(scaled: &'a Scaled, degree: usize, ratio: f64) -> Self {
+        let len = scaled.matrix.padded_len();
         let (mut now, mut before) = (vec![0.0; len], vec![0.0; len]);
-        Ok(Self {
-            bound: largest_eigenvalue_bound(&scaled, a.n_rows(), &mut now, &mut before),
+        let n = scaled.scale.len();
+        Self {
+            bound: largest_eigenvalue_bound(&scaled.matrix, n, &mut now, &mut before),
             scaled,
-            scale: scale.into_iter().map(Work::nearest).collect(),
             degree,
             ratio,
             rhs: vec![0.0; len],
             now,
             before,
-        })
-    }
-
-    /// `D^-1/2`.
-    pub(crate) fn scale(&self) -> &[Work] {
-        &self.scale
+        }
     }
 
     /// What the `x` of the last [`Chebyshev::apply`] leaves of `S (b - A x)`, plus `S more(row)`;
-    /// and the diagonal of `S`.
-    pub(crate) fn residual(&mut self, more: impl Fn(usize) -> Work + Sync) -> (&[Work], &[Work]) {
-        let (rhs, now, scale) = (&self.rhs, &self.now, &self.scale);
-        self.scaled
-            .for_blocks(now, &mut self.before, |first, product, out| {
-                for (i, (out, scale)) in out.iter_mut().zip(&scale[first..]).enumerate() {
-                    let row = first + i;
-                    *out = rhs[row] - now[row] - product[i] + scale * more(row);
-                }
-            });
-        (&self.before, scale)
+    pub(crate) fn residual(&mut self, more: impl Fn(usize) -> Work + Sync) -> &[Work] {
+        let (rhs, now, scale) = (&self.rhs, &self.now, &self.scaled.scale);
+        (self.scaled.matrix).for_blocks(now, &mut self.before, Residual { rhs, now });
+        for_chunks(&mut self.before[..scale.len()], |start, part| {
+            for (i, out) in part.iter_mut().enumerate() {
+                *out += scale[start + i] * more(start + i);
+            }
+        });
+        &self.before
     }
 
     /// Guaranteed upper bound of the eigenvalues of `D^-1 A`.
@@ -83,9 +63,8 @@ impl Chebyshev {
         let (centre, half_width) = (0.5 * (high + low), 0.5 * (high - low));
         let sigma = centre / half_width;
         let first = Work::nearest(1.0 / centre);
-        let len = self.before.len();
-        reset(&mut self.before, len);
-        let scale = &self.scale;
+        for_chunks(&mut self.before[..n], |_, part| part.fill(0.0));
+        let scale = &self.scaled.scale;
         for_chunks_pair(&mut self.rhs[..n], &mut self.now[..n], |start, rhs, now| {
             for (i, (rhs, now)) in rhs.iter_mut().zip(now).enumerate() {
                 *rhs = b[start + i] * scale[start + i];
@@ -98,15 +77,13 @@ impl Chebyshev {
             let momentum = Work::nearest(next * rho);
             let step = Work::nearest(2.0 * next / half_width);
             rho = next;
-            let (rhs, now) = (&self.rhs, &self.now);
-            self.scaled
-                .for_blocks(now, &mut self.before, |row, product, old| {
-                    let (rhs, now) = (&rhs[row..], &now[row..]);
-                    for (i, old) in old.iter_mut().enumerate() {
-                        let residual = rhs[i] - now[i] - product[i];
-                        *old = now[i] + momentum * (now[i] - *old) + step * residual;
-                    }
-                });
+            let finish = Step {
+                rhs: &self.rhs,
+                now: &self.now,
+                momentum,
+                step,
+            };
+            (self.scaled.matrix).for_blocks(&self.now, &mut self.before, finish);
             std::mem::swap(&mut self.before, &mut self.now);
         }
         for_chunks(x, |start, part| {
@@ -117,9 +94,42 @@ impl Chebyshev {
     }
 }
 
+/// `rhs - now - product`.
+struct Residual<'a> {
+    rhs: &'a [Work],
+    now: &'a [Work],
+}
+
+impl Finish for Residual<'_> {
+    #[inline(always)]
+    fn finish(&self, block: usize, product: [Work; LANES], out: &mut [Work; LANES]) {
+        let [rhs, now] = [self.rhs, self.now].map(|v| &v.as_chunks::<LANES>().0[block]);
+        *out = std::array::from_fn(|i| rhs[i] - now[i] - product[i]);
+    }
+}
+
+/// The next iterate in the place of the one before the last.
+struct Step<'a> {
+    rhs: &'a [Work],
+    now: &'a [Work],
+    momentum: Work,
+    step: Work,
+}
+
+impl Finish for Step<'_> {
+    #[inline(always)]
+    fn finish(&self, block: usize, product: [Work; LANES], old: &mut [Work; LANES]) {
+        let [rhs, now] = [self.rhs, self.now].map(|v| &v.as_chunks::<LANES>().0[block]);
+        *old = std::array::from_fn(|i| {
+            let residual = rhs[i] - now[i] - product[i];
+            now[i] + self.momentum * (now[i] - old[i]) + self.step * residual
+        });
+    }
+}
+
 /// Upper bound of the spectral radius of `I + M` for symmetric `M` with zero diagonal: for any
 /// positive `w`, `rho(I + M) <= rho(I + |M|) <= max_i ((I + |M|) w)_i / w_i` (Collatz 1942).
-/// Each sweep `w <- (I + |M|) w` tightens the bound; unlike a power iteration it is never too low,
+/// Each sweep `w <- (I + |M|) w` tightens the bound, that of the last is taken; unlike a power iteration it is never too low,
 /// which would make the polynomial amplify the missed modes.
 ///
 /// `w` and `next` are zeros of the padded length and are left so.
@@ -130,24 +140,28 @@ fn largest_eigenvalue_bound(
     next: &mut Vec<Work>,
 ) -> f64 {
     w[..n].fill(1.0);
-    let mut bound = f64::INFINITY;
     for _ in 0..BOUND_SWEEPS {
-        matrix.multiply_absolute(w, next);
-        let ratios = next[..n].iter().zip(&w[..n]).map(|(a, b)| a / b);
-        bound = bound.min(f64::from(ratios.fold(1.0, Work::max)));
+        matrix.for_blocks(w, next, Absolute(w));
         std::mem::swap(w, next);
     }
+    let bound = (w[..n].par_chunks(CHUNK).zip(next[..n].par_chunks(CHUNK)))
+        .map(|(after, before)| {
+            let ratios = after.iter().zip(before).map(|(a, b)| a / b);
+            ratios.fold(1.0, Work::max)
+        })
+        .reduce(|| 1.0, Work::max);
     for vector in [w, next] {
         let len = vector.len();
         reset(vector, len);
     }
     // Room for the rounding of single-precision sums.
-    bound * (1.0 + 1e-5)
+    f64::from(bound) * (1.0 + 1e-5)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Csr;
 
     /// Of degree k on [l, h], with T_k the Chebyshev polynomial and s = (h + l)/(h - l), an eigenvector of
     /// eigenvalue e is left with T_k(s - 2 e/(h - l)) / T_k(s) of its residual.
@@ -159,14 +173,14 @@ mod tests {
             list.add(0, entries[row][0]);
             list.add(1, entries[row][1]);
         });
-        let a = a.unwrap();
+        let scaled = Scaled::new(&a.unwrap()).unwrap();
         let polynomial = |k: usize, x: f64| {
             (1..k)
                 .fold((1.0, x), |(last, now), _| (now, 2.0 * x * now - last))
                 .1
         };
         for (degree, ratio) in [(1, 30.0), (2, 4.0), (3, 30.0), (6, 10.0)] {
-            let mut inverse = Chebyshev::new(&a, degree, ratio).unwrap();
+            let mut inverse = Chebyshev::new(&scaled, degree, ratio);
             let high = inverse.bound();
             assert!((high - 1.6).abs() < 1e-4, "{high}");
             let half = 0.5 * (high - high / ratio);

@@ -3,7 +3,10 @@
 use rayon::prelude::*;
 
 use crate::SolveError;
-use crate::vector::{CHUNK, Real, Work, add_scaled, dot_chunk, for_chunks, for_chunks_sum, norm};
+use crate::simd::{Kernel, dispatch};
+use crate::vector::{
+    CHUNK, Real, Work, add_scaled, dot_chunk, dot_each, for_chunks, for_chunks_sum, norm,
+};
 
 /// A vector is orthogonalised again when less than this fraction of its norm remains.
 const CANCELLED: f64 = 0.1;
@@ -12,9 +15,12 @@ const CANCELLED: f64 = 0.1;
 const MARGIN: f64 = 0.98;
 
 /// The linear operator of the system, in double precision.
-pub(crate) trait Operator: Sync {
-    /// `y = K x`.
-    fn apply<X: Real>(&self, x: &[X], y: &mut [f64]);
+pub(crate) trait Operator {
+    /// `y = K x`, of the matrices as they were given.
+    fn apply_exactly(&self, x: &[f64], y: &mut [f64]);
+
+    /// `y = K x` of a direction, which may be off by less than what a cycle can tell.
+    fn apply(&mut self, x: &[Work], y: &mut [f64]);
 }
 
 /// When to stop.
@@ -36,7 +42,7 @@ pub(crate) struct KrylovSpace {
 /// Solves `K x = b` from `x`; returns the relative residual before every iteration and after the
 /// last. The last entry is the true residual, the others are those of the recurrence.
 pub(crate) fn fgmres<K: Operator>(
-    operator: &K,
+    operator: &mut K,
     mut precondition: impl FnMut(&[Work], &mut Vec<Work>),
     b: &[f64],
     x: &mut [f64],
@@ -99,7 +105,7 @@ pub(crate) fn fgmres<K: Operator>(
 
 /// `out = b - K x`; returns its norm.
 fn true_residual<K: Operator>(operator: &K, b: &[f64], x: &[f64], out: &mut [f64]) -> f64 {
-    operator.apply(x, out);
+    operator.apply_exactly(x, out);
     let square = for_chunks_sum(out, |start, part| {
         for (out, &b) in part.iter_mut().zip(&b[start..]) {
             *out = b - *out;
@@ -130,10 +136,10 @@ fn normalise(vector: &[f64], length: f64, out: &mut Vec<Work>) {
 /// Removes from `vector` its components along `basis` by classical Gram-Schmidt, twice where
 /// little is left; returns the components and the norm of the remainder.
 fn orthogonalise(basis: &[Vec<Work>], vector: &mut [f64]) -> (Vec<f64>, f64) {
-    let before = norm(vector);
     let mut column = components(basis, vector);
     let mut remaining = subtract(basis, &column, vector);
-    if remaining < CANCELLED * before {
+    let removed: f64 = column.iter().map(|h| h * h).sum();
+    if remaining < CANCELLED * removed.sqrt().hypot(remaining) {
         let again = components(basis, vector);
         remaining = subtract(basis, &again, vector);
         for (total, more) in column.iter_mut().zip(again) {
@@ -143,15 +149,16 @@ fn orthogonalise(basis: &[Vec<Work>], vector: &mut [f64]) -> (Vec<f64>, f64) {
     (column, remaining)
 }
 
-/// `(v_j, vector)` for every basis vector, in one pass over `vector`.
+/// `(v_j, vector)` for every basis vector.
 fn components(basis: &[Vec<Work>], vector: &[f64]) -> Vec<f64> {
     let parts: Vec<Vec<f64>> = (vector.par_chunks(CHUNK).enumerate())
-        .map(|(chunk, part)| {
-            let range = chunk * CHUNK..chunk * CHUNK + part.len();
-            basis
-                .iter()
-                .map(|v| dot_chunk(&v[range.clone()], part))
-                .collect()
+        .map(|(chunk, vector)| {
+            let start = chunk * CHUNK;
+            dispatch(Components {
+                basis,
+                start,
+                vector,
+            })
         })
         .collect();
     let mut sums = vec![0.0; basis.len()];
@@ -165,15 +172,84 @@ fn components(basis: &[Vec<Work>], vector: &[f64]) -> Vec<f64> {
 
 /// `vector -= sum_j column_j v_j`; returns the norm of the result.
 fn subtract(basis: &[Vec<Work>], column: &[f64], vector: &mut [f64]) -> f64 {
-    let square = for_chunks_sum(vector, |start, part| {
-        for (v, &h) in basis.iter().zip(column) {
-            for (out, &v) in part.iter_mut().zip(&v[start..]) {
-                *out -= h * f64::from(v);
-            }
-        }
-        dot_chunk(part, part)
+    let square = for_chunks_sum(vector, |start, vector| {
+        dispatch(Subtraction {
+            basis,
+            column,
+            start,
+            vector,
+        })
     });
     square.sqrt()
+}
+
+/// Basis vectors that one pass over a chunk takes at once.
+const TOGETHER: usize = 4;
+
+/// Products of one chunk, that begins at row `start`, with basis vectors.
+struct Components<'a> {
+    basis: &'a [Vec<Work>],
+    start: usize,
+    vector: &'a [f64],
+}
+
+impl Kernel for Components<'_> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<f64> {
+        let rows = self.start..self.start + self.vector.len();
+        let mut sums = Vec::with_capacity(self.basis.len());
+        let (groups, single) = self.basis.as_chunks::<TOGETHER>();
+        for group in groups {
+            sums.extend(dot_each(
+                group.each_ref().map(|v| &v[rows.clone()]),
+                self.vector,
+            ));
+        }
+        for v in single {
+            sums.extend(dot_each([&v[rows.clone()]], self.vector));
+        }
+        sums
+    }
+}
+
+/// Removes the components of one chunk, that begins at row `start`; yields its square.
+struct Subtraction<'a> {
+    basis: &'a [Vec<Work>],
+    column: &'a [f64],
+    start: usize,
+    vector: &'a mut [f64],
+}
+
+impl Kernel for Subtraction<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let rows = self.start..self.start + self.vector.len();
+        let (groups, single) = self.basis.as_chunks::<TOGETHER>();
+        let (columns, single_columns) = self.column.as_chunks::<TOGETHER>();
+        for (group, column) in groups.iter().zip(columns) {
+            let group = group.each_ref().map(|v| &v[rows.clone()]);
+            subtract_each(group, column, self.vector);
+        }
+        for (v, column) in single.iter().zip(single_columns) {
+            subtract_each([&v[rows.clone()]], &[*column], self.vector);
+        }
+        let [square] = dot_each([&*self.vector], self.vector);
+        square
+    }
+}
+
+#[inline(always)]
+fn subtract_each<const N: usize>(basis: [&[Work]; N], column: &[f64; N], vector: &mut [f64]) {
+    let basis = basis.map(|v| &v[..vector.len()]);
+    for (i, out) in vector.iter_mut().enumerate() {
+        for (v, h) in basis.iter().zip(column) {
+            *out -= h * f64::from(v[i]);
+        }
+    }
 }
 
 /// The small least-squares problem `min |beta e_1 - H y|`, kept triangular by Givens rotations.
@@ -245,17 +321,22 @@ mod tests {
     struct Diagonal(AtomicUsize);
 
     impl Operator for Diagonal {
-        fn apply<X: Real>(&self, x: &[X], y: &mut [f64]) {
+        fn apply_exactly(&self, x: &[f64], y: &mut [f64]) {
             self.0.fetch_add(1, Ordering::Relaxed);
             for (row, (y, &x)) in y.iter_mut().zip(x).enumerate() {
-                *y = (row + 1) as f64 * x.into();
+                *y = (row + 1) as f64 * x;
             }
+        }
+
+        fn apply(&mut self, x: &[Work], y: &mut [f64]) {
+            let x: Vec<f64> = x.iter().map(|&x| x.into()).collect();
+            self.apply_exactly(&x, y);
         }
     }
 
     /// Residuals by iteration, and how often the operator was applied.
     fn solve(tolerance: f64) -> (Vec<f64>, usize) {
-        let (diagonal, mut x) = (Diagonal(AtomicUsize::new(0)), vec![0.0; 30]);
+        let (mut diagonal, mut x) = (Diagonal(AtomicUsize::new(0)), vec![0.0; 30]);
         let limits = Limits {
             tolerance,
             max_iterations: 25,
@@ -263,7 +344,7 @@ mod tests {
         };
         let identity = |from: &[Work], to: &mut Vec<Work>| to.clone_from(&from.to_vec());
         let space = &mut KrylovSpace::default();
-        let history = fgmres(&diagonal, identity, &[1.0; 30], &mut x, limits, space).unwrap();
+        let history = fgmres(&mut diagonal, identity, &[1.0; 30], &mut x, limits, space).unwrap();
         (history, diagonal.0.into_inner())
     }
 

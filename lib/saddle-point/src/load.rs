@@ -76,25 +76,43 @@ impl Load {
 
 /// The system with the body's row and column, both scaled by a weight.
 pub(crate) struct LoadedOperator<'a, K> {
-    pub(crate) inner: &'a K,
+    pub(crate) inner: K,
     pub(crate) load: &'a Load,
     pub(crate) weight: f64,
 }
 
-impl<K: Operator> Operator for LoadedOperator<'_, K> {
-    fn apply<X: Real>(&self, x: &[X], y: &mut [f64]) {
+impl<K: Operator> LoadedOperator<'_, K> {
+    /// The body's part of the product, with that of the system without it in `y`.
+    fn add_body<X: Real>(&self, x: &[X], speed: X, y: &mut [f64], force: &mut f64) {
         let (load, weight) = (self.load, self.weight);
-        let (x, speed) = x.split_at(x.len() - 1);
-        let (y, force) = y.split_at_mut(y.len() - 1);
-        self.inner.apply(x, y);
-        let speed: f64 = speed[0].into();
+        let speed: f64 = speed.into();
         let (y_u, y_p) = y.split_at_mut(load.momentum.len());
         add_scaled(y_u, -weight * speed, &load.momentum);
         add_scaled(y_p, weight * speed, &load.source);
         let (u, p) = x.split_at(load.momentum.len());
-        force[0] = weight * (dot(&load.source, p) - dot(&load.momentum, u))
+        *force = weight * (dot(&load.source, p) - dot(&load.momentum, u))
             + weight * weight * load.resistance * speed;
     }
+}
+
+impl<K: Operator> Operator for LoadedOperator<'_, K> {
+    fn apply_exactly(&self, x: &[f64], y: &mut [f64]) {
+        let ((x, speed), (y, force)) = (split(x), y.split_at_mut(y.len() - 1));
+        self.inner.apply_exactly(x, y);
+        self.add_body(x, speed, y, &mut force[0]);
+    }
+
+    fn apply(&mut self, x: &[Work], y: &mut [f64]) {
+        let ((x, speed), (y, force)) = (split(x), y.split_at_mut(y.len() - 1));
+        self.inner.apply(x, y);
+        self.add_body(x, speed, y, &mut force[0]);
+    }
+}
+
+/// All but the last value, and that.
+fn split<X: Real>(x: &[X]) -> (&[X], X) {
+    let (rest, last) = x.split_at(x.len() - 1);
+    (rest, last[0])
 }
 
 /// The preconditioner M of the system without the body, bordered: with the column k of V and

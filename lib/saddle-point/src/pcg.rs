@@ -6,7 +6,7 @@ use crate::vector::{
     Real, Work, add_scaled, dot, dot_chunk, for_chunks, for_chunks_sum, norm, reset,
 };
 
-/// How an inner iteration ended.
+/// How an iteration ended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outcome {
     /// Multigrid cycles.
@@ -15,37 +15,24 @@ pub(crate) struct Outcome {
     pub(crate) residual: f64,
 }
 
-/// Vectors of the iteration, kept between solves.
-#[derive(Default)]
-pub(crate) struct PcgSpace<T> {
-    residual: Vec<T>,
-    direction: Vec<T>,
-    product: Vec<T>,
-    rounded: Vec<Work>,
-    correction: Vec<Work>,
-    cycle: Workspace,
-}
-
 /// Flexible preconditioned conjugate gradients (Notay 2000, SIAM J. Sci.
 /// Comput. 22, 1444-1460)
 /// for `matrix x = b` from `x = 0`, until the residual falls below `tolerance |b|`. Every
 /// direction is made conjugate to the last, so the cycle may vary from step to step.
-pub(crate) fn pcg<T: Real>(
+pub(crate) fn pcg(
     matrix: &Csr<f64>,
     amg: &Amg,
-    b: &[T],
-    x: &mut Vec<T>,
+    b: &[f64],
+    x: &mut Vec<f64>,
     tolerance: f64,
     max_iterations: usize,
-    space: &mut PcgSpace<T>,
 ) -> Outcome {
     let n = b.len();
     reset(x, n);
-    reset(&mut space.direction, n);
-    reset(&mut space.product, n);
-    space.rounded.resize(n, Work::default());
-    space.residual.clear();
-    space.residual.extend_from_slice(b);
+    let (mut direction, mut product) = (vec![0.0; n], vec![0.0; n]);
+    let mut rounded = vec![Work::default(); n];
+    let mut residual = b.to_vec();
+    let (mut correction, mut workspace) = (Vec::new(), Workspace::default());
     let size = norm(b);
     let mut outcome = Outcome {
         iterations: 0,
@@ -53,35 +40,34 @@ pub(crate) fn pcg<T: Real>(
     };
     let mut curvature = 1.0;
     while outcome.residual > tolerance && outcome.iterations < max_iterations {
-        for_chunks(&mut space.rounded, |start, part| {
-            for (out, &r) in part.iter_mut().zip(&space.residual[start..]) {
-                *out = Work::nearest(r.into());
+        for_chunks(&mut rounded, |start, part| {
+            for (out, &r) in part.iter_mut().zip(&residual[start..]) {
+                *out = Work::nearest(r);
             }
         });
-        amg.cycle(&space.rounded, &mut space.correction, &mut space.cycle);
+        amg.cycle(&rounded, &mut correction, &mut workspace);
         outcome.iterations += 1;
         // The new direction is conjugate to the last one.
-        let beta = T::nearest(-dot(&space.correction, &space.product) / curvature);
-        for_chunks(&mut space.direction, |start, part| {
-            for (d, &z) in part.iter_mut().zip(&space.correction[start..]) {
-                *d = T::nearest(z.into()) + beta * *d;
+        let beta = -dot(&correction, &product) / curvature;
+        for_chunks(&mut direction, |start, part| {
+            for (d, &z) in part.iter_mut().zip(&correction[start..]) {
+                *d = f64::from(z) + beta * *d;
             }
         });
-        curvature = for_chunks_sum(&mut space.product, |start, part| {
+        curvature = for_chunks_sum(&mut product, |start, part| {
             for (i, out) in part.iter_mut().enumerate() {
-                *out = T::nearest(matrix.row_times_wide(start + i, &space.direction));
+                *out = matrix.row_times_wide(start + i, &direction);
             }
-            dot_chunk(part, &space.direction[start..start + part.len()])
+            dot_chunk(part, &direction[start..start + part.len()])
         });
         if !(curvature > 0.0 && curvature.is_finite()) {
             break;
         }
-        let step = dot(&space.direction, &space.residual) / curvature;
-        add_scaled(x, step, &space.direction);
-        let step = T::nearest(step);
-        let square = for_chunks_sum(&mut space.residual, |start, part| {
-            for (r, &q) in part.iter_mut().zip(&space.product[start..]) {
-                *r = *r - step * q;
+        let step = dot(&direction, &residual) / curvature;
+        add_scaled(x, step, &direction);
+        let square = for_chunks_sum(&mut residual, |start, part| {
+            for (r, &q) in part.iter_mut().zip(&product[start..]) {
+                *r -= step * q;
             }
             dot_chunk(part, part)
         });

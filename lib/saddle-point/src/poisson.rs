@@ -2,15 +2,14 @@
 
 use crate::amg::Amg;
 use crate::csr::Csr;
-use crate::pcg::{PcgSpace, pcg};
+use crate::pcg::pcg;
 use crate::pockets::ClosedPockets;
-use crate::vector::Work;
 use crate::{SolveError, check_length};
 
 /// `L = G W G^T + C` with its multigrid hierarchy; `G` is cells x faces, `W` and `C` diagonal.
 ///
-/// It may be solved alone ([`Poisson::solve`]), to move volume; in the saddle-point solve
-/// `L^-1` with `W = D_B^-1` is the friction part of the pressure preconditioner.
+/// It is solved to move volume; in the saddle-point solve a cycle of the same hierarchy with
+/// `W = D_B^-1` is the friction part of the pressure preconditioner.
 ///
 /// `C` may be zero. Cells cut off from every free surface then form closed pockets in which the
 /// solution is fixed up to a constant; it is chosen with zero mean, and the mean of the right-hand
@@ -49,17 +48,7 @@ impl Poisson {
                 )));
             }
         }
-        let matrix = Csr::assemble(g.n_rows(), g.n_rows(), |cell, entries| {
-            entries.add(cell, c[cell]);
-            let (faces, fluxes) = g.row(cell);
-            for (&face, &flux) in faces.iter().zip(fluxes) {
-                let along = flux * weight[face as usize];
-                let (cells, values) = g_transposed.row(face as usize);
-                for (&other, &value) in cells.iter().zip(values) {
-                    entries.add(other as usize, along * value);
-                }
-            }
-        })?;
+        let matrix = operator(g, g_transposed, weight, c)?;
         let amg = Amg::new(&matrix)?;
         let pockets = ClosedPockets::find(&matrix);
         Ok(Self {
@@ -94,7 +83,6 @@ impl Poisson {
         rayon::scope(|_| {
             let mut rhs = rhs.to_vec();
             self.pockets.remove_mean(&mut rhs);
-            let space = &mut PcgSpace::default();
             let outcome = pcg(
                 &self.matrix,
                 &self.amg,
@@ -102,7 +90,6 @@ impl Poisson {
                 psi,
                 tolerance,
                 max_iterations,
-                space,
             );
             self.pockets.remove_mean(psi);
             if outcome.residual <= tolerance {
@@ -116,18 +103,24 @@ impl Poisson {
             }
         })
     }
+}
 
-    /// Approximate solution in working precision by `cycles` steps from zero; the right-hand side
-    /// loses its mean over closed pockets.
-    pub(crate) fn apply(
-        &self,
-        rhs: &mut [Work],
-        psi: &mut Vec<Work>,
-        cycles: usize,
-        space: &mut PcgSpace<Work>,
-    ) {
-        self.pockets.remove_mean(rhs);
-        pcg(&self.matrix, &self.amg, rhs, psi, 0.0, cycles, space);
-        self.pockets.remove_mean(psi);
-    }
+/// `G W G^T + C`.
+pub(crate) fn operator(
+    g: &Csr<f64>,
+    g_transposed: &Csr<f64>,
+    weight: &[f64],
+    c: &[f64],
+) -> Result<Csr<f64>, SolveError> {
+    Csr::assemble(g.n_rows(), g.n_rows(), |cell, entries| {
+        entries.add(cell, c[cell]);
+        let (faces, fluxes) = g.row(cell);
+        for (&face, &flux) in faces.iter().zip(fluxes) {
+            let along = flux * weight[face as usize];
+            let (cells, values) = g_transposed.row(face as usize);
+            for (&other, &value) in cells.iter().zip(values) {
+                entries.add(other as usize, along * value);
+            }
+        }
+    })
 }

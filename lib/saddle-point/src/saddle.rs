@@ -8,6 +8,7 @@ use crate::chebyshev::Chebyshev;
 use crate::csr::Csr;
 use crate::fgmres::{KrylovSpace, Limits, Operator, fgmres};
 use crate::load::{Bordered, Load, LoadedOperator};
+use crate::scaled::Scaled;
 use crate::schur::Schur;
 use crate::system::SaddleSystem;
 use crate::vanka::Vanka;
@@ -26,9 +27,6 @@ pub struct SaddleOptions {
     pub chebyshev_degree: usize,
     /// Its interval: largest over smallest eigenvalue of `D^-1 A` treated.
     pub chebyshev_ratio: f64,
-    /// Conjugate gradient steps, each with a multigrid cycle, for the Poisson problem in the
-    /// pressure preconditioner.
-    pub inner_cycles: usize,
 }
 
 impl Default for SaddleOptions {
@@ -37,9 +35,8 @@ impl Default for SaddleOptions {
             tolerance: 1e-3,
             max_iterations: 200,
             restart: 30,
-            chebyshev_degree: 14,
-            chebyshev_ratio: 320.0,
-            inner_cycles: 1,
+            chebyshev_degree: 24,
+            chebyshev_ratio: 400.0,
         }
     }
 }
@@ -49,8 +46,6 @@ impl Default for SaddleOptions {
 pub struct SaddleReport {
     /// Relative residual at the start and after every iteration.
     pub history: Vec<f64>,
-    /// Multigrid cycles of all inner solves.
-    pub cycles: usize,
     /// Upper bound of the eigenvalues of `D^-1 A` used.
     pub eigenvalue_bound: f64,
     /// Time to build the preconditioner.
@@ -89,7 +84,7 @@ impl SaddleSolver {
 
     /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per
     /// cell), which take the solution. The preconditioner is block lower triangular: a Chebyshev
-    /// polynomial in `A` for the velocities, then friction Poisson solve plus local viscosity for
+    /// polynomial in `A` for the velocities, then a friction Poisson cycle plus local viscosity for
     /// the pressures; then a sweep that couples both cell by cell. Results do not depend on the
     /// number of threads.
     ///
@@ -108,10 +103,10 @@ impl SaddleSolver {
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
         let (limits, space) = (self.limits(), &mut self.space);
         let (rhs, options) = (system.right_hand_side(), &self.options);
-        let report = prepared(system, options, |operator, mut preconditioner| {
+        let report = prepared(system, options, |mut operator, mut preconditioner| {
             let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
-            let result = fgmres(operator, precondition, &rhs, &mut x, limits, space);
-            (result, preconditioner.totals())
+            let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
+            (result, preconditioner.bound())
         });
         spread(&x, u, p);
         report.map_err(|error| explained(error, system))
@@ -139,15 +134,15 @@ impl SaddleSolver {
         rhs.push(weight * load.force);
         let (limits, space, options) = (self.limits(), &mut self.space, &self.options);
         let report = prepared(system, options, |inner, preconditioner| {
-            let operator = LoadedOperator {
+            let mut operator = LoadedOperator {
                 inner,
                 load,
                 weight,
             };
             let mut bordered = Bordered::new(preconditioner, load, weight);
             let precondition = |r: &[Work], z: &mut Vec<Work>| bordered.apply(r, z);
-            let result = fgmres(&operator, precondition, &rhs, &mut x, limits, space);
-            (result, bordered.inner().totals())
+            let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
+            (result, bordered.inner().bound())
         });
         *speed = weight * x.pop().unwrap_or_default();
         spread(&x, u, p);
@@ -163,29 +158,30 @@ impl SaddleSolver {
     }
 }
 
-/// Multigrid cycles and eigenvalue bound of a preconditioner.
-type Totals = (usize, f64);
-type Iterated = (Result<Vec<f64>, SolveError>, Totals);
+/// History of residuals, and the eigenvalue bound of the preconditioner.
+type Iterated = (Result<Vec<f64>, SolveError>, f64);
 
 /// Runs `iterate` on the operator and the preconditioner of `system`, and reports on it.
 fn prepared(
     system: &SaddleSystem,
     options: &SaddleOptions,
-    iterate: impl FnOnce(&SaddleOperator, Preconditioner) -> Iterated + Send,
+    iterate: impl FnOnce(SaddleOperator, Preconditioner) -> Iterated + Send,
 ) -> Result<SaddleReport, SolveError> {
     // On the thread pool throughout: its threads need not be woken for every product.
     rayon::scope(|_| {
         let started = Instant::now();
+        let (scaled, g_transposed) = (Scaled::new(system.a)?, system.g.transpose());
         let operator = SaddleOperator {
             system: *system,
-            g_transposed: system.g.transpose(),
+            g_transposed: &g_transposed,
+            scaled: &scaled,
+            scratch: Vec::new(),
         };
         let preconditioner = Preconditioner::new(&operator, options)?;
         let setup = started.elapsed();
-        let (result, (cycles, eigenvalue_bound)) = iterate(&operator, preconditioner);
+        let (result, eigenvalue_bound) = iterate(operator, preconditioner);
         Ok(SaddleReport {
             history: result?,
-            cycles,
             eigenvalue_bound,
             setup,
             iteration: started.elapsed() - setup,
@@ -201,17 +197,18 @@ fn spread(x: &[f64], u: &mut [f64], p: &mut [f64]) {
 
 struct SaddleOperator<'a> {
     system: SaddleSystem<'a>,
-    g_transposed: Csr<f64>,
+    g_transposed: &'a Csr<f64>,
+    scaled: &'a Scaled,
+    /// Scaled velocities.
+    scratch: Vec<f64>,
 }
 
-impl Operator for SaddleOperator<'_> {
-    fn apply<X: Real>(&self, x: &[X], y: &mut [f64]) {
-        let (u, p) = x.split_at(self.system.a.n_rows());
-        let (y_u, y_p) = y.split_at_mut(u.len());
+impl SaddleOperator<'_> {
+    /// The rest of the product, with `A u` in `y_u`.
+    fn add_fluxes<X: Real>(&self, u: &[X], p: &[X], y_u: &mut [f64], y_p: &mut [f64]) {
         for_chunks(y_u, |start, part| {
             for (i, y) in part.iter_mut().enumerate() {
-                *y = self.system.a.row_times_wide(start + i, u)
-                    - self.g_transposed.row_times_wide(start + i, p);
+                *y -= self.g_transposed.row_times_wide(start + i, p);
             }
         });
         for_chunks(y_p, |start, part| {
@@ -223,12 +220,30 @@ impl Operator for SaddleOperator<'_> {
     }
 }
 
+impl Operator for SaddleOperator<'_> {
+    fn apply_exactly(&self, x: &[f64], y: &mut [f64]) {
+        let (u, p) = x.split_at(self.system.a.n_rows());
+        let (y_u, y_p) = y.split_at_mut(u.len());
+        self.system.a.multiply(u, y_u);
+        self.add_fluxes(u, p, y_u, y_p);
+    }
+
+    fn apply(&mut self, x: &[Work], y: &mut [f64]) {
+        let (u, p) = x.split_at(self.system.a.n_rows());
+        let (y_u, y_p) = y.split_at_mut(u.len());
+        self.scaled.multiply(u, &mut self.scratch, y_u);
+        self.add_fluxes(u, p, y_u, y_p);
+    }
+}
+
 /// `[Ahat, 0; -G, -Shat]^-1`, then one sweep of [`Vanka`] on what that leaves.
 pub(crate) struct Preconditioner<'a> {
     g: &'a Csr<f64>,
     g_transposed: &'a Csr<f64>,
     c: &'a [f64],
-    chebyshev: Chebyshev,
+    chebyshev: Chebyshev<'a>,
+    /// `D^-1/2` of the velocity block.
+    scale: &'a [Work],
     schur: Schur,
     vanka: Vanka,
     /// Right-hand side of the pressure solve, and what that leaves of the volume balance.
@@ -237,24 +252,24 @@ pub(crate) struct Preconditioner<'a> {
 }
 
 impl<'a> Preconditioner<'a> {
-    fn new(operator: &'a SaddleOperator<'a>, options: &SaddleOptions) -> Result<Self, SolveError> {
-        let system = operator.system;
-        let chebyshev =
-            Chebyshev::new(system.a, options.chebyshev_degree, options.chebyshev_ratio)?;
+    fn new(operator: &SaddleOperator<'a>, options: &SaddleOptions) -> Result<Self, SolveError> {
+        let (system, scaled) = (operator.system, operator.scaled);
+        let (degree, ratio) = (options.chebyshev_degree, options.chebyshev_ratio);
         Ok(Self {
             g: system.g,
-            g_transposed: &operator.g_transposed,
+            g_transposed: operator.g_transposed,
             c: system.c,
-            vanka: Vanka::new(&system, chebyshev.scale()),
-            chebyshev,
-            schur: Schur::new(&system, &operator.g_transposed, options.inner_cycles)?,
+            vanka: Vanka::new(&system, &scaled.scale),
+            chebyshev: Chebyshev::new(scaled, degree, ratio),
+            scale: &scaled.scale,
+            schur: Schur::new(&system, operator.g_transposed)?,
             volume: vec![Work::default(); system.g.n_rows()],
             left: Vec::new(),
         })
     }
 
-    fn totals(&self) -> Totals {
-        (self.schur.cycles, self.chebyshev.bound())
+    fn bound(&self) -> f64 {
+        self.chebyshev.bound()
     }
 
     /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`; then the sweep.
@@ -280,8 +295,7 @@ impl<'a> Preconditioner<'a> {
         });
         let g_transposed = self.g_transposed;
         let push = |face| Work::nearest(g_transposed.row_times_wide(face, p));
-        let (momentum, scale) = self.chebyshev.residual(push);
-        let left = (momentum, &self.left[..]);
-        self.vanka.sweep(left, scale, velocity, pressure);
+        let left = (self.chebyshev.residual(push), &self.left[..]);
+        self.vanka.sweep(left, self.scale, velocity, pressure);
     }
 }

@@ -107,10 +107,11 @@ impl Cell {
         let mut of = [0; FACES];
         for (i, &face) in faces.iter().enumerate() {
             let (columns, values) = a.row(face as usize);
-            for (j, other) in faces.iter().enumerate() {
-                block[(i, j)] = columns
+            for (j, other) in faces[..=i].iter().enumerate() {
+                let entry = columns
                     .binary_search(other)
                     .map_or(0.0, |at| values[at] * scale_of(face) * scale_of(*other));
+                (block[(i, j)], block[(j, i)]) = (entry, entry);
             }
             flux[i] = fluxes[i] * scale_of(face);
             of[i] = face;

@@ -6,6 +6,8 @@ use std::ops::{Add, AddAssign, Mul, Range, Sub};
 
 use rayon::prelude::*;
 
+use crate::simd::{Kernel, dispatch};
+
 /// Rows per task. Part of the result: partial sums are formed per chunk.
 pub(crate) const CHUNK: usize = 1 << 14;
 
@@ -99,18 +101,41 @@ pub(crate) fn for_chunks_pair<T: Send, U: Send>(
 
 /// Scalar product within one chunk, in double precision over eight lanes.
 pub(crate) fn dot_chunk<X: Real, Y: Real>(x: &[X], y: &[Y]) -> f64 {
-    let mut lanes = [0.0f64; 8];
-    let (x8, x_rest) = x.as_chunks::<8>();
+    let [dot] = dispatch(Dot([x], y));
+    dot
+}
+
+struct Dot<'a, X, Y>([&'a [X]; 1], &'a [Y]);
+
+impl<X: Real, Y: Real> Kernel for Dot<'_, X, Y> {
+    type Output = [f64; 1];
+
+    #[inline(always)]
+    fn run(self) -> [f64; 1] {
+        dot_each(self.0, self.1)
+    }
+}
+
+/// Scalar products of several vectors with `y` within one chunk, each in double precision over eight
+/// lanes: as many sums as do not wait for one another.
+#[inline(always)]
+pub(crate) fn dot_each<const N: usize, X: Real, Y: Real>(x: [&[X]; N], y: &[Y]) -> [f64; N] {
+    let mut lanes = [[0.0f64; 8]; N];
     let (y8, y_rest) = y.as_chunks::<8>();
-    for (xs, ys) in x8.iter().zip(y8) {
-        for lane in 0..8 {
-            lanes[lane] += xs[lane].into() * ys[lane].into();
+    let x8 = x.map(|x| &x.as_chunks::<8>().0[..y8.len()]);
+    for (block, ys) in y8.iter().enumerate() {
+        for (lanes, x8) in lanes.iter_mut().zip(x8) {
+            for (lane, (x, y)) in lanes.iter_mut().zip(x8[block].iter().zip(ys)) {
+                *lane += (*x).into() * (*y).into();
+            }
         }
     }
-    let rest: f64 = (x_rest.iter().zip(y_rest))
-        .map(|(&a, &b)| a.into() * b.into())
-        .sum();
-    lanes.iter().sum::<f64>() + rest
+    std::array::from_fn(|j| {
+        let rest: f64 = (x[j][8 * y8.len()..].iter().zip(y_rest))
+            .map(|(&a, &b)| a.into() * b.into())
+            .sum();
+        lanes[j].iter().sum::<f64>() + rest
+    })
 }
 
 /// Scalar product.

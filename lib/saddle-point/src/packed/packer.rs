@@ -1,0 +1,147 @@
+//! Packs the rows of a matrix, eight at a time.
+
+use super::{FINE, LANES, PackedRows, UNIT};
+use crate::SolveError;
+use crate::csr::Csr;
+
+/// Couplings at one distance among eight rows from which a common base pays.
+const MIN_RUN: usize = 4;
+
+/// A fixed-point entry: `high + rest / FINE` units.
+#[derive(Clone, Copy, Default)]
+struct Fixed {
+    high: i16,
+    rest: i16,
+}
+
+/// Packs one block of rows after the other.
+pub(super) struct Packer<'a> {
+    a: &'a Csr<f64>,
+    scale: &'a [f64],
+    rows: PackedRows,
+    /// Entries of every lane that found no run, columns ascending.
+    left: [Vec<(u32, Fixed)>; LANES],
+}
+
+impl<'a> Packer<'a> {
+    pub(super) fn new(a: &'a Csr<f64>, scale: &'a [f64]) -> Self {
+        Self {
+            a,
+            scale,
+            rows: PackedRows::default(),
+            left: Default::default(),
+        }
+    }
+
+    pub(super) fn pack_block(&mut self, first: usize) -> Result<(), SolveError> {
+        self.left.iter_mut().for_each(Vec::clear);
+        let mut lanes: [(&[u32], &[f64]); LANES] = Default::default();
+        for (row, lane) in (first..self.a.n_rows()).zip(&mut lanes) {
+            *lane = self.a.row(row);
+        }
+        while let Some(distance) = nearest(first, &lanes) {
+            let mut values = [Fixed::default(); LANES];
+            let mut members = [None; LANES];
+            for (i, lane) in lanes.iter_mut().enumerate() {
+                let row = first + i;
+                if next_distance(row, lane) == Some(distance) {
+                    let column = lane.0[0];
+                    values[i] = self.fixed_point(row, column as usize, lane.1[0])?;
+                    members[i] = Some(column);
+                    *lane = (&lane.0[1..], &lane.1[1..]);
+                }
+            }
+            if distance == 0 {
+                continue;
+            }
+            let base = u32::try_from(first as i64 + distance);
+            match base {
+                Ok(base) if members.iter().flatten().count() >= MIN_RUN => {
+                    self.rows.runs.push((base, values.map(|value| value.high)));
+                    (self.rows.runs_rest).push(values.map(|value| value.rest));
+                }
+                _ => {
+                    for (i, column) in members.into_iter().enumerate() {
+                        self.left[i].extend(column.map(|column| (column, values[i])));
+                    }
+                }
+            }
+        }
+        self.scatter();
+        self.rows.run_end.push(self.rows.runs.len() as u32);
+        self.rows
+            .scattered_end
+            .push(self.rows.scattered.len() as u32);
+        Ok(())
+    }
+
+    /// The rows packed, in no more memory than they need.
+    pub(super) fn finish(self) -> PackedRows {
+        let mut rows = self.rows;
+        rows.runs.shrink_to_fit();
+        rows.scattered.shrink_to_fit();
+        rows.runs_rest.shrink_to_fit();
+        rows.scattered_rest.shrink_to_fit();
+        rows
+    }
+
+    /// Packs the entries left without a run: per slot one entry of every lane within reach of the
+    /// lowest column.
+    fn scatter(&mut self) {
+        let mut next = [0; LANES];
+        loop {
+            let heads = self.left.iter().zip(next).map(|(left, at)| left.get(at));
+            let Some(base) = heads.flatten().map(|entry| entry.0).min() else {
+                return;
+            };
+            let mut offsets = [0; LANES];
+            let mut values = [Fixed::default(); LANES];
+            for (i, left) in self.left.iter().enumerate() {
+                if let Some(&(column, value)) = left.get(next[i])
+                    && let Ok(offset) = u16::try_from(column - base)
+                {
+                    offsets[i] = offset;
+                    values[i] = value;
+                    next[i] += 1;
+                }
+            }
+            let high = values.map(|value| value.high);
+            self.rows.scattered.push((base, offsets, high));
+            (self.rows.scattered_rest).push(values.map(|value| value.rest));
+        }
+    }
+
+    fn fixed_point(&self, row: usize, column: usize, value: f64) -> Result<Fixed, SolveError> {
+        let scaled = value * self.scale[row] * self.scale[column];
+        if scaled.abs() > 1.0 + 1e-9 {
+            return Err(SolveError::Matrix(format!(
+                "entry {value} at row {row}, column {column} exceeds the diagonal; the velocity \
+                 block must be positive definite"
+            )));
+        }
+        let units = scaled * UNIT;
+        let high = nearest_integer(units);
+        Ok(Fixed {
+            high,
+            rest: nearest_integer((units - f64::from(high)) * FINE),
+        })
+    }
+}
+
+/// Half away from zero; what would overflow takes the largest value.
+fn nearest_integer(value: f64) -> i16 {
+    (value + 0.5f64.copysign(value)) as i16
+}
+
+/// Column minus row of a lane's next entry.
+fn next_distance(row: usize, lane: &(&[u32], &[f64])) -> Option<i64> {
+    lane.0.first().map(|&column| i64::from(column) - row as i64)
+}
+
+/// The least distance among the next entries of all lanes.
+fn nearest(first: usize, lanes: &[(&[u32], &[f64]); LANES]) -> Option<i64> {
+    let distances = lanes.iter().enumerate();
+    distances
+        .filter_map(|(i, lane)| next_distance(first + i, lane))
+        .min()
+}
