@@ -172,7 +172,7 @@ impl Block {
                     value.0[vectors[1] + a] = -value.0[vectors[1] + a];
                 }
             }
-            sum = sum.add_scaled::<false>(1.0, value);
+            sum = sum.plus::<false>(value);
         }
         sum
     }
@@ -184,7 +184,7 @@ impl Block {
         meeting: Option<Meeting>,
         step: &NodeStep<R>,
     ) {
-        let [mass, px, py, pz, fx, fy, fz, _] = sum.0;
+        let [px, py, pz, mass, fx, fy, fz, _] = sum.0;
         let planes = self.planes[node];
         let raw = hold(planes, [px / mass, py / mass, pz / mass]);
         let force = [fx, fy, fz];
@@ -219,13 +219,8 @@ impl Block {
             Mode::Increment => std::array::from_fn(|a| after[a] - before[a]),
             _ => after,
         };
-        let whole = if step.mode == Mode::Increment {
-            0.0
-        } else {
-            1.0
-        };
         self.velocity[node] = Lanes8([
-            after[0], after[1], after[2], 1.0, second[0], second[1], second[2], whole,
+            after[0], after[1], after[2], 1.0, second[0], second[1], second[2], 0.0,
         ]);
         if matches!(step.mode, Mode::FilterBefore | Mode::FilterAfter) {
             let w = if step.mode == Mode::FilterBefore {
@@ -253,7 +248,7 @@ impl Block {
                     *s += if flipped { -value.0[a] } else { value.0[a] };
                 }
             }
-            let mass = sum[node::ONE];
+            let mass = sum[sum::MASS];
             let old = self.filter.w[node].0;
             let free = hold(
                 self.planes[node],

@@ -87,7 +87,10 @@ impl Explicit {
         self.grid
             .tiles
             .par_iter_mut()
-            .for_each(|tile| p2g(tile, scale));
+            .for_each(|tile| {
+                tile.points.gather_runs();
+                p2g(tile, scale);
+            });
     }
 
     /// Contact, sides and momentum at the nodes, then the velocity filter.

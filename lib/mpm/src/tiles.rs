@@ -3,6 +3,7 @@
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{HALO, Lattice, block_node};
 use crate::real::Real;
+use crate::runs::{reorder, run_order};
 use crate::stages::Present;
 
 /// All that one point carries; the unit in which points move between tiles.
@@ -65,6 +66,21 @@ impl Points {
         }
     }
 
+    /// Brings the points of each node together where moves have scattered them.
+    pub(crate) fn gather_runs(&mut self) {
+        let Some(order) = run_order(&self.base) else {
+            return;
+        };
+        reorder(&mut self.id, &order);
+        reorder(&mut self.base, &order);
+        reorder(&mut self.place, &order);
+        reorder(&mut self.motion, &order);
+        reorder(&mut self.stress, &order);
+        if !self.affine.is_empty() {
+            reorder(&mut self.affine, &order);
+        }
+    }
+
     pub(crate) fn swap_remove(&mut self, p: usize) {
         self.id.swap_remove(p);
         self.base.swap_remove(p);
@@ -120,7 +136,7 @@ pub(crate) struct Tile {
     /// Sums that contact needs; empty without bodies.
     pub(crate) wall_local: Vec<Lanes8>,
     /// Nodal values in and point sums out of the velocity filter; empty without one.
-    pub(crate) filter_in: Vec<Lanes4>,
+    pub(crate) filter_in: Vec<Lanes8>,
     pub(crate) filter_out: Vec<Lanes4>,
     /// Sums over this tile's points by cell, at the lowest node of each, or whole sums gathered
     /// for them; empty unless the pressure is a cell's.
@@ -161,7 +177,7 @@ impl Tile {
             flips: Vec::new(),
             local: vec![Lanes8::ZERO; n],
             wall_local: vec![Lanes8::ZERO; if present.contact { n } else { 0 }],
-            filter_in: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
+            filter_in: vec![Lanes8::ZERO; if present.filter { n } else { 0 }],
             filter_out: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
             cells: vec![[0.0; 2]; if present.cell_mean { n } else { 0 }],
             near_wall: vec![false; n],
