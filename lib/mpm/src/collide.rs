@@ -33,14 +33,20 @@ pub(crate) fn first_fault(a: Fault, b: Fault) -> Fault {
     a.into_iter().chain(b).min()
 }
 
-/// Moves all points of a tile by their displacement and sorts out those that leave.
-pub(crate) fn move_points(tile: &mut Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Fault {
+/// Moves all points of a tile by their displacements `shift` (cells) and sorts out those that leave.
+pub(crate) fn move_points(
+    tile: &mut Tile,
+    shift: &mut Vec<Lanes4>,
+    lattice: &Lattice,
+    bodies: &[Obstacle],
+) -> Fault {
     tile.lost = 0;
     tile.hits = Default::default();
     tile.push.fill([0.0; 3]);
     let mut fault = None;
     dispatch(Move {
         tile,
+        shift,
         lattice,
         bodies,
         fault: &mut fault,
@@ -50,6 +56,7 @@ pub(crate) fn move_points(tile: &mut Tile, lattice: &Lattice, bodies: &[Obstacle
 
 struct Move<'a> {
     tile: &'a mut Tile,
+    shift: &'a mut Vec<Lanes4>,
     lattice: &'a Lattice,
     bodies: &'a [Obstacle<'a>],
     fault: &'a mut Fault,
@@ -61,6 +68,7 @@ impl Kernel for Move<'_> {
     fn run<const FMA: bool>(self) {
         let Self {
             tile,
+            shift: shifts,
             lattice,
             bodies,
             fault,
@@ -69,7 +77,7 @@ impl Kernel for Move<'_> {
         let axes = lattice.axes();
         let mut p = 0;
         while p < tile.points.len() {
-            let (shift, mut d) = (tile.points.shift[p], tile.points.place[p]);
+            let (shift, mut d) = (shifts[p], tile.points.place[p]);
             for a in 0..3 {
                 d.0[a] += shift.0[a];
             }
@@ -85,6 +93,8 @@ impl Kernel for Move<'_> {
                 return;
             } else if move_point(tile, p, d, lattice, if clear { &[] } else { bodies }) {
                 p += 1;
+            } else {
+                shifts.swap_remove(p);
             }
         }
     }

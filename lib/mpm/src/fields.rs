@@ -18,7 +18,7 @@ pub(crate) mod point {
     pub(crate) const VISCOSITY: Lane = 7;
 }
 
-/// Of what points add up to at a node: `Tile::local` after points to nodes.
+/// Of what points add up to at a node: `Tile::local`.
 pub(crate) mod sum {
     use super::Lane;
     /// Momentum.
@@ -40,7 +40,7 @@ pub(crate) mod wall_sum {
     pub(crate) const GRADIENT: Lane = 4;
 }
 
-/// Of a node's velocities, v+ first: `Block::velocity` and `Tile::local` before nodes to points.
+/// Of a node's velocities, v+ first: `Block::velocity`.
 pub(crate) mod node {
     use super::Lane;
     /// 1 where there is mass, else 0; also beside w of the filter.

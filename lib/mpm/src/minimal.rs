@@ -80,12 +80,10 @@ impl Minimal {
         let dt = (self.cfl * self.limit_s).min(longest);
         let dt_over_cell = (dt / self.scene.grid.cell_m) as Real;
         // 2. Points to nodes.
-        self.tiles
-            .par_iter_mut()
-            .for_each(|tile| {
-                tile.points.gather_runs();
-                dispatch(PointsToNodes { tile, dt_over_cell });
-            });
+        self.tiles.par_iter_mut().for_each(|tile| {
+            tile.points.gather_runs();
+            dispatch(PointsToNodes { tile, dt_over_cell });
+        });
         // 3. Momentum at nodes.
         let (grid, tiles) = (&self.grid, &self.tiles);
         let inner = grid.inner();

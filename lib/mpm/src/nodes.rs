@@ -242,7 +242,7 @@ impl Block {
             }
             let mut sum = [0.0; 4];
             for source in self.sources_of(node) {
-                let value = &tiles[source.tile as usize].filter_out[usize::from(source.local)];
+                let value = &tiles[source.tile as usize].filtered[usize::from(source.local)];
                 for (a, s) in sum.iter_mut().enumerate() {
                     let flipped = source.flip & (1 << a) != 0;
                     *s += if flipped { -value.0[a] } else { value.0[a] };

@@ -48,7 +48,10 @@ impl Shape for Gimp {
         let t = each(&s, |s| 0.5 - s);
         let upper = s.times::<FMA>(s).plus::<FMA>(each(d, |d| above(d - 0.25)));
         let lower = t.times::<FMA>(t).plus::<FMA>(each(d, |d| above(-d - 0.25)));
-        [[lower, upper], [t.scaled::<FMA>(-2.0), s.scaled::<FMA>(2.0)]]
+        [
+            [lower, upper],
+            [t.scaled::<FMA>(-2.0), s.scaled::<FMA>(2.0)],
+        ]
     }
 }
 
@@ -102,7 +105,8 @@ mod tests {
         let mut worst = 0.0_f64;
         for i in 0..=100 {
             let d = -0.5 + f64::from(i) / 100.0;
-            let [w, g] = S::sides::<false>(&Lanes8([d as Real; 8])).map(|x| x.map(|x| f64::from(x.0[1])));
+            let [w, g] =
+                S::sides::<false>(&Lanes8([d as Real; 8])).map(|x| x.map(|x| f64::from(x.0[1])));
             let weights = [w[0], 1.0 - w[0] - w[1], w[1]];
             let slopes = [g[0], -(g[0] + g[1]), g[1]];
             for (node, offset) in [-1.0, 0.0, 1.0].into_iter().enumerate() {

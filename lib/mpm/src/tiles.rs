@@ -32,9 +32,16 @@ pub(crate) struct Points {
     pub(crate) stress: Vec<Lanes8>,
     /// Empty unless APIC.
     pub(crate) affine: Vec<[Lanes4; 3]>,
-    /// Scratch: displacement of this step (cells); before that S w1 of XPIC (m/s).
+}
+
+/// What a thread keeps of one tile while it works on it.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    /// Nodal values of the tile's halo.
+    pub(crate) field: Vec<Lanes8>,
+    /// Displacement of each point in this step (cells).
     pub(crate) shift: Vec<Lanes4>,
-    /// Scratch: velocity gradient (m/s per cell), derivatives along x, y, z.
+    /// Velocity gradient at each point (m/s per cell), derivatives along x, y, z.
     pub(crate) gradient: Vec<[Lanes4; 3]>,
 }
 
@@ -44,6 +51,9 @@ impl Points {
     }
 
     pub(crate) fn push(&mut self, point: &Point, base: u16, affine: bool) {
+        if self.len() == self.id.capacity() {
+            self.reserve(affine);
+        }
         self.id.push(point.id);
         self.base.push(base);
         self.place.push(point.place);
@@ -52,8 +62,19 @@ impl Points {
         if affine {
             self.affine.push(point.affine);
         }
-        self.shift.push(Lanes4::ZERO);
-        self.gradient.push([Lanes4::ZERO; 3]);
+    }
+
+    /// Room for an eighth more: points are most of a run's memory, which doubling would half waste.
+    fn reserve(&mut self, affine: bool) {
+        let more = self.len() / 8 + 8;
+        self.id.reserve_exact(more);
+        self.base.reserve_exact(more);
+        self.place.reserve_exact(more);
+        self.motion.reserve_exact(more);
+        self.stress.reserve_exact(more);
+        if affine {
+            self.affine.reserve_exact(more);
+        }
     }
 
     pub(crate) fn get(&self, p: usize) -> Point {
@@ -90,8 +111,6 @@ impl Points {
         if !self.affine.is_empty() {
             self.affine.swap_remove(p);
         }
-        self.shift.swap_remove(p);
-        self.gradient.swap_remove(p);
     }
 }
 
@@ -131,13 +150,12 @@ pub(crate) struct Tile {
     pub(crate) links: Vec<u32>,
     /// Mirrored axes of every halo node; empty when no node is mirrored.
     pub(crate) flips: Vec<u8>,
-    /// Sums over this tile's points, or nodal values gathered for them.
+    /// Sums over this tile's points.
     pub(crate) local: Vec<Lanes8>,
     /// Sums that contact needs; empty without bodies.
     pub(crate) wall_local: Vec<Lanes8>,
-    /// Nodal values in and point sums out of the velocity filter; empty without one.
-    pub(crate) filter_in: Vec<Lanes8>,
-    pub(crate) filter_out: Vec<Lanes4>,
+    /// Sums of the velocity filter over this tile's points; empty without one.
+    pub(crate) filtered: Vec<Lanes4>,
     /// Sums over this tile's points by cell, at the lowest node of each, or whole sums gathered
     /// for them; empty unless the pressure is a cell's.
     pub(crate) cells: Vec<CellSum>,
@@ -177,8 +195,7 @@ impl Tile {
             flips: Vec::new(),
             local: vec![Lanes8::ZERO; n],
             wall_local: vec![Lanes8::ZERO; if present.contact { n } else { 0 }],
-            filter_in: vec![Lanes8::ZERO; if present.filter { n } else { 0 }],
-            filter_out: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
+            filtered: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
             cells: vec![[0.0; 2]; if present.cell_mean { n } else { 0 }],
             near_wall: vec![false; n],
             bodies: 0,

@@ -91,7 +91,11 @@ pub(crate) fn differences<const D: usize, const FMA: bool>(nodes: &[Lanes8]) -> 
         for j in 0..3 {
             let at = (k * HALO + j) * HALO;
             let [lower, middle, upper] = [nodes[at], nodes[at + 1], nodes[at + 2]];
-            window[k][j] = [lower.minus::<FMA>(middle), middle, upper.minus::<FMA>(middle)];
+            window[k][j] = [
+                lower.minus::<FMA>(middle),
+                middle,
+                upper.minus::<FMA>(middle),
+            ];
         }
         let [lower, middle, upper] = &mut window[k];
         part::<FMA>(lower, middle, upper);

@@ -13,12 +13,15 @@ use crate::window::{
     BATCH, NOTHING, Pairs, Sides, Window, differences, gather_value, nodal, offsets, spread_value,
 };
 
-/// One application of S+ S before division by the nodal mass: gathers `tile.filter_in` to the
-/// points and sums it, weighted by mass, into `tile.filter_out`. Two points at a time, one in the lower
+/// One application of S+ S before division by the nodal mass: gathers `field` to the
+/// points and sums it, weighted by mass, into `tile.filtered`. Two points at a time, one in the lower
 /// and one in the upper four lanes.
 pub(crate) struct Filter<'a, S, const D: usize> {
     pub(crate) tile: &'a mut Tile,
-    /// Keep the gathered value, which is S w1 in the first round.
+    /// Nodal values, each twice.
+    pub(crate) field: &'a [Lanes8],
+    /// Keep the gathered value, which is S w1 in the first round, in place of the points' stress: the nodes
+    /// have that already, and it is new after nodes to points.
     pub(crate) keep: bool,
     pub(crate) shape: PhantomData<S>,
 }
@@ -27,19 +30,16 @@ impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Tile {
-            points,
-            filter_in,
-            filter_out,
-            ..
+            points, filtered, ..
         } = self.tile;
-        filter_out.fill(Lanes4::ZERO);
+        filtered.fill(Lanes4::ZERO);
         let n = points.len();
         let (place, bases) = (&points.place[..n], &points.base[..n]);
-        let shift = &mut points.shift[..n];
+        let stress = &mut points.stress[..n];
         let mut start = 0;
         while start < n {
             let (base, end) = (usize::from(bases[start]), run_end(bases, start));
-            let field = differences::<D, FMA>(&filter_in[base..base + window(D)]);
+            let field = differences::<D, FMA>(&self.field[base..base + window(D)]);
             let mut sums = NOTHING;
             while start < end {
                 let places = &place[start..end.min(start + BATCH)];
@@ -52,11 +52,11 @@ impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
                     if p + 1 < places.len() {
                         b = places[p + 1].0[VOLUME];
                         if self.keep {
-                            shift[start + p + 1] = value.high();
+                            stress[start + p + 1] = Lanes8::of(value.high(), Lanes4::ZERO);
                         }
                     }
                     if self.keep {
-                        shift[start + p] = value.low();
+                        stress[start + p] = Lanes8::of(value.low(), Lanes4::ZERO);
                     }
                     let momentum = value.times::<FMA>(Lanes8([a, a, a, a, b, b, b, b]));
                     spread_value::<D, FMA>(&mut sums, &pair, momentum);
@@ -64,7 +64,7 @@ impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
                 start += places.len();
             }
             nodal::<D, FMA>(&mut sums);
-            add_both::<D, FMA>(&mut filter_out[base..base + window(D)], &sums);
+            add_both::<D, FMA>(&mut filtered[base..base + window(D)], &sums);
         }
     }
 }

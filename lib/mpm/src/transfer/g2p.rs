@@ -9,14 +9,15 @@ use crate::real::Real;
 use crate::runs::run_end;
 use crate::shape::Shape;
 use crate::simd::Kernel;
-use crate::tiles::Tile;
+use crate::tiles::{Scratch, Tile};
 use crate::window::{BATCH, Sides, differences, gather, offsets};
 
 /// Nodes to points: new velocity, velocity gradient and displacement.
 ///
-/// `tile.local` holds the nodal velocities of [`node`](crate::fields::node).
+/// The scratch holds the nodal velocities of [`node`](crate::fields::node).
 pub(crate) struct G2p<'a, S, U, const D: usize> {
     pub(crate) tile: &'a mut Tile,
+    pub(crate) scratch: &'a mut Scratch,
     /// dt over cell, s/m.
     pub(crate) dt_over_cell: Real,
     pub(crate) of: PhantomData<(S, U)>,
@@ -29,7 +30,12 @@ pub(crate) trait Update {
 
     /// New velocity of a point and the velocity of its displacement from its own (`old`), S v+
     /// (`plus`), S of the second half (`second`) and S w_1 (`drift`).
-    fn apply<const FMA: bool>(old: Lanes4, plus: Lanes4, second: Lanes4, drift: Lanes4) -> (Lanes4, Lanes4);
+    fn apply<const FMA: bool>(
+        old: Lanes4,
+        plus: Lanes4,
+        second: Lanes4,
+        drift: Lanes4,
+    ) -> (Lanes4, Lanes4);
 }
 
 /// FLIP.
@@ -45,7 +51,12 @@ pub(crate) struct FilterAfter;
 
 impl Update for Increment {
     #[inline(always)]
-    fn apply<const FMA: bool>(old: Lanes4, plus: Lanes4, second: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
+    fn apply<const FMA: bool>(
+        old: Lanes4,
+        plus: Lanes4,
+        second: Lanes4,
+        _: Lanes4,
+    ) -> (Lanes4, Lanes4) {
         let new = old.add_scaled::<FMA>(1.0, second);
         (new, plus.add_scaled::<FMA>(-0.5, second))
     }
@@ -68,7 +79,12 @@ impl Update for Affine {
 
 impl Update for FilterBefore {
     #[inline(always)]
-    fn apply<const FMA: bool>(old: Lanes4, _: Lanes4, second: Lanes4, drift: Lanes4) -> (Lanes4, Lanes4) {
+    fn apply<const FMA: bool>(
+        old: Lanes4,
+        _: Lanes4,
+        second: Lanes4,
+        drift: Lanes4,
+    ) -> (Lanes4, Lanes4) {
         let change = second.add_scaled::<FMA>(-1.0, old);
         (second, drift.add_scaled::<FMA>(0.5, change))
     }
@@ -76,7 +92,12 @@ impl Update for FilterBefore {
 
 impl Update for FilterAfter {
     #[inline(always)]
-    fn apply<const FMA: bool>(_: Lanes4, plus: Lanes4, second: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
+    fn apply<const FMA: bool>(
+        _: Lanes4,
+        plus: Lanes4,
+        second: Lanes4,
+        _: Lanes4,
+    ) -> (Lanes4, Lanes4) {
         (second, plus)
     }
 }
@@ -102,15 +123,23 @@ fn moments<const D: usize>(d: &[Lanes8; 3], sides: &Sides) -> Sides {
 impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        let Tile { points, local, .. } = self.tile;
+        let Tile { points, .. } = self.tile;
+        let Scratch {
+            field,
+            shift,
+            gradient,
+        } = self.scratch;
         let n = points.len();
         let (place, bases) = (&points.place[..n], &points.base[..n]);
         let motion = &mut points.motion[..n];
-        let (shift, gradient) = (&mut points.shift[..n], &mut points.gradient[..n]);
+        shift.resize(n, Lanes4::ZERO);
+        gradient.resize(n, [Lanes4::ZERO; 3]);
+        let (shift, gradient) = (&mut shift[..n], &mut gradient[..n]);
+        let stress = &points.stress[..n];
         let mut start = 0;
         while start < n {
             let (base, end) = (usize::from(bases[start]), run_end(bases, start));
-            let nodes = &local[base..base + window(D)];
+            let nodes = &field[base..base + window(D)];
             let window = differences::<D, FMA>(nodes);
             while start < end {
                 let places = &place[start..end.min(start + BATCH)];
@@ -126,7 +155,7 @@ impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
                     let at = start + p;
                     let (value, slope) = gather::<D, FMA>(&window, &sides, p);
                     gradient[at] = slope;
-                    let (old, drift) = (motion[at], shift[at]);
+                    let (old, drift) = (motion[at], stress[at].low());
                     let (new, travel) = U::apply::<FMA>(old, value.low(), value.high(), drift);
                     let [x, y, z, _] = new.0;
                     // Nothing moves along z in plane strain, not even where a body does.
