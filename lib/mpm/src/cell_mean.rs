@@ -14,7 +14,7 @@ use crate::lattice::HALO;
 use crate::material::Stress;
 use crate::nodes::Block;
 use crate::real::Real;
-use crate::tiles::{NOWHERE, Points, Scratch, Tile, unlink};
+use crate::tiles::{Points, Scratch, Tile};
 use crate::topology::Grid;
 
 /// Entry of the halo that stands for a point's cell: its lowest node.
@@ -77,26 +77,23 @@ fn sum(tile: &mut Tile, axes: usize) {
     }
 }
 
-/// Sums over the tiles, in the order of the block's sources. Mirrored entries hold nothing:
+/// Sums over the tiles, in the order of the block's spans. Mirrored entries hold nothing:
 /// no point lies beyond a mirror.
 fn gather(block: &mut Block, tiles: &[Tile]) {
-    for node in 0..block.cells.len() {
-        let mut sum = [0.0; 2];
-        for source in block.sources_of(node) {
-            let [volume, j] = tiles[source.tile as usize].cells[usize::from(source.local)];
+    block.cells.fill([0.0; 2]);
+    for span in &block.spans {
+        let cells = &tiles[span.other as usize].cells[span.entries()];
+        for (sum, [volume, j]) in block.cells[span.nodes()].iter_mut().zip(cells) {
             sum[0] += volume;
             sum[1] += j;
         }
-        block.cells[node] = sum;
     }
 }
 
 fn apply(tile: &mut Tile, blocks: &[Block], axes: usize, stress: &Stress) {
-    for (value, &link) in tile.cells.iter_mut().zip(&tile.links) {
-        if link != NOWHERE {
-            let (block, node) = unlink(link);
-            *value = blocks[block].cells[node];
-        }
+    for span in &tile.spans {
+        let block = &blocks[span.other as usize];
+        tile.cells[span.entries()].copy_from_slice(&block.cells[span.nodes()]);
     }
     for p in 0..tile.points.len() {
         let [volume, sum] = tile.cells[cell_of(&tile.points, p, axes)];

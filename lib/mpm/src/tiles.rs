@@ -1,5 +1,7 @@
 //! Liquid points, grouped by the tile of nodes that they are nearest to.
 
+use std::ops::Range;
+
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{HALO, Lattice, block_node};
 use crate::real::Real;
@@ -117,18 +119,37 @@ impl Points {
 /// What the points of a cell add up to: volume at J = 1 (cells) and that times j = J - 1.
 pub(crate) type CellSum = [Real; 2];
 
-/// No node: out of every point's reach.
-pub(crate) const NOWHERE: u32 = u32::MAX;
-
-/// A link of a halo: block and node in one word.
-pub(crate) fn link(block: usize, node: usize) -> u32 {
-    (block << 6 | node) as u32
+/// Entries of a tile's halo that follow one another and so do the nodes of a block that they stand for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    /// The block, or seen from the block the tile.
+    pub(crate) other: u32,
+    /// First entry of the halo.
+    pub(crate) local: u16,
+    /// First node of the block.
+    pub(crate) node: u8,
+    pub(crate) len: u8,
+    /// Mirrored axes.
+    pub(crate) flip: u8,
 }
 
-/// Block and node of a link.
-#[inline]
-pub(crate) fn unlink(link: u32) -> (usize, usize) {
-    (link as usize >> 6, link as usize & 63)
+impl Span {
+    /// The entries of the halo.
+    #[inline(always)]
+    pub(crate) fn entries(&self) -> Range<usize> {
+        usize::from(self.local)..usize::from(self.local) + usize::from(self.len)
+    }
+
+    /// The nodes of the block.
+    #[inline(always)]
+    pub(crate) fn nodes(&self) -> Range<usize> {
+        usize::from(self.node)..usize::from(self.node) + usize::from(self.len)
+    }
+
+    /// The mirrored axes.
+    pub(crate) fn mirrored(&self) -> impl Iterator<Item = usize> {
+        (0..3).filter(|a| self.flip & (1 << a) != 0)
+    }
 }
 
 /// What the collision of points with bodies did in one step, summed over a tile.
@@ -146,10 +167,8 @@ pub(crate) struct Tile {
     /// Its lowest node.
     pub(crate) origin: [i32; 3],
     pub(crate) points: Points,
-    /// Block and node of every halo node as [`unlink`] reads them, or [`NOWHERE`].
-    pub(crate) links: Vec<u32>,
-    /// Mirrored axes of every halo node; empty when no node is mirrored.
-    pub(crate) flips: Vec<u8>,
+    /// Where the nodes of the halo are; those out of every point's reach are in none.
+    pub(crate) spans: Vec<Span>,
     /// Sums over this tile's points.
     pub(crate) local: Vec<Lanes8>,
     /// Sums that contact needs; empty without bodies.
@@ -191,8 +210,7 @@ impl Tile {
             origin,
             at_side,
             points: Points::default(),
-            links: Vec::new(),
-            flips: Vec::new(),
+            spans: Vec::new(),
             local: vec![Lanes8::ZERO; n],
             wall_local: vec![Lanes8::ZERO; if present.contact { n } else { 0 }],
             filtered: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
