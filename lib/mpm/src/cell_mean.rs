@@ -14,7 +14,7 @@ use crate::lattice::HALO;
 use crate::material::Stress;
 use crate::nodes::Block;
 use crate::real::Real;
-use crate::tiles::{NOWHERE, Points, Tile, unlink};
+use crate::tiles::{Points, Scratch, Tile};
 use crate::topology::Grid;
 
 /// Entry of the halo that stands for a point's cell: its lowest node.
@@ -27,10 +27,10 @@ fn cell_of(points: &Points, p: usize, axes: usize) -> usize {
 }
 
 /// Replaces the volume rate of every point by that of its cell, the flux through the cell's
-/// faces; `tile.local` holds the nodal velocities. The mean over the points themselves would
+/// faces; the scratch holds the nodal velocities. The mean over the points themselves would
 /// do only while they lie evenly: where they do not, the nodes have null-space modes that no point
 /// senses, by which liquid is compressed without pressure.
-pub(crate) fn share_rate(tile: &mut Tile, axes: usize) {
+pub(crate) fn share_rate(tile: &Tile, scratch: &mut Scratch, axes: usize) {
     const STRIDE: [usize; 3] = [1, HALO, HALO * HALO];
     let scale = 1.0 / (1 << (axes - 1)) as Real;
     for p in 0..tile.points.len() {
@@ -38,12 +38,12 @@ pub(crate) fn share_rate(tile: &mut Tile, axes: usize) {
         let mut rate = 0.0;
         for corner in 0..1_usize << axes {
             let node: usize = (0..axes).map(|a| (corner >> a & 1) * STRIDE[a]).sum();
-            let v = &tile.local[low + node].0;
+            let v = &scratch.field[low + node].0;
             for a in 0..axes {
                 rate += if corner >> a & 1 == 1 { v[a] } else { -v[a] };
             }
         }
-        let gradient = &mut tile.points.gradient[p];
+        let gradient = &mut scratch.gradient[p];
         let own = gradient[0].0[0] + gradient[1].0[1] + gradient[2].0[2];
         // A third to each axis, also in plane strain, so that the deviator stays.
         let change = (rate * scale - own) / 3.0;
@@ -77,26 +77,23 @@ fn sum(tile: &mut Tile, axes: usize) {
     }
 }
 
-/// Sums over the tiles, in the order of the block's sources. Mirrored entries hold nothing:
+/// Sums over the tiles, in the order of the block's spans. Mirrored entries hold nothing:
 /// no point lies beyond a mirror.
 fn gather(block: &mut Block, tiles: &[Tile]) {
-    for node in 0..block.cells.len() {
-        let mut sum = [0.0; 2];
-        for source in block.sources_of(node) {
-            let [volume, j] = tiles[source.tile as usize].cells[usize::from(source.local)];
+    block.cells.fill([0.0; 2]);
+    for span in &block.spans {
+        let cells = &tiles[span.other as usize].cells[span.entries()];
+        for (sum, [volume, j]) in block.cells[span.nodes()].iter_mut().zip(cells) {
             sum[0] += volume;
             sum[1] += j;
         }
-        block.cells[node] = sum;
     }
 }
 
 fn apply(tile: &mut Tile, blocks: &[Block], axes: usize, stress: &Stress) {
-    for (value, &link) in tile.cells.iter_mut().zip(&tile.links) {
-        if link != NOWHERE {
-            let (block, node) = unlink(link);
-            *value = blocks[block].cells[node];
-        }
+    for span in &tile.spans {
+        let block = &blocks[span.other as usize];
+        tile.cells[span.entries()].copy_from_slice(&block.cells[span.nodes()]);
     }
     for p in 0..tile.points.len() {
         let [volume, sum] = tile.cells[cell_of(&tile.points, p, axes)];

@@ -33,14 +33,20 @@ pub(crate) fn first_fault(a: Fault, b: Fault) -> Fault {
     a.into_iter().chain(b).min()
 }
 
-/// Moves all points of a tile by their displacement and sorts out those that leave.
-pub(crate) fn move_points(tile: &mut Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Fault {
+/// Moves all points of a tile by their displacements `shift` (cells) and sorts out those that leave.
+pub(crate) fn move_points(
+    tile: &mut Tile,
+    shift: &mut Vec<Lanes4>,
+    lattice: &Lattice,
+    bodies: &[Obstacle],
+) -> Fault {
     tile.lost = 0;
     tile.hits = Default::default();
     tile.push.fill([0.0; 3]);
     let mut fault = None;
     dispatch(Move {
         tile,
+        shift,
         lattice,
         bodies,
         fault: &mut fault,
@@ -50,6 +56,7 @@ pub(crate) fn move_points(tile: &mut Tile, lattice: &Lattice, bodies: &[Obstacle
 
 struct Move<'a> {
     tile: &'a mut Tile,
+    shift: &'a mut Vec<Lanes4>,
     lattice: &'a Lattice,
     bodies: &'a [Obstacle<'a>],
     fault: &'a mut Fault,
@@ -61,6 +68,7 @@ impl Kernel for Move<'_> {
     fn run<const FMA: bool>(self) {
         let Self {
             tile,
+            shift: shifts,
             lattice,
             bodies,
             fault,
@@ -69,7 +77,7 @@ impl Kernel for Move<'_> {
         let axes = lattice.axes();
         let mut p = 0;
         while p < tile.points.len() {
-            let (shift, mut d) = (tile.points.shift[p], tile.points.place[p]);
+            let (shift, mut d) = (shifts[p], tile.points.place[p]);
             for a in 0..3 {
                 d.0[a] += shift.0[a];
             }
@@ -85,6 +93,8 @@ impl Kernel for Move<'_> {
                 return;
             } else if move_point(tile, p, d, lattice, if clear { &[] } else { bodies }) {
                 p += 1;
+            } else {
+                shifts.swap_remove(p);
             }
         }
     }
@@ -107,7 +117,7 @@ fn faces(tile: &Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Vec<FaceGrid> {
         .filter(|(b, _)| tile.bodies >> b & 1 == 1);
     near.flat_map(|(_, body)| body.parts.iter().map(move |part| (body, part)))
         .map(|(body, part)| {
-            let (mut scale, mut origin, mut margin) = (Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO);
+            let (mut scale, mut origin, mut margin) = (Lanes4::ZERO, Lanes4([0.5; 4]), Lanes4::ZERO);
             for a in 0..3 {
                 let inverse = 1.0 / part.voxel[a];
                 let low = (f64::from(tile.origin[a]) - body.to[a] - part.origin[a]) * inverse;
@@ -127,24 +137,28 @@ fn faces(tile: &Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Vec<FaceGrid> {
         .collect()
 }
 
-/// Whether a point at `d` after moving by `shift` cannot have crossed a face.
+/// Whether a point at `d` from the tile-local node of `base` after moving by `shift` cannot have crossed a
+/// face. In whole vectors: the fourth lane, of no axis, is half way between faces.
 #[inline(always)]
 fn far(grids: &[FaceGrid], base: usize, d: &Lanes4, shift: &Lanes4) -> bool {
     let local = [
         (base % HALO) as Real,
         (base / HALO % HALO) as Real,
         (base / (HALO * HALO)) as Real,
+        0.0,
     ];
-    grids.iter().all(|grid| {
-        let mut clear = true;
-        for a in 0..3 {
+    let mut clear = true;
+    for grid in grids {
+        let mut room = [0.0; 4];
+        for a in 0..4 {
             let x = (local[a] + d.0[a]) * grid.scale.0[a] + grid.origin.0[a];
-            let part = x - x.floor();
+            let off_middle = (x - x.floor() - 0.5).abs();
             let margin = shift.0[a].abs() * grid.scale.0[a] + grid.margin.0[a];
-            clear &= part > margin && part < 1.0 - margin;
+            room[a] = 0.5 - off_middle - margin;
         }
-        clear
-    })
+        clear &= (room[0] > 0.0) & (room[1] > 0.0) & (room[2] > 0.0) & (room[3] > 0.0);
+    }
+    clear
 }
 
 /// Moves point `p` to offset `d` from its old node, through the faces of `bodies`, nodes and

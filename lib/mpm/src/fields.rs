@@ -18,13 +18,13 @@ pub(crate) mod point {
     pub(crate) const VISCOSITY: Lane = 7;
 }
 
-/// Of what points add up to at a node: `Tile::local` after points to nodes.
+/// Of what points add up to at a node: `Tile::local`.
 pub(crate) mod sum {
     use super::Lane;
-    /// Mass.
-    pub(crate) const MASS: Lane = 0;
     /// Momentum.
-    pub(crate) const MOMENTUM: Lane = 1;
+    pub(crate) const MOMENTUM: Lane = 0;
+    /// Mass; also that of the filter's sums.
+    pub(crate) const MASS: Lane = 3;
     /// Impulse of the stress.
     pub(crate) const IMPULSE: Lane = 4;
     /// Volume.
@@ -37,21 +37,16 @@ pub(crate) mod wall_sum {
     /// First moment of mass about the node.
     pub(crate) const MOMENT: Lane = 0;
     /// Gradient of volume.
-    pub(crate) const GRADIENT: Lane = 3;
+    pub(crate) const GRADIENT: Lane = 4;
 }
 
-/// Of a node's velocities: `Block::velocity` and `Tile::local` before nodes to points.
+/// Of a node's velocities, v+ first: `Block::velocity`.
 pub(crate) mod node {
     use super::Lane;
-    /// v+.
-    pub(crate) const AFTER: Lane = 0;
-    /// 1; gathered, the sum of the weights as it was rounded. Also beside w of the filter, where
-    /// 0 says that there is no mass.
+    /// 1 where there is mass, else 0; also beside w of the filter.
     pub(crate) const ONE: Lane = 3;
     /// The increment, or v* of a filter.
     pub(crate) const SECOND: Lane = 4;
-    /// 1 beside a velocity, 0 beside an increment.
-    pub(crate) const SECOND_ONE: Lane = 7;
 }
 
 /// Of a body at a node: `NearBody::values`.

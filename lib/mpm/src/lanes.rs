@@ -1,10 +1,15 @@
-//! Short vectors whose lanes are fields of one point or node, so that the vector unit is
-//! full whatever the number of points in a cell.
+//! Short vectors whose lanes are fields of one point or node, or one field of eight points, so that the
+//! vector unit is full whatever the number of points in a cell.
+//!
+//! Operations take `FMA`: with it they are fused and the processor's own on whole vectors (`vector`), for
+//! kernels that `simd` runs where there are such instructions; without it they are plain loops.
+
+mod vector;
 
 use crate::real::Real;
 
 macro_rules! lanes {
-    ($name:ident, $n:literal, $align:literal, $doc:literal) => {
+    ($name:ident, $n:literal, $align:literal, $vector:ident, $doc:literal) => {
         #[doc = $doc]
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[repr(C, align($align))]
@@ -13,35 +18,44 @@ macro_rules! lanes {
         impl $name {
             pub(crate) const ZERO: Self = Self([0.0; $n]);
 
-            /// `self + w x`; fused where `FMA`.
-            #[inline(always)]
-            pub(crate) fn add_scaled<const FMA: bool>(self, w: Real, x: Self) -> Self {
-                self.add_product::<FMA>(Self([w; $n]), x)
-            }
-
             /// `self + a b`, lane by lane; fused where `FMA`.
             #[inline(always)]
             pub(crate) fn add_product<const FMA: bool>(self, a: Self, b: Self) -> Self {
-                let mut r = [0.0; $n];
+                if FMA {
+                    return Self(vector::$vector::fused(a.0, b.0, self.0));
+                }
+                let mut r = self.0;
                 for l in 0..$n {
-                    r[l] = if FMA {
-                        a.0[l].mul_add(b.0[l], self.0[l])
-                    } else {
-                        a.0[l] * b.0[l] + self.0[l]
-                    };
+                    r[l] += a.0[l] * b.0[l];
                 }
                 Self(r)
             }
 
             /// `w self`.
             #[inline(always)]
-            pub(crate) fn scaled(self, w: Real) -> Self {
-                self.times(Self([w; $n]))
+            pub(crate) fn scaled<const FMA: bool>(self, w: Real) -> Self {
+                self.times::<FMA>(Self([w; $n]))
+            }
+
+            /// Sum lane by lane.
+            #[inline(always)]
+            pub(crate) fn plus<const FMA: bool>(self, b: Self) -> Self {
+                if FMA {
+                    return Self(vector::$vector::sum(self.0, b.0));
+                }
+                let mut r = self.0;
+                for l in 0..$n {
+                    r[l] += b.0[l];
+                }
+                Self(r)
             }
 
             /// Product lane by lane.
             #[inline(always)]
-            pub(crate) fn times(self, b: Self) -> Self {
+            pub(crate) fn times<const FMA: bool>(self, b: Self) -> Self {
+                if FMA {
+                    return Self(vector::$vector::product(self.0, b.0));
+                }
                 let mut r = self.0;
                 for l in 0..$n {
                     r[l] *= b.0[l];
@@ -52,5 +66,117 @@ macro_rules! lanes {
     };
 }
 
-lanes!(Lanes8, 8, 32, "Eight lanes.");
-lanes!(Lanes4, 4, 16, "Four lanes.");
+lanes!(Lanes8, 8, 32, eight, "Eight lanes.");
+lanes!(Lanes4, 4, 16, four, "Four lanes.");
+
+impl Lanes4 {
+    /// `self + w x`; fused where `FMA`.
+    #[inline(always)]
+    pub(crate) fn add_scaled<const FMA: bool>(self, w: Real, x: Self) -> Self {
+        self.add_product::<FMA>(Self([w; 4]), x)
+    }
+}
+
+impl Lanes8 {
+    /// Difference lane by lane.
+    #[inline(always)]
+    pub(crate) fn minus<const FMA: bool>(self, b: Self) -> Self {
+        if FMA {
+            return Self(vector::difference(self.0, b.0));
+        }
+        let mut r = self.0;
+        for l in 0..8 {
+            r[l] -= b.0[l];
+        }
+        Self(r)
+    }
+
+    /// Two vectors of four beside one another.
+    #[inline(always)]
+    pub(crate) fn of(low: Lanes4, high: Lanes4) -> Self {
+        let ([a, b, c, d], [e, f, g, h]) = (low.0, high.0);
+        Self([a, b, c, d, e, f, g, h])
+    }
+
+    /// Lanes 0 to 3.
+    #[inline(always)]
+    pub(crate) fn low(self) -> Lanes4 {
+        Lanes4([self.0[0], self.0[1], self.0[2], self.0[3]])
+    }
+
+    /// Lanes 4 to 7.
+    #[inline(always)]
+    pub(crate) fn high(self) -> Lanes4 {
+        Lanes4([self.0[4], self.0[5], self.0[6], self.0[7]])
+    }
+
+    /// The lanes `from` of these, in that order.
+    #[inline(always)]
+    pub(crate) fn pick<const FMA: bool>(self, from: [usize; 8]) -> Self {
+        if FMA {
+            return Self(vector::pick(self.0, from));
+        }
+        let mut r = self.0;
+        for l in 0..8 {
+            r[l] = self.0[from[l]];
+        }
+        Self(r)
+    }
+}
+
+/// What eight vectors have in lane 0, 1, 2 and 3.
+#[inline(always)]
+pub(crate) fn transposed<const FMA: bool>(list: &[Lanes4; 8]) -> [Lanes8; 4] {
+    if FMA {
+        let [a, b, c, d, e, f, g, h] = *list;
+        let pairs = [
+            Lanes8::of(a, e).0,
+            Lanes8::of(b, f).0,
+            Lanes8::of(c, g).0,
+            Lanes8::of(d, h).0,
+        ];
+        let [x, y, z, u] = vector::transposed(pairs);
+        return [Lanes8(x), Lanes8(y), Lanes8(z), Lanes8(u)];
+    }
+    let mut r = [Lanes8::ZERO; 4];
+    for (p, x) in list.iter().enumerate() {
+        for l in 0..4 {
+            r[l].0[p] = x.0[l];
+        }
+    }
+    r
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::{Kernel, dispatch};
+
+    struct Compare;
+
+    impl Kernel for Compare {
+        fn run<const FMA: bool>(self) {
+            let list: [Lanes4; 8] = std::array::from_fn(|p| {
+                Lanes4(std::array::from_fn(|l| (10 * p + l) as Real + 0.5))
+            });
+            let wide = transposed::<FMA>(&list);
+            assert_eq!(wide, transposed::<false>(&list));
+            let from = [7, 0, 3, 3, 1, 6, 2, 5];
+            assert_eq!(wide[1].pick::<FMA>(from), wide[1].pick::<false>(from));
+            let (a, b, c) = (wide[0], wide[1], wide[2]);
+            // Exact, so that a fused sum is the same.
+            assert_eq!(c.add_product::<FMA>(a, b), c.add_product::<false>(a, b));
+            assert_eq!(a.minus::<FMA>(b), a.minus::<false>(b));
+            assert_eq!(a.plus::<FMA>(b), a.plus::<false>(b));
+            assert_eq!(a.times::<FMA>(b), a.times::<false>(b));
+            let (x, y) = (a.low(), a.high());
+            assert_eq!(x.scaled::<FMA>(0.25), x.scaled::<false>(0.25));
+            assert_eq!(Lanes8::of(x, y), a);
+        }
+    }
+
+    #[test]
+    fn whole_vectors_and_loops_give_the_same() {
+        dispatch(Compare);
+    }
+}

@@ -11,10 +11,11 @@
 //! Lengths inside are in cells, masses in (density x cell^3), velocities in m/s.
 //!
 //! Modules use one another in one direction, each only those named before it:
-//! `real`, `fields`, `lanes`, `simd`, `settings`, `stages` | `lattice`, `shape`, `contact`, `walls` |
+//! `real`, `fields`, `lanes`, `simd`, `settings`, `stages` | `lattice`, `runs`, `shape`, `window`, `contact`, `walls` |
 //! `tiles`, `nodes`, `topology`, `halo` | `material`, `transfer`, `cell_mean`, `collide`, `density` |
 //! `plan`, `explicit`, `start`, `checks`, `step`, `saved`, `scheme`. Beside them stands `minimal`, the
-//! scheme at its least, on `real`, `lanes`, `simd` and `lattice` alone but for the steps between checks.
+//! scheme at its least, on `real`, `lanes`, `simd`, `lattice`, `runs`, `shape` and `window` alone but for the
+//! steps between checks.
 
 // Loops over axes and lanes index several short arrays at once.
 #![allow(clippy::needless_range_loop)]
@@ -36,6 +37,7 @@ mod minimal;
 mod nodes;
 mod plan;
 mod real;
+mod runs;
 mod saved;
 mod scheme;
 mod settings;
@@ -48,6 +50,7 @@ mod tiles;
 mod topology;
 mod transfer;
 mod walls;
+mod window;
 
 pub use explicit::Explicit;
 pub use minimal::Minimal;

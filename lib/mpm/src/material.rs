@@ -3,6 +3,7 @@
 use physics::{Liquid, Rheology, TAIT_C, Table};
 
 use crate::fields::point::J;
+use crate::lanes::Lanes4;
 use crate::real::{Real, exp_m1};
 use crate::tiles::Points;
 
@@ -94,11 +95,18 @@ impl Stress {
         (self.stiffness * exp_m1(-j * (1.0 / TAIT_C) as Real)).max(-self.tension)
     }
 
-    /// Volume change, shear rate and stress of the points after a step of `dt`.
+    /// Volume change, shear rate and stress of the points after a step of `dt`, from the gradient of velocity
+    /// (m/s per cell) at each.
     #[inline(always)]
-    pub(crate) fn update<F: Flow>(&self, points: &mut Points, flow: &F, dt: Real) {
+    pub(crate) fn update<F: Flow>(
+        &self,
+        points: &mut Points,
+        gradient: &[[Lanes4; 3]],
+        flow: &F,
+        dt: Real,
+    ) {
         let n = points.len();
-        let gradient = &points.gradient[..n];
+        let gradient = &gradient[..n];
         let (motion, stress) = (&mut points.motion[..n], &mut points.stress[..n]);
         for p in 0..n {
             let [x, y, z] = &gradient[p];
@@ -142,7 +150,7 @@ mod tests {
     use physics::{Newtonian, ShearRate, Tait, Viscosity};
 
     use super::*;
-    use crate::lanes::{Lanes4, Lanes8};
+    use crate::lanes::Lanes8;
     use crate::tiles::Point;
 
     fn liquid() -> Liquid {
@@ -187,9 +195,10 @@ mod tests {
         let rate = 1e5_f64;
         // dv_x/dy = rate, and a compression that ends at j = -1e-3 after the step.
         let (dt, squeeze) = (1e-9_f64, -1e-3 / 1e-9);
-        points.gradient[0][1].0[0] = (rate * cell) as Real;
-        points.gradient[0][2].0[2] = (squeeze * cell) as Real;
-        law.update(&mut points, &flow, dt as Real);
+        let mut gradient = [[Lanes4::ZERO; 3]];
+        gradient[0][1].0[0] = (rate * cell) as Real;
+        gradient[0][2].0[2] = (squeeze * cell) as Real;
+        law.update(&mut points, &gradient, &flow, dt as Real);
         let s = points.stress[0].0.map(|s| f64::from(s) * 1200.0);
         let p = liquid.tait.pressure(-1e-3);
         let sigma_zz = -p + 2.0 * 1.3 * squeeze * (1.0 - 1.0 / 3.0);

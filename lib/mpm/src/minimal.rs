@@ -80,9 +80,10 @@ impl Minimal {
         let dt = (self.cfl * self.limit_s).min(longest);
         let dt_over_cell = (dt / self.scene.grid.cell_m) as Real;
         // 2. Points to nodes.
-        self.tiles
-            .par_iter_mut()
-            .for_each(|tile| dispatch(PointsToNodes { tile, dt_over_cell }));
+        self.tiles.par_iter_mut().for_each(|tile| {
+            tile.points.gather_runs();
+            dispatch(PointsToNodes { tile, dt_over_cell });
+        });
         // 3. Momentum at nodes.
         let (grid, tiles) = (&self.grid, &self.tiles);
         let inner = grid.inner();
@@ -204,7 +205,7 @@ fn limit(scene: &Scene, speed: f64, j: f64) -> f64 {
 /// to 2, the change of velocity that FLIP gives to the points in lanes 4 to 6.
 fn advance_nodes(block: &mut Block, sums: &Block) {
     for (velocity, sum) in block.iter_mut().zip(sums) {
-        let [mass, momentum @ .., _, _, _, _] = sum.0;
+        let [momentum @ .., mass, _, _, _, _] = sum.0;
         let [_, _, _, _, impulse @ .., _] = sum.0;
         *velocity = Lanes8::ZERO;
         if mass > 0.0 {
@@ -214,8 +215,6 @@ fn advance_nodes(block: &mut Block, sums: &Block) {
                 velocity.0[a] = after;
                 velocity.0[4 + a] = after - before;
             }
-            // The points' sum of this lane is that of the weights.
-            velocity.0[3] = 1.0;
         }
     }
 }

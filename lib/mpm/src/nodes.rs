@@ -5,30 +5,23 @@ use physics::{Rheology, WallLaw};
 use crate::contact::{Meeting, meeting};
 use crate::fields::{body, node, sum, wall_sum};
 use crate::lanes::{Lanes4, Lanes8};
-use crate::lattice::{Lattice, block_node};
+use crate::lattice::{EDGE, Lattice, block_node};
 use crate::real::Real;
 use crate::settings::Mode;
 use crate::stages::Present;
-use crate::tiles::{CellSum, Tile};
+use crate::tiles::{CellSum, Span, Tile};
 use crate::walls::NearBody;
 
-/// One halo entry of a tile that adds to a node.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Source {
-    pub(crate) tile: u32,
-    pub(crate) local: u16,
-    /// Mirrored axes.
-    pub(crate) flip: u8,
-}
+/// Nodes of a block.
+const NODES: usize = EDGE * EDGE * EDGE;
 
 /// 4 x 4 x 4 nodes (4 x 4 in plane strain).
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
     /// Its lowest node.
     pub(crate) origin: [i32; 3],
-    /// Where each node's sources begin in `sources`; one entry more than nodes.
-    pub(crate) first: Vec<u32>,
-    pub(crate) sources: Vec<Source>,
+    /// Where tiles add to its nodes, in the order of the tiles.
+    pub(crate) spans: Vec<Span>,
     /// Mirror planes each node lies on, bit per axis.
     planes: Vec<u8>,
     /// v+ and the increment or v*, see `fields.rs`.
@@ -79,8 +72,7 @@ impl Block {
         };
         Self {
             origin,
-            first: Vec::new(),
-            sources: Vec::new(),
+            spans: Vec::new(),
             planes: planes.collect(),
             velocity: vec![Lanes8::ZERO; n],
             walls: Vec::with_capacity(bodies),
@@ -88,10 +80,6 @@ impl Block {
             filter,
             cells: vec![[0.0; 2]; if present.cell_mean { n } else { 0 }],
         }
-    }
-
-    pub(crate) fn sources_of(&self, node: usize) -> &[Source] {
-        &self.sources[self.first[node] as usize..self.first[node + 1] as usize]
     }
 
     /// w_l of the filter at a node.
@@ -117,15 +105,13 @@ impl Block {
     pub(crate) fn advance<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
         self.reaction.fill([0.0; 3]);
         let walls = self.walls.iter().any(|w| w.near != 0);
+        let sums = self.sums(tiles, |tile| &tile.local, [sum::MOMENTUM, sum::IMPULSE]);
+        let near = walls.then(|| {
+            let vectors = [wall_sum::MOMENT, wall_sum::GRADIENT];
+            self.sums(tiles, |tile| &tile.wall_local, vectors)
+        });
         for node in 0..self.velocity.len() {
-            if self.first[node] == self.first[node + 1] {
-                continue;
-            }
-            let sum = self.sum(
-                node,
-                |s| &tiles[s.tile as usize].local,
-                [sum::MOMENTUM, sum::IMPULSE],
-            );
+            let sum = &sums[node];
             let mass = sum.0[sum::MASS];
             if mass <= 0.0 {
                 self.velocity[node] = Lanes8::ZERO;
@@ -134,47 +120,38 @@ impl Block {
                 }
                 continue;
             }
-            let found = if walls { self.body_at(node) } else { None };
-            let meeting = found.and_then(|(body, rigid)| {
-                let sums = self.sum(
-                    node,
-                    |s| &tiles[s.tile as usize].wall_local,
-                    [wall_sum::MOMENT, wall_sum::GRADIENT],
-                );
-                let liquid = (mass, sum.0[sum::VOLUME], &sums);
+            let meeting = near.as_ref().and_then(|near| {
+                let (body, rigid) = self.body_at(node)?;
+                let liquid = (mass, sum.0[sum::VOLUME], &near[node]);
                 let velocity = step.velocities[body];
-                meeting(
-                    body,
-                    velocity,
-                    rigid,
-                    liquid,
-                    self.planes[node],
-                    step.separation,
-                )
+                let planes = self.planes[node];
+                meeting(body, velocity, rigid, liquid, planes, step.separation)
             });
-            self.advance_node(node, &sum, meeting, step);
+            self.advance_node(node, sum, meeting, step);
         }
     }
 
-    /// Sum over the tiles that reach `node`; vectors begin at the lanes `vectors`.
-    fn sum<'a>(
+    /// Sums over the tiles that reach each node; vectors begin at the lanes `vectors`. A tile without a body
+    /// in reach may hold older values: where such bodies are it adds nothing that counts.
+    fn sums<'a>(
         &self,
-        node: usize,
-        values: impl Fn(&Source) -> &'a Vec<Lanes8>,
+        tiles: &'a [Tile],
+        values: impl Fn(&'a Tile) -> &'a Vec<Lanes8>,
         vectors: [usize; 2],
-    ) -> Lanes8 {
-        let mut sum = Lanes8::ZERO;
-        for source in self.sources_of(node) {
-            let mut value = values(source)[usize::from(source.local)];
-            if source.flip != 0 {
-                for a in (0..3).filter(|a| source.flip & (1 << a) != 0) {
+    ) -> [Lanes8; NODES] {
+        let mut sums = [Lanes8::ZERO; NODES];
+        for span in &self.spans {
+            let values = &values(&tiles[span.other as usize])[span.entries()];
+            for (sum, &value) in sums[span.nodes()].iter_mut().zip(values) {
+                let mut value = value;
+                for a in span.mirrored() {
                     value.0[vectors[0] + a] = -value.0[vectors[0] + a];
                     value.0[vectors[1] + a] = -value.0[vectors[1] + a];
                 }
+                *sum = sum.plus::<false>(value);
             }
-            sum = sum.add_scaled::<false>(1.0, value);
         }
-        sum
+        sums
     }
 
     fn advance_node<R: Rheology>(
@@ -184,7 +161,7 @@ impl Block {
         meeting: Option<Meeting>,
         step: &NodeStep<R>,
     ) {
-        let [mass, px, py, pz, fx, fy, fz, _] = sum.0;
+        let [px, py, pz, mass, fx, fy, fz, _] = sum.0;
         let planes = self.planes[node];
         let raw = hold(planes, [px / mass, py / mass, pz / mass]);
         let force = [fx, fy, fz];
@@ -219,13 +196,8 @@ impl Block {
             Mode::Increment => std::array::from_fn(|a| after[a] - before[a]),
             _ => after,
         };
-        let whole = if step.mode == Mode::Increment {
-            0.0
-        } else {
-            1.0
-        };
         self.velocity[node] = Lanes8([
-            after[0], after[1], after[2], 1.0, second[0], second[1], second[2], whole,
+            after[0], after[1], after[2], 1.0, second[0], second[1], second[2], 0.0,
         ]);
         if matches!(step.mode, Mode::FilterBefore | Mode::FilterAfter) {
             let w = if step.mode == Mode::FilterBefore {
@@ -241,19 +213,23 @@ impl Block {
     /// One step of the recursion w_l = (I - S+ S) w_{l-1}, added to v*. The increment of a
     /// body's velocity is zero for l >= 2, so contact only restrains.
     pub(crate) fn refine<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
+        let mut sums = [Lanes4::ZERO; NODES];
+        for span in &self.spans {
+            let values = &tiles[span.other as usize].filtered[span.entries()];
+            for (sum, &value) in sums[span.nodes()].iter_mut().zip(values) {
+                let mut value = value;
+                for a in span.mirrored() {
+                    value.0[a] = -value.0[a];
+                }
+                *sum = sum.plus::<false>(value);
+            }
+        }
         for node in 0..self.velocity.len() {
             if self.filter.w[node].0[node::ONE] == 0.0 {
                 continue;
             }
-            let mut sum = [0.0; 4];
-            for source in self.sources_of(node) {
-                let value = &tiles[source.tile as usize].filter_out[usize::from(source.local)];
-                for (a, s) in sum.iter_mut().enumerate() {
-                    let flipped = source.flip & (1 << a) != 0;
-                    *s += if flipped { -value.0[a] } else { value.0[a] };
-                }
-            }
-            let mass = sum[node::ONE];
+            let sum = sums[node].0;
+            let mass = sum[sum::MASS];
             let old = self.filter.w[node].0;
             let free = hold(
                 self.planes[node],

@@ -1,21 +1,17 @@
 //! Shape functions seen from the nearest node.
 //!
 //! All three reach at most one node to either side of a point's nearest node, so that with the
-//! offset d in [-1/2, 1/2] (cells) three weights per axis are all there is.
+//! offset d in [-1/2, 1/2] (cells) three weights per axis are all there is; the middle one is what the
+//! others leave of 1.
 
-use crate::lanes::Lanes4;
-
-/// Weights and slopes (per cell) on the nodes -1, 0, +1 around the nearest one; lanes are axes.
-#[derive(Clone, Copy)]
-pub(crate) struct Weights {
-    pub(crate) w: [Lanes4; 3],
-    pub(crate) g: [Lanes4; 3],
-}
+use crate::lanes::Lanes8;
+use crate::real::Real;
 
 /// A shape function; kernels are generic over it.
 pub(crate) trait Shape: Send + Sync + 'static {
-    /// Weights at offsets `d` in cells.
-    fn weights(d: Lanes4) -> Weights;
+    /// Along one axis, at the offsets `d` (cells) of eight points: their weights on the lower and the upper
+    /// node, and the slopes (per cell) of these.
+    fn sides<const FMA: bool>(d: &Lanes8) -> [[Lanes8; 2]; 2];
 }
 
 /// Uniform GIMP: the hat averaged over a box of half a cell.
@@ -25,75 +21,64 @@ pub(crate) struct Bspline2;
 /// Hat.
 pub(crate) struct Linear;
 
-/// From the weights and slopes on the outer nodes; partition of unity gives the middle one.
+/// Of every lane what `of` gives; a loop of its own for each, so that it becomes one instruction or two.
 #[inline(always)]
-fn complete(left: Lanes4, right: Lanes4, left_slope: Lanes4, right_slope: Lanes4) -> Weights {
-    let (mut middle, mut middle_slope) = (Lanes4::ZERO, Lanes4::ZERO);
-    for a in 0..4 {
-        middle.0[a] = 1.0 - left.0[a] - right.0[a];
-        middle_slope.0[a] = -(left_slope.0[a] + right_slope.0[a]);
+fn each(d: &Lanes8, of: impl Fn(Real) -> Real) -> Lanes8 {
+    let mut x = d.0;
+    for x in &mut x {
+        *x = of(*x);
     }
-    Weights {
-        w: [left, middle, right],
-        g: [left_slope, middle_slope, right_slope],
-    }
+    Lanes8(x)
+}
+
+/// The part of `x` above 0; unlike `max` without a word on what is no number.
+#[inline(always)]
+fn above(x: Real) -> Real {
+    if x > 0.0 { x } else { 0.0 }
 }
 
 impl Shape for Gimp {
     #[inline(always)]
-    fn weights(d: Lanes4) -> Weights {
-        let (mut l, mut r, mut gl, mut gr) =
-            (Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO);
-        for a in 0..4 {
-            // Part of the box beyond the node, at most all of it.
-            let s = (d.0[a] + 0.25).clamp(0.0, 0.5);
-            let t = 0.5 - s;
-            r.0[a] = s * s + (d.0[a] - 0.25).max(0.0);
-            l.0[a] = t * t + (-d.0[a] - 0.25).max(0.0);
-            gr.0[a] = 2.0 * s;
-            gl.0[a] = -2.0 * t;
-        }
-        complete(l, r, gl, gr)
+    fn sides<const FMA: bool>(d: &Lanes8) -> [[Lanes8; 2]; 2] {
+        // Part of the box beyond the node, at most all of it.
+        let s = each(d, |d| {
+            let s = above(d + 0.25);
+            if s < 0.5 { s } else { 0.5 }
+        });
+        let t = each(&s, |s| 0.5 - s);
+        let upper = s.times::<FMA>(s).plus::<FMA>(each(d, |d| above(d - 0.25)));
+        let lower = t.times::<FMA>(t).plus::<FMA>(each(d, |d| above(-d - 0.25)));
+        [
+            [lower, upper],
+            [t.scaled::<FMA>(-2.0), s.scaled::<FMA>(2.0)],
+        ]
     }
 }
 
 impl Shape for Bspline2 {
     #[inline(always)]
-    fn weights(d: Lanes4) -> Weights {
-        let (mut l, mut r, mut gl, mut gr) =
-            (Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO);
-        for a in 0..4 {
-            let s = 0.5 + d.0[a];
-            let t = 0.5 - d.0[a];
-            r.0[a] = 0.5 * s * s;
-            l.0[a] = 0.5 * t * t;
-            gr.0[a] = s;
-            gl.0[a] = -t;
-        }
-        complete(l, r, gl, gr)
+    fn sides<const FMA: bool>(d: &Lanes8) -> [[Lanes8; 2]; 2] {
+        let (s, t) = (each(d, |d| 0.5 + d), each(d, |d| 0.5 - d));
+        let half = |x: Lanes8| x.times::<FMA>(x).scaled::<FMA>(0.5);
+        [[half(t), half(s)], [t.scaled::<FMA>(-1.0), s]]
     }
 }
 
 impl Shape for Linear {
     #[inline(always)]
-    fn weights(d: Lanes4) -> Weights {
-        let (mut l, mut r, mut gl, mut gr) =
-            (Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO, Lanes4::ZERO);
-        for a in 0..4 {
-            let right = d.0[a] >= 0.0;
-            r.0[a] = d.0[a].max(0.0);
-            l.0[a] = (-d.0[a]).max(0.0);
-            gr.0[a] = if right { 1.0 } else { 0.0 };
-            gl.0[a] = if right { 0.0 } else { -1.0 };
-        }
-        complete(l, r, gl, gr)
+    fn sides<const FMA: bool>(d: &Lanes8) -> [[Lanes8; 2]; 2] {
+        let (lower, upper) = (each(d, |d| above(-d)), each(d, above));
+        let slopes = [
+            each(d, |d| if d < 0.0 { -1.0 } else { 0.0 }),
+            each(d, |d| if d < 0.0 { 0.0 } else { 1.0 }),
+        ];
+        [[lower, upper], slopes]
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::real::Real;
 
     fn hat(x: f64) -> f64 {
         (1.0 - x.abs()).max(0.0)
@@ -120,15 +105,18 @@ mod tests {
         let mut worst = 0.0_f64;
         for i in 0..=100 {
             let d = -0.5 + f64::from(i) / 100.0;
-            let weights = S::weights(Lanes4([d as Real; 4]));
+            let [w, g] =
+                S::sides::<false>(&Lanes8([d as Real; 8])).map(|x| x.map(|x| f64::from(x.0[1])));
+            let weights = [w[0], 1.0 - w[0] - w[1], w[1]];
+            let slopes = [g[0], -(g[0] + g[1]), g[1]];
             for (node, offset) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
-                let w = f64::from(weights.w[node].0[1]);
+                let w = weights[node];
                 worst = worst.max((w - reference(d - offset)).abs());
                 let eps = 1e-4;
                 if (0.01..0.99).contains(&(d + 0.5)) && (d * 100.0).round() != 0.0 {
                     let slope =
                         (reference(d - offset + eps) - reference(d - offset - eps)) / (2.0 * eps);
-                    let g = f64::from(weights.g[node].0[1]);
+                    let g = slopes[node];
                     worst = worst.max(0.01 * (g - slope).abs());
                 }
             }

@@ -74,17 +74,22 @@ impl Explicit {
             clock: Clock::new(),
             plan,
         };
-        let points = explicit.initial_points(scene)?;
-        explicit.grid.insert(points);
+        explicit.grid = explicit.initial_grid(scene)?;
         Ok(explicit)
     }
 
-    /// The scene's points with their nearest nodes.
-    fn initial_points(&self, scene: &Scene) -> Result<Vec<([i32; 3], Point)>, String> {
+    /// The grid with the scene's points at their nearest nodes, which are put there one by one: a list of
+    /// them would be most of a run's memory.
+    fn initial_grid(&self, scene: &Scene) -> Result<Grid, String> {
         let here = &self.state.displacement;
         let rest = self.obstacles(here, here, &vec![[0.0; 3]; scene.bodies.len()]);
+        let (mut grid, mut fault) = (Grid::like(&self.grid), None);
         let ids = 0..scene.points.position.len();
-        ids.map(|id| self.initial_point(scene, id, &rest)).collect()
+        grid.insert(ids.map_while(|id| {
+            let point = self.initial_point(scene, id, &rest);
+            point.map_err(|said| fault = Some(said)).ok()
+        }));
+        fault.map_or(Ok(grid), Err)
     }
 
     fn initial_point(

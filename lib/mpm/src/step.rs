@@ -12,6 +12,7 @@ use crate::nodes::NodeStep;
 use crate::real::Real;
 use crate::settings::Mode;
 use crate::stages::Part;
+use crate::tiles::Scratch;
 
 /// Steps between checks of the whole state, which also renew the time step.
 pub(crate) const CHECK_EVERY: u64 = 64;
@@ -84,10 +85,10 @@ impl Explicit {
     fn points_to_nodes(&mut self, dt: f64) {
         let scale = (dt / self.scene.grid.cell_m) as Real;
         let p2g = self.kernels.p2g;
-        self.grid
-            .tiles
-            .par_iter_mut()
-            .for_each(|tile| p2g(tile, scale));
+        self.grid.tiles.par_iter_mut().for_each(|tile| {
+            tile.points.gather_runs();
+            p2g(tile, scale);
+        });
     }
 
     /// Contact, sides and momentum at the nodes, then the velocity filter.
@@ -122,9 +123,10 @@ impl Explicit {
             for round in 2..=self.settings.velocity_update.order() {
                 let blocks = &self.grid.blocks;
                 let keep = round == 2 && mode == Mode::FilterBefore;
-                self.grid.tiles.par_iter_mut().for_each(|tile| {
-                    gather_filtered(tile, blocks);
-                    filter(tile, keep);
+                let tiles = self.grid.tiles.par_iter_mut();
+                tiles.for_each_init(Vec::new, |field, tile| {
+                    gather_filtered(tile, blocks, field);
+                    filter(tile, field, keep);
                 });
                 let tiles = &self.grid.tiles;
                 self.grid
@@ -150,14 +152,15 @@ impl Explicit {
         let shared = self.present.cell_mean;
         let fault = tiles
             .par_iter_mut()
-            .map(|tile| {
-                gather_velocity(tile, blocks);
-                (self.kernels.g2p)(tile, scale);
+            .map_init(Scratch::default, |scratch, tile| {
+                gather_velocity(tile, blocks, &mut scratch.field);
+                (self.kernels.g2p)(tile, scratch, scale);
                 if shared {
-                    share_rate(tile, lattice.axes());
+                    share_rate(tile, scratch, lattice.axes());
                 }
-                self.flow.update(tile, &self.stress, dt as Real);
-                move_points(tile, lattice, &bodies)
+                let gradient = &scratch.gradient;
+                (self.flow).update(&mut tile.points, gradient, &self.stress, dt as Real);
+                move_points(tile, &mut scratch.shift, lattice, &bodies)
             })
             .reduce(|| None, first_fault);
         self.grid.tiles = tiles;

@@ -1,8 +1,11 @@
 //! Liquid points, grouped by the tile of nodes that they are nearest to.
 
+use std::ops::Range;
+
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{HALO, Lattice, block_node};
 use crate::real::Real;
+use crate::runs::{reorder, run_order};
 use crate::stages::Present;
 
 /// All that one point carries; the unit in which points move between tiles.
@@ -31,9 +34,16 @@ pub(crate) struct Points {
     pub(crate) stress: Vec<Lanes8>,
     /// Empty unless APIC.
     pub(crate) affine: Vec<[Lanes4; 3]>,
-    /// Scratch: displacement of this step (cells); before that S w1 of XPIC (m/s).
+}
+
+/// What a thread keeps of one tile while it works on it.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    /// Nodal values of the tile's halo.
+    pub(crate) field: Vec<Lanes8>,
+    /// Displacement of each point in this step (cells).
     pub(crate) shift: Vec<Lanes4>,
-    /// Scratch: velocity gradient (m/s per cell), derivatives along x, y, z.
+    /// Velocity gradient at each point (m/s per cell), derivatives along x, y, z.
     pub(crate) gradient: Vec<[Lanes4; 3]>,
 }
 
@@ -43,6 +53,9 @@ impl Points {
     }
 
     pub(crate) fn push(&mut self, point: &Point, base: u16, affine: bool) {
+        if self.len() == self.id.capacity() {
+            self.reserve(affine);
+        }
         self.id.push(point.id);
         self.base.push(base);
         self.place.push(point.place);
@@ -51,8 +64,19 @@ impl Points {
         if affine {
             self.affine.push(point.affine);
         }
-        self.shift.push(Lanes4::ZERO);
-        self.gradient.push([Lanes4::ZERO; 3]);
+    }
+
+    /// Room for an eighth more: points are most of a run's memory, which doubling would half waste.
+    fn reserve(&mut self, affine: bool) {
+        let more = self.len() / 8 + 8;
+        self.id.reserve_exact(more);
+        self.base.reserve_exact(more);
+        self.place.reserve_exact(more);
+        self.motion.reserve_exact(more);
+        self.stress.reserve_exact(more);
+        if affine {
+            self.affine.reserve_exact(more);
+        }
     }
 
     pub(crate) fn get(&self, p: usize) -> Point {
@@ -65,6 +89,21 @@ impl Points {
         }
     }
 
+    /// Brings the points of each node together where moves have scattered them.
+    pub(crate) fn gather_runs(&mut self) {
+        let Some(order) = run_order(&self.base) else {
+            return;
+        };
+        reorder(&mut self.id, &order);
+        reorder(&mut self.base, &order);
+        reorder(&mut self.place, &order);
+        reorder(&mut self.motion, &order);
+        reorder(&mut self.stress, &order);
+        if !self.affine.is_empty() {
+            reorder(&mut self.affine, &order);
+        }
+    }
+
     pub(crate) fn swap_remove(&mut self, p: usize) {
         self.id.swap_remove(p);
         self.base.swap_remove(p);
@@ -74,26 +113,43 @@ impl Points {
         if !self.affine.is_empty() {
             self.affine.swap_remove(p);
         }
-        self.shift.swap_remove(p);
-        self.gradient.swap_remove(p);
     }
 }
 
 /// What the points of a cell add up to: volume at J = 1 (cells) and that times j = J - 1.
 pub(crate) type CellSum = [Real; 2];
 
-/// No node: out of every point's reach.
-pub(crate) const NOWHERE: u32 = u32::MAX;
-
-/// A link of a halo: block and node in one word.
-pub(crate) fn link(block: usize, node: usize) -> u32 {
-    (block << 6 | node) as u32
+/// Entries of a tile's halo that follow one another and so do the nodes of a block that they stand for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    /// The block, or seen from the block the tile.
+    pub(crate) other: u32,
+    /// First entry of the halo.
+    pub(crate) local: u16,
+    /// First node of the block.
+    pub(crate) node: u8,
+    pub(crate) len: u8,
+    /// Mirrored axes.
+    pub(crate) flip: u8,
 }
 
-/// Block and node of a link.
-#[inline]
-pub(crate) fn unlink(link: u32) -> (usize, usize) {
-    (link as usize >> 6, link as usize & 63)
+impl Span {
+    /// The entries of the halo.
+    #[inline(always)]
+    pub(crate) fn entries(&self) -> Range<usize> {
+        usize::from(self.local)..usize::from(self.local) + usize::from(self.len)
+    }
+
+    /// The nodes of the block.
+    #[inline(always)]
+    pub(crate) fn nodes(&self) -> Range<usize> {
+        usize::from(self.node)..usize::from(self.node) + usize::from(self.len)
+    }
+
+    /// The mirrored axes.
+    pub(crate) fn mirrored(&self) -> impl Iterator<Item = usize> {
+        (0..3).filter(|a| self.flip & (1 << a) != 0)
+    }
 }
 
 /// What the collision of points with bodies did in one step, summed over a tile.
@@ -111,17 +167,14 @@ pub(crate) struct Tile {
     /// Its lowest node.
     pub(crate) origin: [i32; 3],
     pub(crate) points: Points,
-    /// Block and node of every halo node as [`unlink`] reads them, or [`NOWHERE`].
-    pub(crate) links: Vec<u32>,
-    /// Mirrored axes of every halo node; empty when no node is mirrored.
-    pub(crate) flips: Vec<u8>,
-    /// Sums over this tile's points, or nodal values gathered for them.
+    /// Where the nodes of the halo are; those out of every point's reach are in none.
+    pub(crate) spans: Vec<Span>,
+    /// Sums over this tile's points.
     pub(crate) local: Vec<Lanes8>,
     /// Sums that contact needs; empty without bodies.
     pub(crate) wall_local: Vec<Lanes8>,
-    /// Nodal values in and point sums out of the velocity filter; empty without one.
-    pub(crate) filter_in: Vec<Lanes4>,
-    pub(crate) filter_out: Vec<Lanes4>,
+    /// Sums of the velocity filter over this tile's points; empty without one.
+    pub(crate) filtered: Vec<Lanes4>,
     /// Sums over this tile's points by cell, at the lowest node of each, or whole sums gathered
     /// for them; empty unless the pressure is a cell's.
     pub(crate) cells: Vec<CellSum>,
@@ -157,12 +210,10 @@ impl Tile {
             origin,
             at_side,
             points: Points::default(),
-            links: Vec::new(),
-            flips: Vec::new(),
+            spans: Vec::new(),
             local: vec![Lanes8::ZERO; n],
             wall_local: vec![Lanes8::ZERO; if present.contact { n } else { 0 }],
-            filter_in: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
-            filter_out: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
+            filtered: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
             cells: vec![[0.0; 2]; if present.cell_mean { n } else { 0 }],
             near_wall: vec![false; n],
             bodies: 0,

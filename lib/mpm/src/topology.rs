@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use rayon::prelude::*;
 
 use crate::lattice::{HALO, Lattice, block_index};
-use crate::nodes::{Block, Source};
+use crate::nodes::Block;
 use crate::stages::Present;
-use crate::tiles::{NOWHERE, Point, Tile, base_of, bases, link, unlink};
+use crate::tiles::{Point, Span, Tile, base_of, bases};
 use crate::walls::{BlockShape, Integrator, NearBody};
 
 /// Tiles where liquid is and the blocks of nodes that it reaches, both ordered by key, which
@@ -95,7 +95,6 @@ impl Grid {
             self.tiles.iter().map(|tile| halo(tile, lattice)).collect();
         let keys: BTreeSet<u64> = halos.iter().flatten().flatten().map(|h| h.0).collect();
         self.block_keys = keys.into_iter().collect();
-        let n = lattice.block_len();
         let mut index = HashMap::with_capacity(self.block_keys.len());
         for (b, &key) in self.block_keys.iter().enumerate() {
             index.insert(key, b);
@@ -104,34 +103,37 @@ impl Grid {
                     .unwrap_or_else(|| Block::new(key, lattice, self.bodies, self.present)),
             );
         }
-        let mut sources: Vec<Vec<(usize, Source)>> = vec![Vec::new(); self.blocks.len()];
+        for block in &mut self.blocks {
+            block.spans.clear();
+        }
         for (t, (tile, halo)) in self.tiles.iter_mut().zip(&halos).enumerate() {
-            tile.links.clear();
-            tile.flips.clear();
+            tile.spans.clear();
             for (local, place) in halo.iter().enumerate() {
                 let Some((key, node, flip)) = *place else {
-                    tile.links.push(NOWHERE);
                     continue;
                 };
-                let b = index[&key];
-                tile.links.push(link(b, node));
-                let source = Source {
-                    tile: t as u32,
+                let b = index[&key] as u32;
+                if let Some(last) = tile.spans.last_mut()
+                    && (last.other, last.flip, flip) == (b, 0, 0)
+                    && (last.entries().end, last.nodes().end) == (local, node)
+                {
+                    last.len += 1;
+                    continue;
+                }
+                tile.spans.push(Span {
+                    other: b,
                     local: local as u16,
+                    node: node as u8,
+                    len: 1,
                     flip,
-                };
-                sources[b].push((node, source));
+                });
             }
-            if halo.iter().flatten().any(|h| h.2 != 0) {
-                tile.flips = halo.iter().map(|h| h.map_or(0, |h| h.2)).collect();
+            for span in &tile.spans {
+                let other = t as u32;
+                self.blocks[span.other as usize]
+                    .spans
+                    .push(Span { other, ..*span });
             }
-        }
-        for (block, mut list) in self.blocks.iter_mut().zip(sources) {
-            list.sort_by_key(|(node, _)| *node);
-            block.first = (0..=n as u32)
-                .map(|i| list.partition_point(|(node, _)| (*node as u32) < i) as u32)
-                .collect();
-            block.sources = list.into_iter().map(|(_, source)| source).collect();
         }
     }
 
@@ -155,18 +157,16 @@ impl Grid {
     fn mark_walls(&mut self) {
         let layers = if self.lattice.three { 3 } else { 1 };
         for tile in &mut self.tiles {
-            let mut at = vec![false; tile.links.len()];
+            let mut at = vec![false; self.lattice.halo_len()];
             tile.bodies = 0;
-            for (near, &link) in at.iter_mut().zip(&tile.links) {
-                if link == NOWHERE {
-                    continue;
-                }
-                let (block, node) = unlink(link);
-                let block = &self.blocks[block];
-                for (body, wall) in block.walls.iter().enumerate() {
-                    if wall.near >> node & 1 == 1 {
-                        *near = true;
-                        tile.bodies |= 1 << body;
+            for span in &tile.spans {
+                let walls = &self.blocks[span.other as usize].walls;
+                for (near, node) in at[span.entries()].iter_mut().zip(span.nodes()) {
+                    for (body, wall) in walls.iter().enumerate() {
+                        if wall.near >> node & 1 == 1 {
+                            *near = true;
+                            tile.bodies |= 1 << body;
+                        }
                     }
                 }
             }

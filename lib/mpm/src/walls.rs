@@ -212,7 +212,6 @@ mod tests {
     /// Sums over the material points of the voxels, half a cell each, with GIMP weights: volume, its
     /// gradient, its first moment about the node.
     fn rigid_points(block: &BlockShape, shift: [f64; 3], node: [i32; 3]) -> [f64; 7] {
-        use crate::lanes::Lanes4;
         use crate::shape::{Gimp, Shape};
         let mut sum = [0.0; 7];
         let dims = block.solid.dims();
@@ -227,20 +226,25 @@ mod tests {
                     });
                     let nearest = x.map(f64::round);
                     let d: [f64; 3] = std::array::from_fn(|a| x[a] - nearest[a]);
-                    let w = Gimp::weights(Lanes4([d[0] as Real, d[1] as Real, d[2] as Real, 0.0]));
+                    let sides = d.map(|d| Gimp::sides::<false>(&Lanes8([d as Real; 8])));
                     let offset: [f64; 3] =
                         std::array::from_fn(|a| f64::from(node[a]) - nearest[a] + 1.0);
                     if offset.iter().any(|o| !(0.0..=2.0).contains(o)) {
                         continue;
                     }
-                    let pick = |q: &[Lanes4; 3], a: usize| f64::from(q[offset[a] as usize].0[a]);
+                    let pick = |of: usize, a: usize| {
+                        let [lower, upper] = sides[a][of].map(|x| f64::from(x.0[0]));
+                        let all = if of == 0 { 1.0 } else { 0.0 };
+                        [lower, all - lower - upper, upper][offset[a] as usize]
+                    };
+                    let (w, g) = (|a: usize| pick(0, a), |a: usize| pick(1, a));
                     let v = 0.125;
-                    sum[0] += v * pick(&w.w, 0) * pick(&w.w, 1) * pick(&w.w, 2);
-                    sum[1] += v * pick(&w.g, 0) * pick(&w.w, 1) * pick(&w.w, 2);
-                    sum[2] += v * pick(&w.w, 0) * pick(&w.g, 1) * pick(&w.w, 2);
-                    sum[3] += v * pick(&w.w, 0) * pick(&w.w, 1) * pick(&w.g, 2);
+                    sum[0] += v * w(0) * w(1) * w(2);
+                    sum[1] += v * g(0) * w(1) * w(2);
+                    sum[2] += v * w(0) * g(1) * w(2);
+                    sum[3] += v * w(0) * w(1) * g(2);
                     for a in 0..3 {
-                        let beside = pick(&w.w, (a + 1) % 3) * pick(&w.w, (a + 2) % 3);
+                        let beside = w((a + 1) % 3) * w((a + 2) % 3);
                         sum[4 + a] += 0.25 * beside * moment(x[a] - f64::from(node[a]));
                     }
                 }

@@ -72,16 +72,23 @@ pub(crate) fn project(tiles: &mut [Tile], lattice: &Lattice, bodies: &[Obstacle]
     solve::potential(&mut cells.list);
     tiles
         .par_iter_mut()
-        .map(|tile| {
-            displace(tile, &cells, lattice, bodies);
-            move_points(tile, lattice, bodies)
+        .map_init(Vec::new, |shift, tile| {
+            displace(tile, shift, &cells, lattice, bodies);
+            move_points(tile, shift, lattice, bodies)
         })
         .reduce(|| None, first_fault)
 }
 
-/// Sets the displacement of a tile's points. One that would lead into a body is left out, so
+/// Displacements of a tile's points. One that would lead into a body is left out, so
 /// that the move stops no point and changes no velocity.
-fn displace(tile: &mut Tile, cells: &Cells, lattice: &Lattice, bodies: &[Obstacle]) {
+fn displace(
+    tile: &Tile,
+    shifts: &mut Vec<Lanes4>,
+    cells: &Cells,
+    lattice: &Lattice,
+    bodies: &[Obstacle],
+) {
+    shifts.clear();
     for p in 0..tile.points.len() {
         let base = tile.points.base[p];
         let (node, d) = (tile.node_of(base), tile.points.place[p]);
@@ -95,6 +102,6 @@ fn displace(tile: &mut Tile, cells: &Cells, lattice: &Lattice, bodies: &[Obstacl
         if blocked {
             shift = Lanes4::ZERO;
         }
-        tile.points.shift[p] = shift;
+        shifts.push(shift);
     }
 }

@@ -6,7 +6,12 @@ use super::tiles::Tile;
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{EDGE, HALO, window};
 use crate::real::{Real, exp_m1};
+use crate::runs::{reorder, run_end, run_order};
+use crate::shape::Gimp;
 use crate::simd::Kernel;
+use crate::window::{
+    BATCH, NOTHING, Sides, add, differences, gather, nodal, of_point, offsets, spread,
+};
 
 /// A material point on its way to another tile.
 #[derive(Clone, Copy, Debug)]
@@ -60,6 +65,17 @@ impl Points {
         }
     }
 
+    /// Brings the points of each node together where moves have scattered them.
+    pub(super) fn gather_runs(&mut self) {
+        if let Some(order) = run_order(&self.window) {
+            reorder(&mut self.id, &order);
+            reorder(&mut self.window, &order);
+            reorder(&mut self.place, &order);
+            reorder(&mut self.motion, &order);
+            reorder(&mut self.stress, &order);
+        }
+    }
+
     /// The nearest node of point `p`, from the lowest of the tile.
     pub(super) fn node(&self, p: usize) -> [i32; 3] {
         let w = usize::from(self.window[p]);
@@ -89,25 +105,6 @@ fn first(node: [i32; 3]) -> u16 {
     ((node[2] * HALO as i32 + node[1]) * HALO as i32 + node[0]) as u16
 }
 
-/// Weights S and slopes S' (per cell) of a point at offset `d` from its nearest node on the nodes -1,
-/// 0, +1 of each axis: the hat averaged over the point's box of half a cell.
-#[inline(always)]
-fn gimp(d: Lanes4) -> ([Lanes4; 3], [Lanes4; 3]) {
-    let (mut w, mut g) = ([Lanes4::ZERO; 3], [Lanes4::ZERO; 3]);
-    for a in 0..4 {
-        // Part of the box beyond the node, at most all of it.
-        let s = (d.0[a] + 0.25).clamp(0.0, 0.5);
-        let t = 0.5 - s;
-        w[0].0[a] = t * t + (-d.0[a] - 0.25).max(0.0);
-        w[2].0[a] = s * s + (d.0[a] - 0.25).max(0.0);
-        w[1].0[a] = 1.0 - w[0].0[a] - w[2].0[a];
-        g[0].0[a] = -2.0 * t;
-        g[2].0[a] = 2.0 * s;
-        g[1].0[a] = -(g[0].0[a] + g[2].0[a]);
-    }
-    (w, g)
-}
-
 /// Step 2: mass m S, momentum m v S, impulse of the stress -dt V sigma grad S and volume V S of the
 /// points, summed at the nodes of a tile's halo.
 pub(super) struct PointsToNodes<'a> {
@@ -124,35 +121,34 @@ impl Kernel for PointsToNodes<'_> {
         let n = points.id.len();
         let (places, motions) = (&points.place[..n], &points.motion[..n]);
         let (stresses, windows) = (&points.stress[..n], &points.window[..n]);
-        for p in 0..n {
-            let (w, g) = gimp(places[p]);
-            let ([.., mass], [vx, vy, vz, j]) = (places[p].0, motions[p].0);
-            let [xx, yy, zz, xy, xz, yz, ..] = stresses[p].0;
-            let volume = mass * (1.0 + j);
-            let k = -self.dt_over_cell * volume;
-            let sums = [mass, mass * vx, mass * vy, mass * vz, 0.0, 0.0, 0.0, volume];
-            let stress_x = Lanes8([0.0, 0.0, 0.0, 0.0, k * xx, k * xy, k * xz, 0.0]);
-            let stress_y = Lanes8([0.0, 0.0, 0.0, 0.0, k * xy, k * yy, k * yz, 0.0]);
-            let stress_z = Lanes8([0.0, 0.0, 0.0, 0.0, k * xz, k * yz, k * zz, 0.0]);
-            let first = usize::from(windows[p]);
-            let nodes = &mut halo[first..first + window(3)];
-            // The weight of a node is a product over the axes: z, then y, then x.
-            for layer in 0..3 {
-                let (wz, gz) = (w[layer].0[2], g[layer].0[2]);
-                let sums = Lanes8(sums).scaled(wz).add_scaled::<FMA>(gz, stress_z);
-                let (stress_y, stress_x) = (stress_y.scaled(wz), stress_x.scaled(wz));
-                for row in 0..3 {
-                    let (wy, gy) = (w[row].0[1], g[row].0[1]);
-                    let sums = sums.scaled(wy).add_scaled::<FMA>(gy, stress_y);
-                    let stress_x = stress_x.scaled(wy);
-                    let at = layer * HALO * HALO + row * HALO;
-                    for i in 0..3 {
-                        nodes[at + i] = nodes[at + i]
-                            .add_scaled::<FMA>(w[i].0[0], sums)
-                            .add_scaled::<FMA>(g[i].0[0], stress_x);
-                    }
+        let mut start = 0;
+        while start < n {
+            // All points of a node, by up to eight.
+            let (end, mut sums) = (run_end(windows, start), NOTHING);
+            while start < end {
+                let batch = start..end.min(start + BATCH);
+                let d = offsets::<FMA>(&places[batch.clone()]);
+                let sides = Sides::new::<Gimp, 3, FMA>(&d);
+                for (i, p) in batch.enumerate() {
+                    let ([.., mass], [vx, vy, vz, j]) = (places[p].0, motions[p].0);
+                    let volume = mass * (1.0 + j);
+                    let stress = stresses[p].scaled::<FMA>(-self.dt_over_cell * volume);
+                    let [xx, yy, zz, xy, xz, yz, ..] = stress.0;
+                    let [px, py, pz] = [mass * vx, mass * vy, mass * vz];
+                    let x = Lanes8([px, py, pz, mass, 0.0, 0.0, 0.0, volume]);
+                    let stress = [
+                        Lanes8([0.0, 0.0, 0.0, 0.0, xx, xy, xz, 0.0]),
+                        Lanes8([0.0, 0.0, 0.0, 0.0, xy, yy, yz, 0.0]),
+                        Lanes8([0.0, 0.0, 0.0, 0.0, xz, yz, zz, 0.0]),
+                    ];
+                    let (w, g) = (of_point(&sides.w, i), of_point(&sides.g, i));
+                    spread::<3, FMA>(&mut sums, (&w, &g), x, stress);
                 }
+                start = end.min(start + BATCH);
             }
+            nodal::<3, FMA>(&mut sums);
+            let first = usize::from(windows[end - 1]);
+            add::<3, FMA>(&mut halo[first..first + window(3)], &sums);
         }
     }
 }
@@ -174,52 +170,26 @@ impl Kernel for NodesToPoints<'_> {
         let (places, windows) = (&points.place[..n], &points.window[..n]);
         let (motion, shift) = (&mut points.motion[..n], &mut points.shift[..n]);
         let gradient = &mut points.gradient[..n];
-        for p in 0..n {
-            let first = usize::from(windows[p]);
-            let (value, slope) = gather::<FMA>(&halo[first..first + window(3)], places[p]);
-            gradient[p] = slope.map(low);
-            // Over the sum of the weights as it was rounded.
-            let plus = low(value).scaled(1.0 / value.0[3]);
-            let [.., x, y, z, zero] = value.0;
-            let change = Lanes4([x, y, z, zero]);
-            motion[p] = motion[p].add_scaled::<false>(1.0, change);
-            let travel = plus.add_scaled::<false>(-0.5, change);
-            shift[p] = travel.scaled(self.dt_over_cell);
-        }
-    }
-}
-
-/// Lanes 0 to 3.
-#[inline(always)]
-fn low(x: Lanes8) -> Lanes4 {
-    Lanes4([x.0[0], x.0[1], x.0[2], x.0[3]])
-}
-
-/// Nodal velocities at a point, and their derivatives along x, y, z (per cell).
-#[inline(always)]
-fn gather<const FMA: bool>(nodes: &[Lanes8], place: Lanes4) -> (Lanes8, [Lanes8; 3]) {
-    let (w, g) = gimp(place);
-    let (mut value, mut slope) = (Lanes8::ZERO, [Lanes8::ZERO; 3]);
-    for layer in 0..3 {
-        let (mut plane, mut plane_x, mut plane_y) = (Lanes8::ZERO, Lanes8::ZERO, Lanes8::ZERO);
-        for row in 0..3 {
-            let at = layer * HALO * HALO + row * HALO;
-            let (mut line, mut line_x) = (Lanes8::ZERO, Lanes8::ZERO);
-            for i in 0..3 {
-                line = line.add_scaled::<FMA>(w[i].0[0], nodes[at + i]);
-                line_x = line_x.add_scaled::<FMA>(g[i].0[0], nodes[at + i]);
+        let mut start = 0;
+        while start < n {
+            let (first, end) = (usize::from(windows[start]), run_end(windows, start));
+            let field = differences::<3, FMA>(&halo[first..first + window(3)]);
+            while start < end {
+                let batch = start..end.min(start + BATCH);
+                let d = offsets::<FMA>(&places[batch.clone()]);
+                let sides = Sides::new::<Gimp, 3, FMA>(&d);
+                for (i, p) in batch.enumerate() {
+                    let (value, slope) = gather::<3, FMA>(&field, &sides, i);
+                    let (after, change) = (value.low(), value.high());
+                    gradient[p] = slope;
+                    motion[p] = motion[p].add_scaled::<FMA>(1.0, change);
+                    let travel = after.add_scaled::<FMA>(-0.5, change);
+                    shift[p] = travel.scaled::<FMA>(self.dt_over_cell);
+                }
+                start = end.min(start + BATCH);
             }
-            plane = plane.add_scaled::<FMA>(w[row].0[1], line);
-            plane_x = plane_x.add_scaled::<FMA>(w[row].0[1], line_x);
-            plane_y = plane_y.add_scaled::<FMA>(g[row].0[1], line);
         }
-        let (wz, gz) = (w[layer].0[2], g[layer].0[2]);
-        value = value.add_scaled::<FMA>(wz, plane);
-        slope[0] = slope[0].add_scaled::<FMA>(wz, plane_x);
-        slope[1] = slope[1].add_scaled::<FMA>(wz, plane_y);
-        slope[2] = slope[2].add_scaled::<FMA>(gz, plane);
     }
-    (value, slope)
 }
 
 /// The liquid's law (paper Eqs. 1 and 2), its constants over the density.

@@ -101,7 +101,7 @@ impl Tiles {
             if !points.id.is_empty() {
                 each_row(d, |nodes, entries| {
                     for (sum, more) in sums[nodes].iter_mut().zip(&halo[entries]) {
-                        *sum = sum.add_scaled::<false>(1.0, *more);
+                        *sum = sum.plus::<false>(*more);
                     }
                 });
             }

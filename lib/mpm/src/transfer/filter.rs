@@ -2,19 +2,26 @@
 
 use std::marker::PhantomData;
 
-use crate::fields::node;
 use crate::fields::point::VOLUME;
-use crate::lanes::Lanes4;
+use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{HALO, layers, window};
+use crate::runs::run_end;
 use crate::shape::Shape;
 use crate::simd::Kernel;
 use crate::tiles::Tile;
+use crate::window::{
+    BATCH, NOTHING, Pairs, Sides, Window, differences, gather_value, nodal, offsets, spread_value,
+};
 
-/// One application of S+ S before division by the nodal mass: gathers `tile.filter_in` to the
-/// points and sums it, weighted by mass, into `tile.filter_out`.
+/// One application of S+ S before division by the nodal mass: gathers `field` to the
+/// points and sums it, weighted by mass, into `tile.filtered`. Two points at a time, one in the lower
+/// and one in the upper four lanes.
 pub(crate) struct Filter<'a, S, const D: usize> {
     pub(crate) tile: &'a mut Tile,
-    /// Keep the gathered value, which is S w1 in the first round.
+    /// Nodal values, each twice.
+    pub(crate) field: &'a [Lanes8],
+    /// Keep the gathered value, which is S w1 in the first round, in place of the points' stress: the nodes
+    /// have that already, and it is new after nodes to points.
     pub(crate) keep: bool,
     pub(crate) shape: PhantomData<S>,
 }
@@ -23,59 +30,68 @@ impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Tile {
-            points,
-            filter_in,
-            filter_out,
-            ..
+            points, filtered, ..
         } = self.tile;
-        filter_out.fill(Lanes4::ZERO);
+        filtered.fill(Lanes4::ZERO);
         let n = points.len();
-        let (place, bases, shift) = (
-            &points.place[..n],
-            &points.base[..n],
-            &mut points.shift[..n],
-        );
-        for p in 0..n {
-            let base = usize::from(bases[p]);
-            let weights = S::weights(place[p]);
-            let (w, nodes) = (&weights.w, &filter_in[base..base + window(D)]);
-            let mut value = Lanes4::ZERO;
-            for layer in 0..layers(D) {
-                let mut plane = Lanes4::ZERO;
-                for row in 0..3 {
-                    let at = layer * HALO * HALO + row * HALO;
-                    let line = nodes[at]
-                        .scaled(w[0].0[0])
-                        .add_scaled::<FMA>(w[1].0[0], nodes[at + 1])
-                        .add_scaled::<FMA>(w[2].0[0], nodes[at + 2]);
-                    plane = plane.add_scaled::<FMA>(w[row].0[1], line);
-                }
-                value = if D == 3 {
-                    value.add_scaled::<FMA>(w[layer].0[2], plane)
-                } else {
-                    plane
-                };
-            }
-            // Every node has 1 there: the sum of the weights as it was rounded.
-            let value = value.scaled(1.0 / value.0[node::ONE]);
-            if self.keep {
-                shift[p] = value;
-            }
-            let momentum = value.scaled(place[p].0[VOLUME]);
-            let nodes = &mut filter_out[base..base + window(D)];
-            for layer in 0..layers(D) {
-                let plane = if D == 3 {
-                    momentum.scaled(w[layer].0[2])
-                } else {
-                    momentum
-                };
-                for row in 0..3 {
-                    let line = plane.scaled(w[row].0[1]);
-                    let at = layer * HALO * HALO + row * HALO;
-                    for i in 0..3 {
-                        nodes[at + i] = nodes[at + i].add_scaled::<FMA>(w[i].0[0], line);
+        let (place, bases) = (&points.place[..n], &points.base[..n]);
+        let stress = &mut points.stress[..n];
+        let mut start = 0;
+        while start < n {
+            let (base, end) = (usize::from(bases[start]), run_end(bases, start));
+            let field = differences::<D, FMA>(&self.field[base..base + window(D)]);
+            let mut sums = NOTHING;
+            while start < end {
+                let places = &place[start..end.min(start + BATCH)];
+                let sides = Sides::new::<S, D, FMA>(&offsets::<FMA>(places));
+                for p in (0..places.len()).step_by(2) {
+                    let pair = pair(&sides.w, p);
+                    let value = gather_value::<D, FMA>(&field, &pair);
+                    // The last of an odd number goes with one of no mass.
+                    let (a, mut b) = (places[p].0[VOLUME], 0.0);
+                    if p + 1 < places.len() {
+                        b = places[p + 1].0[VOLUME];
+                        if self.keep {
+                            stress[start + p + 1] = Lanes8::of(value.high(), Lanes4::ZERO);
+                        }
                     }
+                    if self.keep {
+                        stress[start + p] = Lanes8::of(value.low(), Lanes4::ZERO);
+                    }
+                    let momentum = value.times::<FMA>(Lanes8([a, a, a, a, b, b, b, b]));
+                    spread_value::<D, FMA>(&mut sums, &pair, momentum);
                 }
+                start += places.len();
+            }
+            nodal::<D, FMA>(&mut sums);
+            add_both::<D, FMA>(&mut filtered[base..base + window(D)], &sums);
+        }
+    }
+}
+
+/// The values of points `p` and `p + 1`, each in four lanes.
+#[inline(always)]
+fn pair(x: &Pairs, p: usize) -> Pairs {
+    let mut r = [[Lanes8::ZERO; 2]; 3];
+    for a in 0..3 {
+        for side in 0..2 {
+            let (l, h) = (x[a][side].0[p], x[a][side].0[p + 1]);
+            r[a][side] = Lanes8([l, l, l, l, h, h, h, h]);
+        }
+    }
+    r
+}
+
+/// Adds the sums of both points.
+#[inline(always)]
+fn add_both<const D: usize, const FMA: bool>(nodes: &mut [Lanes4], sums: &Window) {
+    for k in 0..layers(D) {
+        for j in 0..3 {
+            let at = (k * HALO + j) * HALO;
+            for i in 0..3 {
+                let sum = sums[k][j][i];
+                let both = sum.low().plus::<FMA>(sum.high());
+                nodes[at + i] = nodes[at + i].plus::<FMA>(both);
             }
         }
     }

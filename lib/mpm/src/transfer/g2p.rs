@@ -2,19 +2,22 @@
 
 use std::marker::PhantomData;
 
-use crate::fields::node;
+use crate::fields::point::J;
 use crate::lanes::{Lanes4, Lanes8};
-use crate::lattice::{HALO, layers, window};
+use crate::lattice::window;
 use crate::real::Real;
-use crate::shape::{Shape, Weights};
+use crate::runs::run_end;
+use crate::shape::Shape;
 use crate::simd::Kernel;
-use crate::tiles::Tile;
+use crate::tiles::{Scratch, Tile};
+use crate::window::{BATCH, Sides, differences, gather, offsets};
 
 /// Nodes to points: new velocity, velocity gradient and displacement.
 ///
-/// `tile.local` holds the nodal velocities of [`node`].
+/// The scratch holds the nodal velocities of [`node`](crate::fields::node).
 pub(crate) struct G2p<'a, S, U, const D: usize> {
     pub(crate) tile: &'a mut Tile,
+    pub(crate) scratch: &'a mut Scratch,
     /// dt over cell, s/m.
     pub(crate) dt_over_cell: Real,
     pub(crate) of: PhantomData<(S, U)>,
@@ -24,13 +27,15 @@ pub(crate) struct G2p<'a, S, U, const D: usize> {
 pub(crate) trait Update {
     /// Points carry an affine field.
     const AFFINE: bool = false;
-    /// The second half of a nodal value is a velocity and not an increment.
-    const WHOLE: bool = true;
 
     /// New velocity of a point and the velocity of its displacement from its own (`old`), S v+
-    /// (`plus`), S of the second half (`second`) and S w_1 (`drift`). In whole lanes: with three of
-    /// four in use the gathers behind them would be computed lane by lane.
-    fn apply(old: Lanes4, plus: Lanes4, second: Lanes4, drift: Lanes4) -> (Lanes4, Lanes4);
+    /// (`plus`), S of the second half (`second`) and S w_1 (`drift`).
+    fn apply<const FMA: bool>(
+        old: Lanes4,
+        plus: Lanes4,
+        second: Lanes4,
+        drift: Lanes4,
+    ) -> (Lanes4, Lanes4);
 }
 
 /// FLIP.
@@ -45,17 +50,21 @@ pub(crate) struct FilterBefore;
 pub(crate) struct FilterAfter;
 
 impl Update for Increment {
-    const WHOLE: bool = false;
     #[inline(always)]
-    fn apply(old: Lanes4, plus: Lanes4, second: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
-        let new = old.add_scaled::<false>(1.0, second);
-        (new, plus.add_scaled::<false>(-0.5, second))
+    fn apply<const FMA: bool>(
+        old: Lanes4,
+        plus: Lanes4,
+        second: Lanes4,
+        _: Lanes4,
+    ) -> (Lanes4, Lanes4) {
+        let new = old.add_scaled::<FMA>(1.0, second);
+        (new, plus.add_scaled::<FMA>(-0.5, second))
     }
 }
 
 impl Update for Replace {
     #[inline(always)]
-    fn apply(_: Lanes4, plus: Lanes4, _: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
+    fn apply<const FMA: bool>(_: Lanes4, plus: Lanes4, _: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
         (plus, plus)
     }
 }
@@ -63,138 +72,101 @@ impl Update for Replace {
 impl Update for Affine {
     const AFFINE: bool = true;
     #[inline(always)]
-    fn apply(_: Lanes4, plus: Lanes4, _: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
+    fn apply<const FMA: bool>(_: Lanes4, plus: Lanes4, _: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
         (plus, plus)
     }
 }
 
 impl Update for FilterBefore {
     #[inline(always)]
-    fn apply(old: Lanes4, _: Lanes4, second: Lanes4, drift: Lanes4) -> (Lanes4, Lanes4) {
-        let change = second.add_scaled::<false>(-1.0, old);
-        (second, drift.add_scaled::<false>(0.5, change))
+    fn apply<const FMA: bool>(
+        old: Lanes4,
+        _: Lanes4,
+        second: Lanes4,
+        drift: Lanes4,
+    ) -> (Lanes4, Lanes4) {
+        let change = second.add_scaled::<FMA>(-1.0, old);
+        (second, drift.add_scaled::<FMA>(0.5, change))
     }
 }
 
 impl Update for FilterAfter {
     #[inline(always)]
-    fn apply(_: Lanes4, plus: Lanes4, second: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
+    fn apply<const FMA: bool>(
+        _: Lanes4,
+        plus: Lanes4,
+        second: Lanes4,
+        _: Lanes4,
+    ) -> (Lanes4, Lanes4) {
         (second, plus)
     }
 }
 
-/// A nodal field and its gradient (per cell) at a point.
-struct Field {
-    value: Lanes8,
-    slope: [Lanes8; 3],
-}
-
+/// The weights, and in place of their slopes the first moments of the weights about the points over the
+/// moments of inertia: what gives the affine field of APIC.
 #[inline(always)]
-fn gather<const D: usize, const FMA: bool>(nodes: &[Lanes8], weights: &Weights) -> Field {
-    let mut value = Lanes8::ZERO;
-    let mut slope = [Lanes8::ZERO; 3];
-    for layer in 0..layers(D) {
-        let (mut plane, mut plane_x, mut plane_y) = (Lanes8::ZERO, Lanes8::ZERO, Lanes8::ZERO);
-        for row in 0..3 {
-            let at = layer * HALO * HALO + row * HALO;
-            let (mut line, mut line_x) = (Lanes8::ZERO, Lanes8::ZERO);
-            for i in 0..3 {
-                line = line.add_scaled::<FMA>(weights.w[i].0[0], nodes[at + i]);
-                line_x = line_x.add_scaled::<FMA>(weights.g[i].0[0], nodes[at + i]);
-            }
-            plane = plane.add_scaled::<FMA>(weights.w[row].0[1], line);
-            plane_x = plane_x.add_scaled::<FMA>(weights.w[row].0[1], line_x);
-            plane_y = plane_y.add_scaled::<FMA>(weights.g[row].0[1], line);
-        }
-        if D == 3 {
-            let (w, g) = (weights.w[layer].0[2], weights.g[layer].0[2]);
-            value = value.add_scaled::<FMA>(w, plane);
-            slope[0] = slope[0].add_scaled::<FMA>(w, plane_x);
-            slope[1] = slope[1].add_scaled::<FMA>(w, plane_y);
-            slope[2] = slope[2].add_scaled::<FMA>(g, plane);
-        } else {
-            (value, slope[0], slope[1]) = (plane, plane_x, plane_y);
+fn moments<const D: usize>(d: &[Lanes8; 3], sides: &Sides) -> Sides {
+    let mut g = sides.w;
+    for a in 0..D {
+        for p in 0..BATCH {
+            let (lower, upper) = (sides.w[a][0].0[p], sides.w[a][1].0[p]);
+            let arm = [-1.0 - d[a].0[p], -d[a].0[p], 1.0 - d[a].0[p]];
+            let w = [lower, 1.0 - lower - upper, upper];
+            let inertia: Real = (0..3).map(|i| w[i] * arm[i] * arm[i]).sum();
+            g[a][0].0[p] = lower * arm[0] / inertia;
+            g[a][1].0[p] = upper * arm[2] / inertia;
         }
     }
-    Field { value, slope }
-}
-
-/// First moments of the nodal velocity about the point over the moments of inertia of the
-/// weights: the affine field of APIC.
-#[inline(always)]
-fn affine<const D: usize, const FMA: bool>(
-    nodes: &[Lanes8],
-    weights: &Weights,
-    d: Lanes4,
-) -> Field {
-    let mut moments = Weights {
-        w: weights.w,
-        g: weights.g,
-    };
-    for a in 0..4 {
-        let arm = [-1.0 - d.0[a], -d.0[a], 1.0 - d.0[a]];
-        let inertia: Real = (0..3).map(|i| weights.w[i].0[a] * arm[i] * arm[i]).sum();
-        for i in 0..3 {
-            moments.g[i].0[a] = weights.w[i].0[a] * arm[i] / inertia;
-        }
-    }
-    gather::<D, FMA>(nodes, &moments)
+    Sides { w: sides.w, g }
 }
 
 impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        let Tile { points, local, .. } = self.tile;
+        let Tile { points, .. } = self.tile;
+        let Scratch {
+            field,
+            shift,
+            gradient,
+        } = self.scratch;
         let n = points.len();
         let (place, bases) = (&points.place[..n], &points.base[..n]);
         let motion = &mut points.motion[..n];
-        let (shift, gradient) = (&mut points.shift[..n], &mut points.gradient[..n]);
-        for p in 0..n {
-            let base = usize::from(bases[p]);
-            let weights = S::weights(place[p]);
-            let nodes = &local[base..base + window(D)];
-            let field = gather::<D, FMA>(nodes, &weights);
-            for (to, from) in gradient[p].iter_mut().zip(&field.slope) {
-                *to = after(from);
-            }
-            // Every node has 1 there: the sum of the weights as it was rounded. A
-            // velocity that is replaced each step would drift by that rounding.
-            let plus = after(&field.value).scaled(1.0 / field.value.0[node::ONE]);
-            if U::AFFINE {
-                let affine = affine::<D, FMA>(nodes, &weights, place[p]);
-                for (to, from) in points.affine[p].iter_mut().zip(&affine.slope) {
-                    // Beside it is the sum of the moments, zero but for rounding, which times the
-                    // velocity itself would be a gradient of liquid that moves as one.
-                    *to = after(from).add_scaled::<FMA>(-from.0[node::ONE], plus);
+        shift.resize(n, Lanes4::ZERO);
+        gradient.resize(n, [Lanes4::ZERO; 3]);
+        let (shift, gradient) = (&mut shift[..n], &mut gradient[..n]);
+        let stress = &points.stress[..n];
+        let mut start = 0;
+        while start < n {
+            let (base, end) = (usize::from(bases[start]), run_end(bases, start));
+            let nodes = &field[base..base + window(D)];
+            let window = differences::<D, FMA>(nodes);
+            while start < end {
+                let places = &place[start..end.min(start + BATCH)];
+                let d = offsets::<FMA>(places);
+                let sides = Sides::new::<S, D, FMA>(&d);
+                if U::AFFINE {
+                    let moments = moments::<D>(&d, &sides);
+                    for p in 0..places.len() {
+                        points.affine[start + p] = gather::<D, FMA>(&window, &moments, p).1;
+                    }
                 }
-            }
-            let second = if U::WHOLE {
-                second(&field.value).scaled(1.0 / field.value.0[node::SECOND_ONE])
-            } else {
-                second(&field.value)
-            };
-            let (old, drift) = (motion[p], shift[p]);
-            let (new, travel) = U::apply(old, plus, second, drift);
-            let travel = travel.scaled(self.dt_over_cell);
-            if U::WHOLE {
-                for a in 0..D {
-                    motion[p].0[a] = new.0[a];
-                    shift[p].0[a] = travel.0[a];
+                for p in 0..places.len() {
+                    let at = start + p;
+                    let (value, slope) = gather::<D, FMA>(&window, &sides, p);
+                    gradient[at] = slope;
+                    let (old, drift) = (motion[at], stress[at].low());
+                    let (new, travel) = U::apply::<FMA>(old, value.low(), value.high(), drift);
+                    let [x, y, z, _] = new.0;
+                    // Nothing moves along z in plane strain, not even where a body does.
+                    motion[at] = Lanes4([x, y, if D == 3 { z } else { old.0[2] }, old.0[J]]);
+                    shift[at] = travel.scaled::<FMA>(self.dt_over_cell);
+                    if D == 2 {
+                        shift[at].0[2] = 0.0;
+                    }
                 }
-            } else {
-                // The increment is zero beside the velocity, at j, and along z in plane strain.
-                (motion[p], shift[p]) = (new, travel);
+                start += places.len();
             }
         }
     }
-}
-
-#[inline(always)]
-fn after(x: &Lanes8) -> Lanes4 {
-    Lanes4(std::array::from_fn(|a| x.0[node::AFTER + a]))
-}
-
-#[inline(always)]
-fn second(x: &Lanes8) -> Lanes4 {
-    Lanes4(std::array::from_fn(|a| x.0[node::SECOND + a]))
 }

@@ -5,12 +5,13 @@ use std::marker::PhantomData;
 use super::filter::Filter;
 use super::g2p::{Affine, FilterAfter, FilterBefore, G2p, Increment, Replace, Update};
 use super::p2g::P2g;
+use crate::lanes::{Lanes4, Lanes8};
 use crate::material::{Constant, Flow, Segments, Stress};
 use crate::real::Real;
 use crate::settings::{Mode, ShapeFunction};
 use crate::shape::{Bspline2, Gimp, Linear, Shape};
 use crate::simd::{Kernel, dispatch};
-use crate::tiles::Tile;
+use crate::tiles::{Points, Scratch, Tile};
 
 /// The kernels of a run, chosen once, so that no scene pays for what it does not use.
 #[derive(Clone, Copy)]
@@ -18,9 +19,9 @@ pub(crate) struct Kernels {
     /// Points to nodes, with dt over cell.
     pub(crate) p2g: fn(&mut Tile, Real),
     /// Nodes to points, with dt over cell.
-    pub(crate) g2p: fn(&mut Tile, Real),
-    /// One round of the velocity filter; whether to keep the gathered value.
-    pub(crate) filter: fn(&mut Tile, bool),
+    pub(crate) g2p: fn(&mut Tile, &mut Scratch, Real),
+    /// One round of the velocity filter of a nodal field; whether to keep the gathered value.
+    pub(crate) filter: fn(&mut Tile, &[Lanes8], bool),
 }
 
 impl Kernels {
@@ -60,17 +61,23 @@ impl Kernels {
                     shape,
                 });
             },
-            g2p: |tile, dt_over_cell| {
+            g2p: |tile, scratch, dt_over_cell| {
                 let of = PhantomData;
                 dispatch(G2p::<S, U, D> {
                     tile,
+                    scratch,
                     dt_over_cell,
                     of,
                 });
             },
-            filter: |tile, keep| {
+            filter: |tile, field, keep| {
                 let shape = PhantomData::<S>;
-                dispatch(Filter::<S, D> { tile, keep, shape });
+                dispatch(Filter::<S, D> {
+                    tile,
+                    field,
+                    keep,
+                    shape,
+                });
             },
         }
     }
@@ -85,17 +92,26 @@ pub(crate) enum AnyFlow {
 }
 
 impl AnyFlow {
-    /// Volume change, shear rate and stress of a tile's points after a step of `dt`.
-    pub(crate) fn update(&self, tile: &mut Tile, stress: &Stress, dt: Real) {
+    /// Volume change, shear rate and stress of a tile's points after a step of `dt`, from the gradient of
+    /// velocity at each.
+    pub(crate) fn update(
+        &self,
+        points: &mut Points,
+        gradient: &[[Lanes4; 3]],
+        stress: &Stress,
+        dt: Real,
+    ) {
         match self {
             Self::Constant(flow) => dispatch(Refresh {
-                tile,
+                points,
+                gradient,
                 stress,
                 flow,
                 dt,
             }),
             Self::Segments(flow) => dispatch(Refresh {
-                tile,
+                points,
+                gradient,
                 stress,
                 flow,
                 dt,
@@ -105,7 +121,8 @@ impl AnyFlow {
 }
 
 struct Refresh<'a, F> {
-    tile: &'a mut Tile,
+    points: &'a mut Points,
+    gradient: &'a [[Lanes4; 3]],
     stress: &'a Stress,
     flow: &'a F,
     dt: Real,
@@ -115,6 +132,6 @@ impl<F: Flow> Kernel for Refresh<'_, F> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         self.stress
-            .update(&mut self.tile.points, self.flow, self.dt);
+            .update(self.points, self.gradient, self.flow, self.dt);
     }
 }

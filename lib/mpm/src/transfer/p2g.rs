@@ -3,13 +3,17 @@
 use std::marker::PhantomData;
 
 use crate::fields::point::{J, VOLUME};
-use crate::fields::{sum, wall_sum};
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{HALO, layers, window};
 use crate::real::Real;
-use crate::shape::{Shape, Weights};
+use crate::runs::run_end;
+use crate::shape::Shape;
 use crate::simd::Kernel;
-use crate::tiles::Tile;
+use crate::tiles::{Points, Tile};
+use crate::window::{
+    BATCH, NOTHING, Pairs, Sides, Window, add, nodal, of_point, of_points, offsets, spread,
+    spread_value,
+};
 
 /// Points to nodes: mass, momentum, internal impulse and volume into `tile.local`, and first
 /// moment of mass and volume gradient near bodies into `tile.wall_local`.
@@ -20,161 +24,201 @@ pub(crate) struct P2g<'a, S, const D: usize, const AFFINE: bool> {
     pub(crate) shape: PhantomData<S>,
 }
 
-/// Offsets of the window's nodes from the nearest one.
-const OFFSET: [Real; 3] = [-1.0, 0.0, 1.0];
-
-/// Lanes 0..4 weighted for momentum that varies linearly (APIC), 4..8 for stress.
-#[inline(always)]
-fn slope<const AFFINE: bool>(weights: &Weights, node: usize, axis: usize) -> Lanes8 {
-    let g = weights.g[node].0[axis];
-    if AFFINE {
-        let w = OFFSET[node] * weights.w[node].0[axis];
-        Lanes8([w, w, w, w, g, g, g, g])
-    } else {
-        Lanes8([g; 8])
-    }
-}
-
 impl<S: Shape, const D: usize, const AFFINE: bool> Kernel for P2g<'_, S, D, AFFINE> {
-    /// A loop of its own for tiles without a body in reach: the others' extra sums, never taken
-    /// there, would take registers from it.
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        if self.tile.bodies == 0 {
-            self.sum::<FMA, false>();
-        } else {
-            self.sum::<FMA, true>();
-        }
-    }
-}
-
-impl<S: Shape, const D: usize, const AFFINE: bool> P2g<'_, S, D, AFFINE> {
-    #[inline(always)]
-    fn sum<const FMA: bool, const WALLS: bool>(self) {
         let Tile {
             points,
             local,
             wall_local,
             near_wall,
+            bodies,
             ..
         } = self.tile;
         local.fill(Lanes8::ZERO);
-        if WALLS {
+        if *bodies != 0 {
             wall_local.fill(Lanes8::ZERO);
         }
-        let n = points.len();
-        let (place, motion) = (&points.place[..n], &points.motion[..n]);
-        let (stress, bases) = (&points.stress[..n], &points.base[..n]);
-        for p in 0..n {
-            let base = usize::from(bases[p]);
-            let (d, v) = (place[p], motion[p]);
-            let weights = S::weights(d);
-            let mass = d.0[VOLUME];
-            let volume = mass * (1.0 + v.0[J]);
-            let affine = if AFFINE {
-                Some(&points.affine[p])
-            } else {
-                None
+        let mut start = 0;
+        while start < points.len() {
+            let (base, end) = (
+                usize::from(points.base[start]),
+                run_end(&points.base, start),
+            );
+            let run = Run {
+                points,
+                start,
+                end,
+                dt_over_cell: self.dt_over_cell,
             };
-            let k = -self.dt_over_cell * volume;
-            let (q, flux) = carried::<D>(d, v, volume, stress[p].scaled(k), affine);
-            let nodes = &mut local[base..base + window(D)];
-            for layer in 0..layers(D) {
-                let (top, side, along) = if D == 3 {
-                    let wz = weights.w[layer].0[2];
-                    let gz = slope::<AFFINE>(&weights, layer, 2);
-                    (
-                        q.scaled(wz).add_product::<FMA>(gz, flux[2]),
-                        flux[1].scaled(wz),
-                        flux[0].scaled(wz),
-                    )
-                } else {
-                    (q, flux[1], flux[0])
-                };
-                for row in 0..3 {
-                    let wy = weights.w[row].0[1];
-                    let gy = slope::<AFFINE>(&weights, row, 1);
-                    let constant = top.scaled(wy).add_product::<FMA>(gy, side);
-                    let linear = along.scaled(wy);
-                    let at = layer * HALO * HALO + row * HALO;
-                    for i in 0..3 {
-                        nodes[at + i] = nodes[at + i]
-                            .add_scaled::<FMA>(weights.w[i].0[0], constant)
-                            .add_product::<FMA>(slope::<AFFINE>(&weights, i, 0), linear);
+            let reach = base..base + window(D);
+            if *bodies != 0 && near_wall[base] {
+                let parts = (
+                    &run.fluxes::<S, D, FMA, AFFINE, true>(),
+                    &run.values::<S, D, FMA, AFFINE>(),
+                );
+                add_near::<D, FMA>(&mut local[reach.clone()], &mut wall_local[reach], parts);
+            } else {
+                let sums = run.fluxes::<S, D, FMA, AFFINE, false>();
+                add::<D, FMA>(&mut local[reach], &sums);
+            }
+            start = end;
+        }
+    }
+}
+
+/// Points of one node, which share its window.
+struct Run<'a> {
+    points: &'a Points,
+    start: usize,
+    end: usize,
+    dt_over_cell: Real,
+}
+
+impl Run<'_> {
+    /// Sums at the nodes of [`sum`](crate::fields::sum). With `NEAR` only its impulse and volume, and in the
+    /// upper four lanes the gradient of volume: the rest is in [`Run::values`].
+    #[inline(always)]
+    fn fluxes<S: Shape, const D: usize, const FMA: bool, const AFFINE: bool, const NEAR: bool>(
+        &self,
+    ) -> Window {
+        let mut sums = NOTHING;
+        let mut start = self.start;
+        while start < self.end {
+            let places = &self.points.place[start..self.end.min(start + BATCH)];
+            let d = offsets::<FMA>(places);
+            let sides = Sides::new::<S, D, FMA>(&d);
+            let arms = if AFFINE { arms(&d, &sides) } else { sides.g };
+            let motion = &self.points.motion[start..start + places.len()];
+            let stress = &self.points.stress[start..start + places.len()];
+            for p in 0..places.len() {
+                let (mass, volume) = amount(&places[p], &motion[p]);
+                let mut s = stress[p].scaled::<FMA>(-self.dt_over_cell * volume);
+                (s.0[6], s.0[7]) = (volume, 0.0);
+                let bulk = Lanes4([0.0, 0.0, 0.0, volume]);
+                let w = of_point(&sides.w, p);
+                if NEAR {
+                    let flux = [
+                        s.pick::<FMA>([0, 3, 4, 7, 6, 7, 7, 7]),
+                        s.pick::<FMA>([3, 1, 5, 7, 7, 6, 7, 7]),
+                        s.pick::<FMA>([4, 5, 2, 7, 7, 7, 6, 7]),
+                    ];
+                    let g = of_point(&sides.g, p);
+                    let x = Lanes8::of(bulk, Lanes4::ZERO);
+                    spread::<D, FMA>(&mut sums, (&w, &g), x, flux);
+                    continue;
+                }
+                let mut flux = [
+                    s.pick::<FMA>([7, 7, 7, 7, 0, 3, 4, 7]),
+                    s.pick::<FMA>([7, 7, 7, 7, 3, 1, 5, 7]),
+                    s.pick::<FMA>([7, 7, 7, 7, 4, 5, 2, 7]),
+                ];
+                let mut g = of_point(&sides.g, p);
+                if AFFINE {
+                    let affine = &self.points.affine[start + p];
+                    for a in 0..3 {
+                        flux[a] = Lanes8::of(carried::<FMA>(&affine[a], mass), flux[a].high());
                     }
+                    g = of_points(&arms, &sides.g, p);
+                }
+                let x = Lanes8::of(momentum::<FMA>(&motion[p], mass), bulk);
+                spread::<D, FMA>(&mut sums, (&w, &g), x, flux);
+            }
+            start += places.len();
+        }
+        nodal::<D, FMA>(&mut sums);
+        sums
+    }
+
+    /// Near bodies, at the nodes: momentum and mass, and the first moment of mass about the nearest node.
+    #[inline(always)]
+    fn values<S: Shape, const D: usize, const FMA: bool, const AFFINE: bool>(&self) -> Window {
+        let mut sums = NOTHING;
+        let mut start = self.start;
+        while start < self.end {
+            let places = &self.points.place[start..self.end.min(start + BATCH)];
+            let d = offsets::<FMA>(places);
+            let sides = Sides::new::<S, D, FMA>(&d);
+            let motion = &self.points.motion[start..start + places.len()];
+            for p in 0..places.len() {
+                let mass = places[p].0[VOLUME];
+                let moment = places[p].scaled::<FMA>(mass);
+                let x = Lanes8::of(momentum::<FMA>(&motion[p], mass), moment);
+                let w = of_point(&sides.w, p);
+                if AFFINE {
+                    let affine = &self.points.affine[start + p];
+                    let mut flux = [Lanes8::ZERO; 3];
+                    for a in 0..3 {
+                        flux[a] = Lanes8::of(carried::<FMA>(&affine[a], mass), Lanes4::ZERO);
+                    }
+                    let g = of_point(&arms(&d, &sides), p);
+                    spread::<D, FMA>(&mut sums, (&w, &g), x, flux);
+                } else {
+                    spread_value::<D, FMA>(&mut sums, &w, x);
                 }
             }
-            if WALLS && near_wall[base] {
-                let nodes = &mut wall_local[base..base + window(D)];
-                wall_sums::<D, FMA>(nodes, &weights, d, mass, volume);
-            }
+            start += places.len();
         }
+        nodal::<D, FMA>(&mut sums);
+        sums
     }
 }
 
-/// What a point gives to the nodes, as in [`sum`]: the part that goes with the weights, and along each
-/// axis the part that goes with their slopes. `impulse` is -dt volume/cell times its stress.
+/// Mass, and volume (cells).
 #[inline(always)]
-fn carried<const D: usize>(
-    d: Lanes4,
-    v: Lanes4,
-    volume: Real,
-    impulse: Lanes8,
-    affine: Option<&[Lanes4; 3]>,
-) -> (Lanes8, [Lanes8; 3]) {
-    let mass = d.0[VOLUME];
-    let [xx, yy, zz, xy, xz, yz, ..] = impulse.0;
-    let [px, py, pz] = [mass * v.0[0], mass * v.0[1], mass * v.0[2]];
-    let mut q = Lanes8([mass, px, py, pz, 0.0, 0.0, 0.0, volume]);
-    let mut flux = [
-        Lanes8([0.0, 0.0, 0.0, 0.0, xx, xy, xz, 0.0]),
-        Lanes8([0.0, 0.0, 0.0, 0.0, xy, yy, yz, 0.0]),
-        Lanes8([0.0, 0.0, 0.0, 0.0, xz, yz, zz, 0.0]),
-    ];
-    if let Some(affine) = affine {
-        for (a, f) in flux.iter_mut().enumerate().take(D) {
-            for l in 0..3 {
-                let c = mass * affine[a].0[l];
-                q.0[sum::MOMENTUM + l] -= c * d.0[a];
-                f.0[sum::MOMENTUM + l] = c;
-            }
-        }
-    }
-    (q, flux)
+fn amount(place: &Lanes4, motion: &Lanes4) -> (Real, Real) {
+    let mass = place.0[VOLUME];
+    (mass, mass * (1.0 + motion.0[J]))
 }
 
-/// Adds the sums of [`wall_sum`]: mass-weighted position relative to each node, volume gradient.
+/// Momentum, and mass beside it.
 #[inline(always)]
-fn wall_sums<const D: usize, const FMA: bool>(
+fn momentum<const FMA: bool>(motion: &Lanes4, mass: Real) -> Lanes4 {
+    let [x, y, z, _] = motion.0;
+    Lanes4([x, y, z, 1.0]).scaled::<FMA>(mass)
+}
+
+/// A derivative of the affine velocity times the mass, none of that beside it.
+#[inline(always)]
+fn carried<const FMA: bool>(affine: &Lanes4, mass: Real) -> Lanes4 {
+    let [x, y, z, _] = affine.0;
+    Lanes4([x, y, z, 0.0]).scaled::<FMA>(mass)
+}
+
+/// Weights times the way from the point to the lower and the upper node: what carries a velocity that
+/// varies linearly (APIC). Those of the three nodes add up to 0, as slopes do.
+#[inline(always)]
+fn arms(d: &[Lanes8; 3], sides: &Sides) -> Pairs {
+    let mut arms = sides.w;
+    for a in 0..3 {
+        for p in 0..BATCH {
+            arms[a][0].0[p] *= -1.0 - d[a].0[p];
+            arms[a][1].0[p] *= 1.0 - d[a].0[p];
+        }
+    }
+    arms
+}
+
+/// Adds the two parts of a run near bodies to the sums of [`sum`](crate::fields::sum) and
+/// [`wall_sum`](crate::fields::wall_sum).
+#[inline(always)]
+fn add_near<const D: usize, const FMA: bool>(
     nodes: &mut [Lanes8],
-    weights: &Weights,
-    d: Lanes4,
-    mass: Real,
-    volume: Real,
+    near: &mut [Lanes8],
+    (fluxes, values): (&Window, &Window),
 ) {
-    let scale = Lanes8([mass, mass, mass, volume, volume, volume, 0.0, 0.0]);
-    let lanes = |node: usize, axis: usize| {
-        let w = weights.w[node].0[axis];
-        let mut r = Lanes8([w; 8]);
-        r.0[wall_sum::MOMENT + axis] = w * (d.0[axis] - OFFSET[node]);
-        r.0[wall_sum::GRADIENT + axis] = weights.g[node].0[axis];
-        r
-    };
-    let x = [lanes(0, 0), lanes(1, 0), lanes(2, 0)];
-    for layer in 0..layers(D) {
-        let z = if D == 3 {
-            scale.times(lanes(layer, 2))
-        } else {
-            let mut flat = scale;
-            flat.0[wall_sum::MOMENT + 2] = 0.0;
-            flat.0[wall_sum::GRADIENT + 2] = 0.0;
-            flat
-        };
-        for row in 0..3 {
-            let zy = z.times(lanes(row, 1));
-            let at = layer * HALO * HALO + row * HALO;
-            for (i, x) in x.iter().enumerate() {
-                nodes[at + i] = nodes[at + i].add_product::<FMA>(*x, zy);
+    for k in 0..layers(D) {
+        for j in 0..3 {
+            let at = (k * HALO + j) * HALO;
+            for i in 0..3 {
+                let (flux, value) = (fluxes[k][j][i], values[k][j][i]);
+                let sum = Lanes8::of(value.low(), flux.low());
+                nodes[at + i] = nodes[at + i].plus::<FMA>(sum);
+                // From the nearest node to this one; there is no other along z in plane strain.
+                let deep = if D == 3 { k as Real - 1.0 } else { 0.0 };
+                let way = Lanes4([1.0 - i as Real, 1.0 - j as Real, -deep, 0.0]);
+                let moment = value.high().add_scaled::<FMA>(value.0[VOLUME], way);
+                near[at + i] = near[at + i].plus::<FMA>(Lanes8::of(moment, flux.high()));
             }
         }
     }

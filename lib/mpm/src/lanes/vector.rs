@@ -1,0 +1,134 @@
+//! Operations on whole vectors by the instructions of AVX2 and FMA. Left to itself the compiler takes vectors
+//! of several fields apart lane by lane and puts them together otherwise, at up to twice the cost.
+//!
+//! Called by kernels alone that `simd` runs after it has asked the processor for these instructions.
+
+#[cfg(all(target_arch = "x86_64", not(feature = "double")))]
+mod x86 {
+    #![allow(unsafe_code)]
+
+    use std::arch::x86_64::*;
+    use std::mem::transmute;
+
+    macro_rules! operations {
+        ($name:ident, $n:literal, $add:ident, $mul:ident, $fma:ident) => {
+            pub(in crate::lanes) mod $name {
+                use super::*;
+                type Array = [f32; $n];
+
+                /// `a b + c`.
+                #[inline(always)]
+                pub(in crate::lanes) fn fused(a: Array, b: Array, c: Array) -> Array {
+                    // SAFETY: `simd` has found FMA; array and vector are the same bits.
+                    unsafe { transmute($fma(transmute(a), transmute(b), transmute(c))) }
+                }
+                #[inline(always)]
+                pub(in crate::lanes) fn sum(a: Array, b: Array) -> Array {
+                    // SAFETY: `simd` has found AVX; array and vector are the same bits.
+                    unsafe { transmute($add(transmute(a), transmute(b))) }
+                }
+                #[inline(always)]
+                pub(in crate::lanes) fn product(a: Array, b: Array) -> Array {
+                    // SAFETY: as of `sum`.
+                    unsafe { transmute($mul(transmute(a), transmute(b))) }
+                }
+            }
+        };
+    }
+
+    operations!(eight, 8, _mm256_add_ps, _mm256_mul_ps, _mm256_fmadd_ps);
+    operations!(four, 4, _mm_add_ps, _mm_mul_ps, _mm_fmadd_ps);
+
+    /// `a - b`.
+    #[inline(always)]
+    pub(in crate::lanes) fn difference(a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        // SAFETY: `simd` has found AVX; arrays and vectors are the same bits.
+        unsafe { transmute(_mm256_sub_ps(transmute(a), transmute(b))) }
+    }
+
+    /// The lanes `from` of `x`.
+    #[inline(always)]
+    pub(in crate::lanes) fn pick(x: [f32; 8], from: [usize; 8]) -> [f32; 8] {
+        let mut index = [0_i32; 8];
+        for l in 0..8 {
+            index[l] = from[l] as i32;
+        }
+        // SAFETY: `simd` has found AVX2; the instruction takes the lowest three bits of an index.
+        unsafe { transmute(_mm256_permutevar8x32_ps(transmute(x), transmute(index))) }
+    }
+
+    /// Of vectors 0 and 4, 1 and 5, 2 and 6, 3 and 7, four lanes each: lane 0, 1, 2, 3 of all eight.
+    #[inline(always)]
+    pub(in crate::lanes) fn transposed(pairs: [[f32; 8]; 4]) -> [[f32; 8]; 4] {
+        // SAFETY: `simd` has found AVX; arrays and vectors are the same bits.
+        unsafe {
+            let [a, b, c, d]: [__m256; 4] = transmute(pairs);
+            let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
+            let (ab, cd) = (_mm256_castps_pd(ab), _mm256_castps_pd(cd));
+            let (ef, gh) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
+            let (ef, gh) = (_mm256_castps_pd(ef), _mm256_castps_pd(gh));
+            transmute([
+                _mm256_unpacklo_pd(ab, cd),
+                _mm256_unpackhi_pd(ab, cd),
+                _mm256_unpacklo_pd(ef, gh),
+                _mm256_unpackhi_pd(ef, gh),
+            ])
+        }
+    }
+}
+
+#[cfg(all(target_arch = "x86_64", not(feature = "double")))]
+pub(super) use x86::{difference, eight, four, pick, transposed};
+
+/// The same as loops: other processors, and double precision.
+#[cfg(not(all(target_arch = "x86_64", not(feature = "double"))))]
+mod plain {
+    use crate::real::Real;
+
+    macro_rules! operations {
+        ($name:ident, $n:literal) => {
+            pub(in crate::lanes) mod $name {
+                use crate::real::Real;
+                type Array = [Real; $n];
+
+                /// `a b + c`.
+                #[inline(always)]
+                pub(in crate::lanes) fn fused(a: Array, b: Array, c: Array) -> Array {
+                    std::array::from_fn(|l| a[l].mul_add(b[l], c[l]))
+                }
+                #[inline(always)]
+                pub(in crate::lanes) fn sum(a: Array, b: Array) -> Array {
+                    std::array::from_fn(|l| a[l] + b[l])
+                }
+                #[inline(always)]
+                pub(in crate::lanes) fn product(a: Array, b: Array) -> Array {
+                    std::array::from_fn(|l| a[l] * b[l])
+                }
+            }
+        };
+    }
+
+    operations!(eight, 8);
+    operations!(four, 4);
+
+    /// `a - b`.
+    #[inline(always)]
+    pub(in crate::lanes) fn difference(a: [Real; 8], b: [Real; 8]) -> [Real; 8] {
+        std::array::from_fn(|l| a[l] - b[l])
+    }
+
+    /// The lanes `from` of `x`.
+    #[inline(always)]
+    pub(in crate::lanes) fn pick(x: [Real; 8], from: [usize; 8]) -> [Real; 8] {
+        from.map(|l| x[l])
+    }
+
+    /// Of vectors 0 and 4, 1 and 5, 2 and 6, 3 and 7, four lanes each: lane 0, 1, 2, 3 of all eight.
+    #[inline(always)]
+    pub(in crate::lanes) fn transposed(pairs: [[Real; 8]; 4]) -> [[Real; 8]; 4] {
+        std::array::from_fn(|l| std::array::from_fn(|p| pairs[p % 4][p / 4 * 4 + l]))
+    }
+}
+
+#[cfg(not(all(target_arch = "x86_64", not(feature = "double"))))]
+pub(super) use plain::{difference, eight, four, pick, transposed};
