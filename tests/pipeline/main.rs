@@ -13,6 +13,7 @@ mod apart;
 mod cell_error;
 mod conservation;
 mod examples;
+mod exported;
 mod forged;
 mod hostile;
 mod interruption;

@@ -1,5 +1,6 @@
 use particle_file::ParticleFile;
 use units::Axis as Direction;
+use voxels::LabelVolume;
 
 use crate::axes::{Axis, NORMAL, SMALL};
 use crate::closing::time_unit;
@@ -10,8 +11,8 @@ use crate::panels::{Panels, Room};
 use crate::raster::{Pixel, Raster};
 use crate::{Error, Labelled};
 
-/// Slices through states (specimens, bonds, snapshots of a run): wood grey, void white,
-/// adhesive in one colour or by its pressure.
+/// Slices through states (specimens, bonds, snapshots of a run), a pixel for each voxel of
+/// [`LabelVolume`]: wood grey, void white, adhesive in one colour or by its pressure.
 #[derive(Clone, Debug)]
 pub struct Slices {
     panels: Vec<Panel>,
@@ -144,8 +145,11 @@ fn scale_bar(width: f64) -> f64 {
 impl Panel {
     fn read(state: &Labelled, cut: Cut, colouring: Colouring) -> Result<Self, Error> {
         let file = ParticleFile::open(&state.path).map_err(|e| Error::Data(e.to_string()))?;
-        // The bodies may stand beyond the specimen's box before closing.
-        let [low, high] = file.header().bounds_m();
+        let data = |e: particle_file::Error| Error::Data(e.to_string());
+        let labels = LabelVolume::of(&file).map_err(data)?;
+        let low = labels.origin_m;
+        let high: [f64; 3] =
+            std::array::from_fn(|a| low[a] + labels.dims[a] as f64 * labels.voxel_m);
         let normal = cut.axis.index();
         let at = match cut.position {
             Position::At(at) => at,
@@ -161,10 +165,7 @@ impl Panel {
                 high[normal] * 1e6
             )));
         }
-        let mut raster = Raster::new(cut.axis, at, [low, high], file.header().voxel_m);
-        raster
-            .add(&file, colouring)
-            .map_err(|e| Error::Data(e.to_string()))?;
+        let raster = Raster::new(&file, &labels, cut.axis, at, colouring).map_err(data)?;
         let (unit, name) = time_unit(file.header().time_s);
         let time = match file.header().kind {
             particle_file::Kind::State => {

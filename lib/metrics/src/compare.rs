@@ -1,7 +1,7 @@
 use bondline::Placed;
 use particle_file::{BitGrid, BitsRef};
+use voxels::VolumeFractions;
 
-use crate::voxelise::Voxeliser;
 use crate::{Adhesive, Datum, Error, Map, Reference, Side, State, Wood};
 
 /// How well a state agrees with an experiment on the same wood.
@@ -144,15 +144,18 @@ impl<'a> Frame<'a> {
         let theirs = BitGrid::from_fn(self.reach, |x, y, z| {
             self.is_on(side, [x, y, z][self.n]) && self.adhesive.bits.get(x, y, z)
         });
-        let common = ours.iter().filter(|v| theirs.get(v[0], v[1], v[2])).count();
-        (common as u64, ours.len() as u64 + theirs.count())
+        let words = ours.words().iter().zip(theirs.words());
+        let common = words.map(|(a, b)| u64::from((a & b).count_ones())).sum();
+        (common, ours.count() + theirs.count())
     }
 
     /// The voxels that the state's adhesive on `side` fills, in the frame of the adherend.
-    fn voxels(&self, side: Side, wood: BitsRef) -> Vec<[usize; 3]> {
+    fn voxels(&self, side: Side, wood: BitsRef) -> BitGrid {
         let voxel = self.adhesive.voxel_m;
-        let mut fill = Voxeliser::new(self.reach);
-        let mut volume = 0.0;
+        let open = BitGrid::from_fn(self.reach, |x, y, z| {
+            self.is_on(side, [x, y, z][self.n]) && !wood.get(x, y, z)
+        });
+        let mut fractions = VolumeFractions::new(open);
         self.state.for_each_parcel(|mut point, v| {
             if self.datum.depth(point).0 != side {
                 return;
@@ -162,14 +165,10 @@ impl<'a> Frame<'a> {
             }
             let place = std::array::from_fn(|a| (point[a] - self.adhesive.origin_m[a]) / voxel);
             if self.is_on(side, place[self.n].max(0.0) as usize) {
-                let v = v / voxel.powi(3);
-                fill.add(place, v);
-                volume += v;
+                fractions.add(place, v / voxel.powi(3));
             }
         });
-        fill.fullest(volume.round() as usize, |[x, y, z]| {
-            self.is_on(side, [x, y, z][self.n]) && !wood.get(x, y, z)
-        })
+        fractions.fullest()
     }
 }
 

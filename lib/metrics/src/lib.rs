@@ -17,7 +17,6 @@ mod quantile;
 mod shear_rate;
 mod state;
 pub mod table;
-mod voxelise;
 
 pub use cell_error::{CellError, Extrapolated, LEAST_RATIO, cell_error, extrapolated};
 pub use compare::{Agreement, compare};

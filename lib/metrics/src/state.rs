@@ -114,7 +114,10 @@ impl<'a> State<'a> {
             .position(|b| b.material == Material::Adhesive)
         {
             Some(index) => Adhesive::Voxels(Placed::of_block(file.block(index)?)),
-            None => points(file)?,
+            None => {
+                let (position, volume) = file.liquid()?;
+                Adhesive::Points { position, volume }
+            }
         };
         let normal = Axis::from_index(header.normal.into())
             .ok_or_else(|| Error::Data("the bond normal is no axis".into()))?;
@@ -200,20 +203,4 @@ fn worth_its_columns(file: &ParticleFile) -> Result<(), Error> {
         columns.saturating_mul(ROW),
         "what is measured in each column",
     )?)
-}
-
-fn points(file: &ParticleFile) -> Result<Adhesive<'_>, Error> {
-    let position = file.vectors("position")?;
-    let volume = file.column::<f32>("volume")?;
-    let unfit = position
-        .iter()
-        .zip(volume)
-        .position(|(p, &v)| !(p.iter().all(|x| x.is_finite()) && v.is_finite() && v > 0.0));
-    match unfit {
-        None => Ok(Adhesive::Points { position, volume }),
-        Some(i) => Err(Error::Data(format!(
-            "material point {i} has position {:?} m and volume {} m3: finite numbers and a positive volume are needed",
-            position[i], volume[i]
-        ))),
-    }
 }

@@ -1,7 +1,9 @@
-//! Label stacks: images of a specimen in, sets of voxels out, and back to TIFF.
+//! Label stacks: images of a specimen in, sets of voxels out, states of a run as voxels, and back
+//! to TIFF.
 //!
 //! [`Stack`] opens TIFF in its many variants, folders of slices, `.npy` and `.mhd`;
-//! [`segment`] sorts its voxels into [`Phases`], page by page; [`TiffWriter`] writes labels.
+//! [`segment`] sorts its voxels into [`Phases`], page by page. [`LabelVolume`] is
+//! the other way: what a particle file holds, liquid by its volume, as labels; [`TiffWriter`] writes them.
 //! A stack is indexed (z = page, y = row, x = column), x fastest.
 
 mod coder;
@@ -9,6 +11,7 @@ mod crop;
 mod error;
 mod folder;
 mod label;
+mod label_volume;
 mod mhd;
 mod npy;
 mod phases;
@@ -19,15 +22,18 @@ mod source;
 mod stack;
 pub mod synthetic;
 mod tiff;
+mod volume_fractions;
 mod voxel_size;
 
 pub use crop::Crop;
 pub use error::Error;
 pub use label::Label;
+pub use label_volume::{ADHESIVE, LabelVolume, VOID, WOOD};
 pub use phases::{Grey, Labels, Phase, Phases};
 pub use sample::{PageFormat, Sample};
 pub use segment::{Segmented, segment};
 pub use source::Source;
 pub use stack::Stack;
 pub use tiff::TiffWriter;
+pub use volume_fractions::VolumeFractions;
 pub use voxel_size::{VoxelEdge, VoxelSize};

@@ -39,8 +39,8 @@ enum Command {
     /// Write the content as csv, npz, vtp, vti, pvd or labelled tiff
     ///
     /// csv and vtp hold the liquid points or, where a file has none, its adhesive voxels.
-    /// vti and tiff hold labels: void 0, wood 128, adhesive 255; a voxel with the position
-    /// of a liquid point in it is adhesive unless it is wood. npz holds everything. pvd is a
+    /// vti and tiff hold labels: void 0, wood 128, adhesive 255; as many voxels outside wood are
+    /// adhesive as the liquid's volume makes, the fullest first. npz holds everything. pvd is a
     /// series for ParaView, with the files it refers to in a folder beside it, where only
     /// files of an earlier series are replaced.
     Export(export::Arguments),

@@ -46,7 +46,7 @@ fn csv_has_a_line_per_point_with_units_in_the_names() {
         .collect();
     assert_eq!(rows.len(), 3);
     assert!((rows[1][1] - 4.75 * VOXEL).abs() < 1e-12, "{}", rows[1][1]);
-    assert_eq!((rows[1][3] as f32, rows[2][4]), (2e-18, 2.5e6));
+    assert_eq!((rows[1][3] as f32, rows[2][4]), (3.4e-18, 2.5e6));
     assert!(folder.path().join("a.csv.provenance.json").exists());
 }
 

@@ -1,7 +1,6 @@
 //! Particle files in other formats; one module per format.
 
 mod csv;
-mod labels;
 mod npz;
 mod points;
 mod series;
@@ -12,8 +11,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use cli::{Common, Failure, InputRecord, Output, Record};
 use particle_file::ParticleFile;
+use voxels::LabelVolume;
 
-use labels::Labels;
 use points::Points;
 
 #[derive(Args, Debug)]
@@ -81,17 +80,36 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             output.write_with_record(&record, |out| vtk::write_points(&points, time_s, out))
         }
         Format::Vti => {
-            let labels = Labels::of(file)?;
+            let labels = labels_of(file)?;
             let time_s = file.header().time_s;
             output.write_with_record(&record, |out| vtk::write_labels(&labels, time_s, out))
         }
         Format::Tiff => {
-            let labels = Labels::of(file)?;
+            let labels = labels_of(file)?;
             output.write_with_record(&record, |out| labels.write_tiff(out))
         }
         Format::Npz => npz::write(file, output, &record),
         Format::Pvd => series::write(&files, output, &record),
     }
+}
+
+/// The labels of everything in `file`; says where the liquid's volume is not that of its voxels.
+///
+/// # Errors
+/// Exit 3 when an array is damaged, there are neither blocks nor points, or the file is too
+/// small for as many labels.
+fn labels_of(file: &ParticleFile) -> Result<LabelVolume<'_>, Failure> {
+    let labels = LabelVolume::of(file).map_err(Failure::data)?;
+    let (worth, found) = labels.liquid_voxels();
+    let missing = worth - found as f64;
+    if missing > 0.005 * worth {
+        cli::warn(format!(
+            "{:.1} % of the liquid in '{}' has no voxel: its points lie outside the box, or are squeezed into less room than their volume",
+            100.0 * missing / worth,
+            file.name()
+        ));
+    }
+    Ok(labels)
 }
 
 /// The format asked for or else the one of the output's extension.

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use cli::{Failure, Output, Record, StagedFolder};
 use particle_file::ParticleFile;
+use voxels::LabelVolume;
 
-use super::labels::Labels;
 use super::points::Points;
 use super::vtk;
 
@@ -89,7 +89,7 @@ impl Parts {
                 Entry::Occupied(written) => written.get().clone(),
                 Entry::Vacant(new) => {
                     let name = format!("{number:04}-{}.vti", super::plain(&block.name));
-                    let labels = Labels::of_block(block, bits);
+                    let labels = LabelVolume::of_block(block, bits);
                     Output::File(self.folder.path(&name))
                         .write(|out| vtk::write_labels(&labels, time_s, out))?;
                     new.insert(name).clone()

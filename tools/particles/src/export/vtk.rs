@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
-use super::labels::Labels;
+use voxels::LabelVolume;
+
 use super::points::{Column, Points, Values};
 
 const POINTS: &str = "PolyData";
@@ -41,7 +42,7 @@ pub fn write_points(points: &Points, time_s: f64, out: &mut dyn Write) -> io::Re
 }
 
 /// Writes labels as ImageData, one cell per voxel.
-pub fn write_labels(labels: &Labels, time_s: f64, out: &mut dyn Write) -> io::Result<()> {
+pub fn write_labels(labels: &LabelVolume, time_s: f64, out: &mut dyn Write) -> io::Result<()> {
     let [nx, ny, nz] = labels.dims;
     let [x, y, z] = labels.origin_m;
     let edge = labels.voxel_m;

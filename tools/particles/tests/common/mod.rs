@@ -17,7 +17,8 @@ pub fn is_wood(x: usize, y: usize, z: usize) -> bool {
 }
 
 /// A state at `step` microseconds: the upper adherend comes down by a quarter voxel per step
-/// from two voxels above the lower one; three liquid points lie between them.
+/// from two voxels above the lower one; three liquid points of a
+/// voxel's volume each lie between them.
 pub fn state(folder: &Path, step: u64) -> PathBuf {
     let wood = BitGrid::from_fn(DIMS, is_wood);
     let mut header = Header::new(Kind::State, VOXEL, 1, [0.0; 3], [1.05e-4, 1.5e-5, 4.5e-6]);
@@ -32,7 +33,7 @@ pub fn state(folder: &Path, step: u64) -> PathBuf {
         .block(block("wood-bottom", 0.0), &wood)
         .block(block("wood-top", top), &wood)
         .column("position", 3, &position)
-        .column("volume", 1, &[1e-18_f32, 2e-18, 3e-18])
+        .column("volume", 1, &[3.3e-18_f32, 3.4e-18, 3.5e-18])
         .column("pressure", 1, &[0.0_f32, -1.5, 2.5e6])
         .write_to(&mut File::create(&path).unwrap())
         .unwrap();
