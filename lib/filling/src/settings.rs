@@ -13,7 +13,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            cfl: 0.5,
+            cfl: 1.0,
             tolerance: 1e-3,
         }
     }

@@ -9,12 +9,14 @@ use crate::explain::Forecast;
 use crate::request::RunFailure;
 use crate::resolve::Setup;
 
-/// Courant number where a case gives none.
-const DEFAULT_CFL: f64 = 0.5;
-
-/// The Courant number of a case.
+/// The Courant number of a case, or its scheme's own.
 pub(crate) fn cfl(case: &Case) -> f64 {
-    case.integrator.cfl.unwrap_or(DEFAULT_CFL)
+    case.integrator
+        .cfl
+        .unwrap_or_else(|| match case.integrator.scheme {
+            SchemeName::Explicit => mpm::Settings::default().cfl,
+            SchemeName::Implicit => filling::Settings::default().cfl,
+        })
 }
 
 /// The scheme at the start of its scene.

@@ -20,6 +20,8 @@ pub(crate) struct Particles {
     pub(crate) j: Vec<f32>,
     /// Index of each particle in the scene.
     pub(crate) id: Vec<u32>,
+    /// Positions at the start of a step while `position` holds others; else empty.
+    pub(crate) start: Vec<[f64; 3]>,
 }
 
 /// Where the particles of each cell of a window are: cell c holds `start[c]..start[c + 1]`.
@@ -122,6 +124,16 @@ impl Particles {
         self.take(&order);
     }
 
+    /// Puts the particles elsewhere, until [`Particles::go_back`].
+    pub(crate) fn visit(&mut self, elsewhere: Vec<[f64; 3]>) {
+        self.start = std::mem::replace(&mut self.position, elsewhere);
+    }
+
+    /// Puts the particles where they were before [`Particles::visit`].
+    pub(crate) fn go_back(&mut self) {
+        self.position = std::mem::take(&mut self.start);
+    }
+
     /// Removes the particles that `keep` refuses, and returns how many.
     pub(crate) fn retain(&mut self, keep: impl Fn([f64; 3]) -> bool + Sync) -> usize {
         let kept: Vec<u32> = (0..self.len() as u32)
@@ -142,6 +154,9 @@ impl Particles {
         permute(&mut self.volume, places);
         permute(&mut self.j, places);
         permute(&mut self.id, places);
+        if !self.start.is_empty() {
+            permute(&mut self.start, places);
+        }
     }
 }
 
@@ -175,6 +190,7 @@ pub(crate) mod tests {
             volume: vec![volume; n],
             j: vec![0.0; n],
             id: (0..n as u32).collect(),
+            start: Vec::new(),
         }
     }
 
@@ -208,6 +224,18 @@ pub(crate) mod tests {
         let once = particles.clone();
         particles.sort(&window, &mut bins);
         assert!(once == particles);
+        let shifted = once.position.iter().map(|x| x.map(|x| 3.0 - 0.4 * x));
+        particles.visit(shifted.collect());
+        particles.sort(&window, &mut bins);
+        particles.go_back();
+        let mut back = particles.clone();
+        back.sort(&window, &mut bins);
+        let by_id = |particles: &Particles| {
+            let mut list: Vec<_> = particles.id.iter().zip(&particles.position).collect();
+            list.sort_by_key(|(id, _)| **id);
+            list.into_iter().map(|(_, &x)| x).collect::<Vec<_>>()
+        };
+        assert!(by_id(&back) == by_id(&once), "not where they were");
         let removed = particles.retain(|x| x[0] < 3.5);
         assert_eq!(removed + particles.len(), 5000);
         assert!(particles.position.iter().all(|x| x[0] < 3.5));

@@ -19,7 +19,7 @@ use saddle_point::{SaddleOptions, SaddleSolver};
 use crate::geometry::{Lattice, Solids, Window};
 use crate::liquid::{Bins, Fractions};
 use crate::settings::Settings;
-use crate::transport::Field;
+use crate::transport::{Field, Path};
 use clock::{Clock, Part};
 use drive::Drive;
 use last::LastFlow;
@@ -107,7 +107,9 @@ impl Implicit {
             // 3. Liquid on the lattice.
             self.fill(&trial);
             // 4 to 6. Assembly, solve and forces, in passes where the viscosity varies.
-            let solution = self.solve(&trial)?;
+            let solution = self.solve(&trial);
+            self.state.particles.go_back();
+            let solution = solution?;
             last = self.fit(&trial, &solution, limit);
             match last {
                 Fit::Fast => continue,
@@ -145,13 +147,21 @@ impl Implicit {
         self.setup.rest.displaced(&moved)
     }
 
-    /// Stage 2: geometry with the bodies in the middle of their way.
+    /// Stage 2: geometry with the bodies, and the particles, in the middle of their way.
     fn place(&mut self, dt: f64) -> Trial {
         let bodies = self.state.drive.velocities();
         let solids = self.solids_after(&bodies, 0.5 * dt);
-        let (from, to) = self.state.particles.extent();
+        let path = Path {
+            before: &self.solids_after(&bodies, 0.0),
+            after: &solids,
+            scale: 0.5 * dt / self.setup.units.h,
+        };
+        let Workspace { clock, .. } = &mut self.workspace;
+        let particles = &mut self.state.particles;
+        let ahead = clock.time(Part::Advection, || path.ahead(particles));
+        particles.visit(ahead);
+        let (from, to) = particles.extent();
         let window = Window::around(self.setup.domain, from, to);
-        let clock = &mut self.workspace.clock;
         Trial {
             dt,
             bodies,

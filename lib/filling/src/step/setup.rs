@@ -189,6 +189,7 @@ fn contents(
             .collect(),
         j: vec![0.0; n],
         id: (0..n as u32).collect(),
+        start: Vec::new(),
     };
     Ok((solids, particles, closed))
 }

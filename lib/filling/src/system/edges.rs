@@ -104,7 +104,10 @@ impl Operator<'_> {
         let (si, sj) = (window.stride(i), window.stride(j));
         let (below, beside) = (at.checked_sub(sj)?, at.checked_sub(si)?);
         let faces = [(i, below), (i, at), (j, beside), (j, at)];
-        if faces.iter().all(|&(axis, face)| self.dofs.face[axis][face] == NONE) {
+        if faces
+            .iter()
+            .all(|&(axis, face)| self.dofs.face[axis][face] == NONE)
+        {
             return None;
         }
         let velocities = faces.map(|(axis, index)| self.velocity(axis, index));
@@ -146,9 +149,15 @@ impl Operator<'_> {
         let upper = window.index(cell);
         let lower = upper - window.stride(t);
         let all = self.lattice.all_parts();
-        let bits = |cell: usize, high: bool| (self.lattice.uniform[cell].open, all & half(axis, high));
+        let bits =
+            |cell: usize, high: bool| (self.lattice.uniform[cell].open, all & half(axis, high));
         let around = [upper, lower].map(|c| [bits(c, false), bits(c - window.stride(axis), true)]);
-        if shifts == [None; 2] && around.as_flattened().iter().all(|&(open, part)| open & part == part) {
+        if shifts == [None; 2]
+            && around
+                .as_flattened()
+                .iter()
+                .all(|&(open, part)| open & part == part)
+        {
             return (1.0, 1.0);
         }
         let other = 3 - axis - t;

@@ -88,6 +88,20 @@ impl Path<'_> {
         moved
     }
 
+    /// Where the particles get with the velocities they carry, off walls and in the domain; none goes
+    /// further than a cell along an axis.
+    pub(crate) fn ahead(&self, particles: &Particles) -> Vec<[f64; 3]> {
+        let sides = Sides::new(&self.after.domain);
+        (particles.position.par_iter().zip(&particles.velocity))
+            .map(|(&x, v)| {
+                let way = v.map(|v| (self.scale * f64::from(v)).clamp(-1.0, 1.0));
+                let end = sides.inside(std::array::from_fn(|a| x[a] + way[a]));
+                let end = self.before.deflect(self.after, x, end).point;
+                sides.wrapped(sides.inside(end))
+            })
+            .collect()
+    }
+
     #[inline]
     fn shifted(&self, x: [f64; 3], velocity: [f64; 3], part: f64) -> [f64; 3] {
         std::array::from_fn(|a| x[a] + part * self.scale * velocity[a])

@@ -216,7 +216,11 @@ impl Lattice {
             bit += (quadrant >> n & 1) << t;
         }
         let index = self.window.index(cell);
-        [(index - self.window.stride(axis), bit + (1 << axis)), (index, bit)].map(|(cell, bit)| {
+        [
+            (index - self.window.stride(axis), bit + (1 << axis)),
+            (index, bit),
+        ]
+        .map(|(cell, bit)| {
             let Uniform { open, solid } = self.uniform[cell];
             Uniform {
                 open: open >> bit & 1,

@@ -155,7 +155,12 @@ impl Row<'_> {
     /// `reach`; the run ends with the first voxel beyond it.
     #[inline]
     pub(super) fn ray(&self, up: bool, reach: f64) -> Option<(f64, f64)> {
-        let &Self { along, edge, len, bits } = self;
+        let &Self {
+            along,
+            edge,
+            len,
+            bits,
+        } = self;
         // Distances to the faces between the voxels, counted from 0 to `len`, by which the ray
         // enters them.
         if up {
@@ -252,7 +257,11 @@ mod tests {
             for axis in 0..3 {
                 for up in [false, true] {
                     let found = placed.row(from, axis).and_then(|row| row.ray(up, REACH));
-                    assert_eq!(found, walked(&placed, from, axis, up), "{from:?} {axis} {up}");
+                    assert_eq!(
+                        found,
+                        walked(&placed, from, axis, up),
+                        "{from:?} {axis} {up}"
+                    );
                     hits += usize::from(found.is_some());
                 }
             }
