@@ -135,13 +135,7 @@ impl Operator<'_> {
     /// eta/2 [w (D_j u_i + D_i u_j)^2 + (w_i - w)(D_j u_i)^2 + (w_j - w)(D_i u_j)^2] with w_i
     /// the part of the edge across which the two u_i see each other, w = min(w_i, w_j), each over
     /// the distances between the places of the velocities.
-    fn edge_terms(
-        &self,
-        edge: &Edge,
-        [i, j]: [usize; 2],
-        at: usize,
-        each: &mut impl FnMut(&Term),
-    ) {
+    fn edge_terms(&self, edge: &Edge, [i, j]: [usize; 2], at: usize, each: &mut impl FnMut(&Term)) {
         let window = &self.lattice.window;
         let (si, sj) = (window.stride(i), window.stride(j));
         let faces = [(i, at - sj), (i, at), (j, at - si), (j, at)];

@@ -18,7 +18,8 @@ pub(crate) struct Aperture {
 }
 
 impl Aperture {
-    const WHOLE: Self = Self {
+    /// A face that carries all of its area itself.
+    pub(crate) const WHOLE: Self = Self {
         open: 1.0,
         merged: 0.0,
         bodies: [(OPEN, 0.0); 4],
@@ -216,7 +217,11 @@ impl Lattice {
             bit += (quadrant >> n & 1) << t;
         }
         let index = self.window.index(cell);
-        [(index - self.window.stride(axis), bit + (1 << axis)), (index, bit)].map(|(cell, bit)| {
+        [
+            (index - self.window.stride(axis), bit + (1 << axis)),
+            (index, bit),
+        ]
+        .map(|(cell, bit)| {
             let Uniform { open, solid } = self.uniform[cell];
             Uniform {
                 open: open >> bit & 1,

@@ -61,7 +61,10 @@ mod tests {
             for index in 0..window.len() {
                 let first = window.first_sub(window.coordinates(index));
                 for bit in 0..window.sub_per_cell() {
-                    let sub = first + (0..3).map(|a| (bit >> a & 1) * window.sub_stride(a)).sum::<usize>();
+                    let sub = first
+                        + (0..3)
+                            .map(|a| (bit >> a & 1) * window.sub_stride(a))
+                            .sum::<usize>();
                     let Uniform { open: o, solid: s } = lattice.uniform[index];
                     assert_eq!(o >> bit & 1 == 1, lattice.open[sub] == 1.0);
                     assert_eq!(s >> bit & 1 == 1, lattice.open[sub] == 0.0);
@@ -69,7 +72,10 @@ mod tests {
                         assert_eq!(half(axis, true) >> bit & 1, (bit >> axis & 1) as u8);
                         assert_eq!(half(axis, false) >> bit & 1, 1 - (bit >> axis & 1) as u8);
                     }
-                    (open, solid) = (open + u32::from(o >> bit & 1), solid + u32::from(s >> bit & 1));
+                    (open, solid) = (
+                        open + u32::from(o >> bit & 1),
+                        solid + u32::from(s >> bit & 1),
+                    );
                 }
             }
             assert!(open > 0 && solid > 0);

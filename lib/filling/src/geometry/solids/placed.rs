@@ -55,18 +55,17 @@ impl Placed {
     }
 
     /// Range of voxels along `axis` that overlap `low..high`, or hold `low` when it is a point.
+    #[inline]
     fn range(&self, axis: usize, low: f64, high: f64) -> std::ops::Range<usize> {
         let n = self.rows.block.dims()[axis] as f64;
-        let a = ((low - self.origin[axis]) / self.edge[axis]).floor();
+        let voxels = |x: f64| (x - self.origin[axis]) / self.edge[axis];
         if high == low {
-            return if a >= 0.0 && a < n {
-                a as usize..a as usize + 1
-            } else {
-                0..0
+            return match voxels(low) {
+                a if a >= 0.0 && a < n => a as usize..a as usize + 1,
+                _ => 0..0,
             };
         }
-        let b = ((high - self.origin[axis]) / self.edge[axis]).ceil();
-        a.clamp(0.0, n) as usize..b.clamp(0.0, n) as usize
+        voxels(low).clamp(0.0, n) as usize..ceil(voxels(high).clamp(0.0, n))
     }
 
     fn length(&self, axis: usize, voxel: usize, low: f64, high: f64) -> f64 {
@@ -141,6 +140,13 @@ impl Placed {
     }
 }
 
+/// The least integer that is not below `x`, which is not negative.
+#[inline]
+fn ceil(x: f64) -> usize {
+    let whole = x as usize;
+    whole + usize::from((whole as f64) < x)
+}
+
 /// A row of voxels, and a point of the line through it from which rays start.
 pub(super) struct Row<'a> {
     bits: &'a [u64],
@@ -155,7 +161,12 @@ impl Row<'_> {
     /// `reach`; the run ends with the first voxel beyond it.
     #[inline]
     pub(super) fn ray(&self, up: bool, reach: f64) -> Option<(f64, f64)> {
-        let &Self { along, edge, len, bits } = self;
+        let &Self {
+            along,
+            edge,
+            len,
+            bits,
+        } = self;
         // Distances to the faces between the voxels, counted from 0 to `len`, by which the ray
         // enters them.
         if up {
@@ -252,7 +263,11 @@ mod tests {
             for axis in 0..3 {
                 for up in [false, true] {
                     let found = placed.row(from, axis).and_then(|row| row.ray(up, REACH));
-                    assert_eq!(found, walked(&placed, from, axis, up), "{from:?} {axis} {up}");
+                    assert_eq!(
+                        found,
+                        walked(&placed, from, axis, up),
+                        "{from:?} {axis} {up}"
+                    );
                     hits += usize::from(found.is_some());
                 }
             }

@@ -49,7 +49,11 @@ fn turn(block: &VoxelBlock, axis: usize) -> Vec<u64> {
                 for (n, bits) in square.iter_mut().enumerate() {
                     let at = word * 64 + n;
                     let (j, k) = if axis == 1 { (at, other) } else { (other, at) };
-                    *bits = if at < dims[axis] { block.row(j, k)[x] } else { 0 };
+                    *bits = if at < dims[axis] {
+                        block.row(j, k)[x]
+                    } else {
+                        0
+                    };
                 }
                 transpose(&mut square);
                 let first = other * dims[0] + 64 * x;
@@ -147,7 +151,10 @@ mod tests {
                     let up = (low..high).find(|&at| is(at, solid));
                     assert_eq!(next(row, low, high, solid), up.unwrap_or(high));
                     let down = (low..high).rfind(|&at| is(at, solid));
-                    assert_eq!(previous(row, high, low, solid), down.map_or(low, |at| at + 1));
+                    assert_eq!(
+                        previous(row, high, low, solid),
+                        down.map_or(low, |at| at + 1)
+                    );
                 }
             }
         }

@@ -139,7 +139,11 @@ impl Placed {
             voxel[axis] += step[axis];
             leave[axis] += (step[axis] as f64) / way[axis];
             let [i, j, k] = voxel;
-            if i >= 0 && j >= 0 && k >= 0 && self.rows.block.solid(i as usize, j as usize, k as usize) {
+            if i >= 0
+                && j >= 0
+                && k >= 0
+                && self.rows.block.solid(i as usize, j as usize, k as usize)
+            {
                 let up = step[axis] > 0;
                 let border = if up { voxel[axis] } else { voxel[axis] + 1 };
                 return Some(Entry {
