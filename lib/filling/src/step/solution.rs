@@ -111,7 +111,7 @@ impl Implicit {
             u: now.u,
             g: system.g,
             cells,
-            face_volume: operator.face_volume,
+            face_volume: system.face_volume,
             dofs: operator.dofs,
         })
     }

@@ -6,6 +6,7 @@ use saddle_point::{Csr, Load, SaddleSystem, SolveError};
 use super::Operator;
 use super::couplings::{self, Couplings};
 use super::edges::Edges;
+use super::fluxes::Areas;
 use super::terms::Velocity;
 
 /// Smallest liquid volume, in cells, that a face's mass counts with.
@@ -20,6 +21,8 @@ pub(crate) struct System {
     friction: Vec<f64>,
     two_eta: Vec<f64>,
     mass: Vec<f64>,
+    /// Liquid volume that moves with each face unknown, cells.
+    pub(crate) face_volume: Vec<f64>,
     couplings: Couplings,
     /// Right-hand sides with all bodies at rest.
     resting: [Vec<f64>; 2],
@@ -113,19 +116,14 @@ impl Operator<'_> {
         before: Before,
     ) -> Result<System, SolveError> {
         let n = self.dofs.faces.len();
+        let areas = Areas::new(self);
+        let face_volume = self.face_volumes(&areas);
+        let mass: Vec<f64> = face_volume.iter().map(|&v| self.mass(v)).collect();
         let edges = Edges::new(self);
-        let a = Csr::assemble(n, n, |face, entries| {
-            entries.add(face, self.mass(face));
-            self.terms::<false>(&edges, face, |term| {
-                let own = term.coefficient(face);
-                for &(velocity, c) in term.parts() {
-                    if let Velocity::Face(other) = velocity {
-                        entries.add(other as usize, term.weight * own * c);
-                    }
-                }
-            });
-        })?;
-        let flux = couplings::fluxes(self);
+        // Takes the most memory while its rows are joined, so nothing else is made before.
+        let a = self.velocity_block(&edges, &mass)?;
+        let flux = couplings::fluxes(self, &areas);
+        drop(areas);
         let g = Csr::assemble(self.dofs.cells.len(), n, |cell, entries| {
             for &(column, area) in flux.of(cell).iter().filter(|e| (e.0 as usize) < n) {
                 entries.add(column as usize, area);
@@ -133,19 +131,22 @@ impl Operator<'_> {
         })?;
         let c = self.compressibility(before.stiffness);
         let mut system = System {
-            friction: (0..n).map(|face| self.darcy(face)).collect(),
+            friction: (face_volume.iter().enumerate())
+                .map(|(face, &volume)| self.darcy(face, volume))
+                .collect(),
             two_eta: (self.dofs.cells.iter())
                 .map(|&cell| 2.0 * self.eta(cell as usize))
                 .collect(),
-            mass: (0..n).map(|face| self.mass(face)).collect(),
             couplings: Couplings::new(self, &edges, bodies.len(), &flux),
             resting: [
-                self.momentum(before.velocity),
+                self.momentum(&face_volume, &mass, before.velocity),
                 (c.iter().zip(before.pressure))
                     .map(|(c, p)| c * p)
                     .collect(),
             ],
             a,
+            mass,
+            face_volume,
             g,
             c,
             bodies: Vec::new(),
@@ -156,13 +157,28 @@ impl Operator<'_> {
         Ok(system)
     }
 
-    fn mass(&self, face: usize) -> f64 {
-        self.scales.inertia * self.face_volume[face].max(LEAST_MASS)
+    /// A: mass, viscosity and wall friction.
+    fn velocity_block(&self, edges: &Edges, mass: &[f64]) -> Result<Csr<f64>, SolveError> {
+        Csr::assemble(mass.len(), mass.len(), |face, entries| {
+            entries.add(face, mass[face]);
+            self.terms::<false>(edges, face, |term| {
+                let own = term.coefficient(face);
+                for &(velocity, c) in term.parts() {
+                    if let Velocity::Face(other) = velocity {
+                        entries.add(other as usize, term.weight * own * c);
+                    }
+                }
+            });
+        })
+    }
+
+    fn mass(&self, volume: f64) -> f64 {
+        self.scales.inertia * volume.max(LEAST_MASS)
     }
 
     /// D_B of the pressure preconditioner: V_f [rho h^2/(eta_0 dt) + 12 eta sum H^-2], with less
     /// friction where walls slip: slip by a length l multiplies the flux of a slit by 1 + 6 l/H.
-    fn darcy(&self, face: usize) -> f64 {
+    fn darcy(&self, face: usize, volume: f64) -> f64 {
         let (axis, index) = self.dofs.faces[face];
         let (axis, index) = (usize::from(axis), index as usize);
         let eta = self.mean_viscosity([index, index - self.lattice.window.stride(axis)]);
@@ -170,7 +186,7 @@ impl Operator<'_> {
             0.0 => 0.0,
             widths => widths / (1.0 + 6.0 * self.scales.influence_length * widths.sqrt()),
         };
-        self.face_volume[face].max(LEAST_MASS) * (self.scales.inertia + 12.0 * eta * widths)
+        volume.max(LEAST_MASS) * (self.scales.inertia + 12.0 * eta * widths)
     }
 
     fn compressibility(&self, stiffness: &[f64]) -> Vec<f64> {
@@ -183,11 +199,10 @@ impl Operator<'_> {
     }
 
     /// b with all bodies at rest: inertia and body force.
-    fn momentum(&self, velocity: &[f64]) -> Vec<f64> {
+    fn momentum(&self, volume: &[f64], mass: &[f64], velocity: &[f64]) -> Vec<f64> {
         (self.dofs.faces.iter().enumerate())
             .map(|(face, &(axis, _))| {
-                self.mass(face) * velocity[face]
-                    + self.face_volume[face] * self.scales.gravity[usize::from(axis)]
+                mass[face] * velocity[face] + volume[face] * self.scales.gravity[usize::from(axis)]
             })
             .collect()
     }

@@ -7,6 +7,7 @@
 use rayon::prelude::*;
 
 use super::edges::Edges;
+use super::fluxes::Areas;
 use super::terms::Velocity;
 use super::{CHUNK, Operator};
 
@@ -139,10 +140,10 @@ impl Couplings {
 
 /// The fluxes of all pressure unknowns: columns are the face unknowns and, after them, the
 /// bodies' components.
-pub(super) fn fluxes(operator: &Operator) -> Rows {
+pub(super) fn fluxes(operator: &Operator, areas: &Areas) -> Rows {
     let faces = operator.dofs.faces.len();
     let (rows, _) = gather(operator.dofs.cells.len(), 0, |cell, row, _| {
-        operator.flux(cell, |velocity, area| match velocity {
+        operator.flux(areas, cell, |velocity, area| match velocity {
             Velocity::Face(face) => add(row, face as usize, area),
             Velocity::Body(component) => add(row, faces + component as usize, area),
             Velocity::Still => {}

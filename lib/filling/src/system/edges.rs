@@ -1,15 +1,11 @@
 //! What the shear around the edges of the lattice takes of geometry and liquid: found once an edge
 //! for the four faces whose rows it enters.
 
-use rayon::prelude::*;
-
+use super::Operator;
 use super::dofs::NONE;
+use super::sparse::Sparse;
 use super::terms::Velocity;
-use super::{CHUNK, Operator};
 use crate::geometry::{OPEN, half};
-
-/// In [`Edges::place`]: an edge with liquid and free sight all around.
-const PLAIN: u32 = NONE - 1;
 
 /// An edge in the plane of two axes i and j.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,63 +21,33 @@ pub(super) struct Edge {
     pub(super) walled: bool,
 }
 
-/// The edges around the faces that are unknowns, by plane and by the cell at whose low corner they
-/// are.
-pub(super) struct Edges {
-    /// Of each plane, counted by the axis along the edge: number within a chunk of cells,
-    /// [`PLAIN`] or [`NONE`].
-    place: [Vec<u32>; 3],
-    chunks: [Vec<Vec<Edge>>; 3],
-    plain: Edge,
-}
+/// The edges around the faces that are unknowns, in each plane, counted by the axis along the edges,
+/// and by the cell at whose low corner they are.
+pub(super) struct Edges([Sparse<Edge>; 3]);
 
 impl Edges {
     pub(super) fn new(operator: &Operator) -> Self {
         let window = &operator.lattice.window;
-        let whole = window.sub_per_cell() as f64;
-        let mut edges = Self {
-            place: [const { Vec::new() }; 3],
-            chunks: [const { Vec::new() }; 3],
-            plain: Edge {
-                volume: [whole; 2],
-                sight: [1.0; 2],
-                distance: [1.0; 2],
-                walled: false,
-            },
+        let plain = Edge {
+            volume: [window.sub_per_cell() as f64; 2],
+            sight: [1.0; 2],
+            distance: [1.0; 2],
+            walled: false,
         };
-        let planes = [(0, 1), (0, 2), (1, 2)].into_iter();
-        for (i, j) in planes.filter(|&(_, j)| j < window.domain.axes) {
-            let mut place = vec![NONE; window.len()];
-            edges.chunks[3 - i - j] = (place.par_chunks_mut(CHUNK).enumerate())
-                .map(|(chunk, place)| {
-                    let mut found = Vec::new();
-                    for (n, place) in place.iter_mut().enumerate() {
-                        match operator.edge(i, j, chunk * CHUNK + n) {
-                            None => {}
-                            Some(edge) if edge == edges.plain => *place = PLAIN,
-                            Some(edge) => {
-                                *place = found.len() as u32;
-                                found.push(edge);
-                            }
-                        }
-                    }
-                    found
-                })
-                .collect();
-            edges.place[3 - i - j] = place;
-        }
-        edges
+        Self([(1, 2), (0, 2), (0, 1)].map(|(i, j)| {
+            let len = if j < window.domain.axes {
+                window.len()
+            } else {
+                0
+            };
+            Sparse::new(len, plain, |at| operator.edge(i, j, at))
+        }))
     }
 
     /// The edge at the low corner of cell `at` in the plane of `i` and `j`, if there is shear.
     #[inline]
     pub(super) fn at(&self, i: usize, j: usize, at: usize) -> Option<Edge> {
-        let plane = 3 - i - j;
-        let edge = match self.place[plane][at] {
-            NONE => return None,
-            PLAIN => self.plain,
-            place => self.chunks[plane][at / CHUNK][place as usize],
-        };
+        let edge = *self.0[3 - i - j].at(at)?;
         let [along, across] = edge.sight;
         let [di, dj] = edge.distance;
         Some(if i < j {

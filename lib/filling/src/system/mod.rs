@@ -12,6 +12,7 @@ mod dofs;
 mod edges;
 mod fluxes;
 mod operator;
+mod sparse;
 mod terms;
 mod viscosity;
 mod walls;

@@ -1,10 +1,8 @@
 //! Geometry, liquid and unknowns of a step together.
 
-use rayon::prelude::*;
-
+use super::Scales;
 use super::dofs::Dofs;
 use super::walls::Walls;
-use super::{CHUNK, Scales};
 use crate::geometry::Lattice;
 use crate::liquid::Volumes;
 
@@ -20,8 +18,6 @@ pub(crate) struct Operator<'a> {
     pub(crate) dofs: Dofs,
     /// Walls at the face unknowns.
     pub(crate) walls: Walls,
-    /// Liquid volume of the control volume of each face unknown, in cells.
-    pub(crate) face_volume: Vec<f64>,
     pub(super) scales: Scales,
 }
 
@@ -31,19 +27,12 @@ impl<'a> Operator<'a> {
         let dofs = Dofs::new(lattice, volumes);
         let friction = scales.influence_length.is_finite();
         let walls = Walls::new(lattice, volumes.phi, &dofs, scales.width, friction);
-        let face_volume = dofs
-            .faces
-            .par_iter()
-            .with_min_len(CHUNK)
-            .map(|&(axis, index)| face_volume(lattice, volumes, axis.into(), index as usize))
-            .collect();
         Self {
             lattice,
             volumes,
             viscosity: Vec::new(),
             dofs,
             walls,
-            face_volume,
             scales,
         }
     }
@@ -66,13 +55,4 @@ impl<'a> Operator<'a> {
         }
         if volume > 0.0 { sum / volume } else { 1.0 }
     }
-}
-
-/// Liquid volume that moves with a face: of its control volume, and of the slivers merged
-/// into its area.
-fn face_volume(lattice: &Lattice, volumes: &Volumes, axis: usize, index: usize) -> f64 {
-    let cell = lattice.window.coordinates(index);
-    let (wet, open) = volumes.of_face(lattice, axis, cell);
-    let merged = lattice.aperture(axis, cell).merged;
-    wet + if open > 0.0 { merged * wet / open } else { 0.0 }
 }

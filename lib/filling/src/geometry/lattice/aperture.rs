@@ -18,7 +18,8 @@ pub(crate) struct Aperture {
 }
 
 impl Aperture {
-    const WHOLE: Self = Self {
+    /// A face that carries all of its area itself.
+    pub(crate) const WHOLE: Self = Self {
         open: 1.0,
         merged: 0.0,
         bodies: [(OPEN, 0.0); 4],

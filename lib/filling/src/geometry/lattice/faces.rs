@@ -2,7 +2,7 @@
 
 use physics::Boundary;
 
-use super::{Lattice, PROBE};
+use super::{Lattice, PROBE, half};
 use crate::geometry::{BodyId, OPEN, SIDE};
 
 impl Lattice {
@@ -32,6 +32,10 @@ impl Lattice {
         let tangents = self.tangents(axis);
         let (mut closing, mut free) = (OPEN, false);
         for corner in 0..1_usize << tangents.len() {
+            if self.corner_open(axis, cell, corner) {
+                free = true;
+                continue;
+            }
             let mut point = centre;
             for (bit, &t) in tangents.iter().enumerate() {
                 point[t] = centre[t] + [-PROBE, PROBE][corner >> bit & 1];
@@ -85,6 +89,21 @@ impl Lattice {
         } else {
             (both.iter().all(|cell| cell.solid == all)).then_some(false)
         }
+    }
+
+    /// Whether nothing solid is in a quadrant of the two cells at a face, so that no probe in a corner of
+    /// its centre meets a wall.
+    fn corner_open(&self, axis: usize, cell: [usize; 3], corner: usize) -> bool {
+        if cell[axis] == 0 {
+            return false;
+        }
+        let quadrant = (self.tangents(axis).iter().enumerate())
+            .map(|(bit, &t)| half(t, corner >> bit & 1 == 1))
+            .fold(self.all_parts(), |all, half| all & half);
+        let index = self.window.index(cell);
+        [index, index - self.window.stride(axis)]
+            .iter()
+            .all(|&i| self.uniform[i].open & quadrant == quadrant)
     }
 
     /// The body just above or below a point of a face plane.

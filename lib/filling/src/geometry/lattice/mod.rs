@@ -1,9 +1,9 @@
 //! Geometry of a step: open fractions of the half-cell lattice, open and closed faces, the
 //! walls that a face velocity sees along its tangential directions, and the areas it carries.
 //!
-//! Lengths are in cells. What is cheap to hold for every cell of the window (fractions, face
-//! states) is stored; what only faces near walls need is answered by ray marches in the
-//! voxels of the bodies, which costs a few bit tests each.
+//! Lengths are in cells. What is cheap to hold for every cell of the window (fractions, which
+//! sub-cells are open or solid throughout, face states) is stored; what only faces near walls need
+//! is answered by rays in the voxels of the bodies, each a scan of a few words of bits.
 
 mod aperture;
 mod column;
@@ -16,6 +16,7 @@ use rayon::prelude::*;
 
 use crate::geometry::{BodyId, OPEN, Solids, Window};
 
+pub(crate) use aperture::Aperture;
 pub(crate) use column::Column;
 pub(crate) use uniform::half;
 use uniform::{Uniform, uniform};

@@ -55,18 +55,17 @@ impl Placed {
     }
 
     /// Range of voxels along `axis` that overlap `low..high`, or hold `low` when it is a point.
+    #[inline]
     fn range(&self, axis: usize, low: f64, high: f64) -> std::ops::Range<usize> {
         let n = self.rows.block.dims()[axis] as f64;
-        let a = ((low - self.origin[axis]) / self.edge[axis]).floor();
+        let voxels = |x: f64| (x - self.origin[axis]) / self.edge[axis];
         if high == low {
-            return if a >= 0.0 && a < n {
-                a as usize..a as usize + 1
-            } else {
-                0..0
+            return match voxels(low) {
+                a if a >= 0.0 && a < n => a as usize..a as usize + 1,
+                _ => 0..0,
             };
         }
-        let b = ((high - self.origin[axis]) / self.edge[axis]).ceil();
-        a.clamp(0.0, n) as usize..b.clamp(0.0, n) as usize
+        voxels(low).clamp(0.0, n) as usize..ceil(voxels(high).clamp(0.0, n))
     }
 
     fn length(&self, axis: usize, voxel: usize, low: f64, high: f64) -> f64 {
@@ -139,6 +138,13 @@ impl Placed {
             along: from[axis] - self.origin[axis],
         })
     }
+}
+
+/// The least integer that is not below `x`, which is not negative.
+#[inline]
+fn ceil(x: f64) -> usize {
+    let whole = x as usize;
+    whole + usize::from((whole as f64) < x)
 }
 
 /// A row of voxels, and a point of the line through it from which rays start.
