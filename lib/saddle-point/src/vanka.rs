@@ -3,7 +3,8 @@
 use nalgebra::{Matrix6, Vector6};
 use rayon::prelude::*;
 
-use crate::csr::Csr;
+use crate::packed::LANES;
+use crate::simd::{Kernel, dispatch};
 use crate::system::SaddleSystem;
 use crate::vector::{CHUNK, Real, Work, for_chunks};
 
@@ -12,45 +13,58 @@ const FACES: usize = 6;
 /// Part of the corrections that is taken; with the whole the sweep diverges.
 const DAMPING: Work = 0.6;
 
+/// Entries of a symmetric matrix over the faces of a cell.
+const ENTRIES: usize = FACES * (FACES + 1) / 2;
+
+/// A value for each of a block's cells.
+type Lanes<T> = [T; LANES];
+
 /// One additive sweep over the cells, after Vanka (1986, J. Comput. Phys. 65, 138-158): for each
 /// the velocities of its faces and its pressure solve `[A, -g^T; -g, -c]` exactly for the
 /// residual, with A restricted to the faces, and a face takes the mean of what its cells say.
 /// Velocities are scaled by `D^-1/2` as in [`Chebyshev`](crate::chebyshev::Chebyshev).
 pub(crate) struct Vanka {
-    cells: Vec<Cell>,
-    /// Where the corrections of each face are: cell times [`FACES`] plus place; for faces of one
-    /// cell twice the same.
+    blocks: Vec<Block>,
+    /// Where the corrections of each face are in `corrections` without its brackets; for faces of
+    /// one cell twice the same.
     places: Vec<[u32; 2]>,
-    corrections: Vec<[Work; FACES]>,
+    corrections: Vec<[Lanes<Work>; FACES]>,
 }
 
-/// The inverse of one cell's system.
-#[derive(Clone)]
-struct Cell {
-    /// Its faces; unused places hold any, without effect.
-    faces: [u32; FACES],
-    /// Inverse of the velocity block.
-    inverse: [[Work; FACES]; FACES],
+/// The inverses of eight cells' systems.
+#[derive(Clone, Default)]
+struct Block {
+    /// Their faces; unused places hold any, without effect.
+    faces: [Lanes<u32>; FACES],
+    /// Inverse of the velocity block, lower triangle by rows.
+    inverse: [Lanes<Work>; ENTRIES],
     /// That times the fluxes.
-    response: [Work; FACES],
+    response: [Lanes<Work>; FACES],
     /// 1 over compressibility and response of the fluxes together.
-    softness: Work,
+    softness: Lanes<Work>,
 }
 
 impl Vanka {
     /// Of a system with its velocities scaled by `scale`.
     pub(crate) fn new(system: &SaddleSystem, scale: &[Work]) -> Self {
-        let (a, g, c) = (system.a, system.g, system.c);
-        let cells = (0..g.n_rows())
+        let n = system.g.n_rows();
+        let blocks = (0..n.div_ceil(LANES))
             .into_par_iter()
-            .with_min_len(CHUNK)
-            .map(|cell| Cell::new(a, g.row(cell), c[cell], scale));
-        let cells: Vec<Cell> = cells.collect();
-        let mut places = vec![[u32::MAX; 2]; g.n_columns()];
-        for cell in 0..g.n_rows() {
-            for (slot, &face) in g.row(cell).0.iter().take(FACES).enumerate() {
+            .with_min_len(CHUNK / LANES)
+            .map(|block| {
+                let mut inverses = Block::default();
+                for (lane, cell) in (block * LANES..n).take(LANES).enumerate() {
+                    inverses.set(lane, system, cell, scale);
+                }
+                inverses
+            });
+        let blocks: Vec<Block> = blocks.collect();
+        let mut places = vec![[u32::MAX; 2]; system.g.n_columns()];
+        for cell in 0..n {
+            let (block, lane) = (cell / LANES, cell % LANES);
+            for (slot, &face) in system.g.row(cell).0.iter().take(FACES).enumerate() {
                 let place = &mut places[face as usize];
-                let at = (cell * FACES + slot) as u32;
+                let at = ((block * FACES + slot) * LANES + lane) as u32;
                 *place = if place[0] == u32::MAX {
                     [at; 2]
                 } else {
@@ -59,8 +73,8 @@ impl Vanka {
             }
         }
         Self {
-            corrections: vec![[0.0; FACES]; cells.len()],
-            cells,
+            corrections: vec![Default::default(); blocks.len()],
+            blocks,
             places,
         }
     }
@@ -68,24 +82,26 @@ impl Vanka {
     /// Corrects scaled velocities and pressures by their residuals; `scale` takes velocities back.
     pub(crate) fn sweep(
         &mut self,
-        residual: (&[Work], &[Work]),
+        (momentum, volume): (&[Work], &[Work]),
         scale: &[Work],
         velocity: &mut [Work],
         pressure: &mut [Work],
     ) {
-        let cells = &self.cells;
-        (self.corrections.par_chunks_mut(CHUNK))
-            .zip(pressure.par_chunks_mut(CHUNK))
-            .enumerate()
-            .for_each(|(chunk, (corrections, pressure))| {
-                let first = chunk * CHUNK;
-                for (i, (v, p)) in corrections.iter_mut().zip(pressure).enumerate() {
-                    let (dv, dp) = cells[first + i].solve(residual.0, residual.1[first + i]);
-                    *v = dv;
-                    *p += DAMPING * dp;
-                }
+        let chunk = CHUNK / LANES;
+        (self.blocks.par_chunks(chunk))
+            .zip(self.corrections.par_chunks_mut(chunk))
+            .zip(volume.par_chunks(CHUNK).zip(pressure.par_chunks_mut(CHUNK)))
+            .for_each(|((blocks, corrections), (volume, pressure))| {
+                dispatch(Solves {
+                    blocks,
+                    momentum,
+                    volume,
+                    corrections,
+                    pressure,
+                });
             });
-        let (corrections, places) = (self.corrections.as_flattened(), &self.places);
+        let corrections = self.corrections.as_flattened().as_flattened();
+        let places = &self.places;
         for_chunks(velocity, |start, part| {
             for (i, v) in part.iter_mut().enumerate() {
                 let [one, other] = places[start + i].map(|place| place as usize);
@@ -97,16 +113,43 @@ impl Vanka {
     }
 }
 
-impl Cell {
-    fn new(a: &Csr<f64>, (faces, fluxes): (&[u32], &[f64]), c: f64, scale: &[Work]) -> Self {
-        let count = faces.len().min(FACES);
-        let faces = &faces[..count];
+/// The solutions of one chunk of cells.
+struct Solves<'a> {
+    blocks: &'a [Block],
+    momentum: &'a [Work],
+    volume: &'a [Work],
+    corrections: &'a mut [[Lanes<Work>; FACES]],
+    pressure: &'a mut [Work],
+}
+
+impl Kernel for Solves<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let values = (self.volume.chunks(LANES)).zip(self.pressure.chunks_mut(LANES));
+        let blocks = self.blocks.iter().zip(self.corrections);
+        for ((block, corrections), (volume, pressure)) in blocks.zip(values) {
+            let mut left = [0.0; LANES];
+            left[..volume.len()].copy_from_slice(volume);
+            let dp = block.solve(self.momentum, left, corrections);
+            for (p, dp) in pressure.iter_mut().zip(dp) {
+                *p += DAMPING * dp;
+            }
+        }
+    }
+}
+
+impl Block {
+    /// Sets the inverse of one cell.
+    fn set(&mut self, lane: usize, system: &SaddleSystem, cell: usize, scale: &[Work]) {
+        let (faces, fluxes) = system.g.row(cell);
+        let faces = &faces[..faces.len().min(FACES)];
         let scale_of = |face: u32| f64::from(scale[face as usize]);
         let mut block = Matrix6::identity();
         let mut flux = Vector6::zeros();
-        let mut of = [0; FACES];
         for (i, &face) in faces.iter().enumerate() {
-            let (columns, values) = a.row(face as usize);
+            let (columns, values) = system.a.row(face as usize);
             for (j, other) in faces[..=i].iter().enumerate() {
                 let entry = columns
                     .binary_search(other)
@@ -114,48 +157,65 @@ impl Cell {
                 (block[(i, j)], block[(j, i)]) = (entry, entry);
             }
             flux[i] = fluxes[i] * scale_of(face);
-            of[i] = face;
+            self.faces[i][lane] = face;
         }
         let inverse = block.try_inverse().unwrap_or_default();
         let response = inverse * flux;
-        let stiffness = c + flux.dot(&response);
-        let nearest = |i: usize, x: f64| if i < count { Work::nearest(x) } else { 0.0 };
-        Self {
-            faces: of,
-            inverse: std::array::from_fn(|i| {
-                std::array::from_fn(|j| nearest(i.max(j), inverse[(i, j)]))
-            }),
-            response: std::array::from_fn(|i| nearest(i, response[i])),
-            softness: if stiffness > 0.0 {
-                Work::nearest(1.0 / stiffness)
-            } else {
-                0.0
-            },
+        for i in 0..faces.len() {
+            self.response[i][lane] = Work::nearest(response[i]);
+            for j in 0..=i {
+                self.inverse[entry(i, j)][lane] = Work::nearest(inverse[(i, j)]);
+            }
+        }
+        let stiffness = system.c[cell] + flux.dot(&response);
+        if stiffness > 0.0 {
+            self.softness[lane] = Work::nearest(1.0 / stiffness);
         }
     }
 
-    /// Corrections of the velocities and the pressure by their residuals.
-    fn solve(&self, momentum: &[Work], volume: Work) -> ([Work; FACES], Work) {
-        let r = self.faces.map(|face| momentum[face as usize]);
-        let mut flux = 0.0;
-        let mut dv = [0.0; FACES];
-        for (j, &r) in r.iter().enumerate() {
-            flux += self.response[j] * r;
-            for (i, dv) in dv.iter_mut().enumerate() {
-                *dv += self.inverse[j][i] * r;
+    /// Corrections of the velocities, into `dv`, and of the pressures by their residuals.
+    #[inline(always)]
+    fn solve(
+        &self,
+        momentum: &[Work],
+        volume: Lanes<Work>,
+        dv: &mut [Lanes<Work>; FACES],
+    ) -> Lanes<Work> {
+        let r: [Lanes<Work>; FACES] = std::array::from_fn(|i| {
+            std::array::from_fn(|lane| momentum[self.faces[i][lane] as usize])
+        });
+        let mut left = volume;
+        for (r, response) in r.iter().zip(&self.response) {
+            for lane in 0..LANES {
+                left[lane] += response[lane] * r[lane];
             }
         }
-        let dp = -(volume + flux) * self.softness;
-        for (dv, response) in dv.iter_mut().zip(self.response) {
-            *dv += response * dp;
+        let dp = std::array::from_fn(|lane| -left[lane] * self.softness[lane]);
+        for (i, dv) in dv.iter_mut().enumerate() {
+            let mut sum = [0.0; LANES];
+            for (j, r) in r.iter().enumerate() {
+                let inverse = &self.inverse[entry(i, j)];
+                for lane in 0..LANES {
+                    sum[lane] += inverse[lane] * r[lane];
+                }
+            }
+            *dv = std::array::from_fn(|lane| sum[lane] + self.response[i][lane] * dp[lane]);
         }
-        (dv, dp)
+        dp
     }
+}
+
+/// Where row `i`, column `j` of a symmetric matrix is.
+#[inline(always)]
+fn entry(i: usize, j: usize) -> usize {
+    let (row, column) = (i.max(j), i.min(j));
+    row * (row + 1) / 2 + column
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Csr;
 
     /// One cell of three faces, solved alone: the sweep takes [`DAMPING`] of its solution.
     #[test]
