@@ -32,7 +32,7 @@ impl Implicit {
         let (field, moved) = self.workspace.stages.time(Stage::Advection, || {
             let known = viscous.map(|v| v.field);
             let field = known.unwrap_or_else(|| Field::new(lattice, face, u, bodies, influence));
-            let moved = path.follow(particles, |x| field.flow.velocity(x));
+            let moved = path.follow(particles, |x, near| field.flow.velocity(x, near));
             (field, moved)
         });
         let counts = &mut self.state.counts;
@@ -58,8 +58,8 @@ impl Implicit {
         let projected = self.workspace.stages.time(Stage::Density, || {
             let (g, volume) = (&solution.g, &solution.face_volume);
             let (moves, _) = density::displacement(g, &g.transpose(), volume, &solution.cells)?;
-            let field = density::Field::new(&lattice.window, &solution.dofs.face, &moves);
-            Ok(path.follow(particles, |x| field.at(x)))
+            let field = density::Field::new(&lattice.window, &solution.dofs.face, moves);
+            Ok(path.follow(particles, |x, _: &mut ()| field.at(x)))
         });
         let moved = projected.map_err(|error| self.unsolved(error))?;
         self.state.counts.lost += moved.lost;

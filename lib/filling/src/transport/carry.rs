@@ -3,7 +3,7 @@
 use physics::{ShearRate, TAIT_C, Tait};
 use rayon::prelude::*;
 
-use super::Flow;
+use super::flow::{Flow, Near};
 use crate::geometry::Window;
 use crate::liquid::Particles;
 
@@ -26,8 +26,8 @@ pub(crate) fn set_velocities(
     (particles.velocity.par_iter_mut())
         .zip(&particles.position)
         .with_min_len(1 << 12)
-        .for_each(|(v, &x)| {
-            *v = flow.velocity(x).map(|v| v as f32);
+        .for_each_init(Near::default, |near, (v, &x)| {
+            *v = flow.velocity(x, near).map(|v| v as f32);
             let Some(value) = limit else { return };
             let (_, cell, _) = flow.place(x);
             for axis in 0..axes {
@@ -88,13 +88,18 @@ pub(crate) fn set_volume_changes(
     (particles.j.par_iter_mut())
         .zip(&particles.position)
         .with_min_len(1 << 12)
-        .for_each(|(j, &x)| {
-            let cell = window.local(x).map(|s| s as usize);
-            let p = pressure
-                .get(window.index(cell))
-                .map_or(0.0, |&p| f64::from(p));
-            *j = tait.volume_change(p.max(lowest)) as f32;
-        });
+        .for_each_init(
+            || (usize::MAX, 0.0),
+            |(last, change), (j, &x)| {
+                let cell = window.index(window.local(x).map(|s| s as usize));
+                // A logarithm a cell, not a point.
+                if *last != cell {
+                    let p = pressure.get(cell).map_or(0.0, |&p| f64::from(p));
+                    (*last, *change) = (cell, tait.volume_change(p.max(lowest)) as f32);
+                }
+                *j = *change;
+            },
+        );
 }
 
 /// Shear rate f |dev D| (1/s) at each particle, f by `convention`, for cells of `cell_m`.

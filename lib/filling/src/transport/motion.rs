@@ -37,38 +37,38 @@ pub(crate) struct Moved {
 
 impl Path<'_> {
     /// Moves the particles along `velocity` by the midpoint rule, and off walls; those that leave
-    /// through an open side are removed.
-    pub(crate) fn follow(
+    /// through an open side are removed. A task hands what it keeps for `velocity` from point to point.
+    pub(crate) fn follow<N: Default>(
         &self,
         particles: &mut Particles,
-        velocity: impl Fn([f64; 3]) -> [f64; 3] + Sync,
+        velocity: impl Fn([f64; 3], &mut N) -> [f64; 3] + Sync,
     ) -> Moved {
         if self.after.is_empty() {
-            self.follow_by::<false>(particles, velocity)
+            self.follow_by::<false, N>(particles, velocity)
         } else {
-            self.follow_by::<true>(particles, velocity)
+            self.follow_by::<true, N>(particles, velocity)
         }
     }
 
     /// The same, where there are `WALLS` or none.
-    fn follow_by<const WALLS: bool>(
+    fn follow_by<const WALLS: bool, N: Default>(
         &self,
         particles: &mut Particles,
-        velocity: impl Fn([f64; 3]) -> [f64; 3] + Sync,
+        velocity: impl Fn([f64; 3], &mut N) -> [f64; 3] + Sync,
     ) -> Moved {
+        let sides = Sides::new(&self.after.domain);
         let counts: Vec<Moved> = (particles.position.par_chunks_mut(CHUNK))
             .map(|chunk| {
-                let mut moved = Moved::default();
+                let (mut moved, mut near) = (Moved::default(), N::default());
                 for x in chunk {
-                    let first = velocity(*x);
-                    let half = self.shifted(*x, first, 0.5);
-                    let second = velocity(self.inside(half));
-                    let end = symmetric(&self.after.domain, self.shifted(*x, second, 1.0));
-                    *x = self.wrapped(if WALLS {
-                        self.off_walls(*x, end, &mut moved)
-                    } else {
-                        end
-                    });
+                    let first = velocity(*x, &mut near);
+                    let half = sides.inside(self.shifted(*x, first, 0.5));
+                    let second = velocity(half, &mut near);
+                    let mut end = sides.symmetric(self.shifted(*x, second, 1.0));
+                    if WALLS {
+                        end = sides.symmetric(self.off_walls(*x, end, &mut moved));
+                    }
+                    *x = sides.wrapped(end);
                 }
                 moved
             })
@@ -93,18 +93,6 @@ impl Path<'_> {
         std::array::from_fn(|a| x[a] + part * self.scale * velocity[a])
     }
 
-    /// A point kept in the domain, so that the window has a cell for it.
-    #[inline]
-    fn inside(&self, mut x: [f64; 3]) -> [f64; 3] {
-        let domain = &self.after.domain;
-        for (a, x) in x.iter_mut().enumerate().take(domain.axes) {
-            if !domain.periodic(a) {
-                *x = x.clamp(CLEARANCE, domain.cells[a] as f64 - CLEARANCE);
-            }
-        }
-        x
-    }
-
     /// The end of a path to `to` that passes no wall.
     fn off_walls(&self, from: [f64; 3], to: [f64; 3], moved: &mut Moved) -> [f64; 3] {
         let end = self.before.deflect(self.after, from, to);
@@ -113,16 +101,52 @@ impl Path<'_> {
             moved.deepest = moved.deepest.max(end.depth);
         }
         moved.pinched += u64::from(end.pinched);
-        symmetric(&self.after.domain, end.point)
+        end.point
+    }
+}
+
+/// The sides of the domain.
+struct Sides {
+    /// Least and most place along each axis that is still in the domain; periodic axes have no end.
+    ends: [[f64; 2]; 3],
+    /// The same, where only symmetry planes are ends.
+    planes: [[f64; 2]; 3],
+    /// Cells along periodic axes.
+    period: [Option<f64>; 3],
+}
+
+impl Sides {
+    fn new(domain: &Domain) -> Self {
+        let between = |held: &dyn Fn(usize) -> bool| {
+            std::array::from_fn(|a| match a < domain.axes && held(a) {
+                true => [CLEARANCE, domain.cells[a] as f64 - CLEARANCE],
+                false => [f64::NEG_INFINITY, f64::INFINITY],
+            })
+        };
+        Self {
+            ends: between(&|a| !domain.periodic(a)),
+            planes: between(&|a| domain.boundary[a] == Boundary::Symmetry),
+            period: std::array::from_fn(|a| domain.periodic(a).then_some(domain.cells[a] as f64)),
+        }
+    }
+
+    /// A point kept in the domain, so that the window has a cell for it.
+    #[inline]
+    fn inside(&self, x: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|a| x[a].clamp(self.ends[a][0], self.ends[a][1]))
+    }
+
+    /// A point kept off the symmetry planes.
+    #[inline]
+    fn symmetric(&self, x: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|a| x[a].clamp(self.planes[a][0], self.planes[a][1]))
     }
 
     /// A point that has left through a periodic side where it comes in again.
     #[inline]
     fn wrapped(&self, mut x: [f64; 3]) -> [f64; 3] {
-        let domain = &self.after.domain;
-        for (a, x) in x.iter_mut().enumerate() {
-            if domain.periodic(a) {
-                let n = domain.cells[a] as f64;
+        for (x, period) in x.iter_mut().zip(self.period) {
+            if let Some(n) = period {
                 *x = x.rem_euclid(n);
                 // A tiny negative place wraps to the end itself.
                 if *x >= n {
@@ -132,14 +156,4 @@ impl Path<'_> {
         }
         x
     }
-}
-
-/// Keeps a point off the symmetry planes.
-fn symmetric(domain: &Domain, mut x: [f64; 3]) -> [f64; 3] {
-    for (a, x) in x.iter_mut().enumerate().take(domain.axes) {
-        if domain.boundary[a] == Boundary::Symmetry {
-            *x = x.clamp(CLEARANCE, domain.cells[a] as f64 - CLEARANCE);
-        }
-    }
-    x
 }

@@ -118,7 +118,7 @@ impl Channel {
         let (mut gone, mut drift) = (0.0, 0.0_f64);
         for _ in 0..5 {
             let before = particles.position.clone();
-            path.follow(&mut particles, |x| flow.velocity(x));
+            path.follow(&mut particles, |x, near| flow.velocity(x, near));
             for (x, y) in particles.position.iter().zip(&before) {
                 gone += (x[0] - y[0]).rem_euclid(6.0);
             }
@@ -270,7 +270,7 @@ fn nothing_passes_a_wall_of_one_voxel() {
                 after: &after,
                 scale: 1.0,
             };
-            let moved = path.follow(&mut particles, |x| [v[0], v[1] + 0.1 * x[0], v[2]]);
+            let moved = path.follow(&mut particles, |x, _: &mut ()| [v[0], v[1] + 0.1 * x[0], v[2]]);
             deepest = deepest.max(moved.deepest);
             assert_eq!(moved.pinched, 0);
             for (&x, &was) in particles.position.iter().zip(&was) {
@@ -301,7 +301,7 @@ fn against_a_wall(ahead: f64, x: f64) -> f64 {
         let of = |&dof: &u32| if dof == NONE { f32::NAN } else { 1.0 };
         active[axis].iter().map(of).collect()
     });
-    Flow::new(&l, &value, &active, &[[0.0; 3]], 0.0).velocity([x, 1.5, 0.5])[0]
+    Flow::new(&l, &value, &active, &[[0.0; 3]], 0.0).velocity([x, 1.5, 0.5], &mut Default::default())[0]
 }
 
 /// Less than half a cell before a wall, a face is on the line from the one behind to the wall; the
@@ -336,7 +336,7 @@ fn a_deflected_particle_keeps_clear_of_the_wall() {
         scale: 1.0,
     };
     let mut particles = at(vec![[4.8, 4.0, 0.5]], 0.25);
-    let moved = path.follow(&mut particles, |_| [0.4, 0.1, 0.0]);
+    let moved = path.follow(&mut particles, |_, _: &mut ()| [0.4, 0.1, 0.0]);
     let x = particles.position[0];
     assert_eq!(moved.deflected, 1);
     assert!(
@@ -382,7 +382,7 @@ fn a_common_velocity_only_translates() {
             after: &after,
             scale: 1.0,
         };
-        path.follow(&mut particles, |x| flow.velocity(x));
+        path.follow(&mut particles, |x, near| flow.velocity(x, near));
         let mut worst: f64 = 0.0;
         for (x, y) in particles.position.iter().zip(&points) {
             worst = worst.max(((x[0] - y[0] + 6.0).rem_euclid(12.0) - 6.0 - 0.4).abs());
@@ -429,7 +429,7 @@ fn particles_leave_through_open_sides_only() {
         after: &rest,
         scale: 1.0,
     };
-    let moved = path.follow(&mut particles, |_| [0.2; 3]);
+    let moved = path.follow(&mut particles, |_, _: &mut ()| [0.2; 3]);
     assert_eq!((moved.lost, particles.len()), (1, 2));
     assert!((particles.position[0][1] - 0.1).abs() < 1e-12);
     let short = 4.0 - particles.position[1][2];

@@ -12,7 +12,6 @@
 use rayon::prelude::*;
 
 use crate::geometry::Window;
-use crate::system::NONE;
 use saddle_point::{Csr, Poisson, SolveError};
 
 /// Fraction of the density error that one step removes.
@@ -97,12 +96,14 @@ pub(crate) fn displacement(
 pub(crate) struct Field<'a> {
     window: Window,
     face: &'a [Vec<u32>; 3],
-    moves: &'a [f64],
+    /// Of the face unknowns, and 0 for what is none.
+    moves: Vec<f64>,
 }
 
 impl<'a> Field<'a> {
     /// The field of `moves[face[axis][index]]`.
-    pub(crate) fn new(window: &Window, face: &'a [Vec<u32>; 3], moves: &'a [f64]) -> Self {
+    pub(crate) fn new(window: &Window, face: &'a [Vec<u32>; 3], mut moves: Vec<f64>) -> Self {
+        moves.push(0.0);
         Self {
             window: *window,
             face,
@@ -113,29 +114,36 @@ impl<'a> Field<'a> {
     /// Displacement (cells) at a point of the domain.
     #[inline]
     pub(crate) fn at(&self, point: [f64; 3]) -> [f64; 3] {
+        match self.window.domain.axes {
+            2 => self.along::<2>(point),
+            _ => self.along::<3>(point),
+        }
+    }
+
+    #[inline]
+    fn along<const AXES: usize>(&self, point: [f64; 3]) -> [f64; 3] {
         let local = self.window.local(point);
-        let axes = self.window.domain.axes;
         let mut found = [0.0; 3];
-        for (axis, found) in found.iter_mut().enumerate().take(axes) {
+        for (axis, found) in found.iter_mut().enumerate().take(AXES) {
             let mut low = [0_usize; 3];
-            let mut part = [0.0; 3];
-            for a in 0..axes {
+            let mut parts = [[1.0; 2]; 3];
+            for a in 0..AXES {
                 let x = (local[a] - if a == axis { 0.0 } else { 0.5 }).max(0.0);
                 low[a] = (x as usize).min(self.window.cells[a] - 2);
-                part[a] = x - low[a] as f64;
+                let part = x - low[a] as f64;
+                parts[a] = [1.0 - part, part];
             }
             let base = self.window.index(low);
-            for corner in 0..1_usize << axes {
+            for corner in 0..1_usize << AXES {
                 let (mut index, mut weight) = (base, 1.0);
-                for (a, part) in part.iter().enumerate().take(axes) {
-                    let high = corner >> a & 1 == 1;
-                    index += if high { self.window.stride(a) } else { 0 };
-                    weight *= if high { *part } else { 1.0 - part };
+                for (a, part) in parts.iter().enumerate().take(AXES) {
+                    let high = corner >> a & 1;
+                    index += high * self.window.stride(a);
+                    weight *= part[high];
                 }
-                let face = self.face[axis][index];
-                if face != NONE {
-                    *found += weight * self.moves[face as usize];
-                }
+                // No face, a number beyond all, stands at the end and does not move.
+                let face = (self.face[axis][index] as usize).min(self.moves.len() - 1);
+                *found += weight * self.moves[face];
             }
         }
         found

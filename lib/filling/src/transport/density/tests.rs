@@ -59,13 +59,13 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
     )
     .unwrap();
     assert!(moves.iter().all(|d| d.abs() <= LONGEST));
-    let field = Field::new(window, &dofs.face, &moves);
+    let field = Field::new(window, &dofs.face, moves);
     let path = Path {
         before: &lattice.solids,
         after: &lattice.solids,
         scale: 1.0,
     };
-    let moved = path.follow(particles, |x| field.at(x));
+    let moved = path.follow(particles, |x, _: &mut ()| field.at(x));
     assert_eq!(moved.pinched, 0);
     (error(&fractions), iterations)
 }

@@ -35,31 +35,46 @@ pub(crate) fn extend(lattice: &Lattice, active: &[Vec<u32>; 3], u: &[f64]) -> [V
 
 fn extend_once(lattice: &Lattice, axis: usize, value: &mut [f32]) {
     let window = &lattice.window;
-    let found: Vec<(u32, f32)> = (0..window.len())
+    let [nx, ny, nz] = window.cells;
+    let strides = &[0, 1, 2].map(|a| window.stride(a))[..window.domain.axes];
+    let before = &*value;
+    let found: Vec<(u32, f32)> = (0..ny * nz)
         .into_par_iter()
-        .filter(|&index| value[index].is_nan() && lattice.face(axis, index) == OPEN)
-        .filter_map(|index| {
-            let cell = window.coordinates(index);
-            if !window.inner(cell) {
-                return None;
-            }
-            let along = window.stride(axis);
-            let mean = mean(value, [Some(index - along), Some(index + along)]).or_else(|| {
-                let across = (lattice.tangents(axis).iter()).flat_map(|&t| {
-                    let stride = window.stride(t);
-                    [
-                        passable(lattice, axis, cell, t, 0).then(|| index - stride),
-                        passable(lattice, axis, cell, t, 1).then(|| index + stride),
-                    ]
-                });
-                self::mean(value, across)
-            })?;
-            Some((index as u32, mean))
+        .filter(|&row| window.inner([1, row % ny, row / ny]))
+        .flat_map_iter(|row| {
+            let wanted = move |&index: &usize| {
+                before[index].is_nan()
+                    && lattice.face(axis, index) == OPEN
+                    && (strides.iter()).any(|s| !(before[index - s].is_nan() && before[index + s].is_nan()))
+            };
+            let places = (row * nx + 1..(row + 1) * nx - 1).filter(wanted);
+            places.filter_map(move |index| {
+                Some((index as u32, around(lattice, axis, index, before)?))
+            })
         })
         .collect();
     for (index, mean) in found {
         value[index as usize] = mean;
     }
+}
+
+/// Mean of the known velocities beside a face along its axis, else of those across it that no wall
+/// parts from it.
+fn around(lattice: &Lattice, axis: usize, index: usize, value: &[f32]) -> Option<f32> {
+    let window = &lattice.window;
+    let along = window.stride(axis);
+    mean(value, [Some(index - along), Some(index + along)]).or_else(|| {
+        let cell = window.coordinates(index);
+        let across = (lattice.tangents(axis).iter()).flat_map(|&t| {
+            let stride = window.stride(t);
+            [(0, index - stride), (1, index + stride)].map(|(side, next)| {
+                // Rays only towards neighbours that have something to give.
+                let known = !value[next].is_nan();
+                (known && passable(lattice, axis, cell, t, side)).then_some(next)
+            })
+        });
+        mean(value, across)
+    })
 }
 
 fn mean(value: &[f32], places: impl IntoIterator<Item = Option<usize>>) -> Option<f32> {

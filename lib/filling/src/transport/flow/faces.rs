@@ -51,13 +51,15 @@ pub(super) fn build(
     influence: f64,
 ) -> ([Vec<u32>; 3], Vec<Face>) {
     let window = &lattice.window;
-    let known: Vec<(u8, u32)> = (0..window.domain.axes as u8)
-        .flat_map(|axis| (0..window.len() as u32).map(move |index| (axis, index)))
-        .filter(|&(axis, index)| {
-            !value[usize::from(axis)][index as usize].is_nan()
-                && window.inner(window.coordinates(index as usize))
-        })
-        .collect();
+    let mut known: Vec<(u8, u32)> = Vec::new();
+    for (axis, value) in value.iter().enumerate().take(window.domain.axes) {
+        known.par_extend((value.par_iter().enumerate().with_min_len(CHUNK)).filter_map(
+            |(index, v)| {
+                let within = || window.inner(window.coordinates(index));
+                (!v.is_nan() && within()).then_some((axis as u8, index as u32))
+            },
+        ));
+    }
     let mut slot: [Vec<u32>; 3] = std::array::from_fn(|axis| {
         let n = if axis < window.domain.axes {
             window.len()

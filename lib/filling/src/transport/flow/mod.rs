@@ -9,6 +9,7 @@
 
 mod extend;
 mod faces;
+mod near;
 mod profile;
 mod seen;
 
@@ -16,6 +17,7 @@ use crate::geometry::{BodyId, Lattice, OPEN, Window};
 use crate::system::NONE;
 
 pub(crate) use extend::extend;
+pub(crate) use near::Near;
 
 use faces::Face;
 
@@ -62,23 +64,6 @@ impl Flow {
             closed: lattice.faces.clone(),
             bodies: bodies.to_vec(),
         }
-    }
-
-    /// Velocity (m/s) at a point given in cells of the domain. In plane strain z stays 0.
-    #[inline]
-    pub(crate) fn velocity(&self, point: [f64; 3]) -> [f64; 3] {
-        let (local, cell, index) = self.place(point);
-        let mut velocity = [0.0; 3];
-        for (axis, v) in velocity
-            .iter_mut()
-            .enumerate()
-            .take(self.window.domain.axes)
-        {
-            *v = self.component::<true>(axis, index, cell, local, |face, at| {
-                f64::from(face.profile.value(at))
-            });
-        }
-        velocity
     }
 
     /// All velocity components with their gradients at a point given in cells of the domain.

@@ -126,6 +126,11 @@ impl Profile {
         Self(c.map(|x| x as f32))
     }
 
+    /// The coefficients c[3 m + n].
+    pub(super) fn coefficients(&self) -> &[f32; 9] {
+        &self.0
+    }
+
     #[inline]
     pub(super) fn value(&self, [a, b]: [f32; 2]) -> f32 {
         let c = &self.0;
