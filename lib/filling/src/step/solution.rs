@@ -6,8 +6,8 @@ use super::controlled::Solved;
 use super::{Implicit, Stage, Trial};
 use crate::liquid::{self, Volumes};
 use crate::system::{self, Before, Dofs, NONE, Operator, Sheared};
-use crate::transport::Field;
 use crate::transport::density::Cells;
+use crate::transport::{Field, Near};
 use saddle_point::Csr;
 
 /// Largest number of passes over a viscosity that depends on the shear rate.
@@ -188,7 +188,7 @@ impl Implicit {
         self.workspace.stages.time(Stage::Assembly, || {
             let field = Field::new(operator.lattice, &operator.dofs.face, u, &bodies, influence);
             let sheared = Sheared {
-                deviator: |x| field.flow.deviator_norm(x),
+                deviator: |x| field.flow.deviator_norm(x, &mut Near::default()),
                 u,
                 bodies: &bodies,
             };

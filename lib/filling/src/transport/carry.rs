@@ -112,6 +112,8 @@ pub(crate) fn shear_rates(
     let scale = convention.factor() / cell_m;
     (particles.position.par_iter())
         .with_min_len(1 << 12)
-        .map(|&x| (scale * flow.deviator_norm(x)) as f32)
+        .map_init(Near::default, |near, &x| {
+            (scale * flow.deviator_norm(x, near)) as f32
+        })
         .collect()
 }

@@ -8,7 +8,7 @@ mod motion;
 
 pub(crate) use carry::{set_velocities, set_volume_changes, shear_rates};
 pub(crate) use field::Field;
-pub(crate) use flow::{Flow, extend};
+pub(crate) use flow::{Flow, Near, extend};
 pub(crate) use motion::Path;
 
 #[cfg(test)]

@@ -270,7 +270,9 @@ fn nothing_passes_a_wall_of_one_voxel() {
                 after: &after,
                 scale: 1.0,
             };
-            let moved = path.follow(&mut particles, |x, _: &mut ()| [v[0], v[1] + 0.1 * x[0], v[2]]);
+            let moved = path.follow(&mut particles, |x, _: &mut ()| {
+                [v[0], v[1] + 0.1 * x[0], v[2]]
+            });
             deepest = deepest.max(moved.deepest);
             assert_eq!(moved.pinched, 0);
             for (&x, &was) in particles.position.iter().zip(&was) {
@@ -301,7 +303,8 @@ fn against_a_wall(ahead: f64, x: f64) -> f64 {
         let of = |&dof: &u32| if dof == NONE { f32::NAN } else { 1.0 };
         active[axis].iter().map(of).collect()
     });
-    Flow::new(&l, &value, &active, &[[0.0; 3]], 0.0).velocity([x, 1.5, 0.5], &mut Default::default())[0]
+    Flow::new(&l, &value, &active, &[[0.0; 3]], 0.0)
+        .velocity([x, 1.5, 0.5], &mut Default::default())[0]
 }
 
 /// Less than half a cell before a wall, a face is on the line from the one behind to the wall; the

@@ -45,7 +45,8 @@ fn extend_once(lattice: &Lattice, axis: usize, value: &mut [f32]) {
             let wanted = move |&index: &usize| {
                 before[index].is_nan()
                     && lattice.face(axis, index) == OPEN
-                    && (strides.iter()).any(|s| !(before[index - s].is_nan() && before[index + s].is_nan()))
+                    && (strides.iter())
+                        .any(|s| !(before[index - s].is_nan() && before[index + s].is_nan()))
             };
             let places = (row * nx + 1..(row + 1) * nx - 1).filter(wanted);
             places.filter_map(move |index| {

@@ -53,12 +53,12 @@ pub(super) fn build(
     let window = &lattice.window;
     let mut known: Vec<(u8, u32)> = Vec::new();
     for (axis, value) in value.iter().enumerate().take(window.domain.axes) {
-        known.par_extend((value.par_iter().enumerate().with_min_len(CHUNK)).filter_map(
-            |(index, v)| {
+        known.par_extend(
+            (value.par_iter().enumerate().with_min_len(CHUNK)).filter_map(|(index, v)| {
                 let within = || window.inner(window.coordinates(index));
                 (!v.is_nan() && within()).then_some((axis as u8, index as u32))
-            },
-        ));
+            }),
+        );
     }
     let mut slot: [Vec<u32>; 3] = std::array::from_fn(|axis| {
         let n = if axis < window.domain.axes {

@@ -35,15 +35,6 @@ pub(crate) struct Flow {
     pub(super) bodies: Vec<[f64; 3]>,
 }
 
-/// One velocity component and its gradient at a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Component {
-    /// Value, m/s.
-    pub(crate) value: f64,
-    /// Derivatives along x, y, z, m/s per cell.
-    pub(crate) gradient: [f64; 3],
-}
-
 impl Flow {
     /// The field of the face velocities `value[axis][index]` (m/s; NaN: unknown) among bodies
     /// that move with `bodies` (m/s). `active[axis][index]` is not [`NONE`] for the faces that
@@ -64,35 +55,6 @@ impl Flow {
             closed: lattice.faces.clone(),
             bodies: bodies.to_vec(),
         }
-    }
-
-    /// All velocity components with their gradients at a point given in cells of the domain.
-    pub(crate) fn gradient(&self, point: [f64; 3]) -> [Component; 3] {
-        let (local, cell, index) = self.place(point);
-        let mut all = [Component::default(); 3];
-        for (axis, out) in all.iter_mut().enumerate().take(self.window.domain.axes) {
-            let tangents = tangents(axis);
-            let value = |f: &Face, at: [f32; 2]| f64::from(f.profile.value(at));
-            out.value = self.component::<true>(axis, index, cell, local, value);
-            for (which, &t) in tangents.iter().enumerate() {
-                if t < self.window.domain.axes {
-                    let slope = |f: &Face, at: [f32; 2]| f64::from(f.profile.slope(at, which));
-                    out.gradient[t] = self.component::<false>(axis, index, cell, local, slope);
-                }
-            }
-            let mut low = local;
-            let mut high = local;
-            low[axis] = cell[axis] as f64;
-            high[axis] = cell[axis] as f64 + 1.0;
-            let at = |x| self.component::<true>(axis, index, cell, x, value);
-            out.gradient[axis] = at(high) - at(low);
-        }
-        all
-    }
-
-    /// |dev D| (m/s per cell) at a point given in cells of the domain.
-    pub(crate) fn deviator_norm(&self, point: [f64; 3]) -> f64 {
-        deviator_norm(&self.gradient(point).map(|c| c.gradient))
     }
 
     /// Place in the window of a point, its cell and that one's index. A point beyond the window
