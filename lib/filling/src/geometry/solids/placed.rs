@@ -7,7 +7,7 @@ use physics::VoxelBlock;
 use super::BodyId;
 
 /// Points this close (cells) to a surface count as on it.
-const TOUCH: f64 = 1e-7;
+pub(super) const TOUCH: f64 = 1e-7;
 
 /// A block of voxels at its place, in cell units.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! Swept collision of points with moving bodies: nothing passes a wall, however thin.
 
 use super::Solids;
-use super::placed::Placed;
+use super::placed::{Placed, TOUCH};
 
 /// Distance (cells) at which a deflected point stays off a wall.
 const CLEARANCE: f64 = 0.02;
@@ -113,7 +113,11 @@ impl Placed {
         if (0..3).any(|i| a[i].max(b[i]) < 0.0 || a[i].min(b[i]) > dims[i]) {
             return None;
         }
-        let mut voxel = a.map(|x| x.floor() as i64);
+        let mut voxel = a.map(floor);
+        let within = |i: usize| (TOUCH..1.0 - TOUCH).contains(&(b[i] - voxel[i] as f64));
+        if (0..3).all(within) {
+            return None;
+        }
         let way: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
         let step = way.map(|w| if w > 0.0 { 1_i64 } else { -1 });
         // Part of the path at which it leaves the current voxel along each axis.
@@ -151,4 +155,11 @@ impl Placed {
             }
         }
     }
+}
+
+/// The integer at or below `x`, by two conversions instead of a call.
+#[inline]
+fn floor(x: f64) -> i64 {
+    let towards_zero = x as i64;
+    towards_zero - i64::from(x < towards_zero as f64)
 }
