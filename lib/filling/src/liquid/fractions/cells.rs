@@ -75,10 +75,15 @@ pub(crate) fn pressures(
             return f32::NAN;
         }
         let n = range.len() as f64;
-        let sum: f64 = range
-            .map(|p| tait.pressure(f64::from(particles.j[p])))
-            .sum();
-        (sum / n) as f32
+        // Particles that took up what they carry in one cell carry the same.
+        let (mut last, mut pressure) = (f32::NAN, 0.0);
+        let pressures = particles.j[range].iter().map(|&j| {
+            if j != last {
+                (last, pressure) = (j, tait.pressure(f64::from(j)));
+            }
+            pressure
+        });
+        (pressures.sum::<f64>() / n) as f32
     }));
     pressure.clear();
     pressure.par_extend((0..window.len()).into_par_iter().map(|cell| {

@@ -62,8 +62,9 @@ pub(super) fn volumes(particles: &Particles, bins: &Bins, window: &Window, depos
         for (c, &wz) in wz.iter().take(planes).enumerate() {
             for (b, &wy) in wy.iter().enumerate() {
                 let start = (k + c - first) * layer + (j + b) * row + i;
-                out[start] += wx[0] * wy * wz * weight;
-                out[start + 1] += wx[1] * wy * wz * weight;
+                for (out, wx) in out[start..start + 2].iter_mut().zip(wx) {
+                    *out += wx * wy * wz * weight;
+                }
             }
         }
     };
@@ -97,7 +98,7 @@ pub(crate) fn velocities(
     let (row, layer) = (window.stride(1), window.stride(2));
     let spread = |p: usize, first: usize, out: &mut [[f32; 2]]| {
         let at = window.local(particles.position[p]);
-        let volume = particles.volume[p];
+        let (volume, velocity) = (particles.volume[p], particles.velocity[p][axis]);
         let (i, wx) = hat(at[0] - shift(0));
         let (j, wy) = hat(at[1] - shift(1));
         let (k, wz) = if flat {
@@ -109,10 +110,10 @@ pub(crate) fn velocities(
         for (c, &wz) in wz.iter().take(planes).enumerate() {
             for (b, &wy) in wy.iter().enumerate() {
                 let start = (k + c - first) * layer + (j + b) * row + i;
-                for (a, &wx) in wx.iter().enumerate() {
+                for ([sum, total], wx) in out[start..start + 2].iter_mut().zip(wx) {
                     let weight = wx * wy * wz * volume;
-                    let [sum, total] = out[start + a];
-                    out[start + a] = [sum + weight * particles.velocity[p][axis], total + weight];
+                    *sum += weight * velocity;
+                    *total += weight;
                 }
             }
         }
@@ -138,12 +139,12 @@ pub(crate) fn velocities(
     ));
 }
 
-/// Lower of the two lattice points around `x` and the hat's weights at both.
+/// Lower of the two lattice points around `x`, which is not negative, and the hat's weights at both.
 #[inline]
 fn hat(x: f64) -> (usize, [f32; 2]) {
-    let low = x.floor();
-    let high = (x - low) as f32;
-    (low as usize, [1.0 - high, high])
+    let low = x as usize;
+    let high = (x - low as f64) as f32;
+    (low, [1.0 - high, high])
 }
 
 /// Across a periodic `axis`: adds what lies in the images to their home, then copies it back.

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Fractions, films, sub_cells};
+use super::{Fractions, films, sub_cells, sub_cells_of};
 use crate::geometry::{Lattice, Window};
 
 /// Air pockets of at most this many cells, enclosed by liquid, are noise.
@@ -17,11 +17,14 @@ pub(super) fn close(fractions: &mut Fractions, lattice: &Lattice, bodies: &[[f64
     let cell = &fractions.cell;
     let mut kinds = vec![Kind::Solid; window.len()];
     kinds.par_chunks_mut(nx).enumerate().for_each(|(row, out)| {
-        for (i, kind) in out.iter_mut().enumerate() {
-            let index = row * nx + i;
-            *kind = if sub_cells(window, index).all(|s| open[s] <= 1e-6) {
+        for ((i, kind), mut subs) in
+            out.iter_mut()
+                .enumerate()
+                .zip(sub_cells_of(window, row, 0..nx))
+        {
+            *kind = if subs.all(|s| open[s] <= 1e-6) {
                 Kind::Solid
-            } else if rows[row].contains(&i) && cell[index] >= 0.5 {
+            } else if rows[row].contains(&i) && cell[row * nx + i] >= 0.5 {
                 Kind::Liquid
             } else {
                 Kind::Air

@@ -142,17 +142,21 @@ impl Fractions {
         let nx = window.cells[0];
         cell.par_chunks_mut(nx).enumerate().for_each(|(row, out)| {
             out.fill(0.0);
-            for i in rows[row].clone() {
-                out[i] = fraction(window, row * nx + i, liquid, open);
+            let cells = rows[row].clone();
+            for (out, subs) in out[cells.clone()]
+                .iter_mut()
+                .zip(sub_cells_of(window, row, cells))
+            {
+                *out = fraction(subs, liquid, open);
             }
         });
     }
 }
 
 /// Liquid fraction of a cell's open volume.
-fn fraction(window: &Window, cell: usize, liquid: &[f32], open: &[f32]) -> f32 {
+fn fraction(subs: impl Iterator<Item = usize>, liquid: &[f32], open: &[f32]) -> f32 {
     let (mut wet, mut room) = (0.0, 0.0);
-    for sub in sub_cells(window, cell) {
+    for sub in subs {
         wet += liquid[sub] * open[sub];
         room += open[sub];
     }
@@ -161,7 +165,21 @@ fn fraction(window: &Window, cell: usize, liquid: &[f32], open: &[f32]) -> f32 {
 
 /// The sub-cells of a cell.
 pub(crate) fn sub_cells(window: &Window, cell: usize) -> impl Iterator<Item = usize> + use<> {
-    let first = window.first_sub(window.coordinates(cell));
+    sub_cells_from(window, window.first_sub(window.coordinates(cell)))
+}
+
+/// The sub-cells of each of the `cells` of row j + ny k of the window.
+fn sub_cells_of(
+    window: &Window,
+    row: usize,
+    cells: Range<usize>,
+) -> impl Iterator<Item = impl Iterator<Item = usize>> {
+    let (j, k) = (row % window.cells[1], row / window.cells[1]);
+    cells.map(move |i| sub_cells_from(window, window.first_sub([i, j, k])))
+}
+
+/// The sub-cells of the cell whose low one is `first`.
+fn sub_cells_from(window: &Window, first: usize) -> impl Iterator<Item = usize> + use<> {
     let (row, layer, parts) = (window.sub_stride(1), window.sub_stride(2), window.parts(2));
     (0..parts).flat_map(move |c| {
         (0..2).flat_map(move |b| (0..2).map(move |a| first + c * layer + b * row + a))
@@ -170,6 +188,8 @@ pub(crate) fn sub_cells(window: &Window, cell: usize) -> impl Iterator<Item = us
 
 /// Margin of the rows of [`collapse`] at both ends of their span.
 const MARGIN: usize = 3;
+/// Sub-cells that [`collapse`] sums up together.
+const BLOCK: usize = 16;
 
 /// Weighted sum of the rows of sub-cells around row `at`, over the sub-cells of `span` and
 /// [`MARGIN`] more on both sides. `lines` are the number of rows along y and z and the
@@ -199,13 +219,22 @@ fn collapse(
             (line < n).then_some((line, weight))
         })
     };
-    for (k, wz) in taps(1) {
-        for (j, wy) in taps(0) {
-            let row = (k * lines[0].0 + j) * nx;
-            let weight = wy * wz;
-            for (s, &v) in sum[low..].iter_mut().zip(&values[row + from..row + until]) {
+    let rows: Vec<(&[f32], f32)> = taps(1)
+        .flat_map(|(k, wz)| taps(0).map(move |(j, wy)| ((k * lines[0].0 + j) * nx, wy * wz)))
+        .map(|(row, weight)| (&values[row + from..row + until], weight))
+        .collect();
+    // A few sub-cells through all rows at a time stay in registers.
+    let (blocks, rest) = sum[low..low + until - from].as_chunks_mut::<BLOCK>();
+    for (b, block) in blocks.iter_mut().enumerate() {
+        for (row, weight) in &rows {
+            for (s, v) in block.iter_mut().zip(&row[b * BLOCK..(b + 1) * BLOCK]) {
                 *s += weight * v;
             }
+        }
+    }
+    for (row, weight) in &rows {
+        for (s, v) in rest.iter_mut().zip(&row[blocks.len() * BLOCK..]) {
+            *s += weight * v;
         }
     }
     sum
