@@ -59,7 +59,7 @@ impl Implicit {
             let (g, volume) = (&solution.g, &solution.face_volume);
             let (moves, _) = density::displacement(g, &g.transpose(), volume, &solution.cells)?;
             let field = density::Field::new(&lattice.window, &solution.dofs.face, moves);
-            Ok(path.follow(particles, |x, _: &mut ()| field.at(x)))
+            Ok(path.follow(particles, |x, near| field.at(x, near)))
         });
         let moved = projected.map_err(|error| self.unsolved(error))?;
         self.state.counts.lost += moved.lost;

@@ -107,6 +107,10 @@ impl Placed {
     /// First entry of the path into a solid voxel of the block; a voxel that the path starts
     /// in does not count.
     fn entry(&self, after: &Placed, from: [f64; 3], to: [f64; 3]) -> Option<Entry> {
+        // Most paths lie below one of the blocks, which takes no division to tell.
+        if (0..3).any(|i| from[i] < self.origin[i] && to[i] < after.origin[i]) {
+            return None;
+        }
         let a: [f64; 3] = std::array::from_fn(|i| (from[i] - self.origin[i]) / self.edge[i]);
         let b: [f64; 3] = std::array::from_fn(|i| (to[i] - after.origin[i]) / self.edge[i]);
         let dims = self.rows.block.dims().map(|n| n as f64);

@@ -226,11 +226,13 @@ fn collapse(
     // A few sub-cells through all rows at a time stay in registers.
     let (blocks, rest) = sum[low..low + until - from].as_chunks_mut::<BLOCK>();
     for (b, block) in blocks.iter_mut().enumerate() {
+        let mut sums = [0.0; BLOCK];
         for (row, weight) in &rows {
-            for (s, v) in block.iter_mut().zip(&row[b * BLOCK..(b + 1) * BLOCK]) {
+            for (s, v) in sums.iter_mut().zip(&row[b * BLOCK..(b + 1) * BLOCK]) {
                 *s += weight * v;
             }
         }
+        *block = sums;
     }
     for (row, weight) in &rows {
         for (s, v) in rest.iter_mut().zip(&row[blocks.len() * BLOCK..]) {

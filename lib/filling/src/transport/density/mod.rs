@@ -111,17 +111,17 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Displacement (cells) at a point of the domain.
+    /// Displacement (cells) at a point of the domain; `near` is kept from point to point of this field.
     #[inline]
-    pub(crate) fn at(&self, point: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn at(&self, point: [f64; 3], near: &mut Near) -> [f64; 3] {
         match self.window.domain.axes {
-            2 => self.along::<2>(point),
-            _ => self.along::<3>(point),
+            2 => self.along::<2>(point, near),
+            _ => self.along::<3>(point, near),
         }
     }
 
     #[inline]
-    fn along<const AXES: usize>(&self, point: [f64; 3]) -> [f64; 3] {
+    fn along<const AXES: usize>(&self, point: [f64; 3], near: &mut Near) -> [f64; 3] {
         let local = self.window.local(point);
         let mut found = [0.0; 3];
         for (axis, found) in found.iter_mut().enumerate().take(AXES) {
@@ -134,19 +134,44 @@ impl<'a> Field<'a> {
                 parts[a] = [1.0 - part, part];
             }
             let base = self.window.index(low);
-            for corner in 0..1_usize << AXES {
-                let (mut index, mut weight) = (base, 1.0);
-                for (a, part) in parts.iter().enumerate().take(AXES) {
-                    let high = corner >> a & 1;
-                    index += high * self.window.stride(a);
-                    weight *= part[high];
-                }
-                // No face, a number beyond all, stands at the end and does not move.
-                let face = (self.face[axis][index] as usize).min(self.moves.len() - 1);
-                *found += weight * self.moves[face];
+            if near.base[axis] != base {
+                near.base[axis] = base;
+                self.gather::<AXES>(axis, base, &mut near.moves[axis]);
+            }
+            for (corner, moved) in near.moves[axis].iter().enumerate().take(1 << AXES) {
+                let part = |weight: f64, a: usize| weight * parts[a][corner >> a & 1];
+                *found += (0..AXES).fold(1.0, part) * moved;
             }
         }
         found
+    }
+
+    /// Displacements of the faces along `axis` at the corners from face `base` on; bit a of a corner's
+    /// number: the higher one along a.
+    #[inline]
+    fn gather<const AXES: usize>(&self, axis: usize, base: usize, moves: &mut [f64; 8]) {
+        for (corner, moved) in moves.iter_mut().enumerate().take(1 << AXES) {
+            let step = |a: usize| (corner >> a & 1) * self.window.stride(a);
+            let face = self.face[axis][base + (0..AXES).map(step).sum::<usize>()] as usize;
+            // No face, a number beyond all, stands at the end and does not move.
+            *moved = self.moves[face.min(self.moves.len() - 1)];
+        }
+    }
+}
+
+/// The displacements that were asked for last: half a step ahead of a point they are mostly its own.
+pub(crate) struct Near {
+    /// The lowest face along each axis.
+    base: [usize; 3],
+    moves: [[f64; 8]; 3],
+}
+
+impl Default for Near {
+    fn default() -> Self {
+        Self {
+            base: [usize::MAX; 3],
+            moves: [[0.0; 8]; 3],
+        }
     }
 }
 

@@ -54,7 +54,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
     let (moves, iterations) = displacement(
         &system.g,
         &system.g.transpose(),
-        &system.face_volume,
+        &operator.face_volume,
         &cells,
     )
     .unwrap();
@@ -65,7 +65,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
         after: &lattice.solids,
         scale: 1.0,
     };
-    let moved = path.follow(particles, |x, _: &mut ()| field.at(x));
+    let moved = path.follow(particles, |x, near| field.at(x, near));
     assert_eq!(moved.pinched, 0);
     (error(&fractions), iterations)
 }
