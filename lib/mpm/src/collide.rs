@@ -117,7 +117,8 @@ fn faces(tile: &Tile, lattice: &Lattice, bodies: &[Obstacle]) -> Vec<FaceGrid> {
         .filter(|(b, _)| tile.bodies >> b & 1 == 1);
     near.flat_map(|(_, body)| body.parts.iter().map(move |part| (body, part)))
         .map(|(body, part)| {
-            let (mut scale, mut origin, mut margin) = (Lanes4::ZERO, Lanes4([0.5; 4]), Lanes4::ZERO);
+            let (mut scale, mut origin, mut margin) =
+                (Lanes4::ZERO, Lanes4([0.5; 4]), Lanes4::ZERO);
             for a in 0..3 {
                 let inverse = 1.0 / part.voxel[a];
                 let low = (f64::from(tile.origin[a]) - body.to[a] - part.origin[a]) * inverse;
