@@ -98,11 +98,16 @@ pub(crate) fn acoustic_limit(scene: &Scene, speed: f64, j: f64) -> f64 {
 /// leave, about a quarter.
 fn memory(scene: &Scene, amount: &Amount, settings: &Settings) -> f64 {
     let affine = settings.velocity_update == VelocityUpdate::Apic;
-    let per_point = 6 + BYTES * if affine { 44 } else { 32 };
+    let bodies = scene.bodies.len() as u64;
+    let filtered = u64::from(settings.velocity_update.order() > 1);
+    // With the room that tiles leave for more, an eighth at most.
+    let per_point = 17.0 / 16.0 * (6 + BYTES * if affine { 28 } else { 16 }) as f64;
+    let spans = 108 * 12;
+    let lanes = 8 * (1 + u64::from(bodies > 0)) + 4 * filtered;
+    let per_tile = 216 * (BYTES * lanes + 2) + spans;
+    let per_node = 1 + 8 * BYTES + (24 + 8 * BYTES) * bodies + (44 + 4 * BYTES) * filtered;
+    let per_block = 64 * per_node + spans;
     let volume = amount.volume_m3 / scene.grid.cell_m.powi(3);
     let tiles = (volume / 64.0 * 4.0).ceil() + 1.0;
-    let bodies = scene.bodies.len() as u64;
-    let per_tile = 216 * (8 * BYTES * (1 + u64::from(bodies > 0)) + 13);
-    let per_block = 64 * (16 + 8 * BYTES + (24 + 8 * BYTES) * bodies) + 216 * 8;
-    amount.points as f64 * per_point as f64 + tiles * (per_tile + 2 * per_block) as f64
+    amount.points as f64 * per_point + tiles * (per_tile + 2 * per_block) as f64
 }

@@ -20,9 +20,11 @@ fn words(counts: [u64; 4]) -> Vec<u32> {
 
 impl Explicit {
     pub(crate) fn to_saved(&self) -> Saved {
-        let (mut id, mut node) = (Vec::new(), Vec::new());
-        let (mut place, mut motion, mut stress) = (Vec::new(), Vec::new(), Vec::new());
-        let mut affine = Vec::new();
+        let count: usize = self.grid.tiles.iter().map(|tile| tile.points.len()).sum();
+        let reals = |each: usize| Vec::with_capacity(each * count);
+        let (mut id, mut node) = (Vec::with_capacity(count), Vec::with_capacity(3 * count));
+        let (mut place, mut motion, mut stress) = (reals(4), reals(4), reals(8));
+        let mut affine = reals(if self.present.affine { 12 } else { 0 });
         for tile in &self.grid.tiles {
             let points = &tile.points;
             id.extend_from_slice(&points.id);

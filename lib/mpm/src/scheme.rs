@@ -46,14 +46,22 @@ impl Scheme for Explicit {
 
     fn liquid(&self) -> LiquidState {
         let (cell, min) = (self.scene.grid.cell_m, self.scene.grid.min_m);
-        let mut order: Vec<(u32, usize, usize)> = Vec::new();
+        let count = self.grid.tiles.iter().map(|tile| tile.points.len()).sum();
+        let mut order: Vec<[u32; 3]> = Vec::with_capacity(count);
         for (t, tile) in self.grid.tiles.iter().enumerate() {
-            order.extend(tile.points.id.iter().enumerate().map(|(p, &id)| (id, t, p)));
+            let ids = tile.points.id.iter().enumerate();
+            order.extend(ids.map(|(p, &id)| [id, t as u32, p as u32]));
         }
         order.sort_unstable();
-        let mut state = LiquidState::default();
-        for (_, t, p) in order {
-            let tile = &self.grid.tiles[t];
+        let mut state = LiquidState {
+            position: Vec::with_capacity(count),
+            velocity: Vec::with_capacity(count),
+            volume: Vec::with_capacity(count),
+            pressure: Vec::with_capacity(count),
+            shear_rate: Vec::with_capacity(count),
+        };
+        for [_, t, p] in order {
+            let (tile, p) = (&self.grid.tiles[t as usize], p as usize);
             let points = &tile.points;
             let node = tile.node_of(points.base[p]);
             let [vx, vy, vz, j] = points.motion[p].0;

@@ -110,7 +110,8 @@ pub struct Settings {
     /// Velocity update.
     pub velocity_update: VelocityUpdate,
     /// Time step over the limit that binds. With GIMP 0.7 is stable for 1e-3 to 1.3 Pa s in a
-    /// pool on a wall off the nodes; 1.0 is not, neither there nor in wood.
+    /// pool on a wall off the nodes; 1.0 is not, neither there nor in wood, and 0.7 is not in every bond
+    /// (docs/methods.md section 2.2).
     pub cfl: f64,
     /// Whose volume change sets a point's pressure; not the paper's unless `Point`.
     pub pressure: PressureFrom,

@@ -135,3 +135,134 @@ impl<F: Flow> Kernel for Refresh<'_, F> {
             .update(self.points, self.gradient, self.flow, self.dt);
     }
 }
+
+#[cfg(all(test, target_arch = "x86_64", not(feature = "double")))]
+mod tests {
+    use super::*;
+    use crate::lattice::Lattice;
+    use crate::stages::Present;
+    use crate::tiles::{Point, base_of};
+
+    /// What a step and a round of the filter do to a tile by its points.
+    struct Transfers<'a>(&'a mut Tile, &'a mut Scratch, &'a Stress);
+
+    impl Kernel for Transfers<'_> {
+        #[inline(always)]
+        fn run<const FMA: bool>(self) {
+            let Self(tile, scratch, stress) = self;
+            let (dt_over_cell, dt, keep) = (1e-3, 1e-9, false);
+            let (shape, of) = (PhantomData::<Gimp>, PhantomData::<(Gimp, Increment)>);
+            let p2g = P2g::<Gimp, 3, false> {
+                tile,
+                dt_over_cell,
+                shape,
+            };
+            p2g.run::<FMA>();
+            let twice = tile.local.iter().map(|x| Lanes8::of(x.low(), x.low()));
+            scratch.field = twice.collect();
+            let field = &scratch.field[..];
+            let filter = Filter::<Gimp, 3> {
+                tile,
+                field,
+                keep,
+                shape,
+            };
+            filter.run::<FMA>();
+            let g2p = G2p::<Gimp, _, 3> {
+                tile,
+                scratch,
+                dt_over_cell,
+                of,
+            };
+            g2p.run::<FMA>();
+            let (flow, gradient) = (&Constant::new(1.3, 1200.0), &scratch.gradient[..]);
+            let points = &mut tile.points;
+            let refresh = Refresh {
+                points,
+                gradient,
+                stress,
+                flow,
+                dt,
+            };
+            refresh.run::<FMA>();
+        }
+    }
+
+    /// A tile half of whose nodes are near a body, with one to nine points a node.
+    fn tile() -> Tile {
+        let lattice = Lattice {
+            cells: [8; 3],
+            boundary: [physics::Boundary::Open; 3],
+            three: true,
+        };
+        let present = Present {
+            three: true,
+            contact: true,
+            friction: false,
+            force: false,
+            clamp: false,
+            load: false,
+            filter: true,
+            affine: false,
+            cell_mean: false,
+            projection: false,
+        };
+        let mut tile = Tile::new(lattice.tile_key([4; 3]), &lattice, present, 1);
+        tile.bodies = 1;
+        let mut seed = 1_u32;
+        let mut noise = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / (1 << 24) as f32 - 0.5
+        };
+        for node in 0..64 {
+            let base = base_of([node % 4, node / 4 % 4, node / 16]);
+            tile.near_wall[usize::from(base)] = node % 2 == 0;
+            for id in 0..=node as u32 % 9 {
+                let point = Point {
+                    id,
+                    place: Lanes4([noise(), noise(), noise(), 0.125]),
+                    motion: Lanes4([noise(), noise(), noise(), 1e-3 * noise()]),
+                    stress: Lanes8([(); 8].map(|()| noise())),
+                    affine: [Lanes4::ZERO; 3],
+                };
+                tile.points.push(&point, base, false);
+            }
+        }
+        tile
+    }
+
+    fn bits(tile: &Tile, scratch: &Scratch) -> Vec<u32> {
+        let points = &tile.points;
+        let eights = tile.local.iter().chain(&tile.wall_local);
+        let eights = eights.chain(&points.stress).flat_map(|x| x.0);
+        let fours = points.motion.iter().chain(&tile.filtered);
+        let fours = fours.chain(&scratch.shift);
+        let fours = fours.chain(scratch.gradient.iter().flatten());
+        let all = eights.chain(fours.flat_map(|x| x.0));
+        all.map(f32::to_bits).collect()
+    }
+
+    #[test]
+    fn avx512_gives_the_bits_of_avx2() {
+        let liquid = physics::Liquid {
+            density: 1200.0,
+            tait: physics::Tait { bulk_modulus: 1e9 },
+            viscosity: physics::Viscosity::Newtonian(physics::Newtonian(1.3)),
+            shear_rate: physics::ShearRate::Paper,
+            cavitation_pressure: None,
+        };
+        let stress = Stress::new(&liquid, 2.9e-6, f64::INFINITY);
+        let (mut first, mut second) = (tile(), tile());
+        let (mut narrow, mut wide) = (Scratch::default(), Scratch::default());
+        let before = bits(&first, &narrow);
+        let both = crate::simd::by_each(
+            Transfers(&mut first, &mut narrow, &stress),
+            Transfers(&mut second, &mut wide, &stress),
+        );
+        if both {
+            let after = bits(&first, &narrow);
+            assert!(after == bits(&second, &wide));
+            assert!(after.len() > before.len() && after[..before.len()] != before[..]);
+        }
+    }
+}
