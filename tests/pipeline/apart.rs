@@ -106,20 +106,20 @@ fn parts_of_a_series_replace_only_such_parts() {
     let bench = bench();
     let again = ["export", "bond.mpts", "specimen.mpts", "-o", "o.pvd"];
     bench.done("particles", &again);
-    let parts = bench.names("o");
+    let parts = bench.names("o.parts");
     let part = parts.iter().find(|name| name.starts_with("0001")).unwrap();
-    let path = format!("o/{part}");
+    let path = format!("o.parts/{part}");
     let own = bench.read(&path);
     bench.done("particles", &again);
 
-    bench.write("o/notes.txt", "mine");
+    bench.write("o.parts/notes.txt", "mine");
     fs::copy(bench.path("bond.mpts"), bench.path(&path)).unwrap();
     let others = |line: &str| {
-        let first = bench.read("o/0000-wood-bottom.vti");
-        bench.write("o/0000-wood-bottom.vti", [&first[..], b" "].concat());
+        let first = bench.read("o.parts/0000-wood-bottom.vti");
+        bench.write("o.parts/0000-wood-bottom.vti", [&first[..], b" "].concat());
         refused(&bench, line, &path, "no part of an earlier output");
         // Nothing is moved where one part cannot be.
-        assert!(bench.read("o/0000-wood-bottom.vti").ends_with(b" "));
+        assert!(bench.read("o.parts/0000-wood-bottom.vti").ends_with(b" "));
     };
     others(&format!("particles export specimen.mpts {path} -o o.pvd"));
     let line = format!("particles {}", again.join(" "));
@@ -138,5 +138,5 @@ fn parts_of_a_series_replace_only_such_parts() {
     fs::remove_file(bench.path(&format!("{path}.provenance.json"))).unwrap();
     bench.done("particles", &again);
     assert!(bench.read(&path) == own);
-    assert_eq!(bench.read("o/notes.txt"), b"mine");
+    assert_eq!(bench.read("o.parts/notes.txt"), b"mine");
 }

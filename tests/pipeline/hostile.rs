@@ -204,5 +204,5 @@ fn a_failed_series_leaves_nothing() {
         "particles",
         &["export", "bond.mpts", "specimen.mpts", "-o", "s.pvd"],
     );
-    assert!(bench.path("s/0000-adhesive.vti").exists());
+    assert!(bench.path("s.parts/0000-adhesive.vti").exists());
 }

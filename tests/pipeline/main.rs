@@ -18,6 +18,7 @@ mod forged;
 mod hostile;
 mod interruption;
 mod limit;
+mod makefile;
 mod quoted;
 mod refusals;
 mod repeatability;

@@ -33,6 +33,26 @@ fn put(bench: &Workbench, name: &str) {
     fs::write(path, format!("the user's own {name}")).unwrap();
 }
 
+/// Runs side by side ended in lines of which none said whose it was.
+#[test]
+fn the_closing_line_names_the_run() {
+    let bench = Workbench::with_bond();
+    let arguments = [
+        "case.toml",
+        "--particles",
+        "bond.mpts",
+        "-o",
+        "third",
+        "--set",
+    ];
+    let output = bench.run(
+        "mpm-run",
+        &[&arguments[..], &["clamp.stop=0.05 us"]].concat(),
+    );
+    let said = said(&output);
+    assert!(said.contains("third: The run reached its time"), "{said}");
+}
+
 fn marked(bench: &Workbench) {
     put(bench, "run/bondline-run.toml");
     bench.write("run/bondline-run.toml", "");

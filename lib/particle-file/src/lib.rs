@@ -40,7 +40,7 @@ pub use header::{Block, Header, Kind, Material, Provenance};
 pub use layout::{Element, Section};
 pub use map::Mapped;
 pub use read::{ParticleFile, Value};
-pub use spool::spool;
+pub use spool::{spool, spool_exactly};
 pub use write::Draft;
 
 const _: () = assert!(

@@ -29,17 +29,43 @@ pub fn spool(mut pipe: impl Read, recognised: impl Fn(&[u8]) -> bool) -> io::Res
     Ok(file)
 }
 
+/// Copies what `content` gives, `bytes` and no more, to an unnamed temporary file.
+///
+/// # Errors
+/// The system's reason, content that ends before, or more bytes than half of what is free in the
+/// folder of temporary files.
+pub fn spool_exactly(content: impl Read, bytes: u64) -> io::Result<File> {
+    let mut file = tempfile::tempfile()?;
+    let free = rustix::fs::fstatvfs(&file)?;
+    let most = free.f_bavail.saturating_mul(free.f_frsize) / 2;
+    if bytes > most {
+        return Err(too_much(most));
+    }
+    let found = io::copy(&mut content.take(bytes), &mut file)?;
+    if found < bytes {
+        return Err(io::Error::other(format!(
+            "it ends after {found} of {bytes} bytes"
+        )));
+    }
+    file.seek(SeekFrom::Start(0))?;
+    Ok(file)
+}
+
 /// Copies all of `pipe` unless it is more than `most` bytes.
 fn copy(pipe: impl Read, file: &mut File, most: u64) -> io::Result<()> {
     if io::copy(&mut pipe.take(most.saturating_add(1)), file)? <= most {
         return Ok(());
     }
-    Err(io::Error::other(format!(
-        "the pipe gives more than {:.1} GB, half of what is free in '{}' for temporary files: \
+    Err(too_much(most))
+}
+
+fn too_much(most: u64) -> io::Error {
+    io::Error::other(format!(
+        "it gives more than {:.1} GB, half of what is free in '{}' for temporary files: \
          write it to a file and give its name, or set TMPDIR to a larger disk",
         most as f64 / 1e9,
         std::env::temp_dir().display()
-    )))
+    ))
 }
 
 #[cfg(test)]
@@ -63,5 +89,9 @@ mod tests {
         let whole = spool(pipe.as_slice(), |head| head == [7; HEAD]).unwrap();
         assert_eq!(content(whole), pipe);
         assert_eq!(content(spool([9].as_slice(), |_| true).unwrap()), [9]);
+        assert_eq!(content(spool_exactly(io::repeat(3), 2).unwrap()), [3, 3]);
+        let said = spool_exactly([9].as_slice(), 2).unwrap_err();
+        assert!(said.to_string().contains("1 of 2 bytes"), "{said}");
+        assert!(spool_exactly(io::repeat(3), u64::MAX).is_err());
     }
 }

@@ -12,9 +12,9 @@ pub(crate) const UNKNOWN: u8 = 0x80;
 /// The label sets that are recognised without `--labels`, each with its bits of "seen".
 /// Label 0 and the phases agree between the sets, so one pass can code both and decide at
 /// the end which one it was.
-const GUESSES: [([f64; 3], [u8; 3]); 2] = [
-    ([0.0, 1.0, 2.0], [0x04, 0x08, 0x10]),
-    ([0.0, 128.0, 255.0], [0x04, 0x20, 0x40]),
+const GUESSES: [(&[f64], [u8; 3]); 2] = [
+    (&[0.0, 1.0, 2.0], [0x04, 0x08, 0x10]),
+    (&[0.0, 128.0, 255.0], [0x04, 0x20, 0x40]),
 ];
 
 /// Codes pixels of one format.
@@ -96,11 +96,17 @@ impl<'a> Coder<'a> {
     }
 }
 
-/// Whether a stack with this union of codes held exactly the labels of one guess; gives them.
-pub(crate) fn guessed(union: u8) -> Option<[f64; 3]> {
+/// Whether a stack with this union of codes held exactly the labels of one guess; gives them. In a
+/// stack of one bit, 0 is void and 1 wood.
+pub(crate) fn guessed(union: u8, one_bit: bool) -> Option<&'static [f64]> {
+    let all = union & !(WOOD | ADHESIVE);
+    let (labels, seen) = GUESSES[0];
+    if one_bit && all == seen[0] | seen[1] {
+        return Some(&labels[..2]);
+    }
     GUESSES
         .into_iter()
-        .find(|(_, seen)| union & !(WOOD | ADHESIVE) == seen[0] | seen[1] | seen[2])
+        .find(|(_, seen)| all == seen[0] | seen[1] | seen[2])
         .map(|(labels, _)| labels)
 }
 
@@ -166,11 +172,16 @@ mod tests {
     #[test]
     fn a_guess_needs_all_three_labels_of_one_set() {
         let union = |values: &[f64]| values.iter().fold(0, |u, v| u | guess_code(*v));
-        assert_eq!(guessed(union(&[0.0, 1.0, 2.0])), Some([0.0, 1.0, 2.0]));
-        let second = guessed(union(&[255.0, 0.0, 128.0]));
-        assert_eq!(second, Some([0.0, 128.0, 255.0]));
-        assert_eq!(guessed(union(&[0.0, 1.0])), None);
-        assert_eq!(guessed(union(&[0.0, 1.0, 2.0, 128.0])), None);
-        assert_eq!(guessed(union(&[0.0, 1.0, 2.0, 3.0])), None);
+        assert_eq!(
+            guessed(union(&[0.0, 1.0, 2.0]), false),
+            Some(&[0.0, 1.0, 2.0][..])
+        );
+        let second = guessed(union(&[255.0, 0.0, 128.0]), false);
+        assert_eq!(second, Some(&[0.0, 128.0, 255.0][..]));
+        assert_eq!(guessed(union(&[0.0, 1.0]), false), None);
+        assert_eq!(guessed(union(&[0.0, 1.0]), true), Some(&[0.0, 1.0][..]));
+        assert_eq!(guessed(union(&[0.0]), true), None);
+        assert_eq!(guessed(union(&[0.0, 1.0, 2.0, 128.0]), false), None);
+        assert_eq!(guessed(union(&[0.0, 1.0, 2.0, 3.0]), false), None);
     }
 }

@@ -1,6 +1,8 @@
 use std::ops::Range;
 use std::str::FromStr;
 
+use crate::sample::PageFormat;
+
 /// A box of voxels to keep, half open: `x0:x1,y0:y1,z0:z1`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Crop([Range<usize>; 3]);
@@ -19,6 +21,20 @@ impl Crop {
     /// Numbers of voxels kept along x, y, z.
     pub fn dims(&self) -> [usize; 3] {
         [0, 1, 2].map(|axis| self.0[axis].len())
+    }
+
+    /// The cropped rows of a page, bottom of the index range first.
+    pub(crate) fn rows<'a>(
+        &self,
+        format: PageFormat,
+        page: &'a [u8],
+    ) -> impl Iterator<Item = &'a [u8]> + use<'a> {
+        let [x, y, _] = self.0.clone();
+        let pixel = format.pixel_bytes();
+        page.chunks_exact(format.width * pixel)
+            .skip(y.start)
+            .take(y.len())
+            .map(move |row| &row[x.start * pixel..x.end * pixel])
     }
 
     /// A sentence if the box reaches out of a stack of `[nx, ny, nz]` voxels.

@@ -1,35 +1,48 @@
 //! Label stacks: images of a specimen in, sets of voxels out, states of a run as voxels, and back
 //! to TIFF.
 //!
-//! [`Stack`] opens TIFF in its many variants, folders of slices, `.npy` and `.mhd`;
+//! [`Stack`] opens TIFF in its many variants, folders of slices (BMP, PNG, JPEG too), `.npy`,
+//! `.npz`, MetaImage, NRRD, NIfTI and raw volumes; [`Histogram`] counts grey values;
 //! [`segment`] sorts its voxels into [`Phases`], page by page. [`LabelVolume`] is
 //! the other way: what a particle file holds, liquid by its volume, as labels; [`TiffWriter`] writes them.
 //! A stack is indexed (z = page, y = row, x = column), x fastest.
 
+mod beside;
+mod bmp;
 mod coder;
 mod crop;
 mod error;
 mod folder;
+mod foreign;
+mod grey_levels;
+mod images;
 mod label;
 mod label_volume;
 mod mhd;
+mod nifti;
 mod npy;
+mod npz;
+mod nrrd;
 mod phases;
 mod raw;
+mod raw_layout;
 mod sample;
 mod segment;
 mod source;
 mod stack;
 pub mod synthetic;
 mod tiff;
+mod unpacked;
 mod volume_fractions;
 mod voxel_size;
 
 pub use crop::Crop;
 pub use error::Error;
+pub use grey_levels::Histogram;
 pub use label::Label;
 pub use label_volume::{ADHESIVE, LabelVolume, VOID, WOOD};
 pub use phases::{Grey, Labels, Phase, Phases};
+pub use raw_layout::{Dims, RawType};
 pub use sample::{PageFormat, Sample};
 pub use segment::{Segmented, segment};
 pub use source::Source;

@@ -1,12 +1,14 @@
-//! MetaImage: a text header (`.mhd`) and raw pixels beside it or behind it
+//! MetaImage: a text header (`.mhd`) and pixels, raw or by zlib, beside it or behind it
 //! (<https://itk.org/Wiki/ITK/MetaIO/Documentation>).
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use crate::Error;
+use crate::beside::data_file;
 use crate::raw::RawVolume;
 use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
+use crate::unpacked::{self, Packing};
 use crate::voxel_size::{VoxelSize, metres_of_unit};
 
 /// Spacings that can be meant, in whatever unit.
@@ -36,41 +38,21 @@ pub(crate) fn open(source: Source, path: &Path) -> Result<(RawVolume, Option<Vox
     let (sources, offset) = match &header.data {
         Data::Behind(offset) => (vec![source], *offset),
         Data::File(name) => {
-            let beside = data_file(path, name).map_err(|what| Error::file(&source, what))?;
+            let beside = data_file(path, name, "ElementDataFile")
+                .map_err(|what| Error::file(&source, what))?;
             (vec![source, Source::open(&beside)?], header.skip)
         }
     };
-    let volume = RawVolume::new(sources, format, header.dims[2], offset, header.big_endian)?;
+    let (pages, big) = (header.dims[2], header.big_endian);
+    let bytes = format.page_bytes().and_then(|n| n.checked_mul(pages));
+    let volume = match (header.compressed, bytes, sources.last()) {
+        (true, Some(bytes), Some(pixels)) => {
+            let file = unpacked::unpack(pixels, offset, Packing::Zlib, bytes as u64)?;
+            RawVolume::unpacked(sources, file, format, pages, 0, big)?
+        }
+        _ => RawVolume::new(sources, format, pages, offset, big)?,
+    };
     Ok((volume, voxel_size))
-}
-
-/// The file `name` in the folder of the header at `path`; nothing outside that folder is read,
-/// be it through `..` or a link.
-fn data_file(path: &Path, name: &Path) -> Result<PathBuf, String> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let refused = |why: &str| {
-        format!(
-            "its ElementDataFile '{}' {why}; accepted is a file in the header's own folder or in one inside it",
-            name.display()
-        )
-    };
-    let stays = |part| matches!(part, Component::Normal(_) | Component::CurDir);
-    if !name.components().all(stays) {
-        return Err(refused("is an absolute path or has '..' in it"));
-    }
-    let beside = folder.join(name);
-    let unreadable = |e: std::io::Error| refused(&format!("cannot be read: {e}"));
-    let place = beside.canonicalize().map_err(unreadable)?;
-    if !place.starts_with(folder.canonicalize().map_err(unreadable)?) {
-        return Err(refused("is a link that leaves the folder"));
-    }
-    match place.is_file() {
-        true => Ok(beside),
-        false => Err(refused("is no regular file")),
-    }
 }
 
 enum Data {
@@ -83,6 +65,8 @@ struct Header {
     dims: [usize; 3],
     sample: Sample,
     channels: usize,
+    /// By zlib.
+    compressed: bool,
     big_endian: bool,
     /// Bytes to skip in the data file.
     skip: u64,
@@ -116,8 +100,8 @@ impl Header {
             wrong(line, "MET_UCHAR, MET_CHAR, MET_USHORT, MET_SHORT, MET_UINT, MET_INT, MET_FLOAT or MET_DOUBLE")
         })?;
         let channels = number("ElementNumberOfChannels", 1)?;
-        if flag("CompressedData") || (channels != 1 && channels != 3) {
-            return Err("its pixels are compressed or have neither 1 nor 3 channels; accepted are uncompressed labels".into());
+        if channels != 1 && channels != 3 {
+            return Err("its pixels have neither 1 nor 3 channels".into());
         }
         let (file, line) = needed("ElementDataFile")?;
         let data = match file {
@@ -129,6 +113,7 @@ impl Header {
             dims,
             sample,
             channels: channels as usize,
+            compressed: flag("CompressedData"),
             big_endian: flag("ElementByteOrderMSB") || flag("BinaryDataByteOrderMSB"),
             skip: number("HeaderSize", 0)?,
             data,

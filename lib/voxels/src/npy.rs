@@ -12,6 +12,8 @@ use crate::source::Source;
 
 /// A header longer than this is none; NumPy itself reads 10 000 bytes.
 const MAX_HEADER: usize = 1 << 16;
+/// Bytes that hold the whole header of an array of usual types.
+pub(crate) const LONGEST_HEAD: u64 = 4096;
 const MAGIC: &[u8] = b"\x93NUMPY";
 
 pub(crate) fn is_npy(head: &[u8]) -> bool {
@@ -39,13 +41,23 @@ pub(crate) fn open(source: Source) -> Result<RawVolume, Error> {
         ..format
     };
     let checked = RawVolume::new(vec![source], transposed, nx, data, header.big_endian)?;
-    let [source] = checked.sources() else {
-        return Ok(checked);
+    let (sources, big_endian) = (checked.into_sources(), header.big_endian);
+    let Some(source) = sources.last() else {
+        return Err(Error::Usage("no stack is given".into()));
     };
-    let ordered = in_c_order(source, data, header.shape, header.sample.bytes())
-        .and_then(|file| source.reordered(file))
-        .map_err(|e| Error::io(source, e))?;
-    RawVolume::new(vec![ordered], format, nz, 0, header.big_endian)
+    let ordered = in_c_order(source, data, header.shape, header.sample.bytes());
+    let ordered = ordered.map_err(|e| Error::io(source, e))?;
+    RawVolume::unpacked(sources, ordered, format, nz, 0, big_endian)
+}
+
+/// Whether a file that begins with `head`, of at least [`LONGEST_HEAD`] bytes where it has as many,
+/// is an array of three axes.
+pub(crate) fn is_volume(head: &[u8]) -> bool {
+    let shape = String::from_utf8_lossy(head);
+    is_npy(head)
+        && (shape.split_once("'shape':"))
+            .and_then(|(_, rest)| rest.split_once('(')?.1.split_once(')'))
+            .is_some_and(|(axes, _)| axes.split(',').filter(|n| !n.trim().is_empty()).count() == 3)
 }
 
 /// The header's text and where the data begin.

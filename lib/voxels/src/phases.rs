@@ -1,3 +1,4 @@
+use std::fmt;
 use std::str::FromStr;
 
 use crate::label::Label;
@@ -76,12 +77,13 @@ impl FromStr for Labels {
                 labels.0.push((label, phase));
             }
         }
-        let missing = Phase::ALL
+        // Wood alone, before it is bonded, has no adhesive.
+        let missing = [Phase::Void, Phase::Wood]
             .into_iter()
             .find(|phase| labels.0.iter().all(|(_, p)| p != phase));
         match missing {
             Some(phase) => Err(format!(
-                "no label is given for {}; void, wood and adhesive are needed, as in void=0,wood=128,adhesive=255",
+                "no label is given for {}; void and wood are needed, and adhesive where there is some, as in void=0,wood=128,adhesive=255",
                 phase.name()
             )),
             None => Ok(labels),
@@ -107,6 +109,35 @@ impl Grey {
             () if within(self.adhesive) => Some(Phase::Adhesive),
             () => Some(Phase::Void),
         }
+    }
+}
+
+impl Grey {
+    /// Void below `wood`, wood below `adhesive`, adhesive from there on.
+    pub(crate) fn between(wood: i64, adhesive: i64) -> Self {
+        Self {
+            wood: (wood as f64, (adhesive - 1) as f64),
+            adhesive: (adhesive as f64, f64::INFINITY),
+        }
+    }
+}
+
+impl fmt::Display for Grey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bound = |v: f64| {
+            if v.is_finite() {
+                v.to_string()
+            } else {
+                String::new()
+            }
+        };
+        let range = |(low, high)| format!("{}..{}", bound(low), bound(high));
+        write!(
+            f,
+            "wood={},adhesive={}",
+            range(self.wood),
+            range(self.adhesive)
+        )
     }
 }
 
@@ -161,6 +192,7 @@ mod tests {
 
     #[test]
     fn labels_of_several_values_and_colours() {
+        assert!("void=0,wood=1".parse::<Labels>().is_ok());
         let labels: Labels = "void=0,wood=1|2|7,adhesive=255:0:0".parse().unwrap();
         assert_eq!(labels.phase(Label::Value(7.0)), Some(Phase::Wood));
         assert_eq!(
@@ -174,7 +206,7 @@ mod tests {
     fn bad_labels_say_what_is_accepted() {
         for (bad, word) in [
             ("wood=1,adhesive=2", "no label is given for void"),
-            ("void=0,wood=1", "adhesive"),
+            ("void=0,adhesive=1", "no label is given for wood"),
             ("void=0,wood=1,adhesive=1", "one phase"),
             ("void=0,wood=x,adhesive=1", "not a label"),
             ("void=0,wood=1:2,adhesive=1", "R:G:B"),

@@ -1,3 +1,4 @@
+use std::fs::File;
 use std::os::unix::fs::FileExt;
 
 use crate::Error;
@@ -9,6 +10,8 @@ use crate::source::Source;
 pub(crate) struct RawVolume {
     /// The file that holds the pixels comes last, after its header file if it has one.
     sources: Vec<Source>,
+    /// Where the pixels are instead, once unpacked or put in order.
+    unpacked: Option<Source>,
     format: PageFormat,
     pages: usize,
     page_bytes: usize,
@@ -48,12 +51,37 @@ impl RawVolume {
         }
         Ok(Self {
             sources,
+            unpacked: None,
             format,
             pages,
             page_bytes,
             offset,
             big_endian,
         })
+    }
+
+    /// As [`RawVolume::new`], of pixels that `file` holds in place of the last source.
+    pub(crate) fn unpacked(
+        sources: Vec<Source>,
+        file: File,
+        format: PageFormat,
+        pages: usize,
+        offset: u64,
+        big_endian: bool,
+    ) -> Result<Self, Error> {
+        let Some(source) = sources.last() else {
+            return Err(Error::Usage("no stack is given".into()));
+        };
+        let unpacked = source.with_content(file);
+        let unpacked = unpacked.map_err(|e| Error::io(source, e))?;
+        let volume = Self::new(vec![unpacked], format, pages, offset, big_endian)?;
+        Ok(volume.of_sources(sources))
+    }
+
+    /// The volume whose pixels are made of `sources`, which stand for it from now on.
+    pub(crate) fn of_sources(mut self, sources: Vec<Source>) -> Self {
+        self.unpacked = self.unpacked.or(self.sources.pop());
+        Self { sources, ..self }
     }
 
     pub(crate) fn format(&self) -> PageFormat {
@@ -68,9 +96,14 @@ impl RawVolume {
         &self.sources
     }
 
+    pub(crate) fn into_sources(self) -> Vec<Source> {
+        self.sources
+    }
+
     /// Reads page `z` in native byte order.
     pub(crate) fn read(&self, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
-        let Some(source) = self.sources.last().filter(|_| z < self.pages) else {
+        let pixels = self.unpacked.as_ref().or(self.sources.last());
+        let Some(source) = pixels.filter(|_| z < self.pages) else {
             return Err(Error::Usage(format!("there is no page {}", z + 1)));
         };
         page.resize(self.page_bytes, 0);

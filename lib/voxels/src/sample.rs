@@ -113,6 +113,16 @@ impl fmt::Display for PageFormat {
     }
 }
 
+/// A byte for each of `width` pixels of a row of 1, 2, 4 or 8 bits each, the first pixel highest in
+/// its byte.
+pub(crate) fn unpack_bits(row: &[u8], bits: usize, width: usize) -> impl Iterator<Item = u8> {
+    let mask = u8::MAX >> (8 - bits);
+    (0..width).map(move |x| {
+        let at = x * bits;
+        row[at / 8] >> (8 - bits - at % 8) & mask
+    })
+}
+
 /// Reverses the bytes of every sample: from the other byte order to the native one.
 pub(crate) fn swap_bytes(bytes: &mut [u8], sample_bytes: usize) {
     // The length as a constant lets the compiler use byte shuffles.

@@ -13,8 +13,8 @@ pub struct Segmented {
     pub wood: BitGrid,
     /// Voxels of adhesive.
     pub adhesive: BitGrid,
-    /// The labels of void, wood and adhesive when they were guessed.
-    pub guessed: Option<[f64; 3]>,
+    /// The labels of void, wood and, but for a stack of one bit, adhesive when they were guessed.
+    pub guessed: Option<&'static [f64]>,
 }
 
 /// Reads the voxels of `crop` page by page on all threads and sorts them into phases.
@@ -55,7 +55,8 @@ pub fn segment(
         .map_init(Vec::new, |page, (k, (wood, adhesive))| {
             let z = crop.ranges()[2].start + k;
             stack.read_page(z, page)?;
-            let union = page_rows(stack, crop, page)
+            let union = crop
+                .rows(stack.format(), page)
                 .zip(wood.chunks_mut(words_per_row))
                 .zip(adhesive.chunks_mut(words_per_row))
                 .map(|((pixels, wood), adhesive)| coder.row(pixels, wood, adhesive))
@@ -73,7 +74,7 @@ pub fn segment(
         union |= page?;
     }
     let guessed = match phases {
-        Phases::Guess => Some(guessed(union).ok_or_else(|| {
+        Phases::Guess => Some(guessed(union, stack.has_one_bit()).ok_or_else(|| {
             Error::Usage(format!(
                 "{}: its labels are neither exactly 0, 1, 2 nor exactly 0, 128, 255; say which is which with --labels or --grey",
                 stack.name()
@@ -88,17 +89,6 @@ pub fn segment(
     })
 }
 
-/// The cropped rows of a page, bottom of the index range first.
-fn page_rows<'a>(stack: &Stack, crop: &Crop, page: &'a [u8]) -> impl Iterator<Item = &'a [u8]> {
-    let [x, y, _] = crop.ranges().clone();
-    let pixel = stack.format().pixel_bytes();
-    let row_bytes = stack.format().width * pixel;
-    page.chunks_exact(row_bytes)
-        .skip(y.start)
-        .take(y.len())
-        .map(move |row| &row[x.start * pixel..x.end * pixel])
-}
-
 /// The error for the first pixel of a page that has no phase.
 fn unknown_label(
     stack: &Stack,
@@ -109,7 +99,8 @@ fn unknown_label(
     coder: &Coder,
 ) -> Error {
     let [x0, y0] = [0, 1].map(|axis| crop.ranges()[axis].start);
-    let found = page_rows(stack, crop, page)
+    let found = crop
+        .rows(stack.format(), page)
         .enumerate()
         .find_map(|(y, row)| {
             coder

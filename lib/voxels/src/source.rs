@@ -1,6 +1,6 @@
 use std::fmt;
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::os::fd::AsFd;
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
@@ -71,8 +71,8 @@ impl Source {
         Self::held(PathBuf::from(&name), name, file)
     }
 
-    /// The same input with `file`, which holds its content in another order.
-    pub(crate) fn reordered(&self, file: File) -> io::Result<Self> {
+    /// The same input with `file`, which holds its content unpacked or in another order.
+    pub(crate) fn with_content(&self, file: File) -> io::Result<Self> {
         Self::held(self.path.clone(), self.name.clone(), file)
     }
 
@@ -120,17 +120,37 @@ impl Source {
     ///
     /// # Errors
     /// The system's reason when the file cannot be opened again.
-    pub fn reader(&self) -> io::Result<impl Read> {
+    pub fn reader(&self) -> io::Result<impl Read + use<>> {
+        self.reader_from(0)
+    }
+
+    /// The content from byte `at`.
+    pub(crate) fn reader_from(&self, at: u64) -> io::Result<impl Read + Seek + use<>> {
         Ok(Content {
             file: self.file()?,
-            at: 0,
+            at,
+            len: self.len,
         })
     }
 }
 
+/// A position of its own in a file that others may read too.
 struct Content {
     file: Arc<File>,
     at: u64,
+    len: u64,
+}
+
+impl Seek for Content {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let at = match to {
+            SeekFrom::Start(at) => Some(at),
+            SeekFrom::End(by) => self.len.checked_add_signed(by),
+            SeekFrom::Current(by) => self.at.checked_add_signed(by),
+        };
+        self.at = at.ok_or_else(|| io::Error::other("a position before the file"))?;
+        Ok(self.at)
+    }
 }
 
 impl Read for Content {

@@ -3,12 +3,15 @@ use std::path::{Path, PathBuf};
 
 use particle_file::limits;
 
+use crate::images::ImagePages;
 use crate::raw::RawVolume;
 use crate::sample::PageFormat;
 use crate::source::{Source, quoted};
 use crate::tiff::TiffPages;
 use crate::voxel_size::VoxelSize;
-use crate::{Error, folder, mhd, npy, tiff};
+use crate::{
+    Dims, Error, RawType, folder, foreign, images, mhd, nifti, npy, npz, nrrd, tiff, unpacked,
+};
 
 /// A stack of label or grey images, read page by page.
 ///
@@ -24,12 +27,18 @@ pub struct Stack {
 #[derive(Debug)]
 enum Pages {
     Tiff(TiffPages),
+    Images(ImagePages),
     Raw(RawVolume),
 }
 
+/// Bytes from which a format is told.
+const HEAD: usize = 512;
+const NO_STACK: &str = "it is not a stack; accepted are TIFF, BigTIFF, .npy, .npz, .mhd, .nrrd and .nii files, folders of TIFF, BMP, PNG or JPEG slices, and with --dims and --type raw volumes";
+
 impl Stack {
-    /// Opens one multi-page TIFF, `.npy` or `.mhd` file (`-` is standard input), one folder
-    /// of TIFF slices, or several slices, which are put in natural order.
+    /// Opens one multi-page TIFF, `.npy`, `.npz`, MetaImage, NRRD or NIfTI file (`-` is standard
+    /// input), one folder of slices (TIFF, BMP, PNG, JPEG), or several slices, which are put in
+    /// natural order.
     ///
     /// All headers are read and checked here; pixels are read by [`Stack::read_page`].
     ///
@@ -54,11 +63,56 @@ impl Stack {
             .iter()
             .map(|path| Source::open_slice(path))
             .collect::<Result<Vec<_>, _>>()?;
-        let (pages, voxel_size) = tiff::open_slices(sources)?;
+        let head = match sources.first() {
+            Some(first) => first.window(0, HEAD).map_err(|e| Error::io(first, e))?,
+            None => Vec::new(),
+        };
+        let (pages, voxel_size) = if images::is_image(&head) {
+            (Pages::Images(images::open(sources)?), None)
+        } else {
+            let (pages, voxel_size) = tiff::open_slices(sources)?;
+            (Pages::Tiff(pages), voxel_size)
+        };
         Self {
             name,
-            pages: Pages::Tiff(pages),
+            pages,
             voxel_size,
+        }
+        .within_limits()
+    }
+
+    /// Opens a file of nothing but pixels, x fastest.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is of another size.
+    pub fn open_raw(path: &Path, dims: Dims, kind: RawType) -> Result<Self, Error> {
+        if path.as_os_str() == "-" {
+            return Err(Error::Usage(
+                "a raw volume cannot come from standard input: give the name of its file".into(),
+            ));
+        }
+        let source = Source::open(path)?;
+        let (name, len) = (source.name().to_owned(), source.len());
+        let [width, height, pages] = dims.0;
+        let format = PageFormat {
+            width,
+            height,
+            sample: kind.sample,
+            channels: 1,
+        };
+        let declared = format.page_bytes().and_then(|n| n.checked_mul(pages));
+        if declared.map(|n| n as u64) != Some(len) {
+            return Err(Error::Usage(format!(
+                "{name}: {width} x {height} x {pages} voxels, {}, are {} bytes, but it holds {len}: check --dims and --type",
+                kind.sample,
+                declared.map_or("more".into(), |n| n.to_string())
+            )));
+        }
+        let volume = RawVolume::new(vec![source], format, pages, 0, kind.big_endian)?;
+        Self {
+            name,
+            pages: Pages::Raw(volume),
+            voxel_size: None,
         }
         .within_limits()
     }
@@ -79,7 +133,7 @@ impl Stack {
 
     fn of_source(source: Source, path: &Path) -> Result<Self, Error> {
         let name = source.name().to_owned();
-        let head = source.window(0, 512).map_err(|e| Error::io(&name, e))?;
+        let head = source.window(0, HEAD).map_err(|e| Error::io(&name, e))?;
         let (pages, voxel_size) = if tiff::is_tiff(&head) {
             let (pages, voxel_size) = tiff::open(source)?;
             (Pages::Tiff(pages), voxel_size)
@@ -88,11 +142,19 @@ impl Stack {
         } else if mhd::is_mhd(&head) {
             let (volume, voxel_size) = mhd::open(source, path)?;
             (Pages::Raw(volume), voxel_size)
+        } else if nrrd::is_nrrd(&head) {
+            let (volume, voxel_size) = nrrd::open(source, path)?;
+            (Pages::Raw(volume), voxel_size)
+        } else if nifti::is_nifti(&head) || unpacked::is_gzip(&head) {
+            let (volume, voxel_size) = nifti::open(source)?;
+            (Pages::Raw(volume), voxel_size)
+        } else if npz::is_zip(&head) {
+            (Pages::Raw(npz::open(source)?), None)
+        } else if images::is_image(&head) {
+            (Pages::Images(images::open(vec![source])?), None)
         } else {
-            return Err(Error::file(
-                name,
-                "it is not a stack; accepted are TIFF, BigTIFF, .npy and .mhd files and folders of TIFF slices",
-            ));
+            let known = foreign::conversion(&head);
+            return Err(Error::file(name, known.unwrap_or(NO_STACK)));
         };
         Self {
             name,
@@ -128,7 +190,14 @@ impl Stack {
 
     /// Whether a file that begins with `head` is of an accepted kind.
     pub fn recognises(head: &[u8]) -> bool {
-        tiff::is_tiff(head) || npy::is_npy(head) || mhd::is_mhd(head)
+        tiff::is_tiff(head)
+            || npy::is_npy(head)
+            || npz::is_zip(head)
+            || mhd::is_mhd(head)
+            || nrrd::is_nrrd(head)
+            || nifti::is_nifti(head)
+            || unpacked::is_gzip(head)
+            || images::is_image(head)
     }
 
     /// The stack's name as it stands in messages.
@@ -141,6 +210,7 @@ impl Stack {
         let format = self.format();
         let pages = match &self.pages {
             Pages::Tiff(pages) => pages.len(),
+            Pages::Images(pages) => pages.len(),
             Pages::Raw(volume) => volume.pages(),
         };
         [format.width, format.height, pages]
@@ -150,6 +220,7 @@ impl Stack {
     pub fn format(&self) -> PageFormat {
         match &self.pages {
             Pages::Tiff(pages) => pages.format(),
+            Pages::Images(pages) => pages.format(),
             Pages::Raw(volume) => volume.format(),
         }
     }
@@ -163,6 +234,7 @@ impl Stack {
     pub fn sources(&self) -> &[Source] {
         match &self.pages {
             Pages::Tiff(pages) => pages.sources(),
+            Pages::Images(pages) => pages.sources(),
             Pages::Raw(volume) => volume.sources(),
         }
     }
@@ -175,14 +247,21 @@ impl Stack {
     pub fn read_page(&self, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
         match &self.pages {
             Pages::Tiff(pages) => pages.read(z, page),
+            Pages::Images(pages) => pages.read(z, page),
             Pages::Raw(volume) => volume.read(z, page),
         }
+    }
+
+    /// Whether its pixels are TIFF's of one bit, as masks of one phase are.
+    pub(crate) fn has_one_bit(&self) -> bool {
+        matches!(&self.pages, Pages::Tiff(pages) if pages.has_one_bit())
     }
 
     /// Page `z` as it stands in messages.
     pub(crate) fn page_name(&self, z: usize) -> String {
         match &self.pages {
             Pages::Tiff(pages) => pages.page_name(z),
+            Pages::Images(pages) => pages.page_name(z),
             Pages::Raw(_) => format!("{}, page {}", self.name, z + 1),
         }
     }

@@ -125,7 +125,7 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         cli::note(format!("{} has ended already", folder.display()));
         return sound(&verdict);
     };
-    cli::note(summary.sentence());
+    cli::note(format!("{}: {}", folder.display(), summary.sentence()));
     match summary.end {
         End::Interrupted => Err(Failure::new(
             cli::Status::Resumable,

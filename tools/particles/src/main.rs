@@ -41,8 +41,8 @@ enum Command {
     /// csv and vtp hold the liquid points or, where a file has none, its adhesive voxels.
     /// vti and tiff hold labels: void 0, wood 128, adhesive 255; as many voxels outside wood are
     /// adhesive as the liquid's volume makes, the fullest first. npz holds everything. pvd is a
-    /// series for ParaView, with the files it refers to in a folder beside it, where only
-    /// files of an earlier series are replaced.
+    /// series for ParaView, with the files it refers to in the folder NAME.parts beside it, where
+    /// only files of an earlier series are replaced.
     Export(export::Arguments),
 }
 

@@ -232,16 +232,21 @@ fn pvd_is_a_series_that_writes_a_block_at_rest_once() {
         ("8e-6", 2, "0002-wood-top.vti"),
     ]
     .map(|(time, part, name)| {
-        assert!(folder.path().join("press").join(name).exists(), "{name}");
-        format!("<DataSet timestep=\"{time}\" part=\"{part}\" file=\"press/{name}\"/>")
+        assert!(
+            folder.path().join("press.parts").join(name).exists(),
+            "{name}"
+        );
+        format!("<DataSet timestep=\"{time}\" part=\"{part}\" file=\"press.parts/{name}\"/>")
     });
     let found: Vec<&str> = pvd.lines().filter(|l| l.starts_with("<DataSet")).collect();
     assert_eq!(found, expected);
     assert_eq!(
-        fs::read_dir(folder.path().join("press")).unwrap().count(),
+        fs::read_dir(folder.path().join("press.parts"))
+            .unwrap()
+            .count(),
         7
     );
-    let top = fs::read(folder.path().join("press/0002-wood-top.vti")).unwrap();
+    let top = fs::read(folder.path().join("press.parts/0002-wood-top.vti")).unwrap();
     assert!(String::from_utf8_lossy(&top).contains("Origin=\"0e0 6e-6 0e0\""));
 }
 

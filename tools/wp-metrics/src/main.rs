@@ -32,7 +32,8 @@ use voxels::{Grey, Labels, Phases};
   wp-metrics run/final.mpts --finer run-in-half-cells/final.mpts"
 )]
 struct Arguments {
-    /// Particle files, TIFF, .npy or .mhd stacks or folders of slices; `-` is standard input
+    /// Particle files, stacks of every kind that xct2particles reads but raw ones, or folders of
+    /// slices; `-` is standard input
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// What to measure from: mid (midway between the bond surfaces), adherend (the bond

@@ -2,6 +2,7 @@
 
 mod report;
 
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Mutex;
@@ -12,7 +13,10 @@ use cli::{Failure, Output, Progress};
 use particle_file::{Block, Draft, Header, Kind, Material, Provenance};
 use rayon::prelude::*;
 use units::{Axis, Length, Quantity};
-use voxels::{Crop, Grey, Labels, Phases, Segmented, Source, Stack, VoxelEdge, segment};
+use voxels::{
+    Crop, Dims, Grey, Histogram, Labels, Phases, RawType, Segmented, Source, Stack, VoxelEdge,
+    segment,
+};
 
 /// Turn a stack of XCT label images into a particle file
 ///
@@ -24,30 +28,62 @@ use voxels::{Crop, Grey, Labels, Phases, Segmented, Source, Stack, VoxelEdge, se
     after_help = "Examples:
   xct2particles bondline.tif --voxel '1.45 um' --labels void=0,wood=128,adhesive=255 -o specimen.mpts
   xct2particles slices/ --voxel 1.45um --grey wood=90..170,adhesive=171.. -o grey.mpts
+  xct2particles scan.raw --dims 400x394x400 --type u16 --voxel 1.45um --histogram grey.csv
   xct2particles stack.ome.tif --crop 0:200,50:250,0:100 -o - | wp-metrics -"
 )]
 struct Arguments {
-    /// A multi-page TIFF, .npy or .mhd file, a folder of TIFF slices, or several slices; `-` is standard input
+    /// A multi-page TIFF, .npy, .npz, .mhd, .nrrd or .nii file, a raw volume (--dims), a folder of
+    /// TIFF, BMP, PNG or JPEG slices, or several slices; `-` is standard input
     #[arg(required = true, value_name = "STACK")]
     stack: Vec<PathBuf>,
     /// Voxel edge [default: what the stack's metadata state]
     #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = length)]
     voxel: Option<f64>,
-    /// Labels of each phase; several as 1|2|7, colours as R:G:B
-    /// [default: guessed if the stack holds exactly 0, 1, 2 or 0, 128, 255]
+    /// Size of a raw volume, x fastest
+    #[arg(long, value_name = "XxYxZ", requires = "kind")]
+    dims: Option<Dims>,
+    /// Number type of a raw volume: u8, i16, f32 ..., little-endian; big-endian as u16be
+    #[arg(long = "type", id = "kind", value_name = "TYPE", requires = "dims")]
+    kind: Option<RawType>,
+    /// Labels of each phase; several as 1|2|7, colours as R:G:B; wood alone has no adhesive
+    /// [default: guessed if the stack holds exactly 0, 1, 2 or 0, 128, 255, or in one bit 0, 1]
     #[arg(long, value_name = "void=L,wood=L,adhesive=L", conflicts_with = "grey")]
     labels: Option<Labels>,
-    /// Grey values of wood and adhesive, both ends included, for a stack without labels
-    #[arg(long, value_name = "wood=A..B,adhesive=C..")]
-    grey: Option<Grey>,
+    /// Grey values of wood and adhesive, both ends included, for a stack without labels; auto
+    /// proposes them (Otsu's two thresholds), to be looked at: wood darker than adhesive
+    #[arg(long, value_name = "auto|wood=A..B,adhesive=C..", value_parser = grey)]
+    grey: Option<GreyLevels>,
+    /// Write how many voxels hold each grey value (CSV: grey,voxels) and say what --grey auto
+    /// would take
+    #[arg(long, value_name = "CSV")]
+    histogram: Option<Output>,
     /// Box of voxels to keep, the first of a range included and the last not
     #[arg(long, value_name = "x0:x1,y0:y1,z0:z1")]
     crop: Option<Crop>,
     /// Particle file to write; `-` is standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Output,
+    #[arg(
+        short,
+        long,
+        value_name = "FILE",
+        required_unless_present = "histogram"
+    )]
+    output: Option<Output>,
     #[command(flatten)]
     common: cli::Common,
+}
+
+/// What `--grey` asks for.
+#[derive(Clone)]
+enum GreyLevels {
+    Auto,
+    Given(Grey),
+}
+
+fn grey(text: &str) -> Result<GreyLevels, String> {
+    match text {
+        "auto" => Ok(GreyLevels::Auto),
+        ranges => ranges.parse().map(GreyLevels::Given),
+    }
 }
 
 fn length(text: &str) -> Result<f64, String> {
@@ -62,28 +98,69 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
-    let stack = Stack::open(&arguments.stack).map_err(failure)?;
+    let stack = open(&arguments).map_err(failure)?;
     cli::keep_apart(
         stack.sources().iter().map(Source::path),
-        [&arguments.output],
+        arguments.output.iter().chain(&arguments.histogram),
     )?;
+    let crop = arguments.crop.unwrap_or_else(|| Crop::whole(stack.dims()));
+    let auto = matches!(arguments.grey, Some(GreyLevels::Auto));
+    let mut proposed = None;
+    if auto || arguments.histogram.is_some() {
+        let histogram = Histogram::of(&stack, &crop).map_err(failure)?;
+        if let Some(output) = &arguments.histogram {
+            output.write(|out| write_histogram(&histogram, out))?;
+        }
+        proposed = Some(histogram.otsu());
+        report::proposal(&proposed);
+    }
+    let Some(output) = arguments.output else {
+        return Ok(());
+    };
     let edge = VoxelEdge::resolve(arguments.voxel, stack.voxel_size(), stack.name());
     let edge = edge.map_err(failure)?;
     report::stack(&stack, &edge);
 
-    let phases = match (arguments.labels, arguments.grey) {
-        (Some(labels), _) => Phases::Labels(labels),
-        (None, Some(grey)) => Phases::Grey(grey),
-        (None, None) => Phases::Guess,
+    let phases = match (arguments.labels, arguments.grey, proposed) {
+        (Some(labels), _, _) => Phases::Labels(labels),
+        (None, Some(GreyLevels::Given(grey)), _) => Phases::Grey(grey),
+        (None, Some(GreyLevels::Auto), Some(proposed)) => {
+            let wrong = |why| Failure::usage(format!("{}: {why}", stack.name()));
+            Phases::Grey(proposed.map_err(wrong)?)
+        }
+        _ => Phases::Guess,
     };
-    let crop = arguments.crop.unwrap_or_else(|| Crop::whole(stack.dims()));
     let (segmented, inputs) = rayon::join(
         || read_pages(&stack, &phases, &crop),
         || hashes(stack.sources()),
     );
     let (segmented, inputs) = (segmented?, inputs?);
     report::phases(&segmented, edge.metres);
-    write(&arguments.output, &segmented, &edge, &crop, inputs)
+    write(&output, &segmented, &edge, &crop, inputs)
+}
+
+fn open(arguments: &Arguments) -> Result<Stack, voxels::Error> {
+    let (Some(dims), Some(kind)) = (arguments.dims, arguments.kind) else {
+        return Stack::open(&arguments.stack);
+    };
+    match arguments.stack.as_slice() {
+        [path] => Stack::open_raw(path, dims, kind),
+        several => Err(voxels::Error::Usage(format!(
+            "--dims and --type describe one raw volume, but {} are given",
+            several.len()
+        ))),
+    }
+}
+
+/// `grey,voxels` from the lowest to the highest value found.
+fn write_histogram(histogram: &Histogram, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "grey,voxels")?;
+    let found = |n: &u64| *n > 0;
+    let first = histogram.counts.iter().position(found).unwrap_or(0);
+    let last = histogram.counts.iter().rposition(found).unwrap_or(0);
+    let counts = &histogram.counts[first..=last];
+    (counts.iter().zip(histogram.lowest + first as i64..))
+        .try_for_each(|(count, grey)| writeln!(out, "{grey},{count}"))
 }
 
 /// Other arguments may help (exit 2) or the file is at fault (exit 3).

@@ -1,6 +1,6 @@
 //! What the tool says on standard error.
 
-use voxels::{Segmented, Stack, VoxelEdge};
+use voxels::{Grey, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
 const EDGE_TOLERANCE: f64 = 0.01;
@@ -32,12 +32,27 @@ pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
     }
 }
 
+/// What two thresholds would part, where that was asked for.
+pub(crate) fn proposal(proposed: &Option<Result<Grey, String>>) {
+    match proposed {
+        Some(Ok(grey)) => cli::note(format_args!(
+            "grey        proposed by Otsu's thresholds: --grey {grey}"
+        )),
+        Some(Err(why)) => cli::warn(format_args!("no grey values are proposed: {why}")),
+        None => {}
+    }
+}
+
 /// Counts, fractions and bond area of a specimen with voxels of `edge` (m).
 pub(crate) fn phases(specimen: &Segmented, edge: f64) {
-    if let Some([void, wood, adhesive]) = specimen.guessed {
-        cli::note(format_args!(
+    match specimen.guessed {
+        Some([void, wood, adhesive]) => cli::note(format_args!(
             "labels      guessed: void={void},wood={wood},adhesive={adhesive}"
-        ));
+        )),
+        Some([void, wood]) => cli::note(format_args!(
+            "labels      guessed: void={void},wood={wood} in a stack of one bit"
+        )),
+        _ => {}
     }
     let [nx, ny, nz] = specimen.wood.dims().map(|n| n as u64);
     let (wood, adhesive) = (specimen.wood.count(), specimen.adhesive.count());

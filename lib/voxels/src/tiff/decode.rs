@@ -8,7 +8,7 @@ use ::tiff::decoder::{Decoder, Limits};
 
 use super::ifd::tag;
 use super::layout::{Cut, PageLayout};
-use crate::sample::{Sample, swap_bytes};
+use crate::sample::{Sample, swap_bytes, unpack_bits};
 
 /// Reads the page into `page`: rows without padding, channels interleaved, one sample per
 /// pixel and channel in native byte order.
@@ -32,7 +32,9 @@ pub(crate) fn read(file: &File, layout: &PageLayout, page: &mut Vec<u8>) -> Resu
         }
     }
     if layout.bits < 8 {
-        *page = unpack(page, row_bytes, layout.format.width, layout.bits);
+        let (bits, width) = (layout.bits.into(), layout.format.width);
+        let rows = page.chunks_exact(row_bytes);
+        *page = rows.flat_map(|row| unpack_bits(row, bits, width)).collect();
     }
     if layout.planar {
         *page = interleave(page, layout.format.sample.bytes(), layout.planes());
@@ -189,18 +191,6 @@ impl Bytes {
             self.bytes.extend(&value.to_le_bytes()[..width]);
         }
     }
-}
-
-/// One byte per pixel from packed rows; the first pixel is in the high bits of its byte.
-fn unpack(packed: &[u8], row_bytes: usize, width: usize, bits: u16) -> Vec<u8> {
-    let bits = usize::from(bits);
-    let mask = (1_u8 << bits) - 1;
-    let row = |row: &[u8]| -> Vec<u8> {
-        (0..width)
-            .map(|x| row[x * bits / 8] >> (8 - bits - x * bits % 8) & mask)
-            .collect()
-    };
-    packed.chunks_exact(row_bytes).flat_map(row).collect()
 }
 
 /// Pixels from planes.

@@ -1,6 +1,8 @@
 //! How the pixels of one page are stored, checked against the file before anything is
 //! allocated.
 
+use particle_file::limits;
+
 use super::encoding::{Compression, sample_of};
 use super::ifd::{Container, Directory, tag};
 use crate::sample::PageFormat;
@@ -33,14 +35,16 @@ pub(crate) struct PageLayout {
 }
 
 impl PageLayout {
-    /// Reads and checks the layout of a page in a file of `file_len` bytes.
-    pub(crate) fn read(tiff: &Container, page: &Directory, file_len: u64) -> Result<Self, String> {
+    /// Reads and checks the layouts of the planes of a directory in a file of `file_len` bytes: one,
+    /// or as many as its tag ImageDepth says (SGI's: the strips of plane after plane, or all planes
+    /// in one strip).
+    pub(crate) fn read_planes(
+        tiff: &Container,
+        page: &Directory,
+        file_len: u64,
+    ) -> Result<Vec<Self>, String> {
         let first = |tag, default| Ok::<_, String>(tiff.first_uint(page, tag)?.unwrap_or(default));
-        refuse_special_pages(
-            first(tag::NEW_SUBFILE_TYPE, 0)?,
-            first(tag::IMAGE_DEPTH, 1)?,
-            first(tag::FILL_ORDER, 1)?,
-        )?;
+        refuse_special_pages(first(tag::NEW_SUBFILE_TYPE, 0)?, first(tag::FILL_ORDER, 1)?)?;
         let (sample, bits, channels) = sample_of(tiff, page)?;
         let side = |tag, name| match tiff.first_uint(page, tag)? {
             Some(n) if n > 0 && n <= u64::from(u32::MAX) => Ok(n as u32),
@@ -68,9 +72,42 @@ impl PageLayout {
             big_endian: tiff.big_endian,
             chunks: Vec::new(),
         };
-        layout.read_chunks(tiff, page)?;
-        layout.check_chunks(file_len)?;
-        Ok(layout)
+        let depth = first(tag::IMAGE_DEPTH, 1)?;
+        if depth == 0 || depth > limits::PER_AXIS {
+            return Err(format!("its tag ImageDepth declares {depth} planes"));
+        }
+        layout.read_chunks(tiff, page, depth)?;
+        if depth == 1 {
+            layout.check_chunks(file_len)?;
+            return Ok(vec![layout]);
+        }
+        layout.cut_into_planes(depth as usize, file_len)
+    }
+
+    /// The planes of a directory that holds more than one.
+    fn cut_into_planes(mut self, depth: usize, file_len: u64) -> Result<Vec<Self>, String> {
+        let per_plane = self.chunks_per_plane() as usize;
+        if self.planes() > 1 || !matches!(self.cut, Cut::Strips(_)) {
+            return Err("it holds several planes by the tag ImageDepth, in tiles or by colour; accepted are strips of whole pixels: save it with a page for each plane".into());
+        }
+        if let [(offset, _)] = self.chunks[..] {
+            let bytes = self.plane_bytes().ok_or(TOO_LARGE)?.1 as u64;
+            self.cut = Cut::Strips(self.format.height as u32);
+            self.chunks = vec![(offset, bytes)];
+            self.check_chunks(file_len)?;
+            return (0..depth)
+                .map(|k| self.following_plane(k, file_len))
+                .collect();
+        }
+        (self.chunks.chunks(per_plane))
+            .map(|chunks| {
+                let mut plane = Self {
+                    chunks: chunks.to_vec(),
+                    ..self.clone()
+                };
+                plane.check_chunks(file_len).map(|()| plane)
+            })
+            .collect()
     }
 
     /// Planes that are stored one after another.
@@ -104,7 +141,12 @@ impl PageLayout {
         Some((row as usize, self.chunk_bytes(0)? as usize))
     }
 
-    fn read_chunks(&mut self, tiff: &Container, page: &Directory) -> Result<(), String> {
+    fn read_chunks(
+        &mut self,
+        tiff: &Container,
+        page: &Directory,
+        depth: u64,
+    ) -> Result<(), String> {
         let tile = |tag| {
             Ok::<_, String>(
                 tiff.first_uint(page, tag)?
@@ -132,7 +174,9 @@ impl PageLayout {
             }
         };
         let expected = self.chunks_per_plane() * self.planes() as u64;
-        if offsets.len() as u64 != expected {
+        let in_one_piece = depth > 1 && offsets.len() == 1 && expected == 1;
+        let expected = expected.checked_mul(depth).ok_or(TOO_LARGE)?;
+        if offsets.len() as u64 != expected && !in_one_piece {
             return Err(format!(
                 "it has {} strips or tiles but its size needs {expected}",
                 offsets.len()
@@ -264,16 +308,11 @@ impl PageLayout {
 
 const TOO_LARGE: &str = "it declares more pixels than can be counted";
 
-fn refuse_special_pages(subfile_type: u64, depth: u64, fill_order: u64) -> Result<(), String> {
+fn refuse_special_pages(subfile_type: u64, fill_order: u64) -> Result<(), String> {
     if subfile_type & 1 != 0 {
         return Err(
             "it is a reduced copy (thumbnail) of another page; remove it from the stack".into(),
         );
-    }
-    if depth != 1 {
-        return Err(format!(
-            "it holds {depth} planes by the tag ImageDepth; one plane per page is accepted"
-        ));
     }
     if fill_order != 1 {
         return Err("its bits are stored in reverse (FillOrder 2); accepted is FillOrder 1".into());

@@ -78,10 +78,11 @@ fn read_directories(source: &Source) -> Result<(Vec<PageLayout>, Description), E
         .iter()
         .enumerate()
         .map(|(i, directory)| {
-            PageLayout::read(&tiff, directory, source.len())
+            PageLayout::read_planes(&tiff, directory, source.len())
                 .map_err(|what| Error::page(source, i, what))
         })
-        .collect::<Result<Vec<_>, _>>()?;
+        .collect::<Result<Vec<_>, _>>()?
+        .concat();
     let (Some(directory), Some(page)) = (directories.first(), pages.first()) else {
         return Err(Error::file(source, "it holds no page"));
     };
@@ -146,6 +147,10 @@ impl TiffPages {
 
     fn source(&self, z: usize) -> &Source {
         self.sources.get(z).unwrap_or(&self.sources[0])
+    }
+
+    pub(crate) fn has_one_bit(&self) -> bool {
+        self.pages[0].bits == 1
     }
 
     /// Page `z` as it stands in messages.

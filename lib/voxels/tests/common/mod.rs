@@ -257,3 +257,38 @@ pub fn refusal(name: &str, bytes: &[u8]) -> String {
         Err(error) => error.to_string(),
     }
 }
+
+/// Opens and segments many damaged copies of `files`, the same ones each time; how many were read.
+pub fn damaged(files: &[Vec<u8>], name: &str) -> usize {
+    let mut state = 2026_u64;
+    let mut random = |below: usize| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        state as usize % below.max(1)
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    let grey = Phases::Grey("wood=0.5..1.5,adhesive=1.6..".parse().unwrap());
+    let mut read = 0;
+    for round in 0..400 * files.len() {
+        let mut file = files[round % files.len()].clone();
+        for _ in 0..=random(4) {
+            // Headers matter most.
+            let end = if random(2) == 0 {
+                file.len()
+            } else {
+                file.len().min(160)
+            };
+            let at = random(end);
+            file[at] = [random(256) as u8, 0, 255, file[at] ^ 1][random(4)];
+        }
+        if random(8) == 0 {
+            file.truncate(random(file.len()));
+        }
+        std::fs::write(&path, &file).unwrap();
+        let paths = [path.clone()];
+        read += usize::from(segmented(&paths, &grey).is_ok());
+    }
+    read
+}

@@ -112,7 +112,7 @@ fn voxel_sizes_from_imagej_ome_and_resolution_tags() {
 fn guesses_and_crops() {
     let (_folder, path) = stored("a.tif", &tiff(CLASSIC, &plain_pages()));
     let guessed = segmented(std::slice::from_ref(&path), &Phases::Guess).unwrap();
-    assert_eq!(guessed.guessed, Some([0.0, 1.0, 2.0]));
+    assert_eq!(guessed.guessed, Some(&[0.0, 1.0, 2.0][..]));
     let stack = Stack::open(&[path]).unwrap();
     let crop = "3:20,2:9,1:3".parse().unwrap();
     let part = voxels::segment(&stack, &Phases::Guess, &crop, || {}).unwrap();

@@ -9,7 +9,7 @@ use voxels::LabelVolume;
 use super::points::Points;
 use super::vtk;
 
-/// Writes `NAME.pvd` and beside it the folder `NAME` with the liquid of each file as
+/// Writes `NAME.pvd` and beside it the folder `NAME.parts` with the liquid of each file as
 /// `NNNN.vtp` (part 0) and its blocks as `NNNN-BLOCK.vti` (parts 1 and up). A block that
 /// stays where it was is written once. In the folder only parts of earlier series are replaced.
 ///
@@ -49,11 +49,8 @@ pub fn write(files: &[ParticleFile], output: &Output, record: &Record) -> Result
 /// Name of the folder that belongs to `pvd`; XML holds Unicode without control characters only.
 fn folder_name(pvd: &Path) -> String {
     let stem = pvd.file_stem().unwrap_or_default().to_string_lossy();
-    let name = stem.replace(char::is_control, "_");
-    match pvd.extension() {
-        Some(_) => name,
-        None => name + ".parts",
-    }
+    // Not `NAME` alone: that is the run's own folder where the series is called after the run.
+    stem.replace(char::is_control, "_") + ".parts"
 }
 
 /// The files that a series refers to.

@@ -1,0 +1,92 @@
+//! Uncompressed BMP: the indices of a palette, or RGB.
+//!
+//! Our own, for stored values are labels: the `image` crate gives the colours of a palette, and
+//! where it is asked for indices of fewer than 8 bits it panics (0.25.10).
+
+use crate::sample::{PageFormat, Sample, unpack_bits};
+use crate::source::Source;
+
+/// Bytes that hold the fields of the oldest and of later headers.
+const HEAD: usize = 34;
+
+/// Where the pixels of a file are and how they are stored.
+struct Header {
+    format: PageFormat,
+    /// Bits of a pixel.
+    bits: usize,
+    /// The first row stored is the highest, not the lowest.
+    from_top: bool,
+    offset: u64,
+}
+
+impl Header {
+    fn read(source: &Source) -> Result<Self, String> {
+        let head = source.window(0, HEAD).map_err(|e| e.to_string())?;
+        if head.len() < HEAD {
+            return Err("its header is truncated".into());
+        }
+        let short = |at: usize| u16::from_le_bytes([head[at], head[at + 1]]);
+        let long = |at: usize| u32::from(short(at)) | u32::from(short(at + 2)) << 16;
+        let (width, height, bits, compression) = match long(14) {
+            12 => (i32::from(short(18)), i32::from(short(20)), short(24), 0),
+            40.. => (long(18) as i32, long(22) as i32, short(28), long(30)),
+            n => return Err(format!("its header of {n} bytes is of no known version")),
+        };
+        if compression != 0 || ![1, 2, 4, 8, 24].contains(&bits) {
+            return Err(format!(
+                "its pixels have {bits} bits and compression {compression}; accepted is BMP of 1, 4, 8 or 24 bits without compression"
+            ));
+        }
+        if width <= 0 || height == 0 {
+            return Err(format!("it is {width} x {height}, which is no page"));
+        }
+        Ok(Self {
+            format: PageFormat {
+                width: width as usize,
+                height: height.unsigned_abs() as usize,
+                sample: Sample::U8,
+                channels: if bits == 24 { 3 } else { 1 },
+            },
+            bits: bits.into(),
+            from_top: height < 0,
+            offset: long(10).into(),
+        })
+    }
+
+    /// Stored bytes of a row: whole words of 32 bits.
+    fn row(&self) -> usize {
+        (self.format.width * self.bits).div_ceil(32) * 4
+    }
+}
+
+/// The format of the file, whose header is read; its pixels too where there is a `page` for them.
+pub(crate) fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Result<PageFormat, String> {
+    let header = Header::read(source)?;
+    let (row, format) = (header.row(), header.format);
+    let bytes = row * format.height;
+    if header.offset.saturating_add(bytes as u64) > source.len() {
+        return Err(format!(
+            "it is {format}, but the file ends before: it is truncated"
+        ));
+    }
+    let Some(page) = page else {
+        return Ok(format);
+    };
+    let stored = source.window(header.offset, bytes);
+    let mut stored = stored.map_err(|e| e.to_string())?;
+    if !header.from_top {
+        let rows: Vec<&[u8]> = stored.chunks_exact(row).rev().collect();
+        stored = rows.concat();
+    }
+    page.clear();
+    for row in stored.chunks_exact(row) {
+        match header.bits {
+            24 => {
+                let pixels = row.chunks_exact(3).take(format.width);
+                pixels.for_each(|bgr| page.extend(bgr.iter().rev()));
+            }
+            bits => page.extend(unpack_bits(row, bits, format.width)),
+        }
+    }
+    Ok(format)
+}

@@ -1,0 +1,188 @@
+//! Slices as BMP, PNG and JPEG, a file for each page.
+
+use std::io::{BufReader, Read, Seek};
+
+use image::codecs::jpeg::JpegDecoder;
+use image::{ColorType, ImageDecoder};
+
+use crate::sample::{PageFormat, Sample, swap_bytes, unpack_bits};
+use crate::source::Source;
+use crate::{Error, bmp};
+
+/// What a file of one page is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Bmp,
+    Png,
+    Jpeg,
+}
+
+impl Kind {
+    fn of(head: &[u8]) -> Option<Self> {
+        match head {
+            [b'B', b'M', _, _, _, _, 0, 0, 0, 0, ..] => Some(Kind::Bmp),
+            [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => Some(Kind::Png),
+            [0xff, 0xd8, 0xff, ..] => Some(Kind::Jpeg),
+            _ => None,
+        }
+    }
+}
+
+pub(crate) fn is_image(head: &[u8]) -> bool {
+    Kind::of(head).is_some()
+}
+
+/// Images that make the pages of a stack.
+#[derive(Debug)]
+pub(crate) struct ImagePages {
+    sources: Vec<Source>,
+    format: PageFormat,
+}
+
+/// Opens images of one page each, in this order.
+///
+/// # Errors
+/// A file that is none of the three, has transparency, or is of another size or type than the
+/// first.
+pub(crate) fn open(sources: Vec<Source>) -> Result<ImagePages, Error> {
+    let mut format: Option<PageFormat> = None;
+    for (i, source) in sources.iter().enumerate() {
+        let own = read(source, None).map_err(|what| Error::file(source, what))?;
+        let first = *format.get_or_insert(own);
+        if own != first {
+            let what =
+                format!("it is {own} but page 1 is {first}; the pages of a stack must be alike");
+            return Err(Error::page(source, i, what));
+        }
+    }
+    match format {
+        Some(format) => Ok(ImagePages { sources, format }),
+        None => Err(Error::Usage("no stack is given".into())),
+    }
+}
+
+impl ImagePages {
+    pub(crate) fn len(&self) -> usize {
+        self.sources.len()
+    }
+
+    pub(crate) fn format(&self) -> PageFormat {
+        self.format
+    }
+
+    pub(crate) fn sources(&self) -> &[Source] {
+        &self.sources
+    }
+
+    /// Page `z` as it stands in messages.
+    pub(crate) fn page_name(&self, z: usize) -> String {
+        format!("{}, page {} of {}", self.sources[z], z + 1, self.len())
+    }
+
+    pub(crate) fn read(&self, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
+        let Some(source) = self.sources.get(z) else {
+            return Err(Error::Usage(format!("there is no page {}", z + 1)));
+        };
+        let wrong = |what| Error::page(source, z, what);
+        let format = read(source, Some(page)).map_err(wrong)?;
+        match format == self.format {
+            true => Ok(()),
+            false => Err(wrong("it has changed since the stack was opened".into())),
+        }
+    }
+}
+
+/// The format of an image, whose header is read; its pixels too where there is a `page` for them.
+fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Result<PageFormat, String> {
+    let head = source.window(0, 16).map_err(|e| e.to_string())?;
+    let kind = Kind::of(&head).ok_or("it is no BMP, PNG or JPEG as the other slices are")?;
+    let content = source.reader_from(0).map_err(|e| e.to_string())?;
+    let content = BufReader::new(content);
+    let said = |e: image::ImageError| e.to_string();
+    match kind {
+        Kind::Bmp => bmp::read(source, page),
+        Kind::Jpeg => decoded(JpegDecoder::new(content).map_err(said)?, page),
+        Kind::Png => png(content, page),
+    }
+}
+
+fn decoded(decoder: impl ImageDecoder, page: Option<&mut Vec<u8>>) -> Result<PageFormat, String> {
+    let (width, height) = decoder.dimensions();
+    let channels = match decoder.color_type() {
+        ColorType::L8 => 1,
+        ColorType::Rgb8 => 3,
+        other => return Err(pixels_refused(&format!("{other:?}"))),
+    };
+    let format = format_of(width, height, Sample::U8, channels)?;
+    if let Some(page) = page {
+        page.resize(format.page_bytes().unwrap_or(0), 0);
+        decoder.read_image(page).map_err(|e| e.to_string())?;
+    }
+    Ok(format)
+}
+
+/// Stored samples as they are: no palette, no gamma, no scaling of fewer than 8 bits.
+fn png(
+    content: impl Read + std::io::BufRead + Seek,
+    page: Option<&mut Vec<u8>>,
+) -> Result<PageFormat, String> {
+    let mut decoder = png::Decoder::new(content);
+    decoder.set_transformations(png::Transformations::IDENTITY);
+    let mut reader = decoder.read_info().map_err(|e| e.to_string())?;
+    let info = reader.info();
+    let (width, height) = info.size();
+    let (color, depth) = (info.color_type, info.bit_depth);
+    let channels = match color {
+        png::ColorType::Grayscale | png::ColorType::Indexed => 1,
+        png::ColorType::Rgb => 3,
+        other => return Err(pixels_refused(&format!("{other:?}"))),
+    };
+    let sample = match depth {
+        png::BitDepth::Sixteen => Sample::U16,
+        _ => Sample::U8,
+    };
+    let format = format_of(width, height, sample, channels)?;
+    let Some(page) = page else {
+        return Ok(format);
+    };
+    let stored = reader.output_buffer_size().ok_or("it is too large")?;
+    page.resize(stored, 0);
+    reader.next_frame(page).map_err(|e| e.to_string())?;
+    match depth {
+        png::BitDepth::Sixteen if cfg!(target_endian = "little") => swap_bytes(page, 2),
+        png::BitDepth::Sixteen | png::BitDepth::Eight => {}
+        bits => {
+            let bits = bits as usize;
+            let rows = page.chunks_exact((format.width * bits).div_ceil(8).max(1));
+            *page = rows
+                .take(format.height)
+                .flat_map(|row| unpack_bits(row, bits, format.width))
+                .collect();
+        }
+    }
+    Ok(format)
+}
+
+fn format_of(
+    width: u32,
+    height: u32,
+    sample: Sample,
+    channels: usize,
+) -> Result<PageFormat, String> {
+    let format = PageFormat {
+        width: width as usize,
+        height: height as usize,
+        sample,
+        channels,
+    };
+    let counted = format.page_bytes().is_some_and(|n| n > 0);
+    counted
+        .then_some(format)
+        .ok_or_else(|| format!("it is {format}, which is no page"))
+}
+
+fn pixels_refused(found: &str) -> String {
+    format!(
+        "its pixels are {found}; accepted are grey, palette and RGB: save it without transparency"
+    )
+}

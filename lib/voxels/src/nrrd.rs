@@ -1,0 +1,231 @@
+//! NRRD, raw or gzipped, with its pixels behind the header or in a file beside it
+//! (<https://teem.sourceforge.net/nrrd/format.html>).
+
+use std::path::{Path, PathBuf};
+
+use crate::Error;
+use crate::beside::data_file;
+use crate::raw::RawVolume;
+use crate::sample::{PageFormat, Sample};
+use crate::source::Source;
+use crate::unpacked::{self, Packing};
+use crate::voxel_size::{VoxelSize, metres_of_unit};
+
+/// A header longer than this is none.
+const MAX_HEADER: usize = 1 << 16;
+
+pub(crate) fn is_nrrd(head: &[u8]) -> bool {
+    head.starts_with(b"NRRD000")
+}
+
+/// Opens the header in `source` and the pixels it points to, relative to `path`.
+pub(crate) fn open(source: Source, path: &Path) -> Result<(RawVolume, Option<VoxelSize>), Error> {
+    let head = source
+        .window(0, MAX_HEADER)
+        .map_err(|e| Error::io(&source, e))?;
+    let wrong = |what: String| Error::file(&source, what);
+    let header = Header::parse(&head).map_err(wrong)?;
+    let beside = match &header.data {
+        None => None,
+        Some(name) => Some(data_file(path, name, "data file").map_err(wrong)?),
+    };
+    let pages = header.pages;
+    let Some(data) = header.bytes() else {
+        return Err(wrong("it declares more voxels than can be counted".into()));
+    };
+    let (sources, start) = match beside {
+        None => (vec![source], header.end),
+        Some(beside) => (vec![source, Source::open(&beside)?], 0),
+    };
+    let skip = header.skip;
+    let volume = match (sources.last(), header.packed) {
+        (Some(pixels), true) => {
+            let bytes = skip.saturating_add(data);
+            let file = unpacked::unpack(pixels, start, Packing::Gzip, bytes)?;
+            RawVolume::unpacked(sources, file, header.format, pages, skip, header.big_endian)?
+        }
+        _ => {
+            let offset = start.saturating_add(skip);
+            RawVolume::new(sources, header.format, pages, offset, header.big_endian)?
+        }
+    };
+    Ok((volume, header.voxel_size))
+}
+
+struct Header {
+    format: PageFormat,
+    pages: usize,
+    packed: bool,
+    big_endian: bool,
+    /// Bytes before the pixels, counted once unpacked.
+    skip: u64,
+    data: Option<PathBuf>,
+    /// The byte behind the header.
+    end: u64,
+    voxel_size: Option<VoxelSize>,
+}
+
+impl Header {
+    fn bytes(&self) -> Option<u64> {
+        let page = u64::try_from(self.format.page_bytes()?).ok()?;
+        page.checked_mul(self.pages as u64)
+    }
+
+    fn parse(head: &[u8]) -> Result<Self, String> {
+        let (fields, end) = fields(head)?;
+        let field = |keys: &[&str]| {
+            let found = fields.iter().find(|(key, _)| keys.contains(&key.as_str()));
+            found.map(|(_, value)| value.as_str())
+        };
+        let needed = |key: &str| field(&[key]).ok_or_else(|| format!("its header has no {key}"));
+        let sizes: Option<Vec<usize>> = (needed("sizes")?.split_whitespace())
+            .map(|n| n.parse().ok())
+            .collect();
+        let (channels, [width, height, pages]) = match sizes.as_deref() {
+            Some(&[x, y, z]) => (1, [x, y, z]),
+            Some(&[3, x, y, z]) => (3, [x, y, z]),
+            _ => {
+                return Err(
+                    "it is no volume of three axes, or four of which the first has 3 colours"
+                        .into(),
+                );
+            }
+        };
+        let sample = sample_of(needed("type")?)?;
+        let packed = match needed("encoding")? {
+            "raw" => false,
+            "gzip" | "gz" => true,
+            other => {
+                return Err(format!(
+                    "its encoding is '{other}'; accepted are raw and gzip: save it again, e.g. with unu save -f nrrd -e gzip"
+                ));
+            }
+        };
+        let big_endian = match field(&["endian"]) {
+            Some("big") => true,
+            Some("little") => false,
+            None if sample.bytes() == 1 => false,
+            _ => {
+                return Err(
+                    "its header does not say whether its bytes are little or big endian".into(),
+                );
+            }
+        };
+        if field(&["line skip", "lineskip"]).is_some_and(|n| n != "0") {
+            return Err("it skips lines of its data file; accepted is a skip of bytes".into());
+        }
+        let skip = field(&["byte skip", "byteskip"])
+            .unwrap_or("0")
+            .parse::<u64>();
+        let data = field(&["data file", "datafile"]).map(PathBuf::from);
+        let several = |name: &PathBuf| {
+            let text = name.to_string_lossy();
+            text.starts_with("LIST") || text.contains('%')
+        };
+        if data.as_ref().is_some_and(several) {
+            return Err("its pixels stand in several files; accepted is one".into());
+        }
+        Ok(Self {
+            format: PageFormat {
+                width,
+                height,
+                sample,
+                channels,
+            },
+            pages,
+            packed,
+            big_endian,
+            skip: skip.map_err(|_| "its byte skip is no number from 0")?,
+            data,
+            end: end as u64,
+            voxel_size: voxel_size(&field),
+        })
+    }
+}
+
+/// `key: value` lines in lower case up to the empty line that ends the header, and the byte
+/// behind it; comments and `key:=value` pairs are passed over.
+fn fields(head: &[u8]) -> Result<(Vec<(String, String)>, usize), String> {
+    let mut fields = Vec::new();
+    let mut end = 0;
+    for (i, line) in head.split_inclusive(|b| *b == b'\n').enumerate() {
+        end += line.len();
+        if i == 0 {
+            // The magic, which is_nrrd has seen.
+            continue;
+        }
+        let text = String::from_utf8_lossy(line);
+        let text = text.trim_end();
+        if text.is_empty() && line.ends_with(b"\n") {
+            return Ok((fields, end));
+        }
+        if text.starts_with('#') || text.contains(":=") {
+            continue;
+        }
+        let (key, value) = text
+            .split_once(':')
+            .ok_or("a line of its header is not KEY: VALUE")?;
+        fields.push((key.trim().to_lowercase(), value.trim().to_owned()));
+    }
+    // A header in a file of its own may end with the file.
+    match fields.iter().any(|(key, _)| key.starts_with("data")) && head.len() < MAX_HEADER {
+        true => Ok((fields, end)),
+        false => Err("its header does not end".into()),
+    }
+}
+
+fn sample_of(kind: &str) -> Result<Sample, String> {
+    Ok(match kind {
+        "uchar" | "unsigned char" | "uint8" | "uint8_t" => Sample::U8,
+        "signed char" | "int8" | "int8_t" => Sample::I8,
+        "ushort" | "unsigned short" | "unsigned short int" | "uint16" | "uint16_t" => Sample::U16,
+        "short" | "short int" | "signed short" | "signed short int" | "int16" | "int16_t" => {
+            Sample::I16
+        }
+        "uint" | "unsigned int" | "uint32" | "uint32_t" => Sample::U32,
+        "int" | "signed int" | "int32" | "int32_t" => Sample::I32,
+        "ulonglong" | "unsigned long long" | "unsigned long long int" | "uint64" | "uint64_t" => {
+            Sample::U64
+        }
+        "longlong"
+        | "long long"
+        | "long long int"
+        | "signed long long"
+        | "signed long long int"
+        | "int64"
+        | "int64_t" => Sample::I64,
+        "float" => Sample::F32,
+        "double" => Sample::F64,
+        _ => {
+            return Err(format!(
+                "its type is '{kind}'; accepted are integers of 8 to 64 bits, float and double"
+            ));
+        }
+    })
+}
+
+/// Spacings, or lengths of space directions, with their units; without a unit they are no size.
+fn voxel_size<'a>(field: &impl Fn(&[&str]) -> Option<&'a str>) -> Option<VoxelSize> {
+    let unit = field(&["space units", "units"])?;
+    let unit = unit.split('"').map(str::trim).rfind(|u| !u.is_empty())?;
+    let metres = metres_of_unit(unit)?;
+    let edges: Vec<f64> = match field(&["spacings"]) {
+        Some(text) => (text.split_whitespace())
+            .filter_map(|edge| edge.parse().ok())
+            .filter(|edge: &f64| edge.is_finite())
+            .collect(),
+        None => (field(&["space directions"])?.split(')'))
+            .filter_map(|vector| {
+                let (_, inside) = vector.split_once('(')?;
+                let parts = inside.split(',').map(|x| x.trim().parse::<f64>().ok());
+                let squares = parts.map(|x| Some(x? * x?)).sum::<Option<f64>>()?;
+                Some(squares.sqrt())
+            })
+            .collect(),
+    };
+    let &[x, y, z] = edges.as_slice() else {
+        return None;
+    };
+    let [x, y, z] = [x, y, z].map(|edge| edge * metres);
+    VoxelSize::new(x, y, Some(z), "NRRD spacings")
+}

@@ -1,0 +1,83 @@
+//! The Makefile, by what it would run; left out, and said, where there is no `make`.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::workbench::said;
+
+/// `make -n` at the top of the repository with the tools taken for built; nothing without make.
+fn plan(arguments: &[&str]) -> Option<Output> {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut make = Command::new("make");
+    // A make that runs the tests would hand its own flags down.
+    make.env_remove("MAKEFLAGS").env_remove("MFLAGS");
+    let plan = make.args(["-n", "BUILT=1"]).args(arguments);
+    match plan.current_dir(top).output() {
+        Ok(output) => Some(output),
+        Err(_) => {
+            println!("left out: there is no make");
+            None
+        }
+    }
+}
+
+fn lines(arguments: &[&str]) -> Option<String> {
+    let output = plan(arguments)?;
+    assert!(output.status.success(), "{arguments:?}: {}", said(&output));
+    Some(String::from_utf8(output.stdout).unwrap())
+}
+
+/// `VOXEL=1.45um` once made a cell of "2.9 ", without a unit.
+#[test]
+fn a_voxel_with_and_without_a_blank_makes_a_cell_of_two() {
+    for (voxel, cell, half) in [
+        ("1.45um", "2.9 um", "1.45 um"),
+        ("1.45 um", "2.9 um", "1.45 um"),
+        (".725E3nm", "1450 nm", "725 nm"),
+    ] {
+        let voxel = format!("VOXEL={voxel}");
+        let runs = [
+            "out/quick/pf/implicit/final.mpts",
+            "out/quick/pf/implicit-finer/final.mpts",
+        ];
+        for (run, cell) in runs.into_iter().zip([cell, half]) {
+            let Some(lines) = lines(&["ERROR=yes", &voxel, run]) else {
+                return;
+            };
+            let wanted = format!("--set grid.cell=\"{cell}\"");
+            assert!(lines.contains(&wanted), "{voxel}: {lines}");
+        }
+    }
+}
+
+/// There was no rule for a stack with a blank in its path.
+#[test]
+fn stacks_may_have_blanks_in_their_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let stack = folder.path().join("a b  c.tif");
+    std::fs::write(&stack, "").unwrap();
+    let path = format!("XCT_PF={}", stack.display());
+    if let Some(lines) = lines(&[&path, "out/xct/pf/experiment.mpts"]) {
+        let named = format!("xct2particles \"{}\"", stack.display());
+        assert!(lines.contains(&named), "{lines}");
+    }
+}
+
+/// The sub-makes set the number of jobs anew, over the one that was asked for.
+#[test]
+fn jobs_that_were_asked_for_hold_in_sub_makes() {
+    for jobs in ["-j3", "-j1", "-j"] {
+        let Some(output) = plan(&[jobs, "ERROR=no", "table2"]) else {
+            return;
+        };
+        assert!(output.status.success(), "{jobs}: {}", said(&output));
+        let plan = String::from_utf8_lossy(&output.stdout);
+        let own = plan
+            .lines()
+            .filter(|line| line.contains("--no-print-directory"));
+        let own: Vec<&str> = own.collect();
+        assert!(!own.is_empty(), "{plan}");
+        assert!(own.iter().all(|line| !line.contains(" -j")), "{own:?}");
+        assert!(!said(&output).contains("forced"), "{}", said(&output));
+    }
+}
