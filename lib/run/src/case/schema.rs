@@ -142,7 +142,7 @@ pub struct Integrator {
     pub velocity_update: Option<VelocityUpdate>,
     /// Order of xpic and fmpm.
     pub order: Option<u8>,
-    /// Courant number of the limit that binds.
+    /// Courant number of the limit that binds; 0.5 by the explicit scheme, 1 by the implicit one.
     pub cfl: Option<f64>,
     /// Explicit: whose volume change sets a point's pressure; its own, as in the paper, by
     /// default.
