@@ -1,0 +1,165 @@
+//! What is looked at while a run goes on: reports of steps, and diagnostics of states.
+
+use physics::{Diagnostics, Failure, Scene, StepReport};
+
+use super::faster_than_sound;
+use crate::resolve::{OVERLAP, Setup};
+
+/// Mean pressure over the bulk modulus to which Eq. 1 holds: 200 MPa at the paper's 1 GPa, where
+/// the measurements end that such laws with a universal C are fitted to. The mean volume change
+/// there is 10.5 %.
+pub(crate) const MOST_PRESSURE: f64 = 0.2;
+/// Looks at what a step reported.
+///
+/// # Errors
+/// A number that is none, or a clamp that has gone into another body.
+pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
+    let numbers = [
+        ("time step", report.dt_s),
+        ("closing speed", report.closing_speed),
+        ("clamp's travel", report.travel_m),
+        ("pressure on the lower body", report.pressure_bottom),
+        ("pressure on the upper body", report.pressure_top),
+    ];
+    finite(&numbers)?;
+    match &setup.clamp_room {
+        Some((room_m, other)) if report.travel_m > room_m + OVERLAP * setup.scene.grid.cell_m => {
+            Err(Failure(format!(
+                "the clamp's body has met '{other}' after {:.4} um and would overlap it; an earlier stop, stop = \"closed\" or a lower max_pressure is needed",
+                1e6 * room_m
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Looks at the diagnostics of a state that is to be written: row, snapshot or checkpoint.
+///
+/// # Errors
+/// A number that is none, liquid faster than its sound, or more pressure than Eq. 1 holds for.
+pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Result<(), Failure> {
+    finite(&[
+        ("kinetic energy", diagnostics.kinetic_energy),
+        ("viscous power", diagnostics.viscous_power),
+        ("volume of the liquid", diagnostics.volume),
+        ("largest speed", diagnostics.max_speed),
+    ])?;
+    if let Some(said) = faster_than_sound(&setup.scene, diagnostics.max_speed) {
+        return Err(Failure(format!(
+            "{said}; another integrator.cfl, a lower speed or a higher viscosity may help"
+        )));
+    }
+    // Points differ in volume by the rounding of their lattices alone.
+    let part = 1.0 - lost as f64 / setup.liquid.points as f64;
+    let change = diagnostics.volume / (part * setup.liquid.volume_m3) - 1.0;
+    let scene = &setup.scene;
+    let most = compressed(scene);
+    let pressure = scene.liquid.tait.pressure(change);
+    let range = format!(
+        "beyond {:.3e} Pa ({MOST_PRESSURE} of the bulk modulus), to which the pressure law holds",
+        MOST_PRESSURE * scene.liquid.tait.bulk_modulus
+    );
+    if change < most {
+        return Err(Failure(format!(
+            "the liquid is compressed by {:.1} % on average, {pressure:.3e} Pa and {range}: a body presses liquid that cannot get away; {}, a way out or less travel is needed",
+            -100.0 * change,
+            if scene
+                .clamp
+                .is_some_and(|clamp| clamp.max_pressure.is_some())
+            {
+                "a lower max_pressure"
+            } else {
+                "a max_pressure"
+            }
+        )));
+    }
+    // Cavities that open at a tension given are meant.
+    if change > -most && scene.liquid.cavitation_pressure.is_none() {
+        return Err(Failure(format!(
+            "the liquid is {:.1} % larger than at rest on average, a tension {range}: it is torn apart; a cavitation_pressure limits the tension it carries",
+            100.0 * change
+        )));
+    }
+    Ok(())
+}
+
+/// Mean relative volume change at [`MOST_PRESSURE`].
+fn compressed(scene: &Scene) -> f64 {
+    let tait = scene.liquid.tait;
+    tait.volume_change(MOST_PRESSURE * tait.bulk_modulus)
+}
+
+fn finite(numbers: &[(&str, f64)]) -> Result<(), Failure> {
+    match numbers.iter().find(|(_, number)| !number.is_finite()) {
+        None => Ok(()),
+        Some((name, number)) => Err(Failure(format!(
+            "the {name} is {}: the state is no longer one of liquid; another integrator.cfl may help, and --explain shows which numbers of the case are extreme",
+            if number.is_nan() {
+                "not a number"
+            } else {
+                "infinite"
+            }
+        ))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::tests::setup;
+
+    #[test]
+    fn rows_hold_finite_numbers_and_volumes_within_the_pressure_law() {
+        let setup = setup();
+        let of = |factor: f64, energy: f64| Diagnostics {
+            volume: factor * setup.liquid.volume_m3,
+            kinetic_energy: energy,
+            ..Diagnostics::default()
+        };
+        let said = |factor, energy, lost| {
+            state(&setup, &of(factor, energy), lost).map_err(|failure| failure.0)
+        };
+        assert_eq!(said(1.0, 1.0, 0), Ok(()));
+        assert_eq!(said(0.9, 1.0, 0), Ok(()));
+        // Half of the points went out.
+        assert_eq!(said(0.5, 1.0, 16), Ok(()));
+        let small = said(0.89, 1.0, 0).unwrap_err();
+        assert!(small.contains("compressed by 11.0 %"), "{small}");
+        let large = said(1.2, 1.0, 0).unwrap_err();
+        assert!(large.contains("20.0 % larger than at rest"), "{large}");
+        let fast = Diagnostics {
+            max_speed: 1001.0,
+            ..of(1.0, 1.0)
+        };
+        let fast = state(&setup, &fast, 0).unwrap_err().0;
+        assert!(fast.contains("above its speed of sound"), "{fast}");
+        let nan = said(1.0, f64::NAN, 0).unwrap_err();
+        assert!(nan.contains("kinetic energy is not a number"), "{nan}");
+    }
+
+    #[test]
+    fn a_step_reports_finite_numbers_and_no_body_in_another() {
+        let mut setup = setup();
+        setup.clamp_room = Some((1e-6, "bottom".into()));
+        let report = StepReport {
+            travel_m: 1e-6,
+            ..StepReport::default()
+        };
+        assert_eq!(step(&setup, &report), Ok(()));
+        let beyond = StepReport {
+            travel_m: 1.1e-6,
+            ..report
+        };
+        let said = step(&setup, &beyond).unwrap_err().0;
+        assert!(said.contains("has met 'bottom' after 1.0000 um"), "{said}");
+        let infinite = StepReport {
+            pressure_top: f64::NEG_INFINITY,
+            ..report
+        };
+        let said = step(&setup, &infinite).unwrap_err().0;
+        assert!(
+            said.contains("pressure on the upper body is infinite"),
+            "{said}"
+        );
+    }
+}

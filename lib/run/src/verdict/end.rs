@@ -1,0 +1,166 @@
+//! The judgement of a run's last state.
+
+use physics::{LiquidState, Scene};
+
+use super::{Verdict, faster_than_sound};
+use crate::invariants::Invariants;
+use crate::resolve::Setup;
+
+/// Depth in wood, in cells, that is no more than the resolution of walls.
+const WALL_RESOLUTION: f64 = 0.5;
+/// Depth in wood, in cells, that is rounding at a face.
+const ROUNDING: f64 = 1e-3;
+/// Part of the points that may lie in wood within the resolution of walls.
+const MOST_IN_WOOD: f64 = 0.01;
+/// Volume change that the pressures of the points may leave unexplained.
+const MOST_UNEXPLAINED: f64 = 1e-3;
+
+/// Judges the last state of a run in which `lost` points left the domain.
+pub(crate) fn judge(setup: &Setup, liquid: &LiquidState, found: &Invariants, lost: u64) -> Verdict {
+    let mut reasons = Vec::new();
+    if let Some(name) = not_finite(liquid) {
+        reasons.push(format!("a {name} of the liquid is not a finite number"));
+    }
+    reasons.extend(faster_than_sound(&setup.scene, largest_speed(liquid)));
+    let (left, begun) = (liquid.position.len() as u64, setup.liquid.points);
+    if left + lost != begun {
+        reasons.push(format!(
+            "of {begun} material points {left} are left and {lost} went out of the domain"
+        ));
+    }
+    if left == 0 {
+        reasons.push("no liquid is left in the domain".into());
+    }
+    let cell = setup.scene.grid.cell_m;
+    if found.deepest_m > (WALL_RESOLUTION + ROUNDING) * cell {
+        reasons.push(format!(
+            "{} of {left} material points lie in rigid bodies, the deepest {:.2} cells; half a cell is what walls are resolved to, so bodies have moved over liquid that could not get away",
+            found.points_in_wood,
+            found.deepest_m / cell
+        ));
+    } else if found.points_in_wood as f64 > MOST_IN_WOOD * begun as f64
+        && found.deepest_m > ROUNDING * cell
+    {
+        reasons.push(format!(
+            "{} of {left} material points lie in rigid bodies, more than {} %",
+            found.points_in_wood,
+            100.0 * MOST_IN_WOOD
+        ));
+    }
+    let cavities = setup.scene.liquid.cavitation_pressure.is_some();
+    let unexplained = unexplained(&setup.scene, liquid, setup.liquid.volume_m3);
+    let off = if cavities {
+        -unexplained
+    } else {
+        unexplained.abs()
+    };
+    if lost == 0 && off > MOST_UNEXPLAINED {
+        reasons.push(format!(
+            "the liquid's volume is {:+.2} % off what its pressures explain",
+            100.0 * unexplained
+        ));
+    }
+    Verdict::because(reasons)
+}
+
+/// Largest speed of a point, m/s.
+fn largest_speed(liquid: &LiquidState) -> f64 {
+    let square = |v: &[f32; 3]| v.iter().map(|&x| f64::from(x).powi(2)).sum::<f64>();
+    (liquid.velocity.iter().map(square))
+        .fold(0.0, f64::max)
+        .sqrt()
+}
+
+/// First kind of number of the state that is not finite somewhere.
+fn not_finite(liquid: &LiquidState) -> Option<&'static str> {
+    let bad = |list: &[f32]| list.iter().any(|x| !x.is_finite());
+    let bad_vector = |list: &[[f32; 3]]| bad(list.as_flattened());
+    [
+        ("position", bad_vector(&liquid.position)),
+        ("velocity", bad_vector(&liquid.velocity)),
+        ("volume", bad(&liquid.volume)),
+        ("pressure", bad(&liquid.pressure)),
+        ("shear rate", bad(&liquid.shear_rate)),
+    ]
+    .iter()
+    .find(|(_, bad)| *bad)
+    .map(|(name, _)| *name)
+}
+
+/// Volume that the points would have without their pressures over `initial` (m3), minus one.
+fn unexplained(scene: &Scene, liquid: &LiquidState, initial: f64) -> f64 {
+    let at_rest = |(&volume, &pressure): (&f32, &f32)| {
+        f64::from(volume) / (1.0 + scene.liquid.tait.volume_change(f64::from(pressure)))
+    };
+    liquid
+        .volume
+        .iter()
+        .zip(&liquid.pressure)
+        .map(at_rest)
+        .sum::<f64>()
+        / initial
+        - 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::tests::setup;
+
+    fn at_rest(setup: &Setup) -> LiquidState {
+        let points = setup.scene_for_scheme().points;
+        let n = points.position.len();
+        LiquidState {
+            position: (points.position.iter())
+                .map(|x| x.map(|x| x as f32))
+                .collect(),
+            velocity: vec![[0.0; 3]; n],
+            volume: points.volume.iter().map(|&v| v as f32).collect(),
+            pressure: vec![0.0; n],
+            shear_rate: vec![0.0; n],
+        }
+    }
+
+    fn judged(setup: &Setup, liquid: &LiquidState, lost: u64) -> Vec<String> {
+        let shifts = vec![[0.0; 3]; setup.scene.bodies.len()];
+        let volume = setup.liquid.volume_m3;
+        let found = crate::invariants::check(&setup.scene, volume, liquid, &shifts);
+        judge(setup, liquid, &found, lost).reasons
+    }
+
+    #[test]
+    fn a_state_is_judged_by_what_is_wrong_with_it() {
+        let setup = setup();
+        let sound = at_rest(&setup);
+        assert_eq!(judged(&setup, &sound, 0), Vec::<String>::new());
+        let said = |change: &dyn Fn(&mut LiquidState), lost| {
+            let mut liquid = sound.clone();
+            change(&mut liquid);
+            judged(&setup, &liquid, lost).join("; ")
+        };
+        let deep = said(&|l| l.position[3][1] = 1.4e-6, 0);
+        assert!(deep.contains("the deepest 0.60 cells"), "{deep}");
+        let shallow = said(&|l| l.position[3][1] = 1.6e-6, 0);
+        assert!(shallow.contains("more than 1 %"), "{shallow}");
+        let rounding = said(&|l| l.position[3][1] = 1.9999e-6, 0);
+        assert_eq!(rounding, "");
+        let nan = said(&|l| l.shear_rate[0] = f32::NAN, 0);
+        assert!(nan.contains("a shear rate of the liquid"), "{nan}");
+        let infinite = said(&|l| l.velocity[0][2] = f32::INFINITY, 0);
+        assert!(infinite.contains("a velocity of the liquid"), "{infinite}");
+        let fast = said(&|l| l.velocity[0][1] = 1001.0, 0);
+        assert!(fast.contains("above its speed of sound"), "{fast}");
+        let grown = said(&|l| l.volume.iter_mut().for_each(|v| *v *= 1.01), 0);
+        assert!(grown.contains("+1.00 % off"), "{grown}");
+        let missing = said(
+            &|l| {
+                l.position.pop();
+                l.velocity.pop();
+            },
+            0,
+        );
+        assert!(missing.contains("31 are left and 0 went out"), "{missing}");
+        let gone = said(&|l| *l = LiquidState::default(), 32);
+        assert_eq!(gone, "no liquid is left in the domain");
+    }
+}

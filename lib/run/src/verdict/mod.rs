@@ -1,0 +1,123 @@
+//! Whether a run's results can be relied on: what is looked at while it runs, and the judgement of
+//! its last state. Exit status 0 is a claim that all of it holds.
+//!
+//! The bounds and the sound runs they were set by are in docs/verdicts.md.
+
+mod course;
+mod end;
+
+use std::fs;
+use std::path::Path;
+
+use physics::Scene;
+use serde::{Deserialize, Serialize};
+
+use crate::folder;
+
+pub(crate) use course::{MOST_PRESSURE, state, step};
+pub(crate) use end::judge;
+
+/// Whether the last state of a run is sound.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// Whether nothing speaks against it.
+    pub sound: bool,
+    /// What does, a clause each.
+    pub reasons: Vec<String>,
+}
+
+impl Verdict {
+    fn because(reasons: Vec<String>) -> Self {
+        Self {
+            sound: reasons.is_empty(),
+            reasons,
+        }
+    }
+
+    /// This one, and what the scheme says against its results.
+    pub(crate) fn and(mut self, objection: Option<String>) -> Self {
+        self.reasons.extend(objection);
+        Self::because(self.reasons)
+    }
+
+    /// That of the run that ended in `folder`; `None` where its summary does not say.
+    pub fn of_ended(folder: &Path) -> Option<Self> {
+        let text = fs::read_to_string(folder.join(folder::SUMMARY)).ok()?;
+        let summary: serde_json::Value = serde_json::from_str(&text).ok()?;
+        serde_json::from_value(summary.get("verdict")?.clone()).ok()
+    }
+
+    /// What is wrong, as a sentence; nothing of a sound state.
+    pub fn objection(&self) -> Option<String> {
+        (!self.sound).then(|| {
+            format!(
+                "the results are not sound (kept, and marked so in summary.json): {}",
+                self.reasons.join("; ")
+            )
+        })
+    }
+}
+
+/// What is wrong with liquid of this largest speed (m/s), if it is too fast for any scheme here.
+fn faster_than_sound(scene: &Scene, speed: f64) -> Option<String> {
+    let sound = scene.liquid.sound_speed();
+    (speed > sound).then(|| {
+        format!(
+            "liquid moves at {speed:.3e} m/s, above its speed of sound sqrt(K/rho) = {sound:.3e} m/s, which no pressing gives it"
+        )
+    })
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::resolve::{Setup, resolve};
+
+    /// A box of 4 x 2 cells of 1 um full of liquid on a floor of one cell.
+    pub(crate) fn setup() -> Setup {
+        let text = r#"
+[grid]
+cell = "1 um"
+dimensions = 2
+[adhesive]
+density = "1000 kg/m3"
+bulk_modulus = "1 GPa"
+viscosity = "1 Pa s"
+[contact]
+law = "stick"
+[stop]
+time = "1 us"
+[integrator]
+scheme = "implicit"
+[[body]]
+material = "rigid"
+box = { min = ["0 um", "0 um", "0 um"], max = ["4 um", "2 um", "1 um"] }
+[[body]]
+material = "adhesive"
+box = { min = ["0 um", "2 um", "0 um"], max = ["4 um", "4 um", "1 um"] }
+"#;
+        let case = Case::parse(text, Path::new("case.toml")).unwrap();
+        resolve(&case, None).unwrap()
+    }
+
+    #[test]
+    fn an_objection_of_the_scheme_counts() {
+        let none = || Verdict::because(Vec::new());
+        assert!(none().and(None).sound);
+        let said = none().and(Some("it did not settle".into())).objection();
+        assert!(said.unwrap().ends_with(": it did not settle"));
+    }
+
+    #[test]
+    fn only_a_state_with_reasons_against_it_is_objected_to() {
+        assert_eq!(Verdict::because(Vec::new()).objection(), None);
+        let reasons = ["no liquid is left", "a volume is off"].map(str::to_owned);
+        let said = Verdict::because(reasons.into()).objection().unwrap();
+        assert!(said.starts_with("the results are not sound"), "{said}");
+        assert!(
+            said.ends_with(": no liquid is left; a volume is off"),
+            "{said}"
+        );
+    }
+}
