@@ -11,39 +11,64 @@ mod x86 {
     use std::mem::transmute;
 
     macro_rules! operations {
-        ($name:ident, $n:literal, $add:ident, $mul:ident, $fma:ident) => {
+        ($name:ident, $n:literal, $vector:ident, $add:ident, $mul:ident, $fma:ident) => {
             pub(in crate::lanes) mod $name {
                 use super::*;
                 type Array = [f32; $n];
 
+                #[inline(always)]
+                fn vector(x: Array) -> $vector {
+                    // SAFETY: array and vector are the same bits.
+                    unsafe { transmute::<Array, $vector>(x) }
+                }
+                #[inline(always)]
+                fn array(x: $vector) -> Array {
+                    // SAFETY: array and vector are the same bits.
+                    unsafe { transmute::<$vector, Array>(x) }
+                }
                 /// `a b + c`.
                 #[inline(always)]
                 pub(in crate::lanes) fn fused(a: Array, b: Array, c: Array) -> Array {
-                    // SAFETY: `simd` has found FMA; array and vector are the same bits.
-                    unsafe { transmute($fma(transmute(a), transmute(b), transmute(c))) }
+                    // SAFETY: `simd` has found FMA.
+                    array(unsafe { $fma(vector(a), vector(b), vector(c)) })
                 }
                 #[inline(always)]
+                #[allow(unused_unsafe, reason = "four lanes need no feature asked for")]
                 pub(in crate::lanes) fn sum(a: Array, b: Array) -> Array {
-                    // SAFETY: `simd` has found AVX; array and vector are the same bits.
-                    unsafe { transmute($add(transmute(a), transmute(b))) }
+                    // SAFETY: `simd` has found AVX.
+                    array(unsafe { $add(vector(a), vector(b)) })
                 }
                 #[inline(always)]
+                #[allow(unused_unsafe, reason = "four lanes need no feature asked for")]
                 pub(in crate::lanes) fn product(a: Array, b: Array) -> Array {
                     // SAFETY: as of `sum`.
-                    unsafe { transmute($mul(transmute(a), transmute(b))) }
+                    array(unsafe { $mul(vector(a), vector(b)) })
                 }
             }
         };
     }
 
-    operations!(eight, 8, _mm256_add_ps, _mm256_mul_ps, _mm256_fmadd_ps);
-    operations!(four, 4, _mm_add_ps, _mm_mul_ps, _mm_fmadd_ps);
+    operations!(
+        eight,
+        8,
+        __m256,
+        _mm256_add_ps,
+        _mm256_mul_ps,
+        _mm256_fmadd_ps
+    );
+    operations!(four, 4, __m128, _mm_add_ps, _mm_mul_ps, _mm_fmadd_ps);
 
     /// `a - b`.
     #[inline(always)]
     pub(in crate::lanes) fn difference(a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
         // SAFETY: `simd` has found AVX; arrays and vectors are the same bits.
-        unsafe { transmute(_mm256_sub_ps(transmute(a), transmute(b))) }
+        unsafe {
+            let (a, b) = (
+                transmute::<[f32; 8], __m256>(a),
+                transmute::<[f32; 8], __m256>(b),
+            );
+            transmute::<__m256, [f32; 8]>(_mm256_sub_ps(a, b))
+        }
     }
 
     /// The lanes `from` of `x`.
@@ -54,7 +79,11 @@ mod x86 {
             index[l] = from[l] as i32;
         }
         // SAFETY: `simd` has found AVX2; the instruction takes the lowest three bits of an index.
-        unsafe { transmute(_mm256_permutevar8x32_ps(transmute(x), transmute(index))) }
+        unsafe {
+            let index = transmute::<[i32; 8], __m256i>(index);
+            let x = transmute::<[f32; 8], __m256>(x);
+            transmute::<__m256, [f32; 8]>(_mm256_permutevar8x32_ps(x, index))
+        }
     }
 
     /// Of vectors 0 and 4, 1 and 5, 2 and 6, 3 and 7, four lanes each: lane 0, 1, 2, 3 of all eight.
@@ -62,12 +91,12 @@ mod x86 {
     pub(in crate::lanes) fn transposed(pairs: [[f32; 8]; 4]) -> [[f32; 8]; 4] {
         // SAFETY: `simd` has found AVX; arrays and vectors are the same bits.
         unsafe {
-            let [a, b, c, d]: [__m256; 4] = transmute(pairs);
+            let [a, b, c, d] = transmute::<[[f32; 8]; 4], [__m256; 4]>(pairs);
             let (ab, cd) = (_mm256_unpacklo_ps(a, b), _mm256_unpacklo_ps(c, d));
             let (ab, cd) = (_mm256_castps_pd(ab), _mm256_castps_pd(cd));
             let (ef, gh) = (_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d));
             let (ef, gh) = (_mm256_castps_pd(ef), _mm256_castps_pd(gh));
-            transmute([
+            transmute::<[__m256d; 4], [[f32; 8]; 4]>([
                 _mm256_unpacklo_pd(ab, cd),
                 _mm256_unpackhi_pd(ab, cd),
                 _mm256_unpacklo_pd(ef, gh),
