@@ -1,6 +1,6 @@
 //! Slices as BMP, PNG and JPEG, a file for each page.
 
-use std::io::{BufReader, Read, Seek};
+use std::io::{BufRead, BufReader, Seek};
 
 use image::codecs::jpeg::JpegDecoder;
 use image::{ColorType, ImageDecoder};
@@ -122,10 +122,7 @@ fn decoded(decoder: impl ImageDecoder, page: Option<&mut Vec<u8>>) -> Result<Pag
 }
 
 /// Stored samples as they are: no palette, no gamma, no scaling of fewer than 8 bits.
-fn png(
-    content: impl Read + std::io::BufRead + Seek,
-    page: Option<&mut Vec<u8>>,
-) -> Result<PageFormat, String> {
+fn png(content: impl BufRead + Seek, page: Option<&mut Vec<u8>>) -> Result<PageFormat, String> {
     let mut decoder = png::Decoder::new(content);
     decoder.set_transformations(png::Transformations::IDENTITY);
     let mut reader = decoder.read_info().map_err(|e| e.to_string())?;

@@ -243,7 +243,7 @@ fn planes_by_the_tag_image_depth() {
     let [nx, ny, nz] = DIMS;
     let depth = |page: Page| page.tag(32997, Value::Long(vec![nz as u32]));
     let whole = depth(Page::new(nx, ny, 8, volume()));
-    let (_folder, path) = stored("a.tif", &tiff(CLASSIC, &[whole.clone()]));
+    let (_folder, path) = stored("a.tif", &tiff(CLASSIC, std::slice::from_ref(&whole)));
     assert_test_volume("one strip", &path, PLAIN);
     let mut parted = whole;
     parted.chunks = pages(|label| [label]);

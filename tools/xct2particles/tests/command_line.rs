@@ -254,6 +254,8 @@ fn unreadable_data_is_exit_3() {
     fs::write(&cut, &bytes[..bytes.len() - 1]).unwrap();
     case(&cut, &["cut.tif', page 10", "truncated"]);
     fs::write(&cut, b"PK\x03\x04").unwrap();
+    case(&cut, &["its archive cannot be read"]);
+    fs::write(&cut, b"PK").unwrap();
     case(&cut, &["it is not a stack"]);
     fs::write(&cut, b"").unwrap();
     case(&cut, &["it is not a stack"]);

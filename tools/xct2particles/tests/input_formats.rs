@@ -143,8 +143,7 @@ fn copies_in_every_format_give_the_same_particle_file() {
 fn grey_values_are_counted_proposed_and_taken() {
     let folder = tempfile::tempdir().unwrap();
     // Three peaks of seven values each.
-    let grey =
-        |i: usize| 10_000 + 8_000 * u16::from([1, 2, 0, 1][i / 31 % 20 / 5]) + (i % 7) as u16;
+    let grey = |i: usize| 10_000 + 8_000 * [1_u16, 2, 0, 1][i / 31 % 20 / 5] + (i % 7) as u16;
     let words: Vec<u8> = (0..31 * 20 * 6)
         .flat_map(|i| grey(i).to_le_bytes())
         .collect();

@@ -102,7 +102,8 @@ fn labels_of(file: &ParticleFile) -> Result<LabelVolume<'_>, Failure> {
     let labels = LabelVolume::of(file).map_err(Failure::data)?;
     let (worth, found) = labels.liquid_voxels();
     let missing = worth - found as f64;
-    if missing > 0.005 * worth {
+    // Half a voxel is the rounding to whole ones.
+    if missing > 0.005 * worth + 0.5 {
         cli::warn(format!(
             "{:.1} % of the liquid in '{}' has no voxel: its points lie outside the box, or are squeezed into less room than their volume",
             100.0 * missing / worth,
