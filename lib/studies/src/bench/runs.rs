@@ -9,8 +9,11 @@ use crate::study::{ended, said};
 /// A specimen: its name, and what `synth-xct` makes it of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
+    /// In tables and `ONLY=`.
     pub name: &'static str,
+    /// Voxels along x, y, z.
     pub voxels: &'static str,
+    /// Thickness of the adhesive.
     pub slab: &'static str,
 }
 
@@ -38,9 +41,11 @@ const FULL: Size = Size {
 /// One line of the page.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
+    /// The specimen.
     pub size: Size,
     /// Case file of [`CASES`].
     pub case: &'static str,
+    /// Worker threads.
     pub threads: usize,
     /// Times of the clamp, from which steps are counted and to which, us.
     pub from_to_us: [f64; 2],
@@ -99,10 +104,13 @@ const POINTS_PER_CELL: f64 = 8.0;
 /// What a run cost between the two times.
 #[derive(Clone, Debug)]
 pub struct Cost {
+    /// Steps.
     pub steps: f64,
+    /// Material points.
     pub points: f64,
-    /// Processor and wall seconds per step.
+    /// Processor seconds per step.
     pub cpu_s: f64,
+    /// Wall seconds per step.
     pub wall_s: f64,
     /// Peak memory of the process, bytes.
     pub memory: f64,

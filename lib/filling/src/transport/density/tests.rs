@@ -54,7 +54,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
     let (moves, iterations) = displacement(
         &system.g,
         &system.g.transpose(),
-        &operator.face_volume,
+        &system.face_volume,
         &cells,
     )
     .unwrap();
