@@ -119,15 +119,15 @@ fn flow_through_lumens_in_three_dimensions() {
     assert_within(0.065, &tube, Method::implicit(), same);
 }
 
-/// Walls half way in their cells: without films that count as liquid the growth is off by 15 and by 35 %.
+/// Walls half way in their cells. The growth is the difference of two pressures of a few steps each:
+/// it scatters by 12 % over Courant numbers, the pressures themselves by 6 %.
 #[test]
 fn a_piston_into_a_lumen_of_three_cells_at_any_step() {
     let scene = || piston::scene(Section::Square, 3, piston::Drive::Speed(0.5));
-    for cfl in [0.5, 0.1] {
+    for cfl in [1.0, 0.5, 0.1] {
         let method = || Method::implicit().setting(format!("integrator.cfl={cfl}"));
-        for what in ["pressure per filled diameter", "pressure at L = 2 d"] {
-            assert_within(0.1, &scene(), method(), what);
-        }
+        assert_within(0.13, &scene(), method(), "pressure per filled diameter");
+        assert_within(0.07, &scene(), method(), "pressure at L = 2 d");
     }
     let mut thick = scene();
     thick.case.viscosity = Viscosity::Newtonian(1.25 * studies::case_text::PF[2]);

@@ -251,7 +251,7 @@ fn planes_by_the_tag_image_depth() {
     assert_test_volume("a strip each", &path, PLAIN);
     let cut = depth(Page::new(nx, ny, 8, volume()[..nx * ny * 2].to_vec()));
     let said = refusal("a.tif", &tiff(CLASSIC, &[cut]));
-    assert!(said.contains("beyond the end of the file"), "{said}");
+    assert!(said.contains("bytes are stored"), "{said}");
     let many = Page::new(nx, ny, 8, volume()).tag(32997, Value::Long(vec![u32::MAX]));
     let said = refusal("a.tif", &tiff(CLASSIC, &[many]));
     assert!(said.contains("ImageDepth"), "{said}");

@@ -175,7 +175,7 @@ fn meta_images_beside_and_behind_their_header() {
         (header("MET_LONG_LONG", "", "a.raw"), "line 4"),
         (
             header("MET_UCHAR", "CompressedData = True\n", "LOCAL"),
-            "compressed pixels",
+            "0 compressed bytes are stored",
         ),
         (header("MET_UCHAR", "HeaderSize = -1\n", "LOCAL"), "line 5"),
         (header("MET_UCHAR", "", "LOCAL"), "truncated"),

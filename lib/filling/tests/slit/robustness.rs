@@ -295,8 +295,8 @@ fn the_forecast_is_that_of_the_measured_run() {
     let plan = Plan::new(&scene, &amount, &Settings::default());
     let (unknowns, gap) = (3.225e6, 36.0 * 62_500.0);
     println!("{plan:?}");
-    // The liquid four times as fast as the piston, half a cell a step.
-    assert_eq!(plan.steps, (1e-4 * 4.0 * SPEED / (0.5 * h)).ceil());
+    // The liquid four times as fast as the piston, a cell a step.
+    assert_eq!(plan.steps, (1e-4 * 4.0 * SPEED / h).ceil());
     assert!((plan.memory_bytes / (450.0 * unknowns + 260.0 * gap + 600e6) - 1.0).abs() < 1e-9);
     // 25 iterations of 0.55 s, 4.8 s to assemble, 6 s for the points.
     assert!((plan.cpu_s / plan.steps / (25.0 * 0.548 + 4.84 + 6.0) - 1.0).abs() < 0.01);

@@ -116,8 +116,8 @@ fn the_same_by_the_implicit_scheme_and_by_plain_flip() {
             "shear rate of points between snapshots known where a state is written",
         ],
     );
-    // Half a cell at the speed of the plate.
-    assert_says(&said, &["time step 5.0000e-7 s, set by advective"]);
+    // A cell at the speed of the plate.
+    assert_says(&said, &["time step 1.0000e-6 s, set by advective"]);
     let flip = [("velocity_update = \"xpic\"\norder = 5\n", "")];
     assert_says(
         &plan(&flip, &[]).unwrap(),

@@ -90,8 +90,16 @@ impl PageLayout {
         if self.planes() > 1 || !matches!(self.cut, Cut::Strips(_)) {
             return Err("it holds several planes by the tag ImageDepth, in tiles or by colour; accepted are strips of whole pixels: save it with a page for each plane".into());
         }
-        if let [(offset, _)] = self.chunks[..] {
+        if let [(offset, stored)] = self.chunks[..] {
             let bytes = self.plane_bytes().ok_or(TOO_LARGE)?.1 as u64;
+            if bytes
+                .checked_mul(depth as u64)
+                .is_none_or(|all| all > stored)
+            {
+                return Err(format!(
+                    "its tag ImageDepth declares {depth} planes of {bytes} bytes, but {stored} bytes are stored: its size or the file is corrupt"
+                ));
+            }
             self.cut = Cut::Strips(self.format.height as u32);
             self.chunks = vec![(offset, bytes)];
             self.check_chunks(file_len)?;
