@@ -37,6 +37,7 @@ pub(crate) fn is_image(head: &[u8]) -> bool {
 pub(crate) struct ImagePages {
     sources: Vec<Source>,
     format: PageFormat,
+    lossy: bool,
 }
 
 /// Opens images of one page each, in this order.
@@ -46,8 +47,11 @@ pub(crate) struct ImagePages {
 /// first.
 pub(crate) fn open(sources: Vec<Source>) -> Result<ImagePages, Error> {
     let mut format: Option<PageFormat> = None;
+    let mut lossy = false;
     for (i, source) in sources.iter().enumerate() {
         let own = read(source, None).map_err(|what| Error::file(source, what))?;
+        let head = source.window(0, 16).map_err(|e| Error::io(source, e))?;
+        lossy |= Kind::of(&head) == Some(Kind::Jpeg);
         let first = *format.get_or_insert(own);
         if own != first {
             let what =
@@ -56,7 +60,11 @@ pub(crate) fn open(sources: Vec<Source>) -> Result<ImagePages, Error> {
         }
     }
     match format {
-        Some(format) => Ok(ImagePages { sources, format }),
+        Some(format) => Ok(ImagePages {
+            sources,
+            format,
+            lossy,
+        }),
         None => Err(Error::Usage("no stack is given".into())),
     }
 }
@@ -68,6 +76,11 @@ impl ImagePages {
 
     pub(crate) fn format(&self) -> PageFormat {
         self.format
+    }
+
+    /// Whether their compression changes values.
+    pub(crate) fn lossy(&self) -> bool {
+        self.lossy
     }
 
     pub(crate) fn sources(&self) -> &[Source] {

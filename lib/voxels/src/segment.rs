@@ -38,6 +38,12 @@ pub fn segment(
             stack.name()
         )));
     }
+    if stack.is_lossy() && !matches!(phases, Phases::Grey(_)) {
+        return Err(Error::Usage(format!(
+            "{}: the compression of JPEG changes values, so that no labels survive it; give grey values by --grey",
+            stack.name()
+        )));
+    }
     let too_large = || Error::file(stack.name(), "it has more voxels than can be counted");
     let [nx, ny, nz] = crop.dims();
     let voxels = nx.checked_mul(ny).and_then(|n| n.checked_mul(nz));

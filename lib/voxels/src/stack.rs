@@ -230,6 +230,11 @@ impl Stack {
         self.voxel_size.as_ref()
     }
 
+    /// Whether the compression of its pages changes values, so that labels do not survive it.
+    pub(crate) fn is_lossy(&self) -> bool {
+        matches!(&self.pages, Pages::Images(pages) if pages.lossy())
+    }
+
     /// The files read, e.g. to hash them.
     pub fn sources(&self) -> &[Source] {
         match &self.pages {

@@ -45,7 +45,7 @@ pub(crate) fn reader(
 ///
 /// # Errors
 /// More than the stored bytes can make, more than half of the free space for temporary files,
-/// fewer bytes than that, damaged data.
+/// fewer or more bytes than that, damaged data.
 pub(crate) fn unpack(
     source: &Source,
     offset: u64,
@@ -59,6 +59,15 @@ pub(crate) fn unpack(
         );
         return Err(Error::file(source, what));
     }
-    spool_exactly(reader(source, offset, packing)?, bytes)
-        .map_err(|e| Error::file(source, format!("its compressed pixels cannot be read: {e}")))
+    let unreadable = |e| Error::file(source, format!("its compressed pixels cannot be read: {e}"));
+    let mut content = reader(source, offset, packing)?;
+    let file = spool_exactly(&mut content, bytes).map_err(unreadable)?;
+    // Checksums stand at the end, which is reached by asking for more.
+    match content.read(&mut [0]).map_err(unreadable)? {
+        0 => Ok(file),
+        _ => Err(Error::file(
+            source,
+            format!("it unpacks to more than the {bytes} bytes of pixels that its header declares"),
+        )),
+    }
 }

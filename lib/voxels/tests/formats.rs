@@ -98,6 +98,14 @@ fn nrrd_raw_and_gzipped_behind_and_beside() {
     let head = nrrd("unsigned short", "gzip", "endian: big\n\n");
     let (_folder, path) = stored("a.nrrd", &[head.as_bytes(), &gzip(&words)].concat());
     assert_test_volume("gzip", &path, ["0", "300", "600"]);
+    let mut damaged = gzip(&words);
+    let sum = damaged.len() - 8;
+    damaged[sum] ^= 1;
+    let longer = gzip(&[&words[..], &[0]].concat());
+    for (pixels, what) in [(damaged, "cannot be read"), (longer, "unpacks to more")] {
+        let said = refusal("a.nrrd", &[head.as_bytes(), &pixels].concat());
+        assert!(said.contains(what), "{said}");
+    }
     let head = nrrd("uchar", "raw", "byte skip: 3\ndata file: a.raw\n");
     let (folder, path) = stored("a.nhdr", head.as_bytes());
     fs::write(

@@ -136,6 +136,11 @@ fn jpeg_slices_give_grey_values() {
     };
     let counts = [found.wood.count(), found.adhesive.count()];
     assert_eq!(counts, [expected(1), expected(2)]);
+    let labels = Phases::Labels("void=40,wood=120,adhesive=200".parse().unwrap());
+    for phases in [Phases::Guess, labels] {
+        let said = segmented(&[slices.path().to_owned()], &phases).unwrap_err();
+        assert!(said.to_string().contains("--grey"), "{said}");
+    }
 }
 
 #[test]

@@ -179,7 +179,7 @@ impl Program {
         let mut command = Command::new(self.bin.join("mpm-run"));
         command.arg(format!("{CASES}/{}.toml", piece.case));
         command.arg("--particles").arg(bond).arg("-o").arg(&run);
-        command.args(["--overwrite", "--quiet", "--yes-really", "--threads"]);
+        command.args(["--overwrite", "--quiet", "--threads"]);
         command.arg(piece.threads.to_string());
         for change in [
             format!("clamp.time_limit=\"{us} us\""),
