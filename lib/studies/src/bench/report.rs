@@ -73,7 +73,7 @@ fn page(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> String {
     let mut page = format!("# Speed and memory\n\n{}.\n\n", study.origin());
     page.push_str(
         "Synthetic specimens of the paper's wood and slab, pressed from the start for some steps; the \
-         times are differences of two runs of different length, so that reading and writing do not count. \
+         times are those of the stages of the steps, so that reading and writing do not count. \
          A liquid cell is eight material points. Ratio: processor time for the same time of the press \
          over that of the build named by `BASE`, run next to it. Memory is the peak of the whole process.\n\n",
     );

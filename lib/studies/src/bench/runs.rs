@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Instant;
 
 use crate::outputs::{Run, bin_folder};
 use crate::study::{ended, said};
@@ -47,8 +48,8 @@ pub struct Piece {
     pub case: &'static str,
     /// Worker threads.
     pub threads: usize,
-    /// Times of the clamp, from which steps are counted and to which, us.
-    pub from_to_us: [f64; 2],
+    /// Time of the clamp that is pressed for, us.
+    pub until_us: f64,
     /// Runs, of which the median counts.
     pub times: usize,
 }
@@ -60,14 +61,14 @@ impl Piece {
     }
 }
 
-/// From soon after the start, for a few steps.
-const IMPLICIT_US: [f64; 2] = [0.5, 12.0];
-const EXPLICIT_US: [f64; 2] = [0.01, 0.1];
+/// A few steps.
+const IMPLICIT_US: f64 = 12.0;
+const EXPLICIT_US: f64 = 0.1;
 
 const fn piece(
     size: Size,
     case: &'static str,
-    from_to_us: [f64; 2],
+    until_us: f64,
     threads: usize,
     times: usize,
 ) -> Piece {
@@ -75,7 +76,7 @@ const fn piece(
         size,
         case,
         threads,
-        from_to_us,
+        until_us,
         times,
     }
 }
@@ -147,34 +148,30 @@ impl Program {
         Self { bin }
     }
 
-    /// What the steps of a piece between its two times cost: the difference of two runs, so that
-    /// neither start nor end counts.
+    /// What a step of a piece costs: the part of the run's processor time that its stages take of the
+    /// clock, so that neither start nor end counts.
     ///
     /// # Errors
     /// What `mpm-run` said.
     pub fn cost(&self, piece: &Piece, bond: &Path, folder: &Path) -> Result<Cost, String> {
-        let [short, long] = piece
-            .from_to_us
-            .map(|us| self.press(piece, bond, folder, us));
-        let (short, long) = (short?, long?);
-        let steps = long.steps - short.steps;
-        let whole: f64 = long.stages.iter().map(|s| s.1).sum();
+        let start = Instant::now();
+        let run = self.press(piece, bond, folder)?;
+        let elapsed = start.elapsed().as_secs_f64();
+        let whole: f64 = run.stages.iter().map(|s| s.1).sum();
         Ok(Cost {
-            steps,
-            points: long.points,
-            cpu_s: (long.cpu_s - short.cpu_s) / steps,
-            wall_s: (long.wall_s - short.wall_s) / steps,
-            memory: long.memory,
-            stages: long
+            cpu_s: run.cpu_s * whole / elapsed / run.steps,
+            wall_s: whole / run.steps,
+            stages: run
                 .stages
                 .into_iter()
                 .map(|(n, s)| (n, s / whole))
                 .collect(),
+            ..run
         })
     }
 
-    /// A run to a time (us): sums, not per step.
-    fn press(&self, piece: &Piece, bond: &Path, folder: &Path, us: f64) -> Result<Cost, String> {
+    /// The run: sums, not per step.
+    fn press(&self, piece: &Piece, bond: &Path, folder: &Path) -> Result<Cost, String> {
         let run = folder.join("run");
         let mut command = Command::new(self.bin.join("mpm-run"));
         command.arg(format!("{CASES}/{}.toml", piece.case));
@@ -182,7 +179,7 @@ impl Program {
         command.args(["--overwrite", "--quiet", "--threads"]);
         command.arg(piece.threads.to_string());
         for change in [
-            format!("clamp.time_limit=\"{us} us\""),
+            format!("clamp.time_limit=\"{} us\"", piece.until_us),
             "output.snapshots=0".into(),
         ] {
             command.args(["--set", &change]);
