@@ -46,7 +46,7 @@ fn broken_names_are_found() {
         assert_eq!(markdown(text).len(), 1, "{text}: {:?}", markdown(text));
     }
     for text in [
-        "/// As in docs/results/bench.md.",
+        "/// As in docs/results/no-such-page.md.",
         "//! docs/methods.md\n//! section 99",
         "fn f() {} // lib/nowhere/src/lib.rs",
     ] {
