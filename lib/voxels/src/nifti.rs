@@ -45,7 +45,7 @@ pub(crate) fn open(source: Source) -> Result<(RawVolume, Option<VoxelSize>), Err
     }
     let header = fields.header().map_err(|what| wrong(&what))?;
     let pages = header.pages;
-    let Some(data) = header.bytes() else {
+    let Some(data) = header.format.volume_bytes(header.pages) else {
         return Err(wrong("its header declares more voxels than can be counted"));
     };
     let big = fields.big_endian;
@@ -70,13 +70,6 @@ struct Header {
     /// Where the pixels begin.
     offset: u64,
     voxel_size: Option<VoxelSize>,
-}
-
-impl Header {
-    fn bytes(&self) -> Option<u64> {
-        let page = u64::try_from(self.format.page_bytes()?).ok()?;
-        page.checked_mul(self.pages as u64)
-    }
 }
 
 /// The fields of a header by where they stand.

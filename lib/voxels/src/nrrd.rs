@@ -30,7 +30,7 @@ pub(crate) fn open(source: Source, path: &Path) -> Result<(RawVolume, Option<Vox
         Some(name) => Some(data_file(path, name, "data file").map_err(wrong)?),
     };
     let pages = header.pages;
-    let Some(data) = header.bytes() else {
+    let Some(data) = header.format.volume_bytes(header.pages) else {
         return Err(wrong("it declares more voxels than can be counted".into()));
     };
     let (sources, start) = match beside {
@@ -66,11 +66,6 @@ struct Header {
 }
 
 impl Header {
-    fn bytes(&self) -> Option<u64> {
-        let page = u64::try_from(self.format.page_bytes()?).ok()?;
-        page.checked_mul(self.pages as u64)
-    }
-
     fn parse(head: &[u8]) -> Result<Self, String> {
         let (fields, end) = fields(head)?;
         let field = |keys: &[&str]| {

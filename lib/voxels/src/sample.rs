@@ -101,6 +101,11 @@ impl PageFormat {
             .checked_mul(self.height)?
             .checked_mul(self.pixel_bytes())
     }
+
+    /// Bytes of so many pages, if that is a number.
+    pub(crate) fn volume_bytes(&self, pages: usize) -> Option<u64> {
+        u64::try_from(self.page_bytes()?.checked_mul(pages)?).ok()
+    }
 }
 
 impl fmt::Display for PageFormat {

@@ -61,7 +61,7 @@ impl Piece {
     }
 }
 
-/// A few steps.
+/// A few steps by either scheme; an older build takes the same case file, so the same Courant number.
 const IMPLICIT_US: f64 = 12.0;
 const EXPLICIT_US: f64 = 0.1;
 
@@ -102,7 +102,7 @@ const CASES: &str = "pipelines/cases";
 /// Material points per cell of a bond whose cells are two voxels.
 const POINTS_PER_CELL: f64 = 8.0;
 
-/// What a run cost between the two times.
+/// What a step of a run costs; of a run, before it is divided.
 #[derive(Clone, Debug)]
 pub struct Cost {
     /// Steps.
