@@ -9,9 +9,11 @@
 mod amg;
 mod cause;
 mod chebyshev;
+mod compact;
 mod csr;
 mod fgmres;
 mod load;
+mod orthogonal;
 mod packed;
 mod pcg;
 mod pockets;
