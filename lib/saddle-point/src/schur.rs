@@ -8,13 +8,16 @@ use crate::poisson::operator;
 use crate::system::SaddleSystem;
 use crate::vector::{Real, Work, for_chunks};
 
-/// `S^-1 ~ 2 eta I + (G D_B^-1 G^T + C)^-1`: the viscous part by the local viscosity, and the part
-/// of inertia and lumen friction `D_B` by a multigrid cycle (after Cahouet & Chabard 1988, Int. J.
+/// `2 eta` times the response `sum g^2/A_ff` of a full cell's faces: six of area one, with `A_ff = 8 eta`.
+const FULL_CELL: f64 = 1.5;
+
+/// `S^-1 ~ E + (G D_B^-1 G^T + C)^-1`: the viscous part by the local viscosity, `E = 2 eta`, and less where a
+/// cell's fluxes answer more than those of a full cell; and the part of inertia and lumen friction `D_B` by a multigrid cycle (after Cahouet & Chabard 1988, Int. J.
 /// Numer. Meth. Fluids 8, 869-895, with Darcy friction joined to inertia).
 pub(crate) struct Schur {
     amg: Amg,
     pockets: ClosedPockets,
-    two_eta: Vec<Work>,
+    viscous: Vec<Work>,
     workspace: Workspace,
     friction_part: Vec<Work>,
 }
@@ -26,7 +29,7 @@ impl Schur {
         Ok(Self {
             amg: Amg::new(&matrix)?,
             pockets: ClosedPockets::find(&matrix),
-            two_eta: system.two_eta.iter().map(|&v| Work::nearest(v)).collect(),
+            viscous: viscous_part(system),
             workspace: Workspace::default(),
             friction_part: Vec::new(),
         })
@@ -37,11 +40,24 @@ impl Schur {
         self.pockets.remove_mean(r);
         (self.amg).cycle(r, &mut self.friction_part, &mut self.workspace);
         self.pockets.remove_mean(&mut self.friction_part);
-        let (two_eta, friction_part) = (&self.two_eta, &self.friction_part);
+        let (viscous, friction_part) = (&self.viscous, &self.friction_part);
         for_chunks(p, |start, part| {
             for (i, p) in part.iter_mut().enumerate() {
-                *p = -(friction_part[start + i] + two_eta[start + i] * r[start + i]);
+                *p = -(friction_part[start + i] + viscous[start + i] * r[start + i]);
             }
         });
     }
+}
+
+/// The diagonal `E`.
+fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
+    let diagonal = system.a.diagonal();
+    let part = |(cell, two_eta): (usize, &f64)| {
+        let (faces, areas) = system.g.row(cell);
+        let response: f64 = (faces.iter().zip(areas))
+            .map(|(&face, area)| area * area / diagonal[face as usize])
+            .sum();
+        Work::nearest(two_eta.min(FULL_CELL / response))
+    };
+    system.two_eta.iter().enumerate().map(part).collect()
 }
