@@ -34,6 +34,9 @@ pub enum Cause {
 const FAST: f64 = 1e6;
 /// Viscosity times compressibility beyond which it is named.
 const STIFF: f64 = 1e8;
+/// Pressure, in units of viscosity times speed over a cell, up to which compression takes up the sources of a
+/// closed space without harm.
+const TAKEN_UP: f64 = 1e4;
 /// Part of the sources of a closed space that may be left over by rounding.
 const BALANCED: f64 = 1e-6;
 
@@ -81,7 +84,9 @@ fn unbalanced(system: &SaddleSystem) -> Option<usize> {
         let of = |values: &[f64]| space.cells.iter().map(|&c| values[c]).collect::<Vec<f64>>();
         let sources = of(system.volume_source);
         let moved: f64 = sources.iter().map(|s| s.abs()).sum();
-        if !space.open && sources.iter().sum::<f64>().abs() > BALANCED * moved {
+        let left: f64 = sources.iter().sum::<f64>().abs();
+        let softness: f64 = of(system.c).iter().sum();
+        if !space.open && left > (BALANCED * moved).max(TAKEN_UP * softness) {
             return Some(space.cells.len());
         }
     }
@@ -148,6 +153,7 @@ mod tests {
             ([0.9e6, 0.0, 0.0], [1.1e6, 0.0, 0.0], "Inertial"),
             ([0.0, 0.9e8, 0.0], [0.0, 1.1e8, 0.0], "Stiff"),
             ([0.0, 0.0, 0.9e-6], [0.0, 0.0, 1.1e-6], "Unbalanced"),
+            ([0.0, 1e-6, 1.9e-2], [0.0, 1e-6, 2.1e-2], "Unbalanced"),
         ] {
             let named = |of_what| format!("{:?}", of(of_what, cause)).starts_with(word);
             assert!(!named(below) && named(above), "{word}");
