@@ -3,10 +3,11 @@
 
 SPECIES := hybrid-poplar beech birch spruce
 SPECIES_SEEDS ?= 1 2 3
-# Voxels of 1.45 um along x, y and z; where to cut; adhesive; turn of the top piece, 90 for plywood.
-SPECIES_SIZE ?= 56x128x56
-SPECIES_PLANE ?= 92.8 um
-SPECIES_SLAB ?= 20.3 um
+# Voxels of 1.45 um along x, y and z, as small as those of plain `make`; where to cut; adhesive; turn of the top piece, 90 for
+# plywood.
+SPECIES_SIZE ?= 40x96x40
+SPECIES_PLANE ?= 69.6 um
+SPECIES_SLAB ?= 14.5 um
 SPECIES_TURN ?= 0
 SPECIES_OUT := out/species
 
