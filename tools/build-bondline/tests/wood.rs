@@ -116,8 +116,7 @@ fn one_piece_may_come_from_a_pipe() {
         let path = folder.path().join(name);
         fs::write(&path, bytes).unwrap();
         let file = ParticleFile::open(&path).unwrap();
-        let bits = file.block_named("wood-top").unwrap().1.words().to_vec();
-        bits
+        file.block_named("wood-top").unwrap().1.words().to_vec()
     };
     assert_eq!(
         voxels(&direct.stdout, "direct.mpts"),

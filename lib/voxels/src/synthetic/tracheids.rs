@@ -84,7 +84,7 @@ impl Tracheids {
 
         let half = [0.5 * pitch - half_wall, 0.5 * strip.spacing - half_wall];
         let radius = half[0].min(half[1]);
-        let to_end = file.to_end(ring, cell, point.l, self.traits.length);
+        let to_end = file.distance_to_end(ring, cell, point.l, self.traits.length);
         let taper = radius * (1.0 - to_end / TAPER).max(0.0);
         let inside = -rounded_box([along_file, across], half);
         let open = inside > taper && to_end > END_HALF_WALL && place.clearance > half_wall;
@@ -121,7 +121,7 @@ fn mean_pitch(traits: &TracheidTraits) -> f32 {
 
 impl File {
     /// Distance along l from the nearest end of a cell; each cell has its own ends.
-    fn to_end(&self, ring: f32, cell: f32, l: f32, length: f32) -> f32 {
+    fn distance_to_end(&self, ring: f32, cell: f32, l: f32, length: f32) -> f32 {
         let key = (ring as i32 as u32).wrapping_mul(97) ^ (cell as u32).wrapping_mul(0x9E37_79B9);
         let mut mixed = self.seed ^ key;
         for _ in 0..2 {
