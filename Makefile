@@ -6,6 +6,9 @@
 #   make ERROR=no                 without the errors of Table 2, which take finer implicit runs
 #   make XCT_PF=a.tif XCT_PVA_PF=b.tif VOXEL="1.45 um" [LABELS=void=0,wood=1,adhesive=2]
 #                                 the same on your own stacks
+#   make XCT_BOTTOM=a.tif [XCT_TOP=b.tif | PLANE="139.2 um"] SLAB="55.1 um" VOXEL=... [TURN=90]
+#                                 the same on undamaged wood: two stacks, or one cut at PLANE
+#   make species                  four species of undamaged wood, PF and PVA-PF: their Table 2
 #   make test                     formatting, clippy, all tests
 #   make verify                   long studies: both schemes against closed forms
 #   make tradeoff stability options   error against run time; extreme cases; explicit options
@@ -42,7 +45,7 @@ BIN := target/release
 TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures particles
 BINARIES := $(TOOLS:%=$(BIN)/%)
 
-OUT := out/$(if $(XCT_PF)$(XCT_PVA_PF),xct,$(SCALE))
+OUT := out/$(if $(XCT_BOTTOM),wood,$(if $(XCT_PF)$(XCT_PVA_PF),xct,$(SCALE)))
 
 .PHONY: all
 all: table2 figures
@@ -52,12 +55,13 @@ include pipelines/20-specimens.mk
 include pipelines/30-runs.mk
 include pipelines/40-metrics.mk
 include pipelines/50-figures.mk
+include pipelines/55-species.mk
 include pipelines/60-studies.mk
 include pipelines/65-gate.mk
 
 .PHONY: help
 help:
-	@sed -n '3,22s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,25s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

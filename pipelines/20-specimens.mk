@@ -1,4 +1,4 @@
-# Stage 2: one specimen and one bond file per adhesive.
+# Stage 2: one specimen and one bond file per adhesive, or one bond of undamaged wood for both.
 
 ADHESIVES := $(if $(XCT_PF)$(XCT_PVA_PF),$(if $(XCT_PF),pf) $(if $(XCT_PVA_PF),pva-pf),pf pva-pf)
 
@@ -38,5 +38,32 @@ endef
 $(foreach a,$(ADHESIVES),$(eval $(call experiment_rule,$(a))))
 endif
 
+ifeq ($(XCT_BOTTOM),)
+$(if $(XCT_TOP),$(error XCT_TOP needs XCT_BOTTOM))
 $(OUT)/%/bond.mpts: $(OUT)/%/experiment.mpts $(BIN)/build-bondline
 	$(BIN)/build-bondline $< --normal $(NORMAL) -o $@
+else
+# Undamaged wood: two stacks, or one cut at PLANE.
+ifneq ($(XCT_PF)$(XCT_PVA_PF),)
+$(error XCT_BOTTOM is undamaged wood, XCT_PF and XCT_PVA_PF are bonded specimens: give one kind)
+endif
+$(if $(SLAB),,$(error undamaged wood holds no adhesive: give SLAB="55.1 um"))
+$(if $(XCT_TOP)$(PLANE),,$(error give XCT_TOP=, or PLANE= to cut XCT_BOTTOM at))
+$(if $(XCT_TOP),$(if $(PLANE),$(error PLANE cuts one stack: leave out XCT_TOP or PLANE)))
+TURN ?= 0
+XCT_bottom := $(subst $(EMPTY) ,\ ,$(XCT_BOTTOM))
+XCT_top := $(subst $(EMPTY) ,\ ,$(XCT_TOP))
+PIECES := $(OUT)/bottom.mpts $(if $(XCT_TOP),$(OUT)/top.mpts)
+
+define piece_rule
+$(OUT)/$(1).mpts: $(XCT_$(1)) $(BIN)/xct2particles
+	@mkdir -p $$(@D)
+	$(BIN)/xct2particles "$$<" --voxel "$(VOXEL)" $(if $(LABELS),--labels "$(LABELS)") -o $$@
+endef
+$(foreach p,bottom $(if $(XCT_TOP),top),$(eval $(call piece_rule,$(p))))
+
+$(OUT)/%/bond.mpts: $(PIECES) $(BIN)/build-bondline
+	@mkdir -p $(@D)
+	$(BIN)/build-bondline $(if $(XCT_TOP),--bottom $(OUT)/bottom.mpts --top $(OUT)/top.mpts,$(OUT)/bottom.mpts --plane "$(PLANE)") \
+	    --slab "$(SLAB)" --turn-top $(TURN) --normal $(NORMAL) -o $@
+endif

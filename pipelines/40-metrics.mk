@@ -1,7 +1,8 @@
 # Stage 4: penetration metrics, maps, profiles, shear rates, Table 2.
 
 METRICS := $(FINALS:%/final.mpts=%/wp.csv)
-EXPERIMENTS := $(ADHESIVES:%=$(OUT)/%/experiment.csv)
+# Undamaged wood is no experiment.
+EXPERIMENTS := $(if $(XCT_BOTTOM),,$(ADHESIVES:%=$(OUT)/%/experiment.csv))
 
 define wp_rule
 $(OUT)/$(1)/wp.csv: $(OUT)/$(1)/final.mpts $(2) $(BIN)/wp-metrics
@@ -17,7 +18,7 @@ $(OUT)/%/shear.csv: $(OUT)/%/final.mpts $(BIN)/shear-stats
 
 $(OUT)/table2.csv: $(METRICS) $(EXPERIMENTS) $(BIN)/bond-figures
 	$(BIN)/bond-figures table2 \
-	    $(foreach a,$(ADHESIVES),--experiment $(a)=$(OUT)/$(a)/experiment.csv) \
+	    $(if $(EXPERIMENTS),$(foreach a,$(ADHESIVES),--experiment $(a)=$(OUT)/$(a)/experiment.csv)) \
 	    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run $(a):$(r)=$(OUT)/$(a)/$(r)/wp.csv)) \
 	    $(if $(FINER),--errors $(OUT)/errors.csv) -o $@
 

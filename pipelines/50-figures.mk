@@ -16,9 +16,9 @@ $(OUT)/figures/$(1)-pressure.svg: $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(FINER:%=$
 	$(BIN)/bond-figures pressure $(foreach r,$(RUNS),--run "$(r)=$(OUT)/$(1)/$(r)") \
 	    $(foreach r,$(FINER),--finer "$(r)=$(OUT)/$(1)/$(r)-finer") --limit "2.5 MPa" -o $$@
 
-$(OUT)/figures/$(1)-map.svg: $(RUNS:%=$(OUT)/$(1)/%/wp.csv) $(OUT)/$(1)/experiment.csv $(BIN)/bond-figures
+$(OUT)/figures/$(1)-map.svg: $(RUNS:%=$(OUT)/$(1)/%/wp.csv) $(EXPERIMENTS) $(BIN)/bond-figures
 	@mkdir -p $$(@D)
-	$(BIN)/bond-figures map --map "$(EXPERIMENT)=$(OUT)/$(1)/experiment-map.csv" \
+	$(BIN)/bond-figures map $(if $(EXPERIMENTS),--map "$(EXPERIMENT)=$(OUT)/$(1)/experiment-map.csv") \
 	    $(foreach r,$(RUNS),--map "$(r)=$(OUT)/$(1)/$(r)/map.csv") -o $$@
 
 $(OUT)/figures/$(1)-shear.svg: $(OUT)/$(1)/$(SHOWN)/shear.csv $(BIN)/bond-figures

@@ -93,3 +93,36 @@ fn shared_data_keeps_liquid_out_of_wood_and_of_sealed_voids() {
         assert!(change.abs() <= 0.005, "{method:?}: {change}");
     }
 }
+
+/// The maple as undamaged wood: its adhesive taken for air, the two pieces laid up again, and one
+/// of them cut and turned to plywood.
+#[test]
+#[ignore = "needs the shared volumes, which are not in the repository"]
+fn shared_data_is_bonded_as_undamaged_wood() {
+    let stack = shared("bondline-acer-64x192x128.tif");
+    let bench = Workbench::with_bond();
+    let bare = format!(
+        "xct2particles '{}' -q --voxel '1.45 um' --labels 'void=0|255,wood=128' --crop 30:62,66:126,0:32 -o wood.mpts",
+        stack.display()
+    );
+    for build in [
+        "build-bondline wood.mpts --plane 43.5um --slab 8.7um -o bond.mpts",
+        "build-bondline wood.mpts --plane 24um --turn-top 90 --slab 8.7um -o bond.mpts",
+    ] {
+        let output = bench.shell(&format!("{bare} && {build}"));
+        assert!(output.status.success(), "{}", said(&output));
+        println!("{}", said(&output));
+        bench.pressed(
+            "run",
+            &["integrator.scheme=implicit", "clamp.stop=0.9 us"],
+            &["--overwrite"],
+        );
+        let sum = bench.shell("wp-metrics -q run/final.mpts | grep -q total");
+        assert!(sum.status.success(), "{}", said(&sum));
+        let summary = String::from_utf8(bench.read("run/summary.json")).unwrap();
+        assert!(
+            summary.contains("\"points_in_unreachable_voids\": 0,"),
+            "{summary}"
+        );
+    }
+}

@@ -2,7 +2,9 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// The specimen holds no adhesive voxel.
-    #[error("the specimen has no adhesive voxel: a bonded specimen is needed")]
+    #[error(
+        "the specimen has no adhesive voxel: a bonded specimen is needed, or, to bond wood alone, build-bondline with --slab or --spread"
+    )]
     NoAdhesive,
     /// No wood on one side of the bond line.
     #[error(
@@ -73,11 +75,60 @@ pub enum Error {
         /// The smallest gap that has room, m.
         least_m: f64,
     },
+    /// A piece of undamaged wood without wood.
+    #[error("the {piece} piece holds no wood")]
+    NoWoodIn {
+        /// "bottom" or "top".
+        piece: &'static str,
+    },
+    /// Two pieces scanned at different resolutions.
+    #[error(
+        "the voxels of the bottom piece have edges of {:.6} um and those of the top piece {:.6} um: both must be the same, so scale one stack to the other's",
+        1e6 * bottom_m, 1e6 * top_m
+    )]
+    Voxels {
+        /// Edge of the bottom piece's voxels, m.
+        bottom_m: f64,
+        /// Edge of the top piece's voxels, m.
+        top_m: f64,
+    },
+    /// Two pieces of unequal width.
+    #[error(
+        "the bottom piece is {} x {} voxels wide along {} and {} and the top piece, as it lies, {} x {}: crop them to be the same, or give --crop-to-fit for what they share from their low corners",
+        bottom[0], bottom[1], axes[0], axes[1], top[0], top[1]
+    )]
+    CrossSections {
+        /// The axes across the bond.
+        axes: [units::Axis; 2],
+        /// Voxels of the bottom piece along them.
+        bottom: [usize; 2],
+        /// Voxels of the top piece along them, after its turn.
+        top: [usize; 2],
+    },
+    /// The void of both closed pieces is less than the slab.
+    #[error(
+        "a slab of {:.3} um is more than all void of the closed pieces, {:.3} um over the bond area: they could never close; take thicker pieces or less adhesive",
+        1e6 * slab_m, 1e6 * void_m
+    )]
+    NoRoom {
+        /// Thickness of the slab, m.
+        slab_m: f64,
+        /// Void of the closed pieces over the bond area, m.
+        void_m: f64,
+    },
+    /// Nowhere does wood of one piece face wood of the other.
+    #[error(
+        "nowhere along the normal does wood of the top piece come to rest on wood of the bottom piece"
+    )]
+    NeverMeet,
 }
 
 impl Error {
     /// Whether the specimen itself is unfit, whatever the options.
     pub fn is_unfit_data(&self) -> bool {
-        matches!(self, Error::NoAdhesive | Error::Mismatch)
+        matches!(
+            self,
+            Error::NoAdhesive | Error::Mismatch | Error::NoWoodIn { .. }
+        )
     }
 }

@@ -2,16 +2,23 @@
 //! is removed, the wood is split at the bond plane, the top adherend is moved away and a
 //! rectangular slab with the volume of the removed adhesive takes the space between.
 //!
+//! Undamaged wood, one piece cut or two laid up, comes to the same by [`lay_up`], its slab by
+//! thickness.
+//!
 //! Everything happens in the axes of the stack; only the layers are counted along the bond
 //! normal. "Bottom" is the low-coordinate side.
 
 mod build;
 mod error;
+mod faces;
 mod placed;
 mod plane;
 mod slab;
+mod wood;
 
 pub use build::{Bond, Options, Plane, build};
 pub use error::Error;
+pub use faces::Face;
 pub use placed::{Placed, Specimen};
 pub use plane::{BondLine, Profile, find, surface};
+pub use wood::{Layup, Pieces, Turn, lay_up};

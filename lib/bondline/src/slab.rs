@@ -1,22 +1,23 @@
-use crate::{Error, Options};
+use crate::Error;
 
 /// Thickness in whole cells of a slab over `area` columns with the volume of `adhesive` voxels.
 pub(crate) fn cells(
-    adhesive: u64,
+    adhesive: f64,
     area: u64,
-    options: &Options,
+    voxels_per_cell: usize,
+    tolerance: f64,
     cell_m: f64,
 ) -> Result<u64, Error> {
-    let exact_cells = adhesive as f64 / area as f64 / options.voxels_per_cell as f64;
+    let exact_cells = adhesive / area as f64 / voxels_per_cell as f64;
     let cells = exact_cells.round();
     let change = cells / exact_cells - 1.0;
-    if change.abs() > options.tolerance || cells < 1.0 {
+    if change.abs() > tolerance || cells < 1.0 {
         return Err(Error::Rounding {
             exact_cells,
             cells: cells as u64,
             cell_m,
             change,
-            tolerance: options.tolerance,
+            tolerance,
         });
     }
     Ok(cells as u64)
@@ -47,39 +48,22 @@ pub(crate) fn low_face(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Plane;
-
-    fn options(voxels_per_cell: usize, tolerance: f64) -> Options {
-        Options {
-            normal: units::Axis::Y,
-            plane: Plane::Auto,
-            voxels_per_cell,
-            gap_m: None,
-            tolerance,
-        }
-    }
 
     #[test]
     fn the_papers_slabs_are_19_and_27_cells() {
         // Paper section 3: 55.1 um for PF and 78.3 um for PVA-PF, cells of 2.9 um.
         let area = 393 * 400;
         for (thickness_um, expected) in [(55.1, 19), (78.3, 27), (54.4, 19), (77.0, 27)] {
-            let adhesive = (thickness_um / 1.45 * area as f64) as u64;
-            assert_eq!(
-                cells(adhesive, area, &options(2, 0.05), 2.9e-6),
-                Ok(expected)
-            );
+            let adhesive = thickness_um / 1.45 * area as f64;
+            assert_eq!(cells(adhesive, area, 2, 0.05, 2.9e-6), Ok(expected));
         }
     }
 
     #[test]
     fn rounding_beyond_the_tolerance_is_refused() {
-        assert_eq!(cells(1060, 100, &options(2, 0.06), 2.0), Ok(5)); // 5.3 cells, -5.66 %
-        assert!(cells(1060, 100, &options(2, 0.05), 2.0).is_err());
-        assert!(
-            cells(90, 100, &options(2, 1.0), 2.0).is_err(),
-            "no cell at all"
-        );
+        assert_eq!(cells(1060.0, 100, 2, 0.06, 2.0), Ok(5)); // 5.3 cells, -5.66 %
+        assert!(cells(1060.0, 100, 2, 0.05, 2.0).is_err());
+        assert!(cells(90.0, 100, 2, 1.0, 2.0).is_err(), "no cell at all");
     }
 
     #[test]

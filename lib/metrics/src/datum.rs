@@ -53,9 +53,12 @@ impl Datum {
     /// Finds `reference` in `state`.
     ///
     /// # Errors
-    /// No bond line to be found, or no wood: [`Reference::Plane`] is then the way out. A plane
+    /// No adhesive; no bond line to be found, or no wood: [`Reference::Plane`] is then the way out. A plane
     /// outside the state.
     pub fn find(reference: Reference, state: &State) -> Result<Self, Error> {
+        if state.is_bare() {
+            return Err(bondline::Error::NoAdhesive.into());
+        }
         let normal = state.normal;
         let level = |bottom, top| Datum::Level {
             normal,

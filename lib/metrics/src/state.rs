@@ -160,6 +160,11 @@ impl<'a> State<'a> {
         }
     }
 
+    /// Whether it is undamaged wood: a stack without adhesive.
+    pub fn is_bare(&self) -> bool {
+        matches!(self.adhesive, Adhesive::Voxels(voxels) if voxels.bits.count() == 0)
+    }
+
     /// Bond area, m2.
     pub fn area_m2(&self) -> f64 {
         let [u, v] = self.across().axes.map(Axis::index);

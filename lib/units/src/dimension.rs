@@ -41,3 +41,5 @@ dimension!(/// Acceleration, SI metre per second squared.
     Acceleration, "an acceleration", &[("m/s2", 1.0)], ANY);
 dimension!(/// Shear rate, SI one per second.
     ShearRate, "a shear rate", &[("1/s", 1.0), ("s-1", 1.0)], ANY);
+dimension!(/// Mass of adhesive over bond area, SI kilogram per square metre.
+    Spread, "a spread rate", &[("kg/m2", 1.0), ("g/m2", 1e-3), ("lb/1000ft2", 4.882_427_636_383_05e-3)], ANY);

@@ -96,18 +96,15 @@ impl<'a> Coder<'a> {
     }
 }
 
-/// Whether a stack with this union of codes held exactly the labels of one guess; gives them. In a
-/// stack of one bit, 0 is void and 1 wood.
-pub(crate) fn guessed(union: u8, one_bit: bool) -> Option<&'static [f64]> {
+/// Whether a stack with this union of codes held exactly the labels of one guess, or those of its
+/// void and wood; gives them.
+pub(crate) fn guessed(union: u8) -> Option<&'static [f64]> {
     let all = union & !(WOOD | ADHESIVE);
-    let (labels, seen) = GUESSES[0];
-    if one_bit && all == seen[0] | seen[1] {
-        return Some(&labels[..2]);
-    }
-    GUESSES
-        .into_iter()
-        .find(|(_, seen)| all == seen[0] | seen[1] | seen[2])
-        .map(|(labels, _)| labels)
+    GUESSES.into_iter().find_map(|(labels, seen)| match all {
+        _ if all == seen[0] | seen[1] | seen[2] => Some(labels),
+        _ if all == seen[0] | seen[1] => Some(&labels[..2]),
+        _ => None,
+    })
 }
 
 fn phase_code(phase: Phase) -> u8 {
@@ -170,18 +167,24 @@ mod tests {
     }
 
     #[test]
-    fn a_guess_needs_all_three_labels_of_one_set() {
-        let union = |values: &[f64]| values.iter().fold(0, |u, v| u | guess_code(*v));
-        assert_eq!(
-            guessed(union(&[0.0, 1.0, 2.0]), false),
-            Some(&[0.0, 1.0, 2.0][..])
-        );
-        let second = guessed(union(&[255.0, 0.0, 128.0]), false);
-        assert_eq!(second, Some(&[0.0, 128.0, 255.0][..]));
-        assert_eq!(guessed(union(&[0.0, 1.0]), false), None);
-        assert_eq!(guessed(union(&[0.0, 1.0]), true), Some(&[0.0, 1.0][..]));
-        assert_eq!(guessed(union(&[0.0]), true), None);
-        assert_eq!(guessed(union(&[0.0, 1.0, 2.0, 128.0]), false), None);
-        assert_eq!(guessed(union(&[0.0, 1.0, 2.0, 3.0]), false), None);
+    fn a_guess_needs_all_labels_of_one_set_or_its_void_and_wood() {
+        let of = |values: &[f64]| guessed(values.iter().fold(0, |u, v| u | guess_code(*v)));
+        assert_eq!(of(&[0.0, 1.0, 2.0]), Some(&[0.0, 1.0, 2.0][..]));
+        assert_eq!(of(&[255.0, 0.0, 128.0]), Some(&[0.0, 128.0, 255.0][..]));
+        assert_eq!(of(&[0.0, 1.0]), Some(&[0.0, 1.0][..]));
+        assert_eq!(of(&[128.0, 0.0]), Some(&[0.0, 128.0][..]));
+        // What 255 beside 0 alone is, wood or adhesive, nobody can tell.
+        for unknown in [
+            &[0.0][..],
+            &[1.0],
+            &[0.0, 255.0],
+            &[0.0, 2.0],
+            &[1.0, 2.0],
+            &[0.0, 1.0, 128.0],
+            &[0.0, 1.0, 2.0, 128.0],
+            &[0.0, 1.0, 2.0, 3.0],
+        ] {
+            assert_eq!(of(unknown), None, "{unknown:?}");
+        }
     }
 }

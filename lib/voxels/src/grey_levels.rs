@@ -70,20 +70,68 @@ impl Histogram {
     /// # Errors
     /// A sentence where fewer than three values were found.
     pub fn otsu(&self) -> Result<Grey, String> {
+        let levels = Levels::of(self, 3)?;
+        let last = levels.count();
+        let mut best = (f64::NEG_INFINITY, 1, 2);
+        for a in 1..last - 1 {
+            for b in a + 1..last {
+                let between = levels.weight(0, a) + levels.weight(a, b) + levels.weight(b, last);
+                if between > best.0 {
+                    best = (between, a, b);
+                }
+            }
+        }
+        Ok(Grey::between(levels.value(best.1), levels.value(best.2)))
+    }
+
+    /// Undamaged wood by the threshold that parts void and wood such that the variance between
+    /// the two is largest (Otsu 1979), as [`Histogram::otsu`] for a stack without adhesive.
+    ///
+    /// # Errors
+    /// A sentence where fewer than two values were found.
+    pub fn otsu_of_wood(&self) -> Result<Grey, String> {
+        let levels = Levels::of(self, 2)?;
+        let last = levels.count();
+        let between = |a: usize| levels.weight(0, a) + levels.weight(a, last);
+        let first = 1;
+        let best = (first..last).fold(
+            first,
+            |best, a| {
+                if between(a) > between(best) { a } else { best }
+            },
+        );
+        Ok(Grey::wood_from(levels.value(best)))
+    }
+}
+
+/// A histogram in at most 256 levels between the lowest and the highest value found.
+struct Levels {
+    /// Number and sum of the values of the levels below each.
+    below: Vec<(f64, f64)>,
+    /// The lowest value found and the values in a level.
+    lowest: i64,
+    width: usize,
+}
+
+impl Levels {
+    fn of(histogram: &Histogram, phases: usize) -> Result<Self, String> {
         const LEVELS: usize = 256;
         let used = |n: &u64| *n > 0;
-        let first = self.counts.iter().position(used);
-        let last = self.counts.iter().rposition(used);
-        let (Some(first), Some(last)) = (first, last) else {
+        let counts = &histogram.counts;
+        let (Some(first), Some(last)) =
+            (counts.iter().position(used), counts.iter().rposition(used))
+        else {
             return Err("there is no voxel".into());
         };
-        if self.counts.iter().filter(|n| used(n)).count() < 3 {
-            return Err("it holds fewer than three grey values; three phases need three: name them with --labels".into());
+        if counts.iter().filter(|n| used(n)).count() < phases {
+            let number = ["two", "three"][phases - 2];
+            return Err(format!(
+                "it holds fewer than {number} grey values; {number} phases need {number}: name them with --labels"
+            ));
         }
         let width = (last - first + 1).div_ceil(LEVELS);
-        // Number and sum of the values of the levels below each.
         let mut below = vec![(0.0, 0.0)];
-        for level in self.counts[first..=last].chunks(width) {
+        for level in counts[first..=last].chunks(width) {
             let (mut n, mut sum) = below[below.len() - 1];
             for count in level {
                 n += *count as f64;
@@ -91,28 +139,29 @@ impl Histogram {
             sum += (below.len() as f64 - 1.0) * level.iter().sum::<u64>() as f64;
             below.push((n, sum));
         }
-        // Sum over the classes of n mean^2, which is largest where the variance between is.
-        let weight = |from: usize, to: usize| {
-            let (n, sum) = (below[to].0 - below[from].0, below[to].1 - below[from].1);
-            if n > 0.0 { sum * sum / n } else { 0.0 }
-        };
-        let levels = below.len() - 1;
-        let mut best = (f64::NEG_INFINITY, 1, 2);
-        for a in 1..levels - 1 {
-            for b in a + 1..levels {
-                let between = weight(0, a) + weight(a, b) + weight(b, levels);
-                if between > best.0 {
-                    best = (between, a, b);
-                }
-            }
-        }
-        // Levels without a voxel may go to either side; the first best is their lower end.
-        let amid = |a: usize| {
-            let empty = (a..levels).take_while(|&i| below[i].0 == below[i + 1].0);
-            a + empty.count() / 2
-        };
-        let value = |level: usize| self.lowest + (first + level * width) as i64;
-        Ok(Grey::between(value(amid(best.1)), value(amid(best.2))))
+        Ok(Self {
+            below,
+            lowest: histogram.lowest + first as i64,
+            width,
+        })
+    }
+
+    fn count(&self) -> usize {
+        self.below.len() - 1
+    }
+
+    /// Its share of the sum over the classes of n mean^2, which is largest where the variance
+    /// between is.
+    fn weight(&self, from: usize, to: usize) -> f64 {
+        let (low, high) = (self.below[from], self.below[to]);
+        let (n, sum) = (high.0 - low.0, high.1 - low.1);
+        if n > 0.0 { sum * sum / n } else { 0.0 }
+    }
+
+    /// The value at a threshold. Levels without a voxel may go to either side: half way.
+    fn value(&self, level: usize) -> i64 {
+        let empty = (level..self.count()).take_while(|&i| self.below[i].0 == self.below[i + 1].0);
+        self.lowest + ((level + empty.count() / 2) * self.width) as i64
     }
 }
 
@@ -160,6 +209,15 @@ mod tests {
         assert_eq!(found, [Void, Wood, Wood, Adhesive]);
     }
 
+    /// Two equal peaks: the threshold lies midway; closed form.
+    #[test]
+    fn the_threshold_of_wood_alone_lies_between_two_peaks() {
+        let peaks = of_peaks(256, &[(60.0, 8.0, 1e6), (160.0, 8.0, 1e6)]);
+        let said = peaks.otsu_of_wood().unwrap().to_string();
+        let from: f64 = said[5..said.len() - 2].parse().unwrap();
+        assert!((from - 110.5).abs() <= 1.0, "{said}");
+    }
+
     #[test]
     fn three_values_are_parted_and_two_are_not() {
         let mut counts = vec![0; 256];
@@ -173,5 +231,11 @@ mod tests {
             counts: vec![1, 0, 4],
         };
         assert!(two.otsu().unwrap_err().contains("three"));
+        assert_eq!(two.otsu_of_wood().unwrap().to_string(), "wood=-127..");
+        let one = Histogram {
+            lowest: 0,
+            counts: vec![0, 9],
+        };
+        assert!(one.otsu_of_wood().unwrap_err().contains("two"));
     }
 }

@@ -36,7 +36,7 @@ impl Phase {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Phases {
     /// The stack must hold exactly the labels {0, 1, 2} or {0, 128, 255} for void, wood and
-    /// adhesive.
+    /// adhesive, or the first two of either.
     Guess,
     /// Every label of the stack is named.
     Labels(Labels),
@@ -91,12 +91,12 @@ impl FromStr for Labels {
     }
 }
 
-/// Inclusive ranges of grey values for wood and adhesive, e.g. `wood=90..170,adhesive=171..`;
-/// every other value is void.
+/// Inclusive ranges of grey values for wood and, unless it is undamaged, adhesive, e.g.
+/// `wood=90..170,adhesive=171..`; every other value is void.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grey {
     wood: (f64, f64),
-    adhesive: (f64, f64),
+    adhesive: Option<(f64, f64)>,
 }
 
 impl Grey {
@@ -106,7 +106,7 @@ impl Grey {
         match () {
             () if grey.is_nan() => None,
             () if within(self.wood) => Some(Phase::Wood),
-            () if within(self.adhesive) => Some(Phase::Adhesive),
+            () if self.adhesive.is_some_and(within) => Some(Phase::Adhesive),
             () => Some(Phase::Void),
         }
     }
@@ -117,7 +117,15 @@ impl Grey {
     pub(crate) fn between(wood: i64, adhesive: i64) -> Self {
         Self {
             wood: (wood as f64, (adhesive - 1) as f64),
-            adhesive: (adhesive as f64, f64::INFINITY),
+            adhesive: Some((adhesive as f64, f64::INFINITY)),
+        }
+    }
+
+    /// Void below `wood`, wood from there on.
+    pub(crate) fn wood_from(wood: i64) -> Self {
+        Self {
+            wood: (wood as f64, f64::INFINITY),
+            adhesive: None,
         }
     }
 }
@@ -132,12 +140,11 @@ impl fmt::Display for Grey {
             }
         };
         let range = |(low, high)| format!("{}..{}", bound(low), bound(high));
-        write!(
-            f,
-            "wood={},adhesive={}",
-            range(self.wood),
-            range(self.adhesive)
-        )
+        write!(f, "wood={}", range(self.wood))?;
+        match self.adhesive {
+            Some(adhesive) => write!(f, ",adhesive={}", range(adhesive)),
+            None => Ok(()),
+        }
     }
 }
 
@@ -159,12 +166,13 @@ impl FromStr for Grey {
                 return Err(format!("{} has two ranges; give one", name.trim()));
             }
         }
-        let (Some(wood), Some(adhesive)) = (wood, adhesive) else {
+        let Some(wood) = wood else {
             return Err(
-                "both wood and adhesive need a range, as in wood=90..170,adhesive=171..".into(),
+                "wood needs a range, and adhesive where there is some, as in wood=90..170,adhesive=171..".into(),
             );
         };
-        if wood.0 <= adhesive.1 && adhesive.0 <= wood.1 {
+        let meets = |adhesive: (f64, f64)| wood.0 <= adhesive.1 && adhesive.0 <= wood.1;
+        if adhesive.is_some_and(meets) {
             return Err(format!(
                 "the ranges of wood and adhesive overlap in '{text}'; both ends belong to a range"
             ));
@@ -229,8 +237,12 @@ mod tests {
         assert_eq!(phase(170.0), Phase::Wood);
         assert_eq!(phase(171.0), Phase::Adhesive);
         assert_eq!(grey.phase(f64::NAN), None);
+        let bare: Grey = "wood=90..".parse().unwrap();
+        assert_eq!(bare.to_string(), "wood=90..");
+        let found = [89.0, 90.0, 1e9].map(|v| bare.phase(v).unwrap());
+        assert_eq!(found, [Phase::Void, Phase::Wood, Phase::Wood]);
         for bad in [
-            "wood=90..170",
+            "adhesive=90..170",
             "wood=90..170,adhesive=170..",
             "wood=170..90,adhesive=171..",
             "wood=90,adhesive=171..",

@@ -13,7 +13,7 @@ pub struct Segmented {
     pub wood: BitGrid,
     /// Voxels of adhesive.
     pub adhesive: BitGrid,
-    /// The labels of void, wood and, but for a stack of one bit, adhesive when they were guessed.
+    /// The labels of void, wood and, unless it is undamaged wood, adhesive when they were guessed.
     pub guessed: Option<&'static [f64]>,
 }
 
@@ -80,9 +80,9 @@ pub fn segment(
         union |= page?;
     }
     let guessed = match phases {
-        Phases::Guess => Some(guessed(union, stack.has_one_bit()).ok_or_else(|| {
+        Phases::Guess => Some(guessed(union).ok_or_else(|| {
             Error::Usage(format!(
-                "{}: its labels are neither exactly 0, 1, 2 nor exactly 0, 128, 255; say which is which with --labels or --grey",
+                "{}: its labels are neither exactly 0, 1, 2 nor exactly 0, 128, 255, nor, for wood alone, the first two of either; say which is which with --labels or --grey",
                 stack.name()
             ))
         })?),

@@ -257,11 +257,6 @@ impl Stack {
         }
     }
 
-    /// Whether its pixels are TIFF's of one bit, as masks of one phase are.
-    pub(crate) fn has_one_bit(&self) -> bool {
-        matches!(&self.pages, Pages::Tiff(pages) if pages.has_one_bit())
-    }
-
     /// Page `z` as it stands in messages.
     pub(crate) fn page_name(&self, z: usize) -> String {
         match &self.pages {

@@ -1,6 +1,6 @@
 //! Synthetic specimens are referred to by their seeds: a seed must go on giving the same wood.
 
-use voxels::synthetic::{ADHESIVE, AdhesiveSystem, Recipe, Specimen, VOID};
+use voxels::synthetic::{ADHESIVE, AdhesiveSystem, Recipe, Species, Specimen, VOID};
 
 /// How many voxels have a label, and their mean x, y and z.
 fn census(specimen: &Specimen, label: u8) -> [f64; 4] {
@@ -47,7 +47,8 @@ fn the_wood_of_a_seed_is_that_of_the_first_version() {
         let recipe = Recipe {
             size,
             voxel: 1.45e-6,
-            adhesive,
+            species: Species::HybridPoplar,
+            adhesive: Some(adhesive),
             slab: None,
             seed,
         };

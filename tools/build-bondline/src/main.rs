@@ -1,79 +1,53 @@
-//! From a bonded specimen to the bond line before pressing: see `lib/bondline`.
+//! From a bonded specimen, or from undamaged wood, to the bond line before pressing: see
+//! `lib/bondline`.
 
-use std::path::PathBuf;
+mod arguments;
+mod report;
+
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use bondline::{Bond, Options, Placed, Plane, Specimen};
-use clap::Parser;
-use cli::{Failure, Output};
+use bondline::{Bond, Error, Layup, Options, Pieces, Placed, Plane, Specimen, Turn};
+use cli::Failure;
 use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
-use units::{Axis, Length, Quantity};
+use units::Axis;
 
-/// Take the adhesive out of a specimen, part its adherends and put a slab between them
-#[derive(Parser)]
-#[command(
-    version,
-    after_help = "Examples:
-  build-bondline specimen.mpts -o bond.mpts
-  xct2particles stack.tif --voxel 1.45um -o - | build-bondline - -o bond.mpts
-  build-bondline specimen.mpts --normal z --plane 226.2um --voxels-per-cell 1 -o bond.mpts"
-)]
-struct Arguments {
-    /// Particle file with wood and adhesive, as xct2particles writes; `-` is standard input
-    specimen: PathBuf,
-    /// Particle file to write; `-` is standard output
-    #[arg(short, long, value_name = "BOND")]
-    output: Output,
-    /// Axis across the bond: x, y or z [default: the specimen's, usually y]
-    #[arg(long, value_name = "AXIS")]
-    normal: Option<Axis>,
-    /// Where to split the wood: auto, or a length from the low face of the stack
-    #[arg(long, value_name = "auto|LEN", default_value = "auto", value_parser = auto_or_length)]
-    plane: AutoOr,
-    /// Voxels along the edge of a grid cell: the slab is a whole number of cells thick
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u16).range(1..=64))]
-    voxels_per_cell: u16,
-    /// How far to move the top adherend away: auto (by the slab's thickness) or a length
-    #[arg(long, value_name = "auto|LEN", default_value = "auto", value_parser = auto_or_length)]
-    gap: AutoOr,
-    /// Largest change of the adhesive volume by rounding that is accepted
-    #[arg(long, value_name = "PERCENT", default_value = "5%", value_parser = percent)]
-    tolerance: f64,
-    #[command(flatten)]
-    common: cli::Common,
-}
-
-/// A length in metres, or none for `auto`.
-#[derive(Clone, Copy)]
-struct AutoOr(Option<f64>);
-
-fn auto_or_length(text: &str) -> Result<AutoOr, String> {
-    if text == "auto" {
-        return Ok(AutoOr(None));
-    }
-    match text.parse::<Quantity<Length>>() {
-        Ok(length) => Ok(AutoOr(Some(length.si()))),
-        Err(error) => Err(format!("{error}, or 'auto'")),
-    }
-}
-
-fn percent(text: &str) -> Result<f64, String> {
-    let number = text.strip_suffix('%').map(|n| n.trim().parse::<f64>());
-    match number {
-        Some(Ok(percent)) if percent.is_finite() && percent >= 0.0 => Ok(percent / 100.0),
-        _ => Err(format!(
-            "'{text}' is not a percentage: a number of at least 0 with % is needed, e.g. 5%"
-        )),
-    }
-}
+use arguments::Arguments;
 
 fn main() -> ExitCode {
     cli::main(|a: &Arguments| &a.common, run)
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
-    cli::keep_apart([arguments.specimen.as_path()], [&arguments.output])?;
-    let file = ParticleFile::open(&arguments.specimen).map_err(Failure::data)?;
+    let paths = paths(&arguments);
+    cli::keep_apart(paths.iter().copied(), [&arguments.output])?;
+    let slab_m = arguments.wood.slab_m()?;
+    if paths.iter().filter(|path| **path == Path::new("-")).count() > 1 {
+        return Err(Failure::usage(
+            "both pieces are to come from standard input, which gives one: name a file for the other",
+        ));
+    }
+    let files = (paths.iter())
+        .map(|path| specimen(path))
+        .collect::<Result<Vec<_>, Failure>>()?;
+    let normal = normal(&arguments, &files)?;
+    let bond = match slab_m {
+        None => bonded(&files[0], &arguments, normal)?,
+        Some(slab_m) => wood(&files, &arguments, normal, slab_m)?,
+    };
+    report::report(&bond, normal);
+    write(&bond, normal, &files, &paths, &arguments)
+}
+
+/// The files to read: a specimen, or a bottom and a top piece.
+fn paths(arguments: &Arguments) -> Vec<&Path> {
+    let wood = &arguments.wood;
+    let given = [&arguments.specimen, &wood.bottom, &wood.top];
+    given.into_iter().flatten().map(PathBuf::as_path).collect()
+}
+
+fn specimen(path: &Path) -> Result<ParticleFile, Failure> {
+    let file = ParticleFile::open(path).map_err(Failure::data)?;
     if file.header().kind != Kind::Specimen {
         return Err(Failure::usage(format!(
             "'{}' holds a {}, not a specimen: a file as xct2particles writes is needed",
@@ -81,29 +55,41 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             file.header().kind
         )));
     }
-    let options = options(&arguments, file.header());
-    let block = |name| file.block_named(name).map_err(Failure::data);
-    let bond = Specimen::new(
-        Placed::of_block(block("wood")?),
-        Placed::of_block(block("adhesive")?),
-    )
-    .and_then(|specimen| bondline::build(&specimen, &options))
-    .map_err(|error| {
-        let said = format!("'{}': {error}", file.name());
-        if error.is_unfit_data() {
-            Failure::data(said)
-        } else {
-            Failure::usage(said)
-        }
-    })?;
-    report(&bond, &options);
-    write(&bond, &options, &file, &arguments)
+    Ok(file)
 }
 
-fn options(arguments: &Arguments, header: &Header) -> Options {
-    let own = Axis::from_index(header.normal.into());
-    let normal = arguments.normal.or(own).unwrap_or(Axis::Y);
-    Options {
+fn normal(arguments: &Arguments, files: &[ParticleFile]) -> Result<Axis, Failure> {
+    let own = |file: &ParticleFile| Axis::from_index(file.header().normal.into());
+    let first = own(&files[0]);
+    match (arguments.normal, files.get(1)) {
+        (Some(normal), _) => Ok(normal),
+        (None, Some(second)) if own(second) != first => Err(Failure::usage(format!(
+            "the bond normals of '{}' and '{}' are not the same axis: give --normal",
+            files[0].name(),
+            second.name()
+        ))),
+        _ => Ok(first.unwrap_or(Axis::Y)),
+    }
+}
+
+fn placed<'a>(file: &'a ParticleFile, name: &str) -> Result<Placed<'a>, Failure> {
+    let block = file.block_named(name).map_err(Failure::data)?;
+    Ok(Placed::of_block(block))
+}
+
+/// A refusal of the pieces of `files`.
+fn refusal(files: &[ParticleFile], error: &Error) -> Failure {
+    let names: Vec<_> = files.iter().map(|f| format!("'{}'", f.name())).collect();
+    let said = format!("{}: {error}", names.join(" and "));
+    if error.is_unfit_data() {
+        Failure::data(said)
+    } else {
+        Failure::usage(said)
+    }
+}
+
+fn bonded(file: &ParticleFile, arguments: &Arguments, normal: Axis) -> Result<Bond, Failure> {
+    let options = Options {
         normal,
         plane: match arguments.plane.0 {
             Some(plane_m) => Plane::At(plane_m),
@@ -112,72 +98,68 @@ fn options(arguments: &Arguments, header: &Header) -> Options {
         voxels_per_cell: arguments.voxels_per_cell.into(),
         gap_m: arguments.gap.0,
         tolerance: arguments.tolerance,
-    }
+    };
+    Specimen::new(placed(file, "wood")?, placed(file, "adhesive")?)
+        .and_then(|specimen| bondline::build(&specimen, &options))
+        .map_err(|error| refusal(std::slice::from_ref(file), &error))
 }
 
-fn report(bond: &Bond, options: &Options) {
-    let um = |metres: f64| 1e6 * metres;
-    let um3 = |voxels: u64| voxels as f64 * um(bond.voxel_m).powi(3);
-    let how = match bond.found {
-        Some(line) => format!(
-            "found midway between the bond surfaces at {} and {} voxels; adhesive most outweighs wood in layer {}, by {:.1} % of the area",
-            line.bottom,
-            line.top,
-            line.seed,
-            100.0 * line.contrast
-        ),
-        None => "as given, at the nearest face between voxels".into(),
-    };
-    cli::note(format!(
-        "bond plane: {} = {:.3} um ({how}); it parts {} touching pairs of wood voxels, {:.2} % of the bond area",
-        options.normal,
-        um(bond.plane_m),
-        bond.severed,
-        100.0 * bond.severed as f64 / bond.area as f64
-    ));
-    if bond.trimmed != [0; 3] {
-        cli::note(format!(
-            "left out {:?} layers at the high x, y, z sides: the bond is a whole number of cells wide",
-            bond.trimmed
-        ));
+fn wood(
+    files: &[ParticleFile],
+    arguments: &Arguments,
+    normal: Axis,
+    slab_m: f64,
+) -> Result<Bond, Failure> {
+    for file in files {
+        if placed(file, "adhesive")?.bits.count() > 0 {
+            return Err(Failure::usage(format!(
+                "'{}' holds adhesive: --slab and --spread are for wood alone, and a bonded specimen keeps its own volume",
+                file.name()
+            )));
+        }
     }
-    cli::note(format!(
-        "wood: {} voxels in the bottom adherend, {} in the top one",
-        bond.bottom.bits.count(),
-        bond.top.bits.count()
-    ));
-    cli::note(format!(
-        "adhesive: in {} voxels = {:.1} um3, out {} voxels = {:.1} um3, rounding {:+.3} %",
-        bond.adhesive_in,
-        um3(bond.adhesive_in),
-        bond.adhesive_out,
-        um3(bond.adhesive_out),
-        100.0 * bond.rounding()
-    ));
-    cli::note(format!(
-        "slab: {:.3} um = {} cells of {:.3} um (effective penetration of the specimen {:.4} um); gap {:.3} um",
-        um(bond.slab_m()),
-        bond.slab_cells,
-        um(bond.cell_m),
-        um(bond.effective_penetration_m()),
-        um(bond.gap_m)
-    ));
+    let plane = arguments.plane.0;
+    let pieces = match files {
+        [bottom, top] if plane.is_none() => Pieces::Two {
+            bottom: placed(bottom, "wood")?,
+            top: placed(top, "wood")?,
+        },
+        [whole] => {
+            let cut = plane.ok_or_else(|| {
+                Failure::usage("wood alone has no bond line to be found: say where to cut it by --plane LEN, or give a second piece by --bottom and --top")
+            })?;
+            Pieces::Cut(placed(whole, "wood")?, cut)
+        }
+        _ => {
+            return Err(Failure::usage(
+                "--plane cuts one piece of wood; --bottom and --top are glued where their faces are found",
+            ));
+        }
+    };
+    let layup = Layup {
+        normal,
+        slab_m,
+        voxels_per_cell: arguments.voxels_per_cell.into(),
+        gap_m: arguments.gap.0,
+        tolerance: arguments.tolerance,
+        turn: arguments.wood.turn_top.map_or(Turn::None, Turn::from),
+        crop: arguments.wood.crop_to_fit,
+        drop_islands: arguments.wood.drop_islands,
+    };
+    bondline::lay_up(&pieces, &layup).map_err(|error| refusal(files, &error))
 }
 
 fn write(
     bond: &Bond,
-    options: &Options,
-    from: &ParticleFile,
+    normal: Axis,
+    files: &[ParticleFile],
+    paths: &[&Path],
     arguments: &Arguments,
 ) -> Result<(), Failure> {
-    let source = from.header();
-    let mut header = Header::new(
-        Kind::Bond,
-        bond.voxel_m,
-        options.normal.index() as u8,
-        bond.box_min_m,
-        bond.box_max_m,
-    );
+    let normal = normal.index() as u8;
+    let (low, high) = (bond.box_min_m, bond.box_max_m);
+    let mut header = Header::new(Kind::Bond, bond.voxel_m, normal, low, high);
+    let source = files[0].header();
     header.attributes.clone_from(&source.attributes);
     for (name, value) in [
         ("bond_plane_m", bond.plane_m),
@@ -185,21 +167,22 @@ fn write(
         ("slab_thickness_m", bond.slab_m()),
         ("cell_m", bond.cell_m),
         ("slab_cells", bond.slab_cells as f64),
-        ("adhesive_voxels_in", bond.adhesive_in as f64),
+        ("adhesive_voxels_in", bond.adhesive_in),
         ("adhesive_voxels_out", bond.adhesive_out as f64),
         ("effective_penetration_m", bond.effective_penetration_m()),
     ] {
         header.set_attribute(name, value);
     }
-    let input = (
-        arguments.specimen.display().to_string(),
-        from.content_hash(),
-    );
-    header.provenance.clone_from(&source.provenance);
+    let inputs = paths.iter().zip(files);
+    let inputs = inputs.map(|(path, file)| (path.display().to_string(), file.content_hash()));
+    header.provenance = files
+        .iter()
+        .flat_map(|file| file.header().provenance.clone())
+        .collect();
     header.provenance.push(Provenance::of_process(
         env!("CARGO_PKG_NAME"),
         env!("CARGO_PKG_VERSION"),
-        vec![input],
+        inputs.collect(),
     ));
     let mut draft = Draft::new(header);
     for (name, material, part) in [

@@ -7,12 +7,12 @@ use clap::{Parser, ValueEnum};
 use cli::{Failure, Output, Record};
 use units::{Length, Quantity};
 use voxels::TiffWriter;
-use voxels::synthetic::{AdhesiveSystem, Anatomy, Recipe, RecipeError, Specimen};
+use voxels::synthetic::{AdhesiveSystem, Anatomy, Recipe, RecipeError, Species, Specimen};
 
-/// Grow a synthetic hybrid poplar specimen with a bond line as an 8-bit label stack
+/// Grow a synthetic hybrid poplar specimen with a bond line, or undamaged wood of one of four species, as an 8-bit label stack
 ///
 /// Labels: 0 void, 128 wood, 255 adhesive. The fibres run nearly along z, the bond normal is
-/// y. Wood and adhesive are synthetic; the adhesive is placed by distance and connectivity
+/// y; undamaged wood is cut as a peeled veneer is, its rays nearly along y. Wood and adhesive are synthetic; the adhesive is placed by distance and connectivity
 /// and not by a flow simulation. The same arguments give the same bytes.
 #[derive(Parser)]
 #[command(
@@ -20,12 +20,17 @@ use voxels::synthetic::{AdhesiveSystem, Anatomy, Recipe, RecipeError, Specimen};
     after_help = "Examples:
   synth-xct --adhesive pf --seed 1 -o pf.tif
   synth-xct --adhesive pva-pf --size 64x128x64 --slab 29um --seed 7 -o small.tif
+  synth-xct --adhesive none --species spruce --size 300x600x100 --seed 1 -o spruce.tif
   synth-xct --adhesive pf --size 393x393x400 --seed 1 -o full.tif && xct2particles full.tif -o full.mpts"
 )]
 struct Arguments {
-    /// Adhesive: sets the slab (PF 55.1 um, PVA-PF 78.3 um); large PF boxes hold an isolated tube
+    /// Adhesive: sets the slab (PF 55.1 um, PVA-PF 78.3 um); large PF boxes hold an isolated tube.
+    /// none is one piece of undamaged wood
     #[arg(long, value_enum)]
     adhesive: Adhesive,
+    /// Wood; all but hybrid poplar without adhesive
+    #[arg(long, value_enum, default_value = "hybrid-poplar")]
+    species: SpeciesName,
     /// Voxels along x, y and z
     #[arg(long, value_name = "XxYxZ", default_value = "48x96x48")]
     size: Size,
@@ -49,6 +54,15 @@ struct Arguments {
 enum Adhesive {
     Pf,
     PvaPf,
+    None,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SpeciesName {
+    HybridPoplar,
+    Beech,
+    Birch,
+    Spruce,
 }
 
 #[derive(Clone, Copy)]
@@ -82,9 +96,16 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let recipe = Recipe {
         size: arguments.size.0,
         voxel: arguments.voxel,
+        species: match arguments.species {
+            SpeciesName::HybridPoplar => Species::HybridPoplar,
+            SpeciesName::Beech => Species::Beech,
+            SpeciesName::Birch => Species::Birch,
+            SpeciesName::Spruce => Species::Spruce,
+        },
         adhesive: match arguments.adhesive {
-            Adhesive::Pf => AdhesiveSystem::Pf,
-            Adhesive::PvaPf => AdhesiveSystem::PvaPf,
+            Adhesive::Pf => Some(AdhesiveSystem::Pf),
+            Adhesive::PvaPf => Some(AdhesiveSystem::PvaPf),
+            Adhesive::None => None,
         },
         slab: arguments.slab,
         seed: arguments.seed,
@@ -96,9 +117,16 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     })?;
     report(&specimen, &recipe);
     let record = Record::new("synth-xct", env!("CARGO_PKG_VERSION"), Vec::new());
+    let adhesive = match recipe.adhesive {
+        Some(adhesive) => format!("synthetic {adhesive:?} adhesive"),
+        None => "without adhesive".into(),
+    };
     let note = format!(
-        "note=SYNTHETIC hybrid poplar, synthetic {:?} adhesive (not a scan); seed={}; {} {}",
-        recipe.adhesive, recipe.seed, record.tool, record.version
+        "note=SYNTHETIC {}, {adhesive} (not a scan); seed={}; {} {}",
+        recipe.species.name(),
+        recipe.seed,
+        record.tool,
+        record.version
     );
     arguments.output.write_with_record(&record, |out| {
         let mut tiff = TiffWriter::with_note(out, specimen.size(), recipe.voxel, &note)?;
@@ -109,7 +137,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     })
 }
 
-/// What was measured, beside what hybrid poplar has.
+/// What was measured, beside what the species has.
 fn report(specimen: &Specimen, recipe: &Recipe) {
     let anatomy = specimen.anatomy();
     let [nx, ny, nz] = specimen.size();
@@ -121,12 +149,19 @@ fn report(specimen: &Specimen, recipe: &Recipe) {
         nz as f64 * um,
         recipe.seed
     ));
-    for (target, value) in Anatomy::TARGETS.iter().zip(anatomy.values()) {
+    let targets = recipe.species.targets();
+    for ((name, target), value) in Anatomy::NAMES.iter().zip(targets).zip(anatomy.values()) {
+        let Some(target) = target else { continue };
         let [low, high] = target.range;
         cli::note(format_args!(
-            "  {:<20} {value:>8.3}   hybrid poplar {low} to {high}",
-            target.name
+            "  {name:<20} {value:>8.3}   {} {low} to {high}, usually {} ({:+.0} %)",
+            recipe.species.name(),
+            target.value,
+            100.0 * (value / target.value - 1.0)
         ));
+    }
+    if recipe.adhesive.is_none() {
+        return;
     }
     let [gap, wood, tube] = anatomy.adhesive_voxels;
     cli::note(format_args!(

@@ -28,6 +28,7 @@ use voxels::{
     after_help = "Examples:
   xct2particles bondline.tif --voxel '1.45 um' --labels void=0,wood=128,adhesive=255 -o specimen.mpts
   xct2particles slices/ --voxel 1.45um --grey wood=90..170,adhesive=171.. -o grey.mpts
+  xct2particles undamaged.tif --voxel 1.45um --grey auto-wood -o wood.mpts
   xct2particles scan.raw --dims 400x394x400 --type u16 --voxel 1.45um --histogram grey.csv
   xct2particles stack.ome.tif --crop 0:200,50:250,0:100 -o - | wp-metrics -"
 )]
@@ -46,12 +47,14 @@ struct Arguments {
     #[arg(long = "type", id = "kind", value_name = "TYPE", requires = "dims")]
     kind: Option<RawType>,
     /// Labels of each phase; several as 1|2|7, colours as R:G:B; wood alone has no adhesive
-    /// [default: guessed if the stack holds exactly 0, 1, 2 or 0, 128, 255, or in one bit 0, 1]
+    /// [default: guessed if the stack holds exactly 0, 1, 2 or 0, 128, 255, or, for wood alone,
+    /// the first two of either]
     #[arg(long, value_name = "void=L,wood=L,adhesive=L", conflicts_with = "grey")]
     labels: Option<Labels>,
-    /// Grey values of wood and adhesive, both ends included, for a stack without labels; auto
-    /// proposes them (Otsu's two thresholds), to be looked at: wood darker than adhesive
-    #[arg(long, value_name = "auto|wood=A..B,adhesive=C..", value_parser = grey)]
+    /// Grey values of wood and adhesive, both ends included, for a stack without labels; wood alone
+    /// has no adhesive. auto proposes them (Otsu's two thresholds), to be looked at: wood darker
+    /// than adhesive; auto-wood does for wood alone (one threshold)
+    #[arg(long, value_name = "auto|auto-wood|wood=A..B,adhesive=C..", value_parser = grey)]
     grey: Option<GreyLevels>,
     /// Write how many voxels hold each grey value (CSV: grey,voxels) and say what --grey auto
     /// would take
@@ -76,12 +79,14 @@ struct Arguments {
 #[derive(Clone)]
 enum GreyLevels {
     Auto,
+    AutoWood,
     Given(Grey),
 }
 
 fn grey(text: &str) -> Result<GreyLevels, String> {
     match text {
         "auto" => Ok(GreyLevels::Auto),
+        "auto-wood" => Ok(GreyLevels::AutoWood),
         ranges => ranges.parse().map(GreyLevels::Given),
     }
 }
@@ -104,14 +109,19 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         arguments.output.iter().chain(&arguments.histogram),
     )?;
     let crop = arguments.crop.unwrap_or_else(|| Crop::whole(stack.dims()));
-    let auto = matches!(arguments.grey, Some(GreyLevels::Auto));
+    let bare = matches!(arguments.grey, Some(GreyLevels::AutoWood));
+    let auto = bare || matches!(arguments.grey, Some(GreyLevels::Auto));
     let mut proposed = None;
     if auto || arguments.histogram.is_some() {
         let histogram = Histogram::of(&stack, &crop).map_err(failure)?;
         if let Some(output) = &arguments.histogram {
             output.write(|out| write_histogram(&histogram, out))?;
         }
-        proposed = Some(histogram.otsu());
+        proposed = Some(if bare {
+            histogram.otsu_of_wood()
+        } else {
+            histogram.otsu()
+        });
         report::proposal(&proposed);
     }
     let Some(output) = arguments.output else {
@@ -124,7 +134,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let phases = match (arguments.labels, arguments.grey, proposed) {
         (Some(labels), _, _) => Phases::Labels(labels),
         (None, Some(GreyLevels::Given(grey)), _) => Phases::Grey(grey),
-        (None, Some(GreyLevels::Auto), Some(proposed)) => {
+        (None, Some(GreyLevels::Auto | GreyLevels::AutoWood), Some(proposed)) => {
             let wrong = |why| Failure::usage(format!("{}: {why}", stack.name()));
             Phases::Grey(proposed.map_err(wrong)?)
         }

@@ -50,7 +50,7 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64) {
             "labels      guessed: void={void},wood={wood},adhesive={adhesive}"
         )),
         Some([void, wood]) => cli::note(format_args!(
-            "labels      guessed: void={void},wood={wood} in a stack of one bit"
+            "labels      guessed: void={void},wood={wood}, without adhesive"
         )),
         _ => {}
     }
@@ -67,12 +67,17 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64) {
         cli::note(format_args!(
             "{name:<10} {voxels:>12} voxels  {fraction:.6}"
         ));
-        if voxels == 0 && name != "void" {
-            cli::warn(format_args!("no voxel is {name}"));
+        if voxels == 0 && name == "wood" {
+            cli::warn("no voxel is wood");
         }
     }
     let um = edge * 1e6;
     let area = (nx * nz) as f64 * um * um;
+    if adhesive == 0 {
+        return cli::note(format_args!(
+            "bond area   {area:.1} um2 (x times z); undamaged wood, to be bonded by build-bondline --slab or --spread"
+        ));
+    }
     let thickness = adhesive as f64 * um / (nx * nz) as f64;
     cli::note(format_args!(
         "bond area   {area:.1} um2 (x times z), adhesive volume over it {thickness:.4} um"

@@ -351,3 +351,37 @@ fn help_version_and_man_page() {
         );
     }
 }
+
+/// Undamaged wood: labels guessed or named, grey values given or proposed; two values that may be
+/// wood or adhesive are not guessed.
+#[test]
+fn a_stack_without_adhesive_is_a_specimen_of_wood() {
+    let folder = tempfile::tempdir().unwrap();
+    let raw = |name: &str, wood: u8| {
+        let path = folder.path().join(name);
+        let voxels = (0..20 * 10 * 5).map(|i| if i / 20 % 10 < 6 { wood } else { 0 });
+        fs::write(&path, voxels.collect::<Vec<u8>>()).unwrap();
+        path
+    };
+    let (labels, mask) = (raw("labels.raw", 128), raw("mask.raw", 255));
+    let target = folder.path().join("wood.mpts");
+    let volume = ["--dims", "20x10x5", "--type", "u8", "--voxel", "1.45um"];
+    for (path, more) in [
+        (&labels, &[][..]),
+        (&mask, &["--labels", "void=0,wood=255"]),
+        (&mask, &["--grey", "wood=90.."]),
+        (&mask, &["--grey", "auto-wood"]),
+    ] {
+        let start = [&[text(path)], &volume[..], more].concat();
+        let output = run(&[&start[..], &["-o", text(&target)]].concat());
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(said.contains("undamaged wood"), "{said}");
+        let file = ParticleFile::open(&target).unwrap();
+        assert_eq!(counts(&file), [600, 0], "{more:?}");
+    }
+    let refused = run(&[&[text(&mask)], &volume[..], &["-o", "-"]].concat());
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("--labels"), "{said}");
+}

@@ -2,9 +2,11 @@ use super::cut::Cut;
 use super::fibres::Fibres;
 use super::rays::Rays;
 use super::recipe::Plan;
+use super::species::Grain;
+use super::tracheids::Tracheids;
 use super::vessels::{Part, Vessels};
 
-/// The tissues of the wood, in the order of their counts.
+/// The tissues of the wood, in the order of their counts; tracheids count as fibres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tissue {
     Vessel,
@@ -69,13 +71,20 @@ pub(super) struct Adherend {
     pub(super) cut: Cut,
     pub(super) vessels: Vessels,
     rays: Rays,
-    fibres: Fibres,
+    axial: Axial,
+}
+
+/// The cells between vessels and rays.
+enum Axial {
+    Fibres(Fibres),
+    Tracheids(Tracheids),
 }
 
 impl Adherend {
-    /// The bottom and the top adherend of a plan.
-    pub(super) fn both(plan: &Plan) -> [Self; 2] {
-        [0, 1].map(|side| Self::grow(plan, side))
+    /// The bottom and the top adherend of a plan, or its one piece of undamaged wood.
+    pub(super) fn all(plan: &Plan) -> Vec<Self> {
+        let sides = if plan.adhesive.is_some() { 2 } else { 1 };
+        (0..sides).map(|side| Self::grow(plan, side)).collect()
     }
 
     fn grow(plan: &Plan, side: usize) -> Self {
@@ -84,12 +93,19 @@ impl Adherend {
         let [l, r, t] = bounds.map(|[low, high]| [low - MARGIN, high + MARGIN]);
         let vessels = Vessels::place(plan, &cut, side, [r, t]);
         let rays = Rays::place(plan, side, l, t);
-        let fibres = Fibres::place(plan, side, r, &rays, &vessels);
+        let axial = match plan.timber.grain {
+            Grain::Fibres(traits) => {
+                Axial::Fibres(Fibres::place(plan, side, traits, r, &rays, &vessels))
+            }
+            Grain::Tracheids(traits) => {
+                Axial::Tracheids(Tracheids::place(plan, side, traits, &rays))
+            }
+        };
         Self {
             cut,
             vessels,
             rays,
-            fibres,
+            axial,
         }
     }
 
@@ -115,10 +131,16 @@ impl Adherend {
                     Sample::Wall(Tissue::Ray)
                 }
             }
-            Part::Outside(distance) => match self.fibres.lumen(point, &place, distance) {
-                Some(radius) => Sample::Lumen(Tissue::Fibre, radius),
-                None => Sample::Wall(Tissue::Fibre),
-            },
+            Part::Outside(distance) => {
+                let radius = match &self.axial {
+                    Axial::Fibres(fibres) => fibres.lumen(point, &place, distance),
+                    Axial::Tracheids(tracheids) => tracheids.lumen(point, &place),
+                };
+                match radius {
+                    Some(radius) => Sample::Lumen(Tissue::Fibre, radius),
+                    None => Sample::Wall(Tissue::Fibre),
+                }
+            }
         }
     }
 }

@@ -1,4 +1,5 @@
 use super::adherend::{Adherend, Counts, Tissue};
+use super::lumens::Lumens;
 use super::penetration::Filled;
 use super::recipe::Plan;
 
@@ -9,8 +10,6 @@ pub struct Anatomy {
     pub porosity: f64,
     /// Volume shares of vessels, fibres and rays, walls included.
     pub shares: [f64; 3],
-    /// Vessels per mm2 of cross-section, at the middle page.
-    pub vessels_per_mm2: f64,
     /// Rays per mm along the growth ring, at the middle page.
     pub rays_per_mm: f64,
     /// Adhesive volume, m3.
@@ -19,54 +18,74 @@ pub struct Anatomy {
     pub slab: f64,
     /// Adhesive voxels in the gap, in wood reached from it, and in the isolated tube.
     pub adhesive_voxels: [usize; 3],
+    /// What the labels of the middle page show.
+    pub lumens: Lumens,
 }
 
-/// The range an anatomical number of hybrid poplar should be in.
+/// What the literature says of an anatomical number (docs/wood.md has the sources).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    /// What it is, with its unit.
-    pub name: &'static str,
-    /// Lowest and highest value of the literature.
+    /// The usual value.
+    pub value: f64,
+    /// Lowest and highest value met.
     pub range: [f64; 2],
 }
 
-const fn target(name: &'static str, low: f64, high: f64) -> Target {
+pub(super) const fn target(value: f64, low: f64, high: f64) -> Target {
     Target {
-        name,
+        value,
         range: [low, high],
     }
 }
 
 impl Anatomy {
-    /// Ranges of hybrid poplar; the volume shares are about 0.33, 0.55 and 0.12. A box of a
-    /// few cells cannot average them: they hold for boxes of some tenths of a millimetre.
-    pub const TARGETS: [Target; 6] = [
-        target("porosity", 0.64, 0.75),
-        target("vessel volume share", 0.26, 0.40),
-        target("fibre volume share", 0.48, 0.62),
-        target("ray volume share", 0.09, 0.15),
-        target("vessels per mm2", 40.0, 150.0),
-        target("rays per mm", 8.0, 12.0),
+    /// The numbers of [`Anatomy::values`], with their units. A box of a few cells cannot
+    /// average them: they mean something in boxes of some tenths of a millimetre.
+    pub const NAMES: [&'static str; 11] = [
+        "porosity",
+        "vessel volume share",
+        "fibre volume share",
+        "ray volume share",
+        "vessels per mm2",
+        "rays per mm",
+        "vessel lumen um",
+        "fibre lumen um",
+        "double wall um",
+        "late lumen um",
+        "early lumen um",
     ];
 
-    /// The measured numbers in the order of [`Anatomy::TARGETS`].
-    pub fn values(&self) -> [f64; 6] {
+    /// The measured numbers in the order of [`Anatomy::NAMES`].
+    pub fn values(&self) -> [f64; 11] {
         let [vessels, fibres, rays] = self.shares;
+        let Lumens {
+            vessels_per_mm2,
+            vessel_diameter,
+            fibre_diameter,
+            wall,
+            radial: [late, early],
+        } = self.lumens;
         [
             self.porosity,
             vessels,
             fibres,
             rays,
-            self.vessels_per_mm2,
+            vessels_per_mm2,
             self.rays_per_mm,
+            vessel_diameter,
+            fibre_diameter,
+            wall,
+            late,
+            early,
         ]
     }
 
     pub(super) fn measure(
         plan: &Plan,
-        adherends: [&Adherend; 2],
+        adherends: &[Adherend],
         pages: &[[Counts; 2]],
         filled: &Filled,
+        lumens: Lumens,
     ) -> Self {
         let mut counts = Counts::default();
         pages.iter().flatten().for_each(|page| counts += page);
@@ -74,30 +93,20 @@ impl Anatomy {
         let open = counts.open.iter().sum::<u64>() as f64;
         let voxels = [filled.gap, filled.wood, filled.tube];
         let volume = voxels.iter().sum::<usize>() as f64 * f64::from(plan.voxel).powi(3);
-        let [width, height, length] = plan.edges().map(f64::from);
-        let vessels: usize = (0..2).map(|s| vessels_inside(plan, adherends[s], s)).sum();
-        let met = [0, 1].map(|side| rays_met(plan, adherends[side], side));
+        let [width, _, length] = plan.edges().map(f64::from);
+        let sides = || adherends.iter().enumerate();
+        let met = sides().map(|(s, wood)| rays_met(plan, wood, s));
+        let met = met.fold((0, 0.0), |(n, length), (m, more)| (n + m, length + more));
         Self {
             porosity: open / wood,
             shares: counts.all.map(|tissue| tissue as f64 / wood),
-            vessels_per_mm2: vessels as f64 / (width * height * 1e-6),
-            rays_per_mm: (met[0].0 + met[1].0) as f64 / ((met[0].1 + met[1].1) * 1e-3),
+            rays_per_mm: met.0 as f64 / (met.1 * 1e-3),
             adhesive_volume: volume * 1e-18,
             slab: volume / (width * length) * 1e-6,
             adhesive_voxels: voxels,
+            lumens,
         }
     }
-}
-
-/// Vessels whose axis crosses the middle page within this adherend's half of the box.
-fn vessels_inside(plan: &Plan, adherend: &Adherend, side: usize) -> usize {
-    let [low, high] = plan.half_box(side);
-    let crosses = |r: f32, t: f32| {
-        let place = adherend.cut.crossing(r, t);
-        (0..2).all(|i| (low[i]..high[i]).contains(&place[i]))
-    };
-    let members = adherend.vessels.members().iter();
-    members.filter(|v| crosses(v.r, v.t)).count()
 }
 
 /// Rays entered along lines of voxels across the middle page, and the length of those lines

@@ -2,7 +2,7 @@
 
 use super::cut::Cut;
 use super::recipe::Plan;
-use super::vessels::{REACH, SHARE, TOLERANCE, Vessel, WALL};
+use super::vessels::{REACH, TOLERANCE, Vessel, WALL};
 
 /// Sample points over the cross-section: which share do vessels cover, in all and in the box.
 pub(super) struct Cover {
@@ -53,12 +53,12 @@ impl Cover {
         covered as f32 / all.max(1) as f32
     }
 
-    /// Whether the shares in and around the box stay below `SHARE` with one more group: a
+    /// Whether the shares in and around the box stay below `share` with one more group: a
     /// small box is as much vessel as the opened ones make it, not more.
-    pub(super) fn has_room(&self, group: &[Vessel]) -> bool {
+    pub(super) fn has_room(&self, group: &[Vessel], share: f32) -> bool {
         [true, false].into_iter().all(|in_box| {
             let (all, covered, newly) = self.count(in_box, group);
-            newly == 0 || (covered + newly) as f32 <= (SHARE + TOLERANCE) * all as f32
+            newly == 0 || (covered + newly) as f32 <= (share + TOLERANCE) * all as f32
         })
     }
 

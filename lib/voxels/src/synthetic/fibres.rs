@@ -2,16 +2,11 @@ use rand::RngExt;
 
 use super::cut::WoodPoint;
 use super::random::{Feature, stream};
-use super::rays::{self, Place, Rays};
+use super::rays::{Place, Rays};
 use super::recipe::Plan;
+use super::species::FibreTraits;
 use super::vessels::{self, Part, Vessels};
 
-/// Distance of fibre axes, um: lumen 14 to 20 um and double wall 4 to 7 um.
-const PITCH: f32 = 19.5;
-/// Half of the wall between two fibres, um.
-const HALF_WALL: [f32; 2] = [2.0, 3.0];
-/// Fibre length, um.
-const LENGTH: [f32; 2] = [800.0, 1200.0];
 /// Length of the taper at the closed ends, um.
 const TAPER: f32 = 20.0;
 /// Half of the wall that closes a fibre's end, um.
@@ -20,6 +15,7 @@ const END_HALF_WALL: f32 = 2.0;
 /// Fibres: the Voronoi cells of jittered radial files in the strips between ray columns,
 /// closed at staggered ends.
 pub(super) struct Fibres {
+    traits: FibreTraits,
     strips: Vec<Strip>,
 }
 
@@ -47,28 +43,34 @@ impl Fibres {
     pub(super) fn place(
         plan: &Plan,
         side: usize,
+        traits: FibreTraits,
         r: [f32; 2],
         rays: &Rays,
         vessels: &Vessels,
     ) -> Self {
         let mut random = stream(plan, side, Feature::Fibres);
-        let start = r[0] - 3.0 * PITCH;
-        let per_file = ((r[1] - start) / PITCH) as usize + 4;
+        let FibreTraits {
+            pitch,
+            half_wall,
+            length,
+        } = traits;
+        let start = r[0] - 3.0 * pitch;
+        let per_file = ((r[1] - start) / pitch) as usize + 4;
         let mut strip = |[low, high]: [f32; 2]| {
             let width = high - low;
-            let between_rays = width - rays::WIDTH[0];
-            let files = (between_rays / PITCH).round().max(1.0) as usize;
+            let between_rays = width - plan.timber.rays.width[0];
+            let files = (between_rays / pitch).round().max(1.0) as usize;
             let spacing = width / files as f32;
             let mut fibre = |i: usize| {
                 let (file, place) = ((i % files) as f32, (i / files) as f32);
-                let jitter = [0.12, 0.17].map(|size| PITCH * random.random_range(-size..size));
+                let jitter = [0.12, 0.17].map(|size| pitch * random.random_range(-size..size));
                 let across = (file + 0.5) * spacing + jitter[0];
-                let r = start + PITCH * (place + 0.5 * (file % 2.0)) + jitter[1];
-                let length = random.random_range(LENGTH[0]..LENGTH[1]);
+                let r = start + pitch * (place + 0.5 * (file % 2.0)) + jitter[1];
+                let length = random.random_range(length[0]..length[1]);
                 Fibre {
                     r,
                     across,
-                    half_wall: random.random_range(HALF_WALL[0]..HALF_WALL[1]),
+                    half_wall: random.random_range(half_wall[0]..half_wall[1]),
                     length,
                     phase: random.random_range(0.0..length),
                     alive: has_room(vessels, r, low + across),
@@ -82,6 +84,7 @@ impl Fibres {
             }
         };
         Self {
+            traits,
             strips: rays.strips().map(&mut strip).collect(),
         }
     }
@@ -90,11 +93,11 @@ impl Fibres {
     /// distance from the nearest vessel's outer wall.
     pub(super) fn lumen(&self, point: WoodPoint, place: &Place, from_vessel: f32) -> Option<f32> {
         let strip = &self.strips[place.strip];
-        let (fibre, to_border) = strip.nearest(point.r, place.across)?;
+        let (fibre, to_border) = strip.nearest(self.traits.pitch, point.r, place.across)?;
         let to_wall = to_border.min(place.clearance).min(from_vessel);
         let along = point.l + fibre.phase;
         let to_end = (along - fibre.length * (along / fibre.length).round()).abs();
-        let radius = 0.5 * PITCH - fibre.half_wall;
+        let radius = 0.5 * self.traits.pitch - fibre.half_wall;
         let taper = radius * (1.0 - to_end / TAPER).max(0.0);
         let open = to_wall > fibre.half_wall + taper && to_end > END_HALF_WALL;
         open.then_some(radius)
@@ -104,8 +107,8 @@ impl Fibres {
 impl Strip {
     /// The living fibre nearest to (r, across) and the distance from the border of its
     /// Voronoi cell towards the second nearest.
-    fn nearest(&self, r: f32, across: f32) -> Option<(&Fibre, f32)> {
-        let middle = ((r - self.start) / PITCH) as usize;
+    fn nearest(&self, pitch: f32, r: f32, across: f32) -> Option<(&Fibre, f32)> {
+        let middle = ((r - self.start) / pitch) as usize;
         let first = middle.saturating_sub(2) * self.files;
         let last = ((middle + 3) * self.files).min(self.fibres.len());
         let mut best: Option<(f32, &Fibre)> = None;

@@ -1,7 +1,9 @@
-//! Seeded synthetic hybrid poplar with a bond line, for work without a scan.
+//! Seeded synthetic wood for work without a scan: hybrid poplar with a bond line, or one piece
+//! of undamaged wood of a [`Species`].
 //!
 //! Two adherends with different cuts face each other across a rough gap normal to y; the
-//! fibres run nearly along z. Anatomy: [`Anatomy::TARGETS`] and the modules of each tissue.
+//! fibres run nearly along z. Undamaged wood fills the box, cut as a peeled veneer is, its rays
+//! nearly along y. Anatomy: [`Species::targets`] and the modules of each tissue.
 //! The "experimental" adhesive is made by `penetration`, which shares nothing with the flow
 //! solvers. Everything here is synthetic and must be labelled so wherever it is shown.
 //!
@@ -14,21 +16,27 @@ mod anatomy;
 mod cross_section;
 mod cut;
 mod fibres;
+mod lumens;
 mod penetration;
 mod random;
 mod rays;
 mod recipe;
+mod species;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod tracheids;
 mod vessels;
 
 use rayon::prelude::*;
 
 pub use anatomy::{Anatomy, Target};
 pub use recipe::{AdhesiveSystem, Recipe, RecipeError};
+pub use species::Species;
 
 use adherend::{Adherend, Counts};
+use lumens::Lumens;
+use penetration::Filled;
 use recipe::Plan;
 use surface::Face;
 
@@ -55,16 +63,22 @@ impl Specimen {
     /// reachable void does not hold the adhesive.
     pub fn grow(recipe: &Recipe) -> Result<Self, RecipeError> {
         let plan = Plan::new(recipe)?;
-        let [bottom, top] = Adherend::both(&plan);
-        let faces = [Face::new(&plan, 0), Face::new(&plan, 1)];
+        let adherends = Adherend::all(&plan);
+        let faces: Vec<Face> = match plan.adhesive {
+            Some(_) => [0, 1].map(|side| Face::new(&plan, side)).into(),
+            None => Vec::new(),
+        };
         let [nx, ny, _] = plan.size;
         let mut cells = vec![0_u8; plan.voxels()];
         let counts: Vec<[Counts; 2]> = cells
             .par_chunks_mut(nx * ny)
             .enumerate()
-            .map(|(page, cells)| carve(&plan, [&bottom, &top], &faces, page, cells))
+            .map(|(page, cells)| carve(&plan, &adherends, &faces, page, cells))
             .collect();
-        let adhesive = penetration::fill(&mut cells, &plan)?;
+        let adhesive = match plan.adhesive {
+            Some(_) => penetration::fill(&mut cells, &plan)?,
+            None => Filled::default(),
+        };
         cells.par_iter_mut().for_each(|cell| {
             *cell = match *cell {
                 0 => WOOD,
@@ -72,7 +86,9 @@ impl Specimen {
                 _ => VOID,
             }
         });
-        let anatomy = Anatomy::measure(&plan, [&bottom, &top], &counts, &adhesive);
+        let middle = plan.size[2] / 2 * nx * ny;
+        let lumens = Lumens::measure(&cells[middle..middle + nx * ny], &plan);
+        let anatomy = Anatomy::measure(&plan, &adherends, &counts, &adhesive, lumens);
         Ok(Self {
             size: plan.size,
             labels: cells,
@@ -105,8 +121,8 @@ impl Specimen {
 /// [`penetration`]) and counts the tissues of both adherends on it.
 fn carve(
     plan: &Plan,
-    adherends: [&Adherend; 2],
-    faces: &[Face; 2],
+    adherends: &[Adherend],
+    faces: &[Face],
     page: usize,
     cells: &mut [u8],
 ) -> [Counts; 2] {
@@ -115,8 +131,12 @@ fn carve(
     for (row, cells) in cells.chunks_mut(nx).enumerate() {
         for (column, cell) in cells.iter_mut().enumerate() {
             let position = plan.centre(column, row, page);
-            let side = usize::from(position[1] > 0.0);
-            if position[1].abs() < faces[side].recess(column, page) {
+            let side = match adherends {
+                [_] => 0,
+                _ => usize::from(position[1] > 0.0),
+            };
+            let face = faces.get(side);
+            if face.is_some_and(|face| position[1].abs() < face.recess(column, page)) {
                 *cell = penetration::GAP;
                 continue;
             }

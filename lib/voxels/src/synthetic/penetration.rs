@@ -19,7 +19,7 @@ pub(super) const FILLED: u8 = 255;
 const COST: u16 = 800;
 
 /// How much adhesive went where, voxels.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Filled {
     pub(super) gap: usize,
     pub(super) wood: usize,

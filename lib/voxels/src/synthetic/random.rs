@@ -15,11 +15,14 @@ pub(super) enum Feature {
 }
 
 /// The generator for `feature` of the adherend `side` (0 bottom, 1 top). The adhesives'
-/// specimens are different pieces of wood. ChaCha8 by name, because `StdRng` may change
+/// specimens and those of each species are different pieces of wood. ChaCha8 by name, because `StdRng` may change
 /// between releases and specimens are kept.
 pub(super) fn stream(plan: &Plan, side: usize, feature: Feature) -> ChaCha8Rng {
     let mut generator = ChaCha8Rng::seed_from_u64(plan.seed);
-    let wood = 2 * plan.adhesive as u64 + side as u64;
+    let wood = match plan.adhesive {
+        Some(adhesive) => 2 * adhesive as u64 + side as u64,
+        None => 4 + plan.species as u64,
+    };
     generator.set_stream(16 * wood + feature as u64);
     generator
 }

@@ -1,3 +1,5 @@
+use super::species::{Species, Timber};
+
 /// The adhesive of a synthetic specimen: sets the slab volume and, for PF, the isolated tube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AdhesiveSystem {
@@ -36,10 +38,12 @@ pub struct Recipe {
     pub size: [usize; 3],
     /// Voxel edge, m.
     pub voxel: f64,
-    /// Which adhesive.
-    pub adhesive: AdhesiveSystem,
+    /// Which wood; a bonded specimen is of hybrid poplar.
+    pub species: Species,
+    /// Which adhesive; `None` is one piece of undamaged wood.
+    pub adhesive: Option<AdhesiveSystem>,
     /// Adhesive volume per bond area, m; `None` takes the paper's, but at most a sixth of the
-    /// box height, rounded to whole cells of two voxels.
+    /// box height, rounded to whole cells of two voxels. Undamaged wood has none.
     pub slab: Option<f64>,
     /// Seed of all random choices.
     pub seed: u64,
@@ -48,12 +52,26 @@ pub struct Recipe {
 /// Why a recipe cannot be grown.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RecipeError {
-    /// Too few voxels for two adherends with open lumens, or more than memory can address.
+    /// Too few voxels for open lumens, or more than memory can address.
     #[error(
-        "size {}x{}x{} is not accepted: x and z need 24 to 4096 voxels and y 48 to 4096",
-        .0[0], .0[1], .0[2]
+        "size {}x{}x{} is not accepted: x and z need 24 to 4096 voxels and y {least} to 4096",
+        size[0], size[1], size[2]
     )]
-    Size([usize; 3]),
+    Size {
+        /// Asked.
+        size: [usize; 3],
+        /// Least along y: two adherends need more than one piece.
+        least: usize,
+    },
+    /// A bond line in a species that none is known of, or adhesive for undamaged wood.
+    #[error(
+        "a synthetic bond line is of hybrid poplar, whose penetration is known; {} is grown without adhesive, and bonded by build-bondline --slab",
+        .0.name()
+    )]
+    Species(Species),
+    /// A slab for undamaged wood.
+    #[error("undamaged wood has no slab: its adhesive is given to build-bondline")]
+    SlabOfWood,
     /// Voxels that cannot resolve the cell walls.
     #[error("voxel of {0:.3} um is not accepted: walls of 4 um need a voxel of 0.2 to 2 um")]
     Voxel(f64),
@@ -80,12 +98,14 @@ pub enum RecipeError {
 }
 
 /// A recipe in micrometres with its defaults filled in and its limits checked.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(super) struct Plan {
     pub(super) size: [usize; 3],
     pub(super) voxel: f32,
-    pub(super) adhesive: AdhesiveSystem,
-    /// Adhesive volume per bond area, um.
+    pub(super) species: Species,
+    pub(super) timber: &'static Timber,
+    pub(super) adhesive: Option<AdhesiveSystem>,
+    /// Adhesive volume per bond area, um; 0 of undamaged wood.
     pub(super) slab: f64,
     pub(super) seed: u64,
 }
@@ -93,32 +113,30 @@ pub(super) struct Plan {
 impl Plan {
     pub(super) fn new(recipe: &Recipe) -> Result<Self, RecipeError> {
         let [nx, ny, nz] = recipe.size;
+        let least = if recipe.adhesive.is_some() { 48 } else { 24 };
         let accepted =
-            (24..=4096).contains(&nx) && (48..=4096).contains(&ny) && (24..=4096).contains(&nz);
+            (24..=4096).contains(&nx) && (least..=4096).contains(&ny) && (24..=4096).contains(&nz);
         if !accepted {
-            return Err(RecipeError::Size(recipe.size));
+            let size = recipe.size;
+            return Err(RecipeError::Size { size, least });
         }
         let voxel = recipe.voxel * 1e6;
         if !(0.2..=2.0).contains(&voxel) {
             return Err(RecipeError::Voxel(voxel));
         }
-        let height = ny as f64 * voxel;
-        let cell = 2.0 * voxel;
-        let slab = match recipe.slab {
-            Some(slab) => slab * 1e6,
-            None => (recipe.adhesive.paper_slab() * 1e6).min((height / 6.0 / cell).round() * cell),
+        let slab = match recipe.adhesive {
+            Some(_) if recipe.species != Species::HybridPoplar => {
+                return Err(RecipeError::Species(recipe.species));
+            }
+            Some(adhesive) => slab(recipe, adhesive, ny as f64 * voxel, 2.0 * voxel)?,
+            None if recipe.slab.is_some() => return Err(RecipeError::SlabOfWood),
+            None => 0.0,
         };
-        let (lowest, highest) = (4.0 * cell, height / 3.0);
-        if !(lowest..=highest).contains(&slab) {
-            return Err(RecipeError::Slab {
-                slab,
-                lowest,
-                highest,
-            });
-        }
         Ok(Self {
             size: recipe.size,
             voxel: voxel as f32,
+            species: recipe.species,
+            timber: recipe.species.timber(),
             adhesive: recipe.adhesive,
             slab,
             seed: recipe.seed,
@@ -141,10 +159,12 @@ impl Plan {
         [0, 1, 2].map(|i| (index[i] as f32 + 0.5) * self.voxel - half[i])
     }
 
-    /// Corners of the half of the box that belongs to adherend `side` (0 bottom, 1 top).
+    /// Corners of the half of the box that belongs to adherend `side` (0 bottom, 1 top);
+    /// undamaged wood has all of it.
     pub(super) fn half_box(&self, side: usize) -> [[f32; 3]; 2] {
         let [x, y, z] = self.edges().map(|edge| 0.5 * edge);
         match side {
+            _ if self.adhesive.is_none() => [[-x, -y, -z], [x, y, z]],
             0 => [[-x, -y, -z], [x, 0.0, z]],
             _ => [[-x, 0.0, -z], [x, y, z]],
         }
@@ -152,7 +172,8 @@ impl Plan {
 
     /// Mean distance of a face from the bond plane, um.
     pub(super) fn mean_recess(&self) -> f32 {
-        0.5 * self.adhesive.gap_share() * self.slab as f32
+        let gap_share = self.adhesive.map_or(0.0, AdhesiveSystem::gap_share);
+        0.5 * gap_share * self.slab as f32
     }
 
     /// Voxels of adhesive that make the slab.
@@ -160,4 +181,26 @@ impl Plan {
         let area = self.size[0] * self.size[2];
         (self.slab / f64::from(self.voxel) * area as f64).round() as usize
     }
+}
+
+/// Slab thickness (um) of a bonded specimen in a box of this height with cells of this edge.
+fn slab(
+    recipe: &Recipe,
+    adhesive: AdhesiveSystem,
+    height: f64,
+    cell: f64,
+) -> Result<f64, RecipeError> {
+    let slab = match recipe.slab {
+        Some(slab) => slab * 1e6,
+        None => (adhesive.paper_slab() * 1e6).min((height / 6.0 / cell).round() * cell),
+    };
+    let (lowest, highest) = (4.0 * cell, height / 3.0);
+    if !(lowest..=highest).contains(&slab) {
+        return Err(RecipeError::Slab {
+            slab,
+            lowest,
+            highest,
+        });
+    }
+    Ok(slab)
 }

@@ -6,7 +6,8 @@ fn grow(size: [usize; 3], adhesive: AdhesiveSystem, seed: u64) -> Specimen {
     let recipe = Recipe {
         size,
         voxel: VOXEL,
-        adhesive,
+        species: Species::HybridPoplar,
+        adhesive: Some(adhesive),
         slab: None,
         seed,
     };
@@ -44,12 +45,75 @@ fn flood(specimen: &Specimen, start: u8, passes: fn(u8) -> bool, diagonal: bool)
 fn the_anatomy_is_that_of_hybrid_poplar() {
     for (adhesive, seed) in [(AdhesiveSystem::Pf, 1), (AdhesiveSystem::PvaPf, 2)] {
         let specimen = grow([393, 393, 24], adhesive, seed);
-        for (target, value) in Anatomy::TARGETS.iter().zip(specimen.anatomy().values()) {
-            let [low, high] = target.range;
-            println!("seed {seed}: {} {value:.3} ({low} to {high})", target.name);
-            assert!((low..=high).contains(&value), "{} {value}", target.name);
-        }
+        check(&specimen, Species::HybridPoplar, seed);
     }
+}
+
+/// Every number the literature gives for a species is met, and its error printed.
+fn check(specimen: &Specimen, species: Species, seed: u64) {
+    let values = specimen.anatomy().values();
+    for ((name, target), value) in Anatomy::NAMES.iter().zip(species.targets()).zip(values) {
+        let Some(Target {
+            value: usual,
+            range,
+        }) = target
+        else {
+            continue;
+        };
+        let error = 100.0 * (value / usual - 1.0);
+        println!(
+            "{species:?} {seed}: {name} {value:.3}, usually {usual} ({error:+.0} %), met {range:?}"
+        );
+        let [low, high] = range;
+        assert!((low..=high).contains(&value), "{species:?}: {name} {value}");
+    }
+}
+
+#[test]
+fn undamaged_wood_has_the_anatomy_of_its_species() {
+    for (species, size) in [
+        (Species::HybridPoplar, [393, 393, 24]),
+        (Species::Beech, [480, 393, 24]),
+        (Species::Birch, [480, 393, 24]),
+        // A whole growth ring.
+        (Species::Spruce, [600, 560, 60]),
+    ] {
+        let specimen = Specimen::grow(&wood(species, size, 1)).unwrap();
+        check(&specimen, species, 1);
+        assert!(specimen.labels().iter().all(|&label| label != ADHESIVE));
+    }
+}
+
+fn wood(species: Species, size: [usize; 3], seed: u64) -> Recipe {
+    Recipe {
+        size,
+        voxel: VOXEL,
+        species,
+        adhesive: None,
+        slab: None,
+        seed,
+    }
+}
+
+/// Early wood is open and late wood dense, in rows along the rays, with a sharp ring border.
+#[test]
+fn spruce_goes_from_early_to_late_wood_and_begins_anew() {
+    let specimen = Specimen::grow(&wood(Species::Spruce, [120, 600, 24], 2)).unwrap();
+    let [nx, ny, nz] = specimen.size();
+    let row = |y: usize| {
+        let voxels = (0..nx * nz).map(|i| specimen.labels()[(i / nx * ny + y) * nx + i % nx]);
+        voxels.filter(|&label| label != WOOD).count() as f64 / (nx * nz) as f64
+    };
+    // Over 40 voxels, more than an early cell.
+    let open: Vec<f64> = (0..ny).map(row).collect();
+    let mean: Vec<f64> = open
+        .windows(40)
+        .map(|w| w.iter().sum::<f64>() / 40.0)
+        .collect();
+    let most = mean.iter().copied().fold(0.0, f64::max);
+    let least = mean.iter().copied().fold(1.0, f64::min);
+    println!("open share of layers {least:.3} in late, {most:.3} in early wood");
+    assert!(least < 0.5 && most > 0.72);
 }
 
 /// The tissue counts must agree with the labels themselves: porosity from the labels of the
@@ -117,6 +181,8 @@ fn a_recipe_gives_the_same_bytes_for_any_number_of_threads() {
         pool.install(|| grow([64, 96, 40], AdhesiveSystem::Pf, 5))
     };
     let (one, three) = (with_threads(1), with_threads(3));
+    let spruce = || Specimen::grow(&wood(Species::Spruce, [40, 60, 30], 5)).unwrap();
+    assert_eq!(spruce().labels(), spruce().labels());
     assert_eq!(one.labels(), three.labels());
     assert_eq!(one.anatomy(), three.anatomy());
     let other = grow([64, 96, 40], AdhesiveSystem::Pf, 6);
@@ -133,7 +199,8 @@ fn the_adhesive_has_the_slabs_volume() {
         let recipe = Recipe {
             size: [48, 96, 40],
             voxel: VOXEL,
-            adhesive,
+            species: Species::HybridPoplar,
+            adhesive: Some(adhesive),
             slab: Some(slab),
             seed: 7,
         };
@@ -154,7 +221,8 @@ fn wide_lumens_are_filled_deeper_in_proportion_to_their_radius() {
     let recipe = Recipe {
         size,
         voxel: VOXEL,
-        adhesive: AdhesiveSystem::PvaPf,
+        species: Species::HybridPoplar,
+        adhesive: Some(AdhesiveSystem::PvaPf),
         slab: Some(30e-6),
         seed: 1,
     };
@@ -238,14 +306,15 @@ fn recipes_out_of_range_are_refused() {
     let recipe = |size, voxel, slab| Recipe {
         size,
         voxel,
-        adhesive: AdhesiveSystem::Pf,
+        species: Species::HybridPoplar,
+        adhesive: Some(AdhesiveSystem::Pf),
         slab,
         seed: 1,
     };
     let refused = |recipe: Recipe| Specimen::grow(&recipe).unwrap_err();
     assert!(matches!(
         refused(recipe([8, 96, 48], VOXEL, None)),
-        RecipeError::Size(_)
+        RecipeError::Size { least: 48, .. }
     ));
     assert!(matches!(
         refused(recipe([48, 96, 48], 5e-6, None)),
@@ -258,5 +327,23 @@ fn recipes_out_of_range_are_refused() {
     assert!(matches!(
         refused(recipe([48, 96, 48], VOXEL, Some(100e-6))),
         RecipeError::Slab { .. }
+    ));
+    assert_eq!(
+        refused(Recipe {
+            adhesive: Some(AdhesiveSystem::Pf),
+            ..wood(Species::Beech, [48, 96, 48], 1)
+        }),
+        RecipeError::Species(Species::Beech)
+    );
+    assert_eq!(
+        refused(Recipe {
+            slab: Some(20e-6),
+            ..wood(Species::Beech, [48, 96, 48], 1)
+        }),
+        RecipeError::SlabOfWood
+    );
+    assert!(matches!(
+        refused(wood(Species::Spruce, [48, 20, 48], 1)),
+        RecipeError::Size { least: 24, .. }
     ));
 }

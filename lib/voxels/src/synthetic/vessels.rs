@@ -5,13 +5,10 @@ use super::cross_section::{Bins, Cover, Point};
 use super::cut::{Cut, WoodPoint};
 use super::random::{Feature, stream};
 use super::recipe::{AdhesiveSystem, Plan};
+use super::species::VesselTraits;
 
-/// Share of the cross-section that vessels with their walls take.
-pub(super) const SHARE: f32 = 0.33;
-/// By how much the share may exceed that.
+/// By how much the vessels' share of the cross-section may exceed that of their species.
 pub(super) const TOLERANCE: f32 = 0.02;
-/// Lumen diameter of vessels, um.
-const DIAMETER: [f32; 2] = [50.0, 92.0];
 /// Wall of a vessel, um; fibres add their half wall outside it.
 pub(super) const WALL: f32 = 2.5;
 /// Half of the wall that the vessels of a radial multiple share, um.
@@ -20,8 +17,6 @@ const SHARED_HALF_WALL: f32 = 2.0;
 const BETWEEN: f32 = 5.0;
 /// How far outside a vessel its distance is still needed (fibre walls), um.
 pub(super) const REACH: f32 = 8.0;
-/// Chances that a group has 1, 2, 3 or 4 vessels, cumulated.
-const GROUPS: [f32; 4] = [0.45, 0.75, 0.92, 1.0];
 /// Spacing of the members of a multiple over the sum of their radii: below one, so that the
 /// shared wall is flat as in real radial multiples.
 const FLATTENED: f32 = 0.88;
@@ -29,8 +24,6 @@ const FLATTENED: f32 = 0.88;
 const ELEMENT: [f32; 2] = [300.0, 600.0];
 /// Thickness of the perforation rim along the vessel and its width over the radius, um and 1.
 const RIM: [f32; 2] = [3.5, 0.16];
-/// Diameter of inter-vessel pits, um.
-const PIT: [f32; 2] = [5.0, 13.0];
 /// Lumen diameter of the isolated tube of the PF specimen, um.
 const TUBE: f32 = 96.0;
 
@@ -67,38 +60,41 @@ pub(super) struct Vessels {
 }
 
 impl Vessels {
-    /// Places vessels over the rectangle `bounds` (r and t, um): first one that the bond face
-    /// opens along the box, then (PF, bottom) the isolated tube, then random groups
-    /// until the share is reached.
+    /// Places vessels over the rectangle `bounds` (r and t, um): in a bonded specimen first one
+    /// that the bond face opens along the box, then (PF, bottom) the isolated tube; then random
+    /// groups until the share is reached.
     pub(super) fn place(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
+        let mut members = Vec::new();
+        let Some(traits) = &plan.timber.vessels else {
+            let bins = Bins::new(&members, bounds);
+            return Self { members, bins };
+        };
         let mut random = stream(plan, side, Feature::Vessels);
-        let mut members = vec![opened(plan, cut, side, &mut random)];
-        members.extend(isolated(plan, cut, side, &mut random));
+        if plan.adhesive.is_some() {
+            members.push(opened(plan, traits, cut, side, &mut random));
+            members.extend(isolated(plan, traits, cut, side, &mut random));
+        }
         let [r, t] = bounds;
         let mut cover = Cover::new(plan, cut, side, bounds);
         members.iter().for_each(|vessel| cover.add(vessel));
         // Random sequential placement jams near this share; the bound ends hopeless tries.
         for _ in 0..20_000 {
-            if cover.in_box() >= SHARE {
+            if cover.in_box() >= traits.share {
                 break;
             }
             let start = [
                 random.random_range(r[0]..r[1]),
                 random.random_range(t[0]..t[1]),
             ];
-            let group = group(start, &mut random);
+            let group = group(traits, start, &mut random);
             let clear = |a: &Vessel| members.iter().all(|b| a.clear_of(b));
-            if group.iter().all(clear) && cover.has_room(&group) {
+            if group.iter().all(clear) && cover.has_room(&group, traits.share) {
                 group.iter().for_each(|vessel| cover.add(vessel));
                 members.extend(group);
             }
         }
         let bins = Bins::new(&members, bounds);
         Self { members, bins }
-    }
-
-    pub(super) fn members(&self) -> &[Vessel] {
-        &self.members
     }
 
     pub(super) fn at(&self, point: WoodPoint) -> Part<'_> {
@@ -122,7 +118,7 @@ impl Vessels {
 }
 
 impl Vessel {
-    fn new(r: f32, t: f32, radius: f32, random: &mut ChaCha8Rng) -> Self {
+    fn new(traits: &VesselTraits, r: f32, t: f32, radius: f32, random: &mut ChaCha8Rng) -> Self {
         let element = random.random_range(ELEMENT[0]..ELEMENT[1]);
         Self {
             r,
@@ -130,7 +126,7 @@ impl Vessel {
             radius,
             element,
             phase: random.random_range(0.0..element),
-            pit_radius: 0.5 * random.random_range(PIT[0]..PIT[1]),
+            pit_radius: 0.5 * random.random_range(traits.pit[0]..traits.pit[1]),
             sealed: false,
         }
     }
@@ -180,20 +176,24 @@ impl Vessel {
 }
 
 /// A solitary vessel or a radial multiple starting at `[r, t]`.
-fn group(start: [f32; 2], random: &mut ChaCha8Rng) -> Vec<Vessel> {
+fn group(traits: &VesselTraits, start: [f32; 2], random: &mut ChaCha8Rng) -> Vec<Vessel> {
     let chance: f32 = random.random();
-    let count = 1 + GROUPS.iter().filter(|&&bound| chance >= bound).count();
+    let count = 1 + traits
+        .groups
+        .iter()
+        .filter(|&&bound| chance >= bound)
+        .count();
     let mut r = start[0];
     let mut last = 0.0;
     (0..count)
         .map(|i| {
-            let radius = 0.5 * random.random_range(DIAMETER[0]..DIAMETER[1]);
+            let radius = 0.5 * random.random_range(traits.diameter[0]..traits.diameter[1]);
             if i > 0 {
                 r += FLATTENED * (last + radius);
             }
             last = radius;
             let t = start[1] + random.random_range(-0.1..0.1) * radius;
-            Vessel::new(r, t, radius, random)
+            Vessel::new(traits, r, t, radius, random)
         })
         .collect()
 }
@@ -202,9 +202,15 @@ fn group(start: [f32; 2], random: &mut ChaCha8Rng) -> Vec<Vessel> {
 /// for penetration to mean anything. It reaches into the box from the side, by at most 0.3
 /// of the width, so that fibres are most of a small face and its void stays of the
 /// slab's size; the two adherends' vessels are at opposite sides.
-fn opened(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Vessel {
+fn opened(
+    plan: &Plan,
+    traits: &VesselTraits,
+    cut: &Cut,
+    side: usize,
+    random: &mut ChaCha8Rng,
+) -> Vessel {
     let half_width = 0.5 * plan.edges()[0];
-    let radius = 0.5 * DIAMETER[0] * random.random_range(1.0..1.1);
+    let radius = 0.5 * traits.diameter[0] * random.random_range(1.0..1.1);
     let depth = plan.mean_recess() + random.random_range(0.2..0.45) * radius;
     let reach = (0.6 * half_width).min(2.0 * radius) * random.random_range(0.85..1.0);
     let x = half_width - reach + radius;
@@ -212,13 +218,19 @@ fn opened(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Vesse
         0 => cut.locate([x, -depth, 0.0]),
         _ => cut.locate([-x, depth, 0.0]),
     };
-    Vessel::new(centre.r, centre.t, radius, random)
+    Vessel::new(traits, centre.r, centre.t, radius, random)
 }
 
 /// The isolated tube of the PF specimen: in the bottom adherend, wholly behind the face along
 /// the box, and at most a third of the adhesive. Small boxes have no room for it.
-fn isolated(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Option<Vessel> {
-    if plan.adhesive != AdhesiveSystem::Pf || side == 1 {
+fn isolated(
+    plan: &Plan,
+    traits: &VesselTraits,
+    cut: &Cut,
+    side: usize,
+    random: &mut ChaCha8Rng,
+) -> Option<Vessel> {
+    if plan.adhesive != Some(AdhesiveSystem::Pf) || side == 1 {
         return None;
     }
     let [width, height, length] = plan.edges();
@@ -236,7 +248,7 @@ fn isolated(plan: &Plan, cut: &Cut, side: usize, random: &mut ChaCha8Rng) -> Opt
     // Away from the opened vessel.
     let x = -0.25 * width;
     let centre = cut.locate([x, -depth, 0.0]);
-    let mut tube = Vessel::new(centre.r, centre.t, radius, random);
+    let mut tube = Vessel::new(traits, centre.r, centre.t, radius, random);
     tube.sealed = true;
     Some(tube)
 }

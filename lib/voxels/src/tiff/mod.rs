@@ -149,10 +149,6 @@ impl TiffPages {
         self.sources.get(z).unwrap_or(&self.sources[0])
     }
 
-    pub(crate) fn has_one_bit(&self) -> bool {
-        self.pages[0].bits == 1
-    }
-
     /// Page `z` as it stands in messages.
     pub(crate) fn page_name(&self, z: usize) -> String {
         format!("{}, page {} of {}", self.source(z), z + 1, self.len())

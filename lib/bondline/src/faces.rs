@@ -1,0 +1,220 @@
+//! The face that a piece of undamaged wood turns to the bond: where it is and how rough.
+
+use particle_file::{BitGrid, BitsRef};
+use units::Axis;
+
+use crate::placed::crop;
+use crate::surface;
+
+/// Which layers of a piece face the bond.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Facing {
+    /// The high ones: the bottom piece.
+    Up,
+    /// The low ones: the top piece.
+    Down,
+}
+
+/// The bond surface of a piece. Depths are counted in voxels from the highest wood, into the
+/// piece.
+///
+/// A column of voxels along the bond normal begins at its first wood; the surface is what the
+/// columns begin with. Columns that begin in an opened lumen count with the lumen's depth, as a
+/// profilometer that reaches its floor would count them; columns without wood do not count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Face {
+    /// First layer that holds a quarter of the wood fraction typical of the piece
+    /// ([`surface`]): what penetration is measured from.
+    pub level: usize,
+    /// Mean depth of the columns' first wood.
+    pub mean: f64,
+    /// Root mean square deviation from it (the Sq of ISO 25178-2).
+    pub roughness: f64,
+    /// Share of the columns that hold wood.
+    pub covered: f64,
+    /// Wood voxels before `level` that no wood joins to it.
+    pub islands: u64,
+}
+
+/// The two axes across `normal`, so that the three in turn are right-handed.
+pub(crate) fn across(normal: Axis) -> [usize; 2] {
+    [1, 2].map(|step| (normal.index() + step) % 3)
+}
+
+/// Layers of air in front of the wood; `None` without wood.
+pub(crate) fn air(bits: BitsRef, normal: Axis, facing: Facing) -> Option<usize> {
+    let counts = outwards(bits, normal, facing);
+    counts.iter().position(|&n| n > 0)
+}
+
+/// Wood voxels of the layers from the bond inwards.
+fn outwards(bits: BitsRef, normal: Axis, facing: Facing) -> Vec<u64> {
+    let mut counts = bits.counts_along(normal.index());
+    if facing == Facing::Up {
+        counts.reverse();
+    }
+    counts
+}
+
+/// Depth of the first wood of each column, first axis of [`across`] fastest; `None` for a
+/// column without wood.
+pub(crate) fn depths(bits: BitsRef, normal: Axis, facing: Facing) -> Vec<Option<usize>> {
+    let (dims, n) = (bits.dims(), normal.index());
+    let [a, b] = across(normal);
+    let mut depths = vec![None; dims[a] * dims[b]];
+    for z in 0..dims[2] {
+        for y in 0..dims[1] {
+            for x in bits.set_in_row(y, z) {
+                let index = [x, y, z];
+                let depth = match facing {
+                    Facing::Up => dims[n] - 1 - index[n],
+                    Facing::Down => index[n],
+                };
+                let first = &mut depths[index[b] * dims[a] + index[a]];
+                *first = Some(first.map_or(depth, |least: usize| least.min(depth)));
+            }
+        }
+    }
+    depths
+}
+
+/// The face of a piece without air in front of it.
+pub(crate) fn describe(bits: BitsRef, normal: Axis, facing: Facing) -> Face {
+    let depths = depths(bits, normal, facing);
+    let met: Vec<f64> = depths.iter().flatten().map(|&d| d as f64).collect();
+    let count = met.len().max(1) as f64;
+    let mean = met.iter().sum::<f64>() / count;
+    let square = met.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / count;
+    let level = surface(&outwards(bits, normal, facing)).unwrap_or(0);
+    Face {
+        level,
+        mean,
+        roughness: square.sqrt(),
+        covered: met.len() as f64 / depths.len().max(1) as f64,
+        islands: islands(bits, normal, facing, level).count(),
+    }
+}
+
+/// Wood before layer `level` that is not joined to the wood of that layer, over faces, edges or
+/// corners, through wood before it. What is joined to the piece anywhere deeper passes that
+/// layer, so only what floats is found. The dimensions are those of the layers down to `level`.
+pub(crate) fn islands(bits: BitsRef, normal: Axis, facing: Facing, level: usize) -> BitGrid {
+    let n = normal.index();
+    let (mut floating, first) = front(bits, n, facing, level);
+    let dims = floating.dims();
+    let base = match facing {
+        Facing::Up => 0,
+        Facing::Down => dims[n] - 1,
+    };
+    debug_assert!(first + dims[n] <= bits.dims()[n]);
+    let mut joined = Vec::new();
+    let mut layer = [0..dims[0], 0..dims[1], 0..dims[2]];
+    layer[n] = base..base + 1;
+    let [xs, ys, zs] = layer;
+    for z in zs {
+        for y in ys.clone() {
+            for x in xs.clone() {
+                take(&mut floating, [x, y, z], &mut joined);
+            }
+        }
+    }
+    while let Some(at) = joined.pop() {
+        for step in 0..27 {
+            let step = [step % 3, step / 3 % 3, step / 9];
+            let next: [usize; 3] = std::array::from_fn(|i| (at[i] + step[i]).wrapping_sub(1));
+            if (0..3).all(|i| next[i] < dims[i]) {
+                take(&mut floating, next, &mut joined);
+            }
+        }
+    }
+    floating
+}
+
+/// The layers from the bond down to `level`, and the index of their lowest.
+fn front(bits: BitsRef, n: usize, facing: Facing, level: usize) -> (BitGrid, usize) {
+    let mut ranges = bits.dims().map(|d| 0..d);
+    let count = (level + 1).min(bits.dims()[n]);
+    ranges[n] = match facing {
+        Facing::Up => bits.dims()[n] - count..bits.dims()[n],
+        Facing::Down => 0..count,
+    };
+    let first = ranges[n].start;
+    (crop(bits, &ranges), first)
+}
+
+fn take(floating: &mut BitGrid, at: [usize; 3], joined: &mut Vec<[usize; 3]>) {
+    let [x, y, z] = at;
+    if floating.get(x, y, z) {
+        floating.set(x, y, z, false);
+        joined.push(at);
+    }
+}
+
+/// `bits` without the [`islands`] before `level`.
+pub(crate) fn without_islands(
+    bits: &BitGrid,
+    normal: Axis,
+    facing: Facing,
+    level: usize,
+) -> BitGrid {
+    let n = normal.index();
+    let floating = islands(bits.view(), normal, facing, level);
+    let (_, first) = front(bits.view(), n, facing, level);
+    let mut kept = bits.clone();
+    for z in 0..floating.dims()[2] {
+        for y in 0..floating.dims()[1] {
+            for x in floating.view().set_in_row(y, z) {
+                let mut at = [x, y, z];
+                at[n] += first;
+                kept.set(at[0], at[1], at[2], false);
+            }
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A piece 6 layers high along y with a step, a groove and a speck before it.
+    fn piece() -> BitGrid {
+        BitGrid::from_fn([8, 6, 4], |x, y, z| match y {
+            0..3 => x != 5,
+            3 => x < 4,
+            5 => (x, z) == (7, 3),
+            _ => false,
+        })
+    }
+
+    #[test]
+    fn depths_levels_and_islands_of_a_step_are_counted_by_hand() {
+        let grid = piece();
+        let face = describe(grid.view(), Axis::Y, Facing::Up);
+        // By column: x 0..4 begin two layers down, 4, 6, 7 three, the speck at none, x = 5 has
+        // no wood.
+        assert_eq!((face.level, face.islands), (2, 1));
+        assert_eq!(face.covered, 28.0 / 32.0);
+        let mean = (16.0 * 2.0 + 11.0 * 3.0) / 28.0;
+        assert!((face.mean - mean).abs() < 1e-12);
+        let square: f64 = 16.0 * (2.0 - mean).powi(2) + 11.0 * (3.0 - mean).powi(2) + mean * mean;
+        assert!((face.roughness - (square / 28.0).sqrt()).abs() < 1e-12);
+        let clean = without_islands(&grid, Axis::Y, Facing::Up, face.level);
+        assert_eq!(clean.count(), grid.count() - 1);
+        assert_eq!(air(clean.view(), Axis::Y, Facing::Up), Some(2));
+        // From below the piece is flat but for the groove.
+        let below = describe(grid.view(), Axis::Y, Facing::Down);
+        assert_eq!((below.level, below.mean, below.roughness), (0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn an_overhang_that_is_joined_is_no_island() {
+        // A post with a lip that hangs over the groove, joined over a corner.
+        let grid = BitGrid::from_fn([6, 6, 1], |x, y, _| {
+            y < 2 || (x, y) == (2, 2) || (x, y) == (3, 3)
+        });
+        let level = describe(grid.view(), Axis::Y, Facing::Up).level;
+        assert_eq!(level, 4);
+        assert_eq!(islands(grid.view(), Axis::Y, Facing::Up, level).count(), 0);
+    }
+}

@@ -1,0 +1,229 @@
+//! Bonds of undamaged wood whose answer is counted by hand.
+
+use bondline::{Bond, Error, Layup, Pieces, Placed, Turn, lay_up};
+use particle_file::BitGrid;
+use units::Axis;
+
+const VOXEL: f64 = 1.45e-6;
+
+fn layup() -> Layup {
+    Layup {
+        normal: Axis::Y,
+        slab_m: 4.0 * VOXEL,
+        voxels_per_cell: 2,
+        gap_m: None,
+        tolerance: 0.05,
+        turn: Turn::None,
+        crop: false,
+        drop_islands: false,
+    }
+}
+
+fn placed(grid: &BitGrid) -> Placed<'_> {
+    Placed {
+        origin_m: [0.0; 3],
+        voxel_m: VOXEL,
+        bits: grid.view(),
+    }
+}
+
+fn two(bottom: &BitGrid, top: &BitGrid, layup: &Layup) -> Result<Bond, Error> {
+    let (bottom, top) = (placed(bottom), placed(top));
+    lay_up(&Pieces::Two { bottom, top }, layup)
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-6 * VOXEL
+}
+
+/// Grooved along z, 20 layers, with air above the bottom piece and below the top one.
+fn grooved(air_above: bool) -> BitGrid {
+    BitGrid::from_fn([16, 20, 12], |x, y, _| {
+        let inside = if air_above { y < 17 } else { y >= 3 };
+        inside && x % 4 != 1
+    })
+}
+
+#[test]
+fn two_pieces_lie_apart_by_the_slab_and_close_where_they_touch() {
+    let (bottom, top) = (grooved(true), grooved(false));
+    let bond = two(&bottom, &top, &layup()).unwrap();
+    assert_eq!((bond.slab_cells, bond.adhesive_out), (2, 4 * 16 * 12));
+    assert!(near(bond.plane_m, 17.0 * VOXEL) && near(bond.gap_m, 4.0 * VOXEL));
+    assert_eq!(bond.bottom.bits.dims(), [16, 17, 12], "without its air");
+    assert_eq!(bond.top.bits.dims(), [16, 17, 12]);
+    assert!(near(bond.slab.origin_m[1], 17.0 * VOXEL));
+    assert!(near(bond.top.origin_m[1], 21.0 * VOXEL));
+    assert!(near(bond.box_max_m[1], 38.0 * VOXEL));
+    assert_eq!(bond.bottom.bits.count(), bottom.count());
+    assert_eq!(bond.top.bits.count(), top.count());
+    assert_eq!(bond.severed, 12 * 12);
+    let [low, high] = bond.faces.unwrap();
+    assert_eq!((low.level, low.mean, low.covered), (0, 0.0, 0.75));
+    assert_eq!(low, high);
+}
+
+/// Ribs of the top piece fit between those of the bottom one: they close by their height.
+#[test]
+fn faces_that_fit_into_one_another_close_further() {
+    let ribs = |odd: usize, solid: std::ops::Range<usize>, hollow: std::ops::Range<usize>| {
+        BitGrid::from_fn([16, 10, 4], move |x, y, z| {
+            (solid.contains(&y) || x / 2 % 2 == odd) && (x, z) != (15, 3) && !hollow.contains(&y)
+        })
+    };
+    let (bottom, top) = (ribs(0, 0..7, 2..4), ribs(1, 3..10, 6..8));
+    let bond = two(&bottom, &top, &layup()).unwrap();
+    // 10 layers less 3 of ribs: the top piece rests at layer 7, and opens by 3 + 4.
+    assert!(near(bond.gap_m, 7.0 * VOXEL));
+    assert!(near(bond.slab.origin_m[1], 10.0 * VOXEL));
+    assert!(near(bond.top.origin_m[1], 14.0 * VOXEL));
+    assert!(near(bond.top.origin_m[1] - bond.gap_m, 7.0 * VOXEL));
+    assert_eq!(bond.severed, 63);
+    let tighter = Layup {
+        gap_m: Some(6.5 * VOXEL),
+        ..layup()
+    };
+    let error = two(&bottom, &top, &tighter).unwrap_err();
+    assert!(matches!(error, Error::GapTooSmall { .. }), "{error}");
+}
+
+#[test]
+fn a_cut_piece_keeps_every_voxel_and_comes_back_to_its_place() {
+    let wood = BitGrid::from_fn([16, 40, 12], |x, y, z| (x + y * 3 + z * 5) % 7 < 4);
+    let cut = Pieces::Cut(placed(&wood), 19.2 * VOXEL);
+    let bond = lay_up(&cut, &layup()).unwrap();
+    assert!(near(bond.plane_m, 19.0 * VOXEL));
+    assert_eq!(
+        bond.bottom.bits.count() + bond.top.bits.count(),
+        wood.count()
+    );
+    assert!(near(bond.top.origin_m[1] - bond.gap_m, 19.0 * VOXEL));
+    for outside in [0.0, 40.0, 80.0, f64::NAN] {
+        let cut = Pieces::Cut(placed(&wood), outside * VOXEL);
+        let error = lay_up(&cut, &layup()).unwrap_err();
+        assert!(matches!(error, Error::PlaneOutside { .. }), "{error}");
+    }
+}
+
+/// The turn is a rotation in place: about y, z goes to x and x to -z.
+#[test]
+fn turning_moves_each_voxel_where_a_right_handed_turn_takes_it() {
+    let bottom = BitGrid::from_fn([8, 4, 8], |x, _, _| x % 2 == 0);
+    let mark = |x: usize, z: usize| BitGrid::from_fn([8, 4, 8], move |i, _, k| i == x && k == z);
+    for (turn, (x, z)) in [
+        (Turn::None, (1, 2)),
+        (Turn::Quarter, (2, 6)),
+        (Turn::Half, (6, 5)),
+        (Turn::ThreeQuarters, (5, 1)),
+    ] {
+        let layup = Layup {
+            turn,
+            slab_m: 2.0 * VOXEL,
+            ..layup()
+        };
+        let whole = BitGrid::from_fn([8, 4, 8], |_, _, _| true);
+        let rest = |grid: &BitGrid| {
+            BitGrid::from_fn([8, 4, 8], |i, y, k| {
+                whole.get(i, y, k) && !grid.get(i, y, k)
+            })
+        };
+        let bond = two(&bottom, &rest(&mark(1, 2)), &layup).unwrap();
+        assert_eq!(bond.top.bits, rest(&mark(x, z)), "{turn:?}");
+    }
+    // Four quarters about any axis are none.
+    for normal in Axis::ALL {
+        let top = BitGrid::from_fn([6, 6, 6], |x, y, z| (x + 2 * y + 3 * z) % 5 < 3);
+        let bottom = BitGrid::from_fn([6, 6, 6], |x, y, z| (x * y + z) % 3 < 2);
+        let quarter = Layup {
+            normal,
+            turn: Turn::Quarter,
+            slab_m: 2.0 * VOXEL,
+            ..layup()
+        };
+        let mut turned = top.clone();
+        for _ in 0..4 {
+            turned = two(&bottom, &turned, &quarter).unwrap().top.bits;
+        }
+        assert_eq!(turned, top, "{normal}");
+    }
+}
+
+#[test]
+fn unequal_widths_are_refused_or_cropped() {
+    let bottom = BitGrid::from_fn([16, 12, 8], |x, _, _| x % 2 == 0);
+    let top = bottom.clone();
+    assert!(two(&bottom, &top, &layup()).is_ok());
+    let plywood = Layup {
+        turn: Turn::Quarter,
+        ..layup()
+    };
+    let error = two(&bottom, &top, &plywood).unwrap_err();
+    let said = error.to_string();
+    assert!(said.contains("8 x 16") && said.contains("16 x 8"), "{said}");
+    let cropped = Layup {
+        crop: true,
+        ..plywood
+    };
+    let bond = two(&bottom, &top, &cropped).unwrap();
+    assert_eq!(bond.bottom.bits.dims(), [8, 12, 8]);
+    assert_eq!(bond.top.bits.dims(), [8, 12, 8]);
+}
+
+#[test]
+fn islands_hold_the_pieces_apart_unless_they_are_left_out() {
+    let (mut bottom, top) = (grooved(true), grooved(false));
+    bottom.set(6, 19, 5, true);
+    let bond = two(&bottom, &top, &layup()).unwrap();
+    assert_eq!(bond.faces.unwrap()[0].islands, 1);
+    assert!(near(bond.gap_m, 4.0 * VOXEL) && bond.severed == 1);
+    assert!(near(bond.top.origin_m[1] - bond.gap_m, 20.0 * VOXEL));
+    let clean = Layup {
+        drop_islands: true,
+        ..layup()
+    };
+    let bond = two(&bottom, &top, &clean).unwrap();
+    assert_eq!(bond.faces.unwrap()[0].islands, 0);
+    assert!(near(bond.top.origin_m[1] - bond.gap_m, 17.0 * VOXEL));
+}
+
+#[test]
+fn refusals() {
+    let (bottom, top) = (grooved(true), grooved(false));
+    let with = |slab: f64| Layup {
+        slab_m: slab * VOXEL,
+        ..layup()
+    };
+    // Grooves hold a quarter of 17 layers on each side.
+    assert!(two(&bottom, &top, &with(8.0)).is_ok());
+    for much in [10.0, 1e30] {
+        let error = two(&bottom, &top, &with(much)).unwrap_err();
+        assert!(matches!(error, Error::NoRoom { .. }), "{much}: {error}");
+    }
+    for none in [0.0, 0.4] {
+        let error = two(&bottom, &top, &with(none)).unwrap_err();
+        assert!(matches!(error, Error::Rounding { .. }), "{none}: {error}");
+    }
+    let solid = BitGrid::from_fn([16, 20, 12], |_, _, _| true);
+    let error = two(&solid, &solid, &layup()).unwrap_err();
+    assert!(matches!(error, Error::NoRoom { .. }), "{error}");
+    let empty = BitGrid::new([16, 20, 12]);
+    let error = two(&bottom, &empty, &layup()).unwrap_err();
+    assert_eq!(error, Error::NoWoodIn { piece: "top" });
+    let coarser = Placed {
+        voxel_m: 1.01 * VOXEL,
+        ..placed(&top)
+    };
+    let pieces = Pieces::Two {
+        bottom: placed(&bottom),
+        top: coarser,
+    };
+    let error = lay_up(&pieces, &layup()).unwrap_err();
+    assert!(matches!(error, Error::Voxels { .. }), "{error}");
+    // Ribs that pass one another on and on.
+    let left = BitGrid::from_fn([4, 9, 4], |x, _, _| x < 2);
+    let right = BitGrid::from_fn([4, 9, 4], |x, _, _| x >= 2);
+    assert_eq!(two(&left, &right, &layup()), Err(Error::NeverMeet));
+    // A layer of voxels is a piece like another.
+    let sheet = BitGrid::from_fn([16, 1, 12], |x, _, _| x % 4 != 1);
+    assert!(two(&sheet, &bottom, &layup()).is_ok());
+}

@@ -1,0 +1,161 @@
+//! The command line, and what it asks for.
+
+use std::path::PathBuf;
+
+use bondline::Turn;
+use clap::{Args, Parser, ValueEnum};
+use cli::{Failure, Output};
+use units::{Axis, Density, Dimension, Length, Quantity, Spread};
+
+/// Take the adhesive out of a specimen, part its adherends and put a slab between them; or lay up undamaged wood around a slab
+///
+/// Undamaged wood is one piece cut at --plane, or --bottom and --top, with the adhesive given by
+/// --slab or --spread. The high side of the bottom piece is glued to the low side of the top one.
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Examples:
+  build-bondline specimen.mpts -o bond.mpts
+  xct2particles stack.tif --voxel 1.45um -o - | build-bondline - -o bond.mpts
+  build-bondline specimen.mpts --normal z --plane 226.2um --voxels-per-cell 1 -o bond.mpts
+  build-bondline --bottom a.mpts --top b.mpts --slab '55.1 um' -o bond.mpts
+  build-bondline wood.mpts --plane 139.2um --turn-top 90 --spread '60 g/m2' --density '1.2 g/cm3' -o plywood.mpts"
+)]
+pub(crate) struct Arguments {
+    /// Particle file with wood and adhesive, as xct2particles writes, or with wood alone to be cut
+    /// at --plane; `-` is standard input
+    #[arg(required_unless_present = "bottom", conflicts_with_all = ["bottom", "top"])]
+    pub(crate) specimen: Option<PathBuf>,
+    /// Particle file to write; `-` is standard output
+    #[arg(short, long, value_name = "BOND")]
+    pub(crate) output: Output,
+    /// Axis across the bond: x, y or z [default: the specimen's, usually y]
+    #[arg(long, value_name = "AXIS")]
+    pub(crate) normal: Option<Axis>,
+    /// Where to split the wood: auto, or a length from the low face of the stack
+    #[arg(long, value_name = "auto|LEN", default_value = "auto", value_parser = auto_or_length)]
+    pub(crate) plane: AutoOr,
+    /// Voxels along the edge of a grid cell: the slab is a whole number of cells thick
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u16).range(1..=64))]
+    pub(crate) voxels_per_cell: u16,
+    /// How far to move the top adherend away: auto (as little as leaves room for the slab) or a
+    /// length; from its place in the specimen, of undamaged wood from where the pieces touch
+    #[arg(long, value_name = "auto|LEN", default_value = "auto", value_parser = auto_or_length)]
+    pub(crate) gap: AutoOr,
+    /// Largest change of the adhesive volume by rounding that is accepted
+    #[arg(long, value_name = "PERCENT", default_value = "5%", value_parser = percent)]
+    pub(crate) tolerance: f64,
+    #[command(flatten)]
+    pub(crate) wood: Wood,
+    #[command(flatten)]
+    pub(crate) common: cli::Common,
+}
+
+/// Options of undamaged wood.
+#[derive(Args)]
+#[command(next_help_heading = "Undamaged wood")]
+pub(crate) struct Wood {
+    /// Specimen of wood alone whose high side is glued; `-` is standard input
+    #[arg(long, value_name = "SPECIMEN", requires = "top")]
+    pub(crate) bottom: Option<PathBuf>,
+    /// Specimen of wood alone whose low side is glued; `-` is standard input
+    #[arg(long, value_name = "SPECIMEN", requires = "bottom")]
+    pub(crate) top: Option<PathBuf>,
+    /// Adhesive as the thickness of its slab
+    #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = positive::<Length>, conflicts_with = "spread")]
+    pub(crate) slab: Option<f64>,
+    /// Adhesive as mass over bond area of one bond line
+    #[arg(long, value_name = "MASS/AREA", allow_hyphen_values = true, value_parser = positive::<Spread>, requires = "density")]
+    pub(crate) spread: Option<f64>,
+    /// Density of the adhesive that is spread
+    #[arg(long, value_name = "DENSITY", allow_hyphen_values = true, value_parser = positive::<Density>, requires = "spread")]
+    pub(crate) density: Option<f64>,
+    /// Turn the top piece about the bond normal, right-handed, in degrees; 90 is plywood
+    #[arg(long, value_name = "DEGREES")]
+    pub(crate) turn_top: Option<Degrees>,
+    /// Crop pieces of unequal width to what they share, from their low corners
+    #[arg(long)]
+    pub(crate) crop_to_fit: bool,
+    /// Leave out wood before a face that nothing joins to it
+    #[arg(long)]
+    pub(crate) drop_islands: bool,
+}
+
+impl Wood {
+    /// Thickness of the slab asked for, m; `None` for a bonded specimen.
+    ///
+    /// # Errors
+    /// A specimen of wood without adhesive given, or options of wood for a bonded specimen.
+    pub(crate) fn slab_m(&self) -> Result<Option<f64>, Failure> {
+        if let Some(slab_m) = self.slab {
+            return Ok(Some(slab_m));
+        }
+        if let (Some(spread), Some(density)) = (self.spread, self.density) {
+            return Ok(Some(spread / density));
+        }
+        if self.bottom.is_some() {
+            return Err(Failure::usage(
+                "two pieces of wood hold no adhesive: give it by --slab, or by --spread and --density",
+            ));
+        }
+        if self.turn_top.is_some() || self.crop_to_fit || self.drop_islands {
+            return Err(Failure::usage(
+                "--turn-top, --crop-to-fit and --drop-islands are for undamaged wood, with --slab or --spread",
+            ));
+        }
+        Ok(None)
+    }
+}
+
+/// How the top piece may be turned.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum Degrees {
+    #[value(name = "0")]
+    None,
+    #[value(name = "90")]
+    Quarter,
+    #[value(name = "180")]
+    Half,
+    #[value(name = "270")]
+    ThreeQuarters,
+}
+
+impl From<Degrees> for Turn {
+    fn from(degrees: Degrees) -> Self {
+        match degrees {
+            Degrees::None => Turn::None,
+            Degrees::Quarter => Turn::Quarter,
+            Degrees::Half => Turn::Half,
+            Degrees::ThreeQuarters => Turn::ThreeQuarters,
+        }
+    }
+}
+
+/// A length in metres, or none for `auto`.
+#[derive(Clone, Copy)]
+pub(crate) struct AutoOr(pub(crate) Option<f64>);
+
+fn auto_or_length(text: &str) -> Result<AutoOr, String> {
+    if text == "auto" {
+        return Ok(AutoOr(None));
+    }
+    match text.parse::<Quantity<Length>>() {
+        Ok(length) => Ok(AutoOr(Some(length.si()))),
+        Err(error) => Err(format!("{error}, or 'auto'")),
+    }
+}
+
+fn positive<D: Dimension>(text: &str) -> Result<f64, String> {
+    let quantity = text.parse::<Quantity<D>>().and_then(Quantity::positive);
+    quantity.map(Quantity::si).map_err(|e| e.to_string())
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    let number = text.strip_suffix('%').map(|n| n.trim().parse::<f64>());
+    match number {
+        Some(Ok(percent)) if percent.is_finite() && percent >= 0.0 => Ok(percent / 100.0),
+        _ => Err(format!(
+            "'{text}' is not a percentage: a number of at least 0 with % is needed, e.g. 5%"
+        )),
+    }
+}

@@ -1,0 +1,90 @@
+//! What the tool says on standard error.
+
+use bondline::{Bond, Face};
+use units::Axis;
+
+pub(crate) fn report(bond: &Bond, normal: Axis) {
+    let um = |metres: f64| 1e6 * metres;
+    let um3 = |voxels: f64| voxels * um(bond.voxel_m).powi(3);
+    plane(bond, normal);
+    if bond.trimmed != [0; 3] {
+        cli::note(format!(
+            "left out {:?} layers at the high x, y, z sides: the bond is a whole number of cells wide",
+            bond.trimmed
+        ));
+    }
+    cli::note(format!(
+        "wood: {} voxels in the bottom adherend, {} in the top one",
+        bond.bottom.bits.count(),
+        bond.top.bits.count()
+    ));
+    let out = bond.adhesive_out as f64;
+    cli::note(format!(
+        "adhesive: in {:.0} voxels = {:.1} um3, out {out} voxels = {:.1} um3, rounding {:+.3} %",
+        bond.adhesive_in,
+        um3(bond.adhesive_in),
+        um3(out),
+        100.0 * bond.rounding()
+    ));
+    let of = match bond.faces {
+        None => "effective penetration of the specimen",
+        Some(_) => "asked for",
+    };
+    cli::note(format!(
+        "slab: {:.3} um = {} cells of {:.3} um ({of} {:.4} um); gap {:.3} um",
+        um(bond.slab_m()),
+        bond.slab_cells,
+        um(bond.cell_m),
+        um(bond.effective_penetration_m()),
+        um(bond.gap_m)
+    ));
+}
+
+fn plane(bond: &Bond, normal: Axis) {
+    let um = |metres: f64| 1e6 * metres;
+    let share = 100.0 * bond.severed as f64 / bond.area as f64;
+    if let Some(faces) = &bond.faces {
+        for (name, face) in ["bottom", "top"].iter().zip(faces) {
+            piece(name, face, bond.voxel_m);
+        }
+        cli::note(format!(
+            "bond plane: {normal} = {:.3} um, midway between the levels of the closed pieces; wood touches in {} columns, {share:.2} % of the bond area",
+            um(bond.plane_m),
+            bond.severed,
+        ));
+        return;
+    }
+    let how = match bond.found {
+        Some(line) => format!(
+            "found midway between the bond surfaces at {} and {} voxels; adhesive most outweighs wood in layer {}, by {:.1} % of the area",
+            line.bottom,
+            line.top,
+            line.seed,
+            100.0 * line.contrast
+        ),
+        None => "as given, at the nearest face between voxels".into(),
+    };
+    cli::note(format!(
+        "bond plane: {normal} = {:.3} um ({how}); it parts {} touching pairs of wood voxels, {share:.2} % of the bond area",
+        um(bond.plane_m),
+        bond.severed,
+    ));
+}
+
+/// The face of one piece of undamaged wood.
+fn piece(name: &str, face: &Face, voxel_m: f64) {
+    let um = 1e6 * voxel_m;
+    cli::note(format!(
+        "{name} face, from its highest wood: level {:.3} um (a quarter of the wood fraction inside), mean {:.3} um, rms roughness {:.3} um (first wood of each column, opened lumens included), wood in {:.2} % of the columns",
+        face.level as f64 * um,
+        face.mean * um,
+        face.roughness * um,
+        100.0 * face.covered
+    ));
+    if face.islands > 0 {
+        cli::warn(format!(
+            "{} wood voxels before the {name} face are joined to nothing and hold the pieces apart as wood does; --drop-islands leaves them out",
+            face.islands
+        ));
+    }
+}
