@@ -10,8 +10,8 @@ use studies::load_control::{self, report::sound, scenes::SHAPES};
 use studies::method::Method;
 use studies::verification::lumen::Section;
 use studies::verification::{
-    Scene, acoustic, channel, clamp, column, disc, drop, duct, galilean, incline, piston, sealed,
-    squeeze, tait, taylor_green,
+    Scene, acoustic, channel, clamp, column, cure, disc, drop, duct, galilean, incline, laws,
+    piston, sealed, squeeze, tait, taylor_green,
 };
 
 /// Largest error by magnitude of the quantities whose names begin with `what`.
@@ -58,6 +58,8 @@ fn thicker(mut scene: Scene) -> Scene {
     match &mut scene.case.viscosity {
         Viscosity::Newtonian(eta) => *eta *= 1.05,
         Viscosity::Table(rows) => rows.iter_mut().for_each(|[_, eta]| *eta *= 1.05),
+        // A body force as much lower does the same.
+        Viscosity::Law(_) => scene.case.gravity[0] /= 1.05,
     }
     scene
 }
@@ -104,6 +106,33 @@ fn flow_through_a_channel() {
     let scene = || channel::scene(6, 0.0, None, 3e-6);
     assert_within(0.06, &scene(), Method::xpic(5), what);
     assert_caught(0.06, &lifted(scene(), 1), Method::xpic(5), what);
+}
+
+#[test]
+fn laws_by_formula_in_a_channel() {
+    let what = "mean velocity";
+    for law in laws::LAWS {
+        let scene = || laws::scene(law, 12, 0.0, 0.4e-6);
+        assert_within(0.02, &scene(), short_steps(), what);
+        assert_caught(0.02, &thicker(scene()), short_steps(), what);
+        if law.name == "herschel" {
+            assert_within(1e-3, &scene(), short_steps(), "motion within the plug");
+        }
+    }
+}
+
+#[test]
+fn an_adhesive_that_cures_comes_to_rest_where_it_should() {
+    for scene in [
+        || cure::slit_scene(6, cure::Growth::Gel),
+        || cure::tube_scene(6, cure::Growth::Table),
+    ] {
+        assert_within(0.03, &scene(), Method::implicit(), "L");
+        assert_within(1e-4, &scene(), Method::implicit(), "time at which it ended");
+        let mut thick = scene();
+        thick.case.viscosity = Viscosity::Newtonian(1.25 * studies::case_text::PF[2]);
+        assert_caught(0.03, &thick, Method::implicit(), "L");
+    }
 }
 
 #[test]

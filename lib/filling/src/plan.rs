@@ -1,9 +1,10 @@
 //! What an implicit run of a scene will take.
 
-use physics::{Amount, Dimensions, Scene, Stages, Stop};
+use physics::{Amount, Cure, Dimensions, Scene, Stages, Stop};
 
 use crate::settings::Settings;
 use crate::stages::stages;
+use crate::step::length::CURED;
 
 /// Speed of the liquid that sets the time step over that of the body that drives it, averaged
 /// over a run: wood closing on a slab gives 1.5 at first and 6 towards the end.
@@ -65,7 +66,12 @@ impl Plan {
             Stop::Time(time) => time,
             Stop::Closed { travel_m } => travel_m / speed,
         };
-        let steps = (SPEED_RATIO * duration / dt_s).ceil().max(1.0);
+        let cure = scene.liquid.cure.as_ref();
+        let duration = cure
+            .and_then(Cure::set_at)
+            .map_or(duration, |set| set.min(duration));
+        let cured = cure.map_or(0.0, |cure| cure.change(duration) / CURED);
+        let steps = (SPEED_RATIO * duration / dt_s + cured).ceil().max(1.0);
         let points = amount.points as f64;
         Self {
             cells,

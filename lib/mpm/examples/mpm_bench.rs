@@ -82,6 +82,7 @@ fn scene(walls: bool, viscosity: Viscosity) -> Scene {
             tait: Tait { bulk_modulus: 1e9 },
             viscosity,
             shear_rate: ShearRate::Paper,
+            cure: None,
             cavitation_pressure: None,
         },
         points,

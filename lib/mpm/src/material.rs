@@ -1,6 +1,6 @@
 //! The liquid's stress at its points (paper Eqs. 1 and 2).
 
-use physics::{Liquid, Rheology, TAIT_C, Table};
+use physics::{Law, Liquid, Rheology, TAIT_C, Table};
 
 use crate::fields::point::J;
 use crate::lanes::Lanes4;
@@ -59,6 +59,25 @@ impl Flow for Segments {
         } else {
             value + slope * rate.ln()
         }
+    }
+}
+
+/// A law by formula, over the density.
+pub(crate) struct Formula {
+    law: Law,
+    density: f64,
+}
+
+impl Formula {
+    pub(crate) fn new(law: Law, density: f64) -> Self {
+        Self { law, density }
+    }
+}
+
+impl Flow for Formula {
+    #[inline(always)]
+    fn viscosity(&self, rate: Real) -> Real {
+        (self.law.viscosity(rate.into()) / self.density) as Real
     }
 }
 
@@ -159,6 +178,7 @@ mod tests {
             tait: Tait { bulk_modulus: 1e9 },
             viscosity: Viscosity::Newtonian(Newtonian(1.3)),
             shear_rate: ShearRate::Paper,
+            cure: None,
             cavitation_pressure: None,
         }
     }

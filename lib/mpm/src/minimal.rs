@@ -196,7 +196,7 @@ fn limit(scene: &Scene, speed: f64, j: f64) -> f64 {
     let sound = (liquid.tait.stiffness(j.min(0.0)) / liquid.density).sqrt();
     let viscous = match &liquid.viscosity {
         Viscosity::Newtonian(law) => liquid.density * cell * cell / (8.0 * law.0),
-        Viscosity::Table(_) => f64::INFINITY,
+        Viscosity::Table(_) | Viscosity::Law(_) => f64::INFINITY,
     };
     (cell / (sound + speed)).min(viscous)
 }

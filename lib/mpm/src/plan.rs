@@ -35,7 +35,8 @@ pub struct Plan {
     pub limit: Limit,
     /// Acoustic limit, s.
     pub acoustic_s: f64,
-    /// Viscous limit, s. For a viscosity table it is that of its smallest viscosity.
+    /// Viscous limit, s. For a viscosity table it is that of its smallest viscosity, for a law by formula
+    /// that of its largest.
     pub viscous_s: f64,
     /// Largest viscosity the step carries, Pa s; larger ones of a table are capped and counted.
     pub viscosity_cap: f64,
@@ -52,15 +53,17 @@ impl Plan {
     pub fn new(scene: &Scene, amount: &Amount, settings: &Settings) -> Self {
         let (cell, density) = (scene.grid.cell_m, scene.liquid.density);
         let acoustic_s = acoustic_limit(scene, scene.speed_with(amount), 0.0);
-        let smallest = match &scene.liquid.viscosity {
+        let carried = match &scene.liquid.viscosity {
             Viscosity::Newtonian(law) => law.0,
             Viscosity::Table(law) => law
                 .breakpoints()
                 .iter()
                 .map(|&rate| law.viscosity(rate))
                 .fold(f64::INFINITY, f64::min),
+            // Nothing of a law by formula is capped.
+            Viscosity::Law(law) => law.largest(),
         };
-        let viscous_s = density * cell * cell / (8.0 * smallest);
+        let viscous_s = density * cell * cell / (8.0 * carried);
         let limit = if acoustic_s < viscous_s {
             Limit::Acoustic
         } else {

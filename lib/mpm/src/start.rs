@@ -9,7 +9,7 @@ use crate::explicit::{Corrections, Explicit, State};
 use crate::fields::point::VOLUME;
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::Lattice;
-use crate::material::{Constant, Segments, Stress};
+use crate::material::{Constant, Formula, Segments, Stress};
 use crate::plan::Plan;
 use crate::real::Real;
 use crate::settings::Settings;
@@ -50,6 +50,7 @@ impl Explicit {
             flow: match &scene.liquid.viscosity {
                 Viscosity::Newtonian(law) => AnyFlow::Constant(Constant::new(law.0, density)),
                 Viscosity::Table(table) => AnyFlow::Segments(Segments::new(table, density)),
+                Viscosity::Law(law) => AnyFlow::Formula(Formula::new(*law, density)),
             },
             stress: Stress::new(&scene.liquid, cell, plan.viscosity_cap),
             integrator: Integrator::new(&lattice, settings.shape),

@@ -40,6 +40,7 @@ impl Explicit {
         match self.scene.liquid.viscosity.clone() {
             Viscosity::Newtonian(law) => self.nodes(dt, &slow, &law),
             Viscosity::Table(law) => self.nodes(dt, &slow, &law),
+            Viscosity::Law(law) => self.nodes(dt, &slow, &law),
         }
         let from = self.state.displacement.clone();
         for (x, v) in self.state.displacement.iter_mut().zip(&velocities) {

@@ -17,7 +17,8 @@ pub use bodies::{Motion, RigidBody, VoxelBlock};
 pub use choice::Choice;
 pub use clamp::{Clamp, Pid, PidControl};
 pub use material::{
-    Liquid, Newtonian, Rheology, ShearRate, TAIT_C, Table, TableError, Tait, Viscosity,
+    Course, Cure, CureLaw, Law, Liquid, Newtonian, Rheology, SET, ShearRate, TAIT_C, Table,
+    TableError, Tait, Viscosity,
 };
 pub use regime::Regime;
 pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Stop};

@@ -49,7 +49,7 @@ impl Stages {
         let no_friction = absent(frictionless, "frictionless walls (k = 0)");
         let no_table = match &scene.liquid.viscosity {
             Viscosity::Newtonian(law) => Some(format!("Newtonian liquid, {} Pa s", law.0)),
-            Viscosity::Table(_) => None,
+            Viscosity::Table(_) | Viscosity::Law(_) => None,
         };
         let no_force = absent(scene.gravity == [0.0; 3], "gravity is zero");
         let no_clamp = absent(scene.clamp.is_none(), "no [clamp]");

@@ -68,7 +68,9 @@ fn lowest_root<R: Rheology>(law: &R, rate: f64, a: f64) -> f64 {
     let constant = |beyond: f64| 1.0 / (1.0 + a * law.viscosity(beyond));
     let breakpoints = law.breakpoints();
     let (Some(&first), Some(&last)) = (breakpoints.first(), breakpoints.last()) else {
-        return constant(rate);
+        // One root: the stress grows with the rate.
+        let least = 1.0 / (1.0 + a * law.largest());
+        return bracketed(excess, (least, excess(least)), (1.0, excess(1.0)));
     };
     let slow = constant(first);
     if slow * rate <= first {
@@ -165,6 +167,26 @@ mod tests {
                     lower.clone().all(|y| g(y) < 0.0),
                     "a lower root at slip {slip} dose {dose}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn a_law_by_formula_has_one_root() {
+        let law = WallLaw::PartialSlip {
+            influence_length_m: 0.029e-6,
+        };
+        for formula in crate::material::TEST_LAWS {
+            for slip in [0.0, 1e-9, 1e-5, 1.0] {
+                for dose in [1e-12, 1e-9, 1e-6] {
+                    let (rate, a) = (slip / 0.029e-6, dose / 0.029e-6);
+                    let x = law.remaining_slip(&formula, slip, dose);
+                    let off = x * (1.0 + a * formula.viscosity(x * rate)) - 1.0;
+                    assert!(
+                        off.abs() < 1e-9,
+                        "{formula}: slip {slip} dose {dose}: {off}"
+                    );
+                }
             }
         }
     }

@@ -33,6 +33,7 @@ fn the_clamp_closes_downwards() {
             tait: Tait { bulk_modulus: 1e9 },
             viscosity: Viscosity::Newtonian(Newtonian(1.3)),
             shear_rate: ShearRate::Paper,
+            cure: None,
             cavitation_pressure: None,
         },
         points: Points::default(),

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use physics::{Diagnostics, Failure, Scheme, StepLimit, StepReport, Stop};
+use physics::{Cure, Diagnostics, Failure, Scheme, StepLimit, StepReport, Stop};
 
 use crate::checkpoint::{self, Checkpoint, Clock};
 use crate::courant::Courant;
@@ -27,6 +27,8 @@ pub enum End {
     Time,
     /// Closure did not come before the time limit: the pressure limit holds the gap open.
     TimeLimit,
+    /// The adhesive has set and flows no more.
+    Set,
     /// Stopped by the user; can be resumed.
     Interrupted,
 }
@@ -150,6 +152,8 @@ pub(crate) fn drive(
 
 struct Loop<'a> {
     setup: &'a Setup,
+    /// When the adhesive will have set, s.
+    set: Option<f64>,
     folder: &'a RunFolder,
     clock: Clock,
     stepping: Duration,
@@ -161,6 +165,7 @@ impl<'a> Loop<'a> {
     fn new(setup: &'a Setup, folder: &'a RunFolder, clock: Clock) -> Self {
         Self {
             setup,
+            set: setup.scene.liquid.cure.as_ref().and_then(Cure::set_at),
             folder,
             clock,
             stepping: Duration::ZERO,
@@ -172,6 +177,9 @@ impl<'a> Loop<'a> {
     fn end(&self) -> Option<End> {
         // A relative hair, so that a sum of many steps that should meet the end does.
         let reached = |t: f64, goal: f64| t >= goal * (1.0 - 1e-12);
+        if self.set.is_some_and(|set| reached(self.clock.time_s, set)) {
+            return Some(End::Set);
+        }
         match self.setup.scene.stop {
             Stop::Time(t) => reached(self.clock.time_s, t).then_some(End::Time),
             Stop::Closed { travel_m } => {
@@ -184,9 +192,15 @@ impl<'a> Loop<'a> {
         }
     }
 
+    /// When the run ends at the latest, s.
+    fn latest_s(&self) -> f64 {
+        let limit = self.setup.time_limit_s;
+        self.set.map_or(limit, |set| limit.min(set))
+    }
+
     fn limit(&self) -> StepLimit {
         StepLimit {
-            time_s: self.setup.time_limit_s - self.clock.time_s,
+            time_s: self.latest_s() - self.clock.time_s,
             travel_m: match self.setup.scene.stop {
                 Stop::Closed { travel_m } => travel_m - self.clock.travel_m,
                 Stop::Time(_) => f64::INFINITY,
@@ -204,7 +218,7 @@ impl<'a> Loop<'a> {
     }
 
     fn fraction(&self) -> f64 {
-        let time = self.clock.time_s / self.setup.time_limit_s;
+        let time = self.clock.time_s / self.latest_s();
         match self.setup.scene.stop {
             Stop::Closed { travel_m } => time.max(self.clock.travel_m / travel_m),
             Stop::Time(_) => time,
@@ -248,7 +262,9 @@ impl<'a> Loop<'a> {
         self.look(&diagnostics)?;
         self.clock.row_missing = false;
         let Clock { step, time_s, .. } = self.clock;
-        history.row(step, time_s, gap, &self.clock.last, &diagnostics)
+        let cure = self.setup.scene.liquid.cure.as_ref();
+        let factor = cure.map(|cure| cure.factor(time_s));
+        history.row(step, time_s, gap, &self.clock.last, &diagnostics, factor)
     }
 
     fn finish(

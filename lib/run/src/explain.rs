@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use physics::{Choice, Dimensions, Motion, Regime, Stages, Stop, Viscosity, WallLaw};
+use physics::{Choice, Dimensions, Motion, Regime, SET, Stages, Stop, Viscosity, WallLaw};
 
 use crate::case::{Case, SchemeName};
 use crate::left_out::left_out;
@@ -110,6 +110,7 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
     let liquid = &scene.liquid;
     let viscosity = match &liquid.viscosity {
         Viscosity::Newtonian(law) => format!("{} Pa s", law.0),
+        Viscosity::Law(law) => law.to_string(),
         table => format!(
             "table, {} Pa s at rest, {} Pa s at 1e6 1/s",
             table.at(0.0),
@@ -121,6 +122,16 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
         "                     {} kg/m3, K {:.3e} Pa, viscosity {viscosity}",
         liquid.density, liquid.tait.bulk_modulus
     )?;
+    if let Some(cure) = &liquid.cure {
+        let set = cure.set_at().map_or("never sets".to_owned(), |set| {
+            format!("sets ({SET:e} times that) at {set:.4e} s")
+        });
+        writeln!(
+            out,
+            "  cure               viscosity times {:.4} at the start, {set}",
+            cure.factor(0.0)
+        )?;
+    }
     for body in &scene.bodies {
         let solid: u64 = body.blocks.iter().map(physics::VoxelBlock::count).sum();
         let motion = match body.motion {

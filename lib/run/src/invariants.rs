@@ -231,6 +231,7 @@ mod tests {
                 tait: Tait { bulk_modulus: 1e9 },
                 viscosity: Viscosity::Newtonian(Newtonian(1.0)),
                 shear_rate: ShearRate::Paper,
+                cure: None,
                 cavitation_pressure: None,
             },
             points: Points::default(),

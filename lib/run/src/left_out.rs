@@ -32,6 +32,12 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
         "adherends are rigid (paper section 2.2)".into(),
     );
     add("trapped air", "voids are empty: p = 0".into());
+    if setup.scene.liquid.cure.is_none() {
+        add(
+            "cure",
+            "the viscosity does not change with time: no [adhesive.cure]".into(),
+        );
+    }
     let share = regime.max_pressure.map_or(String::new(), |limit| {
         let percent = 100.0 * regime.capillary_pressure / limit;
         format!(", {percent:.2} % of the pressure limit")

@@ -191,7 +191,7 @@ impl Request {
             None => (
                 Clock::default(),
                 continued(Vec::new(), 0, cfl),
-                History::create(folder)?,
+                History::create(folder, self.setup.scene.liquid.cure.is_some())?,
             ),
         };
         let mut controls = Controls {

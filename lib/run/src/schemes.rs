@@ -49,6 +49,12 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
             "[integrator] tolerance is for scheme = \"implicit\" only".into(),
         ));
     }
+    if case.adhesive.cure.is_some() {
+        return Err(CaseError(
+            "[adhesive.cure] is for scheme = \"implicit\" only: explicit steps do not reach the time of cure"
+                .into(),
+        ));
+    }
     let update = table.velocity_update.unwrap_or_default();
     let velocity_update = match (update, table.order.map(u32::from)) {
         (VelocityUpdate::Xpic(_), Some(order)) => VelocityUpdate::Xpic(order),

@@ -131,6 +131,7 @@ impl Summary {
             End::Closed => "closed",
             End::Time => "reached its time",
             End::TimeLimit => "reached its time limit before closing",
+            End::Set => "ended because the adhesive has set",
             End::Interrupted => "was interrupted",
         };
         let gap = self.gap_m.map_or(String::new(), |g| {

@@ -32,6 +32,7 @@ fn drop() -> Scene {
             tait: Tait { bulk_modulus: 1e9 },
             viscosity: Viscosity::Newtonian(Newtonian(1.3)),
             shear_rate: ShearRate::Paper,
+            cure: None,
             cavitation_pressure: None,
         },
         points: Default::default(),

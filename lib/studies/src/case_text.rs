@@ -112,6 +112,8 @@ pub struct CaseText {
     pub bulk_modulus: f64,
     /// Viscosity.
     pub viscosity: Viscosity,
+    /// Lines of `[adhesive.cure]`, if any.
+    pub cure: Option<String>,
     /// Lines of `[contact]`.
     pub contact: String,
     /// Lines of `[clamp]`, if any.
@@ -137,6 +139,8 @@ pub enum Viscosity {
     Newtonian(f64),
     /// Shear rate (rheometer's, 1/s) and viscosity (Pa s).
     Table(Vec<[f64; 2]>),
+    /// Key and value of a law by formula, for rheometer's rates.
+    Law(String),
 }
 
 /// Lines of `[contact]` for walls the liquid sticks to.
@@ -152,6 +156,7 @@ impl CaseText {
             domain: [[0.0; 3], size],
             bulk_modulus: PF[1],
             viscosity: Viscosity::Newtonian(PF[2]),
+            cure: None,
             contact: STICK.into(),
             clamp: None,
             gravity: [0.0; 3],
@@ -213,6 +218,10 @@ impl CaseText {
                 }
                 writeln!(out, "]")?;
             }
+            Viscosity::Law(key) => writeln!(out, "shear_rate = \"rheometer\"\n{key}")?,
+        }
+        if let Some(cure) = &self.cure {
+            writeln!(out, "\n[adhesive.cure]\n{}", cure.trim_end())?;
         }
         writeln!(out, "\n[contact]\n{}", self.contact.trim_end())?;
         if let Some(clamp) = &self.clamp {

@@ -35,6 +35,10 @@ dimension!(/// Pressure or modulus, SI pascal.
     Pressure, "a pressure", &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("bar", 1e5), ("psi", 6_894.757_293_168)], ANY);
 dimension!(/// Dynamic viscosity, SI pascal second.
     Viscosity, "a viscosity", &[("Pa s", 1.0), ("Pa.s", 1.0), ("mPa s", 1e-3), ("mPa.s", 1e-3), ("cP", 1e-3), ("P", 0.1)], ANY);
+dimension!(/// Consistency of a power law, SI pascal second to the power n.
+    Consistency, "a consistency", &[("Pa s^n", 1.0), ("Pa.s^n", 1.0), ("mPa s^n", 1e-3)], ANY);
+dimension!(/// Energy of a mole, SI joule per mole.
+    MolarEnergy, "an energy of a mole", &[("J/mol", 1.0), ("kJ/mol", 1e3), ("kcal/mol", 4184.0)], [1.0, 1e6]);
 dimension!(/// Mass density, SI kilogram per cubic metre.
     Density, "a density", &[("kg/m3", 1.0), ("g/cm3", 1e3)], ANY);
 dimension!(/// Acceleration, SI metre per second squared.

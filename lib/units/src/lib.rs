@@ -16,6 +16,7 @@ mod quantity;
 
 pub use axis::Axis;
 pub use dimension::{
-    Acceleration, Density, Dimension, Length, Pressure, ShearRate, Speed, Spread, Time, Viscosity,
+    Acceleration, Consistency, Density, Dimension, Length, MolarEnergy, Pressure, ShearRate, Speed,
+    Spread, Time, Viscosity,
 };
 pub use quantity::{ParseError, Quantity};

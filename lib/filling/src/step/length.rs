@@ -17,6 +17,9 @@ const MISPLACED: f64 = 0.02;
 const JETS: f64 = 1e-3;
 /// Most cells that any liquid crosses per step.
 const JET_CFL: f64 = 1.5;
+/// Most that cure changes ln(viscosity) by in a step, in which it is that of the step's middle: the mean of
+/// 1/viscosity over the step is then within (0.2/2)^2/6 of it.
+pub(crate) const CURED: f64 = 0.2;
 /// Part of the clamp's way left by which the step that ends it may miss the end.
 const MISSED: f64 = 1e-3;
 
@@ -49,6 +52,8 @@ impl Implicit {
             let pull = setup.gravity.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
             (2.0 * setup.settings.cfl * setup.units.h / pull).sqrt()
         };
+        let step = (setup.liquid.cure.as_ref())
+            .map_or(step, |cure| step.min(cure.steady(self.state.time, CURED)));
         let dt = if step < left {
             left / (left / step).ceil()
         } else {
@@ -58,6 +63,12 @@ impl Implicit {
             return Ok(dt);
         }
         Err(self.failure("nothing moves and no time is left: there is no time step to take"))
+    }
+
+    /// What cure multiplies the viscosity by in the middle of a step of `dt` (s) from now on.
+    pub(super) fn cured(&self, dt: f64) -> f64 {
+        let cure = self.setup.liquid.cure.as_ref();
+        cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt))
     }
 
     /// Whether neither liquid nor bodies overshoot the CFL number, and the bodies are where they

@@ -5,7 +5,7 @@ mod controlled;
 mod drive;
 mod failure;
 mod last;
-mod length;
+pub(crate) mod length;
 mod scheme;
 mod setup;
 mod solution;
@@ -102,6 +102,7 @@ impl Implicit {
         for _ in 0..ATTEMPTS {
             // 1. Time step.
             let dt = self.time_step(limit)?.min(longest);
+            self.setup.units.cured = self.cured(dt);
             // 2. Geometry.
             let trial = self.place(dt);
             // 3. Liquid on the lattice.
@@ -200,6 +201,7 @@ impl Implicit {
         let clamped = pressure(state.drive.clamped(), 1.0);
         state.drive.observe(clamped, dt);
         state.steps += 1;
+        state.time += dt;
         state.power = solution.power;
         let Field { value, flow } = field;
         state.last = (setup.present.table).then(|| LastFlow::new(flow.window, value));

@@ -93,6 +93,9 @@ impl Scheme for Implicit {
         ];
         let mut arrays: Vec<_> = arrays.map(|(name, array)| (name.to_string(), array)).into();
         arrays.extend((self.state.last.iter()).flat_map(LastFlow::save));
+        if self.setup.liquid.cure.is_some() {
+            arrays.push(("time".into(), Array::F64(vec![self.state.time])));
+        }
         Saved(arrays)
     }
 
@@ -131,6 +134,12 @@ impl Scheme for Implicit {
             true => Some(LastFlow::restore(saved, self.setup.domain)?),
             false => None,
         };
+        if self.setup.liquid.cure.is_some() {
+            self.state.time = match saved.f64s("time")? {
+                &[time] if time >= 0.0 && time.is_finite() => time,
+                other => return Err(format!("the checkpoint's time is none: {other:?}")),
+            };
+        }
         self.state.particles.position = position;
         self.state.particles.velocity = velocity;
         self.state.particles.volume = volume.to_vec();

@@ -1,4 +1,4 @@
-//! What never changes in a run, made of the scene; and what of a scene the scheme refuses.
+//! What never changes in a run but by cure, made of the scene; and what of a scene the scheme refuses.
 
 use physics::{Dimensions, Liquid, Points, RigidBody, Scene, WallLaw};
 
@@ -12,7 +12,7 @@ use crate::system::{Scales, WidthRule};
 /// Edge of a voxel (cells) below which the steps of a wall add friction of their own.
 const FINE_VOXEL: f64 = 0.75;
 
-/// What never changes in a run.
+/// What never changes in a run; but for the unit of viscosity of a liquid that cures.
 pub(super) struct Setup {
     pub(super) settings: Settings,
     pub(super) present: Present,
@@ -77,7 +77,7 @@ impl Setup {
 
     /// Scales of the terms of a step of `dt` (s).
     pub(super) fn scales(&self, dt: f64) -> Scales {
-        let Units { h, eta, .. } = self.units;
+        let (h, eta) = (self.units.h, self.units.viscosity());
         let weight = self.liquid.density * h * h / eta;
         Scales {
             inertia: weight / dt,
@@ -217,6 +217,7 @@ mod tests {
                 h: 2.0,
                 low: [0.0; 3],
                 eta: 0.5,
+                cured: 1.0,
             },
             domain,
             liquid: Liquid {
@@ -224,6 +225,7 @@ mod tests {
                 tait: Tait { bulk_modulus: 8.0 },
                 viscosity: Viscosity::Newtonian(Newtonian(0.5)),
                 shear_rate: ShearRate::Paper,
+                cure: None,
                 cavitation_pressure: None,
             },
             wall: WallLaw::PartialSlip {

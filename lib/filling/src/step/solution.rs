@@ -1,11 +1,11 @@
 //! Stages 4 to 6: what the particles carry to the unknowns, and passes over the viscosity.
 
-use physics::Failure;
+use physics::{Failure, Viscosity};
 
 use super::controlled::Solved;
-use super::{Implicit, Part, Trial};
+use super::{Implicit, Part, Trial, Units};
 use crate::liquid::{self, Volumes};
-use crate::system::{Before, Dofs, NONE, Operator, Sheared};
+use crate::system::{Before, Dofs, Found, NONE, Operator, Sheared};
 use crate::transport::density::Cells;
 use crate::transport::{Field, Near};
 use saddle_point::Csr;
@@ -159,29 +159,45 @@ impl Implicit {
     fn solve_passes(
         &mut self,
         operator: &mut Operator,
-        before: Before,
+        before_step: Before,
         now: &mut Unknowns,
     ) -> Result<(Solved, Option<Viscous>), Failure> {
-        let carried = before.velocity;
-        let start = (self.state.last.as_ref()).map_or(carried.to_vec(), |last| {
-            last.at(&operator.lattice.window, &operator.dofs, carried)
-        });
-        self.update_viscosity(operator, &start);
-        let mut pass = 0;
+        let carried = before_step.velocity;
+        let by_formula = matches!(self.setup.liquid.viscosity, Viscosity::Law(_));
+        match &self.state.last {
+            // Liquid at rest may be decades thicker than what will flow: the first pass takes the unit.
+            None if by_formula => (),
+            last => {
+                let window = &operator.lattice.window;
+                let start = (last.as_ref()).map_or(carried.to_vec(), |last| {
+                    last.at(window, &operator.dofs, carried)
+                });
+                self.update_viscosity(operator, &start);
+            }
+        }
+        let (mut pass, mut before, mut response) = (0, None, 0.0);
         loop {
-            let solved = self.controlled(operator, before, now)?;
+            let solved = self.controlled(operator, before_step, now)?;
             pass += 1;
-            let (field, change) = self.update_viscosity(operator, &now.u);
-            if change < SETTLED || pass == PASSES {
-                let settled = change < UNSETTLED;
+            let (field, found) = self.update_viscosity(operator, &now.u);
+            if found.change < SETTLED || pass == PASSES {
+                let settled = found.change < UNSETTLED;
                 return Ok((solved, Some(Viscous { field, settled })));
+            }
+            if by_formula {
+                if let Some(before) = &before {
+                    response = operator.response(before, &found, response);
+                }
+                let Units { eta, h, .. } = self.setup.units;
+                operator.anticipate(&self.setup.liquid, eta, h, &found, response);
+                before = Some(found);
             }
         }
     }
 
     /// Viscosities at the rates of the velocities `u`; the flow of these, and how much the
     /// viscosities changed.
-    fn update_viscosity(&mut self, operator: &mut Operator, u: &[f64]) -> (Field, f64) {
+    fn update_viscosity(&mut self, operator: &mut Operator, u: &[f64]) -> (Field, Found) {
         let bodies = self.state.drive.velocities();
         let (liquid, units) = (&self.setup.liquid, self.setup.units);
         let influence = self.setup.influence_length();
@@ -192,8 +208,8 @@ impl Implicit {
                 u,
                 bodies: &bodies,
             };
-            let change = operator.set_viscosity(liquid, units.eta, units.h, &sheared);
-            (field, change)
+            let found = operator.set_viscosity(liquid, units.eta, units.h, &sheared);
+            (field, found)
         })
     }
 

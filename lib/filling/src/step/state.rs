@@ -15,6 +15,8 @@ pub(super) struct State {
     /// Clamp travel, m.
     pub(super) travel: f64,
     pub(super) steps: u64,
+    /// Time since the start, s.
+    pub(super) time: f64,
     /// Power of viscosity and friction in the last step, W.
     pub(super) power: f64,
     pub(super) rates: Rates,
@@ -56,6 +58,7 @@ impl State {
             pace,
             travel: 0.0,
             steps: 0,
+            time: 0.0,
             power: 0.0,
             rates: Rates::Zero,
             last: None,

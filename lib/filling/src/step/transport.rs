@@ -77,7 +77,7 @@ impl Implicit {
         let (liquid, units, pace) = (&self.setup.liquid, self.setup.units, self.state.pace);
         let particles = &mut self.state.particles;
         self.workspace.clock.time(Part::Advection, || {
-            let thin = liquid.density * pace * units.h / units.eta > THIN;
+            let thin = liquid.density * pace * units.h / units.viscosity() > THIN;
             transport::set_velocities(particles, flow, thin.then_some(value));
             let lowest = (liquid.cavitation_pressure).map_or(f64::NEG_INFINITY, |p| -p);
             let (window, pressure) = (&lattice.window, &solution.pressure);

@@ -9,8 +9,10 @@ pub(super) struct Units {
     pub(super) h: f64,
     /// Low corner of the domain, m.
     pub(super) low: [f64; 3],
-    /// Reference viscosity eta_0, Pa s.
+    /// Viscosity that those by the law are divided by, Pa s.
     pub(super) eta: f64,
+    /// What cure multiplies both by in the step.
+    pub(super) cured: f64,
 }
 
 impl Units {
@@ -21,17 +23,23 @@ impl Units {
             h: grid.cell_m,
             low: grid.min_m,
             eta: liquid.viscosity.at(8.0 * speed / (6.0 * grid.cell_m)),
+            cured: 1.0,
         }
+    }
+
+    /// Reference viscosity eta_0, Pa s.
+    pub(super) fn viscosity(&self) -> f64 {
+        self.eta * self.cured
     }
 
     /// Pressure unit, Pa per unit of the solver.
     pub(super) fn pressure(&self) -> f64 {
-        self.eta / self.h
+        self.viscosity() / self.h
     }
 
     /// Force unit, N.
     pub(super) fn force(&self) -> f64 {
-        self.eta * self.h
+        self.viscosity() * self.h
     }
 
     /// A volume, m3 per cell.

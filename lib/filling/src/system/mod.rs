@@ -9,9 +9,11 @@
 mod assembly;
 mod couplings;
 mod dofs;
+mod edge_rates;
 mod edges;
 mod fluxes;
 mod operator;
+mod response;
 mod sparse;
 mod terms;
 mod viscosity;
@@ -20,6 +22,7 @@ mod walls;
 pub(crate) use assembly::{Before, System};
 pub(crate) use dofs::{Dofs, NONE};
 pub(crate) use operator::Operator;
+pub(crate) use response::Found;
 pub(crate) use viscosity::Sheared;
 pub(crate) use walls::WidthRule;
 

@@ -14,6 +14,9 @@ pub(crate) struct Operator<'a> {
     pub(crate) volumes: &'a Volumes<'a>,
     /// Viscosity of each cell over eta_0; empty when it is eta_0 everywhere.
     pub(super) viscosity: Vec<f32>,
+    /// The same around the edges in each plane, by a law of their own rates; empty where it is the mean of
+    /// the cells there.
+    pub(super) edge_viscosity: [Vec<f32>; 3],
     /// Unknowns.
     pub(crate) dofs: Dofs,
     /// Walls at the face unknowns.
@@ -31,6 +34,7 @@ impl<'a> Operator<'a> {
             lattice,
             volumes,
             viscosity: Vec::new(),
+            edge_viscosity: Default::default(),
             dofs,
             walls,
             scales,

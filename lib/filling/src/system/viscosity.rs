@@ -1,9 +1,10 @@
 //! Viscosity that depends on the shear rate, lagged by one pass (Picard).
 
-use physics::Liquid;
+use physics::{Liquid, Viscosity};
 use rayon::prelude::*;
 
-use super::Operator;
+use super::walls::thinning_distance;
+use super::{Found, Operator};
 
 /// Velocities from which shear rates are taken.
 pub(crate) struct Sheared<'a, D> {
@@ -17,20 +18,21 @@ pub(crate) struct Sheared<'a, D> {
 
 impl Operator<'_> {
     /// Sets the viscosities of cells and walls by the law of `liquid` at the rates of `field`,
-    /// in units of `reference` (Pa s), for cells of `cell_m`. Returns the relative change, weighted
+    /// in units of `reference` (Pa s), for cells of `cell_m`. Tells the relative change, weighted
     /// by dissipation in cells and at walls: a bound of the relative change that follows of the power
     /// dissipated, and so of the forces on moving bodies, since viscous flow makes that power least.
     /// It means nothing where there was no viscosity before.
     ///
     /// At a wall the rate is (u - U)/(d_eff + l), that of the wall law (paper Eq. 3), without
-    /// the factor of the paper's convention for rates in the liquid.
+    /// the factor of the paper's convention for rates in the liquid; for a law by formula over the
+    /// distance that suits it, [`thinning_distance`], of which the viscosity of the link makes up for the difference.
     pub(crate) fn set_viscosity<D: Fn([f64; 3]) -> f64 + Sync>(
         &mut self,
         liquid: &Liquid,
         reference: f64,
         cell_m: f64,
         field: &Sheared<D>,
-    ) -> f64 {
+    ) -> Found {
         let law = &liquid.viscosity;
         let at = |rate: f64| (law.at(rate) / reference) as f32;
         let window = self.lattice.window;
@@ -63,20 +65,73 @@ impl Operator<'_> {
             let shear = 2.0 * f64::from(deviator[cell]).powi(2) * volume;
             count(shear, self.eta(cell), viscosity[cell]);
         }
-        self.viscosity = viscosity;
+        let by_formula = matches!(law, Viscosity::Law(_));
+        let mut used = std::mem::replace(&mut self.viscosity, viscosity);
+        if by_formula {
+            // None yet: that of the unit.
+            used.resize(window.len(), 1.0);
+        }
+        let mut links = Vec::new();
+        let mut edges: [Vec<[f32; 2]>; 3] = Default::default();
+        if by_formula {
+            let rates = self.edge_rates(field.u, field.bodies);
+            for (plane, rates) in rates.into_iter().enumerate() {
+                let before = std::mem::take(&mut self.edge_viscosity[plane]);
+                let etas = (rates.par_iter())
+                    .map(|&rate| at(liquid.shear_rate.factor() * f64::from(rate) / cell_m));
+                self.edge_viscosity[plane] = etas.collect();
+                for (index, &rate) in rates.iter().enumerate().filter(|(_, rate)| !rate.is_nan()) {
+                    let used = before.get(index).copied().unwrap_or(1.0);
+                    let shear = 2.0 * f64::from(rate).powi(2);
+                    count(shear, used.into(), self.edge_viscosity[plane][index]);
+                }
+                let padded = before.into_iter().chain(std::iter::repeat(1.0));
+                edges[plane] = padded.zip(rates).map(|(used, rate)| [used, rate]).collect();
+            }
+        }
         let length = self.scales.influence_length;
+        let widths: Vec<f64> = match by_formula {
+            true => (0..self.dofs.faces.len())
+                .map(|face| self.walls.width(face))
+                .collect(),
+            false => Vec::new(),
+        };
         let faces = &self.dofs.faces;
         self.walls.set_viscosity(|face, link| {
             let axis = usize::from(faces[face].0);
             let slip = (field.u[face] - field.bodies[usize::from(link.body)][axis]).abs();
             let run = f64::from(link.distance) + length;
-            let eta = at(slip / run / cell_m);
+            let mut rate = slip / run / cell_m;
+            let mut eta = at(rate);
+            if by_formula {
+                let distance =
+                    thinning_distance(link.distance.into(), widths[face], steepness(law, rate));
+                let share = run / (distance + length);
+                rate *= share;
+                eta = at(rate) * share as f32;
+                links.push([link.viscosity, rate as f32, share as f32]);
+            }
             let shear = slip * slip * f64::from(link.area) / run;
             count(shear, link.viscosity.into(), eta);
             eta
         });
-        if power > 0.0 { change / power } else { 0.0 }
+        Found {
+            change: if power > 0.0 { change / power } else { 0.0 },
+            used,
+            deviator,
+            edges,
+            links,
+        }
     }
+}
+
+/// d ln(rate)/d ln(stress) of a law at a rate, 1/s.
+fn steepness(law: &Viscosity, rate: f64) -> f64 {
+    /// Ratio of the rates of the difference, and the largest power: a yield stress has any.
+    const APART: f64 = 1.01;
+    const MOST: f64 = 100.0;
+    let index = 1.0 + (law.at(APART * rate) / law.at(rate)).ln() / APART.ln();
+    1.0 / index.max(1.0 / MOST)
 }
 
 #[cfg(test)]
@@ -113,9 +168,10 @@ mod tests {
                 tait: Tait { bulk_modulus: 1.0 },
                 viscosity: Viscosity::Newtonian(Newtonian(eta)),
                 shear_rate: ShearRate::Paper,
+                cure: None,
                 cavitation_pressure: None,
             };
-            operator.set_viscosity(&liquid, 2.0, 1.0, &field)
+            operator.set_viscosity(&liquid, 2.0, 1.0, &field).change
         };
         change(2.0);
         assert_eq!(change(2.0), 0.0);

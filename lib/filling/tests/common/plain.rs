@@ -24,6 +24,7 @@ pub fn scene(cell_m: f64, cells: [usize; 3]) -> Scene {
             tait: Tait { bulk_modulus: 1e9 },
             viscosity: Viscosity::Newtonian(Newtonian(1.3)),
             shear_rate: ShearRate::Rheometer,
+            cure: None,
             cavitation_pressure: None,
         },
         points: Points::default(),

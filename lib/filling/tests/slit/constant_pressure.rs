@@ -1,7 +1,7 @@
 //! A piston under constant pressure fills the slit: Washburn's law.
 
 use filling::{Implicit, Settings};
-use physics::{Clamp, Motion, Scheme, StepLimit, VoxelBlock};
+use physics::{Clamp, Course, Cure, CureLaw, Motion, Scheme, StepLimit, VoxelBlock};
 
 use crate::{ETA, H, corner, scene};
 
@@ -9,7 +9,7 @@ use crate::{ETA, H, corner, scene};
 const PRESSURE: f64 = 1e6;
 
 /// Time to fill the slit to 5 H, in units of 12 eta/P.
-fn time_to_fill(n: usize, offset: f64) -> f64 {
+fn time_to_fill(n: usize, offset: f64, cure: Option<Cure>) -> f64 {
     let mut scene = scene(n, [offset, 0.0]);
     // The clamp pushes downwards, so the scene is turned upside down.
     let top = scene.grid.max_m()[1];
@@ -23,6 +23,7 @@ fn time_to_fill(n: usize, offset: f64) -> f64 {
     for x in &mut scene.points.position {
         x[1] = top - x[1];
     }
+    scene.liquid.cure = cure;
     let h = H / n as f64;
     scene.bodies[1].motion = Motion::Clamped;
     scene.clamp = Some(Clamp {
@@ -54,7 +55,7 @@ fn filling_at_constant_pressure() {
     for (n, tolerance) in [(6, 0.05), (12, 0.03)] {
         let reference = TIME_TO_FIVE + 5.0 * corner(n);
         for offset in [0.0, 0.25, 0.5] {
-            let time = time_to_fill(n, offset);
+            let time = time_to_fill(n, offset, None);
             println!(
                 "slit of {n} cells, offset {offset}: filled to 5 H in {time:.2}, reference {reference:.2}"
             );
@@ -66,4 +67,26 @@ fn filling_at_constant_pressure() {
             }
         }
     }
+}
+
+/// Without inertia to speak of, the course over the integral of 1/viscosity is that without cure.
+#[test]
+fn a_liquid_that_cures_fills_by_the_integral_of_fluidity() {
+    /// t_gel in units of 12 eta/P; the viscosity grows 60-fold until the slit is filled.
+    const GEL: f64 = 45.0;
+    let law = CureLaw {
+        course: Some(Course::Gel {
+            time: GEL * 12.0 * ETA / PRESSURE,
+            exponent: 2.0,
+        }),
+        temperature: Vec::new(),
+        reference: 300.0,
+        cure_energy: 0.0,
+        flow_energy: 0.0,
+    };
+    let plain = time_to_fill(6, 0.0, None);
+    let time = time_to_fill(6, 0.0, Some(Cure::new(&law).unwrap()));
+    let fluidity = GEL / 3.0 * (1.0 - (1.0 - time / GEL).powi(3));
+    println!("filled with cure in {time:.2}, integral {fluidity:.3}, without {plain:.3}");
+    assert!(time > 1.5 * plain && (fluidity / plain - 1.0).abs() < 5e-3);
 }

@@ -2,8 +2,8 @@
 
 use filling::{Implicit, Plan, Settings};
 use physics::{
-    Amount, Array, Boundary, Dimensions, Motion, Newtonian, Scene, Scheme, StepLimit, Stop, Table,
-    Tait, Viscosity, VoxelBlock,
+    Amount, Array, Boundary, Dimensions, Law, Motion, Newtonian, Scene, Scheme, StepLimit, Stop,
+    Table, Tait, Viscosity, VoxelBlock,
 };
 
 use crate::{SPEED, at, march, plain, run, scene};
@@ -194,7 +194,14 @@ fn positions(viscosity: &Viscosity, threads: usize, steps: usize, stop: usize) -
 
 #[test]
 fn same_bits_for_any_threads_and_after_a_restart() {
-    for viscosity in [Viscosity::Newtonian(Newtonian(crate::ETA)), thinning()] {
+    let law = Law::CarreauYasuda {
+        plateaus: [5.0, 0.1],
+        time: 1e-5,
+        index: 0.4,
+        transition: 2.0,
+    };
+    let newtonian = Viscosity::Newtonian(Newtonian(crate::ETA));
+    for viscosity in [newtonian, thinning(), Viscosity::Law(law)] {
         let of = |threads, stop| positions(&viscosity, threads, 6, stop);
         let usual = of(1, 99);
         assert_eq!(usual, of(3, 99), "three threads");

@@ -6,7 +6,7 @@ use super::filter::Filter;
 use super::g2p::{Affine, FilterAfter, FilterBefore, G2p, Increment, Replace, Update};
 use super::p2g::P2g;
 use crate::lanes::{Lanes4, Lanes8};
-use crate::material::{Constant, Flow, Segments, Stress};
+use crate::material::{Constant, Flow, Formula, Segments, Stress};
 use crate::real::Real;
 use crate::settings::{Mode, ShapeFunction};
 use crate::shape::{Bspline2, Gimp, Linear, Shape};
@@ -89,6 +89,8 @@ pub(crate) enum AnyFlow {
     Constant(Constant),
     /// A table.
     Segments(Segments),
+    /// A formula.
+    Formula(Formula),
 }
 
 impl AnyFlow {
@@ -110,6 +112,13 @@ impl AnyFlow {
                 dt,
             }),
             Self::Segments(flow) => dispatch(Refresh {
+                points,
+                gradient,
+                stress,
+                flow,
+                dt,
+            }),
+            Self::Formula(flow) => dispatch(Refresh {
                 points,
                 gradient,
                 stress,
@@ -249,6 +258,7 @@ mod tests {
             tait: physics::Tait { bulk_modulus: 1e9 },
             viscosity: physics::Viscosity::Newtonian(physics::Newtonian(1.3)),
             shear_rate: physics::ShearRate::Paper,
+            cure: None,
             cavitation_pressure: None,
         };
         let stress = Stress::new(&liquid, 2.9e-6, f64::INFINITY);

@@ -22,6 +22,7 @@ pub fn pf() -> Liquid {
         },
         viscosity: Viscosity::Newtonian(Newtonian(VISCOSITY)),
         shear_rate: ShearRate::Paper,
+        cure: None,
         cavitation_pressure: None,
     }
 }

@@ -1,8 +1,12 @@
 //! Constitutive laws of the liquid (paper Eqs. 1 and 2).
 
+mod cure;
+mod laws;
 mod tait;
 mod viscosity;
 
+pub use cure::{Course, Cure, CureLaw, SET};
+pub use laws::Law;
 pub use tait::{TAIT_C, Tait};
 pub use viscosity::{Newtonian, Rheology, ShearRate, Table, TableError, Viscosity};
 
@@ -15,6 +19,8 @@ pub struct Liquid {
     pub tait: Tait,
     /// Viscosity law, paper Eq. 2.
     pub viscosity: Viscosity,
+    /// Factor of that viscosity over time; `None`: always one.
+    pub cure: Option<Cure>,
     /// How the rate in eta(rate) is defined.
     pub shear_rate: ShearRate,
     /// Largest tension the liquid carries, Pa (> 0); `None`: as much as Eq. 1 gives.
@@ -28,5 +34,7 @@ impl Liquid {
     }
 }
 
+#[cfg(test)]
+pub(crate) use laws::tests::ALL as TEST_LAWS;
 #[cfg(test)]
 pub(crate) use viscosity::tests::pva_pf as test_table;

@@ -1,3 +1,4 @@
+use super::Law;
 use crate::Choice;
 
 /// How the shear rate in eta(rate) is computed from D' = dev sym grad v.
@@ -31,7 +32,8 @@ impl ShearRate {
 pub trait Rheology: Clone + Send + Sync {
     /// Viscosity in Pa s at a shear rate in 1/s.
     fn viscosity(&self, rate: f64) -> f64;
-    /// Rates at which the law changes its formula, ascending, 1/s.
+    /// Rates between which the law is linear in the rate's logarithm and outside of which it is constant,
+    /// ascending, 1/s; none for one formula, whose stress then never falls with the rate.
     fn breakpoints(&self) -> &[f64];
     /// Largest viscosity the law can give, Pa s.
     fn largest(&self) -> f64;
@@ -135,6 +137,8 @@ pub enum Viscosity {
     Newtonian(Newtonian),
     /// By table.
     Table(Table),
+    /// By formula.
+    Law(Law),
 }
 
 impl Viscosity {
@@ -143,6 +147,7 @@ impl Viscosity {
         match self {
             Viscosity::Newtonian(law) => law.viscosity(rate),
             Viscosity::Table(law) => law.viscosity(rate),
+            Viscosity::Law(law) => law.viscosity(rate),
         }
     }
 
@@ -151,6 +156,7 @@ impl Viscosity {
         match self {
             Viscosity::Newtonian(law) => law.largest(),
             Viscosity::Table(law) => law.largest(),
+            Viscosity::Law(law) => law.largest(),
         }
     }
 }

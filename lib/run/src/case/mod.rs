@@ -2,11 +2,14 @@
 //!
 //! Unknown keys, missing units and values out of range are refused with line and column.
 
+mod cure;
+mod rheology;
 mod schema;
 mod value;
 
 use std::path::Path;
 
+pub use cure::CureTable;
 pub use schema::{
     Adhesive, Axes, Body, BoxCorners, Case, ClampTable, Contact, Grid, Integrator, MaterialName,
     OutputTable, PidGains, SchemeName,

@@ -5,6 +5,8 @@ use physics::{Boundary, Choice, ShearRate, WallLaw};
 use serde::Deserialize;
 use units::{Acceleration, Density, Length, Pressure, Quantity, Speed, Time, Viscosity};
 
+use super::cure::CureTable;
+use super::rheology::{CarreauYasuda, Cross, HerschelBulkley, PowerLaw};
 use super::value::{BodyVelocity, CellLength, Positive, StopRule, choice, some_choice};
 
 /// A case file.
@@ -75,6 +77,16 @@ pub struct Adhesive {
     pub viscosity: Option<Positive<Viscosity>>,
     /// Viscosity against shear rate.
     pub viscosity_table: Option<Vec<(Positive<units::ShearRate>, Positive<Viscosity>)>>,
+    /// Viscosity by a power law.
+    pub power_law: Option<PowerLaw>,
+    /// By Cross' law.
+    pub cross: Option<Cross>,
+    /// By the law of Carreau and Yasuda.
+    pub carreau_yasuda: Option<CarreauYasuda>,
+    /// By that of Herschel and Bulkley.
+    pub herschel_bulkley: Option<HerschelBulkley>,
+    /// Change of the viscosity with time and temperature.
+    pub cure: Option<CureTable>,
     /// Convention of the rate in eta(rate).
     #[serde(default, deserialize_with = "choice")]
     pub shear_rate: ShearRate,

@@ -1,18 +1,16 @@
 //! A case and its bodies or bond file, resolved to a [`Scene`] in SI.
 
 mod bond;
+mod liquid;
 mod meeting;
 mod plausible;
 mod primitives;
 mod seed;
 
 use particle_file::limits;
-use physics::{
-    Amount, Boundary, Clamp, Dimensions, Liquid, Newtonian, Pid, Points, RigidBody, Scene, Stop,
-    Table, Tait, Viscosity, WallLaw,
-};
+use physics::{Amount, Boundary, Clamp, Dimensions, Pid, Points, RigidBody, Scene, Stop, WallLaw};
 
-use crate::case::{Adhesive, Case, CaseError, Contact, StopRule};
+use crate::case::{Case, CaseError, Contact, StopRule};
 
 pub use bond::Bond;
 pub(crate) use plausible::OVERLAP;
@@ -130,7 +128,7 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
         dimensions,
         grid: geometry.grid,
         boundary: boundary(case, dimensions)?,
-        liquid: liquid(&case.adhesive)?,
+        liquid: liquid::liquid(&case.adhesive)?,
         points: Points::default(),
         wall: wall(case.contact.as_ref(), cell, !geometry.bodies.is_empty())?,
         bodies: geometry.bodies,
@@ -206,38 +204,6 @@ fn boundary(case: &Case, dimensions: Dimensions) -> Result<[Boundary; 3], CaseEr
         ));
     }
     Ok(sides)
-}
-
-fn liquid(adhesive: &Adhesive) -> Result<Liquid, CaseError> {
-    let viscosity = match (&adhesive.viscosity, &adhesive.viscosity_table) {
-        (Some(eta), None) => Viscosity::Newtonian(Newtonian(eta.si())),
-        (None, Some(points)) => {
-            let points: Vec<_> = points
-                .iter()
-                .map(|(rate, eta)| (rate.si(), eta.si()))
-                .collect();
-            Viscosity::Table(Table::new(&points).map_err(|e| CaseError(format!("[adhesive] {e}")))?)
-        }
-        (Some(_), Some(_)) => {
-            return Err(CaseError(
-                "[adhesive] has viscosity and viscosity_table: only one can hold".into(),
-            ));
-        }
-        (None, None) => {
-            return Err(CaseError(
-                "[adhesive] needs viscosity or viscosity_table".into(),
-            ));
-        }
-    };
-    Ok(Liquid {
-        density: adhesive.density.si(),
-        tait: Tait {
-            bulk_modulus: adhesive.bulk_modulus.si(),
-        },
-        viscosity,
-        shear_rate: adhesive.shear_rate,
-        cavitation_pressure: adhesive.cavitation_pressure.map(|p| p.si()),
-    })
 }
 
 fn wall(contact: Option<&Contact>, cell: f64, walls: bool) -> Result<WallLaw, CaseError> {

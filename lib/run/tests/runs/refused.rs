@@ -2,6 +2,11 @@
 
 use crate::plan::{CASE, IMPLICIT, plan};
 
+const POWER: &str = "power_law = { consistency = \"1 Pa s^n\", index = 0.5, rates = [\"1 1/s\", \"1e6 1/s\"] }\nviscosity =";
+const HERSCHEL: &str = "herschel_bulkley = { yield_stress = \"50 Pa\", consistency = \"10 Pa s^n\", index = 1.2, regularisation_rate = \"1 1/s\" }";
+const GEL: &str = "[adhesive.cure]\ngel_time = \"1 s\"\nexponent = 2.0\n[contact]";
+const HEATED: &str = "[adhesive.cure]\ngel_time = \"1 s\"\nexponent = 2.0\nactivation_energy = \"80 kJ/mol\"\n[contact]";
+
 #[test]
 fn what_contradicts_itself_is_refused() {
     let liquid_above = "[[body]]\nmaterial = \"adhesive\"\nbox = { min = [\"4 um\", \"9 um\", \"0 um\"], max = [\"16 um\", \"16 um\", \"8 um\"] }\n[boundary]";
@@ -48,6 +53,22 @@ fn what_contradicts_itself_is_refused() {
             "[contact] law is needed",
         ),
         (&[("viscosity = \"300 cP\"\n", "")], &[], "needs viscosity"),
+        (
+            &[("viscosity =", POWER)],
+            &[],
+            "more than one of viscosity,",
+        ),
+        (
+            &[("viscosity = \"300 cP\"", HERSCHEL)],
+            &[],
+            "[adhesive] Herschel-Bulkley: index = 1.2 is not accepted",
+        ),
+        (&[("[contact]", GEL)], &[], "[adhesive.cure] is for scheme"),
+        (
+            &[IMPLICIT[0], IMPLICIT[1], ("[contact]", HEATED)],
+            &[],
+            "temperature, reference_temperature and activation_energy",
+        ),
         (&[("travel = \"3 um\"\n", "")], &[], "travel"),
         (&[], &["clamp.pid={ kp = -1.0, ki = 0.0, kd = 0.0 }"], "pid"),
         (&[], &["boundary.y=periodic"], "no meaning with [clamp]"),

@@ -22,7 +22,12 @@ fn facts(summary: &Summary) -> String {
 }
 
 /// On 314e630 a run stopped in its last step ended at 0 Pa, without its last row.
-fn stopped_after_any_step(integrator: &str, stop: &str, every: &str) {
+fn stopped_after_any_step(integrator: &str, stop: &str, every: &str) -> Summary {
+    stopped_after_every(1, integrator, stop, every)
+}
+
+/// The same of steps `apart`.
+fn stopped_after_every(apart: usize, integrator: &str, stop: &str, every: &str) -> Summary {
     let bench = Bench::new(integrator, stop, every);
     let summary = bench.ran("whole", RESUME, usize::MAX);
     let whole = bench.path("whole");
@@ -35,7 +40,7 @@ fn stopped_after_any_step(integrator: &str, stop: &str, every: &str) {
         rows.lines().count() < summary.steps as usize,
         "a row for each step shows less"
     );
-    for steps in 1..=summary.steps as usize {
+    for steps in (1..=summary.steps as usize).step_by(apart) {
         let parts = format!("parts-{steps}");
         assert_eq!(bench.ran(&parts, RESUME, steps).end, End::Interrupted);
         let resumed = bench.ran(&parts, RESUME, usize::MAX);
@@ -45,6 +50,7 @@ fn stopped_after_any_step(integrator: &str, stop: &str, every: &str) {
             "stopped after {steps}"
         );
     }
+    summary
 }
 
 #[test]
@@ -55,4 +61,18 @@ fn an_explicit_run_stopped_after_any_step_ends_the_same() {
 #[test]
 fn an_implicit_run_stopped_after_any_step_ends_the_same() {
     stopped_after_any_step("scheme = \"implicit\"\ncfl = 0.05", "1.45 us", "0.4 us");
+}
+
+/// Its clock sets the viscosity, and its end.
+#[test]
+fn a_run_of_an_adhesive_that_sets_stopped_after_any_step_ends_the_same() {
+    let cure = "scheme = \"implicit\"\n[adhesive.cure]\ngel_time = \"2 us\"\nexponent = 2.0";
+    let summary = stopped_after_every(7, cure, "4 us", "0.2 us");
+    assert_eq!(summary.end, End::Set);
+    assert!(
+        (summary.time_s / 2e-6 - 0.999).abs() < 1e-5,
+        "{}",
+        summary.time_s
+    );
+    assert!(summary.sentence().contains("because the adhesive has set"));
 }

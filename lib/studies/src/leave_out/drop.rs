@@ -83,6 +83,7 @@ fn scene() -> Scene {
             },
             viscosity: Viscosity::Newtonian(Newtonian(PF[2])),
             shear_rate: ShearRate::Paper,
+            cure: None,
             cavitation_pressure: None,
         },
         points,

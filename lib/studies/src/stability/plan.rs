@@ -120,6 +120,40 @@ fn liquids(plan: &mut Plan) {
     }
     let table = base.of(Viscosity::Table(PVA_PF.to_vec()), PF[1]);
     plan.add("viscosity table", "PVA-PF", &table, &usual());
+    contrasts(plan);
+}
+
+/// Laws of which the slow and the fast liquid of one scene differ by up to nine decades of viscosity.
+fn contrasts(plan: &mut Plan) {
+    for (name, key) in [
+        (
+            "Carreau-Yasuda, 1e6 to 1e-3 Pa s",
+            "carreau_yasuda = { zero_rate = \"1e6 Pa s\", infinite_rate = \"1e-3 Pa s\", time = \"1e3 s\", index = 0.1 }",
+        ),
+        (
+            "Cross, 1e6 to 1e-3 Pa s",
+            "cross = { zero_rate = \"1e6 Pa s\", infinite_rate = \"1e-3 Pa s\", time = \"1e3 s\", exponent = 1.0 }",
+        ),
+        (
+            "Herschel-Bulkley, 1e6 Pa s at rest, 1e-3 Pa s",
+            "herschel_bulkley = { yield_stress = \"1e4 Pa\", consistency = \"1e-3 Pa s^n\", index = 1.0, regularisation_rate = \"0.01 1/s\" }",
+        ),
+        (
+            "power law, n = 0.1, 1e6 to 1e-3 Pa s",
+            "power_law = { consistency = \"1e4 Pa s^n\", index = 0.1, rates = [\"6e-3 1/s\", \"6e7 1/s\"] }",
+        ),
+    ] {
+        let scene = press(Press::default()).of(Viscosity::Law(key.into()), PF[1]);
+        plan.add("contrast", name, &scene, &[Method::implicit()]);
+    }
+    let rows = vec![[1e-2, 1e6], [1e6, 1e-3]];
+    let falling = press(Press::default()).of(Viscosity::Table(rows), PF[1]);
+    plan.add(
+        "contrast",
+        "table, 1e6 to 1e-3 Pa s, stress falls",
+        &falling,
+        &[Method::implicit()],
+    );
 }
 
 fn walls_and_speeds(plan: &mut Plan) {

@@ -80,6 +80,8 @@ fn explicit_step(scene: &Scene, cfl: f64) -> f64 {
     let eta = match &scene.case.viscosity {
         Viscosity::Newtonian(eta) => *eta,
         Viscosity::Table(rows) => rows.iter().map(|r| r[1]).fold(f64::INFINITY, f64::min),
+        // By the implicit scheme alone.
+        Viscosity::Law(_) => f64::INFINITY,
     };
     let h = scene.case.cell;
     let sound = (scene.case.bulk_modulus / PF[0]).sqrt();

@@ -3,8 +3,8 @@
 use super::lumen::Section;
 use super::piston::Drive;
 use super::{
-    Scene, acoustic, channel, clamp, column, couette, disc, drop, duct, galilean, incline, piston,
-    sealed, slit, spheres, squeeze, tait, taylor_green, washburn,
+    Scene, acoustic, channel, clamp, column, couette, cure, disc, drop, duct, galilean, incline,
+    laws, piston, sealed, slit, spheres, squeeze, tait, taylor_green, washburn,
 };
 use crate::case_text::PF;
 use crate::method::Method;
@@ -103,6 +103,14 @@ fn channels() -> Vec<Entry> {
         }
         list.push((channel::table_scene(n, 0.0, 0.4e-6), methods));
     }
+    for law in laws::LAWS {
+        for n in [3, 6, 12] {
+            let scene = laws::scene(law, n, 0.0, 0.4e-6);
+            list.push((scene, vec![short_steps(DEVELOPED)]));
+        }
+        let scene = laws::scene(law, 12, 0.5, 0.4e-6);
+        list.push((scene, vec![short_steps(DEVELOPED)]));
+    }
     for offset in OFFSETS {
         list.push((couette::scene(6, offset, 0.1, 3e-6), main_methods(0.01)));
     }
@@ -171,6 +179,12 @@ fn filling() -> Vec<Entry> {
     for section in [Section::Square, Section::Round(2)] {
         for n in [3, 6] {
             list.push((piston::scene(section, n, Drive::Pressure(1e6)), implicit()));
+        }
+    }
+    for growth in [cure::Growth::Gel, cure::Growth::Table] {
+        for n in [3, 6] {
+            list.push((cure::slit_scene(n, growth), implicit()));
+            list.push((cure::tube_scene(n, growth), implicit()));
         }
     }
     list

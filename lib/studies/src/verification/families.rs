@@ -15,6 +15,10 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
         "Viscosity table in a channel\n\nEta linear in log10 of the rate, 20 to 5 Pa s; mean velocity against quadrature of the profile at the points' places. Noise of FLIP's velocities counts as shear and thins the liquid.",
     ),
     (
+        "law",
+        "Laws by formula in a channel\n\nPower law (n = 0.5, 0.3), Cross, Carreau and Herschel-Bulkley, shear rates up to 3e4 1/s: mean velocity against quadrature of the profile at the points' places, that of Herschel and Bulkley's own law, not of its regularised form. Motion within the plug: how far velocities differ where the stress is below the yield stress, a cell within, over the velocity there.",
+    ),
+    (
         "couette",
         "Couette flow with partial slip\n\nSlip velocity at the resting wall, from a line through the middle half of the gap: an error of 1 % in its slope is one of 5 % here. The stress, by Eq. 3 the slip velocity times eta/l, follows from the power dissipated too (of which the explicit scheme's leaves out the friction at walls). In the implicit scheme it is too large by 2/(3 n (n + 2 l)), l in cells, since walls act at the distance that is exact for Poiseuille flow (docs/methods.md section 3.5).",
     ),
@@ -37,6 +41,10 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
     (
         "washburn3d",
         "Filling a square lumen and a tube at constant pressure\n\nTime from one to two diameters, as for the piston.",
+    ),
+    (
+        "cure",
+        "Filling at constant pressure with an adhesive that cures\n\nGel-time law (1 - t/t_gel)^-2, and a viscosity that grows 1e6-fold exponentially: filled length L against L (L + 2 e) = (r^2/4) integral of P/eta dt in a tube ((H^2/6) in a slit), e the equivalent length of entrance and front as for washburn. The run ends by itself where the viscosity is 1e6 times that at the start.",
     ),
     (
         "spheres",

@@ -25,7 +25,7 @@ pub enum Drive {
 /// Equivalent length of entrance and front over the diameter: what the implicit scheme with 12
 /// cells gives for the square, 0.19. The tube's is taken to be the same; were it 0.1 off, the
 /// pressure at two diameters would be 5 % off.
-const ENTRANCE: f64 = 0.2;
+pub(super) const ENTRANCE: f64 = 0.2;
 
 /// A lumen of `n` cells.
 pub fn scene(section: Section, n: u32, drive: Drive) -> Scene {

@@ -8,7 +8,7 @@ const PRESSURE: f64 = 1e6;
 
 /// Time to fill five widths in units of 12 eta/p by finite elements (lib/studies/reference) for a
 /// piston whose sides give way over 1/24 H.
-const TIME_TO_FIVE: f64 = 13.87;
+pub(super) const TIME_TO_FIVE: f64 = 13.87;
 
 /// Slit of `n` cells, walls `offset` cells off the nodes along x.
 pub fn scene(n: u32, offset: f64) -> Scene {

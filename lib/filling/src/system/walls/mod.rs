@@ -1,12 +1,14 @@
 //! Friction of walls on face velocities, and the widths of the lumens that go with it.
 
 mod effective_distance;
+mod thinning;
 mod view;
 
 use rayon::prelude::*;
 
 use super::dofs::Dofs;
 use crate::geometry::{BodyId, Lattice};
+pub(crate) use thinning::thinning_distance;
 use view::View;
 
 /// Faces per task; part of no result.
@@ -119,6 +121,11 @@ impl Walls {
             CENTRED => None,
             place => Some(&self.shifts[place as usize]),
         }
+    }
+
+    /// Width (cells) of the lumen at a face unknown, by all tangential directions.
+    pub(super) fn width(&self, face: usize) -> f64 {
+        1.0 / f64::from(self.inverse_widths[face]).sqrt()
     }
 
     /// Sets the viscosity of every link by `viscosity(face, link)`.

@@ -1,0 +1,323 @@
+//! Cure: how the viscosity changes with time and temperature, whatever the shear rate.
+
+/// Gas constant, J/(mol K) (CODATA 2018).
+const GAS: f64 = 8.314_462_618;
+/// Viscosity over that at the start from which the liquid counts as set.
+pub const SET: f64 = 1e6;
+/// Largest change of ln(factor), and of ln(speed of cure), from one knot to the next.
+const BETWEEN: f64 = 0.02;
+/// Temperatures of a press, K; others are slips of the pen.
+const TEMPERATURES: [f64; 2] = [200.0, 700.0];
+
+/// What a case says of the factor of the viscosity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CureLaw {
+    /// What the factor follows at the reference temperature; `None`: temperature alone.
+    pub course: Option<Course>,
+    /// Temperature (K) against time (s), linear between its points and constant outside; none: always
+    /// the reference temperature.
+    pub temperature: Vec<(f64, f64)>,
+    /// Temperature to which `course` and the law of the shear rate belong, K.
+    pub reference: f64,
+    /// Activation energy of cure E, J/mol: `course` runs exp(-E/R (1/T - 1/T_ref)) times as fast.
+    pub cure_energy: f64,
+    /// Activation energy of flow E, J/mol: the viscosity is exp(E/R (1/T - 1/T_ref)) times as large.
+    pub flow_energy: f64,
+}
+
+/// A factor against time at one temperature.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Course {
+    /// Points (s, factor), ln(factor) linear between them and constant outside.
+    Table(Vec<(f64, f64)>),
+    /// (1 - t/t_gel)^-n.
+    Gel {
+        /// t_gel, s.
+        time: f64,
+        /// n.
+        exponent: f64,
+    },
+}
+
+impl CureLaw {
+    /// ln(factor) by the course after the time `age` (s) at the reference temperature.
+    fn cured(&self, age: f64) -> f64 {
+        match &self.course {
+            None => 0.0,
+            Some(Course::Table(points)) => between(points, age, f64::ln),
+            Some(Course::Gel { time, exponent }) => -exponent * (1.0 - age / time).max(0.0).ln(),
+        }
+    }
+
+    /// 1/(R T) - 1/(R T_ref) at a time (s), mol/J.
+    fn cold(&self, time: f64) -> f64 {
+        if self.temperature.is_empty() {
+            return 0.0;
+        }
+        (1.0 / between(&self.temperature, time, |t| t) - 1.0 / self.reference) / GAS
+    }
+
+    /// ln of how much faster the cure is than at the reference temperature.
+    fn haste(&self, time: f64) -> f64 {
+        -self.cure_energy * self.cold(time)
+    }
+
+    fn factor(&self, time: f64, age: f64) -> f64 {
+        self.cured(age) + self.flow_energy * self.cold(time)
+    }
+
+    fn check(&self) -> Result<(), String> {
+        let rises = |what: &str, points: &[(f64, f64)]| {
+            let sound = points.first().is_none_or(|p| p.0 >= 0.0)
+                && points.windows(2).all(|pair| pair[0].0 < pair[1].0);
+            let message = || format!("the times of {what} must increase, from 0 or later on");
+            if sound { Ok(()) } else { Err(message()) }
+        };
+        rises("temperature", &self.temperature)?;
+        let kelvins = self.temperature.iter().map(|p| p.1).chain([self.reference]);
+        let [low, high] = TEMPERATURES;
+        if let Some(odd) = kelvins.into_iter().find(|t| !(low..=high).contains(t)) {
+            return Err(format!(
+                "{odd} K is no temperature of a press: {low} to {high} K is accepted"
+            ));
+        }
+        match &self.course {
+            Some(Course::Table(points))
+                if points.len() < 2 || points.iter().any(|p| p.1 <= 0.0) =>
+            {
+                Err("factor needs two points or more, and factors above zero".into())
+            }
+            Some(Course::Table(points)) => rises("factor", points),
+            Some(Course::Gel { exponent, .. }) if !(*exponent > 0.0 && *exponent <= 10.0) => {
+                Err(format!(
+                    "exponent = {exponent} is not accepted: a number above 0 and at most 10 is needed"
+                ))
+            }
+            Some(Course::Gel { .. }) => Ok(()),
+            None if self.temperature.is_empty() => {
+                Err("gel_time, factor or temperature is needed".into())
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// A factor of the viscosity against time, resolved from a [`CureLaw`] to knots between which its
+/// logarithm is linear; constant after the last one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cure {
+    /// Times from 0 on (s), and ln(factor).
+    knots: Vec<(f64, f64)>,
+    set: bool,
+}
+
+impl Cure {
+    /// Resolves `law`: marches over time in steps in which little changes.
+    ///
+    /// # Errors
+    /// One sentence on what of the law is out of range.
+    pub fn new(law: &CureLaw) -> Result<Self, String> {
+        law.check()?;
+        let heats: Vec<f64> = law.temperature.iter().map(|p| p.0).collect();
+        let ages: Vec<f64> = match &law.course {
+            None => Vec::new(),
+            Some(Course::Table(points)) => points.iter().map(|p| p.0).collect(),
+            Some(Course::Gel { time, .. }) => vec![*time],
+        };
+        let begin = law.factor(0.0, 0.0);
+        let (mut time, mut age, mut step) = (0.0_f64, 0.0_f64, f64::INFINITY);
+        let mut cure = Self {
+            knots: vec![(0.0, begin)],
+            set: false,
+        };
+        while let Some(left) = left(law, &heats, &ages, time, age) {
+            let (from, mut dt) = (law.factor(time, age), left.min(step));
+            let (older, to) = loop {
+                // Simpson's rule for the age over the step.
+                let haste = [0.0, 0.5, 1.0].map(|part| law.haste(time + part * dt));
+                let [a, b, c] = haste.map(f64::exp);
+                let older = age + dt / 6.0 * (a + 4.0 * b + c);
+                let to = law.factor(time + dt, older);
+                let change = (to - from).abs().max((haste[2] - haste[0]).abs());
+                if change <= BETWEEN {
+                    break (older, to);
+                }
+                dt *= 0.5;
+            };
+            let end = begin + SET.ln();
+            if to >= end {
+                cure.knots
+                    .push((time + (end - from) / (to - from) * dt, end));
+                cure.set = true;
+                break;
+            }
+            (time, age, step) = (time + dt, older, 2.0 * dt);
+            cure.knots.push((time, to));
+        }
+        Ok(cure)
+    }
+
+    /// Factor of the viscosity at a time, s.
+    pub fn factor(&self, time: f64) -> f64 {
+        between(&self.knots, time, |ln| ln).exp()
+    }
+
+    /// When the liquid has set: the viscosity is [`SET`] times that at the start; `None`: never.
+    pub fn set_at(&self) -> Option<f64> {
+        self.knots.last().filter(|_| self.set).map(|knot| knot.0)
+    }
+
+    /// For how long from `time` (s) on ln(factor) changes by no more than `most`, s.
+    pub fn steady(&self, time: f64, most: f64) -> f64 {
+        let here = between(&self.knots, time, |ln| ln);
+        let first = self.knots.partition_point(|knot| knot.0 <= time);
+        let (mut last, mut from) = (time, here);
+        for &(then, to) in &self.knots[first..] {
+            let off = (to - here).abs();
+            if off > most {
+                let bound = here + most * (to - here).signum();
+                return last + (bound - from) / (to - from) * (then - last) - time;
+            }
+            (last, from) = (then, to);
+        }
+        f64::INFINITY
+    }
+
+    /// Sum over the knots of the changes of ln(factor) up to `time`, s.
+    pub fn change(&self, time: f64) -> f64 {
+        let before = self.knots.windows(2).filter(|pair| pair[0].0 < time);
+        before.map(|pair| (pair[1].1 - pair[0].1).abs()).sum()
+    }
+}
+
+/// Time to the next point at which a formula of `law` changes, s; `None` where nothing changes any more.
+fn left(law: &CureLaw, heats: &[f64], ages: &[f64], time: f64, age: f64) -> Option<f64> {
+    let heat = heats
+        .iter()
+        .find(|mark| **mark > time)
+        .map(|mark| mark - time);
+    // A hair, so that a sum of many steps that should meet a mark does.
+    let course = ages.iter().find(|mark| **mark > age * (1.0 + 1e-12));
+    let course = course.map(|mark| (mark - age) / law.haste(time).exp());
+    match (heat, course) {
+        (Some(heat), Some(course)) => Some(heat.min(course)),
+        (heat, course) => heat.or(course),
+    }
+}
+
+/// Values of points (argument, value) in between by `of` of the values, linear; constant outside.
+fn between(points: &[(f64, f64)], x: f64, of: impl Fn(f64) -> f64) -> f64 {
+    let right = points.partition_point(|p| p.0 <= x);
+    match (
+        right.checked_sub(1).map(|left| points[left]),
+        points.get(right),
+    ) {
+        (Some((a, fa)), Some(&(b, fb))) => of(fa) + (x - a) / (b - a) * (of(fb) - of(fa)),
+        (Some((_, f)), None) | (None, Some(&(_, f))) => of(f),
+        (None, None) => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn gel(temperature: &[(f64, f64)]) -> CureLaw {
+        CureLaw {
+            course: Some(Course::Gel {
+                time: 100.0,
+                exponent: 2.0,
+            }),
+            temperature: temperature.to_vec(),
+            reference: 400.0,
+            cure_energy: 80e3,
+            flow_energy: 0.0,
+        }
+    }
+
+    #[test]
+    fn the_gel_law_to_its_end() {
+        let cure = Cure::new(&gel(&[])).unwrap();
+        for time in [0.0, 10.0, 50.0, 90.0, 99.0, 99.89] {
+            let exact = (1.0_f64 - time / 100.0).powi(-2);
+            assert!((cure.factor(time) / exact - 1.0).abs() < 1e-3, "{time}");
+        }
+        // 1e6-fold at (1 - t)^2 = 1e-6.
+        let set = cure.set_at().unwrap();
+        assert!((set - 99.9).abs() < 1e-3, "{set}");
+        assert!((cure.factor(set) / SET - 1.0).abs() < 1e-9);
+    }
+
+    /// 20 K below, the cure takes exp(E/R (1/380 - 1/400)) = 3.55 times as long; while it heats up, as long
+    /// as the integral of the rates says.
+    #[test]
+    fn the_cure_is_slower_in_the_cold() {
+        let slower = (80e3 / GAS * (1.0 / 380.0 - 1.0 / 400.0)).exp();
+        let cold = Cure::new(&gel(&[(0.0, 380.0)])).unwrap();
+        let set = cold.set_at().unwrap();
+        assert!((set / (99.9 * slower) - 1.0).abs() < 1e-5, "{set}");
+        let heated = Cure::new(&gel(&[(0.0, 300.0), (60.0, 420.0)])).unwrap();
+        let rate = |t: f64| (-80e3 / GAS * (1.0 / t - 1.0 / 400.0)).exp();
+        let age: f64 = (0..60_000)
+            .map(|i| 1e-3 * rate(300.0 + 2.0 * (f64::from(i) + 0.5) * 1e-3))
+            .sum();
+        let exact = 60.0 + (99.9 - age) / rate(420.0);
+        let set = heated.set_at().unwrap();
+        assert!((set / exact - 1.0).abs() < 1e-4, "{set} {exact}");
+    }
+
+    #[test]
+    fn a_table_and_a_flow_that_thins_as_it_heats() {
+        let mut law = gel(&[(10.0, 300.0), (20.0, 400.0)]);
+        law.course = Some(Course::Table(vec![(5.0, 2.0), (15.0, 200.0)]));
+        (law.cure_energy, law.flow_energy) = (0.0, 30e3);
+        let cure = Cure::new(&law).unwrap();
+        let thick = |t: f64| (30e3 / GAS * (1.0 / t - 1.0 / 400.0)).exp();
+        for (time, exact) in [
+            (0.0, 2.0 * thick(300.0)),
+            (10.0, 20.0 * thick(300.0)),
+            (15.0, 200.0 * thick(350.0)),
+            (20.0, 200.0),
+            (1e9, 200.0),
+        ] {
+            assert!((cure.factor(time) / exact - 1.0).abs() < 1e-3, "{time}");
+        }
+        assert_eq!(cure.set_at(), None);
+    }
+
+    #[test]
+    fn a_step_can_be_bounded_by_the_change_in_it() {
+        let cure = Cure::new(&gel(&[])).unwrap();
+        for time in [0.0, 30.0, 99.0] {
+            let dt = cure.steady(time, 0.2);
+            let grown = (cure.factor(time + dt) / cure.factor(time)).ln();
+            assert!((grown - 0.2).abs() < 1e-9, "{time}: {grown}");
+        }
+        let set = cure.set_at().unwrap();
+        assert_eq!(cure.steady(set, 0.2), f64::INFINITY);
+        assert!((cure.change(set) / SET.ln() - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_is_no_cure_is_refused_in_a_sentence() {
+        let said = |change: &dyn Fn(&mut CureLaw)| {
+            let mut law = gel(&[(0.0, 300.0), (1.0, 400.0)]);
+            change(&mut law);
+            Cure::new(&law).unwrap_err()
+        };
+        assert!(said(&|l| l.temperature.reverse()).contains("must increase"));
+        assert!(said(&|l| l.reference = 20.0).contains("20 K is no temperature"));
+        let table = |points: &[(f64, f64)]| Some(Course::Table(points.to_vec()));
+        assert!(said(&|l| l.course = table(&[(0.0, 1.0)])).contains("two points"));
+        assert!(said(&|l| l.course = table(&[(0.0, 1.0), (1.0, 0.0)])).contains("above zero"));
+        let exponent = 0.0;
+        assert!(
+            said(&|l| l.course = Some(Course::Gel {
+                time: 1.0,
+                exponent
+            }))
+            .contains("exponent")
+        );
+        assert!(said(&|l| (l.course, l.temperature) = (None, Vec::new())).contains("is needed"));
+    }
+}

@@ -1,0 +1,163 @@
+//! Filling at constant pressure with an adhesive that cures: L^2 = (r^2/4) integral of P/eta dt in a tube,
+//! (H^2/6) of it in a slit, both with the equivalent length of entrance and front; the run ends once set.
+
+use super::lumen::Section;
+use super::piston::{self, Drive};
+use super::{LUMEN, Measured, Scene, slit, washburn};
+use crate::case_text::PF;
+
+/// Pressure, Pa: filling takes half a second.
+const PRESSURE: f64 = 1e3;
+/// Growth of the viscosity at which a run counts as set.
+const SET: f64 = 1e6;
+
+/// How the viscosity grows.
+#[derive(Clone, Copy, Debug)]
+pub enum Growth {
+    /// (1 - t/t_gel)^-2.
+    Gel,
+    /// Exponentially, by a table of two points, to [`SET`].
+    Table,
+}
+
+impl Growth {
+    fn name(self) -> &'static str {
+        match self {
+            Growth::Gel => "gel",
+            Growth::Table => "table",
+        }
+    }
+
+    /// Time (s) of the law, t_gel or that of the last point, for an integral of 1/factor of `whole` (s).
+    fn time(self, whole: f64) -> f64 {
+        match self {
+            Growth::Gel => 3.0 * whole,
+            Growth::Table => SET.ln() * whole,
+        }
+    }
+
+    /// Integral of 1/factor up to a time, s.
+    fn fluidity(self, time: f64, until: f64) -> f64 {
+        match self {
+            Growth::Gel => time / 3.0 * (1.0 - (1.0 - until / time).powi(3)),
+            Growth::Table => time / SET.ln() * (1.0 - SET.powf(-until / time)),
+        }
+    }
+
+    /// When the viscosity has grown to [`SET`] times that at the start, s.
+    fn set(self, time: f64) -> f64 {
+        match self {
+            Growth::Gel => time * (1.0 - SET.powf(-0.5)),
+            Growth::Table => time,
+        }
+    }
+
+    fn keys(self, time: f64) -> String {
+        match self {
+            Growth::Gel => format!("gel_time = \"{time} s\"\nexponent = 2.0\n"),
+            Growth::Table => format!("factor = [[\"0 s\", 1.0], [\"{time} s\", {SET:e}]]\n"),
+        }
+    }
+}
+
+/// A slit of `n` cells that fills to 4.5 of its widths.
+pub fn slit_scene(n: u32, growth: Growth) -> Scene {
+    let h = LUMEN / f64::from(n);
+    let limit = PRESSURE * 4.0 * LUMEN / (4.0 * LUMEN + 6.0 * h);
+    let entrance = (washburn::TIME_TO_FIVE - 12.5) / 5.0 + slit::corner(n);
+    let filling = Filling {
+        name: format!("cure-slit-n{n}-{}", growth.name()),
+        growth,
+        limit,
+        unit: 12.0 * PF[2] / PRESSURE,
+        entrance,
+        goal: 4.5,
+        travel: 0.25,
+    };
+    filling.of(washburn::scene(n, 0.0))
+}
+
+/// A tube of `n` cells that fills to 2.5 of its diameters.
+pub fn tube_scene(n: u32, growth: Growth) -> Scene {
+    let section = Section::Round(2);
+    let right = LUMEN + 2.0 * LUMEN / f64::from(n);
+    let filling = Filling {
+        name: format!("cure-tube-n{n}-{}", growth.name()),
+        growth,
+        limit: PRESSURE * (LUMEN / right).powi(2),
+        unit: section.staircase_resistance(n) * PF[2] / PRESSURE,
+        entrance: piston::ENTRANCE,
+        goal: 2.5,
+        travel: section.area(n) / 4.0,
+    };
+    filling.of(piston::scene(section, n, Drive::Pressure(PRESSURE)))
+}
+
+/// A lumen filled at constant pressure, lengths in its widths.
+struct Filling {
+    name: String,
+    growth: Growth,
+    /// Pressure on the domain's cross-section, Pa.
+    limit: f64,
+    /// Time in which a length of sqrt 2 is filled without entrance or cure, s.
+    unit: f64,
+    /// Equivalent length of entrance and front.
+    entrance: f64,
+    /// Where it comes to rest.
+    goal: f64,
+    /// Travel of the piston per filled width.
+    travel: f64,
+}
+
+impl Filling {
+    /// The scene of `filling` without cure, with cure.
+    fn of(self, filling: Scene) -> Scene {
+        let whole = self.unit * (0.5 * self.goal * self.goal + self.entrance * self.goal);
+        let time = self.growth.time(whole);
+        let set = self.growth.set(time);
+        let mut case = filling.case;
+        case.title = format!(
+            "Filling at constant pressure with an adhesive that cures ({}).\nAgainst Washburn's law with the integral of P/eta dt.",
+            self.growth.name()
+        );
+        case.clamp = Some(format!(
+            "closing_speed = \"0.02 m/s\"\nmax_pressure = \"{:.6} Pa\"\nstop = \"{} s\"\ntravel = \"{:.6} um\"\n",
+            self.limit,
+            10.0 * time,
+            1.2 * self.goal * self.travel * LUMEN * 1e6
+        ));
+        case.cure = Some(self.growth.keys(time));
+        case.history_every = set / 400.0;
+        Scene {
+            name: self.name.clone(),
+            case,
+            against: "Washburn with cure",
+            measure: Box::new(move |run| {
+                let times = run.history("time_s")?;
+                let travel = run.history("displacement_m")?;
+                let filled = |s: &f64| s / (self.travel * LUMEN);
+                let done = |t: f64| self.growth.fluidity(time, t) / self.unit;
+                let exact = |from: f64, since: f64, t: f64| {
+                    let start = from + self.entrance;
+                    (start * start + 2.0 * (done(t) - since)).sqrt() - self.entrance
+                };
+                let first = travel.iter().position(|s| filled(s) >= 1.0);
+                let first = first.ok_or("it was not filled to one width")?;
+                let (from, since) = (filled(&travel[first]), done(times[first]));
+                let errors = (times.iter().zip(&travel).skip(first))
+                    .map(|(t, s)| filled(s) / exact(from, since, *t) - 1.0);
+                let worst = errors.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+                let worst = worst.unwrap_or(f64::NAN);
+                let (end, came) = (times.last(), travel.last());
+                let (Some(end), Some(came)) = (end, came) else {
+                    return Err("its history is empty".into());
+                };
+                Ok(vec![
+                    Measured::relative("L where it has set", filled(came), exact(0.0, 0.0, *end)),
+                    Measured::absolute("L(t) from L = d on, worst", worst),
+                    Measured::relative("time at which it ended", *end, set),
+                ])
+            }),
+        }
+    }
+}

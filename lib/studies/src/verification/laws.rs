@@ -1,0 +1,104 @@
+//! Viscosity laws by formula in a channel, against quadrature of the profile.
+
+use super::channel;
+use super::{LUMEN, Measured, Scene, final_points, mean_against};
+use crate::case_text::{PF, Viscosity};
+use crate::closed_forms::channel_of;
+use crate::outputs::Run;
+
+/// A law with its own formula, not the code's.
+#[derive(Clone, Copy, Debug)]
+pub struct Law {
+    /// Word in names.
+    pub name: &'static str,
+    /// Its key and value in a case file.
+    key: &'static str,
+    /// Viscosity (Pa s) of a shear rate (1/s) as the law has it, without its regularisation.
+    eta: fn(f64) -> f64,
+    /// Stress below which it does not flow, Pa.
+    yields: f64,
+    /// Body force per mass, m/s2: shear rates up to 3e4 1/s at the walls.
+    force: f64,
+}
+
+/// The laws, thinning tenfold and more over the channel.
+pub const LAWS: [Law; 5] = [
+    Law {
+        name: "power0.5",
+        key: "power_law = { consistency = \"500 Pa s^n\", index = 0.5, rates = [\"1 1/s\", \"1e6 1/s\"] }",
+        eta: |rate| 500.0 * rate.powf(-0.5),
+        yields: 0.0,
+        force: 8e6,
+    },
+    Law {
+        name: "power0.3",
+        key: "power_law = { consistency = \"3000 Pa s^n\", index = 0.3, rates = [\"1 1/s\", \"1e6 1/s\"] }",
+        eta: |rate| 3000.0 * rate.powf(-0.7),
+        yields: 0.0,
+        force: 8e6,
+    },
+    Law {
+        name: "cross",
+        key: "cross = { zero_rate = \"50 Pa s\", infinite_rate = \"0.5 Pa s\", time = \"1 ms\", exponent = 0.8 }",
+        eta: |rate| 0.5 + 49.5 / (1.0 + (1e-3 * rate).powf(0.8)),
+        yields: 0.0,
+        force: 8e6,
+    },
+    Law {
+        name: "carreau",
+        key: "carreau_yasuda = { zero_rate = \"50 Pa s\", infinite_rate = \"0.5 Pa s\", time = \"1 ms\", index = 0.4 }",
+        eta: |rate| 0.5 + 49.5 * (1.0 + (1e-3 * rate).powi(2)).powf(-0.3),
+        yields: 0.0,
+        force: 8e6,
+    },
+    Law {
+        name: "herschel",
+        key: "herschel_bulkley = { yield_stress = \"40000 Pa\", consistency = \"250 Pa s^n\", index = 0.5, regularisation_rate = \"3 1/s\" }",
+        eta: |rate| 40e3 / rate + 250.0 * rate.powf(-0.5),
+        yields: 40e3,
+        force: 8e6,
+    },
+];
+
+/// A channel of `n` cells, its lower wall `offset` cells off the nodes.
+pub fn scene(law: Law, n: u32, offset: f64, until: f64) -> Scene {
+    let mut scene = channel::scene(n, offset, None, until);
+    scene.name = format!("law-{}-n{n}-off{offset}", law.name);
+    scene.against = "quadrature of the profile";
+    scene.case.title = format!(
+        "Channel of {n} cells, {}, walls {offset} cell off the nodes.\nAgainst quadrature of the profile.",
+        law.name
+    );
+    scene.case.viscosity = Viscosity::Law(law.key.into());
+    scene.case.gravity = [law.force, 0.0, 0.0];
+    let low = scene.case.bodies[0].max[1];
+    scene.measure = Box::new(move |run| {
+        let exact = channel_of(law.eta, 1e7, LUMEN, law.force, PF[0]);
+        let mut list = vec![mean_against(run, low, exact)?];
+        if law.yields > 0.0 {
+            // Half the thickness of what does not yield.
+            let half = law.yields / (PF[0] * law.force);
+            list.push(plug(run, low, half, LUMEN / f64::from(n))?);
+        }
+        Ok(list)
+    });
+    scene
+}
+
+/// How far velocities differ in the plug, `half` (m) about the middle of the channel less a `cell` (m) that
+/// shares a cell with what yields, over the velocity there.
+fn plug(run: &Run, low: f64, half: f64, cell: f64) -> Result<Measured, String> {
+    let (mut slowest, mut fastest) = (f64::INFINITY, 0.0_f64);
+    for (x, v) in final_points(run)? {
+        if (x[1] - low - 0.5 * LUMEN).abs() < half - cell {
+            (slowest, fastest) = (slowest.min(v[0]), fastest.max(v[0]));
+        }
+    }
+    if fastest == 0.0 {
+        return Err("there is no plug".into());
+    }
+    Ok(Measured::absolute(
+        "motion within the plug",
+        1.0 - slowest / fastest,
+    ))
+}
