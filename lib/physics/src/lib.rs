@@ -15,7 +15,7 @@ mod wall_law;
 
 pub use bodies::{Motion, RigidBody, VoxelBlock};
 pub use choice::Choice;
-pub use clamp::{Clamp, Pid, PidControl};
+pub use clamp::{Clamp, Pid, PidControl, breaks, broken};
 pub use material::{
     Liquid, Newtonian, Rheology, ShearRate, TAIT_C, Table, TableError, Tait, Viscosity,
 };

@@ -1,14 +1,11 @@
 //! How the bodies move: constant speeds, and the clamp under load control.
 
-use physics::{Clamp, Motion, PidControl};
+use physics::{Clamp, Motion, PidControl, breaks};
 
 use crate::stages::Present;
 
 /// Relative excess over the pressure limit that is tolerated.
 const TOLERANCE: f64 = 5e-3;
-
-/// Relative excess over the pressure limit from which a step does not keep it.
-const BROKEN: f64 = 0.02;
 
 /// Speed of the clamp.
 #[derive(Clone, Copy, Debug)]
@@ -123,15 +120,23 @@ impl Drive {
 
     /// Takes in the pressure (Pa) of a step of `dt` (s) that is over.
     pub(super) fn observe(&mut self, pressure: f64, dt: f64) {
-        match &mut self.control {
-            Control::Pid(pid) => {
-                pid.observe(pressure, dt);
-                self.speed = pid.speed();
-            }
-            Control::Limit { limit, .. } if pressure > *limit * (1.0 + BROKEN) => {
-                self.broken = (self.broken.0 + 1, pressure);
-            }
-            Control::Limit { .. } | Control::Free => self.broken.1 = 0.0,
+        if let Control::Pid(pid) = &mut self.control {
+            pid.observe(pressure, dt);
+            self.speed = pid.speed();
+        }
+        if self.limit().is_some_and(|limit| breaks(pressure, limit)) {
+            self.broken = (self.broken.0 + 1, pressure);
+        } else {
+            self.broken.1 = 0.0;
+        }
+    }
+
+    /// The pressure limit, Pa.
+    fn limit(&self) -> Option<f64> {
+        match &self.control {
+            Control::Limit { limit, .. } => Some(*limit),
+            Control::Pid(pid) => pid.limit(),
+            Control::Free => None,
         }
     }
 

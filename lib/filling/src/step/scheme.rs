@@ -166,7 +166,7 @@ impl Scheme for Implicit {
                 self.setup.sealed,
             ),
         ];
-        if self.setup.present.load && !self.setup.present.pid {
+        if self.setup.present.load {
             counts.push(("steps above the pressure limit", self.state.drive.broken.0));
         }
         if self.setup.present.table {
@@ -188,13 +188,7 @@ impl Scheme for Implicit {
             )
         });
         let pressure = self.state.drive.broken.1;
-        let limit = (pressure > 0.0).then(|| {
-            format!(
-                "liquid presses the clamp's body with {pressure:.3e} Pa in the last step, above its \
-                 max_pressure: the clamp stands and does not go back, and other bodies, a force or the \
-                 liquid's own inertia press on; a later end may help"
-            )
-        });
+        let limit = (pressure > 0.0).then(|| physics::broken(pressure));
         let said: Vec<String> = viscosity.into_iter().chain(limit).collect();
         (!said.is_empty()).then(|| said.join("; "))
     }
