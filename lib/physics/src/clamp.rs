@@ -45,9 +45,10 @@ const LEAST: f64 = 1e-6;
 /// Relative excess over the pressure limit from which a step does not keep it.
 const BROKEN: f64 = 0.02;
 
-/// Whether `pressure` (Pa) on the clamp's body is more than a clamp that keeps its `limit` (Pa) leaves.
-pub fn breaks(pressure: f64, limit: f64) -> bool {
-    pressure > limit * (1.0 + BROKEN)
+/// Whether `pressure` (Pa) on the clamp's body is more than a clamp that keeps its `limit` (Pa) leaves,
+/// measured by `scale` (Pa): the limit itself, where that is not next to nothing.
+pub fn breaks(pressure: f64, limit: f64, scale: f64) -> bool {
+    pressure > limit + BROKEN * scale
 }
 
 /// What is wrong with a run in whose last step `pressure` (Pa) breaks the limit, a clause.
@@ -127,7 +128,7 @@ impl PidControl {
     pub fn overwhelmed(&self) -> Option<f64> {
         let limit = self.clamp.max_pressure?;
         let pressure = limit * (1.0 - self.last_error);
-        (self.stands() && breaks(pressure, limit)).then_some(pressure)
+        (self.stands() && breaks(pressure, limit, limit)).then_some(pressure)
     }
 
     /// The changing part, for checkpoints.

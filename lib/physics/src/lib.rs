@@ -6,6 +6,7 @@ mod bodies;
 mod choice;
 mod clamp;
 mod material;
+mod press;
 mod regime;
 pub mod restored;
 mod scene;
@@ -19,6 +20,7 @@ pub use clamp::{Clamp, Pid, PidControl, breaks, broken};
 pub use material::{
     Liquid, Newtonian, Rheology, ShearRate, TAIT_C, Table, TableError, Tait, Viscosity,
 };
+pub use press::{Press, PressRun, PressStage, PressStep, Reason, StageEnd};
 pub use regime::Regime;
 pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Stop};
 pub use scheme::{

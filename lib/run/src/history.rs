@@ -14,7 +14,10 @@ use crate::request::RunFailure;
 /// The columns, contract first, then what the two schemes add.
 const HEADER: &str = "step,time_s,dt_s,closing_speed_m_s,displacement_m,gap_m,pressure_bottom_Pa,\
 pressure_top_Pa,kinetic_energy_J,viscous_power_W,adhesive_volume_m3,max_speed_m_s,lost_particles,\
-solver_iterations,capped_viscosity_fraction\n";
+solver_iterations,capped_viscosity_fraction";
+
+/// What a press programme adds: the number of the stage that the step was of.
+const STAGE: &str = ",stage";
 
 /// How far a history went, and what it then held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,20 +37,21 @@ pub(crate) struct History {
 }
 
 impl History {
-    /// Starts a new history in `folder`.
+    /// Starts a new history in `folder`, with a column for the stage of a press programme where it is `staged`.
     ///
     /// # Errors
     /// The file and the system's reason.
-    pub(crate) fn create(folder: &RunFolder) -> Result<Self, RunError> {
-        folder.write_text(HISTORY, HEADER)?;
+    pub(crate) fn create(folder: &RunFolder, staged: bool) -> Result<Self, RunError> {
+        let header = format!("{HEADER}{}\n", if staged { STAGE } else { "" });
+        folder.write_text(HISTORY, &header)?;
         let path = folder.place(HISTORY);
         let open = File::options().append(true).open(&path);
         let mut hash = Xxh3Default::new();
-        hash.update(HEADER.as_bytes());
+        hash.update(header.as_bytes());
         Ok(Self {
             file: open.map_err(RunError::write(&path))?,
             path,
-            bytes: HEADER.len() as u64,
+            bytes: header.len() as u64,
             hash,
         })
     }
@@ -99,7 +103,7 @@ impl History {
         })
     }
 
-    /// Appends a row. An unknown gap (no clamp) stays empty.
+    /// Appends a row. An unknown gap (no clamp) stays empty; `stage` only under a press programme.
     ///
     /// # Errors
     /// The file and the system's reason.
@@ -110,10 +114,12 @@ impl History {
         gap_m: Option<f64>,
         report: &StepReport,
         diagnostics: &Diagnostics,
+        stage: Option<usize>,
     ) -> Result<(), RunError> {
         let gap = gap_m.map_or(String::new(), |g| format!("{g:.9e}"));
+        let stage = stage.map_or(String::new(), |stage| format!(",{stage}"));
         let row = format!(
-            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}\n",
+            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}{stage}\n",
             report.dt_s,
             report.closing_speed,
             report.travel_m,
@@ -165,7 +171,7 @@ mod tests {
         for &step in steps {
             let (report, diagnostics) = (StepReport::default(), Diagnostics::default());
             history
-                .row(step, 1e-9, None, &report, &diagnostics)
+                .row(step, 1e-9, None, &report, &diagnostics, None)
                 .unwrap();
         }
     }
@@ -175,7 +181,7 @@ mod tests {
     fn resuming_drops_rows_after_the_checkpoint_and_parts_of_rows() {
         let (_place, folder) = held();
         let path = folder.place(HISTORY);
-        let mut history = History::create(&folder).unwrap();
+        let mut history = History::create(&folder, false).unwrap();
         add(&mut history, &[1, 12]);
         let extent = history.sync().unwrap();
         let kept = fs::read(&path).unwrap();
@@ -198,7 +204,7 @@ mod tests {
     #[test]
     fn a_history_that_is_removed_meanwhile_is_noticed() {
         let (_place, folder) = held();
-        let mut history = History::create(&folder).unwrap();
+        let mut history = History::create(&folder, false).unwrap();
         fs::remove_file(folder.place(HISTORY)).unwrap();
         add(&mut history, &[1]);
         let said = history.sync().unwrap_err().to_string();
@@ -209,7 +215,7 @@ mod tests {
     #[test]
     fn a_history_that_was_changed_is_not_continued() {
         let (_place, folder) = held();
-        let mut history = History::create(&folder).unwrap();
+        let mut history = History::create(&folder, false).unwrap();
         add(&mut history, &[1, 2]);
         let extent = history.sync().unwrap();
         let whole = fs::read(folder.place(HISTORY)).unwrap();

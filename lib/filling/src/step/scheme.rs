@@ -2,13 +2,17 @@
 
 use physics::restored;
 use physics::{
-    Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
+    Array, Diagnostics, Failure, LiquidState, PressRun, Saved, Scheme, StageTime, StepLimit,
+    StepReport,
 };
 use rayon::prelude::*;
 
 use super::solution::PASSES;
 use super::{Implicit, LastFlow, Rates};
 use crate::transport;
+
+/// Name of the array that holds where the press programme is.
+const PROGRAMME: &str = "programme";
 
 impl Scheme for Implicit {
     fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
@@ -93,6 +97,8 @@ impl Scheme for Implicit {
         ];
         let mut arrays: Vec<_> = arrays.map(|(name, array)| (name.to_string(), array)).into();
         arrays.extend((self.state.last.iter()).flat_map(LastFlow::save));
+        let programme = self.state.drive.programme().map(PressRun::state);
+        arrays.extend(programme.map(|state| (PROGRAMME.to_owned(), Array::F64(state))));
         Saved(arrays)
     }
 
@@ -142,9 +148,18 @@ impl Scheme for Implicit {
         (self.state.counts.pinched, self.state.counts.deflected) =
             (pinched as u64, deflected as u64);
         self.state.counts.unsettled = unsettled as u64;
+        if self.state.drive.programme().is_some() {
+            let state = saved.f64s(PROGRAMME)?;
+            restored::check_finite(state, PROGRAMME)?;
+            self.state.drive.set_programme(state)?;
+        }
         self.state.drive.set_state(drive);
         self.state.rates = Rates::Restored(rates.to_vec());
         Ok(())
+    }
+
+    fn programme(&self) -> Option<&PressRun> {
+        self.state.drive.programme()
     }
 
     fn stage_times(&self) -> Vec<StageTime> {
@@ -220,7 +235,10 @@ impl Implicit {
         let scalars = saved.f64s("scalars")?;
         restored::check_finite(scalars, "scalars")?;
         let scalar = |i: usize| scalars.get(i).copied().unwrap_or(f64::NAN);
-        if let Some(i) = scalars.iter().take(8).position(|&x| x < 0.0) {
+        // A clamp that a programme releases may give way beyond its start.
+        let opens = |i: usize| i == 1 && self.state.drive.programme().is_some();
+        let negative = |(i, &x): (usize, &f64)| x < 0.0 && !opens(i);
+        if let Some(i) = scalars.iter().enumerate().take(8).position(negative) {
             return Err(format!(
                 "scalar {i} of the checkpoint, {}, is negative",
                 scalar(i)

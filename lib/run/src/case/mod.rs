@@ -2,11 +2,13 @@
 //!
 //! Unknown keys, missing units and values out of range are refused with line and column.
 
+mod press;
 mod schema;
 mod value;
 
 use std::path::Path;
 
+pub use press::StageTable;
 pub use schema::{
     Adhesive, Axes, Body, BoxCorners, Case, ClampTable, Contact, Grid, Integrator, MaterialName,
     OutputTable, PidGains, SchemeName,
