@@ -189,7 +189,7 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
 
 /// A stage of a press programme.
 fn told(stage: &PressStage) -> String {
-    let mut said = format!("{}, at most {:e} m/s", stage.kind.name(), stage.speed);
+    let mut said = format!("{}, at most {:.4e} m/s", stage.kind.name(), stage.speed);
     if let Some(pressure) = stage.pressure {
         said += &match stage.kind {
             Press::Approach => format!(", until {:.4} MPa", 1e-6 * pressure),
@@ -204,9 +204,9 @@ fn told(stage: &PressStage) -> String {
         said += &format!(", until {:.4} um of travel", 1e6 * travel);
     }
     if let Some(slower) = stage.slower {
-        said += &format!(", until slower than {slower:e} m/s");
+        said += &format!(", until slower than {slower:.4e} m/s");
     }
-    said + &format!(", {:e} s at the longest", stage.time_s)
+    said + &format!(", {:.4e} s at the longest", stage.time_s)
 }
 
 fn cost(out: &mut String, setup: &Setup, forecast: &Forecast) -> std::fmt::Result {
