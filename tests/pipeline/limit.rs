@@ -41,6 +41,27 @@ fn sealed_liquid_is_held_at_the_limit_for_a_second() {
     }
 }
 
+/// A PID slows the clamp down step by step, too late for sealed liquid, and does not open it: 127, 13 and
+/// 3.4 MPa were "sound".
+#[test]
+fn sealed_liquid_above_the_limit_by_a_pid_is_no_sound_run() {
+    let bench = Workbench::new();
+    let pid = "max_pressure = \"2.5 MPa\"\npid = { kp = 0.0, ki = 0.02, kd = 0.0 }";
+    let implicit = |cfl: &str| {
+        chamber("1 ms", "")
+            .replace("max_pressure = \"2.5 MPa\"", pid)
+            .replace("cfl = 0.5", cfl)
+    };
+    let explicit = chamber("0.5 us", "").replace("\"implicit\"", "\"explicit\"");
+    for case in [implicit("cfl = 0.02"), implicit("cfl = 0.002"), explicit] {
+        bench.write("case.toml", &case);
+        let output = bench.run("mpm-run", &["-q", "case.toml", "-o", "run", "--overwrite"]);
+        let said = said(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("above its max_pressure"), "{said}");
+    }
+}
+
 /// The clamp stands, and another body goes on pressing.
 #[test]
 fn a_limit_that_is_not_kept_in_the_end_is_no_sound_run() {

@@ -121,7 +121,7 @@ fn undamaged_wood_is_laid_up_and_is_no_experiment() {
         "{plan}"
     );
     for (arguments, sentence) in [
-        (&[&bottom, &top][..], "give SLAB="),
+        (&[bottom.as_str(), top.as_str()][..], "give SLAB="),
         (&[&bottom, "SLAB=55.1 um"], "XCT_TOP=, or PLANE="),
         (&[&top, "SLAB=55.1 um"], "XCT_TOP needs XCT_BOTTOM"),
         (&[&bottom, "XCT_PF=x.tif", "SLAB=55.1 um"], "one kind"),

@@ -5,6 +5,7 @@
 //! a run; a [`Datum`] is what distances are measured from; the rest are functions of both.
 //! Lengths are metres, and all results are independent of the number of threads.
 
+mod bond_line;
 mod cell_error;
 mod compare;
 mod datum;
@@ -18,6 +19,7 @@ mod shear_rate;
 mod state;
 pub mod table;
 
+pub use bond_line::{BondLine, Filling, bond_line};
 pub use cell_error::{CellError, Extrapolated, LEAST_RATIO, cell_error, extrapolated};
 pub use compare::{Agreement, compare};
 pub use datum::{Datum, Reference};

@@ -58,6 +58,8 @@ pub struct Penetration {
     pub ep_m: f64,
     /// Depth of the deepest voxel or material point, m.
     pub max_depth_m: f64,
+    /// Depth that 95 % of the volume does not exceed, m.
+    pub p95_depth_m: f64,
     /// Depth that 99 % of the volume does not exceed, m.
     pub p99_depth_m: f64,
     /// Volume of adhesive, m3.
@@ -80,6 +82,7 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
         let volume = of_side().map(|s| s.volume).sum::<f64>() + 0.0;
         let squares: f64 = of_side().map(|s| s.volume * s.depth * s.depth).sum();
         let depths = Weighted::new(of_side().map(|s| (s.depth, s.volume)).collect());
+        let [p95_depth_m, p99_depth_m] = depths.quantiles([0.95, 0.99]);
         Penetration {
             side,
             plane_m: datum.plane_m(side),
@@ -87,7 +90,8 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
             slab_wp_m: total / area / 12_f64.sqrt(),
             ep_m: volume / area,
             max_depth_m: depths.max(),
-            p99_depth_m: depths.quantiles([0.99])[0],
+            p95_depth_m,
+            p99_depth_m,
             volume_m3: volume,
             voxels: of_side().map(|s| s.voxels).sum(),
         }

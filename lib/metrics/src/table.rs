@@ -5,7 +5,8 @@ use std::io::{self, Write};
 use units::Axis;
 
 use crate::{
-    Agreement, CellError, DepthLayer, Extrapolated, Map, Penetration, Reference, ShearRates,
+    Agreement, BondLine, CellError, DepthLayer, Extrapolated, Map, Penetration, Reference,
+    ShearRates,
 };
 
 /// Micrometres with six digits behind the point.
@@ -41,12 +42,15 @@ pub struct PenetrationRows {
     pub agreement: Option<[Agreement; 3]>,
     /// Pressure on the body that the clamp drives, Pa, when asked for.
     pub pressure_pa: Option<f64>,
+    /// Time (s) and bond line of a state in a series.
+    pub course: Option<(f64, BondLine)>,
     /// Each side and the pressure carried on to cells of no size, when a finer run was given.
     pub cell_error: Option<([CellError; 3], Extrapolated)>,
 }
 
 /// `file,side,reference,plane_m,wp_um,slab_wp_um,ep_um,max_depth_um,p99_depth_um,volume_um3,voxels`,
-/// then `dice,map_correlation` when the files were compared, `pressure_pa` when asked for, and
+/// then `dice,map_correlation` when the files were compared, `pressure_pa` when asked for,
+/// `time_s,gap_um,p95_depth_um,wetted_area_um2,bond_line_filled,bond_line` of a series, and
 /// `wp_extrapolated_um,wp_error_um,ep_extrapolated_um,ep_error_um,pressure_extrapolated_pa,pressure_error_pa`
 /// when a finer run was given.
 ///
@@ -72,6 +76,16 @@ pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::
     }
     if files.iter().any(|f| f.pressure_pa.is_some()) {
         header.push("pressure_pa");
+    }
+    if files.iter().any(|f| f.course.is_some()) {
+        header.extend([
+            "time_s",
+            "gap_um",
+            "p95_depth_um",
+            "wetted_area_um2",
+            "bond_line_filled",
+            "bond_line",
+        ]);
     }
     if files.iter().any(|f| f.cell_error.is_some()) {
         header.extend([
@@ -104,6 +118,16 @@ pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::
                 row.push(format!("{:.6}", agreement[i].map_correlation));
             }
             row.extend(file.pressure_pa.map(pascal));
+            if let Some((time_s, line)) = &file.course {
+                row.extend([
+                    format!("{time_s:.9e}"),
+                    um(line.gap_m),
+                    um(p.p95_depth_m),
+                    format!("{:.4}", 1e12 * line.wetted_m2[i]),
+                    format!("{:.6}", line.filled),
+                    line.filling.to_string(),
+                ]);
+            }
             if let Some((sides, pressure)) = &file.cell_error {
                 let CellError { wp_m, ep_m } = sides[i];
                 row.extend([wp_m.value, wp_m.error, ep_m.value, ep_m.error].map(um));
@@ -136,23 +160,32 @@ pub fn write_map(out: &mut dyn Write, map: &Map) -> io::Result<()> {
     table.flush()
 }
 
-/// `depth_um,adhesive_fraction,filled_void_fraction`, bottom adherend at negative depths.
+/// `depth_um,adhesive_fraction,filled_void_fraction`, bottom adherend at negative depths; after `time_s` (s)
+/// for each state of a series.
 ///
 /// # Errors
 /// What `out` says.
-pub fn write_depth_profile(out: &mut dyn Write, layers: &[DepthLayer]) -> io::Result<()> {
+pub fn write_depth_profiles(
+    out: &mut dyn Write,
+    profiles: &[(Option<f64>, Vec<DepthLayer>)],
+) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    table
-        .write_record(["depth_um", "adhesive_fraction", "filled_void_fraction"])
-        .map_err(unwrapped)?;
-    for layer in layers {
-        table
-            .write_record([
+    let timed = profiles.iter().any(|(time_s, _)| time_s.is_some());
+    let header = ["depth_um", "adhesive_fraction", "filled_void_fraction"];
+    let header = timed.then_some("time_s").into_iter().chain(header);
+    table.write_record(header).map_err(unwrapped)?;
+    for (time_s, layers) in profiles {
+        for layer in layers {
+            let row = [
                 um(layer.depth_m),
                 format!("{:.6}", layer.adhesive_fraction),
                 format!("{:.6}", layer.filled_void_fraction),
-            ])
-            .map_err(unwrapped)?;
+            ];
+            let time = time_s.map(|time_s| format!("{time_s:.9e}"));
+            table
+                .write_record(time.into_iter().chain(row))
+                .map_err(unwrapped)?;
+        }
     }
     table.flush()
 }

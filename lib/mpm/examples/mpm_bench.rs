@@ -96,6 +96,7 @@ fn scene(walls: bool, viscosity: Viscosity) -> Scene {
             max_pressure: Some(2.5e6),
             pid: None,
         }),
+        programme: Vec::new(),
         stop: Stop::Time(1.0),
         bottom: walls.then_some(0),
         top: walls.then_some(1),

@@ -108,4 +108,8 @@ impl Scheme for Explicit {
     fn stage_times(&self) -> Vec<StageTime> {
         self.clock.times()
     }
+
+    fn objection(&self) -> Option<String> {
+        (self.control.as_ref()?.overwhelmed()).map(physics::broken)
+    }
 }

@@ -42,12 +42,31 @@ const REFERENCE_TIME: f64 = 0.015;
 /// Least integral: the speed from which a clamp that was held comes back.
 const LEAST: f64 = 1e-6;
 
+/// Relative excess over the pressure limit from which a step does not keep it.
+const BROKEN: f64 = 0.02;
+
+/// Whether `pressure` (Pa) on the clamp's body is more than a clamp that keeps its `limit` (Pa) leaves,
+/// measured by `scale` (Pa): the limit itself, where that is not next to nothing.
+pub fn breaks(pressure: f64, limit: f64, scale: f64) -> bool {
+    pressure > limit + BROKEN * scale
+}
+
+/// What is wrong with a run in whose last step `pressure` (Pa) breaks the limit, a clause.
+pub fn broken(pressure: f64) -> String {
+    format!(
+        "liquid presses the clamp's body with {pressure:.3e} Pa in the last step, above its \
+         max_pressure: the clamp stands and does not go back, and other bodies, a force, the \
+         liquid's own inertia or its compression press on; a later end or a lower closing_speed may help"
+    )
+}
+
 /// PID control of the closing speed (the paper's section 2.2), on the logarithm of the speed.
 ///
 /// Pressure is resistance times speed, and a press slows down by decades as its resistance
 /// rises: a controller that adds to the speed has a gain that grows by as much, and one of a
 /// pressure far above the limit either stands still there or chatters. The integral lies within
-/// [1e-6, 1] and so does not wind up.
+/// [1e-6, 1] and so does not wind up; at its least the clamp stands while the limit is exceeded, because
+/// in sealed liquid even a millionth of the speed would press on for good.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PidControl {
     clamp: Clamp,
@@ -76,6 +95,11 @@ impl PidControl {
         self.speed
     }
 
+    /// The pressure limit, Pa.
+    pub fn limit(&self) -> Option<f64> {
+        self.clamp.max_pressure
+    }
+
     /// Takes in the pressure (Pa) measured over a step of `dt` (s).
     pub fn observe(&mut self, pressure: f64, dt: f64) {
         let Some(limit) = self.clamp.max_pressure else {
@@ -89,7 +113,22 @@ impl PidControl {
         let derivative = self.gains.kd * (error - self.last_error) / tau;
         let factor = 1.0 + self.gains.kp * error.min(0.0) + derivative;
         self.last_error = error;
-        self.speed = self.clamp.closing_speed * (self.integral * factor).clamp(0.0, 1.0);
+        self.speed = match self.stands() {
+            true => 0.0,
+            false => self.clamp.closing_speed * (self.integral * factor).clamp(0.0, 1.0),
+        };
+    }
+
+    /// Whether the clamp stands, as slow as it can be, above its limit.
+    fn stands(&self) -> bool {
+        self.integral <= LEAST && self.last_error < 0.0
+    }
+
+    /// The pressure (Pa) of the last step, if the clamp stands and that breaks the limit.
+    pub fn overwhelmed(&self) -> Option<f64> {
+        let limit = self.clamp.max_pressure?;
+        let pressure = limit * (1.0 - self.last_error);
+        (self.stands() && breaks(pressure, limit, limit)).then_some(pressure)
     }
 
     /// The changing part, for checkpoints.
@@ -176,6 +215,23 @@ mod tests {
             steps < 10,
             "{steps} steps at 1.5 times the limit to slow down by 10 %"
         );
+    }
+
+    /// It went on at a millionth of its speed for good.
+    #[test]
+    fn stands_where_liquid_gives_way_to_nothing_and_comes_back() {
+        let mut control = PidControl::new(CLAMP, 2.9e-6 / 913.0);
+        for _ in 0..4000 {
+            control.observe(1.5 * 2.5e6, 1e-9);
+        }
+        assert_eq!(control.speed(), 0.0);
+        assert_eq!(control.overwhelmed(), Some(1.5 * 2.5e6));
+        control.observe(1.01 * 2.5e6, 1e-9);
+        assert_eq!((control.speed(), control.overwhelmed()), (0.0, None));
+        for _ in 0..10_000 {
+            control.observe(0.5 * 2.5e6, 1e-9);
+        }
+        assert!(control.speed() > 0.9, "{}", control.speed());
     }
 
     #[test]

@@ -6,6 +6,7 @@ mod bodies;
 mod choice;
 mod clamp;
 mod material;
+mod press;
 mod regime;
 pub mod restored;
 mod scene;
@@ -15,11 +16,12 @@ mod wall_law;
 
 pub use bodies::{Motion, RigidBody, VoxelBlock};
 pub use choice::Choice;
-pub use clamp::{Clamp, Pid, PidControl};
+pub use clamp::{Clamp, Pid, PidControl, breaks, broken};
 pub use material::{
     Course, Cure, CureLaw, Law, Liquid, Newtonian, Rheology, SET, ShearRate, TAIT_C, Table,
     TableError, Tait, Viscosity,
 };
+pub use press::{Press, PressRun, PressStage, PressStep, Reason, StageEnd};
 pub use regime::Regime;
 pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Stop};
 pub use scheme::{

@@ -1,4 +1,4 @@
-use crate::{Choice, Clamp, Liquid, Motion, RigidBody, WallLaw};
+use crate::{Choice, Clamp, Liquid, Motion, PressStage, RigidBody, WallLaw};
 
 /// Number of dimensions computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -163,6 +163,9 @@ pub struct Scene {
     pub gravity: [f64; 3],
     /// The clamp that drives bodies with `Motion::Clamped`.
     pub clamp: Option<Clamp>,
+    /// The stages of its press programme, whose largest speed and pressure `clamp` has; none where it has
+    /// one speed and one limit. `stop` then is the way of the clamp, at whose end it stands.
+    pub programme: Vec<PressStage>,
     /// When to end.
     pub stop: Stop,
     /// Index in `bodies` of the lower reaction reported as `pressure_bottom_Pa`.

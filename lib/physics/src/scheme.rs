@@ -1,5 +1,7 @@
 use std::fmt;
 
+use crate::PressRun;
+
 /// How far a step may go at most.
 #[derive(Clone, Copy, Debug)]
 pub struct StepLimit {
@@ -168,6 +170,10 @@ pub trait Scheme {
     fn stage_times(&self) -> Vec<StageTime>;
     /// Named counts for the summary: how often the scheme had to step in, since the start.
     fn counts(&self) -> Vec<(&'static str, u64)>;
+    /// The press programme and where it is, if the scheme goes through one.
+    fn programme(&self) -> Option<&PressRun> {
+        None
+    }
     /// What the scheme itself knows against its results, a clause.
     fn objection(&self) -> Option<String> {
         None

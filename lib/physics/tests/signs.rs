@@ -41,6 +41,7 @@ fn the_clamp_closes_downwards() {
         bodies: Vec::new(),
         gravity: [0.0; 3],
         clamp,
+        programme: Vec::new(),
         stop: Stop::Time(1.0),
         bottom: None,
         top: None,

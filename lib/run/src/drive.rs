@@ -9,7 +9,7 @@ use physics::{Cure, Diagnostics, Failure, Scheme, StepLimit, StepReport, Stop};
 use crate::checkpoint::{self, Checkpoint, Clock};
 use crate::courant::Courant;
 use crate::folder::RunFolder;
-use crate::history::History;
+use crate::history::{History, RowMore};
 use crate::resolve::Setup;
 use crate::snapshot::SnapshotWriter;
 use crate::verdict;
@@ -25,6 +25,8 @@ pub enum End {
     Closed,
     /// The time asked for is reached.
     Time,
+    /// All stages of the press programme are over.
+    Programme,
     /// Closure did not come before the time limit: the pressure limit holds the gap open.
     TimeLimit,
     /// The adhesive has set and flows no more.
@@ -76,6 +78,9 @@ pub(crate) struct Controls<'a> {
     pub history_every_s: f64,
     /// Time between snapshots, s; infinite for none.
     pub snapshot_every_s: f64,
+    /// Snapshots over the way of the clamp and one at the end of each stage, under a press programme;
+    /// 0 for none.
+    pub snapshots_of_way: u32,
     /// Whether the user asked to stop.
     pub interrupted: &'a dyn Fn() -> bool,
     /// Told after every step: fraction done, time in s, last report.
@@ -114,8 +119,9 @@ pub(crate) fn drive(
     controls: &mut Controls,
 ) -> Result<Outcome, RunError> {
     let mut state = Loop::new(setup, folder, clock);
+    state.stages_over = scheme.programme().map_or(0, |run| run.ended().count());
     loop {
-        if let Some(end) = state.end() {
+        if let Some(end) = state.end(scheme) {
             return state.finish(end, scheme, history);
         }
         let begun = Instant::now();
@@ -129,7 +135,8 @@ pub(crate) fn drive(
                 checkpoint: checkpoint::where_last(folder),
             })?;
         state.stepping += begun.elapsed();
-        state.took(report);
+        let stage = scheme.programme().map(|run| run.ended().count());
+        state.took(report, stage, controls.snapshots_of_way);
         (controls.progress)(state.fraction(), state.clock.time_s, &report);
         state.write_due(scheme, history, snapshots, controls)?;
         let stop = (controls.interrupted)();
@@ -159,6 +166,10 @@ struct Loop<'a> {
     stepping: Duration,
     steps_here: u64,
     last_checkpoint: Instant,
+    /// Stages of a press programme that were over before the last step.
+    stages_over: usize,
+    /// Whether the last step ended a stage or brought the clamp to where a snapshot is due.
+    snapshot_of_way: bool,
 }
 
 impl<'a> Loop<'a> {
@@ -171,14 +182,19 @@ impl<'a> Loop<'a> {
             stepping: Duration::ZERO,
             steps_here: 0,
             last_checkpoint: Instant::now(),
+            stages_over: 0,
+            snapshot_of_way: false,
         }
     }
 
-    fn end(&self) -> Option<End> {
+    fn end(&self, scheme: &dyn Scheme) -> Option<End> {
         // A relative hair, so that a sum of many steps that should meet the end does.
         let reached = |t: f64, goal: f64| t >= goal * (1.0 - 1e-12);
         if self.set.is_some_and(|set| reached(self.clock.time_s, set)) {
             return Some(End::Set);
+        }
+        if let Some(programme) = scheme.programme() {
+            return programme.is_over().then_some(End::Programme);
         }
         match self.setup.scene.stop {
             Stop::Time(t) => reached(self.clock.time_s, t).then_some(End::Time),
@@ -199,6 +215,13 @@ impl<'a> Loop<'a> {
     }
 
     fn limit(&self) -> StepLimit {
+        if !self.setup.scene.programme.is_empty() {
+            // Its stages have their own ends.
+            return StepLimit {
+                time_s: (self.set).map_or(f64::INFINITY, |set| set - self.clock.time_s),
+                travel_m: f64::INFINITY,
+            };
+        }
         StepLimit {
             time_s: self.latest_s() - self.clock.time_s,
             travel_m: match self.setup.scene.stop {
@@ -208,7 +231,14 @@ impl<'a> Loop<'a> {
         }
     }
 
-    fn took(&mut self, report: StepReport) {
+    /// Takes in a step, after which `over` stages of a press programme are over.
+    fn took(&mut self, report: StepReport, over: Option<usize>, snapshots: u32) {
+        if let (Some(over), Stop::Closed { travel_m }) = (over, self.setup.scene.stop) {
+            let part = |travel: f64| (f64::from(snapshots) * travel / travel_m).floor();
+            let passed = part(report.travel_m) > part(self.clock.travel_m);
+            self.snapshot_of_way = snapshots > 0 && (passed || over > self.stages_over);
+            self.stages_over = over;
+        }
         self.clock.step += 1;
         self.clock.time_s += report.dt_s;
         self.clock.travel_m = report.travel_m;
@@ -233,14 +263,17 @@ impl<'a> Loop<'a> {
         controls: &Controls,
     ) -> Result<(), RunError> {
         if self.clock.time_s >= self.clock.next_history_s {
-            self.row(scheme.diagnostics(), history)?;
+            self.row(scheme, scheme.diagnostics(), history)?;
             self.clock.next_history_s += controls.history_every_s;
             // After a step longer than the interval, do not catch up with a burst of rows.
             self.clock.next_history_s = self.clock.next_history_s.max(self.clock.time_s);
         }
-        if self.clock.time_s >= self.clock.next_snapshot_s {
+        let by_time = self.clock.time_s >= self.clock.next_snapshot_s;
+        if by_time || self.snapshot_of_way {
             self.look(&scheme.diagnostics())?;
             snapshots.write_numbered(&mut self.clock, scheme)?;
+        }
+        if by_time {
             self.clock.next_snapshot_s += controls.snapshot_every_s;
         }
         Ok(())
@@ -257,14 +290,22 @@ impl<'a> Loop<'a> {
         })
     }
 
-    fn row(&mut self, diagnostics: Diagnostics, history: &mut History) -> Result<(), RunError> {
+    fn row(
+        &mut self,
+        scheme: &dyn Scheme,
+        diagnostics: Diagnostics,
+        history: &mut History,
+    ) -> Result<(), RunError> {
         let gap = self.setup.initial_gap_m.map(|g| g - self.clock.travel_m);
         self.look(&diagnostics)?;
         self.clock.row_missing = false;
         let Clock { step, time_s, .. } = self.clock;
         let cure = self.setup.scene.liquid.cure.as_ref();
-        let factor = cure.map(|cure| cure.factor(time_s));
-        history.row(step, time_s, gap, &self.clock.last, &diagnostics, factor)
+        let more = RowMore {
+            factor: cure.map(|cure| cure.factor(time_s)),
+            stage: scheme.programme().map(|run| run.last_stage() + 1),
+        };
+        history.row(step, time_s, gap, &self.clock.last, &diagnostics, more)
     }
 
     fn finish(
@@ -276,7 +317,7 @@ impl<'a> Loop<'a> {
         let diagnostics = scheme.diagnostics();
         if end != End::Interrupted {
             if self.clock.row_missing {
-                self.row(diagnostics, history)?;
+                self.row(scheme, diagnostics, history)?;
             }
             // Before the final state, which says that the run has ended.
             history.sync()?;

@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use physics::{Choice, Dimensions, Motion, Regime, SET, Stages, Stop, Viscosity, WallLaw};
+use physics::{
+    Choice, Dimensions, Motion, Press, PressStage, Regime, SET, Stages, Stop, Viscosity, WallLaw,
+};
 
 use crate::case::{Case, SchemeName};
 use crate::left_out::left_out;
@@ -160,7 +162,10 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
     }
     let [x, y, z] = scene.boundary.map(Choice::name);
     writeln!(out, "  sides              x {x}, y {y}, z {z}")?;
-    if let Some(clamp) = scene.clamp {
+    for (index, stage) in scene.programme.iter().enumerate() {
+        writeln!(out, "  stage {:<12} {}", index + 1, told(stage))?;
+    }
+    if let Some(clamp) = scene.clamp.filter(|_| scene.programme.is_empty()) {
         let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
             format!("at most {:.4} MPa", p / 1e6)
         });
@@ -171,6 +176,11 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
         )?;
     }
     let end = match scene.stop {
+        Stop::Closed { travel_m } if !scene.programme.is_empty() => format!(
+            "with the last stage, at the latest at {:.4e} s; the clamp stands after {:.2} um of travel",
+            setup.time_limit_s,
+            travel_m * 1e6
+        ),
         Stop::Time(t) => format!("at {t:.4e} s"),
         Stop::Closed { travel_m } => {
             format!(
@@ -186,6 +196,28 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
         SchemeName::Implicit => "implicit staggered filling solver",
     };
     writeln!(out, "  scheme             {scheme}")
+}
+
+/// A stage of a press programme.
+fn told(stage: &PressStage) -> String {
+    let mut said = format!("{}, at most {:.4e} m/s", stage.kind.name(), stage.speed);
+    if let Some(pressure) = stage.pressure {
+        said += &match stage.kind {
+            Press::Approach => format!(", until {:.4} MPa", 1e-6 * pressure),
+            Press::Ramp => format!(", to {:.4} MPa", 1e-6 * pressure),
+            Press::Hold | Press::Release => format!(", at {:.4} MPa", 1e-6 * pressure),
+        };
+    }
+    if stage.contact {
+        said += ", until liquid presses on the clamp's body";
+    }
+    if let Some(travel) = stage.travel_m {
+        said += &format!(", until {:.4} um of travel", 1e6 * travel);
+    }
+    if let Some(slower) = stage.slower {
+        said += &format!(", until slower than {slower:.4e} m/s");
+    }
+    said + &format!(", {:.4e} s at the longest", stage.time_s)
 }
 
 fn cost(out: &mut String, setup: &Setup, forecast: &Forecast) -> std::fmt::Result {

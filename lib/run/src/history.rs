@@ -18,6 +18,18 @@ solver_iterations,capped_viscosity_fraction";
 /// What follows of a liquid that cures: its factor of the viscosity at the row's time.
 const CURED: &str = ",viscosity_factor";
 
+/// What a press programme adds: the number of the stage that the step was of.
+const STAGE: &str = ",stage";
+
+/// What only some histories hold, in the order of their columns.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct RowMore {
+    /// Factor of the viscosity of a liquid that cures.
+    pub(crate) factor: Option<f64>,
+    /// Number of the press programme's stage, from 1.
+    pub(crate) stage: Option<usize>,
+}
+
 /// How far a history went, and what it then held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Extent {
@@ -36,12 +48,14 @@ pub(crate) struct History {
 }
 
 impl History {
-    /// Starts a new history in `folder`, of a liquid that cures or not.
+    /// Starts a new history in `folder`, with a column for the factor of a liquid that `cures` and one for the
+    /// stage of a press programme where it is `staged`.
     ///
     /// # Errors
     /// The file and the system's reason.
-    pub(crate) fn create(folder: &RunFolder, cures: bool) -> Result<Self, RunError> {
-        let header = format!("{HEADER}{}\n", if cures { CURED } else { "" });
+    pub(crate) fn create(folder: &RunFolder, cures: bool, staged: bool) -> Result<Self, RunError> {
+        let cured = if cures { CURED } else { "" };
+        let header = format!("{HEADER}{cured}{}\n", if staged { STAGE } else { "" });
         folder.write_text(HISTORY, &header)?;
         let path = folder.place(HISTORY);
         let open = File::options().append(true).open(&path);
@@ -102,7 +116,7 @@ impl History {
         })
     }
 
-    /// Appends a row. An unknown gap (no clamp) stays empty; `factor` is that of a liquid that cures.
+    /// Appends a row. An unknown gap (no clamp) stays empty.
     ///
     /// # Errors
     /// The file and the system's reason.
@@ -113,12 +127,15 @@ impl History {
         gap_m: Option<f64>,
         report: &StepReport,
         diagnostics: &Diagnostics,
-        factor: Option<f64>,
+        more: RowMore,
     ) -> Result<(), RunError> {
         let gap = gap_m.map_or(String::new(), |g| format!("{g:.9e}"));
-        let factor = factor.map_or(String::new(), |f| format!(",{f:.9e}"));
+        let factor = more.factor.map_or(String::new(), |f| format!(",{f:.9e}"));
+        let stage = more
+            .stage
+            .map_or(String::new(), |stage| format!(",{stage}"));
         let row = format!(
-            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}{factor}\n",
+            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}{factor}{stage}\n",
             report.dt_s,
             report.closing_speed,
             report.travel_m,
@@ -170,7 +187,7 @@ mod tests {
         for &step in steps {
             let (report, diagnostics) = (StepReport::default(), Diagnostics::default());
             history
-                .row(step, 1e-9, None, &report, &diagnostics, None)
+                .row(step, 1e-9, None, &report, &diagnostics, RowMore::default())
                 .unwrap();
         }
     }
@@ -180,7 +197,7 @@ mod tests {
     fn resuming_drops_rows_after_the_checkpoint_and_parts_of_rows() {
         let (_place, folder) = held();
         let path = folder.place(HISTORY);
-        let mut history = History::create(&folder, false).unwrap();
+        let mut history = History::create(&folder, false, false).unwrap();
         add(&mut history, &[1, 12]);
         let extent = history.sync().unwrap();
         let kept = fs::read(&path).unwrap();
@@ -203,7 +220,7 @@ mod tests {
     #[test]
     fn a_history_that_is_removed_meanwhile_is_noticed() {
         let (_place, folder) = held();
-        let mut history = History::create(&folder, false).unwrap();
+        let mut history = History::create(&folder, false, false).unwrap();
         fs::remove_file(folder.place(HISTORY)).unwrap();
         add(&mut history, &[1]);
         let said = history.sync().unwrap_err().to_string();
@@ -214,7 +231,7 @@ mod tests {
     #[test]
     fn a_history_that_was_changed_is_not_continued() {
         let (_place, folder) = held();
-        let mut history = History::create(&folder, false).unwrap();
+        let mut history = History::create(&folder, false, false).unwrap();
         add(&mut history, &[1, 2]);
         let extent = history.sync().unwrap();
         let whole = fs::read(folder.place(HISTORY)).unwrap();

@@ -239,6 +239,7 @@ mod tests {
             wall: WallLaw::Stick,
             gravity: [0.0; 3],
             clamp: None,
+            programme: Vec::new(),
             stop: Stop::Time(1.0),
             bottom: None,
             top: None,

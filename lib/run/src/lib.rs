@@ -30,5 +30,5 @@ pub use drive::End;
 pub use invariants::Invariants;
 pub use left_out::LeftOut;
 pub use request::{Request, RunFailure};
-pub use summary::{Stage, Summary};
+pub use summary::{PressedStage, Stage, Summary};
 pub use verdict::Verdict;

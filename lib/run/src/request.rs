@@ -20,7 +20,7 @@ use crate::load;
 use crate::resolve::{self, Setup};
 use crate::schemes;
 use crate::snapshot::{SnapshotWriter, is_final_of};
-use crate::summary::{Facts, Summary};
+use crate::summary::{self, Facts, Summary};
 use crate::verdict;
 
 /// Why a run could not be made ready or did not end well; tools map it to exit status.
@@ -191,18 +191,23 @@ impl Request {
             None => (
                 Clock::default(),
                 continued(Vec::new(), 0, cfl),
-                History::create(folder, self.setup.scene.liquid.cure.is_some())?,
+                History::create(
+                    folder,
+                    self.setup.scene.liquid.cure.is_some(),
+                    !self.setup.scene.programme.is_empty(),
+                )?,
             ),
         };
         let mut controls = Controls {
             history_every_s: self.history_every(),
             snapshot_every_s: self.snapshot_every(),
+            snapshots_of_way: self.case.output.snapshots,
             interrupted,
             progress: &mut |fraction, time_s, report: &StepReport| {
                 let pressure = report.pressure_top / 1e6;
                 progress(
                     fraction,
-                    format!("{:.3} us, {pressure:.3} MPa", time_s * 1e6),
+                    format!("{}, {pressure:.3} MPa", summary::time(time_s, 3)),
                 );
             },
             identity: continuable,
@@ -237,6 +242,7 @@ impl Request {
                 counts: scheme.counts(),
                 verdict: verdict::judge(&self.setup, &liquid, &invariants, outcome.clock.last.lost)
                     .and(scheme.objection()),
+                programme: summary::programme(scheme.programme()),
                 invariants,
                 left_out: left_out(&self.case, &self.setup, &stages),
                 provenance,
@@ -267,16 +273,20 @@ impl Request {
         )
     }
 
+    /// Time between rows of the history, s. The steps of a press programme follow the flow, from
+    /// microseconds to hours: each has a row.
     fn history_every(&self) -> f64 {
-        self.case
-            .output
-            .history_every
-            .map_or(1e-3 * self.setup.nominal_duration_s, |t| t.si())
+        let own = match self.setup.scene.programme.is_empty() {
+            true => 1e-3 * self.setup.nominal_duration_s,
+            false => 0.0,
+        };
+        self.case.output.history_every.map_or(own, |t| t.si())
     }
 
     fn snapshot_every(&self) -> f64 {
         match self.case.output.snapshots {
             0 => f64::INFINITY,
+            _ if !self.setup.scene.programme.is_empty() => f64::INFINITY,
             n => self.setup.nominal_duration_s / f64::from(n),
         }
     }

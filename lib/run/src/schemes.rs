@@ -55,6 +55,12 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
                 .into(),
         ));
     }
+    if (case.clamp.as_ref()).is_some_and(|clamp| !clamp.stage.is_empty()) {
+        return Err(CaseError(
+            "[[clamp.stage]] is for scheme = \"implicit\" only: explicit steps are too short for a press"
+                .into(),
+        ));
+    }
     let update = table.velocity_update.unwrap_or_default();
     let velocity_update = match (update, table.order.map(u32::from)) {
         (VelocityUpdate::Xpic(_), Some(order)) => VelocityUpdate::Xpic(order),

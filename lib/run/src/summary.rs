@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use physics::{Diagnostics, StageTime};
+use physics::{Choice, Diagnostics, PressRun, StageTime};
 use serde::Serialize;
 
 use crate::courant::Courant;
@@ -48,6 +48,9 @@ pub struct Summary {
     pub particle_steps_per_s: f64,
     /// Largest resident memory, bytes.
     pub peak_memory_bytes: Option<u64>,
+    /// How the stages of a press programme ended.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub programme: Vec<PressedStage>,
     /// Wall time per stage of a step, s.
     pub stages: Vec<Stage>,
     /// How often the scheme had to step in.
@@ -58,6 +61,43 @@ pub struct Summary {
     pub left_out: Vec<LeftOut>,
     /// What made this run folder.
     pub provenance: serde_json::Value,
+}
+
+/// How a stage of a press programme ended.
+#[derive(Debug, Serialize)]
+pub struct PressedStage {
+    /// What it did.
+    pub kind: &'static str,
+    /// What ended it.
+    pub ended_by: &'static str,
+    /// When, s since the start of the run.
+    pub end_s: f64,
+    /// Clamp travel then, m.
+    pub travel_m: f64,
+    /// Pressure on the clamp's body then, Pa.
+    pub pressure_pa: f64,
+}
+
+/// How the stages of a programme ended so far.
+pub(crate) fn programme(run: Option<&PressRun>) -> Vec<PressedStage> {
+    let stages = run.into_iter().flat_map(PressRun::ended);
+    let ended = stages.map(|(stage, end)| PressedStage {
+        kind: stage.kind.name(),
+        ended_by: end.reason.name(),
+        end_s: end.time_s,
+        travel_m: end.travel_m,
+        pressure_pa: end.pressure,
+    });
+    ended.collect()
+}
+
+/// A time (s) in the unit that suits it, with `digits` behind the point.
+pub(crate) fn time(seconds: f64, digits: usize) -> String {
+    match seconds {
+        s if s < 1e-2 => format!("{:.digits$} us", s * 1e6),
+        s if s < 600.0 => format!("{s:.digits$} s"),
+        s => format!("{:.digits$} min", s / 60.0),
+    }
 }
 
 /// Wall time of one stage.
@@ -77,6 +117,7 @@ pub(crate) struct Facts {
     pub stages: Vec<StageTime>,
     pub counts: Vec<(&'static str, u64)>,
     pub verdict: Verdict,
+    pub programme: Vec<PressedStage>,
     pub invariants: Invariants,
     pub left_out: Vec<LeftOut>,
     pub provenance: serde_json::Value,
@@ -110,6 +151,7 @@ impl Summary {
             threads: rayon::current_num_threads(),
             particle_steps_per_s: if wall > 0.0 { work / wall } else { 0.0 },
             peak_memory_bytes: crate::system::peak_memory_bytes(),
+            programme: facts.programme,
             stages: facts
                 .stages
                 .iter()
@@ -130,6 +172,7 @@ impl Summary {
         let end = match self.end {
             End::Closed => "closed",
             End::Time => "reached its time",
+            End::Programme => "went through its press programme",
             End::TimeLimit => "reached its time limit before closing",
             End::Set => "ended because the adhesive has set",
             End::Interrupted => "was interrupted",
@@ -142,9 +185,9 @@ impl Summary {
             n => format!(" ({n} points left through open sides)"),
         };
         format!(
-            "The run {end} after {} steps at {:.2} us{gap}, {:.3} MPa; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
+            "The run {end} after {} steps at {}{gap}, {:.3} MPa; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
             self.steps,
-            self.time_s * 1e6,
+            time(self.time_s, 2),
             self.final_pressure_pa / 1e6,
             100.0 * self.invariants.volume_change,
             self.invariants.points_in_wood,

@@ -40,6 +40,7 @@ fn drop() -> Scene {
         wall: WallLaw::Stick,
         gravity: [0.0; 3],
         clamp: None,
+        programme: Vec::new(),
         stop: Stop::Time(1e-6),
         bottom: None,
         top: None,

@@ -17,6 +17,8 @@ pub struct Load {
     pub resistance: f64,
     /// F: force wanted.
     pub force: f64,
+    /// Force that errors of F are measured by, above zero: F itself, or more where F is next to nothing.
+    pub scale: f64,
 }
 
 impl Load {
@@ -32,13 +34,17 @@ impl Load {
                 "a load on a body without resistance: its speed is unbounded".into(),
             ));
         }
-        if self.force > 0.0 && self.force.is_finite() && self.resistance >= 0.0 {
+        if self.scale > 0.0
+            && self.scale.is_finite()
+            && self.force.is_finite()
+            && self.resistance >= 0.0
+        {
             return Ok(());
         }
         Err(SolveError::Matrix(format!(
-            "a load of {} against a resistance of {}; the load must be positive and the resistance not \
-             negative",
-            self.force, self.resistance
+            "a load of {} measured by {} against a resistance of {}; the measure must be positive and the \
+             resistance not negative",
+            self.force, self.scale, self.resistance
         )))
     }
 
@@ -49,7 +55,7 @@ impl Load {
     }
 
     /// Factor of the force row that gives it the weight of the others: their right-hand side with
-    /// the body moving at `speed` over the force.
+    /// the body moving at `speed` over the scale.
     pub(crate) fn weight(&self, system: &SaddleSystem, speed: f64) -> f64 {
         let sum = |known: &[f64], unit: &[f64]| {
             let moving: Vec<f64> = (known.iter().zip(unit))
@@ -59,9 +65,9 @@ impl Load {
         };
         let size = sum(system.b, &self.momentum).hypot(sum(system.volume_source, &self.source));
         if size > 0.0 {
-            size / self.force
+            size / self.scale
         } else {
-            1.0 / self.force
+            1.0 / self.scale
         }
     }
 
@@ -168,6 +174,7 @@ mod tests {
             source: vec![4.0],
             resistance: 1.0,
             force: 4.0,
+            scale: 4.0,
         };
         let weight = |b: &[f64; 2], speed: f64| {
             let system = SaddleSystem {

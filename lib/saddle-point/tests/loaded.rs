@@ -35,6 +35,7 @@ fn the_speed_that_a_force_drives() {
         source: problem.volume_source.clone(),
         resistance,
         force: wanted * force_per_speed,
+        scale: wanted * force_per_speed,
     };
     let (still, empty) = (vec![0.0; faces], vec![0.0; cells]);
     let resting = SaddleSystem {
@@ -61,6 +62,7 @@ fn the_speed_that_a_force_drives() {
 
     let pulling = Load {
         force: -1.0,
+        scale: -1.0,
         ..load
     };
     let refused = solver.solve_loaded(&resting, &pulling, &mut v, &mut q, &mut speed);

@@ -23,6 +23,12 @@ pub fn squeeze_plates(a: f64, h: f64, v: f64, eta: f64) -> f64 {
     8.0 * eta * v * (a / h).powi(3)
 }
 
+/// Gap of a film between plates, `h` wide and `a` in half-length before an impulse per length of half of
+/// it (force times time, N s/m) closed it: its volume stays, so that h^-5 grows with the impulse (Stefan 1874).
+pub fn closing_film(h: f64, a: f64, impulse: f64, eta: f64) -> f64 {
+    (h.powi(-5) + 1.25 * impulse / (eta * (a * h).powi(3))).powf(-0.2)
+}
+
 /// Force on a disc of radius `r` closing at speed `v` on a gap `h` (Stefan 1874).
 pub fn squeeze_discs(r: f64, h: f64, v: f64, eta: f64) -> f64 {
     1.5 * std::f64::consts::PI * eta * v * r.powi(4) / h.powi(3)
@@ -81,6 +87,10 @@ mod tests {
             let exact = channel(y, 1.0, 0.0, 3.0, 5.0, 2.0);
             assert!((newtonian(y) / exact - 1.0).abs() < 1e-6, "{y}");
         }
+        // The film's own speed, from the force that it takes at that speed.
+        let (h, a, eta, impulse) = (2.0, 16.0, 3.0, 1e-3);
+        let speed = (h - closing_film(h, a, impulse, eta)) / impulse;
+        assert!((0.5 * squeeze_plates(a, h, speed, eta) - 1.0).abs() < 1e-3);
         assert!((couette_slip(1.0, 0.1, 1.2) - 0.1).abs() < 1e-15);
     }
 }

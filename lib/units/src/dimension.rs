@@ -28,9 +28,9 @@ const ANY: [f64; 2] = [1e-30, 1e30];
 dimension!(/// Length, SI metre.
     Length, "a length", &[("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6), ("μm", 1e-6), ("nm", 1e-9)], [1e-12, 1e9]);
 dimension!(/// Time, SI second.
-    Time, "a time", &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6), ("ns", 1e-9), ("min", 60.0)], ANY);
+    Time, "a time", &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("μs", 1e-6), ("ns", 1e-9), ("min", 60.0), ("h", 3600.0)], ANY);
 dimension!(/// Speed, SI metre per second.
-    Speed, "a speed", &[("m/s", 1.0), ("mm/s", 1e-3), ("um/s", 1e-6), ("mm/min", 1e-3 / 60.0)], ANY);
+    Speed, "a speed", &[("m/s", 1.0), ("mm/s", 1e-3), ("um/s", 1e-6), ("nm/s", 1e-9), ("mm/min", 1e-3 / 60.0)], ANY);
 dimension!(/// Pressure or modulus, SI pascal.
     Pressure, "a pressure", &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("bar", 1e5), ("psi", 6_894.757_293_168)], ANY);
 dimension!(/// Dynamic viscosity, SI pascal second.

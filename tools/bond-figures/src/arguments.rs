@@ -30,6 +30,7 @@ impl Arguments {
             Figure::Pressure(a) => &a.picture.common,
             Figure::Map(a) => &a.picture.common,
             Figure::Shear(a) => &a.picture.common,
+            Figure::Penetration(a) => &a.picture.common,
             Figure::Slice(a) => &a.picture.common,
             Figure::Table2(a) => &a.common,
         }
@@ -56,6 +57,12 @@ pub(crate) enum Figure {
   bond-figures shear PF=pf-shear.csv PVA-PF=pva-pf-shear.csv -o shear.png
   shear-stats out/pf/snapshots/*.mpts -o s.csv && bond-figures shear PF=s.csv -o s.svg")]
     Shear(ShearArgs),
+    /// Penetration of each side over time
+    #[command(after_help = "Examples:
+  wp-metrics --series out/press -o series.csv && bond-figures penetration series.csv -o depth.svg
+  bond-figures penetration PF=pf-series.csv PVAc=pvac-series.csv -o depth.png
+  bond-figures penetration series.csv -o - > depth.svg")]
+    Penetration(PenetrationArgs),
     /// Slices through specimens, bonds and states of a run
     #[command(after_help = "Examples:
   bond-figures slice bond.mpts -o bond.png
@@ -111,6 +118,15 @@ pub(crate) struct MapArgs {
 #[derive(Args)]
 pub(crate) struct ShearArgs {
     /// Tables of `shear-stats`, one panel each
+    #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
+    pub(crate) files: Vec<Labelled>,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
+pub(crate) struct PenetrationArgs {
+    /// Tables of `wp-metrics --series`
     #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
     pub(crate) files: Vec<Labelled>,
     #[command(flatten)]

@@ -6,7 +6,9 @@ mod inputs;
 use std::process::ExitCode;
 
 use cli::{Failure, Output};
-use figures::{Case, CellErrors, Closing, Cut, Drawing, Error, ShearRates, Slices, Table2, WpMap};
+use figures::{
+    Case, CellErrors, Closing, Cut, Drawing, Error, ShearRates, Slices, Table2, WpMap, penetrations,
+};
 
 use arguments::{Arguments, Figure, Format, Picture, Table2Args};
 use inputs::Inputs;
@@ -35,6 +37,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let inputs = Inputs::new(a.files)?;
             let figure = ShearRates::read(inputs.files()).map_err(failure)?;
             write(&figure.draw(), &a.picture, &inputs)
+        }
+        Figure::Penetration(a) => {
+            let inputs = Inputs::new(a.files)?;
+            let plot = penetrations(inputs.files()).map_err(failure)?;
+            write(&plot.draw().map_err(failure)?, &a.picture, &inputs)
         }
         Figure::Slice(a) => {
             let inputs = Inputs::new(a.files)?;

@@ -234,3 +234,43 @@ fn an_unwritable_target_is_exit_1() {
     assert_eq!(output.status.code(), Some(1), "{}", said(&output));
     assert!(said(&output).contains("/nowhere/a.svg"));
 }
+
+#[test]
+fn penetration_is_drawn_over_times_of_any_length() {
+    let folder = folder();
+    let row = |side: &str, time: f64, wp: f64, state: &str| {
+        format!("a.mpts,{side},mid,{wp},{time},{},{state}\n", 2.0 * wp)
+    };
+    let mut table = "file,side,reference,wp_um,time_s,p95_depth_um,bond_line\n".to_owned();
+    for (time, wp, state) in [
+        (1e-6, 2.0, "filled"),
+        (1e-3, 5.0, "filled"),
+        (300.0, 9.0, "starved"),
+    ] {
+        for side in ["bottom", "top", "total"] {
+            table += &row(side, time, wp, state);
+        }
+    }
+    std::fs::write(folder.path().join("series.csv"), &table).unwrap();
+    let output = figures(
+        folder.path(),
+        &["penetration", "series.csv", "-o", "depth.svg"],
+    );
+    assert!(output.status.success(), "{}", said(&output));
+    let picture = std::fs::read_to_string(folder.path().join("depth.svg")).unwrap();
+    for word in ["WP, bottom", "95 %, top", "starved", "time (s)"] {
+        assert!(picture.contains(word), "{word}");
+    }
+    let one_sided = table.replace("top,mid", "total,mid");
+    std::fs::write(folder.path().join("series.csv"), one_sided).unwrap();
+    let output = figures(
+        folder.path(),
+        &["penetration", "series.csv", "-o", "depth.svg"],
+    );
+    assert_eq!(output.status.code(), Some(3), "{}", said(&output));
+    assert!(
+        said(&output).contains("no row of the side top"),
+        "{}",
+        said(&output)
+    );
+}

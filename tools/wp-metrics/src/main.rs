@@ -1,6 +1,7 @@
 //! How far adhesive penetrated: see `lib/metrics`.
 
 mod input;
+mod series;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -11,8 +12,8 @@ use cli::{Failure, InputRecord, Output, Record};
 use input::{Input, StackOptions};
 use metrics::table::{self, PenetrationRows};
 use metrics::{
-    Datum, LEAST_RATIO, Map, Reference, Side, State, cell_error, compare, depth_profile,
-    extrapolated, penetration,
+    Datum, DepthLayer, LEAST_RATIO, Map, Reference, Side, State, bond_line, cell_error, compare,
+    depth_profile, extrapolated, penetration,
 };
 use units::{Axis, Length, Quantity};
 use voxels::{Grey, Labels, Phases};
@@ -29,6 +30,7 @@ use voxels::{Grey, Labels, Phases};
   wp-metrics run/final.mpts run/snapshots/*.mpts -o wp.csv
   wp-metrics stack.tif --voxel 1.45um --reference plane=226.2um --map map.csv --profile depth.csv
   wp-metrics run/final.mpts --compare specimen.mpts
+  wp-metrics --series run -o series.csv
   wp-metrics run/final.mpts --finer run-in-half-cells/final.mpts"
 )]
 struct Arguments {
@@ -49,7 +51,7 @@ struct Arguments {
     /// Write WP and volume of every column of voxels across the bond (one FILE only)
     #[arg(long, value_name = "CSV")]
     map: Option<Output>,
-    /// Write adhesive and filled void against depth (one FILE only)
+    /// Write adhesive and filled void against depth (one FILE only, or of each time of a series)
     #[arg(long, value_name = "CSV")]
     profile: Option<Output>,
     /// Add agreement with this specimen: Dice coefficient of the voxels and correlation of
@@ -60,6 +62,12 @@ struct Arguments {
     /// the same run in cells at most half as large: first order, error the difference (one FILE only)
     #[arg(long, value_name = "STATE")]
     finer: Option<PathBuf>,
+    /// Add time, gap, depth of 95 % of the adhesive, wetted area and state of the bond line (filled;
+    /// starved where less than half of the room within two voxels of the adherends' surfaces is filled;
+    /// squeezed-out where a twentieth of the adhesive has left), in order of time; FILE may be the
+    /// folder of a run
+    #[arg(long)]
+    series: bool,
     /// Add the pressure on the body that the clamp drives (states of runs; with --finer always)
     #[arg(long)]
     pressure: bool,
@@ -100,12 +108,14 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
-    if arguments.files.len() > 1 && arguments.finer.is_some() {
+    let paths = series::of(&arguments)?;
+    if paths.len() > 1 && arguments.finer.is_some() {
         return Err(Failure::usage(
             "--finer belongs to one file, but several are given: run wp-metrics on each",
         ));
     }
-    if arguments.files.len() > 1 && (arguments.map.is_some() || arguments.profile.is_some()) {
+    let profile = arguments.profile.is_some() && !arguments.series;
+    if paths.len() > 1 && (arguments.map.is_some() || profile) {
         return Err(Failure::usage(
             "--map and --profile describe one file, but several are given: run wp-metrics on each",
         ));
@@ -116,7 +126,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             "two tables on standard output cannot be told apart: give all but one of -o, --map and --profile a file",
         ));
     }
-    let read = arguments.files.iter();
+    let read = paths.iter();
     let read = read.chain(&arguments.compare).chain(&arguments.finer);
     cli::keep_apart_with_records(read.map(PathBuf::as_path), outputs(&arguments))?;
     let options = stack_options(&arguments)?;
@@ -133,7 +143,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         record.add(beside)?;
     }
     let mut files = Vec::new();
-    for path in &arguments.files {
+    let mut profiles = Vec::new();
+    for path in &paths {
         // A row of numbers is all that stays of a file.
         let input = open(path)?;
         record.add(&input)?;
@@ -141,10 +152,25 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         if arguments.pressure || finer.is_some() {
             rows.pressure_pa = Some(input.noted(PRESSURE)?);
         }
+        if arguments.series {
+            let state = input.state(arguments.normal)?;
+            let begun = files.first().map_or(&rows, |first: &PenetrationRows| first);
+            let begun_m3 = begun.sides[2].volume_m3;
+            let line = bond_line(&state, begun_m3).map_err(|error| input.failure(&error))?;
+            rows.course = Some((input.time_s(), line));
+            if arguments.profile.is_some() {
+                profiles.push((Some(input.time_s()), profile_of(&input, &arguments)?));
+            }
+        }
         if let Some(finer) = &finer {
             carry_on(&mut rows, &input, finer, &arguments)?;
         }
         files.push(rows);
+    }
+    if let Some(output) = arguments.profile.as_ref().filter(|_| arguments.series) {
+        output.write_with_record(&record.finish(), |out| {
+            table::write_depth_profiles(out, &profiles)
+        })?;
     }
     arguments.output.write_with_record(&record.finish(), |out| {
         table::write_penetration(out, &files)
@@ -182,10 +208,10 @@ fn measure(
         let map = Map::new(&state, &datum, Side::Total);
         output.write_with_record(&record.finish(), |out| table::write_map(out, &map))?;
     }
-    if let Some(output) = &arguments.profile {
-        let layers = depth_profile(&state, &datum).map_err(fail)?;
+    if let Some(output) = arguments.profile.as_ref().filter(|_| !arguments.series) {
+        let profile = [(None, depth_profile(&state, &datum).map_err(fail)?)];
         output.write_with_record(&record.finish(), |out| {
-            table::write_depth_profile(out, &layers)
+            table::write_depth_profiles(out, &profile)
         })?;
     }
     let agreement = match experiment {
@@ -201,8 +227,17 @@ fn measure(
         sides: penetration(&state, &datum),
         agreement,
         pressure_pa: None,
+        course: None,
         cell_error: None,
     })
+}
+
+/// The adhesive of a state in a series against depth.
+fn profile_of(input: &Input, arguments: &Arguments) -> Result<Vec<DepthLayer>, Failure> {
+    let state = input.state(arguments.normal)?;
+    let datum = Datum::find(arguments.reference, &state);
+    let layers = datum.and_then(|datum| depth_profile(&state, &datum));
+    layers.map_err(|error| input.failure(&error))
 }
 
 /// Adds what the same run in smaller cells says of the error of `rows`.

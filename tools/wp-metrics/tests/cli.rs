@@ -38,6 +38,11 @@ fn specimen(folder: &Path) -> PathBuf {
 /// A state of a run on the specimen: its adherends parted by `gap` voxels, and its adhesive as
 /// material points that moved with them; `spoil` may break it.
 fn state(folder: &Path, gap: usize, spoil: impl Fn(&mut Vec<[f32; 3]>)) -> PathBuf {
+    state_at(folder, gap, 0.0, spoil)
+}
+
+/// The same at a time, s.
+fn state_at(folder: &Path, gap: usize, time_s: f64, spoil: impl Fn(&mut Vec<[f32; 3]>)) -> PathBuf {
     let [nx, ny, nz] = DIMS;
     let bottom = BitGrid::from_fn([nx, 27, nz], |x, y, _| letter(x, y) == 'w');
     let top = BitGrid::from_fn([nx, ny - 27, nz], |x, y, _| letter(x, y + 27) == 'w');
@@ -58,7 +63,9 @@ fn state(folder: &Path, gap: usize, spoil: impl Fn(&mut Vec<[f32; 3]>)) -> PathB
         Block::new(name, Material::Rigid, origin, VOXEL, bits)
     };
     let path = folder.join("state.mpts");
-    Draft::new(Header::new(Kind::State, VOXEL, 1, [0.0; 3], max))
+    let mut header = Header::new(Kind::State, VOXEL, 1, [0.0; 3], max);
+    header.time_s = time_s;
+    Draft::new(header)
         .block(block("wood-bottom", 0, &bottom), &bottom)
         .block(block("wood-top", 27 + gap, &top), &top)
         .column("position", 3, position.as_flattened())
@@ -302,4 +309,50 @@ fn shared_data_gives_the_reference_numbers() {
         assert!((number(&row[7]) - deepest).abs() < 1e-6, "{row:?}");
         assert_eq!(number(&row[10]), voxels);
     }
+}
+
+#[test]
+fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
+    let folder = TempDir::new().unwrap();
+    let run = folder.path().join("run");
+    fs::create_dir_all(run.join("snapshots")).unwrap();
+    for (name, gap, time) in [
+        ("snapshots/0000.mpts", 6, 1e-3),
+        ("snapshots/0001.mpts", 0, 60.0),
+        ("final.mpts", 0, 60.0),
+    ] {
+        let made = state_at(folder.path(), gap, time, |_| {});
+        fs::rename(made, run.join(name)).unwrap();
+    }
+    let profile = folder.path().join("depth.csv");
+    let arguments = [
+        "--series",
+        run.to_str().unwrap(),
+        "--profile",
+        profile.to_str().unwrap(),
+    ];
+    let output = tool(&arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let table = text(&output.stdout);
+    let header = table.lines().next().unwrap();
+    let added = ",time_s,gap_um,p95_depth_um,wetted_area_um2,bond_line_filled,bond_line";
+    assert_eq!(header, format!("{HEADER}{added}"));
+    // The last snapshot is the final state, told once.
+    let found = rows(&table);
+    let times: Vec<&str> = found.iter().map(|row| row[11].as_str()).collect();
+    assert_eq!(
+        times,
+        [["1.000000000e-3"; 3], ["6.000000000e1"; 3]].concat()
+    );
+    assert!(
+        number(&found[5][14]) > 0.0 && found[5][16] == "filled",
+        "{found:?}"
+    );
+    let profile = fs::read_to_string(profile).unwrap();
+    assert!(profile.starts_with("time_s,depth_um,"), "{profile}");
+
+    let empty = TempDir::new().unwrap();
+    let output = tool(&["--series", empty.path().to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(text(&output.stderr).contains("holds no state of a run"));
 }

@@ -3,6 +3,7 @@
 use physics::Failure;
 use saddle_point::{NEARLY, SaddleReport, SolveError};
 
+use super::drive::Asked;
 use super::solution::Unknowns;
 use super::{Implicit, Part};
 use crate::system::{Before, Operator, System};
@@ -24,7 +25,7 @@ impl Implicit {
             .map_err(|error| self.unsolved(error))?;
         let clamped = self.state.drive.clamped();
         let solved = match (clamped, self.state.drive.held()) {
-            (Some(clamped), Some(limit)) => self.solve_held(&mut system, clamped, limit, now)?,
+            (Some(clamped), Some(asked)) => self.solve_held(&mut system, clamped, asked, now)?,
             _ => false,
         };
         if !solved {
@@ -36,14 +37,16 @@ impl Implicit {
         };
         let speed = self.state.drive.speed;
         let pressure = self.setup.pressure(&forces, clamped);
-        let Some(limit) = self.state.drive.exceeded(pressure) else {
+        let Some(asked) = self.state.drive.exceeded(pressure) else {
             return Ok((system, forces, power));
         };
-        let factor = self.state.drive.speed / speed;
-        for x in now.u.iter_mut().chain(&mut now.p) {
-            *x *= factor;
+        if speed > 0.0 {
+            let factor = self.state.drive.speed / speed;
+            for x in now.u.iter_mut().chain(&mut now.p) {
+                *x *= factor;
+            }
         }
-        if !self.solve_held(&mut system, clamped, limit, now)? {
+        if !self.solve_held(&mut system, clamped, asked, now)? {
             self.solve_system(&system, now)?;
         }
         let (forces, power) = self.reactions(&system, now);
@@ -54,18 +57,18 @@ impl Implicit {
         (self.workspace.clock).time(Part::Forces, || system.reactions(&now.u, &now.p))
     }
 
-    /// Solves for the speed at which the pressure on body `clamped` is `limit` (Pa); `false`
+    /// Solves for the speed at which the pressure on body `clamped` is that asked for; `false`
     /// where the clamp cannot move like that, and moves as near to it as it can.
     fn solve_held(
         &mut self,
         system: &mut System,
         clamped: usize,
-        limit: f64,
+        asked: Asked,
         now: &mut Unknowns,
     ) -> Result<bool, Failure> {
-        let force = limit * self.setup.area / self.setup.units.force();
+        let unit = self.setup.area / self.setup.units.force();
         let mut bodies = self.state.drive.velocities();
-        let load = system.load(clamped, force);
+        let load = system.load(clamped, asked.limit * unit, asked.least * unit);
         if !load.is_felt() {
             // No liquid touches the body: at any speed it stays below its limit.
             self.state.drive.follow(f64::INFINITY);

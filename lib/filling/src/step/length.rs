@@ -3,7 +3,7 @@
 use physics::{Failure, StepLimit};
 use rayon::prelude::*;
 
-use super::{Implicit, Solution, Trial};
+use super::{Implicit, Solution, State, Trial};
 
 /// Part of the CFL number that the liquid is to cross in a step; a step in which it crosses more than the
 /// whole is solved again.
@@ -71,6 +71,23 @@ impl Implicit {
         cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt))
     }
 
+    /// Aims the clamp at the middle of a step of at most `dt` (s), made as short as the pressure that is set
+    /// there asks for; its length.
+    pub(super) fn aim(&mut self, mut dt: f64) -> f64 {
+        let State { drive, pace, .. } = &mut self.state;
+        if drive.programme().is_none() {
+            return dt;
+        }
+        let way = self.setup.settings.cfl * self.setup.units.h;
+        loop {
+            *pace *= drive.aim(dt);
+            if pace.max(fastest(&drive.velocities())) * dt <= way * (1.0 + 1e-9) {
+                return dt;
+            }
+            dt *= 0.5;
+        }
+    }
+
     /// Whether neither liquid nor bodies overshoot the CFL number, and the bodies are where they
     /// were placed; whether the clamp is to end its way in this step, and does. The solution sets the pace.
     pub(super) fn fit(&mut self, trial: &Trial, solution: &Solution, limit: StepLimit) -> Fit {
@@ -92,7 +109,7 @@ impl Implicit {
     /// How long an accepted step is, s: as it was solved for, or to the end of the clamp's way where that
     /// is before, or next to it and within the bounds of the step.
     pub(super) fn length(&self, trial: &Trial, solution: &Solution, limit: StepLimit) -> f64 {
-        if self.state.drive.clamped().is_none() {
+        if self.state.drive.clamped().is_none() || solution.speed <= 0.0 {
             return trial.dt;
         }
         let end = limit.travel_m / solution.speed;

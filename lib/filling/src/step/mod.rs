@@ -13,7 +13,7 @@ mod state;
 mod transport;
 mod units;
 
-use physics::{Failure, Motion, Scene, StepLimit, StepReport};
+use physics::{Failure, Motion, PressRun, Scene, StepLimit, StepReport, Stop};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
 use crate::geometry::{Lattice, Solids, Window};
@@ -71,6 +71,7 @@ impl Implicit {
         setup::check(&scene)?;
         let motions: Vec<Motion> = scene.bodies.iter().map(|body| body.motion).collect();
         let (clamp, speed) = (scene.clamp, scene.initial_speed());
+        let programme = programme(&scene);
         let (setup, particles) = Setup::new(scene, settings)?;
         let acoustic = setup.units.h / setup.liquid.sound_speed();
         let options = SaddleOptions {
@@ -80,7 +81,7 @@ impl Implicit {
         Ok(Self {
             state: State::new(
                 particles,
-                Drive::new(motions, clamp, acoustic, setup.present),
+                Drive::new(motions, clamp, programme, acoustic, setup.present),
                 speed,
             ),
             setup,
@@ -97,11 +98,13 @@ impl Implicit {
     /// decreasing length until what was solved fits the step.
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
         self.state.rates = Rates::Zero;
+        let limit = self.state.drive.within(limit, self.state.travel);
         let mut longest = limit.time_s;
         let (mut last, mut misses) = (Fit::Good, 0);
         for _ in 0..ATTEMPTS {
             // 1. Time step.
             let dt = self.time_step(limit)?.min(longest);
+            let dt = self.aim(dt);
             self.setup.units.cured = self.cured(dt);
             // 2. Geometry.
             let trial = self.place(dt);
@@ -199,7 +202,7 @@ impl Implicit {
         };
         let (bottom, top) = (pressure(setup.bottom, -1.0), pressure(setup.top, 1.0));
         let clamped = pressure(state.drive.clamped(), 1.0);
-        state.drive.observe(clamped, dt);
+        state.drive.observe(clamped, dt, state.travel);
         state.steps += 1;
         state.time += dt;
         state.power = solution.power;
@@ -216,4 +219,14 @@ impl Implicit {
             iterations: solution.iterations,
         }
     }
+}
+
+/// The press programme of a scene, if it has one: at the end of its way the clamp stands.
+fn programme(scene: &Scene) -> Option<PressRun> {
+    let room = match scene.stop {
+        Stop::Closed { travel_m } => travel_m,
+        Stop::Time(_) => f64::INFINITY,
+    };
+    let stages = &scene.programme;
+    (!stages.is_empty()).then(|| PressRun::new(stages.clone(), room))
 }

@@ -2,13 +2,17 @@
 
 use physics::restored;
 use physics::{
-    Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
+    Array, Diagnostics, Failure, LiquidState, PressRun, Saved, Scheme, StageTime, StepLimit,
+    StepReport,
 };
 use rayon::prelude::*;
 
 use super::solution::PASSES;
 use super::{Implicit, LastFlow, Rates};
 use crate::transport;
+
+/// Name of the array that holds where the press programme is.
+const PROGRAMME: &str = "programme";
 
 impl Scheme for Implicit {
     fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
@@ -96,6 +100,8 @@ impl Scheme for Implicit {
         if self.setup.liquid.cure.is_some() {
             arrays.push(("time".into(), Array::F64(vec![self.state.time])));
         }
+        let programme = self.state.drive.programme().map(PressRun::state);
+        arrays.extend(programme.map(|state| (PROGRAMME.to_owned(), Array::F64(state))));
         Saved(arrays)
     }
 
@@ -151,9 +157,18 @@ impl Scheme for Implicit {
         (self.state.counts.pinched, self.state.counts.deflected) =
             (pinched as u64, deflected as u64);
         self.state.counts.unsettled = unsettled as u64;
+        if self.state.drive.programme().is_some() {
+            let state = saved.f64s(PROGRAMME)?;
+            restored::check_finite(state, PROGRAMME)?;
+            self.state.drive.set_programme(state)?;
+        }
         self.state.drive.set_state(drive);
         self.state.rates = Rates::Restored(rates.to_vec());
         Ok(())
+    }
+
+    fn programme(&self) -> Option<&PressRun> {
+        self.state.drive.programme()
     }
 
     fn stage_times(&self) -> Vec<StageTime> {
@@ -175,7 +190,7 @@ impl Scheme for Implicit {
                 self.setup.sealed,
             ),
         ];
-        if self.setup.present.load && !self.setup.present.pid {
+        if self.setup.present.load {
             counts.push(("steps above the pressure limit", self.state.drive.broken.0));
         }
         if self.setup.present.table {
@@ -197,13 +212,7 @@ impl Scheme for Implicit {
             )
         });
         let pressure = self.state.drive.broken.1;
-        let limit = (pressure > 0.0).then(|| {
-            format!(
-                "liquid presses the clamp's body with {pressure:.3e} Pa in the last step, above its \
-                 max_pressure: the clamp stands and does not go back, and other bodies, a force or the \
-                 liquid's own inertia press on; a later end may help"
-            )
-        });
+        let limit = (pressure > 0.0).then(|| physics::broken(pressure));
         let said: Vec<String> = viscosity.into_iter().chain(limit).collect();
         (!said.is_empty()).then(|| said.join("; "))
     }
@@ -235,7 +244,10 @@ impl Implicit {
         let scalars = saved.f64s("scalars")?;
         restored::check_finite(scalars, "scalars")?;
         let scalar = |i: usize| scalars.get(i).copied().unwrap_or(f64::NAN);
-        if let Some(i) = scalars.iter().take(8).position(|&x| x < 0.0) {
+        // A clamp that a programme releases may give way beyond its start.
+        let opens = |i: usize| i == 1 && self.state.drive.programme().is_some();
+        let negative = |(i, &x): (usize, &f64)| x < 0.0 && !opens(i);
+        if let Some(i) = scalars.iter().enumerate().take(8).position(negative) {
             return Err(format!(
                 "scalar {i} of the checkpoint, {}, is negative",
                 scalar(i)

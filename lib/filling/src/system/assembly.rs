@@ -60,13 +60,14 @@ impl System {
 
     /// How the speed of body `clamped` against y enters the system, for a force of `force` on it
     /// along y (units of eta_0 h); to be solved with that body at rest.
-    pub(crate) fn load(&self, clamped: usize, force: f64) -> Load {
+    pub(crate) fn load(&self, clamped: usize, force: f64, least: f64) -> Load {
         let mut unit = vec![[0.0; 3]; self.bodies.len()];
         unit[clamped][1] = -1.0;
         let mut resting = self.bodies.clone();
         resting[clamped] = [0.0; 3];
         let couplings = &self.couplings;
         let rigid = |bodies: &[[f64; 3]]| couplings.forces(bodies, &[], &[]).0[clamped][1];
+        let force = force - rigid(&resting);
         Load {
             momentum: (0..self.b.len())
                 .into_par_iter()
@@ -77,7 +78,8 @@ impl System {
                 .map(|cell| couplings.displaced(cell, &unit))
                 .collect(),
             resistance: rigid(&unit),
-            force: force - rigid(&resting),
+            force,
+            scale: force.max(least),
         }
     }
 

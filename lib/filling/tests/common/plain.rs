@@ -32,6 +32,7 @@ pub fn scene(cell_m: f64, cells: [usize; 3]) -> Scene {
         wall: WallLaw::Stick,
         gravity: [0.0; 3],
         clamp: None,
+        programme: Vec::new(),
         stop: Stop::Time(1.0),
         bottom: None,
         top: None,

@@ -47,6 +47,7 @@ pub fn scene(cells: [usize; 3], boundary: [Boundary; 3]) -> Scene {
         wall: WallLaw::Stick,
         gravity: [0.0; 3],
         clamp: None,
+        programme: Vec::new(),
         stop: Stop::Time(1.0),
         bottom: None,
         top: None,

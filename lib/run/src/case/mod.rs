@@ -3,6 +3,7 @@
 //! Unknown keys, missing units and values out of range are refused with line and column.
 
 mod cure;
+mod press;
 mod rheology;
 mod schema;
 mod value;
@@ -10,6 +11,7 @@ mod value;
 use std::path::Path;
 
 pub use cure::CureTable;
+pub use press::StageTable;
 pub use schema::{
     Adhesive, Axes, Body, BoxCorners, Case, ClampTable, Contact, Grid, Integrator, MaterialName,
     OutputTable, PidGains, SchemeName,

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use units::{Acceleration, Density, Length, Pressure, Quantity, Speed, Time, Viscosity};
 
 use super::cure::CureTable;
+use super::press::StageTable;
 use super::rheology::{CarreauYasuda, Cross, HerschelBulkley, PowerLaw};
 use super::value::{BodyVelocity, CellLength, Positive, StopRule, choice, some_choice};
 
@@ -111,23 +112,21 @@ pub struct Contact {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClampTable {
-    /// Largest closing speed.
-    pub closing_speed: Positive<Speed>,
+    /// Largest closing speed; stages have their own.
+    pub closing_speed: Option<Positive<Speed>>,
     /// Pressure limit.
     pub max_pressure: Option<Positive<Pressure>>,
     /// Gains of the load controller.
     pub pid: Option<PidGains>,
-    /// When to stop.
-    #[serde(default = "closed")]
-    pub stop: StopRule,
+    /// When to stop; when closed by default.
+    pub stop: Option<StopRule>,
     /// Latest end of a run that stops when closed.
     pub time_limit: Option<Positive<Time>>,
     /// Closing distance where `[[body]]` describes the scene.
     pub travel: Option<Positive<Length>>,
-}
-
-fn closed() -> StopRule {
-    StopRule::Closed
+    /// Press programme, in place of one speed, one limit and one end.
+    #[serde(default)]
+    pub stage: Vec<StageTable>,
 }
 
 /// `pid`

@@ -4,13 +4,16 @@ mod bond;
 mod liquid;
 mod meeting;
 mod plausible;
+mod press;
 mod primitives;
 mod seed;
 
 use particle_file::limits;
-use physics::{Amount, Boundary, Clamp, Dimensions, Pid, Points, RigidBody, Scene, Stop, WallLaw};
+use physics::{
+    Amount, Boundary, Clamp, Dimensions, Pid, Points, PressStage, RigidBody, Scene, Stop, WallLaw,
+};
 
-use crate::case::{Case, CaseError, Contact, StopRule};
+use crate::case::{Case, CaseError, ClampTable, Contact, StopRule};
 
 pub use bond::Bond;
 pub(crate) use plausible::OVERLAP;
@@ -105,25 +108,16 @@ pub fn resolve(case: &Case, bond: Option<Bond>) -> Result<Setup, CaseError> {
 
 fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Setup, CaseError> {
     let cell = case.grid.cell.si();
-    let clamp = case.clamp.as_ref().map(|c| Clamp {
-        closing_speed: c.closing_speed.si(),
-        max_pressure: c.max_pressure.map(|p| p.si()),
-        pid: c.pid.map(|g| Pid {
-            kp: g.kp,
-            ki: g.ki,
-            kd: g.kd,
-        }),
-    });
-    if let Some(pid) = clamp.and_then(|c| c.pid)
-        && [pid.kp, pid.ki, pid.kd]
-            .iter()
-            .any(|g| !(g.is_finite() && *g >= 0.0))
-    {
-        return Err(CaseError(
-            "[clamp] pid: kp, ki and kd must be numbers of at least 0".into(),
-        ));
-    }
-    let (stop, time_limit_s, nominal) = stop(case, clamp, geometry.travel_m)?;
+    let programme = match &case.clamp {
+        Some(table) => press::programme(table, geometry.travel_m)?,
+        None => Vec::new(),
+    };
+    let clamp = match &case.clamp {
+        Some(table) if programme.is_empty() => Some(clamp(table)?),
+        Some(_) => Some(press::clamp(&programme)),
+        None => None,
+    };
+    let (stop, time_limit_s, nominal) = stop(case, clamp, &programme, geometry.travel_m)?;
     let scene = Scene {
         dimensions,
         grid: geometry.grid,
@@ -137,6 +131,7 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
             .as_ref()
             .map_or([0.0; 3], |g| g.acceleration.map(|a| a.si())),
         clamp,
+        programme,
         stop,
         bottom: geometry.bottom,
         top: geometry.top,
@@ -156,10 +151,34 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
     })
 }
 
+/// A clamp of one speed and one limit.
+fn clamp(table: &ClampTable) -> Result<Clamp, CaseError> {
+    let closing_speed = table.closing_speed.ok_or_else(|| {
+        CaseError("[clamp] needs closing_speed, or a list of [[clamp.stage]]".into())
+    })?;
+    let pid = table.pid.map(|g| Pid {
+        kp: g.kp,
+        ki: g.ki,
+        kd: g.kd,
+    });
+    let sound = |gain: f64| gain.is_finite() && gain >= 0.0;
+    if pid.is_some_and(|pid| ![pid.kp, pid.ki, pid.kd].into_iter().all(sound)) {
+        return Err(CaseError(
+            "[clamp] pid: kp, ki and kd must be numbers of at least 0".into(),
+        ));
+    }
+    Ok(Clamp {
+        closing_speed: closing_speed.si(),
+        max_pressure: table.max_pressure.map(|p| p.si()),
+        pid,
+    })
+}
+
 /// The stop rule, the latest end and the nominal duration.
 fn stop(
     case: &Case,
     clamp: Option<Clamp>,
+    programme: &[PressStage],
     travel: Option<f64>,
 ) -> Result<(Stop, f64, f64), CaseError> {
     let (table, clamp) = match (&case.clamp, clamp) {
@@ -176,7 +195,11 @@ fn stop(
             "[stop] is for runs without [clamp]; use the clamp's own stop".into(),
         ));
     }
-    match table.stop {
+    if let (false, Some(travel_m)) = (programme.is_empty(), travel) {
+        let longest = programme.iter().map(|stage| stage.time_s).sum();
+        return Ok((Stop::Closed { travel_m }, longest, longest));
+    }
+    match table.stop.unwrap_or(StopRule::Closed) {
         StopRule::Time(t) => Ok((Stop::Time(t), t, t)),
         StopRule::Closed => {
             let travel_m = travel.ok_or_else(|| {

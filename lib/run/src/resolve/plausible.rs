@@ -73,7 +73,10 @@ fn slower_than_sound(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
         return Ok(());
     }
     let who = match scene.clamp {
-        Some(clamp) if clamp.closing_speed == speed => "[clamp] closing_speed",
+        Some(clamp) if clamp.closing_speed == speed && scene.programme.is_empty() => {
+            "[clamp] closing_speed"
+        }
+        Some(clamp) if clamp.closing_speed == speed => "the speed of a [[clamp.stage]]",
         _ if liquid.speed == speed => "the velocity of an adhesive body",
         _ => "the velocity of a rigid body",
     };
@@ -126,6 +129,7 @@ fn reached(scene: &Scene, liquid: &Amount, travel_m: f64) -> Result<(), CaseErro
 /// Bodies of given velocities that would meet before the end.
 fn apart(scene: &Scene) -> Result<(), CaseError> {
     let end_s = match (scene.stop, scene.clamp) {
+        _ if !scene.programme.is_empty() => scene.programme.iter().map(|s| s.time_s).sum(),
         (Stop::Time(time), _) => time,
         (Stop::Closed { travel_m }, Some(clamp)) => travel_m / clamp.closing_speed,
         (Stop::Closed { .. }, None) => return Ok(()),

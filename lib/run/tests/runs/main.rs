@@ -5,6 +5,7 @@ mod bench;
 mod bond;
 mod fall;
 mod plan;
+mod press;
 mod refused;
 mod replaced;
 mod stopped;

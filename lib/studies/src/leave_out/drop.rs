@@ -91,6 +91,7 @@ fn scene() -> Scene {
         wall: WallLaw::Stick,
         gravity: [0.0; 3],
         clamp: None,
+        programme: Vec::new(),
         stop: Stop::Time(1.0),
         bottom: None,
         top: None,

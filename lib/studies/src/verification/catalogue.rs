@@ -4,7 +4,7 @@ use super::lumen::Section;
 use super::piston::Drive;
 use super::{
     Scene, acoustic, channel, clamp, column, couette, cure, disc, drop, duct, galilean, incline,
-    laws, piston, sealed, slit, spheres, squeeze, tait, taylor_green, washburn,
+    laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green, washburn,
 };
 use crate::case_text::PF;
 use crate::method::Method;
@@ -225,6 +225,10 @@ fn squeezing() -> Vec<Entry> {
             list.push((disc::scene(8, n, offset), with(n == 3 && offset == 0.0)));
         }
     }
+    for time in [1e-6, 1e-3, 1.0, 1e3] {
+        list.push((stefan::scene(6, stefan::Load::Hold, time), implicit()));
+    }
+    list.push((stefan::scene(6, stefan::Load::Programme, 300.0), implicit()));
     list
 }
 

@@ -59,6 +59,10 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
         "Squeeze film of a disc\n\nAgainst 3 pi eta R^4 V/(2 h^3), R of the voxels' area and as wide as what was pressed out makes it.",
     ),
     (
+        "stefan",
+        "A film closed by a press programme\n\nStefan's closing film, plates, to half of its gap under one load from 1 us to 1000 s, and under a ramp, a hold, a ramp down and a release: h^-5 grows with the integral of the load, since the film's volume stays. Worst row of the history; the same case but for the load and its time.",
+    ),
+    (
         "tait",
         "Compression\n\nA closed column by 2 %, pressure against paper Eq. 1. The piston moves off the nodes, so that the explicit scheme compresses the column 3 % less than it is; the law of each point is exact.",
     ),

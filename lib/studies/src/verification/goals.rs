@@ -234,6 +234,13 @@ pub const GOALS: &[Goal] = &[
         0.02,
     ),
     goal(
+        "film closed by a load, 1 us to 1000 s",
+        &["stefan-n6"],
+        "implicit",
+        "gap over time",
+        0.02,
+    ),
+    goal(
         "spheres, gap of 4 cells or more",
         &[
             "spheres-n8-0.064",

@@ -23,6 +23,7 @@ pub mod sealed;
 pub mod slit;
 pub mod spheres;
 pub mod squeeze;
+pub mod stefan;
 pub mod tait;
 pub mod taylor_green;
 pub mod washburn;

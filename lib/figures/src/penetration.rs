@@ -1,0 +1,65 @@
+//! How deep adhesive has gone on each side over time, from the CSV of `wp-metrics --series`.
+
+use crate::closing::time_unit;
+use crate::table::Table;
+use crate::{Error, Labelled, Mark, Plot};
+
+/// Longest over shortest time from which the axis of times is logarithmic.
+const LONG: f64 = 100.0;
+
+/// WP and the depth of 95 % of the adhesive, a line for each side of each run, and a dot where a bond line
+/// is no longer filled.
+///
+/// # Errors
+/// [`Error::Data`] for an unreadable file, a missing column or side, or one without numbers.
+pub fn penetrations(runs: &[Labelled]) -> Result<Plot, Error> {
+    let tables = runs.iter().map(|run| Table::read(&run.path));
+    let tables = tables.collect::<Result<Vec<_>, _>>()?;
+    let mut times = Vec::new();
+    for table in &tables {
+        times.extend(table.data("time_s")?.into_iter().filter(|t| *t > 0.0));
+    }
+    let (first, last) = (times.iter()).fold((f64::INFINITY, 0.0_f64), |(first, last), &t| {
+        (first.min(t), last.max(t))
+    });
+    let (unit, name) = time_unit(last);
+    let mut plot = Plot::new("Penetration", &format!("time ({name})"), "depth (µm)")
+        .logarithmic([last > LONG * first, false]);
+    for (run, table) in runs.iter().zip(&tables) {
+        let own = match runs.len() {
+            1 => String::new(),
+            _ => format!("{}: ", run.label),
+        };
+        for side in ["bottom", "top"] {
+            for (column, what) in [("wp_um", "WP"), ("p95_depth_um", "95 %")] {
+                let points = course(table, side, column, unit)?;
+                plot = plot.with(&format!("{own}{what}, {side}"), Mark::LineAndDots, points);
+            }
+        }
+        let states = table.texts("bond_line")?;
+        if let Some(row) = states.iter().position(|state| *state != "filled") {
+            let at = [table.data("time_s")?[row] / unit, 0.0];
+            plot = plot.with(&format!("{own}{}", states[row]), Mark::Dots, vec![at]);
+        }
+    }
+    Ok(plot)
+}
+
+/// A column of one side over time, in `unit`s of a second; what is at no time has no place on a
+/// logarithmic axis.
+fn course(table: &Table, side: &str, column: &str, unit: f64) -> Result<Vec<[f64; 2]>, Error> {
+    let (sides, times, values) = (
+        table.texts("side")?,
+        table.data("time_s")?,
+        table.data(column)?,
+    );
+    let rows = (0..sides.len()).filter(|&row| sides[row] == side && times[row] > 0.0);
+    let points: Vec<[f64; 2]> = rows.map(|row| [times[row] / unit, values[row]]).collect();
+    if points.is_empty() {
+        return Err(Error::Data(format!(
+            "'{}' has no row of the side {side} after the start, as wp-metrics --series writes them",
+            table.name()
+        )));
+    }
+    Ok(points)
+}

@@ -1,0 +1,179 @@
+//! What a press has come to at one moment, beside penetration: wood wetted, and whether the bond line
+//! is filled.
+
+use std::fmt;
+
+use bondline::Placed;
+use particle_file::BitGrid;
+use voxels::VolumeFractions;
+
+use crate::{Adhesive, Datum, Error, Reference, Side, State, Wood, depth_profile};
+
+/// Voxels of wood beside the bond line that count to it, on each side.
+const BESIDE: f64 = 2.0;
+/// Share of the room in the bond line below which it is starved.
+const STARVED: f64 = 0.5;
+/// Share of the adhesive that is gone through open sides from which the bond line is squeezed out.
+const SQUEEZED_OUT: f64 = 0.05;
+
+/// Whether there is adhesive where the adherends meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Filling {
+    /// It fills at least half of the room outside wood.
+    Filled,
+    /// It does not: what there was is in the wood.
+    Starved,
+    /// More than a twentieth of the adhesive has left through open sides.
+    SqueezedOut,
+}
+
+impl fmt::Display for Filling {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Filled => "filled",
+            Self::Starved => "starved",
+            Self::SqueezedOut => "squeezed-out",
+        })
+    }
+}
+
+/// The bond line of a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BondLine {
+    /// Distance of the adherends' bond surfaces, m.
+    pub gap_m: f64,
+    /// Mean share of the room outside wood that adhesive fills, over the layers between the bond
+    /// surfaces and two voxels into each adherend.
+    pub filled: f64,
+    /// What that means.
+    pub filling: Filling,
+    /// Area of voxel faces between wood and adhesive of bottom, top and both, m2: a slanted or round
+    /// wall counts 4/pi of its area on average, by its steps.
+    pub wetted_m2: [f64; 3],
+}
+
+/// The bond line of `state`, which had `begun_m3` (m3) of adhesive.
+///
+/// # Errors
+/// No adherends to be told apart.
+pub fn bond_line(state: &State, begun_m3: f64) -> Result<BondLine, Error> {
+    let surfaces = Datum::find(Reference::Adherend, state)?;
+    let gap_m = surfaces.plane_m(Side::Top) - surfaces.plane_m(Side::Bottom);
+    let middle = Datum::find(Reference::Mid, state)?;
+    let reach = 0.5 * gap_m + BESIDE * state.voxel_m;
+    let layers = depth_profile(state, &middle)?;
+    let near: Vec<f64> = (layers.iter())
+        .filter(|layer| layer.depth_m.abs() < reach && layer.filled_void_fraction.is_finite())
+        .map(|layer| layer.filled_void_fraction)
+        .collect();
+    let filled = near.iter().sum::<f64>() / near.len() as f64;
+    let mut volume = 0.0;
+    state.for_each_parcel(|_, parcel| volume += parcel);
+    let filling = if volume < (1.0 - SQUEEZED_OUT) * begun_m3 {
+        Filling::SqueezedOut
+    } else if filled < STARVED {
+        Filling::Starved
+    } else {
+        Filling::Filled
+    };
+    let [bottom, top] = wetted(state, &middle);
+    Ok(BondLine {
+        gap_m,
+        filled,
+        filling,
+        wetted_m2: [bottom, top, bottom + top],
+    })
+}
+
+/// Area of the faces between wood and adhesive on the bottom and the top side, m2.
+fn wetted(state: &State, middle: &Datum) -> [f64; 2] {
+    let mut areas = [0.0; 2];
+    let mut add = |side, area| match side {
+        Side::Bottom => areas[0] += area,
+        _ => areas[1] += area,
+    };
+    match (state.wood, state.adhesive) {
+        (Wood::Parted { bottom, top }, Adhesive::Points { position, volume }) => {
+            for (side, wood) in [(Side::Bottom, bottom), (Side::Top, top)] {
+                let lattice = Lattice::new(state, wood, side);
+                let liquid = lattice.liquid(position, volume);
+                let faces = lattice.faces(|index| liquid.get(index[0], index[1], index[2]));
+                add(side, faces.len() as f64 * wood.voxel_m.powi(2));
+            }
+        }
+        (Wood::Whole(wood), Adhesive::Voxels(adhesive)) => {
+            let lattice = Lattice {
+                wood,
+                shift: [0; 3],
+                dims: wood.bits.dims(),
+            };
+            let [x, y, z] = [0, 1, 2];
+            for index in lattice.faces(|i| adhesive.bits.get(i[x], i[y], i[z])) {
+                add(middle.depth(wood.centre_m(index)).0, wood.voxel_m.powi(2));
+            }
+        }
+        _ => {}
+    }
+    areas
+}
+
+/// The voxels of an adherend and one layer more on its bond surface.
+struct Lattice<'a> {
+    wood: Placed<'a>,
+    /// Voxels by which the wood's indices lie behind the lattice's.
+    shift: [usize; 3],
+    dims: [usize; 3],
+}
+
+impl<'a> Lattice<'a> {
+    fn new(state: &State, wood: Placed<'a>, side: Side) -> Self {
+        let n = state.normal.index();
+        let (mut shift, mut dims) = ([0; 3], wood.bits.dims());
+        dims[n] += 1;
+        shift[n] = usize::from(side == Side::Top);
+        Self { wood, shift, dims }
+    }
+
+    fn is_wood(&self, index: [usize; 3]) -> bool {
+        let dims = self.wood.bits.dims();
+        let own: [usize; 3] = std::array::from_fn(|a| index[a].wrapping_sub(self.shift[a]));
+        (0..3).all(|a| own[a] < dims[a]) && self.wood.bits.get(own[0], own[1], own[2])
+    }
+
+    /// The voxels that points fill.
+    fn liquid(&self, position: &[[f32; 3]], volume: &[f32]) -> BitGrid {
+        let edge = self.wood.voxel_m;
+        let open = BitGrid::from_fn(self.dims, |x, y, z| !self.is_wood([x, y, z]));
+        let mut fractions = VolumeFractions::new(open);
+        for (p, &v) in position.iter().zip(volume) {
+            let place: [f64; 3] = std::array::from_fn(|a| {
+                (f64::from(p[a]) - self.wood.origin_m[a]) / edge + self.shift[a] as f64
+            });
+            if (0..3).all(|a| (0.0..=self.dims[a] as f64).contains(&place[a])) {
+                fractions.add(place, f64::from(v) / edge.powi(3));
+            }
+        }
+        fractions.fullest()
+    }
+
+    /// The wood's voxel at each face between wood and `liquid`.
+    fn faces(&self, liquid: impl Fn([usize; 3]) -> bool) -> Vec<[usize; 3]> {
+        let mut found = Vec::new();
+        self.wood.for_each(|own| {
+            let index: [usize; 3] = std::array::from_fn(|a| own[a] + self.shift[a]);
+            for a in 0..3 {
+                for next in [index[a].checked_sub(1), Some(index[a] + 1)] {
+                    let Some(next) = next.filter(|next| *next < self.dims[a]) else {
+                        continue;
+                    };
+                    let mut beside = index;
+                    beside[a] = next;
+                    if liquid(beside) && !self.is_wood(beside) {
+                        found.push(own);
+                    }
+                }
+            }
+        });
+        found
+    }
+}

@@ -1,0 +1,310 @@
+//! Where a clamp is in its press programme.
+
+use super::{Press, PressStage, Reason, StageEnd};
+use crate::{Choice, StepLimit};
+
+/// A step as the programme sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct PressStep {
+    /// Its length, s.
+    pub dt_s: f64,
+    /// Speed of the clamp, m/s.
+    pub speed: f64,
+    /// Travel of the clamp after it, m.
+    pub travel_m: f64,
+    /// Pressure on the clamp's body, Pa.
+    pub pressure: f64,
+}
+
+/// Part of a pressure below it at which it counts as reached: what control leaves.
+const REACHED: f64 = 5e-3;
+/// Part of a way or a time that rounding may leave of it.
+const ROUNDING: f64 = 1e-9;
+/// Steps of a ramp, or until a clamp that stands is found slower than asked for, over all of the time.
+const PARTS: f64 = 10.0;
+/// Numbers of the state besides those of the stages that have ended.
+const PLACE: usize = 5;
+/// Numbers of a stage that has ended.
+const END: usize = 4;
+
+/// A programme, and where a clamp is in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PressRun {
+    stages: Vec<PressStage>,
+    /// Way of the clamp, m.
+    room_m: f64,
+    /// Stage of the last step.
+    before: usize,
+    elapsed_s: f64,
+    time_s: f64,
+    /// Pressure that the stage began at, Pa.
+    from: f64,
+    closed: bool,
+    ended: Vec<StageEnd>,
+}
+
+impl PressRun {
+    /// The start of a programme of at least one stage for a clamp that can go `room_m` (m).
+    pub fn new(stages: Vec<PressStage>, room_m: f64) -> Self {
+        Self {
+            stages,
+            room_m,
+            before: 0,
+            elapsed_s: 0.0,
+            time_s: 0.0,
+            from: 0.0,
+            closed: false,
+            ended: Vec::new(),
+        }
+    }
+
+    /// The stage that is on; the last one when all are over.
+    pub fn stage(&self) -> &PressStage {
+        &self.stages[self.ended.len().min(self.stages.len() - 1)]
+    }
+
+    /// Whether all stages are over.
+    pub fn is_over(&self) -> bool {
+        self.ended.len() == self.stages.len()
+    }
+
+    /// Index of the stage that the last step was of.
+    pub fn last_stage(&self) -> usize {
+        self.before
+    }
+
+    /// Stages with their ends so far.
+    pub fn ended(&self) -> impl Iterator<Item = (&PressStage, &StageEnd)> {
+        self.stages.iter().zip(&self.ended)
+    }
+
+    /// Whether the clamp has gone all its way and goes no further.
+    pub fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// Largest pressure of the programme, Pa.
+    pub fn largest(&self) -> f64 {
+        (self.stages.iter())
+            .filter_map(|stage| stage.pressure)
+            .fold(0.0, f64::max)
+    }
+
+    /// Pressure (Pa) that is set `ahead_s` (s) from now; infinite where there is no limit.
+    pub fn set_pressure(&self, ahead_s: f64) -> f64 {
+        let stage = self.stage();
+        let target = stage.pressure.unwrap_or(f64::INFINITY);
+        if stage.kind != Press::Ramp {
+            return target;
+        }
+        let part = ((self.elapsed_s + ahead_s) / stage.time_s).min(1.0);
+        self.from + (target - self.from) * part
+    }
+
+    /// A limit of a step within the stage, for a clamp that has travelled `travel_m` (m).
+    pub fn within(&self, limit: StepLimit, travel_m: f64) -> StepLimit {
+        let stage = self.stage();
+        let end = stage.travel_m.unwrap_or(self.room_m).min(self.room_m);
+        let left = stage.time_s - self.elapsed_s;
+        // What the end of a step decides, or what changes in it, is not to wait for all of a long stage.
+        let parts = match (stage.kind, stage.slower) {
+            (Press::Ramp, _) | (_, Some(_)) => (PARTS * left / stage.time_s).ceil().max(1.0),
+            _ => 1.0,
+        };
+        StepLimit {
+            time_s: limit.time_s.min(left / parts),
+            travel_m: limit.travel_m.min((end - travel_m).max(0.0)),
+        }
+    }
+
+    /// Takes in a step; whether it ended the stage.
+    pub fn observe(&mut self, step: PressStep) -> bool {
+        self.before = self.ended.len().min(self.stages.len() - 1);
+        self.elapsed_s += step.dt_s;
+        self.time_s += step.dt_s;
+        self.closed = step.travel_m >= self.room_m * (1.0 - ROUNDING);
+        let Some(reason) = self.reason(&step) else {
+            return false;
+        };
+        let set = self.set_pressure(0.0);
+        self.ended.push(StageEnd {
+            reason,
+            time_s: self.time_s,
+            travel_m: step.travel_m,
+            pressure: step.pressure,
+        });
+        self.elapsed_s = 0.0;
+        let most = if set.is_finite() {
+            set
+        } else {
+            self.stage().pressure.unwrap_or(0.0)
+        };
+        self.from = step.pressure.clamp(0.0, most);
+        true
+    }
+
+    fn reason(&self, step: &PressStep) -> Option<Reason> {
+        let stage = self.stage();
+        let approach = stage.kind == Press::Approach;
+        let reached = |p: f64| step.pressure >= p * (1.0 - REACHED);
+        let gone = |way: f64| step.travel_m >= way - ROUNDING * self.room_m;
+        if approach && stage.pressure.is_some_and(reached) {
+            Some(Reason::Pressure)
+        } else if stage.contact && step.pressure > 0.0 {
+            Some(Reason::Contact)
+        } else if stage.travel_m.is_some_and(gone) {
+            Some(Reason::Travel)
+        } else if approach && self.closed {
+            Some(Reason::Closed)
+        } else if stage.slower.is_some_and(|least| step.speed.abs() < least) {
+            Some(Reason::Slower)
+        } else if self.elapsed_s >= stage.time_s * (1.0 - ROUNDING) {
+            Some(Reason::Time)
+        } else {
+            None
+        }
+    }
+
+    /// The changing part, for checkpoints.
+    pub fn state(&self) -> Vec<f64> {
+        let closed = f64::from(u8::from(self.closed));
+        let before = self.before as f64;
+        let mut state = vec![before, self.elapsed_s, self.time_s, self.from, closed];
+        for end in &self.ended {
+            let index = Reason::NAMED.iter().position(|(_, r)| *r == end.reason);
+            let index = index.unwrap_or_default() as f64;
+            state.extend([index, end.time_s, end.travel_m, end.pressure]);
+        }
+        state
+    }
+
+    /// Goes back to a saved changing part.
+    ///
+    /// # Errors
+    /// A sentence where no run of this programme saves that.
+    pub fn set_state(&mut self, state: &[f64]) -> Result<(), String> {
+        let wrong = || "the checkpoint's press programme is not that of the case".to_owned();
+        let Some((place, ends)) = state.split_first_chunk::<PLACE>() else {
+            return Err(wrong());
+        };
+        let &[before, elapsed_s, time_s, from, closed] = place;
+        let (ends, rest) = ends.as_chunks::<END>();
+        if !rest.is_empty()
+            || ends.len() > self.stages.len()
+            || place.iter().any(|x| *x < 0.0)
+            || before > ends.len() as f64
+        {
+            return Err(wrong());
+        }
+        self.ended.clear();
+        for &[index, time_s, travel_m, pressure] in ends {
+            let reason = Reason::NAMED.get(index as usize).ok_or_else(wrong)?.1;
+            self.ended.push(StageEnd {
+                reason,
+                time_s,
+                travel_m,
+                pressure,
+            });
+        }
+        if !self.is_over() && elapsed_s > self.stage().time_s {
+            return Err(wrong());
+        }
+        self.before = before as usize;
+        (self.elapsed_s, self.time_s, self.from) = (elapsed_s, time_s, from);
+        self.closed = closed != 0.0;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stage(kind: Press, pressure: Option<f64>, time_s: f64) -> PressStage {
+        PressStage {
+            kind,
+            speed: 1e-3,
+            pressure,
+            time_s,
+            travel_m: None,
+            contact: false,
+            slower: None,
+        }
+    }
+
+    fn programme() -> PressRun {
+        let hold = PressStage {
+            slower: Some(1e-9),
+            ..stage(Press::Hold, Some(1e6), 300.0)
+        };
+        let stages = vec![
+            stage(Press::Approach, Some(2e5), 1.0),
+            stage(Press::Ramp, Some(1e6), 2.0),
+            hold,
+            stage(Press::Release, Some(0.0), 10.0),
+        ];
+        PressRun::new(stages, 50e-6)
+    }
+
+    fn step(dt_s: f64, speed: f64, travel_m: f64, pressure: f64) -> PressStep {
+        PressStep {
+            dt_s,
+            speed,
+            travel_m,
+            pressure,
+        }
+    }
+
+    #[test]
+    fn stages_follow_one_another_by_their_ends() {
+        let mut run = programme();
+        assert!(!run.observe(step(0.01, 1e-3, 10e-6, 0.0)));
+        assert_eq!(run.set_pressure(0.0), 2e5);
+        assert!(run.observe(step(0.001, 1e-3, 11e-6, 2e5)));
+        assert_eq!(run.stage().kind, Press::Ramp);
+        // Half way up the ramp at the middle of a step of two seconds.
+        assert_eq!(run.set_pressure(1.0), 6e5);
+        let limit = StepLimit {
+            time_s: 1e9,
+            travel_m: 1e9,
+        };
+        let within = run.within(limit, 11e-6);
+        assert_eq!((within.time_s, within.travel_m), (0.2, 50e-6 - 11e-6));
+        assert!(run.observe(step(2.0, 1e-6, 13e-6, 9.9e5)));
+        assert_eq!(run.last_stage(), 1);
+        assert!(!run.observe(step(100.0, 1e-8, 14e-6, 1e6)));
+        assert!(run.observe(step(100.0, 1e-10, 14e-6, 1e6)));
+        assert_eq!(run.set_pressure(0.0), 0.0);
+        assert!(run.observe(step(10.0, -1e-10, 14e-6, 0.0)));
+        assert!(run.is_over());
+        let reasons: Vec<Reason> = run.ended().map(|(_, end)| end.reason).collect();
+        let wanted = [Reason::Pressure, Reason::Time, Reason::Slower, Reason::Time];
+        assert_eq!(reasons, wanted);
+    }
+
+    #[test]
+    fn a_closed_clamp_ends_its_approach() {
+        let mut run = programme();
+        assert!(run.observe(step(0.05, 1e-3, 50e-6, 0.0)));
+        assert!(run.is_closed());
+        assert_eq!(run.ended().next().unwrap().1.reason, Reason::Closed);
+    }
+
+    #[test]
+    fn a_saved_place_comes_back_and_a_forged_one_is_refused() {
+        let mut run = programme();
+        run.observe(step(0.001, 1e-3, 11e-6, 2e5));
+        run.observe(step(0.5, 1e-3, 12e-6, 3e5));
+        let state = run.state();
+        let mut again = programme();
+        again.set_state(&state).unwrap();
+        assert_eq!(again, run);
+        assert_eq!(state.len(), PLACE + END);
+        for (place, value) in [(0, 9.0), (1, 3.0), (1, -1.0), (PLACE, 17.0)] {
+            let mut forged = state.clone();
+            forged[place] = value;
+            assert!(programme().set_state(&forged).is_err(), "{place} {value}");
+        }
+        assert!(programme().set_state(&state[..6]).is_err());
+    }
+}

@@ -1,0 +1,139 @@
+//! The stages of a press programme, resolved to SI and held against one another.
+
+use physics::{Choice, Clamp, Press, PressStage};
+
+use crate::case::{CaseError, ClampTable, StageTable};
+
+/// Duration of an approach without one over that of all its way at full speed: it ends before, closed.
+const APPROACH: f64 = 2.0;
+
+/// The stages of a programme for a clamp that can travel `travel_m` (m); none of a clamp without.
+///
+/// # Errors
+/// Keys of a clamp without stages beside them, and stages that contradict themselves or one another.
+pub(super) fn programme(
+    table: &ClampTable,
+    travel_m: Option<f64>,
+) -> Result<Vec<PressStage>, CaseError> {
+    if table.stage.is_empty() {
+        return Ok(Vec::new());
+    }
+    let stray = [
+        (table.closing_speed.is_some(), "closing_speed"),
+        (table.max_pressure.is_some(), "max_pressure"),
+        (table.pid.is_some(), "pid"),
+        (table.stop.is_some(), "stop"),
+        (table.time_limit.is_some(), "time_limit"),
+    ];
+    if let Some((_, key)) = stray.iter().find(|(given, _)| *given) {
+        return Err(CaseError(format!(
+            "[clamp] {key} is for a clamp without [[clamp.stage]]: its stages say speed, pressure and time"
+        )));
+    }
+    let Some(room_m) = travel_m else {
+        return Err(CaseError(
+            "[[clamp.stage]] needs the way that the clamp has: give [clamp] travel".into(),
+        ));
+    };
+    let mut stages: Vec<PressStage> = Vec::new();
+    for (index, stage) in table.stage.iter().enumerate() {
+        let stage = resolved(stage, stages.last(), room_m).map_err(|said| {
+            let kind = stage.kind.name();
+            CaseError(format!(
+                "[[clamp.stage]] number {} ({kind}): {said}",
+                index + 1
+            ))
+        })?;
+        stages.push(stage);
+    }
+    Ok(stages)
+}
+
+/// The clamp of a programme: its largest speed and pressure.
+pub(super) fn clamp(stages: &[PressStage]) -> Clamp {
+    let speeds = stages.iter().map(|stage| stage.speed);
+    let pressures = stages.iter().filter_map(|stage| stage.pressure);
+    Clamp {
+        closing_speed: speeds.fold(0.0, f64::max),
+        max_pressure: pressures.reduce(f64::max),
+        pid: None,
+    }
+}
+
+/// A stage after the one `before`; an error is a sentence about it.
+fn resolved(
+    table: &StageTable,
+    before: Option<&PressStage>,
+    room_m: f64,
+) -> Result<PressStage, String> {
+    stray(table)?;
+    let speed = (table.speed.map(|speed| speed.si()))
+        .or(before.map(|before| before.speed))
+        .ok_or("the first stage needs a speed, which the others take over, such as \"1 mm/s\"")?;
+    let travel_m = table.travel.map(|travel| travel.si());
+    let gone = before.and_then(|before| before.travel_m).unwrap_or(0.0);
+    if let Some(travel) = travel_m.filter(|travel| *travel <= gone || *travel > room_m) {
+        return Err(format!(
+            "its travel of {:.4} um since the start of the run must be more than the {:.4} um of the stage before and at most the {:.4} um that the clamp has",
+            1e6 * travel,
+            1e6 * gone,
+            1e6 * room_m
+        ));
+    }
+    let time_s = match (table.time, table.kind) {
+        (Some(time), _) => time.si(),
+        (None, Press::Approach) => APPROACH * room_m / speed,
+        (None, _) => return Err("it needs a time, its longest duration, such as \"5 min\"".into()),
+    };
+    Ok(PressStage {
+        kind: table.kind,
+        speed,
+        pressure: pressure(table, before)?,
+        time_s,
+        travel_m,
+        contact: table.contact,
+        slower: table.slower.map(|speed| speed.si()),
+    })
+}
+
+/// Refuses keys that a kind of stage has no use for.
+fn stray(table: &StageTable) -> Result<(), String> {
+    let kind = table.kind;
+    if table.contact && kind != Press::Approach {
+        return Err("contact ends an approach only".into());
+    }
+    if table.slower.is_some() && !matches!(kind, Press::Hold | Press::Release) {
+        return Err("slower ends a hold or a release only".into());
+    }
+    if table.pressure.is_some() && kind == Press::Release {
+        return Err("a release has no pressure".into());
+    }
+    Ok(())
+}
+
+/// Pressure at the end of a stage, Pa.
+fn pressure(table: &StageTable, before: Option<&PressStage>) -> Result<Option<f64>, String> {
+    let given = table.pressure.map(|pressure| pressure.si());
+    let kept = before.and_then(|before| before.pressure);
+    // An approach may end, by time or travel, at any pressure.
+    let set = before.filter(|before| before.kind != Press::Approach);
+    match (table.kind, given) {
+        (Press::Approach, given) => Ok(given),
+        (Press::Ramp, None) => Err("it needs a pressure to go to".into()),
+        (Press::Ramp, Some(to)) if set.is_some() && kept == Some(to) => Err(format!(
+            "the pressure is {:.4} MPa already: a hold keeps it",
+            1e-6 * to
+        )),
+        (Press::Hold, Some(at)) if set.is_some() && kept != Some(at) => Err(format!(
+            "it is at {:.4} MPa and the stage before ends at {:.4} MPa: a ramp between them is needed",
+            1e-6 * at,
+            1e-6 * kept.unwrap_or(0.0)
+        )),
+        (Press::Hold, None) => (kept.filter(|kept| *kept > 0.0))
+            .map(Some)
+            .ok_or_else(|| "it needs a pressure: the stage before ends at none".into()),
+        (Press::Release, _) if kept.is_none() => Err("the stage before ends at no pressure".into()),
+        (Press::Release, _) => Ok(Some(0.0)),
+        (_, given) => Ok(given),
+    }
+}
