@@ -41,3 +41,22 @@ dimension!(/// Acceleration, SI metre per second squared.
     Acceleration, "an acceleration", &[("m/s2", 1.0)], ANY);
 dimension!(/// Shear rate, SI one per second.
     ShearRate, "a shear rate", &[("1/s", 1.0), ("s-1", 1.0)], ANY);
+
+/// What a unit symbol measures, and what one of it is in SI.
+pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
+    fn of<D: Dimension>(symbol: &str) -> Option<(&'static str, f64)> {
+        let (_, factor) = D::UNITS.iter().find(|(name, _)| *name == symbol)?;
+        Some((D::NAME, *factor))
+    }
+    let all = [
+        of::<Length>,
+        of::<Time>,
+        of::<Speed>,
+        of::<Pressure>,
+        of::<Viscosity>,
+        of::<Density>,
+        of::<Acceleration>,
+        of::<ShearRate>,
+    ];
+    all.iter().find_map(|of| of(symbol))
+}

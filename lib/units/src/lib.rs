@@ -16,6 +16,6 @@ mod quantity;
 
 pub use axis::Axis;
 pub use dimension::{
-    Acceleration, Density, Dimension, Length, Pressure, ShearRate, Speed, Time, Viscosity,
+    Acceleration, Density, Dimension, Length, Pressure, ShearRate, Speed, Time, Viscosity, unit,
 };
 pub use quantity::{ParseError, Quantity};
