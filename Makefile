@@ -6,6 +6,9 @@
 #   make ERROR=no                 without the errors of Table 2, which take finer implicit runs
 #   make XCT_PF=a.tif XCT_PVA_PF=b.tif VOXEL="1.45 um" [LABELS=void=0,wood=1,adhesive=2]
 #                                 the same on your own stacks
+#   make sweep SWEEP=table.csv    a table of parameters, a row a run, to a table of results and a figure
+#   make engines                  a small sweep by GNU parallel, Snakemake and Slurm, where installed
+#   make interop                  what other programs read of the tools' files, where installed
 #   make test                     formatting, clippy, all tests
 #   make verify                   long studies: both schemes against closed forms
 #   make tradeoff stability options   error against run time; extreme cases; explicit options
@@ -39,7 +42,7 @@ SIDE_BY_SIDE = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
 PREFIX ?= $(HOME)/.local
 
 BIN := target/release
-TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures particles
+TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures particles bond-sweep
 BINARIES := $(TOOLS:%=$(BIN)/%)
 
 OUT := out/$(if $(XCT_PF)$(XCT_PVA_PF),xct,$(SCALE))
@@ -54,10 +57,12 @@ include pipelines/40-metrics.mk
 include pipelines/50-figures.mk
 include pipelines/60-studies.mk
 include pipelines/65-gate.mk
+include pipelines/70-sweep.mk
+include pipelines/75-interop.mk
 
 .PHONY: help
 help:
-	@sed -n '3,22s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,26s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:
