@@ -9,6 +9,9 @@
 #   make XCT_BOTTOM=a.tif [XCT_TOP=b.tif | PLANE="139.2 um"] SLAB="55.1 um" VOXEL=... [TURN=90]
 #                                 the same on undamaged wood: two stacks, or one cut at PLANE
 #   make species                  four species of undamaged wood, PF and PVA-PF: their Table 2
+#   make sweep SWEEP=table.csv    a table of parameters, a row a run, to a table of results and a figure
+#   make engines                  a small sweep by GNU parallel, Snakemake and Slurm, where installed
+#   make interop                  what other programs read of the tools' files, where installed
 #   make test                     formatting, clippy, all tests
 #   make verify                   long studies: both schemes against closed forms
 #   make tradeoff stability options   error against run time; extreme cases; explicit options
@@ -42,7 +45,7 @@ SIDE_BY_SIDE = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
 PREFIX ?= $(HOME)/.local
 
 BIN := target/release
-TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures particles
+TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures particles bond-sweep
 BINARIES := $(TOOLS:%=$(BIN)/%)
 
 OUT := out/$(if $(XCT_BOTTOM),wood,$(if $(XCT_PF)$(XCT_PVA_PF),xct,$(SCALE)))
@@ -58,10 +61,12 @@ include pipelines/50-figures.mk
 include pipelines/55-species.mk
 include pipelines/60-studies.mk
 include pipelines/65-gate.mk
+include pipelines/70-sweep.mk
+include pipelines/75-interop.mk
 
 .PHONY: help
 help:
-	@sed -n '3,25s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,/^$$/s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

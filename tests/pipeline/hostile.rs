@@ -24,7 +24,7 @@ fn a_failing_standard_error_ends_nothing() {
     assert_eq!(output.status.code(), Some(1), "help that is not printed");
 }
 
-/// All eight tools panicked.
+/// All tools panicked.
 #[test]
 fn an_argument_that_is_no_text_is_refused_or_used() {
     let bench = Workbench::with_bond();
@@ -205,4 +205,25 @@ fn a_failed_series_leaves_nothing() {
         &["export", "bond.mpts", "specimen.mpts", "-o", "s.pvd"],
     );
     assert!(bench.path("s.parts/0000-adhesive.vti").exists());
+}
+
+/// SIGXFSZ ended a tool in the middle of its write, and its temporary file stayed.
+#[test]
+fn a_limit_on_the_size_of_files_is_a_failed_write() {
+    let bench = Workbench::with_bond();
+    let before = bench.names("");
+    for line in [
+        "xct2particles -q specimen.npy --voxel 1.45um -o new",
+        "build-bondline -q specimen.mpts -o new",
+        "particles export -f csv bond.mpts -o new",
+    ] {
+        let output = bench.shell(&format!("ulimit -f 1; {line}"));
+        assert_eq!(output.status.code(), Some(1), "{line}: {}", said(&output));
+        assert!(
+            said(&output).contains("cannot write 'new'"),
+            "{}",
+            said(&output)
+        );
+        assert_eq!(bench.names(""), before, "{line}");
+    }
 }

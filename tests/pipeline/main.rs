@@ -24,5 +24,6 @@ mod refusals;
 mod repeatability;
 mod run_folder;
 mod sweep;
+mod sweep_tables;
 mod verdicts;
 mod workbench;

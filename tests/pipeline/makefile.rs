@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use crate::workbench::said;
+use crate::workbench::{TOOLS, said};
 
 /// `make -n` at the top of the repository with the tools taken for built; nothing without make.
 fn plan(arguments: &[&str]) -> Option<Output> {
@@ -61,6 +61,33 @@ fn stacks_may_have_blanks_in_their_path() {
         let named = format!("xct2particles \"{}\"", stack.display());
         assert!(lines.contains(&named), "{lines}");
     }
+}
+
+/// The tools were installed with their tables of lines, 215 MB.
+#[test]
+fn the_tools_are_installed_stripped() {
+    let folder = tempfile::tempdir().unwrap();
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut make = Command::new("make");
+    make.env_remove("MAKEFLAGS").env_remove("MFLAGS");
+    make.args(["-s", "BUILT=1", "install"]);
+    make.arg(format!("PREFIX={}", folder.path().display()));
+    let Ok(output) = make.current_dir(top).output() else {
+        println!("left out: there is no make");
+        return;
+    };
+    assert!(output.status.success(), "{}", said(&output));
+    let bin = folder.path().join("bin");
+    let mut bytes = 0;
+    for name in TOOLS {
+        let tool = bin.join(name);
+        bytes += tool.metadata().unwrap().len();
+        let version = Command::new(tool).arg("--version").output().unwrap();
+        assert!(version.status.success(), "{name}");
+    }
+    println!("installed: {} MB", bytes >> 20);
+    assert!(bytes < 60 << 20, "{bytes}");
+    assert!(folder.path().join("share/man/man1/bond-sweep.1").is_file());
 }
 
 /// The sub-makes set the number of jobs anew, over the one that was asked for.

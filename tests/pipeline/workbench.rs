@@ -8,7 +8,7 @@ use particle_file::ParticleFile;
 use studies::outputs;
 use tempfile::TempDir;
 
-pub const TOOLS: [&str; 8] = [
+pub const TOOLS: [&str; 9] = [
     "xct2particles",
     "build-bondline",
     "mpm-run",
@@ -17,6 +17,7 @@ pub const TOOLS: [&str; 8] = [
     "synth-xct",
     "bond-figures",
     "particles",
+    "bond-sweep",
 ];
 
 /// Voxel edge of every specimen here.

@@ -4,8 +4,8 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, ValueEnum};
 
-use crate::message;
 use crate::{Failure, Output};
+use crate::{message, signals};
 
 /// Options every tool has.
 #[derive(clap::Args, Clone, Debug)]
@@ -52,6 +52,7 @@ pub fn main<A: Parser + CommandFactory>(
         Ok(arguments) => arguments,
         Err(error) => return usage(&error, &tool),
     };
+    signals::catch_file_limit();
     let ended = setup(common(&arguments)).and_then(|()| run(arguments));
     match ended {
         Ok(()) => ExitCode::SUCCESS,

@@ -3,7 +3,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::iterator::Signals;
 
 use crate::{Failure, Status, message};
@@ -40,6 +40,13 @@ pub fn catch_interrupts() -> Result<(), Failure> {
     caught
         .map(|_| ())
         .map_err(|e| Failure::failed(format!("cannot catch interrupts: {e}")))
+}
+
+/// From now on a write beyond the limit on the size of files fails as one to a full disk does, with a
+/// sentence and nothing left behind, where the signal would end the process in the middle of it.
+pub(crate) fn catch_file_limit() {
+    // Where the system refuses the handler, the signal does what it did.
+    let _ = signal_hook::flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
 }
 
 fn end_after_grace(mut signals: Signals) {

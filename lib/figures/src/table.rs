@@ -63,6 +63,12 @@ impl Table {
         self.headers.iter().any(|header| header == column)
     }
 
+    /// The columns that stand before `column`.
+    pub(crate) fn before(&self, column: &str) -> Result<Vec<&str>, Error> {
+        let index = self.index(column)?;
+        Ok(self.headers.iter().take(index).collect())
+    }
+
     /// The cells of a column.
     pub(crate) fn texts(&self, column: &str) -> Result<Vec<&str>, Error> {
         let index = self.index(column)?;

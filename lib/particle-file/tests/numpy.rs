@@ -1,4 +1,4 @@
-//! The NumPy reader in `readers/` agrees with the library, where Python and NumPy exist.
+//! The NumPy reader in readers/python agrees with the library, where Python and NumPy exist.
 
 use std::path::Path;
 use std::process::Command;
@@ -62,7 +62,7 @@ fn numpy_reads_what_was_written() {
         ),
         format!("notes uint8 (3, 1) {}", 9 + 2 * 8 + 3 * 7),
     ];
-    let readers = Path::new(env!("CARGO_MANIFEST_DIR")).join("readers");
+    let readers = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../readers/python/bondline");
     let output = Command::new("python3")
         .args(["-c", SCRIPT])
         .arg(&path)

@@ -3,7 +3,18 @@
 use std::path::Path;
 
 use crate::case::Case;
+use crate::load;
 use crate::request::RunFailure;
+
+/// The text of the case file at `path` with `changes` (`key=value`), which parses as a case.
+///
+/// # Errors
+/// [`RunFailure::Usage`]: a file that cannot be read, is no case or does not become one.
+pub fn changed_case(path: &Path, changes: &[String]) -> Result<String, RunFailure> {
+    let text = changed(&load::case_text(path)?, path, changes)?;
+    Case::parse(&text, path)?;
+    Ok(text)
+}
 
 /// The case text with `changes` applied; the text itself when there are none, so that errors
 /// keep the user's own line numbers.

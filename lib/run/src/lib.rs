@@ -25,6 +25,7 @@ mod system;
 mod verdict;
 
 pub use begin::Mode;
+pub use changes::changed_case;
 pub use courant::Courant;
 pub use drive::End;
 pub use invariants::Invariants;

@@ -35,6 +35,14 @@ pub enum RunFailure {
     /// The run failed (exit 1).
     #[error("{0}")]
     Run(String),
+    /// The state is no longer sound (exit 1): the same run fails again.
+    #[error("{said}{checkpoint}")]
+    Unstable {
+        /// What went wrong, the same however often the run was continued.
+        said: String,
+        /// Where the last good checkpoint is, as the end of the sentence.
+        checkpoint: String,
+    },
 }
 
 impl From<CaseError> for RunFailure {
@@ -47,7 +55,24 @@ impl From<RunError> for RunFailure {
     fn from(error: RunError) -> Self {
         match error {
             RunError::Checkpoint(said) => RunFailure::Data(said),
-            other => RunFailure::Run(other.to_string()),
+            RunError::Unstable {
+                failure,
+                step,
+                time_s,
+                checkpoint,
+            } => {
+                let without = RunError::Unstable {
+                    failure,
+                    step,
+                    time_s,
+                    checkpoint: String::new(),
+                };
+                RunFailure::Unstable {
+                    said: without.to_string(),
+                    checkpoint,
+                }
+            }
+            RunError::Write { .. } => RunFailure::Run(error.to_string()),
         }
     }
 }
@@ -107,7 +132,7 @@ impl Request {
     }
 
     /// What the run is forecast to need beyond all patience or memory, as a sentence.
-    fn excess(&self) -> Option<String> {
+    pub fn excess(&self) -> Option<String> {
         // What keeps the scheme from starting is said when it is to start.
         schemes::forecast(&self.case, &self.setup).ok()?.excess()
     }

@@ -47,3 +47,25 @@ dimension!(/// Shear rate, SI one per second.
     ShearRate, "a shear rate", &[("1/s", 1.0), ("s-1", 1.0)], ANY);
 dimension!(/// Mass of adhesive over bond area, SI kilogram per square metre.
     Spread, "a spread rate", &[("kg/m2", 1.0), ("g/m2", 1e-3), ("lb/1000ft2", 4.882_427_636_383_05e-3)], ANY);
+
+/// What a unit symbol measures, and what one of it is in SI.
+pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
+    fn of<D: Dimension>(symbol: &str) -> Option<(&'static str, f64)> {
+        let (_, factor) = D::UNITS.iter().find(|(name, _)| *name == symbol)?;
+        Some((D::NAME, *factor))
+    }
+    let all = [
+        of::<Length>,
+        of::<Time>,
+        of::<Speed>,
+        of::<Pressure>,
+        of::<Viscosity>,
+        of::<Density>,
+        of::<Acceleration>,
+        of::<ShearRate>,
+        of::<Consistency>,
+        of::<MolarEnergy>,
+        of::<Spread>,
+    ];
+    all.iter().find_map(|of| of(symbol))
+}

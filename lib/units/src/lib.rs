@@ -17,6 +17,6 @@ mod quantity;
 pub use axis::Axis;
 pub use dimension::{
     Acceleration, Consistency, Density, Dimension, Length, MolarEnergy, Pressure, ShearRate, Speed,
-    Spread, Time, Viscosity,
+    Spread, Time, Viscosity, unit,
 };
 pub use quantity::{ParseError, Quantity};

@@ -65,6 +65,12 @@ impl FromStr for Labels {
                 format!("'{part}' is not PHASE=LABEL, as in void=0,wood=1|2,adhesive=255")
             })?;
             let phase = Phase::parse(name)?;
+            if labels.0.iter().any(|(_, p)| *p == phase) {
+                return Err(format!(
+                    "{} is named twice; its labels stand together, as in {0}=1|2",
+                    phase.name()
+                ));
+            }
             for value in values.split('|') {
                 let label = value.parse()?;
                 if let Some(other) = labels.phase(label) {
@@ -218,6 +224,7 @@ mod tests {
             ("void=0,wood=1,adhesive=1", "one phase"),
             ("void=0,wood=x,adhesive=1", "not a label"),
             ("void=0,wood=1:2,adhesive=1", "R:G:B"),
+            ("void=0,wood=1,wood=2,adhesive=3", "wood is named twice"),
             ("void=0,wood,adhesive=1", "PHASE=LABEL"),
             ("void=0,glue=2", "not a phase"),
             ("void=0,wood=9007199254740993,adhesive=1", "2^53"),

@@ -23,7 +23,7 @@ impl RawVolume {
     /// Pixels of `pages` pages from byte `offset` of the last source.
     ///
     /// # Errors
-    /// A volume without voxels, or larger than its file.
+    /// A volume without voxels, or larger or smaller than its file.
     pub(crate) fn new(
         sources: Vec<Source>,
         format: PageFormat,
@@ -46,6 +46,12 @@ impl RawVolume {
             let what = format!(
                 "{pages} pages of {format} are declared but the file ends in page {}: it is truncated",
                 held + 1
+            );
+            return Err(Error::file(name, what));
+        }
+        if let Some(more) = end.and_then(|end| len.checked_sub(end)).filter(|n| *n > 0) {
+            let what = format!(
+                "{more} bytes stand behind the {pages} pages of {format} that are declared: its size or its type is not the one declared"
             );
             return Err(Error::file(name, what));
         }

@@ -22,6 +22,8 @@ pub struct Stack {
     name: String,
     pages: Pages,
     voxel_size: Option<VoxelSize>,
+    /// What is missing among its slices.
+    gap: Option<String>,
 }
 
 #[derive(Debug)]
@@ -77,6 +79,7 @@ impl Stack {
             name,
             pages,
             voxel_size,
+            gap: folder::gap(paths),
         }
         .within_limits()
     }
@@ -113,6 +116,7 @@ impl Stack {
             name,
             pages: Pages::Raw(volume),
             voxel_size: None,
+            gap: None,
         }
         .within_limits()
     }
@@ -160,6 +164,7 @@ impl Stack {
             name,
             pages,
             voxel_size,
+            gap: None,
         }
         .within_limits()
     }
@@ -228,6 +233,11 @@ impl Stack {
     /// The voxel size that the metadata state, if they do.
     pub fn voxel_size(&self) -> Option<&VoxelSize> {
         self.voxel_size.as_ref()
+    }
+
+    /// A sentence about slices that seem to be missing, by the numbers in their names.
+    pub fn gap(&self) -> Option<&str> {
+        self.gap.as_deref()
     }
 
     /// Whether the compression of its pages changes values, so that labels do not survive it.

@@ -260,6 +260,10 @@ fn planes_by_the_tag_image_depth() {
     let cut = depth(Page::new(nx, ny, 8, volume()[..nx * ny * 2].to_vec()));
     let said = refusal("a.tif", &tiff(CLASSIC, &[cut]));
     assert!(said.contains("bytes are stored"), "{said}");
+    // Deflated in one piece it was said to be truncated.
+    let packed = depth(Page::new(nx, ny, 8, vec![0x78; 60]).short(259, 8));
+    let said = refusal("a.tif", &tiff(CLASSIC, &[packed]));
+    assert!(said.contains("compressed in one piece"), "{said}");
     let many = Page::new(nx, ny, 8, volume()).tag(32997, Value::Long(vec![u32::MAX]));
     let said = refusal("a.tif", &tiff(CLASSIC, &[many]));
     assert!(said.contains("ImageDepth"), "{said}");

@@ -32,6 +32,7 @@ impl Arguments {
             Figure::Shear(a) => &a.picture.common,
             Figure::Penetration(a) => &a.picture.common,
             Figure::Slice(a) => &a.picture.common,
+            Figure::Response(a) => &a.picture.common,
             Figure::Table2(a) => &a.common,
         }
     }
@@ -69,6 +70,12 @@ pub(crate) enum Figure {
   bond-figures slice start=bond.mpts end=final.mpts --normal x --at 40% -o ends.png
   bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg")]
     Slice(SliceArgs),
+    /// A result of a sweep against each of its parameters
+    #[command(after_help = "Examples:
+  bond-figures response out/sweep/table.csv -o response.svg
+  bond-figures response sweep.csv --result ep_um -o ep.png
+  bond-sweep collect sweep -o - | bond-figures response - -o response.svg")]
+    Response(ResponseArgs),
     /// Weighted penetration of experiment and runs beside the paper's (Table 2)
     #[command(after_help = "Examples:
   bond-figures table2 --experiment pf=experiment.csv --run pf:xpic=xpic.csv -o table2.csv
@@ -148,6 +155,18 @@ pub(crate) struct SliceArgs {
     /// Colour the adhesive: plain, or by its pressure
     #[arg(long, value_enum, default_value = "plain")]
     pub(crate) colour: Colour,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
+pub(crate) struct ResponseArgs {
+    /// Table of `bond-sweep collect`
+    #[arg(value_name = "CSV", value_parser = given(labelled))]
+    pub(crate) sweep: Labelled,
+    /// Column of the result to draw
+    #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
+    pub(crate) result: String,
     #[command(flatten)]
     pub(crate) picture: Picture,
 }

@@ -7,7 +7,8 @@ use std::process::ExitCode;
 
 use cli::{Failure, Output};
 use figures::{
-    Case, CellErrors, Closing, Cut, Drawing, Error, ShearRates, Slices, Table2, WpMap, penetrations,
+    Case, CellErrors, Closing, Cut, Drawing, Error, Response, ShearRates, Slices, Table2, WpMap,
+    penetrations,
 };
 
 use arguments::{Arguments, Figure, Format, Picture, Table2Args};
@@ -50,6 +51,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
                 position: a.at,
             };
             let figure = Slices::read(inputs.files(), cut, a.colour.into()).map_err(failure)?;
+            write(&figure.draw(), &a.picture, &inputs)
+        }
+        Figure::Response(a) => {
+            let inputs = Inputs::new(vec![a.sweep])?;
+            let figure = Response::read(&inputs.files()[0], &a.result).map_err(failure)?;
             write(&figure.draw(), &a.picture, &inputs)
         }
         Figure::Table2(a) => {

@@ -150,6 +150,6 @@ fn failure(error: RunFailure) -> Failure {
     match error {
         RunFailure::Usage(said) => Failure::usage(said),
         RunFailure::Data(said) => Failure::data(said),
-        RunFailure::Run(said) => Failure::failed(said),
+        failed @ (RunFailure::Run(_) | RunFailure::Unstable { .. }) => Failure::failed(failed),
     }
 }

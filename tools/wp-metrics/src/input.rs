@@ -1,7 +1,7 @@
 //! A file of any kind that wp-metrics reads, in memory or mapped.
 
 use std::fs::File;
-use std::io::Write;
+use std::io::{Read, Write};
 use std::path::Path;
 
 use bondline::{Placed, Specimen};
@@ -9,14 +9,51 @@ use cli::{Failure, InputRecord};
 use metrics::State;
 use particle_file::{BitGrid, Mapped, ParticleFile};
 use units::Axis;
-use voxels::{Crop, Phases, Segmented, Source, Stack, VoxelEdge};
+use voxels::{
+    Crop, Dims, Grey, Histogram, Labels, Phases, RawType, Segmented, Source, Stack, VoxelEdge,
+};
 
 /// How to read an image stack.
 pub struct StackOptions {
     /// Voxel edge, m, when the stack's metadata shall not decide.
     pub voxel_m: Option<f64>,
-    /// Which label is what.
-    pub phases: Phases,
+    /// Size and number type of raw volumes.
+    pub raw: Option<(Dims, RawType)>,
+    /// Labels of the phases.
+    pub labels: Option<Labels>,
+    /// Grey values of the phases, where there are no labels.
+    pub grey: Option<GreyLevels>,
+}
+
+/// What `--grey` asks for.
+#[derive(Clone)]
+pub enum GreyLevels {
+    /// Thresholds by Otsu's method.
+    Auto,
+    /// As given.
+    Given(Grey),
+}
+
+impl StackOptions {
+    /// Which values of `stack` are what.
+    fn phases(&self, stack: &Stack) -> Result<Phases, Failure> {
+        Ok(match (&self.labels, &self.grey) {
+            (Some(labels), _) => Phases::Labels(labels.clone()),
+            (None, Some(GreyLevels::Given(grey))) => Phases::Grey(grey.clone()),
+            (None, Some(GreyLevels::Auto)) => {
+                let whole = Crop::whole(stack.dims());
+                let histogram = Histogram::of(stack, &whole).map_err(stack_failure)?;
+                let wrong = |why| Failure::usage(format!("{}: {why}", stack.name()));
+                let grey = histogram.otsu().map_err(wrong)?;
+                cli::note(format_args!(
+                    "{}: grey values taken as {grey}",
+                    stack.name()
+                ));
+                Phases::Grey(grey)
+            }
+            (None, None) => Phases::Guess,
+        })
+    }
 }
 
 /// An opened input.
@@ -119,6 +156,11 @@ impl Input {
 }
 
 fn open_file(path: &Path, options: &StackOptions) -> Result<Content, Failure> {
+    if let Some((dims, kind)) = options.raw
+        && !begins_as_particles(path)
+    {
+        return stack(Stack::open_raw(path, dims, kind), options);
+    }
     let from_stdin = path == Path::new("-");
     let name = if from_stdin {
         "standard input".to_owned()
@@ -146,6 +188,13 @@ fn open_file(path: &Path, options: &StackOptions) -> Result<Content, Failure> {
     stack(Stack::open(&[path.to_owned()]), options)
 }
 
+/// Whether a regular file begins as a particle file; what else it is its reader says.
+fn begins_as_particles(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(64).read_to_end(&mut head));
+    path.is_file() && read.is_ok() && ParticleFile::recognises(&head)
+}
+
 fn copy(bytes: &[u8]) -> std::io::Result<File> {
     let mut file = tempfile::tempfile()?;
     file.write_all(bytes)?;
@@ -156,8 +205,10 @@ fn stack(opened: Result<Stack, voxels::Error>, options: &StackOptions) -> Result
     let stack = opened.map_err(stack_failure)?;
     let edge = VoxelEdge::resolve(options.voxel_m, stack.voxel_size(), stack.name())
         .map_err(stack_failure)?;
+    stack.gap().into_iter().for_each(cli::warn);
     let whole = Crop::whole(stack.dims());
-    let voxels = voxels::segment(&stack, &options.phases, &whole, || ()).map_err(stack_failure)?;
+    let phases = options.phases(&stack)?;
+    let voxels = voxels::segment(&stack, &phases, &whole, || ()).map_err(stack_failure)?;
     if let Some([void, wood, adhesive]) = voxels.guessed {
         cli::note(format!(
             "{}: labels taken as void={void}, wood={wood}, adhesive={adhesive}",

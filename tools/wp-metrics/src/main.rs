@@ -9,14 +9,14 @@ use std::str::FromStr;
 
 use clap::Parser;
 use cli::{Failure, InputRecord, Output, Record};
-use input::{Input, StackOptions};
+use input::{GreyLevels, Input, StackOptions};
 use metrics::table::{self, PenetrationRows};
 use metrics::{
     Datum, DepthLayer, LEAST_RATIO, Map, Reference, Side, State, bond_line, cell_error, compare,
     depth_profile, extrapolated, penetration,
 };
 use units::{Axis, Length, Quantity};
-use voxels::{Grey, Labels, Phases};
+use voxels::{Dims, Labels, RawType};
 
 /// Measure weighted and effective penetration of adhesive
 ///
@@ -34,8 +34,8 @@ use voxels::{Grey, Labels, Phases};
   wp-metrics run/final.mpts --finer run-in-half-cells/final.mpts"
 )]
 struct Arguments {
-    /// Particle files, stacks of every kind that xct2particles reads but raw ones, or folders of
-    /// slices; `-` is standard input
+    /// Particle files, stacks of every kind that xct2particles reads (raw ones: --dims), or folders
+    /// of slices; `-` is standard input
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// What to measure from: mid (midway between the bond surfaces), adherend (the bond
@@ -77,16 +77,42 @@ struct Arguments {
     /// Labels of stacks, as in void=0,wood=1|2,adhesive=255 [default: guessed]
     #[arg(long, value_name = "LABELS", help_heading = "Image stacks")]
     labels: Option<Labels>,
-    /// Grey values of stacks, as in wood=90..170,adhesive=171..
+    /// Grey values of stacks, as in wood=90..170,adhesive=171..; auto takes those that
+    /// xct2particles --grey auto proposes, and says them
     #[arg(
         long,
-        value_name = "RANGES",
+        value_name = "auto|RANGES",
         conflicts_with = "labels",
+        help_heading = "Image stacks",
+        value_parser = grey
+    )]
+    grey: Option<GreyLevels>,
+    /// Size of stacks that are raw volumes, x fastest
+    #[arg(
+        long,
+        value_name = "XxYxZ",
+        requires = "kind",
         help_heading = "Image stacks"
     )]
-    grey: Option<Grey>,
+    dims: Option<Dims>,
+    /// Number type of raw volumes: u8, i16, f32 ..., little-endian; big-endian as u16be
+    #[arg(
+        long = "type",
+        id = "kind",
+        value_name = "TYPE",
+        requires = "dims",
+        help_heading = "Image stacks"
+    )]
+    kind: Option<RawType>,
     #[command(flatten)]
     common: cli::Common,
+}
+
+fn grey(text: &str) -> Result<GreyLevels, String> {
+    match text {
+        "auto" => Ok(GreyLevels::Auto),
+        ranges => ranges.parse().map(GreyLevels::Given),
+    }
 }
 
 fn reference(text: &str) -> Result<Reference, String> {
@@ -186,11 +212,9 @@ fn stack_options(arguments: &Arguments) -> Result<StackOptions, Failure> {
     let voxel = arguments.voxel.map(Quantity::positive).transpose();
     Ok(StackOptions {
         voxel_m: voxel.map_err(Failure::usage)?.map(Quantity::si),
-        phases: match (&arguments.labels, &arguments.grey) {
-            (Some(labels), _) => Phases::Labels(labels.clone()),
-            (None, Some(grey)) => Phases::Grey(grey.clone()),
-            (None, None) => Phases::Guess,
-        },
+        raw: arguments.dims.zip(arguments.kind),
+        labels: arguments.labels.clone(),
+        grey: arguments.grey.clone(),
     })
 }
 

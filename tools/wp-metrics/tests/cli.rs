@@ -236,6 +236,50 @@ fn a_closed_state_is_the_experiment_and_a_parted_one_has_its_own_middle() {
     );
 }
 
+/// Raw volumes and proposed grey values were for xct2particles alone.
+#[test]
+fn raw_volumes_and_proposed_grey_values() {
+    let folder = TempDir::new().unwrap();
+    let grey = |letter| match letter {
+        ' ' => 10_000_u16,
+        'w' => 18_000,
+        _ => 26_000,
+    };
+    let [nx, ny, nz] = DIMS;
+    let voxels = (0..nx * ny * nz).map(|i| grey(letter(i % nx, i / nx % ny)));
+    let bytes: Vec<u8> = voxels.flat_map(u16::to_le_bytes).collect();
+    let raw = folder.path().join("a.raw");
+    fs::write(&raw, bytes).unwrap();
+    let raw = raw.to_str().unwrap();
+    let own = specimen(folder.path());
+    let expected = rows(&text(&tool(&[own.to_str().unwrap()]).stdout));
+    let size = ["--dims", "40x60x16", "--type", "u16", "--voxel", "1.45 um"];
+    for values in [
+        ["--grey", "auto"],
+        ["--grey", "wood=18000..18000,adhesive=26000.."],
+        ["--labels", "void=10000,wood=18000,adhesive=26000"],
+    ] {
+        let run = tool(&[&[raw], &size[..], &values].concat());
+        assert!(run.status.success(), "{}", text(&run.stderr));
+        let said = text(&run.stderr);
+        assert_eq!(
+            said.contains("grey values taken as wood="),
+            values[1] == "auto",
+            "{said}"
+        );
+        let found = rows(&text(&run.stdout));
+        assert!(
+            found.iter().zip(&expected).all(|(a, b)| a[1..] == b[1..]),
+            "{found:?}"
+        );
+    }
+    // A particle file beside them is told by itself.
+    let both = tool(&[&[raw, own.to_str().unwrap(), "--grey", "auto"], &size[..]].concat());
+    assert_eq!(rows(&text(&both.stdout)).len(), 6, "{}", text(&both.stderr));
+    let short = tool(&[raw, "--dims", "40x60x15", "--type", "u16"]);
+    assert_eq!(short.status.code(), Some(2), "{}", text(&short.stderr));
+}
+
 #[test]
 fn a_closed_pipe_is_a_quiet_end() {
     let folder = TempDir::new().unwrap();

@@ -104,6 +104,7 @@ fn main() -> ExitCode {
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
     let stack = open(&arguments).map_err(failure)?;
+    stack.gap().into_iter().for_each(cli::warn);
     cli::keep_apart(
         stack.sources().iter().map(Source::path),
         arguments.output.iter().chain(&arguments.histogram),

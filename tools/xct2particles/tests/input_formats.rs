@@ -127,6 +127,30 @@ fn copies_in_every_format_give_the_same_particle_file() {
     ] {
         assert!(made(stack) == expected, "{stack:?}");
     }
+    // A page more than is declared was passed over.
+    for name in ["a.nrrd", "a.npy", "a.nii", "a.raw"] {
+        let longer = [
+            fs::read(folder.path().join(name)).unwrap(),
+            vec![0; nx * ny],
+        ]
+        .concat();
+        fs::write(folder.path().join(name), longer).unwrap();
+    }
+    for stack in ["a.nrrd", "a.npy", "a.nii", "a.mhd"] {
+        let wrong = run(folder.path(), &[stack, "--voxel", "2 um", "-o", "o.mpts"]);
+        let said = String::from_utf8_lossy(&wrong.stderr);
+        assert_eq!(wrong.status.code(), Some(3), "{stack}: {said}");
+        assert!(said.contains("620 bytes stand behind"), "{stack}: {said}");
+    }
+    fs::remove_file(folder.path().join("slices/s3.bmp")).unwrap();
+    let said = done(
+        folder.path(),
+        &[&["slices"], &size[..], &["-o", "o.mpts"]].concat(),
+    );
+    assert!(
+        said.contains("s2.bmp' and 'slices/s4.bmp' it is 2"),
+        "{said}"
+    );
     let wrong = run(
         folder.path(),
         &["a.raw", "--dims", "3x3x3", "-o", "out.mpts"],
@@ -136,7 +160,7 @@ fn copies_in_every_format_give_the_same_particle_file() {
     let wrong = run(folder.path(), &wrong);
     let said = String::from_utf8_lossy(&wrong.stderr);
     assert_eq!(wrong.status.code(), Some(2), "{said}");
-    assert!(said.contains("3720"), "{said}");
+    assert!(said.contains("3600") && said.contains("4340"), "{said}");
 }
 
 #[test]

@@ -91,6 +91,11 @@ impl PageLayout {
             return Err("it holds several planes by the tag ImageDepth, in tiles or by colour; accepted are strips of whole pixels: save it with a page for each plane".into());
         }
         if let [(offset, stored)] = self.chunks[..] {
+            if self.compression != Compression::None {
+                return Err(format!(
+                    "its {depth} planes by the tag ImageDepth are compressed in one piece; accepted are strips of one plane, or no compression: save it with a page for each plane"
+                ));
+            }
             let bytes = self.plane_bytes().ok_or(TOO_LARGE)?.1 as u64;
             if bytes
                 .checked_mul(depth as u64)

@@ -1,0 +1,241 @@
+//! The response of a sweep to each of its parameters.
+
+use crate::axes::{Axis, Frame, NORMAL};
+use crate::colour::DISTINCT;
+use crate::drawing::{Anchor, Drawing, Point};
+use crate::legend::{self, Stroke};
+use crate::table::Table;
+use crate::{Error, Labelled};
+
+/// A result of a sweep against each of its parameters, a panel each, from the CSV of
+/// `bond-sweep collect`. Runs that differ in that parameter alone are joined by a line.
+#[derive(Clone, Debug)]
+pub struct Response {
+    result: String,
+    /// Values of the result; NaN where a run has none.
+    values: Vec<f64>,
+    parameters: Vec<Parameter>,
+    /// The cells of each row but the numbers of `parameters`.
+    words: Vec<String>,
+}
+
+#[derive(Clone, Debug)]
+struct Parameter {
+    name: String,
+    values: Vec<f64>,
+}
+
+/// The column from which on a row holds results.
+const FIRST_RESULT: &str = "status";
+/// Parameters whose largest value is more than so many times the smallest get a logarithmic axis.
+const LOGARITHMIC: f64 = 20.0;
+
+const PANEL: f64 = 380.0;
+const HEIGHT: f64 = 280.0;
+const LEFT: f64 = 92.0;
+const BELOW: f64 = 72.0;
+const COLUMNS: usize = 3;
+
+impl Response {
+    /// Reads `result`, a column of numbers, and every parameter with more than one number.
+    ///
+    /// # Errors
+    /// [`Error::Data`] for a table that is not of a sweep, a result without a number, or runs that
+    /// differ in no number.
+    pub fn read(sweep: &Labelled, result: &str) -> Result<Self, Error> {
+        let table = Table::read(&sweep.path)?;
+        let values = table.data(result)?;
+        let inputs = table.before(FIRST_RESULT)?;
+        let mut parameters = Vec::new();
+        let mut words = vec![Vec::new(); values.len()];
+        for name in inputs.into_iter().filter(|name| *name != "row") {
+            match table.numbers(name) {
+                Ok(numbers) if varies(&numbers) => parameters.push(Parameter {
+                    name: name.to_owned(),
+                    values: numbers,
+                }),
+                _ => {
+                    for (row, cell) in words.iter_mut().zip(table.texts(name)?) {
+                        row.push(cell.to_owned());
+                    }
+                }
+            }
+        }
+        if parameters.is_empty() {
+            return Err(Error::Data(format!(
+                "'{}' has no parameter with more than one number, and so no response to draw",
+                table.name()
+            )));
+        }
+        Ok(Self {
+            result: result.to_owned(),
+            values,
+            parameters,
+            words: words.into_iter().map(|row| distinct(&row)).collect(),
+        })
+    }
+
+    /// The figure.
+    pub fn draw(&self) -> Drawing {
+        let kinds = self.kinds();
+        let labels: Vec<&str> = match kinds.len() {
+            2..=DISTINCT => kinds.clone(),
+            _ => Vec::new(),
+        };
+        let columns = self.parameters.len().min(COLUMNS);
+        let rows = self.parameters.len().div_ceil(COLUMNS);
+        let width = (LEFT + PANEL) * columns as f64 + 24.0;
+        let key = match labels.is_empty() {
+            true => 0.0,
+            false => legend::height(&labels, width - LEFT - 24.0),
+        };
+        let top = 52.0 + key;
+        let height = top + (HEIGHT + BELOW) * rows as f64;
+        let mut drawing = Drawing::new(width as u32, height as u32);
+        let lacking = self.values.iter().filter(|v| !v.is_finite()).count();
+        let title = match lacking {
+            0 => format!("{} runs", self.values.len()),
+            n => format!("{} runs, of which {n} have no result", self.values.len()),
+        };
+        drawing.text(title, [0.5 * width, 22.0], Anchor::Centre, NORMAL);
+        legend::draw(&mut drawing, &labels, LEFT, 38.0, width - LEFT - 24.0);
+        let response = Axis::linear(worded(&self.result), self.values.iter().copied());
+        for (i, parameter) in self.parameters.iter().enumerate() {
+            let frame = Frame {
+                left: LEFT + (i % COLUMNS) as f64 * (LEFT + PANEL),
+                top: top + (i / COLUMNS) as f64 * (HEIGHT + BELOW),
+                width: PANEL,
+                height: HEIGHT,
+            };
+            let across = parameter.axis();
+            frame.draw(&mut drawing, &across, &response, true);
+            for (kind, path) in self.paths(i) {
+                let places = path
+                    .iter()
+                    .map(|&row| [parameter.values[row], self.values[row]]);
+                let places: Vec<Point> = places
+                    .map(|value| frame.place(&across, &response, value))
+                    .collect();
+                let stroke = Stroke::of_series(if labels.is_empty() { 0 } else { kind });
+                stroke.draw(&mut drawing, &places);
+                for place in places {
+                    stroke.draw(&mut drawing, &[place]);
+                }
+            }
+        }
+        drawing
+    }
+
+    /// What tells rows apart beside numbers, in the order of the table.
+    fn kinds(&self) -> Vec<&str> {
+        let mut kinds: Vec<&str> = Vec::new();
+        for words in &self.words {
+            if !kinds.contains(&words.as_str()) {
+                kinds.push(words);
+            }
+        }
+        kinds
+    }
+
+    /// Rows with a result that differ in parameter `i` alone, by its values; and which of the kinds
+    /// they are.
+    fn paths(&self, i: usize) -> Vec<(usize, Vec<usize>)> {
+        let kinds = self.kinds();
+        let others = |row: usize| -> (&str, Vec<u64>) {
+            let rest = self.parameters.iter().enumerate().filter(|(k, _)| *k != i);
+            let rest = rest.map(|(_, parameter)| parameter.values[row].to_bits());
+            (&self.words[row], rest.collect())
+        };
+        let mut paths: Vec<(usize, Vec<usize>)> = Vec::new();
+        let own = &self.parameters[i].values;
+        let shown = |row: &usize| own[*row].is_finite() && self.values[*row].is_finite();
+        for row in (0..self.values.len()).filter(shown) {
+            match paths
+                .iter_mut()
+                .find(|(_, path)| others(path[0]) == others(row))
+            {
+                Some((_, path)) => path.push(row),
+                None => {
+                    let kind = kinds.iter().position(|kind| *kind == self.words[row]);
+                    paths.push((kind.unwrap_or(0), vec![row]));
+                }
+            }
+        }
+        for (_, path) in &mut paths {
+            path.sort_by(|a, b| own[*a].total_cmp(&own[*b]));
+        }
+        paths
+    }
+}
+
+impl Parameter {
+    fn axis(&self) -> Axis {
+        let finite = || self.values.iter().copied().filter(|v| v.is_finite());
+        let [low, high] = [f64::min, f64::max].map(|pick| finite().fold(f64::NAN, pick));
+        let name = worded(&self.name);
+        match low > 0.0 && high > LOGARITHMIC * low {
+            true => Axis::logarithmic(name, finite()),
+            false => Axis::linear(name, finite()),
+        }
+    }
+}
+
+fn varies(numbers: &[f64]) -> bool {
+    let mut finite = numbers.iter().filter(|v| v.is_finite());
+    let first = finite.next();
+    finite.any(|other| Some(other) != first)
+}
+
+/// The words of a row that say something.
+fn distinct(row: &[String]) -> String {
+    let words: Vec<&str> = row
+        .iter()
+        .map(String::as_str)
+        .filter(|w| !w.is_empty())
+        .collect();
+    words.join(", ")
+}
+
+/// A column's name as it stands on an axis: `adhesive.viscosity_Pa_s` as `adhesive.viscosity (Pa s)`.
+fn worded(column: &str) -> String {
+    let known = |unit: &str| match unit {
+        "um3" => Some("µm³".to_owned()),
+        "pa" => Some("Pa".to_owned()),
+        "cell" => Some("cells".to_owned()),
+        unit => units::unit(unit).map(|_| unit.replace("um", "µm")),
+    };
+    // The longest unit: some hold a blank, which is an underscore here.
+    let found = column.match_indices('_').find_map(|(at, _)| {
+        let unit = known(&column[at + 1..].replace('_', " "))?;
+        Some(format!("{} ({unit})", spaced(&column[..at])))
+    });
+    found.unwrap_or_else(|| spaced(column))
+}
+
+/// The name of a result in words; keys of the case stay as they are written there.
+fn spaced(name: &str) -> String {
+    match name.contains('.') {
+        true => name.to_owned(),
+        false => name.replace('_', " "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_worded_with_their_units() {
+        for (column, words) in [
+            ("ep_um", "ep (µm)"),
+            ("slab_wp_um", "slab wp (µm)"),
+            ("adhesive.viscosity_Pa_s", "adhesive.viscosity (Pa s)"),
+            ("volume_um3", "volume (µm³)"),
+            ("clamp.max_pressure_MPa", "clamp.max_pressure (MPa)"),
+            ("integrator.cfl", "integrator.cfl"),
+            ("steps", "steps"),
+        ] {
+            assert_eq!(worded(column), words);
+        }
+    }
+}

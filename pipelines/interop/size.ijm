@@ -1,0 +1,3 @@
+// The size of a stack as ImageJ opens it.
+open(getArgument());
+print(getWidth() + " x " + getHeight() + " x " + nSlices());

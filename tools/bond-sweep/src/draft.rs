@@ -1,0 +1,185 @@
+//! A row of the table understood: its case, its bond and its changes.
+
+use std::path::{Path, PathBuf};
+
+use cli::Failure;
+use particle_file::{Kind as FileKind, ParticleFile};
+use run::{Request, RunFailure, changed_case};
+
+use crate::plan::Job;
+use crate::specimen::{self, Recipe};
+use crate::table::{Kind, Table};
+use crate::{blame, failure};
+
+/// What is pressed.
+#[derive(Debug)]
+pub enum Bond {
+    /// A synthetic specimen.
+    Synthetic(Recipe),
+    /// A file of the user's.
+    Given {
+        /// Where it is, from the root.
+        path: PathBuf,
+        /// Hash of its content.
+        content: String,
+    },
+}
+
+/// A row of which every cell is accepted for itself.
+#[derive(Debug)]
+pub struct Draft {
+    /// The case file.
+    pub case: PathBuf,
+    /// What is pressed.
+    pub bond: Bond,
+    /// Columns and what they change, `key=value`.
+    changes: Vec<(usize, String)>,
+    /// The case with its changes.
+    pub text: String,
+}
+
+impl Draft {
+    /// Reads the row counted from 0; `case` is that of rows that name none.
+    ///
+    /// # Errors
+    /// A sentence with row and column.
+    pub fn of_row(table: &Table, row: usize, case: &Path) -> Result<Self, Failure> {
+        let case = case_of(table, row, case);
+        let bond = bond_of(table, row)?;
+        let changes: Vec<(usize, String)> = (table.given(row))
+            .filter(|(_, kind, _)| **kind == Kind::Key)
+            .map(|(i, _, cell)| (i, format!("{}={cell}", table.columns[i].0)))
+            .collect();
+        let parsed = |changes: &[&(usize, String)]| changed_case(&case, &texts(changes));
+        match parsed(&changes.iter().collect::<Vec<_>>()) {
+            Ok(text) => Ok(Self {
+                text: plain(&text),
+                case,
+                bond,
+                changes,
+            }),
+            Err(refused) => Err(blamed(table, row, &changes, refused, parsed)),
+        }
+    }
+
+    /// What its run needs.
+    pub fn job(&self) -> Job {
+        match &self.bond {
+            Bond::Synthetic(recipe) => Job {
+                bond: recipe.bond(),
+                content: None,
+            },
+            Bond::Given { path, content } => Job {
+                bond: path.clone(),
+                content: Some(content.clone()),
+            },
+        }
+    }
+
+    /// Resolves its run with its bond file, as `mpm-run` does before it starts.
+    ///
+    /// # Errors
+    /// A sentence with row and, where a single cell is at fault, column.
+    pub fn resolve(
+        &self,
+        table: &Table,
+        row: usize,
+        bond: &Path,
+        however_long: bool,
+    ) -> Result<(), Failure> {
+        let resolved = |changes: &[&(usize, String)]| {
+            let request = Request::read(&self.case, Some(bond), &texts(changes))?;
+            match request.excess().filter(|_| !however_long) {
+                Some(excess) => Err(RunFailure::Usage(format!(
+                    "{excess}; --yes-really plans it all the same"
+                ))),
+                None => Ok(()),
+            }
+        };
+        let all: Vec<_> = self.changes.iter().collect();
+        resolved(&all).map_err(|refused| blamed(table, row, &self.changes, refused, resolved))
+    }
+}
+
+/// The same case without comments and in one order of keys: one that is given its own values is no
+/// other run.
+fn plain(case: &str) -> String {
+    let table = toml::from_str::<toml::Table>(case).ok();
+    let text = table.and_then(|table| toml::to_string(&table).ok());
+    text.unwrap_or_else(|| case.to_owned())
+}
+
+fn texts(changes: &[&(usize, String)]) -> Vec<String> {
+    changes.iter().map(|(_, text)| text.clone()).collect()
+}
+
+/// The refusal of a row, at the cell that it is about.
+fn blamed<T>(
+    table: &Table,
+    row: usize,
+    changes: &[(usize, String)],
+    refused: RunFailure,
+    accepts: impl Fn(&[&(usize, String)]) -> Result<T, RunFailure>,
+) -> Failure {
+    let RunFailure::Usage(refused) = refused else {
+        return failure(refused);
+    };
+    let Some(column) = blame::column(changes, |changes| accepts(changes).is_ok()) else {
+        return table.wrong_row(row, refused);
+    };
+    // Alone it is refused in fewer words.
+    let alone: Vec<_> = changes.iter().filter(|(i, _)| *i == column).collect();
+    let said = match accepts(&alone) {
+        Err(RunFailure::Usage(said)) => said,
+        _ => refused,
+    };
+    let prefix = alone.first().map(|(_, text)| format!("--set {text}: "));
+    let said = prefix.and_then(|p| said.strip_prefix(&p)).unwrap_or(&said);
+    table.wrong_cell(row, column, said)
+}
+
+/// The case file of a row: a name without an ending stands beside that of the other rows.
+fn case_of(table: &Table, row: usize, default: &Path) -> PathBuf {
+    match table.cell(row, &Kind::Case) {
+        None => default.to_owned(),
+        Some((_, name)) if name.ends_with(".toml") => table.beside(name),
+        Some((_, name)) => default.with_file_name(format!("{name}.toml")),
+    }
+}
+
+fn bond_of(table: &Table, row: usize) -> Result<Bond, Failure> {
+    let specimen: Vec<(usize, &'static str, &str)> = (table.given(row))
+        .filter_map(|(i, kind, cell)| match kind {
+            Kind::Specimen(option) => Some((i, *option, cell)),
+            _ => None,
+        })
+        .collect();
+    if let Some((column, cell)) = table.cell(row, &Kind::Particles) {
+        if let Some((i, ..)) = specimen.first() {
+            let what = "the row names a bond file in column particles, which is no synthetic specimen; leave one of them empty";
+            return Err(table.wrong_cell(row, *i, what));
+        }
+        let path = table.beside(cell);
+        let wrong = |what: String| table.wrong_cell(row, column, what);
+        let file = ParticleFile::open(&path).map_err(|e| wrong(e.to_string()))?;
+        if file.header().kind != FileKind::Bond {
+            return Err(wrong(format!(
+                "'{}' holds a {}; a bond file as build-bondline writes is needed",
+                path.display(),
+                file.header().kind
+            )));
+        }
+        return Ok(Bond::Given {
+            content: specimen::content(&path)?,
+            path: std::fs::canonicalize(&path).map_err(|e| wrong(e.to_string()))?,
+        });
+    }
+    for (column, option, cell) in &specimen {
+        specimen::check(option, cell).map_err(|why| table.wrong_cell(row, *column, why))?;
+    }
+    let changes: Vec<_> = specimen
+        .iter()
+        .map(|(_, option, cell)| (*option, *cell))
+        .collect();
+    Ok(Bond::Synthetic(Recipe::quick_but(&changes)))
+}

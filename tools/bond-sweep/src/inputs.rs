@@ -1,0 +1,159 @@
+//! The inputs of a sweep as columns of numbers, with their units in the header.
+
+use units::unit;
+
+use crate::draft::{Bond, Draft};
+use crate::specimen::QUICK;
+use crate::table::{Kind, Table};
+
+/// Significant digits of a number that was converted: what rounding adds lies behind them.
+const DIGITS: usize = 12;
+
+/// The header and the cells of each row; where a cell of the table is empty, what the run takes.
+pub fn columns(table: &Table, drafts: &[Draft]) -> (Vec<String>, Vec<Vec<String>>) {
+    let cases: Vec<Option<toml::Table>> = (drafts.iter())
+        .map(|draft| toml::from_str(&draft.text).ok())
+        .collect();
+    let mut header = Vec::new();
+    let mut rows = vec![Vec::new(); drafts.len()];
+    for (i, (name, kind)) in table.columns.iter().enumerate() {
+        let taken = |row: usize, draft: &Draft| match (table.rows[row][i].as_str(), kind) {
+            ("", Kind::Case) => {
+                let stem = draft.case.file_stem().unwrap_or_default();
+                stem.to_string_lossy().into_owned()
+            }
+            (_, Kind::Specimen(option)) => of_specimen(&draft.bond, option),
+            (_, Kind::Key) => (cases[row].as_ref())
+                .and_then(|case| of_case(case, name))
+                .unwrap_or_default(),
+            (given, _) => given.to_owned(),
+        };
+        let cells = drafts.iter().enumerate().map(|(row, d)| taken(row, d));
+        let (name, cells) = with_unit(name, cells.collect());
+        header.push(name);
+        for (row, cell) in rows.iter_mut().zip(cells) {
+            row.push(cell);
+        }
+    }
+    (header, rows)
+}
+
+fn of_specimen(bond: &Bond, option: &str) -> String {
+    match bond {
+        Bond::Given { .. } => String::new(),
+        Bond::Synthetic(recipe) => {
+            let mut values = QUICK.iter().zip(&recipe.0);
+            let found = values.find(|((name, _), _)| *name == option);
+            found.map_or(String::new(), |(_, value)| value.clone())
+        }
+    }
+}
+
+/// The value at a key such as `clamp.pid.kp`.
+fn of_case(case: &toml::Table, key: &str) -> Option<String> {
+    let mut parts = key.split('.');
+    let mut value = case.get(parts.next()?)?;
+    for part in parts {
+        value = match value {
+            toml::Value::Table(table) => table.get(part)?,
+            toml::Value::Array(list) => list.get(part.parse::<usize>().ok()?)?,
+            _ => return None,
+        };
+    }
+    Some(match value {
+        toml::Value::String(text) => text.clone(),
+        other => other.to_string(),
+    })
+}
+
+/// Puts the unit of the first cell into the header where all cells are of its dimension, and
+/// converts the others to it.
+fn with_unit(name: &str, cells: Vec<String>) -> (String, Vec<String>) {
+    let quantities: Option<Vec<_>> = (cells.iter().filter(|cell| !cell.is_empty()))
+        .map(|cell| quantity(cell))
+        .collect();
+    let Some(&[(_, first, dimension, factor), ..]) = quantities.as_deref() else {
+        return (name.into(), cells);
+    };
+    let alike = |cells: &[(&str, &str, &str, f64)]| cells.iter().all(|q| q.2 == dimension);
+    if !alike(&quantities.unwrap_or_default()) {
+        return (name.into(), cells);
+    }
+    let number = |cell: &String| match quantity(cell) {
+        Some((number, unit, ..)) if unit == first => number.to_owned(),
+        Some((number, _, _, own)) => {
+            let value = number.parse::<f64>().unwrap_or(f64::NAN) * own / factor;
+            let rounded = format!("{value:.*e}", DIGITS - 1).parse::<f64>();
+            rounded.unwrap_or(value).to_string()
+        }
+        None => String::new(),
+    };
+    let numbers = cells.iter().map(number).collect();
+    (format!("{name}_{}", first.replace(' ', "_")), numbers)
+}
+
+/// Number, unit, what it measures, and the unit in SI; multiples of the cell are a measure of their
+/// own.
+fn quantity(cell: &str) -> Option<(&str, &str, &'static str, f64)> {
+    // The shortest unit, so that an exponent is none.
+    let split = (1..cell.len())
+        .rev()
+        .filter(|&at| cell.is_char_boundary(at));
+    let mut parts = split.map(|at| (cell[..at].trim_end(), cell[at..].trim_start()));
+    parts.find_map(|(number, symbol)| {
+        number.parse::<f64>().ok().filter(|n| n.is_finite())?;
+        let (dimension, factor) = match symbol {
+            "cell" => ("cells", 1.0),
+            symbol => unit(symbol)?,
+        };
+        Some((number, symbol, dimension, factor))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tidy(cells: &[&str]) -> (String, Vec<String>) {
+        with_unit("a.b", cells.iter().map(ToString::to_string).collect())
+    }
+
+    #[test]
+    fn units_go_into_the_header_and_numbers_stay_as_written() {
+        for (cells, name, numbers) in [
+            (
+                vec!["1300 cP", "1.3 Pa s", ""],
+                "a.b_cP",
+                vec!["1300", "1300", ""],
+            ),
+            (vec!["1e-3 m", "2 um"], "a.b_m", vec!["1e-3", "0.000002"]),
+            (vec!["2.5MPa", "25 bar"], "a.b_MPa", vec!["2.5", "2.5"]),
+            (vec!["1.3 Pa s"], "a.b_Pa_s", vec!["1.3"]),
+            (
+                vec!["0.01 cell", "0.02 cell"],
+                "a.b_cell",
+                vec!["0.01", "0.02"],
+            ),
+            (vec!["0.25", "1"], "a.b", vec!["0.25", "1"]),
+            (vec!["closed", "0.08 ms"], "a.b", vec!["closed", "0.08 ms"]),
+            (vec!["0.01 cell", "2 um"], "a.b", vec!["0.01 cell", "2 um"]),
+            (vec!["40x96x40"], "a.b", vec!["40x96x40"]),
+            (vec![""], "a.b", vec![""]),
+        ] {
+            let (header, found) = tidy(&cells);
+            assert_eq!(
+                (header.as_str(), found),
+                (name, numbers.iter().map(ToString::to_string).collect())
+            );
+        }
+    }
+
+    #[test]
+    fn a_key_is_found_in_tables_and_lists() {
+        let case = toml::from_str("[a]\nb = { c = 0.5 }\nd = [1, \"2 um\"]\n").unwrap();
+        assert_eq!(of_case(&case, "a.b.c").as_deref(), Some("0.5"));
+        assert_eq!(of_case(&case, "a.d.1").as_deref(), Some("2 um"));
+        assert_eq!(of_case(&case, "a.d.2"), None);
+        assert_eq!(of_case(&case, "e"), None);
+    }
+}

@@ -1,0 +1,128 @@
+//! Many runs from one table, on whatever starts jobs: see docs/cluster.md.
+
+mod blame;
+mod collect;
+mod draft;
+mod inputs;
+mod plan;
+mod press;
+mod row;
+mod specimen;
+mod table;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+use cli::{Failure, Output};
+
+/// Run a table of parameters, a row a run, and collect one table of results
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Examples:
+  bond-sweep plan table.csv --case pf-implicit.toml -o sweep
+  xargs -P 8 -n 1 bond-sweep run --threads 1 sweep < sweep/runs.txt
+  bond-sweep collect sweep -o results.csv
+
+A column of the table is a key of the case (adhesive.viscosity, clamp.max_pressure ...), or case \
+(a case file), particles (a bond file) or specimen.adhesive, .size, .slab, .voxel, .seed (a \
+synthetic one; by default the quick one of make). Paths are seen from the table; a case without \
+an ending stands beside the one of --case. An empty cell is the case's own value.
+
+Exit status: 0 ok; 1 cannot write; 2 usage, table or case; 3 unreadable or corrupt data; 75 \
+stopped early or not all runs ended: start the same command again."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    step: Step,
+}
+
+#[derive(Subcommand)]
+enum Step {
+    /// Check every cell of a table, make the specimens, and lay out the runs in a folder
+    #[command(after_help = "Examples:
+  bond-sweep plan table.csv --case pipelines/cases/pf-implicit.toml -o out/sweep/table
+  bond-sweep plan large.csv --case pf-xpic.toml --yes-really -o sweep
+  bond-sweep plan table.csv --case pf-implicit.toml -o sweep && wc -l sweep/runs.txt")]
+    Plan(PlanArgs),
+    /// Run one of the planned runs, or continue it, and measure its end
+    #[command(after_help = "Examples:
+  bond-sweep run sweep 03f2a1b4c5d6e7f8
+  parallel --joblog sweep/jobs bond-sweep run --threads 1 sweep {} < sweep/runs.txt
+  bond-sweep run sweep $(sed -n ${SLURM_ARRAY_TASK_ID}p sweep/runs.txt)")]
+    Run(RunArgs),
+    /// Put the results of all rows into one table
+    #[command(after_help = "Examples:
+  bond-sweep collect sweep -o results.csv
+  bond-sweep collect sweep -o results.csv --cost cost.csv
+  bond-sweep collect sweep -o - | column -s, -t | less -S")]
+    Collect(CollectArgs),
+}
+
+#[derive(Args)]
+struct PlanArgs {
+    /// Table of the runs (CSV)
+    table: PathBuf,
+    /// Case file of the rows that name none
+    #[arg(long, value_name = "CASE.toml")]
+    case: PathBuf,
+    /// Folder of the sweep
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
+    /// Plan runs too where the forecast is more than 1e9 steps, a week, or the memory of this machine
+    #[arg(long)]
+    yes_really: bool,
+    #[command(flatten)]
+    common: cli::Common,
+}
+
+#[derive(Args)]
+struct RunArgs {
+    /// Folder of the sweep
+    folder: PathBuf,
+    /// Which run: a line of its runs.txt
+    run: String,
+    #[command(flatten)]
+    common: cli::Common,
+}
+
+#[derive(Args)]
+struct CollectArgs {
+    /// Folder of the sweep
+    folder: PathBuf,
+    /// CSV to write; `-` is standard output
+    #[arg(short, long, value_name = "CSV")]
+    output: Output,
+    /// Write what each run cost, which is another one each time: time, memory
+    #[arg(long, value_name = "CSV")]
+    cost: Option<Output>,
+    #[command(flatten)]
+    common: cli::Common,
+}
+
+fn main() -> ExitCode {
+    cli::main(
+        |a: &Arguments| match &a.step {
+            Step::Plan(a) => &a.common,
+            Step::Run(a) => &a.common,
+            Step::Collect(a) => &a.common,
+        },
+        |a| match a.step {
+            Step::Plan(a) => plan::make(&a.table, &a.case, &a.output, a.yes_really),
+            Step::Run(a) => press::run(&a.folder, &a.run),
+            Step::Collect(a) => collect::collect(&a.folder, &a.output, a.cost.as_ref()),
+        },
+    )
+}
+
+/// What the library says, with the exit status of `mpm-run`.
+fn failure(error: run::RunFailure) -> Failure {
+    match error {
+        run::RunFailure::Usage(said) => Failure::usage(said),
+        run::RunFailure::Data(said) => Failure::data(said),
+        failed @ (run::RunFailure::Run(_) | run::RunFailure::Unstable { .. }) => {
+            Failure::failed(failed)
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! One run of a sweep: started or continued, and measured where it has ended.
+
+use std::path::Path;
+
+use cli::{Failure, Progress, Status};
+use particle_file::Provenance;
+use run::{End, Mode, Request, RunFailure, Verdict};
+
+use crate::plan::{self, Plan, VERSION};
+use crate::row::{self, Ended};
+use crate::{failure, specimen};
+
+/// Runs the run `name` of the sweep in `folder` to its end and writes its row. One that has its
+/// row is not run again; to have that, remove the row.
+///
+/// # Errors
+/// Exit 75 where it was stopped; all that is not the run's own failure, which is a row: a bond file
+/// that has changed, a disk that is full, another process that runs the same.
+pub fn run(folder: &Path, name: &str) -> Result<(), Failure> {
+    let plan = Plan::read(folder)?;
+    let job = plan.job(name)?;
+    let place = plan::run_folder(folder, name);
+    let row = place.join(row::FILE);
+    if row::read(&row)?.is_some() {
+        cli::note(format_args!("{} has ended already", place.display()));
+        return Ok(());
+    }
+    cli::catch_interrupts()?;
+    let bond = folder.join(&job.bond);
+    if let Some(planned) = &job.content
+        && specimen::content(&bond)? != *planned
+    {
+        return Err(Failure::usage(format!(
+            "'{}' is not what it was when the sweep was planned: plan again",
+            bond.display()
+        )));
+    }
+    let case = plan::case_of(folder, name);
+    let ended = press(&case, &bond, &place, plan.however_long)?;
+    let cells = row::of_run(&place, ended)?;
+    row::write(&row, &cells)?;
+    cli::note(format_args!(
+        "{}: {}{}",
+        place.display(),
+        cells[0],
+        match cells[1].as_str() {
+            "" => format!(", WP {} um", cells[5]),
+            said => format!(", {said}"),
+        }
+    ));
+    Ok(())
+}
+
+/// Runs `mpm-run` in this process, so that what ends the process ends the run.
+fn press(case: &Path, bond: &Path, place: &Path, however_long: bool) -> Result<Ended, Failure> {
+    let request = Request::read(case, Some(bond), &[]).map_err(failure)?;
+    for warning in request.warnings() {
+        cli::warn(warning);
+    }
+    let mode = Mode {
+        resume: true,
+        overwrite: false,
+        however_long,
+    };
+    // The folder is one of mpm-run's and can be continued by it.
+    let by = Provenance::of_process("mpm-run", VERSION, Vec::new());
+    let mut progress = Progress::new(&place.display().to_string());
+    let ended = request.execute(
+        place,
+        mode,
+        by,
+        &cli::interrupted,
+        &mut |fraction, state| progress.update(fraction, || state),
+        &|warning| cli::warn(warning),
+    );
+    progress.finish();
+    let verdict = match ended {
+        Err(RunFailure::Unstable { said, .. }) => return Ok(Ended::Failed(said)),
+        Err(other) => return Err(failure(other)),
+        Ok(Some(summary)) if summary.end == End::Interrupted => {
+            let place = place.display();
+            return Err(Failure::new(
+                Status::Resumable,
+                format!("{place}: stopped early; the same command continues it"),
+            ));
+        }
+        Ok(Some(summary)) => summary.verdict,
+        Ok(None) => Verdict::of_ended(place).ok_or_else(|| {
+            let place = place.display();
+            Failure::data(format!(
+                "'{place}' has ended, but its summary.json does not say whether the results are sound: remove the folder to run it again"
+            ))
+        })?,
+    };
+    Ok(match verdict.sound {
+        true => Ended::Sound,
+        false => Ended::NotSound(verdict.reasons.join("; ")),
+    })
+}

@@ -1,0 +1,168 @@
+//! Synthetic specimens of a sweep: their options, checked here, and their bond files, made by the
+//! tools of the pipeline.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use cli::Failure;
+use units::{Length, Quantity};
+use xxhash_rust::xxh3::xxh3_64;
+
+/// Options of `synth-xct` and their values by default: the quick specimen of
+/// pipelines/20-specimens.mk.
+pub const QUICK: [(&str, &str); 5] = [
+    ("adhesive", "pf"),
+    ("size", "40x96x40"),
+    ("slab", "14.5 um"),
+    ("voxel", "1.45 um"),
+    ("seed", "1"),
+];
+
+/// Why `value` is none of an option, if it is not; what depends on several options is found when
+/// the specimen is grown.
+pub fn check(option: &str, value: &str) -> Result<(), String> {
+    let accepted = match option {
+        "adhesive" => ["pf", "pva-pf"].contains(&value),
+        "size" => {
+            let edges = value.split('x').map(|n| n.parse::<u32>());
+            edges.clone().count() == 3 && edges.clone().all(|n| n.is_ok_and(|n| n > 0))
+        }
+        "seed" => value.parse::<u64>().is_ok(),
+        _ => {
+            let length = value.parse::<Quantity<Length>>();
+            return length
+                .and_then(Quantity::positive)
+                .map(|_| ())
+                .map_err(|e| e.to_string());
+        }
+    };
+    accepted.then_some(()).ok_or_else(|| {
+        let needed = match option {
+            "adhesive" => "pf or pva-pf",
+            "size" => "voxels along x, y and z such as 40x96x40",
+            _ => "a whole number from 0",
+        };
+        format!("'{value}' is not accepted: {needed} is needed")
+    })
+}
+
+/// A synthetic specimen by the values of all its options.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Recipe(pub [String; QUICK.len()]);
+
+impl Recipe {
+    /// The quick specimen with some options changed.
+    pub fn quick_but(changes: &[(&str, &str)]) -> Self {
+        let value = |(option, default): (&str, &str)| {
+            let changed = changes.iter().find(|(name, _)| *name == option);
+            changed.map_or(default, |(_, value)| value).to_owned()
+        };
+        Self(QUICK.map(value))
+    }
+
+    /// What tells it from all others, for this version of the tools.
+    pub fn identity(&self) -> String {
+        format!("{} {}", env!("CARGO_PKG_VERSION"), self.0.join("|"))
+    }
+
+    /// Its bond file, seen from the folder of the sweep.
+    pub fn bond(&self) -> PathBuf {
+        let name = format!("{:016x}", xxh3_64(self.identity().as_bytes()));
+        Path::new("specimens").join(name).join("bond.mpts")
+    }
+
+    /// Makes its bond file below `sweep`, where there is none.
+    ///
+    /// # Errors
+    /// What the tools say.
+    pub fn make(&self, sweep: &Path) -> Result<(), String> {
+        let bond = sweep.join(self.bond());
+        let folder = bond.with_file_name("");
+        if bond.is_file() {
+            return Ok(());
+        }
+        fs::create_dir_all(&folder)
+            .map_err(|e| format!("cannot make '{}': {e}", folder.display()))?;
+        let [stack, experiment] = ["specimen.tif", "experiment.mpts"].map(|n| folder.join(n));
+        let mut synth = tool("synth-xct");
+        for ((option, _), value) in QUICK.iter().zip(&self.0) {
+            synth.arg(format!("--{option}")).arg(value);
+        }
+        finished(synth.arg("-o").arg(&stack), "synth-xct")?;
+        let mut convert = tool("xct2particles");
+        finished(
+            convert.arg(&stack).arg("-o").arg(&experiment),
+            "xct2particles",
+        )?;
+        let mut build = tool("build-bondline");
+        finished(
+            build.arg(&experiment).arg("-o").arg(&bond),
+            "build-bondline",
+        )
+    }
+}
+
+/// A tool of the pipeline: the one beside this, or the one on the path.
+fn tool(name: &str) -> Command {
+    let beside = std::env::current_exe().map(|own| own.with_file_name(name));
+    let mut command = match beside {
+        Ok(path) if path.is_file() => Command::new(path),
+        _ => Command::new(name),
+    };
+    command.arg("--quiet").stdin(Stdio::null());
+    command
+}
+
+fn finished(command: &mut Command, name: &str) -> Result<(), String> {
+    let ended = command
+        .output()
+        .map_err(|e| format!("cannot start {name}: {e}"))?;
+    match ended.status.success() {
+        true => Ok(()),
+        false => Err(String::from_utf8_lossy(&ended.stderr).trim().to_owned()),
+    }
+}
+
+/// The hash of a bond file's content as it stands in plans.
+///
+/// # Errors
+/// Exit 3 where it cannot be read.
+pub fn content(path: &Path) -> Result<String, Failure> {
+    let hash = cli::hash_file(path)
+        .map_err(|e| Failure::data(format!("cannot read '{}': {e}", path.display())))?;
+    Ok(format!("{hash:016x}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_that_no_specimen_has_are_refused() {
+        for (option, default) in QUICK {
+            assert_eq!(check(option, default), Ok(()));
+        }
+        for (option, bad, word) in [
+            ("adhesive", "glue", "pf or pva-pf"),
+            ("size", "40x96", "40x96x40"),
+            ("size", "40x0x40", "40x96x40"),
+            ("seed", "-1", "from 0"),
+            ("slab", "14.5", "no unit"),
+            ("voxel", "-1 um", "greater than zero"),
+        ] {
+            let said = check(option, bad).unwrap_err();
+            assert!(said.contains(word), "{said}");
+        }
+    }
+
+    #[test]
+    fn specimens_are_told_apart_by_every_option() {
+        let quick = Recipe::quick_but(&[]);
+        assert_eq!(quick, Recipe::quick_but(&[("seed", "1")]));
+        for (option, _) in QUICK {
+            let other = Recipe::quick_but(&[(option, "7")]);
+            assert_ne!(quick.bond(), other.bond());
+        }
+    }
+}

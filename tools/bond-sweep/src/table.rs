@@ -1,0 +1,195 @@
+//! The table of a sweep as text: its columns and cells, before any of them is understood.
+
+use std::fmt::Display;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use cli::Failure;
+use particle_file::limits;
+
+use crate::specimen;
+
+/// What the cells of a column say.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A case file.
+    Case,
+    /// A bond file.
+    Particles,
+    /// An option of the synthetic specimen.
+    Specimen(&'static str),
+    /// A key of the case.
+    Key,
+}
+
+/// A table: every row has a cell for each column.
+#[derive(Debug)]
+pub struct Table {
+    path: PathBuf,
+    /// Name and kind of each column.
+    pub columns: Vec<(String, Kind)>,
+    /// Trimmed cells; an empty one is the default.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// Reads a CSV file with a header; lines that begin with `#` are passed over.
+    ///
+    /// # Errors
+    /// Exit 3 for a file that cannot be read or is no CSV, exit 2 for a column that is none, a name
+    /// twice, a row of another length.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let name = path.display();
+        let mut text = Vec::new();
+        (File::open(path))
+            .and_then(|file| file.take(limits::TABLE + 1).read_to_end(&mut text))
+            .map_err(|e| Failure::data(format!("cannot read '{name}': {e}")))?;
+        if text.len() as u64 > limits::TABLE {
+            let most = limits::TABLE;
+            return Err(Failure::data(format!(
+                "'{name}' has more than {most} bytes"
+            )));
+        }
+        Self::parse(path, &text)
+    }
+
+    fn parse(path: &Path, text: &[u8]) -> Result<Self, Failure> {
+        let broken =
+            |e: csv::Error| Failure::data(format!("'{}' is not a CSV table: {e}", path.display()));
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .flexible(true)
+            // Spreadsheets put a mark of three bytes before the header.
+            .from_reader(text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text));
+        let header = reader.headers().map_err(broken)?.clone();
+        let mut table = Self {
+            path: path.to_owned(),
+            columns: Vec::new(),
+            rows: Vec::new(),
+        };
+        for name in &header {
+            if table.columns.iter().any(|(other, _)| other == name) {
+                return Err(table.wrong(format_args!("there are two columns '{name}'")));
+            }
+            let kind = kind_of(name).map_err(|why| table.wrong(why))?;
+            table.columns.push((name.to_owned(), kind));
+        }
+        for (i, record) in reader.records().enumerate() {
+            let record = record.map_err(broken)?;
+            if record.len() != header.len() {
+                return Err(table.wrong(format_args!(
+                    "row {} has {} cells and the header {}: a cell that holds a comma stands in quotes",
+                    i + 1,
+                    record.len(),
+                    header.len()
+                )));
+            }
+            table.rows.push(record.iter().map(str::to_owned).collect());
+        }
+        match table.rows.is_empty() {
+            true => Err(table.wrong("it has no row below its header")),
+            false => Ok(table),
+        }
+    }
+
+    /// A sentence about the table (exit 2).
+    fn wrong(&self, what: impl Display) -> Failure {
+        Failure::usage(format!("'{}': {what}", self.path.display()))
+    }
+
+    /// A sentence about a row, counted from 0 (exit 2).
+    pub fn wrong_row(&self, row: usize, what: impl Display) -> Failure {
+        self.wrong(format_args!("row {}: {what}", row + 1))
+    }
+
+    /// A sentence about a cell (exit 2).
+    pub fn wrong_cell(&self, row: usize, column: usize, what: impl Display) -> Failure {
+        let name = &self.columns[column].0;
+        self.wrong(format_args!("row {}, column {name}: {what}", row + 1))
+    }
+
+    /// A path of a cell, seen from the folder of the table.
+    pub fn beside(&self, cell: &str) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(cell)
+    }
+
+    /// The column of a kind and its cell in a row, where it is not empty.
+    pub fn cell(&self, row: usize, kind: &Kind) -> Option<(usize, &str)> {
+        let mut given = self.given(row);
+        given
+            .find(|(_, own, _)| *own == kind)
+            .map(|(column, _, cell)| (column, cell))
+    }
+
+    /// The cells of a row that are not empty, by column.
+    pub fn given(&self, row: usize) -> impl Iterator<Item = (usize, &Kind, &str)> {
+        let cells = self.rows[row].iter().map(String::as_str).enumerate();
+        cells
+            .filter(|(_, cell)| !cell.is_empty())
+            .map(|(i, cell)| (i, &self.columns[i].1, cell))
+    }
+}
+
+fn kind_of(name: &str) -> Result<Kind, String> {
+    match (name, name.strip_prefix("specimen.")) {
+        ("case", _) => return Ok(Kind::Case),
+        ("particles", _) => return Ok(Kind::Particles),
+        (_, Some(option)) => {
+            let known = specimen::QUICK.iter().find(|(known, _)| *known == option);
+            return known.map(|(known, _)| Kind::Specimen(known)).ok_or(format!(
+                "'{name}' is no column of a sweep; of the specimen there are {}",
+                specimen::QUICK.map(|(known, _)| known).join(", ")
+            ));
+        }
+        _ => {}
+    }
+    let key = name.contains('.') && !name.contains(|c: char| c.is_whitespace() || "=;".contains(c));
+    key.then_some(Kind::Key).ok_or_else(|| {
+        let hint = match name.contains([';', '\t']) {
+            true => " (columns are separated by commas)",
+            false => "",
+        };
+        format!("'{name}' is no column of a sweep{hint}: accepted are case, particles, specimen.seed and the like, and keys of the case such as adhesive.viscosity")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(text: &str) -> String {
+        format!(
+            "{:?}",
+            Table::parse(Path::new("t.csv"), text.as_bytes()).unwrap_err()
+        )
+    }
+
+    #[test]
+    fn columns_are_told_and_cells_trimmed() {
+        let text = "\u{feff}# mine\ncase, specimen.seed ,adhesive.viscosity\npf,1, 1300 cP\n,2,\n";
+        let table = Table::parse(Path::new("f/t.csv"), text.as_bytes()).unwrap();
+        let kinds = [Kind::Case, Kind::Specimen("seed"), Kind::Key];
+        assert!(table.columns.iter().map(|c| &c.1).eq(&kinds));
+        assert_eq!(table.rows[0][2], "1300 cP");
+        assert_eq!(table.given(1).count(), 1);
+        assert_eq!(table.beside("a.toml"), Path::new("f/a.toml"));
+    }
+
+    #[test]
+    fn what_is_no_table_is_refused_in_a_sentence() {
+        for (text, word) in [
+            ("viscosity\n1\n", "'viscosity' is no column"),
+            ("a.b;c.d\n1;2\n", "separated by commas"),
+            ("a.b,a.b\n1,2\n", "two columns 'a.b'"),
+            ("specimen.colour\n1\n", "there are adhesive, size"),
+            ("a.b,c.d\n1,2\n1\n", "row 2 has 1 cells"),
+            ("a.b\n", "no row"),
+            ("", "no row"),
+        ] {
+            assert!(said(text).contains(word), "{text}: {}", said(text));
+        }
+        assert!(Table::parse(Path::new("t.csv"), b"a.b\n\xff\n").is_err());
+    }
+}
