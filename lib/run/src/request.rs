@@ -12,12 +12,14 @@ use crate::changes::changed;
 use crate::checkpoint::{Checkpoint, Clock};
 use crate::courant::{continued, without_cfl};
 use crate::drive::{self, Controls, RunError};
+use crate::expected_error;
 use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
 use crate::history::History;
 use crate::invariants;
 use crate::left_out::left_out;
 use crate::load;
 use crate::resolve::{self, Setup};
+use crate::resolved;
 use crate::schemes;
 use crate::snapshot::{SnapshotWriter, is_final_of};
 use crate::summary::{Facts, Summary};
@@ -175,7 +177,8 @@ impl Request {
             None => RunFolder::make(folder, &by)?,
         };
         folder.warning().into_iter().for_each(warn);
-        let start = begin::start(folder, mode, &continuable, &self.text, &by)?;
+        let resolved = resolved::text(&self.text, &self.case, &self.setup);
+        let start = begin::start(folder, mode, &continuable, &resolved, &by)?;
         let (clock, courant, mut history) = match start {
             Some(Checkpoint {
                 clock,
@@ -185,7 +188,7 @@ impl Request {
             }) => {
                 scheme.restore(&saved).map_err(RunFailure::Data)?;
                 let history = History::resume(folder, history)?;
-                begin::forget_what_came_after(folder, &clock, &self.text)?;
+                begin::forget_what_came_after(folder, &clock, &resolved)?;
                 (clock, continued(courant, clock.step, cfl), history)
             }
             None => (
@@ -195,7 +198,7 @@ impl Request {
             ),
         };
         let mut controls = Controls {
-            history_every_s: self.history_every(),
+            history_every_s: self.setup.history_every_s,
             snapshot_every_s: self.snapshot_every(),
             interrupted,
             progress: &mut |fraction, time_s, report: &StepReport| {
@@ -238,6 +241,7 @@ impl Request {
                 verdict: verdict::judge(&self.setup, &liquid, &invariants, outcome.clock.last.lost)
                     .and(scheme.objection()),
                 invariants,
+                expected_error: expected_error::of(&self.case),
                 left_out: left_out(&self.case, &self.setup, &stages),
                 provenance,
             },
@@ -265,13 +269,6 @@ impl Request {
             by.version,
             xxh3_64(case.as_bytes())
         )
-    }
-
-    fn history_every(&self) -> f64 {
-        self.case
-            .output
-            .history_every
-            .map_or(1e-3 * self.setup.nominal_duration_s, |t| t.si())
     }
 
     fn snapshot_every(&self) -> f64 {

@@ -2,11 +2,14 @@
 //!
 //! Unknown keys, missing units and values out of range are refused with line and column.
 
+pub(crate) mod keys;
+mod reference;
 mod schema;
 mod value;
 
 use std::path::Path;
 
+pub use reference::reference;
 pub use schema::{
     Adhesive, Axes, Body, BoxCorners, Case, ClampTable, Contact, Grid, Integrator, MaterialName,
     OutputTable, PidGains, SchemeName,

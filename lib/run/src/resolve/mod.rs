@@ -45,6 +45,8 @@ pub struct Setup {
     pub initial_gap_m: Option<f64>,
     /// Duration that snapshots and history divide, s.
     pub nominal_duration_s: f64,
+    /// Time between rows of the history, s.
+    pub history_every_s: f64,
     /// Bond normal of the files; the scene's own is y.
     pub normal: units::Axis,
 }
@@ -154,6 +156,7 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
         time_limit_s,
         initial_gap_m,
         nominal_duration_s: nominal,
+        history_every_s: (case.output.history_every).map_or(1e-3 * nominal, |t| t.si()),
         normal: geometry.normal,
     })
 }

@@ -7,4 +7,5 @@ mod fall;
 mod plan;
 mod refused;
 mod replaced;
+mod resolved;
 mod stopped;
