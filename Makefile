@@ -20,6 +20,8 @@
 #   make pins                     fingerprints of thirty small runs, to compare builds by
 #   make bench                    cost per cell and step, memory; BASE=folder: beside an older build
 #   make kernels                  speed of the explicit kernels and of the linear solver alone
+#   make report                   one page for a browser with tables, figures, runs and the bond in 3D
+#   make book                     the documents as one book to browse and search; needs mdbook
 #   make figures man install clean help
 
 .DELETE_ON_ERROR:
@@ -39,7 +41,7 @@ SIDE_BY_SIDE = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
 PREFIX ?= $(HOME)/.local
 
 BIN := target/release
-TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures particles
+TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures bond-report particles
 BINARIES := $(TOOLS:%=$(BIN)/%)
 
 OUT := out/$(if $(XCT_PF)$(XCT_PVA_PF),xct,$(SCALE))
@@ -52,12 +54,14 @@ include pipelines/20-specimens.mk
 include pipelines/30-runs.mk
 include pipelines/40-metrics.mk
 include pipelines/50-figures.mk
+include pipelines/55-report.mk
 include pipelines/60-studies.mk
 include pipelines/65-gate.mk
+include pipelines/70-book.mk
 
 .PHONY: help
 help:
-	@sed -n '3,22s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,/^$$/s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

@@ -8,7 +8,7 @@ use particle_file::ParticleFile;
 use studies::outputs;
 use tempfile::TempDir;
 
-pub const TOOLS: [&str; 8] = [
+pub const TOOLS: [&str; 9] = [
     "xct2particles",
     "build-bondline",
     "mpm-run",
@@ -16,6 +16,7 @@ pub const TOOLS: [&str; 8] = [
     "shear-stats",
     "synth-xct",
     "bond-figures",
+    "bond-report",
     "particles",
 ];
 

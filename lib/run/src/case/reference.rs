@@ -36,7 +36,11 @@ pub fn reference() -> String {
 
 fn unit_rows() -> String {
     fn row<D: Dimension>() -> String {
-        let names = D::UNITS.iter().map(|(name, _)| format!("`{name}`"));
+        // Micro sign and Greek mu, which look alike, are both accepted and told once.
+        let names = D::UNITS
+            .iter()
+            .filter(|(name, _)| !name.starts_with('\u{3bc}'));
+        let names = names.map(|(name, _)| format!("`{name}`"));
         let names = names.collect::<Vec<_>>().join(", ");
         format!("| {} | {names} |\n", super::keys::quantity::<D>())
     }

@@ -13,7 +13,7 @@ fn results(folder: &Path) -> Vec<(String, String)> {
     let result = |(name, bytes): (String, Vec<u8>)| match name.rsplit_once('.')?.1 {
         "csv" => Some((name, String::from_utf8(bytes).unwrap())),
         "mpts" => {
-            let file = ParticleFile::open(&folder.join(&name)).unwrap();
+            let file = ParticleFile::open(folder.join(&name)).unwrap();
             Some((name, format!("{:016x}", file.sum().unwrap())))
         }
         _ => None,

@@ -129,7 +129,7 @@ pub(super) const CLAMP: Table = Table {
                 let clamp = case.clamp.as_ref()?;
                 (clamp.stop == StopRule::Closed).then(|| si::<Time>(setup.time_limit_s))
             }),
-            text: "Latest end of a run with `stop = \"closed\"`, which a pressure limit may keep from closing for ever. Lengthen it where a run ends at it while it still moves; `summary.json` says `time_limit` then.",
+            text: "Latest end of a run with `stop = \"closed\"`, which a pressure limit may keep from closing for ever. Lengthen it where a run ends at it while it still moves; `summary.json` says `time-limit` then.",
         },
         Key {
             name: "travel",
