@@ -148,7 +148,7 @@
       distance * Math.sin(elevation),
       distance * Math.cos(azimuth) * Math.cos(elevation),
     );
-    look(AZIMUTH, ELEVATION, 1.9 * size);
+    look(AZIMUTH, ELEVATION, 2.2 * size);
     image.replaceWith(canvas);
     const orbit = new OGL.Orbit(camera, { element: canvas, target: new OGL.Vec3(), enabled: false, minDistance: 0.3 * size, maxDistance: 6 * size });
     // The wheel moves the page until the view is taken hold of.

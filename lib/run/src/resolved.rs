@@ -68,11 +68,14 @@ fn write_table(
                 Some(value) => writeln!(out, "{name} = {value} # default")?,
                 None => writeln!(out, "# {name}: not used")?,
             },
-            Absent::Needed(when) => {
-                writeln!(out, "# {name}: not given, needed {}", when.replace('`', ""))?;
-            }
-            Absent::Nothing(words) => writeln!(out, "# {name}: {words}")?,
+            Absent::Needed(when) => writeln!(out, "# {name}: not given, needed {}", plain(when))?,
+            Absent::Nothing(words) => writeln!(out, "# {name}: {}", plain(words))?,
         }
     }
     Ok(())
+}
+
+/// Words without their Markdown.
+fn plain(words: &str) -> String {
+    words.replace('`', "")
 }
