@@ -26,6 +26,8 @@
 #   make pins                     fingerprints of thirty small runs, to compare builds by
 #   make bench                    cost per cell and step, memory; BASE=folder: beside an older build
 #   make kernels                  speed of the explicit kernels and of the linear solver alone
+#   make report                   one page for a browser with tables, figures, runs and the bond in 3D
+#   make book                     the documents as one book to browse and search; needs mdbook
 #   make figures man install clean help
 
 .DELETE_ON_ERROR:
@@ -45,7 +47,7 @@ SIDE_BY_SIDE = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
 PREFIX ?= $(HOME)/.local
 
 BIN := target/release
-TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures particles bond-sweep
+TOOLS := xct2particles build-bondline mpm-run wp-metrics shear-stats synth-xct bond-figures bond-report bond-sweep particles
 BINARIES := $(TOOLS:%=$(BIN)/%)
 
 OUT := out/$(if $(XCT_BOTTOM),wood,$(if $(XCT_PF)$(XCT_PVA_PF),xct,$(SCALE)))
@@ -59,10 +61,12 @@ include pipelines/30-runs.mk
 include pipelines/40-metrics.mk
 include pipelines/50-figures.mk
 include pipelines/55-species.mk
+include pipelines/57-report.mk
 include pipelines/60-studies.mk
 include pipelines/65-gate.mk
 include pipelines/70-sweep.mk
 include pipelines/75-interop.mk
+include pipelines/80-book.mk
 
 .PHONY: help
 help:

@@ -30,10 +30,14 @@ ifneq ($(wildcard ../shared/data/*.tif),)
 SHARED_TESTS = $(CARGO) test --release -p voxels -p wp-metrics -p tests -- --ignored shared_data
 endif
 
+# A tool prints its page and those of its subcommands, to which it refers: a file each.
+PAGES = /^\.ie / { head = $$0; next } /^\.el / { head = head "\n" $$0; next } \
+    /^\.TH / { page = "out/man/" $$2 ".1"; print head > page } { print > page }
+
 .PHONY: man
 man: $(BINARIES)
-	@mkdir -p out/man
-	@for tool in $(TOOLS); do $(BIN)/$$tool --generate man > out/man/$$tool.1; done
+	@mkdir -p out/man && rm -f out/man/*.1
+	@for tool in $(TOOLS); do $(BIN)/$$tool --generate man; done | awk '$(PAGES)'
 	@echo "man pages in out/man"
 
 # Without the tables of lines that backtraces are made with: 190 of 215 MB.

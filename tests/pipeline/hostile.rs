@@ -147,6 +147,8 @@ fn devices_without_an_end_are_refused_at_once() {
         ("bond-figures slice - -o O.svg < /dev/zero", 3),
         ("bond-figures map --map a=- -o O.svg < /dev/zero", 3),
         ("bond-figures map --map a=/dev/zero -o O.svg", 3),
+        ("bond-report --table a=/dev/zero -o O.html", 3),
+        ("bond-report --state a=/dev/zero -o O.html", 3),
     ] {
         let output = bench.shell(&format!("ulimit -v 4000000 -f 600000; timeout 60 {line}"));
         assert_eq!(

@@ -22,6 +22,7 @@ mod makefile;
 mod quoted;
 mod refusals;
 mod repeatability;
+mod report;
 mod run_folder;
 mod sweep;
 mod sweep_tables;

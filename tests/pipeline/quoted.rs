@@ -76,7 +76,7 @@ fn the_tutorial_prints_what_it_quotes() {
             }
         }
     }
-    assert_eq!(quotes, 2, "the tutorial's quotes");
+    assert_eq!(quotes, 3, "the tutorial's quotes");
 }
 
 /// Cells of the rows of `page` that begin with `name`, in their order.

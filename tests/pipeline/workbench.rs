@@ -8,7 +8,7 @@ use particle_file::ParticleFile;
 use studies::outputs;
 use tempfile::TempDir;
 
-pub const TOOLS: [&str; 9] = [
+pub const TOOLS: [&str; 10] = [
     "xct2particles",
     "build-bondline",
     "mpm-run",
@@ -16,6 +16,7 @@ pub const TOOLS: [&str; 9] = [
     "shear-stats",
     "synth-xct",
     "bond-figures",
+    "bond-report",
     "particles",
     "bond-sweep",
 ];

@@ -74,7 +74,8 @@ fn requested_generation(command: &clap::Command) -> Option<Generate> {
 
 fn generate<A: CommandFactory>(what: Generate) -> Result<(), Failure> {
     use clap_complete::Shell;
-    let mut command = A::command();
+    // Pages refer to pages; of `help` there is none.
+    let mut command = A::command().disable_help_subcommand(matches!(what, Generate::Man));
     let name = command.get_name().to_owned();
     let mut text = Vec::new();
     let shell = match what {
@@ -98,7 +99,7 @@ fn generate<A: CommandFactory>(what: Generate) -> Result<(), Failure> {
 /// The page of a command, and behind it those of its subcommands, to which it refers.
 fn man_pages(command: &clap::Command, out: &mut Vec<u8>) -> io::Result<()> {
     clap_mangen::Man::new(command.clone()).render(out)?;
-    for subcommand in command.get_subcommands().filter(|s| s.get_name() != "help") {
+    for subcommand in command.get_subcommands() {
         man_pages(subcommand, out)?;
     }
     Ok(())

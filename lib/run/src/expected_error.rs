@@ -6,6 +6,7 @@ use std::fmt::Write;
 use physics::Choice;
 
 use crate::case::{Case, SchemeName};
+use crate::schemes;
 
 /// Written by `make tradeoff`; not to be edited.
 const TABLE: &str = include_str!("expected_error.csv");
@@ -23,74 +24,107 @@ struct Measured {
     errors: [Option<f64>; 4],
 }
 
+/// What was measured of a case's scheme and options, at about its cells.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct ExpectedError {
+    /// Cells of the case across a lumen of 17.4 um.
+    pub cells_per_lumen: f64,
+    /// Cells with which it was measured; none where this update, shape and options were not.
+    pub measured_with_cells: Option<f64>,
+    /// The errors.
+    pub errors: Vec<QuantityError>,
+    /// Settings of which the case has others than the measurement, which had the default.
+    pub not_as_measured: Vec<&'static str>,
+}
+
+/// The error of one quantity in one scene.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct QuantityError {
+    /// Of what.
+    pub quantity: &'static str,
+    /// Where it was measured.
+    pub scene: &'static str,
+    /// Its size over the quantity's.
+    pub relative: f64,
+}
+
+/// The error to expect of a case.
+pub(crate) fn of(case: &Case) -> ExpectedError {
+    let cells = LUMEN_M / case.grid.cell.si();
+    let row = nearest(&key(case), cells);
+    let (press, bond) = ("piston into slit", "a small bond line");
+    let [slit, channel, pressure, wp] = row.as_ref().map_or([None; 4], |row| row.errors);
+    let measured = [
+        ("clamp pressure", press, slit),
+        ("clamp pressure", bond, pressure),
+        ("flow in lumens", "plane channel", channel),
+        ("WP", bond, wp),
+    ];
+    let error = |(quantity, scene, relative): (_, _, Option<f64>)| {
+        relative.map(|relative| QuantityError {
+            quantity,
+            scene,
+            relative,
+        })
+    };
+    let separation = case.contact.as_ref().and_then(|c| c.separation);
+    let cfl = schemes::cfl(case) - schemes::default_cfl(case);
+    let others = [
+        ("contact separation", separation.is_some()),
+        ("points per direction", case.grid.points_per_direction != 2),
+        ("Courant number", cfl.abs() > 1e-9),
+    ];
+    let other = |(name, differs)| if differs { Some(name) } else { None };
+    ExpectedError {
+        cells_per_lumen: cells,
+        measured_with_cells: row.as_ref().map(|row| row.cells),
+        errors: measured.into_iter().filter_map(error).collect(),
+        not_as_measured: others.into_iter().filter_map(other).collect(),
+    }
+}
+
 /// The lines of `--explain` about a case.
 pub(crate) fn text(case: &Case) -> String {
-    let cells = LUMEN_M / case.grid.cell.si();
     let mut out = String::from("\nerror to expect (measured, docs/results/tradeoff.md)\n");
     // Writing to a string cannot fail.
-    let _ = writeln!(out, "  lumens             {cells:.1} cells across 17.4 um");
-    let _ = match nearest(&key(case), cells) {
-        Some(row) => quote(&mut out, case, &row),
-        None => writeln!(
-            out,
-            "  pressure, flow     not measured with this update, shape and options"
-        ),
-    };
+    let _ = quote(&mut out, &of(case));
     out
 }
 
-fn quote(out: &mut String, case: &Case, row: &Measured) -> std::fmt::Result {
+fn quote(out: &mut String, expected: &ExpectedError) -> std::fmt::Result {
+    let across = expected.cells_per_lumen;
+    writeln!(out, "  lumens             {across:.1} cells across 17.4 um")?;
+    let Some(cells) = expected.measured_with_cells else {
+        return writeln!(
+            out,
+            "  pressure, flow     not measured with this update, shape and options"
+        );
+    };
     let percent = |error: f64| match 100.0 * error {
         p if p < 10.0 => format!("{p:.1} %"),
         p => format!("{p:.0} %"),
     };
-    let [slit, channel, pressure, wp] = row.errors;
-    let mut line = |name: &str, errors: &[(Option<f64>, &str)]| {
-        let measured = errors.iter().filter_map(|&(error, place)| {
-            let error = percent(error?);
-            Some(format!("about {error} ({place})"))
+    for errors in expected.errors.chunk_by(|a, b| a.quantity == b.quantity) {
+        let measured = errors.iter().map(|error| {
+            let size = percent(error.relative);
+            format!("about {size} ({})", error.scene)
         });
         let measured: Vec<String> = measured.collect();
-        if measured.is_empty() {
-            return Ok(());
-        }
-        writeln!(out, "  {name:<18} {}", measured.join(", "))
-    };
-    let (press, bond) = ("piston into slit", "a small bond line");
-    line("clamp pressure", &[(slit, press), (pressure, bond)])?;
-    line("flow in lumens", &[(channel, "plane channel")])?;
-    line("WP", &[(wp, bond)])?;
+        let name = errors[0].quantity;
+        writeln!(out, "  {name:<18} {}", measured.join(", "))?;
+    }
     writeln!(
         out,
-        "  measured with      {} cells across the lumen, walls off the nodes among them",
-        row.cells
+        "  measured with      {cells} cells across the lumen, walls off the nodes among them"
     )?;
     writeln!(
         out,
         "                     slit against finite elements; bond line against finer runs of the implicit scheme, no independent reference"
     )?;
-    let mut other = Vec::new();
-    if case
-        .contact
-        .as_ref()
-        .is_some_and(|c| c.separation.is_some())
-    {
-        other.push("contact separation");
+    match expected.not_as_measured.join(", ") {
+        none if none.is_empty() => Ok(()),
+        other => writeln!(out, "                     and the default {other}"),
     }
-    if case.grid.points_per_direction != 2 {
-        other.push("points per direction");
-    }
-    if case.integrator.cfl.is_some_and(|c| (c - 0.5).abs() > 1e-9) {
-        other.push("Courant number");
-    }
-    if !other.is_empty() {
-        writeln!(
-            out,
-            "                     and the default {}",
-            other.join(", ")
-        )?;
-    }
-    Ok(())
 }
 
 /// What of a case selects rows.

@@ -12,12 +12,14 @@ use crate::changes::changed;
 use crate::checkpoint::{Checkpoint, Clock};
 use crate::courant::{continued, without_cfl};
 use crate::drive::{self, Controls, RunError};
+use crate::expected_error;
 use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
 use crate::history::History;
 use crate::invariants;
 use crate::left_out::left_out;
 use crate::load;
 use crate::resolve::{self, Setup};
+use crate::resolved;
 use crate::schemes;
 use crate::snapshot::{SnapshotWriter, is_final_of};
 use crate::summary::{self, Facts, Summary};
@@ -200,7 +202,8 @@ impl Request {
             None => RunFolder::make(folder, &by)?,
         };
         folder.warning().into_iter().for_each(warn);
-        let start = begin::start(folder, mode, &continuable, &self.text, &by)?;
+        let resolved = resolved::text(&self.text, &self.case, &self.setup);
+        let start = begin::start(folder, mode, &continuable, &resolved, &by)?;
         let (clock, courant, mut history) = match start {
             Some(Checkpoint {
                 clock,
@@ -210,7 +213,7 @@ impl Request {
             }) => {
                 scheme.restore(&saved).map_err(RunFailure::Data)?;
                 let history = History::resume(folder, history)?;
-                begin::forget_what_came_after(folder, &clock, &self.text)?;
+                begin::forget_what_came_after(folder, &clock, &resolved)?;
                 (clock, continued(courant, clock.step, cfl), history)
             }
             None => (
@@ -224,7 +227,7 @@ impl Request {
             ),
         };
         let mut controls = Controls {
-            history_every_s: self.history_every(),
+            history_every_s: self.setup.history_every_s,
             snapshot_every_s: self.snapshot_every(),
             snapshots_of_way: self.case.output.snapshots,
             interrupted,
@@ -269,6 +272,7 @@ impl Request {
                     .and(scheme.objection()),
                 programme: summary::programme(scheme.programme()),
                 invariants,
+                expected_error: expected_error::of(&self.case),
                 left_out: left_out(&self.case, &self.setup, &stages),
                 provenance,
             },
@@ -296,16 +300,6 @@ impl Request {
             by.version,
             xxh3_64(case.as_bytes())
         )
-    }
-
-    /// Time between rows of the history, s. The steps of a press programme follow the flow, from
-    /// microseconds to hours: each has a row.
-    fn history_every(&self) -> f64 {
-        let own = match self.setup.scene.programme.is_empty() {
-            true => 1e-3 * self.setup.nominal_duration_s,
-            false => 0.0,
-        };
-        self.case.output.history_every.map_or(own, |t| t.si())
     }
 
     fn snapshot_every(&self) -> f64 {

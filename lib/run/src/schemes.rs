@@ -11,12 +11,15 @@ use crate::resolve::Setup;
 
 /// The Courant number of a case, or its scheme's own.
 pub(crate) fn cfl(case: &Case) -> f64 {
-    case.integrator
-        .cfl
-        .unwrap_or_else(|| match case.integrator.scheme {
-            SchemeName::Explicit => mpm::Settings::default().cfl,
-            SchemeName::Implicit => filling::Settings::default().cfl,
-        })
+    case.integrator.cfl.unwrap_or_else(|| default_cfl(case))
+}
+
+/// The Courant number of a case that names none.
+pub(crate) fn default_cfl(case: &Case) -> f64 {
+    match case.integrator.scheme {
+        SchemeName::Explicit => mpm::Settings::default().cfl,
+        SchemeName::Implicit => filling::Settings::default().cfl,
+    }
 }
 
 /// The scheme at the start of its scene.

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::courant::Courant;
 use crate::drive::{End, Outcome};
+use crate::expected_error::ExpectedError;
 use crate::invariants::Invariants;
 use crate::left_out::LeftOut;
 use crate::verdict::Verdict;
@@ -57,6 +58,8 @@ pub struct Summary {
     pub counts: BTreeMap<&'static str, u64>,
     /// Checks of the final state.
     pub invariants: Invariants,
+    /// What was measured of the error of its scheme and options.
+    pub expected_error: ExpectedError,
     /// What the run did not compute, and why.
     pub left_out: Vec<LeftOut>,
     /// What made this run folder.
@@ -119,6 +122,7 @@ pub(crate) struct Facts {
     pub verdict: Verdict,
     pub programme: Vec<PressedStage>,
     pub invariants: Invariants,
+    pub expected_error: ExpectedError,
     pub left_out: Vec<LeftOut>,
     pub provenance: serde_json::Value,
 }
@@ -162,6 +166,7 @@ impl Summary {
                 .collect(),
             counts: facts.counts.into_iter().collect(),
             invariants: facts.invariants,
+            expected_error: facts.expected_error,
             left_out: facts.left_out,
             provenance: facts.provenance,
         }

@@ -131,7 +131,7 @@ impl VolumeFractions {
 }
 
 /// A voxel and its neighbours by faces, edges and corners, as far as the grid reaches.
-fn around(voxel: [usize; 3], dims: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+pub(crate) fn around(voxel: [usize; 3], dims: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
     let [xs, ys, zs] =
         std::array::from_fn(|a| voxel[a].saturating_sub(1)..(voxel[a] + 2).min(dims[a]));
     zs.flat_map(move |z| {

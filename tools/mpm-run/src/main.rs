@@ -22,6 +22,7 @@ const VERSION: &str = if cfg!(feature = "double") {
     after_help = "Examples:
   mpm-run pf-implicit.toml --particles bond.mpts -o runs/pf-implicit
   mpm-run pf-xpic.toml --particles bond.mpts --explain
+  mpm-run --reference
   mpm-run pf-xpic.toml --particles bond.mpts -o runs/pf-xpic --resume
 
 The run folder is marked by bondline-run.toml and held while a run is on. Written in it: \
@@ -40,7 +41,8 @@ Exit status: 0 ok, the results are sound; 1 the run failed (unstable, not sound,
 )]
 struct Arguments {
     /// Case file (TOML)
-    case: PathBuf,
+    #[arg(required_unless_present = "reference")]
+    case: Option<PathBuf>,
     /// Bond file from build-bondline; '-' is standard input. Without it the case's [[body]]
     /// tables describe the scene
     #[arg(long, value_name = "BOND")]
@@ -50,7 +52,7 @@ struct Arguments {
         short,
         long,
         value_name = "RUNDIR",
-        required_unless_present = "explain"
+        required_unless_present_any = ["explain", "reference"]
     )]
     output: Option<PathBuf>,
     /// Change a key of the case, e.g. --set grid.cell="1.45 um" --set integrator.cfl=0.25
@@ -59,6 +61,9 @@ struct Arguments {
     /// Print the plan and what this scene leaves out, and run nothing
     #[arg(long)]
     explain: bool,
+    /// Print every table and key of a case file: unit, default, when to change it (Markdown)
+    #[arg(long, conflicts_with_all = ["case", "particles", "output", "set", "explain"])]
+    reference: bool,
     /// Run even where the forecast is more than 1e9 steps, a week, or the memory of this machine
     #[arg(long)]
     yes_really: bool,
@@ -78,12 +83,11 @@ fn main() -> ExitCode {
 }
 
 fn start(arguments: Arguments) -> Result<(), Failure> {
-    let request = Request::read(
-        &arguments.case,
-        arguments.particles.as_deref(),
-        &arguments.set,
-    )
-    .map_err(failure)?;
+    let Some(case) = &arguments.case else {
+        return cli::Output::Stdout.write(|out| write!(out, "{}", run::case::reference()));
+    };
+    let request =
+        Request::read(case, arguments.particles.as_deref(), &arguments.set).map_err(failure)?;
     for warning in request.warnings() {
         cli::warn(warning);
     }

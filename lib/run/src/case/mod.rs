@@ -3,7 +3,9 @@
 //! Unknown keys, missing units and values out of range are refused with line and column.
 
 mod cure;
+pub(crate) mod keys;
 mod press;
+mod reference;
 mod rheology;
 mod schema;
 mod value;
@@ -12,6 +14,7 @@ use std::path::Path;
 
 pub use cure::CureTable;
 pub use press::StageTable;
+pub use reference::reference;
 pub use schema::{
     Adhesive, Axes, Body, BoxCorners, Case, ClampTable, Contact, Grid, Integrator, MaterialName,
     OutputTable, PidGains, SchemeName,

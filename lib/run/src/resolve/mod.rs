@@ -46,6 +46,8 @@ pub struct Setup {
     pub initial_gap_m: Option<f64>,
     /// Duration that snapshots and history divide, s.
     pub nominal_duration_s: f64,
+    /// Time between rows of the history, s; 0 for a row a step.
+    pub history_every_s: f64,
     /// Bond normal of the files; the scene's own is y.
     pub normal: units::Axis,
 }
@@ -139,6 +141,12 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
     let liquid = geometry.seeds.amount().map_err(CaseError)?;
     plausible::check(&scene, &liquid)?;
     let initial_gap_m = scene.clamp.and(geometry.travel_m);
+    // The steps of a press programme follow the flow, from microseconds to hours: each has a row.
+    let history_every_s = match (case.output.history_every, scene.programme.is_empty()) {
+        (Some(every), _) => every.si(),
+        (None, true) => 1e-3 * nominal,
+        (None, false) => 0.0,
+    };
     Ok(Setup {
         clamp_room: plausible::clamp_room(&scene),
         scene,
@@ -147,6 +155,7 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
         time_limit_s,
         initial_gap_m,
         nominal_duration_s: nominal,
+        history_every_s,
         normal: geometry.normal,
     })
 }

@@ -8,4 +8,5 @@ mod plan;
 mod press;
 mod refused;
 mod replaced;
+mod resolved;
 mod stopped;

@@ -1,0 +1,203 @@
+//! What a run says of itself: `summary.json` and `resolved.toml` of its folder.
+
+use serde_json::Value;
+
+use crate::{Error, Labelled, html, read_text};
+
+const MOST_BYTES: u64 = 1 << 20;
+
+/// A run folder.
+pub struct RunFolder {
+    /// What it is called.
+    pub(crate) label: String,
+    summary: Value,
+    summary_text: String,
+    resolved: String,
+}
+
+impl RunFolder {
+    /// Reads a run folder.
+    ///
+    /// # Errors
+    /// A folder without these files, as of a run that has not ended.
+    pub fn read(folder: &Labelled) -> Result<Self, Error> {
+        let path = folder.path.join("summary.json");
+        let summary_text = read_text(&path, MOST_BYTES)?;
+        let summary = serde_json::from_str(&summary_text)
+            .map_err(|e| Error(format!("'{}' is not JSON: {e}", path.display())))?;
+        Ok(Self {
+            label: folder.label.clone(),
+            summary,
+            summary_text,
+            resolved: read_text(&folder.path.join("resolved.toml"), MOST_BYTES)?,
+        })
+    }
+
+    /// A number of the summary by its path, times `unit`, with so many decimals.
+    fn number(&self, pointer: &str, unit: f64, decimals: usize) -> String {
+        let value = self.summary.pointer(pointer).and_then(Value::as_f64);
+        value.map_or("-".into(), |x| format!("{:.decimals$}", x * unit))
+    }
+
+    fn text(&self, pointer: &str) -> String {
+        self.summary.pointer(pointer).map_or("-".into(), plain)
+    }
+
+    /// Columns of the table of all runs.
+    pub(crate) const COLUMNS: [&str; 11] = [
+        "run",
+        "end",
+        "results",
+        "steps",
+        "simulated (us)",
+        "gap left (um)",
+        "pressure at the end (MPa)",
+        "volume change (%)",
+        "deepest point in wood (um)",
+        "CPU (s)",
+        "memory (MB)",
+    ];
+
+    /// Its row.
+    pub(crate) fn row(&self) -> Vec<String> {
+        let sound = match self.summary.pointer("/verdict/sound") {
+            Some(Value::Bool(true)) => "sound",
+            _ => "not sound",
+        };
+        vec![
+            self.label.clone(),
+            self.text("/end").replace('_', " "),
+            sound.into(),
+            self.text("/steps"),
+            self.number("/time_s", 1e6, 2),
+            self.number("/gap_m", 1e6, 2),
+            self.number("/final_pressure_pa", 1e-6, 3),
+            self.number("/invariants/volume_change", 100.0, 3),
+            self.number("/invariants/deepest_m", 1e6, 3),
+            self.number("/cpu_s", 1.0, 1),
+            self.number("/peak_memory_bytes", 1e-6, 0),
+        ]
+    }
+
+    /// Why its results are not sound.
+    pub(crate) fn objections(&self) -> Vec<String> {
+        let reasons = self.list("/verdict/reasons");
+        reasons.iter().map(plain).collect()
+    }
+
+    fn list(&self, pointer: &str) -> &[Value] {
+        let found = self.summary.pointer(pointer).and_then(Value::as_array);
+        found.map_or(&[], Vec::as_slice)
+    }
+
+    /// Everything that it says, to be opened.
+    pub(crate) fn to_html(&self) -> String {
+        let mut out = html::details(
+            "Parameters, with the defaults that held (resolved.toml)",
+            &html::verbatim(&self.resolved),
+        );
+        out += &html::details("Error to expect", &self.expected_error());
+        let left_out = rows(self.list("/left_out"), ["what", "why"]);
+        let left_out = html::table("Not computed", &["what", "why"], &left_out);
+        out += &html::details("What was left out", &left_out);
+        let mut checks = self.object("/invariants");
+        checks.extend(self.object("/counts"));
+        let checks = html::table("Last state and counts", &["what", "value"], &checks);
+        out += &html::details("Invariants", &checks);
+        out += &html::details("Cost", &self.cost());
+        out += &html::details("Provenance", &self.provenance());
+        out + &html::details("summary.json, whole", &html::verbatim(&self.summary_text))
+    }
+
+    fn object(&self, pointer: &str) -> Vec<Vec<String>> {
+        let found = self.summary.pointer(pointer).and_then(Value::as_object);
+        let row = |(name, value): (&String, &Value)| vec![name.replace('_', " "), plain(value)];
+        found.into_iter().flatten().map(row).collect()
+    }
+
+    fn expected_error(&self) -> String {
+        let Some(expected) = self.summary.get("expected_error") else {
+            return "<p>This run was made by a version that does not write it; <code>mpm-run --explain</code> tells it.</p>\n".into();
+        };
+        let across = self.number("/expected_error/cells_per_lumen", 1.0, 1);
+        let Some(cells) = expected.get("measured_with_cells").and_then(Value::as_f64) else {
+            return format!(
+                "<p>Not measured with this update, shape and options; lumens of 17.4 um are {across} cells across.</p>\n"
+            );
+        };
+        let errors = self.list("/expected_error/errors").iter().map(|error| {
+            let percent = error.get("relative").and_then(Value::as_f64);
+            let text = |key: &str| error.get(key).map_or("-".into(), plain);
+            let percent = percent.map_or("-".into(), |r| format!("{:.2}", 100.0 * r));
+            vec![text("quantity"), text("scene"), percent]
+        });
+        let errors: Vec<Vec<String>> = errors.collect();
+        let others = self.list("/expected_error/not_as_measured");
+        let others: Vec<String> = others.iter().map(plain).collect();
+        let others = match others.join(", ") {
+            none if none.is_empty() => String::new(),
+            some => format!(" Measured with the default {some}, unlike this run."),
+        };
+        html::table(
+            "Measured error of this scheme and its options",
+            &["quantity", "scene", "about (%)"],
+            &errors,
+        ) + &format!(
+            "<p>Lumens of 17.4 um are {across} cells across here and {cells} in the measurement, walls off the nodes among them: slit against finite elements; bond line against finer runs of the implicit scheme, no independent reference.{}</p>\n",
+            html::escape(&others)
+        )
+    }
+
+    fn cost(&self) -> String {
+        let facts = [
+            ("CPU time (s)", self.number("/cpu_s", 1.0, 2)),
+            (
+                "wall time in steps (s)",
+                self.number("/stepping_wall_s", 1.0, 2),
+            ),
+            ("threads", self.text("/threads")),
+            (
+                "peak memory (MB)",
+                self.number("/peak_memory_bytes", 1e-6, 1),
+            ),
+            ("material points", self.text("/liquid_points")),
+            (
+                "particle-steps per second",
+                self.number("/particle_steps_per_s", 1.0, 0),
+            ),
+        ];
+        let facts = facts.map(|(name, value)| vec![name.to_owned(), value]);
+        let stages = self.list("/stages").iter().map(|stage| {
+            let name = stage.get("name").map_or("-".into(), plain);
+            let wall = stage.get("wall_s").and_then(Value::as_f64);
+            vec![name, wall.map_or("-".into(), |s| format!("{s:.3}"))]
+        });
+        let stages: Vec<Vec<String>> = stages.collect();
+        html::table("Whole run", &["what", "value"], &facts)
+            + &html::table("Stages of a step", &["stage", "wall time (s)"], &stages)
+    }
+
+    fn provenance(&self) -> String {
+        let command = self.list("/provenance/command");
+        let command: Vec<String> = command.iter().map(plain).collect();
+        let inputs = rows(self.list("/provenance/inputs"), ["path", "xxh3"]);
+        let tool = self.text("/provenance/tool") + " " + &self.text("/provenance/version");
+        format!("<p>{}</p>\n", html::escape(&tool))
+            + &html::verbatim(&command.join(" "))
+            + &html::table("Inputs", &["file", "XXH3-64"], &inputs)
+    }
+}
+
+/// Two members of each object.
+fn rows(list: &[Value], keys: [&str; 2]) -> Vec<Vec<String>> {
+    let member = |value: &Value, key: &str| value.get(key).map_or("-".into(), plain);
+    let row = |value: &Value| keys.map(|key| member(value, key)).to_vec();
+    list.iter().map(row).collect()
+}
+
+/// A text without its quotes, else JSON.
+fn plain(value: &Value) -> String {
+    value
+        .as_str()
+        .map_or_else(|| value.to_string(), str::to_owned)
+}

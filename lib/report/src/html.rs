@@ -1,0 +1,106 @@
+//! Pieces of HTML.
+
+/// Text as HTML, inside of elements and of quoted attributes.
+pub(crate) fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            // No page may hold others.
+            c if c.is_control() && !matches!(c, '\n' | '\t') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// A table whose first column names its rows. Cells that are numbers are set to the right.
+pub(crate) fn table(caption: &str, headers: &[&str], rows: &[Vec<String>]) -> String {
+    let mut out = format!(
+        "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table><caption>{0}</caption>\n<thead><tr>",
+        escape(caption)
+    );
+    for header in headers {
+        out += &format!("<th scope=\"col\">{}</th>", escape(header));
+    }
+    out += "</tr></thead>\n<tbody>\n";
+    for row in rows {
+        out += "<tr>";
+        for (i, cell) in row.iter().enumerate() {
+            let text = escape(cell);
+            out += &match (i, is_number(cell)) {
+                (0, _) => format!("<th scope=\"row\">{text}</th>"),
+                (_, true) => format!("<td class=\"number\">{text}</td>"),
+                (_, false) => format!("<td>{text}</td>"),
+            };
+        }
+        out += "</tr>\n";
+    }
+    out + "</tbody></table></div>\n"
+}
+
+fn is_number(text: &str) -> bool {
+    let first = text.split_whitespace().next().unwrap_or_default();
+    first.parse::<f64>().is_ok()
+}
+
+/// What opens at a click, or in print.
+pub(crate) fn details(summary: &str, inside: &str) -> String {
+    format!(
+        "<details><summary>{}</summary>\n{inside}</details>\n",
+        escape(summary)
+    )
+}
+
+/// Text as it is.
+pub(crate) fn verbatim(text: &str) -> String {
+    format!("<pre tabindex=\"0\">{}</pre>\n", escape(text))
+}
+
+/// Bytes in Base64 (RFC 4648).
+pub(crate) fn base64(bytes: &[u8]) -> String {
+    const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let at = |i: usize| u32::from(three.get(i).copied().unwrap_or(0));
+        let word = at(0) << 16 | at(1) << 8 | at(2);
+        for sign in 0..4 {
+            out.push(match sign <= three.len() {
+                true => char::from(SIGNS[(word >> (18 - 6 * sign) & 63) as usize]),
+                false => '=',
+            });
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_given_cannot_leave_its_place() {
+        let hostile = "<script>alert('1')</script>&\"\u{1b}";
+        assert_eq!(
+            escape(hostile),
+            "&lt;script&gt;alert(&#39;1&#39;)&lt;/script&gt;&amp;&quot;\u{fffd}"
+        );
+        let table = table(hostile, &[hostile], &[vec![hostile.into()]]);
+        assert!(!table.contains("<script") && table.matches("&lt;script").count() == 4);
+    }
+
+    /// RFC 4648, section 10.
+    #[test]
+    fn base64_is_that_of_the_standard() {
+        let known = [
+            "", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy",
+        ];
+        for (length, expected) in known.iter().enumerate() {
+            assert_eq!(base64(&b"foobar"[..length]), *expected);
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! Surfaces as the page holds them: coordinates of 16 bits, packed, in Base64.
+
+use std::io::Write;
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use voxels::Surface;
+
+use crate::html::base64;
+
+/// A surface for the viewer: number of vertices and triangles (u32 each), then coordinates as u16
+/// of the box's edges and numbers of vertices as u32, each as difference from the one three before,
+/// and all low bytes before the next higher ones, which packs best; little-endian, gzip, Base64.
+/// `edges` are the box's, in the unit of the vertices. `viewer.js` reads it.
+pub(crate) fn packed(surface: &Surface, edges: [f32; 3]) -> String {
+    let counts = [surface.vertices.len(), surface.triangles.len()];
+    let mut bytes: Vec<u8> = (counts.iter().flat_map(|&n| (n as u32).to_le_bytes())).collect();
+    let steps = |vertex: &[f32; 3]| {
+        std::array::from_fn(|a| {
+            (vertex[a] / edges[a] * f32::from(u16::MAX)).clamp(0.0, f32::from(u16::MAX)) as u32
+        })
+    };
+    let places: Vec<[u32; 3]> = surface.vertices.iter().map(steps).collect();
+    push_planes(&mut bytes, &places, 2);
+    push_planes(&mut bytes, &surface.triangles, 4);
+    let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
+    // Writing to memory cannot fail.
+    let _ = gzip.write_all(&bytes);
+    base64(&gzip.finish().unwrap_or_default())
+}
+
+fn push_planes(out: &mut Vec<u8>, rows: &[[u32; 3]], width: usize) {
+    let mut last = [0_u32; 3];
+    let mut differences = Vec::with_capacity(3 * rows.len());
+    for row in rows {
+        for (value, last) in row.iter().zip(&mut last) {
+            differences.push(value.wrapping_sub(*last).to_le_bytes());
+            *last = *value;
+        }
+    }
+    for plane in 0..width {
+        out.extend(differences.iter().map(|bytes| bytes[plane]));
+    }
+}
+
+/// Mean normals of the triangles at each vertex, by area, of unit length.
+pub(crate) fn normals(surface: &Surface) -> Vec<[f32; 3]> {
+    let mut sums = vec![[0.0_f32; 3]; surface.vertices.len()];
+    for triangle in &surface.triangles {
+        let [a, b, c] = triangle.map(|i| surface.vertices[i as usize]);
+        let [u, v] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1], p[2] - a[2]]);
+        let normal = [
+            u[1] * v[2] - u[2] * v[1],
+            u[2] * v[0] - u[0] * v[2],
+            u[0] * v[1] - u[1] * v[0],
+        ];
+        for i in triangle {
+            (0..3).for_each(|k| sums[*i as usize][k] += normal[k]);
+        }
+    }
+    let unit = |n: [f32; 3]| {
+        let length = n.iter().map(|x| x * x).sum::<f32>().sqrt().max(1e-20);
+        n.map(|x| x / length)
+    };
+    sums.into_iter().map(unit).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn planes_hold_differences_that_add_up_to_the_rows() {
+        let rows = [[3_u32, 70_000, 0], [2, 70_001, u32::MAX], [9, 5, 1]];
+        let mut bytes = Vec::new();
+        push_planes(&mut bytes, &rows, 4);
+        let bytes = &bytes;
+        let value =
+            |i: usize| (0..4).map(move |plane| u32::from(bytes[9 * plane + i]) << (8 * plane));
+        let mut sums = [0_u32; 3];
+        for (i, row) in rows.iter().enumerate() {
+            for (a, sum) in sums.iter_mut().enumerate() {
+                *sum = sum.wrapping_add(value(3 * i + a).sum());
+            }
+            assert_eq!(sums, *row);
+        }
+    }
+
+    #[test]
+    fn normals_point_out() {
+        let body = particle_file::BitGrid::from_fn([4, 4, 4], |x, y, z| {
+            [x, y, z].iter().all(|i| (1..3).contains(i))
+        });
+        let room = particle_file::BitGrid::from_fn([4, 4, 4], |_, _, _| true);
+        let surface = Surface::of(&body, &room);
+        for (vertex, normal) in surface.vertices.iter().zip(normals(&surface)) {
+            let out: f32 = (0..3).map(|a| normal[a] * (vertex[a] - 2.0)).sum();
+            assert!(out > 0.5, "{vertex:?} {normal:?}");
+        }
+    }
+}

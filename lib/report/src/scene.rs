@@ -1,0 +1,151 @@
+//! A state in 3D: the surfaces of wood and adhesive of its voxels.
+
+use particle_file::{BitGrid, ParticleFile};
+use voxels::{ADHESIVE, LabelVolume, Surface, WOOD};
+
+use crate::html::{base64, escape};
+use crate::mesh::packed;
+use crate::still;
+use crate::{Error, Labelled};
+
+/// Voxels that are drawn; of a larger state the middle of the bond plane is.
+const MOST_VOXELS: usize = 700_000;
+
+/// Wood and adhesive of a state, the bond normal up.
+pub struct Scene {
+    pub(crate) label: String,
+    /// What is shown, in words.
+    pub(crate) detail: String,
+    /// Edges of the box in voxels: to the right, up, towards the viewer.
+    pub(crate) edges: [f32; 3],
+    pub(crate) wood: Surface,
+    pub(crate) adhesive: Surface,
+    /// What those see who run no scripts, PNG.
+    still: Vec<u8>,
+}
+
+impl Scene {
+    /// Reads a specimen, bond or state.
+    ///
+    /// # Errors
+    /// An unreadable or damaged file, or one without voxels.
+    pub fn read(file: &Labelled) -> Result<Self, Error> {
+        let told = |e: particle_file::Error| Error(e.to_string());
+        let particles = ParticleFile::open(&file.path).map_err(told)?;
+        let labels = LabelVolume::of(&particles).map_err(told)?;
+        let up = usize::from(particles.header().normal);
+        let axes = [(up + 2) % 3, up, (up + 1) % 3];
+        let window = Window::of(labels.dims, axes);
+        let pick = |label: u8| {
+            BitGrid::from_fn(window.size, |i, j, k| {
+                labels.label(window.voxel([i, j, k])) == label
+            })
+        };
+        let (wood, adhesive) = (pick(WOOD), pick(ADHESIVE));
+        let everywhere = BitGrid::from_fn(window.size, |_, _, _| true);
+        let open = BitGrid::from_fn(window.size, |i, j, k| !wood.get(i, j, k));
+        let mut scene = Self {
+            label: file.label.clone(),
+            detail: window.told(labels.dims, labels.voxel_m),
+            edges: window.size.map(|n| n as f32),
+            wood: Surface::of(&wood, &everywhere),
+            adhesive: Surface::of(&adhesive, &open),
+            still: Vec::new(),
+        };
+        scene.still = still::png(&scene)?;
+        Ok(scene)
+    }
+
+    /// The scene as HTML: a picture, and what the viewer makes of it where scripts run.
+    pub(crate) fn to_html(&self) -> String {
+        let (label, detail) = (escape(&self.label), escape(&self.detail));
+        let data = serde_json::json!({
+            "label": self.label,
+            "edges": self.edges,
+            "wood": packed(&self.wood, self.edges),
+            "adhesive": packed(&self.adhesive, self.edges),
+        });
+        // No text may end the element that holds it.
+        let data = data.to_string().replace('<', "\\u003c");
+        format!(
+            "<figure class=\"scene\"><img alt=\"{label}: pressed bond seen from above and aside; adhesive in orange, the nearer half of the wood cut away\" src=\"data:image/png;base64,{}\">\n<script type=\"application/json\">{data}</script>\n<figcaption>{label}: {detail}.</figcaption></figure>\n",
+            base64(&self.still)
+        )
+    }
+}
+
+/// The voxels that are drawn.
+struct Window {
+    /// Axes of the file to the right, up and towards the viewer; turned, not mirrored.
+    axes: [usize; 3],
+    /// First voxel and number of them, along those.
+    first: [usize; 3],
+    size: [usize; 3],
+}
+
+impl Window {
+    fn of(dims: [usize; 3], axes: [usize; 3]) -> Self {
+        let along = axes.map(|a| dims[a]);
+        let side = (MOST_VOXELS as f64 / along[1] as f64).sqrt().max(2.0) as usize;
+        let size = match along.iter().product::<usize>() {
+            all if all <= MOST_VOXELS => along,
+            _ => [along[0].min(side), along[1], along[2].min(side)],
+        };
+        Self {
+            axes,
+            first: std::array::from_fn(|a| (along[a] - size[a]) / 2),
+            size,
+        }
+    }
+
+    /// The voxel of the file.
+    fn voxel(&self, place: [usize; 3]) -> [usize; 3] {
+        let mut voxel = [0; 3];
+        for (i, &axis) in self.axes.iter().enumerate() {
+            voxel[axis] = self.first[i] + place[i];
+        }
+        voxel
+    }
+
+    fn told(&self, dims: [usize; 3], voxel_m: f64) -> String {
+        let um = |n: usize| format!("{:.1}", n as f64 * voxel_m * 1e6);
+        let names = self.axes.map(|a| ["x", "y", "z"][a]);
+        let edges: Vec<String> = (0..3)
+            .map(|i| format!("{} um along {}", um(self.size[i]), names[i]))
+            .collect();
+        let whole = self.axes.map(|a| dims[a]) == self.size;
+        let part = if whole {
+            ""
+        } else {
+            "the middle of the specimen, "
+        };
+        format!(
+            "{part}{}; {} is up, the bond normal",
+            edges.join(", "),
+            names[1]
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_a_large_state_the_middle_is_shown_and_none_is_mirrored() {
+        let whole = Window::of([40, 96, 40], [0, 1, 2]);
+        assert_eq!((whole.first, whole.size), ([0; 3], [40, 96, 40]));
+        // The normal along z: x, y, z of the view are y... of the file, in the same turn.
+        let axes = [1, 2, 0];
+        let part = Window::of([400, 1, 700], axes);
+        assert_eq!(part.size, [1, 700, 400]);
+        let part = Window::of([400, 400, 700], axes);
+        assert_eq!(part.size, [31, 700, 31]);
+        assert_eq!(part.voxel([0, 0, 0]), [184, 184, 0]);
+        assert_eq!(part.voxel([1, 2, 3]), [187, 185, 2]);
+        assert!(
+            part.told([400, 400, 700], 1e-6)
+                .starts_with("the middle of the specimen, 31.0 um along y, 700.0 um along z")
+        );
+    }
+}

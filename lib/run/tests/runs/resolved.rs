@@ -1,0 +1,95 @@
+//! `resolved.toml`: every key with the value that held, and as a case file the same run again.
+
+use std::fs;
+use std::path::Path;
+
+use particle_file::ParticleFile;
+
+use crate::bench::{Bench, PLAIN, everything};
+
+/// What of a run folder does not name its inputs: history and points.
+fn results(folder: &Path) -> Vec<(String, String)> {
+    let files = everything(folder).into_iter();
+    let result = |(name, bytes): (String, Vec<u8>)| match name.rsplit_once('.')?.1 {
+        "csv" => Some((name, String::from_utf8(bytes).unwrap())),
+        "mpts" => {
+            let file = ParticleFile::open(folder.join(&name)).unwrap();
+            Some((name, format!("{:016x}", file.sum().unwrap())))
+        }
+        _ => None,
+    };
+    files.filter_map(result).collect()
+}
+
+/// Runs a case and what it resolved to; the latter's text.
+fn runs_again(bench: &Bench) -> String {
+    bench.ran("first", PLAIN, usize::MAX);
+    let resolved = fs::read_to_string(bench.path("first/resolved.toml")).unwrap();
+    let again = Bench::with(&resolved);
+    again.ran("first", PLAIN, usize::MAX);
+    let [first, second] = [bench, &again].map(|bench| results(&bench.path("first")));
+    assert!(first.len() > 2 && first == second, "{resolved}");
+    let text = fs::read_to_string(again.path("first/resolved.toml")).unwrap();
+    let [one, other]: [toml::Table; 2] = [&resolved, &text].map(|text| text.parse().unwrap());
+    assert_eq!(one, other, "nothing is left to resolve");
+    resolved
+}
+
+fn has(text: &str, lines: &[&str]) {
+    for line in lines {
+        assert!(text.lines().any(|l| l == *line), "{line}: {text}");
+    }
+}
+
+#[test]
+fn an_explicit_case_with_its_defaults_is_the_same_run() {
+    let text = runs_again(&Bench::explicit());
+    has(
+        &text,
+        &[
+            "shape = \"gimp\" # default",
+            "points_per_direction = 2 # default",
+            "# cavitation_pressure: any tension, as Eq. 1 has it",
+            "max_pressure = \"2.5 MPa\"",
+            "pid.ki = 0.02 # default",
+            "# time_limit: not used",
+            "velocity_update = \"flip\" # default",
+            "cfl = 0.5 # default",
+            "# tolerance: not used",
+            "acceleration = [\"0 m/s2\", \"0 m/s2\", \"0 m/s2\"] # default",
+            "# [stop]: not given",
+        ],
+    );
+}
+
+#[test]
+fn an_implicit_case_with_its_defaults_is_the_same_run() {
+    let text = runs_again(&Bench::new("scheme = \"implicit\"", "closed", "1 us"));
+    has(
+        &text,
+        &[
+            "# shape: not used",
+            "# pid.ki: not used",
+            "stop = \"closed\"",
+            "time_limit = \"8e-6 s\" # default",
+            "cfl = 1.0 # default",
+            "tolerance = 0.001 # default",
+        ],
+    );
+}
+
+/// No clamp, no walls, no domain; rows and box by default.
+#[test]
+fn a_free_drop_with_its_defaults_is_the_same_run() {
+    let case = "[grid]\ncell = \"1.7 um\"\n[adhesive]\ndensity = \"1 g/cm3\"\nbulk_modulus = \"1 GPa\"\nviscosity = \"1 cP\"\n[integrator]\nscheme = \"explicit\"\n[stop]\ntime = \"0.01 us\"\n[[body]]\nmaterial = \"adhesive\"\nvelocity = [\"1 m/s\", \"0 m/s\", \"0 m/s\"]\nbox = { min = [\"0.1 um\", \"0 um\", \"0 um\"], max = [\"10.3 um\", \"7 um\", \"5 um\"] }\n[boundary]\nx = \"periodic\"\n";
+    let text = runs_again(&Bench::with(case));
+    has(
+        &text,
+        &[
+            "domain.min = [\"1e-7 m\", \"0.0 m\", \"0.0 m\"] # default",
+            "history_every = \"1.0000000000000001e-11 s\" # default",
+            "# [clamp]: not given",
+            "x = \"periodic\"",
+        ],
+    );
+}

@@ -1,0 +1,132 @@
+//! One page of HTML about runs: see `lib/report`.
+
+use std::ffi::OsStr;
+use std::os::unix::ffi::OsStrExt;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+use clap::builder::{OsStringValueParser, TypedValueParser};
+use cli::{Failure, InputRecord, Output, Record};
+use report::{Error, Labelled, Picture, Report, RunFolder, Scene, Table};
+
+/// Put runs, tables and pictures into one HTML page that needs no network
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Examples:
+  bond-report --run implicit=out/tutorial/implicit -o report.html
+  bond-report --run PF=runs/pf --picture \"Pressure=pressure.svg\" --table \"Table 2=table2.csv\" -o pf.html
+  bond-report --title \"PF, 2.5 MPa\" --run PF=runs/pf --state PF=runs/pf/final.mpts -o pf.html
+
+The page holds what is given, as it is: of each run the end, the verdict, all parameters, the error \
+to expect, what was left out, cost and provenance (resolved.toml and summary.json); tables and \
+pictures; states as surfaces that can be turned, of more than 700 000 voxels the middle.
+
+Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or corrupt data."
+)]
+struct Arguments {
+    /// Title of the page
+    #[arg(
+        long,
+        value_name = "TEXT",
+        default_value = "Adhesive pressed into wood"
+    )]
+    title: String,
+    /// A run folder; may be repeated
+    #[arg(long, value_name = "[LABEL=]RUNDIR", value_parser = labelled())]
+    run: Vec<Labelled>,
+    /// A CSV table, of at most 1000 rows; may be repeated
+    #[arg(long, value_name = "[CAPTION=]CSV", value_parser = labelled())]
+    table: Vec<Labelled>,
+    /// An SVG or PNG picture; may be repeated
+    #[arg(long, value_name = "[CAPTION=]FILE", value_parser = labelled())]
+    picture: Vec<Labelled>,
+    /// A specimen, bond or state to be shown in 3D; may be repeated
+    #[arg(long, value_name = "[LABEL=]FILE", value_parser = labelled())]
+    state: Vec<Labelled>,
+    /// Page to write; `-` is standard output
+    #[arg(short, long, value_name = "HTML")]
+    output: Output,
+    #[command(flatten)]
+    common: cli::Common,
+}
+
+fn main() -> ExitCode {
+    cli::main(|a: &Arguments| &a.common, start)
+}
+
+fn start(arguments: Arguments) -> Result<(), Failure> {
+    let inputs = inputs(&arguments);
+    if inputs.is_empty() {
+        return Err(Failure::usage(
+            "nothing to report on: give --run, --table, --picture or --state",
+        ));
+    }
+    cli::keep_apart_with_records(inputs.iter().map(PathBuf::as_path), [&arguments.output])?;
+    let mut report = Report {
+        title: arguments.title,
+        runs: all(&arguments.run, RunFolder::read)?,
+        tables: all(&arguments.table, Table::read)?,
+        pictures: all(&arguments.picture, Picture::read)?,
+        scenes: all(&arguments.state, Scene::read)?,
+        provenance: String::new(),
+    };
+    // What was read has an end.
+    let hashed = inputs.iter().map(|path| {
+        let unreadable = |e| Failure::data(format!("cannot read '{}': {e}", path.display()));
+        InputRecord::of_file(path).map_err(unreadable)
+    });
+    let hashed = hashed.collect::<Result<_, _>>()?;
+    let record = Record::new(env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"), hashed);
+    report.provenance = record.to_json();
+    let page = report.to_html();
+    let write = |out: &mut dyn std::io::Write| out.write_all(page.as_bytes());
+    arguments.output.write_with_record(&record, write)?;
+    let size = page.len() as f64 / 1e6;
+    cli::note(format!("{}: {size:.1} MB", arguments.output));
+    Ok(())
+}
+
+fn all<T>(given: &[Labelled], read: fn(&Labelled) -> Result<T, Error>) -> Result<Vec<T>, Failure> {
+    given
+        .iter()
+        .map(read)
+        .collect::<Result<_, _>>()
+        .map_err(Failure::data)
+}
+
+/// The files read.
+fn inputs(arguments: &Arguments) -> Vec<PathBuf> {
+    let of_runs = arguments
+        .run
+        .iter()
+        .flat_map(|run| ["summary.json", "resolved.toml"].map(|name| run.path.join(name)));
+    let others = [&arguments.table, &arguments.picture, &arguments.state];
+    let others = others.into_iter().flatten().map(|file| file.path.clone());
+    of_runs.chain(others).collect()
+}
+
+/// `LABEL=PATH`, or a path alone, which is its own label. Paths need not be UTF-8.
+fn labelled() -> impl TypedValueParser<Value = Labelled> {
+    OsStringValueParser::new().try_map(|text| {
+        let bytes = text.as_bytes();
+        let (label, path) = match bytes.iter().position(|b| *b == b'=') {
+            Some(at) => (
+                String::from_utf8_lossy(&bytes[..at]).into_owned(),
+                OsStr::from_bytes(&bytes[at + 1..]),
+            ),
+            None => (text.display().to_string(), text.as_os_str()),
+        };
+        match path.is_empty() || label.is_empty() {
+            true => Err(format!(
+                "'{}' needs a label and a path, as in FLIP=out/pf-flip",
+                text.display()
+            )),
+            false => Ok(Labelled {
+                label,
+                path: Path::new(path).to_owned(),
+            }),
+        }
+    })
+}
