@@ -6,6 +6,7 @@
 //! are not there: a missing column or an empty file is an [`Error`].
 
 mod axes;
+mod bitmap;
 mod cell_error;
 mod closing;
 mod clouds;
@@ -13,13 +14,18 @@ mod colour;
 mod colour_bar;
 mod drawing;
 mod error;
+mod frame;
 mod legend;
+mod measure;
+mod page;
 mod panels;
+mod pdf;
 mod plot;
 mod raster;
-mod render;
+mod replay;
 mod shear_rate;
 mod slice;
+mod svg;
 mod table;
 mod table2;
 mod text;
@@ -28,8 +34,9 @@ mod wp_map;
 pub use cell_error::CellErrors;
 pub use closing::Closing;
 pub use clouds::{Clouds, Spot};
-pub use drawing::Drawing;
+pub use drawing::{Drawing, TextBox};
 pub use error::Error;
+pub use page::Page;
 pub use plot::{Mark, Plot};
 pub use shear_rate::ShearRates;
 pub use slice::{Colouring, Cut, Position, Slices};

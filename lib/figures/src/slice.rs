@@ -2,12 +2,15 @@ use particle_file::ParticleFile;
 use units::Axis as Direction;
 use voxels::LabelVolume;
 
-use crate::axes::{Axis, NORMAL, SMALL};
+use crate::axes::Axis;
 use crate::closing::time_unit;
-use crate::colour::{BLACK, viridis};
+use crate::colour::{BLACK, opaque, viridis};
 use crate::colour_bar;
-use crate::drawing::{Anchor, Drawing, Image};
-use crate::panels::{Panels, Room};
+use crate::drawing::{Drawing, Image};
+use crate::frame::{most_beside, room_below};
+use crate::legend::{self, Legend};
+use crate::page::Page;
+use crate::panels::{Layout, Panels, Sheet};
 use crate::raster::{Pixel, Raster};
 use crate::{Error, Labelled};
 
@@ -17,6 +20,7 @@ use crate::{Error, Labelled};
 pub struct Slices {
     panels: Vec<Panel>,
     colouring: Colouring,
+    page: Page,
 }
 
 /// What the adhesive's colour shows.
@@ -51,8 +55,11 @@ struct Panel {
     label: String,
     /// Time and place.
     detail: String,
-    /// Edges of the slice across and up, m.
+    /// Low ends and edges of the slice across and up, m.
+    low: [f64; 2],
     edges: [f64; 2],
+    /// What the axes across and up are called.
+    titles: [String; 2],
     size: [usize; 2],
     /// Row by row from the top.
     pixels: Vec<Pixel>,
@@ -63,12 +70,11 @@ const ADHESIVE: [u8; 3] = [230, 159, 0];
 /// Quantiles of the pressures that the colour scale covers: those of single material points
 /// are noisy in the explicit scheme.
 const COVERED: [f64; 2] = [0.02, 0.98];
-const ROOM: Room = Room {
-    left: 24.0,
-    above: 54.0,
-    below: 46.0,
-    column: 220.0,
-};
+/// About the least edge of a panel, logical pixels.
+const LEAST: f64 = 100.0;
+const MARGIN: f64 = 24.0;
+/// Phases by their names in the key; the adhesive's colour is in the bar where it shows a value.
+const KEY: [(&str, [u8; 3]); 3] = [("wood", WOOD), ("void", [255; 3]), ("adhesive", ADHESIVE)];
 
 impl Slices {
     /// Reads one panel per particle file.
@@ -79,67 +85,85 @@ impl Slices {
     pub fn read(states: &[Labelled], cut: Cut, colouring: Colouring) -> Result<Self, Error> {
         let read = |state| Panel::read(state, cut, colouring);
         let panels = states.iter().map(read).collect::<Result<_, _>>()?;
-        Ok(Self { panels, colouring })
+        Ok(Self {
+            panels,
+            colouring,
+            page: Page::default(),
+        })
+    }
+
+    /// The same for a page.
+    pub fn on(self, page: Page) -> Self {
+        Self { page, ..self }
     }
 
     /// The figure.
     pub fn draw(&self) -> Drawing {
-        let edges: Vec<_> = self.panels.iter().map(|panel| panel.edges).collect();
-        let longest = if edges.len() > 2 { 340.0 } else { 520.0 };
-        let panels = Panels::place(&edges, longest, ROOM);
-        let bar = match self.colouring {
-            Colouring::Plain => ROOM.left,
-            Colouring::Pressure => colour_bar::WIDTH,
+        let shades = self.shades();
+        let phases = if shades.is_some() { &KEY[..2] } else { &KEY };
+        let longest = if self.panels.len() > 2 { 340.0 } else { 480.0 };
+        let room = self.page.width().unwrap_or(longest) - 2.0 * MARGIN;
+        let key = Legend::new(phases.iter().map(|phase| phase.0), Legend::PATCH, room);
+        let sheets: Vec<Sheet> = self.panels.iter().map(Panel::sheet).collect();
+        let axes: Vec<[Axis; 2]> = self.panels.iter().map(Panel::axes).collect();
+        let most = |room: &dyn Fn(&[Axis; 2]) -> f64| axes.iter().map(room).fold(0.0, f64::max);
+        let layout = Layout {
+            top: 10.0 + key.height(),
+            longest,
+            left: most(&|axes| most_beside(&axes[1], LEAST)) + 4.0,
+            below: most(&|axes| room_below(&axes[0], LEAST)) + 8.0,
+            right: shades.as_ref().map_or(0.0, colour_bar::width),
         };
-        let mut drawing = Drawing::new((panels.right + bar) as u32, panels.bottom as u32);
-        let pressures = self.panels.iter().flat_map(|panel| &panel.pixels);
-        let pressures = pressures.filter_map(|pixel| match pixel {
-            Pixel::Adhesive(pressure) => Some(f64::from(*pressure) * 1e-6),
-            _ => None,
+        let panels = Panels::place(&sheets, layout, &self.page);
+        let natural = panels.right + layout.right;
+        let page = self
+            .page
+            .width()
+            .unwrap_or(natural.max(room + 2.0 * MARGIN));
+        let (top, height) = (panels.frames[0].top, panels.frames[0].height);
+        let height = height.max(colour_bar::LEAST);
+        let bottom = panels.bottom.max(match shades {
+            Some(_) => top + height + MARGIN,
+            None => 0.0,
         });
-        let shades = Axis::covering("pressure (MPa)", pressures, COVERED);
-        for (panel, frame) in self.panels.iter().zip(&panels.frames) {
-            let colour = |pixel: &Pixel| match (pixel, self.colouring) {
-                (Pixel::Void, _) => [255; 3],
-                (Pixel::Wood, _) => WOOD,
-                (Pixel::Adhesive(_), Colouring::Plain) => ADHESIVE,
-                (Pixel::Adhesive(pressure), Colouring::Pressure) => {
-                    viridis(shades.share(f64::from(*pressure) * 1e-6))
-                }
-            };
+        let mut drawing = Drawing::new(self.page, page, bottom);
+        key.draw(&mut drawing, [MARGIN, 8.0], |drawing, i, ends| {
+            drawing.area(legend::patch(ends), opaque(phases[i].1));
+            let mut edge = legend::patch(ends);
+            edge.push(edge[0]);
+            drawing.line(edge, BLACK, 1.0);
+        });
+        panels.draw_captions(&mut drawing);
+        for ((panel, [across, up]), frame) in self.panels.iter().zip(&axes).zip(&panels.frames) {
             drawing.images.push(Image {
                 place: [frame.left, frame.top, frame.width, frame.height],
                 size: panel.size,
-                rgb: panel.pixels.iter().flat_map(colour).collect(),
+                rgb: panel.colours(shades.as_ref()).collect(),
             });
-            frame.draw(&mut drawing, &Axis::none(), &Axis::none(), false);
-            let middle = frame.left + 0.5 * frame.width;
-            for (text, above, size) in [(&panel.label, 36.0, NORMAL), (&panel.detail, 15.0, SMALL)]
-            {
-                drawing.text(text, [middle, frame.top - above], Anchor::Centre, size);
-            }
-            let bar = scale_bar(panel.edges[0]);
-            let length = bar / panel.edges[0] * frame.width;
-            let (left, y) = (frame.left, frame.bottom() + 18.0);
-            drawing.line(vec![[left, y], [left + length, y]], BLACK, 4.0);
-            let text = format!("{:.0} µm", bar * 1e6);
-            drawing.text(text, [left + length + 10.0, y], Anchor::Left, NORMAL);
+            frame.draw(&mut drawing, across, up, false);
         }
-        if self.colouring == Colouring::Pressure {
-            let (right, height) = (panels.right, panels.height);
-            colour_bar::draw(&mut drawing, right, ROOM.above, height, &shades);
+        if let Some(shades) = &shades {
+            colour_bar::draw(&mut drawing, panels.right, top, height, shades);
         }
         drawing
     }
-}
 
-/// The longest of 1, 2, 5, 10 ... um that fits into a third of the width, m.
-fn scale_bar(width: f64) -> f64 {
-    let steps = (0..9).flat_map(|power| [1.0, 2.0, 5.0].map(|f| f * 10_f64.powi(power) * 1e-6));
-    steps
-        .take_while(|bar| *bar <= width / 3.0)
-        .last()
-        .unwrap_or(1e-6)
+    /// The scale of the pressures shown, if they are.
+    fn shades(&self) -> Option<Axis> {
+        let pixels = self.panels.iter().flat_map(|panel| &panel.pixels);
+        let pressures = pixels.filter_map(|pixel| match pixel {
+            Pixel::Adhesive(pressure) => Some(f64::from(*pressure) * 1e-6),
+            _ => None,
+        });
+        match self.colouring {
+            Colouring::Plain => None,
+            Colouring::Pressure => Some(Axis::covering(
+                "pressure of the adhesive (MPa)",
+                pressures,
+                COVERED,
+            )),
+        }
+    }
 }
 
 impl Panel {
@@ -176,9 +200,43 @@ impl Panel {
         Ok(Self {
             label: state.label.clone(),
             detail: format!("{time}{} = {:.1} µm", cut.axis, at * 1e6),
+            low: raster.axes.map(|a| low[a]),
             edges: raster.edges,
+            titles: raster.axes.map(|a| {
+                let normal = a == usize::from(file.header().normal);
+                let across = if normal { ", across the bond" } else { "" };
+                format!("{}{across} (µm)", ["x", "y", "z"][a])
+            }),
             size: raster.size,
             pixels: raster.pixels,
         })
+    }
+
+    fn sheet(&self) -> Sheet<'_> {
+        Sheet {
+            edges: self.edges,
+            name: &self.label,
+            detail: &self.detail,
+        }
+    }
+
+    /// Across and up, um.
+    fn axes(&self) -> [Axis; 2] {
+        [0, 1].map(|i| {
+            let ends = [self.low[i], self.low[i] + self.edges[i]].map(|x| x * 1e6);
+            Axis::exact(self.titles[i].as_str(), ends[0], ends[1])
+        })
+    }
+
+    fn colours<'a>(&'a self, shades: Option<&'a Axis>) -> impl Iterator<Item = u8> + 'a {
+        let colour = move |pixel: &Pixel| match (pixel, shades) {
+            (Pixel::Void, _) => [255; 3],
+            (Pixel::Wood, _) => WOOD,
+            (Pixel::Adhesive(_), None) => ADHESIVE,
+            (Pixel::Adhesive(pressure), Some(shades)) => {
+                viridis(shades.share(f64::from(*pressure) * 1e-6))
+            }
+        };
+        self.pixels.iter().flat_map(colour)
     }
 }

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use cli::Output;
-use figures::{Case, Colouring, Labelled, Position};
+use figures::{Case, Colouring, Labelled, Page, Position};
 use units::{Axis, Length, Pressure, Quantity};
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -16,6 +16,7 @@ use units::{Axis, Length, Pressure, Quantity};
     after_help = "Examples:
   bond-figures pressure --run \"XPIC(5)=out/pf-xpic\" --run FLIP=out/pf-flip -o pressure.svg
   bond-figures slice start=bond.mpts end=out/pf-xpic/final.mpts --normal z -o slices.png
+  bond-figures map --map experiment=exp-map.csv --width \"84 mm\" --dpi 300 -o map.png -o map.pdf
   bond-figures table2 --experiment pf=pf.csv --run pf:xpic=out/pf-xpic/wp.csv -o table2.csv"
 )]
 pub(crate) struct Arguments {
@@ -73,11 +74,27 @@ pub(crate) enum Figure {
 
 #[derive(Args)]
 pub(crate) struct Picture {
-    /// Picture to write, .svg or .png; `-` is SVG on standard output; may be repeated
+    /// Picture to write, .svg, .png or .pdf; `-` is SVG on standard output; may be repeated
     #[arg(short, long, value_name = "FILE", required = true, value_parser = given(Target::new))]
     pub(crate) output: Vec<Target>,
+    /// Printed width, e.g. "84 mm": the figure fits itself to it with text of 7 and 8 points;
+    /// without it, as wide as it likes
+    #[arg(long, value_name = "LEN", value_parser = width)]
+    width: Option<f64>,
+    /// Pixels per inch of a PNG, 30 to 1200
+    #[arg(long, value_name = "NUMBER", default_value = "240", value_parser = dpi)]
+    dpi: f64,
     #[command(flatten)]
     common: cli::Common,
+}
+
+impl Picture {
+    pub(crate) fn page(&self) -> Page {
+        Page {
+            width_mm: self.width,
+            dpi: self.dpi,
+        }
+    }
 }
 
 #[derive(Args)]
@@ -210,6 +227,7 @@ pub(crate) struct Target {
 pub(crate) enum Format {
     Svg,
     Png,
+    Pdf,
 }
 
 impl Target {
@@ -220,9 +238,10 @@ impl Target {
             Output::File(path) => match path.extension().and_then(|e| e.to_str()) {
                 Some(e) if e.eq_ignore_ascii_case("svg") => Format::Svg,
                 Some(e) if e.eq_ignore_ascii_case("png") => Format::Png,
+                Some(e) if e.eq_ignore_ascii_case("pdf") => Format::Pdf,
                 _ => {
                     return Err(format!(
-                        "{output} is not a picture's name: it must end in .svg or .png"
+                        "{output} is not a picture's name: it must end in .svg, .png or .pdf"
                     ));
                 }
             },
@@ -306,6 +325,28 @@ fn run(text: &OsStr) -> Result<Case, String> {
     })?;
     plain(&case.adhesive).and(plain(&case.name))?;
     Ok(case)
+}
+
+/// A printed width, mm.
+fn width(text: &str) -> Result<f64, String> {
+    let length = text.parse::<Quantity<Length>>();
+    let mm = 1e3 * length.map_err(|e| e.to_string())?.si();
+    match (Page::NARROWEST..=Page::WIDEST).contains(&mm) {
+        true => Ok(mm),
+        false => Err(format!(
+            "a picture is {} to {} mm wide, not {mm} mm",
+            Page::NARROWEST,
+            Page::WIDEST
+        )),
+    }
+}
+
+fn dpi(text: &str) -> Result<f64, String> {
+    let [least, most] = Page::DPI;
+    match text.parse() {
+        Ok(dpi) if (least..=most).contains(&dpi) => Ok(dpi),
+        _ => Err(format!("'{text}' is not a number from {least} to {most}")),
+    }
 }
 
 fn position(text: &str) -> Result<Position, String> {

@@ -24,17 +24,17 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let limit = a.limit.map(|pressure| pressure.0);
             let title = a.title.as_deref().unwrap_or_default();
             let figure = Closing::read(run, finer, limit, title).map_err(failure)?;
-            write(&figure.draw(), &a.picture, &inputs)
+            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Map(a) => {
             let inputs = Inputs::new(a.map)?;
             let figure = WpMap::read(inputs.files()).map_err(failure)?;
-            write(&figure.draw(), &a.picture, &inputs)
+            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Shear(a) => {
             let inputs = Inputs::new(a.files)?;
             let figure = ShearRates::read(inputs.files()).map_err(failure)?;
-            write(&figure.draw(), &a.picture, &inputs)
+            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Slice(a) => {
             let inputs = Inputs::new(a.files)?;
@@ -43,7 +43,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
                 position: a.at,
             };
             let figure = Slices::read(inputs.files(), cut, a.colour.into()).map_err(failure)?;
-            write(&figure.draw(), &a.picture, &inputs)
+            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Table2(a) => {
             let (inputs, cases) = Inputs::of_cases(a.cases())?;
@@ -92,6 +92,7 @@ fn write(drawing: &Drawing, picture: &Picture, inputs: &Inputs) -> Result<(), Fa
         let bytes = match target.format {
             Format::Svg => drawing.to_svg().map_err(failure)?.into_bytes(),
             Format::Png => drawing.to_png().map_err(failure)?,
+            Format::Pdf => drawing.to_pdf().map_err(failure)?,
         };
         let write = |out: &mut dyn std::io::Write| out.write_all(&bytes);
         target.output.write_with_record(&record, write)?;

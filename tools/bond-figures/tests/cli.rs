@@ -180,7 +180,7 @@ fn wrong_usage_is_exit_2_with_what_is_accepted() {
     for (arguments, sentence) in [
         (
             vec!["pressure", "--run", "run", "-o", "a.jpg"],
-            "must end in .svg or .png",
+            "must end in .svg, .png or .pdf",
         ),
         (
             vec!["pressure", "--run", "=run", "-o", "a.svg"],
