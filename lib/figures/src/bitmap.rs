@@ -49,7 +49,7 @@ impl Image {
     /// The image with each pixel repeated until it has about `SMALLEST` along its longer edge.
     pub(crate) fn enlarged(&self) -> Self {
         let [columns, rows] = self.size;
-        let factor = SMALLEST.div_ceil(columns.max(rows));
+        let factor = (SMALLEST / columns.max(rows)).max(1);
         let size = [columns * factor, rows * factor];
         let mut rgb = vec![0; 3 * size[0] * size[1]];
         let place = [0.0, 0.0, size[0] as f64, size[1] as f64];

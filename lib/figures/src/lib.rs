@@ -1,12 +1,13 @@
 //! Figures and Table 2 of the pipeline, from the tools' own output files.
 //!
 //! A figure is read from data into a plain struct (`Closing`, `WpMap`, `ShearRates`,
-//! `Slices`), drawn into a [`Drawing`] and written as SVG or PNG. The font is embedded, so a
+//! `Slices`, `Views`), drawn into a [`Drawing`] and written as SVG, PNG or PDF. The font is embedded, so a
 //! machine without fonts or display gives the same picture. No chart is drawn from data that
 //! are not there: a missing column or an empty file is an [`Error`].
 
 mod axes;
 mod bitmap;
+mod camera;
 mod cell_error;
 mod closing;
 mod clouds;
@@ -25,10 +26,13 @@ mod raster;
 mod replay;
 mod shear_rate;
 mod slice;
+mod solid;
 mod svg;
 mod table;
 mod table2;
+mod table_picture;
 mod text;
+mod view;
 mod wp_map;
 
 pub use cell_error::CellErrors;
@@ -41,6 +45,7 @@ pub use plot::{Mark, Plot};
 pub use shear_rate::ShearRates;
 pub use slice::{Colouring, Cut, Position, Slices};
 pub use table2::{Case, Table2};
+pub use view::{Direction, Views, Wood};
 pub use wp_map::WpMap;
 
 use std::path::PathBuf;

@@ -51,7 +51,9 @@ pub(crate) fn shortened(text: &str, size: f64, room: f64) -> String {
 /// ellipsis stands in the last line where it has more.
 pub(crate) fn lines(text: &str, size: f64, room: f64, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    let mut words = text.split_whitespace().peekable();
+    // A blank that does not break is part of a word.
+    let blank = |c: char| c.is_whitespace() && c != '\u{a0}';
+    let mut words = text.split(blank).filter(|word| !word.is_empty()).peekable();
     while words.peek().is_some() {
         if lines.len() + 1 == most {
             let rest: Vec<&str> = words.collect();

@@ -67,10 +67,12 @@ impl Panels {
             Self::in_columns(sheets, layout, columns, natural.min(room / edges[0]), room)
         };
         // A panel has a caption, which is not to be broken to pieces.
-        let least = layout.left + GAP + 6.0 * NORMAL;
+        let least = layout.left + GAP + 4.0 * NORMAL;
         let most = ((width - layout.right) / least).clamp(1.0, count as f64) as usize;
         let distance = |panels: &Self| (panels.bottom / width / SHAPE).ln().abs();
-        let all = (1..=most).map(fitted);
+        // No column more than the rows need.
+        let even = |n: &usize| count.div_ceil(count.div_ceil(*n)) == *n;
+        let all = (1..=most).filter(even).map(fitted);
         let best = all.min_by(|a, b| distance(a).total_cmp(&distance(b)));
         best.unwrap_or_else(|| fitted(1))
     }

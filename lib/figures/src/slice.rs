@@ -193,13 +193,16 @@ impl Panel {
         let (unit, name) = time_unit(file.header().time_s);
         let time = match file.header().kind {
             particle_file::Kind::State => {
-                format!("t = {:.2} {name}, ", file.header().time_s / unit)
+                format!(
+                    "t\u{a0}=\u{a0}{:.2}\u{a0}{name}, ",
+                    file.header().time_s / unit
+                )
             }
             _ => String::new(),
         };
         Ok(Self {
             label: state.label.clone(),
-            detail: format!("{time}{} = {:.1} µm", cut.axis, at * 1e6),
+            detail: format!("{time}{}\u{a0}=\u{a0}{:.1}\u{a0}µm", cut.axis, at * 1e6),
             low: raster.axes.map(|a| low[a]),
             edges: raster.edges,
             titles: raster.axes.map(|a| {

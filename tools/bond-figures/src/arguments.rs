@@ -32,6 +32,7 @@ impl Arguments {
             Figure::Map(a) => &a.picture.common,
             Figure::Shear(a) => &a.picture.common,
             Figure::Slice(a) => &a.picture.common,
+            Figure::View(a) => &a.picture.common,
             Figure::Table2(a) => &a.common,
         }
     }
@@ -63,12 +64,19 @@ pub(crate) enum Figure {
   bond-figures slice start=bond.mpts end=final.mpts --normal x --at 40% -o ends.png
   bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg")]
     Slice(SliceArgs),
+    /// Specimens, bonds and states of a run in three dimensions (Figs. 1 and 7)
+    #[command(after_help = "Examples:
+  bond-figures view start=bond.mpts mid=run/snapshots/0004.mpts end=run/final.mpts -o fig1.png
+  bond-figures view experiment=exp.mpts FLIP=flip/final.mpts --wood hidden -o fig7.pdf
+  bond-figures view final.mpts --turn -60 --tilt 40 --width \"84 mm\" --dpi 600 -o view.png")]
+    View(ViewArgs),
     /// Weighted penetration of experiment and runs beside the paper's (Table 2)
     #[command(after_help = "Examples:
   bond-figures table2 --experiment pf=experiment.csv --run pf:xpic=xpic.csv -o table2.csv
   bond-figures table2 --run pf:flip=flip.csv --run pva-pf:flip=pva-flip.csv -o -
   wp-metrics final.mpts -o wp.csv && bond-figures table2 --run \"pf:XPIC(5)=wp.csv\" -o -
-  bond-figures table2 --run pf:implicit=wp.csv --errors errors.csv -o table2.csv")]
+  bond-figures table2 --run pf:implicit=wp.csv --errors errors.csv -o table2.csv
+  bond-figures table2 --run pf:flip=wp.csv --name pf=PF --picture t.pdf --width \"84 mm\" -o t.csv")]
     Table2(Table2Args),
 }
 
@@ -77,6 +85,15 @@ pub(crate) struct Picture {
     /// Picture to write, .svg, .png or .pdf; `-` is SVG on standard output; may be repeated
     #[arg(short, long, value_name = "FILE", required = true, value_parser = given(Target::new))]
     pub(crate) output: Vec<Target>,
+    #[command(flatten)]
+    print: Print,
+    #[command(flatten)]
+    common: cli::Common,
+}
+
+/// What a picture is printed on.
+#[derive(Args)]
+pub(crate) struct Print {
     /// Printed width, e.g. "84 mm": the figure fits itself to it with text of 7 and 8 points;
     /// without it, as wide as it likes
     #[arg(long, value_name = "LEN", value_parser = width)]
@@ -84,16 +101,20 @@ pub(crate) struct Picture {
     /// Pixels per inch of a PNG, 30 to 1200
     #[arg(long, value_name = "NUMBER", default_value = "240", value_parser = dpi)]
     dpi: f64,
-    #[command(flatten)]
-    common: cli::Common,
 }
 
-impl Picture {
+impl Print {
     pub(crate) fn page(&self) -> Page {
         Page {
             width_mm: self.width,
             dpi: self.dpi,
         }
+    }
+}
+
+impl Picture {
+    pub(crate) fn page(&self) -> Page {
+        self.print.page()
     }
 }
 
@@ -154,6 +175,26 @@ pub(crate) struct SliceArgs {
 }
 
 #[derive(Args)]
+pub(crate) struct ViewArgs {
+    /// Particle files, one panel each
+    #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
+    pub(crate) files: Vec<Labelled>,
+    /// How much of the wood is shown: none, the half away from the viewer, or all
+    #[arg(long, value_enum, default_value = "cut")]
+    pub(crate) wood: Wood,
+    /// Degrees to look from beside the front, about the axis across the bond
+    #[arg(long, value_name = "DEGREES", default_value = "35", allow_hyphen_values = true,
+          value_parser = |text: &str| degrees(text, [-360.0, 360.0]))]
+    pub(crate) turn: f64,
+    /// Degrees to look from above the bond plane
+    #[arg(long, value_name = "DEGREES", default_value = "25", allow_hyphen_values = true,
+          value_parser = |text: &str| degrees(text, [-90.0, 90.0]))]
+    pub(crate) tilt: f64,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
 pub(crate) struct Table2Args {
     /// Table of `wp-metrics` of an experiment; may be repeated
     #[arg(long, value_name = "ADHESIVE=CSV", required_unless_present = "run",
@@ -166,9 +207,17 @@ pub(crate) struct Table2Args {
     /// pressure carried on to cells of no size, and how far the other runs are from them
     #[arg(long, value_name = "CSV")]
     pub(crate) errors: Option<Output>,
+    /// The table as a picture, .svg, .png or .pdf; may be repeated
+    #[arg(long, value_name = "FILE", value_parser = given(Target::file))]
+    pub(crate) picture: Vec<Target>,
+    /// How an adhesive or a run is called in the picture; may be repeated
+    #[arg(long, value_name = "KEY=TEXT", value_parser = name)]
+    pub(crate) name: Vec<(String, String)>,
     /// CSV to write; `-` is standard output
     #[arg(short, long, value_name = "CSV")]
     pub(crate) output: Output,
+    #[command(flatten)]
+    pub(crate) print: Print,
     #[command(flatten)]
     common: cli::Common,
 }
@@ -197,6 +246,24 @@ impl From<Colour> for Colouring {
         match colour {
             Colour::Plain => Self::Plain,
             Colour::Pressure => Self::Pressure,
+        }
+    }
+}
+
+/// How much of the wood is shown.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum Wood {
+    Hidden,
+    Cut,
+    Whole,
+}
+
+impl From<Wood> for figures::Wood {
+    fn from(wood: Wood) -> Self {
+        match wood {
+            Wood::Hidden => Self::Hidden,
+            Wood::Cut => Self::Cut,
+            Wood::Whole => Self::Whole,
         }
     }
 }
@@ -248,6 +315,27 @@ impl Target {
         };
         Ok(Self { output, format })
     }
+}
+
+impl Target {
+    /// As [`Target::new`], but no standard output.
+    fn file(text: &OsStr) -> Result<Self, String> {
+        match Self::new(text)? {
+            Self {
+                output: Output::Stdout,
+                ..
+            } => Err("a picture of the table goes to a file".into()),
+            target => Ok(target),
+        }
+    }
+}
+
+fn name(text: &str) -> Result<(String, String), String> {
+    let pair = text
+        .split_once('=')
+        .filter(|(key, text)| !key.is_empty() && !text.is_empty());
+    let pair = pair.map(|(key, text)| (key.to_owned(), text.to_owned()));
+    pair.ok_or_else(|| format!("'{text}' is not KEY=TEXT, as in xpic=XPIC(5)"))
 }
 
 /// A parser of arguments that hold a path, which need not be UTF-8.
@@ -337,6 +425,15 @@ fn width(text: &str) -> Result<f64, String> {
             "a picture is {} to {} mm wide, not {mm} mm",
             Page::NARROWEST,
             Page::WIDEST
+        )),
+    }
+}
+
+fn degrees(text: &str, [least, most]: [f64; 2]) -> Result<f64, String> {
+    match text.parse() {
+        Ok(degrees) if (least..=most).contains(&degrees) => Ok(degrees),
+        _ => Err(format!(
+            "'{text}' is not an angle from {least} to {most} degrees"
         )),
     }
 }

@@ -4,7 +4,8 @@
 use std::fmt::Write as _;
 
 use figures::{
-    Closing, Clouds, Colouring, Cut, Drawing, Mark, Page, Plot, Position, ShearRates, Slices, WpMap,
+    Closing, Clouds, Colouring, Cut, Direction, Drawing, Mark, Page, Plot, Position, ShearRates,
+    Slices, Views, Wood, WpMap,
 };
 use units::Axis;
 
@@ -164,6 +165,19 @@ fn of_slices() {
             };
             let slices = Slices::read(&states, cut, Colouring::Plain).unwrap();
             slices.on(page).draw()
+        });
+    }
+}
+
+#[test]
+fn of_views() {
+    let folder = Folder::new();
+    for [turn, tilt] in [[35.0, 25.0], [-60.0, 90.0]] {
+        check("views", |names, page| {
+            let states = labelled(&folder, names, &bond());
+            let views = Views::read(&states, Wood::Cut, Direction { turn, tilt }).unwrap();
+            let dpi = Page::DPI[0];
+            views.on(Page { dpi, ..page }).draw()
         });
     }
 }

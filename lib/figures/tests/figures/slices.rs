@@ -57,7 +57,7 @@ fn slices_show_each_phase_by_its_area() {
     assert!(wood < 1e-3 * adhesive && adhesive > 1e4);
     let said = texts(&read(cut(Axis::X, Position::At(10e-6))).unwrap().draw());
     for text in [
-        "x = 10.0 µm",
+        "x\u{a0}=\u{a0}10.0\u{a0}µm",
         "z (µm)",
         "y, across the bond (µm)",
         "wood",
