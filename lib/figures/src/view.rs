@@ -6,6 +6,7 @@ use crate::camera::{Camera, View};
 use crate::closing::time_unit;
 use crate::colour::BLACK;
 use crate::drawing::{Anchor, Drawing, Image, Point};
+use crate::frame::Frame;
 use crate::measure::{self, LINE};
 use crate::page::Page;
 use crate::panels::{Layout, Panels, Sheet};
@@ -94,13 +95,9 @@ impl Views {
 
     /// The figure.
     pub fn draw(&self) -> Drawing {
-        let extent = |panel: &Panel| {
-            let [low, high] = self.camera.extent(panel.edges);
-            [high[0] - low[0], high[1] - low[1]].map(|edge| edge * panel.voxel)
-        };
-        let sheets: Vec<Sheet> = (self.panels.iter())
-            .map(|panel| Sheet {
-                edges: extent(panel),
+        let sheets: Vec<Sheet> = (self.panels.iter().enumerate())
+            .map(|(i, panel)| Sheet {
+                edges: self.extent(i),
                 name: &panel.label,
                 detail: &panel.detail,
             })
@@ -116,18 +113,42 @@ impl Views {
         let page = self.page.width().unwrap_or(panels.right.max(260.0));
         let mut drawing = Drawing::new(self.page, page, panels.bottom + STRIP);
         panels.draw_captions(&mut drawing);
-        for (panel, frame) in self.panels.iter().zip(&panels.frames) {
-            let across = (frame.width * self.page.scale()).round() as usize;
-            let View { size, rgb } = self.camera.view(&panel.solids, panel.edges, across);
-            drawing.images.push(Image {
-                place: [frame.left, frame.top, frame.width, frame.height],
-                size,
-                rgb,
-            });
+        for (i, frame) in panels.frames.iter().enumerate() {
+            self.draw_into(&mut drawing, i, frame);
         }
-        let scale = panels.frames[0].width / extent(&self.panels[0])[0];
+        let scale = panels.frames[0].width / self.extent(0)[0];
         self.draw_axes(&mut drawing, panels.bottom, scale);
         drawing
+    }
+
+    /// Width and height of a panel's view, um.
+    pub(crate) fn extent(&self, panel: usize) -> [f64; 2] {
+        let panel = &self.panels[panel];
+        let [low, high] = self.camera.extent(panel.edges);
+        [high[0] - low[0], high[1] - low[1]].map(|edge| edge * panel.voxel)
+    }
+
+    /// The axis that comes nearest to the viewer.
+    pub(crate) fn front(&self) -> usize {
+        self.camera.front
+    }
+
+    /// Which axis points where.
+    pub(crate) fn axes(&self) -> String {
+        let [right, up, front] = [2, 0, 1].map(|turn| ["x", "y", "z"][(self.normal + turn) % 3]);
+        format!("{up} up, {right} right, {front} front")
+    }
+
+    /// Draws a panel's view into a frame of its shape.
+    pub(crate) fn draw_into(&self, drawing: &mut Drawing, panel: usize, frame: &Frame) {
+        let panel = &self.panels[panel];
+        let across = (frame.width * self.page.scale()).round() as usize;
+        let View { size, rgb } = self.camera.view(&panel.solids, panel.edges, across);
+        drawing.images.push(Image {
+            place: [frame.left, frame.top, frame.width, frame.height],
+            size,
+            rgb,
+        });
     }
 
     /// The three axes as arrows of a round length, which are the scale too.

@@ -2,17 +2,19 @@
 
 mod arguments;
 mod inputs;
+mod values;
 
 use std::process::ExitCode;
 
 use cli::{Failure, Output, Record};
 use figures::{
-    Case, CellErrors, Closing, Cut, Direction, Drawing, Error, ShearRates, Slices, Table2, Views,
-    WpMap,
+    Case, CellErrors, Closing, Cut, Direction, Drawing, Error, Setup, ShearRates, Slices, Table2,
+    Views, WpMap,
 };
 
-use arguments::{Arguments, Figure, Format, Picture, Table2Args, Target};
+use arguments::{Arguments, Figure, Picture, SliceArgs, Table2Args};
 use inputs::Inputs;
+use values::{Format, Target};
 
 fn main() -> ExitCode {
     cli::main(Arguments::common, run)
@@ -39,13 +41,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let figure = ShearRates::read(inputs.files()).map_err(failure)?;
             write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
-        Figure::Slice(a) => {
-            let inputs = Inputs::new(a.files)?;
-            let cut = Cut {
-                axis: a.normal,
-                position: a.at,
-            };
-            let figure = Slices::read(inputs.files(), cut, a.colour.into()).map_err(failure)?;
+        Figure::Slice(a) => slice(a),
+        Figure::Setup(a) => {
+            let inputs = Inputs::new(vec![a.specimen, a.bond])?;
+            let files = inputs.files();
+            let figure = Setup::read(&files[0], &files[1]).map_err(failure)?;
             write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::View(a) => {
@@ -59,6 +59,22 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         Figure::Table2(a) => table2(a),
     }
+}
+
+fn slice(a: SliceArgs) -> Result<(), Failure> {
+    let inputs = Inputs::new(a.files)?;
+    let cut = Cut {
+        axis: a.normal,
+        position: a.at,
+    };
+    let mut figure = Slices::read(inputs.files(), cut, a.colour.into()).map_err(failure)?;
+    if let Some(part) = a.part {
+        figure = figure.part(part).map_err(failure)?;
+    }
+    if let Some(cell) = a.grid {
+        figure = figure.grid(cell).map_err(failure)?;
+    }
+    write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
 }
 
 fn table2(a: Table2Args) -> Result<(), Failure> {

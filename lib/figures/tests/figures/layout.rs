@@ -4,8 +4,8 @@
 use std::fmt::Write as _;
 
 use figures::{
-    Closing, Clouds, Colouring, Cut, Direction, Drawing, Mark, Page, Plot, Position, ShearRates,
-    Slices, Views, Wood, WpMap,
+    Case, Closing, Clouds, Colouring, Cut, Direction, Drawing, Mark, Page, Plot, Position, Setup,
+    ShearRates, Slices, Table2, Views, Wood, WpMap,
 };
 use units::Axis;
 
@@ -167,6 +167,45 @@ fn of_slices() {
             slices.on(page).draw()
         });
     }
+    check("slices with a grid", |names, page| {
+        let states = labelled(&folder, names, &bond());
+        let cut = Cut {
+            axis: Axis::Z,
+            position: Position::Share(0.5),
+        };
+        let slices = Slices::read(&states, cut, Colouring::Plain).unwrap();
+        let part = slices.part([[0.0, 9e-6], [20.4e-6, 31e-6]]).unwrap();
+        part.grid(2e-6).unwrap().on(page).draw()
+    });
+}
+
+#[test]
+fn of_setups_and_tables() {
+    let folder = Folder::new();
+    let bond = folder.labelled("bond", bond());
+    check("setup", |_, page| {
+        let dpi = Page::DPI[0];
+        let page = Page { dpi, ..page };
+        Setup::read(&bond, &bond).unwrap().on(page).draw()
+    });
+    let wp = folder.file(
+        "wp.csv",
+        "file,side,reference,wp_um,slab_wp_um\na,bottom,mid,1,2\na,top,mid,111.1,2\na,total,mid,,2\n",
+    );
+    check("table", |names, page| {
+        let case = |name: &String| Case {
+            adhesive: names[0].clone(),
+            name: name.clone(),
+            path: wp.clone(),
+        };
+        let known = ["xpic", "flip"].map(|name| Case {
+            adhesive: "pf".into(),
+            ..case(&name.to_owned())
+        });
+        let cases: Vec<Case> = names.iter().map(case).chain(known).collect();
+        let called = [("pf".to_owned(), WORD.to_owned())].into();
+        Table2::read(&cases).unwrap().draw(&called, page)
+    });
 }
 
 #[test]

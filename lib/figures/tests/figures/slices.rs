@@ -72,3 +72,35 @@ fn slices_show_each_phase_by_its_area() {
     let foreign = Slices::read(&[nothing], middle, figures::Colouring::Plain).unwrap_err();
     assert!(matches!(foreign, Error::Data(_)), "{foreign}");
 }
+
+/// Lines of a grid of 5 um over voxels of 1 um, and a part of 10 x 12 of them.
+#[test]
+fn a_part_is_cut_to_voxels_and_the_grid_begins_at_the_box() {
+    let folder = Folder::new();
+    let state = folder.labelled("bond", bond());
+    let cut = Cut {
+        axis: Axis::Z,
+        position: Position::Share(0.5),
+    };
+    let slices = Slices::read(&[state], cut, figures::Colouring::Plain).unwrap();
+    assert!(slices.clone().grid(1e-8).is_err());
+    let beside = [[50e-6, 60e-6], [0.0, 1e-6]];
+    assert!(matches!(
+        slices.clone().part(beside),
+        Err(Error::Request(_))
+    ));
+    // Wood up to y = 20, the slab from 27: 10 rows of wood, 7 of void, 3 of adhesive.
+    let part = slices.part([[3e-6, 13e-6], [10e-6, 30e-6]]).unwrap();
+    let (_, found) = pixels(&part.clone().draw());
+    let count = |c| found.iter().filter(|p| **p == c).count() as f64 - 42.0 * 26.0;
+    let ratio = count([150, 150, 150]) / count([230, 159, 0]);
+    println!("wood over adhesive {ratio:.3} (10 rows over 3)");
+    assert!((ratio - 10.0 / 3.0).abs() < 0.05);
+    let svg = part.grid(5e-6).unwrap().draw().to_svg().unwrap();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let lines = document
+        .descendants()
+        .filter(|n| n.attribute("stroke") == Some("#003C8C"));
+    // x = 5 and 10, y = 10 to 30 by 5, and a cell of the key.
+    assert_eq!(lines.count(), 2 + 5 + 7);
+}
