@@ -20,7 +20,8 @@
 #   make pins                     fingerprints of thirty small runs, to compare builds by
 #   make bench                    cost per cell and step, memory; BASE=folder: beside an older build
 #   make kernels                  speed of the explicit kernels and of the linear solver alone
-#   make figures man install clean help
+#   make figures                  every figure of the paper; FORMATS="svg png pdf" FIGURE_WIDTH="84 mm" FIGURE_DPI=300
+#   make man install clean help
 
 .DELETE_ON_ERROR:
 # Specimens and bond files on the way are kept: they are looked at and used again.
@@ -57,7 +58,7 @@ include pipelines/65-gate.mk
 
 .PHONY: help
 help:
-	@sed -n '3,22s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
+	@sed -n '3,24s/^# \{0,1\}//p' $(firstword $(MAKEFILE_LIST))
 
 .PHONY: clean
 clean:

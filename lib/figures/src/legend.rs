@@ -59,6 +59,8 @@ pub(crate) struct Legend {
     /// Length of a sample.
     sample: f64,
     rows: f64,
+    /// Right end of the longest row.
+    width: f64,
 }
 
 impl Legend {
@@ -73,7 +75,7 @@ impl Legend {
         sample: f64,
         width: f64,
     ) -> Self {
-        let mut next = [0.0, 0.0];
+        let (mut next, mut longest) = ([0.0, 0.0], 0.0_f64);
         let place = |label| {
             let label = measure::shortened(label, NORMAL, width - sample - BESIDE);
             let entry = sample + BESIDE + measure::width(&label, NORMAL);
@@ -82,6 +84,7 @@ impl Legend {
             }
             let place = next;
             next[0] += entry + BETWEEN;
+            longest = longest.max(next[0] - BETWEEN);
             (label, place)
         };
         let entries: Vec<_> = labels.into_iter().map(place).collect();
@@ -90,7 +93,13 @@ impl Legend {
             entries,
             sample,
             rows,
+            width: longest,
         }
+    }
+
+    /// Width of the longest row.
+    pub(crate) fn width(&self) -> f64 {
+        self.width
     }
 
     /// Height of all rows.

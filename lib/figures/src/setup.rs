@@ -82,7 +82,10 @@ impl Setup {
         let slices = self.slices.iter().map(Section::sheet);
         let sheets: Vec<Sheet> = [first].into_iter().chain(slices).collect();
         let panels = Panels::place(&sheets, layout, &self.page);
-        let page = self.page.width().unwrap_or(panels.right);
+        let page = self
+            .page
+            .width()
+            .unwrap_or(panels.right.max(key.width() + 2.0 * MARGIN));
         let mut drawing = Drawing::new(self.page, page, panels.bottom);
         key.draw(&mut drawing, [MARGIN, 8.0], |drawing, i, ends| {
             section::patch(drawing, KEY[i].1, ends);

@@ -38,7 +38,7 @@ const BANDS: [(usize, usize, &str, f64); 3] = [
 ];
 
 /// Widest and narrowest panel, logical pixels.
-const PANEL: [f64; 2] = [530.0, 250.0];
+const PANEL: [f64; 2] = [590.0, 250.0];
 const BETWEEN: f64 = 30.0;
 const MARGIN: f64 = 24.0;
 /// Most panels side by side.
@@ -85,7 +85,7 @@ impl ShearRates {
         let natural = outer + MARGIN + columns as f64 * (PANEL[0] + between) - between;
         let page = self.page.width().unwrap_or(natural);
         let width = room(page, columns as f64);
-        let height = (0.66 * width).max(200.0);
+        let height = (0.62 * width).max(200.0);
         let key = key(page - 2.0 * MARGIN);
         let title = |panel: &Panel| measure::lines(&panel.label, NORMAL, width + 1.8 * MARGIN, 3);
         let below = room_below(&self.panels[0].time_axis().0, width) + 6.0;

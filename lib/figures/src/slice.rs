@@ -128,7 +128,7 @@ impl Slices {
         );
         let sheets: Vec<Sheet> = self.sections.iter().map(Section::sheet).collect();
         let panels = Panels::place(&sheets, layout, &self.page);
-        let natural = (panels.right + layout.right).max(room + 2.0 * MARGIN);
+        let natural = (panels.right + layout.right).max(key.width() + 2.0 * MARGIN);
         let page = self.page.width().unwrap_or(natural);
         let (top, height) = (panels.frames[0].top, panels.frames[0].height);
         let height = height.max(colour_bar::LEAST);

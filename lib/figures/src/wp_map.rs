@@ -85,7 +85,9 @@ impl WpMap {
             right: colour_bar::width(&shades),
         };
         let panels = Panels::place(&sheets, layout, &self.page);
-        let page = (self.page.width()).unwrap_or(panels.right + layout.right);
+        let page = (self.page.width())
+            .unwrap_or(panels.right + layout.right)
+            .max(key.width() + 2.0 * MARGIN);
         let first = &panels.frames[0];
         let (top, height) = (first.top, first.height.max(colour_bar::LEAST));
         let bottom = panels.bottom.max(top + height + MARGIN);
