@@ -191,14 +191,14 @@ fn averaged(pixels: &[[u8; 3]], width: usize) -> View {
     let mut rgb = Vec::with_capacity(3 * size[0] * size[1]);
     for row in 0..size[1] {
         for column in 0..size[0] {
-            for channel in 0..3 {
+            let mean = |channel: usize| {
                 let value = |i: usize| {
                     let at = (row * RAYS + i / RAYS) * width + column * RAYS + i % RAYS;
                     usize::from(pixels[at][channel])
                 };
-                let sum: usize = (0..RAYS * RAYS).map(value).sum();
-                rgb.push((sum / (RAYS * RAYS)) as u8);
-            }
+                (0..RAYS * RAYS).map(value).sum::<usize>() / (RAYS * RAYS)
+            };
+            rgb.extend([0, 1, 2].map(|channel| mean(channel) as u8));
         }
     }
     View { size, rgb }

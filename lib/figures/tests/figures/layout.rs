@@ -80,8 +80,7 @@ fn check(kind: &str, draw: impl Fn(&[String], Page) -> Drawing) {
             ));
         }
     }
-    println!("{}", all.join("\n"));
-    assert!(all.is_empty(), "{} faults, first: {}", all.len(), all[0]);
+    assert!(all.is_empty(), "{} faults:\n{}", all.len(), all.join("\n"));
 }
 
 fn labelled(folder: &Folder, names: &[String], content: &[u8]) -> Vec<figures::Labelled> {
