@@ -54,6 +54,8 @@ struct Panel {
 }
 
 const MARGIN: f64 = 12.0;
+/// Most pixels of a panel's view, however fine the page: each takes 200 bytes on the way.
+const MOST_PIXELS: f64 = 2e6;
 /// Height of the strip with the axes.
 const STRIP: f64 = 92.0;
 
@@ -142,7 +144,8 @@ impl Views {
     /// Draws a panel's view into a frame of its shape.
     pub(crate) fn draw_into(&self, drawing: &mut Drawing, panel: usize, frame: &Frame) {
         let panel = &self.panels[panel];
-        let across = (frame.width * self.page.scale()).round() as usize;
+        let most = (MOST_PIXELS * frame.width / frame.height).sqrt();
+        let across = (frame.width * self.page.scale()).round().min(most) as usize;
         let View { size, rgb } = self.camera.view(&panel.solids, panel.edges, across);
         drawing.images.push(Image {
             place: [frame.left, frame.top, frame.width, frame.height],

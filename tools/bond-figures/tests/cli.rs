@@ -201,6 +201,8 @@ fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
         ["map", "--map", "wp.csv", "-o", "bad.svg"],
         ["shear", "wp.csv", "-q", "-o", "bad.svg"],
         ["slice", "wp.csv", "-q", "-o", "bad.svg"],
+        ["view", "wp.csv", "-q", "-o", "bad.svg"],
+        ["setup", "wp.csv", "wp.csv", "-o", "bad.svg"],
     ] {
         let output = figures(folder.path(), &arguments);
         assert_eq!(
