@@ -28,7 +28,8 @@
 #   make kernels                  speed of the explicit kernels and of the linear solver alone
 #   make report                   one page for a browser with tables, figures, runs and the bond in 3D
 #   make book                     the documents as one book to browse and search; needs mdbook
-#   make figures man install clean help
+#   make figures                  every figure of the paper; FORMATS="svg png pdf" FIGURE_WIDTH="84 mm" FIGURE_DPI=300
+#   make man install clean help
 
 .DELETE_ON_ERROR:
 # Specimens and bond files on the way are kept: they are looked at and used again.

@@ -16,10 +16,10 @@ $(OUT)/%/experiment.csv: $(OUT)/%/experiment.mpts $(BIN)/wp-metrics
 $(OUT)/%/shear.csv: $(OUT)/%/final.mpts $(BIN)/shear-stats
 	$(BIN)/shear-stats $(@D)/snapshots/*.mpts $< -o $@
 
+TABLE2 = $(if $(EXPERIMENTS),$(foreach a,$(ADHESIVES),--experiment $(a)=$(OUT)/$(a)/experiment.csv)) \
+    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run $(a):$(r)=$(OUT)/$(a)/$(r)/wp.csv))
 $(OUT)/table2.csv: $(METRICS) $(EXPERIMENTS) $(BIN)/bond-figures
-	$(BIN)/bond-figures table2 \
-	    $(if $(EXPERIMENTS),$(foreach a,$(ADHESIVES),--experiment $(a)=$(OUT)/$(a)/experiment.csv)) \
-	    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run $(a):$(r)=$(OUT)/$(a)/$(r)/wp.csv)) \
+	$(BIN)/bond-figures table2 $(TABLE2) \
 	    $(if $(FINER),--errors $(OUT)/errors.csv) -o $@
 
 # The bond files and runs come first and side by side; what follows is quick.

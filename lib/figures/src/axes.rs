@@ -1,5 +1,4 @@
-use crate::colour::{BLACK, FAINT};
-use crate::drawing::{Anchor, Drawing, Point};
+use crate::measure;
 
 /// Height of the text at the ticks and of titles, logical pixels.
 pub(crate) const SMALL: f64 = 15.0;
@@ -24,7 +23,7 @@ impl Axis {
         } else {
             0.5 * high.abs().max(1.0)
         };
-        let step = nice_step(high + pad - (low - pad));
+        let step = nice_step(high + pad - (low - pad), STEPS);
         Self {
             title: title.into(),
             low: ((low - pad) / step).floor() * step,
@@ -77,6 +76,14 @@ impl Axis {
         axis
     }
 
+    /// The same axis without its title.
+    pub(crate) fn untitled(&self) -> Self {
+        Self {
+            title: String::new(),
+            ..self.clone()
+        }
+    }
+
     /// An axis without ticks.
     pub(crate) fn none() -> Self {
         Self::exact(String::new(), 0.0, 0.0)
@@ -108,31 +115,77 @@ impl Axis {
         ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0)
     }
 
-    /// Ticks as share of the axis and text.
-    pub(crate) fn ticks(&self) -> Vec<(f64, String)> {
-        if self.logarithmic {
-            let decades = self.low as i32..=self.high as i32;
-            let text = |d: i32| match d {
-                0..=3 => format!("{}", 10_i32.pow(d as u32)),
-                _ => format!("1e{d}"),
-            };
-            return decades
-                .map(|d| ((f64::from(d) - self.low) / (self.high - self.low), text(d)))
-                .collect();
-        }
+    /// Ticks as share of the axis and text, as many as have room side by side on an axis `length`
+    /// long; texts stand along the axis or, `across` it, one above the other.
+    pub(crate) fn ticks(&self, length: f64, across: bool) -> Vec<(f64, String)> {
         if self.high <= self.low {
             return Vec::new();
         }
-        let step = nice_step(self.high - self.low);
-        let decimals = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
+        let room = |text: &String| match across {
+            true => 1.1 * SMALL,
+            false => measure::width(text, SMALL) + 0.6 * SMALL,
+        };
+        let fit = |ticks: &[(f64, String)]| {
+            let pairs = ticks.windows(2);
+            pairs.into_iter().all(|pair| {
+                let apart = (pair[1].0 - pair[0].0) * length;
+                apart >= 0.5 * (room(&pair[0].1) + room(&pair[1].1))
+            })
+        };
+        let mut parts = STEPS;
+        let mut ticks = self.in_steps(parts);
+        while ticks.len() > 1 && !fit(&ticks) {
+            parts *= 0.7;
+            ticks = self.in_steps(parts);
+        }
+        ticks
+    }
+
+    /// Ticks in about so many steps.
+    fn in_steps(&self, parts: f64) -> Vec<(f64, String)> {
+        let step = match self.logarithmic {
+            true => ((self.high - self.low) / parts).ceil(),
+            false => nice_step(self.high - self.low, parts),
+        };
         let first = (self.low / step - 1e-9).ceil() as i64;
         let last = (self.high / step + 1e-9).floor() as i64;
-        let tick = |i: i64| {
-            let value = i as f64 * step;
-            (self.share(value), format!("{value:.decimals$}"))
-        };
-        (first..=last).map(tick).collect()
+        let values = (first..=last).map(|i| i as f64 * step);
+        let share = |value: f64| ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0);
+        if self.logarithmic {
+            // One way of writing for all of an axis.
+            let plain = self.low >= -2.0 && self.high <= 3.0;
+            let text = |decade: f64| match plain {
+                true => format!("{}", 10_f64.powf(decade)),
+                false => power_of_ten(decade as i32),
+            };
+            return values.map(|d| (share(d), text(d))).collect();
+        }
+        let decimals = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
+        let text = |value: f64| format!("{value:.decimals$}");
+        values.map(|v| (share(v), text(v))).collect()
     }
+}
+
+/// `10⁴`, `10⁻²`.
+fn power_of_ten(exponent: i32) -> String {
+    let raised = |digit| match digit {
+        '-' => '⁻',
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        _ => '⁹',
+    };
+    let digits = exponent.to_string();
+    ['1', '0']
+        .into_iter()
+        .chain(digits.chars().map(raised))
+        .collect()
 }
 
 const MOST_DECADES: f64 = 5.0;
@@ -148,85 +201,14 @@ pub(crate) fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
     if low <= high { (low, high) } else { (0.0, 1.0) }
 }
 
-/// A step of 1, 2 or 5 times a power of ten that divides `span` into about `STEPS` parts.
-fn nice_step(span: f64) -> f64 {
-    let raw = (span / STEPS).max(f64::MIN_POSITIVE);
+/// A step of 1, 2 or 5 times a power of ten that divides `span` into about so many parts.
+fn nice_step(span: f64, parts: f64) -> f64 {
+    let raw = (span / parts).max(f64::MIN_POSITIVE);
     let power = 10_f64.powf(raw.log10().floor());
     let factor = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
         .find(|f| f * power >= raw * (1.0 - 1e-9));
     power * factor.unwrap_or(10.0)
-}
-
-/// A rectangle of the drawing with an x and a y axis.
-#[derive(Clone, Debug)]
-pub(crate) struct Frame {
-    pub(crate) left: f64,
-    pub(crate) top: f64,
-    pub(crate) width: f64,
-    pub(crate) height: f64,
-}
-
-impl Frame {
-    /// Where a value pair lies.
-    pub(crate) fn place(&self, x: &Axis, y: &Axis, value: [f64; 2]) -> Point {
-        [
-            self.left + x.share(value[0]) * self.width,
-            self.top + (1.0 - y.share(value[1])) * self.height,
-        ]
-    }
-
-    pub(crate) fn bottom(&self) -> f64 {
-        self.top + self.height
-    }
-
-    pub(crate) fn right(&self) -> f64 {
-        self.left + self.width
-    }
-
-    /// Frame, grid lines, ticks and tick texts; titles where an axis has one. With
-    /// `grid = false` the ticks point outwards and no lines cross the frame (for maps).
-    pub(crate) fn draw(&self, drawing: &mut Drawing, x: &Axis, y: &Axis, grid: bool) {
-        let (bottom, right) = (self.bottom(), self.right());
-        for (share, text) in x.ticks() {
-            let at = self.left + share * self.width;
-            if grid {
-                drawing.line(vec![[at, self.top], [at, bottom]], FAINT, 1.0);
-            }
-            drawing.line(vec![[at, bottom], [at, bottom + 5.0]], BLACK, 1.0);
-            drawing.text(text, [at, bottom + 16.0], Anchor::Centre, SMALL);
-        }
-        let mut widest = 0;
-        for (share, text) in y.ticks() {
-            let at = bottom - share * self.height;
-            if grid {
-                drawing.line(vec![[self.left, at], [right, at]], FAINT, 1.0);
-            }
-            drawing.line(vec![[self.left - 5.0, at], [self.left, at]], BLACK, 1.0);
-            widest = widest.max(text.chars().count());
-            drawing.text(text, [self.left - 9.0, at], Anchor::Right, SMALL);
-        }
-        drawing.line(
-            vec![
-                [self.left, self.top],
-                [right, self.top],
-                [right, bottom],
-                [self.left, bottom],
-                [self.left, self.top],
-            ],
-            BLACK,
-            1.0,
-        );
-        if !x.title.is_empty() {
-            let middle = self.left + 0.5 * self.width;
-            drawing.text(&x.title, [middle, bottom + 38.0], Anchor::Centre, NORMAL);
-        }
-        if !y.title.is_empty() {
-            let beside = self.left - 26.0 - 0.5 * SMALL * widest as f64;
-            let middle = self.top + 0.5 * self.height;
-            drawing.text(&y.title, [beside, middle], Anchor::Upwards, NORMAL);
-        }
-    }
 }
 
 #[cfg(test)]
@@ -236,13 +218,18 @@ mod tests {
     #[test]
     fn ticks_are_round_and_inside() {
         let axis = Axis::linear("", [0.03, 2.61].into_iter());
-        let texts: Vec<String> = axis.ticks().into_iter().map(|t| t.1).collect();
-        assert_eq!(texts, ["0", "1", "2", "3"]);
-        assert!(axis.ticks().iter().all(|t| (0.0..=1.0).contains(&t.0)));
+        let texts = |length| -> Vec<String> {
+            let ticks = axis.ticks(length, false);
+            assert!(ticks.iter().all(|t| (0.0..=1.0).contains(&t.0)));
+            ticks.into_iter().map(|t| t.1).collect()
+        };
+        assert_eq!(texts(300.0), ["0", "1", "2", "3"]);
+        assert_eq!(texts(40.0), ["0", "2"]);
+        assert_eq!(texts(1.0), ["0"]);
         let one = Axis::linear("", [7.0].into_iter());
         assert!(one.share(7.0) > 0.2 && one.share(7.0) < 0.8);
         let none = Axis::linear("", [f64::NAN].into_iter());
-        assert!(none.ticks().len() > 2);
+        assert!(none.ticks(300.0, false).len() > 2);
     }
 
     #[test]
@@ -252,7 +239,13 @@ mod tests {
         assert_eq!(axis.share(1e6), 1.0);
         assert!((axis.share(1e3) - 0.4).abs() < 1e-12);
         assert_eq!(axis.share(0.0), 0.0);
-        assert_eq!(axis.ticks().len(), 6);
+        let texts = |axis: &Axis| -> Vec<String> {
+            let ticks = axis.ticks(300.0, true).into_iter();
+            ticks.map(|tick| tick.1).collect()
+        };
+        assert_eq!(texts(&axis), ["10¹", "10²", "10³", "10⁴", "10⁵", "10⁶"]);
+        let small = Axis::logarithmic("", [0.012, 30.0].into_iter());
+        assert_eq!(texts(&small), ["0.01", "0.1", "1", "10", "100"]);
     }
 
     #[test]

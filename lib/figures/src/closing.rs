@@ -1,7 +1,10 @@
-use crate::axes::{Axis, Frame, NORMAL, extent};
-use crate::colour::{BLACK, DISTINCT, faded, series};
+use crate::axes::{Axis, NORMAL, SMALL, extent};
+use crate::colour::{BLACK, DISTINCT, faded, opaque, series};
 use crate::drawing::{Anchor, Drawing, Point};
-use crate::legend::{self, Stroke};
+use crate::frame::{Frame, room_below, room_beside};
+use crate::legend::{Legend, Stroke};
+use crate::measure;
+use crate::page::Page;
 use crate::table::Table;
 use crate::{Error, Labelled};
 
@@ -12,6 +15,7 @@ pub struct Closing {
     runs: Vec<Run>,
     limit: Option<f64>,
     title: String,
+    page: Page,
 }
 
 #[derive(Clone, Debug)]
@@ -27,11 +31,19 @@ struct Run {
     speed: Vec<f64>,
 }
 
-const WIDTH: u32 = 800;
-const LEFT: f64 = 84.0;
+/// The four axes of the figure.
+struct Axes {
+    /// Time over the pressure, without a title, and below the speed.
+    above: Axis,
+    below: Axis,
+    pressure: Axis,
+    speed: Axis,
+    /// Unit of time, s.
+    unit: f64,
+}
+
+const WIDTH: f64 = 800.0;
 const RIGHT: f64 = 24.0;
-const PRESSURE_HEIGHT: f64 = 300.0;
-const SPEED_HEIGHT: f64 = 150.0;
 
 impl Closing {
     /// Reads the histories of runs, and of some of them in cells half as large, by the same label: what
@@ -74,39 +86,51 @@ impl Closing {
             runs,
             limit,
             title: title.into(),
+            page: Page::default(),
         })
+    }
+
+    /// The same for a page.
+    pub fn on(self, page: Page) -> Self {
+        Self { page, ..self }
     }
 
     /// The figure.
     pub fn draw(&self) -> Drawing {
-        let labels: Vec<&str> = self.runs.iter().map(|run| run.label.as_str()).collect();
-        let width = f64::from(WIDTH) - LEFT - RIGHT;
-        let title_height = if self.title.is_empty() { 10.0 } else { 36.0 };
-        let top = title_height + legend::height(&labels, width) + 10.0;
+        let page = self.page.width().unwrap_or(WIDTH);
+        let axes = self.axes();
+        let heights = [(0.375 * page).max(170.0), (0.1875 * page).max(120.0)];
+        let left = [(&axes.pressure, heights[0]), (&axes.speed, heights[1])]
+            .map(|(axis, height)| room_beside(axis, height));
+        let left = left[0].max(left[1]) + 4.0;
+        let width = page - left - RIGHT;
+        let title = measure::lines(&self.title, NORMAL + 2.0, page - 2.0 * RIGHT, 3);
+        let title_height = 10.0 + 1.4 * NORMAL * title.len() as f64;
+        let labels = self.runs.iter().map(|run| run.label.as_str());
+        let legend = Legend::new(labels, Legend::LINE, width);
         let frame = |top, height| Frame {
-            left: LEFT,
+            left,
             top,
             width,
             height,
         };
-        let upper = frame(top, PRESSURE_HEIGHT);
-        let lower = frame(upper.bottom() + 34.0, SPEED_HEIGHT);
-        let mut drawing = Drawing::new(WIDTH, (lower.bottom() + 56.0) as u32);
-        if !self.title.is_empty() {
-            let middle = LEFT + 0.5 * width;
-            drawing.text(&self.title, [middle, 20.0], Anchor::Centre, NORMAL + 2.0);
-        }
-        legend::draw(&mut drawing, &labels, LEFT, title_height, width);
-        self.plot(&mut drawing, &upper, &lower);
+        let upper = frame(title_height + legend.height() + 10.0, heights[0]);
+        let lower = frame(upper.bottom() + 34.0, heights[1]);
+        let height = lower.bottom() + room_below(&axes.below, width) + 4.0;
+        let mut drawing = Drawing::new(self.page, page, height);
+        drawing.lines(&title, [0.5 * page, 20.0], Anchor::Centre, NORMAL + 2.0);
+        legend.draw(&mut drawing, [left, title_height], |drawing, i, ends| {
+            Stroke::of_series(i).draw(drawing, &ends);
+        });
+        self.plot(&mut drawing, &axes, &upper, &lower);
         drawing
     }
 
-    fn plot(&self, drawing: &mut Drawing, upper: &Frame, lower: &Frame) {
+    fn axes(&self) -> Axes {
         let times = || self.runs.iter().flat_map(|run| run.time.iter().copied());
         let (unit, name) = time_unit(extent(times()).1);
         let (first, last) = extent(times());
         let time = |title: String| Axis::over(title, first.min(0.0) / unit, last / unit);
-        let (above, below) = (time(String::new()), time(format!("time ({name})")));
         let pressures = self.runs.iter().flat_map(|run| run.pressure.iter());
         let bands = self.runs.iter().flat_map(|run| &run.band);
         let bands = bands.flat_map(|[_, low, high]| [*low, *high]);
@@ -115,19 +139,24 @@ impl Closing {
             .chain(bands)
             .chain(self.limit)
             .chain([0.0]);
-        // Room above the limit and the full speed, which else lie on the frame.
-        let roomy = |title: &str, (low, high): (f64, f64)| Axis::over(title, low, 1.08 * high);
-        let pressure = roomy("pressure (MPa)", extent(pressures.map(|p| p * 1e-6)));
+        // Room above the limit, for its name, and the full speed, which else lie on the frame.
+        let roomy = |title: &str, (low, high): (f64, f64)| Axis::over(title, low, 1.12 * high);
         let speeds = self.runs.iter().flat_map(|run| run.speed.iter().copied());
-        let speed = roomy("closing speed (m/s)", extent(speeds.chain([0.0])));
-        upper.draw(drawing, &above, &pressure, true);
-        lower.draw(drawing, &below, &speed, true);
-        if let Some(limit) = self.limit {
-            let ends = [0.0, f64::MAX].map(|t| upper.place(&above, &pressure, [t, limit * 1e-6]));
-            drawing.dashes(&ends, BLACK, 1.2, [4.0, 4.0]);
+        Axes {
+            above: time(String::new()),
+            below: time(format!("time ({name})")),
+            pressure: roomy("pressure (MPa)", extent(pressures.map(|p| p * 1e-6))),
+            speed: roomy("closing speed (m/s)", extent(speeds.chain([0.0]))),
+            unit,
         }
+    }
+
+    fn plot(&self, drawing: &mut Drawing, axes: &Axes, upper: &Frame, lower: &Frame) {
+        upper.draw(drawing, &axes.above, &axes.pressure, true);
+        lower.draw(drawing, &axes.below, &axes.speed, true);
+        let end =
+            |t: f64, p: f64| upper.place(&axes.above, &axes.pressure, [t / axes.unit, p * 1e-6]);
         for (i, run) in self.runs.iter().enumerate() {
-            let end = |t: f64, p: f64| upper.place(&above, &pressure, [t / unit, p * 1e-6]);
             let lower_ends = run.band.iter().map(|&[t, low, _]| end(t, low));
             let upper_ends = run.band.iter().rev().map(|&[t, _, high]| end(t, high));
             drawing.area(
@@ -139,13 +168,36 @@ impl Closing {
             let stroke = Stroke::of_series(i);
             let line = |frame: &Frame, y: &Axis, values: &[f64], scale: f64| {
                 let pairs = run.time.iter().zip(values);
-                let place = |(t, v): (&f64, &f64)| frame.place(&above, y, [t / unit, v * scale]);
+                let place =
+                    |(t, v): (&f64, &f64)| frame.place(&axes.above, y, [t / axes.unit, v * scale]);
                 thinned(pairs.map(place))
             };
-            stroke.draw(drawing, &line(upper, &pressure, &run.pressure, 1e-6));
-            stroke.draw(drawing, &line(lower, &speed, &run.speed, 1.0));
+            stroke.draw(drawing, &line(upper, &axes.pressure, &run.pressure, 1e-6));
+            stroke.draw(drawing, &line(lower, &axes.speed, &run.speed, 1.0));
+        }
+        if let Some(limit) = self.limit {
+            let ends = [0.0, f64::MAX].map(|t| end(t, limit));
+            drawing.dashes(&ends, BLACK, 1.2, [4.0, 4.0]);
+            name_limit(drawing, upper, ends[0][1], limit);
         }
     }
+}
+
+/// Says what the dashed line at height `y` is, on the side of it where there is room.
+fn name_limit(drawing: &mut Drawing, frame: &Frame, y: f64, limit: f64) {
+    let text = format!("pressure limit, {} MPa", (limit * 1e-6) as f32);
+    let text = measure::shortened(&text, SMALL, frame.width - 12.0);
+    let up = if y - frame.top < 1.3 * SMALL {
+        1.0
+    } else {
+        -1.0
+    };
+    let (right, y) = (frame.right() - 6.0, y + 0.75 * up * SMALL);
+    let left = right - measure::width(&text, SMALL);
+    let [above, below] = [y - 0.5 * SMALL, y + 0.55 * SMALL];
+    let ground = [[left, above], [right, above], [right, below], [left, below]];
+    drawing.area(ground.to_vec(), faded(opaque([255; 3]), 0.75));
+    drawing.text(text, [right, y], Anchor::Right, SMALL);
 }
 
 impl Run {

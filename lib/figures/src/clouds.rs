@@ -1,9 +1,10 @@
 use crate::Error;
-use crate::axes::{Axis, NORMAL, extent};
+use crate::axes::{Axis, extent};
 use crate::colour::{opaque, viridis};
 use crate::colour_bar;
-use crate::drawing::{Anchor, Drawing, Point};
-use crate::panels::{Panels, Room};
+use crate::drawing::{Drawing, Point};
+use crate::page::Page;
+use crate::panels::{Layout, Panels, Sheet};
 
 /// Points of a plane coloured by a value, several clouds side by side in one scale.
 #[derive(Clone, Debug)]
@@ -12,18 +13,13 @@ pub struct Clouds {
     range: [f64; 2],
     radius: f64,
     clouds: Vec<(String, Vec<Spot>)>,
+    page: Page,
 }
 
 /// Place (x, y) and value of a point.
 pub type Spot = ([f64; 2], f64);
 
 const LONGEST: f64 = 360.0;
-const ROOM: Room = Room {
-    left: 24.0,
-    above: 48.0,
-    below: 24.0,
-    column: 190.0,
-};
 
 impl Clouds {
     /// No clouds yet; `value` names what colours them over `range`, `radius` is that of a point
@@ -34,7 +30,13 @@ impl Clouds {
             range,
             radius,
             clouds: Vec::new(),
+            page: Page::default(),
         }
+    }
+
+    /// The same for a page.
+    pub fn on(self, page: Page) -> Self {
+        Self { page, ..self }
     }
 
     /// The same with another cloud.
@@ -57,29 +59,40 @@ impl Clouds {
             (low - self.radius, high + self.radius)
         };
         let (x, y) = (side(0), side(1));
-        let edges = vec![[x.1 - x.0, y.1 - y.0]; self.clouds.len()];
-        let panels = Panels::place(&edges, LONGEST, ROOM);
-        let size = [panels.right + colour_bar::WIDTH, panels.bottom];
-        let mut drawing = Drawing::new(size[0] as u32, size[1] as u32);
+        let sheets: Vec<Sheet> = (self.clouds.iter())
+            .map(|(label, _)| Sheet {
+                edges: [x.1 - x.0, y.1 - y.0],
+                name: label,
+                detail: "",
+            })
+            .collect();
         let shades = Axis::exact(self.value.as_str(), self.range[0], self.range[1]);
+        let layout = Layout {
+            top: 10.0,
+            longest: LONGEST,
+            left: 24.0,
+            below: 24.0,
+            right: colour_bar::width(&shades),
+        };
+        let panels = Panels::place(&sheets, layout, &self.page);
+        let page = (self.page.width()).unwrap_or(panels.right + layout.right);
+        let (top, height) = (
+            panels.frames[0].top,
+            panels.frames[0].height.max(colour_bar::LEAST),
+        );
+        let bottom = panels.bottom.max(top + height + layout.below);
+        let mut drawing = Drawing::new(self.page, page, bottom);
+        panels.draw_captions(&mut drawing);
         let (across, up) = (Axis::exact("", x.0, x.1), Axis::exact("", y.0, y.1));
-        for ((label, points), frame) in self.clouds.iter().zip(&panels.frames) {
-            frame.draw(&mut drawing, &Axis::none(), &Axis::none(), false);
-            let middle = [frame.left + 0.5 * frame.width, frame.top - 22.0];
-            drawing.text(label, middle, Anchor::Centre, NORMAL);
+        for ((_, points), frame) in self.clouds.iter().zip(&panels.frames) {
+            frame.outline(&mut drawing);
             let radius = self.radius / (x.1 - x.0) * frame.width;
             for (place, value) in points {
                 let disc = disc(frame.place(&across, &up, *place), radius);
                 drawing.area(disc, opaque(viridis(shades.share(*value))));
             }
         }
-        colour_bar::draw(
-            &mut drawing,
-            panels.right,
-            ROOM.above,
-            panels.height,
-            &shades,
-        );
+        colour_bar::draw(&mut drawing, panels.right, top, height, &shades);
         Ok(drawing)
     }
 }

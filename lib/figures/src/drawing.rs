@@ -1,15 +1,19 @@
 use plotters::style::RGBAColor;
 
+use crate::measure::{self, ABOVE, BELOW};
+use crate::page::Page;
+
 /// A point in logical pixels from the top left corner.
 pub(crate) type Point = [f64; 2];
 
-/// A picture as a list of what is in it, in logical pixels (96 per inch); figures build it,
-/// [`Drawing::to_svg`] and [`Drawing::to_png`] render it. Images lie under all else, the rest
-/// in the order of drawing.
+/// A picture as a list of what is in it, in logical pixels (120 per inch); figures build it,
+/// [`Drawing::to_svg`], [`Drawing::to_png`] and [`Drawing::to_pdf`] render it. Images lie under
+/// all else, the rest in the order of drawing.
 #[derive(Clone, Debug)]
 pub struct Drawing {
-    pub(crate) width: u32,
-    pub(crate) height: u32,
+    pub(crate) page: Page,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
     pub(crate) images: Vec<Image>,
     pub(crate) items: Vec<Item>,
 }
@@ -57,11 +61,21 @@ pub(crate) enum Anchor {
     Upwards,
 }
 
+/// A line of text and the room that it takes, in logical pixels from the top left corner.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextBox {
+    /// What it says.
+    pub text: String,
+    /// Left, top, right and lower end.
+    pub edges: [f64; 4],
+}
+
 impl Drawing {
-    pub(crate) fn new(width: u32, height: u32) -> Self {
+    pub(crate) fn new(page: Page, width: f64, height: f64) -> Self {
         Self {
+            page,
             width,
-            height,
+            height: height.ceil(),
             images: Vec::new(),
             items: Vec::new(),
         }
@@ -124,5 +138,51 @@ impl Drawing {
             anchor,
             size,
         });
+    }
+
+    /// Lines of text one below the other, the first with its middle at `at`.
+    pub(crate) fn lines(&mut self, lines: &[String], at: Point, anchor: Anchor, size: f64) {
+        for (i, line) in lines.iter().enumerate() {
+            let down = i as f64 * measure::LINE * size;
+            let at = match anchor {
+                Anchor::Upwards => [at[0] + down, at[1]],
+                _ => [at[0], at[1] + down],
+            };
+            self.text(line.as_str(), at, anchor, size);
+        }
+    }
+
+    /// Width and height, logical pixels.
+    pub fn size(&self) -> [f64; 2] {
+        [self.width, self.height]
+    }
+
+    /// Every line of text with its room in the embedded font.
+    pub fn text_boxes(&self) -> Vec<TextBox> {
+        let boxed = |item: &Item| match item {
+            Item::Text {
+                text,
+                at,
+                anchor,
+                size,
+            } => Some(TextBox {
+                text: text.clone(),
+                edges: edges(measure::width(text, *size), *at, *anchor, *size),
+            }),
+            _ => None,
+        };
+        self.items.iter().filter_map(boxed).collect()
+    }
+}
+
+/// Where text of a width lies: left, top, right and lower end.
+fn edges(width: f64, [x, y]: Point, anchor: Anchor, size: f64) -> [f64; 4] {
+    let [above, below] = [ABOVE * size, BELOW * size];
+    let across = |start: f64| [start, y - above, start + width, y + below];
+    match anchor {
+        Anchor::Left => across(x),
+        Anchor::Centre => across(x - 0.5 * width),
+        Anchor::Right => across(x - width),
+        Anchor::Upwards => [x - above, y - 0.5 * width, x + below, y + 0.5 * width],
     }
 }

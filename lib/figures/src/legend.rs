@@ -2,6 +2,7 @@ use plotters::style::RGBAColor;
 
 use crate::axes::NORMAL;
 use crate::drawing::{Anchor, Drawing, Point};
+use crate::measure;
 
 /// Dash and gap of the i-th series; the first is solid.
 const DASHES: [Option<[f64; 2]>; 4] = [None, Some([9.0, 4.0]), Some([2.5, 3.5]), Some([14.0, 4.0])];
@@ -47,53 +48,89 @@ fn dot([x, y]: Point) -> Vec<Point> {
         .collect()
 }
 
-/// Mean width of a character of the legend, logical pixels: an estimate on the safe side.
-const CHARACTER: f64 = 0.47 * NORMAL;
-const SAMPLE: f64 = 34.0;
+const BESIDE: f64 = 8.0;
 const BETWEEN: f64 = 26.0;
+const ROW: f64 = 24.0;
 
-/// Height of the legend of these labels when `width` is free for it.
-pub(crate) fn height(labels: &[&str], width: f64) -> f64 {
-    let rows = places(labels, width).last().map_or(0.0, |last| last[1]);
-    rows + 24.0
-}
-
-/// Draws sample lines and labels above the plots, where they cover no data.
-pub(crate) fn draw(drawing: &mut Drawing, labels: &[&str], left: f64, top: f64, width: f64) {
-    let line = |drawing: &mut Drawing, i: usize, ends: [Point; 2]| {
-        Stroke::of_series(i).draw(drawing, &ends);
-    };
-    draw_samples(drawing, labels, [left, top], width, line);
-}
-
-/// The same with samples drawn by `sample`, given the series and the ends of its line.
-pub(crate) fn draw_samples(
-    drawing: &mut Drawing,
-    labels: &[&str],
-    [left, top]: Point,
+/// Samples with labels in rows, above the plots, where they cover no data.
+pub(crate) struct Legend {
+    /// Labels as far as there is room, with the left end and the top of their entries.
+    entries: Vec<(String, Point)>,
+    /// Length of a sample.
+    sample: f64,
+    rows: f64,
+    /// Right end of the longest row.
     width: f64,
-    sample: impl Fn(&mut Drawing, usize, [Point; 2]),
-) {
-    for (i, (label, [x, y])) in labels.iter().zip(places(labels, width)).enumerate() {
-        let (x, y) = (left + x, top + y + 12.0);
-        sample(drawing, i, [[x, y], [x + SAMPLE, y]]);
-        drawing.text(*label, [x + SAMPLE + 8.0, y], Anchor::Left, NORMAL);
+}
+
+impl Legend {
+    /// Length of the line that stands for a series.
+    pub(crate) const LINE: f64 = 34.0;
+    /// Width of the patch that stands for a colour.
+    pub(crate) const PATCH: f64 = 22.0;
+
+    /// Entries of these labels, with samples of a length, in rows of at most `width`.
+    pub(crate) fn new<'a>(
+        labels: impl IntoIterator<Item = &'a str>,
+        sample: f64,
+        width: f64,
+    ) -> Self {
+        let (mut next, mut longest) = ([0.0, 0.0], 0.0_f64);
+        let place = |label| {
+            let label = measure::shortened(label, NORMAL, width - sample - BESIDE);
+            let entry = sample + BESIDE + measure::width(&label, NORMAL);
+            if next[0] > 0.0 && next[0] + entry > width {
+                next = [0.0, next[1] + ROW];
+            }
+            let place = next;
+            next[0] += entry + BETWEEN;
+            longest = longest.max(next[0] - BETWEEN);
+            (label, place)
+        };
+        let entries: Vec<_> = labels.into_iter().map(place).collect();
+        let rows = entries.last().map_or(0.0, |(_, last)| last[1] / ROW + 1.0);
+        Self {
+            entries,
+            sample,
+            rows,
+            width: longest,
+        }
+    }
+
+    /// Width of the longest row.
+    pub(crate) fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// Height of all rows.
+    pub(crate) fn height(&self) -> f64 {
+        self.rows * ROW
+    }
+
+    /// Draws the labels and, by `sample`, what stands before them: given the entry and the ends
+    /// of the sample.
+    pub(crate) fn draw(
+        &self,
+        drawing: &mut Drawing,
+        [left, top]: Point,
+        sample: impl Fn(&mut Drawing, usize, [Point; 2]),
+    ) {
+        for (i, (label, [x, y])) in self.entries.iter().enumerate() {
+            let (start, y) = (left + x, top + y + 0.5 * ROW);
+            let end = start + self.sample;
+            sample(drawing, i, [[start, y], [end, y]]);
+            drawing.text(label.as_str(), [end + BESIDE, y], Anchor::Left, NORMAL);
+        }
     }
 }
 
-/// Left end and top of each entry, in rows.
-fn places(labels: &[&str], width: f64) -> Vec<Point> {
-    let mut next = [0.0, 0.0];
-    labels
-        .iter()
-        .map(|label| {
-            let entry = SAMPLE + 8.0 + CHARACTER * label.chars().count() as f64 + BETWEEN;
-            if next[0] > 0.0 && next[0] + entry - BETWEEN > width {
-                next = [0.0, next[1] + 24.0];
-            }
-            let place = next;
-            next[0] += entry;
-            place
-        })
-        .collect()
+/// The patch of a colour between the ends of a sample.
+pub(crate) fn patch([start, end]: [Point; 2]) -> Vec<Point> {
+    let [above, below] = [start[1] - 7.0, start[1] + 7.0];
+    vec![
+        [start[0], above],
+        [end[0], above],
+        [end[0], below],
+        [start[0], below],
+    ]
 }

@@ -1,11 +1,13 @@
 //! Figures and Table 2 of the pipeline, from the tools' own output files.
 //!
 //! A figure is read from data into a plain struct (`Closing`, `WpMap`, `ShearRates`,
-//! `Slices`), drawn into a [`Drawing`] and written as SVG or PNG. The font is embedded, so a
+//! `Slices`, `Views`), drawn into a [`Drawing`] and written as SVG, PNG or PDF. The font is embedded, so a
 //! machine without fonts or display gives the same picture. No chart is drawn from data that
 //! are not there: a missing column or an empty file is an [`Error`].
 
 mod axes;
+mod bitmap;
+mod camera;
 mod cell_error;
 mod closing;
 mod clouds;
@@ -13,31 +15,44 @@ mod colour;
 mod colour_bar;
 mod drawing;
 mod error;
+mod frame;
 mod legend;
+mod measure;
+mod page;
 mod panels;
+mod pdf;
 mod penetration;
 mod plot;
 mod raster;
-mod render;
+mod replay;
 mod response;
+mod section;
+mod setup;
 mod shear_rate;
 mod slice;
+mod solid;
+mod svg;
 mod table;
 mod table2;
+mod table_picture;
 mod text;
+mod view;
 mod wp_map;
 
 pub use cell_error::CellErrors;
 pub use closing::Closing;
 pub use clouds::{Clouds, Spot};
-pub use drawing::Drawing;
+pub use drawing::{Drawing, TextBox};
 pub use error::Error;
+pub use page::Page;
 pub use penetration::penetrations;
 pub use plot::{Mark, Plot};
 pub use response::Response;
+pub use setup::Setup;
 pub use shear_rate::ShearRates;
 pub use slice::{Colouring, Cut, Position, Slices};
 pub use table2::{Case, Table2};
+pub use view::{Direction, Views, Wood};
 pub use wp_map::WpMap;
 
 use std::path::PathBuf;

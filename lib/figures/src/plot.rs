@@ -1,8 +1,11 @@
 use crate::Error;
-use crate::axes::{Axis, Frame, NORMAL};
+use crate::axes::{Axis, NORMAL};
 use crate::colour::DISTINCT;
 use crate::drawing::{Anchor, Drawing, Point};
-use crate::legend::{self, Stroke};
+use crate::frame::{Frame, room_below, room_beside};
+use crate::legend::{Legend, Stroke};
+use crate::measure;
+use crate::page::Page;
 
 /// Any quantity against any other, as lines and dots.
 #[derive(Clone, Debug)]
@@ -10,6 +13,7 @@ pub struct Plot {
     title: String,
     axes: [(String, bool); 2],
     series: Vec<Series>,
+    page: Page,
 }
 
 /// One series of a [`Plot`].
@@ -31,10 +35,8 @@ pub enum Mark {
     LineAndDots,
 }
 
-const WIDTH: u32 = 800;
-const LEFT: f64 = 92.0;
+const WIDTH: f64 = 800.0;
 const RIGHT: f64 = 24.0;
-const HEIGHT: f64 = 420.0;
 
 impl Plot {
     /// A plot without data, of axes with these titles.
@@ -43,7 +45,13 @@ impl Plot {
             title: title.into(),
             axes: [(x.into(), false), (y.into(), false)],
             series: Vec::new(),
+            page: Page::default(),
         }
+    }
+
+    /// The same for a page.
+    pub fn on(self, page: Page) -> Self {
+        Self { page, ..self }
     }
 
     /// The same with logarithmic axes, x and y, where asked.
@@ -90,23 +98,29 @@ impl Plot {
             }
         };
         let (x, y) = (axis(0), axis(1));
-        let labels: Vec<&str> = self.series.iter().map(|s| s.label.as_str()).collect();
-        let width = f64::from(WIDTH) - LEFT - RIGHT;
+        let page = self.page.width().unwrap_or(WIDTH);
+        let height = (0.525 * page).max(200.0);
+        let left = room_beside(&y, height) + 4.0;
+        let width = page - left - RIGHT;
+        let labels = self.series.iter().map(|s| s.label.as_str());
+        let legend = Legend::new(labels, Legend::LINE, width);
+        let title = measure::lines(&self.title, NORMAL + 2.0, page - 2.0 * RIGHT, 3);
+        let title_height = 12.0 + 1.4 * NORMAL * title.len() as f64;
         let frame = Frame {
-            left: LEFT,
-            top: 46.0 + legend::height(&labels, width),
+            left,
+            top: title_height + legend.height() + 10.0,
             width,
-            height: HEIGHT,
+            height,
         };
-        let mut drawing = Drawing::new(WIDTH, (frame.bottom() + 56.0) as u32);
-        let middle = [LEFT + 0.5 * width, 20.0];
-        drawing.text(&self.title, middle, Anchor::Centre, NORMAL + 2.0);
-        let sample = |drawing: &mut Drawing, i: usize, [a, b]: [Point; 2]| {
+        let bottom = frame.bottom() + room_below(&x, width) + 4.0;
+        let mut drawing = Drawing::new(self.page, page, bottom);
+        let middle = [0.5 * page, 20.0];
+        drawing.lines(&title, middle, Anchor::Centre, NORMAL + 2.0);
+        legend.draw(&mut drawing, [left, title_height], |drawing, i, [a, b]| {
             let middle = [0.5 * (a[0] + b[0]), a[1]];
             self.series[i].draw_line(drawing, i, &[a, b]);
             self.series[i].draw_dots(drawing, i, &[middle]);
-        };
-        legend::draw_samples(&mut drawing, &labels, [LEFT, 36.0], width, sample);
+        });
         frame.draw(&mut drawing, &x, &y, true);
         for (i, series) in self.series.iter().enumerate() {
             let places = series.points.iter().map(|&p| frame.place(&x, &y, p));

@@ -20,6 +20,8 @@ const MOST_PIXELS: usize = 2048;
 
 /// A layer of voxels normal to an axis, a pixel for each; of a larger one every second, third ...
 pub(crate) struct Raster {
+    /// Axes across and up: 0 = x, 1 = y, 2 = z.
+    pub(crate) axes: [usize; 2],
     /// Edges across and up, m.
     pub(crate) edges: [f64; 2],
     /// Pixels across and up.
@@ -73,6 +75,7 @@ impl Raster {
         };
         let rows = (0..size[1]).rev();
         Ok(Self {
+            axes: [across, up],
             edges: counts.map(|count| count as f64 * labels.voxel_m),
             size,
             pixels: rows

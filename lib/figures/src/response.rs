@@ -1,9 +1,13 @@
 //! The response of a sweep to each of its parameters.
 
-use crate::axes::{Axis, Frame, NORMAL};
+use crate::axes::{Axis, NORMAL};
 use crate::colour::DISTINCT;
 use crate::drawing::{Anchor, Drawing, Point};
-use crate::legend::{self, Stroke};
+use crate::frame::{Frame, room_below, room_beside};
+use crate::legend::{Legend, Stroke};
+use crate::measure::{self, LINE};
+use crate::page::Page;
+use crate::panels::{Layout, Panels, Sheet};
 use crate::table::Table;
 use crate::{Error, Labelled};
 
@@ -17,6 +21,7 @@ pub struct Response {
     parameters: Vec<Parameter>,
     /// The cells of each row but the numbers of `parameters`.
     words: Vec<String>,
+    page: Page,
 }
 
 #[derive(Clone, Debug)]
@@ -30,11 +35,11 @@ const FIRST_RESULT: &str = "status";
 /// Parameters whose largest value is more than so many times the smallest get a logarithmic axis.
 const LOGARITHMIC: f64 = 20.0;
 
-const PANEL: f64 = 380.0;
-const HEIGHT: f64 = 280.0;
-const LEFT: f64 = 92.0;
-const BELOW: f64 = 72.0;
-const COLUMNS: usize = 3;
+/// Longest and about the least edge of a panel, logical pixels, and height over width.
+const LONGEST: f64 = 380.0;
+const LEAST: f64 = 130.0;
+const HEIGHT: f64 = 0.74;
+const MARGIN: f64 = 24.0;
 
 impl Response {
     /// Reads `result`, a column of numbers, and every parameter with more than one number.
@@ -72,58 +77,88 @@ impl Response {
             values,
             parameters,
             words: words.into_iter().map(|row| distinct(&row)).collect(),
+            page: Page::default(),
         })
+    }
+
+    /// The same for a page.
+    pub fn on(self, page: Page) -> Self {
+        Self { page, ..self }
     }
 
     /// The figure.
     pub fn draw(&self) -> Drawing {
         let kinds = self.kinds();
-        let labels: Vec<&str> = match kinds.len() {
-            2..=DISTINCT => kinds.clone(),
-            _ => Vec::new(),
+        let labels = match kinds.len() {
+            2..=DISTINCT => &kinds[..],
+            _ => &[],
         };
-        let columns = self.parameters.len().min(COLUMNS);
-        let rows = self.parameters.len().div_ceil(COLUMNS);
-        let width = (LEFT + PANEL) * columns as f64 + 24.0;
-        let key = match labels.is_empty() {
-            true => 0.0,
-            false => legend::height(&labels, width - LEFT - 24.0),
-        };
-        let top = 52.0 + key;
-        let height = top + (HEIGHT + BELOW) * rows as f64;
-        let mut drawing = Drawing::new(width as u32, height as u32);
-        let lacking = self.values.iter().filter(|v| !v.is_finite()).count();
-        let title = match lacking {
-            0 => format!("{} runs", self.values.len()),
-            n => format!("{} runs, of which {n} have no result", self.values.len()),
-        };
-        drawing.text(title, [0.5 * width, 22.0], Anchor::Centre, NORMAL);
-        legend::draw(&mut drawing, &labels, LEFT, 38.0, width - LEFT - 24.0);
+        let room = self.page.width().unwrap_or(LONGEST) - 2.0 * MARGIN;
+        let key = Legend::new(labels.iter().copied(), Legend::LINE, room);
+        let title = measure::lines(&self.title(), NORMAL, room, 3);
         let response = Axis::linear(worded(&self.result), self.values.iter().copied());
-        for (i, parameter) in self.parameters.iter().enumerate() {
-            let frame = Frame {
-                left: LEFT + (i % COLUMNS) as f64 * (LEFT + PANEL),
-                top: top + (i / COLUMNS) as f64 * (HEIGHT + BELOW),
-                width: PANEL,
-                height: HEIGHT,
-            };
-            let across = parameter.axis();
-            frame.draw(&mut drawing, &across, &response, true);
+        let across: Vec<Axis> = self.parameters.iter().map(Parameter::axis).collect();
+        let sheet = |_| Sheet {
+            edges: [1.0, HEIGHT],
+            name: "",
+            detail: "",
+        };
+        let sheets: Vec<Sheet> = self.parameters.iter().map(sheet).collect();
+        let below = across.iter().map(|axis| room_below(axis, LEAST));
+        let layout = Layout {
+            top: 12.0 + LINE * NORMAL * title.len() as f64 + key.height(),
+            longest: LONGEST,
+            left: room_beside(&response, HEIGHT * LEAST) + 6.0,
+            below: below.fold(0.0, f64::max) + 6.0,
+            right: MARGIN,
+        };
+        let panels = Panels::place(&sheets, layout, &self.page);
+        let page = (self.page.width())
+            .unwrap_or(panels.right + layout.right)
+            .max(key.width() + 2.0 * MARGIN);
+        let mut drawing = Drawing::new(self.page, page, panels.bottom);
+        drawing.lines(&title, [0.5 * page, 16.0], Anchor::Centre, NORMAL);
+        let under = 10.0 + LINE * NORMAL * title.len() as f64;
+        key.draw(&mut drawing, [MARGIN, under], |drawing, kind, ends| {
+            Stroke::of_series(kind).draw(drawing, &ends);
+        });
+        for (i, (frame, across)) in panels.frames.iter().zip(&across).enumerate() {
+            frame.draw(&mut drawing, across, &response, true);
             for (kind, path) in self.paths(i) {
-                let places = path
-                    .iter()
-                    .map(|&row| [parameter.values[row], self.values[row]]);
-                let places: Vec<Point> = places
-                    .map(|value| frame.place(&across, &response, value))
-                    .collect();
-                let stroke = Stroke::of_series(if labels.is_empty() { 0 } else { kind });
-                stroke.draw(&mut drawing, &places);
-                for place in places {
-                    stroke.draw(&mut drawing, &[place]);
-                }
+                let kind = if labels.is_empty() { 0 } else { kind };
+                self.draw_path(&mut drawing, frame, [across, &response], i, (kind, &path));
             }
         }
         drawing
+    }
+
+    fn title(&self) -> String {
+        let runs = self.values.len();
+        match self.values.iter().filter(|v| !v.is_finite()).count() {
+            0 => format!("{runs} runs"),
+            n => format!("{runs} runs, of which {n} have no result"),
+        }
+    }
+
+    /// A line through the runs of a path, a dot on each.
+    fn draw_path(
+        &self,
+        drawing: &mut Drawing,
+        frame: &Frame,
+        [across, response]: [&Axis; 2],
+        parameter: usize,
+        (kind, path): (usize, &[usize]),
+    ) {
+        let values = &self.parameters[parameter].values;
+        let places = (path.iter()).map(|&row| [values[row], self.values[row]]);
+        let places: Vec<Point> = places
+            .map(|value| frame.place(across, response, value))
+            .collect();
+        let stroke = Stroke::of_series(kind);
+        stroke.draw(drawing, &places);
+        for place in places {
+            stroke.draw(drawing, &[place]);
+        }
     }
 
     /// What tells rows apart beside numbers, in the order of the table.

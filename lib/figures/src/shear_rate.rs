@@ -1,7 +1,11 @@
-use crate::axes::{Axis, Frame, NORMAL, SMALL, extent};
+use crate::axes::{Axis, NORMAL, extent};
 use crate::closing::time_unit;
 use crate::colour::{BLACK, faded, series};
-use crate::drawing::{Anchor, Drawing};
+use crate::drawing::{Anchor, Drawing, Point};
+use crate::frame::{Frame, room_below, room_beside};
+use crate::legend::{self, Legend};
+use crate::measure::{self, LINE};
+use crate::page::Page;
 use crate::table::Table;
 use crate::{Error, Labelled};
 
@@ -10,6 +14,7 @@ use crate::{Error, Labelled};
 #[derive(Clone, Debug)]
 pub struct ShearRates {
     panels: Vec<Panel>,
+    page: Page,
 }
 
 #[derive(Clone, Debug)]
@@ -32,11 +37,12 @@ const BANDS: [(usize, usize, &str, f64); 3] = [
     (2, 4, "25 to 75 %", 0.40),
 ];
 
-const PANEL: f64 = 460.0;
-const HEIGHT: f64 = 340.0;
-const LEFT: f64 = 84.0;
-const BETWEEN: f64 = 66.0;
-const TOP: f64 = 74.0;
+/// Widest and narrowest panel, logical pixels.
+const PANEL: [f64; 2] = [590.0, 250.0];
+const BETWEEN: f64 = 30.0;
+const MARGIN: f64 = 24.0;
+/// Most panels side by side.
+const COLUMNS: usize = 3;
 
 impl ShearRates {
     /// Reads one panel per CSV.
@@ -45,60 +51,84 @@ impl ShearRates {
     /// [`Error::Data`] for an unreadable file, a missing column, or one without numbers.
     pub fn read(runs: &[Labelled]) -> Result<Self, Error> {
         let panels = runs.iter().map(Panel::read).collect::<Result<_, _>>()?;
-        Ok(Self { panels })
+        Ok(Self {
+            panels,
+            page: Page::default(),
+        })
+    }
+
+    /// The same for a page.
+    pub fn on(self, page: Page) -> Self {
+        Self { page, ..self }
     }
 
     /// The figure: all panels share the shear-rate axis.
     pub fn draw(&self) -> Drawing {
-        let count = self.panels.len() as f64;
-        let width = LEFT + count * PANEL + (count - 1.0) * BETWEEN + 24.0;
-        let mut drawing = Drawing::new(width as u32, (TOP + HEIGHT + 56.0) as u32);
         let rates = self.panels.iter().flat_map(|panel| {
             let quantiles = panel.quantiles.iter().flatten();
             quantiles.chain(&panel.max).copied()
         });
         let rate = Axis::logarithmic("shear rate (1/s)", rates);
-        self.key(&mut drawing);
-        for (i, panel) in self.panels.iter().enumerate() {
-            let frame = Frame {
-                left: LEFT + i as f64 * (PANEL + BETWEEN),
-                top: TOP,
-                width: PANEL,
-                height: HEIGHT,
-            };
-            let mut rate = rate.clone();
-            if i > 0 {
-                rate.title.clear();
-            }
-            panel.draw(&mut drawing, &frame, &rate);
+        let unnamed = rate.untitled();
+        let outer = room_beside(&rate, PANEL[1]) + 4.0;
+        let between = BETWEEN + room_beside(&unnamed, PANEL[1]);
+        let count = self.panels.len().min(COLUMNS);
+        let room = |width: f64, columns: f64| {
+            (width - outer - MARGIN - (columns - 1.0) * between) / columns
+        };
+        let columns = match self.page.width() {
+            None => count,
+            Some(page) => (1..=count)
+                .rfind(|&n| room(page, n as f64) >= PANEL[1])
+                .unwrap_or(1),
+        };
+        let natural = outer + MARGIN + columns as f64 * (PANEL[0] + between) - between;
+        let page = self.page.width().unwrap_or(natural);
+        let width = room(page, columns as f64);
+        let height = (0.62 * width).max(200.0);
+        let key = key(page - 2.0 * MARGIN);
+        let title = |panel: &Panel| measure::lines(&panel.label, NORMAL, width + 1.8 * MARGIN, 3);
+        let below = room_below(&self.panels[0].time_axis().0, width) + 6.0;
+        let (mut frames, mut top) = (Vec::new(), 14.0 + key.height());
+        for row in self.panels.chunks(columns) {
+            let titles = row.iter().map(|panel| title(panel).len()).max();
+            top += LINE * NORMAL * titles.unwrap_or(0) as f64 + 10.0;
+            frames.extend((0..row.len()).map(|i| Frame {
+                left: outer + i as f64 * (width + between),
+                top,
+                width,
+                height,
+            }));
+            top += height + below;
+        }
+        let mut drawing = Drawing::new(self.page, page, top);
+        key.draw(&mut drawing, [MARGIN, 8.0], sample);
+        for (i, (panel, frame)) in self.panels.iter().zip(&frames).enumerate() {
+            let title = title(panel);
+            let first = frame.top - 16.0 - LINE * NORMAL * (title.len() as f64 - 1.0);
+            drawing.lines(&title, [frame.middle(), first], Anchor::Centre, NORMAL);
+            let first = i % columns == 0;
+            panel.draw(&mut drawing, frame, if first { &rate } else { &unnamed });
         }
         drawing
     }
+}
 
-    fn key(&self, drawing: &mut Drawing) {
-        // From the edge of the figure: from the axis on, it would not fit above a single panel.
-        let (mut x, y) = (24.0, 20.0);
-        for (_, _, name, opacity) in BANDS {
-            let swatch = vec![
-                [x, y - 7.0],
-                [x + 26.0, y - 7.0],
-                [x + 26.0, y + 7.0],
-                [x, y + 7.0],
-            ];
-            drawing.area(swatch, faded(series(0), opacity + 0.1));
-            drawing.text(name, [x + 32.0, y], Anchor::Left, SMALL);
-            x += 122.0;
-        }
-        for (name, width, dashed) in [("median", 3.0, false), ("max", 1.4, true)] {
-            let points = [[x, y], [x + 20.0, y]];
-            if dashed {
-                drawing.dashes(&points, BLACK, width, [5.0, 3.0]);
-            } else {
-                drawing.line(points.to_vec(), BLACK, width);
-            }
-            drawing.text(name, [x + 26.0, y], Anchor::Left, SMALL);
-            x += 92.0;
-        }
+/// What the bands and lines are.
+fn key(width: f64) -> Legend {
+    let names = BANDS.iter().map(|band| band.2);
+    Legend::new(names.chain(["median", "maximum"]), Legend::PATCH, width)
+}
+
+/// A band as dark as it is in a panel, where it lies over those around it; or a line.
+fn sample(drawing: &mut Drawing, entry: usize, ends: [Point; 2]) {
+    for (_, _, _, opacity) in BANDS.iter().take(entry + 1).filter(|_| entry < BANDS.len()) {
+        drawing.area(legend::patch(ends), faded(series(0), *opacity));
+    }
+    match entry.checked_sub(BANDS.len()) {
+        Some(0) => drawing.line(ends.to_vec(), BLACK, 3.0),
+        Some(_) => drawing.dashes(&ends, BLACK, 1.4, [5.0, 3.0]),
+        None => {}
     }
 }
 
@@ -121,14 +151,17 @@ impl Panel {
         })
     }
 
-    fn draw(&self, drawing: &mut Drawing, frame: &Frame, rate: &Axis) {
+    /// Its axis and the unit of time, s.
+    fn time_axis(&self) -> (Axis, f64) {
         let (unit, name) = time_unit(extent(self.time.iter().copied()).1);
+        let (first, last) = extent(self.time.iter().map(|t| t / unit));
+        let axis = Axis::over(format!("time ({name})"), first.min(0.0), last);
+        (axis, unit)
+    }
+
+    fn draw(&self, drawing: &mut Drawing, frame: &Frame, rate: &Axis) {
+        let (time, unit) = self.time_axis();
         let times = self.time.iter().map(|t| t / unit);
-        let (first, last) = extent(times.clone());
-        let time = Axis::over(format!("time ({name})"), first.min(0.0), last);
-        let middle = frame.left + 0.5 * frame.width;
-        let label = [middle, frame.top - 18.0];
-        drawing.text(&self.label, label, Anchor::Centre, NORMAL);
         frame.draw(drawing, &time, rate, true);
         // A rate of zero, as before the start, has no place on a logarithmic axis; of a band
         // whose upper end has one, the lower end lies on the edge.

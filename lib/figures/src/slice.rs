@@ -1,22 +1,25 @@
-use particle_file::ParticleFile;
 use units::Axis as Direction;
-use voxels::LabelVolume;
 
-use crate::axes::{Axis, NORMAL, SMALL};
-use crate::closing::time_unit;
-use crate::colour::{BLACK, viridis};
+use crate::axes::Axis;
 use crate::colour_bar;
-use crate::drawing::{Anchor, Drawing, Image};
-use crate::panels::{Panels, Room};
-use crate::raster::{Pixel, Raster};
+use crate::drawing::{Drawing, Point};
+use crate::frame::{most_beside, room_below};
+use crate::legend::Legend;
+use crate::page::Page;
+use crate::panels::{Layout, Panels, Sheet};
+use crate::raster::Pixel;
+use crate::section::{self, GRID, KEY, Section};
 use crate::{Error, Labelled};
 
 /// Slices through states (specimens, bonds, snapshots of a run), a pixel for each voxel of
 /// [`LabelVolume`]: wood grey, void white, adhesive in one colour or by its pressure.
 #[derive(Clone, Debug)]
 pub struct Slices {
-    panels: Vec<Panel>,
+    sections: Vec<Section>,
     colouring: Colouring,
+    /// Edge of a cell of the grid, m.
+    cell: Option<f64>,
+    page: Page,
 }
 
 /// What the adhesive's colour shows.
@@ -46,30 +49,14 @@ pub enum Position {
     Share(f64),
 }
 
-#[derive(Clone, Debug)]
-struct Panel {
-    label: String,
-    /// Time and place.
-    detail: String,
-    /// Edges of the slice across and up, m.
-    edges: [f64; 2],
-    size: [usize; 2],
-    /// Row by row from the top.
-    pixels: Vec<Pixel>,
-}
-
-const WOOD: [u8; 3] = [150, 150, 150];
-const ADHESIVE: [u8; 3] = [230, 159, 0];
 /// Quantiles of the pressures that the colour scale covers: those of single material points
 /// are noisy in the explicit scheme.
 const COVERED: [f64; 2] = [0.02, 0.98];
-const ROOM: Room = Room {
-    left: 24.0,
-    above: 54.0,
-    below: 46.0,
-    column: 220.0,
-};
-
+/// Most cells of a grid along an edge.
+const MOST_CELLS: f64 = 200.0;
+/// About the least edge of a panel, logical pixels.
+const LEAST: f64 = 100.0;
+const MARGIN: f64 = 24.0;
 impl Slices {
     /// Reads one panel per particle file.
     ///
@@ -77,108 +64,140 @@ impl Slices {
     /// [`Error::Data`] for an unreadable file or one without the pressure that is to be
     /// shown, [`Error::Request`] for a slice beside the box.
     pub fn read(states: &[Labelled], cut: Cut, colouring: Colouring) -> Result<Self, Error> {
-        let read = |state| Panel::read(state, cut, colouring);
-        let panels = states.iter().map(read).collect::<Result<_, _>>()?;
-        Ok(Self { panels, colouring })
+        let read = |state| Section::read(state, cut, colouring);
+        let sections = states.iter().map(read).collect::<Result<_, _>>()?;
+        Ok(Self {
+            sections,
+            colouring,
+            cell: None,
+            page: Page::default(),
+        })
+    }
+
+    /// The same for a page.
+    pub fn on(self, page: Page) -> Self {
+        Self { page, ..self }
+    }
+
+    /// The same of a part of the slices only: its ends across and up, m.
+    ///
+    /// # Errors
+    /// [`Error::Request`] where a slice has no voxel in it.
+    pub fn part(mut self, part: [[f64; 2]; 2]) -> Result<Self, Error> {
+        let sections = self.sections.iter().map(|section| section.part(part));
+        self.sections = sections.collect::<Result<_, _>>()?;
+        Ok(self)
+    }
+
+    /// The same with the lines of a run's grid of such cells (m), which begins at the low corner
+    /// of the box (Fig. 3 of the paper).
+    ///
+    /// # Errors
+    /// [`Error::Request`] for lines too narrow to be told apart.
+    pub fn grid(mut self, cell: f64) -> Result<Self, Error> {
+        let edges = self.sections.iter().flat_map(|section| section.edges);
+        if edges.fold(0.0, f64::max) / cell > MOST_CELLS {
+            return Err(Error::Request(format!(
+                "a grid of more than {MOST_CELLS} cells across cannot be seen: ask for a part of the slice"
+            )));
+        }
+        self.cell = Some(cell);
+        Ok(self)
     }
 
     /// The figure.
     pub fn draw(&self) -> Drawing {
-        let edges: Vec<_> = self.panels.iter().map(|panel| panel.edges).collect();
-        let longest = if edges.len() > 2 { 340.0 } else { 520.0 };
-        let panels = Panels::place(&edges, longest, ROOM);
-        let bar = match self.colouring {
-            Colouring::Plain => ROOM.left,
-            Colouring::Pressure => colour_bar::WIDTH,
+        let shades = self.shades();
+        let phases = if shades.is_some() { &KEY[..2] } else { &KEY };
+        let grid = self
+            .cell
+            .map(|cell| format!("cells of {} µm", (cell * 1e6) as f32));
+        let names = phases.iter().map(|phase| phase.0).chain(grid.as_deref());
+        let longest = if self.sections.len() > 2 {
+            340.0
+        } else {
+            480.0
         };
-        let mut drawing = Drawing::new((panels.right + bar) as u32, panels.bottom as u32);
-        let pressures = self.panels.iter().flat_map(|panel| &panel.pixels);
-        let pressures = pressures.filter_map(|pixel| match pixel {
-            Pixel::Adhesive(pressure) => Some(f64::from(*pressure) * 1e-6),
-            _ => None,
+        let room = self.page.width().unwrap_or(longest) - 2.0 * MARGIN;
+        let key = Legend::new(names, Legend::PATCH, room);
+        let layout = layout(
+            &self.sections,
+            10.0 + key.height(),
+            longest,
+            shades.as_ref(),
+        );
+        let sheets: Vec<Sheet> = self.sections.iter().map(Section::sheet).collect();
+        let panels = Panels::place(&sheets, layout, &self.page);
+        let natural = (panels.right + layout.right).max(key.width() + 2.0 * MARGIN);
+        let page = self.page.width().unwrap_or(natural);
+        let (top, height) = (panels.frames[0].top, panels.frames[0].height);
+        let height = height.max(colour_bar::LEAST);
+        let bottom = panels.bottom.max(match shades {
+            Some(_) => top + height + MARGIN,
+            None => 0.0,
         });
-        let shades = Axis::covering("pressure (MPa)", pressures, COVERED);
-        for (panel, frame) in self.panels.iter().zip(&panels.frames) {
-            let colour = |pixel: &Pixel| match (pixel, self.colouring) {
-                (Pixel::Void, _) => [255; 3],
-                (Pixel::Wood, _) => WOOD,
-                (Pixel::Adhesive(_), Colouring::Plain) => ADHESIVE,
-                (Pixel::Adhesive(pressure), Colouring::Pressure) => {
-                    viridis(shades.share(f64::from(*pressure) * 1e-6))
-                }
-            };
-            drawing.images.push(Image {
-                place: [frame.left, frame.top, frame.width, frame.height],
-                size: panel.size,
-                rgb: panel.pixels.iter().flat_map(colour).collect(),
-            });
-            frame.draw(&mut drawing, &Axis::none(), &Axis::none(), false);
-            let middle = frame.left + 0.5 * frame.width;
-            for (text, above, size) in [(&panel.label, 36.0, NORMAL), (&panel.detail, 15.0, SMALL)]
-            {
-                drawing.text(text, [middle, frame.top - above], Anchor::Centre, size);
-            }
-            let bar = scale_bar(panel.edges[0]);
-            let length = bar / panel.edges[0] * frame.width;
-            let (left, y) = (frame.left, frame.bottom() + 18.0);
-            drawing.line(vec![[left, y], [left + length, y]], BLACK, 4.0);
-            let text = format!("{:.0} µm", bar * 1e6);
-            drawing.text(text, [left + length + 10.0, y], Anchor::Left, NORMAL);
+        let mut drawing = Drawing::new(self.page, page, bottom);
+        key.draw(
+            &mut drawing,
+            [MARGIN, 8.0],
+            |drawing, i, ends| match phases.get(i) {
+                Some(phase) => section::patch(drawing, phase.1, ends),
+                None => cell(drawing, ends),
+            },
+        );
+        panels.draw_captions(&mut drawing);
+        for (section, frame) in self.sections.iter().zip(&panels.frames) {
+            section.draw(&mut drawing, frame, shades.as_ref(), self.cell);
         }
-        if self.colouring == Colouring::Pressure {
-            let (right, height) = (panels.right, panels.height);
-            colour_bar::draw(&mut drawing, right, ROOM.above, height, &shades);
+        if let Some(shades) = &shades {
+            colour_bar::draw(&mut drawing, panels.right, top, height, shades);
         }
         drawing
     }
-}
 
-/// The longest of 1, 2, 5, 10 ... um that fits into a third of the width, m.
-fn scale_bar(width: f64) -> f64 {
-    let steps = (0..9).flat_map(|power| [1.0, 2.0, 5.0].map(|f| f * 10_f64.powi(power) * 1e-6));
-    steps
-        .take_while(|bar| *bar <= width / 3.0)
-        .last()
-        .unwrap_or(1e-6)
-}
-
-impl Panel {
-    fn read(state: &Labelled, cut: Cut, colouring: Colouring) -> Result<Self, Error> {
-        let file = ParticleFile::open(&state.path).map_err(|e| Error::Data(e.to_string()))?;
-        let data = |e: particle_file::Error| Error::Data(e.to_string());
-        let labels = LabelVolume::of(&file).map_err(data)?;
-        let low = labels.origin_m;
-        let high: [f64; 3] =
-            std::array::from_fn(|a| low[a] + labels.dims[a] as f64 * labels.voxel_m);
-        let normal = cut.axis.index();
-        let at = match cut.position {
-            Position::At(at) => at,
-            Position::Share(share) => low[normal] + share * (high[normal] - low[normal]),
-        };
-        if !(low[normal]..=high[normal]).contains(&at) {
-            return Err(Error::Request(format!(
-                "'{}' has no slice at {} = {:.2} um: its box reaches from {:.2} to {:.2} um",
-                file.name(),
-                cut.axis,
-                at * 1e6,
-                low[normal] * 1e6,
-                high[normal] * 1e6
-            )));
+    /// The scale of the pressures shown, if they are.
+    fn shades(&self) -> Option<Axis> {
+        let pixels = self.sections.iter().flat_map(|section| &section.pixels);
+        let pressures = pixels.filter_map(|pixel| match pixel {
+            Pixel::Adhesive(pressure) => Some(f64::from(*pressure) * 1e-6),
+            _ => None,
+        });
+        match self.colouring {
+            Colouring::Plain => None,
+            Colouring::Pressure => Some(Axis::covering(
+                "pressure of the adhesive (MPa)",
+                pressures,
+                COVERED,
+            )),
         }
-        let raster = Raster::new(&file, &labels, cut.axis, at, colouring).map_err(data)?;
-        let (unit, name) = time_unit(file.header().time_s);
-        let time = match file.header().kind {
-            particle_file::Kind::State => {
-                format!("t = {:.2} {name}, ", file.header().time_s / unit)
-            }
-            _ => String::new(),
-        };
-        Ok(Self {
-            label: state.label.clone(),
-            detail: format!("{time}{} = {:.1} µm", cut.axis, at * 1e6),
-            edges: raster.edges,
-            size: raster.size,
-            pixels: raster.pixels,
-        })
+    }
+}
+
+/// Room for sections with their axes.
+pub(crate) fn layout(
+    sections: &[Section],
+    top: f64,
+    longest: f64,
+    shades: Option<&Axis>,
+) -> Layout {
+    let axes: Vec<[Axis; 2]> = sections.iter().map(Section::axes).collect();
+    let most = |room: &dyn Fn(&[Axis; 2]) -> f64| axes.iter().map(room).fold(0.0, f64::max);
+    Layout {
+        top,
+        longest,
+        left: most(&|axes| most_beside(&axes[1], LEAST)) + 4.0,
+        below: most(&|axes| room_below(&axes[0], LEAST)) + 8.0,
+        right: shades.map_or(0.0, colour_bar::width),
+    }
+}
+
+/// A cell of the grid in the key.
+fn cell(drawing: &mut Drawing, [start, end]: [Point; 2]) {
+    for i in 0..4 {
+        let x = start[0] + (end[0] - start[0]) * f64::from(i) / 3.0;
+        drawing.line(vec![[x, start[1] - 7.0], [x, start[1] + 7.0]], GRID, 0.8);
+    }
+    for y in [-7.0, 0.0, 7.0].map(|y| start[1] + y) {
+        drawing.line(vec![[start[0], y], [end[0], y]], GRID, 0.8);
     }
 }

@@ -20,26 +20,26 @@ pub struct Case {
 /// slab that has not penetrated and the paper's own numbers, which are another specimen's.
 #[derive(Clone, Debug)]
 pub struct Table2 {
-    rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
 }
 
 /// One line of [`Table2`]; all penetrations in um.
 #[derive(Clone, Debug, PartialEq)]
-struct Row {
-    adhesive: String,
-    case: String,
+pub(crate) struct Row {
+    pub(crate) adhesive: String,
+    pub(crate) case: String,
     /// Reference plane as `wp-metrics` states it.
     reference: String,
     /// Bottom, top, total.
-    wp: [f64; 3],
+    pub(crate) wp: [f64; 3],
     /// Weighted penetration t / sqrt(12) of the unpenetrated slab of the same volume.
-    slab: f64,
-    paper: Option<&'static Paper>,
+    pub(crate) slab: f64,
+    pub(crate) paper: Option<&'static Paper>,
 }
 
 /// A line of the paper's Table 2, um.
 #[derive(Debug, PartialEq)]
-struct Paper {
+pub(crate) struct Paper {
     adhesive: &'static str,
     case: &'static str,
     /// Names that a case of ours goes by when it is the same, in lower case.
@@ -218,7 +218,7 @@ impl Row {
         })
     }
 
-    fn paper_wp(&self) -> [f64; 3] {
+    pub(crate) fn paper_wp(&self) -> [f64; 3] {
         self.paper.map_or([f64::NAN; 3], |paper| paper.wp)
     }
 }

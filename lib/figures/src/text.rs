@@ -7,10 +7,7 @@ use skrifa::{FontRef, GlyphId, MetadataProvider};
 
 use crate::Error;
 use crate::drawing::{Anchor, Point};
-
-/// The em of a font over the size by which plotters names it, so that text is as large in a
-/// PNG as in an SVG.
-const EM: f64 = 1.0 / 1.24;
+use crate::measure::EM;
 
 /// Draws black text of the embedded DejaVu Sans on pixels: lines of glyphs as they stand in
 /// the font, without kerning. Capitals and figures are centred on `at`.

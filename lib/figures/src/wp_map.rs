@@ -1,8 +1,11 @@
-use crate::axes::{Axis, Frame, NORMAL};
+use crate::axes::Axis;
 use crate::colour::{NO_DATA, opaque, viridis};
 use crate::colour_bar;
-use crate::drawing::{Anchor, Drawing, Image};
-use crate::panels::{Panels, Room};
+use crate::drawing::{Drawing, Image};
+use crate::frame::{Frame, most_beside, room_below};
+use crate::legend::{self, Legend};
+use crate::page::Page;
+use crate::panels::{Layout, Panels, Sheet};
 use crate::table::Table;
 use crate::{Error, Labelled};
 
@@ -11,6 +14,7 @@ use crate::{Error, Labelled};
 #[derive(Clone, Debug)]
 pub struct WpMap {
     panels: Vec<Panel>,
+    page: Page,
 }
 
 #[derive(Clone, Debug)]
@@ -34,12 +38,9 @@ struct Grid {
 const COVERED: [f64; 2] = [0.0, 0.995];
 /// Longest edge of a panel, logical pixels.
 const LONGEST: f64 = 300.0;
-const ROOM: Room = Room {
-    left: 76.0,
-    above: 40.0,
-    below: 58.0,
-    column: 200.0,
-};
+/// About the least edge of a panel.
+const LEAST: f64 = 100.0;
+const MARGIN: f64 = 24.0;
 /// A map beyond this many cells is not a map of a specimen.
 const MOST_CELLS: usize = 1 << 26;
 
@@ -51,45 +52,54 @@ impl WpMap {
     /// places that are not on a grid.
     pub fn read(maps: &[Labelled]) -> Result<Self, Error> {
         let panels = maps.iter().map(Panel::read).collect::<Result<_, _>>()?;
-        Ok(Self { panels })
+        Ok(Self {
+            panels,
+            page: Page::default(),
+        })
+    }
+
+    /// The same for a page.
+    pub fn on(self, page: Page) -> Self {
+        Self { page, ..self }
     }
 
     /// The figure.
     pub fn draw(&self) -> Drawing {
-        let edges: Vec<_> = self
-            .panels
-            .iter()
-            .map(|p| [p.x.edge(), p.z.edge()])
-            .collect();
-        let panels = Panels::place(&edges, LONGEST, ROOM);
-        let width = panels.right + colour_bar::WIDTH;
-        let mut drawing = Drawing::new(width as u32, panels.bottom as u32);
-        let all = self
-            .panels
-            .iter()
-            .flat_map(|panel| panel.wp.iter().copied());
-        let shades = Axis::covering("weighted penetration (µm)", all, COVERED);
+        let cells = || {
+            self.panels
+                .iter()
+                .flat_map(|panel| panel.wp.iter().copied())
+        };
+        let shades = Axis::covering("weighted penetration (µm)", cells(), COVERED);
+        let holes = cells().any(|wp| wp.is_nan());
+        let names = ["no adhesive"].into_iter().filter(|_| holes);
+        let room = self.page.width().unwrap_or(LONGEST) - 2.0 * MARGIN;
+        let key = Legend::new(names, Legend::PATCH, room);
+        let sheets: Vec<Sheet> = self.panels.iter().map(Panel::sheet).collect();
+        let axes = self.panels[0].axes();
+        let layout = Layout {
+            top: 10.0 + key.height(),
+            longest: LONGEST,
+            left: most_beside(&axes[1], LEAST) + 4.0,
+            below: room_below(&axes[0], LEAST) + 6.0,
+            right: colour_bar::width(&shades),
+        };
+        let panels = Panels::place(&sheets, layout, &self.page);
+        let page = (self.page.width())
+            .unwrap_or(panels.right + layout.right)
+            .max(key.width() + 2.0 * MARGIN);
+        let first = &panels.frames[0];
+        let (top, height) = (first.top, first.height.max(colour_bar::LEAST));
+        let bottom = panels.bottom.max(top + height + MARGIN);
+        let mut drawing = Drawing::new(self.page, page, bottom);
+        key.draw(&mut drawing, [MARGIN, 8.0], |drawing, _, ends| {
+            drawing.area(legend::patch(ends), opaque(NO_DATA));
+        });
+        panels.draw_captions(&mut drawing);
         for (panel, frame) in self.panels.iter().zip(&panels.frames) {
             panel.draw(&mut drawing, frame, &shades);
         }
-        let bar = colour_bar::draw(
-            &mut drawing,
-            panels.right,
-            ROOM.above,
-            panels.height,
-            &shades,
-        );
-        if self
-            .panels
-            .iter()
-            .any(|panel| panel.wp.iter().any(|wp| wp.is_nan()))
-        {
-            let (left, y) = (bar.left - 34.0, bar.bottom() + 26.0);
-            let swatch = [[0.0, -7.0], [18.0, -7.0], [18.0, 7.0], [0.0, 7.0]];
-            let swatch = swatch.map(|[dx, dy]| [left + dx, y + dy]);
-            drawing.area(swatch.to_vec(), opaque(NO_DATA));
-            drawing.text("none", [left + 24.0, y], Anchor::Left, NORMAL);
-        }
+        colour_bar::draw(&mut drawing, panels.right, top, height, &shades);
         drawing
     }
 }
@@ -141,12 +151,22 @@ impl Panel {
             size: [self.x.count, self.z.count],
             rgb: cells.flat_map(shade).collect(),
         });
+        let [x, z] = self.axes();
+        frame.draw(drawing, &x, &z, false);
+    }
+
+    fn axes(&self) -> [Axis; 2] {
         let axis =
             |title: &str, grid: &Grid| Axis::exact(title, grid.low(), grid.low() + grid.edge());
-        let (x, z) = (axis("x (µm)", &self.x), axis("z (µm)", &self.z));
-        frame.draw(drawing, &x, &z, false);
-        let above = [frame.left + 0.5 * frame.width, frame.top - 16.0];
-        drawing.text(&self.label, above, Anchor::Centre, NORMAL);
+        [axis("x (µm)", &self.x), axis("z (µm)", &self.z)]
+    }
+
+    fn sheet(&self) -> Sheet<'_> {
+        Sheet {
+            edges: [self.x.edge(), self.z.edge()],
+            name: &self.label,
+            detail: "",
+        }
     }
 }
 

@@ -1,13 +1,12 @@
-use std::ffi::OsStr;
-use std::os::unix::ffi::OsStrExt;
-use std::path::{Path, PathBuf};
-use std::str::FromStr;
-
-use clap::builder::{OsStringValueParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use cli::Output;
-use figures::{Case, Colouring, Labelled, Position};
-use units::{Axis, Length, Pressure, Quantity};
+use figures::{Case, Labelled, Page, Position};
+use units::Axis;
+
+use crate::values::{
+    Colour, Limit, Part, Target, Wood, degrees, dpi, experiment, given, labelled, length, name,
+    part, position, run, width,
+};
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
 #[derive(Parser)]
@@ -16,6 +15,7 @@ use units::{Axis, Length, Pressure, Quantity};
     after_help = "Examples:
   bond-figures pressure --run \"XPIC(5)=out/pf-xpic\" --run FLIP=out/pf-flip -o pressure.svg
   bond-figures slice start=bond.mpts end=out/pf-xpic/final.mpts --normal z -o slices.png
+  bond-figures map --map experiment=exp-map.csv --width \"84 mm\" --dpi 300 -o map.png -o map.pdf
   bond-figures table2 --experiment pf=pf.csv --run pf:xpic=out/pf-xpic/wp.csv -o table2.csv"
 )]
 pub(crate) struct Arguments {
@@ -33,6 +33,8 @@ impl Arguments {
             Figure::Penetration(a) => &a.picture.common,
             Figure::Slice(a) => &a.picture.common,
             Figure::Response(a) => &a.picture.common,
+            Figure::View(a) => &a.picture.common,
+            Figure::Setup(a) => &a.picture.common,
             Figure::Table2(a) => &a.common,
         }
     }
@@ -68,7 +70,8 @@ pub(crate) enum Figure {
     #[command(after_help = "Examples:
   bond-figures slice bond.mpts -o bond.png
   bond-figures slice start=bond.mpts end=final.mpts --normal x --at 40% -o ends.png
-  bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg")]
+  bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg
+  bond-figures slice bond.mpts --part \"0 um:40 um,20 um:60 um\" --grid \"2.9 um\" -o fig3.svg")]
     Slice(SliceArgs),
     /// A result of a sweep against each of its parameters
     #[command(after_help = "Examples:
@@ -76,22 +79,64 @@ pub(crate) enum Figure {
   bond-figures response sweep.csv --result ep_um -o ep.png
   bond-sweep collect sweep -o - | bond-figures response - -o response.svg")]
     Response(ResponseArgs),
+    /// How a run is set up: stack, slice, adherends parted, slab put in (Fig. 2)
+    #[command(after_help = "Examples:
+  bond-figures setup experiment.mpts bond.mpts -o setup.svg
+  bond-figures setup experiment.mpts bond.mpts --width \"174 mm\" -o setup.pdf
+  build-bondline exp.mpts -o bond.mpts && bond-figures setup exp.mpts bond.mpts -o setup.png")]
+    Setup(SetupArgs),
+    /// Specimens, bonds and states of a run in three dimensions (Figs. 1 and 7)
+    #[command(after_help = "Examples:
+  bond-figures view start=bond.mpts mid=run/snapshots/0004.mpts end=run/final.mpts -o fig1.png
+  bond-figures view experiment=exp.mpts FLIP=flip/final.mpts --wood hidden -o fig7.pdf
+  bond-figures view final.mpts --turn -60 --tilt 40 --width \"84 mm\" --dpi 600 -o view.png")]
+    View(ViewArgs),
     /// Weighted penetration of experiment and runs beside the paper's (Table 2)
     #[command(after_help = "Examples:
   bond-figures table2 --experiment pf=experiment.csv --run pf:xpic=xpic.csv -o table2.csv
   bond-figures table2 --run pf:flip=flip.csv --run pva-pf:flip=pva-flip.csv -o -
   wp-metrics final.mpts -o wp.csv && bond-figures table2 --run \"pf:XPIC(5)=wp.csv\" -o -
-  bond-figures table2 --run pf:implicit=wp.csv --errors errors.csv -o table2.csv")]
+  bond-figures table2 --run pf:implicit=wp.csv --errors errors.csv -o table2.csv
+  bond-figures table2 --run pf:flip=wp.csv --name pf=PF --picture t.pdf --width \"84 mm\" -o t.csv")]
     Table2(Table2Args),
 }
 
 #[derive(Args)]
 pub(crate) struct Picture {
-    /// Picture to write, .svg or .png; `-` is SVG on standard output; may be repeated
+    /// Picture to write, .svg, .png or .pdf; `-` is SVG on standard output; may be repeated
     #[arg(short, long, value_name = "FILE", required = true, value_parser = given(Target::new))]
     pub(crate) output: Vec<Target>,
     #[command(flatten)]
+    print: Print,
+    #[command(flatten)]
     common: cli::Common,
+}
+
+/// What a picture is printed on.
+#[derive(Args)]
+pub(crate) struct Print {
+    /// Printed width, e.g. "84 mm": the figure fits itself to it with text of 7 and 8 points;
+    /// without it, as wide as it likes
+    #[arg(long, value_name = "LEN", value_parser = width)]
+    width: Option<f64>,
+    /// Pixels per inch of a PNG, 30 to 1200
+    #[arg(long, value_name = "NUMBER", default_value = "240", value_parser = dpi)]
+    dpi: f64,
+}
+
+impl Print {
+    pub(crate) fn page(&self) -> Page {
+        Page {
+            width_mm: self.width,
+            dpi: self.dpi,
+        }
+    }
+}
+
+impl Picture {
+    pub(crate) fn page(&self) -> Page {
+        self.print.page()
+    }
 }
 
 #[derive(Args)]
@@ -155,6 +200,44 @@ pub(crate) struct SliceArgs {
     /// Colour the adhesive: plain, or by its pressure
     #[arg(long, value_enum, default_value = "plain")]
     pub(crate) colour: Colour,
+    /// Only this part of the slice: ends along the axis to the right, then along the one up
+    #[arg(long, value_name = "LEN:LEN,LEN:LEN", allow_hyphen_values = true, value_parser = part)]
+    pub(crate) part: Option<Part>,
+    /// Draw the grid of a run in cells of this size (Fig. 3)
+    #[arg(long, value_name = "LEN", value_parser = length)]
+    pub(crate) grid: Option<f64>,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
+pub(crate) struct SetupArgs {
+    /// Particle file of the specimen
+    #[arg(value_name = "SPECIMEN", value_parser = given(labelled))]
+    pub(crate) specimen: Labelled,
+    /// Particle file of the bond that was made of it
+    #[arg(value_name = "BOND", value_parser = given(labelled))]
+    pub(crate) bond: Labelled,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
+pub(crate) struct ViewArgs {
+    /// Particle files, one panel each
+    #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
+    pub(crate) files: Vec<Labelled>,
+    /// How much of the wood is shown: none, the half away from the viewer, or all
+    #[arg(long, value_enum, default_value = "cut")]
+    pub(crate) wood: Wood,
+    /// Degrees to look from beside the front, about the axis across the bond
+    #[arg(long, value_name = "DEGREES", default_value = "35", allow_hyphen_values = true,
+          value_parser = |text: &str| degrees(text, [-360.0, 360.0]))]
+    pub(crate) turn: f64,
+    /// Degrees to look from above the bond plane
+    #[arg(long, value_name = "DEGREES", default_value = "25", allow_hyphen_values = true,
+          value_parser = |text: &str| degrees(text, [-90.0, 90.0]))]
+    pub(crate) tilt: f64,
     #[command(flatten)]
     pub(crate) picture: Picture,
 }
@@ -184,9 +267,17 @@ pub(crate) struct Table2Args {
     /// pressure carried on to cells of no size, and how far the other runs are from them
     #[arg(long, value_name = "CSV")]
     pub(crate) errors: Option<Output>,
+    /// The table as a picture, .svg, .png or .pdf; may be repeated
+    #[arg(long, value_name = "FILE", value_parser = given(Target::file))]
+    pub(crate) picture: Vec<Target>,
+    /// How an adhesive or a run is called in the picture; may be repeated
+    #[arg(long, value_name = "KEY=TEXT", value_parser = name)]
+    pub(crate) name: Vec<(String, String)>,
     /// CSV to write; `-` is standard output
     #[arg(short, long, value_name = "CSV")]
     pub(crate) output: Output,
+    #[command(flatten)]
+    pub(crate) print: Print,
     #[command(flatten)]
     common: cli::Common,
 }
@@ -201,157 +292,4 @@ impl Table2Args {
     pub(crate) fn cases(&self) -> Vec<Case> {
         self.experiment.iter().chain(&self.run).cloned().collect()
     }
-}
-
-/// How to colour the adhesive.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum Colour {
-    Plain,
-    Pressure,
-}
-
-impl From<Colour> for Colouring {
-    fn from(colour: Colour) -> Self {
-        match colour {
-            Colour::Plain => Self::Plain,
-            Colour::Pressure => Self::Pressure,
-        }
-    }
-}
-
-/// A positive pressure, Pa.
-#[derive(Clone, Copy)]
-pub(crate) struct Limit(pub(crate) f64);
-
-impl FromStr for Limit {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let pressure = text
-            .parse::<Quantity<Pressure>>()
-            .and_then(Quantity::positive);
-        pressure.map(|p| Self(p.si())).map_err(|e| e.to_string())
-    }
-}
-
-/// A picture's file and format.
-#[derive(Clone)]
-pub(crate) struct Target {
-    pub(crate) output: Output,
-    pub(crate) format: Format,
-}
-
-#[derive(Clone, Copy)]
-pub(crate) enum Format {
-    Svg,
-    Png,
-}
-
-impl Target {
-    fn new(text: &OsStr) -> Result<Self, String> {
-        let output = Output::from(text.to_owned());
-        let format = match &output {
-            Output::Stdout => Format::Svg,
-            Output::File(path) => match path.extension().and_then(|e| e.to_str()) {
-                Some(e) if e.eq_ignore_ascii_case("svg") => Format::Svg,
-                Some(e) if e.eq_ignore_ascii_case("png") => Format::Png,
-                _ => {
-                    return Err(format!(
-                        "{output} is not a picture's name: it must end in .svg or .png"
-                    ));
-                }
-            },
-        };
-        Ok(Self { output, format })
-    }
-}
-
-/// A parser of arguments that hold a path, which need not be UTF-8.
-fn given<T: Clone + Send + Sync + 'static>(
-    parse: fn(&OsStr) -> Result<T, String>,
-) -> impl TypedValueParser<Value = T> {
-    OsStringValueParser::new().try_map(move |text| parse(&text))
-}
-
-/// What is before and behind the first `=`.
-fn name_and_path(text: &OsStr) -> Option<(String, PathBuf)> {
-    let bytes = text.as_bytes();
-    let at = bytes.iter().position(|b| *b == b'=')?;
-    let name = String::from_utf8_lossy(&bytes[..at]).into_owned();
-    Some((name, OsStr::from_bytes(&bytes[at + 1..]).into()))
-}
-
-/// `LABEL=PATH`, or a path alone, whose last two names are its label.
-fn labelled(text: &OsStr) -> Result<Labelled, String> {
-    let alone = || (short_name(Path::new(text)), PathBuf::from(text));
-    let (label, path) = name_and_path(text).unwrap_or_else(alone);
-    if label.is_empty() || path.as_os_str().is_empty() {
-        return Err(format!(
-            "'{}' needs a label and a path, as in FLIP=out/pf-flip",
-            text.display()
-        ));
-    }
-    Ok(Labelled { label, path })
-}
-
-/// `xpic/final` for `out/quick/pf/xpic/final.mpts`.
-fn short_name(path: &Path) -> String {
-    let folder = path.parent().and_then(Path::file_name);
-    let names = folder.into_iter().chain(path.file_stem());
-    let names: Vec<_> = names.map(|name| name.to_string_lossy()).collect();
-    names.join("/")
-}
-
-fn experiment(text: &OsStr) -> Result<Case, String> {
-    let case = name_and_path(text).map(|(adhesive, path)| Case {
-        adhesive,
-        name: "experiment".into(),
-        path,
-    });
-    let case = case.ok_or_else(|| {
-        let text = text.display();
-        format!("'{text}' is not ADHESIVE=CSV, as in pf=experiment.csv")
-    })?;
-    plain(&case.adhesive)?;
-    Ok(case)
-}
-
-/// Refuses a name that a spreadsheet would take for a formula.
-fn plain(name: &str) -> Result<(), String> {
-    match cli::cell(name) == name {
-        true => Ok(()),
-        false => Err(format!(
-            "the name '{name}' would be a formula in a spreadsheet: it may not begin with one of = + - @ ' or have control characters"
-        )),
-    }
-}
-
-fn run(text: &OsStr) -> Result<Case, String> {
-    let case = name_and_path(text).and_then(|(of, path)| {
-        let (adhesive, name) = of.split_once(':')?;
-        Some(Case {
-            adhesive: adhesive.into(),
-            name: name.into(),
-            path,
-        })
-    });
-    let case = case.ok_or_else(|| {
-        let text = text.display();
-        format!("'{text}' is not ADHESIVE:RUN=CSV, as in pf:xpic=wp.csv")
-    })?;
-    plain(&case.adhesive).and(plain(&case.name))?;
-    Ok(case)
-}
-
-fn position(text: &str) -> Result<Position, String> {
-    if let Some(number) = text.strip_suffix('%') {
-        return match number.trim().parse::<f64>() {
-            Ok(percent) if (0.0..=100.0).contains(&percent) => Ok(Position::Share(percent / 100.0)),
-            _ => Err(format!("'{text}' is not a percentage from 0% to 100%")),
-        };
-    }
-    let length = text.parse::<Quantity<Length>>();
-    length
-        .map(|length| Position::At(length.si()))
-        .map_err(|e| format!("{e}, or a percentage of the box, e.g. 50%"))
 }

@@ -2,17 +2,19 @@
 
 mod arguments;
 mod inputs;
+mod values;
 
 use std::process::ExitCode;
 
-use cli::{Failure, Output};
+use cli::{Failure, Output, Record};
 use figures::{
-    Case, CellErrors, Closing, Cut, Drawing, Error, Response, ShearRates, Slices, Table2, WpMap,
-    penetrations,
+    Case, CellErrors, Closing, Cut, Direction, Drawing, Error, Response, Setup, ShearRates, Slices,
+    Table2, Views, WpMap, penetrations,
 };
 
-use arguments::{Arguments, Figure, Format, Picture, Table2Args};
+use arguments::{Arguments, Figure, Picture, SliceArgs, Table2Args};
 use inputs::Inputs;
+use values::{Format, Target};
 
 fn main() -> ExitCode {
     cli::main(Arguments::common, run)
@@ -27,57 +29,87 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let limit = a.limit.map(|pressure| pressure.0);
             let title = a.title.as_deref().unwrap_or_default();
             let figure = Closing::read(run, finer, limit, title).map_err(failure)?;
-            write(&figure.draw(), &a.picture, &inputs)
+            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Map(a) => {
             let inputs = Inputs::new(a.map)?;
             let figure = WpMap::read(inputs.files()).map_err(failure)?;
-            write(&figure.draw(), &a.picture, &inputs)
+            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Shear(a) => {
             let inputs = Inputs::new(a.files)?;
             let figure = ShearRates::read(inputs.files()).map_err(failure)?;
-            write(&figure.draw(), &a.picture, &inputs)
+            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Penetration(a) => {
             let inputs = Inputs::new(a.files)?;
-            let plot = penetrations(inputs.files()).map_err(failure)?;
+            let plot = penetrations(inputs.files())
+                .map_err(failure)?
+                .on(a.picture.page());
             write(&plot.draw().map_err(failure)?, &a.picture, &inputs)
-        }
-        Figure::Slice(a) => {
-            let inputs = Inputs::new(a.files)?;
-            let cut = Cut {
-                axis: a.normal,
-                position: a.at,
-            };
-            let figure = Slices::read(inputs.files(), cut, a.colour.into()).map_err(failure)?;
-            write(&figure.draw(), &a.picture, &inputs)
         }
         Figure::Response(a) => {
             let inputs = Inputs::new(vec![a.sweep])?;
             let figure = Response::read(&inputs.files()[0], &a.result).map_err(failure)?;
-            write(&figure.draw(), &a.picture, &inputs)
+            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
-        Figure::Table2(a) => {
-            let (inputs, cases) = Inputs::of_cases(a.cases())?;
-            inputs.keep_from([&a.output].into_iter().chain(&a.errors))?;
-            let table = Table2::read(&cases).map_err(failure)?;
-            let errors = errors(&a, &cases[a.experiments()..])?;
-            let mut text = table.to_text();
-            text.extend(errors.iter().map(CellErrors::to_text));
-            // The CSV may itself go to standard output; the text for reading then gives way.
-            match &a.output {
-                Output::Stdout => cli::note(text.trim_end()),
-                Output::File(_) => cli::print(&text)?,
-            }
-            let record = inputs.record()?;
-            if let (Some(output), Some(errors)) = (&a.errors, &errors) {
-                output.write_with_record(&record, |out| errors.write_csv(out))?;
-            }
-            a.output
-                .write_with_record(&record, |out| table.write_csv(out))
+        Figure::Slice(a) => slice(a),
+        Figure::Setup(a) => {
+            let inputs = Inputs::new(vec![a.specimen, a.bond])?;
+            let files = inputs.files();
+            let figure = Setup::read(&files[0], &files[1]).map_err(failure)?;
+            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
+        Figure::View(a) => {
+            let inputs = Inputs::new(a.files)?;
+            let from = Direction {
+                turn: a.turn,
+                tilt: a.tilt,
+            };
+            let figure = Views::read(inputs.files(), a.wood.into(), from).map_err(failure)?;
+            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
+        }
+        Figure::Table2(a) => table2(a),
     }
+}
+
+fn slice(a: SliceArgs) -> Result<(), Failure> {
+    let inputs = Inputs::new(a.files)?;
+    let cut = Cut {
+        axis: a.normal,
+        position: a.at,
+    };
+    let mut figure = Slices::read(inputs.files(), cut, a.colour.into()).map_err(failure)?;
+    if let Some(part) = a.part {
+        figure = figure.part(part).map_err(failure)?;
+    }
+    if let Some(cell) = a.grid {
+        figure = figure.grid(cell).map_err(failure)?;
+    }
+    write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
+}
+
+fn table2(a: Table2Args) -> Result<(), Failure> {
+    let (inputs, cases) = Inputs::of_cases(a.cases())?;
+    let pictures = a.picture.iter().map(|target| &target.output);
+    inputs.keep_from([&a.output].into_iter().chain(&a.errors).chain(pictures))?;
+    let table = Table2::read(&cases).map_err(failure)?;
+    let errors = errors(&a, &cases[a.experiments()..])?;
+    let mut text = table.to_text();
+    text.extend(errors.iter().map(CellErrors::to_text));
+    // The CSV may itself go to standard output; the text for reading then gives way.
+    match &a.output {
+        Output::Stdout => cli::note(text.trim_end()),
+        Output::File(_) => cli::print(&text)?,
+    }
+    let record = inputs.record()?;
+    if let (Some(output), Some(errors)) = (&a.errors, &errors) {
+        output.write_with_record(&record, |out| errors.write_csv(out))?;
+    }
+    let drawing = table.draw(&a.name.iter().cloned().collect(), a.print.page());
+    write_all(&drawing, &a.picture, &record)?;
+    a.output
+        .write_with_record(&record, |out| table.write_csv(out))
 }
 
 /// What finer runs say of the errors of `runs`.
@@ -100,14 +132,18 @@ fn errors(arguments: &Table2Args, runs: &[Case]) -> Result<Option<CellErrors>, F
 /// Writes the picture to each of its outputs.
 fn write(drawing: &Drawing, picture: &Picture, inputs: &Inputs) -> Result<(), Failure> {
     inputs.keep_from(picture.output.iter().map(|target| &target.output))?;
-    let record = inputs.record()?;
-    for target in &picture.output {
+    write_all(drawing, &picture.output, &inputs.record()?)
+}
+
+fn write_all(drawing: &Drawing, targets: &[Target], record: &Record) -> Result<(), Failure> {
+    for target in targets {
         let bytes = match target.format {
             Format::Svg => drawing.to_svg().map_err(failure)?.into_bytes(),
             Format::Png => drawing.to_png().map_err(failure)?,
+            Format::Pdf => drawing.to_pdf().map_err(failure)?,
         };
         let write = |out: &mut dyn std::io::Write| out.write_all(&bytes);
-        target.output.write_with_record(&record, write)?;
+        target.output.write_with_record(record, write)?;
     }
     Ok(())
 }

@@ -63,6 +63,44 @@ fn a_run_folder_becomes_svg_and_png_with_their_records() {
     assert!(record.contains("history.csv"), "{record}");
 }
 
+/// 84 mm are 992 pixels of 300 to the inch and 238.11 points.
+#[test]
+fn a_picture_is_as_wide_in_print_as_asked_for() {
+    let folder = folder();
+    let arguments = [
+        "pressure", "--run", "run", "--width", "84 mm", "--dpi", "300", "-o", "a.svg", "-o",
+        "a.png", "-o", "a.pdf",
+    ];
+    let output = figures(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    let svg = String::from_utf8(read("a.svg")).unwrap();
+    assert!(svg.starts_with("<svg width=\"84.00mm\""), "{}", &svg[..80]);
+    let png = read("a.png");
+    let reader = png::Decoder::new(std::io::Cursor::new(png))
+        .read_info()
+        .unwrap();
+    let dots = reader.info().pixel_dims.unwrap();
+    assert_eq!((reader.info().width, dots.xppu), (992, 11811));
+    let pdf = read("a.pdf");
+    assert!(pdf.starts_with(b"%PDF-"));
+    let text = String::from_utf8_lossy(&pdf);
+    let box_of_page = text
+        .split("/MediaBox [")
+        .nth(1)
+        .and_then(|t| t.split(']').next())
+        .unwrap();
+    let corners: Vec<f64> = box_of_page.split(' ').map(|n| n.parse().unwrap()).collect();
+    assert!((corners[2] - 238.11).abs() < 0.02, "{corners:?}");
+    assert!(text.contains("/BNDLNE+DejaVuSans") && text.contains("/ToUnicode"));
+    let narrow = figures(
+        folder.path(),
+        &["pressure", "--run", "run", "--width", "84", "-o", "b.pdf"],
+    );
+    assert_eq!(narrow.status.code(), Some(2));
+    assert!(said(&narrow).contains("has no unit"), "{}", said(&narrow));
+}
+
 #[test]
 fn standard_output_gets_the_svg_alone() {
     let folder = folder();
@@ -163,6 +201,8 @@ fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
         ["map", "--map", "wp.csv", "-o", "bad.svg"],
         ["shear", "wp.csv", "-q", "-o", "bad.svg"],
         ["slice", "wp.csv", "-q", "-o", "bad.svg"],
+        ["view", "wp.csv", "-q", "-o", "bad.svg"],
+        ["setup", "wp.csv", "wp.csv", "-o", "bad.svg"],
     ] {
         let output = figures(folder.path(), &arguments);
         assert_eq!(
@@ -180,7 +220,7 @@ fn wrong_usage_is_exit_2_with_what_is_accepted() {
     for (arguments, sentence) in [
         (
             vec!["pressure", "--run", "run", "-o", "a.jpg"],
-            "must end in .svg or .png",
+            "must end in .svg, .png or .pdf",
         ),
         (
             vec!["pressure", "--run", "=run", "-o", "a.svg"],

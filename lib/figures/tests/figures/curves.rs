@@ -34,6 +34,7 @@ fn pressure_and_speed_have_units_labels_and_both_lines() {
         "XPIC(5)",
         "frictionless",
         "PF",
+        "pressure limit, 2.5 MPa",
         "40",
         "2",
     ] {
@@ -154,9 +155,9 @@ fn shear_rates_have_bands_median_and_decades() {
         "time (µs)",
         "PF",
         "median",
-        "max",
+        "maximum",
         "5 to 95 %",
-        "1e5",
+        "10⁵",
     ] {
         assert!(
             said.iter().any(|t| t == label),

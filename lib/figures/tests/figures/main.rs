@@ -2,6 +2,7 @@
 //! what is drawn follows the data.
 
 mod curves;
+mod layout;
 mod maps;
 mod slices;
 mod table;

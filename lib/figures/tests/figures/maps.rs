@@ -38,7 +38,7 @@ fn maps_share_one_scale_and_show_holes() {
         "x (µm)",
         "z (µm)",
         "weighted penetration (µm)",
-        "none",
+        "no adhesive",
     ] {
         assert!(said.iter().any(|t| t == text), "{text} is not in {said:?}");
     }

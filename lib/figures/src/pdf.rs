@@ -1,0 +1,326 @@
+//! Drawings as PDF: lines, areas and images as they are, text in the embedded font's own glyphs,
+//! which can be searched and copied.
+
+use std::collections::BTreeMap;
+use std::io::Write as _;
+
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use pdf_writer::types::{
+    CidFontType, FontFlags, LineCapStyle, LineJoinStyle, SystemInfo, UnicodeCmap,
+};
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
+use plotters::style::RGBAColor;
+use skrifa::instance::{LocationRef, Size};
+use skrifa::{FontRef, GlyphId, MetadataProvider};
+use subsetter::GlyphRemapper;
+
+use crate::Error;
+use crate::drawing::{Anchor, Drawing, Item, Point};
+use crate::measure::EM;
+use crate::page::millimetres;
+use crate::replay::failed;
+
+const FONT: Name = Name(b"F");
+const FONT_NAME: Name = Name(b"BNDLNE+DejaVuSans");
+const CID: SystemInfo = SystemInfo {
+    registry: Str(b"Adobe"),
+    ordering: Str(b"Identity"),
+    supplement: 0,
+};
+
+/// Numbers of the document's objects; images and opacities follow.
+const CATALOG: Ref = Ref::new(1);
+const PAGES: Ref = Ref::new(2);
+const PAGE: Ref = Ref::new(3);
+const CONTENT: Ref = Ref::new(4);
+const TYPE0: Ref = Ref::new(5);
+const CID_FONT: Ref = Ref::new(6);
+const DESCRIPTOR: Ref = Ref::new(7);
+const FONT_FILE: Ref = Ref::new(8);
+const UNICODE: Ref = Ref::new(9);
+const NEXT: i32 = 10;
+
+impl Drawing {
+    /// The drawing as a PDF of one page of its printed size, without a date.
+    ///
+    /// # Errors
+    /// [`Error::Draw`] where the embedded font cannot be read.
+    pub fn to_pdf(&self) -> Result<Vec<u8>, Error> {
+        let mut sheet = Sheet::new(self.height)?;
+        for (i, image) in self.images.iter().enumerate() {
+            let [x, y, width, height] = image.place;
+            let [x, y] = sheet.place(&[x, y + height]);
+            let [width, height] = [width, height].map(|edge| sheet.points(edge));
+            sheet.content.save_state();
+            sheet.content.transform([width, 0.0, 0.0, height, x, y]);
+            sheet.content.x_object(Name(image_name(i).as_bytes()));
+            sheet.content.restore_state();
+        }
+        for item in &self.items {
+            sheet.draw(item);
+        }
+        self.document(sheet)
+    }
+
+    fn document(&self, sheet: Sheet) -> Result<Vec<u8>, Error> {
+        let mut pdf = Pdf::new();
+        pdf.catalog(CATALOG).pages(PAGES);
+        pdf.pages(PAGES).kids([PAGE]).count(1);
+        let images: Vec<Ref> = (0..self.images.len())
+            .map(|i| Ref::new(NEXT + i as i32))
+            .collect();
+        let states = |i: usize| Ref::new(NEXT + (self.images.len() + i) as i32);
+        let mut page = pdf.page(PAGE);
+        let [width, height] = [self.width, self.height].map(|edge| sheet.points(edge));
+        page.media_box(Rect::new(0.0, 0.0, width, height));
+        page.parent(PAGES).contents(CONTENT);
+        let mut resources = page.resources();
+        resources.fonts().pair(FONT, TYPE0);
+        let mut objects = resources.x_objects();
+        for (i, id) in images.iter().enumerate() {
+            objects.pair(Name(image_name(i).as_bytes()), *id);
+        }
+        objects.finish();
+        let mut graphics = resources.ext_g_states();
+        for (i, name) in sheet.opacities.keys().enumerate() {
+            graphics.pair(Name(state_name(*name).as_bytes()), states(i));
+        }
+        graphics.finish();
+        resources.finish();
+        page.finish();
+        for (i, per_mille) in sheet.opacities.keys().enumerate() {
+            let alpha = f32::from(*per_mille) / 1000.0;
+            let mut state = pdf.ext_graphics(states(i));
+            state.non_stroking_alpha(alpha).stroking_alpha(alpha);
+        }
+        for (image, id) in self.images.iter().zip(images) {
+            let image = image.enlarged();
+            let data = packed(&image.rgb)?;
+            let mut object = pdf.image_xobject(id, &data);
+            let [columns, rows] = image.size.map(|n| n as i32);
+            object.filter(Filter::FlateDecode);
+            object.width(columns).height(rows);
+            object.color_space().device_rgb();
+            object.bits_per_component(8);
+        }
+        sheet.text.write(&mut pdf)?;
+        let content = packed(&sheet.content.finish())?;
+        pdf.stream(CONTENT, &content).filter(Filter::FlateDecode);
+        Ok(pdf.finish())
+    }
+}
+
+fn image_name(i: usize) -> String {
+    format!("I{i}")
+}
+
+fn state_name(per_mille: u16) -> String {
+    format!("G{per_mille}")
+}
+
+fn packed(bytes: &[u8]) -> Result<Vec<u8>, Error> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+    encoder.write_all(bytes).map_err(failed)?;
+    encoder.finish().map_err(failed)
+}
+
+/// What is drawn so far.
+struct Sheet {
+    content: Content,
+    /// Height of the drawing, logical pixels.
+    height: f64,
+    /// The opacities in use, per mille.
+    opacities: BTreeMap<u16, ()>,
+    text: Glyphs,
+}
+
+impl Sheet {
+    fn new(height: f64) -> Result<Self, Error> {
+        let mut content = Content::new();
+        content.set_line_cap(LineCapStyle::ButtCap);
+        content.set_line_join(LineJoinStyle::RoundJoin);
+        Ok(Self {
+            content,
+            height,
+            opacities: BTreeMap::new(),
+            text: Glyphs::new()?,
+        })
+    }
+
+    /// A length in logical pixels, points.
+    fn points(&self, pixels: f64) -> f32 {
+        (millimetres(pixels) * 72.0 / 25.4) as f32
+    }
+
+    /// A place, points from the lower left corner.
+    fn place(&self, [x, y]: &Point) -> [f32; 2] {
+        [self.points(*x), self.points(self.height - y)]
+    }
+
+    fn draw(&mut self, item: &Item) {
+        match item {
+            Item::Line {
+                points,
+                colour,
+                width,
+            } => {
+                self.colour(colour);
+                let width = self.points(*width);
+                self.content.set_line_width(width);
+                self.path(points);
+                self.content.stroke();
+            }
+            Item::Area { points, colour } => {
+                self.colour(colour);
+                self.path(points);
+                self.content.fill_nonzero();
+            }
+            Item::Text {
+                text,
+                at,
+                anchor,
+                size,
+            } => self.text(text, *at, *anchor, *size),
+        }
+    }
+
+    fn colour(&mut self, colour: &RGBAColor) {
+        let [r, g, b] = [colour.0, colour.1, colour.2].map(|c| f32::from(c) / 255.0);
+        let opacity = (1000.0 * colour.3).round() as u16;
+        self.opacities.insert(opacity, ());
+        self.content
+            .set_parameters(Name(state_name(opacity).as_bytes()));
+        self.content.set_stroke_rgb(r, g, b);
+        self.content.set_fill_rgb(r, g, b);
+    }
+
+    fn path(&mut self, points: &[Point]) {
+        for (i, point) in points.iter().enumerate() {
+            let [x, y] = self.place(point);
+            match i {
+                0 => self.content.move_to(x, y),
+                _ => self.content.line_to(x, y),
+            };
+        }
+    }
+
+    fn text(&mut self, text: &str, at: Point, anchor: Anchor, size: f64) {
+        self.colour(&crate::colour::BLACK);
+        let (codes, width) = self.text.encode(text, size);
+        let start = match anchor {
+            Anchor::Left => 0.0,
+            Anchor::Centre | Anchor::Upwards => 0.5 * width,
+            Anchor::Right => width,
+        };
+        let down = 0.5 * self.text.capitals * EM * size;
+        let upwards = anchor == Anchor::Upwards;
+        let origin = match upwards {
+            true => [at[0] + down, at[1] + start],
+            false => [at[0] - start, at[1] + down],
+        };
+        let [x, y] = self.place(&origin);
+        let turn = if upwards {
+            [0.0, 1.0, -1.0, 0.0]
+        } else {
+            [1.0, 0.0, 0.0, 1.0]
+        };
+        let [a, b, c, d] = turn;
+        let em = self.points(EM * size);
+        self.content.begin_text();
+        self.content.set_font(FONT, em);
+        self.content.set_text_matrix([a, b, c, d, x, y]);
+        self.content.show(Str(&codes));
+        self.content.end_text();
+    }
+}
+
+/// The glyphs of the embedded font that the drawing's text has.
+struct Glyphs {
+    font: FontRef<'static>,
+    used: GlyphRemapper,
+    /// Character and advance (em / 1000) of each glyph used, by its new number.
+    named: BTreeMap<u16, (char, f32)>,
+    /// Height of the capitals, em.
+    capitals: f64,
+}
+
+impl Glyphs {
+    fn new() -> Result<Self, Error> {
+        let font = FontRef::new(dejavu::sans::regular()).map_err(failed)?;
+        let metrics = font.metrics(Size::new(1.0), LocationRef::default());
+        Ok(Self {
+            used: GlyphRemapper::new(),
+            named: BTreeMap::new(),
+            capitals: f64::from(metrics.cap_height.unwrap_or(0.73)),
+            font,
+        })
+    }
+
+    /// The text as numbers of glyphs, and its width in the unit of `size`.
+    fn encode(&mut self, text: &str, size: f64) -> (Vec<u8>, f64) {
+        let advances = self
+            .font
+            .glyph_metrics(Size::new(1.0), LocationRef::default());
+        let (mut codes, mut width) = (Vec::new(), 0.0);
+        for c in text.chars() {
+            let glyph = self.font.charmap().map(c).unwrap_or(GlyphId::NOTDEF);
+            let advance = advances.advance_width(glyph).unwrap_or(0.0);
+            // The font has fewer than 2^16 glyphs.
+            let new = self.used.remap(glyph.to_u32() as u16);
+            self.named.entry(new).or_insert((c, 1000.0 * advance));
+            codes.extend(new.to_be_bytes());
+            width += EM * size * f64::from(advance);
+        }
+        (codes, width)
+    }
+
+    fn write(&self, pdf: &mut Pdf) -> Result<(), Error> {
+        let mut font = pdf.type0_font(TYPE0);
+        font.base_font(FONT_NAME)
+            .encoding_predefined(Name(b"Identity-H"));
+        font.descendant_font(CID_FONT).to_unicode(UNICODE);
+        font.finish();
+        let mut cid = pdf.cid_font(CID_FONT);
+        cid.subtype(CidFontType::Type2)
+            .base_font(FONT_NAME)
+            .system_info(CID);
+        cid.font_descriptor(DESCRIPTOR).default_width(0.0);
+        cid.cid_to_gid_map_predefined(Name(b"Identity"));
+        let mut widths = cid.widths();
+        for (glyph, (_, advance)) in &self.named {
+            widths.consecutive(*glyph, [*advance]);
+        }
+        widths.finish();
+        cid.finish();
+        let metrics = self.font.metrics(Size::new(1000.0), LocationRef::default());
+        let bounds = metrics.bounds.unwrap_or_default();
+        let mut descriptor = pdf.font_descriptor(DESCRIPTOR);
+        descriptor
+            .name(FONT_NAME)
+            .flags(FontFlags::NON_SYMBOLIC)
+            .italic_angle(0.0);
+        descriptor.bbox(Rect::new(
+            bounds.x_min,
+            bounds.y_min,
+            bounds.x_max,
+            bounds.y_max,
+        ));
+        descriptor.ascent(metrics.ascent).descent(metrics.descent);
+        descriptor
+            .cap_height(1000.0 * self.capitals as f32)
+            .stem_v(90.0)
+            .font_file2(FONT_FILE);
+        descriptor.finish();
+        let names = self.named.iter().filter(|(glyph, _)| **glyph > 0);
+        let mut unicode = UnicodeCmap::<u16>::new(Name(b"Text"), CID);
+        names.for_each(|(glyph, (c, _))| unicode.pair(*glyph, *c));
+        pdf.cmap(UNICODE, &unicode.finish());
+        let subset = subsetter::subset(dejavu::sans::regular(), 0, &self.used).map_err(failed)?;
+        let data = packed(&subset)?;
+        let mut file = pdf.stream(FONT_FILE, &data);
+        file.filter(Filter::FlateDecode);
+        file.pair(Name(b"Length1"), subset.len() as i32);
+        Ok(())
+    }
+}

@@ -1,0 +1,108 @@
+//! Table 2 as a picture.
+
+use std::collections::BTreeMap;
+
+use crate::axes::{NORMAL, SMALL};
+use crate::colour::BLACK;
+use crate::drawing::{Anchor, Drawing};
+use crate::measure::{self, LINE};
+use crate::page::Page;
+use crate::table2::{Row, SIDES, Table2};
+
+const WIDTH: f64 = 520.0;
+const MARGIN: f64 = 12.0;
+/// Width of a column of numbers, and how far names are set in below their adhesive.
+const COLUMN: f64 = 58.0;
+const COLUMNS: f64 = 4.0;
+const INDENT: f64 = 14.0;
+const ROW: f64 = 1.45 * NORMAL;
+/// What stands below the table.
+const NOTES: [&str; 2] = [
+    "slab: the unpenetrated slab of the same volume, t/√12.",
+    "paper: Hammerquist and Nairn, Table 2; another specimen.",
+];
+
+/// A table on its way down the page.
+struct Sheet {
+    drawing: Drawing,
+    y: f64,
+}
+
+impl Sheet {
+    fn rule(&mut self, width: f64) {
+        let right = self.drawing.width - MARGIN;
+        let ends = [MARGIN, right].map(|x| [x, self.y]);
+        self.drawing.line(ends.to_vec(), BLACK, width);
+        self.y += 0.35 * ROW;
+    }
+
+    /// A row: its name in as many lines as it needs, and numbers of 2 decimals.
+    fn row(&mut self, name: &str, indent: f64, size: f64, numbers: &[f64]) {
+        let numbers = numbers.iter().map(|n| match n.is_finite() {
+            true => format!("{n:.2}"),
+            false => "–".into(),
+        });
+        let numbers: Vec<String> = numbers.collect();
+        self.texts(name, indent, size, &numbers);
+    }
+
+    fn texts(&mut self, name: &str, indent: f64, size: f64, cells: &[String]) {
+        let left = MARGIN + indent;
+        let first = self.drawing.width - MARGIN - COLUMNS * COLUMN;
+        let free = if cells.is_empty() {
+            self.drawing.width - MARGIN
+        } else {
+            first
+        };
+        let lines = measure::lines(name, size, free - left, 3);
+        self.y += 0.5 * ROW;
+        self.drawing
+            .lines(&lines, [left, self.y], Anchor::Left, size);
+        for (i, cell) in cells.iter().enumerate() {
+            let right = first + (i as f64 + 1.0) * COLUMN;
+            self.drawing
+                .text(cell.as_str(), [right, self.y], Anchor::Right, size);
+        }
+        self.y += 0.5 * ROW + (lines.len().max(1) - 1) as f64 * LINE * size;
+    }
+
+    fn case(&mut self, row: &Row, name: &str) {
+        let [bottom, top, total] = row.wp;
+        self.row(name, INDENT, NORMAL, &[bottom, top, total, row.slab]);
+        if row.paper.is_some() {
+            self.row("paper", 2.0 * INDENT, SMALL, &row.paper_wp());
+        }
+    }
+}
+
+impl Table2 {
+    /// The table as a picture for a page; `names` says how adhesives and cases are called in it.
+    pub fn draw(&self, names: &BTreeMap<String, String>, page: Page) -> Drawing {
+        let named = |key: &str| names.get(key).map_or(key.to_owned(), Clone::clone);
+        let width = page.width().unwrap_or(WIDTH);
+        let mut sheet = Sheet {
+            drawing: Drawing::new(page, width, 0.0),
+            y: MARGIN,
+        };
+        sheet.rule(1.8);
+        let heads = SIDES.into_iter().chain(["slab"]).map(String::from);
+        let heads: Vec<String> = heads.collect();
+        sheet.texts("Weighted penetration (µm)", 0.0, NORMAL, &heads);
+        sheet.y += 0.2 * ROW;
+        sheet.rule(1.0);
+        for group in self.rows.chunk_by(|a, b| a.adhesive == b.adhesive) {
+            sheet.row(&named(&group[0].adhesive), 0.0, NORMAL, &[]);
+            for row in group {
+                sheet.case(row, &named(&row.case));
+            }
+            sheet.y += 0.25 * ROW;
+        }
+        sheet.rule(1.8);
+        for note in NOTES {
+            sheet.row(note, 0.0, SMALL, &[]);
+        }
+        let Sheet { mut drawing, y } = sheet;
+        drawing.height = (y + MARGIN).ceil();
+        drawing
+    }
+}
