@@ -7,8 +7,8 @@ use crate::{Error, Labelled, Mark, Plot};
 /// Longest over shortest time from which the axis of times is logarithmic.
 const LONG: f64 = 100.0;
 
-/// WP and the depth of 95 % of the adhesive, a line for each side of each run, and a dot where a bond line
-/// is no longer filled.
+/// WP and the depth of 95 % of the adhesive, a line for each side of one run or for the whole of each of
+/// several, and a dot where a bond line is no longer filled.
 ///
 /// # Errors
 /// [`Error::Data`] for an unreadable file, a missing column or side, or one without numbers.
@@ -26,11 +26,11 @@ pub fn penetrations(runs: &[Labelled]) -> Result<Plot, Error> {
     let mut plot = Plot::new("Penetration", &format!("time ({name})"), "depth (µm)")
         .logarithmic([last > LONG * first, false]);
     for (run, table) in runs.iter().zip(&tables) {
-        let own = match runs.len() {
-            1 => String::new(),
-            _ => format!("{}: ", run.label),
+        let (own, sides) = match runs.len() {
+            1 => (String::new(), &["bottom", "top"][..]),
+            _ => (format!("{}: ", run.label), &["total"][..]),
         };
-        for side in ["bottom", "top"] {
+        for &side in sides {
             for (column, what) in [("wp_um", "WP"), ("p95_depth_um", "95 %")] {
                 let points = course(table, side, column, unit)?;
                 plot = plot.with(&format!("{own}{what}, {side}"), Mark::LineAndDots, points);
