@@ -4,11 +4,12 @@ use crate::closing::time_unit;
 use crate::table::Table;
 use crate::{Error, Labelled, Mark, Plot};
 
-/// Longest over shortest time from which the axis of times is logarithmic.
+/// Longest over shortest time from which their logarithms are drawn: a press takes from microseconds to
+/// minutes, more decades than a logarithmic axis shows.
 const LONG: f64 = 100.0;
 
-/// WP and the depth of 95 % of the adhesive, a line for each side of each run, and a dot where a bond line
-/// is no longer filled.
+/// WP and the depth of 95 % of the adhesive, a line for each side of one run or for the whole of each of
+/// several, and a dot where a bond line is no longer filled.
 ///
 /// # Errors
 /// [`Error::Data`] for an unreadable file, a missing column or side, or one without numbers.
@@ -23,38 +24,50 @@ pub fn penetrations(runs: &[Labelled]) -> Result<Plot, Error> {
         (first.min(t), last.max(t))
     });
     let (unit, name) = time_unit(last);
-    let mut plot = Plot::new("Penetration", &format!("time ({name})"), "depth (µm)")
-        .logarithmic([last > LONG * first, false]);
+    let long = last > LONG * first;
+    let title = match long {
+        true => format!("log10 of time ({name})"),
+        false => format!("time ({name})"),
+    };
+    let place = |time: f64| match long {
+        true => (time / unit).log10(),
+        false => time / unit,
+    };
+    let mut plot = Plot::new("Penetration", &title, "depth (µm)");
     for (run, table) in runs.iter().zip(&tables) {
-        let own = match runs.len() {
-            1 => String::new(),
-            _ => format!("{}: ", run.label),
+        let (own, sides) = match runs.len() {
+            1 => (String::new(), &["bottom", "top"][..]),
+            _ => (format!("{}: ", run.label), &["total"][..]),
         };
-        for side in ["bottom", "top"] {
+        for &side in sides {
             for (column, what) in [("wp_um", "WP"), ("p95_depth_um", "95 %")] {
-                let points = course(table, side, column, unit)?;
+                let points = course(table, side, column, place)?;
                 plot = plot.with(&format!("{own}{what}, {side}"), Mark::LineAndDots, points);
             }
         }
         let states = table.texts("bond_line")?;
         if let Some(row) = states.iter().position(|state| *state != "filled") {
-            let at = [table.data("time_s")?[row] / unit, 0.0];
+            let at = [place(table.data("time_s")?[row]), 0.0];
             plot = plot.with(&format!("{own}{}", states[row]), Mark::Dots, vec![at]);
         }
     }
     Ok(plot)
 }
 
-/// A column of one side over time, in `unit`s of a second; what is at no time has no place on a
-/// logarithmic axis.
-fn course(table: &Table, side: &str, column: &str, unit: f64) -> Result<Vec<[f64; 2]>, Error> {
+/// A column of one side over the `place` of its time (s); what is at no time has no logarithm.
+fn course(
+    table: &Table,
+    side: &str,
+    column: &str,
+    place: impl Fn(f64) -> f64,
+) -> Result<Vec<[f64; 2]>, Error> {
     let (sides, times, values) = (
         table.texts("side")?,
         table.data("time_s")?,
         table.data(column)?,
     );
     let rows = (0..sides.len()).filter(|&row| sides[row] == side && times[row] > 0.0);
-    let points: Vec<[f64; 2]> = rows.map(|row| [times[row] / unit, values[row]]).collect();
+    let points: Vec<[f64; 2]> = rows.map(|row| [place(times[row]), values[row]]).collect();
     if points.is_empty() {
         return Err(Error::Data(format!(
             "'{}' has no row of the side {side} after the start, as wp-metrics --series writes them",
