@@ -62,6 +62,7 @@ check "VTK" python3 with vtk python3 "$here/check.py" vtk
 # Both print the sums of check.py, which has written its own.
 check "R reader" Rscript bash -c "Rscript '$here/sums.R' '$readers/mpts.R' final.mpts | diff - sums.txt"
 check "Octave reader" octave bash -c "octave -qf '$here/sums.m' '$readers' final.mpts | diff - sums.txt"
-for imagej in ImageJ imagej fiji; do command -v $imagej >/dev/null && break; done
-check "ImageJ" $imagej bash -c "$imagej --headless -macro '$here/size.ijm' '$PWD/final.tiff' | grep -Fx -f size.txt"
+# Without a display ImageJ runs macros only as Fiji starts it.
+for imagej in fiji-linux-x64 ImageJ-linux64 fiji; do command -v $imagej >/dev/null && break; done
+check "ImageJ of Fiji" $imagej bash -c "$imagej --headless -macro '$here/size.ijm' '$PWD/final.tiff' | grep -Fx -f size.txt"
 exit $failed

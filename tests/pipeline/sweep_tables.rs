@@ -38,7 +38,7 @@ fn a_bad_cell_is_named_before_any_run_starts() {
     for (table, words) in [
         (
             "adhesive.viscosity\n300 cP\n300\n",
-            &["row 2, column adhesive.viscosity: '300' has no unit"][..],
+            &["row 2, column adhesive.viscosity: ", "with a unit"][..],
         ),
         (
             "adhesive.viskosity\n300 cP\n",
@@ -50,8 +50,8 @@ fn a_bad_cell_is_named_before_any_run_starts() {
             &["row 2, column grid.cell: ", "7.733 cells"],
         ),
         (
-            "particles,integrator.scheme,integrator.order\nbond.mpts,implicit,\nbond.mpts,implicit,5\n",
-            &["row 2, column integrator.order: "],
+            "particles,integrator.scheme,integrator.pressure\nbond.mpts,implicit,\nbond.mpts,implicit,cell-mean\n",
+            &["row 2, column integrator.pressure: "],
         ),
         (
             "particles,specimen.seed\nbond.mpts,1\n",
@@ -115,7 +115,7 @@ bond.mpts,300 cP,implicit,,
 bond.mpts,3 P,implicit,2.5 MPa,10 m/s
 bond.mpts,300 cP,,2.5 MPa,10 m/s
 bond.mpts,300 cP,explicit,,
-bond.mpts,300 cP,implicit,5 GPa,500 m/s
+bond.mpts,300 cP,explicit,5 GPa,500 m/s
 ";
 
 #[test]

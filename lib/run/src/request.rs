@@ -134,9 +134,11 @@ impl Request {
     }
 
     /// What the run is forecast to need beyond all patience or memory, as a sentence.
-    pub fn excess(&self) -> Option<String> {
-        // What keeps the scheme from starting is said when it is to start.
-        schemes::forecast(&self.case, &self.setup).ok()?.excess()
+    ///
+    /// # Errors
+    /// What would keep the scheme from starting.
+    pub fn excess(&self) -> Result<Option<String>, RunFailure> {
+        Ok(schemes::forecast(&self.case, &self.setup)?.excess())
     }
 
     /// The plan of the run as text.
@@ -185,7 +187,7 @@ impl Request {
             return Ok(None);
         }
         // What is refused must not cost a run folder.
-        match self.excess() {
+        match self.excess()? {
             Some(excess) if mode.however_long => warn(excess),
             Some(excess) => {
                 return Err(RunFailure::Usage(format!(

@@ -52,21 +52,21 @@ class State:
 
     @property
     def labels(self):
-        """Wood and voxels of adhesive as labels (nz, ny, nx) of the box.
+        """Wood and voxels of adhesive as labels (nz, ny, nx) of the box around the blocks.
 
         The liquid of a state is in `points` and in no voxel: `particles export -f tiff` puts it
         there by its volume. A block between two places lies at the nearer one.
         """
-        low, high = np.array(self.box)
+        blocks = self.blocks.values()
+        low = np.min([b.origin for b in blocks], axis=0)
+        high = np.max([np.array(b.origin) + np.array(b.bits.shape[::-1]) * b.voxel for b in blocks], axis=0)
         dims = np.rint((high - low) / self.voxel).astype(int)
         labels = np.full(dims[::-1], VOID, np.uint8)
-        for block in self.blocks.values():
+        for block in blocks:
             shift = np.rint((np.array(block.origin) - low) / self.voxel).astype(int)
-            z, y, x = (i + s for i, s in zip(np.nonzero(block.bits), shift[::-1]))
-            inside = np.ones(x.shape, bool)
-            for i, n in zip((x, y, z), dims):
-                inside &= (i >= 0) & (i < n)
-            labels[z[inside], y[inside], x[inside]] = block.label
+            start = np.minimum(shift, dims - block.bits.shape[::-1])[::-1]
+            place = tuple(slice(s, s + n) for s, n in zip(start, block.bits.shape))
+            labels[place][block.bits] = block.label
         return labels
 
 

@@ -89,7 +89,7 @@ impl Draft {
     ) -> Result<(), Failure> {
         let resolved = |changes: &[&(usize, String)]| {
             let request = Request::read(&self.case, Some(bond), &texts(changes))?;
-            match request.excess().filter(|_| !however_long) {
+            match request.excess()?.filter(|_| !however_long) {
                 Some(excess) => Err(RunFailure::Usage(format!(
                     "{excess}; --yes-really plans it all the same"
                 ))),

@@ -174,7 +174,7 @@ mod tests {
         assert!(table.columns.iter().map(|c| &c.1).eq(&kinds));
         assert_eq!(table.rows[0][2], "1300 cP");
         assert_eq!(table.given(1).count(), 1);
-        assert_eq!(table.beside("a.toml"), Path::new("f/a.toml"));
+        assert_eq!(table.beside("bond"), Path::new("f/bond"));
     }
 
     #[test]
