@@ -120,48 +120,45 @@ fn undamaged_wood_is_laid_up_and_is_no_experiment() {
     };
     let (bottom, top) = (stack("a b.tif"), stack("c.tif"));
     let (bottom, top) = (format!("XCT_BOTTOM={bottom}"), format!("XCT_TOP={top}"));
+    let (bottom, top) = (bottom.as_str(), top.as_str());
     let goals = [
         "RUNS=implicit",
         "ERROR=no",
         "out/wood/table2.csv",
         "out/wood/figures/pf-map.svg",
     ];
-    let two = [&[&bottom, &top, "SLAB=55.1 um", "TURN=90"][..], &goals].concat();
-    let Some(plan) = lines(&two) else {
+    let two = [&[bottom, top, "SLAB=55.1 um", "TURN=90"][..], &goals].concat();
+    let Some(planned) = lines(&two) else {
         return;
     };
     let laid = "--slab \"55.1 um\" --turn-top 90 --normal y -o out/wood/pva-pf/bond.mpts";
     assert!(
-        plan.contains("--bottom out/wood/bottom.mpts --top out/wood/top.mpts"),
-        "{plan}"
+        planned.contains("--bottom out/wood/bottom.mpts --top out/wood/top.mpts"),
+        "{planned}"
     );
     assert!(
-        plan.contains(laid) && !plan.contains("experiment"),
-        "{plan}"
+        planned.contains(laid) && !planned.contains("experiment"),
+        "{planned}"
     );
-    let one = [&[&bottom, "PLANE=139.2 um", "SLAB=55.1 um"][..], &goals].concat();
-    let Some(plan) = lines(&one) else {
+    let one = [&[bottom, "PLANE=139.2 um", "SLAB=55.1 um"][..], &goals].concat();
+    let Some(planned) = lines(&one) else {
         return;
     };
     assert!(
-        plan.contains("out/wood/bottom.mpts --plane \"139.2 um\""),
-        "{plan}"
+        planned.contains("out/wood/bottom.mpts --plane \"139.2 um\""),
+        "{planned}"
     );
     for (arguments, sentence) in [
-        (&[bottom.as_str(), top.as_str()][..], "give SLAB="),
-        (&[&bottom, "SLAB=55.1 um"], "XCT_TOP=, or PLANE="),
-        (&[&top, "SLAB=55.1 um"], "XCT_TOP needs XCT_BOTTOM"),
-        (&[&bottom, "XCT_PF=x.tif", "SLAB=55.1 um"], "one kind"),
+        (&[bottom, top][..], "give SLAB="),
+        (&[bottom, "SLAB=55.1 um"], "XCT_TOP=, or PLANE="),
+        (&[top, "SLAB=55.1 um"], "XCT_TOP needs XCT_BOTTOM"),
+        (&[bottom, "XCT_PF=x.tif", "SLAB=55.1 um"], "one kind"),
     ] {
-        let refused = plan_of(arguments);
+        let refused = plan(arguments).expect("make was there");
         assert!(
             !refused.status.success() && said(&refused).contains(sentence),
             "{arguments:?}: {}",
             said(&refused)
         );
     }
-}
-
-fn plan_of(arguments: &[&str]) -> Output {
-    plan(arguments).expect("make was there")
 }
