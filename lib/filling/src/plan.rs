@@ -10,13 +10,13 @@ use crate::step::length::CURED;
 /// over a run: wood closing on a slab gives 1.5 at first and 6 towards the end.
 const SPEED_RATIO: f64 = 4.0;
 /// Krylov iterations of a step, solves for load control included.
-const ITERATIONS: f64 = 17.0;
+const ITERATIONS: f64 = 13.0;
 /// Seconds on one core per unknown and iteration, per unknown and step, and per material point
 /// and step; measured at 0.2 million unknowns and 0.38 million points.
 const SECONDS: [f64; 3] = [0.13e-6, 1.7e-6, 0.7e-6];
 /// Bytes per unknown (matrices, Krylov basis, multigrid), per cell of the window (fractions,
 /// faces, fields), and per material point.
-const BYTES: [f64; 3] = [700.0, 260.0, 150.0];
+const BYTES: [f64; 3] = [470.0, 260.0, 150.0];
 
 /// Size and cost of a run; cheap, nothing is allocated.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,8 @@
 //! Flexible GMRES (Saad 1993, SIAM J. Sci. Comput. 14, 461-469) with restarts.
 
 use crate::SolveError;
-use crate::compact::{Compact, fit};
 use crate::orthogonal::orthogonalise;
-use crate::vector::{Real, Work, dot_chunk, for_chunks, for_chunks_sum, norm};
+use crate::vector::{Real, Work, add_scaled, dot_chunk, fit, for_chunks, for_chunks_sum, norm};
 
 /// The estimated residual is driven this far below the tolerance, so that its rounding does not
 /// cost another cycle.
@@ -29,11 +28,8 @@ pub(crate) struct Limits {
 /// Krylov basis and its preconditioned images, kept between solves.
 #[derive(Default)]
 pub(crate) struct KrylovSpace {
-    basis: Vec<Compact>,
-    preconditioned: Vec<Compact>,
-    /// The last vector of each as the operations take them: with the values that are kept.
-    direction: Vec<Work>,
-    image: Vec<Work>,
+    basis: Vec<Vec<Work>>,
+    preconditioned: Vec<Vec<Work>>,
     vector: Vec<f64>,
 }
 
@@ -53,7 +49,6 @@ pub(crate) fn fgmres<K: Operator>(
         return Ok(vec![0.0]);
     }
     fit(&mut space.vector, b.len());
-    fit(&mut space.direction, b.len());
     let mut history = Vec::new();
     loop {
         let residual = true_residual(operator, b, x, &mut space.vector);
@@ -80,11 +75,12 @@ pub(crate) fn fgmres<K: Operator>(
         let steps = limits.restart.min(limits.max_iterations - iterations);
         let target = MARGIN * limits.tolerance * size;
         let mut least_squares = LeastSquares::new(residual);
-        space.push_basis(0, residual);
+        normalise(&space.vector, residual, slot(&mut space.basis, 0));
         for k in 0..steps {
-            precondition(&space.direction, &mut space.image);
-            slot(&mut space.preconditioned, k).keep(&mut space.image);
-            operator.apply(&space.image, &mut space.vector);
+            let z = slot(&mut space.preconditioned, k);
+            fit(z, b.len());
+            precondition(&space.basis[k], z);
+            operator.apply(z, &mut space.vector);
             let (column, remaining) = orthogonalise(&space.basis[..=k], &mut space.vector);
             if !remaining.is_finite() {
                 return Err(overflow(iterations + k, least_squares.residual()));
@@ -94,10 +90,10 @@ pub(crate) fn fgmres<K: Operator>(
             if least_squares.residual() <= target || remaining == 0.0 {
                 break;
             }
-            space.push_basis(k + 1, remaining);
+            normalise(&space.vector, remaining, slot(&mut space.basis, k + 1));
         }
         for (z, y) in space.preconditioned.iter().zip(least_squares.solve()) {
-            z.add_to(x, y);
+            add_scaled(x, y, z);
         }
     }
 }
@@ -114,25 +110,22 @@ fn true_residual<K: Operator>(operator: &K, b: &[f64], x: &[f64], out: &mut [f64
     square.sqrt()
 }
 
-impl KrylovSpace {
-    /// Makes `vector` of the given length basis vector `index`.
-    fn push_basis(&mut self, index: usize, length: f64) {
-        let (vector, factor) = (&self.vector, 1.0 / length);
-        for_chunks(&mut self.direction, |start, part| {
-            for (out, &v) in part.iter_mut().zip(&vector[start..]) {
-                *out = Work::nearest(factor * v);
-            }
-        });
-        slot(&mut self.basis, index).keep(&mut self.direction);
-    }
-}
-
 /// Vector `index` of `vectors`, made if it does not exist yet.
-fn slot(vectors: &mut Vec<Compact>, index: usize) -> &mut Compact {
+fn slot(vectors: &mut Vec<Vec<Work>>, index: usize) -> &mut Vec<Work> {
     if vectors.len() <= index {
-        vectors.resize_with(index + 1, Compact::default);
+        vectors.resize_with(index + 1, Vec::new);
     }
     &mut vectors[index]
+}
+
+fn normalise(vector: &[f64], length: f64, out: &mut Vec<Work>) {
+    fit(out, vector.len());
+    let factor = 1.0 / length;
+    for_chunks(out, |start, part| {
+        for (out, &v) in part.iter_mut().zip(&vector[start..]) {
+            *out = Work::nearest(factor * v);
+        }
+    });
 }
 
 /// The small least-squares problem `min |beta e_1 - H y|`, kept triangular by Givens rotations.

@@ -9,7 +9,6 @@
 mod amg;
 mod cause;
 mod chebyshev;
-mod compact;
 mod csr;
 mod fgmres;
 mod load;

@@ -160,6 +160,13 @@ pub(crate) fn add_scaled<Y: Real, X: Real>(y: &mut [Y], alpha: f64, x: &[X]) {
     });
 }
 
+/// Gives `v` the length `len` without memory to spare: systems grow by little from step to step.
+pub(crate) fn fit<T: Real>(v: &mut Vec<T>, len: usize) {
+    v.truncate(len);
+    v.reserve_exact(len - v.len());
+    v.resize(len, T::default());
+}
+
 /// Sets `v` to `len` zeros, keeping its memory.
 pub(crate) fn reset<T: Real>(v: &mut Vec<T>, len: usize) {
     v.clear();

@@ -107,7 +107,7 @@ fn a_sealed_incompressible_pocket_fails_and_a_compressible_one_does_not() {
 
 #[test]
 fn what_makes_a_system_unsolvable_is_named() {
-    let (beyond, _) = failure(|problem| problem.two_eta.fill(1e60));
+    let (beyond, _) = failure(|problem| problem.b.fill(1e200));
     assert!(
         matches!(beyond, SolveError::Overflow { iteration: 1, .. }),
         "{beyond}"
