@@ -48,6 +48,12 @@ pub(crate) fn fgmres<K: Operator>(
         x.fill(0.0);
         return Ok(vec![0.0]);
     }
+    if !size.is_finite() {
+        return Err(SolveError::Overflow {
+            iteration: 1,
+            residual: size,
+        });
+    }
     fit(&mut space.vector, b.len());
     let mut history = Vec::new();
     loop {
