@@ -21,6 +21,8 @@ PRINT = $(if $(FIGURE_WIDTH),--width "$(FIGURE_WIDTH)") --dpi $(FIGURE_DPI)
 FIRST := $(firstword $(FORMATS))
 PICTURES = $(PRINT) $(foreach f,$(FORMATS),-o $(@:.$(FIRST)=.$(f)))
 
+# A comma in a branch of $(if).
+COMMA := ,
 # What people call adhesives and runs.
 NAME_pf := PF
 NAME_pva-pf := PVA-PF
@@ -70,12 +72,12 @@ $(OUT)/figures/$(1)-pressure.$(FIRST): $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(FINE
 
 $(OUT)/figures/$(1)-adhesive.$(FIRST): $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(EXPERIMENTS:.csv=.mpts) $(BIN)/bond-figures $(PRINTED)
 	$(BIN)/bond-figures view --wood hidden \
-	    $(if $(EXPERIMENTS),"$(NAME_$(1)), $(NAME_experiment)=$(OUT)/$(1)/experiment.mpts") \
+	    $(if $(EXPERIMENTS),"$(NAME_$(1))$(COMMA) $(NAME_experiment)=$(OUT)/$(1)/experiment.mpts") \
 	    $(foreach r,$(RUNS),"$(or $(NAME_$(r)),$(r))=$(OUT)/$(1)/$(r)/final.mpts") $$(PICTURES)
 
 $(OUT)/figures/$(1)-map.$(FIRST): $(RUNS:%=$(OUT)/$(1)/%/wp.csv) $(EXPERIMENTS) $(BIN)/bond-figures $(PRINTED)
 	$(BIN)/bond-figures map \
-	    $(if $(EXPERIMENTS),--map "$(NAME_$(1)), $(NAME_experiment)=$(OUT)/$(1)/experiment-map.csv") \
+	    $(if $(EXPERIMENTS),--map "$(NAME_$(1))$(COMMA) $(NAME_experiment)=$(OUT)/$(1)/experiment-map.csv") \
 	    $(foreach r,$(RUNS),--map "$(or $(NAME_$(r)),$(r))=$(OUT)/$(1)/$(r)/map.csv") $$(PICTURES)
 
 $(OUT)/figures/$(1)-shear.$(FIRST): $(OUT)/$(1)/$(SHOWN)/shear.csv $(BIN)/bond-figures $(PRINTED)

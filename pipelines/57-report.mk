@@ -7,12 +7,16 @@ CAPTION_map := Weighted penetration over the bond plane
 CAPTION_shear := Shear rate against time, $(SHOWN)
 CAPTION_slice := Slice through the end, $(SHOWN)
 CAPTION_start := Slice through the start
-ADHESIVE_pf := PF
-ADHESIVE_pva-pf := PVA-PF
-picture_caption = $(foreach a,$(ADHESIVES),$(if $(filter $(a)-%,$(1)),$(ADHESIVE_$(a)): $(or $(CAPTION_$(1:$(a)-%=%)),$(1:$(a)-%=%))))
+CAPTION_press := Start, middle and end in three dimensions, $(SHOWN)
+CAPTION_setup := How the bond is set up
+CAPTION_grid := The grid over the voxels
+CAPTION_adhesive := The adhesive alone, experiment and runs
+CAPTION_table2 := Table 2
+CAPTION_film := Film on an incline, points and profiles
+picture_caption = $(CAPTION_$(1)) $(foreach a,$(ADHESIVES),$(if $(filter $(a)-%,$(1)),$(NAME_$(a)): $(or $(CAPTION_$(1:$(a)-%=%)),$(1:$(a)-%=%))))
 # The run that is shown in 3D: the implicit one, whose walls are the wood's.
 SEEN := $(firstword $(filter implicit,$(RUNS)) $(RUNS))
-PICTURES = $(filter %.svg %.png,$(FIGURES))
+SHOWN_PICTURES = $(filter %.svg %.png,$(FIGURES))
 
 .PHONY: report
 report: runs
@@ -20,8 +24,8 @@ report: runs
 
 $(REPORT): $(OUT)/table2.csv $(FIGURES) $(FINALS) $(BIN)/bond-report
 	$(BIN)/bond-report --title "Adhesive pressed into wood: $(notdir $(OUT))" \
-	    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run "$(ADHESIVE_$(a)) $(r)=$(OUT)/$(a)/$(r)")) \
+	    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run "$(NAME_$(a)) $(r)=$(OUT)/$(a)/$(r)")) \
 	    --table "Table 2: weighted penetration (WP)=$(OUT)/table2.csv" \
 	    $(if $(FINER),--table "Error by the size of the cells=$(OUT)/errors.csv") \
-	    $(foreach p,$(PICTURES),--picture "$(strip $(call picture_caption,$(basename $(notdir $(p)))))=$(p)") \
-	    $(foreach a,$(ADHESIVES),--state "$(ADHESIVE_$(a)) $(SEEN) at the end=$(OUT)/$(a)/$(SEEN)/final.mpts") -o $@
+	    $(foreach p,$(SHOWN_PICTURES),--picture "$(strip $(call picture_caption,$(basename $(notdir $(p)))))=$(p)") \
+	    $(foreach a,$(ADHESIVES),--state "$(NAME_$(a)) $(SEEN) at the end=$(OUT)/$(a)/$(SEEN)/final.mpts") -o $@

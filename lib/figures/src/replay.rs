@@ -19,9 +19,12 @@ pub(crate) fn replay<B: DrawingBackend>(
                 width,
             } => {
                 let style = colour.stroke_width((width * scale).round().max(1.0) as u32);
-                backend
-                    .draw_path(points.iter().map(pixel), &style)
-                    .map_err(failed)?;
+                // One by one: the corner of two is drawn far beyond them where they turn sharply.
+                for ends in points.windows(2) {
+                    backend
+                        .draw_path(ends.iter().map(pixel), &style)
+                        .map_err(failed)?;
+                }
             }
             Item::Area { points, colour } => backend
                 .fill_polygon(points.iter().map(pixel), colour)

@@ -178,7 +178,8 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
     let end = match scene.stop {
         Stop::Closed { travel_m } if !scene.programme.is_empty() => format!(
             "with the last stage, at the latest at {:.4e} s; the clamp stands after {:.2} um of travel",
-            setup.time_limit_s,
+            (scene.liquid.cure.as_ref().and_then(|cure| cure.set_at()))
+                .map_or(setup.time_limit_s, |set| set.min(setup.time_limit_s)),
             travel_m * 1e6
         ),
         Stop::Time(t) => format!("at {t:.4e} s"),

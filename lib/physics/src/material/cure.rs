@@ -6,6 +6,8 @@ const GAS: f64 = 8.314_462_618;
 pub const SET: f64 = 1e6;
 /// Largest change of ln(factor), and of ln(speed of cure), from one knot to the next.
 const BETWEEN: f64 = 0.02;
+/// Part of the gel time before it at which a liquid counts as gelled.
+const GELLED: f64 = 1e-6;
 /// Temperatures of a press, K; others are slips of the pen.
 const TEMPERATURES: [f64; 2] = [200.0, 700.0];
 
@@ -64,6 +66,11 @@ impl CureLaw {
 
     fn factor(&self, time: f64, age: f64) -> f64 {
         self.cured(age) + self.flow_energy * self.cold(time)
+    }
+
+    /// Whether the law is at its gel time, where it is infinite however small its exponent.
+    fn has_gelled(&self, age: f64) -> bool {
+        matches!(self.course, Some(Course::Gel { time, .. }) if age >= time * (1.0 - GELLED))
     }
 
     fn check(&self) -> Result<(), String> {
@@ -153,6 +160,11 @@ impl Cure {
             }
             (time, age, step) = (time + dt, older, 2.0 * dt);
             cure.knots.push((time, to));
+            if law.has_gelled(age) {
+                cure.knots.push((time, end));
+                cure.set = true;
+                break;
+            }
         }
         Ok(cure)
     }
@@ -232,6 +244,21 @@ mod tests {
             reference: 400.0,
             cure_energy: 80e3,
             flow_energy: 0.0,
+        }
+    }
+
+    /// (1 - t/t_gel)^-0.3 is 63 a millionth before the gel time, and infinite there.
+    #[test]
+    fn whatever_its_exponent_a_liquid_has_set_at_its_gel_time() {
+        for exponent in [0.1, 0.3, 0.499, 0.501, 3.0] {
+            let course = Some(Course::Gel {
+                time: 100.0,
+                exponent,
+            });
+            let cure = Cure::new(&CureLaw { course, ..gel(&[]) }).unwrap();
+            let set = cure.set_at().expect("it sets");
+            assert!((98.9..=100.0 + 1e-9).contains(&set), "{exponent}: {set}");
+            assert!((cure.factor(set) / SET - 1.0).abs() < 1e-9, "{exponent}");
         }
     }
 
