@@ -162,3 +162,27 @@ fn undamaged_wood_is_laid_up_and_is_no_experiment() {
         );
     }
 }
+
+/// A variable set twice once took the pictures out of the figures, a comma cut captions in two, and the page had
+/// pictures without any.
+#[test]
+fn figures_and_the_page_name_what_they_draw() {
+    let goals = [
+        "RUNS=implicit",
+        "ERROR=no",
+        "out/none/figures/pf-adhesive.svg",
+        "out/none/figures/pf-map.svg",
+        "out/none/report.html",
+    ];
+    let Some(planned) = lines(&[&["SCALE=none"][..], &goals].concat()) else {
+        return;
+    };
+    for wanted in [
+        "--wood hidden \"PF, synthetic experiment=out/none/pf/experiment.mpts\"",
+        "-o out/none/figures/pf-map.svg -o out/none/figures/pf-map.png",
+        "--picture \"PF: The adhesive alone, experiment and runs=out/none/figures/pf-adhesive.svg\"",
+        "--picture \"Table 2=out/none/figures/table2.svg\"",
+    ] {
+        assert!(planned.contains(wanted), "{wanted}: {planned}");
+    }
+}

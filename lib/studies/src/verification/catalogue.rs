@@ -104,7 +104,7 @@ fn channels() -> Vec<Entry> {
         list.push((channel::table_scene(n, 0.0, 0.4e-6), methods));
     }
     for law in laws::LAWS {
-        for n in [3, 6, 12] {
+        for n in [3, 6, 12].into_iter().filter(|&n| n >= law.coarsest) {
             let scene = laws::scene(law, n, 0.0, 0.4e-6);
             list.push((scene, vec![short_steps(DEVELOPED)]));
         }

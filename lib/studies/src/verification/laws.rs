@@ -19,6 +19,8 @@ pub struct Law {
     yields: f64,
     /// Body force per mass, m/s2: shear rates up to 3e4 1/s at the walls.
     force: f64,
+    /// Fewest cells: of a profile that is flat but for a thin layer, 3 show nothing, and passes do not settle.
+    pub coarsest: u32,
 }
 
 /// The laws, thinning tenfold and more over the channel.
@@ -29,6 +31,7 @@ pub const LAWS: [Law; 5] = [
         eta: |rate| 500.0 * rate.powf(-0.5),
         yields: 0.0,
         force: 8e6,
+        coarsest: 3,
     },
     Law {
         name: "power0.3",
@@ -36,6 +39,7 @@ pub const LAWS: [Law; 5] = [
         eta: |rate| 3000.0 * rate.powf(-0.7),
         yields: 0.0,
         force: 8e6,
+        coarsest: 6,
     },
     Law {
         name: "cross",
@@ -43,6 +47,7 @@ pub const LAWS: [Law; 5] = [
         eta: |rate| 0.5 + 49.5 / (1.0 + (1e-3 * rate).powf(0.8)),
         yields: 0.0,
         force: 8e6,
+        coarsest: 3,
     },
     Law {
         name: "carreau",
@@ -50,6 +55,7 @@ pub const LAWS: [Law; 5] = [
         eta: |rate| 0.5 + 49.5 * (1.0 + (1e-3 * rate).powi(2)).powf(-0.3),
         yields: 0.0,
         force: 8e6,
+        coarsest: 3,
     },
     Law {
         name: "herschel",
@@ -57,6 +63,7 @@ pub const LAWS: [Law; 5] = [
         eta: |rate| 40e3 / rate + 250.0 * rate.powf(-0.5),
         yields: 40e3,
         force: 8e6,
+        coarsest: 6,
     },
 ];
 

@@ -14,6 +14,7 @@ pub fn scene(voxels: u32, offset: f64) -> Scene {
     let (width, floor) = (8.0, 1.0 + offset);
     let (middle, roof) = (0.5 * width, floor + 4.0);
     let (slab, lid) = (roof + thick, roof + thick + 2.0);
+    // Slow enough that explicit steps come near the limit without overshooting it.
     let until = 0.4e-6;
     let at = |low: [f64; 2], high: [f64; 2]| {
         (
@@ -32,7 +33,7 @@ pub fn scene(voxels: u32, offset: f64) -> Scene {
     let (lid_low, lid_high) = at([0.0, lid], [width, lid + 6.0]);
     let case = CaseText {
         clamp: Some(format!(
-            "closing_speed = \"1 m/s\"\nmax_pressure = \"{PRESSURE} Pa\"\nstop = \"{:.3} us\"\ntravel = \"5.8 um\"\n",
+            "closing_speed = \"0.03 m/s\"\nmax_pressure = \"{PRESSURE} Pa\"\nstop = \"{:.3} us\"\ntravel = \"5.8 um\"\n",
             until * 1e6
         )),
         boundary: ["symmetry", "open", "symmetry"],
