@@ -144,6 +144,7 @@ mod tests {
             two_eta: &[1.0; 2],
             b: &[0.0],
             volume_source: &[0.5, -0.5 + left],
+            carried: &[0.0; 2],
         })
     }
 

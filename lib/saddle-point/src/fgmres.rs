@@ -2,7 +2,7 @@
 
 use crate::SolveError;
 use crate::orthogonal::orthogonalise;
-use crate::vector::{Real, Work, add_scaled, dot_chunk, fit, for_chunks, for_chunks_sum, norm};
+use crate::vector::{Real, Work, add_scaled, dot_chunk, fit, for_chunks, for_chunks_sum};
 
 /// The estimated residual is driven this far below the tolerance, so that its rounding does not
 /// cost another cycle.
@@ -21,6 +21,8 @@ pub(crate) trait Operator {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
     pub(crate) tolerance: f64,
+    /// What the tolerance is relative to; 0 where `b` is.
+    pub(crate) size: f64,
     pub(crate) max_iterations: usize,
     pub(crate) restart: usize,
 }
@@ -43,7 +45,7 @@ pub(crate) fn fgmres<K: Operator>(
     limits: Limits,
     space: &mut KrylovSpace,
 ) -> Result<Vec<f64>, SolveError> {
-    let size = norm(b);
+    let size = limits.size;
     if size == 0.0 {
         x.fill(0.0);
         return Ok(vec![0.0]);
@@ -221,6 +223,7 @@ mod tests {
         let (mut diagonal, mut x) = (Diagonal(AtomicUsize::new(0)), vec![0.0; 30]);
         let limits = Limits {
             tolerance,
+            size: 30.0_f64.sqrt(),
             max_iterations: 25,
             restart: 25,
         };

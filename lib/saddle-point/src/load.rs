@@ -2,7 +2,7 @@
 
 use crate::fgmres::Operator;
 use crate::saddle::Preconditioner;
-use crate::vector::{Real, Work, add_scaled, dot, norm};
+use crate::vector::{Real, Work, add_scaled, dot};
 use crate::{SaddleSystem, SolveError, check_length};
 
 /// How a body's speed V enters the system, and the force that is to act on it:
@@ -54,20 +54,17 @@ impl Load {
         self.resistance != 0.0 || acts(&self.momentum) || acts(&self.source)
     }
 
-    /// Factor of the force row that gives it the weight of the others: their right-hand side with
-    /// the body moving at `speed` over the scale.
-    pub(crate) fn weight(&self, system: &SaddleSystem, speed: f64) -> f64 {
-        let sum = |known: &[f64], unit: &[f64]| {
-            let moving: Vec<f64> = (known.iter().zip(unit))
+    /// [`SaddleSystem::measure`] with the body moving at `speed`; 1 where nothing moves anything.
+    pub(crate) fn measure(&self, system: &SaddleSystem, speed: f64) -> f64 {
+        let moving = |known: &[f64], unit: &[f64]| -> Vec<f64> {
+            (known.iter().zip(unit))
                 .map(|(known, unit)| known + speed * unit)
-                .collect();
-            norm(&moving)
+                .collect()
         };
-        let size = sum(system.b, &self.momentum).hypot(sum(system.volume_source, &self.source));
-        if size > 0.0 {
-            size / self.scale
-        } else {
-            1.0 / self.scale
+        let moved = moving(system.volume_source, &self.source);
+        match system.measure(&moving(system.b, &self.momentum), &moved) {
+            0.0 => 1.0,
+            size => size,
         }
     }
 
@@ -166,7 +163,7 @@ mod tests {
     /// Two faces and a cell, with 3 and 4 N on the faces that rest and the body's speed adding 2 and 8 to
     /// the second and the cell.
     #[test]
-    fn the_force_row_weighs_what_the_others_do() {
+    fn the_tolerance_is_measured_by_what_moves() {
         let a = Csr::assemble(2, 2, |row, entries| entries.add(row, 1.0)).unwrap();
         let g = Csr::assemble(1, 2, |_, entries| entries.add(0, 1.0)).unwrap();
         let load = Load {
@@ -176,7 +173,7 @@ mod tests {
             force: 4.0,
             scale: 4.0,
         };
-        let weight = |b: &[f64; 2], speed: f64| {
+        let measure = |b: &[f64; 2], speed: f64| {
             let system = SaddleSystem {
                 a: &a,
                 g: &g,
@@ -185,13 +182,18 @@ mod tests {
                 two_eta: &[1.0],
                 b,
                 volume_source: &[0.0],
+                carried: &[3e3],
             };
             load.check(&system).unwrap();
-            load.weight(&system, speed)
+            load.measure(&system, speed)
         };
         // sqrt(3^2 + (4 + 2)^2 + 8^2) = sqrt(109).
-        assert!((weight(&[3.0, 4.0], 2.0) - 109_f64.sqrt() / 4.0).abs() < 1e-12);
-        assert_eq!(weight(&[3.0, 4.0], 0.0), 5.0 / 4.0);
-        assert_eq!(weight(&[0.0; 2], 0.0), 1.0 / 4.0, "nothing moves anything");
+        assert!((measure(&[3.0, 4.0], 2.0) - 109_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(measure(&[3.0, 4.0], 0.0), 5.0);
+        assert_eq!(
+            measure(&[0.0; 2], 0.0),
+            3.0,
+            "nothing moves but what was compressed"
+        );
     }
 }

@@ -101,7 +101,8 @@ impl SaddleSolver {
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
-        let (limits, space) = (self.limits(), &mut self.space);
+        let limits = self.limits(system.measure(system.b, system.volume_source));
+        let space = &mut self.space;
         let (rhs, options) = (system.right_hand_side(), &self.options);
         let report = prepared(system, options, |mut operator, mut preconditioner| {
             let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
@@ -127,12 +128,16 @@ impl SaddleSolver {
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         load.check(system)?;
-        let weight = load.weight(system, *speed);
+        let moving = load.measure(system, *speed);
+        let weight = moving / load.scale;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
         x.push(*speed / weight);
         let mut rhs = system.right_hand_side();
         rhs.push(weight * load.force);
-        let (limits, space, options) = (self.limits(), &mut self.space, &self.options);
+        // The force row weighs as much as the others do with the body moving.
+        let resting = system.measure(system.b, system.volume_source);
+        let limits = self.limits(resting.hypot(moving));
+        let (space, options) = (&mut self.space, &self.options);
         let report = prepared(system, options, |inner, preconditioner| {
             let mut operator = LoadedOperator {
                 inner,
@@ -149,9 +154,10 @@ impl SaddleSolver {
         report.map_err(|error| explained(error, system))
     }
 
-    fn limits(&self) -> Limits {
+    fn limits(&self, size: f64) -> Limits {
         Limits {
             tolerance: self.options.tolerance,
+            size,
             max_iterations: self.options.max_iterations,
             restart: self.options.restart.max(1),
         }

@@ -1,6 +1,7 @@
 //! The saddle-point system, and what is refused of one.
 
 use crate::csr::Csr;
+use crate::vector::norm;
 use crate::{SolveError, check_length};
 
 /// The saddle-point system `[A, -G^T; -G, -C] [u; p] = [b; -g]` and what its preconditioner needs.
@@ -25,15 +26,29 @@ pub struct SaddleSystem<'a> {
     pub two_eta: &'a [f64],
     /// Momentum right-hand side `b`, one per face.
     pub b: &'a [f64],
-    /// Volume source `g`, one per cell: `G u + C p = g`.
+    /// Volume that walls displace, one per cell: `G u + C p = g` is this and what is carried over.
     pub volume_source: &'a [f64],
+    /// Volume that compression carries over from before, `C p` of then, one per cell. No flow follows from
+    /// most of it, so that the tolerance is not measured by it.
+    pub carried: &'a [f64],
 }
+
+/// Part of the whole right-hand side that the tolerance is measured by where next to nothing moves.
+const FAINT: f64 = 1e-3;
 
 impl SaddleSystem<'_> {
     /// `[b; -g]`.
     pub(crate) fn right_hand_side(&self) -> Vec<f64> {
-        let sources = self.volume_source.iter().map(|g| -g);
+        let sources =
+            (self.volume_source.iter().zip(self.carried)).map(|(moved, kept)| -(moved + kept));
         self.b.iter().copied().chain(sources).collect()
+    }
+
+    /// What the tolerance is relative to: the norm of what moves the liquid, of the momenta `b` and displaced volumes
+    /// `moved` given, or [`FAINT`] of all.
+    pub(crate) fn measure(&self, b: &[f64], moved: &[f64]) -> f64 {
+        let motion = norm(b).hypot(norm(moved));
+        motion.max(FAINT * motion.hypot(norm(self.carried)))
     }
 
     /// Refuses lengths that do not fit, with those of the guess, and values that are not as described.
@@ -47,12 +62,13 @@ impl SaddleSystem<'_> {
             ("cell viscosities", self.two_eta.len(), cells),
             ("momentum right-hand side", self.b.len(), faces),
             ("volume sources", self.volume_source.len(), cells),
+            ("carried volumes", self.carried.len(), cells),
             ("velocities", u.len(), faces),
             ("pressures", p.len(), cells),
         ] {
             check_length(what, found, expected)?;
         }
-        for values in [self.b, self.volume_source, u, p] {
+        for values in [self.b, self.volume_source, self.carried, u, p] {
             if let Some(row) = values.iter().position(|v| !v.is_finite()) {
                 return Err(SolveError::NotFinite { row });
             }

@@ -237,6 +237,7 @@ mod tests {
             two_eta: &ones[..1],
             b: &zeros,
             volume_source: &zeros[..1],
+            carried: &zeros[..1],
         };
         let scale = [0.5, 0.5, 1.0 / 3.0];
         // What [A, -G^T; -G, -C] makes of this solution, the momentum scaled.
@@ -272,6 +273,7 @@ mod tests {
             two_eta: &ones[..2],
             b: &ones,
             volume_source: &ones[..2],
+            carried: &[0.0; 2],
         };
         let (mut v, mut q) = ([0.0; 3], [0.0; 2]);
         // The first cell swells by one: half through each of its faces.

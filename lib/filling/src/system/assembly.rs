@@ -24,8 +24,10 @@ pub(crate) struct System {
     /// Liquid volume that moves with each face unknown, cells.
     pub(crate) face_volume: Vec<f64>,
     couplings: Couplings,
-    /// Right-hand sides with all bodies at rest.
-    resting: [Vec<f64>; 2],
+    /// Momentum with all bodies at rest.
+    momentum: Vec<f64>,
+    /// Volume that compression carries over from the step before.
+    carried: Vec<f64>,
     bodies: Vec<[f64; 3]>,
     b: Vec<f64>,
     source: Vec<f64>,
@@ -42,6 +44,7 @@ impl System {
             two_eta: &self.two_eta,
             b: &self.b,
             volume_source: &self.source,
+            carried: &self.carried,
         }
     }
 
@@ -49,12 +52,12 @@ impl System {
     pub(crate) fn steer(&mut self, bodies: &[[f64; 3]]) {
         self.bodies = bodies.to_vec();
         let couplings = &self.couplings;
-        let [momentum, source] = &self.resting;
-        self.b = (momentum.par_iter().enumerate())
+        self.b = (self.momentum.par_iter().enumerate())
             .map(|(face, b)| b + couplings.dragged(face, bodies))
             .collect();
-        self.source = (source.par_iter().enumerate())
-            .map(|(cell, g)| g + couplings.displaced(cell, bodies))
+        self.source = (0..self.carried.len())
+            .into_par_iter()
+            .map(|cell| couplings.displaced(cell, bodies))
             .collect();
     }
 
@@ -140,12 +143,10 @@ impl Operator<'_> {
                 .map(|&cell| 2.0 * self.eta(cell as usize))
                 .collect(),
             couplings: Couplings::new(self, &edges, bodies.len(), &flux),
-            resting: [
-                self.momentum(&face_volume, &mass, before.velocity),
-                (c.iter().zip(before.pressure))
-                    .map(|(c, p)| c * p)
-                    .collect(),
-            ],
+            momentum: self.momentum(&face_volume, &mass, before.velocity),
+            carried: (c.iter().zip(before.pressure))
+                .map(|(c, p)| c * p)
+                .collect(),
             a,
             mass,
             face_volume,

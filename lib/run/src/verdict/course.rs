@@ -9,8 +9,6 @@ use crate::resolve::{OVERLAP, Setup};
 /// the measurements end that such laws with a universal C are fitted to. The mean volume change
 /// there is 10.5 %.
 pub(crate) const MOST_PRESSURE: f64 = 0.2;
-/// Difference of the two sides' pressures, over the largest that a programme sets, that is no solution.
-const UNBALANCED: f64 = 0.25;
 
 /// Looks at what a step reported.
 ///
@@ -25,7 +23,6 @@ pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
         ("pressure on the upper body", report.pressure_top),
     ];
     finite(&numbers)?;
-    balanced(&setup.scene, [report.pressure_bottom, report.pressure_top])?;
     match &setup.clamp_room {
         Some((room_m, other)) if report.travel_m > room_m + OVERLAP * setup.scene.grid.cell_m => {
             Err(Failure(format!(
@@ -35,20 +32,6 @@ pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
-}
-
-/// Whether what liquid a press programme holds presses alike on both sides: it has no inertia to speak of.
-fn balanced(scene: &Scene, [bottom, top]: [f64; 2]) -> Result<(), Failure> {
-    let set = (scene.programme.iter().filter_map(|stage| stage.pressure)).fold(0.0, f64::max);
-    let (off, larger) = ((bottom - top).abs(), bottom.abs().max(top.abs()));
-    if scene.bottom.is_none() || set == 0.0 || off <= (UNBALANCED * set).max(0.5 * larger) {
-        return Ok(());
-    }
-    Err(Failure(format!(
-        "the liquid presses with {:.4} MPa on the lower side and {:.4} MPa on the upper one: the solution of the step is none; an earlier end is needed",
-        1e-6 * bottom,
-        1e-6 * top
-    )))
 }
 
 /// Looks at the diagnostics of a state that is to be written: row, snapshot or checkpoint.

@@ -22,6 +22,7 @@ pub struct Problem {
     pub two_eta: Vec<f64>,
     pub b: Vec<f64>,
     pub volume_source: Vec<f64>,
+    pub carried: Vec<f64>,
 }
 
 impl Problem {
@@ -38,6 +39,7 @@ impl Problem {
             two_eta: &self.two_eta,
             b: &self.b,
             volume_source: &self.volume_source,
+            carried: &self.carried,
         }
     }
 }
@@ -145,6 +147,7 @@ impl Stokes {
             b: (0..n)
                 .map(|face| self.momentum_row(face, &mut RowEntries::default()))
                 .collect(),
+            carried: vec![0.0; cells],
             volume_source: (0..cells)
                 .map(|cell| self.flux_row(cell, &mut RowEntries::default()))
                 .collect(),

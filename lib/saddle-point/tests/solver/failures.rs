@@ -87,6 +87,7 @@ fn a_sealed_incompressible_pocket_fails_and_a_compressible_one_does_not() {
             two_eta: &[2.0; 40],
             b: &b,
             volume_source: &source,
+            carried: &[0.0; 40],
         };
         let result = SaddleSolver::new(options(1e-6)).solve(&system, &mut u, &mut p);
         assert!(u.iter().chain(&p).all(|v| v.is_finite()));
@@ -103,6 +104,37 @@ fn a_sealed_incompressible_pocket_fails_and_a_compressible_one_does_not() {
     };
     assert!(matches!(*error, SolveError::NotConverged { residual, .. } if residual > 0.1));
     assert_eq!(cause, Cause::Unbalanced { cells: 20 });
+}
+
+/// Liquid under a pressure from before, in a row of cells from wall to wall, that walls make flow slowly: what
+/// compression carries over is five hundred times as much.
+#[test]
+fn a_slow_flow_under_pressure_is_solved_to_the_tolerance() {
+    let (g, friction) = pockets(40, 0);
+    let a = Csr::assemble(40, 40, |row, entries| entries.add(row, 2.0)).unwrap();
+    let (c, pressure, moved) = (1e-3_f64, 1e2, 1e-3);
+    let mut source = vec![0.0; 40];
+    (source[0], source[39]) = (moved, -moved);
+    let system = SaddleSystem {
+        a: &a,
+        g: &g,
+        c: &[c; 40],
+        friction: &friction,
+        two_eta: &[2.0; 40],
+        b: &[0.0; 40],
+        volume_source: &source,
+        carried: &[c * pressure; 40],
+    };
+    let (mut u, mut p) = (vec![0.0; 40], vec![pressure; 40]);
+    (SaddleSolver::new(options(1e-3)).solve(&system, &mut u, &mut p)).unwrap();
+    // u_(i+1) - 2 u_i + u_(i-1) = 2 c u_i, and u = moved at both walls.
+    let decay = (1.0 + c).acosh();
+    let exact = |face: usize| moved * (decay * (face as f64 - 19.0)).cosh() / (20.0 * decay).cosh();
+    let error = (0..39).fold(0.0, |most: f64, face| {
+        most.max((u[face] - exact(face)).abs())
+    });
+    println!("velocities off by {:.1e} of the wall's", error / moved);
+    assert!(error < 2e-3 * moved);
 }
 
 #[test]

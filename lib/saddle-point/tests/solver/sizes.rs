@@ -105,6 +105,7 @@ fn with_swept_slivers(mut problem: Problem, every: usize, area: f64) -> Problem 
     for &(face, _) in &open {
         problem.c.push(1e-5);
         problem.two_eta.push(2.0);
+        problem.carried.push(0.0);
         problem.volume_source.push(0.5 * area * (face % 3) as f64);
     }
     problem
