@@ -59,6 +59,7 @@ fn bench() -> Workbench {
     flip("payload.mpts", |length| length - 3000);
     fs::create_dir(bench.path("empty")).unwrap();
     bench.write("text.csv", "hello\nworld\n");
+    bench.write("archive.npz", b"PK\x03\x04");
     let changed = |name: &str, from: &str, to: &str| {
         assert!(CASE.contains(from));
         bench.write(name, CASE.replace(from, to));

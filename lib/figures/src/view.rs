@@ -43,6 +43,15 @@ pub struct Direction {
     pub tilt: f64,
 }
 
+impl Default for Direction {
+    fn default() -> Self {
+        Self {
+            turn: 35.0,
+            tilt: 25.0,
+        }
+    }
+}
+
 struct Panel {
     label: String,
     detail: String,

@@ -1,8 +1,6 @@
 // Turns the pictures of scenes into views that can be turned. Without it the pictures stay.
 (() => {
   "use strict";
-  // Where still.rs draws the picture from.
-  const AZIMUTH = 0.6, ELEVATION = 0.45;
   const VERTEX = `
     attribute vec3 position, normal;
     uniform mat4 modelViewMatrix, projectionMatrix;
@@ -100,7 +98,7 @@
   }
 
   async function view(figure) {
-    const { edges, label, ...packed } = JSON.parse(figure.querySelector("script").textContent);
+    const { edges, turn, tilt, ...packed } = JSON.parse(figure.querySelector("script").textContent);
     const image = figure.querySelector("img");
     const canvas = document.createElement("canvas");
     canvas.tabIndex = 0;
@@ -148,7 +146,7 @@
       distance * Math.sin(elevation),
       distance * Math.cos(azimuth) * Math.cos(elevation),
     );
-    look(AZIMUTH, ELEVATION, 2.2 * size);
+    look(turn, tilt, 2.2 * size);
     image.replaceWith(canvas);
     const orbit = new OGL.Orbit(camera, { element: canvas, target: new OGL.Vec3(), enabled: false, minDistance: 0.3 * size, maxDistance: 6 * size });
     // The wheel moves the page until the view is taken hold of.

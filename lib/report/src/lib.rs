@@ -7,7 +7,6 @@ mod mesh;
 mod page;
 mod picture;
 mod scene;
-mod still;
 mod table;
 
 use std::path::{Path, PathBuf};

@@ -43,28 +43,6 @@ fn push_planes(out: &mut Vec<u8>, rows: &[[u32; 3]], width: usize) {
     }
 }
 
-/// Mean normals of the triangles at each vertex, by area, of unit length.
-pub(crate) fn normals(surface: &Surface) -> Vec<[f32; 3]> {
-    let mut sums = vec![[0.0_f32; 3]; surface.vertices.len()];
-    for triangle in &surface.triangles {
-        let [a, b, c] = triangle.map(|i| surface.vertices[i as usize]);
-        let [u, v] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1], p[2] - a[2]]);
-        let normal = [
-            u[1] * v[2] - u[2] * v[1],
-            u[2] * v[0] - u[0] * v[2],
-            u[0] * v[1] - u[1] * v[0],
-        ];
-        for i in triangle {
-            (0..3).for_each(|k| sums[*i as usize][k] += normal[k]);
-        }
-    }
-    let unit = |n: [f32; 3]| {
-        let length = n.iter().map(|x| x * x).sum::<f32>().sqrt().max(1e-20);
-        n.map(|x| x / length)
-    };
-    sums.into_iter().map(unit).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,19 +61,6 @@ mod tests {
                 *sum = sum.wrapping_add(value(3 * i + a).sum());
             }
             assert_eq!(sums, *row);
-        }
-    }
-
-    #[test]
-    fn normals_point_out() {
-        let body = particle_file::BitGrid::from_fn([4, 4, 4], |x, y, z| {
-            [x, y, z].iter().all(|i| (1..3).contains(i))
-        });
-        let room = particle_file::BitGrid::from_fn([4, 4, 4], |_, _, _| true);
-        let surface = Surface::of(&body, &room);
-        for (vertex, normal) in surface.vertices.iter().zip(normals(&surface)) {
-            let out: f32 = (0..3).map(|a| normal[a] * (vertex[a] - 2.0)).sum();
-            assert!(out > 0.5, "{vertex:?} {normal:?}");
         }
     }
 }

@@ -1,15 +1,17 @@
 //! A state in 3D: the surfaces of wood and adhesive of its voxels.
 
+use figures::{Direction, Page, Views, Wood};
 use particle_file::{BitGrid, ParticleFile};
 use voxels::{ADHESIVE, LabelVolume, Surface, WOOD};
 
 use crate::html::{base64, escape};
 use crate::mesh::packed;
-use crate::still;
 use crate::{Error, Labelled};
 
-/// Voxels that are drawn; of a larger state the middle of the bond plane is.
+/// Voxels that the viewer shows; of a larger state the middle of the bond plane is.
 const MOST_VOXELS: usize = 700_000;
+/// Pixels per inch of the picture: a bond fits on a screen.
+const DPI: f64 = 150.0;
 
 /// Wood and adhesive of a state, the bond normal up.
 pub struct Scene {
@@ -20,8 +22,8 @@ pub struct Scene {
     pub(crate) edges: [f32; 3],
     pub(crate) wood: Surface,
     pub(crate) adhesive: Surface,
-    /// What those see who run no scripts, PNG.
-    still: Vec<u8>,
+    /// What those see who run no scripts, PNG: the whole state as `bond-figures view` draws it.
+    picture: Vec<u8>,
 }
 
 impl Scene {
@@ -30,6 +32,7 @@ impl Scene {
     /// # Errors
     /// An unreadable or damaged file, or one without voxels.
     pub fn read(file: &Labelled) -> Result<Self, Error> {
+        let picture = picture(file).map_err(|e| Error(e.to_string()))?;
         let told = |e: particle_file::Error| Error(e.to_string());
         let particles = ParticleFile::open(&file.path).map_err(told)?;
         let labels = LabelVolume::of(&particles).map_err(told)?;
@@ -44,24 +47,24 @@ impl Scene {
         let (wood, adhesive) = (pick(WOOD), pick(ADHESIVE));
         let everywhere = BitGrid::from_fn(window.size, |_, _, _| true);
         let open = BitGrid::from_fn(window.size, |i, j, k| !wood.get(i, j, k));
-        let mut scene = Self {
+        Ok(Self {
             label: file.label.clone(),
             detail: window.told(labels.dims, labels.voxel_m),
             edges: window.size.map(|n| n as f32),
             wood: Surface::of(&wood, &everywhere),
             adhesive: Surface::of(&adhesive, &open),
-            still: Vec::new(),
-        };
-        scene.still = still::png(&scene)?;
-        Ok(scene)
+            picture,
+        })
     }
 
     /// The scene as HTML: a picture, and what the viewer makes of it where scripts run.
     pub(crate) fn to_html(&self) -> String {
         let (label, detail) = (escape(&self.label), escape(&self.detail));
+        let from = Direction::default();
         let data = serde_json::json!({
-            "label": self.label,
             "edges": self.edges,
+            "turn": from.turn.to_radians(),
+            "tilt": from.tilt.to_radians(),
             "wood": packed(&self.wood, self.edges),
             "adhesive": packed(&self.adhesive, self.edges),
         });
@@ -69,12 +72,26 @@ impl Scene {
         let data = data.to_string().replace('<', "\\u003c");
         format!(
             "<figure class=\"scene\"><img alt=\"{label}: pressed bond seen from above and aside; adhesive in orange, the nearer half of the wood cut away\" src=\"data:image/png;base64,{}\">\n<script type=\"application/json\">{data}</script>\n<figcaption>{label}: {detail}.</figcaption></figure>\n",
-            base64(&self.still)
+            base64(&self.picture)
         )
     }
 }
 
-/// The voxels that are drawn.
+/// The state from where the viewer begins, the nearer half of the wood cut away.
+fn picture(file: &Labelled) -> Result<Vec<u8>, figures::Error> {
+    let file = figures::Labelled {
+        label: file.label.clone(),
+        path: file.path.clone(),
+    };
+    let page = Page {
+        dpi: DPI,
+        ..Page::default()
+    };
+    let views = Views::read(&[file], Wood::Cut, Direction::default())?;
+    views.on(page).draw().to_png()
+}
+
+/// The voxels that the viewer shows.
 struct Window {
     /// Axes of the file to the right, up and towards the viewer; turned, not mirrored.
     axes: [usize; 3],
@@ -117,7 +134,7 @@ impl Window {
         let part = if whole {
             ""
         } else {
-            "the middle of the specimen, "
+            "where it can be turned, the middle of the specimen, "
         };
         format!(
             "{part}{}; {} is up, the bond normal",
@@ -143,9 +160,8 @@ mod tests {
         assert_eq!(part.size, [31, 700, 31]);
         assert_eq!(part.voxel([0, 0, 0]), [184, 184, 0]);
         assert_eq!(part.voxel([1, 2, 3]), [187, 185, 2]);
-        assert!(
-            part.told([400, 400, 700], 1e-6)
-                .starts_with("the middle of the specimen, 31.0 um along y, 700.0 um along z")
-        );
+        assert!(part.told([400, 400, 700], 1e-6).starts_with(
+            "where it can be turned, the middle of the specimen, 31.0 um along y, 700.0 um along z"
+        ));
     }
 }

@@ -69,3 +69,21 @@ fn flood(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two cells, and the part of the diagonal by which the sum of the second row is not zero.
+    #[test]
+    fn a_row_sum_of_rounding_closes_a_pocket() {
+        let pockets = |part: f64| {
+            let matrix = Csr::assemble(2, 2, |row, entries| {
+                entries.add(row, if row == 0 { 1.0 } else { 1.0 + part });
+                entries.add(1 - row, -1.0);
+            });
+            ClosedPockets::find(&matrix.unwrap()).members.len()
+        };
+        assert_eq!([0.0, 0.75e-12, 1.5e-12].map(pockets), [1, 1, 0]);
+    }
+}

@@ -1,6 +1,6 @@
 use clap::{Args, Parser, Subcommand};
 use cli::Output;
-use figures::{Case, Labelled, Page, Position};
+use figures::{Case, Direction, Labelled, Page, Position};
 use units::Axis;
 
 use crate::values::{
@@ -231,11 +231,11 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_enum, default_value = "cut")]
     pub(crate) wood: Wood,
     /// Degrees to look from beside the front, about the axis across the bond
-    #[arg(long, value_name = "DEGREES", default_value = "35", allow_hyphen_values = true,
+    #[arg(long, value_name = "DEGREES", default_value_t = Direction::default().turn, allow_hyphen_values = true,
           value_parser = |text: &str| degrees(text, [-360.0, 360.0]))]
     pub(crate) turn: f64,
     /// Degrees to look from above the bond plane
-    #[arg(long, value_name = "DEGREES", default_value = "25", allow_hyphen_values = true,
+    #[arg(long, value_name = "DEGREES", default_value_t = Direction::default().tilt, allow_hyphen_values = true,
           value_parser = |text: &str| degrees(text, [-90.0, 90.0]))]
     pub(crate) tilt: f64,
     #[command(flatten)]

@@ -93,12 +93,6 @@ fn a_picture_is_as_wide_in_print_as_asked_for() {
     let corners: Vec<f64> = box_of_page.split(' ').map(|n| n.parse().unwrap()).collect();
     assert!((corners[2] - 238.11).abs() < 0.02, "{corners:?}");
     assert!(text.contains("/BNDLNE+DejaVuSans") && text.contains("/ToUnicode"));
-    let narrow = figures(
-        folder.path(),
-        &["pressure", "--run", "run", "--width", "84", "-o", "b.pdf"],
-    );
-    assert_eq!(narrow.status.code(), Some(2));
-    assert!(said(&narrow).contains("has no unit"), "{}", said(&narrow));
 }
 
 #[test]
@@ -212,67 +206,6 @@ fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
             said(&output)
         );
     }
-}
-
-#[test]
-fn wrong_usage_is_exit_2_with_what_is_accepted() {
-    let folder = folder();
-    for (arguments, sentence) in [
-        (
-            vec!["pressure", "--run", "run", "-o", "a.jpg"],
-            "must end in .svg, .png or .pdf",
-        ),
-        (
-            vec!["pressure", "--run", "=run", "-o", "a.svg"],
-            "needs a label and a path",
-        ),
-        (vec!["pressure", "-o", "a.svg"], "--run"),
-        (
-            vec!["pressure", "--run", "run", "--limit", "2.5", "-o", "a.svg"],
-            "has no unit",
-        ),
-        (
-            vec!["slice", "a.mpts", "--at", "150%", "-o", "a.svg"],
-            "from 0% to 100%",
-        ),
-        (
-            vec!["slice", "a.mpts", "--normal", "w", "-o", "a.svg"],
-            "x, y and z",
-        ),
-        (
-            vec!["table2", "--run", "pf=wp.csv", "-o", "-"],
-            "ADHESIVE:RUN=CSV",
-        ),
-        (vec!["table2", "-o", "-"], "--experiment"),
-        (vec!["draw"], "unrecognized subcommand"),
-    ] {
-        let output = figures(folder.path(), &arguments);
-        assert_eq!(
-            output.status.code(),
-            Some(2),
-            "{arguments:?}: {}",
-            said(&output)
-        );
-        assert!(said(&output).contains(sentence), "{}", said(&output));
-    }
-    let eight = ["--run", "run"].repeat(8);
-    let output = figures(
-        folder.path(),
-        &[&["pressure"], &eight[..], &["-o", "a.svg"]].concat(),
-    );
-    assert_eq!(output.status.code(), Some(2));
-    assert!(said(&output).contains("too many"), "{}", said(&output));
-}
-
-#[test]
-fn an_unwritable_target_is_exit_1() {
-    let folder = folder();
-    let output = figures(
-        folder.path(),
-        &["pressure", "--run", "run", "-o", "/nowhere/a.svg"],
-    );
-    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-    assert!(said(&output).contains("/nowhere/a.svg"));
 }
 
 #[test]

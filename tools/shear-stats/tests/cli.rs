@@ -85,31 +85,3 @@ fn a_tube_alone_and_beside_a_table() {
     assert!(text(&beside.stdout).starts_with(HEADER));
     assert!(text(&beside.stderr).contains("1.6000e5"));
 }
-
-#[test]
-fn refusals() {
-    let folder = TempDir::new().unwrap();
-    let good = snapshot(folder.path(), "0000.mpts", 0.0, 1.0);
-    let good = good.to_str().unwrap();
-    let torn = folder.path().join("torn.mpts");
-    let bytes = fs::read(good).unwrap();
-    fs::write(&torn, &bytes[..bytes.len() - 9]).unwrap();
-    let foreign = folder.path().join("foreign.mpts");
-    fs::write(&foreign, "time_s,q05\n").unwrap();
-    for (arguments, status, words) in [
-        (&[][..], 2, "SNAPSHOTS"),
-        (&[good, "--tube", "1 m/s"], 2, "SPEED,DIAMETER"),
-        (&[good, "--tube", "1,50 um"], 2, "no unit"),
-        (&[good, "--tube", "1 m/s,0 um"], 2, "greater than zero"),
-        (&[good, "--convention", "mine"], 2, "paper and rheometer"),
-        (&[torn.to_str().unwrap()], 3, "torn.mpts"),
-        (&[foreign.to_str().unwrap()], 3, "foreign.mpts"),
-        (&["/nonexistent.mpts"], 3, "cannot read"),
-        (&[good, "-o", "/nonexistent/shear.csv"], 1, "cannot write"),
-    ] {
-        let run = tool(arguments);
-        let said = text(&run.stderr);
-        assert_eq!(run.status.code(), Some(status), "{arguments:?}: {said}");
-        assert!(said.contains(words), "{arguments:?}: {said}");
-    }
-}

@@ -1,5 +1,6 @@
 //! How far adhesive penetrated: see `lib/metrics`.
 
+mod finer;
 mod input;
 mod series;
 
@@ -12,8 +13,7 @@ use cli::{Failure, InputRecord, Output, Record};
 use input::{GreyLevels, Input, StackOptions};
 use metrics::table::{self, PenetrationRows};
 use metrics::{
-    Datum, DepthLayer, LEAST_RATIO, Map, Reference, Side, State, bond_line, cell_error, compare,
-    depth_profile, extrapolated, penetration,
+    Datum, DepthLayer, Map, Reference, Side, bond_line, compare, depth_profile, penetration,
 };
 use units::{Axis, Length, Quantity};
 use voxels::{Dims, Labels, RawType};
@@ -176,7 +176,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         record.add(&input)?;
         let mut rows = measure(&input, &arguments, experiment.as_ref(), &record)?;
         if arguments.pressure || finer.is_some() {
-            rows.pressure_pa = Some(input.noted(PRESSURE)?);
+            rows.pressure_pa = Some(input.noted(finer::PRESSURE)?);
         }
         if arguments.series {
             let state = input.state(arguments.normal)?;
@@ -189,7 +189,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             }
         }
         if let Some(finer) = &finer {
-            carry_on(&mut rows, &input, finer, &arguments)?;
+            finer::carry_on(&mut rows, &input, finer, &arguments)?;
         }
         files.push(rows);
     }
@@ -263,67 +263,6 @@ fn profile_of(input: &Input, arguments: &Arguments) -> Result<Vec<DepthLayer>, F
     let layers = datum.and_then(|datum| depth_profile(&state, &datum));
     layers.map_err(|error| input.failure(&error))
 }
-
-/// Adds what the same run in smaller cells says of the error of `rows`.
-fn carry_on(
-    rows: &mut PenetrationRows,
-    input: &Input,
-    finer: &Input,
-    arguments: &Arguments,
-) -> Result<(), Failure> {
-    let cells = [input.noted("cell_m")?, finer.noted("cell_m")?];
-    let ratio = cells[0] / cells[1];
-    // A hair for the rounding of lengths written as text.
-    if ratio.is_nan() || ratio < LEAST_RATIO * (1.0 - 1e-6) {
-        return Err(Failure::usage(format!(
-            "'{}' has cells of {:.4} um and '{}' of {:.4} um: those of --finer must be {LEAST_RATIO} times smaller or more for the difference to be an error",
-            input.name,
-            1e6 * cells[0],
-            finer.name,
-            1e6 * cells[1]
-        )));
-    }
-    let (state, fine) = (
-        input.state(arguments.normal)?,
-        finer.state(arguments.normal)?,
-    );
-    if !same_bond(&state, &fine) {
-        return Err(Failure::usage(format!(
-            "'{}' and '{}' are of different bonds: --finer takes the same run in smaller cells",
-            input.name, finer.name
-        )));
-    }
-    let times = [input.time_s(), finer.time_s()];
-    if (times[0] - times[1]).abs() > 1e-6 * times[0] && !closed_alike(&state, &fine) {
-        return Err(Failure::usage(format!(
-            "'{}' is of {:.4e} s and '{}' of {:.4e} s, and the clamp's way is another: --finer takes the same moment of the same run in smaller cells",
-            input.name, times[0], finer.name, times[1]
-        )));
-    }
-    let datum = Datum::find(arguments.reference, &fine).map_err(|e| finer.failure(&e))?;
-    let sides = cell_error(&rows.sides, &penetration(&fine, &datum), ratio);
-    let pressure = extrapolated(input.noted(PRESSURE)?, finer.noted(PRESSURE)?, ratio);
-    rows.cell_error = Some((sides, pressure));
-    Ok(())
-}
-
-/// Whether two states have the same wood, wherever it is now.
-fn same_bond<'a>(a: &State<'a>, b: &State<'a>) -> bool {
-    let wood =
-        |state| State::wood_blocks(state).map(|w| (w.bits.dims(), w.bits.words(), w.voxel_m));
-    wood(a).eq(wood(b))
-}
-
-/// Whether the wood of two states lies in the same places, to a thousandth of a voxel.
-fn closed_alike(a: &State, b: &State) -> bool {
-    let pairs = a.wood_blocks().zip(b.wood_blocks());
-    let mut ways =
-        pairs.flat_map(|(a, b)| (0..3).map(move |i| (a.origin_m[i] - b.origin_m[i]).abs()));
-    ways.all(|way| way <= 1e-3 * a.voxel_m)
-}
-
-/// What `mpm-run` calls the pressure on the body that the clamp drives, Pa.
-const PRESSURE: &str = "pressure_pa";
 
 /// Collects what the outputs were made from. Hashing reads every input whole, so it is done
 /// only when an output is a file, beside which a record can stand.

@@ -1,7 +1,7 @@
 //! The tool as a process: exit statuses, sentences, outputs that are whole or absent.
 
 use std::fs;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -162,41 +162,6 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
-fn wrong_usage_is_exit_2() {
-    let (folder, stack) = folder();
-    let target = folder.path().join("out.mpts");
-    let case = |arguments: &[&str], said: &[&str]| {
-        let mut all = vec![text(&stack), "-o", text(&target)];
-        all.extend(arguments);
-        refused(&all, 2, said);
-        assert!(!target.exists(), "{arguments:?}");
-    };
-    case(
-        &["--labels", "wood=128,adhesive=255"],
-        &["no label is given for void"],
-    );
-    case(
-        &["--labels", "void=0,wood=7,adhesive=255"],
-        &["page 1 of 10", "column 0, row 0", "holds 128"],
-    );
-    case(
-        &["--labels", "void=0,wood=1:2:3,adhesive=255"],
-        &["holds 128"],
-    );
-    case(
-        &["--labels", LABELS, "--grey", "wood=1..2,adhesive=3.."],
-        &["cannot be used with"],
-    );
-    case(&["--grey", "adhesive=1..2"], &["wood"]);
-    case(&["--crop", "0:71,0:20,0:10"], &["along x", "70 voxels"]);
-    case(&["--crop", "0:7"], &["x0:x1,y0:y1,z0:z1"]);
-    case(&["--voxel", "1.45"], &["no unit", "um"]);
-    case(&["--voxel", "-1.45 um"], &["greater than zero"]);
-    case(&["--unheard-of"], &["--unheard-of"]);
-    refused(&["-o", text(&target)], 2, &["STACK"]);
-}
-
-#[test]
 fn labels_and_voxel_size_that_nothing_states_are_asked_for() {
     let (folder, stack) = folder();
     let target = folder.path().join("out.mpts");
@@ -250,78 +215,6 @@ fn a_voxel_size_against_the_files_own_is_taken_with_a_warning() {
 }
 
 #[test]
-fn unreadable_data_is_exit_3() {
-    let (folder, stack) = folder();
-    let target = folder.path().join("out.mpts");
-    let case = |stack: &Path, said: &[&str]| {
-        refused(&[text(stack), "-o", text(&target)], 3, said);
-        assert!(!target.exists());
-    };
-    case(&folder.path().join("missing.tif"), &["missing.tif"]);
-    let bytes = fs::read(&stack).unwrap();
-    let cut = folder.path().join("cut.tif");
-    fs::write(&cut, &bytes[..bytes.len() - 1]).unwrap();
-    case(&cut, &["cut.tif', page 10", "truncated"]);
-    fs::write(&cut, b"PK\x03\x04").unwrap();
-    case(&cut, &["its archive cannot be read"]);
-    fs::write(&cut, b"PK").unwrap();
-    case(&cut, &["it is not a stack"]);
-    fs::write(&cut, b"").unwrap();
-    case(&cut, &["it is not a stack"]);
-    let empty = folder.path().join("empty");
-    fs::create_dir(&empty).unwrap();
-    case(&empty, &["no slices"]);
-    refused(&["-", "-o", text(&target)], 3, &["standard input"]);
-}
-
-#[test]
-fn outputs_that_cannot_be_written_are_exit_1_and_leave_nothing() {
-    let (folder, stack) = folder();
-    refused(&[text(&stack), "-o", "/dev/full"], 1, &["/dev/full"]);
-    refused(
-        &[text(&stack), "-o", "/proc/none/out.mpts"],
-        1,
-        &["/proc/none/out.mpts"],
-    );
-    refused(&[text(&stack), "-o", text(folder.path())], 1, &["folder"]);
-    let full = tool()
-        .args([text(&stack), "-o", "-"])
-        .stdout(fs::File::options().write(true).open("/dev/full").unwrap())
-        .output()
-        .unwrap();
-    assert_eq!(full.status.code(), Some(1));
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
-}
-
-#[test]
-fn a_closed_pipe_ends_quietly() {
-    // Larger than a pipe's buffer, so that the tool is still writing when it closes.
-    let folder = tempfile::tempdir().unwrap();
-    let stack = folder.path().join("large.tif");
-    let dims = [640, 640, 20];
-    let mut writer = TiffWriter::new(fs::File::create(&stack).unwrap(), dims, 1e-6).unwrap();
-    for z in 0..dims[2] {
-        writer
-            .write_page(&vec![[0, 1, 2][z % 3]; 640 * 640])
-            .unwrap();
-    }
-    writer.finish().unwrap();
-    let mut child = tool()
-        .args(["-q", text(&stack), "-o", "-"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut first = [0; 8];
-    let mut pipe = child.stdout.take().unwrap();
-    pipe.read_exact(&mut first).unwrap();
-    drop(pipe);
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(0));
-    assert!(output.stderr.is_empty());
-}
-
-#[test]
 fn huge_declared_sizes_fit_into_little_memory() {
     let (folder, stack) = folder();
     let mut bytes = fs::read(&stack).unwrap();
@@ -343,22 +236,6 @@ fn huge_declared_sizes_fit_into_little_memory() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{said}");
     assert!(said.contains("page 1"), "{said}");
-}
-
-#[test]
-fn help_version_and_man_page() {
-    for (argument, part) in [
-        ("--help", "Examples:"),
-        ("--version", "xct2particles "),
-        ("--generate=man", ".TH"),
-    ] {
-        let output = run(&[argument]);
-        assert_eq!(output.status.code(), Some(0), "{argument}");
-        assert!(
-            String::from_utf8_lossy(&output.stdout).contains(part),
-            "{argument}"
-        );
-    }
 }
 
 /// Undamaged wood: labels guessed or named, grey values given or proposed; two values that may be

@@ -176,7 +176,7 @@ mod tests {
     use super::*;
     use crate::geometry::tests::{domain, lattice};
     use crate::liquid::Volumes;
-    use crate::system::{Scales, WidthRule};
+    use crate::system::Scales;
 
     /// Part of the columns between the centres of two faces along `axis`, neighbours along `t`, that is free
     /// beside a wall a fifth of a cell thick that covers one half of them, the lower or the `upper` along
@@ -195,14 +195,7 @@ mod tests {
         let lattice = lattice(domain([6; 3], 3), vec![vec![wall]]);
         let phi = vec![1.0; lattice.window.sub_len()];
         let volumes = Volumes::new(&lattice, &phi);
-        let scales = Scales {
-            inertia: 1.0,
-            compressibility: 0.0,
-            gravity: [0.0; 3],
-            influence_length: 0.0,
-            width: WidthRule::Normal,
-        };
-        let operator = Operator::new(&lattice, &volumes, scales);
+        let operator = Operator::new(&lattice, &volumes, Scales::plain());
         let cell = lattice.window.local([3.0; 3]).map(|x| x.round() as usize);
         operator.sight(axis, t, cell, [Velocity::Still; 2]).0
     }

@@ -142,6 +142,9 @@ fn consistent(ln_eta: impl Fn(f64) -> f64, used: f64, rate: f64, response: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::tests::{domain, lattice};
+    use crate::liquid::Volumes;
+    use crate::system::Scales;
 
     /// eta = rate^-0.7: under a given stress eta rate = 2, from a viscosity of 1 and so a rate of 2.
     #[test]
@@ -153,5 +156,38 @@ mod tests {
         assert!((eta / rate.powf(-0.7) - 1.0).abs() < 1e-3, "{eta}");
         let picard = consistent(ln_eta, 0.0, 2.0, 0.0).exp();
         assert!((picard / 2_f64.powf(-0.7) - 1.0).abs() < 1e-12);
+    }
+
+    /// A liquid that hardly resists at any rate: its rate of e^999 is looked for up to e^30 in doublings.
+    #[test]
+    fn no_rate_is_sought_beyond_thirteen_decades() {
+        let ln_eta = |rate: f64| -0.999 * rate.ln();
+        let found = consistent(ln_eta, 0.0, std::f64::consts::E, -1.0);
+        assert!(
+            (found + 0.999 * (1.0 + 0.999 * 32.0)).abs() < 1e-9,
+            "{found}"
+        );
+    }
+
+    /// One cell whose viscosity changed by a part and whose rate by half of that, the other way.
+    #[test]
+    fn a_viscosity_that_did_not_move_tells_nothing() {
+        let lattice = lattice(domain([4, 4, 1], 2), vec![]);
+        let phi = vec![1.0; lattice.window.sub_len()];
+        let volumes = Volumes::new(&lattice, &phi);
+        let operator = Operator::new(&lattice, &volumes, Scales::plain());
+        let told = |part: f32| {
+            let pass = |eta: f32, rate: f32| Found {
+                change: 0.0,
+                used: vec![eta; lattice.window.len()],
+                deviator: vec![rate; lattice.window.len()],
+                edges: Default::default(),
+                links: Vec::new(),
+            };
+            let now = pass(part.exp(), (-0.5 * part).exp());
+            operator.response(&pass(1.0, 1.0), &now, -0.25)
+        };
+        assert_eq!(told(0.85e-3), -0.25);
+        assert!((told(1.2e-3) + 0.5).abs() < 1e-3);
     }
 }

@@ -136,26 +136,19 @@ fn steepness(law: &Viscosity, rate: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use physics::{Newtonian, ShearRate, Tait, Viscosity};
+    use physics::{Law, Newtonian, ShearRate, Tait, Viscosity};
 
     use super::*;
     use crate::geometry::tests::{domain, lattice};
     use crate::liquid::Volumes;
-    use crate::system::{Scales, WidthRule};
+    use crate::system::Scales;
 
     #[test]
     fn the_change_told_is_that_of_the_viscosity() {
         let lattice = lattice(domain([4, 4, 1], 2), vec![]);
         let phi = vec![1.0; lattice.window.sub_len()];
         let volumes = Volumes::new(&lattice, &phi);
-        let scales = Scales {
-            inertia: 1.0,
-            compressibility: 0.0,
-            gravity: [0.0; 3],
-            influence_length: 0.0,
-            width: WidthRule::Normal,
-        };
-        let mut operator = Operator::new(&lattice, &volumes, scales);
+        let mut operator = Operator::new(&lattice, &volumes, Scales::plain());
         let u = vec![0.0; operator.dofs.faces.len()];
         let field = Sheared {
             deviator: |_: [f64; 3]| 1.0,
@@ -177,5 +170,32 @@ mod tests {
         assert_eq!(change(2.0), 0.0);
         assert!((change(6.0) - 2.0).abs() < 1e-6, "three times as viscous");
         assert!((change(3.0) - 0.5).abs() < 1e-6, "half of it");
+    }
+
+    /// A power law has one slope; a law that bends has that of the rate to a thousandth; what does not
+    /// flow has a hundred.
+    #[test]
+    fn laws_have_their_slopes() {
+        let power = Law::Power {
+            consistency: 1.0,
+            index: 0.5,
+            rates: [1e-9, 1e9],
+        };
+        assert!((steepness(&Viscosity::Law(power), 3.0) - 2.0).abs() < 1e-9);
+        let cross = Law::Cross {
+            plateaus: [1.0, 0.0],
+            time: 1.0,
+            exponent: 0.8,
+        };
+        // d ln(eta)/d ln(rate) = -0.8 x/(1 + x) with x = rate^0.8 = 1.
+        let error = steepness(&Viscosity::Law(cross), 1.0) * 0.6 - 1.0;
+        assert!((0.5e-3..2e-3).contains(&error.abs()), "{error}");
+        let solid = Law::HerschelBulkley {
+            yield_stress: 1e9,
+            consistency: 1.0,
+            index: 0.5,
+            regularisation: 1e-9,
+        };
+        assert!((steepness(&Viscosity::Law(solid), 1.0) - 100.0).abs() < 1e-9);
     }
 }

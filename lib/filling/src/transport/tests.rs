@@ -1,5 +1,6 @@
 //! Particles carry the flux that was solved for.
 
+mod taken_up;
 mod walls;
 
 use physics::{Boundary, ShearRate, VoxelBlock};

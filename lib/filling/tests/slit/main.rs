@@ -4,6 +4,7 @@
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
 mod constant_pressure;
+mod inertia;
 #[path = "../common/march.rs"]
 mod march;
 #[path = "../common/plain.rs"]

@@ -175,3 +175,27 @@ fn galerkin(matrix: &Csr<f64>, aggregation: &Aggregation) -> Result<Csr<f64>, So
         }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows of three joined by 1 within and by `weak` to the next three: the first two of the first pair
+    /// up, and the third joins the next only along a coupling of a quarter or more.
+    #[test]
+    fn rows_join_along_a_quarter_of_the_strongest_coupling() {
+        let rows = |weak: f64| {
+            let matrix = Csr::assemble(6, 6, |row, entries| {
+                let coupling = |low: usize| if low == 2 { weak } else { 1.0 };
+                for other in [row.wrapping_sub(1), row + 1] {
+                    if other < 6 {
+                        entries.add(other, -coupling(row.min(other)));
+                        entries.add(row, coupling(row.min(other)));
+                    }
+                }
+            });
+            match_pairs(&matrix.unwrap()).n_coarse()
+        };
+        assert_eq!([0.2, 0.3].map(rows), [4, 3]);
+    }
+}

@@ -69,3 +69,25 @@ impl Cholesky {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two cells that push one another, one of them compressible by a part of that: below the rounding of
+    /// the elimination it cannot be told from a closed pocket, whose last pressure is zero.
+    #[test]
+    fn what_is_left_of_a_row_by_rounding_is_dependent() {
+        let last = |part: f64| {
+            let matrix = Csr::assemble(2, 2, |row, entries| {
+                entries.add(row, if row == 0 { 1.0 } else { 1.0 + part });
+                entries.add(1 - row, -1.0);
+            });
+            let mut x = [0.0; 2];
+            Cholesky::new(&matrix.unwrap()).solve(&[0.0, 1.0], &mut x);
+            x[1]
+        };
+        assert_eq!([0.0, 0.75e-11].map(last), [0.0; 2]);
+        assert!((last(1.5e-11) * 1.5e-11 - 1.0).abs() < 1e-3);
+    }
+}

@@ -5,3 +5,18 @@ mod channels;
 mod flow;
 #[path = "../../../tests/common/staircase.rs"]
 mod staircase;
+
+use super::{Scales, WidthRule};
+
+impl Scales {
+    /// Inertia alone, and walls that liquid sticks to.
+    pub(crate) fn plain() -> Self {
+        Self {
+            inertia: 1.0,
+            compressibility: 0.0,
+            gravity: [0.0; 3],
+            influence_length: 0.0,
+            width: WidthRule::Normal,
+        }
+    }
+}

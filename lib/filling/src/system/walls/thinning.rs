@@ -65,4 +65,13 @@ mod tests {
             }
         }
     }
+
+    /// Far from any wall nothing is to be made up for, nor where the distance would end below a fiftieth:
+    /// in a slit of ten cells with a wall next to its face.
+    #[test]
+    fn width_and_distance_have_their_limits() {
+        assert_eq!(thinning_distance(0.4, 61.0, 3.0), 0.4);
+        assert!((thinning_distance(0.4, 59.0, 3.0) / 0.4 - 1.0).abs() > 1e-3);
+        assert!((thinning_distance(0.05, 10.0, 20.0) / 0.05 - 0.02).abs() < 1e-12);
+    }
 }

@@ -7,7 +7,7 @@ use crate::geometry::Lattice;
 use crate::geometry::tests::{domain, lattice};
 use crate::liquid::tests::at;
 use crate::liquid::{Bins, Fractions, Particles, Volumes};
-use crate::system::{Before, Operator, Scales, WidthRule};
+use crate::system::{Before, Operator, Scales};
 use crate::transport::Path;
 
 /// Root mean square and mean of r - 1 over the full cells.
@@ -29,14 +29,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
     let mut fractions = Fractions::default();
     fractions.update(particles, &bins, lattice, &[[0.0; 3]; 2]);
     let volumes = Volumes::new(lattice, &fractions.liquid);
-    let scales = Scales {
-        inertia: 1.0,
-        compressibility: 0.0,
-        gravity: [0.0; 3],
-        influence_length: 0.0,
-        width: WidthRule::Normal,
-    };
-    let operator = Operator::new(lattice, &volumes, scales);
+    let operator = Operator::new(lattice, &volumes, Scales::plain());
     let dofs = &operator.dofs;
     let before = Before {
         velocity: &vec![0.0; dofs.faces.len()],

@@ -103,6 +103,8 @@ mod tests {
             "columns of 0.7 and 0.8 go beyond the edge above"
         );
         assert_eq!(seen(&[0.3, 0.5]).reaches, 0);
+        // What rounding makes of one wall is even.
+        assert!(!seen(&[0.6, 0.6 + 0.75e-6]).uneven && seen(&[0.6, 0.6 + 1.5e-6]).uneven);
         // Beyond a cell a wall is not near: the control volume ends half a cell away.
         assert!(!seen(&[1.5, 2.5]).uneven && seen(&[1.5]).reaches == 0);
     }

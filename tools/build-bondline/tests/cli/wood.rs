@@ -1,13 +1,13 @@
-//! The command line of build-bondline for undamaged wood: what it writes, refuses and says.
+//! Bonds of undamaged wood: what is written, refused and said.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 
-use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile};
+use particle_file::{BitGrid, Header, Kind, ParticleFile};
 use tempfile::TempDir;
 
-const VOXEL: f64 = 1.45e-6;
+use crate::{VOXEL, said, tool};
 
 /// A grooved piece of wood alone, or with a voxel of adhesive.
 struct Piece {
@@ -32,28 +32,8 @@ impl Piece {
         });
         let max = self.dims.map(|n| n as f64 * self.voxel_m);
         let header = Header::new(Kind::Specimen, self.voxel_m, self.normal, [0.0; 3], max);
-        let block = |name, material, bits| Block::new(name, material, [0.0; 3], self.voxel_m, bits);
-        let path = folder.join(name);
-        Draft::new(header)
-            .block(block("wood", Material::Rigid, &wood), &wood)
-            .block(block("adhesive", Material::Adhesive, &adhesive), &adhesive)
-            .write_to(&mut File::create(&path).unwrap())
-            .unwrap();
-        path
+        crate::write(folder, name, header, &wood, &adhesive)
     }
-}
-
-fn tool(folder: &Path, line: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_build-bondline"))
-        .current_dir(folder)
-        .args(line.split(' '))
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 fn number(file: &ParticleFile, name: &str) -> f64 {
@@ -67,6 +47,7 @@ fn one_piece_cut_and_two_pieces_are_bonds() {
     PIECE.write(folder.path(), "b.mpts");
     let run = tool(
         folder.path(),
+        Stdio::null(),
         "a.mpts --plane 29um --slab 11.6um -o cut.mpts",
     );
     assert!(run.status.success(), "{}", said(&run));
@@ -85,6 +66,7 @@ fn one_piece_cut_and_two_pieces_are_bonds() {
     // 13.92 g/m2 of 1.2 g/cm3 are 11.6 um.
     let run = tool(
         folder.path(),
+        Stdio::null(),
         "--bottom a.mpts --top b.mpts --spread 13.92g/m2 --density 1.2g/cm3 -o two.mpts",
     );
     assert!(run.status.success(), "{}", said(&run));
@@ -103,14 +85,10 @@ fn one_piece_may_come_from_a_pipe() {
     let folder = TempDir::new().unwrap();
     let path = PIECE.write(folder.path(), "a.mpts");
     let line = "--bottom a.mpts --top a.mpts --slab 11.6um -o -";
-    let direct = tool(folder.path(), line);
+    let direct = tool(folder.path(), Stdio::null(), line);
     assert!(direct.status.success(), "{}", said(&direct));
-    let piped = Command::new(env!("CARGO_BIN_EXE_build-bondline"))
-        .current_dir(folder.path())
-        .args("--bottom a.mpts --top - --slab 11.6um -o -".split(' '))
-        .stdin(File::open(path).unwrap())
-        .output()
-        .unwrap();
+    let line = line.replace("--top a.mpts", "--top -");
+    let piped = tool(folder.path(), File::open(path).unwrap(), &line);
     assert!(piped.status.success(), "{}", said(&piped));
     let voxels = |bytes: &[u8], name: &str| {
         let path = folder.path().join(name);
@@ -222,7 +200,11 @@ fn refusals_are_a_sentence_and_leave_no_file() {
         ),
         ("--bottom a.mpts --top empty.mpts --slab 11.6um", 3, "empty"),
     ] {
-        let run = tool(folder.path(), &format!("{line} -o bond.mpts"));
+        let run = tool(
+            folder.path(),
+            Stdio::null(),
+            &format!("{line} -o bond.mpts"),
+        );
         assert_eq!(run.status.code(), Some(status), "{line}: {}", said(&run));
         assert!(said(&run).contains(sentence), "{line}: {}", said(&run));
         assert!(!folder.path().join("bond.mpts").exists(), "{line}");
