@@ -11,6 +11,7 @@
 mod build;
 mod error;
 mod faces;
+mod open;
 mod placed;
 mod plane;
 mod slab;
@@ -19,6 +20,7 @@ mod wood;
 pub use build::{Bond, Options, Plane, build};
 pub use error::Error;
 pub use faces::Face;
+pub use open::open_voids;
 pub use placed::{Placed, Specimen};
 pub use plane::{BondLine, Profile, find, surface};
 pub use wood::{Layup, Pieces, Turn, lay_up};

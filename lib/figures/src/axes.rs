@@ -92,10 +92,19 @@ impl Axis {
     /// A logarithmic axis over the positive `values`, in whole decades and at most
     /// `MOST_DECADES` of them below the largest value; lower values lie on its edge.
     pub(crate) fn logarithmic(title: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
+        Self::in_decades(title, values, MOST_DECADES)
+    }
+
+    /// A logarithmic axis over all decades of the positive `values`.
+    pub(crate) fn decades(title: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
+        Self::in_decades(title, values, f64::INFINITY)
+    }
+
+    fn in_decades(title: impl Into<String>, values: impl Iterator<Item = f64>, most: f64) -> Self {
         let (low, high) = extent(values.filter(|v| *v > 0.0));
         let (low, high) = if high > 0.0 { (low, high) } else { (1.0, 10.0) };
         let top = high.log10().ceil();
-        let bottom = low.log10().floor().max(top - MOST_DECADES).min(top - 1.0);
+        let bottom = low.log10().floor().max(top - most).min(top - 1.0);
         Self {
             title: title.into(),
             low: bottom,

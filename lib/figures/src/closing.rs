@@ -2,7 +2,7 @@ use crate::axes::{Axis, NORMAL, SMALL, extent};
 use crate::colour::{BLACK, DISTINCT, faded, opaque, series};
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::{Frame, room_below, room_beside};
-use crate::legend::{Legend, Stroke};
+use crate::legend::{Legend, Stroke, patch};
 use crate::measure;
 use crate::page::Page;
 use crate::table::Table;
@@ -44,6 +44,9 @@ struct Axes {
 
 const WIDTH: f64 = 800.0;
 const RIGHT: f64 = 24.0;
+/// What the bands show.
+const BAND: &str = "error of the cells' size";
+const BAND_SHADE: f64 = 0.25;
 
 impl Closing {
     /// Reads the histories of runs, and of some of them in cells half as large, by the same label: what
@@ -106,7 +109,9 @@ impl Closing {
         let width = page - left - RIGHT;
         let title = measure::lines(&self.title, NORMAL + 2.0, page - 2.0 * RIGHT, 3);
         let title_height = 10.0 + 1.4 * NORMAL * title.len() as f64;
+        let banded = self.runs.iter().position(|run| !run.band.is_empty());
         let labels = self.runs.iter().map(|run| run.label.as_str());
+        let labels = labels.chain(banded.map(|_| BAND));
         let legend = Legend::new(labels, Legend::LINE, width);
         let frame = |top, height| Frame {
             left,
@@ -119,9 +124,14 @@ impl Closing {
         let height = lower.bottom() + room_below(&axes.below, width) + 4.0;
         let mut drawing = Drawing::new(self.page, page, height);
         drawing.lines(&title, [0.5 * page, 20.0], Anchor::Centre, NORMAL + 2.0);
-        legend.draw(&mut drawing, [left, title_height], |drawing, i, ends| {
-            Stroke::of_series(i).draw(drawing, &ends);
-        });
+        legend.draw(
+            &mut drawing,
+            [left, title_height],
+            |drawing, i, ends| match banded.filter(|_| i == self.runs.len()) {
+                Some(run) => drawing.area(patch(ends), faded(series(run), BAND_SHADE)),
+                None => Stroke::of_series(i).draw(drawing, &ends),
+            },
+        );
         self.plot(&mut drawing, &axes, &upper, &lower);
         drawing
     }
@@ -161,7 +171,7 @@ impl Closing {
             let upper_ends = run.band.iter().rev().map(|&[t, _, high]| end(t, high));
             drawing.area(
                 lower_ends.chain(upper_ends).collect(),
-                faded(series(i), 0.25),
+                faded(series(i), BAND_SHADE),
             );
         }
         for (i, run) in self.runs.iter().enumerate() {

@@ -45,7 +45,7 @@ pub use clouds::{Clouds, Spot};
 pub use drawing::{Drawing, TextBox};
 pub use error::Error;
 pub use page::Page;
-pub use penetration::penetrations;
+pub use penetration::{Shown, penetrations};
 pub use plot::{Mark, Plot};
 pub use response::Response;
 pub use setup::Setup;

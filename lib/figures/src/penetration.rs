@@ -1,21 +1,38 @@
-//! How deep adhesive has gone on each side over time, from the CSV of `wp-metrics --series`.
+//! How deep adhesive has gone, how much wood it wets and how full the open lumens are, from the tables of
+//! `wp-metrics --series` or the histories of runs.
 
 use crate::closing::time_unit;
 use crate::table::Table;
 use crate::{Error, Labelled, Mark, Plot};
 
-/// Longest over shortest time from which their logarithms are drawn: a press takes from microseconds to
-/// minutes, more decades than a logarithmic axis shows.
+/// Longest over shortest time from which time is drawn by its decades: a press takes from microseconds to
+/// minutes.
 const LONG: f64 = 100.0;
+/// Most times of one profile that are drawn.
+const MOST_TIMES: usize = 5;
 
-/// WP and the depth of 95 % of the adhesive, a line for each side of one run or for the whole of each of
-/// several, and a dot where a bond line is no longer filled.
+/// What of penetration a figure shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// WP and the depth of 95 % of the adhesive over time.
+    Depth,
+    /// The area of wood that adhesive wets over time.
+    Wetted,
+    /// The filled share of the open lumens against depth, from profiles of `wp-metrics --profile`.
+    Filled,
+}
+
+/// A line for each side of one run or for the whole of each of several, and a dot where a bond line is no
+/// longer filled.
 ///
 /// # Errors
 /// [`Error::Data`] for an unreadable file, a missing column or side, or one without numbers.
-pub fn penetrations(runs: &[Labelled]) -> Result<Plot, Error> {
+pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
     let tables = runs.iter().map(|run| Table::read(&run.path));
     let tables = tables.collect::<Result<Vec<_>, _>>()?;
+    if shown == Shown::Filled {
+        return filled(runs, &tables);
+    }
     let mut times = Vec::new();
     for table in &tables {
         times.extend(table.data("time_s")?.into_iter().filter(|t| *t > 0.0));
@@ -24,50 +41,61 @@ pub fn penetrations(runs: &[Labelled]) -> Result<Plot, Error> {
         (first.min(t), last.max(t))
     });
     let (unit, name) = time_unit(last);
-    let long = last > LONG * first;
-    let title = match long {
-        true => format!("log10 of time ({name})"),
-        false => format!("time ({name})"),
+    let (title, axis, quantities): (_, _, &[_]) = match shown {
+        Shown::Wetted => (
+            "Wetted area",
+            "wood wetted (µm²)",
+            &[("wetted_area", "um2", "")],
+        ),
+        _ => (
+            "Penetration",
+            "depth (µm)",
+            &[("wp", "um", "WP, "), ("p95_depth", "um", "95 %, ")],
+        ),
     };
-    let place = |time: f64| match long {
-        true => (time / unit).log10(),
-        false => time / unit,
-    };
-    let mut plot = Plot::new("Penetration", &title, "depth (µm)");
+    let mut plot = Plot::new(title, &format!("time ({name})"), axis);
+    if last > LONG * first {
+        plot = plot.decades();
+    }
     for (run, table) in runs.iter().zip(&tables) {
         let (own, sides) = match runs.len() {
             1 => (String::new(), &["bottom", "top"][..]),
             _ => (format!("{}: ", run.label), &["total"][..]),
         };
         for &side in sides {
-            for (column, what) in [("wp_um", "WP"), ("p95_depth_um", "95 %")] {
-                let points = course(table, side, column, place)?;
-                plot = plot.with(&format!("{own}{what}, {side}"), Mark::LineAndDots, points);
+            for (column, of, what) in quantities {
+                let points = course(table, side, column, of, unit)?;
+                plot = plot.with(&format!("{own}{what}{side}"), Mark::LineAndDots, points);
             }
         }
         let states = table.texts("bond_line")?;
         if let Some(row) = states.iter().position(|state| *state != "filled") {
-            let at = [place(table.data("time_s")?[row]), 0.0];
+            let at = [table.data("time_s")?[row] / unit, 0.0];
             plot = plot.with(&format!("{own}{}", states[row]), Mark::Dots, vec![at]);
         }
     }
     Ok(plot)
 }
 
-/// A column of one side over the `place` of its time (s); what is at no time has no logarithm.
+/// A quantity of one side over time, in `unit` (s); what is at no time has no logarithm.
 fn course(
     table: &Table,
     side: &str,
     column: &str,
-    place: impl Fn(f64) -> f64,
+    of: &str,
+    unit: f64,
 ) -> Result<Vec<[f64; 2]>, Error> {
-    let (sides, times, values) = (
-        table.texts("side")?,
-        table.data("time_s")?,
-        table.data(column)?,
-    );
+    let times = table.data("time_s")?;
+    // A series has a row for each side, a history a column.
+    let (sides, values) = match table.has("side") {
+        true => (table.texts("side")?, table.data(&format!("{column}_{of}"))?),
+        false => (
+            vec![side; times.len()],
+            of_history(table, side, column, of)?,
+        ),
+    };
     let rows = (0..sides.len()).filter(|&row| sides[row] == side && times[row] > 0.0);
-    let points: Vec<[f64; 2]> = rows.map(|row| [place(times[row]), values[row]]).collect();
+    let points: Vec<[f64; 2]> = rows.map(|row| [times[row] / unit, values[row]]).collect();
     if points.is_empty() {
         return Err(Error::Data(format!(
             "'{}' has no row of the side {side} after the start, as wp-metrics --series writes them",
@@ -75,4 +103,55 @@ fn course(
         )));
     }
     Ok(points)
+}
+
+/// A quantity of one side in each row of a history.
+fn of_history(table: &Table, side: &str, column: &str, of: &str) -> Result<Vec<f64>, Error> {
+    let name = |side: &str| format!("{column}_{side}_{of}");
+    if !table.has(&name("bottom")) {
+        return Err(Error::Data(format!(
+            "'{}' does not tell of penetration: a history does where the case has [output] penetration = true, and \
+             wp-metrics --series tells it of the snapshots of any run",
+            table.name()
+        )));
+    }
+    if side == "total" && !table.has(&name(side)) {
+        let [bottom, top] = [table.data(&name("bottom"))?, table.data(&name("top"))?];
+        return Ok(bottom.iter().zip(&top).map(|(b, t)| b + t).collect());
+    }
+    table.data(&name(side))
+}
+
+/// The filled share of open lumens against depth: of one run at some of its times, of several at their last.
+fn filled(runs: &[Labelled], tables: &[Table]) -> Result<Plot, Error> {
+    let title = "depth from the middle of the bond line (µm), bottom negative";
+    let mut plot = Plot::new("Filled share of the open lumens", title, "filled share");
+    for (run, table) in runs.iter().zip(tables) {
+        let (depths, shares) = (table.data("depth_um")?, table.data("filled_open_fraction")?);
+        let times = match table.has("time_s") {
+            true => table.data("time_s")?,
+            false => vec![0.0; depths.len()],
+        };
+        let mut told = times.clone();
+        told.dedup();
+        let count = if runs.len() > 1 {
+            1
+        } else {
+            MOST_TIMES.min(told.len())
+        };
+        let (unit, name) = time_unit(told.last().copied().unwrap_or(0.0));
+        for i in 0..count {
+            // The last in any case, the others evenly among the rest.
+            let time =
+                told[(told.len() - 1) - (count - 1 - i) * (told.len() - 1) / (count - 1).max(1)];
+            let rows = (0..depths.len()).filter(|&row| times[row] == time);
+            let points = rows.map(|row| [depths[row], shares[row]]).collect();
+            let label = match (runs.len(), table.has("time_s")) {
+                (1, true) => format!("{:.3} {name}", time / unit),
+                _ => run.label.clone(),
+            };
+            plot = plot.with(&label, Mark::Line, points);
+        }
+    }
+    Ok(plot)
 }

@@ -11,9 +11,19 @@ use crate::page::Page;
 #[derive(Clone, Debug)]
 pub struct Plot {
     title: String,
-    axes: [(String, bool); 2],
+    axes: [(String, Scale); 2],
     series: Vec<Series>,
     page: Page,
+}
+
+/// How values are placed on an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Scale {
+    Linear,
+    /// By their logarithms, the uppermost decades.
+    Logarithmic,
+    /// By their logarithms, all decades.
+    Decades,
 }
 
 /// One series of a [`Plot`].
@@ -43,7 +53,7 @@ impl Plot {
     pub fn new(title: &str, x: &str, y: &str) -> Self {
         Self {
             title: title.into(),
-            axes: [(x.into(), false), (y.into(), false)],
+            axes: [(x.into(), Scale::Linear), (y.into(), Scale::Linear)],
             series: Vec::new(),
             page: Page::default(),
         }
@@ -57,8 +67,17 @@ impl Plot {
     /// The same with logarithmic axes, x and y, where asked.
     pub fn logarithmic(mut self, which: [bool; 2]) -> Self {
         for (axis, logarithmic) in self.axes.iter_mut().zip(which) {
-            axis.1 = logarithmic;
+            axis.1 = match logarithmic {
+                true => Scale::Logarithmic,
+                false => Scale::Linear,
+            };
         }
+        self
+    }
+
+    /// The same with a logarithmic x axis over all decades that there are.
+    pub fn decades(mut self) -> Self {
+        self.axes[0].1 = Scale::Decades;
         self
     }
 
@@ -89,12 +108,12 @@ impl Plot {
             return Err(Error::Data(format!("'{}' has no data", self.title)));
         }
         let axis = |i: usize| {
-            let (title, logarithmic) = &self.axes[i];
+            let (title, scale) = &self.axes[i];
             let values = all().map(|p| p[i]);
-            if *logarithmic {
-                Axis::logarithmic(title.as_str(), values)
-            } else {
-                Axis::linear(title.as_str(), values)
+            match scale {
+                Scale::Linear => Axis::linear(title.as_str(), values),
+                Scale::Logarithmic => Axis::logarithmic(title.as_str(), values),
+                Scale::Decades => Axis::decades(title.as_str(), values),
             }
         };
         let (x, y) = (axis(0), axis(1));

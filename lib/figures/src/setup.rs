@@ -1,3 +1,4 @@
+use particle_file::{Kind, ParticleFile};
 use units::Axis;
 
 use crate::axes::SMALL;
@@ -19,6 +20,19 @@ pub struct Setup {
     page: Page,
 }
 
+/// Refuses a file of another kind: every panel would show something else than its caption says.
+fn is_a(file: &Labelled, kind: Kind) -> Result<(), Error> {
+    let opened = ParticleFile::open(&file.path).map_err(|e| Error::Data(e.to_string()))?;
+    let found = opened.header().kind;
+    match found == kind {
+        true => Ok(()),
+        false => Err(Error::Request(format!(
+            "'{}' holds a {found}, where a {kind} is needed: a specimen and the bond that build-bondline makes of it, in this order",
+            file.path.display()
+        ))),
+    }
+}
+
 const MARGIN: f64 = 24.0;
 const LONGEST: f64 = 340.0;
 
@@ -29,6 +43,8 @@ impl Setup {
     /// # Errors
     /// As of [`Views::read`] and [`crate::Slices::read`].
     pub fn read(specimen: &Labelled, bond: &Labelled) -> Result<Self, Error> {
+        is_a(specimen, Kind::Specimen)?;
+        is_a(bond, Kind::Bond)?;
         let from = Direction {
             turn: 35.0,
             tilt: 25.0,
@@ -43,7 +59,7 @@ impl Setup {
             position: Position::Share(0.5),
         };
         let slice = |label, file| Section::read(&named(label, file), cut, Colouring::Plain);
-        let mut parted = slice("c) adhesive taken out, adherends parted", bond)?;
+        let mut parted = slice("c) adherends parted, no adhesive", bond)?;
         for pixel in &mut parted.pixels {
             if let Pixel::Adhesive(_) = pixel {
                 *pixel = Pixel::Void;
@@ -54,7 +70,7 @@ impl Setup {
             slices: [
                 slice("b) a slice of it", specimen)?,
                 parted,
-                slice("d) slab of the same volume, to be pressed", bond)?,
+                slice("d) slab of the same volume", bond)?,
             ],
             page: Page::default(),
         })

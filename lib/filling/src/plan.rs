@@ -70,7 +70,9 @@ impl Plan {
         let duration = cure
             .and_then(Cure::set_at)
             .map_or(duration, |set| set.min(duration));
-        let cured = cure.map_or(0.0, |cure| cure.change(duration) / CURED);
+        // A programme waits in its stages long after the clamp has gone its way, while the liquid sets.
+        let waits: f64 = scene.programme.iter().map(|stage| stage.time_s).sum();
+        let cured = cure.map_or(0.0, |cure| cure.change(duration.max(waits)) / CURED);
         let steps = (SPEED_RATIO * duration / dt_s + cured).ceil().max(1.0);
         let points = amount.points as f64;
         Self {

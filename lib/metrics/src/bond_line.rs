@@ -1,5 +1,5 @@
-//! What a press has come to at one moment, beside penetration: wood wetted, and whether the bond line
-//! is filled.
+//! What a press has come to at one moment, beside penetration: wood wetted, lumens filled, and whether
+//! the bond line is filled.
 
 use std::fmt;
 
@@ -7,12 +7,16 @@ use bondline::Placed;
 use particle_file::BitGrid;
 use voxels::VolumeFractions;
 
-use crate::{Adhesive, Datum, Error, Reference, Side, State, Wood, depth_profile};
+use crate::{
+    Adhesive, Datum, DepthLayer, Error, Reference, Sealed, Side, State, Wood, depth_profile,
+};
 
 /// Voxels of wood beside the bond line that count to it, on each side.
 const BESIDE: f64 = 2.0;
 /// Share of the room in the bond line below which it is starved.
 const STARVED: f64 = 0.5;
+/// Share of its open lumens from which a layer is at least half full.
+const HALF: f64 = 0.5;
 /// Share of the adhesive that is gone through open sides from which the bond line is squeezed out.
 const SQUEEZED_OUT: f64 = 0.05;
 
@@ -40,8 +44,9 @@ impl fmt::Display for Filling {
 /// The bond line of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BondLine {
-    /// Distance of the adherends' bond surfaces, m.
-    pub gap_m: f64,
+    /// Distance of the adherends' bond surfaces, m. Rough ones stand apart when the bond is closed, by
+    /// what they stood apart in the specimen.
+    pub surfaces_m: f64,
     /// Mean share of the room outside wood that adhesive fills, over the layers between the bond
     /// surfaces and two voxels into each adherend.
     pub filled: f64,
@@ -50,18 +55,21 @@ pub struct BondLine {
     /// Area of voxel faces between wood and adhesive of bottom, top and both, m2: a slanted or round
     /// wall counts 4/pi of its area on average, by its steps.
     pub wetted_m2: [f64; 3],
+    /// Depth (m) from midway between the bond surfaces to which the open lumens are at least half full,
+    /// layer by layer, in bottom and top; the less of them for both.
+    pub half_filled_m: [f64; 3],
 }
 
-/// The bond line of `state`, which had `begun_m3` (m3) of adhesive.
+/// The bond line of `state`, which had `begun_m3` (m3) of adhesive and has these `sealed` voids.
 ///
 /// # Errors
 /// No adherends to be told apart.
-pub fn bond_line(state: &State, begun_m3: f64) -> Result<BondLine, Error> {
+pub fn bond_line(state: &State, begun_m3: f64, sealed: &Sealed) -> Result<BondLine, Error> {
     let surfaces = Datum::find(Reference::Adherend, state)?;
-    let gap_m = surfaces.plane_m(Side::Top) - surfaces.plane_m(Side::Bottom);
+    let surfaces_m = surfaces.plane_m(Side::Top) - surfaces.plane_m(Side::Bottom);
     let middle = Datum::find(Reference::Mid, state)?;
-    let reach = 0.5 * gap_m + BESIDE * state.voxel_m;
-    let layers = depth_profile(state, &middle)?;
+    let reach = 0.5 * surfaces_m + BESIDE * state.voxel_m;
+    let layers = depth_profile(state, &middle, sealed)?;
     let near: Vec<f64> = (layers.iter())
         .filter(|layer| layer.depth_m.abs() < reach && layer.filled_void_fraction.is_finite())
         .map(|layer| layer.filled_void_fraction)
@@ -78,11 +86,26 @@ pub fn bond_line(state: &State, begun_m3: f64) -> Result<BondLine, Error> {
     };
     let [bottom, top] = wetted(state, &middle);
     Ok(BondLine {
-        gap_m,
+        surfaces_m,
         filled,
         filling,
         wetted_m2: [bottom, top, bottom + top],
+        half_filled_m: half_filled(&layers, state.voxel_m),
     })
+}
+
+/// To which depth (m) of bottom, top and both layers are at least half full, from the bond line on; those
+/// without open lumens are passed by.
+fn half_filled(layers: &[DepthLayer], voxel_m: f64) -> [f64; 3] {
+    let reach = |layers: &mut dyn Iterator<Item = &DepthLayer>| {
+        let open = layers.filter(|layer| layer.filled_open_fraction.is_finite());
+        let full = open.take_while(|layer| layer.filled_open_fraction >= HALF);
+        full.last().map_or(0.0, |l| l.depth_m.abs() + 0.5 * voxel_m)
+    };
+    let top = layers.partition_point(|layer| layer.depth_m < 0.0);
+    let bottom = reach(&mut layers[..top].iter().rev());
+    let top = reach(&mut layers[top..].iter());
+    [bottom, top, bottom.min(top)]
 }
 
 /// Area of the faces between wood and adhesive on the bottom and the top side, m2.

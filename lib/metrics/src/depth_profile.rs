@@ -1,6 +1,6 @@
 use bondline::Placed;
 
-use crate::{Adhesive, Datum, Error, Side, State, Wood};
+use crate::{Adhesive, Datum, Error, Sealed, Side, State, Wood};
 
 /// Adhesive in the layers of one voxel at a distance from the bond line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,9 +12,13 @@ pub struct DepthLayer {
     /// Volume of adhesive over that of the layer outside wood (Hass et al.); NaN where all
     /// is wood.
     pub filled_void_fraction: f64,
+    /// Volume of adhesive over that of the layer outside wood and its sealed voids: the filled share of
+    /// its open lumens; NaN where there are none.
+    pub filled_open_fraction: f64,
 }
 
-/// The adhesive against depth, from the far side of the bottom to that of the top adherend.
+/// The adhesive against depth, from the far side of the bottom to that of the top adherend, in wood with
+/// these `sealed` voids.
 ///
 /// Layers are one voxel thick and begin at the reference; a voxel or material point is spread
 /// evenly over one voxel along the normal, so that a reference between voxel faces and an
@@ -23,7 +27,11 @@ pub struct DepthLayer {
 ///
 /// # Errors
 /// A tilted reference, which has no layers.
-pub fn depth_profile(state: &State, datum: &Datum) -> Result<Vec<DepthLayer>, Error> {
+pub fn depth_profile(
+    state: &State,
+    datum: &Datum,
+    sealed: &Sealed,
+) -> Result<Vec<DepthLayer>, Error> {
     if matches!(datum, Datum::Tilted(_)) {
         return Err(Error::Usage(
             "--profile counts layers, which a fitted, tilted plane does not have; use --reference mid, adherend or plane=LEN".into(),
@@ -34,18 +42,23 @@ pub fn depth_profile(state: &State, datum: &Datum) -> Result<Vec<DepthLayer>, Er
     let voxel = state.voxel_m;
     let mut layers = Layers::new(datum, low, high, voxel);
     layers.add_span(low, high, 1.0, |l| &mut l.thickness);
-    let mut add_block = |block: Placed, what: fn(&mut Layer) -> &mut f64| {
+    let mut add_block = |block: Placed, counts: &[u64], what: fn(&mut Layer) -> &mut f64| {
         let area = block.voxel_m * block.voxel_m / state.area_m2();
-        for (layer, count) in block.bits.counts_along(n).into_iter().enumerate() {
+        for (layer, &count) in counts.iter().enumerate() {
             let at = block.origin_m[n] + layer as f64 * block.voxel_m;
             layers.add_span(at, at + block.voxel_m, count as f64 * area, what);
         }
     };
-    state
-        .wood_blocks()
-        .for_each(|wood| add_block(wood, |l| &mut l.wood));
+    for (wood, closed) in state.wood_blocks().zip(sealed.layers()) {
+        add_block(wood, &wood.bits.counts_along(n), |l| &mut l.wood);
+        add_block(wood, closed, |l| &mut l.sealed);
+    }
     match state.adhesive {
-        Adhesive::Voxels(adhesive) => add_block(adhesive, |l| &mut l.adhesive),
+        Adhesive::Voxels(adhesive) => {
+            add_block(adhesive, &adhesive.bits.counts_along(n), |l| {
+                &mut l.adhesive
+            });
+        }
         Adhesive::Points { position, volume } => {
             for (p, &v) in position.iter().zip(volume) {
                 let at = f64::from(p[n]) - 0.5 * voxel;
@@ -67,12 +80,13 @@ fn extent(state: &State) -> [f64; 2] {
     }
 }
 
-/// Thicknesses (m) that specimen, wood and adhesive would have in a layer if spread over the
+/// Thicknesses (m) that specimen, wood, its sealed voids and adhesive would have in a layer if spread over the
 /// whole bond area.
 #[derive(Clone, Copy, Default)]
 struct Layer {
     thickness: f64,
     wood: f64,
+    sealed: f64,
     adhesive: f64,
 }
 
@@ -126,14 +140,19 @@ impl<'a> Layers<'a> {
 
     fn finish(self) -> Vec<DepthLayer> {
         let voxel = self.voxel;
+        let share = |adhesive: f64, room: f64| match room {
+            room if room > 1e-9 * voxel => adhesive / room,
+            _ => f64::NAN,
+        };
         let layer = |sign: f64| {
             move |(index, layer): (usize, &Layer)| DepthLayer {
                 depth_m: sign * (index as f64 + 0.5) * voxel,
                 adhesive_fraction: layer.adhesive / layer.thickness,
-                filled_void_fraction: match layer.thickness - layer.wood {
-                    void if void > 1e-9 * voxel => layer.adhesive / void,
-                    _ => f64::NAN,
-                },
+                filled_void_fraction: share(layer.adhesive, layer.thickness - layer.wood),
+                filled_open_fraction: share(
+                    layer.adhesive,
+                    layer.thickness - layer.wood - layer.sealed,
+                ),
             }
         };
         let bottom = self.bottom.iter().enumerate().rev().map(layer(-1.0));

@@ -42,15 +42,16 @@ pub struct PenetrationRows {
     pub agreement: Option<[Agreement; 3]>,
     /// Pressure on the body that the clamp drives, Pa, when asked for.
     pub pressure_pa: Option<f64>,
-    /// Time (s) and bond line of a state in a series.
-    pub course: Option<(f64, BondLine)>,
+    /// Time (s), gap (m; NaN where there is none) and bond line of a state in a series.
+    pub course: Option<(f64, f64, BondLine)>,
     /// Each side and the pressure carried on to cells of no size, when a finer run was given.
     pub cell_error: Option<([CellError; 3], Extrapolated)>,
 }
 
 /// `file,side,reference,plane_m,wp_um,slab_wp_um,ep_um,max_depth_um,p99_depth_um,volume_um3,voxels`,
 /// then `dice,map_correlation` when the files were compared, `pressure_pa` when asked for,
-/// `time_s,gap_um,p95_depth_um,wetted_area_um2,bond_line_filled,bond_line` of a series, and
+/// `time_s,gap_um,p95_depth_um,wetted_area_um2,bond_line_filled,bond_line,surfaces_um,half_filled_depth_um` of a
+/// series, and
 /// `wp_extrapolated_um,wp_error_um,ep_extrapolated_um,ep_error_um,pressure_extrapolated_pa,pressure_error_pa`
 /// when a finer run was given.
 ///
@@ -85,6 +86,8 @@ pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::
             "wetted_area_um2",
             "bond_line_filled",
             "bond_line",
+            "surfaces_um",
+            "half_filled_depth_um",
         ]);
     }
     if files.iter().any(|f| f.cell_error.is_some()) {
@@ -118,14 +121,16 @@ pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::
                 row.push(format!("{:.6}", agreement[i].map_correlation));
             }
             row.extend(file.pressure_pa.map(pascal));
-            if let Some((time_s, line)) = &file.course {
+            if let Some((time_s, gap_m, line)) = &file.course {
                 row.extend([
                     format!("{time_s:.9e}"),
-                    um(line.gap_m),
+                    um(*gap_m),
                     um(p.p95_depth_m),
                     format!("{:.4}", 1e12 * line.wetted_m2[i]),
                     format!("{:.6}", line.filled),
                     line.filling.to_string(),
+                    um(line.surfaces_m),
+                    um(line.half_filled_m[i]),
                 ]);
             }
             if let Some((sides, pressure)) = &file.cell_error {
@@ -160,7 +165,7 @@ pub fn write_map(out: &mut dyn Write, map: &Map) -> io::Result<()> {
     table.flush()
 }
 
-/// `depth_um,adhesive_fraction,filled_void_fraction`, bottom adherend at negative depths; after `time_s` (s)
+/// `depth_um,adhesive_fraction,filled_void_fraction,filled_open_fraction`, bottom adherend at negative depths; after `time_s` (s)
 /// for each state of a series.
 ///
 /// # Errors
@@ -171,7 +176,12 @@ pub fn write_depth_profiles(
 ) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     let timed = profiles.iter().any(|(time_s, _)| time_s.is_some());
-    let header = ["depth_um", "adhesive_fraction", "filled_void_fraction"];
+    let header = [
+        "depth_um",
+        "adhesive_fraction",
+        "filled_void_fraction",
+        "filled_open_fraction",
+    ];
     let header = timed.then_some("time_s").into_iter().chain(header);
     table.write_record(header).map_err(unwrapped)?;
     for (time_s, layers) in profiles {
@@ -180,6 +190,7 @@ pub fn write_depth_profiles(
                 um(layer.depth_m),
                 format!("{:.6}", layer.adhesive_fraction),
                 format!("{:.6}", layer.filled_void_fraction),
+                format!("{:.6}", layer.filled_open_fraction),
             ];
             let time = time_s.map(|time_s| format!("{time_s:.9e}"));
             table

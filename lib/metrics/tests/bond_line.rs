@@ -2,7 +2,7 @@
 
 mod specimens;
 
-use metrics::{BondLine, Filling, bond_line};
+use metrics::{BondLine, Datum, Filling, Reference, Sealed, State};
 use specimens::{Run, Stack, VOXEL, close};
 use units::Axis;
 
@@ -16,6 +16,11 @@ fn grooved(filled: std::ops::Range<usize>) -> Stack {
             _ => ' ',
         }
     })
+}
+
+fn line_of(state: &State, begun_m3: f64) -> BondLine {
+    let middle = Datum::find(Reference::Mid, state).unwrap();
+    metrics::bond_line(state, begun_m3, &Sealed::of(state, &middle)).unwrap()
 }
 
 /// The adhesive of `stack` as material points, its upper adherend `gap` (m) away.
@@ -49,16 +54,16 @@ fn wets(line: &BondLine, bottom: usize, top: usize) {
 #[test]
 fn wood_is_wetted_on_its_surface_and_in_its_grooves() {
     let stack = grooved(24..41);
-    let line = bond_line(&stack.state(Axis::Y), 0.0).unwrap();
+    let line = line_of(&stack.state(Axis::Y), 0.0);
     wets(&line, 6, 5);
-    assert!(close(line.gap_m, 6.0 * VOXEL, 1e-9), "{line:?}");
+    assert!(close(line.surfaces_m, 6.0 * VOXEL, 1e-9), "{line:?}");
     assert!(close(line.filled, 1.0, 1e-9), "{line:?}");
     assert_eq!(line.filling, Filling::Filled);
     for gap in [0.0, 2.0 * VOXEL] {
         let run = run_of(&stack, gap);
-        let line = bond_line(&run.state(), 0.0).unwrap();
+        let line = line_of(&run.state(), 0.0);
         wets(&line, 6, 5);
-        assert!(close(line.gap_m, 6.0 * VOXEL + gap, 1e-9));
+        assert!(close(line.surfaces_m, 6.0 * VOXEL + gap, 1e-9));
     }
 }
 
@@ -71,15 +76,15 @@ fn a_bond_line_is_starved_or_squeezed_out_by_what_is_left() {
         (10..20, 0.0, Filling::Starved),
     ] {
         let run = run_of(&grooved(filled), 0.0);
-        let line = bond_line(&run.state(), 0.0).unwrap();
+        let line = line_of(&run.state(), 0.0);
         assert!((line.filled - share).abs() < 1e-5, "{}", line.filled);
         assert_eq!(line.filling, filling);
     }
     let run = run_of(&grooved(24..41), 0.0);
     let begun: f64 = run.volume.iter().map(|&v| f64::from(v)).sum();
     let state = run.state();
-    let kept = bond_line(&state, begun / 0.96).unwrap();
-    let lost = bond_line(&state, begun / 0.94).unwrap();
+    let kept = line_of(&state, begun / 0.96);
+    let lost = line_of(&state, begun / 0.94);
     assert_eq!(
         (kept.filling, lost.filling),
         (Filling::Filled, Filling::SqueezedOut)

@@ -2,7 +2,7 @@
 
 mod specimens;
 
-use metrics::{Datum, Map, Penetration, Reference, Side, depth_profile, penetration};
+use metrics::{Datum, Map, Penetration, Reference, Sealed, Side, depth_profile, penetration};
 use specimens::{Run, Stack, VOXEL, close};
 use units::Axis;
 
@@ -220,7 +220,7 @@ fn a_depth_profile_is_the_share_of_layer_and_void() {
     });
     let state = stack.state(Axis::Y);
     let datum = Datum::find(Reference::Mid, &state).unwrap();
-    let layers = depth_profile(&state, &datum).unwrap();
+    let layers = depth_profile(&state, &datum, &Sealed::of(&state, &datum)).unwrap();
     assert_eq!(layers.len(), 50);
     for (y, layer) in layers.iter().enumerate() {
         let depth = (y as f64 + 0.5 - 25.0) * VOXEL;
@@ -241,9 +241,43 @@ fn a_depth_profile_is_the_share_of_layer_and_void() {
     }
     // From the adherends the 6 layers between them are in no layer.
     let datum = Datum::find(Reference::Adherend, &state).unwrap();
-    let layers = depth_profile(&state, &datum).unwrap();
+    let layers = depth_profile(&state, &datum, &Sealed::of(&state, &datum)).unwrap();
     assert_eq!(layers.len(), 44);
     assert!(layers.iter().all(|l| l.adhesive_fraction < 0.51));
+}
+
+#[test]
+fn sealed_lumens_are_room_outside_wood_but_not_open() {
+    // Below the bond line half of the columns are open lumens, filled to 6 layers, and half of the rest of
+    // them sealed ones behind three layers of wood.
+    let stack = Stack::new([8, 50, 4], |x, y, _| match (x % 4, y) {
+        (_, 22..28) => 'a',
+        (0 | 2, 16..28) => 'a',
+        (0 | 2, ..16) => ' ',
+        (1, ..19) => ' ',
+        _ => 'w',
+    });
+    let state = stack.state(Axis::Y);
+    let datum = Datum::find(Reference::Mid, &state).unwrap();
+    let layers = depth_profile(&state, &datum, &Sealed::of(&state, &datum)).unwrap();
+    for (y, void, open) in [(10, 0.0, 0.0), (17, 2.0 / 3.0, 1.0), (20, 1.0, 1.0)] {
+        let layer = layers[y];
+        assert!(
+            (layer.filled_void_fraction - void).abs() < 1e-9,
+            "{layer:?}"
+        );
+        assert!(
+            (layer.filled_open_fraction - open).abs() < 1e-9,
+            "{layer:?}"
+        );
+    }
+    assert!(layers[40].filled_open_fraction.is_nan());
+    let line = metrics::bond_line(&state, 0.0, &Sealed::of(&state, &datum)).unwrap();
+    // Full to nine layers below the middle; above it there are open lumens between the surfaces only.
+    let half = line.half_filled_m.map(|depth| depth / VOXEL);
+    for (found, wanted) in half.into_iter().zip([9.0, 3.0, 3.0]) {
+        assert!((found - wanted).abs() < 1e-9, "{half:?}");
+    }
 }
 
 #[test]
@@ -255,7 +289,7 @@ fn a_profile_between_voxel_faces_keeps_the_volume() {
     }
     let state = run.state();
     let datum = Datum::find(Reference::Mid, &state).unwrap();
-    let layers = depth_profile(&state, &datum).unwrap();
+    let layers = depth_profile(&state, &datum, &Sealed::of(&state, &datum)).unwrap();
     let volume: f64 =
         layers.iter().map(|l| l.adhesive_fraction).sum::<f64>() * VOXEL * state.area_m2();
     assert!(close(volume, 500.0 * VOXEL.powi(3), 1e-5), "{volume}");

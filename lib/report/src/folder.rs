@@ -15,14 +15,20 @@ pub struct RunFolder {
     resolved: String,
 }
 
+/// What stands for the summary of a folder that has none.
+const UNFINISHED: &str = "there is no summary.json: the run is still on or was killed";
+
 impl RunFolder {
-    /// Reads a run folder.
+    /// Reads a run folder; one without a summary is of a run that has not ended, which it then says.
     ///
     /// # Errors
-    /// A folder without these files, as of a run that has not ended.
+    /// A folder without `resolved.toml`, or files that are not a run's.
     pub fn read(folder: &Labelled) -> Result<Self, Error> {
         let path = folder.path.join("summary.json");
-        let summary_text = read_text(&path, MOST_BYTES)?;
+        let summary_text = match path.try_exists() {
+            Ok(false) => unfinished(),
+            _ => read_text(&path, MOST_BYTES)?,
+        };
         let summary = serde_json::from_str(&summary_text)
             .map_err(|e| Error(format!("'{}' is not JSON: {e}", path.display())))?;
         Ok(Self {
@@ -117,7 +123,7 @@ impl RunFolder {
 
     fn expected_error(&self) -> String {
         let Some(expected) = self.summary.get("expected_error") else {
-            return "<p>This run was made by a version that does not write it; <code>mpm-run --explain</code> tells it.</p>\n".into();
+            return "<p>This run does not say it: it has not ended, or an earlier version made it; <code>mpm-run --explain</code> tells it.</p>\n".into();
         };
         let across = self.number("/expected_error/cells_per_lumen", 1.0, 1);
         let Some(cells) = expected.get("measured_with_cells").and_then(Value::as_f64) else {
@@ -186,6 +192,15 @@ impl RunFolder {
             + &html::verbatim(&command.join(" "))
             + &html::table("Inputs", &["file", "XXH3-64"], &inputs)
     }
+}
+
+/// The summary of a run that has not ended.
+fn unfinished() -> String {
+    serde_json::json!({
+        "end": "not_ended",
+        "verdict": { "sound": false, "reasons": [UNFINISHED] }
+    })
+    .to_string()
 }
 
 /// Two members of each object.

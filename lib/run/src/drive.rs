@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use physics::{Cure, Diagnostics, Failure, Scheme, StepLimit, StepReport, Stop};
 
+use crate::answers::Watch;
 use crate::checkpoint::{self, Checkpoint, Clock};
 use crate::courant::Courant;
 use crate::folder::RunFolder;
@@ -81,6 +82,8 @@ pub(crate) struct Controls<'a> {
     /// Snapshots over the way of the clamp and one at the end of each stage, under a press programme;
     /// 0 for none.
     pub snapshots_of_way: u32,
+    /// What each row of the history tells of the bond, if that is asked for.
+    pub watch: Option<&'a Watch<'a>>,
     /// Whether the user asked to stop.
     pub interrupted: &'a dyn Fn() -> bool,
     /// Told after every step: fraction done, time in s, last report.
@@ -122,7 +125,7 @@ pub(crate) fn drive(
     state.stages_over = scheme.programme().map_or(0, |run| run.ended().count());
     loop {
         if let Some(end) = state.end(scheme) {
-            return state.finish(end, scheme, history);
+            return state.finish(end, scheme, history, controls.watch);
         }
         let begun = Instant::now();
         let report = scheme
@@ -155,7 +158,7 @@ pub(crate) fn drive(
             state.last_checkpoint = Instant::now();
         }
         if stop {
-            return state.finish(End::Interrupted, scheme, history);
+            return state.finish(End::Interrupted, scheme, history, controls.watch);
         }
     }
 }
@@ -266,7 +269,7 @@ impl<'a> Loop<'a> {
         controls: &Controls,
     ) -> Result<(), RunError> {
         if self.clock.time_s >= self.clock.next_history_s {
-            self.row(scheme, scheme.diagnostics(), history)?;
+            self.row(scheme, scheme.diagnostics(), history, controls.watch)?;
             self.clock.next_history_s += controls.history_every_s;
             // After a step longer than the interval, do not catch up with a burst of rows.
             self.clock.next_history_s = self.clock.next_history_s.max(self.clock.time_s);
@@ -298,6 +301,7 @@ impl<'a> Loop<'a> {
         scheme: &dyn Scheme,
         diagnostics: Diagnostics,
         history: &mut History,
+        watch: Option<&Watch>,
     ) -> Result<(), RunError> {
         let gap = self.setup.initial_gap_m.map(|g| g - self.clock.travel_m);
         self.look(&diagnostics)?;
@@ -307,6 +311,7 @@ impl<'a> Loop<'a> {
         let more = RowMore {
             factor: cure.map(|cure| cure.factor(time_s)),
             stage: scheme.programme().map(|run| run.last_stage() + 1),
+            moment: watch.map(|watch| watch.look(scheme)).transpose()?,
         };
         history.row(step, time_s, gap, &self.clock.last, &diagnostics, more)
     }
@@ -316,11 +321,12 @@ impl<'a> Loop<'a> {
         end: End,
         scheme: &dyn Scheme,
         history: &mut History,
+        watch: Option<&Watch>,
     ) -> Result<Outcome, RunError> {
         let diagnostics = scheme.diagnostics();
         if end != End::Interrupted {
             if self.clock.row_missing {
-                self.row(scheme, diagnostics, history)?;
+                self.row(scheme, diagnostics, history, watch)?;
             }
             // Before the final state, which says that the run has ended.
             history.sync()?;

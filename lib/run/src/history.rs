@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use physics::{Diagnostics, StepReport};
 use xxhash_rust::xxh3::Xxh3Default;
 
+use crate::answers::{self, Moment};
 use crate::drive::RunError;
 use crate::folder::{HISTORY, RunFolder, is_still};
 use crate::request::RunFailure;
@@ -28,6 +29,8 @@ pub(crate) struct RowMore {
     pub(crate) factor: Option<f64>,
     /// Number of the press programme's stage, from 1.
     pub(crate) stage: Option<usize>,
+    /// What the press has come to.
+    pub(crate) moment: Option<Moment>,
 }
 
 /// How far a history went, and what it then held.
@@ -48,14 +51,21 @@ pub(crate) struct History {
 }
 
 impl History {
-    /// Starts a new history in `folder`, with a column for the factor of a liquid that `cures` and one for the
-    /// stage of a press programme where it is `staged`.
+    /// Starts a new history in `folder`, with a column for the factor of a liquid that `cures`, one for the
+    /// stage of a press programme where it is `staged`, and those of a bond that is `watched`.
     ///
     /// # Errors
     /// The file and the system's reason.
-    pub(crate) fn create(folder: &RunFolder, cures: bool, staged: bool) -> Result<Self, RunError> {
+    pub(crate) fn create(
+        folder: &RunFolder,
+        cures: bool,
+        staged: bool,
+        watched: bool,
+    ) -> Result<Self, RunError> {
         let cured = if cures { CURED } else { "" };
-        let header = format!("{HEADER}{cured}{}\n", if staged { STAGE } else { "" });
+        let stage = if staged { STAGE } else { "" };
+        let answers = if watched { answers::COLUMNS } else { "" };
+        let header = format!("{HEADER}{cured}{stage}{answers}\n");
         folder.write_text(HISTORY, &header)?;
         let path = folder.place(HISTORY);
         let open = File::options().append(true).open(&path);
@@ -134,8 +144,9 @@ impl History {
         let stage = more
             .stage
             .map_or(String::new(), |stage| format!(",{stage}"));
+        let answers = more.moment.map_or(String::new(), |moment| moment.fields());
         let row = format!(
-            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}{factor}{stage}\n",
+            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}{factor}{stage}{answers}\n",
             report.dt_s,
             report.closing_speed,
             report.travel_m,
@@ -197,7 +208,7 @@ mod tests {
     fn resuming_drops_rows_after_the_checkpoint_and_parts_of_rows() {
         let (_place, folder) = held();
         let path = folder.place(HISTORY);
-        let mut history = History::create(&folder, false, false).unwrap();
+        let mut history = History::create(&folder, false, false, false).unwrap();
         add(&mut history, &[1, 12]);
         let extent = history.sync().unwrap();
         let kept = fs::read(&path).unwrap();
@@ -220,7 +231,7 @@ mod tests {
     #[test]
     fn a_history_that_is_removed_meanwhile_is_noticed() {
         let (_place, folder) = held();
-        let mut history = History::create(&folder, false, false).unwrap();
+        let mut history = History::create(&folder, false, false, false).unwrap();
         fs::remove_file(folder.place(HISTORY)).unwrap();
         add(&mut history, &[1]);
         let said = history.sync().unwrap_err().to_string();
@@ -231,7 +242,7 @@ mod tests {
     #[test]
     fn a_history_that_was_changed_is_not_continued() {
         let (_place, folder) = held();
-        let mut history = History::create(&folder, false, false).unwrap();
+        let mut history = History::create(&folder, false, false, false).unwrap();
         add(&mut history, &[1, 2]);
         let extent = history.sync().unwrap();
         let whole = fs::read(folder.place(HISTORY)).unwrap();

@@ -1,7 +1,10 @@
 //! Checks of a state that no scheme may take for granted: liquid in wood, liquid where it
 //! cannot have flowed, liquid volume.
 
+use bondline::open_voids;
+use particle_file::{BitGrid, BitsRef};
 use physics::{Dimensions, LiquidState, Motion, RigidBody, Scene, VoxelBlock};
+use units::Axis;
 
 /// What was found in a state; counts of material points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
@@ -116,12 +119,10 @@ impl Placed<'_> {
     }
 }
 
-/// The voids of one adherend that open paths through voxel faces connect to its bond surface.
-///
-/// The bond plane is the only way from one adherend to the other, so each can be flooded alone.
+/// The voids of one adherend that open paths connect to its bond surface.
 struct Reachable<'a> {
     block: &'a VoxelBlock,
-    seen: Vec<u64>,
+    open: BitGrid,
 }
 
 impl<'a> Reachable<'a> {
@@ -133,51 +134,9 @@ impl<'a> Reachable<'a> {
         let is_top = scene.top.is_some_and(|i| scene.bodies[i].name == body.name)
             || matches!(body.motion, Motion::Clamped);
         let surface = if is_top { 0 } else { block.dims()[1] - 1 };
-        let mut found = Self {
-            block,
-            seen: vec![0; block.bits().len()],
-        };
-        found.flood(surface);
-        Some(found)
-    }
-
-    fn flood(&mut self, surface: usize) {
-        let [nx, ny, nz] = self.block.dims();
-        let mut front: Vec<[usize; 3]> = Vec::new();
-        for k in 0..nz {
-            for i in 0..nx {
-                self.visit([i, surface, k], &mut front);
-            }
-        }
-        while let Some([i, j, k]) = front.pop() {
-            let mut go = |ok: bool, at: [usize; 3]| {
-                if ok {
-                    self.visit(at, &mut front);
-                }
-            };
-            go(i > 0, [i.wrapping_sub(1), j, k]);
-            go(i + 1 < nx, [i + 1, j, k]);
-            go(j > 0, [i, j.wrapping_sub(1), k]);
-            go(j + 1 < ny, [i, j + 1, k]);
-            go(k > 0, [i, j, k.wrapping_sub(1)]);
-            go(k + 1 < nz, [i, j, k + 1]);
-        }
-    }
-
-    fn bit(&self, [i, j, k]: [usize; 3]) -> (usize, u64) {
-        let words_per_row = self.block.dims()[0].div_ceil(64);
-        (
-            (k * self.block.dims()[1] + j) * words_per_row + i / 64,
-            1 << (i % 64),
-        )
-    }
-
-    fn visit(&mut self, at: [usize; 3], front: &mut Vec<[usize; 3]>) {
-        let (word, mask) = self.bit(at);
-        if self.seen[word] & mask == 0 && !self.block.solid(at[0], at[1], at[2]) {
-            self.seen[word] |= mask;
-            front.push(at);
-        }
+        let wood = BitsRef::new(block.dims(), block.bits())?;
+        let open = open_voids(wood, Axis::Y, surface);
+        Some(Self { block, open })
     }
 
     /// Whether `point` (in the body's frame) is in an open voxel of the block that was not reached.
@@ -191,8 +150,8 @@ impl<'a> Reachable<'a> {
             }
             at[a] = x as usize;
         }
-        let (word, mask) = self.bit(at);
-        !self.block.solid(at[0], at[1], at[2]) && self.seen[word] & mask == 0
+        let [x, y, z] = at;
+        !self.block.solid(x, y, z) && !self.open.get(x, y, z)
     }
 }
 
@@ -382,11 +341,11 @@ mod tests {
     #[test]
     fn closed_lumens_are_unreachable() {
         let block = block();
-        let mut r = Reachable {
+        let wood = BitsRef::new(block.dims(), block.bits()).unwrap();
+        let r = Reachable {
             block: &block,
-            seen: vec![0; block.bits().len()],
+            open: open_voids(wood, Axis::Y, 4),
         };
-        r.flood(4);
         assert!(r.is_closed_void([2.5, 2.5, 1.5]));
         assert!(!r.is_closed_void([5.5, 1.5, 1.5]));
         assert!(!r.is_closed_void([0.5, 0.5, 0.5]), "wood is no void");

@@ -1,6 +1,7 @@
 //! From a case file to a run folder: reading and resolving the case, the time loop, and what
 //! a run writes (`history.csv`, snapshots, checkpoint, `final.mpts`, `summary.json`).
 
+mod answers;
 mod begin;
 pub mod case;
 mod changes;
@@ -25,6 +26,7 @@ mod summary;
 mod system;
 mod verdict;
 
+pub use answers::{Answers, FilledByDepth, Sides};
 pub use begin::Mode;
 pub use changes::changed_case;
 pub use courant::Courant;

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use particle_file::{ParticleFile, Provenance};
-use physics::{Regime, StepReport};
+use physics::{Cure, Dimensions, Regime, StepReport};
 use xxhash_rust::xxh3::xxh3_64;
 
+use crate::answers::Watch;
 use crate::begin::{self, Mode};
 use crate::case::{Case, CaseError};
 use crate::changes::changed;
@@ -45,6 +46,16 @@ pub enum RunFailure {
         /// Where the last good checkpoint is, as the end of the sentence.
         checkpoint: String,
     },
+}
+
+impl RunFailure {
+    /// The sentence, the same however often a run was continued.
+    fn said(&self) -> String {
+        match self {
+            RunFailure::Unstable { said, .. } => said.clone(),
+            other => other.to_string(),
+        }
+    }
 }
 
 impl From<CaseError> for RunFailure {
@@ -187,6 +198,7 @@ impl Request {
             return Ok(None);
         }
         // What is refused must not cost a run folder.
+        let watch = self.watch()?;
         match self.excess()? {
             Some(excess) if mode.however_long => warn(excess),
             Some(excess) => {
@@ -225,10 +237,13 @@ impl Request {
                     folder,
                     self.setup.scene.liquid.cure.is_some(),
                     !self.setup.scene.programme.is_empty(),
+                    self.case.output.penetration,
                 )?,
             ),
         };
+        let watch = watch.as_ref();
         let mut controls = Controls {
+            watch: watch.filter(|_| self.case.output.penetration),
             history_every_s: self.setup.history_every_s,
             snapshot_every_s: self.snapshot_every(),
             snapshots_of_way: self.case.output.snapshots,
@@ -244,8 +259,8 @@ impl Request {
             courant,
         };
         let provenance = provenance_json(&by);
-        let writer = SnapshotWriter::new(folder, &self.setup, self.bond, by, &identity);
-        let outcome = drive::drive(
+        let writer = SnapshotWriter::new(folder, &self.setup, self.bond.as_ref(), by, &identity);
+        let ended = drive::drive(
             &self.setup,
             scheme.as_mut(),
             clock,
@@ -253,7 +268,26 @@ impl Request {
             &writer,
             folder,
             &mut controls,
-        )?;
+        );
+        let left_out = left_out(&self.case, &self.setup, &stages);
+        let outcome = match ended {
+            Err(error @ RunError::Unstable { step, time_s, .. }) => {
+                let failure = RunFailure::from(error);
+                let failed = summary::Failed {
+                    end: "failed",
+                    verdict: verdict::Verdict::because(vec![failure.said()]),
+                    steps: step,
+                    time_s,
+                    expected_error: expected_error::of(&self.case),
+                    left_out,
+                    provenance,
+                };
+                // That the run failed is worse than that its folder does not say why.
+                let _ = folder.write_text(SUMMARY, &summary::text(&failed));
+                return Err(failure);
+            }
+            ended => ended?,
+        };
         let scene = &self.setup.scene;
         let liquid = scheme.liquid();
         let invariants = invariants::check(
@@ -273,21 +307,42 @@ impl Request {
                 verdict: verdict::judge(&self.setup, &liquid, &invariants, outcome.clock.last.lost)
                     .and(scheme.objection()),
                 programme: summary::programme(scheme.programme()),
+                penetration: watch
+                    .map(|watch| watch.look_closely(scheme.as_ref()))
+                    .transpose()?,
+                set_s: scene.liquid.cure.as_ref().and_then(Cure::set_at),
                 invariants,
                 expected_error: expected_error::of(&self.case),
-                left_out: left_out(&self.case, &self.setup, &stages),
+                left_out,
                 provenance,
             },
         );
-        folder.write_text(
-            SUMMARY,
-            &(serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n"),
-        )?;
+        folder.write_text(SUMMARY, &summary::text(&summary))?;
         if outcome.end != drive::End::Interrupted {
             writer.write_final(&outcome.clock, scheme.as_ref())?;
             folder.remove(CHECKPOINT)?;
         }
         Ok(Some(summary))
+    }
+
+    /// Who measures the bond; none where there is none, or a slice whose liquid is as deep as a cell and
+    /// its wood as a voxel.
+    ///
+    /// # Errors
+    /// A bond that cannot be measured although the case asks for it.
+    fn watch(&self) -> Result<Option<Watch<'_>>, RunFailure> {
+        let asked = self.case.output.penetration;
+        let solid = self.setup.scene.dimensions == Dimensions::Three;
+        match self.bond.as_ref().filter(|_| solid).map(|bond| Watch::on(bond, &self.setup)) {
+            Some(Err(error)) if asked => Err(RunFailure::Usage(format!(
+                "[output] penetration: the bond cannot be measured: {error}"
+            ))),
+            Some(watch) => Ok(watch.ok()),
+            None if asked => Err(RunFailure::Usage(
+                "[output] penetration is measured of the bond of a bond file (--particles) in three dimensions".into(),
+            )),
+            None => Ok(None),
+        }
     }
 
     /// What makes two runs the same: the case as run, the inputs and the version.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use particle_file::{Draft, Header, Kind, ParticleFile, Provenance};
+use particle_file::{BitsRef, Block, Draft, Header, Kind, ParticleFile, Provenance};
 use physics::{LiquidState, Scheme, ShearRate};
 use units::Axis;
 
@@ -17,6 +17,8 @@ use crate::resolve::Setup;
 const IDENTITY: &str = "identity";
 /// Pressure on the upper body, which a clamp drives, in the step before, Pa.
 const PRESSURE: &str = "pressure_pa";
+/// Way of the clamp left until the bond is closed, m; that of the bond file in its header.
+const GAP: &str = "gap_m";
 
 /// Whether `folder` holds the final state of the run with this identity, whole.
 ///
@@ -42,8 +44,9 @@ pub(crate) struct SnapshotWriter<'a> {
     folder: &'a RunFolder,
     header: Header,
     /// The bond file, whose wood blocks every state repeats at their current place.
-    bond: Option<ParticleFile>,
+    bond: Option<&'a ParticleFile>,
     normal: Axis,
+    initial_gap_m: Option<f64>,
 }
 
 impl<'a> SnapshotWriter<'a> {
@@ -52,13 +55,13 @@ impl<'a> SnapshotWriter<'a> {
     pub(crate) fn new(
         folder: &'a RunFolder,
         setup: &Setup,
-        bond: Option<ParticleFile>,
+        bond: Option<&'a ParticleFile>,
         by: Provenance,
         identity: &str,
     ) -> Self {
         let grid = &setup.scene.grid;
         let normal = setup.normal;
-        let (voxel_m, min, max) = match &bond {
+        let (voxel_m, min, max) = match bond {
             Some(file) => (
                 file.header().voxel_m,
                 file.header().box_min_m,
@@ -67,10 +70,11 @@ impl<'a> SnapshotWriter<'a> {
             None => (0.5 * grid.cell_m, grid.min_m, grid.max_m()),
         };
         let mut header = Header::new(Kind::State, voxel_m, normal.index() as u8, min, max);
-        if let Some(file) = &bond {
+        if let Some(file) = bond {
             header.attributes.clone_from(&file.header().attributes);
             header.provenance.clone_from(&file.header().provenance);
         }
+        header.attributes.retain(|(name, _)| name != GAP);
         header.provenance.push(by);
         header.set_attribute("cell_m", grid.cell_m);
         header.set_attribute(IDENTITY, identity);
@@ -86,6 +90,7 @@ impl<'a> SnapshotWriter<'a> {
             header,
             bond,
             normal,
+            initial_gap_m: setup.initial_gap_m,
         }
     }
 
@@ -111,21 +116,16 @@ impl<'a> SnapshotWriter<'a> {
 
     fn write(&self, name: &str, clock: &Clock, scheme: &dyn Scheme) -> Result<(), RunError> {
         let mut state = scheme.liquid();
-        self.to_file_axes(&mut state);
+        in_file_axes(&mut state, self.normal);
         let mut header = self.header.clone();
         (header.time_s, header.step) = (clock.time_s, clock.step);
         header.set_attribute(PRESSURE, clock.last.pressure_top);
+        if let Some(gap_m) = self.initial_gap_m {
+            header.set_attribute(GAP, gap_m - clock.travel_m);
+        }
         let mut draft = Draft::new(header);
-        let displacements = scheme.displacements();
-        if let Some(bond) = &self.bond {
-            // Bodies 0 and 1 of a bond scene are its bottom and top adherend.
-            for (name, shift) in ["wood-bottom", "wood-top"].iter().zip(&displacements) {
-                let (block, bits) = bond
-                    .block_named(name)
-                    .map_err(|e| RunError::Checkpoint(e.to_string()))?;
-                let mut block = block.clone();
-                let shift = swap(*shift, self.normal);
-                block.origin_m = std::array::from_fn(|a| block.origin_m[a] + shift[a]);
+        if let Some(bond) = self.bond {
+            for (block, bits) in wood_now(bond, &scheme.displacements(), self.normal)? {
                 draft = draft.block(block, bits);
             }
         }
@@ -138,12 +138,34 @@ impl<'a> SnapshotWriter<'a> {
             .column("shear_rate", 1, &state.shear_rate);
         self.folder.write_whole(name, |out| draft.write_to(out))
     }
+}
 
-    fn to_file_axes(&self, state: &mut LiquidState) {
-        if self.normal != Axis::Y {
-            for v in state.position.iter_mut().chain(&mut state.velocity) {
-                *v = swap(*v, self.normal);
-            }
+/// Turns a state of the scene to the axes of a file with the bond normal `normal`.
+pub(crate) fn in_file_axes(state: &mut LiquidState, normal: Axis) {
+    if normal != Axis::Y {
+        for v in state.position.iter_mut().chain(&mut state.velocity) {
+            *v = swap(*v, normal);
         }
     }
+}
+
+/// Bottom and top adherend of `bond`, bodies 0 and 1 of its scene, at their current place.
+///
+/// # Errors
+/// A block that cannot be read.
+pub(crate) fn wood_now<'a>(
+    bond: &'a ParticleFile,
+    displacements: &[[f64; 3]],
+    normal: Axis,
+) -> Result<[(Block, BitsRef<'a>); 2], RunError> {
+    let place = |name, body: usize| {
+        let (block, bits) = bond
+            .block_named(name)
+            .map_err(|e| RunError::Checkpoint(e.to_string()))?;
+        let mut block = block.clone();
+        let shift = swap(displacements[body], normal);
+        block.origin_m = std::array::from_fn(|a| block.origin_m[a] + shift[a]);
+        Ok((block, bits))
+    };
+    Ok([place("wood-bottom", 0)?, place("wood-top", 1)?])
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use physics::{Choice, Diagnostics, PressRun, StageTime};
 use serde::Serialize;
 
+use crate::answers::Answers;
 use crate::courant::Courant;
 use crate::drive::{End, Outcome};
 use crate::expected_error::ExpectedError;
@@ -52,6 +53,12 @@ pub struct Summary {
     /// How the stages of a press programme ended.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub programme: Vec<PressedStage>,
+    /// What the press has come to, of a bond in three dimensions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub penetration: Option<Answers>,
+    /// When the adhesive sets, s: the run ends there. Of a liquid that does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub set_s: Option<f64>,
     /// Wall time per stage of a step, s.
     pub stages: Vec<Stage>,
     /// How often the scheme had to step in.
@@ -61,6 +68,25 @@ pub struct Summary {
     /// What was measured of the error of its scheme and options.
     pub expected_error: ExpectedError,
     /// What the run did not compute, and why.
+    pub left_out: Vec<LeftOut>,
+    /// What made this run folder.
+    pub provenance: serde_json::Value,
+}
+
+/// `summary.json` of a run that failed: what its folder has to say of it.
+#[derive(Debug, Serialize)]
+pub(crate) struct Failed {
+    /// `failed`.
+    pub end: &'static str,
+    /// Not sound, with the sentence that the run ended with.
+    pub verdict: Verdict,
+    /// Steps that were good.
+    pub steps: u64,
+    /// Time they came to, s.
+    pub time_s: f64,
+    /// As of a run that ended.
+    pub expected_error: ExpectedError,
+    /// As of a run that ended.
     pub left_out: Vec<LeftOut>,
     /// What made this run folder.
     pub provenance: serde_json::Value,
@@ -94,6 +120,11 @@ pub(crate) fn programme(run: Option<&PressRun>) -> Vec<PressedStage> {
     ended.collect()
 }
 
+/// A summary as text.
+pub(crate) fn text(summary: &impl Serialize) -> String {
+    serde_json::to_string_pretty(summary).unwrap_or_default() + "\n"
+}
+
 /// A time (s) in the unit that suits it, with `digits` behind the point.
 pub(crate) fn time(seconds: f64, digits: usize) -> String {
     match seconds {
@@ -121,6 +152,8 @@ pub(crate) struct Facts {
     pub counts: Vec<(&'static str, u64)>,
     pub verdict: Verdict,
     pub programme: Vec<PressedStage>,
+    pub penetration: Option<Answers>,
+    pub set_s: Option<f64>,
     pub invariants: Invariants,
     pub expected_error: ExpectedError,
     pub left_out: Vec<LeftOut>,
@@ -156,6 +189,8 @@ impl Summary {
             particle_steps_per_s: if wall > 0.0 { work / wall } else { 0.0 },
             peak_memory_bytes: crate::system::peak_memory_bytes(),
             programme: facts.programme,
+            penetration: facts.penetration,
+            set_s: facts.set_s,
             stages: facts
                 .stages
                 .iter()
@@ -185,12 +220,18 @@ impl Summary {
         let gap = self.gap_m.map_or(String::new(), |g| {
             format!(", gap {:.2} um", g.max(0.0) * 1e6)
         });
+        let line = match &self.penetration {
+            Some(found) if found.bond_line != "filled" => {
+                format!(", bond line {}", found.bond_line)
+            }
+            _ => String::new(),
+        };
         let left = match self.points_left {
             0 => String::new(),
             n => format!(" ({n} points left through open sides)"),
         };
         format!(
-            "The run {end} after {} steps at {}{gap}, {:.3} MPa; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
+            "The run {end} after {} steps at {}{gap}{line}, {:.3} MPa; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
             self.steps,
             time(self.time_s, 2),
             self.final_pressure_pa / 1e6,

@@ -59,7 +59,7 @@ fn measure(file: &ParticleFile) {
             continue;
         };
         let _ = metrics::penetration(&state, &datum);
-        let _ = metrics::depth_profile(&state, &datum);
+        let _ = metrics::depth_profile(&state, &datum, &metrics::Sealed::of(&state, &datum));
         let map = Map::new(&state, &datum, Side::Total);
         let _ = metrics::table::write_map(&mut std::io::sink(), &map);
     }

@@ -4,8 +4,8 @@ use figures::{Case, Direction, Labelled, Page, Position};
 use units::Axis;
 
 use crate::values::{
-    Colour, Limit, Part, Target, Wood, degrees, dpi, experiment, given, labelled, length, name,
-    part, position, run, width,
+    Colour, Limit, Part, Shown, Target, Wood, degrees, dpi, experiment, given, labelled, length,
+    name, part, position, run, width,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -60,11 +60,11 @@ pub(crate) enum Figure {
   bond-figures shear PF=pf-shear.csv PVA-PF=pva-pf-shear.csv -o shear.png
   shear-stats out/pf/snapshots/*.mpts -o s.csv && bond-figures shear PF=s.csv -o s.svg")]
     Shear(ShearArgs),
-    /// Penetration of each side over time
+    /// Penetration of each side and wetted area over time, filled lumens by depth
     #[command(after_help = "Examples:
   wp-metrics --series out/press -o series.csv && bond-figures penetration series.csv -o depth.svg
   bond-figures penetration PF=pf-series.csv PVAc=pvac-series.csv -o depth.png
-  bond-figures penetration series.csv -o - > depth.svg")]
+  bond-figures penetration --show filled depth-profile.csv -o filled.svg")]
     Penetration(PenetrationArgs),
     /// Slices through specimens, bonds and states of a run
     #[command(after_help = "Examples:
@@ -178,9 +178,13 @@ pub(crate) struct ShearArgs {
 
 #[derive(Args)]
 pub(crate) struct PenetrationArgs {
-    /// Tables of `wp-metrics --series`
+    /// Tables of `wp-metrics --series`, or runs (folder or history.csv) whose case has [output] penetration = true;
+    /// for --show filled, tables of its --profile
     #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
     pub(crate) files: Vec<Labelled>,
+    /// WP and depth of 95 % of the adhesive, or wetted area, over time; or filled share of the open lumens by depth
+    #[arg(long, value_name = "WHAT", default_value = "depth")]
+    pub(crate) show: Shown,
     #[command(flatten)]
     pub(crate) picture: Picture,
 }

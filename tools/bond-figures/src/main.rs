@@ -42,8 +42,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Penetration(a) => {
-            let inputs = Inputs::new(a.files)?;
-            let plot = penetrations(inputs.files())
+            let inputs = Inputs::of_runs(a.files)?;
+            let plot = penetrations(inputs.files(), a.show.into())
                 .map_err(failure)?
                 .on(a.picture.page());
             write(&plot.draw().map_err(failure)?, &a.picture, &inputs)

@@ -45,6 +45,24 @@ impl From<Wood> for figures::Wood {
     }
 }
 
+/// What of penetration is shown.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum Shown {
+    Depth,
+    Wetted,
+    Filled,
+}
+
+impl From<Shown> for figures::Shown {
+    fn from(shown: Shown) -> Self {
+        match shown {
+            Shown::Depth => Self::Depth,
+            Shown::Wetted => Self::Wetted,
+            Shown::Filled => Self::Filled,
+        }
+    }
+}
+
 /// A positive pressure, Pa.
 #[derive(Clone, Copy)]
 pub(crate) struct Limit(pub(crate) f64);

@@ -19,7 +19,7 @@ use report::{Error, Labelled, Picture, Report, RunFolder, Scene, Table};
   bond-report --run PF=runs/pf --picture \"Pressure=pressure.svg\" --table \"Table 2=table2.csv\" -o pf.html
   bond-report --title \"PF, 2.5 MPa\" --run PF=runs/pf --state PF=runs/pf/final.mpts -o pf.html
 
-The page holds what is given, as it is: of each run the end, the verdict, all parameters, the error \
+The page holds what is given, as it is: of each run the end, the verdict (a failed run's sentence), all parameters, the error \
 to expect, what was left out, cost and provenance (resolved.toml and summary.json); tables and \
 pictures; states as surfaces that can be turned, of more than 700 000 voxels the middle.
 
@@ -73,7 +73,8 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         provenance: String::new(),
     };
     // What was read has an end.
-    let hashed = inputs.iter().map(|path| {
+    let there = inputs.iter().filter(|path| path.exists());
+    let hashed = there.map(|path| {
         let unreadable = |e| Failure::data(format!("cannot read '{}': {e}", path.display()));
         InputRecord::of_file(path).map_err(unreadable)
     });

@@ -153,11 +153,15 @@ fn report(specimen: &Specimen, recipe: &Recipe) {
     for ((name, target), value) in Anatomy::NAMES.iter().zip(targets).zip(anatomy.values()) {
         let Some(target) = target else { continue };
         let [low, high] = target.range;
+        // A page too small to hold a whole vessel or ray shows none.
+        let measured = match value {
+            0.0 => "none met".into(),
+            value => format!("{:+.0} %", 100.0 * (value / target.value - 1.0)),
+        };
         cli::note(format_args!(
-            "  {name:<20} {value:>8.3}   {} {low} to {high}, usually {} ({:+.0} %)",
+            "  {name:<20} {value:>8.3}   {} {low} to {high}, usually {} ({measured})",
             recipe.species.name(),
             target.value,
-            100.0 * (value / target.value - 1.0)
         ));
     }
     if recipe.adhesive.is_none() {

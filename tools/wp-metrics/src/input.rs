@@ -109,6 +109,11 @@ impl Input {
         }
     }
 
+    /// Way of the clamp left until the bond is closed, m; NaN of what has no gap.
+    pub fn gap_m(&self) -> f64 {
+        self.noted("gap_m").unwrap_or(f64::NAN)
+    }
+
     /// A number that `mpm-run` notes at the states of a run.
     pub fn noted(&self, name: &str) -> Result<f64, Failure> {
         let text = match &self.content {

@@ -13,7 +13,7 @@ use cli::{Failure, InputRecord, Output, Record};
 use input::{GreyLevels, Input, StackOptions};
 use metrics::table::{self, PenetrationRows};
 use metrics::{
-    Datum, DepthLayer, Map, Reference, Side, bond_line, compare, depth_profile, penetration,
+    Datum, Map, Reference, Sealed, Side, bond_line, compare, depth_profile, penetration,
 };
 use units::{Axis, Length, Quantity};
 use voxels::{Dims, Labels, RawType};
@@ -62,7 +62,8 @@ struct Arguments {
     /// the same run in cells at most half as large: first order, error the difference (one FILE only)
     #[arg(long, value_name = "STATE")]
     finer: Option<PathBuf>,
-    /// Add time, gap, depth of 95 % of the adhesive, wetted area and state of the bond line (filled;
+    /// Add time, gap (way of the clamp left until the bond is closed), depth of 95 % of the adhesive, wetted
+    /// area, distance of the bond surfaces, depth to which the open lumens are half full, and state of the bond line (filled;
     /// starved where less than half of the room within two voxels of the adherends' surfaces is filled;
     /// squeezed-out where a twentieth of the adhesive has left), in order of time; FILE may be the
     /// folder of a run
@@ -182,10 +183,15 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let state = input.state(arguments.normal)?;
             let begun = files.first().map_or(&rows, |first: &PenetrationRows| first);
             let begun_m3 = begun.sides[2].volume_m3;
-            let line = bond_line(&state, begun_m3).map_err(|error| input.failure(&error))?;
-            rows.course = Some((input.time_s(), line));
+            let fail = |error| input.failure(&error);
+            let middle = Datum::find(Reference::Mid, &state).map_err(fail)?;
+            let sealed = Sealed::of(&state, &middle);
+            let line = bond_line(&state, begun_m3, &sealed).map_err(fail)?;
+            rows.course = Some((input.time_s(), input.gap_m(), line));
             if arguments.profile.is_some() {
-                profiles.push((Some(input.time_s()), profile_of(&input, &arguments)?));
+                let datum = Datum::find(arguments.reference, &state).map_err(fail)?;
+                let profile = depth_profile(&state, &datum, &sealed).map_err(fail)?;
+                profiles.push((Some(input.time_s()), profile));
             }
         }
         if let Some(finer) = &finer {
@@ -233,7 +239,9 @@ fn measure(
         output.write_with_record(&record.finish(), |out| table::write_map(out, &map))?;
     }
     if let Some(output) = arguments.profile.as_ref().filter(|_| !arguments.series) {
-        let profile = [(None, depth_profile(&state, &datum).map_err(fail)?)];
+        let sealed = Sealed::of(&state, &datum);
+        let layers = depth_profile(&state, &datum, &sealed).map_err(fail)?;
+        let profile = [(None, layers)];
         output.write_with_record(&record.finish(), |out| {
             table::write_depth_profiles(out, &profile)
         })?;
@@ -254,14 +262,6 @@ fn measure(
         course: None,
         cell_error: None,
     })
-}
-
-/// The adhesive of a state in a series against depth.
-fn profile_of(input: &Input, arguments: &Arguments) -> Result<Vec<DepthLayer>, Failure> {
-    let state = input.state(arguments.normal)?;
-    let datum = Datum::find(arguments.reference, &state);
-    let layers = datum.and_then(|datum| depth_profile(&state, &datum));
-    layers.map_err(|error| input.failure(&error))
 }
 
 /// Collects what the outputs were made from. Hashing reads every input whole, so it is done

@@ -189,6 +189,9 @@ pub struct OutputTable {
     pub snapshots: u32,
     /// Time between rows of the history; a thousandth of the nominal duration by default.
     pub history_every: Option<Positive<Time>>,
+    /// Whether rows of the history tell what the press has come to.
+    #[serde(default)]
+    pub penetration: bool,
 }
 
 /// More than this is a mistake: a file each.

@@ -27,7 +27,7 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    fn because(reasons: Vec<String>) -> Self {
+    pub(crate) fn because(reasons: Vec<String>) -> Self {
         Self {
             sound: reasons.is_empty(),
             reasons,

@@ -1,6 +1,7 @@
 //! Plans and runs of small scenes by the library, and what runs keep, continue and replace in their
 //! folder.
 
+mod answers;
 mod bench;
 mod bond;
 mod fall;

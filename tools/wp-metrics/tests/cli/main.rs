@@ -67,6 +67,7 @@ fn state_at(folder: &Path, gap: usize, time_s: f64, spoil: impl Fn(&mut Vec<[f32
     let path = folder.join("state.mpts");
     let mut header = Header::new(Kind::State, VOXEL, 1, [0.0; 3], max);
     header.time_s = time_s;
+    header.set_attribute("gap_m", gap as f64 * VOXEL);
     Draft::new(header)
         .block(block("wood-bottom", 0, &bottom), &bottom)
         .block(block("wood-top", 27 + gap, &top), &top)
@@ -189,7 +190,7 @@ fn map_profile_and_comparison() {
     let csv = fs::read_to_string(&profile).unwrap();
     assert_eq!(
         csv.lines().next(),
-        Some("depth_um,adhesive_fraction,filled_void_fraction")
+        Some("depth_um,adhesive_fraction,filled_void_fraction,filled_open_fraction")
     );
     let layers = rows(&csv);
     assert_eq!(layers.len(), 60);
@@ -262,7 +263,7 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     let table = text(&output.stdout);
     let header = table.lines().next().unwrap();
-    let added = ",time_s,gap_um,p95_depth_um,wetted_area_um2,bond_line_filled,bond_line";
+    let added = ",time_s,gap_um,p95_depth_um,wetted_area_um2,bond_line_filled,bond_line,surfaces_um,half_filled_depth_um";
     assert_eq!(header, format!("{HEADER}{added}"));
     // The last snapshot is the final state, told once.
     let found = rows(&table);
@@ -275,6 +276,18 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
         number(&found[5][14]) > 0.0 && found[5][16] == "filled",
         "{found:?}"
     );
+    // The gap is the way left until the bond is closed; the specimen's surfaces then stand 6 voxels apart.
+    for (row, gap) in [(0, 6.0), (3, 0.0)] {
+        let um = 1e6 * VOXEL;
+        assert!(
+            (number(&found[row][12]) - gap * um).abs() < 1e-5,
+            "{found:?}"
+        );
+        assert!(
+            (number(&found[row][17]) - (gap + 6.0) * um).abs() < 1e-5,
+            "{found:?}"
+        );
+    }
     let profile = fs::read_to_string(profile).unwrap();
     assert!(profile.starts_with("time_s,depth_um,"), "{profile}");
 

@@ -89,6 +89,12 @@ pub(super) const OUTPUT: Table = Table {
             ),
             text: "Time between rows of `history.csv`. Rows are also when a run is looked at for speed and compression.",
         },
+        Key {
+            name: "penetration",
+            form: || "`true`, `false`".into(),
+            absent: Absent::Value("false"),
+            text: "Whether each row of `history.csv` also tells what the press has come to (WP, EP, depth of 95 % of the adhesive, wetted area, depth to which open lumens are half full, state of the bond line), measured as `wp-metrics --series` does. It costs about as much as WPCOST; `summary.json` has the end in any case. With a bond file, in three dimensions.",
+        },
     ],
 };
 

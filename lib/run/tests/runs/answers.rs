@@ -1,0 +1,207 @@
+//! What a run tells of penetration while it goes on, against straight grooves filled by a volume known
+//! beforehand, and against the same measured of its states afterwards.
+
+use std::fs;
+use std::path::Path;
+
+use metrics::{Datum, Reference, Sealed, State, bond_line, penetration};
+use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile};
+use run::{Request, RunFailure, Summary};
+
+use crate::bench::{Bench, PLAIN};
+
+/// Edge of a voxel and of a cell, um.
+const VOXEL: f64 = 2.0;
+/// Voxels across the bond line before pressing: its gap, filled by adhesive.
+const GAP: usize = 12;
+/// Voxels of each adherend along the normal.
+const WOOD: usize = 40;
+/// Voxels along x: half a groove, a land twice as wide, half a groove.
+const WIDE: usize = 12;
+
+const CASE: &str = r#"
+[grid]
+cell = "2 um"
+[adhesive]
+density = "1200 kg/m3"
+bulk_modulus = "1 GPa"
+viscosity = "1 Pa s"
+[contact]
+law = "frictionless"
+[clamp]
+closing_speed = "1 m/s"
+stop = "20 us"
+[integrator]
+scheme = "implicit"
+[output]
+penetration = true
+snapshots = 3
+"#;
+
+/// A bond whose grooves are half of its area, as deep as the wood but for three voxels, with a sealed lumen in
+/// the land of the lower adherend.
+fn grooved(path: &Path) {
+    let thick = 2 * WOOD + GAP;
+    let high = [WIDE, thick, 2].map(|n| n as f64 * VOXEL * 1e-6);
+    let mut header = Header::new(Kind::Bond, VOXEL * 1e-6, 1, [0.0; 3], high);
+    header.set_attribute("gap_m", GAP as f64 * VOXEL * 1e-6);
+    let groove = |x: usize| !(3..9).contains(&x);
+    let bottom = BitGrid::from_fn([WIDE, WOOD, 2], |x, y, _| {
+        let lumen = (30..35).contains(&y) && (5..7).contains(&x);
+        y < 3 || !(groove(x) || lumen)
+    });
+    let top = BitGrid::from_fn([WIDE, WOOD, 2], |x, y, _| y >= WOOD - 3 || !groove(x));
+    let adhesive = BitGrid::from_fn([WIDE, GAP, 2], |_, _, _| true);
+    let block = |name, material, layer: usize, bits| {
+        let origin = [0.0, layer as f64 * VOXEL * 1e-6, 0.0];
+        Block::new(name, material, origin, VOXEL * 1e-6, bits)
+    };
+    let mut bytes = Vec::new();
+    Draft::new(header)
+        .block(block("wood-bottom", Material::Rigid, 0, &bottom), &bottom)
+        .block(block("wood-top", Material::Rigid, WOOD + GAP, &top), &top)
+        .block(
+            block("adhesive", Material::Adhesive, WOOD, &adhesive),
+            &adhesive,
+        )
+        .write_to(&mut bytes)
+        .unwrap();
+    fs::write(path, bytes).unwrap();
+}
+
+fn run(bench: &Bench, changes: &[&str]) -> Result<Option<Summary>, RunFailure> {
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    let bond = bench.path("bond.mpts");
+    Request::read(&bench.path("case.toml"), Some(&bond), &changes)?.execute(
+        &bench.path("run"),
+        PLAIN,
+        particle_file::Provenance::default(),
+        &|| false,
+        &mut |_, _| {},
+        &|said| panic!("{said}"),
+    )
+}
+
+/// The fields of the last row of the history by the names of their columns.
+fn last_row(folder: &Path) -> impl Fn(&str) -> String + use<> {
+    let text = fs::read_to_string(folder.join("history.csv")).unwrap();
+    let split = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+    let header = split(text.lines().next().unwrap());
+    let row = split(text.lines().last().unwrap());
+    assert_eq!(header.len(), row.len());
+    move |name| row[header.iter().position(|h| h == name).unwrap()].clone()
+}
+
+/// By then the clamp has moved 20 of 24 um. Of the adhesive, 12 voxels high before, 2 are left between the
+/// lands, and half of the rest fills 10 voxels of each groove, 11 from the middle on.
+#[test]
+fn grooves_filled_by_a_known_volume_are_told_within_a_voxel() {
+    let bench = Bench::with(CASE);
+    grooved(&bench.path("bond.mpts"));
+    let summary = run(&bench, &[]).unwrap().unwrap();
+    let told = last_row(&bench.path("run"));
+    let number = |name: &str| told(name).parse::<f64>().unwrap();
+    // Of 72 square voxels a side: 12 wide up to a depth of 1, 6 wide from there to 11.
+    let wp = ((12.0 + 6.0 * (11_f64.powi(3) - 1.0)) / 3.0 / 72.0).sqrt() * VOXEL;
+    let known = [
+        ("wp", "um", wp, VOXEL),
+        ("ep", "um", 6.0 * VOXEL, 0.5 * VOXEL),
+        ("p95_depth", "um", (11.0 - 0.05 * 72.0 / 6.0) * VOXEL, VOXEL),
+        ("half_filled_depth", "um", 11.0 * VOXEL, 1.01 * VOXEL),
+        // Walls of 10 and the land, all 2 voxels along z; a voxel more or less of both walls.
+        (
+            "wetted_area",
+            "um2",
+            52.0 * VOXEL.powi(2),
+            4.0 * VOXEL.powi(2),
+        ),
+    ];
+    for (name, unit, wanted, tolerance) in known {
+        for side in ["bottom", "top"] {
+            let found = number(&format!("{name}_{side}_{unit}"));
+            println!(
+                "{name} {side}: {found:.3} {unit}, known {wanted:.3}, error {:+.3}",
+                found - wanted
+            );
+            assert!(
+                (found - wanted).abs() <= tolerance,
+                "{name} {side}: {found} {wanted}"
+            );
+        }
+    }
+    let filled = number("bond_line_filled");
+    println!("bond line filled: {filled:.4}, known 1");
+    assert!((filled - 1.0).abs() < 0.1, "{filled}");
+    assert_eq!(told("bond_line"), "filled");
+    // The filled share of the open lumens: all to the front, nothing behind it, a voxel left out between.
+    let answers = summary.penetration.unwrap();
+    for shares in [
+        &answers.filled_by_depth.bottom,
+        &answers.filled_by_depth.top,
+    ] {
+        let error = |layers: &[f64], wanted: f64| {
+            layers
+                .iter()
+                .map(|share| (share - wanted).abs())
+                .fold(0.0, f64::max)
+        };
+        let full = error(&shares[..10], 1.0);
+        println!(
+            "filled share to 10 voxels: largest error {full:.3}; layers with adhesive: {}",
+            shares.len()
+        );
+        assert!(
+            full < 0.1 && error(&shares[12.min(shares.len())..], 0.0) < 0.05,
+            "{shares:?}"
+        );
+    }
+    let of_history = format!("{:.6}", 1e6 * answers.wp_m.total);
+    assert_eq!(of_history, told("wp_total_um"));
+}
+
+/// One meaning of gap: history, summary, states and, where flat surfaces meet when the bond is closed, their distance.
+#[test]
+fn the_gap_is_the_way_left_wherever_it_is_told() {
+    let bench = Bench::with(CASE);
+    grooved(&bench.path("bond.mpts"));
+    let summary = run(&bench, &[]).unwrap().unwrap();
+    let told = last_row(&bench.path("run"));
+    let wanted = 4e-6;
+    let file = ParticleFile::open(bench.path("run/final.mpts")).unwrap();
+    let noted: f64 = file.header().attribute("gap_m").unwrap().parse().unwrap();
+    let state = State::of_file(&file).unwrap();
+    let middle = Datum::find(Reference::Mid, &state).unwrap();
+    let line = bond_line(&state, 0.0, &Sealed::of(&state, &middle)).unwrap();
+    let history: f64 = told("gap_m").parse().unwrap();
+    for gap in [history, summary.gap_m.unwrap(), noted, line.surfaces_m] {
+        println!("gap {:.6} um, known {:.6}", 1e6 * gap, 1e6 * wanted);
+        assert!((gap - wanted).abs() < 1e-12, "{gap}");
+    }
+    // What the run told is what its state shows.
+    let sides = penetration(&state, &middle);
+    for (side, name) in sides.iter().zip(["bottom", "top", "total"]) {
+        let um = |metres: f64| format!("{:.6}", 1e6 * metres);
+        assert_eq!(um(side.wp_m), told(&format!("wp_{name}_um")));
+        assert_eq!(um(side.p95_depth_m), told(&format!("p95_depth_{name}_um")));
+    }
+    let wetted = format!("{:.4}", 1e12 * line.wetted_m2[1]);
+    assert_eq!(wetted, told("wetted_area_top_um2"));
+}
+
+#[test]
+fn rows_tell_it_where_asked_and_scenes_without_a_bond_are_refused() {
+    let bench = Bench::with(CASE);
+    grooved(&bench.path("bond.mpts"));
+    let summary = run(&bench, &["output.penetration=false", "clamp.stop=1 us"]);
+    assert!(summary.unwrap().unwrap().penetration.is_some());
+    let history = fs::read_to_string(bench.path("run/history.csv")).unwrap();
+    assert!(!history.contains("wp_"), "{history}");
+    let plates = Bench::explicit();
+    let said = plates.run_changed("run", PLAIN, 1, &["output.penetration=true"]);
+    let said = said.unwrap_err().to_string();
+    assert!(
+        said.contains("measured of the bond of a bond file"),
+        "{said}"
+    );
+    assert!(!plates.path("run").exists());
+}
