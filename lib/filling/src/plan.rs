@@ -5,6 +5,7 @@ use physics::{Amount, Cure, Dimensions, Scene, Stages, Stop};
 use crate::settings::Settings;
 use crate::stages::stages;
 use crate::step::length::CURED;
+use crate::step::water::DRIED;
 
 /// Speed of the liquid that sets the time step over that of the body that drives it, averaged
 /// over a run: wood closing on a slab gives 1.5 at first and 6 towards the end.
@@ -71,7 +72,11 @@ impl Plan {
             .and_then(Cure::set_at)
             .map_or(duration, |set| set.min(duration));
         let cured = cure.map_or(0.0, |cure| cure.change(duration) / CURED);
-        let steps = (SPEED_RATIO * duration / dt_s + cured).ceil().max(1.0);
+        let dried = (scene.liquid.water.as_ref())
+            .map_or(0.0, |water| water.factor(water.least()).ln() / DRIED);
+        let steps = (SPEED_RATIO * duration / dt_s + cured + dried)
+            .ceil()
+            .max(1.0);
         let points = amount.points as f64;
         Self {
             cells,

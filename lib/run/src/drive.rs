@@ -196,6 +196,9 @@ impl<'a> Loop<'a> {
         if self.set.is_some_and(|set| reached(self.clock.time_s, set)) {
             return Some(End::Set);
         }
+        if scheme.has_set() {
+            return Some(End::Set);
+        }
         if let Some(programme) = scheme.programme() {
             return programme.is_over().then_some(End::Programme);
         }
@@ -306,6 +309,7 @@ impl<'a> Loop<'a> {
         let cure = self.setup.scene.liquid.cure.as_ref();
         let more = RowMore {
             factor: cure.map(|cure| cure.factor(time_s)),
+            water: diagnostics.water,
             stage: scheme.programme().map(|run| run.last_stage() + 1),
         };
         history.row(step, time_s, gap, &self.clock.last, &diagnostics, more)

@@ -105,6 +105,8 @@ pub(crate) struct Before<'a> {
     pub(crate) pressure: &'a [f64],
     /// Resistance of the liquid at that pressure to a change of its present volume, over K.
     pub(crate) stiffness: &'a [f64],
+    /// Volume that each pressure unknown loses in a time, cells^2 m/s; empty where none is lost.
+    pub(crate) lost: &'a [f64],
 }
 
 impl Operator<'_> {
@@ -132,6 +134,12 @@ impl Operator<'_> {
             }
         })?;
         let c = self.compressibility(before.stiffness);
+        let mut source: Vec<f64> = (c.iter().zip(before.pressure))
+            .map(|(c, p)| c * p)
+            .collect();
+        for (source, lost) in source.iter_mut().zip(before.lost) {
+            *source -= lost;
+        }
         let mut system = System {
             friction: (face_volume.iter().enumerate())
                 .map(|(face, &volume)| self.darcy(face, volume))
@@ -140,12 +148,7 @@ impl Operator<'_> {
                 .map(|&cell| 2.0 * self.eta(cell as usize))
                 .collect(),
             couplings: Couplings::new(self, &edges, bodies.len(), &flux),
-            resting: [
-                self.momentum(&face_volume, &mass, before.velocity),
-                (c.iter().zip(before.pressure))
-                    .map(|(c, p)| c * p)
-                    .collect(),
-            ],
+            resting: [self.momentum(&face_volume, &mass, before.velocity), source],
             a,
             mass,
             face_volume,
