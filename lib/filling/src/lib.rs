@@ -14,6 +14,7 @@ mod stages;
 mod step;
 mod system;
 mod transport;
+mod water;
 
 pub use plan::Plan;
 pub use settings::Settings;

@@ -5,6 +5,7 @@ use physics::{Amount, Cure, Dimensions, Scene, Stages, Stop};
 use crate::settings::Settings;
 use crate::stages::stages;
 use crate::step::length::CURED;
+use crate::step::water::DRIED;
 
 /// Speed of the liquid that sets the time step over that of the body that drives it, averaged
 /// over a run: wood closing on a slab gives 1.5 at first and 6 towards the end.
@@ -73,7 +74,11 @@ impl Plan {
         // A programme waits in its stages long after the clamp has gone its way, while the liquid sets.
         let waits: f64 = scene.programme.iter().map(|stage| stage.time_s).sum();
         let cured = cure.map_or(0.0, |cure| cure.change(duration.max(waits)) / CURED);
-        let steps = (SPEED_RATIO * duration / dt_s + cured).ceil().max(1.0);
+        let dried = (scene.liquid.water.as_ref())
+            .map_or(0.0, |water| water.factor(water.least()).ln() / DRIED);
+        let steps = (SPEED_RATIO * duration / dt_s + cured + dried)
+            .ceil()
+            .max(1.0);
         let points = amount.points as f64;
         Self {
             cells,

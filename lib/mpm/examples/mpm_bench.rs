@@ -83,6 +83,7 @@ fn scene(walls: bool, viscosity: Viscosity) -> Scene {
             viscosity,
             shear_rate: ShearRate::Paper,
             cure: None,
+            water: None,
             cavitation_pressure: None,
         },
         points,

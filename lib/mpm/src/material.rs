@@ -179,6 +179,7 @@ mod tests {
             viscosity: Viscosity::Newtonian(Newtonian(1.3)),
             shear_rate: ShearRate::Paper,
             cure: None,
+            water: None,
             cavitation_pressure: None,
         }
     }

@@ -59,6 +59,7 @@ impl Scheme for Explicit {
             volume: Vec::with_capacity(count),
             pressure: Vec::with_capacity(count),
             shear_rate: Vec::with_capacity(count),
+            solids: Vec::new(),
         };
         for [_, t, p] in order {
             let (tile, p) = (&self.grid.tiles[t as usize], p as usize);

@@ -19,13 +19,14 @@ pub use choice::Choice;
 pub use clamp::{Clamp, Pid, PidControl, breaks, broken};
 pub use material::{
     Course, Cure, CureLaw, Law, Liquid, Newtonian, Rheology, SET, ShearRate, TAIT_C, Table,
-    TableError, Tait, Viscosity,
+    TableError, Tait, Viscosity, Water, WaterLaw,
 };
 pub use press::{Press, PressRun, PressStage, PressStep, Reason, StageEnd};
 pub use regime::Regime;
 pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Stop};
 pub use scheme::{
     Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
+    WaterState,
 };
 pub use stages::{Stage, Stages};
 pub use wall_law::WallLaw;

@@ -44,6 +44,21 @@ pub struct Diagnostics {
     /// Fraction of the liquid volume whose viscosity was capped to keep an explicit step
     /// stable; 0 for an implicit one.
     pub capped_fraction: f64,
+    /// Of a liquid that loses water: where that is.
+    pub water: Option<WaterState>,
+}
+
+/// Where the water of a liquid is that loses it to the walls.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WaterState {
+    /// Volume that the material points that are left have given off, m3.
+    pub given_off_m3: f64,
+    /// Volume of water in the walls, m3.
+    pub in_walls_m3: f64,
+    /// Water that is neither in the points nor in walls, nor left with points, over all of it.
+    pub missing: f64,
+    /// Mean solids content of the liquid, by mass.
+    pub solids: f64,
 }
 
 /// The liquid as snapshots and metrics see it; arrays of equal length, one entry per point.
@@ -59,6 +74,8 @@ pub struct LiquidState {
     pub pressure: Vec<f32>,
     /// Shear rates by the scene's convention, 1/s.
     pub shear_rate: Vec<f32>,
+    /// Solids contents by mass; none where the liquid loses no water.
+    pub solids: Vec<f32>,
 }
 
 /// One array of a saved scheme.
@@ -173,6 +190,10 @@ pub trait Scheme {
     /// The press programme and where it is, if the scheme goes through one.
     fn programme(&self) -> Option<&PressRun> {
         None
+    }
+    /// Whether the liquid has set by more than the time of its cure.
+    fn has_set(&self) -> bool {
+        false
     }
     /// What the scheme itself knows against its results, a clause.
     fn objection(&self) -> Option<String> {

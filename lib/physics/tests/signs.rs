@@ -34,6 +34,7 @@ fn the_clamp_closes_downwards() {
             viscosity: Viscosity::Newtonian(Newtonian(1.3)),
             shear_rate: ShearRate::Paper,
             cure: None,
+            water: None,
             cavitation_pressure: None,
         },
         points: Points::default(),

@@ -199,6 +199,9 @@ impl<'a> Loop<'a> {
         if self.set.is_some_and(|set| reached(self.clock.time_s, set)) {
             return Some(End::Set);
         }
+        if scheme.has_set() {
+            return Some(End::Set);
+        }
         if let Some(programme) = scheme.programme() {
             return programme.is_over().then_some(End::Programme);
         }
@@ -310,6 +313,7 @@ impl<'a> Loop<'a> {
         let cure = self.setup.scene.liquid.cure.as_ref();
         let more = RowMore {
             factor: cure.map(|cure| cure.factor(time_s)),
+            water: diagnostics.water,
             stage: scheme.programme().map(|run| run.last_stage() + 1),
             moment: watch.map(|watch| watch.look(scheme)).transpose()?,
         };

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
 
-use physics::{Diagnostics, StepReport};
+use physics::{Diagnostics, StepReport, WaterState};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::answers::{self, Moment};
@@ -18,6 +18,8 @@ pressure_top_Pa,kinetic_energy_J,viscous_power_W,adhesive_volume_m3,max_speed_m_
 solver_iterations,capped_viscosity_fraction";
 /// What follows of a liquid that cures: its factor of the viscosity at the row's time.
 const CURED: &str = ",viscosity_factor";
+/// What follows of a liquid that loses water: its mean solids content, and the water in the walls.
+const WET: &str = ",solids_content,water_in_walls_m3";
 
 /// What a press programme adds: the number of the stage that the step was of.
 const STAGE: &str = ",stage";
@@ -27,6 +29,8 @@ const STAGE: &str = ",stage";
 pub(crate) struct RowMore {
     /// Factor of the viscosity of a liquid that cures.
     pub(crate) factor: Option<f64>,
+    /// Where the water is of a liquid that loses it.
+    pub(crate) water: Option<WaterState>,
     /// Number of the press programme's stage, from 1.
     pub(crate) stage: Option<usize>,
     /// What the press has come to.
@@ -51,21 +55,30 @@ pub(crate) struct History {
 }
 
 impl History {
-    /// Starts a new history in `folder`, with a column for the factor of a liquid that `cures`, one for the
-    /// stage of a press programme where it is `staged`, and those of a bond that is `watched`.
+    /// Starts a new history in `folder`, with a column for the factor of a liquid that `cures`, two for one
+    /// that `dries`, one for the stage of a press programme where it is `staged`, and those of a bond that is
+    /// `watched`.
     ///
     /// # Errors
     /// The file and the system's reason.
     pub(crate) fn create(
         folder: &RunFolder,
         cures: bool,
+        dries: bool,
         staged: bool,
         watched: bool,
     ) -> Result<Self, RunError> {
-        let cured = if cures { CURED } else { "" };
-        let stage = if staged { STAGE } else { "" };
-        let answers = if watched { answers::COLUMNS } else { "" };
-        let header = format!("{HEADER}{cured}{stage}{answers}\n");
+        let more = [
+            (cures, CURED),
+            (dries, WET),
+            (staged, STAGE),
+            (watched, answers::COLUMNS),
+        ];
+        let more = more
+            .into_iter()
+            .filter(|(has, _)| *has)
+            .map(|(_, columns)| columns);
+        let header = format!("{HEADER}{}\n", more.collect::<String>());
         folder.write_text(HISTORY, &header)?;
         let path = folder.place(HISTORY);
         let open = File::options().append(true).open(&path);
@@ -141,12 +154,15 @@ impl History {
     ) -> Result<(), RunError> {
         let gap = gap_m.map_or(String::new(), |g| format!("{g:.9e}"));
         let factor = more.factor.map_or(String::new(), |f| format!(",{f:.9e}"));
+        let water = more.water.map_or(String::new(), |water| {
+            format!(",{:.9e},{:.9e}", water.solids, water.in_walls_m3)
+        });
         let stage = more
             .stage
             .map_or(String::new(), |stage| format!(",{stage}"));
         let answers = more.moment.map_or(String::new(), |moment| moment.fields());
         let row = format!(
-            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}{factor}{stage}{answers}\n",
+            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}{factor}{water}{stage}{answers}\n",
             report.dt_s,
             report.closing_speed,
             report.travel_m,
@@ -208,7 +224,7 @@ mod tests {
     fn resuming_drops_rows_after_the_checkpoint_and_parts_of_rows() {
         let (_place, folder) = held();
         let path = folder.place(HISTORY);
-        let mut history = History::create(&folder, false, false, false).unwrap();
+        let mut history = History::create(&folder, false, false, false, false).unwrap();
         add(&mut history, &[1, 12]);
         let extent = history.sync().unwrap();
         let kept = fs::read(&path).unwrap();
@@ -231,7 +247,7 @@ mod tests {
     #[test]
     fn a_history_that_is_removed_meanwhile_is_noticed() {
         let (_place, folder) = held();
-        let mut history = History::create(&folder, false, false, false).unwrap();
+        let mut history = History::create(&folder, false, false, false, false).unwrap();
         fs::remove_file(folder.place(HISTORY)).unwrap();
         add(&mut history, &[1]);
         let said = history.sync().unwrap_err().to_string();
@@ -242,7 +258,7 @@ mod tests {
     #[test]
     fn a_history_that_was_changed_is_not_continued() {
         let (_place, folder) = held();
-        let mut history = History::create(&folder, false, false, false).unwrap();
+        let mut history = History::create(&folder, false, false, false, false).unwrap();
         add(&mut history, &[1, 2]);
         let extent = history.sync().unwrap();
         let whole = fs::read(folder.place(HISTORY)).unwrap();

@@ -3,7 +3,7 @@
 
 use bondline::open_voids;
 use particle_file::{BitGrid, BitsRef};
-use physics::{Dimensions, LiquidState, Motion, RigidBody, Scene, VoxelBlock};
+use physics::{Dimensions, LiquidState, Motion, RigidBody, Scene, VoxelBlock, Water, WaterState};
 use units::Axis;
 
 /// What was found in a state; counts of material points.
@@ -17,8 +17,40 @@ pub struct Invariants {
     pub deepest_m: f64,
     /// Points in voids that no open path connects to the bond plane.
     pub points_in_unreachable_voids: u64,
-    /// Current over initial volume of the liquid, minus one.
+    /// Current over initial volume of the liquid, minus one; with the water that the liquid has given off.
     pub volume_change: f64,
+    /// Of a liquid that loses water: where that is.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub water: Option<WaterAccount>,
+}
+
+/// Where the water is of a liquid that loses it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct WaterAccount {
+    /// Water in the walls, kg.
+    pub water_in_walls_kg: f64,
+    /// Water that is neither in the points nor in the walls, nor left with points, over all of it.
+    pub water_missing: f64,
+    /// Mean solids content of the liquid, by mass.
+    pub solids_content: f64,
+}
+
+impl Invariants {
+    /// These with what is known of the water of a liquid of `initial_volume` (m3) at the start.
+    pub(crate) fn with_water(self, water: Option<WaterState>, initial_volume: f64) -> Self {
+        let Some(state) = water else {
+            return self;
+        };
+        Self {
+            volume_change: self.volume_change + state.given_off_m3 / initial_volume,
+            water: Some(WaterAccount {
+                water_in_walls_kg: Water::mass(state.in_walls_m3),
+                water_missing: state.missing,
+                solids_content: state.solids,
+            }),
+            ..self
+        }
+    }
 }
 
 /// Checks `liquid`, whose volume was `initial_volume` (m3) at the start, with the bodies
@@ -191,6 +223,7 @@ mod tests {
                 viscosity: Viscosity::Newtonian(Newtonian(1.0)),
                 shear_rate: ShearRate::Paper,
                 cure: None,
+                water: None,
                 cavitation_pressure: None,
             },
             points: Points::default(),

@@ -38,6 +38,12 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
             "the viscosity does not change with time: no [adhesive.cure]".into(),
         );
     }
+    if setup.scene.liquid.water.is_none() {
+        add(
+            "loss of water",
+            "the adhesive keeps its water: no [adhesive.water]".into(),
+        );
+    }
     let share = regime.max_pressure.map_or(String::new(), |limit| {
         let percent = 100.0 * regime.capillary_pressure / limit;
         format!(", {percent:.2} % of the pressure limit")

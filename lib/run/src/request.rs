@@ -236,6 +236,7 @@ impl Request {
                 History::create(
                     folder,
                     self.setup.scene.liquid.cure.is_some(),
+                    self.setup.scene.liquid.water.is_some(),
                     !self.setup.scene.programme.is_empty(),
                     self.case.output.penetration,
                 )?,
@@ -295,7 +296,8 @@ impl Request {
             self.setup.liquid.volume_m3,
             &liquid,
             &scheme.displacements(),
-        );
+        )
+        .with_water(outcome.diagnostics.water, self.setup.liquid.volume_m3);
         let summary = Summary::new(
             &outcome,
             Facts {
@@ -304,8 +306,14 @@ impl Request {
                 initial_gap_m: self.setup.initial_gap_m,
                 stages: scheme.stage_times(),
                 counts: scheme.counts(),
-                verdict: verdict::judge(&self.setup, &liquid, &invariants, outcome.clock.last.lost)
-                    .and(scheme.objection()),
+                verdict: verdict::judge(
+                    &self.setup,
+                    &liquid,
+                    &invariants,
+                    outcome.diagnostics.water,
+                    outcome.clock.last.lost,
+                )
+                .and(scheme.objection()),
                 programme: summary::programme(scheme.programme()),
                 penetration: watch
                     .map(|watch| watch.look_closely(scheme.as_ref()))

@@ -58,6 +58,12 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
                 .into(),
         ));
     }
+    if case.adhesive.water.is_some() {
+        return Err(CaseError(
+            "[adhesive.water] is for scheme = \"implicit\" only: explicit steps do not reach the time in which wood takes water"
+                .into(),
+        ));
+    }
     if (case.clamp.as_ref()).is_some_and(|clamp| !clamp.stage.is_empty()) {
         return Err(CaseError(
             "[[clamp.stage]] is for scheme = \"implicit\" only: explicit steps are too short for a press"

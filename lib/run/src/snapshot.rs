@@ -130,12 +130,15 @@ impl<'a> SnapshotWriter<'a> {
             }
         }
         let (position, velocity) = (state.position.as_flattened(), state.velocity.as_flattened());
-        let draft = draft
+        let mut draft = draft
             .column("position", 3, position)
             .column("velocity", 3, velocity)
             .column("volume", 1, &state.volume)
             .column("pressure", 1, &state.pressure)
             .column("shear_rate", 1, &state.shear_rate);
+        if !state.solids.is_empty() {
+            draft = draft.column("solids_content", 1, &state.solids);
+        }
         self.folder.write_whole(name, |out| draft.write_to(out))
     }
 }

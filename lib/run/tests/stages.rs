@@ -33,6 +33,7 @@ fn drop() -> Scene {
             viscosity: Viscosity::Newtonian(Newtonian(1.3)),
             shear_rate: ShearRate::Paper,
             cure: None,
+            water: None,
             cavitation_pressure: None,
         },
         points: Default::default(),

@@ -39,6 +39,8 @@ dimension!(/// Consistency of a power law, SI pascal second to the power n.
     Consistency, "a consistency", &[("Pa s^n", 1.0), ("Pa.s^n", 1.0), ("mPa s^n", 1e-3)], ANY);
 dimension!(/// Energy of a mole, SI joule per mole.
     MolarEnergy, "an energy of a mole", &[("J/mol", 1.0), ("kJ/mol", 1e3), ("kcal/mol", 4184.0)], [1.0, 1e6]);
+dimension!(/// Diffusivity, SI square metre per second.
+    Diffusivity, "a diffusivity", &[("m2/s", 1.0), ("mm2/s", 1e-6), ("um2/s", 1e-12)], ANY);
 dimension!(/// Mass density, SI kilogram per cubic metre.
     Density, "a density", &[("kg/m3", 1.0), ("g/cm3", 1e3)], ANY);
 dimension!(/// Acceleration, SI metre per second squared.
@@ -66,6 +68,7 @@ pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
         of::<Consistency>,
         of::<MolarEnergy>,
         of::<Spread>,
+        of::<Diffusivity>,
     ];
     all.iter().find_map(|of| of(symbol))
 }

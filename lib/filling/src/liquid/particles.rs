@@ -20,6 +20,8 @@ pub(crate) struct Particles {
     pub(crate) j: Vec<f32>,
     /// Index of each particle in the scene.
     pub(crate) id: Vec<u32>,
+    /// Volumes of solids and water at J = 1, cells; none where the liquid loses no water.
+    pub(crate) parts: Vec<[f64; 2]>,
     /// Positions at the start of a step while `position` holds others; else empty.
     pub(crate) start: Vec<[f64; 3]>,
 }
@@ -154,6 +156,9 @@ impl Particles {
         permute(&mut self.volume, places);
         permute(&mut self.j, places);
         permute(&mut self.id, places);
+        if !self.parts.is_empty() {
+            permute(&mut self.parts, places);
+        }
         if !self.start.is_empty() {
             permute(&mut self.start, places);
         }
@@ -190,6 +195,7 @@ pub(crate) mod tests {
             volume: vec![volume; n],
             j: vec![0.0; n],
             id: (0..n as u32).collect(),
+            parts: Vec::new(),
             start: Vec::new(),
         }
     }

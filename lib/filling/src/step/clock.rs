@@ -9,6 +9,7 @@ use physics::StageTime;
 pub(super) enum Part {
     Geometry,
     Fractions,
+    Water,
     Assembly,
     Solve,
     Forces,
@@ -16,9 +17,10 @@ pub(super) enum Part {
     Density,
 }
 
-const NAMES: [&str; 7] = [
+const NAMES: [&str; 8] = [
     "geometry",
     "liquid fractions",
+    "loss of water",
     "assembly",
     "linear solve",
     "forces",
@@ -28,7 +30,7 @@ const NAMES: [&str; 7] = [
 
 /// Time spent so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Clock([Duration; 7]);
+pub(super) struct Clock([Duration; 8]);
 
 impl Clock {
     /// Runs `work` and counts its time.
@@ -40,7 +42,10 @@ impl Clock {
     }
 
     pub(super) fn report(&self) -> Vec<StageTime> {
+        let skipped =
+            |part: &Duration, name: &str| part.is_zero() && name == NAMES[Part::Water as usize];
         (NAMES.iter().zip(&self.0))
+            .filter(|(name, time)| !skipped(time, name))
             .map(|(&name, time)| StageTime {
                 name,
                 wall_s: time.as_secs_f64(),

@@ -19,6 +19,9 @@ impl Implicit {
                  {:.3e} m/s at last: a lower closing_speed or a higher max_pressure is needed",
                 self.state.drive.speed
             ),
+            Fit::Dried(_) => "the liquid dries too fast for any: a smaller uptake, a larger \
+                              diffusivity or a flatter viscosity_by_solids is needed"
+                .into(),
             Fit::Fast | Fit::Missed | Fit::Good => format!(
                 "the liquid is the faster the shorter the step, {:.3e} m/s at last: a wall may push \
                  liquid that is enclosed on all sides",

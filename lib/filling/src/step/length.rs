@@ -34,6 +34,8 @@ pub(super) enum Fit {
     /// The clamp goes beyond the end of its way, or not all of it in a step that was to end it; its
     /// speed is known now.
     Missed,
+    /// The liquid dries too fast for it: the part of it that is to be tried next.
+    Dried(f64),
 }
 
 impl Implicit {
@@ -54,6 +56,7 @@ impl Implicit {
         };
         let step = (setup.liquid.cure.as_ref())
             .map_or(step, |cure| step.min(cure.steady(self.state.time, CURED)));
+        let step = step.min(self.moist());
         let dt = if step < left {
             left / (left / step).ceil()
         } else {

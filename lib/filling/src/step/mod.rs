@@ -12,6 +12,7 @@ mod solution;
 mod state;
 mod transport;
 mod units;
+pub(crate) mod water;
 
 use physics::{Failure, Motion, PressRun, Scene, StepLimit, StepReport, Stop};
 use saddle_point::{SaddleOptions, SaddleSolver};
@@ -20,6 +21,7 @@ use crate::geometry::{Lattice, Solids, Window};
 use crate::liquid::{Bins, Fractions};
 use crate::settings::Settings;
 use crate::transport::{Field, Path};
+use crate::water::{Account, Exchange};
 use clock::{Clock, Part};
 use drive::Drive;
 use last::LastFlow;
@@ -59,6 +61,8 @@ struct Trial {
     bodies: Vec<[f64; 3]>,
     /// Geometry with the bodies in the middle of their way.
     lattice: Lattice,
+    /// What walls take of the water; `None` where the liquid loses none.
+    exchange: Option<Exchange>,
 }
 
 impl Implicit {
@@ -72,7 +76,9 @@ impl Implicit {
         let motions: Vec<Motion> = scene.bodies.iter().map(|body| body.motion).collect();
         let (clamp, speed) = (scene.clamp, scene.initial_speed());
         let programme = programme(&scene);
-        let (setup, particles) = Setup::new(scene, settings)?;
+        let (setup, mut particles) = Setup::new(scene, settings)?;
+        let water = (setup.liquid.water.as_ref())
+            .map(|water| Account::new(crate::water::fill(&mut particles, water)));
         let acoustic = setup.units.h / setup.liquid.sound_speed();
         let options = SaddleOptions {
             tolerance: settings.tolerance,
@@ -83,6 +89,7 @@ impl Implicit {
                 particles,
                 Drive::new(motions, clamp, programme, acoustic, setup.present),
                 speed,
+                water,
             ),
             setup,
             workspace: Workspace {
@@ -107,16 +114,22 @@ impl Implicit {
             let dt = self.aim(dt);
             self.setup.units.cured = self.cured(dt);
             // 2. Geometry.
-            let trial = self.place(dt);
+            let mut trial = self.place(dt);
             // 3. Liquid on the lattice.
             self.fill(&trial);
+            last = self.dry(&mut trial);
+            if let Fit::Dried(part) = last {
+                self.state.particles.go_back();
+                longest = part * dt;
+                continue;
+            }
             // 4 to 6. Assembly, solve and forces, in passes where the viscosity varies.
             let solution = self.solve(&trial);
             self.state.particles.go_back();
             let solution = solution?;
             last = self.fit(&trial, &solution, limit);
             match last {
-                Fit::Fast => continue,
+                Fit::Fast | Fit::Dried(_) => continue,
                 Fit::Missed if misses < CLOSER => misses += 1,
                 Fit::Misplaced => longest = 0.5 * dt,
                 Fit::Good | Fit::Missed => return self.follow(&trial, solution, limit),
@@ -135,10 +148,15 @@ impl Implicit {
         let dt = self.length(trial, &solution, limit);
         let lattice = &trial.lattice;
         let after = self.solids_after(&solution.bodies, dt);
+        self.give_off(trial, dt);
+        let (lost, water) = (self.state.counts.lost, self.state.particles.water());
         // 7. Transport.
         let field = self.transport(lattice, &mut solution, &after, dt);
         // 8. Density projection; then particles take what is there, bodies and time advance.
         self.project(lattice, &solution, &after)?;
+        if self.state.counts.lost > lost {
+            self.let_go(water);
+        }
         self.take_up(lattice, &solution, &field)?;
         Ok(self.advance_bodies(&solution, field, dt))
     }
@@ -170,6 +188,7 @@ impl Implicit {
             dt,
             bodies,
             lattice: clock.time(Part::Geometry, || Lattice::new(solids, window)),
+            exchange: None,
         }
     }
 

@@ -42,6 +42,7 @@ impl Scheme for Implicit {
             volume: particles.total_volume() * self.setup.units.volume(),
             max_speed: fastest.sqrt(),
             capped_fraction: 0.0,
+            water: self.water_state(),
         }
     }
 
@@ -63,6 +64,7 @@ impl Scheme for Implicit {
             volume: of(&order, |p| volume(p) as f32),
             pressure: of(&order, |p| tait.pressure(f64::from(particles.j[p])) as f32),
             shear_rate: of(&order, |p| rates[p]),
+            solids: self.solids(&order),
         }
     }
 
@@ -100,6 +102,7 @@ impl Scheme for Implicit {
         if self.setup.liquid.cure.is_some() {
             arrays.push(("time".into(), Array::F64(vec![self.state.time])));
         }
+        arrays.extend(self.save_water());
         let programme = self.state.drive.programme().map(PressRun::state);
         arrays.extend(programme.map(|state| (PROGRAMME.to_owned(), Array::F64(state))));
         Saved(arrays)
@@ -146,6 +149,7 @@ impl Scheme for Implicit {
                 other => return Err(format!("the checkpoint's time is none: {other:?}")),
             };
         }
+        self.restore_water(saved, volume)?;
         self.state.particles.position = position;
         self.state.particles.velocity = velocity;
         self.state.particles.volume = volume.to_vec();
@@ -165,6 +169,10 @@ impl Scheme for Implicit {
         self.state.drive.set_state(drive);
         self.state.rates = Rates::Restored(rates.to_vec());
         Ok(())
+    }
+
+    fn has_set(&self) -> bool {
+        self.has_dried()
     }
 
     fn programme(&self) -> Option<&PressRun> {

@@ -3,7 +3,7 @@
 use physics::{Dimensions, Liquid, Points, RigidBody, Scene, WallLaw};
 
 use super::Units;
-use crate::geometry::{Domain, MAX_BODIES, Solids, fill_sealed};
+use crate::geometry::{Domain, MAX_BODIES, Solids, Surface, fill_sealed};
 use crate::liquid::Particles;
 use crate::settings::Settings;
 use crate::stages::{Present, stages};
@@ -28,6 +28,8 @@ pub(super) struct Setup {
     pub(super) area: f64,
     /// Bodies before any displacement.
     pub(super) rest: Solids,
+    /// The surface that takes water from a liquid that loses it.
+    pub(super) surface: Option<Surface>,
     /// Voxels of voids that no liquid can reach, filled in.
     pub(super) sealed: u64,
 }
@@ -42,10 +44,14 @@ impl Setup {
         let units = Units::new(&scene.grid, &scene.liquid, scene.initial_speed());
         let domain = Domain::new(&scene.grid, scene.boundary, scene.dimensions);
         let (width, area) = (width_rule(&scene), scene.grid.area_m2());
+        let names: Vec<String> = scene.bodies.iter().map(|body| body.name.clone()).collect();
         let (rest, particles, sealed) = contents(scene.bodies, scene.points, domain, units)?;
+        let surface = (scene.liquid.water.as_ref())
+            .map(|water| Surface::new(&rest, |body| water.enters(&names[usize::from(body)])));
         let setup = Self {
             settings,
             present,
+            surface,
             units,
             domain,
             liquid: scene.liquid,
@@ -189,6 +195,7 @@ fn contents(
             .collect(),
         j: vec![0.0; n],
         id: (0..n as u32).collect(),
+        parts: Vec::new(),
         start: Vec::new(),
     };
     Ok((solids, particles, closed))
@@ -226,6 +233,7 @@ mod tests {
                 viscosity: Viscosity::Newtonian(Newtonian(0.5)),
                 shear_rate: ShearRate::Paper,
                 cure: None,
+                water: None,
                 cavitation_pressure: None,
             },
             wall: WallLaw::PartialSlip {
@@ -238,6 +246,7 @@ mod tests {
             area: 1.0,
             rest: solids(domain, vec![]),
             sealed: 0,
+            surface: None,
         };
         let scales = setup.scales(0.25);
         // rho h^2/(eta dt), eta/(K dt), rho h^2 g/eta and the length in cells.

@@ -73,6 +73,13 @@ impl Implicit {
             .workspace
             .clock
             .time(Part::Assembly, || Operator::new(lattice, &volumes, scales));
+        let mut lost = Vec::new();
+        if let Some(exchange) = &trial.exchange {
+            operator.thicken(&exchange.factor);
+            let scale = self.setup.units.h / trial.dt;
+            lost = exchange.lost(&lattice.window, &operator.dofs.cells);
+            lost.iter_mut().for_each(|lost| *lost *= scale);
+        }
         let start = self.carried(&operator);
         let mut now = Unknowns {
             u: start.u.clone(),
@@ -84,6 +91,7 @@ impl Implicit {
             velocity: &start.u,
             pressure: &start.p,
             stiffness: &stiffness,
+            lost: &lost,
         };
         let ((system, forces, power), viscous) = if self.setup.present.table {
             self.solve_passes(&mut operator, before, &mut now)?

@@ -3,6 +3,7 @@
 use super::{Drive, LastFlow};
 use crate::liquid::Particles;
 use crate::transport::Flow;
+use crate::water::Account;
 
 /// What the next step goes on from.
 pub(super) struct State {
@@ -23,6 +24,8 @@ pub(super) struct State {
     /// Where the viscosity depends on the shear rate: what the next step takes rates from.
     pub(super) last: Option<LastFlow>,
     pub(super) counts: Counts,
+    /// Of a liquid that loses water.
+    pub(super) water: Option<Account>,
 }
 
 /// What the shear rates of the particles follow from.
@@ -50,7 +53,12 @@ pub(super) struct Counts {
 
 impl State {
     /// The state at the start, with the fastest motion known (m/s).
-    pub(super) fn new(particles: Particles, drive: Drive, pace: f64) -> Self {
+    pub(super) fn new(
+        particles: Particles,
+        drive: Drive,
+        pace: f64,
+        water: Option<Account>,
+    ) -> Self {
         Self {
             particles,
             displacement: vec![[0.0; 3]; drive.motions().len()],
@@ -63,6 +71,7 @@ impl State {
             rates: Rates::Zero,
             last: None,
             counts: Counts::default(),
+            water,
         }
     }
 }

@@ -28,6 +28,8 @@ pub(crate) struct System {
     momentum: Vec<f64>,
     /// Volume that compression carries over from the step before.
     carried: Vec<f64>,
+    /// Volume that is lost into walls; empty where none is.
+    lost: Vec<f64>,
     bodies: Vec<[f64; 3]>,
     b: Vec<f64>,
     source: Vec<f64>,
@@ -57,7 +59,10 @@ impl System {
             .collect();
         self.source = (0..self.carried.len())
             .into_par_iter()
-            .map(|cell| couplings.displaced(cell, bodies))
+            .map(|cell| {
+                let lost = self.lost.get(cell).copied().unwrap_or_default();
+                couplings.displaced(cell, bodies) - lost
+            })
             .collect();
     }
 
@@ -108,6 +113,8 @@ pub(crate) struct Before<'a> {
     pub(crate) pressure: &'a [f64],
     /// Resistance of the liquid at that pressure to a change of its present volume, over K.
     pub(crate) stiffness: &'a [f64],
+    /// Volume that each pressure unknown loses in a time, cells^2 m/s; empty where none is lost.
+    pub(crate) lost: &'a [f64],
 }
 
 impl Operator<'_> {
@@ -147,6 +154,7 @@ impl Operator<'_> {
             carried: (c.iter().zip(before.pressure))
                 .map(|(c, p)| c * p)
                 .collect(),
+            lost: before.lost.to_vec(),
             a,
             mass,
             face_volume,

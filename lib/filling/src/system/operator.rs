@@ -17,6 +17,8 @@ pub(crate) struct Operator<'a> {
     /// The same around the edges in each plane, by a law of their own rates; empty where it is the mean of
     /// the cells there.
     pub(super) edge_viscosity: [Vec<f32>; 3],
+    /// What else multiplies the viscosity of each cell, at any shear rate; empty where nothing does.
+    pub(super) factor: &'a [f32],
     /// Unknowns.
     pub(crate) dofs: Dofs,
     /// Walls at the face unknowns.
@@ -35,6 +37,7 @@ impl<'a> Operator<'a> {
             volumes,
             viscosity: Vec::new(),
             edge_viscosity: Default::default(),
+            factor: &[],
             dofs,
             walls,
             scales,
@@ -43,18 +46,43 @@ impl<'a> Operator<'a> {
 
     #[inline]
     pub(super) fn eta(&self, cell: usize) -> f64 {
-        self.viscosity.get(cell).map_or(1.0, |&eta| f64::from(eta))
+        let law = self.viscosity.get(cell).map_or(1.0, |&eta| f64::from(eta));
+        law * self.factor(cell)
+    }
+
+    /// What multiplies the viscosity by the law of the shear rate in a cell.
+    #[inline]
+    pub(super) fn factor(&self, cell: usize) -> f64 {
+        (self.factor.get(cell)).map_or(1.0, |&factor| f64::from(factor))
+    }
+
+    /// The same around a place, by the liquid in the cells that meet there.
+    #[inline]
+    pub(super) fn mean_factor<const N: usize>(&self, cells: [usize; N]) -> f64 {
+        match self.factor.is_empty() {
+            true => 1.0,
+            false => self.mean(cells, |cell| self.factor(cell)),
+        }
+    }
+
+    /// Puts a factor on the viscosity of each cell.
+    pub(crate) fn thicken(&mut self, factor: &'a [f32]) {
+        self.factor = factor;
     }
 
     /// Viscosity around a place, by the liquid in the cells that meet there.
     pub(super) fn mean_viscosity<const N: usize>(&self, cells: [usize; N]) -> f64 {
-        if self.viscosity.is_empty() {
-            return 1.0;
+        match self.viscosity.is_empty() && self.factor.is_empty() {
+            true => 1.0,
+            false => self.mean(cells, |cell| self.eta(cell)),
         }
+    }
+
+    fn mean<const N: usize>(&self, cells: [usize; N], value: impl Fn(usize) -> f64) -> f64 {
         let (mut sum, mut volume) = (0.0, 0.0);
         for cell in cells {
             let v = f64::from(self.volumes.cell[cell]);
-            sum += v * self.eta(cell);
+            sum += v * value(cell);
             volume += v;
         }
         if volume > 0.0 { sum / volume } else { 1.0 }

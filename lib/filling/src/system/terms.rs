@@ -105,8 +105,13 @@ impl Operator<'_> {
                 }
             }
         }
-        for link in self.walls.of(face) {
-            let weight = f64::from(link.viscosity * link.area)
+        let links = self.walls.of(face);
+        let factor = match links.is_empty() {
+            true => 1.0,
+            false => self.mean_factor([index, index - window.stride(axis)]),
+        };
+        for link in links {
+            let weight = factor * f64::from(link.viscosity * link.area)
                 / (f64::from(link.distance) + self.scales.influence_length);
             let wall = Velocity::of_body(link.body, axis);
             each(&Term::pair(weight, wall, Velocity::Face(face as u32)));
@@ -142,7 +147,7 @@ impl Operator<'_> {
         let velocities = faces.map(|(axis, index)| self.velocity(axis, index));
         let [wet, open] = edge.volume;
         let eta = match self.edge_viscosity[3 - i - j].get(at) {
-            Some(&eta) => f64::from(eta),
+            Some(&eta) => f64::from(eta) * self.mean_factor([at, at - si, at - sj, at - si - sj]),
             None => self.mean_viscosity([at, at - si, at - sj, at - si - sj]),
         } * wet
             / open;

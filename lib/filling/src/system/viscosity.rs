@@ -63,7 +63,8 @@ impl Operator<'_> {
             let cell = cell as usize;
             let volume = f64::from(self.volumes.cell[cell]);
             let shear = 2.0 * f64::from(deviator[cell]).powi(2) * volume;
-            count(shear, self.eta(cell), viscosity[cell]);
+            let used = self.viscosity.get(cell).map_or(1.0, |&eta| f64::from(eta));
+            count(shear * self.factor(cell), used, viscosity[cell]);
         }
         let by_formula = matches!(law, Viscosity::Law(_));
         let mut used = std::mem::replace(&mut self.viscosity, viscosity);
@@ -162,6 +163,7 @@ mod tests {
                 viscosity: Viscosity::Newtonian(Newtonian(eta)),
                 shear_rate: ShearRate::Paper,
                 cure: None,
+                water: None,
                 cavitation_pressure: None,
             };
             operator.set_viscosity(&liquid, 2.0, 1.0, &field).change

@@ -25,6 +25,7 @@ pub fn scene(cell_m: f64, cells: [usize; 3]) -> Scene {
             viscosity: Viscosity::Newtonian(Newtonian(1.3)),
             shear_rate: ShearRate::Rheometer,
             cure: None,
+            water: None,
             cavitation_pressure: None,
         },
         points: Points::default(),

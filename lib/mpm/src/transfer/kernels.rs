@@ -259,6 +259,7 @@ mod tests {
             viscosity: physics::Viscosity::Newtonian(physics::Newtonian(1.3)),
             shear_rate: physics::ShearRate::Paper,
             cure: None,
+            water: None,
             cavitation_pressure: None,
         };
         let stress = Stress::new(&liquid, 2.9e-6, f64::INFINITY);

@@ -23,6 +23,7 @@ pub fn pf() -> Liquid {
         viscosity: Viscosity::Newtonian(Newtonian(VISCOSITY)),
         shear_rate: ShearRate::Paper,
         cure: None,
+        water: None,
         cavitation_pressure: None,
     }
 }

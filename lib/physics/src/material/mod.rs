@@ -4,11 +4,13 @@ mod cure;
 mod laws;
 mod tait;
 mod viscosity;
+mod water;
 
 pub use cure::{Course, Cure, CureLaw, SET};
 pub use laws::Law;
 pub use tait::{TAIT_C, Tait};
 pub use viscosity::{Newtonian, Rheology, ShearRate, Table, TableError, Viscosity};
+pub use water::{Water, WaterLaw};
 
 /// The liquid of a scene: a compressible (Tait) generalised Newtonian fluid.
 #[derive(Clone, Debug)]
@@ -21,6 +23,8 @@ pub struct Liquid {
     pub viscosity: Viscosity,
     /// Factor of that viscosity over time; `None`: always one.
     pub cure: Option<Cure>,
+    /// What it loses to the wood, and how thick that makes it; `None`: it loses nothing.
+    pub water: Option<Water>,
     /// How the rate in eta(rate) is defined.
     pub shear_rate: ShearRate,
     /// Largest tension the liquid carries, Pa (> 0); `None`: as much as Eq. 1 gives.

@@ -9,6 +9,7 @@ mod reference;
 mod rheology;
 mod schema;
 mod value;
+mod water;
 
 use std::path::Path;
 
@@ -20,6 +21,7 @@ pub use schema::{
     OutputTable, PidGains, SchemeName,
 };
 pub use value::{BodyVelocity, CellLength, Positive, StopRule};
+pub use water::WaterTable;
 
 /// Why a case cannot be run; one sentence with file, line and column where known.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

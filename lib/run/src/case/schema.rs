@@ -9,6 +9,7 @@ use super::cure::CureTable;
 use super::press::StageTable;
 use super::rheology::{CarreauYasuda, Cross, HerschelBulkley, PowerLaw};
 use super::value::{BodyVelocity, CellLength, Positive, StopRule, choice, some_choice};
+use super::water::WaterTable;
 
 /// A case file.
 #[derive(Clone, Debug, Deserialize)]
@@ -88,6 +89,8 @@ pub struct Adhesive {
     pub herschel_bulkley: Option<HerschelBulkley>,
     /// Change of the viscosity with time and temperature.
     pub cure: Option<CureTable>,
+    /// Loss of water into the cell walls.
+    pub water: Option<WaterTable>,
     /// Convention of the rate in eta(rate).
     #[serde(default, deserialize_with = "choice")]
     pub shear_rate: ShearRate,

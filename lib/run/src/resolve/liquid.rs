@@ -2,6 +2,7 @@
 
 use physics::{Course, Cure, CureLaw, Law, Liquid, Newtonian, Table, Tait, Viscosity};
 
+use super::water::water;
 use crate::case::{Adhesive, CaseError, CureTable};
 
 /// The liquid of `[adhesive]`.
@@ -16,6 +17,9 @@ pub(super) fn liquid(adhesive: &Adhesive) -> Result<Liquid, CaseError> {
         },
         viscosity: viscosity(adhesive)?,
         cure: adhesive.cure.as_ref().map(cure).transpose()?,
+        water: (adhesive.water.as_ref())
+            .map(|table| water(table, adhesive.density.si()))
+            .transpose()?,
         shear_rate: adhesive.shear_rate,
         cavitation_pressure: adhesive.cavitation_pressure.map(|p| p.si()),
     })

@@ -7,6 +7,7 @@ mod plausible;
 mod press;
 mod primitives;
 mod seed;
+mod water;
 
 use particle_file::limits;
 use physics::{
@@ -138,6 +139,9 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
         bottom: geometry.bottom,
         top: geometry.top,
     };
+    if let Some(water) = &scene.liquid.water {
+        water::check(water, &scene.bodies)?;
+    }
     let liquid = geometry.seeds.amount().map_err(CaseError)?;
     plausible::check(&scene, &liquid)?;
     let initial_gap_m = scene.clamp.and(geometry.travel_m);

@@ -52,7 +52,8 @@ pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Resu
     }
     // Points differ in volume by the rounding of their lattices alone.
     let part = 1.0 - lost as f64 / setup.liquid.points as f64;
-    let change = diagnostics.volume / (part * setup.liquid.volume_m3) - 1.0;
+    let given_off = diagnostics.water.map_or(0.0, |water| water.given_off_m3);
+    let change = diagnostics.volume / (part * setup.liquid.volume_m3 - given_off) - 1.0;
     let scene = &setup.scene;
     let most = compressed(scene);
     let pressure = scene.liquid.tait.pressure(change);

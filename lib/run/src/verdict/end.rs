@@ -1,6 +1,6 @@
 //! The judgement of a run's last state.
 
-use physics::{LiquidState, Scene};
+use physics::{LiquidState, Scene, WaterState};
 
 use super::{Verdict, faster_than_sound};
 use crate::invariants::Invariants;
@@ -14,9 +14,17 @@ const ROUNDING: f64 = 1e-3;
 const MOST_IN_WOOD: f64 = 0.01;
 /// Volume change that the pressures of the points may leave unexplained.
 const MOST_UNEXPLAINED: f64 = 1e-3;
+/// Part of the water that the account of it may miss.
+const MOST_WATER_MISSING: f64 = 1e-9;
 
 /// Judges the last state of a run in which `lost` points left the domain.
-pub(crate) fn judge(setup: &Setup, liquid: &LiquidState, found: &Invariants, lost: u64) -> Verdict {
+pub(crate) fn judge(
+    setup: &Setup,
+    liquid: &LiquidState,
+    found: &Invariants,
+    water: Option<WaterState>,
+    lost: u64,
+) -> Verdict {
     let mut reasons = Vec::new();
     if let Some(name) = not_finite(liquid) {
         reasons.push(format!("a {name} of the liquid is not a finite number"));
@@ -48,7 +56,16 @@ pub(crate) fn judge(setup: &Setup, liquid: &LiquidState, found: &Invariants, los
         ));
     }
     let cavities = setup.scene.liquid.cavitation_pressure.is_some();
-    let unexplained = unexplained(&setup.scene, liquid, setup.liquid.volume_m3);
+    let given_off = water.map_or(0.0, |water| water.given_off_m3);
+    let unexplained = unexplained(&setup.scene, liquid, setup.liquid.volume_m3 - given_off);
+    if let Some(missing) = water
+        .map(|water| water.missing)
+        .filter(|m| !(m.abs() <= MOST_WATER_MISSING))
+    {
+        reasons.push(format!(
+            "{missing:.1e} of the water is neither in the liquid nor in the walls"
+        ));
+    }
     let off = if cavities {
         -unexplained
     } else {
@@ -87,7 +104,7 @@ fn not_finite(liquid: &LiquidState) -> Option<&'static str> {
     .map(|(name, _)| *name)
 }
 
-/// Volume that the points would have without their pressures over `initial` (m3), minus one.
+/// Volume that the points would have without their pressures over what it should be, `initial` (m3), minus one.
 fn unexplained(scene: &Scene, liquid: &LiquidState, initial: f64) -> f64 {
     let at_rest = |(&volume, &pressure): (&f32, &f32)| {
         f64::from(volume) / (1.0 + scene.liquid.tait.volume_change(f64::from(pressure)))
@@ -118,6 +135,7 @@ mod tests {
             volume: points.volume.iter().map(|&v| v as f32).collect(),
             pressure: vec![0.0; n],
             shear_rate: vec![0.0; n],
+            solids: Vec::new(),
         }
     }
 
@@ -125,7 +143,7 @@ mod tests {
         let shifts = vec![[0.0; 3]; setup.scene.bodies.len()];
         let volume = setup.liquid.volume_m3;
         let found = crate::invariants::check(&setup.scene, volume, liquid, &shifts);
-        judge(setup, liquid, &found, lost).reasons
+        judge(setup, liquid, &found, None, lost).reasons
     }
 
     #[test]

@@ -84,6 +84,7 @@ fn scene() -> Scene {
             viscosity: Viscosity::Newtonian(Newtonian(PF[2])),
             shear_rate: ShearRate::Paper,
             cure: None,
+            water: None,
             cavitation_pressure: None,
         },
         points,

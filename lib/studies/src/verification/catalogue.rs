@@ -4,7 +4,7 @@ use super::lumen::Section;
 use super::piston::Drive;
 use super::{
     Scene, acoustic, channel, clamp, column, couette, cure, disc, drop, duct, galilean, incline,
-    laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green, washburn,
+    laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green, washburn, water,
 };
 use crate::case_text::PF;
 use crate::method::Method;
@@ -186,6 +186,10 @@ fn filling() -> Vec<Entry> {
             list.push((cure::slit_scene(n, growth), implicit()));
             list.push((cure::tube_scene(n, growth), implicit()));
         }
+    }
+    for n in [3, 6] {
+        list.push((water::slit_scene(n), implicit()));
+        list.push((water::tube_scene(n), implicit()));
     }
     list
 }

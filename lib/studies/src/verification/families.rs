@@ -47,6 +47,10 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
         "Filling at constant pressure with an adhesive that cures\n\nGel-time law (1 - t/t_gel)^-2, and a viscosity that grows 1e6-fold exponentially: filled length L against L (L + 2 e) = (r^2/4) integral of P/eta dt in a tube ((H^2/6) in a slit), e the equivalent length of entrance and front as for washburn. The run ends by itself where the viscosity is 1e6 times that at the start.",
     ),
     (
+        "water",
+        "Filling at constant pressure with loss of water\n\nThe lumen's walls take water at a constant rate per area; the viscosity grows 1e4-fold from 45 to 75 % solids: filled length L against Darcy's law and the balance of solids and water along the lumen, well mixed over its section (lib/studies/src/verification/water_front.rs), as far as 40 times the time in which sqrt 2 widths are filled without loss of water. Mass of water: what is neither in the points nor in the walls at the end, over all of it.",
+    ),
+    (
         "spheres",
         "A simple cubic array of spheres\n\nFlow through spheres made of voxels of half a cell, n cells a period, five volume fractions (particle file beside the case file; a quarter of the period, mirrored): permeability against the drag of smooth spheres (Sangani & Acrivos 1982; Zick & Homsy 1982, Table 2) and against the same voxels by lattice Boltzmann, refined (lib/studies/reference/spheres.csv). The staircase lets 5 to 23 % less through than the smooth sphere, and coarse walls make up for a part of that. The explicit scheme's liquid leaves walls behind which there is no pressure; with 24 cells it takes minutes and is left out.",
     ),

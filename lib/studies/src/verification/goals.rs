@@ -154,6 +154,20 @@ pub const GOALS: &[Goal] = &[
         0.03,
     ),
     goal(
+        "filling with loss of water, slit and tube, 6 cells",
+        &["water-slit-n6", "water-tube-n6"],
+        "implicit",
+        "L",
+        0.03,
+    ),
+    goal(
+        "mass of water",
+        &["water"],
+        "implicit",
+        "mass of water",
+        1e-9,
+    ),
+    goal(
         "end of a flow that sets",
         &["cure"],
         "implicit",

@@ -27,6 +27,8 @@ pub mod stefan;
 pub mod tait;
 pub mod taylor_green;
 pub mod washburn;
+pub mod water;
+mod water_front;
 
 use crate::case_text::CaseText;
 use crate::job::{Job, run_all};

@@ -2,6 +2,7 @@
 
 mod placed;
 mod rows;
+mod surface;
 mod sweep;
 
 use std::sync::Arc;
@@ -11,6 +12,7 @@ use physics::{Boundary, RigidBody};
 use crate::geometry::Domain;
 use placed::{Placed, Row};
 use rows::Rows;
+pub(crate) use surface::Surface;
 
 /// Index of a body in the scene, or [`SIDE`] or [`OPEN`].
 pub(crate) type BodyId = u8;

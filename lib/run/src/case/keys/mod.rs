@@ -8,6 +8,7 @@ mod probe;
 mod process;
 mod scene;
 mod scheme;
+mod water;
 
 use physics::Choice;
 use units::Dimension;
@@ -62,6 +63,7 @@ pub(crate) const TABLES: &[Table] = &[
     liquid::CARREAU_YASUDA,
     liquid::HERSCHEL_BULKLEY,
     liquid::CURE,
+    water::WATER,
     process::CONTACT,
     process::CLAMP,
     press::STAGE,

@@ -1,0 +1,165 @@
+//! What a step does about the loss of water: before the solve what the walls take, after it what the points
+//! hold.
+
+use physics::{Array, SET, Saved, WaterState};
+
+use super::length::Fit;
+use super::{Implicit, Part, Trial};
+use crate::water::{Exchange, Medium, give_off};
+
+/// Change of ln(viscosity), where the liquid dries, that a step aims at; its viscosity is that of its
+/// middle.
+pub(crate) const DRIED: f64 = 0.2;
+/// The same from which a step is taken again, shorter.
+const MOST_DRIED: f64 = 0.3;
+/// Names of the arrays that hold what the points are made of and the account.
+const PARTS: &str = "solids_and_water";
+const ACCOUNT: &str = "water";
+/// Part of a ratio that rounding may move.
+const ROUNDING: f64 = 1e-6;
+
+impl Implicit {
+    /// Ends stage 3: what the walls take in the step, and where the water goes that is left.
+    pub(super) fn dry(&mut self, trial: &mut Trial) -> Fit {
+        let (Some(water), Some(surface)) = (&self.setup.liquid.water, &self.setup.surface) else {
+            return Fit::Good;
+        };
+        let h = self.setup.units.h;
+        let medium = Medium {
+            water,
+            diffusion: trial.dt * water.diffusivity() / (h * h),
+            uptake: trial.dt * water.uptake() / h,
+        };
+        let (lattice, particles) = (&trial.lattice, &self.state.particles);
+        let (phi, bins) = (&self.workspace.fractions.liquid, &self.workspace.bins);
+        let exchange = self.workspace.clock.time(Part::Water, || {
+            let wetted = surface.wetted(&lattice.solids, &lattice.window, &lattice.open, phi);
+            Exchange::new(&medium, lattice, phi, particles, bins, &wetted)
+        });
+        let change = exchange.change;
+        trial.exchange = Some(exchange);
+        match change > MOST_DRIED {
+            true => Fit::Dried(DRIED / change),
+            false => Fit::Good,
+        }
+    }
+
+    /// For how long the loss of water leaves the viscosity as it is, s.
+    pub(super) fn moist(&self) -> f64 {
+        let pace = self.state.water.map_or(0.0, |account| account.pace);
+        DRIED / pace
+    }
+
+    /// The points give off, or take up, what the step moved.
+    pub(super) fn give_off(&mut self, trial: &Trial, dt: f64) {
+        let Some(exchange) = &trial.exchange else {
+            return;
+        };
+        let (Some(water), Some(account)) = (&self.setup.liquid.water, &mut self.state.water) else {
+            return;
+        };
+        give_off(
+            &mut self.state.particles,
+            &self.workspace.bins,
+            exchange,
+            water,
+        );
+        account.in_walls += exchange.taken;
+        account.pace = exchange.change / dt;
+        account.fluidity = exchange.fluidity;
+    }
+
+    /// What of the water in the points, `before` (cells), has left the domain with them.
+    pub(super) fn let_go(&mut self, before: f64) {
+        let held = self.state.particles.water();
+        if let Some(account) = &mut self.state.water {
+            account.left += before - held;
+        }
+    }
+
+    /// Whether the liquid is as thick by its loss of water, with cure, as one that has set.
+    pub(super) fn has_dried(&self) -> bool {
+        let cure = self.setup.liquid.cure.as_ref();
+        let cured = cure.map_or(1.0, |cure| cure.factor(self.state.time) / cure.factor(0.0));
+        (self.state.water).is_some_and(|account| account.fluidity / cured <= 1.0 / SET)
+    }
+
+    /// Where the water is.
+    pub(super) fn water_state(&self) -> Option<WaterState> {
+        let (water, account) = (self.setup.liquid.water.as_ref()?, self.state.water?);
+        let parts = &self.state.particles.parts;
+        let (solids, held) =
+            (parts.iter()).fold((0.0, 0.0), |(s, w), part| (s + part[0], w + part[1]));
+        let volume = self.setup.units.volume();
+        Some(WaterState {
+            given_off_m3: (solids * water.start() - held) * volume,
+            in_walls_m3: account.in_walls * volume,
+            missing: account.missing(held),
+            solids: water.solids(held / solids),
+        })
+    }
+}
+
+impl Implicit {
+    /// Solids content by mass of these particles; nothing where no water is lost.
+    pub(super) fn solids(&self, order: &[u32]) -> Vec<f32> {
+        let Some(water) = &self.setup.liquid.water else {
+            return Vec::new();
+        };
+        let parts = order
+            .iter()
+            .map(|&p| self.state.particles.parts[p as usize]);
+        parts
+            .map(|[solids, held]| water.solids(held / solids) as f32)
+            .collect()
+    }
+
+    /// The arrays of a checkpoint.
+    pub(super) fn save_water(&self) -> Vec<(String, Array)> {
+        let Some(account) = &self.state.water else {
+            return Vec::new();
+        };
+        let parts = self.state.particles.parts.as_flattened().to_vec();
+        vec![
+            (PARTS.into(), Array::F64(parts)),
+            (ACCOUNT.into(), Array::F64(account.save())),
+        ]
+    }
+
+    /// Takes over the arrays of a checkpoint whose points have these volumes.
+    ///
+    /// # Errors
+    /// What no run of this scene saves.
+    pub(super) fn restore_water(&mut self, saved: &Saved, volume: &[f32]) -> Result<(), String> {
+        let (Some(water), Some(account)) = (&self.setup.liquid.water, &self.state.water) else {
+            return Ok(());
+        };
+        let (parts, rest) = saved.f64s(PARTS)?.as_chunks::<2>();
+        let account = account.restore(saved.f64s(ACCOUNT)?)?;
+        let [least, start] = [
+            water.least() * (1.0 - ROUNDING),
+            water.start() * (1.0 + ROUNDING),
+        ];
+        let sound = |(&[solids, held], &volume): (&[f64; 2], &f32)| {
+            solids > 0.0
+                && (least..=start).contains(&(held / solids))
+                && (solids + held) as f32 == volume
+        };
+        if parts.len() != volume.len() || !rest.is_empty() || !parts.iter().zip(volume).all(sound) {
+            return Err(
+                "the solids and the water of the checkpoint's points are not those of their volumes"
+                    .into(),
+            );
+        }
+        let held = parts.iter().map(|part| part[1]).sum();
+        if account.missing(held).abs() > ROUNDING {
+            return Err(
+                "the checkpoint's points, walls and account do not hold the water of the start"
+                    .into(),
+            );
+        }
+        self.state.particles.parts = parts.to_vec();
+        self.state.water = Some(account);
+        Ok(())
+    }
+}

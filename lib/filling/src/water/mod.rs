@@ -1,0 +1,80 @@
+//! Water that goes from the liquid into the walls: what a step moves between cells and into walls, and
+//! the account of it.
+
+mod exchange;
+mod points;
+
+pub(crate) use exchange::{Exchange, Medium};
+pub(crate) use points::{fill, give_off};
+
+/// Where the water is that the points do not hold, and what the next step goes by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Account {
+    /// Water in the points at the start, cells.
+    pub(crate) start: f64,
+    /// Water in the walls, cells.
+    pub(crate) in_walls: f64,
+    /// Water that left the domain with its points, cells.
+    pub(crate) left: f64,
+    /// Change of ln(viscosity) per time where the liquid dries, 1/s.
+    pub(crate) pace: f64,
+    /// Mean of 1/factor of the viscosity over the liquid.
+    pub(crate) fluidity: f64,
+}
+
+impl Account {
+    /// That of liquid with so much water in it, cells.
+    pub(crate) fn new(start: f64) -> Self {
+        Self {
+            start,
+            in_walls: 0.0,
+            left: 0.0,
+            pace: 0.0,
+            fluidity: 1.0,
+        }
+    }
+
+    /// Water found nowhere, over that at the start, with so much in the points (cells).
+    pub(crate) fn missing(&self, in_points: f64) -> f64 {
+        (self.start - in_points - self.in_walls - self.left) / self.start
+    }
+
+    /// As an array of a checkpoint.
+    pub(crate) fn save(&self) -> Vec<f64> {
+        vec![
+            self.start,
+            self.in_walls,
+            self.left,
+            self.pace,
+            self.fluidity,
+        ]
+    }
+
+    /// From an array of a checkpoint, of a liquid that has as much water at the start as this one.
+    ///
+    /// # Errors
+    /// Numbers that no run saves.
+    pub(crate) fn restore(&self, saved: &[f64]) -> Result<Self, String> {
+        let &[start, in_walls, left, pace, fluidity] = saved else {
+            return Err("the checkpoint's account of water is not one".into());
+        };
+        let sound = start == self.start
+            && [in_walls, left, pace]
+                .iter()
+                .all(|x| (0.0..=f64::MAX).contains(x))
+            && fluidity > 0.0
+            && fluidity <= 1.0;
+        match sound {
+            true => Ok(Self {
+                start,
+                in_walls,
+                left,
+                pace,
+                fluidity,
+            }),
+            false => Err(format!(
+                "the checkpoint's account of water is none of this run: {saved:?}"
+            )),
+        }
+    }
+}

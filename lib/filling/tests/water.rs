@@ -1,0 +1,147 @@
+//! Loss of water from a column in a slit: nothing of it is lost, and a saved run goes on bit by bit.
+
+#[path = "common/plain.rs"]
+mod plain;
+
+use filling::{Implicit, Settings};
+use physics::{Array, Clamp, Motion, Saved, Scene, Scheme, StepLimit, VoxelBlock, Water, WaterLaw};
+
+/// Width of the slit, m, and cells across it.
+const H: f64 = 17.4e-6;
+const CELLS: usize = 6;
+
+/// A column three widths long above a lumen of two whose walls take water; a clamp presses on it.
+fn scene(law: impl Fn(&mut WaterLaw)) -> Scene {
+    let cell = H / CELLS as f64;
+    let (low, high) = (2.0 * cell, 2.0 * cell + H);
+    let (mouth, piston) = (2.0 * H, 5.0 * H);
+    let top = piston + 3.0 * cell;
+    let mut scene = plain::scene(cell, [CELLS + 4, 5 * CELLS + 3, 1]);
+    let bars = |from: f64, to: f64| {
+        [[0.0, low], [high, high + 2.0 * cell]]
+            .map(|[a, b]| VoxelBlock::solid_box([a, from, 0.0], [b, to, cell]))
+            .to_vec()
+    };
+    let plunger = VoxelBlock::solid_box([low, piston, 0.0], [high, top + 3.0 * H, cell]);
+    scene.bodies = vec![
+        plain::body("lumen", bars(0.0, mouth), Motion::Fixed),
+        plain::body("press", bars(mouth, top), Motion::Fixed),
+        plain::body("piston", vec![plunger], Motion::Clamped),
+    ];
+    let half = 0.5 * cell;
+    let points = [2 * CELLS, 6 * CELLS, 2];
+    scene.points = plain::fill([low, mouth, 0.0], [half; 3], points);
+    scene.clamp = Some(Clamp {
+        closing_speed: 0.02,
+        max_pressure: Some(1e5 * H / scene.grid.max_m()[0]),
+        pid: None,
+    });
+    (scene.bottom, scene.top) = (Some(1), Some(2));
+    let mut water = WaterLaw {
+        uptake: 1e-3,
+        solids: 0.45,
+        limit: Some(0.6),
+        diffusivity: 1e-7,
+        factor: vec![(0.45, 1.0), (0.7, 1e4)],
+        walls: vec!["lumen".into()],
+    };
+    law(&mut water);
+    scene.liquid.water = Some(Water::new(water, scene.liquid.density).unwrap());
+    scene
+}
+
+fn begun(law: impl Fn(&mut WaterLaw)) -> Implicit {
+    Implicit::new(scene(law), Settings::default()).unwrap()
+}
+
+fn step(scheme: &mut Implicit) -> f64 {
+    let limit = StepLimit {
+        time_s: 10e-3,
+        travel_m: f64::INFINITY,
+    };
+    scheme.advance(limit).unwrap().dt_s
+}
+
+#[test]
+fn a_slit_that_dries_keeps_its_water() {
+    let mut scheme = begun(|_| ());
+    let start = scheme.diagnostics().volume;
+    let (mut solids, mut time, mut steps) = (0.45, 0.0, 0);
+    while time < 30e-3 {
+        time += step(&mut scheme);
+        steps += 1;
+        let found = scheme.diagnostics();
+        let water = found.water.unwrap();
+        assert!(water.missing.abs() < 1e-12, "{}", water.missing);
+        assert!(water.solids >= solids, "{} {solids}", water.solids);
+        solids = water.solids;
+        // What the points lose is in the walls, and missing from the liquid.
+        let apart = (water.given_off_m3 - water.in_walls_m3).abs() / start;
+        assert!(apart < 1e-12, "{apart}");
+        let change = (found.volume + water.given_off_m3) / start - 1.0;
+        assert!(change.abs() < 1e-3, "{change}");
+    }
+    println!("solids content {solids:.3} after {steps} steps");
+    assert!(solids > 0.48 && steps < 200, "{solids} {steps}");
+    let wettest = scheme.liquid().solids.into_iter().fold(0.0, f32::max);
+    assert!(wettest < 0.6 + 1e-4, "beyond the limit: {wettest}");
+}
+
+/// The walls of `press`, which no liquid leaves, take more when they are named too.
+#[test]
+fn only_the_walls_named_take_water() {
+    let taken = |names: &'static [&str]| {
+        let mut scheme = begun(|law| law.walls = names.iter().map(|n| (*n).into()).collect());
+        step(&mut scheme);
+        scheme.diagnostics().water.unwrap().in_walls_m3
+    };
+    let (lumen, all) = (taken(&["lumen"]), taken(&[]));
+    assert_eq!(all, taken(&["lumen", "press", "piston"]));
+    assert!(all > 2.0 * lumen, "{all} {lumen}");
+}
+
+#[test]
+fn a_saved_run_goes_on_bit_by_bit() {
+    let mut whole = begun(|_| ());
+    for _ in 0..6 {
+        step(&mut whole);
+    }
+    let saved = whole.save();
+    let mut other = begun(|_| ());
+    other.restore(&saved).unwrap();
+    for _ in 0..3 {
+        assert_eq!(step(&mut whole), step(&mut other));
+    }
+    assert!(whole.save() == other.save());
+}
+
+#[test]
+fn a_checkpoint_holds_the_water_of_the_start() {
+    let mut scheme = begun(|_| ());
+    for _ in 0..4 {
+        step(&mut scheme);
+    }
+    let refused = |name: &str, at: usize, factor: f64| {
+        let Saved(mut arrays) = scheme.save();
+        let array = arrays.iter_mut().find(|(own, _)| own == name);
+        match array.map(|(_, array)| array) {
+            Some(Array::F64(values)) => values[at] *= factor,
+            Some(Array::F32(values)) => values[at] *= factor as f32,
+            _ => panic!("no array {name}"),
+        }
+        begun(|_| ()).restore(&Saved(arrays)).unwrap_err()
+    };
+    for (name, at, factor) in [
+        ("solids_and_water", 0, 1.01),
+        ("solids_and_water", 1, 1.01),
+        ("solids_and_water", 1, f64::NAN),
+        ("volume", 0, 0.9),
+        ("water", 0, 1.01),
+        ("water", 1, 1.01),
+        ("water", 1, -1.0),
+        ("water", 4, 0.0),
+    ] {
+        let said = refused(name, at, factor);
+        assert!(said.contains("water"), "{name} {at} {factor}: {said}");
+    }
+}

@@ -1,0 +1,196 @@
+//! Loss of water into the cell walls of wood: how fast, how far, and what it does to the viscosity.
+
+/// Density of water, kg/m3.
+const WATER: f64 = 1000.0;
+/// Part of a solids content by which two that should agree may differ.
+const ROUNDING: f64 = 1e-9;
+
+/// What a case says of the loss of water.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WaterLaw {
+    /// Volume of water that wood takes per wetted area and time, m/s.
+    pub uptake: f64,
+    /// Solids content of the liquid at the start, by mass.
+    pub solids: f64,
+    /// Solids content from which wood takes no more; that of the last point of `factor` where it is not given.
+    pub limit: Option<f64>,
+    /// Diffusivity of water in the liquid, m2/s.
+    pub diffusivity: f64,
+    /// Points (solids content, factor of the viscosity): ln(factor) is linear between them.
+    pub factor: Vec<(f64, f64)>,
+    /// Names of the bodies that take water; none: all.
+    pub walls: Vec<String>,
+}
+
+/// A liquid that loses water, resolved from a [`WaterLaw`]. Its state is the ratio of the volumes of
+/// water and solids, in which volumes are additive: what leaves is missing from the liquid's volume.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Water {
+    law: WaterLaw,
+    limit: f64,
+    /// Density of the solids, kg/m3.
+    solid: f64,
+}
+
+impl Water {
+    /// Resolves `law` for a liquid of `density` (kg/m3) at the start.
+    ///
+    /// # Errors
+    /// One sentence on what of the law is out of range.
+    pub fn new(law: WaterLaw, density: f64) -> Result<Self, String> {
+        let (Some(&first), Some(&last)) = (law.factor.first(), law.factor.last()) else {
+            return Err("viscosity_by_solids needs two rows or more".into());
+        };
+        if !(law.solids > 0.0 && law.solids < 1.0) {
+            return Err(format!(
+                "solids = {} is not accepted: a part of the mass between 0 and 1 is needed",
+                law.solids
+            ));
+        }
+        if law.factor.len() < 2 || (first.0 - law.solids).abs() > ROUNDING || first.1 != 1.0 {
+            return Err(format!(
+                "viscosity_by_solids needs two rows or more, the first of them [{}, 1.0]: the solids content at the start, at which the viscosity is that of [adhesive]",
+                law.solids
+            ));
+        }
+        let rises = |pair: &[(f64, f64)]| pair[0].0 < pair[1].0 && pair[0].1 <= pair[1].1;
+        if !law.factor.windows(2).all(rises) || !(last.0 < 1.0 && last.1.is_finite()) {
+            return Err(
+                "viscosity_by_solids: solids contents must increase and stay below 1, factors must not fall"
+                    .into(),
+            );
+        }
+        let limit = law.limit.unwrap_or(last.0);
+        if !(limit > law.solids && limit <= last.0 * (1.0 + ROUNDING)) {
+            return Err(format!(
+                "limit = {limit} is not accepted: it must lie above solids ({}) and not beyond the last row of viscosity_by_solids ({}), where no viscosity is known",
+                law.solids, last.0
+            ));
+        }
+        let water = (1.0 - law.solids) * density / WATER;
+        if water >= 1.0 {
+            return Err(format!(
+                "solids = {} at a density of {density} kg/m3 leaves no room for the solids: of a litre, {water:.3} l would be water",
+                law.solids
+            ));
+        }
+        let solid = law.solids * density / (1.0 - water);
+        Ok(Self { law, limit, solid })
+    }
+
+    /// Volume of water over that of the solids at the start.
+    pub fn start(&self) -> f64 {
+        self.ratio(self.law.solids)
+    }
+
+    /// The same where wood takes no more.
+    pub fn least(&self) -> f64 {
+        self.ratio(self.limit)
+    }
+
+    /// Volume of water over that of the solids at a solids content by mass.
+    pub fn ratio(&self, solids: f64) -> f64 {
+        (1.0 / solids - 1.0) * self.solid / WATER
+    }
+
+    /// Solids content by mass at a volume of water over that of the solids.
+    pub fn solids(&self, ratio: f64) -> f64 {
+        self.solid / (self.solid + WATER * ratio)
+    }
+
+    /// What multiplies the viscosity at a volume of water over that of the solids; that of the nearer end
+    /// outside the table.
+    pub fn factor(&self, ratio: f64) -> f64 {
+        let (points, solids) = (&self.law.factor, self.solids(ratio));
+        let right = points.partition_point(|p| p.0 <= solids);
+        match (
+            right.checked_sub(1).map(|left| points[left]),
+            points.get(right),
+        ) {
+            (Some((a, fa)), Some(&(b, fb))) => fa * (fb / fa).powf((solids - a) / (b - a)),
+            (Some((_, f)), None) | (None, Some(&(_, f))) => f,
+            (None, None) => 1.0,
+        }
+    }
+
+    /// Volume of water that wood takes per wetted area and time, m/s.
+    pub fn uptake(&self) -> f64 {
+        self.law.uptake
+    }
+
+    /// Diffusivity of water in the liquid, m2/s.
+    pub fn diffusivity(&self) -> f64 {
+        self.law.diffusivity
+    }
+
+    /// Whether the body of this name takes water.
+    pub fn enters(&self, body: &str) -> bool {
+        self.law.walls.is_empty() || self.law.walls.iter().any(|name| name == body)
+    }
+
+    /// The first name in `walls` that no body has, of those of these names.
+    pub fn stray<'a>(&'a self, bodies: &[&str]) -> Option<&'a str> {
+        let names = self.law.walls.iter().map(String::as_str);
+        names.into_iter().find(|name| !bodies.contains(name))
+    }
+
+    /// Mass (kg) of a volume of water, m3.
+    pub fn mass(volume: f64) -> f64 {
+        WATER * volume
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn law() -> WaterLaw {
+        WaterLaw {
+            uptake: 1e-6,
+            solids: 0.4,
+            limit: None,
+            diffusivity: 1e-10,
+            factor: vec![(0.4, 1.0), (0.5, 10.0), (0.8, 1000.0)],
+            walls: Vec::new(),
+        }
+    }
+
+    /// 1 kg of 1250 kg/m3: 0.8 l, of which 0.6 l are water; 0.4 kg of solids fill 0.2 l.
+    #[test]
+    fn volumes_of_water_and_solids_add_up() {
+        let water = Water::new(law(), 1250.0).unwrap();
+        assert!((water.start() - 3.0).abs() < 1e-12);
+        // 0.1 kg of water to 0.4 kg of solids.
+        assert!((water.least() - 0.5).abs() < 1e-12);
+        for solids in [0.4, 0.55, 0.8] {
+            assert!((water.solids(water.ratio(solids)) - solids).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_table_is_linear_in_the_logarithm_of_its_factors() {
+        let water = Water::new(law(), 1250.0).unwrap();
+        let at = |solids: f64| water.factor(water.ratio(solids));
+        for (solids, exact) in [(0.4, 1.0), (0.45, 10_f64.sqrt()), (0.65, 100.0), (0.8, 1e3)] {
+            assert!((at(solids) / exact - 1.0).abs() < 1e-9, "{solids}");
+        }
+        assert!((at(0.3) - 1.0).abs() < 1e-12 && (at(0.9) / 1e3 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_no_loss_of_water_is_refused_in_a_sentence() {
+        let said = |change: &dyn Fn(&mut WaterLaw), density| {
+            let mut law = law();
+            change(&mut law);
+            Water::new(law, density).unwrap_err()
+        };
+        assert!(said(&|l| l.solids = 1.2, 1250.0).contains("between 0 and 1"));
+        assert!(said(&|l| l.solids = 0.41, 1250.0).contains("[0.41, 1.0]"));
+        assert!(said(&|l| l.factor[1].1 = 0.5, 1250.0).contains("must not fall"));
+        assert!(said(&|l| l.factor[2].0 = 0.45, 1250.0).contains("must increase"));
+        assert!(said(&|l| l.limit = Some(0.9), 1250.0).contains("beyond the last row"));
+        assert!(said(&|l| l.limit = Some(0.4), 1250.0).contains("above solids"));
+        assert!(said(&|_| (), 1700.0).contains("no room for the solids"));
+        assert!(said(&|l| l.factor.truncate(1), 1250.0).contains("two rows"));
+    }
+}
