@@ -84,6 +84,7 @@ fn scene(walls: bool, viscosity: Viscosity) -> Scene {
             shear_rate: ShearRate::Paper,
             cure: None,
             cavitation_pressure: None,
+            wetting: None,
         },
         points,
         bodies: if walls { bodies } else { Vec::new() },

@@ -180,6 +180,7 @@ mod tests {
             shear_rate: ShearRate::Paper,
             cure: None,
             cavitation_pressure: None,
+            wetting: None,
         }
     }
 

@@ -35,6 +35,7 @@ fn the_clamp_closes_downwards() {
             shear_rate: ShearRate::Paper,
             cure: None,
             cavitation_pressure: None,
+            wetting: None,
         },
         points: Points::default(),
         wall: WallLaw::Stick,

@@ -233,6 +233,7 @@ mod tests {
                 shear_rate: ShearRate::Paper,
                 cure: None,
                 cavitation_pressure: None,
+                wetting: None,
             },
             points: Points::default(),
             bodies: bodies.into_iter().enumerate().map(body).collect(),

@@ -34,6 +34,7 @@ fn drop() -> Scene {
             shear_rate: ShearRate::Paper,
             cure: None,
             cavitation_pressure: None,
+            wetting: None,
         },
         points: Default::default(),
         bodies: Vec::new(),

@@ -83,6 +83,7 @@ impl Setup {
             inertia: weight / dt,
             compressibility: eta / (self.liquid.tait.bulk_modulus * dt),
             gravity: self.gravity.map(|g| weight * g),
+            adhesion: (self.liquid.wetting).map_or(0.0, |wetting| wetting.adhesion() / eta),
             influence_length: self.influence_length(),
             width: self.width,
         }
@@ -227,6 +228,7 @@ mod tests {
                 shear_rate: ShearRate::Paper,
                 cure: None,
                 cavitation_pressure: None,
+                wetting: None,
             },
             wall: WallLaw::PartialSlip {
                 influence_length_m: 0.5,

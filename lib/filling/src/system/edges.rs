@@ -199,6 +199,7 @@ mod tests {
             inertia: 1.0,
             compressibility: 0.0,
             gravity: [0.0; 3],
+            adhesion: 0.0,
             influence_length: 0.0,
             width: WidthRule::Normal,
         };

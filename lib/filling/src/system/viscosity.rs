@@ -152,6 +152,7 @@ mod tests {
             inertia: 1.0,
             compressibility: 0.0,
             gravity: [0.0; 3],
+            adhesion: 0.0,
             influence_length: 0.0,
             width: WidthRule::Normal,
         };
@@ -170,6 +171,7 @@ mod tests {
                 shear_rate: ShearRate::Paper,
                 cure: None,
                 cavitation_pressure: None,
+                wetting: None,
             };
             operator.set_viscosity(&liquid, 2.0, 1.0, &field).change
         };

@@ -26,6 +26,7 @@ pub fn scene(cell_m: f64, cells: [usize; 3]) -> Scene {
             shear_rate: ShearRate::Rheometer,
             cure: None,
             cavitation_pressure: None,
+            wetting: None,
         },
         points: Points::default(),
         bodies: Vec::new(),

@@ -260,6 +260,7 @@ mod tests {
             shear_rate: physics::ShearRate::Paper,
             cure: None,
             cavitation_pressure: None,
+            wetting: None,
         };
         let stress = Stress::new(&liquid, 2.9e-6, f64::INFINITY);
         let (mut first, mut second) = (tile(), tile());

@@ -24,6 +24,7 @@ pub fn pf() -> Liquid {
         shear_rate: ShearRate::Paper,
         cure: None,
         cavitation_pressure: None,
+        wetting: None,
     }
 }
 

@@ -85,6 +85,7 @@ fn scene() -> Scene {
             shear_rate: ShearRate::Paper,
             cure: None,
             cavitation_pressure: None,
+            wetting: None,
         },
         points,
         bodies: Vec::new(),

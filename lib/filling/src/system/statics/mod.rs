@@ -3,5 +3,6 @@
 mod bodies;
 mod channels;
 mod flow;
+mod menisci;
 #[path = "../../../tests/common/staircase.rs"]
 mod staircase;

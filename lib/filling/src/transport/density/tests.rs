@@ -33,6 +33,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
         inertia: 1.0,
         compressibility: 0.0,
         gravity: [0.0; 3],
+        adhesion: 0.0,
         influence_length: 0.0,
         width: WidthRule::Normal,
     };

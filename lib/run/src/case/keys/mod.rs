@@ -8,6 +8,7 @@ mod probe;
 mod process;
 mod scene;
 mod scheme;
+mod wetting;
 
 use physics::Choice;
 use units::Dimension;
