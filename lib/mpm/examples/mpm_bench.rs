@@ -85,6 +85,7 @@ fn scene(walls: bool, viscosity: Viscosity) -> Scene {
             cure: None,
             water: None,
             cavitation_pressure: None,
+            wetting: None,
         },
         points,
         bodies: if walls { bodies } else { Vec::new() },

@@ -181,6 +181,7 @@ mod tests {
             cure: None,
             water: None,
             cavitation_pressure: None,
+            wetting: None,
         }
     }
 

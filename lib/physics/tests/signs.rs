@@ -36,6 +36,7 @@ fn the_clamp_closes_downwards() {
             cure: None,
             water: None,
             cavitation_pressure: None,
+            wetting: None,
         },
         points: Points::default(),
         wall: WallLaw::Stick,

@@ -134,6 +134,20 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
             cure.factor(0.0)
         )?;
     }
+    if let Some(wetting) = &liquid.wetting {
+        writeln!(
+            out,
+            "  wetting            {:.4} N/m at {:.1} degrees: it is {} with {:.3e} Pa in a slit of six cells",
+            wetting.tension,
+            wetting.angle.to_degrees(),
+            if wetting.adhesion() >= 0.0 {
+                "drawn in"
+            } else {
+                "held back"
+            },
+            (2.0 * wetting.adhesion() / (6.0 * scene.grid.cell_m)).abs()
+        )?;
+    }
     for body in &scene.bodies {
         let solid: u64 = body.blocks.iter().map(physics::VoxelBlock::count).sum();
         let motion = match body.motion {

@@ -225,6 +225,7 @@ mod tests {
                 cure: None,
                 water: None,
                 cavitation_pressure: None,
+                wetting: None,
             },
             points: Points::default(),
             bodies: bodies.into_iter().enumerate().map(body).collect(),

@@ -44,15 +44,17 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
             "the adhesive keeps its water: no [adhesive.water]".into(),
         );
     }
-    let share = regime.max_pressure.map_or(String::new(), |limit| {
-        let percent = 100.0 * regime.capillary_pressure / limit;
-        format!(", {percent:.2} % of the pressure limit")
-    });
-    let lumen = regime.capillary_pressure / 1e3;
-    add(
-        "capillary pressure",
-        format!("{lumen:.1} kPa in a six-cell lumen{share}"),
-    );
+    if setup.scene.liquid.wetting.is_none() {
+        let share = regime.max_pressure.map_or(String::new(), |limit| {
+            let percent = 100.0 * regime.capillary_pressure / limit;
+            format!(", {percent:.2} % of the pressure limit")
+        });
+        let lumen = regime.capillary_pressure / 1e3;
+        add(
+            "capillary pressure",
+            format!("{lumen:.1} kPa in a six-cell lumen{share}: no surface_tension"),
+        );
+    }
     if case.integrator.scheme == SchemeName::Implicit {
         add(
             "sound waves",

@@ -64,6 +64,12 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
                 .into(),
         ));
     }
+    if case.adhesive.surface_tension.is_some() {
+        return Err(CaseError(
+            "[adhesive] surface_tension is for scheme = \"implicit\" only: explicit steps are too short for liquid to be drawn anywhere"
+                .into(),
+        ));
+    }
     if (case.clamp.as_ref()).is_some_and(|clamp| !clamp.stage.is_empty()) {
         return Err(CaseError(
             "[[clamp.stage]] is for scheme = \"implicit\" only: explicit steps are too short for a press"

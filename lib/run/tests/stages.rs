@@ -35,6 +35,7 @@ fn drop() -> Scene {
             cure: None,
             water: None,
             cavitation_pressure: None,
+            wetting: None,
         },
         points: Default::default(),
         bodies: Vec::new(),

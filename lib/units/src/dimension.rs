@@ -49,6 +49,10 @@ dimension!(/// Shear rate, SI one per second.
     ShearRate, "a shear rate", &[("1/s", 1.0), ("s-1", 1.0)], ANY);
 dimension!(/// Mass of adhesive over bond area, SI kilogram per square metre.
     Spread, "a spread rate", &[("kg/m2", 1.0), ("g/m2", 1e-3), ("lb/1000ft2", 4.882_427_636_383_05e-3)], ANY);
+dimension!(/// Surface tension, SI newton per metre.
+    SurfaceTension, "a surface tension", &[("N/m", 1.0), ("mN/m", 1e-3), ("dyn/cm", 1e-3)], [1e-9, 1e3]);
+dimension!(/// Plane angle, SI radian.
+    Angle, "an angle", &[("rad", 1.0), ("deg", std::f64::consts::PI / 180.0), ("°", std::f64::consts::PI / 180.0)], [1e-30, 1e3]);
 
 /// What a unit symbol measures, and what one of it is in SI.
 pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
@@ -69,6 +73,8 @@ pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
         of::<MolarEnergy>,
         of::<Spread>,
         of::<Diffusivity>,
+        of::<SurfaceTension>,
+        of::<Angle>,
     ];
     all.iter().find_map(|of| of(symbol))
 }

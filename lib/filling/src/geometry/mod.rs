@@ -5,7 +5,7 @@ mod sealed;
 mod solids;
 mod window;
 
-pub(crate) use lattice::{Aperture, Column, Lattice, half};
+pub(crate) use lattice::{Aperture, Chord, Column, Lattice, Passage, half};
 pub(crate) use sealed::fill_sealed;
 pub(crate) use solids::{BodyId, MAX_BODIES, OPEN, SIDE, Solids, Surface};
 pub(crate) use window::{Domain, PAD, Window};

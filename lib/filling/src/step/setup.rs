@@ -89,6 +89,7 @@ impl Setup {
             inertia: weight / dt,
             compressibility: eta / (self.liquid.tait.bulk_modulus * dt),
             gravity: self.gravity.map(|g| weight * g),
+            adhesion: (self.liquid.wetting).map_or(0.0, |wetting| wetting.adhesion() / eta),
             influence_length: self.influence_length(),
             width: self.width,
         }
@@ -235,6 +236,7 @@ mod tests {
                 cure: None,
                 water: None,
                 cavitation_pressure: None,
+                wetting: None,
             },
             wall: WallLaw::PartialSlip {
                 influence_length_m: 0.5,

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use saddle_point::{Csr, Load, SaddleSystem, SolveError};
 
 use super::Operator;
+use super::capillarity::Pull;
 use super::couplings::{self, Couplings};
 use super::edges::Edges;
 use super::fluxes::Areas;
@@ -24,6 +25,8 @@ pub(crate) struct System {
     /// Liquid volume that moves with each face unknown, cells.
     pub(crate) face_volume: Vec<f64>,
     couplings: Couplings,
+    /// Forces of menisci on the bodies.
+    pulled: Vec<[f64; 3]>,
     /// Momentum with all bodies at rest.
     momentum: Vec<f64>,
     /// Volume that compression carries over from the step before.
@@ -75,7 +78,8 @@ impl System {
         resting[clamped] = [0.0; 3];
         let couplings = &self.couplings;
         let rigid = |bodies: &[[f64; 3]]| couplings.forces(bodies, &[], &[]).0[clamped][1];
-        let force = force - rigid(&resting);
+        let pulled = self.pulled.get(clamped).map_or(0.0, |pull| pull[1]);
+        let force = force - rigid(&resting) - pulled;
         Load {
             momentum: (0..self.b.len())
                 .into_par_iter()
@@ -94,7 +98,10 @@ impl System {
     /// Forces of the liquid on the bodies, in units of eta_0 h, and the power dissipated by
     /// viscosity and wall friction, in units of eta_0 h (m/s)^2.
     pub(crate) fn reactions(&self, u: &[f64], p: &[f64]) -> (Vec<[f64; 3]>, f64) {
-        let (forces, of_bodies) = self.couplings.forces(&self.bodies, u, p);
+        let (mut forces, of_bodies) = self.couplings.forces(&self.bodies, u, p);
+        for (force, pulled) in forces.iter_mut().zip(&self.pulled) {
+            *force = std::array::from_fn(|a| force[a] + pulled[a]);
+        }
         let mut product = vec![0.0; u.len()];
         self.a.multiply(u, &mut product);
         let of_liquid: f64 = (product.iter().zip(u).zip(&self.mass))
@@ -142,6 +149,14 @@ impl Operator<'_> {
             }
         })?;
         let c = self.compressibility(before.stiffness);
+        let Pull {
+            momentum: pull,
+            bodies: pulled,
+        } = self.pull(&g, bodies.len());
+        let mut momentum = self.momentum(&face_volume, &mass, before.velocity);
+        for (momentum, pull) in momentum.iter_mut().zip(pull) {
+            *momentum += pull;
+        }
         let mut system = System {
             friction: (face_volume.iter().enumerate())
                 .map(|(face, &volume)| self.darcy(face, volume))
@@ -150,7 +165,8 @@ impl Operator<'_> {
                 .map(|&cell| 2.0 * self.eta(cell as usize))
                 .collect(),
             couplings: Couplings::new(self, &edges, bodies.len(), &flux),
-            momentum: self.momentum(&face_volume, &mass, before.velocity),
+            momentum,
+            pulled,
             carried: (c.iter().zip(before.pressure))
                 .map(|(c, p)| c * p)
                 .collect(),

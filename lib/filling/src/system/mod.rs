@@ -7,6 +7,7 @@
 //! eta_0 h; in plane strain the depth is one cell.
 
 mod assembly;
+mod capillarity;
 mod couplings;
 mod dofs;
 mod edge_rates;
@@ -41,6 +42,8 @@ pub(crate) struct Scales {
     pub(crate) compressibility: f64,
     /// Body force per face volume, rho h^2 g/eta_0, m/s.
     pub(crate) gravity: [f64; 3],
+    /// Adhesion tension over eta_0, m/s.
+    pub(crate) adhesion: f64,
     /// 1/(k h): influence length of the wall law, cells; infinite without friction.
     pub(crate) influence_length: f64,
     /// Which width of the lumen the wall law takes.

@@ -165,6 +165,7 @@ mod tests {
                 cure: None,
                 water: None,
                 cavitation_pressure: None,
+                wetting: None,
             };
             operator.set_viscosity(&liquid, 2.0, 1.0, &field).change
         };

@@ -27,6 +27,7 @@ pub fn scene(cell_m: f64, cells: [usize; 3]) -> Scene {
             cure: None,
             water: None,
             cavitation_pressure: None,
+            wetting: None,
         },
         points: Points::default(),
         bodies: Vec::new(),

@@ -261,6 +261,7 @@ mod tests {
             cure: None,
             water: None,
             cavitation_pressure: None,
+            wetting: None,
         };
         let stress = Stress::new(&liquid, 2.9e-6, f64::INFINITY);
         let (mut first, mut second) = (tile(), tile());

@@ -25,6 +25,7 @@ pub fn pf() -> Liquid {
         cure: None,
         water: None,
         cavitation_pressure: None,
+        wetting: None,
     }
 }
 

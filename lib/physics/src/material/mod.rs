@@ -5,12 +5,14 @@ mod laws;
 mod tait;
 mod viscosity;
 mod water;
+mod wetting;
 
 pub use cure::{Course, Cure, CureLaw, SET};
 pub use laws::Law;
 pub use tait::{TAIT_C, Tait};
 pub use viscosity::{Newtonian, Rheology, ShearRate, Table, TableError, Viscosity};
 pub use water::{Water, WaterLaw};
+pub use wetting::Wetting;
 
 /// The liquid of a scene: a compressible (Tait) generalised Newtonian fluid.
 #[derive(Clone, Debug)]
@@ -29,6 +31,8 @@ pub struct Liquid {
     pub shear_rate: ShearRate,
     /// Largest tension the liquid carries, Pa (> 0); `None`: as much as Eq. 1 gives.
     pub cavitation_pressure: Option<f64>,
+    /// Surface tension and contact angle; `None`: its surface pulls nowhere.
+    pub wetting: Option<Wetting>,
 }
 
 impl Liquid {

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use units::{
-    Acceleration, Density, Dimension, Length, Pressure, ShearRate, Speed, Time, Viscosity,
+    Acceleration, Angle, Density, Dimension, Length, Pressure, ShearRate, Speed, SurfaceTension,
+    Time, Viscosity,
 };
 
 use super::keys::{Absent, Key, TABLES, Table};
@@ -53,6 +54,8 @@ fn unit_rows() -> String {
         row::<Density>,
         row::<Viscosity>,
         row::<ShearRate>,
+        row::<SurfaceTension>,
+        row::<Angle>,
     ]
     .map(|row| row())
     .concat()

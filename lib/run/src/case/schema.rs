@@ -96,6 +96,10 @@ pub struct Adhesive {
     pub shear_rate: ShearRate,
     /// Largest tension the liquid carries.
     pub cavitation_pressure: Option<Positive<Pressure>>,
+    /// Surface tension.
+    pub surface_tension: Option<Positive<units::SurfaceTension>>,
+    /// Contact angle, measured in the liquid.
+    pub contact_angle: Option<units::Quantity<units::Angle>>,
 }
 
 /// `[contact]`

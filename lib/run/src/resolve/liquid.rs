@@ -1,6 +1,6 @@
 //! The liquid of a case.
 
-use physics::{Course, Cure, CureLaw, Law, Liquid, Newtonian, Table, Tait, Viscosity};
+use physics::{Course, Cure, CureLaw, Law, Liquid, Newtonian, Table, Tait, Viscosity, Wetting};
 
 use super::water::water;
 use crate::case::{Adhesive, CaseError, CureTable};
@@ -22,7 +22,23 @@ pub(super) fn liquid(adhesive: &Adhesive) -> Result<Liquid, CaseError> {
             .transpose()?,
         shear_rate: adhesive.shear_rate,
         cavitation_pressure: adhesive.cavitation_pressure.map(|p| p.si()),
+        wetting: wetting(adhesive)?,
     })
+}
+
+fn wetting(adhesive: &Adhesive) -> Result<Option<Wetting>, CaseError> {
+    let refused = |said: &str| Err(CaseError(format!("[adhesive] {said}")));
+    match (adhesive.surface_tension, adhesive.contact_angle) {
+        (Some(tension), Some(angle)) if (0.0..=std::f64::consts::PI).contains(&angle.si()) => {
+            Ok(Some(Wetting {
+                tension: tension.si(),
+                angle: angle.si(),
+            }))
+        }
+        (Some(_), Some(_)) => refused("contact_angle lies between \"0 deg\" and \"180 deg\""),
+        (None, None) => Ok(None),
+        _ => refused("surface_tension and contact_angle go together"),
+    }
 }
 
 fn viscosity(adhesive: &Adhesive) -> Result<Viscosity, CaseError> {

@@ -65,6 +65,27 @@ fn what_contradicts_itself_is_refused() {
         ),
         (&[("[contact]", GEL)], &[], "[adhesive.cure] is for scheme"),
         (
+            &[],
+            &[
+                "adhesive.surface_tension=50 mN/m",
+                "adhesive.contact_angle=60 deg",
+            ],
+            "surface_tension is for scheme",
+        ),
+        (
+            &[IMPLICIT[0], IMPLICIT[1]],
+            &["adhesive.surface_tension=50 mN/m"],
+            "go together",
+        ),
+        (
+            &[IMPLICIT[0], IMPLICIT[1]],
+            &[
+                "adhesive.surface_tension=50 mN/m",
+                "adhesive.contact_angle=190 deg",
+            ],
+            "between \"0 deg\" and \"180 deg\"",
+        ),
+        (
             &[IMPLICIT[0], IMPLICIT[1], ("[contact]", HEATED)],
             &[],
             "temperature, reference_temperature and activation_energy",

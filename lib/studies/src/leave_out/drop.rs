@@ -86,6 +86,7 @@ fn scene() -> Scene {
             cure: None,
             water: None,
             cavitation_pressure: None,
+            wetting: None,
         },
         points,
         bodies: Vec::new(),

@@ -8,6 +8,7 @@
 mod aperture;
 mod column;
 mod faces;
+mod passage;
 mod rooms;
 mod uniform;
 
@@ -18,6 +19,7 @@ use crate::geometry::{BodyId, OPEN, Solids, Window};
 
 pub(crate) use aperture::Aperture;
 pub(crate) use column::Column;
+pub(crate) use passage::{Chord, Passage};
 pub(crate) use uniform::half;
 use uniform::{Uniform, uniform};
 

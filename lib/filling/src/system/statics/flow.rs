@@ -16,16 +16,26 @@ pub(crate) struct Flow {
     pub(crate) slip: f64,
     pub(crate) width: WidthRule,
     pub(crate) gravity: [f64; 3],
+    /// Adhesion tension over viscosity.
+    pub(crate) adhesion: f64,
     pub(crate) speeds: Vec<[f64; 3]>,
 }
 
 /// A solved flow.
 pub(crate) struct Solved {
-    pub(crate) flux_x: f64,
+    /// Flux along x through the low faces of each layer of cells of the window.
+    through: Vec<f64>,
     pub(crate) forces: Vec<[f64; 3]>,
     pub(crate) lattice: Lattice,
     /// Pressure of each cell of the window.
     pub(crate) pressure: Vec<f64>,
+}
+
+impl Solved {
+    /// Flux along x through the low faces of layer `i` of the domain's cells.
+    pub(crate) fn flux_through(&self, i: usize) -> f64 {
+        self.through[(i as i64 - self.lattice.window.low[0]) as usize]
+    }
 }
 
 impl Flow {
@@ -35,6 +45,7 @@ impl Flow {
             slip: 0.0,
             width: WidthRule::Combined,
             gravity: [0.0; 3],
+            adhesion: 0.0,
             speeds: vec![[0.0; 3]; bodies.len()],
             bodies,
         }
@@ -44,7 +55,7 @@ impl Flow {
     pub(crate) fn periodic_flux(&mut self) -> f64 {
         self.domain.boundary[0] = Boundary::Periodic;
         self.gravity = [1.0, 0.0, 0.0];
-        self.solve(|_| true).flux_x
+        self.solve(|_| true).flux_through(2)
     }
 
     /// The steady flow of liquid in the open sub-cells whose centre is in `wet`.
@@ -56,6 +67,7 @@ impl Flow {
             inertia: 1e-9,
             compressibility: 1e-12,
             gravity: self.gravity,
+            adhesion: self.adhesion,
             influence_length: self.slip,
             width: self.width,
         };
@@ -82,14 +94,19 @@ impl Flow {
         for (&index, &p) in operator.dofs.cells.iter().zip(&p) {
             pressure[index as usize] = p;
         }
-        let flux_x = (operator.dofs.faces.iter().zip(&u))
+        let mut through = vec![0.0; w.cells[0]];
+        for (&(axis, index), u) in operator
+            .dofs
+            .faces
+            .iter()
+            .zip(&u)
             .filter(|(face, _)| face.0 == 0)
-            .map(|(&(_, index), u)| (w.coordinates(index as usize), u))
-            .filter(|(cell, _)| cell[0] as i64 + w.low[0] == 2)
-            .map(|(cell, u)| u * lattice.aperture(0, cell).open)
-            .sum();
+        {
+            let cell = w.coordinates(index as usize);
+            through[cell[0]] += u * lattice.aperture(usize::from(axis), cell).open;
+        }
         Solved {
-            flux_x,
+            through,
             forces,
             pressure,
             lattice,

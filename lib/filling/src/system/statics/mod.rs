@@ -3,6 +3,7 @@
 mod bodies;
 mod channels;
 mod flow;
+mod menisci;
 #[path = "../../../tests/common/staircase.rs"]
 mod staircase;
 
@@ -15,6 +16,7 @@ impl Scales {
             inertia: 1.0,
             compressibility: 0.0,
             gravity: [0.0; 3],
+            adhesion: 0.0,
             influence_length: 0.0,
             width: WidthRule::Normal,
         }

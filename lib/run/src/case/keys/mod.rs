@@ -9,6 +9,7 @@ mod process;
 mod scene;
 mod scheme;
 mod water;
+mod wetting;
 
 use physics::Choice;
 use units::Dimension;

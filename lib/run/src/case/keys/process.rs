@@ -3,7 +3,7 @@
 use physics::{Pid, ShearRate, WallLaw};
 use units::{Density, Length, Pressure, Speed, Time, Viscosity};
 
-use super::{Absent, Key, Table, choice, quantity, si, word};
+use super::{Absent, Key, Table, choice, quantity, si, wetting, word};
 use crate::case::{Case, ClampTable, SchemeName, StopRule};
 
 pub(super) const ADHESIVE: Table = Table {
@@ -48,6 +48,8 @@ pub(super) const ADHESIVE: Table = Table {
             absent: Absent::Nothing("any tension, as Eq. 1 has it"),
             text: "Largest tension that the liquid carries; beyond it cavities open. Give it, such as `\"0.1 MPa\"`, where liquid is pulled apart; then the liquid's volume may grow and no longer counts against the run.",
         },
+        wetting::SURFACE_TENSION,
+        wetting::CONTACT_ANGLE,
     ],
 };
 

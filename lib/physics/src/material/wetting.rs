@@ -1,0 +1,39 @@
+//! Surface tension and contact angle: what draws a liquid into a passage, or keeps it out.
+
+/// How the liquid wets the walls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wetting {
+    /// Surface tension sigma, N/m.
+    pub tension: f64,
+    /// Contact angle theta, measured in the liquid: below a right angle it wets. Rad, 0 to pi.
+    pub angle: f64,
+}
+
+impl Wetting {
+    /// Adhesion tension sigma cos(theta), N/m: the force along a wall of a unit of contact line. Times
+    /// the perimeter over the area of a passage it is the pressure jump of a meniscus that spans it
+    /// (Young 1805, Laplace 1806): 2/r in a tube, 2/H in a slit.
+    pub fn adhesion(&self) -> f64 {
+        self.tension * self.angle.cos()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_right_angle_neither_draws_nor_holds() {
+        let adhesion = |degrees: f64| {
+            let angle = degrees.to_radians();
+            Wetting {
+                tension: 0.05,
+                angle,
+            }
+            .adhesion()
+        };
+        assert_eq!(adhesion(0.0), 0.05);
+        assert!((adhesion(60.0) - 0.025).abs() < 1e-15 && adhesion(90.0).abs() < 1e-17);
+        assert!((adhesion(120.0) + 0.025).abs() < 1e-15);
+    }
+}
