@@ -1,3 +1,5 @@
+//! The figure of how a run is set up.
+
 use units::Axis;
 
 use crate::axes::SMALL;
