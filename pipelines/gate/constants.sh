@@ -13,7 +13,7 @@ commit=$(git rev-parse --short HEAD)
 machine=$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1 | tr ',' ' ')
 export RAYON_NUM_THREADS=1
 # What the compiler must know, and layouts of which no other value works.
-fixed=' (SIDE|OPEN|FAR|LANES|WINDOW|UNIT|HALO|EDGE|FIRST|STRIDE|OFFSET|COUNT|TERMS) |mpm.* BYTES '
+fixed=' (SIDE|OPEN|FAR|LANES|WINDOW|UNIT|HALO|EDGE|FIRST|STRIDE|OFFSET|COUNT|TERMS|FACES|ENTRIES|TOGETHER|NODES|BATCH|NOTHING|LOW|BLOCK|COMMON) |mpm.* BYTES '
 
 # The table of docs/methods.md, a constant a line: crate, file under src, name, value.
 constants() {
@@ -37,7 +37,7 @@ make_tree() {
     done < <(constants)
     while read -r crate file name value; do
         # One that is public is used by the crates after its own, too.
-        find "$new/lib/$crate/src" $([ "$name" != NEARLY ] || echo "$new/lib/filling/src") -name '*.rs' -exec sed -i -E "s/\{$name\}/$value/
+        find "$new/lib/$crate/src" $([ "$name" != NEARLY ] || echo "$new/lib/filling/src") -name '*.rs' -exec sed -i -E "s|\{$name\}|$value|
             /^ *(\/\/|(pub(\(.*\))? )?use )/!s/([^/])\b$name\b(\(\))?/\1$name()/g" {} +
     done < <(constants | sort -u -k1,1 -k3,3)
     for crate in filling saddle-point mpm; do
@@ -47,6 +47,9 @@ make_tree() {
     # Files that did not change keep their times, so that little is built anew.
     (cd "$new" && find . -type f) | while read -r file; do
         cmp -s "$new/$file" "$tree/$file" || install -D "$new/$file" "$tree/$file"
+    done
+    (cd "$tree" && find . -type f) | while read -r file; do
+        [ -f "$new/$file" ] || rm "$tree/$file"
     done
     rm -rf "$new"
 }

@@ -65,6 +65,11 @@ fn broken_names_are_found() {
 }
 
 #[test]
+fn every_source_opens_with_what_it_holds() {
+    assert_eq!(Finder::new(root()).unsaid(), Vec::<&str>::new());
+}
+
+#[test]
 fn the_table_of_constants_is_that_of_the_code() {
     let differences = constants::differences(&root());
     assert!(differences.is_empty(), "\n{}", differences.join("\n"));

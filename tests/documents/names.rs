@@ -77,6 +77,13 @@ impl Finder {
             .collect()
     }
 
+    /// Sources whose first line does not say what they hold.
+    pub fn unsaid(&self) -> Vec<&str> {
+        let says = |f: &str| read(&self.root, f).starts_with("//! ");
+        let sources = self.files.iter().filter(|f| f.ends_with(".rs"));
+        sources.map(String::as_str).filter(|f| !says(f)).collect()
+    }
+
     /// A sentence about each name in `text` that does not exist.
     pub fn broken(&self, text: &Text) -> Vec<String> {
         let mut said = Vec::new();

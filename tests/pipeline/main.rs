@@ -16,6 +16,7 @@ mod examples;
 mod exported;
 mod forged;
 mod hostile;
+mod impossible;
 mod interruption;
 mod limit;
 mod makefile;

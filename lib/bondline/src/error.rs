@@ -1,3 +1,5 @@
+//! Why there is no bond line.
+
 /// Why there is no bond line to build or to find; one sentence each.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {

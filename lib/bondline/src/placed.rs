@@ -1,3 +1,5 @@
+//! Voxels of a material where they stand, and the specimen they make.
+
 use std::ops::Range;
 
 use particle_file::{BitGrid, BitsRef, Block};

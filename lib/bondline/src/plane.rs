@@ -1,3 +1,5 @@
+//! Where the bond plane of a specimen and the surfaces of its adherends are.
+
 use units::Axis;
 
 use crate::Error;

@@ -1,3 +1,5 @@
+//! How thick the slab of adhesive is, and where it lies.
+
 use crate::Error;
 
 /// Thickness in whole cells of a slab over `area` columns with the volume of `adhesive` voxels.

@@ -1,3 +1,5 @@
+//! Outputs that would replace what is read, or one another, are refused.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,3 +1,5 @@
+//! The options and the start of every tool.
+
 use std::io::{self, Write};
 use std::process::ExitCode;
 

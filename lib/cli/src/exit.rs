@@ -1,3 +1,5 @@
+//! How a tool ends: exit statuses and sentences.
+
 use std::fmt;
 use std::io;
 use std::process::ExitCode;

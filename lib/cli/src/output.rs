@@ -1,3 +1,5 @@
+//! Standard output or a file, never half written.
+
 use std::ffi::OsString;
 use std::fmt;
 use std::fs::{self, File};

@@ -1,3 +1,5 @@
+//! How far long work has come.
+
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 

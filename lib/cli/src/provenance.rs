@@ -1,3 +1,5 @@
+//! The record beside an output: what made it of what.
+
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};

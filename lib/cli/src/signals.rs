@@ -1,3 +1,5 @@
+//! Signals that end a run at its next step.
+
 use std::sync::Arc;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};

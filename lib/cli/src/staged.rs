@@ -1,3 +1,5 @@
+//! A folder of files that come together or not at all.
+
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};

@@ -1,3 +1,5 @@
+//! Range, ticks and places of an axis.
+
 use crate::measure;
 
 /// Height of the text at the ticks and of titles, logical pixels.

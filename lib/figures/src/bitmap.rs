@@ -1,3 +1,5 @@
+//! Drawings as PNG.
+
 use plotters::prelude::*;
 
 use crate::drawing::{Drawing, Image};

@@ -80,7 +80,7 @@ impl CellErrors {
     /// Reads the runs among `cases`; `None` where none has an error.
     ///
     /// # Errors
-    /// [`Error::Data`] for an unreadable file or a number that is none.
+    /// [`Error::Data`] for an unreadable file or a value that is not a number.
     pub fn read(cases: &[Case]) -> Result<Option<Self>, Error> {
         let mut rows = Vec::new();
         for case in cases {

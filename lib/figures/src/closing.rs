@@ -1,3 +1,5 @@
+//! The figure of pressure and closing speed against time.
+
 use crate::axes::{Axis, NORMAL, SMALL, extent};
 use crate::colour::{BLACK, DISTINCT, faded, opaque, series};
 use crate::drawing::{Anchor, Drawing, Point};

@@ -1,3 +1,5 @@
+//! The figure of points coloured by a value.
+
 use crate::Error;
 use crate::axes::{Axis, extent};
 use crate::colour::{opaque, viridis};

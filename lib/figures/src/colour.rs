@@ -1,3 +1,5 @@
+//! The colours of series and scales.
+
 use plotters::style::RGBAColor;
 
 /// Categorical colours that people with any colour vision tell apart: Okabe and Ito, "Color

@@ -1,3 +1,5 @@
+//! The key of a colour scale.
+
 use crate::axes::Axis;
 use crate::colour::viridis;
 use crate::drawing::{Drawing, Image};

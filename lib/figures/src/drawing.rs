@@ -1,3 +1,5 @@
+//! A picture as a list of lines, areas, texts and images.
+
 use plotters::style::RGBAColor;
 
 use crate::measure::{self, ABOVE, BELOW};

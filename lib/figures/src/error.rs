@@ -1,3 +1,5 @@
+//! What can be wrong with a figure.
+
 /// Why there is no figure.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {

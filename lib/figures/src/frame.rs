@@ -1,3 +1,5 @@
+//! The frame of a plot with its two axes.
+
 use crate::axes::{Axis, NORMAL, SMALL};
 use crate::colour::{BLACK, FAINT};
 use crate::drawing::{Anchor, Drawing, Point};

@@ -1,3 +1,5 @@
+//! The key of series, and how they are told apart.
+
 use plotters::style::RGBAColor;
 
 use crate::axes::NORMAL;

@@ -1,3 +1,5 @@
+//! How much room text takes in the embedded font.
+
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 

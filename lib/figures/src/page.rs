@@ -1,3 +1,5 @@
+//! The page that a figure is made for.
+
 /// Logical pixels per millimetre: 120 to the inch, so that the text of a picture printed at its
 /// own size is of 7 and 8 points.
 const PER_MM: f64 = 120.0 / 25.4;

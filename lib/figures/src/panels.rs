@@ -1,3 +1,5 @@
+//! Panels of equal scale with room for axes and captions.
+
 use crate::axes::{NORMAL, SMALL};
 use crate::drawing::{Anchor, Drawing};
 use crate::frame::Frame;

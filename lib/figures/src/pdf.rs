@@ -1,33 +1,25 @@
 //! Drawings as PDF: lines, areas and images as they are, text in the embedded font's own glyphs,
 //! which can be searched and copied.
 
-use std::collections::BTreeMap;
+mod glyphs;
+
+use std::collections::BTreeSet;
 use std::io::Write as _;
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
-use pdf_writer::types::{
-    CidFontType, FontFlags, LineCapStyle, LineJoinStyle, SystemInfo, UnicodeCmap,
-};
+use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
 use plotters::style::RGBAColor;
-use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, GlyphId, MetadataProvider};
-use subsetter::GlyphRemapper;
 
 use crate::Error;
 use crate::drawing::{Anchor, Drawing, Item, Point};
 use crate::measure::EM;
 use crate::page::millimetres;
 use crate::replay::failed;
+use glyphs::Glyphs;
 
 const FONT: Name = Name(b"F");
-const FONT_NAME: Name = Name(b"BNDLNE+DejaVuSans");
-const CID: SystemInfo = SystemInfo {
-    registry: Str(b"Adobe"),
-    ordering: Str(b"Identity"),
-    supplement: 0,
-};
 
 /// Numbers of the document's objects; images and opacities follow.
 const CATALOG: Ref = Ref::new(1);
@@ -83,13 +75,13 @@ impl Drawing {
         }
         objects.finish();
         let mut graphics = resources.ext_g_states();
-        for (i, name) in sheet.opacities.keys().enumerate() {
+        for (i, name) in sheet.opacities.iter().enumerate() {
             graphics.pair(Name(state_name(*name).as_bytes()), states(i));
         }
         graphics.finish();
         resources.finish();
         page.finish();
-        for (i, per_mille) in sheet.opacities.keys().enumerate() {
+        for (i, per_mille) in sheet.opacities.iter().enumerate() {
             let alpha = f32::from(*per_mille) / 1000.0;
             let mut state = pdf.ext_graphics(states(i));
             state.non_stroking_alpha(alpha).stroking_alpha(alpha);
@@ -131,7 +123,7 @@ struct Sheet {
     /// Height of the drawing, logical pixels.
     height: f64,
     /// The opacities in use, per mille.
-    opacities: BTreeMap<u16, ()>,
+    opacities: BTreeSet<u16>,
     text: Glyphs,
 }
 
@@ -143,7 +135,7 @@ impl Sheet {
         Ok(Self {
             content,
             height,
-            opacities: BTreeMap::new(),
+            opacities: BTreeSet::new(),
             text: Glyphs::new()?,
         })
     }
@@ -188,7 +180,7 @@ impl Sheet {
     fn colour(&mut self, colour: &RGBAColor) {
         let [r, g, b] = [colour.0, colour.1, colour.2].map(|c| f32::from(c) / 255.0);
         let opacity = (1000.0 * colour.3).round() as u16;
-        self.opacities.insert(opacity, ());
+        self.opacities.insert(opacity);
         self.content
             .set_parameters(Name(state_name(opacity).as_bytes()));
         self.content.set_stroke_rgb(r, g, b);
@@ -232,95 +224,5 @@ impl Sheet {
         self.content.set_text_matrix([a, b, c, d, x, y]);
         self.content.show(Str(&codes));
         self.content.end_text();
-    }
-}
-
-/// The glyphs of the embedded font that the drawing's text has.
-struct Glyphs {
-    font: FontRef<'static>,
-    used: GlyphRemapper,
-    /// Character and advance (em / 1000) of each glyph used, by its new number.
-    named: BTreeMap<u16, (char, f32)>,
-    /// Height of the capitals, em.
-    capitals: f64,
-}
-
-impl Glyphs {
-    fn new() -> Result<Self, Error> {
-        let font = FontRef::new(dejavu::sans::regular()).map_err(failed)?;
-        let metrics = font.metrics(Size::new(1.0), LocationRef::default());
-        Ok(Self {
-            used: GlyphRemapper::new(),
-            named: BTreeMap::new(),
-            capitals: f64::from(metrics.cap_height.unwrap_or(0.73)),
-            font,
-        })
-    }
-
-    /// The text as numbers of glyphs, and its width in the unit of `size`.
-    fn encode(&mut self, text: &str, size: f64) -> (Vec<u8>, f64) {
-        let advances = self
-            .font
-            .glyph_metrics(Size::new(1.0), LocationRef::default());
-        let (mut codes, mut width) = (Vec::new(), 0.0);
-        for c in text.chars() {
-            let glyph = self.font.charmap().map(c).unwrap_or(GlyphId::NOTDEF);
-            let advance = advances.advance_width(glyph).unwrap_or(0.0);
-            // The font has fewer than 2^16 glyphs.
-            let new = self.used.remap(glyph.to_u32() as u16);
-            self.named.entry(new).or_insert((c, 1000.0 * advance));
-            codes.extend(new.to_be_bytes());
-            width += EM * size * f64::from(advance);
-        }
-        (codes, width)
-    }
-
-    fn write(&self, pdf: &mut Pdf) -> Result<(), Error> {
-        let mut font = pdf.type0_font(TYPE0);
-        font.base_font(FONT_NAME)
-            .encoding_predefined(Name(b"Identity-H"));
-        font.descendant_font(CID_FONT).to_unicode(UNICODE);
-        font.finish();
-        let mut cid = pdf.cid_font(CID_FONT);
-        cid.subtype(CidFontType::Type2)
-            .base_font(FONT_NAME)
-            .system_info(CID);
-        cid.font_descriptor(DESCRIPTOR).default_width(0.0);
-        cid.cid_to_gid_map_predefined(Name(b"Identity"));
-        let mut widths = cid.widths();
-        for (glyph, (_, advance)) in &self.named {
-            widths.consecutive(*glyph, [*advance]);
-        }
-        widths.finish();
-        cid.finish();
-        let metrics = self.font.metrics(Size::new(1000.0), LocationRef::default());
-        let bounds = metrics.bounds.unwrap_or_default();
-        let mut descriptor = pdf.font_descriptor(DESCRIPTOR);
-        descriptor
-            .name(FONT_NAME)
-            .flags(FontFlags::NON_SYMBOLIC)
-            .italic_angle(0.0);
-        descriptor.bbox(Rect::new(
-            bounds.x_min,
-            bounds.y_min,
-            bounds.x_max,
-            bounds.y_max,
-        ));
-        descriptor.ascent(metrics.ascent).descent(metrics.descent);
-        descriptor
-            .cap_height(1000.0 * self.capitals as f32)
-            .stem_v(90.0)
-            .font_file2(FONT_FILE);
-        descriptor.finish();
-        let names = self.named.iter().filter(|(glyph, _)| **glyph > 0);
-        let mut unicode = UnicodeCmap::<u16>::new(Name(b"Text"), CID);
-        names.for_each(|(glyph, (c, _))| unicode.pair(*glyph, *c));
-        pdf.cmap(UNICODE, &unicode.finish());
-        let subset = subsetter::subset(dejavu::sans::regular(), 0, &self.used).map_err(failed)?;
-        let data = packed(&subset)?;
-        let mut file = pdf.stream(FONT_FILE, &data);
-        file.filter(Filter::FlateDecode);
-        file.pair(Name(b"Length1"), subset.len() as i32);
-        Ok(())
     }
 }

@@ -1,3 +1,5 @@
+//! The figure of any quantity against another.
+
 use crate::Error;
 use crate::axes::{Axis, NORMAL};
 use crate::colour::DISTINCT;

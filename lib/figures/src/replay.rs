@@ -1,3 +1,5 @@
+//! Drawings onto the backends of plotters.
+
 use plotters::prelude::*;
 
 use crate::Error;

@@ -1,3 +1,5 @@
+//! The figure of how a run is set up.
+
 use particle_file::{Kind, ParticleFile};
 use units::Axis;
 

@@ -1,3 +1,5 @@
+//! The figure of shear rates against time.
+
 use crate::axes::{Axis, NORMAL, extent};
 use crate::closing::time_unit;
 use crate::colour::{BLACK, faded, series};

@@ -1,3 +1,5 @@
+//! The figure of slices through states.
+
 use units::Axis as Direction;
 
 use crate::axes::Axis;

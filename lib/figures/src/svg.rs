@@ -1,3 +1,5 @@
+//! Drawings as SVG.
+
 use std::fmt::Write as _;
 
 use plotters::prelude::*;

@@ -1,3 +1,5 @@
+//! CSV files by the names of their columns.
+
 use std::io::Read;
 use std::path::Path;
 

@@ -1,3 +1,5 @@
+//! Table 2 of the paper.
+
 use std::io::{self, Write};
 
 use std::path::PathBuf;

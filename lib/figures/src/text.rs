@@ -1,3 +1,5 @@
+//! Text as pixels.
+
 use ab_glyph_rasterizer::{Point as Place, Rasterizer, point};
 use plotters::backend::DrawingBackend;
 use plotters::style::{Color, RGBAColor};

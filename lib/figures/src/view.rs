@@ -1,3 +1,5 @@
+//! The figure of states in three dimensions.
+
 use particle_file::{Kind, ParticleFile};
 use voxels::LabelVolume;
 

@@ -1,3 +1,5 @@
+//! The figure of penetration over the bond plane.
+
 use crate::axes::Axis;
 use crate::colour::{NO_DATA, opaque, viridis};
 use crate::colour_bar;

@@ -1,3 +1,5 @@
+//! Agreement of a state with an experiment.
+
 use bondline::Placed;
 use particle_file::{BitGrid, BitsRef};
 use voxels::VolumeFractions;

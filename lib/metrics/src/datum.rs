@@ -1,3 +1,5 @@
+//! The plane or surfaces from which depth is counted.
+
 use std::fmt;
 
 use bondline::surface;

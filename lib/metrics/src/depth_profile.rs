@@ -1,3 +1,5 @@
+//! Adhesive against depth.
+
 use bondline::Placed;
 
 use crate::{Adhesive, Datum, Error, Sealed, Side, State, Wood};

@@ -1,3 +1,5 @@
+//! Why something cannot be measured.
+
 /// Why something cannot be measured; one sentence each, to be preceded by the file's name.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {

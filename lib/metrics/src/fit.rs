@@ -1,3 +1,5 @@
+//! Planes fitted to bond surfaces.
+
 use units::Axis;
 
 use crate::state::Across;

@@ -1,3 +1,5 @@
+//! Penetration of each column across the bond.
+
 use crate::state::Across;
 use crate::{Datum, Side, State};
 

@@ -1,3 +1,5 @@
+//! Weighted and effective penetration.
+
 use std::fmt;
 
 use crate::{Adhesive, Datum, State, Weighted};

@@ -1,3 +1,5 @@
+//! Quantiles by weight.
+
 use rayon::prelude::*;
 
 /// Values with weights, in ascending order.

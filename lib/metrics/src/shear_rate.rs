@@ -1,3 +1,5 @@
+//! Shear rates of a state, and of the paper's tube.
+
 use std::str::FromStr;
 
 use particle_file::ParticleFile;

@@ -1,3 +1,5 @@
+//! Wood and adhesive of a file as they are measured.
+
 use bondline::{Placed, Specimen};
 use particle_file::{Kind, Material, ParticleFile, limits};
 use units::Axis;

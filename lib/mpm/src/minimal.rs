@@ -17,6 +17,7 @@ mod tiles;
 use physics::{Boundary, Dimensions, Failure, LiquidState, Scene, Viscosity};
 use rayon::prelude::*;
 
+use crate::fields::point::VOLUME;
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{EDGE, HALO};
 use crate::real::Real;
@@ -178,7 +179,7 @@ impl Minimal {
                 (min[a] + offset * cell) as f32
             };
             let [vx, vy, vz, j] = points.motion[p].0;
-            let volume = f64::from(place[3]) * cell.powi(3) * (1.0 + f64::from(j));
+            let volume = f64::from(place[VOLUME]) * cell.powi(3) * (1.0 + f64::from(j));
             state.position.push(std::array::from_fn(metres));
             state.velocity.push([vx, vy, vz].map(|v| v as f32));
             state.volume.push(volume as f32);

@@ -46,6 +46,23 @@ pub(crate) struct Present {
     pub(crate) projection: bool,
 }
 
+#[cfg(test)]
+impl Present {
+    /// Contact in three dimensions and nothing else.
+    pub(crate) const CONTACT: Self = Self {
+        three: true,
+        contact: true,
+        friction: false,
+        force: false,
+        clamp: false,
+        load: false,
+        filter: false,
+        affine: false,
+        cell_mean: false,
+        projection: false,
+    };
+}
+
 impl From<&Stages> for Present {
     fn from(list: &Stages) -> Self {
         Self {

@@ -1,3 +1,5 @@
+//! The adhesive of a file, voxels or points.
+
 use crate::error::Error;
 use crate::header::Material;
 use crate::read::ParticleFile;

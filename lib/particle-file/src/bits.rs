@@ -1,3 +1,5 @@
+//! Grids of one bit a voxel.
+
 use rayon::prelude::*;
 
 /// Voxels per word of a row.

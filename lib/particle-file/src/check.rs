@@ -1,3 +1,5 @@
+//! Whether a file agrees with its checksums.
+
 use rayon::prelude::*;
 
 use crate::error::Error;

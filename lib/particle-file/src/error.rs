@@ -1,3 +1,5 @@
+//! What is wrong with a file.
+
 use std::io;
 
 /// Why a particle file cannot be used; every case is exit status 3.

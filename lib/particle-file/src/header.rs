@@ -1,3 +1,5 @@
+//! What a file says about itself.
+
 use bincode::config::{Configuration, Fixint, Limit, LittleEndian};
 use bincode::{Decode, Encode};
 

@@ -1,3 +1,5 @@
+//! Memory maps of files.
+
 use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Deref;
@@ -48,7 +50,7 @@ impl Mapped {
     ///
     /// # Errors
     /// When there is no memory for it.
-    pub fn copy_of(bytes: &[u8]) -> io::Result<Self> {
+    pub(crate) fn copy_of(bytes: &[u8]) -> io::Result<Self> {
         let mut map = MmapMut::map_anon(bytes.len().max(1))?;
         map[..bytes.len()].copy_from_slice(bytes);
         Ok(Self(map.make_read_only()?))

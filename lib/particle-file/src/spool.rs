@@ -1,3 +1,5 @@
+//! Pipes as temporary files.
+
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 

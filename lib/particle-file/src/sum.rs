@@ -1,3 +1,5 @@
+//! A checksum of what a file holds, whatever made it.
+
 use rayon::prelude::*;
 use xxhash_rust::xxh3::{xxh3_64, xxh3_64_with_seed};
 

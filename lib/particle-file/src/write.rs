@@ -1,3 +1,5 @@
+//! Files written in one pass.
+
 use std::io::{self, Write};
 
 use rayon::prelude::*;

@@ -1,3 +1,5 @@
+//! Rigid bodies of voxels and how they move.
+
 /// How a rigid body moves. Bodies only translate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {

@@ -1,3 +1,5 @@
+//! The clamp and its load controller.
+
 /// How the upper adherend is driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clamp {

@@ -1,3 +1,5 @@
+//! The dimensionless numbers of a run.
+
 use std::fmt;
 
 use crate::{Amount, Scene, Viscosity};

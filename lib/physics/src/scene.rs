@@ -1,3 +1,5 @@
+//! What a scheme is given to compute.
+
 use crate::{Choice, Clamp, Liquid, Motion, PressStage, RigidBody, WallLaw};
 
 /// Number of dimensions computed.

@@ -1,3 +1,5 @@
+//! What a scheme does and answers.
+
 use std::fmt;
 
 use crate::PressRun;

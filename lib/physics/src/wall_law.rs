@@ -1,3 +1,5 @@
+//! Stress between liquid and wall.
+
 use crate::{Choice, Rheology};
 
 /// Law of the shear stress between liquid and wall (paper Eq. 3):

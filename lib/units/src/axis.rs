@@ -1,3 +1,5 @@
+//! Coordinate axes by name.
+
 use std::fmt;
 use std::str::FromStr;
 

@@ -1,3 +1,5 @@
+//! Physical dimensions and their units.
+
 /// A physical dimension: its name for messages and the units accepted for it.
 pub trait Dimension {
     /// Name used in error messages, with its article.

@@ -1,3 +1,5 @@
+//! Numbers with a unit.
+
 use std::fmt;
 use std::marker::PhantomData;
 use std::str::FromStr;

@@ -1,3 +1,5 @@
+//! The part of a stack that is kept.
+
 use std::ops::Range;
 use std::str::FromStr;
 

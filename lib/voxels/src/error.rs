@@ -1,3 +1,5 @@
+//! Why a stack cannot be read.
+
 use std::fmt::Display;
 use std::io;
 

@@ -1,3 +1,5 @@
+//! The slices in a folder, in order.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,3 +1,5 @@
+//! The value of a pixel.
+
 use std::fmt;
 use std::str::FromStr;
 

@@ -1,3 +1,5 @@
+//! Which values are void, wood and adhesive.
+
 use std::fmt;
 use std::str::FromStr;
 

@@ -1,3 +1,5 @@
+//! Volumes that are pages one after another.
+
 use std::fs::File;
 use std::os::unix::fs::FileExt;
 

@@ -1,3 +1,5 @@
+//! The numbers that pixels are stored as.
+
 use std::fmt;
 
 /// The number type of a stored sample.
@@ -91,7 +93,7 @@ pub struct PageFormat {
 
 impl PageFormat {
     /// Bytes of one pixel.
-    pub fn pixel_bytes(&self) -> usize {
+    pub(crate) fn pixel_bytes(&self) -> usize {
         self.sample.bytes() * self.channels
     }
 

@@ -1,3 +1,5 @@
+//! Stacks sorted into wood and adhesive.
+
 use particle_file::BitGrid;
 use rayon::prelude::*;
 

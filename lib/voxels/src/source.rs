@@ -1,3 +1,5 @@
+//! Input files read at any place from any thread.
+
 use std::fmt;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};

@@ -1,3 +1,5 @@
+//! A stack of any format, page by page.
+
 use std::fs::File;
 use std::path::{Path, PathBuf};
 

@@ -1,3 +1,5 @@
+//! How large a voxel is, by a file's metadata.
+
 use std::fmt;
 
 use particle_file::limits;

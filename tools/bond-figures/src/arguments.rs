@@ -1,3 +1,5 @@
+//! The command line of bond-figures.
+
 use clap::{Args, Parser, Subcommand};
 use cli::Output;
 use figures::{Case, Direction, Labelled, Page, Position};

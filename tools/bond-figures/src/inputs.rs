@@ -1,3 +1,5 @@
+//! The files of a figure.
+
 use std::fs::File;
 use std::io;
 use std::os::fd::AsRawFd;

@@ -37,7 +37,7 @@ impl Table {
     /// Reads a CSV file with a header; lines that begin with `#` are passed over.
     ///
     /// # Errors
-    /// Exit 3 for a file that cannot be read or is no CSV, exit 2 for a column that is none, a name
+    /// Exit 3 for a file that cannot be read or is no CSV, exit 2 for an unknown column, a name
     /// twice, a row of another length.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let name = path.display();

@@ -1,3 +1,5 @@
+//! What a file holds, in words.
+
 use std::fmt::Write;
 
 use cli::Failure;

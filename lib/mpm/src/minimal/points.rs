@@ -3,6 +3,7 @@
 use physics::{Liquid, Newtonian, TAIT_C};
 
 use super::tiles::Tile;
+use crate::fields::point::J;
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{EDGE, HALO, window};
 use crate::real::{Real, exp_m1};
@@ -237,7 +238,7 @@ impl Kernel for Stresses<'_> {
         for p in 0..n {
             let [x, y, z] = &gradient[p];
             let trace = (x.0[0] + y.0[1] + z.0[2]) * law.per_cell;
-            let j = &mut motion[p].0[3];
+            let j = &mut motion[p].0[J];
             *j += (1.0 + *j) * (dt * trace);
             let (k, pressure) = (2.0 * law.viscosity, law.pressure(*j));
             let third = trace / 3.0;

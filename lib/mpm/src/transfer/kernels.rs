@@ -205,16 +205,8 @@ mod tests {
             three: true,
         };
         let present = Present {
-            three: true,
-            contact: true,
-            friction: false,
-            force: false,
-            clamp: false,
-            load: false,
             filter: true,
-            affine: false,
-            cell_mean: false,
-            projection: false,
+            ..Present::CONTACT
         };
         let mut tile = Tile::new(lattice.tile_key([4; 3]), &lattice, present, 1);
         tile.bodies = 1;

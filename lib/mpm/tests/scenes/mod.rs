@@ -29,6 +29,21 @@ pub fn pf() -> Liquid {
     }
 }
 
+pub const SHAPES: [ShapeFunction; 3] = [
+    ShapeFunction::Gimp,
+    ShapeFunction::Bspline2,
+    ShapeFunction::Linear,
+];
+
+/// Each shape with each of these updates but the hat with APIC, which it does not have.
+pub fn combined(updates: &[VelocityUpdate]) -> Vec<(ShapeFunction, VelocityUpdate)> {
+    let all = SHAPES
+        .into_iter()
+        .flat_map(|s| updates.iter().map(move |&u| (s, u)));
+    all.filter(|&pair| pair != (ShapeFunction::Linear, VelocityUpdate::Apic))
+        .collect()
+}
+
 /// An empty scene of `cells`; one cell along z means plane strain.
 pub fn scene(cells: [usize; 3], boundary: [Boundary; 3]) -> Scene {
     Scene {

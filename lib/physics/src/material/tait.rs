@@ -1,3 +1,5 @@
+//! Pressure of a compressed liquid.
+
 /// The universal Tait constant C (paper Eq. 1; Li 1967).
 pub const TAIT_C: f64 = 0.0894;
 

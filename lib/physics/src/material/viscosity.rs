@@ -1,3 +1,5 @@
+//! Viscosity by the shear rate: constant or by table.
+
 use super::Law;
 use crate::Choice;
 

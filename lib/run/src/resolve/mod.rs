@@ -56,7 +56,7 @@ pub struct Setup {
 impl Setup {
     /// The scene with its material points, for a scheme that takes them over: millions of them
     /// need not stay in memory twice, and a plan needs none.
-    pub fn scene_for_scheme(&self) -> Scene {
+    pub(crate) fn scene_for_scheme(&self) -> Scene {
         Scene {
             points: self.seeds.points(),
             ..self.scene.clone()

@@ -9,40 +9,38 @@ use particle_file::Provenance;
 use run::{Mode, Request, RunFailure, Summary};
 use tempfile::TempDir;
 
-/// Liquid between two plates; a row of the history and a snapshot now and then.
-const CASE: &str = r#"[grid]
+/// A case of a drop `drop` um wide and 10 um high on the lower of two plates in a box `wide` um wide,
+/// the upper one `gap` um above it and driven by the clamp; `tables` are those of clamp, integrator and output.
+pub fn plates(wide: u32, gap: u32, drop: u32, tables: &str) -> String {
+    let top = 6 + gap;
+    format!(
+        r#"[grid]
 cell = "2 um"
 dimensions = 2
-domain = { min = ["0 um", "0 um", "0 um"], max = ["24 um", "30 um", "2 um"] }
+domain = {{ min = ["0 um", "0 um", "0 um"], max = ["{wide} um", "30 um", "2 um"] }}
 [adhesive]
 density = "1200 kg/m3"
 bulk_modulus = "1 GPa"
 viscosity = "1.3 Pa s"
 [contact]
 law = "stick"
-[clamp]
-closing_speed = "1 m/s"
-max_pressure = "2.5 MPa"
-travel = "4 um"
-stop = "STOP"
-[integrator]
-INTEGRATOR
-[output]
-history_every = "EVERY"
-snapshots = 3
+{tables}
 [[body]]
 material = "rigid"
 name = "bottom"
-box = { min = ["0 um", "0 um", "0 um"], max = ["24 um", "6 um", "2 um"] }
+box = {{ min = ["0 um", "0 um", "0 um"], max = ["{wide} um", "6 um", "2 um"] }}
 [[body]]
 material = "rigid"
 name = "top"
 velocity = "clamp"
-box = { min = ["0 um", "16 um", "0 um"], max = ["24 um", "30 um", "2 um"] }
+box = {{ min = ["0 um", "{top} um", "0 um"], max = ["{wide} um", "{} um", "2 um"] }}
 [[body]]
 material = "adhesive"
-box = { min = ["0 um", "6 um", "0 um"], max = ["4 um", "16 um", "2 um"] }
-"#;
+box = {{ min = ["0 um", "6 um", "0 um"], max = ["{drop} um", "16 um", "2 um"] }}
+"#,
+        top + 22
+    )
+}
 
 pub const PLAIN: Mode = Mode {
     resume: false,
@@ -68,10 +66,21 @@ impl Bench {
         bench
     }
 
-    /// Liquid between two plates.
+    /// Liquid between two plates; a row of the history and a snapshot now and then.
     pub fn new(integrator: &str, stop: &str, every: &str) -> Self {
-        let text = CASE.replace("INTEGRATOR", integrator).replace("STOP", stop);
-        Self::with(&text.replace("EVERY", every))
+        let tables = format!(
+            r#"[clamp]
+closing_speed = "1 m/s"
+max_pressure = "2.5 MPa"
+travel = "4 um"
+stop = "{stop}"
+[integrator]
+{integrator}
+[output]
+history_every = "{every}"
+snapshots = 3"#
+        );
+        Self::with(&plates(24, 10, 4, &tables))
     }
 
     /// About thirty explicit steps.

@@ -4,39 +4,7 @@ use std::fs;
 
 use run::End;
 
-use crate::bench::{Bench, PLAIN, RESUME, files};
-
-/// A drop between plates; `STAGES` are those of its clamp.
-const CASE: &str = r#"[grid]
-cell = "2 um"
-dimensions = 2
-domain = { min = ["0 um", "0 um", "0 um"], max = ["32 um", "30 um", "2 um"] }
-[adhesive]
-density = "1200 kg/m3"
-bulk_modulus = "1 GPa"
-viscosity = "1.3 Pa s"
-[contact]
-law = "stick"
-[clamp]
-travel = "8 um"
-STAGES
-[integrator]
-scheme = "implicit"
-[output]
-snapshots = 4
-[[body]]
-material = "rigid"
-name = "bottom"
-box = { min = ["0 um", "0 um", "0 um"], max = ["32 um", "6 um", "2 um"] }
-[[body]]
-material = "rigid"
-name = "top"
-velocity = "clamp"
-box = { min = ["0 um", "18 um", "0 um"], max = ["32 um", "40 um", "2 um"] }
-[[body]]
-material = "adhesive"
-box = { min = ["0 um", "6 um", "0 um"], max = ["12 um", "16 um", "2 um"] }
-"#;
+use crate::bench::{Bench, PLAIN, RESUME, files, plates};
 
 /// Approach, ramp, hold until next to nothing flows, release: from microseconds to minutes.
 const STAGES: &str = r#"
@@ -61,8 +29,22 @@ kind = "release"
 time = "1 min"
 "#;
 
+/// A drop under a clamp of these stages and this way.
+fn case(travel: &str, stages: &str) -> String {
+    let tables = format!(
+        r#"[clamp]
+travel = "{travel}"
+{stages}
+[integrator]
+scheme = "implicit"
+[output]
+snapshots = 4"#
+    );
+    plates(32, 12, 12, &tables)
+}
+
 fn bench(stages: &str) -> Bench {
-    Bench::with(&CASE.replace("STAGES", stages))
+    Bench::with(&case("8 um", stages))
 }
 
 fn column(history: &str, name: &str) -> Vec<f64> {
@@ -146,8 +128,7 @@ fn a_programme_stopped_after_any_step_ends_the_same() {
 #[test]
 fn a_closed_clamp_stands_until_the_programme_is_over() {
     let stages = STAGES.replace("slower = \"500 um/s\"\n", "");
-    let case = CASE.replace("STAGES", &stages.replace("10 kPa", "1 MPa"));
-    let bench = Bench::with(&case.replace("8 um", "6 um"));
+    let bench = Bench::with(&case("6 um", &stages.replace("10 kPa", "1 MPa")));
     let summary = bench.ran("run", PLAIN, usize::MAX);
     assert_eq!(summary.end, End::Programme);
     let hold = &summary.programme[2];

@@ -2,6 +2,7 @@
 //! Whatever a case asks for, the automatic time step keeps it stable or the run refuses it or
 //! stops with a reason; nothing ends in NaN silently.
 
+mod extremes;
 pub mod instability;
 pub mod plan;
 pub mod report;

@@ -1,3 +1,5 @@
+//! One adherend: what is wood at a point, and of which tissue.
+
 use super::cut::Cut;
 use super::fibres::Fibres;
 use super::rays::Rays;

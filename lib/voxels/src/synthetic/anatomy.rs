@@ -1,3 +1,5 @@
+//! What was grown, beside what the literature says.
+
 use super::adherend::{Adherend, Counts, Tissue};
 use super::lumens::Lumens;
 use super::penetration::Filled;

@@ -1,3 +1,5 @@
+//! How an adherend is cut from its stem.
+
 use rand::RngExt;
 
 use super::random::{Feature, stream};

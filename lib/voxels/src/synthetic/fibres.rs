@@ -1,3 +1,5 @@
+//! Fibres with their lumens and ends.
+
 use rand::RngExt;
 
 use super::cut::WoodPoint;

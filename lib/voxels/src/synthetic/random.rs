@@ -1,3 +1,5 @@
+//! Streams of random numbers.
+
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 

@@ -1,3 +1,5 @@
+//! Rays of wood and their pits.
+
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 

@@ -1,3 +1,5 @@
+//! What to grow.
+
 use super::species::{Species, Timber};
 
 /// The adhesive of a synthetic specimen: sets the slab volume and, for PF, the isolated tube.
@@ -12,7 +14,7 @@ pub enum AdhesiveSystem {
 
 impl AdhesiveSystem {
     /// Slab thickness of the paper's full-size specimen, m (section 3: 55.1 um, 78.3 um).
-    pub fn paper_slab(self) -> f64 {
+    fn paper_slab(self) -> f64 {
         match self {
             Self::Pf => 55.1e-6,
             Self::PvaPf => 78.3e-6,

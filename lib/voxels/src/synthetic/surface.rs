@@ -1,3 +1,5 @@
+//! The rough face of an adherend.
+
 use rand::RngExt;
 
 use super::random::{Feature, stream};

@@ -1,3 +1,5 @@
+//! Vessels in groups with their pits.
+
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 

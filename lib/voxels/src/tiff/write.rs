@@ -1,3 +1,5 @@
+//! Label stacks as TIFF.
+
 use std::io::{self, Write};
 
 use super::ifd::tag;

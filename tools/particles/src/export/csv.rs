@@ -1,3 +1,5 @@
+//! Points as CSV.
+
 use std::io::{self, Write};
 
 use super::points::{Column, Points, Values};

@@ -1,3 +1,5 @@
+//! Every array for NumPy.
+
 use std::io::{self, Write};
 
 use cli::{Failure, Output, Record};

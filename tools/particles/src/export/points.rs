@@ -1,3 +1,5 @@
+//! Points and their columns as a table.
+
 use std::borrow::Cow;
 
 use cli::Failure;

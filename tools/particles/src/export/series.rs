@@ -1,3 +1,5 @@
+//! A series of states for ParaView.
+
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::Path;
