@@ -1,7 +1,7 @@
 //! What a press has come to, as `metrics` measures it: columns of the history and a part of the summary.
 
 use metrics::{
-    Adhesive, BondLine, Datum, Penetration, Reference, Sealed, State, Wood, bond_line,
+    Adhesive, BondLine, Datum, DepthLayer, Penetration, Reference, Sealed, State, Wood, bond_line,
     depth_profile, penetration,
 };
 use particle_file::ParticleFile;
@@ -71,12 +71,7 @@ impl<'a> Watch<'a> {
     /// # Errors
     /// A bond file that cannot be read any more.
     pub(crate) fn look(&self, scheme: &dyn Scheme) -> Result<Moment, RunError> {
-        self.measure(scheme, |state, middle| {
-            Ok(Moment {
-                sides: penetration(state, middle),
-                line: bond_line(state, self.begun_m3, &self.sealed)?,
-            })
-        })
+        self.measure(scheme, |state, middle| self.moment(state, middle))
     }
 
     /// The same with the filled share of the open lumens by depth.
@@ -84,26 +79,22 @@ impl<'a> Watch<'a> {
     /// # Errors
     /// As [`Watch::look`].
     pub(crate) fn look_closely(&self, scheme: &dyn Scheme) -> Result<Answers, RunError> {
-        let moment = self.look(scheme)?;
-        let layers = self.measure(scheme, |state, middle| {
-            depth_profile(state, middle, &self.sealed)
-        })?;
-        // Behind the last layer with adhesive there is nothing to tell.
-        let shares = |below: bool| {
-            let side = layers.iter().filter(|l| (l.depth_m < 0.0) == below);
-            let mut shares: Vec<f64> = side.map(|l| l.filled_open_fraction).collect();
-            if below {
-                shares.reverse();
-            }
-            let end = shares.iter().rposition(|share| *share > 0.0);
-            shares.truncate(end.map_or(0, |last| last + 1));
-            shares
-        };
-        Ok(Answers::new(
-            &moment,
-            self.bond.header().voxel_m,
-            [true, false].map(shares),
-        ))
+        self.measure(scheme, |state, middle| {
+            let layers = depth_profile(state, middle, &self.sealed)?;
+            let shares = [true, false].map(|below| shares(&layers, below));
+            Ok(Answers::new(
+                &self.moment(state, middle)?,
+                state.voxel_m,
+                shares,
+            ))
+        })
+    }
+
+    fn moment(&self, state: &State, middle: &Datum) -> Result<Moment, metrics::Error> {
+        Ok(Moment {
+            sides: penetration(state, middle),
+            line: bond_line(state, self.begun_m3, &self.sealed)?,
+        })
     }
 
     fn measure<T>(
@@ -134,6 +125,18 @@ impl<'a> Watch<'a> {
             .and_then(|middle| what(&state, &middle))
             .map_err(|error| RunError::Checkpoint(format!("the bond cannot be measured: {error}")))
     }
+}
+
+/// The filled shares of the open lumens on one side, from the middle to the last layer with adhesive.
+fn shares(layers: &[DepthLayer], below: bool) -> Vec<f64> {
+    let side = layers.iter().filter(|l| (l.depth_m < 0.0) == below);
+    let mut shares: Vec<f64> = side.map(|l| l.filled_open_fraction).collect();
+    if below {
+        shares.reverse();
+    }
+    let end = shares.iter().rposition(|share| *share > 0.0);
+    shares.truncate(end.map_or(0, |last| last + 1));
+    shares
 }
 
 /// A quantity of both sides and of all.
