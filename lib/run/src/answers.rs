@@ -5,11 +5,13 @@ use metrics::{
     depth_profile, penetration,
 };
 use particle_file::ParticleFile;
-use physics::Scheme;
+use physics::{Dimensions, Scheme};
 use serde::Serialize;
 use units::Axis;
 
+use crate::case::Case;
 use crate::drive::RunError;
+use crate::request::RunFailure;
 use crate::resolve::Setup;
 use crate::snapshot::{in_file_axes, wood_now};
 
@@ -50,12 +52,50 @@ pub(crate) struct Watch<'a> {
     sealed: Sealed,
 }
 
+/// Refuses a case that asks for what its scene cannot tell: without a bond there is nothing to measure, and in a
+/// slice the liquid is as deep as a cell and the wood as a voxel.
+///
+/// # Errors
+/// A sentence.
+pub(crate) fn check(case: &Case, bonded: bool, setup: &Setup) -> Result<(), RunFailure> {
+    match case.output.penetration && !(bonded && is_solid(setup)) {
+        true => Err(RunFailure::Usage(
+            "[output] penetration is measured of the bond of a bond file (--particles) in three dimensions".into(),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Who measures the bond of a run, where [`check`] lets it be asked for.
+///
+/// # Errors
+/// A bond that cannot be measured although the case asks for it.
+pub(crate) fn watch<'a>(
+    case: &Case,
+    bond: Option<&'a ParticleFile>,
+    setup: &Setup,
+) -> Result<Option<Watch<'a>>, RunFailure> {
+    match bond
+        .filter(|_| is_solid(setup))
+        .map(|bond| Watch::on(bond, setup))
+    {
+        Some(Err(error)) if case.output.penetration => Err(RunFailure::Usage(format!(
+            "[output] penetration: the bond cannot be measured: {error}"
+        ))),
+        watch => Ok(watch.and_then(Result::ok)),
+    }
+}
+
+fn is_solid(setup: &Setup) -> bool {
+    setup.scene.dimensions == Dimensions::Three
+}
+
 impl<'a> Watch<'a> {
     /// A watch on the run of `setup`, whose wood is that of `bond`.
     ///
     /// # Errors
     /// Why the bond cannot be measured.
-    pub(crate) fn on(bond: &'a ParticleFile, setup: &Setup) -> Result<Self, metrics::Error> {
+    fn on(bond: &'a ParticleFile, setup: &Setup) -> Result<Self, metrics::Error> {
         let state = State::of_file(bond)?;
         let middle = Datum::find(Reference::Mid, &state)?;
         Ok(Self {
