@@ -76,6 +76,32 @@ fn the_page_holds_all_that_was_given_and_asks_no_network() {
     assert_eq!(again.status.code(), Some(2), "{}", said(&again));
 }
 
+#[test]
+fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
+    let bench = Workbench::new();
+    for folder in ["failed", "killed"] {
+        std::fs::create_dir(bench.path(folder)).unwrap();
+        bench.write(
+            &format!("{folder}/resolved.toml"),
+            "[grid]\ncell = \"2 um\"\n",
+        );
+    }
+    let summary = r#"{"end": "failed", "verdict": {"sound": false, "reasons": ["step 7: too <fast>"]}, "steps": 6}"#;
+    bench.write("failed/summary.json", summary);
+    bench.done(
+        "bond-report",
+        &["--run", "failed", "--run", "killed", "-o", "page.html"],
+    );
+    let page = String::from_utf8(bench.read("page.html")).unwrap();
+    for told in [
+        "failed: not sound.</strong> step 7: too &lt;fast&gt;",
+        "killed: not sound.</strong> there is no summary.json",
+        "not ended",
+    ] {
+        assert!(page.contains(told), "{told}");
+    }
+}
+
 /// A browser of this machine.
 fn browser() -> Option<&'static str> {
     let found = |name: &&str| {

@@ -145,7 +145,12 @@ fn filled(runs: &[Labelled], tables: &[Table]) -> Result<Plot, Error> {
             let time =
                 told[(told.len() - 1) - (count - 1 - i) * (told.len() - 1) / (count - 1).max(1)];
             let rows = (0..depths.len()).filter(|&row| times[row] == time);
-            let points = rows.map(|row| [depths[row], shares[row]]).collect();
+            // A layer without open lumens breaks the line and does not widen the axis.
+            let place = |row: usize| match shares[row].is_finite() {
+                true => [depths[row], shares[row]],
+                false => [f64::NAN; 2],
+            };
+            let points = rows.map(place).collect();
             let label = match (runs.len(), table.has("time_s")) {
                 (1, true) => format!("{:.3} {name}", time / unit),
                 _ => run.label.clone(),

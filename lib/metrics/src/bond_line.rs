@@ -4,7 +4,7 @@
 use std::fmt;
 
 use bondline::Placed;
-use particle_file::BitGrid;
+use particle_file::{BitGrid, BitsRef};
 use voxels::VolumeFractions;
 
 use crate::{
@@ -120,7 +120,7 @@ fn wetted(state: &State, middle: &Datum) -> [f64; 2] {
             for (side, wood) in [(Side::Bottom, bottom), (Side::Top, top)] {
                 let lattice = Lattice::new(state, wood, side);
                 let liquid = lattice.liquid(position, volume);
-                let faces = lattice.faces(|index| liquid.get(index[0], index[1], index[2]));
+                let faces = lattice.faces(liquid.view());
                 add(side, faces.len() as f64 * wood.voxel_m.powi(2));
             }
         }
@@ -130,8 +130,7 @@ fn wetted(state: &State, middle: &Datum) -> [f64; 2] {
                 shift: [0; 3],
                 dims: wood.bits.dims(),
             };
-            let [x, y, z] = [0, 1, 2];
-            for index in lattice.faces(|i| adhesive.bits.get(i[x], i[y], i[z])) {
+            for index in lattice.faces(adhesive.bits) {
                 add(middle.depth(wood.centre_m(index)).0, wood.voxel_m.powi(2));
             }
         }
@@ -163,10 +162,27 @@ impl<'a> Lattice<'a> {
         (0..3).all(|a| own[a] < dims[a]) && self.wood.bits.get(own[0], own[1], own[2])
     }
 
+    /// The voxels that are not wood.
+    fn open(&self) -> BitGrid {
+        let [shift, dims] = [self.shift, self.wood.bits.dims()];
+        if shift[0] > 0 {
+            return BitGrid::from_fn(self.dims, |x, y, z| !self.is_wood([x, y, z]));
+        }
+        BitGrid::from_rows(self.dims, |y, z, row| {
+            row.fill(u64::MAX);
+            let [y, z] = [y.wrapping_sub(shift[1]), z.wrapping_sub(shift[2])];
+            if y < dims[1] && z < dims[2] {
+                for (open, wood) in row.iter_mut().zip(self.wood.bits.row(y, z)) {
+                    *open = !wood;
+                }
+            }
+        })
+    }
+
     /// The voxels that points fill.
     fn liquid(&self, position: &[[f32; 3]], volume: &[f32]) -> BitGrid {
         let edge = self.wood.voxel_m;
-        let open = BitGrid::from_fn(self.dims, |x, y, z| !self.is_wood([x, y, z]));
+        let open = self.open();
         let mut fractions = VolumeFractions::new(open);
         for (p, &v) in position.iter().zip(volume) {
             let place: [f64; 3] = std::array::from_fn(|a| {
@@ -180,23 +196,27 @@ impl<'a> Lattice<'a> {
     }
 
     /// The wood's voxel at each face between wood and `liquid`.
-    fn faces(&self, liquid: impl Fn([usize; 3]) -> bool) -> Vec<[usize; 3]> {
+    fn faces(&self, liquid: BitsRef) -> Vec<[usize; 3]> {
         let mut found = Vec::new();
-        self.wood.for_each(|own| {
-            let index: [usize; 3] = std::array::from_fn(|a| own[a] + self.shift[a]);
-            for a in 0..3 {
-                for next in [index[a].checked_sub(1), Some(index[a] + 1)] {
-                    let Some(next) = next.filter(|next| *next < self.dims[a]) else {
-                        continue;
-                    };
-                    let mut beside = index;
-                    beside[a] = next;
-                    if liquid(beside) && !self.is_wood(beside) {
-                        found.push(own);
+        let [_, ny, nz] = self.dims;
+        let rows = (0..nz).flat_map(|z| (0..ny).map(move |y| (y, z)));
+        for (y, z) in rows {
+            for x in liquid
+                .set_in_row(y, z)
+                .filter(|&x| !self.is_wood([x, y, z]))
+            {
+                let index = [x, y, z];
+                for a in 0..3 {
+                    for next in [index[a].checked_sub(1), Some(index[a] + 1)] {
+                        let mut beside = index;
+                        beside[a] = next.unwrap_or(usize::MAX);
+                        if beside[a] < self.dims[a] && self.is_wood(beside) {
+                            found.push(std::array::from_fn(|a| beside[a] - self.shift[a]));
+                        }
                     }
                 }
             }
-        });
+        }
         found
     }
 }

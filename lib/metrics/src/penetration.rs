@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+use rayon::prelude::*;
+
+use crate::quantile::by_value;
 use crate::{Adhesive, Datum, State, Weighted};
 
 /// One side of the bond line, or both.
@@ -78,12 +81,16 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     let samples = samples(state, datum);
     let area = state.area_m2();
     let total: f64 = samples.iter().map(|s| s.volume).sum();
+    let pair = |s: &Sample| ((s.depth, s.volume), s.side);
+    let mut sorted: Vec<((f64, f64), Side)> = samples.iter().map(pair).collect();
+    sorted.par_sort_unstable_by(|a, b| by_value(&a.0, &b.0));
     Side::ALL.map(|side| {
         let of_side = || samples.iter().filter(|s| side.includes(s.side));
         // The sum of nothing is -0.
         let volume = of_side().map(|s| s.volume).sum::<f64>() + 0.0;
         let squares: f64 = of_side().map(|s| s.volume * s.depth * s.depth).sum();
-        let depths = Weighted::new(of_side().map(|s| (s.depth, s.volume)).collect());
+        let depths = sorted.iter().filter(|(_, s)| side.includes(*s));
+        let depths = Weighted::of_sorted(depths.map(|(pair, _)| *pair).collect());
         let [p95_depth_m, p99_depth_m] = depths.quantiles([0.95, 0.99]);
         Penetration {
             side,

@@ -1,5 +1,7 @@
 //! Quantiles by weight.
 
+use std::cmp::Ordering;
+
 use rayon::prelude::*;
 
 /// Values with weights, in ascending order.
@@ -9,11 +11,20 @@ pub struct Weighted {
     total: f64,
 }
 
+/// By value, then weight: equal pairs are alike, so the order is unique.
+pub(crate) fn by_value(a: &(f64, f64), b: &(f64, f64)) -> Ordering {
+    a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+}
+
 impl Weighted {
     /// From pairs of value and weight; weights are positive, values are numbers.
     pub fn new(mut pairs: Vec<(f64, f64)>) -> Self {
-        // By value, then weight: equal pairs are alike, so the order is unique.
-        pairs.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        pairs.par_sort_unstable_by(by_value);
+        Self::of_sorted(pairs)
+    }
+
+    /// From pairs in the order of [`by_value`].
+    pub(crate) fn of_sorted(pairs: Vec<(f64, f64)>) -> Self {
         let total = pairs.iter().map(|(_, w)| w).sum();
         Self {
             sorted: pairs,

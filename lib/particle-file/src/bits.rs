@@ -103,6 +103,7 @@ impl BitGrid {
     ///
     /// # Panics
     /// Outside the grid.
+    #[inline]
     pub fn get(&self, x: usize, y: usize, z: usize) -> bool {
         self.view().get(x, y, z)
     }
@@ -168,6 +169,7 @@ impl<'a> BitsRef<'a> {
     ///
     /// # Panics
     /// Outside the grid.
+    #[inline]
     pub fn get(&self, x: usize, y: usize, z: usize) -> bool {
         assert!(x < self.dims[0], "voxel outside the grid");
         self.row(y, z)[x / WORD] >> (x % WORD) & 1 == 1

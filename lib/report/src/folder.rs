@@ -45,6 +45,18 @@ impl RunFolder {
         value.map_or("-".into(), |x| format!("{:.decimals$}", x * unit))
     }
 
+    /// The simulated time in a unit that suits it: runs take from microseconds to hours.
+    fn time(&self) -> String {
+        let (unit, name) = match self.summary.pointer("/time_s").and_then(Value::as_f64) {
+            None => return "-".into(),
+            Some(s) if s < 1e-3 => (1e-6, "us"),
+            Some(s) if s < 1.0 => (1e-3, "ms"),
+            Some(s) if s < 600.0 => (1.0, "s"),
+            Some(_) => (60.0, "min"),
+        };
+        format!("{} {name}", self.number("/time_s", 1.0 / unit, 2))
+    }
+
     fn text(&self, pointer: &str) -> String {
         self.summary.pointer(pointer).map_or("-".into(), plain)
     }
@@ -55,7 +67,7 @@ impl RunFolder {
         "end",
         "results",
         "steps",
-        "simulated (us)",
+        "simulated",
         "gap left (um)",
         "pressure at the end (MPa)",
         "volume change (%)",
@@ -75,7 +87,7 @@ impl RunFolder {
             self.text("/end").replace('_', " "),
             sound.into(),
             self.text("/steps"),
-            self.number("/time_s", 1e6, 2),
+            self.time(),
             self.number("/gap_m", 1e6, 2),
             self.number("/final_pressure_pa", 1e-6, 3),
             self.number("/invariants/volume_change", 100.0, 3),

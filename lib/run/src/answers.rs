@@ -1,15 +1,17 @@
 //! What a press has come to, as `metrics` measures it: columns of the history and a part of the summary.
 
 use metrics::{
-    Adhesive, BondLine, Datum, Penetration, Reference, Sealed, State, Wood, bond_line,
+    Adhesive, BondLine, Datum, DepthLayer, Penetration, Reference, Sealed, State, Wood, bond_line,
     depth_profile, penetration,
 };
 use particle_file::ParticleFile;
-use physics::Scheme;
+use physics::{Dimensions, Scheme};
 use serde::Serialize;
 use units::Axis;
 
+use crate::case::Case;
 use crate::drive::RunError;
+use crate::request::RunFailure;
 use crate::resolve::Setup;
 use crate::snapshot::{in_file_axes, wood_now};
 
@@ -50,12 +52,50 @@ pub(crate) struct Watch<'a> {
     sealed: Sealed,
 }
 
+/// Refuses a case that asks for what its scene cannot tell: without a bond there is nothing to measure, and in a
+/// slice the liquid is as deep as a cell and the wood as a voxel.
+///
+/// # Errors
+/// A sentence.
+pub(crate) fn check(case: &Case, bonded: bool, setup: &Setup) -> Result<(), RunFailure> {
+    match case.output.penetration && !(bonded && is_solid(setup)) {
+        true => Err(RunFailure::Usage(
+            "[output] penetration is measured of the bond of a bond file (--particles) in three dimensions".into(),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Who measures the bond of a run, where [`check`] lets it be asked for.
+///
+/// # Errors
+/// A bond that cannot be measured although the case asks for it.
+pub(crate) fn watch<'a>(
+    case: &Case,
+    bond: Option<&'a ParticleFile>,
+    setup: &Setup,
+) -> Result<Option<Watch<'a>>, RunFailure> {
+    match bond
+        .filter(|_| is_solid(setup))
+        .map(|bond| Watch::on(bond, setup))
+    {
+        Some(Err(error)) if case.output.penetration => Err(RunFailure::Usage(format!(
+            "[output] penetration: the bond cannot be measured: {error}"
+        ))),
+        watch => Ok(watch.and_then(Result::ok)),
+    }
+}
+
+fn is_solid(setup: &Setup) -> bool {
+    setup.scene.dimensions == Dimensions::Three
+}
+
 impl<'a> Watch<'a> {
     /// A watch on the run of `setup`, whose wood is that of `bond`.
     ///
     /// # Errors
     /// Why the bond cannot be measured.
-    pub(crate) fn on(bond: &'a ParticleFile, setup: &Setup) -> Result<Self, metrics::Error> {
+    fn on(bond: &'a ParticleFile, setup: &Setup) -> Result<Self, metrics::Error> {
         let state = State::of_file(bond)?;
         let middle = Datum::find(Reference::Mid, &state)?;
         Ok(Self {
@@ -71,12 +111,7 @@ impl<'a> Watch<'a> {
     /// # Errors
     /// A bond file that cannot be read any more.
     pub(crate) fn look(&self, scheme: &dyn Scheme) -> Result<Moment, RunError> {
-        self.measure(scheme, |state, middle| {
-            Ok(Moment {
-                sides: penetration(state, middle),
-                line: bond_line(state, self.begun_m3, &self.sealed)?,
-            })
-        })
+        self.measure(scheme, |state, middle| self.moment(state, middle))
     }
 
     /// The same with the filled share of the open lumens by depth.
@@ -84,26 +119,22 @@ impl<'a> Watch<'a> {
     /// # Errors
     /// As [`Watch::look`].
     pub(crate) fn look_closely(&self, scheme: &dyn Scheme) -> Result<Answers, RunError> {
-        let moment = self.look(scheme)?;
-        let layers = self.measure(scheme, |state, middle| {
-            depth_profile(state, middle, &self.sealed)
-        })?;
-        // Behind the last layer with adhesive there is nothing to tell.
-        let shares = |below: bool| {
-            let side = layers.iter().filter(|l| (l.depth_m < 0.0) == below);
-            let mut shares: Vec<f64> = side.map(|l| l.filled_open_fraction).collect();
-            if below {
-                shares.reverse();
-            }
-            let end = shares.iter().rposition(|share| *share > 0.0);
-            shares.truncate(end.map_or(0, |last| last + 1));
-            shares
-        };
-        Ok(Answers::new(
-            &moment,
-            self.bond.header().voxel_m,
-            [true, false].map(shares),
-        ))
+        self.measure(scheme, |state, middle| {
+            let layers = depth_profile(state, middle, &self.sealed)?;
+            let shares = [true, false].map(|below| shares(&layers, below));
+            Ok(Answers::new(
+                &self.moment(state, middle)?,
+                state.voxel_m,
+                shares,
+            ))
+        })
+    }
+
+    fn moment(&self, state: &State, middle: &Datum) -> Result<Moment, metrics::Error> {
+        Ok(Moment {
+            sides: penetration(state, middle),
+            line: bond_line(state, self.begun_m3, &self.sealed)?,
+        })
     }
 
     fn measure<T>(
@@ -134,6 +165,18 @@ impl<'a> Watch<'a> {
             .and_then(|middle| what(&state, &middle))
             .map_err(|error| RunError::Checkpoint(format!("the bond cannot be measured: {error}")))
     }
+}
+
+/// The filled shares of the open lumens on one side, from the middle to the last layer with adhesive.
+fn shares(layers: &[DepthLayer], below: bool) -> Vec<f64> {
+    let side = layers.iter().filter(|l| (l.depth_m < 0.0) == below);
+    let mut shares: Vec<f64> = side.map(|l| l.filled_open_fraction).collect();
+    if below {
+        shares.reverse();
+    }
+    let end = shares.iter().rposition(|share| *share > 0.0);
+    shares.truncate(end.map_or(0, |last| last + 1));
+    shares
 }
 
 /// A quantity of both sides and of all.

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use physics::{
-    Choice, Dimensions, Motion, Press, PressStage, Regime, SET, Stages, Stop, Viscosity, WallLaw,
+    Choice, Cure, Dimensions, Motion, Press, PressStage, Regime, SET, Stages, Stop, Viscosity,
+    WallLaw,
 };
 
 use crate::case::{Case, SchemeName};
@@ -236,6 +237,7 @@ fn told(stage: &PressStage) -> String {
 }
 
 fn cost(out: &mut String, setup: &Setup, forecast: &Forecast) -> std::fmt::Result {
+    let set = setup.scene.liquid.cure.as_ref().and_then(Cure::set_at);
     writeln!(out, "\ncost (estimated)")?;
     writeln!(
         out,
@@ -246,7 +248,7 @@ fn cost(out: &mut String, setup: &Setup, forecast: &Forecast) -> std::fmt::Resul
         out,
         "  steps              about {} to {:.4e} s{}",
         count(forecast.steps),
-        setup.nominal_duration_s,
+        setup.nominal_duration_s.min(set.unwrap_or(f64::INFINITY)),
         if forecast.most_steps > forecast.steps {
             format!(
                 ", at most {} where the pressure limit holds the clamp",

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use particle_file::{ParticleFile, Provenance};
-use physics::{Cure, Dimensions, Regime, StepReport};
+use physics::{Cure, Regime, StepReport};
 use xxhash_rust::xxh3::xxh3_64;
 
-use crate::answers::Watch;
+use crate::answers;
 use crate::begin::{self, Mode};
 use crate::case::{Case, CaseError};
 use crate::changes::changed;
@@ -128,7 +128,9 @@ impl Request {
             None => None,
         };
         let plain = bond.as_ref().map(load::bond).transpose()?;
+        let bonded = plain.is_some();
         let setup = resolve::resolve(&parsed, plain)?;
+        answers::check(&parsed, bonded, &setup)?;
         Ok(Self {
             case: parsed,
             text,
@@ -198,7 +200,7 @@ impl Request {
             return Ok(None);
         }
         // What is refused must not cost a run folder.
-        let watch = self.watch()?;
+        let watch = answers::watch(&self.case, self.bond.as_ref(), &self.setup)?;
         match self.excess()? {
             Some(excess) if mode.however_long => warn(excess),
             Some(excess) => {
@@ -331,26 +333,6 @@ impl Request {
             folder.remove(CHECKPOINT)?;
         }
         Ok(Some(summary))
-    }
-
-    /// Who measures the bond; none where there is none, or a slice whose liquid is as deep as a cell and
-    /// its wood as a voxel.
-    ///
-    /// # Errors
-    /// A bond that cannot be measured although the case asks for it.
-    fn watch(&self) -> Result<Option<Watch<'_>>, RunFailure> {
-        let asked = self.case.output.penetration;
-        let solid = self.setup.scene.dimensions == Dimensions::Three;
-        match self.bond.as_ref().filter(|_| solid).map(|bond| Watch::on(bond, &self.setup)) {
-            Some(Err(error)) if asked => Err(RunFailure::Usage(format!(
-                "[output] penetration: the bond cannot be measured: {error}"
-            ))),
-            Some(watch) => Ok(watch.ok()),
-            None if asked => Err(RunFailure::Usage(
-                "[output] penetration is measured of the bond of a bond file (--particles) in three dimensions".into(),
-            )),
-            None => Ok(None),
-        }
     }
 
     /// What makes two runs the same: the case as run, the inputs and the version.

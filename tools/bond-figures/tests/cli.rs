@@ -208,6 +208,61 @@ fn unfit_data_are_exit_3_with_file_and_column_and_leave_no_picture() {
     }
 }
 
+/// A table of `rows` below their header.
+fn table(folder: &Path, name: &str, header: &str, rows: &[&str]) {
+    let text = [&[header], rows].concat().join("\n") + "\n";
+    std::fs::write(folder.join(name), text).unwrap();
+}
+
+#[test]
+fn penetration_is_drawn_from_histories_and_profiles_too() {
+    let folder = folder();
+    let history = "time_s,wp_bottom_um,wp_top_um,wp_total_um,p95_depth_bottom_um,p95_depth_top_um,\
+p95_depth_total_um,wetted_area_bottom_um2,wetted_area_top_um2,bond_line";
+    let rows = [
+        "1e-5,1,2,1.5,3,4,3.5,100,200,filled",
+        "2e-5,2,3,2.5,5,6,5.5,300,400,starved",
+    ];
+    std::fs::create_dir(folder.path().join("press")).unwrap();
+    table(folder.path(), "press/history.csv", history, &rows);
+    let profile = "time_s,depth_um,adhesive_fraction,filled_void_fraction,filled_open_fraction";
+    let layers = ["1e-5,-1,0.5,0.5,0.7", "1e-5,1,0.5,0.5,1", "1e-5,3,0,0,NaN"];
+    table(folder.path(), "depth.csv", profile, &layers);
+    for (arguments, words) in [
+        (&["press"][..], &["WP, bottom", "starved", "time (µs)"][..]),
+        (&["a=press", "b=press"], &["a: WP, total", "b: starved"]),
+        (
+            &["--show", "wetted", "press"],
+            &["wood wetted (µm²)", "top"],
+        ),
+        (
+            &["--show", "filled", "depth.csv"],
+            &["10.000 µs", "filled share"],
+        ),
+    ] {
+        let arguments = [&["penetration"], arguments, &["-o", "figure.svg"]].concat();
+        let output = figures(folder.path(), &arguments);
+        assert!(output.status.success(), "{}", said(&output));
+        let picture = std::fs::read_to_string(folder.path().join("figure.svg")).unwrap();
+        for word in words {
+            assert!(picture.contains(word), "{word}");
+        }
+    }
+    table(
+        folder.path(),
+        "press/history.csv",
+        "time_s,bond_line",
+        &["1,filled"],
+    );
+    let output = figures(folder.path(), &["penetration", "press", "-o", "figure.svg"]);
+    assert_eq!(output.status.code(), Some(3), "{}", said(&output));
+    assert!(
+        said(&output).contains("[output] penetration = true"),
+        "{}",
+        said(&output)
+    );
+}
+
 #[test]
 fn penetration_is_drawn_over_times_of_any_length() {
     let folder = folder();

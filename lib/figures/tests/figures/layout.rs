@@ -7,10 +7,11 @@ use figures::{
     Case, Closing, Clouds, Colouring, Cut, Direction, Drawing, Mark, Page, Plot, Position, Setup,
     ShearRates, Slices, Table2, Views, Wood, WpMap,
 };
+use particle_file::Kind;
 use units::Axis;
 
 use crate::Folder;
-use crate::slices::bond;
+use crate::slices::{bond, layers};
 
 const LONG: &str =
     "phenol formaldehyde of a very long name, partial slip with an influence length, XPIC(5)";
@@ -182,11 +183,20 @@ fn of_slices() {
 fn of_setups_and_tables() {
     let folder = Folder::new();
     let bond = folder.labelled("bond", bond());
+    let specimen = folder.labelled("specimen", layers(Kind::Specimen));
     check("setup", |_, page| {
         let dpi = Page::DPI[0];
         let page = Page { dpi, ..page };
-        Setup::read(&bond, &bond).unwrap().on(page).draw()
+        let drawing = Setup::read(&specimen, &bond).unwrap().on(page).draw();
+        let whole = page.width_mm.is_none_or(|mm| mm >= 84.0);
+        let boxes = drawing.text_boxes();
+        let cut = boxes.iter().find(|one| whole && one.text.contains('…'));
+        assert!(cut.is_none(), "{:?} on {page:?}", cut.map(|one| &one.text));
+        drawing
     });
+    let refused = Setup::read(&bond, &bond).err().unwrap().to_string();
+    let said = "holds a bond before pressing, where a specimen is needed";
+    assert!(refused.contains(said), "{refused}");
     let wp = folder.file(
         "wp.csv",
         "file,side,reference,wp_um,slab_wp_um\na,bottom,mid,1,2\na,top,mid,111.1,2\na,total,mid,,2\n",

@@ -9,9 +9,14 @@ use crate::{Folder, pixels, texts};
 /// A bond of 40 x 60 x 20 voxels: wood in the lowest and highest thirds, adhesive in a slab
 /// of 6 voxels at y = 27.
 pub(crate) fn bond() -> Vec<u8> {
+    layers(Kind::Bond)
+}
+
+/// The same layers as a file of a kind.
+pub(crate) fn layers(kind: Kind) -> Vec<u8> {
     let voxel = 1e-6;
     let edges = [40e-6, 60e-6, 20e-6];
-    let header = Header::new(Kind::Bond, voxel, 1, [0.0; 3], edges);
+    let header = Header::new(kind, voxel, 1, [0.0; 3], edges);
     let wood = BitGrid::from_fn([40, 60, 20], |_, y, _| !(20..40).contains(&y));
     let slab = BitGrid::from_fn([40, 6, 20], |_, _, _| true);
     let origin = [0.0, 27e-6, 0.0];

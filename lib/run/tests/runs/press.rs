@@ -212,3 +212,22 @@ fn stages_that_contradict_one_another_are_refused() {
     let said = explicit.unwrap_err().to_string();
     assert!(said.contains("scheme = \"implicit\" only"), "{said}");
 }
+
+/// The clamp has long gone its way when the adhesive sets in the hold: as many steps as change its viscosity.
+#[test]
+fn the_plan_counts_the_steps_of_cure_in_all_stages() {
+    let cured = CASE.replace("STAGES", &STAGES.replace("slower = \"500 um/s\"\n", ""));
+    let cure = "[adhesive.cure]\ngel_time = \"100 s\"\nexponent = 2.0\n[contact]";
+    let bench = Bench::with(&cured.replace("[contact]", cure));
+    let plan = bench.read(&[]).unwrap().explain().unwrap();
+    let line = plan
+        .lines()
+        .find(|line| line.starts_with("  steps"))
+        .unwrap();
+    let told: f64 = line.split_whitespace().nth(2).unwrap().parse().unwrap();
+    let summary = bench.ran("run", PLAIN, usize::MAX);
+    println!("{line}; taken {}", summary.steps);
+    assert_eq!(summary.end, End::Set);
+    assert!((told / summary.steps as f64 - 1.0).abs() < 0.5, "{line}");
+    assert!(line.contains("9.9900e1 s"), "{line}");
+}

@@ -194,7 +194,10 @@ fn map_profile_and_comparison() {
     );
     let layers = rows(&csv);
     assert_eq!(layers.len(), 60);
-    assert_eq!(layers[20], ["-9.425000", "0.250000", "1.000000"]);
+    assert_eq!(
+        layers[20],
+        ["-9.425000", "0.250000", "1.000000", "1.000000"]
+    );
     for file in [&map, &profile, &table] {
         let record = fs::read_to_string(format!("{file}.provenance.json")).unwrap();
         assert!(record.contains("specimen.mpts"));

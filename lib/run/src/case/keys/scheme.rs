@@ -93,7 +93,7 @@ pub(super) const OUTPUT: Table = Table {
             name: "penetration",
             form: || "`true`, `false`".into(),
             absent: Absent::Value("false"),
-            text: "Whether each row of `history.csv` also tells what the press has come to (WP, EP, depth of 95 % of the adhesive, wetted area, depth to which open lumens are half full, state of the bond line), measured as `wp-metrics --series` does. It costs about as much as WPCOST; `summary.json` has the end in any case. With a bond file, in three dimensions.",
+            text: "Whether each row of `history.csv` also tells what the press has come to (WP, EP, depth of 95 % of the adhesive, wetted area, depth to which open lumens are half full, state of the bond line), measured as `wp-metrics --series` does. A row costs about a fifth of an implicit step; `summary.json` has the end in any case. With a bond file, in three dimensions.",
         },
     ],
 };
