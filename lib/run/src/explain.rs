@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use physics::{
     Choice, Dimensions, Motion, Press, PressStage, Regime, SET, Stages, Stop, Viscosity, WallLaw,
+    Water,
 };
 
 use crate::case::{Case, SchemeName};
@@ -11,6 +12,21 @@ use crate::left_out::left_out;
 use crate::resolve::Setup;
 use crate::system;
 use crate::{chords, expected_error};
+
+/// What the loss of water does in a tube of six cells of `cell_m` that nothing flows into.
+fn dried(water: &Water, cell_m: f64) -> String {
+    let radius = 3.0 * cell_m;
+    let [start, least] = [water.start(), water.least()];
+    let leaves = (start - least) / (1.0 + start);
+    format!(
+        "{:.1} to {:.1} % solids, viscosity times {:.4}; a tube of six cells at rest is there after {:.3e} s, its middle feeds its wall within {:.1e} s",
+        100.0 * water.solids(start),
+        100.0 * water.solids(least),
+        water.factor(least),
+        0.5 * radius * leaves / water.uptake(),
+        radius * radius / water.diffusivity()
+    )
+}
 
 /// What a scheme expects of a run.
 #[derive(Clone, Debug)]
@@ -132,6 +148,13 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
             out,
             "  cure               viscosity times {:.4} at the start, {set}",
             cure.factor(0.0)
+        )?;
+    }
+    if let Some(water) = &liquid.water {
+        writeln!(
+            out,
+            "  loss of water      {}",
+            dried(water, scene.grid.cell_m)
         )?;
     }
     for body in &scene.bodies {
