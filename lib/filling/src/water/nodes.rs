@@ -98,7 +98,27 @@ pub(super) fn nodes(
             ) = (k, n as u32);
         }
     }
+    leave_out_the_empty(&mut nodes);
     nodes
+}
+
+/// Takes neighbours and walls from cells that no point can feed: the liquid there is the fringe of another
+/// cell's, and a balance without solids has no solution.
+fn leave_out_the_empty(nodes: &mut [Node]) {
+    let mut fed: Vec<bool> = nodes.iter().map(|node| node.solids > 0.0).collect();
+    let mut front: Vec<usize> = (0..nodes.len()).filter(|&n| fed[n]).collect();
+    while let Some(n) = front.pop() {
+        let next = nodes[n].neighbour.iter().zip(nodes[n].conductance);
+        for (&other, _) in next.filter(|(other, k)| **other != NONE && *k > 0.0) {
+            if !std::mem::replace(&mut fed[other as usize], true) {
+                front.push(other as usize);
+            }
+        }
+    }
+    for (node, _) in nodes.iter_mut().zip(fed).filter(|(_, fed)| !fed) {
+        node.asked = 0.0;
+        node.conductance = [0.0; 6];
+    }
 }
 
 /// Liquid area of the low face along `axis` of a cell: of each pair of sub-cells at it the lesser.

@@ -22,13 +22,22 @@ fn water() -> Water {
 /// A box of 6 x 4 cells of liquid on a floor at y = 1; what a step moves where the floor's cells
 /// ask for `uptake` cells each.
 fn step(diffusion: f64, uptake: f64) -> (Lattice, Particles, Bins, Exchange) {
+    step_without(diffusion, uptake, |_| false)
+}
+
+/// The same without the points that are `absent`.
+fn step_without(
+    diffusion: f64,
+    uptake: f64,
+    absent: impl Fn(&[f64; 3]) -> bool,
+) -> (Lattice, Particles, Bins, Exchange) {
     let floor = VoxelBlock::solid_box([-1.0; 3], [9.0, 1.0, 9.0]);
     let lattice = lattice(domain([6, 5, 1], 2), vec![vec![floor]]);
     let points = (0..12 * 8).map(|p| {
         let (i, j) = (p % 12, p / 12);
         [0.5 * f64::from(i) + 0.25, 1.25 + 0.5 * f64::from(j), 0.5]
     });
-    let mut particles = at(points.collect(), 0.25);
+    let mut particles = at(points.filter(|x| !absent(x)).collect(), 0.25);
     let mut bins = Bins::default();
     particles.sort(&lattice.window, &mut bins);
     let water = water();
@@ -126,4 +135,18 @@ fn the_viscosity_is_that_of_the_middle_of_the_step() {
     assert!((found / end.sqrt() - 1.0).abs() < 1e-6, "{found} {end}");
     assert!((exchange.change - end.ln()).abs() < 1e-9);
     assert!((exchange.fluidity - (0.75 + 0.25 / end)).abs() < 1e-2);
+}
+
+/// Cells that look wet, without a point that could feed them: the balance was singular, and numbers were none.
+#[test]
+fn cells_that_no_point_feeds_give_nothing() {
+    let (_, _, _, exchange) = step_without(0.0, 0.01, |x| x[0] > 2.0);
+    assert!((exchange.taken - 0.02).abs() < 1e-12, "{}", exchange.taken);
+    // Fed by diffusion they do.
+    let (_, _, _, exchange) = step_without(1.0, 0.01, |x| x[0] > 2.0);
+    assert!((exchange.taken - 0.06).abs() < 1e-9, "{}", exchange.taken);
+    let gained: f64 = exchange.gained.iter().map(|gained| gained.1).sum();
+    assert!((gained + exchange.taken).abs() < 1e-13, "{gained}");
+    let (_, _, _, exchange) = step_without(1.0, 0.01, |_| true);
+    assert_eq!((exchange.taken, exchange.change), (0.0, 0.0));
 }
