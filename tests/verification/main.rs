@@ -11,7 +11,7 @@ use studies::method::Method;
 use studies::verification::lumen::Section;
 use studies::verification::{
     Scene, acoustic, channel, clamp, column, cure, disc, drop, duct, galilean, incline, laws,
-    piston, sealed, squeeze, stefan, tait, taylor_green,
+    piston, sealed, squeeze, stefan, tait, taylor_green, water,
 };
 
 /// Largest error by magnitude of the quantities whose names begin with `what`.
@@ -132,6 +132,22 @@ fn an_adhesive_that_cures_comes_to_rest_where_it_should() {
         let mut thick = scene();
         thick.case.viscosity = Viscosity::Newtonian(1.25 * studies::case_text::PF[2]);
         assert_caught(0.03, &thick, Method::implicit(), "L");
+    }
+}
+
+#[test]
+fn an_adhesive_that_dries_comes_to_rest_where_it_should() {
+    type Make = fn() -> Scene;
+    let scenes: [(Make, f64); 2] = [
+        (|| water::slit_scene(6), 0.04),
+        (|| water::tube_scene(6), 0.06),
+    ];
+    for (scene, most) in scenes {
+        assert_within(most, &scene(), Method::implicit(), "L where it stops");
+        assert_within(1e-9, &scene(), Method::implicit(), "mass of water");
+        let mut thick = scene();
+        thick.case.viscosity = Viscosity::Newtonian(1.25 * water::VISCOSITY);
+        assert_caught(most, &thick, Method::implicit(), "L where it stops");
     }
 }
 

@@ -3,8 +3,8 @@
 //!
 //! Lengths inside are in cells, pressures and viscosities scaled by the liquid's viscosity.
 //! Each room uses only those before it: `geometry` (where the bodies are, and the lattice around
-//! them), `liquid` (particles and what they fill), `system` (unknowns and equations), `transport`
-//! (particles follow the flow), `step` (the order of a step).
+//! them), `liquid` (particles and what they fill), `water` (what of it goes into walls), `system` (unknowns
+//! and equations), `transport` (particles follow the flow), `step` (the order of a step).
 
 mod geometry;
 mod liquid;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use physics::{
     Choice, Cure, Dimensions, Motion, Press, PressStage, Regime, SET, Stages, Stop, Viscosity,
-    WallLaw,
+    WallLaw, Water,
 };
 
 use crate::case::{Case, SchemeName};
@@ -12,6 +12,21 @@ use crate::left_out::left_out;
 use crate::resolve::Setup;
 use crate::system;
 use crate::{chords, expected_error};
+
+/// What the loss of water does in a tube of six cells of `cell_m` that nothing flows into.
+fn dried(water: &Water, cell_m: f64) -> String {
+    let radius = 3.0 * cell_m;
+    let [start, least] = [water.start(), water.least()];
+    let leaves = (start - least) / (1.0 + start);
+    format!(
+        "{:.1} to {:.1} % solids, viscosity times {:.4}; a tube of six cells at rest is there after {:.3e} s, its middle feeds its wall within {:.1e} s",
+        100.0 * water.solids(start),
+        100.0 * water.solids(least),
+        water.factor(least),
+        0.5 * radius * leaves / water.uptake(),
+        radius * radius / water.diffusivity()
+    )
+}
 
 /// What a scheme expects of a run.
 #[derive(Clone, Debug)]
@@ -147,6 +162,13 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
                 "held back"
             },
             (2.0 * wetting.adhesion() / (6.0 * scene.grid.cell_m)).abs()
+        )?;
+    }
+    if let Some(water) = &liquid.water {
+        writeln!(
+            out,
+            "  loss of water      {}",
+            dried(water, scene.grid.cell_m)
         )?;
     }
     for body in &scene.bodies {

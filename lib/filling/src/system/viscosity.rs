@@ -137,12 +137,12 @@ fn steepness(law: &Viscosity, rate: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use physics::{Law, Newtonian, ShearRate, Tait, Viscosity};
+    use physics::{Law, Newtonian, ShearRate, Table, Tait, Viscosity, VoxelBlock};
 
     use super::*;
     use crate::geometry::tests::{domain, lattice};
     use crate::liquid::Volumes;
-    use crate::system::Scales;
+    use crate::system::{Before, Scales};
 
     #[test]
     fn the_change_told_is_that_of_the_viscosity() {
@@ -200,5 +200,71 @@ mod tests {
             regularisation: 1e-9,
         };
         assert!((steepness(&Viscosity::Law(solid), 1.0) - 100.0).abs() < 1e-9);
+    }
+
+    /// Loss of water thickens whatever the law: the flow that dissipates it takes twice the power, in cells,
+    /// around edges and at walls.
+    #[test]
+    fn a_factor_multiplies_every_law() {
+        let floor = VoxelBlock::solid_box([-1.0; 3], [9.0, 1.3, 9.0]);
+        let lattice = lattice(domain([5, 5, 5], 3), vec![vec![floor]]);
+        let phi = vec![1.0; lattice.window.sub_len()];
+        let volumes = Volumes::new(&lattice, &phi);
+        let scales = Scales {
+            inertia: 0.0,
+            influence_length: 0.1,
+            ..Scales::plain()
+        };
+        let twice = vec![2.0; lattice.window.len()];
+        let table = Table::new(&[(1e-3, 3.0), (1e3, 1.0)]).unwrap();
+        let power_law = Law::Power {
+            consistency: 1.0,
+            index: 0.5,
+            rates: [1e-3, 1e3],
+        };
+        for viscosity in [
+            Viscosity::Newtonian(Newtonian(3.0)),
+            Viscosity::Table(table),
+            Viscosity::Law(power_law),
+        ] {
+            let liquid = Liquid {
+                density: 1.0,
+                tait: Tait { bulk_modulus: 1.0 },
+                viscosity,
+                shear_rate: ShearRate::Paper,
+                cure: None,
+                water: None,
+                cavitation_pressure: None,
+                wetting: None,
+            };
+            let power = |factor: &[f32]| {
+                let mut operator = Operator::new(&lattice, &volumes, scales);
+                operator.thicken(factor);
+                let u: Vec<f64> = (0..operator.dofs.faces.len())
+                    .map(|face| (0.7 * face as f64).sin())
+                    .collect();
+                let bodies = [[0.0; 3]];
+                let sheared = Sheared {
+                    deviator: |x: [f64; 3]| 1.0 + x[0],
+                    u: &u,
+                    bodies: &bodies,
+                };
+                operator.set_viscosity(&liquid, 1.0, 1.0, &sheared);
+                let cells = vec![0.0; operator.dofs.cells.len()];
+                let before = Before {
+                    velocity: &u,
+                    pressure: &cells,
+                    stiffness: &vec![1.0; cells.len()],
+                    lost: &[],
+                };
+                let system = operator.assemble(&bodies, before).unwrap();
+                system.reactions(&u, &cells).1
+            };
+            let (once, found) = (power(&[]), power(&twice));
+            assert!(
+                once > 0.0 && (found / once - 2.0).abs() < 1e-6,
+                "{once} {found}"
+            );
+        }
     }
 }

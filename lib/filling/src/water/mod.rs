@@ -2,7 +2,9 @@
 //! the account of it.
 
 mod exchange;
+mod nodes;
 mod points;
+mod solve;
 
 pub(crate) use exchange::{Exchange, Medium};
 pub(crate) use points::{fill, give_off};

@@ -54,7 +54,7 @@ impl Water {
             ));
         }
         let rises = |pair: &[(f64, f64)]| pair[0].0 < pair[1].0 && pair[0].1 <= pair[1].1;
-        if !law.factor.windows(2).all(rises) || !(last.0 < 1.0 && last.1.is_finite()) {
+        if !(law.factor.windows(2).all(rises) && last.0 < 1.0 && last.1.is_finite()) {
             return Err(
                 "viscosity_by_solids: solids contents must increase and stay below 1, factors must not fall"
                     .into(),

@@ -60,7 +60,7 @@ pub(crate) fn judge(
     let unexplained = unexplained(&setup.scene, liquid, setup.liquid.volume_m3 - given_off);
     if let Some(missing) = water
         .map(|water| water.missing)
-        .filter(|m| !(m.abs() <= MOST_WATER_MISSING))
+        .filter(|m| m.is_nan() || m.abs() > MOST_WATER_MISSING)
     {
         reasons.push(format!(
             "{missing:.1e} of the water is neither in the liquid nor in the walls"

@@ -216,7 +216,7 @@ fn stages_that_contradict_one_another_are_refused() {
 /// The clamp has long gone its way when the adhesive sets in the hold: as many steps as change its viscosity.
 #[test]
 fn the_plan_counts_the_steps_of_cure_in_all_stages() {
-    let cured = CASE.replace("STAGES", &STAGES.replace("slower = \"500 um/s\"\n", ""));
+    let cured = case("8 um", &STAGES.replace("slower = \"500 um/s\"\n", ""));
     let cure = "[adhesive.cure]\ngel_time = \"100 s\"\nexponent = 2.0\n[contact]";
     let bench = Bench::with(&cured.replace("[contact]", cure));
     let plan = bench.read(&[]).unwrap().explain().unwrap();

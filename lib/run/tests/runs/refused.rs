@@ -5,6 +5,7 @@ use crate::plan::{CASE, IMPLICIT, plan};
 const POWER: &str = "power_law = { consistency = \"1 Pa s^n\", index = 0.5, rates = [\"1 1/s\", \"1e6 1/s\"] }\nviscosity =";
 const HERSCHEL: &str = "herschel_bulkley = { yield_stress = \"50 Pa\", consistency = \"10 Pa s^n\", index = 1.2, regularisation_rate = \"1 1/s\" }";
 const GEL: &str = "[adhesive.cure]\ngel_time = \"1 s\"\nexponent = 2.0\n[contact]";
+const WATER: &str = "[adhesive.water]\nsolids = 0.45\nuptake = \"1 um/s\"\ndiffusivity = \"1e-10 m2/s\"\nviscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]\n[contact]";
 const HEATED: &str = "[adhesive.cure]\ngel_time = \"1 s\"\nexponent = 2.0\nactivation_energy = \"80 kJ/mol\"\n[contact]";
 
 #[test]
@@ -84,6 +85,21 @@ fn what_contradicts_itself_is_refused() {
                 "adhesive.contact_angle=190 deg",
             ],
             "between \"0 deg\" and \"180 deg\"",
+        ),
+        (
+            &[("[contact]", WATER)],
+            &[],
+            "[adhesive.water] is for scheme",
+        ),
+        (
+            &[IMPLICIT[0], IMPLICIT[1], ("[contact]", WATER)],
+            &["adhesive.water.limit=0.9"],
+            "[adhesive.water] limit = 0.9 is not accepted",
+        ),
+        (
+            &[IMPLICIT[0], IMPLICIT[1], ("[contact]", WATER)],
+            &["adhesive.water.walls=[\"nobody\"]"],
+            "[adhesive.water] walls has 'nobody'",
         ),
         (
             &[IMPLICIT[0], IMPLICIT[1], ("[contact]", HEATED)],

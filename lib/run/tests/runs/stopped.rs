@@ -76,3 +76,13 @@ fn a_run_of_an_adhesive_that_sets_stopped_after_any_step_ends_the_same() {
     );
     assert!(summary.sentence().contains("because the adhesive has set"));
 }
+
+/// What is left of the water in each point, and the account of it, are part of the state.
+#[test]
+fn a_run_of_an_adhesive_that_dries_stopped_after_any_step_ends_the_same() {
+    let water = "scheme = \"implicit\"\ncfl = 0.05\n[adhesive.water]\nsolids = 0.45\nuptake = \"0.2 m/s\"\ndiffusivity = \"1e-5 m2/s\"\nviscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]";
+    let summary = stopped_after_every(5, water, "1.45 us", "0.4 us");
+    let account = summary.invariants.water.expect("an account of water");
+    assert!(account.solids_content > 0.4505, "{account:?}");
+    assert!(account.water_missing.abs() < 1e-12, "{account:?}");
+}

@@ -187,9 +187,10 @@ fn filling() -> Vec<Entry> {
             list.push((cure::tube_scene(n, growth), implicit()));
         }
     }
-    for n in [3, 6] {
-        list.push((water::slit_scene(n), implicit()));
-        list.push((water::tube_scene(n), implicit()));
+    // Three cells let 30 % more through a tube, with or without loss of water.
+    let slits = [3, 6, 12].map(water::slit_scene);
+    for scene in slits.into_iter().chain([6, 12].map(water::tube_scene)) {
+        list.push((scene, implicit()));
     }
     list
 }

@@ -48,7 +48,7 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
     ),
     (
         "water",
-        "Filling at constant pressure with loss of water\n\nThe lumen's walls take water at a constant rate per area; the viscosity grows 1e4-fold from 45 to 75 % solids: filled length L against Darcy's law and the balance of solids and water along the lumen, well mixed over its section (lib/studies/src/verification/water_front.rs), as far as 40 times the time in which sqrt 2 widths are filled without loss of water. Mass of water: what is neither in the points nor in the walls at the end, over all of it.",
+        "Filling at constant pressure with loss of water\n\nThe lumen's walls take water at a constant rate per area; the viscosity grows 1e3-fold from 45 to 75 % solids, and the front of a column of five widths stops after three: filled length L against Darcy's law and the balance of solids and water along the lumen, well mixed over its section, the contact line behind the front as far as by finite elements (lib/studies/src/verification/water_front.rs). Mass of water: what is neither in the points nor in the walls at the end, over all of it.",
     ),
     (
         "spheres",

@@ -6,18 +6,15 @@ use super::water_front::{Front, TABLE};
 use super::{LUMEN, Measured, Scene};
 use crate::case_text::{Body, CaseText, PF, Viscosity};
 
-/// Pressure (Pa) and viscosity (Pa s): it takes a minute.
+/// Pressure, Pa: it takes a minute.
 const PRESSURE: f64 = 1e3;
-const VISCOSITY: f64 = 130.0;
+/// Viscosity at the start, Pa s.
+pub const VISCOSITY: f64 = 130.0;
 /// End, in the unit of time of [`Front`]: when the front has stopped.
 const END: f64 = 30.0;
 /// Lengths of column and lumen, in widths.
 const COLUMN: f64 = 5.0;
 const BEYOND: f64 = 3.5;
-/// Equivalent length of the flow at the piston and at the front: together what the same slit of 6 cells shows without
-/// loss of water, 0.16. With 3 cells that is 0.0, with 12 0.24 (Taylor's scraper in the piston's corners has
-/// no limit); 0.1 more takes 0.5 % off the length.
-const ENDS: [f64; 2] = [0.08; 2];
 /// How far the contact line in a tube is behind the filled length over that in a slit: a half ball's 2/3 of the radius
 /// over a half circle's pi/4.
 const BALL: f64 = 0.85;
@@ -43,6 +40,7 @@ pub fn slit_scene(n: u32) -> Scene {
         wall: 2.0,
         dispersion: 210.0,
         meniscus: 1.0,
+        ends: 0.16,
     }
     .scene()
 }
@@ -63,6 +61,7 @@ pub fn tube_scene(n: u32) -> Scene {
         wall: std::f64::consts::PI / section.area(n),
         dispersion: 192.0,
         meniscus: BALL,
+        ends: 0.29,
     }
     .scene()
 }
@@ -83,6 +82,10 @@ struct Column {
     wall: f64,
     dispersion: f64,
     meniscus: f64,
+    /// Equivalent length of the flow at piston and front: what the same lumen of 6 cells shows without loss of
+    /// water. A slit of 3 cells shows 0.0, of 12 0.24 (Taylor's scraper in the piston's corners has no
+    /// limit); 0.1 more takes 0.5 % off the length.
+    ends: f64,
 }
 
 impl Column {
@@ -93,7 +96,7 @@ impl Column {
             diffusivity: 0.5,
             dispersion: self.dispersion,
             meniscus: self.meniscus,
-            ends: ENDS,
+            ends: [0.5 * self.ends; 2],
         };
         let unit = self.resistance * VISCOSITY / PRESSURE;
         let edges = |r: &Rectangle| (r.high[0] - r.low[0]) * (r.high[1] - r.low[1]);
