@@ -47,6 +47,14 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
         "Filling at constant pressure with an adhesive that cures\n\nGel-time law (1 - t/t_gel)^-2, and a viscosity that grows 1e6-fold exponentially: filled length L against L (L + 2 e) = (r^2/4) integral of P/eta dt in a tube ((H^2/6) in a slit), e the equivalent length of entrance and front as for washburn. The run ends by itself where the viscosity is 1e6 times that at the start.",
     ),
     (
+        "wicking",
+        "Slits and tubes draw liquid in, or keep it out\n\nSurface tension 0.05 N/m: L over the root of t from one width on against L^2 = H sigma cos(theta) t/(3 eta) in a slit and r sigma cos(theta) t/(2 eta) in a tube (resistance of its own staircase), entrance and front fitted apart; at 120 degrees the length entered. Offsets of the walls across and along the slit, cells.",
+    ),
+    (
+        "jurin",
+        "Capillary rise\n\nPlates with a slit between them dip into a pool under a body force: height of the liquid between over that beside them at rest, against 2 sigma cos(theta)/(rho g H), the menisci beside them counted.",
+    ),
+    (
         "spheres",
         "A simple cubic array of spheres\n\nFlow through spheres made of voxels of half a cell, n cells a period, five volume fractions (particle file beside the case file; a quarter of the period, mirrored): permeability against the drag of smooth spheres (Sangani & Acrivos 1982; Zick & Homsy 1982, Table 2) and against the same voxels by lattice Boltzmann, refined (lib/studies/reference/spheres.csv). The staircase lets 5 to 23 % less through than the smooth sphere, and coarse walls make up for a part of that. The explicit scheme's liquid leaves walls behind which there is no pressure; with 24 cells it takes minutes and is left out.",
     ),
