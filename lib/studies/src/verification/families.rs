@@ -48,7 +48,7 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
     ),
     (
         "wicking",
-        "Slits and tubes draw liquid in, or keep it out\n\nSurface tension 0.05 N/m: L over the root of t from one width on against L^2 = H sigma cos(theta) t/(3 eta) in a slit and r sigma cos(theta) t/(2 eta) in a tube (resistance of its own staircase), entrance and front fitted apart; at 120 degrees the length entered. Offsets of the walls across and along the slit, cells.",
+        "Slits and tubes draw liquid in, or keep it out\n\nSurface tension 0.05 N/m: filled length L from one width on against L (L + 2 e) = H sigma cos(theta) t/(3 eta) in a slit and r sigma cos(theta) t/(2 eta) in a tube (resistance of its own staircase), e the equivalent length of entrance and front as for washburn; at 120 degrees the length entered. Offsets of the walls across and along the slit, cells.",
     ),
     (
         "jurin",

@@ -164,7 +164,7 @@ pub const GOALS: &[Goal] = &[
         "wicking, 6 cells, slits at any offset and tubes",
         &["wicking-slit-n6", "wicking-tube-n6"],
         "implicit",
-        "L over",
+        "L",
         0.05,
     ),
     goal(

@@ -2,7 +2,7 @@
 //! entry below the jump.
 
 use super::lumen::{Rectangle, Section, quarter};
-use super::{LUMEN, Measured, Scene};
+use super::{LUMEN, Measured, Scene, piston, slit, washburn};
 use crate::case_text::{Body, CaseText, PF};
 use crate::outputs::Run;
 
@@ -10,8 +10,6 @@ use crate::outputs::Run;
 pub(super) const TENSION: f64 = 0.05;
 /// Filled length up to which a run goes, over the width.
 const LONGEST: f64 = 4.0;
-/// Equivalent length of entrance and front over the width; where a run ends depends on it, its error does not.
-const ENTRANCE: f64 = 0.3;
 /// States of a run that L(t) is taken from.
 const STATES: u32 = 60;
 
@@ -39,6 +37,7 @@ pub fn slit_scene(n: u32, offset: [f64; 2], degrees: f64) -> Scene {
         area: LUMEN * h,
         jump: 2.0 / LUMEN,
         resistance: 12.0,
+        entrance: (washburn::TIME_TO_FIVE - 12.5) / 5.0 + slit::corner(n),
     };
     let case = CaseText {
         bodies,
@@ -66,6 +65,7 @@ pub fn tube_scene(n: u32, degrees: f64) -> Scene {
         area: section.area(n) * LUMEN * LUMEN / 4.0,
         jump: 4.0 / LUMEN,
         resistance: section.staircase_resistance(n),
+        entrance: piston::ENTRANCE,
     };
     let case = CaseText {
         bodies,
@@ -86,6 +86,8 @@ struct Passage {
     jump: f64,
     /// Pressure gradient over viscosity and mean velocity times the square of the width.
     resistance: f64,
+    /// Equivalent length of entrance and front over the width, as under pressure.
+    entrance: f64,
 }
 
 impl Passage {
@@ -93,7 +95,7 @@ impl Passage {
         let jump = TENSION * self.degrees.to_radians().cos() * self.jump;
         // L^2 + 2 e L = 2 P d^2/(R eta) t
         let rate = 2.0 * jump.abs() * LUMEN * LUMEN / (self.resistance * PF[2]);
-        let end = LUMEN * LUMEN * LONGEST * (LONGEST + 2.0 * ENTRANCE) / rate;
+        let end = LUMEN * LUMEN * LONGEST * (LONGEST + 2.0 * self.entrance) / rate;
         let entry = jump < 0.0;
         let against = match entry {
             true => "no entry",
@@ -123,12 +125,23 @@ impl Passage {
                         most / LUMEN,
                     )]);
                 }
-                let found = growth(&course).ok_or("L(t) has no growth: too few states")?;
-                Ok(vec![Measured::relative(
-                    "L over the root of t",
-                    found.sqrt(),
-                    rate.sqrt(),
-                )])
+                let filled: Vec<[f64; 2]> = (course.iter())
+                    .map(|[t, l]| [t * rate / (LUMEN * LUMEN), l / LUMEN])
+                    .filter(|c| c[1] >= 1.0)
+                    .collect();
+                let (Some(first), Some(last)) = (filled.first(), filled.last()) else {
+                    return Err("it was not filled to one width".into());
+                };
+                let exact = |t: f64| {
+                    let start = first[1] + self.entrance;
+                    (start * start + t - first[0]).sqrt() - self.entrance
+                };
+                let off = filled.iter().map(|[t, l]| l / exact(*t) - 1.0);
+                let worst = off.fold(0.0, |m: f64, e| if e.abs() > m.abs() { e } else { m });
+                Ok(vec![
+                    Measured::relative("L at the end", last[1], exact(last[0])),
+                    Measured::absolute("L(t) from L = d on, worst", worst),
+                ])
             }),
         }
     }
@@ -149,36 +162,4 @@ fn course(run: &Run, mouth: f64, area: f64) -> Result<Vec<[f64; 2]>, String> {
             Ok([state.header().time_s, filled / area])
         })
         .collect()
-}
-
-/// c of t = a + b L + L^2/c through the states from one width on, by least squares: b is the part of
-/// entrance and front. `None` where they do not determine it.
-fn growth(course: &[[f64; 2]]) -> Option<f64> {
-    let points = course.iter().filter(|c| c[1] >= LUMEN);
-    let points: Vec<[f64; 2]> = points.map(|[t, l]| [*t, l / LUMEN]).collect();
-    let sum = |f: &dyn Fn(&[f64; 2]) -> f64| points.iter().map(f).sum::<f64>();
-    let m: Vec<f64> = (0..5).map(|k| sum(&|p| p[1].powi(k))).collect();
-    let r: Vec<f64> = (0..3).map(|k| sum(&|p| p[0] * p[1].powi(k))).collect();
-    // The normal equations by Cramer's rule.
-    let with = |last: [f64; 3]| {
-        last[0] * (m[1] * m[3] - m[2] * m[2]) - last[1] * (m[0] * m[3] - m[1] * m[2])
-            + last[2] * (m[0] * m[2] - m[1] * m[1])
-    };
-    let curvature = with([r[0], r[1], r[2]]) / with([m[2], m[3], m[4]]);
-    (curvature > 0.0 && curvature.is_finite()).then(|| LUMEN * LUMEN / curvature)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn entrance_and_front_are_no_part_of_the_growth() {
-        let course: Vec<[f64; 2]> = (0..40)
-            .map(|i| f64::from(i) * 0.1)
-            .map(|l| [3.0 + 0.4 * l + l * l / 5.0, l * LUMEN])
-            .collect();
-        let found = growth(&course).unwrap() / (LUMEN * LUMEN);
-        assert!((found - 5.0).abs() < 1e-6, "{found}");
-    }
 }
