@@ -112,6 +112,8 @@ pub struct CaseText {
     pub bulk_modulus: f64,
     /// Viscosity.
     pub viscosity: Viscosity,
+    /// Surface tension (N/m) and contact angle (degrees), if any.
+    pub wetting: Option<[f64; 2]>,
     /// Lines of `[adhesive.cure]`, if any.
     pub cure: Option<String>,
     /// Lines of `[adhesive.water]`, if any.
@@ -132,6 +134,8 @@ pub struct CaseText {
     pub voxels: Option<Voxels>,
     /// Rows of the history, as the time between them, s.
     pub history_every: f64,
+    /// States written on the way.
+    pub snapshots: u32,
 }
 
 /// Viscosity of a scene's liquid; a table is read linearly in the logarithm of the shear rate.
@@ -158,6 +162,7 @@ impl CaseText {
             domain: [[0.0; 3], size],
             bulk_modulus: PF[1],
             viscosity: Viscosity::Newtonian(PF[2]),
+            wetting: None,
             cure: None,
             water: None,
             contact: STICK.into(),
@@ -168,6 +173,7 @@ impl CaseText {
             bodies: Vec::new(),
             voxels: None,
             history_every: 0.05e-6,
+            snapshots: 0,
         }
     }
 
@@ -223,6 +229,12 @@ impl CaseText {
             }
             Viscosity::Law(key) => writeln!(out, "shear_rate = \"rheometer\"\n{key}")?,
         }
+        if let Some([tension, degrees]) = self.wetting {
+            writeln!(
+                out,
+                "surface_tension = \"{tension} N/m\"\ncontact_angle = \"{degrees} deg\""
+            )?;
+        }
         if let Some(cure) = &self.cure {
             writeln!(out, "\n[adhesive.cure]\n{}", cure.trim_end())?;
         }
@@ -242,6 +254,9 @@ impl CaseText {
             "\n[output]\nhistory_every = \"{} us\"",
             number(self.history_every * 1e6)
         )?;
+        if self.snapshots > 0 {
+            writeln!(out, "snapshots = {}", self.snapshots)?;
+        }
         if self.gravity != [0.0; 3] {
             let g = self.gravity;
             writeln!(

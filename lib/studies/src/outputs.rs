@@ -55,6 +55,17 @@ impl Run {
         ParticleFile::open(self.folder.join("final.mpts")).map_err(|e| e.to_string())
     }
 
+    /// The states written on the way, in order, and the last.
+    ///
+    /// # Errors
+    /// What is wrong with a file.
+    pub fn states(&self) -> Result<Vec<ParticleFile>, String> {
+        let numbered = (0..).map(|number| self.folder.join(format!("snapshots/{number:04}.mpts")));
+        let written = numbered.take_while(|path| path.is_file());
+        let states = written.map(|path| ParticleFile::open(path).map_err(|e| e.to_string()));
+        states.chain([self.last()]).collect()
+    }
+
     /// A number of `summary.json`, by its key at any depth.
     pub fn summary(&self, key: &str) -> Option<f64> {
         let text = std::fs::read_to_string(self.folder.join("summary.json")).ok()?;

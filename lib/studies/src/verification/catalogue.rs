@@ -4,7 +4,8 @@ use super::lumen::Section;
 use super::piston::Drive;
 use super::{
     Scene, acoustic, channel, clamp, column, couette, cure, disc, drop, duct, galilean, incline,
-    laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green, washburn, water,
+    jurin, laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green, washburn,
+    water, wicking,
 };
 use crate::case_text::PF;
 use crate::method::Method;
@@ -49,6 +50,7 @@ pub fn all() -> Vec<Entry> {
         channels(),
         lumens(),
         filling(),
+        menisci(),
         arrays(),
         squeezing(),
         liquids(),
@@ -191,6 +193,27 @@ fn filling() -> Vec<Entry> {
     let slits = [3, 6, 12].map(water::slit_scene);
     for scene in slits.into_iter().chain([6, 12].map(water::tube_scene)) {
         list.push((scene, implicit()));
+    }
+    list
+}
+
+fn menisci() -> Vec<Entry> {
+    let mut list = Vec::new();
+    for n in [3, 6, 12] {
+        for offset in [[0.0, 0.0], [0.25, 0.0], [0.5, 0.0], [0.0, 0.5]] {
+            list.push((wicking::slit_scene(n, offset, 60.0), implicit()));
+        }
+    }
+    for degrees in [0.0, 120.0] {
+        list.push((wicking::slit_scene(6, [0.0, 0.0], degrees), implicit()));
+    }
+    for degrees in [0.0, 60.0, 120.0] {
+        list.push((wicking::tube_scene(6, degrees), implicit()));
+    }
+    for n in [6, 12] {
+        for (offset, degrees) in [(0.0, 0.0), (0.25, 60.0), (0.5, 120.0)] {
+            list.push((jurin::scene(n, offset, degrees), implicit()));
+        }
     }
     list
 }

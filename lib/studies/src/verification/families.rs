@@ -51,6 +51,14 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
         "Filling at constant pressure with loss of water\n\nThe lumen's walls take water at a constant rate per area; the viscosity grows 1e3-fold from 45 to 75 % solids, and the front of a column of five widths stops after three: filled length L against Darcy's law and the balance of solids and water along the lumen, well mixed over its section, the contact line behind the front as far as by finite elements (lib/studies/src/verification/water_front.rs). Mass of water: what is neither in the points nor in the walls at the end, over all of it.",
     ),
     (
+        "wicking",
+        "Slits and tubes draw liquid in, or keep it out\n\nSurface tension 0.05 N/m: filled length L from one width on against L (L + 2 e) = H sigma cos(theta) t/(3 eta) in a slit and r sigma cos(theta) t/(2 eta) in a tube (resistance of its own staircase), e the equivalent length of entrance and front as for washburn; at 120 degrees the length entered. Offsets of the walls across and along the slit, cells.",
+    ),
+    (
+        "jurin",
+        "Capillary rise\n\nPlates with a slit between them dip into a pool under a body force: height of the liquid between over that beside them at rest, against 2 sigma cos(theta)/(rho g H), the menisci beside them counted.",
+    ),
+    (
         "spheres",
         "A simple cubic array of spheres\n\nFlow through spheres made of voxels of half a cell, n cells a period, five volume fractions (particle file beside the case file; a quarter of the period, mirrored): permeability against the drag of smooth spheres (Sangani & Acrivos 1982; Zick & Homsy 1982, Table 2) and against the same voxels by lattice Boltzmann, refined (lib/studies/reference/spheres.csv). The staircase lets 5 to 23 % less through than the smooth sphere, and coarse walls make up for a part of that. The explicit scheme's liquid leaves walls behind which there is no pressure; with 24 cells it takes minutes and is left out.",
     ),

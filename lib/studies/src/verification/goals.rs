@@ -179,6 +179,27 @@ pub const GOALS: &[Goal] = &[
         0.001,
     ),
     goal(
+        "wicking, 6 cells, slits at any offset and tubes",
+        &["wicking-slit-n6", "wicking-tube-n6"],
+        "implicit",
+        "L",
+        0.05,
+    ),
+    goal(
+        "what does not wet stays out: a cell at most",
+        &["wicking-slit-n6-120deg", "wicking-tube-n6-120deg"],
+        "implicit",
+        "length entered",
+        1.0 / 6.0,
+    ),
+    goal(
+        "Jurin's height, 6 cells, 0 to 120 degrees",
+        &["jurin-n6"],
+        "implicit",
+        "height",
+        0.05,
+    ),
+    goal(
         "incline, 12 cells",
         &["incline-n12"],
         "implicit",

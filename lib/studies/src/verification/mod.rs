@@ -14,6 +14,7 @@ mod families;
 pub mod galilean;
 pub mod goals;
 pub mod incline;
+pub mod jurin;
 pub mod laws;
 pub mod lumen;
 pub mod piston;
@@ -29,6 +30,7 @@ pub mod taylor_green;
 pub mod washburn;
 pub mod water;
 mod water_front;
+pub mod wicking;
 
 use crate::case_text::CaseText;
 use crate::job::{Job, run_all};
