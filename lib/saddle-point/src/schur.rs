@@ -26,6 +26,10 @@ impl Schur {
     pub(crate) fn new(system: &SaddleSystem, g_transposed: &Csr<f64>) -> Result<Self, SolveError> {
         let weight: Vec<f64> = system.friction.iter().map(|d| 1.0 / d).collect();
         let matrix = operator(system.g, g_transposed, &weight, system.c)?;
+        let matrix = match system.pockets {
+            0 => matrix,
+            _ => tamed(&matrix)?,
+        };
         Ok(Self {
             amg: Amg::new(&matrix)?,
             pockets: ClosedPockets::find(&matrix),
@@ -47,6 +51,20 @@ impl Schur {
             }
         });
     }
+}
+
+/// A matrix whose couplings are positive in part, as are those of a pocket of air and of cells that it shares
+/// faces with, with these taken to the diagonals: smoothing is bounded where none is positive, and what
+/// this adds is no less than zero.
+fn tamed(matrix: &Csr<f64>) -> Result<Csr<f64>, SolveError> {
+    let n = matrix.n_rows();
+    Csr::assemble(n, n, |row, entries| {
+        let (columns, values) = matrix.row(row);
+        for (&column, &value) in columns.iter().zip(values) {
+            let place = if value > 0.0 { row } else { column as usize };
+            entries.add(place, value);
+        }
+    })
 }
 
 /// The diagonal `E`.

@@ -2,6 +2,7 @@
 
 use super::{Drive, LastFlow};
 use crate::liquid::Particles;
+use crate::system::air::Held;
 use crate::transport::Flow;
 
 /// What the next step goes on from.
@@ -22,6 +23,8 @@ pub(super) struct State {
     pub(super) rates: Rates,
     /// Where the viscosity depends on the shear rate: what the next step takes rates from.
     pub(super) last: Option<LastFlow>,
+    /// Air of the pockets, where they have pressures.
+    pub(super) air: Held,
     pub(super) counts: Counts,
 }
 
@@ -62,6 +65,7 @@ impl State {
             power: 0.0,
             rates: Rates::Zero,
             last: None,
+            air: Held::default(),
             counts: Counts::default(),
         }
     }

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use saddle_point::{Csr, Load, SaddleSystem, SolveError};
 
 use super::Operator;
+use super::air::Tangent;
 use super::couplings::{self, Couplings};
 use super::edges::Edges;
 use super::fluxes::Areas;
@@ -24,6 +25,9 @@ pub(crate) struct System {
     /// Liquid volume that moves with each face unknown, cells.
     pub(crate) face_volume: Vec<f64>,
     couplings: Couplings,
+    /// Pressures of the pockets of air, which their unknowns count from: what softens them much would outweigh
+    /// all else.
+    shift: Vec<f64>,
     /// Right-hand sides with all bodies at rest.
     resting: [Vec<f64>; 2],
     bodies: Vec<[f64; 3]>,
@@ -37,12 +41,35 @@ impl System {
         SaddleSystem {
             a: &self.a,
             g: &self.g,
+            pockets: self.shift.len(),
             c: &self.c,
             friction: &self.friction,
             two_eta: &self.two_eta,
             b: &self.b,
             volume_source: &self.source,
         }
+    }
+
+    /// Makes pressures of pockets those that the solver finds, over what they count from.
+    pub(crate) fn take_shift(&self, p: &mut [f64]) {
+        let pockets = self.c.len() - self.shift.len();
+        for (p, shift) in p[pockets..].iter_mut().zip(&self.shift) {
+            *p -= shift;
+        }
+    }
+
+    /// And back.
+    pub(crate) fn add_shift(&self, p: &mut [f64]) {
+        let pockets = self.c.len() - self.shift.len();
+        for (p, shift) in p[pockets..].iter_mut().zip(&self.shift) {
+            *p += shift;
+        }
+    }
+
+    /// Area of the front at pockets of air, cells: of the rows behind those of `liquid` cells.
+    pub(crate) fn front(&self, liquid: usize) -> f64 {
+        let area = |row: usize| self.g.row(row).1.iter().map(|area| area.abs()).sum::<f64>();
+        (liquid..self.g.n_rows()).map(area).sum()
     }
 
     /// Sets the velocities of the bodies, m/s.
@@ -66,8 +93,10 @@ impl System {
         let mut resting = self.bodies.clone();
         resting[clamped] = [0.0; 3];
         let couplings = &self.couplings;
-        let rigid = |bodies: &[[f64; 3]]| couplings.forces(bodies, &[], &[]).0[clamped][1];
-        let force = force - rigid(&resting);
+        let rigid = |bodies: &[[f64; 3]], p: &[f64]| couplings.forces(bodies, &[], p).0[clamped][1];
+        let mut pockets = vec![0.0; self.c.len()];
+        self.add_shift(&mut pockets);
+        let force = force - rigid(&resting, &pockets);
         Load {
             momentum: (0..self.b.len())
                 .into_par_iter()
@@ -77,7 +106,7 @@ impl System {
                 .into_par_iter()
                 .map(|cell| couplings.displaced(cell, &unit))
                 .collect(),
-            resistance: rigid(&unit),
+            resistance: rigid(&unit, &[]),
             force,
             scale: force.max(least),
         }
@@ -96,6 +125,15 @@ impl System {
     }
 }
 
+/// What is known of pockets of air before the step; nothing where they have no pressures.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Trapped<'a> {
+    /// Of each pocket.
+    pub(crate) tangents: &'a [Tangent],
+    /// Velocities of the bodies that the middle of the step was made with, m/s.
+    pub(crate) placed: &'a [[f64; 3]],
+}
+
 /// What is known of the liquid before the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Before<'a> {
@@ -105,6 +143,8 @@ pub(crate) struct Before<'a> {
     pub(crate) pressure: &'a [f64],
     /// Resistance of the liquid at that pressure to a change of its present volume, over K.
     pub(crate) stiffness: &'a [f64],
+    /// Air.
+    pub(crate) air: Trapped<'a>,
 }
 
 impl Operator<'_> {
@@ -126,26 +166,45 @@ impl Operator<'_> {
         let a = self.velocity_block(&edges, &mass)?;
         let flux = couplings::fluxes(self, &areas);
         drop(areas);
-        let g = Csr::assemble(self.dofs.cells.len(), n, |cell, entries| {
+        let g = Csr::assemble(flux.len(), n, |cell, entries| {
             for &(column, area) in flux.of(cell).iter().filter(|e| (e.0 as usize) < n) {
                 entries.add(column as usize, area);
             }
         })?;
-        let c = self.compressibility(before.stiffness);
+        let mut c = self.compressibility(before.stiffness);
+        let mut source: Vec<f64> = (c.iter().zip(before.pressure))
+            .map(|(c, p)| c * p)
+            .collect();
+        let mut two_eta: Vec<f64> = (self.dofs.cells.iter())
+            .map(|&cell| 2.0 * self.eta(cell as usize))
+            .collect();
+        let couplings = Couplings::new(self, &edges, bodies.len(), &flux);
+        let thickest = two_eta.iter().copied().fold(0.0, f64::max);
+        for tangent in before.air.tangents {
+            // Half of what went into the pocket to the middle of the step.
+            let row = c.len();
+            let ahead = g.row_times_wide(row, before.velocity)
+                - couplings.displaced(row, before.air.placed);
+            source.push(tangent.growth + 0.5 * ahead);
+            c.push(tangent.softness);
+            two_eta.push(thickest);
+        }
+        let mut momentum = self.momentum(&face_volume, &mass, before.velocity);
+        let shift: Vec<f64> = before.air.tangents.iter().map(|t| t.pressure).collect();
+        for (row, shift) in (self.dofs.cells.len()..).zip(&shift) {
+            let (faces, areas) = g.row(row);
+            for (&face, area) in faces.iter().zip(areas) {
+                momentum[face as usize] += area * shift;
+            }
+        }
         let mut system = System {
             friction: (face_volume.iter().enumerate())
                 .map(|(face, &volume)| self.darcy(face, volume))
                 .collect(),
-            two_eta: (self.dofs.cells.iter())
-                .map(|&cell| 2.0 * self.eta(cell as usize))
-                .collect(),
-            couplings: Couplings::new(self, &edges, bodies.len(), &flux),
-            resting: [
-                self.momentum(&face_volume, &mass, before.velocity),
-                (c.iter().zip(before.pressure))
-                    .map(|(c, p)| c * p)
-                    .collect(),
-            ],
+            two_eta,
+            couplings,
+            shift,
+            resting: [momentum, source],
             a,
             mass,
             face_volume,

@@ -1,6 +1,7 @@
 //! Geometry, liquid and unknowns of a step together.
 
 use super::Scales;
+use super::air::Pockets;
 use super::dofs::Dofs;
 use super::walls::Walls;
 use crate::geometry::Lattice;
@@ -21,6 +22,8 @@ pub(crate) struct Operator<'a> {
     pub(crate) dofs: Dofs,
     /// Walls at the face unknowns.
     pub(crate) walls: Walls,
+    /// Pockets of air, where they have pressures of their own.
+    pub(crate) pockets: Option<&'a Pockets>,
     pub(super) scales: Scales,
 }
 
@@ -37,6 +40,7 @@ impl<'a> Operator<'a> {
             edge_viscosity: Default::default(),
             dofs,
             walls,
+            pockets: None,
             scales,
         }
     }

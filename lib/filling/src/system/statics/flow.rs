@@ -65,6 +65,7 @@ impl Flow {
             velocity: &vec![0.0; n],
             pressure: &vec![0.0; m],
             stiffness: &vec![1.0; m],
+            air: crate::system::Trapped::default(),
         };
         let system = operator.assemble(&self.speeds, before).unwrap();
         let (mut u, mut p) = (vec![0.0; n], vec![0.0; m]);

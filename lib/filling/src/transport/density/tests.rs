@@ -42,6 +42,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize) {
         velocity: &vec![0.0; dofs.faces.len()],
         pressure: &vec![0.0; dofs.cells.len()],
         stiffness: &vec![1.0; dofs.cells.len()],
+        air: crate::system::Trapped::default(),
     };
     let system = operator.assemble(&[[0.0; 3]], before).unwrap();
     let pick =
