@@ -75,7 +75,13 @@ fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
         let response: f64 = (faces.iter().zip(areas))
             .map(|(&face, area)| area * area / diagonal[face as usize])
             .sum();
-        Work::nearest(two_eta.min(FULL_CELL / response))
+        // What has no face responds to nothing, and the sum over nothing is -0.
+        let full = if response > 0.0 {
+            FULL_CELL / response
+        } else {
+            *two_eta
+        };
+        Work::nearest(two_eta.min(full))
     };
     system.two_eta.iter().enumerate().map(part).collect()
 }

@@ -114,6 +114,8 @@ pub struct CaseText {
     pub viscosity: Viscosity,
     /// Lines of `[adhesive.cure]`, if any.
     pub cure: Option<String>,
+    /// Lines of `[air]`, if any.
+    pub air: Option<String>,
     /// Lines of `[contact]`.
     pub contact: String,
     /// Lines of `[clamp]`, if any.
@@ -157,6 +159,7 @@ impl CaseText {
             bulk_modulus: PF[1],
             viscosity: Viscosity::Newtonian(PF[2]),
             cure: None,
+            air: None,
             contact: STICK.into(),
             clamp: None,
             gravity: [0.0; 3],
@@ -222,6 +225,9 @@ impl CaseText {
         }
         if let Some(cure) = &self.cure {
             writeln!(out, "\n[adhesive.cure]\n{}", cure.trim_end())?;
+        }
+        if let Some(air) = &self.air {
+            writeln!(out, "\n[air]\n{}", air.trim_end())?;
         }
         writeln!(out, "\n[contact]\n{}", self.contact.trim_end())?;
         if let Some(clamp) = &self.clamp {

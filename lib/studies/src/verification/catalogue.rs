@@ -3,8 +3,8 @@
 use super::lumen::Section;
 use super::piston::Drive;
 use super::{
-    Scene, acoustic, channel, clamp, column, couette, cure, disc, drop, duct, galilean, incline,
-    laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green, washburn,
+    Scene, acoustic, air, channel, clamp, column, couette, cure, disc, drop, duct, galilean,
+    incline, laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green, washburn,
 };
 use crate::case_text::PF;
 use crate::method::Method;
@@ -186,6 +186,10 @@ fn filling() -> Vec<Entry> {
             list.push((cure::slit_scene(n, growth), implicit()));
             list.push((cure::tube_scene(n, growth), implicit()));
         }
+    }
+    for n in [6, 12] {
+        list.push((air::scene(n, None), implicit()));
+        list.push((air::scene(n, Some(20.0)), implicit()));
     }
     list
 }

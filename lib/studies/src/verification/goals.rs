@@ -64,6 +64,8 @@ const SLIT: &str = "at L = 1 H, quarter off: entrance and front add 0.4 of a cel
     Courant numbers 0.5 to 0.1, 2.3 % at 12 cells; 2.8 % and less from 2 H on";
 /// Filling at constant pressure.
 const FRONT: &str = "half a cell off alone, -1.2 % elsewhere; 1.1 % at 12 cells";
+/// Course of filling against air.
+const AIR: &str = "as without air (2.3 %): the liquid in the slit takes up 1.5 % more of the lattice than its volume";
 /// Density in the reservoir.
 const COUNTED: &str = "points counted: about 520, of 0.19 % each, which leave twelve abreast; 0.5 % at Courant \
     numbers 0.25 and 0.1";
@@ -159,6 +161,28 @@ pub const GOALS: &[Goal] = &[
         "implicit",
         "time",
         0.001,
+    ),
+    goal(
+        "filling against closed-in air, 6 cells, at the end",
+        &["air-n6"],
+        "implicit",
+        "L at the end",
+        0.02,
+    ),
+    goal(
+        "filling against closed-in air, 6 cells, course",
+        &["air-n6"],
+        "implicit",
+        "L(t)",
+        0.02,
+    )
+    .because(AIR),
+    goal(
+        "filling against closed-in air, 12 cells, course",
+        &["air-n12"],
+        "implicit",
+        "L(t)",
+        0.02,
     ),
     goal(
         "incline, 12 cells",

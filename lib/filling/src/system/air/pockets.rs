@@ -33,7 +33,7 @@ pub(crate) struct Pockets {
     pub(crate) edge: Vec<(u32, u32)>,
     /// Void of each cell of the window, cells.
     pub(crate) room: Vec<f32>,
-    /// Void of each pocket, cells; first come those that have a face with a velocity.
+    /// Void of each pocket, cells; first come those that have a face with a velocity to liquid.
     pub(crate) volume: Vec<f64>,
     /// How many these are.
     pub(crate) wet: usize,
@@ -102,8 +102,8 @@ impl Pockets {
                 for axis in 0..window.domain.axes {
                     let stride = window.stride(axis);
                     for (face, next) in [(cell, cell - stride), (cell + stride, cell + stride)] {
-                        kind.wet |= dofs.face[axis][face] != NONE;
                         let next = home(next);
+                        kind.wet |= dofs.face[axis][face] != NONE && dofs.cell[next] != NONE;
                         if lattice.face(axis, face) == OPEN && void(&self.of, next) {
                             self.of[next] = kinds.len() as u32;
                             front.push(next);
@@ -116,7 +116,7 @@ impl Pockets {
         kinds
     }
 
-    /// Numbers pockets with a face that has a velocity first, then the others.
+    /// Numbers pockets beside liquid first, then the others.
     fn number(&mut self, kinds: &[Kind]) {
         let mut numbers = vec![OUTSIDE; kinds.len()];
         let mut next = 0;
@@ -167,7 +167,7 @@ impl Pockets {
 struct Kind {
     /// It reaches a side that air passes.
     outside: bool,
-    /// It has a face with a velocity.
+    /// It has a face with a velocity to liquid.
     wet: bool,
 }
 
