@@ -81,7 +81,17 @@ fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
         } else {
             *two_eta
         };
-        Work::nearest(two_eta.min(full))
+        let viscous = two_eta.min(full);
+        if cell < system.cells() {
+            return Work::nearest(viscous);
+        }
+        // A pocket's gas yields more than the liquid around: what the friction part lacks of 1/S.
+        let friction: f64 = (faces.iter().zip(areas))
+            .map(|(&face, area)| area * area / system.friction[face as usize])
+            .sum();
+        let c = system.c[cell];
+        let whole = 1.0 / (c + 1.0 / (viscous + 1.0 / friction));
+        Work::nearest(whole - 1.0 / (c + friction))
     };
     system.two_eta.iter().enumerate().map(part).collect()
 }
