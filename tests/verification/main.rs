@@ -10,7 +10,7 @@ use studies::load_control::{self, report::sound, scenes::SHAPES};
 use studies::method::Method;
 use studies::verification::lumen::Section;
 use studies::verification::{
-    Scene, acoustic, channel, clamp, column, cure, disc, drop, duct, galilean, incline, laws,
+    Scene, acoustic, air, channel, clamp, column, cure, disc, drop, duct, galilean, incline, laws,
     piston, sealed, squeeze, stefan, tait, taylor_green, water,
 };
 
@@ -148,6 +148,18 @@ fn an_adhesive_that_dries_comes_to_rest_where_it_should() {
         let mut thick = scene();
         thick.case.viscosity = Viscosity::Newtonian(1.25 * water::VISCOSITY);
         assert_caught(most, &thick, Method::implicit(), "L where it stops");
+    }
+}
+
+#[test]
+fn air_behind_liquid_is_compressed_and_leaks() {
+    let what = "L at the end";
+    for leak_time in [None, Some(20.0)] {
+        let scene = || air::scene(6, leak_time);
+        assert_within(0.02, &scene(), Method::implicit(), what);
+        let mut wrong = scene();
+        wrong.case.air = Some("pressure = \"1.5e5 Pa\"\n".into());
+        assert_caught(0.02, &wrong, Method::implicit(), what);
     }
 }
 

@@ -87,7 +87,10 @@ impl Plan {
             dt_s,
             steps,
             memory_bytes: BYTES[0] * unknowns
-                + BYTES[1] * window(scene, amount)
+                + BYTES[1]
+                    * settings
+                        .air_pressure
+                        .map_or(window(scene, amount), |_| cells)
                 + BYTES[2] * points,
             cpu_s: steps
                 * ((SECONDS[0] * ITERATIONS + SECONDS[1]) * unknowns + SECONDS[2] * points),

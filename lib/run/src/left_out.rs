@@ -31,7 +31,9 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
         "wood deformation",
         "adherends are rigid (paper section 2.2)".into(),
     );
-    add("trapped air", "voids are empty: p = 0".into());
+    if case.air.is_none() {
+        add("trapped air", "voids are empty: p = 0, no [air]".into());
+    }
     if setup.scene.liquid.cure.is_none() {
         add(
             "cure",

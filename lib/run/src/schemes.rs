@@ -70,6 +70,12 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
                 .into(),
         ));
     }
+    if case.air.is_some() {
+        return Err(CaseError(
+            "[air] is for scheme = \"implicit\" only: the explicit scheme has no pressure in what it leaves empty"
+                .into(),
+        ));
+    }
     if (case.clamp.as_ref()).is_some_and(|clamp| !clamp.stage.is_empty()) {
         return Err(CaseError(
             "[[clamp.stage]] is for scheme = \"implicit\" only: explicit steps are too short for a press"
@@ -138,6 +144,10 @@ fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
     let settings = filling::Settings {
         cfl: cfl(case),
         tolerance: table.tolerance.unwrap_or(default.tolerance),
+        air_pressure: case.air.as_ref().map(|air| air.pressure.si()),
+        air_leak_time: (case.air.as_ref())
+            .and_then(|air| air.leak_time)
+            .map_or(default.air_leak_time, |time| time.si()),
     };
     settings.check().map_err(CaseError)?;
     Ok(settings)

@@ -139,6 +139,7 @@ mod tests {
         said(&SaddleSystem {
             a: &one,
             g: &pair(),
+            pockets: 0,
             c: &[c; 2],
             friction: &[friction],
             two_eta: &[1.0; 2],

@@ -15,6 +15,9 @@ pub struct Csr<T> {
     values: Vec<T>,
 }
 
+/// Entries of a row from which on looking for a column takes longer than sorting them.
+const LONG: usize = 64;
+
 /// One row under assembly; entries to the same column add up.
 #[derive(Debug, Default)]
 pub struct RowEntries {
@@ -26,10 +29,30 @@ impl RowEntries {
     pub fn add(&mut self, column: usize, value: f64) {
         // A column beyond u32 stays out of range and is refused when the row is stored.
         let column = u32::try_from(column).unwrap_or(u32::MAX);
+        if self.entries.len() >= LONG {
+            self.entries.push((column, value));
+            return;
+        }
         match self.entries.iter_mut().find(|entry| entry.0 == column) {
             Some(entry) => entry.1 += value,
             None => self.entries.push((column, value)),
         }
+    }
+
+    /// Columns ascending and unique. Sums of long rows are made here, in the order of their values.
+    fn finish(&mut self) {
+        if self.entries.len() < LONG {
+            self.entries.sort_unstable_by_key(|entry| entry.0);
+            return;
+        }
+        self.entries.sort_by_key(|entry| entry.0);
+        self.entries.dedup_by(|next, sum| {
+            let same = next.0 == sum.0;
+            if same {
+                sum.1 += next.1;
+            }
+            same
+        });
     }
 }
 
@@ -149,6 +172,16 @@ impl<T: Real> Csr<T> {
         diagonal
     }
 
+    /// Its first `n` rows, at most all.
+    #[must_use]
+    pub fn first_rows(mut self, n: usize) -> Self {
+        self.row_start.truncate(n + 1);
+        let entries = self.row_start.last().map_or(0, |&end| end as usize);
+        self.columns.truncate(entries);
+        self.values.truncate(entries);
+        self
+    }
+
     /// The transposed matrix.
     pub fn transpose(&self) -> Self {
         let mut row_start = vec![0u32; self.n_columns + 1];
@@ -207,7 +240,7 @@ impl<T: Real> Csr<T> {
 
     /// Row `row` times `x`, in double precision.
     #[inline]
-    pub(crate) fn row_times_wide<X: Real>(&self, row: usize, x: &[X]) -> f64 {
+    pub fn row_times_wide<X: Real>(&self, row: usize, x: &[X]) -> f64 {
         let (columns, values) = self.row(row);
         let mut sum = 0.0;
         for (&column, &value) in columns.iter().zip(values) {
@@ -236,7 +269,7 @@ fn assemble_rows<T: Real>(
     for row in range {
         row_entries.entries.clear();
         fill(row, &mut row_entries);
-        row_entries.entries.sort_unstable_by_key(|entry| entry.0);
+        row_entries.finish();
         for &(column, value) in &row_entries.entries {
             if column as usize >= n_columns || !value.is_finite() {
                 return Err(SolveError::Matrix(format!(

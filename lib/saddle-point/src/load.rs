@@ -177,6 +177,7 @@ mod tests {
             let system = SaddleSystem {
                 a: &a,
                 g: &g,
+                pockets: 0,
                 c: &[0.0],
                 friction: &[0.0; 2],
                 two_eta: &[1.0],

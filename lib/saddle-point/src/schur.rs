@@ -26,6 +26,10 @@ impl Schur {
     pub(crate) fn new(system: &SaddleSystem, g_transposed: &Csr<f64>) -> Result<Self, SolveError> {
         let weight: Vec<f64> = system.friction.iter().map(|d| 1.0 / d).collect();
         let matrix = operator(system.g, g_transposed, &weight, system.c)?;
+        let matrix = match system.pockets {
+            0 => matrix,
+            _ => tamed(&matrix)?,
+        };
         Ok(Self {
             amg: Amg::new(&matrix)?,
             pockets: ClosedPockets::find(&matrix),
@@ -49,6 +53,20 @@ impl Schur {
     }
 }
 
+/// A matrix whose couplings are positive in part, as are those of a pocket of air and of cells that it shares
+/// faces with, with these taken to the diagonals: smoothing is bounded where none is positive, and what
+/// this adds is no less than zero.
+fn tamed(matrix: &Csr<f64>) -> Result<Csr<f64>, SolveError> {
+    let n = matrix.n_rows();
+    Csr::assemble(n, n, |row, entries| {
+        let (columns, values) = matrix.row(row);
+        for (&column, &value) in columns.iter().zip(values) {
+            let place = if value > 0.0 { row } else { column as usize };
+            entries.add(place, value);
+        }
+    })
+}
+
 /// The diagonal `E`.
 fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
     let diagonal = system.a.diagonal();
@@ -57,7 +75,23 @@ fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
         let response: f64 = (faces.iter().zip(areas))
             .map(|(&face, area)| area * area / diagonal[face as usize])
             .sum();
-        Work::nearest(two_eta.min(FULL_CELL / response))
+        // What has no face responds to nothing, and the sum over nothing is -0.
+        let full = if response > 0.0 {
+            FULL_CELL / response
+        } else {
+            *two_eta
+        };
+        let viscous = two_eta.min(full);
+        if cell < system.cells() {
+            return Work::nearest(viscous);
+        }
+        // A pocket's gas yields more than the liquid around: what the friction part lacks of 1/S.
+        let friction: f64 = (faces.iter().zip(areas))
+            .map(|(&face, area)| area * area / system.friction[face as usize])
+            .sum();
+        let c = system.c[cell];
+        let whole = 1.0 / (c + 1.0 / (viscous + 1.0 / friction));
+        Work::nearest(whole - 1.0 / (c + friction))
     };
     system.two_eta.iter().enumerate().map(part).collect()
 }

@@ -15,6 +15,8 @@ pub struct SaddleSystem<'a> {
     pub a: &'a Csr<f64>,
     /// Flux operator, cells x faces.
     pub g: &'a Csr<f64>,
+    /// How many rows of it, the last, are no cells but pockets of gas: one pressure and any number of faces.
+    pub pockets: usize,
     /// Compressibility of every cell, not negative.
     pub c: &'a [f64],
     /// `D_B` of every face, positive: liquid volume times
@@ -37,6 +39,11 @@ pub struct SaddleSystem<'a> {
 const FAINT: f64 = 1e-3;
 
 impl SaddleSystem<'_> {
+    /// Number of rows of the flux operator that are cells.
+    pub(crate) fn cells(&self) -> usize {
+        self.g.n_rows().saturating_sub(self.pockets)
+    }
+
     /// `[b; -g]`.
     pub(crate) fn right_hand_side(&self) -> Vec<f64> {
         let sources =

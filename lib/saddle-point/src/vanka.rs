@@ -47,7 +47,8 @@ struct Block {
 impl Vanka {
     /// Of a system with its velocities scaled by `scale`.
     pub(crate) fn new(system: &SaddleSystem, scale: &[Work]) -> Self {
-        let n = system.g.n_rows();
+        // Pockets are left to the cycle before: no sweep over their surroundings meets their balance.
+        let n = system.cells();
         let blocks = (0..n.div_ceil(LANES))
             .into_par_iter()
             .with_min_len(CHUNK / LANES)
@@ -232,6 +233,7 @@ mod tests {
         let system = SaddleSystem {
             a: &a,
             g: &g,
+            pockets: 0,
             c: &c,
             friction: &ones,
             two_eta: &ones[..1],
@@ -268,6 +270,7 @@ mod tests {
         let system = SaddleSystem {
             a: &a,
             g: &g.unwrap(),
+            pockets: 0,
             c: &[0.0; 2],
             friction: &ones,
             two_eta: &ones[..2],

@@ -118,6 +118,8 @@ pub struct CaseText {
     pub cure: Option<String>,
     /// Lines of `[adhesive.water]`, if any.
     pub water: Option<String>,
+    /// Lines of `[air]`, if any.
+    pub air: Option<String>,
     /// Lines of `[contact]`.
     pub contact: String,
     /// Lines of `[clamp]`, if any.
@@ -165,6 +167,7 @@ impl CaseText {
             wetting: None,
             cure: None,
             water: None,
+            air: None,
             contact: STICK.into(),
             clamp: None,
             gravity: [0.0; 3],
@@ -240,6 +243,9 @@ impl CaseText {
         }
         if let Some(water) = &self.water {
             writeln!(out, "\n[adhesive.water]\n{}", water.trim_end())?;
+        }
+        if let Some(air) = &self.air {
+            writeln!(out, "\n[air]\n{}", air.trim_end())?;
         }
         writeln!(out, "\n[contact]\n{}", self.contact.trim_end())?;
         if let Some(clamp) = &self.clamp {

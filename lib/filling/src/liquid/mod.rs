@@ -4,7 +4,7 @@ mod fractions;
 mod particles;
 mod volumes;
 
-pub(crate) use fractions::{Fractions, pressures, sub_cells, velocities};
+pub(crate) use fractions::{Fractions, neighbours, pressures, sub_cells, velocities};
 pub(crate) use particles::{Bins, Particles};
 pub(crate) use volumes::Volumes;
 

@@ -78,9 +78,11 @@ impl Implicit {
         system.steer(&bodies);
         let mut speed = self.state.drive.speed;
         let solver = &mut self.workspace.solver;
+        system.take_shift(&mut now.p);
         let outcome = (self.workspace.clock).time(Part::Solve, || {
             solver.solve_loaded(&system.saddle(), &load, &mut now.u, &mut now.p, &mut speed)
         });
+        system.add_shift(&mut now.p);
         self.count(outcome, now)?;
         let follows = self.state.drive.follow(speed);
         system.steer(&self.state.drive.velocities());
@@ -89,9 +91,11 @@ impl Implicit {
 
     fn solve_system(&mut self, system: &System, now: &mut Unknowns) -> Result<(), Failure> {
         let solver = &mut self.workspace.solver;
+        system.take_shift(&mut now.p);
         let outcome = (self.workspace.clock).time(Part::Solve, || {
             solver.solve(&system.saddle(), &mut now.u, &mut now.p)
         });
+        system.add_shift(&mut now.p);
         self.count(outcome, now)
     }
 

@@ -1,5 +1,6 @@
 //! The scheme, and one step of it: the eight stages of docs/methods.md section 3.1.
 
+mod air;
 mod clock;
 mod controlled;
 mod drive;
@@ -152,6 +153,9 @@ impl Implicit {
         let (lost, water) = (self.state.counts.lost, self.state.particles.water());
         // 7. Transport.
         let field = self.transport(lattice, &mut solution, &after, dt);
+        if let Some(air) = solution.air.take() {
+            self.state.air = air;
+        }
         // 8. Density projection; then particles take what is there, bodies and time advance.
         self.project(lattice, &solution, &after)?;
         if self.state.counts.lost > lost {
@@ -182,8 +186,14 @@ impl Implicit {
         let particles = &mut self.state.particles;
         let ahead = clock.time(Part::Advection, || path.ahead(particles));
         particles.visit(ahead);
-        let (from, to) = particles.extent();
-        let window = Window::around(self.setup.domain, from, to);
+        let window = match self.setup.air {
+            // Pockets reach beyond the liquid.
+            Some(_) => self.setup.window_of_all(),
+            None => {
+                let (from, to) = particles.extent();
+                Window::around(self.setup.domain, from, to)
+            }
+        };
         Trial {
             dt,
             bodies,

@@ -105,6 +105,7 @@ impl Scheme for Implicit {
         arrays.extend(self.save_water());
         let programme = self.state.drive.programme().map(PressRun::state);
         arrays.extend(programme.map(|state| (PROGRAMME.to_owned(), Array::F64(state))));
+        arrays.extend(self.save_air());
         Saved(arrays)
     }
 
@@ -166,6 +167,7 @@ impl Scheme for Implicit {
             restored::check_finite(state, PROGRAMME)?;
             self.state.drive.set_programme(state)?;
         }
+        self.restore_air(saved)?;
         self.state.drive.set_state(drive);
         self.state.rates = Rates::Restored(rates.to_vec());
         Ok(())
@@ -205,6 +207,7 @@ impl Scheme for Implicit {
             let unsettled = self.state.counts.unsettled;
             counts.push(("steps whose viscosity did not settle", unsettled));
         }
+        counts.extend(self.air_counts());
         counts
     }
 

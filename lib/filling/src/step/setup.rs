@@ -3,10 +3,11 @@
 use physics::{Dimensions, Liquid, Points, RigidBody, Scene, WallLaw};
 
 use super::Units;
-use crate::geometry::{Domain, MAX_BODIES, Solids, Surface, fill_sealed};
+use crate::geometry::{Domain, MAX_BODIES, Solids, Surface, Window, fill_sealed};
 use crate::liquid::Particles;
 use crate::settings::Settings;
 use crate::stages::{Present, stages};
+use crate::system::air::{Gas, Outside};
 use crate::system::{Scales, WidthRule};
 
 /// Edge of a voxel (cells) below which the steps of a wall add friction of their own.
@@ -32,6 +33,8 @@ pub(super) struct Setup {
     pub(super) surface: Option<Surface>,
     /// Voxels of voids that no liquid can reach, filled in.
     pub(super) sealed: u64,
+    /// Air with pressures of its own, and the sides of the domain that it passes.
+    pub(super) air: Option<(Gas, Outside)>,
 }
 
 impl Setup {
@@ -45,6 +48,13 @@ impl Setup {
         let domain = Domain::new(&scene.grid, scene.boundary, scene.dimensions);
         let (width, area) = (width_rule(&scene), scene.grid.area_m2());
         let names: Vec<String> = scene.bodies.iter().map(|body| body.name.clone()).collect();
+        let air = settings.air_pressure.map(|pressure| {
+            let outside = Outside::new(scene.boundary, scene.clamp.is_some());
+            (
+                Gas::new(pressure, settings.air_leak_time, scene.liquid.tait),
+                outside,
+            )
+        });
         let (rest, particles, sealed) = contents(scene.bodies, scene.points, domain, units)?;
         let surface = (scene.liquid.water.as_ref())
             .map(|water| Surface::new(&rest, |body| water.enters(&names[usize::from(body)])));
@@ -63,6 +73,7 @@ impl Setup {
             area,
             rest,
             sealed,
+            air,
         };
         Ok((setup, particles))
     }
@@ -79,6 +90,12 @@ impl Setup {
         } else {
             f64::INFINITY
         }
+    }
+
+    /// The window of the whole domain.
+    pub(super) fn window_of_all(&self) -> Window {
+        let cells = self.domain.cells.map(|n| n as i64);
+        Window::around(self.domain, [0; 3], cells)
     }
 
     /// Scales of the terms of a step of `dt` (s).
@@ -249,6 +266,7 @@ mod tests {
             rest: solids(domain, vec![]),
             sealed: 0,
             surface: None,
+            air: None,
         };
         let scales = setup.scales(0.25);
         // rho h^2/(eta dt), eta/(K dt), rho h^2 g/eta and the length in cells.

@@ -2,10 +2,12 @@
 
 use physics::{Failure, Viscosity};
 
+use super::air::Air;
 use super::controlled::Solved;
 use super::{Implicit, Part, Trial, Units};
 use crate::liquid::{self, Volumes};
-use crate::system::{Before, Dofs, Found, NONE, Operator, Sheared};
+use crate::system::air::Held;
+use crate::system::{Before, Dofs, Found, NONE, Operator, Sheared, Trapped};
 use crate::transport::density::Cells;
 use crate::transport::{Field, Near};
 use saddle_point::Csr;
@@ -40,6 +42,8 @@ pub(super) struct Solution {
     pub(super) g: Csr<f64>,
     pub(super) face_volume: Vec<f64>,
     pub(super) cells: Cells,
+    /// Air of the pockets, where they have pressures.
+    pub(super) air: Option<Held>,
 }
 
 /// The flow that a viscosity was taken from.
@@ -86,17 +90,25 @@ impl Implicit {
             p: start.p.clone(),
             iterations: 0,
         };
+        let (pockets, mut air) = match self.closed_off(&operator) {
+            Some(Air { pockets, held }) => (Some(pockets), Some(held)),
+            None => (None, None),
+        };
+        operator.pockets = pockets.as_ref();
         let stiffness = self.stiffness(&start.p);
         let before = Before {
             velocity: &start.u,
             pressure: &start.p,
             stiffness: &stiffness,
             lost: &lost,
+            air: Trapped::default(),
         };
-        let ((system, forces, power), viscous) = if self.setup.present.table {
-            self.solve_passes(&mut operator, before, &mut now)?
-        } else {
-            (self.controlled(&operator, before, &mut now)?, None)
+        let ((system, forces, power), viscous) = match (operator.pockets, &mut air) {
+            (Some(pockets), Some(held)) => {
+                let air = (pockets, held);
+                self.solve_with_air(&mut operator, before, air, trial, &mut now)?
+            }
+            _ => self.solve_once(&mut operator, before, &mut now)?,
         };
         let pick = |field: &[f32]| {
             (operator.dofs.cells.iter())
@@ -117,11 +129,29 @@ impl Implicit {
             iterations: now.iterations,
             viscous,
             u: now.u,
-            g: system.g,
+            g: match &air {
+                Some(_) => system.g.first_rows(operator.dofs.cells.len()),
+                None => system.g,
+            },
+            air,
             cells,
             face_volume: system.face_volume,
             dofs: operator.dofs,
         })
+    }
+
+    /// Stages 4 to 6 with the air as given.
+    pub(super) fn solve_once(
+        &mut self,
+        operator: &mut Operator,
+        before: Before,
+        now: &mut Unknowns,
+    ) -> Result<(Solved, Option<Viscous>), Failure> {
+        if self.setup.present.table {
+            self.solve_passes(operator, before, now)
+        } else {
+            Ok((self.controlled(operator, before, now)?, None))
+        }
     }
 
     /// Velocities and scaled pressures that the particles carry to the unknowns.

@@ -2,6 +2,7 @@
 
 use super::{Drive, LastFlow};
 use crate::liquid::Particles;
+use crate::system::air::Held;
 use crate::transport::Flow;
 use crate::water::Account;
 
@@ -23,6 +24,8 @@ pub(super) struct State {
     pub(super) rates: Rates,
     /// Where the viscosity depends on the shear rate: what the next step takes rates from.
     pub(super) last: Option<LastFlow>,
+    /// Air of the pockets, where they have pressures.
+    pub(super) air: Held,
     pub(super) counts: Counts,
     /// Of a liquid that loses water.
     pub(super) water: Option<Account>,
@@ -70,6 +73,7 @@ impl State {
             power: 0.0,
             rates: Rates::Zero,
             last: None,
+            air: Held::default(),
             counts: Counts::default(),
             water,
         }

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use saddle_point::{Csr, Load, SaddleSystem, SolveError};
 
 use super::Operator;
+use super::air::Tangent;
 use super::capillarity::Pull;
 use super::couplings::{self, Couplings};
 use super::edges::Edges;
@@ -27,12 +28,16 @@ pub(crate) struct System {
     couplings: Couplings,
     /// Forces of menisci on the bodies.
     pulled: Vec<[f64; 3]>,
+    /// Pressures of the pockets of air, which their unknowns count from: what softens them much would outweigh
+    /// all else.
+    shift: Vec<f64>,
     /// Momentum with all bodies at rest.
     momentum: Vec<f64>,
     /// Volume that compression carries over from the step before.
     carried: Vec<f64>,
-    /// Volume that is lost into walls; empty where none is.
-    lost: Vec<f64>,
+    /// Volume source with all bodies at rest: what pockets of air grow by, less what is lost into walls; empty
+    /// without either.
+    resting: Vec<f64>,
     bodies: Vec<[f64; 3]>,
     b: Vec<f64>,
     source: Vec<f64>,
@@ -44,6 +49,7 @@ impl System {
         SaddleSystem {
             a: &self.a,
             g: &self.g,
+            pockets: self.shift.len(),
             c: &self.c,
             friction: &self.friction,
             two_eta: &self.two_eta,
@@ -51,6 +57,28 @@ impl System {
             volume_source: &self.source,
             carried: &self.carried,
         }
+    }
+
+    /// Makes pressures of pockets those that the solver finds, over what they count from.
+    pub(crate) fn take_shift(&self, p: &mut [f64]) {
+        let pockets = self.c.len() - self.shift.len();
+        for (p, shift) in p[pockets..].iter_mut().zip(&self.shift) {
+            *p -= shift;
+        }
+    }
+
+    /// And back.
+    pub(crate) fn add_shift(&self, p: &mut [f64]) {
+        let pockets = self.c.len() - self.shift.len();
+        for (p, shift) in p[pockets..].iter_mut().zip(&self.shift) {
+            *p += shift;
+        }
+    }
+
+    /// Area of the front at pockets of air, cells: of the rows behind those of `liquid` cells.
+    pub(crate) fn front(&self, liquid: usize) -> f64 {
+        let area = |row: usize| self.g.row(row).1.iter().map(|area| area.abs()).sum::<f64>();
+        (liquid..self.g.n_rows()).map(area).sum()
     }
 
     /// Sets the velocities of the bodies, m/s.
@@ -63,8 +91,8 @@ impl System {
         self.source = (0..self.carried.len())
             .into_par_iter()
             .map(|cell| {
-                let lost = self.lost.get(cell).copied().unwrap_or_default();
-                couplings.displaced(cell, bodies) - lost
+                let resting = self.resting.get(cell).copied().unwrap_or_default();
+                couplings.displaced(cell, bodies) + resting
             })
             .collect();
     }
@@ -77,9 +105,11 @@ impl System {
         let mut resting = self.bodies.clone();
         resting[clamped] = [0.0; 3];
         let couplings = &self.couplings;
-        let rigid = |bodies: &[[f64; 3]]| couplings.forces(bodies, &[], &[]).0[clamped][1];
+        let rigid = |bodies: &[[f64; 3]], p: &[f64]| couplings.forces(bodies, &[], p).0[clamped][1];
+        let mut pockets = vec![0.0; self.c.len()];
+        self.add_shift(&mut pockets);
         let pulled = self.pulled.get(clamped).map_or(0.0, |pull| pull[1]);
-        let force = force - rigid(&resting) - pulled;
+        let force = force - rigid(&resting, &pockets) - pulled;
         Load {
             momentum: (0..self.b.len())
                 .into_par_iter()
@@ -89,7 +119,7 @@ impl System {
                 .into_par_iter()
                 .map(|cell| couplings.displaced(cell, &unit))
                 .collect(),
-            resistance: rigid(&unit),
+            resistance: rigid(&unit, &[]),
             force,
             scale: force.max(least),
         }
@@ -111,6 +141,15 @@ impl System {
     }
 }
 
+/// What is known of pockets of air before the step; nothing where they have no pressures.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Trapped<'a> {
+    /// Of each pocket.
+    pub(crate) tangents: &'a [Tangent],
+    /// Velocities of the bodies that the middle of the step was made with, m/s.
+    pub(crate) placed: &'a [[f64; 3]],
+}
+
 /// What is known of the liquid before the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Before<'a> {
@@ -122,6 +161,8 @@ pub(crate) struct Before<'a> {
     pub(crate) stiffness: &'a [f64],
     /// Volume that each pressure unknown loses in a time, cells^2 m/s; empty where none is lost.
     pub(crate) lost: &'a [f64],
+    /// Air.
+    pub(crate) air: Trapped<'a>,
 }
 
 impl Operator<'_> {
@@ -143,12 +184,33 @@ impl Operator<'_> {
         let a = self.velocity_block(&edges, &mass)?;
         let flux = couplings::fluxes(self, &areas);
         drop(areas);
-        let g = Csr::assemble(self.dofs.cells.len(), n, |cell, entries| {
+        let g = Csr::assemble(flux.len(), n, |cell, entries| {
             for &(column, area) in flux.of(cell).iter().filter(|e| (e.0 as usize) < n) {
                 entries.add(column as usize, area);
             }
         })?;
-        let c = self.compressibility(before.stiffness);
+        let cells = self.dofs.cells.len();
+        let mut c = self.compressibility(before.stiffness);
+        let mut carried: Vec<f64> = (c.iter().zip(before.pressure))
+            .map(|(c, p)| c * p)
+            .collect();
+        let mut two_eta: Vec<f64> = (self.dofs.cells.iter())
+            .map(|&cell| 2.0 * self.eta(cell as usize))
+            .collect();
+        let couplings = Couplings::new(self, &edges, bodies.len(), &flux);
+        let mut resting: Vec<f64> = before.lost.iter().map(|lost| -lost).collect();
+        let thickest = two_eta.iter().copied().fold(0.0, f64::max);
+        for tangent in before.air.tangents {
+            // Half of what went into the pocket to the middle of the step.
+            let row = c.len();
+            let ahead = g.row_times_wide(row, before.velocity)
+                - couplings.displaced(row, before.air.placed);
+            resting.resize(row, 0.0);
+            resting.push(tangent.growth + 0.5 * ahead);
+            c.push(tangent.softness);
+            two_eta.push(thickest);
+        }
+        carried.resize(c.len(), 0.0);
         let Pull {
             momentum: pull,
             bodies: pulled,
@@ -157,20 +219,24 @@ impl Operator<'_> {
         for (momentum, pull) in momentum.iter_mut().zip(pull) {
             *momentum += pull;
         }
+        let shift: Vec<f64> = before.air.tangents.iter().map(|t| t.pressure).collect();
+        for (row, shift) in (cells..).zip(&shift) {
+            let (faces, areas) = g.row(row);
+            for (&face, area) in faces.iter().zip(areas) {
+                momentum[face as usize] += area * shift;
+            }
+        }
         let mut system = System {
             friction: (face_volume.iter().enumerate())
                 .map(|(face, &volume)| self.darcy(face, volume))
                 .collect(),
-            two_eta: (self.dofs.cells.iter())
-                .map(|&cell| 2.0 * self.eta(cell as usize))
-                .collect(),
-            couplings: Couplings::new(self, &edges, bodies.len(), &flux),
-            momentum,
+            two_eta,
+            couplings,
             pulled,
-            carried: (c.iter().zip(before.pressure))
-                .map(|(c, p)| c * p)
-                .collect(),
-            lost: before.lost.to_vec(),
+            shift,
+            momentum,
+            carried,
+            resting,
             a,
             mass,
             face_volume,

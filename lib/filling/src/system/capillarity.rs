@@ -34,7 +34,8 @@ impl Operator<'_> {
             return Pull::default();
         }
         let mut front = vec![0.0; self.dofs.faces.len()];
-        for cell in 0..g.n_rows() {
+        // Pockets of air have rows behind those of the liquid.
+        for cell in 0..self.dofs.cells.len() {
             let (faces, areas) = g.row(cell);
             for (&face, area) in faces.iter().zip(areas) {
                 front[face as usize] += area;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::edges::Edges;
 use super::fluxes::Areas;
 use super::terms::Velocity;
-use super::{CHUNK, Operator};
+use super::{CHUNK, Operator, air};
 
 /// Rows of (column, coefficient), one per unknown.
 #[derive(Clone, Debug, Default)]
@@ -19,6 +19,17 @@ pub(super) struct Rows {
 }
 
 impl Rows {
+    /// How many.
+    pub(super) fn len(&self) -> usize {
+        self.start.len().saturating_sub(1)
+    }
+
+    /// Appends a row.
+    pub(super) fn push(&mut self, row: &[(u32, f64)]) {
+        self.entries.extend(row);
+        self.start.push(self.entries.len() as u32);
+    }
+
     pub(super) fn of(&self, row: usize) -> &[(u32, f64)] {
         &self.entries[self.start[row] as usize..self.start[row + 1] as usize]
     }
@@ -75,7 +86,7 @@ impl Couplings {
             });
         });
         let faces = operator.dofs.faces.len() as u32;
-        let (flux, _) = gather(operator.dofs.cells.len(), 0, |cell, row, _| {
+        let (flux, _) = gather(flux.len(), 0, |cell, row, _| {
             let body = |&(column, area): &(u32, f64)| Some((column.checked_sub(faces)?, area));
             row.extend(flux.of(cell).iter().filter_map(body));
         });
@@ -138,17 +149,18 @@ impl Couplings {
     }
 }
 
-/// The fluxes of all pressure unknowns: columns are the face unknowns and, after them, the
+/// The fluxes of all pressure unknowns, cells and then pockets of air: columns are the face unknowns and, after them, the
 /// bodies' components.
 pub(super) fn fluxes(operator: &Operator, areas: &Areas) -> Rows {
     let faces = operator.dofs.faces.len();
-    let (rows, _) = gather(operator.dofs.cells.len(), 0, |cell, row, _| {
+    let (mut rows, _) = gather(operator.dofs.cells.len(), 0, |cell, row, _| {
         operator.flux(areas, cell, |velocity, area| match velocity {
             Velocity::Face(face) => add(row, face as usize, area),
             Velocity::Body(component) => add(row, faces + component as usize, area),
             Velocity::Still => {}
         });
     });
+    air::append(operator, areas, &mut rows);
     rows
 }
 

@@ -32,6 +32,11 @@ impl Areas {
             Sparse::new(len, Aperture::WHOLE, find)
         }))
     }
+
+    /// Those of a face, where it is one of them.
+    pub(super) fn at(&self, axis: usize, face: usize) -> Option<&Aperture> {
+        self.0[axis].at(face)
+    }
 }
 
 impl Operator<'_> {

@@ -6,6 +6,7 @@
 //! viscosities in units of a reference eta_0, pressures in units of eta_0/h, forces in units of
 //! eta_0 h; in plane strain the depth is one cell.
 
+pub(crate) mod air;
 mod assembly;
 mod capillarity;
 mod couplings;
@@ -20,7 +21,7 @@ mod terms;
 mod viscosity;
 mod walls;
 
-pub(crate) use assembly::{Before, System};
+pub(crate) use assembly::{Before, System, Trapped};
 pub(crate) use dofs::{Dofs, NONE};
 pub(crate) use operator::Operator;
 pub(crate) use response::Found;

@@ -1,6 +1,7 @@
 //! Geometry, liquid and unknowns of a step together.
 
 use super::Scales;
+use super::air::Pockets;
 use super::dofs::Dofs;
 use super::walls::Walls;
 use crate::geometry::Lattice;
@@ -23,6 +24,8 @@ pub(crate) struct Operator<'a> {
     pub(crate) dofs: Dofs,
     /// Walls at the face unknowns.
     pub(crate) walls: Walls,
+    /// Pockets of air, where they have pressures of their own.
+    pub(crate) pockets: Option<&'a Pockets>,
     pub(super) scales: Scales,
 }
 
@@ -40,6 +43,7 @@ impl<'a> Operator<'a> {
             factor: &[],
             dofs,
             walls,
+            pockets: None,
             scales,
         }
     }

@@ -95,6 +95,7 @@ fn strong_compression_follows_tait() {
     let settings = Settings {
         cfl: 0.02,
         tolerance: 1e-5,
+        ..Settings::default()
     };
     let mut scheme = Implicit::new(chamber, settings).unwrap();
     let mut pressure = 0.0;

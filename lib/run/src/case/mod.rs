@@ -2,6 +2,7 @@
 //!
 //! Unknown keys, missing units and values out of range are refused with line and column.
 
+mod air;
 mod cure;
 pub(crate) mod keys;
 mod press;
@@ -13,6 +14,7 @@ mod water;
 
 use std::path::Path;
 
+pub use air::AirTable;
 pub use cure::CureTable;
 pub use press::StageTable;
 pub use reference::reference;

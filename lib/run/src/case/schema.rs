@@ -5,6 +5,7 @@ use physics::{Boundary, Choice, ShearRate, WallLaw};
 use serde::Deserialize;
 use units::{Acceleration, Density, Length, Pressure, Quantity, Speed, Time, Viscosity};
 
+use super::air::AirTable;
 use super::cure::CureTable;
 use super::press::StageTable;
 use super::rheology::{CarreauYasuda, Cross, HerschelBulkley, PowerLaw};
@@ -33,6 +34,8 @@ pub struct Case {
     pub body: Vec<Body>,
     /// Body force.
     pub gravity: Option<Gravity>,
+    /// Air that is closed off.
+    pub air: Option<AirTable>,
     /// Sides of the domain.
     #[serde(default)]
     pub boundary: Axes,

@@ -34,6 +34,7 @@ impl Problem {
         SaddleSystem {
             a: &self.a,
             g: &self.g,
+            pockets: 0,
             c: &self.c,
             friction: &self.friction,
             two_eta: &self.two_eta,

@@ -82,6 +82,7 @@ fn a_sealed_incompressible_pocket_fails_and_a_compressible_one_does_not() {
         let system = SaddleSystem {
             a: &a,
             g: &g,
+            pockets: 0,
             c: &[c; 40],
             friction: &friction,
             two_eta: &[2.0; 40],
@@ -118,6 +119,7 @@ fn a_slow_flow_under_pressure_is_solved_to_the_tolerance() {
     let system = SaddleSystem {
         a: &a,
         g: &g,
+        pockets: 0,
         c: &[c; 40],
         friction: &friction,
         two_eta: &[2.0; 40],

@@ -3,9 +3,9 @@
 use super::lumen::Section;
 use super::piston::Drive;
 use super::{
-    Scene, acoustic, channel, clamp, column, couette, cure, disc, drop, duct, galilean, incline,
-    jurin, laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green, washburn,
-    water, wicking,
+    Scene, acoustic, air, channel, clamp, column, couette, cure, disc, drop, duct, galilean,
+    incline, jurin, laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green,
+    washburn, water, wicking,
 };
 use crate::case_text::PF;
 use crate::method::Method;
@@ -193,6 +193,10 @@ fn filling() -> Vec<Entry> {
     let slits = [3, 6, 12].map(water::slit_scene);
     for scene in slits.into_iter().chain([6, 12].map(water::tube_scene)) {
         list.push((scene, implicit()));
+    }
+    for n in [6, 12] {
+        list.push((air::scene(n, None), implicit()));
+        list.push((air::scene(n, Some(20.0)), implicit()));
     }
     list
 }

@@ -59,6 +59,10 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
         "Capillary rise\n\nPlates with a slit between them dip into a pool under a body force: height of the liquid between over that beside them at rest, against 2 sigma cos(theta)/(rho g H), the menisci beside them counted.",
     ),
     (
+        "air",
+        "Filling a slit with a closed end\n\nAt constant pressure, 4 p_0 above p_0, eight widths long: filled length by the piston's travel against (L + e) dL/dt = (H^2/12 eta) (P - p_0 (m/(L_0 - L) - 1)), m = L_0, to L_0 P/(P + p_0) in the end (Boyle); e is the equivalent length of entrance and front as for washburn. With a leak dm/dt = -(m/(L_0 - L) - 1) (L_0 - L)/t_leak beside it. The liquid in a slit of 6 cells takes up 1.5 % more of the lattice than its volume, with air or without: the front stands where the air's pressure is right, the travel is short of it.",
+    ),
+    (
         "spheres",
         "A simple cubic array of spheres\n\nFlow through spheres made of voxels of half a cell, n cells a period, five volume fractions (particle file beside the case file; a quarter of the period, mirrored): permeability against the drag of smooth spheres (Sangani & Acrivos 1982; Zick & Homsy 1982, Table 2) and against the same voxels by lattice Boltzmann, refined (lib/studies/reference/spheres.csv). The staircase lets 5 to 23 % less through than the smooth sphere, and coarse walls make up for a part of that. The explicit scheme's liquid leaves walls behind which there is no pressure; with 24 cells it takes minutes and is left out.",
     ),

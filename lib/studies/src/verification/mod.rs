@@ -1,6 +1,7 @@
 //! The verification scenes: for each a case text and a measure of its error.
 
 pub mod acoustic;
+pub mod air;
 pub mod catalogue;
 pub mod channel;
 pub mod clamp;

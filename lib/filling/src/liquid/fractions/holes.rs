@@ -84,7 +84,7 @@ fn fill(fractions: &mut Fractions, window: &Window, cell: usize) {
 }
 
 /// All 3^d neighbours; `None` for those outside the window.
-pub(super) fn neighbours(
+pub(crate) fn neighbours(
     window: &Window,
     cell: usize,
 ) -> impl Iterator<Item = Option<usize>> + use<> {

@@ -21,6 +21,7 @@ use crate::liquid::{Bins, Particles};
 
 pub(crate) use cells::pressures;
 pub(crate) use deposit::velocities;
+pub(crate) use holes::neighbours;
 
 /// Liquid on the lattice of a window.
 #[derive(Clone, Debug, Default)]

@@ -1,6 +1,7 @@
 //! Every key of a case file as a user reads of it: one entry a key, the home of `mpm-run --reference`,
 //! docs/case-file.md and the defaults in `resolved.toml`. A key of the schema without its entry fails a test.
 
+mod air;
 mod liquid;
 mod press;
 #[cfg(test)]
@@ -73,6 +74,7 @@ pub(crate) const TABLES: &[Table] = &[
     scheme::OUTPUT,
     scene::BODY,
     scene::GRAVITY,
+    air::AIR,
     scene::BOUNDARY,
 ];
 

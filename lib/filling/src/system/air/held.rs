@@ -1,0 +1,221 @@
+//! How much air the pockets hold, from step to step.
+
+use std::collections::BTreeMap;
+
+use super::Pockets;
+use super::pockets::OUTSIDE;
+use crate::geometry::Window;
+use crate::liquid::neighbours;
+use crate::system::dofs::NONE;
+
+/// Air of the pockets of a step, as pressure times volume; and what liquid has covered.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Held {
+    /// Of each cell of the window: the number of its air, [`OUTSIDE`], or none. Empty before the
+    /// first step, when all is outside.
+    pub(crate) of: Vec<u32>,
+    /// Air of each pocket, and behind the pockets of each that vanished under liquid, Pa cells.
+    pub(crate) mass: Vec<f64>,
+    /// Number of the first that vanished.
+    pub(crate) vanished: usize,
+    /// Air closed off since the start, and air that came free again, Pa cells.
+    pub(crate) passed: [f64; 2],
+}
+
+impl Held {
+    /// The air as it is in `pockets`, with `outside` (Pa, absolute) where nothing closed it off: it stays
+    /// where it was, in the parts of the void shared. A pocket where no air was takes its part of what is
+    /// next to it; a pocket under liquid keeps its air until void opens there or beside.
+    pub(crate) fn followed(&self, pockets: &Pockets, window: &Window, outside: f64) -> Self {
+        let mut shares = self.shared(pockets);
+        let bare = lacking(shares.keys().map(|pair| pair.1), pockets.volume.len());
+        self.add_beside(pockets, window, &mut shares, &bare, |_, new| new);
+        let lost = lacking(shares.keys().map(|pair| pair.0), self.mass.len());
+        self.add_beside(pockets, window, &mut shares, &lost, |old, _| old);
+        self.shared_out(&shares, pockets, outside)
+    }
+
+    /// Whether a number of a cell is that of the air outside, or none.
+    pub(crate) fn is_no_pocket(number: u32) -> bool {
+        [OUTSIDE, NONE].contains(&number)
+    }
+
+    /// The number of a cell's air; before the first step all is outside.
+    fn at(&self, cell: usize) -> u32 {
+        self.of.get(cell).copied().unwrap_or(OUTSIDE)
+    }
+
+    /// The void that old and new pockets have in common.
+    fn shared(&self, pockets: &Pockets) -> Shares {
+        let mut shares = Shares::new();
+        for (cell, (&new, &room)) in pockets.of.iter().zip(&pockets.room).enumerate() {
+            let old = self.at(cell);
+            if new != NONE && old != NONE && [old, new] != [OUTSIDE; 2] {
+                *shares.entry((old, new)).or_default() += f64::from(room);
+            }
+        }
+        shares
+    }
+
+    /// Adds the void of new pockets beside cells of old ones, where that of both which `which` tells is
+    /// `wanted`.
+    fn add_beside(
+        &self,
+        pockets: &Pockets,
+        window: &Window,
+        shares: &mut Shares,
+        wanted: &[bool],
+        which: impl Fn(u32, u32) -> u32,
+    ) {
+        if !wanted.contains(&true) {
+            return;
+        }
+        for (cell, (&new, &room)) in pockets.of.iter().zip(&pockets.room).enumerate() {
+            if new == NONE {
+                continue;
+            }
+            for near in neighbours(window, cell).flatten() {
+                let old = self.at(window.index(window.home(window.coordinates(near))));
+                let wanted = wanted.get(which(old, new) as usize) == Some(&true);
+                if wanted && old != NONE {
+                    *shares.entry((old, new)).or_default() += f64::from(room);
+                }
+            }
+        }
+    }
+
+    /// Air by shares.
+    fn shared_out(&self, shares: &Shares, pockets: &Pockets, outside: f64) -> Self {
+        let mut whole = vec![0.0; self.mass.len()];
+        for (&(old, _), &room) in shares {
+            if let Some(whole) = whole.get_mut(old as usize) {
+                *whole += room;
+            }
+        }
+        let mut next = Self {
+            of: pockets.of.clone(),
+            mass: vec![0.0; pockets.volume.len()],
+            vanished: pockets.volume.len(),
+            passed: self.passed,
+        };
+        for (&(old, new), &room) in shares {
+            let mass = match self.mass.get(old as usize) {
+                Some(mass) => mass * (room / whole[old as usize]),
+                None => outside * room,
+            };
+            if old == OUTSIDE {
+                next.passed[0] += mass;
+            }
+            match next.mass.get_mut(new as usize) {
+                Some(sum) => *sum += mass,
+                None => next.passed[1] += mass,
+            }
+        }
+        let mut covered = vec![NONE; self.mass.len()];
+        for (old, &mass) in self.mass.iter().enumerate() {
+            if whole[old] == 0.0 && mass > 0.0 {
+                covered[old] = next.mass.len() as u32;
+                next.mass.push(mass);
+            }
+        }
+        for (cell, of) in next.of.iter_mut().enumerate() {
+            if *of == NONE
+                && let Some(&number) = covered.get(self.at(cell) as usize)
+            {
+                *of = number;
+            }
+        }
+        next
+    }
+}
+
+/// Void (cells) by old and new pocket.
+type Shares = BTreeMap<(u32, u32), f64>;
+
+/// Which of so many numbers are not among these.
+fn lacking(numbers: impl Iterator<Item = u32>, count: usize) -> Vec<bool> {
+    let mut lacking = vec![true; count];
+    for number in numbers {
+        if let Some(lacking) = lacking.get_mut(number as usize) {
+            *lacking = false;
+        }
+    }
+    lacking
+}
+
+#[cfg(test)]
+mod tests {
+    use physics::Boundary;
+
+    use super::*;
+    use crate::geometry::Domain;
+
+    /// A row of ten cells in a domain of its own.
+    fn window() -> Window {
+        let domain = Domain {
+            cells: [10, 1, 1],
+            boundary: [Boundary::Symmetry; 3],
+            axes: 2,
+        };
+        Window::around(domain, [0; 3], [10, 1, 1])
+    }
+
+    /// Pockets by the number of each of the ten cells, of a whole cell's void each.
+    fn pockets(numbers: [u32; 10]) -> Pockets {
+        let window = window();
+        let mut found = Pockets {
+            of: vec![NONE; window.len()],
+            room: vec![0.0; window.len()],
+            ..Pockets::default()
+        };
+        let count = numbers.iter().filter(|n| **n < OUTSIDE).max();
+        found.volume = vec![0.0; count.map_or(0, |n| *n as usize + 1)];
+        for (i, number) in numbers.into_iter().enumerate() {
+            let cell = window.index(
+                window
+                    .local([i as f64, 0.0, 0.0])
+                    .map(|x| x.max(0.0) as usize),
+            );
+            (found.of[cell], found.room[cell]) = (number, 1.0);
+            if let Some(volume) = found.volume.get_mut(number as usize) {
+                *volume += 1.0;
+            }
+        }
+        found
+    }
+
+    const X: u32 = NONE;
+    const O: u32 = OUTSIDE;
+
+    #[test]
+    fn air_stays_with_the_void_it_is_in() {
+        let window = window();
+        let follow = |held: &Held, numbers| held.followed(&pockets(numbers), &window, 10.0);
+        let two = follow(&Held::default(), [0, 0, 0, 0, X, 1, 1, X, O, O]);
+        assert_eq!(
+            (&two.mass[..], two.passed),
+            (&[40.0, 20.0][..], [60.0, 0.0])
+        );
+        // One is compressed, then both are one, which splits in three.
+        let less = follow(&two, [0, 0, X, X, X, 1, 1, X, O, O]);
+        assert_eq!(less.mass, [40.0, 20.0]);
+        let one = follow(&less, [0, 0, 0, 0, 0, 0, 0, X, O, O]);
+        assert_eq!((&one.mass[..], one.passed), (&[60.0][..], [60.0, 0.0]));
+        let three = follow(&one, [0, X, 1, 1, 1, X, 2, X, O, O]);
+        assert_eq!(three.mass, [12.0, 36.0, 12.0]);
+        // The first opens, the second keeps its own, the third is under liquid, and comes back beside.
+        let open = follow(&three, [O, X, 0, X, X, X, X, X, O, O]);
+        assert_eq!((&open.mass[..], open.vanished), (&[36.0, 12.0][..], 1));
+        assert_eq!(open.passed, [60.0, 12.0]);
+        let back = follow(&open, [O, X, 0, X, X, 1, X, X, O, O]);
+        assert_eq!((&back.mass[..], back.vanished), (&[36.0, 12.0][..], 2));
+        // Void that opens beside a pocket takes its part of it, far from all none.
+        let split = follow(&back, [O, X, 0, 2, X, 1, X, X, X, X]);
+        assert_eq!(split.mass, [18.0, 12.0, 18.0]);
+        let empty = follow(&split, [O, X, 0, 2, X, 1, X, X, 3, X]);
+        assert_eq!(empty.mass, [18.0, 12.0, 18.0, 0.0]);
+        // What was outside is closed off at its pressure.
+        let closed = follow(&empty, [3, X, 0, 2, X, 1, X, X, X, X]);
+        assert_eq!(closed.mass, [18.0, 12.0, 18.0, 10.0]);
+    }
+}
