@@ -94,9 +94,10 @@ impl System {
         resting[clamped] = [0.0; 3];
         let couplings = &self.couplings;
         let rigid = |bodies: &[[f64; 3]], p: &[f64]| couplings.forces(bodies, &[], p).0[clamped][1];
+        let force = force - rigid(&resting, &[]);
         let mut pockets = vec![0.0; self.c.len()];
         self.add_shift(&mut pockets);
-        let force = force - rigid(&resting, &pockets);
+        let still = vec![[0.0; 3]; self.bodies.len()];
         Load {
             momentum: (0..self.b.len())
                 .into_par_iter()
@@ -107,7 +108,7 @@ impl System {
                 .map(|cell| couplings.displaced(cell, &unit))
                 .collect(),
             resistance: rigid(&unit, &[]),
-            force,
+            force: force - rigid(&still, &pockets),
             scale: force.max(least),
         }
     }
