@@ -229,6 +229,18 @@ fn departures(settings: &mpm::Settings) -> Vec<String> {
 
 fn implicit_forecast(settings: &filling::Settings, setup: &Setup) -> Forecast {
     let plan = filling::Plan::new(&setup.scene, &setup.liquid, settings);
+    let mut notes = vec![format!(
+        "unknowns           {:.2e} velocities and pressures in {:.2e} liquid cells",
+        plan.unknowns, plan.liquid_cells
+    )];
+    notes.extend(settings.air_pressure.map(|pressure| {
+        let kilopascals = pressure / 1e3;
+        let leak = match settings.air_leak_time.is_finite() {
+            true => format!(", leaking in {:.3e} s", settings.air_leak_time),
+            false => String::new(),
+        };
+        format!("trapped air        closed off at {kilopascals} kPa (absolute){leak}: a pressure for each pocket")
+    }));
     Forecast {
         dt_s: plan.dt_s,
         limit: "advective, cfl cell/|v|, shorter as the liquid gets faster".into(),
@@ -237,10 +249,7 @@ fn implicit_forecast(settings: &filling::Settings, setup: &Setup) -> Forecast {
         most_steps: plan.steps,
         memory_bytes: plan.memory_bytes + start_bytes(setup),
         step_s: plan.cpu_s / plan.steps / rayon::current_num_threads() as f64,
-        notes: vec![format!(
-            "unknowns           {:.2e} velocities and pressures in {:.2e} liquid cells",
-            plan.unknowns, plan.liquid_cells
-        )],
+        notes,
         stages: plan.stages,
     }
 }

@@ -179,3 +179,47 @@ fn reaches(window: &Window, cell: usize, Outside(open): Outside) -> bool {
         i == 0 || i + 1 == window.domain.cells[a] as i64
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Domain, Solids};
+
+    /// Liquid from x = 3 to 5 and three quarters of the cells beyond, of 8 x 4: void on both sides.
+    fn beside_liquid(side: Boundary, clamped: bool) -> (Vec<f64>, usize) {
+        let domain = Domain {
+            cells: [8, 4, 1],
+            boundary: [side, Boundary::Symmetry, Boundary::Symmetry],
+            axes: 2,
+        };
+        let window = Window::around(domain, [0; 3], [8, 4, 1]);
+        let lattice = Lattice::new(Solids::new(vec![], domain, [0.0; 3], 1.0), window);
+        let mut phi = vec![0.0; window.sub_len()];
+        for cell in 0..window.len() {
+            let filled = match window.coordinates(cell)[0] as i64 + window.low[0] {
+                3 | 4 => 1.0,
+                5 => 0.75,
+                _ => 0.0,
+            };
+            if window.in_domain(window.coordinates(cell)) {
+                sub_cells(&window, cell).for_each(|sub| phi[sub] = filled);
+            }
+        }
+        let volumes = Volumes::new(&lattice, &phi);
+        let dofs = Dofs::new(&lattice, &volumes);
+        let outside = Outside::new(domain.boundary, clamped);
+        let found = Pockets::find(&lattice, &volumes, &dofs, outside);
+        (found.volume, found.wet)
+    }
+
+    #[test]
+    fn void_is_a_pocket_where_no_side_is_outside() {
+        assert_eq!(
+            beside_liquid(Boundary::Symmetry, false),
+            (vec![12.0, 9.0], 2)
+        );
+        assert_eq!(beside_liquid(Boundary::Periodic, false), (vec![21.0], 1));
+        assert_eq!(beside_liquid(Boundary::Open, false), (vec![], 0));
+        assert_eq!(beside_liquid(Boundary::Symmetry, true), (vec![], 0));
+    }
+}
