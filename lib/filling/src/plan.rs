@@ -58,6 +58,10 @@ impl Plan {
             let pull = scene.gravity.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
             (2.0 * settings.cfl * h / pull).sqrt()
         };
+        let wicking = scene
+            .liquid
+            .wetting
+            .map_or(0.0, |wetting| wetting.adhesion().max(0.0));
         let duration = match scene.stop {
             // A clamp cannot go further than through the whole domain, however long it is held.
             Stop::Time(time) if scene.clamp.is_some() => {
@@ -71,7 +75,20 @@ impl Plan {
             .and_then(Cure::set_at)
             .map_or(duration, |set| set.min(duration));
         let cured = cure.map_or(0.0, |cure| cure.change(duration) / CURED);
-        let steps = (SPEED_RATIO * duration / dt_s + cured).ceil().max(1.0);
+        // Where nothing else drives, a slit of six cells draws the liquid in over so many of them.
+        let eta = scene.liquid.viscosity.at(0.0);
+        let (dt_s, drawn) = match dt_s.is_finite() {
+            true => (dt_s, 0.0),
+            false => {
+                let cells = (2.0 * wicking * duration / (eta * h)).sqrt();
+                (duration / cells.max(1.0), cells)
+            }
+        };
+        let driven = match drawn > 0.0 {
+            true => drawn,
+            false => SPEED_RATIO * duration / dt_s,
+        };
+        let steps = (driven + cured).ceil().max(1.0);
         let points = amount.points as f64;
         Self {
             cells,
