@@ -58,10 +58,6 @@ impl Plan {
             let pull = scene.gravity.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
             (2.0 * settings.cfl * h / pull).sqrt()
         };
-        let wicking = scene
-            .liquid
-            .wetting
-            .map_or(0.0, |wetting| wetting.adhesion().max(0.0));
         let duration = match scene.stop {
             // A clamp cannot go further than through the whole domain, however long it is held.
             Stop::Time(time) if scene.clamp.is_some() => {
@@ -75,18 +71,9 @@ impl Plan {
             .and_then(Cure::set_at)
             .map_or(duration, |set| set.min(duration));
         let cured = cure.map_or(0.0, |cure| cure.change(duration) / CURED);
-        // Where nothing else drives, a slit of six cells draws the liquid in over so many of them.
-        let eta = scene.liquid.viscosity.at(0.0);
-        let (dt_s, drawn) = match dt_s.is_finite() {
-            true => (dt_s, 0.0),
-            false => {
-                let cells = (2.0 * wicking * duration / (eta * h)).sqrt();
-                (duration / cells.max(1.0), cells)
-            }
-        };
-        let driven = match drawn > 0.0 {
-            true => drawn,
-            false => SPEED_RATIO * duration / dt_s,
+        let (dt_s, driven) = match drawn_in(scene, duration) {
+            Some(cells) if !dt_s.is_finite() => (duration / cells, cells),
+            _ => (dt_s, SPEED_RATIO * duration / dt_s),
         };
         let steps = (driven + cured).ceil().max(1.0);
         let points = amount.points as f64;
@@ -104,6 +91,14 @@ impl Plan {
             stages: stages(scene),
         }
     }
+}
+
+/// Cells, one and more, that a slit of six of them draws in within `duration` (s), each of which takes a step.
+fn drawn_in(scene: &Scene, duration: f64) -> Option<f64> {
+    let adhesion = scene.liquid.wetting?.adhesion();
+    let eta = scene.liquid.viscosity.at(0.0);
+    let cells = (2.0 * adhesion * duration / (eta * scene.grid.cell_m)).sqrt();
+    Some(cells.max(1.0))
 }
 
 /// Cells of the box around the liquid when it has spread as far as it is thick, at most all.
