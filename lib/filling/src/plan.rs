@@ -76,9 +76,11 @@ impl Plan {
         let cured = cure.map_or(0.0, |cure| cure.change(duration.max(waits)) / CURED);
         let dried = (scene.liquid.water.as_ref())
             .map_or(0.0, |water| water.factor(water.least()).ln() / DRIED);
-        let steps = (SPEED_RATIO * duration / dt_s + cured + dried)
-            .ceil()
-            .max(1.0);
+        let (dt_s, driven) = match drawn_in(scene, duration) {
+            Some(cells) if !dt_s.is_finite() => (duration / cells, cells),
+            _ => (dt_s, SPEED_RATIO * duration / dt_s),
+        };
+        let steps = (driven + cured + dried).ceil().max(1.0);
         let points = amount.points as f64;
         Self {
             cells,
@@ -97,6 +99,14 @@ impl Plan {
             stages: stages(scene),
         }
     }
+}
+
+/// Cells, one and more, that a slit of six of them draws in within `duration` (s), each of which takes a step.
+fn drawn_in(scene: &Scene, duration: f64) -> Option<f64> {
+    let adhesion = scene.liquid.wetting?.adhesion();
+    let eta = scene.liquid.viscosity.at(0.0);
+    let cells = (2.0 * adhesion * duration / (eta * scene.grid.cell_m)).sqrt();
+    Some(cells.max(1.0))
 }
 
 /// Cells of the box around the liquid when it has spread as far as it is thick, at most all.

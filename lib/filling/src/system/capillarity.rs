@@ -9,6 +9,8 @@ use crate::geometry::{BodyId, Chord, OPEN, Passage, SIDE};
 /// Part of a face over which the liquid fraction may change without being a front, cells^2.
 const NO_FRONT: f64 = 1e-6;
 
+/// How many times narrower a passage may be than one whose meniscus is the same.
+const ALIKE: f64 = 2.0;
 /// How far inside a wall liquid is looked for, cells.
 const INSIDE: f64 = 0.5;
 
@@ -21,11 +23,23 @@ pub(super) struct Pull {
     pub(super) bodies: Vec<[f64; 3]>,
 }
 
+/// The part of a meniscus at a face.
+#[derive(Clone, Copy, Debug)]
+struct Patch {
+    face: u32,
+    /// Area by which it looks along the face's axis, cells^2.
+    front: f64,
+    /// Perimeter over area of the passage, cells^-1.
+    narrowness: f64,
+    /// Bodies that bear it, and their shares.
+    walls: [(BodyId, f64); 6],
+}
+
 impl Operator<'_> {
     /// The pull on the liquid of fluxes `g`, for so many bodies.
     ///
     /// A meniscus that spans a passage makes the pressure of the liquid behind it lower than that of the air by the
-    /// jump P = sigma cos(theta) perimeter/area. The force of it on face unknown f is P_f (G^T 1)_f: what
+    /// jump P = sigma cos(theta) perimeter/area. The force of it on face unknown f is P (G^T 1)_f: what
     /// a pressure of -P in all of the liquid would leave unbalanced there. Inside the liquid that is
     /// nothing; along a passage it adds up to P times the cross-section wherever in its cells the front
     /// is, and liquid under P alone is at rest to rounding.
@@ -41,25 +55,27 @@ impl Operator<'_> {
                 front[face as usize] += area;
             }
         }
-        let forces: Vec<_> = (front.par_iter().enumerate().with_min_len(CHUNK))
-            .map(|(face, &area)| self.meniscus(face, area))
+        let mut patches: Vec<Patch> = (front.par_iter().enumerate().with_min_len(CHUNK))
+            .filter_map(|(face, &area)| self.patch(face, area))
             .collect();
-        let mut reactions = vec![[0.0; 3]; bodies];
-        for ((_, walls), &(axis, _)) in forces.iter().zip(&self.dofs.faces) {
-            for &(body, force) in walls.iter().filter(|wall| wall.0 < OPEN) {
-                reactions[usize::from(body)][usize::from(axis)] -= force;
+        self.level(&mut patches);
+        let mut pull = Pull {
+            momentum: vec![0.0; front.len()],
+            bodies: vec![[0.0; 3]; bodies],
+        };
+        for patch in patches {
+            let force = self.scales.adhesion * patch.narrowness * patch.front;
+            pull.momentum[patch.face as usize] = force;
+            let axis = usize::from(self.dofs.faces[patch.face as usize].0);
+            for (body, share) in patch.walls.into_iter().filter(|wall| wall.0 < OPEN) {
+                pull.bodies[usize::from(body)][axis] -= share * force;
             }
         }
-        Pull {
-            momentum: forces.into_iter().map(|(force, _)| force).collect(),
-            bodies: reactions,
-        }
+        pull
     }
 
-    /// The pull on a face unknown across which so much `front` looks along its axis, and what of it goes
-    /// to whom.
-    fn meniscus(&self, face: usize, front: f64) -> (f64, [(BodyId, f64); 6]) {
-        let mut walls = [(OPEN, 0.0); 6];
+    /// The meniscus at a face unknown across which so much `front` looks along its axis.
+    fn patch(&self, face: usize, front: f64) -> Option<Patch> {
         let (axis, index) = self.dofs.faces[face];
         let (axis, index) = (usize::from(axis), index as usize);
         let window = &self.lattice.window;
@@ -68,19 +84,22 @@ impl Operator<'_> {
         // An open side of the domain is no front.
         let inside = window.in_domain(cell) && window.in_domain(below);
         if front.abs() < NO_FRONT || !inside {
-            return (0.0, walls);
+            return None;
         }
-        let Some(passage) = self.lattice.passage(axis, cell, front > 0.0) else {
-            return (0.0, walls);
+        let passage = self.lattice.passage(axis, cell, front > 0.0)?;
+        let mut patch = Patch {
+            face: face as u32,
+            front,
+            narrowness: 0.0,
+            walls: [(OPEN, 0.0); 6],
         };
         let wet_end = usize::from(front < 0.0);
-        let mut total = 0.0;
         for (t, chord) in passage.across(window.domain.axes) {
             if !self.spans(&passage, t, chord) {
                 continue;
             }
-            let force = 2.0 * self.scales.adhesion * front / chord.length;
-            total += force;
+            let narrowness = 2.0 / chord.length;
+            patch.narrowness += narrowness;
             for (end, body) in chord.ends.into_iter().enumerate() {
                 // A surface along the wall pulls at that under the liquid; a symmetry plane takes
                 // nothing, as the contact line beyond it is that of the mirror image.
@@ -89,10 +108,60 @@ impl Operator<'_> {
                     (false, false) => 0.5,
                     (_, true) => 1.0,
                 };
-                walls[2 * t + end] = (body, share * force);
+                patch.walls[2 * t + end] = (body, share * narrowness);
             }
         }
-        (total, walls)
+        for wall in &mut patch.walls {
+            wall.1 /= patch.narrowness;
+        }
+        (patch.narrowness > 0.0).then_some(patch)
+    }
+
+    /// Gives all parts of one meniscus their mean: it has one pressure, and differences between its parts would
+    /// stir the liquid for ever. Parts belong together that meet in a cell or in neighbouring cells of air
+    /// and whose passages are not twice as narrow as each other.
+    fn level(&self, patches: &mut [Patch]) {
+        let window = &self.lattice.window;
+        let home = |cell: usize| window.index(window.home(window.coordinates(cell))) as u32;
+        let mut at: Vec<(u32, u32)> = (patches.iter().zip(0..))
+            .flat_map(|(patch, number)| {
+                let (axis, index) = self.dofs.faces[patch.face as usize];
+                let index = index as usize;
+                [index, index - window.stride(usize::from(axis))].map(|cell| (home(cell), number))
+            })
+            .collect();
+        at.sort_unstable();
+        let of = |cell: u32| {
+            let from = at.partition_point(|entry| entry.0 < cell);
+            at[from..].iter().take_while(move |entry| entry.0 == cell)
+        };
+        let mut parts = Parts((0..patches.len() as u32).collect());
+        for &(cell, one) in &at {
+            let index = cell as usize;
+            let beside = (0..window.domain.axes).filter_map(|axis| {
+                let next = index + window.stride(axis);
+                let air = [index, next].iter().all(|&c| self.dofs.cell[c] == NONE);
+                (air && self.lattice.face(axis, next) == OPEN).then(|| home(next))
+            });
+            for near in std::iter::once(cell).chain(beside) {
+                for &(_, other) in of(near) {
+                    let [a, b] = [one, other].map(|n| patches[n as usize].narrowness);
+                    if a < ALIKE * b && b < ALIKE * a {
+                        parts.join(one, other);
+                    }
+                }
+            }
+        }
+        let mut sums = vec![[0.0; 2]; patches.len()];
+        for (patch, number) in patches.iter().zip(0..) {
+            let sum = &mut sums[parts.first(number) as usize];
+            sum[0] += patch.front.abs();
+            sum[1] += patch.front.abs() * patch.narrowness;
+        }
+        for (patch, number) in patches.iter_mut().zip(0..) {
+            let [area, sum] = sums[parts.first(number) as usize];
+            patch.narrowness = sum / area;
+        }
     }
 
     /// Whether liquid spans a passage along the chord in direction `t`, not farther from it than the
@@ -128,5 +197,25 @@ impl Operator<'_> {
         let local = window.local(at);
         let inside = (0..3).all(|a| local[a] >= 0.0 && local[a] < window.cells[a] as f64);
         inside && self.dofs.cell[window.index(window.home(local.map(|x| x as usize)))] != NONE
+    }
+}
+
+/// Which of several things belong together: each refers to one of lower number, or to itself.
+struct Parts(Vec<u32>);
+
+impl Parts {
+    /// The lowest number of those that belong together with `one`.
+    fn first(&mut self, mut one: u32) -> u32 {
+        while self.0[one as usize] != one {
+            let next = self.0[one as usize];
+            self.0[one as usize] = self.0[next as usize];
+            one = next;
+        }
+        one
+    }
+
+    fn join(&mut self, one: u32, other: u32) {
+        let (a, b) = (self.first(one), self.first(other));
+        self.0[a.max(b) as usize] = a.min(b);
     }
 }

@@ -5,10 +5,8 @@ use physics::VoxelBlock;
 
 use super::flow::{Flow, worst};
 
-const FAR: f64 = 999.0;
-
 fn plate(low: [f64; 2], high: [f64; 2]) -> VoxelBlock {
-    VoxelBlock::solid_box([low[0], low[1], -FAR], [high[0], high[1], FAR])
+    VoxelBlock::solid_box([low[0], low[1], -999.0], [high[0], high[1], 999.0])
 }
 
 /// Length over flux into a slit `n` cells wide, filled to `length` widths, from a reservoir 4 n wide with a
@@ -17,8 +15,8 @@ fn slit(n: usize, offset: [f64; 2], length: f64) -> f64 {
     let w = n as f64;
     let (mouth, low) = (3.0 * w + 2.0, 1.5 * w + offset[0]);
     let wood = vec![
-        plate([mouth, -FAR], [FAR, low]),
-        plate([mouth, low + w], [FAR, FAR]),
+        plate([mouth, -999.0], [999.0, low]),
+        plate([mouth, low + w], [999.0, 999.0]),
     ];
     let cells = [mouth as usize + (length * w) as usize + 4, 4 * n, 1];
     let mut flow = Flow::new(cells, 2, vec![wood]);
@@ -47,8 +45,8 @@ fn slits_draw_by_their_width() {
 /// A slug whose fronts cross the lattice askew, between plates of which one is a body of its own.
 fn slug(offset: f64, wet: impl Fn([f64; 3]) -> bool) -> super::flow::Solved {
     let bodies = vec![
-        vec![plate([-FAR, -FAR], [FAR, 2.0 + offset])],
-        vec![plate([-FAR, 8.0 + offset], [FAR, FAR])],
+        vec![plate([-999.0, -999.0], [999.0, 2.0 + offset])],
+        vec![plate([-999.0, 8.0 + offset], [999.0, 999.0])],
     ];
     let mut flow = Flow::new([40, 12, 1], 2, bodies);
     flow.adhesion = 1.0;
@@ -95,8 +93,8 @@ fn tube(axis: [f64; 2], cells: usize) -> f64 {
         at(j).hypot(at(k)) < 3.0
     };
     let low = axis.map(|a| a - 8.0);
-    let edge = [2.0 * FAR, 0.5, 0.5];
-    let wood = VoxelBlock::from_fn([-FAR, low[0], low[1]], edge, [1, 32, 32], |_, j, k| {
+    let edge = [2.0 * 999.0, 0.5, 0.5];
+    let wood = VoxelBlock::from_fn([-999.0, low[0], low[1]], edge, [1, 32, 32], |_, j, k| {
         !round(j, k)
     });
     let mut flow = Flow::new([16, cells, cells], 3, vec![vec![wood]]);
