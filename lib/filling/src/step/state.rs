@@ -26,6 +26,8 @@ pub(super) struct State {
     pub(super) counts: Counts,
     /// Of a liquid that loses water.
     pub(super) water: Option<Account>,
+    /// Where walls hold a part only: water in each piece of their surface, cells.
+    pub(super) soaked: Vec<f32>,
 }
 
 /// What the shear rates of the particles follow from.
@@ -72,6 +74,7 @@ impl State {
             last: None,
             counts: Counts::default(),
             water,
+            soaked: Vec::new(),
         }
     }
 }
