@@ -140,7 +140,7 @@ fn an_adhesive_that_dries_comes_to_rest_where_it_should() {
     type Make = fn() -> Scene;
     let scenes: [(Make, f64); 2] = [
         (|| water::slit_scene(6), 0.04),
-        (|| water::tube_scene(6), 0.06),
+        (|| water::tube_scene(6), 0.065),
     ];
     for (scene, most) in scenes {
         assert_within(most, &scene(), Method::implicit(), "L where it stops");

@@ -40,6 +40,7 @@ fn scene(law: impl Fn(&mut WaterLaw)) -> Scene {
     let mut water = WaterLaw {
         uptake: 1e-3,
         solids: 0.45,
+        capacity: None,
         limit: Some(0.6),
         diffusivity: 1e-7,
         factor: vec![(0.45, 1.0), (0.7, 1e4)],
@@ -102,12 +103,13 @@ fn only_the_walls_named_take_water() {
 
 #[test]
 fn a_saved_run_goes_on_bit_by_bit() {
-    let mut whole = begun(|_| ());
+    let full = |law: &mut WaterLaw| law.capacity = Some(1e-6);
+    let mut whole = begun(full);
     for _ in 0..6 {
         step(&mut whole);
     }
     let saved = whole.save();
-    let mut other = begun(|_| ());
+    let mut other = begun(full);
     other.restore(&saved).unwrap();
     for _ in 0..3 {
         assert_eq!(step(&mut whole), step(&mut other));
@@ -167,11 +169,12 @@ fn an_adhesive_that_is_dry_has_set() {
 }
 
 /// A film between two plates and mirrors, from which nothing else can go: under any load its gap closes at
-/// twice the uptake, to what is left at the limit.
+/// twice the uptake, to what is left at the limit, or to where the walls are full.
 #[test]
 fn a_film_between_mirrors_closes_as_its_water_goes() {
     const UPTAKE: f64 = 1e-4;
-    for offset in [0.0, 0.3, 0.5] {
+    let full = Some(0.5e-6);
+    for (offset, capacity) in [(0.0, None), (0.3, None), (0.5, None), (0.3, full)] {
         let cell = 2.9e-6;
         let (low, gap) = ((1.0 + offset) * cell, 4.0 * cell);
         let mut scene = plain::scene(cell, [8, 8, 1]);
@@ -193,6 +196,7 @@ fn a_film_between_mirrors_closes_as_its_water_goes() {
         let law = WaterLaw {
             uptake: UPTAKE,
             solids: 0.45,
+            capacity,
             limit: Some(0.6),
             diffusivity: 1e-6,
             factor: vec![(0.45, 1.0), (0.7, 100.0)],
@@ -200,6 +204,7 @@ fn a_film_between_mirrors_closes_as_its_water_goes() {
         };
         let water = Water::new(law, scene.liquid.density).unwrap();
         let last = gap * (1.0 - (1.0 + water.least()) / (1.0 + water.start()));
+        let last = capacity.map_or(last, |capacity| last.min(2.0 * capacity));
         scene.liquid.water = Some(water);
         let mut scheme = Implicit::new(scene, Settings::default()).unwrap();
         let (mut time, mut worst, mut travel) = (0.0, 0.0_f64, 0.0);

@@ -18,7 +18,7 @@ pub(crate) mod water;
 use physics::{Failure, Motion, PressRun, Scene, StepLimit, StepReport, Stop};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
-use crate::geometry::{Lattice, Solids, Window};
+use crate::geometry::{Lattice, Solids, Wetted, Window};
 use crate::liquid::{Bins, Fractions};
 use crate::settings::Settings;
 use crate::transport::{Field, Path};
@@ -64,6 +64,8 @@ struct Trial {
     lattice: Lattice,
     /// What walls take of the water; `None` where the liquid loses none.
     exchange: Option<Exchange>,
+    /// The walls that take it.
+    wetted: Vec<Wetted>,
 }
 
 impl Implicit {
@@ -85,7 +87,7 @@ impl Implicit {
             tolerance: settings.tolerance,
             ..SaddleOptions::default()
         };
-        Ok(Self {
+        let mut scheme = Self {
             state: State::new(
                 particles,
                 Drive::new(motions, clamp, programme, acoustic, setup.present),
@@ -99,7 +101,9 @@ impl Implicit {
                 solver: SaddleSolver::new(options),
                 clock: Clock::default(),
             },
-        })
+        };
+        scheme.state.soaked = vec![0.0; scheme.pieces_that_fill()];
+        Ok(scheme)
     }
 
     /// Takes one step; see [`physics::Scheme::advance`]. Stages 1 to 6 are repeated with steps of
@@ -199,6 +203,7 @@ impl Implicit {
             bodies,
             lattice: clock.time(Part::Geometry, || Lattice::new(solids, window)),
             exchange: None,
+            wetted: Vec::new(),
         }
     }
 

@@ -29,6 +29,8 @@ pub(super) struct State {
     pub(super) counts: Counts,
     /// Of a liquid that loses water.
     pub(super) water: Option<Account>,
+    /// Where walls hold a part only: water in each piece of their surface, cells.
+    pub(super) soaked: Vec<f32>,
 }
 
 /// What the shear rates of the particles follow from.
@@ -76,6 +78,7 @@ impl State {
             air: Held::default(),
             counts: Counts::default(),
             water,
+            soaked: Vec::new(),
         }
     }
 }

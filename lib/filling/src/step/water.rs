@@ -15,10 +15,29 @@ const MOST_DRIED: f64 = 0.3;
 /// Names of the arrays that hold what the points are made of and the account.
 const PARTS: &str = "solids_and_water";
 const ACCOUNT: &str = "water";
+const SOAKED: &str = "water_in_walls";
 /// Part of a ratio that rounding may move.
 const ROUNDING: f64 = 1e-6;
 
+/// Water that a piece of wall asks for per area in a step of so much uptake, cells, if what walls of this
+/// capacity hold is `soaked`.
+fn depth(piece: u32, uptake: f64, capacity: f64, soaked: &[f32]) -> f64 {
+    let held = soaked
+        .get(piece as usize)
+        .map_or(0.0, |&held| f64::from(held));
+    uptake.min((capacity - held).max(0.0))
+}
+
 impl Implicit {
+    /// Pieces of wall that are full some time.
+    pub(super) fn pieces_that_fill(&self) -> usize {
+        let fills = (self.setup.liquid.water.as_ref()).is_some_and(|w| w.capacity().is_some());
+        match &self.setup.surface {
+            Some(surface) if fills => surface.len(),
+            _ => 0,
+        }
+    }
+
     /// Ends stage 3: what the walls take in the step, and where the water goes that is left.
     pub(super) fn dry(&mut self, trial: &mut Trial) -> Fit {
         let (Some(water), Some(surface)) = (&self.setup.liquid.water, &self.setup.surface) else {
@@ -28,16 +47,24 @@ impl Implicit {
         let medium = Medium {
             water,
             diffusion: trial.dt * water.diffusivity() / (h * h),
-            uptake: trial.dt * water.uptake() / h,
         };
         let (lattice, particles) = (&trial.lattice, &self.state.particles);
         let (phi, bins) = (&self.workspace.fractions.liquid, &self.workspace.bins);
-        let exchange = self.workspace.clock.time(Part::Water, || {
+        let (uptake, soaked) = (trial.dt * water.uptake() / h, &self.state.soaked);
+        let capacity = water.capacity().map_or(f64::INFINITY, |length| length / h);
+        let (wetted, exchange) = self.workspace.clock.time(Part::Water, || {
             let wetted = surface.wetted(&lattice.solids, &lattice.window, &lattice.open, phi);
-            Exchange::new(&medium, lattice, phi, particles, bins, &wetted)
+            let mut asked = vec![0.0; lattice.window.len()];
+            for wet in &wetted {
+                let depth = depth(wet.piece, uptake, capacity, soaked);
+                asked[wet.cell as usize] += depth * f64::from(wet.area);
+            }
+            let exchange = Exchange::new(&medium, lattice, phi, particles, bins, &asked);
+            (wetted, exchange)
         });
         let change = exchange.change;
         trial.exchange = Some(exchange);
+        trial.wetted = wetted;
         match change > MOST_DRIED {
             true => Fit::Dried(DRIED / change),
             false => Fit::Good,
@@ -65,6 +92,15 @@ impl Implicit {
             water,
         );
         account.in_walls += exchange.taken;
+        if let Some(capacity) = water.capacity() {
+            let h = self.setup.units.h;
+            let (uptake, capacity) = (trial.dt * water.uptake() / h, capacity / h);
+            for wet in &trial.wetted {
+                let part = f64::from(wet.part * exchange.granted[wet.cell as usize]);
+                let depth = depth(wet.piece, uptake, capacity, &self.state.soaked);
+                self.state.soaked[wet.piece as usize] += (part * depth) as f32;
+            }
+        }
         account.pace = exchange.change / dt;
         account.fluidity = exchange.fluidity;
     }
@@ -123,6 +159,7 @@ impl Implicit {
         vec![
             (PARTS.into(), Array::F64(parts)),
             (ACCOUNT.into(), Array::F64(account.save())),
+            (SOAKED.into(), Array::F32(self.state.soaked.clone())),
         ]
     }
 
@@ -158,6 +195,13 @@ impl Implicit {
                     .into(),
             );
         }
+        let soaked = saved.f32s(SOAKED)?;
+        let capacity = water.capacity().unwrap_or(0.0) / self.setup.units.h * (1.0 + ROUNDING);
+        let held = |held: &f32| (0.0..=capacity).contains(&f64::from(*held));
+        if soaked.len() != self.state.soaked.len() || !soaked.iter().all(held) {
+            return Err("the walls of the checkpoint hold water as no run makes them".into());
+        }
+        self.state.soaked = soaked.to_vec();
         self.state.particles.parts = parts.to_vec();
         self.state.water = Some(account);
         Ok(())

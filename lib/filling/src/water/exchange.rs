@@ -18,8 +18,6 @@ pub(crate) struct Medium<'a> {
     pub(crate) water: &'a Water,
     /// Length of the step times diffusivity over the square of a cell.
     pub(crate) diffusion: f64,
-    /// Length of the step times uptake over a cell.
-    pub(crate) uptake: f64,
 }
 
 /// What a step moves.
@@ -35,23 +33,26 @@ pub(crate) struct Exchange {
     pub(crate) change: f64,
     /// Mean of 1/factor over the liquid at the end of the step.
     pub(crate) fluidity: f64,
+    /// Part of what the walls of each cell of the window ask for that they get.
+    pub(crate) granted: Vec<f32>,
 }
 
 impl Exchange {
-    /// That of a step in `medium` for the points in `bins`, the liquid `phi` of the sub-cells and the wetted
-    /// area (cells^2) of each cell.
+    /// That of a step in `medium` for the points in `bins`, the liquid `phi` of the sub-cells and what the walls
+    /// of each cell ask for, cells.
     pub(crate) fn new(
         medium: &Medium,
         lattice: &Lattice,
         phi: &[f32],
         particles: &Particles,
         bins: &Bins,
-        wetted: &[f64],
+        asked: &[f64],
     ) -> Self {
-        let nodes = nodes(medium, lattice, phi, particles, bins, wetted);
+        let nodes = nodes(medium, lattice, phi, particles, bins, asked);
         let (ratio, at_limit) = solve(&nodes, medium.water.least());
         let mut found = Self {
             factor: vec![1.0; lattice.window.len()],
+            granted: vec![0.0; lattice.window.len()],
             ..Self::default()
         };
         let (mut moved, mut changed, mut fluid, mut volume) = (0.0, 0.0, 0.0, 0.0);
@@ -64,6 +65,9 @@ impl Exchange {
                 (true, false) => flow - node.asked,
             };
             found.taken += flow - gained;
+            if node.asked > 0.0 {
+                found.granted[node.cell as usize] = ((flow - gained) / node.asked) as f32;
+            }
             let end = medium.water.factor(ratio[n]);
             let begin = match node.solids > 0.0 {
                 true => medium.water.factor(node.ratio),

@@ -43,13 +43,9 @@ pub(super) fn nodes(
     phi: &[f32],
     particles: &Particles,
     bins: &Bins,
-    wetted: &[f64],
+    asked: &[f64],
 ) -> Vec<Node> {
     let window = &lattice.window;
-    let mut asked = vec![0.0; window.len()];
-    for (cell, area) in wetted.iter().enumerate().filter(|(_, area)| **area > 0.0) {
-        asked[window.index(window.home(window.coordinates(cell)))] += medium.uptake * area;
-    }
     let mut number = vec![NONE; window.len()];
     let mut nodes = Vec::new();
     let start = medium.water.start();

@@ -12,6 +12,8 @@ pub struct WaterLaw {
     pub uptake: f64,
     /// Solids content of the liquid at the start, by mass.
     pub solids: f64,
+    /// Volume of water that a wall holds per area, m; without end where it is not given.
+    pub capacity: Option<f64>,
     /// Solids content from which wood takes no more; that of the last point of `factor` where it is not given.
     pub limit: Option<f64>,
     /// Diffusivity of water in the liquid, m2/s.
@@ -118,6 +120,11 @@ impl Water {
         self.law.uptake
     }
 
+    /// Volume of water that a wall holds per area, m.
+    pub fn capacity(&self) -> Option<f64> {
+        self.law.capacity
+    }
+
     /// Diffusivity of water in the liquid, m2/s.
     pub fn diffusivity(&self) -> f64 {
         self.law.diffusivity
@@ -148,6 +155,7 @@ mod tests {
         WaterLaw {
             uptake: 1e-6,
             solids: 0.4,
+            capacity: None,
             limit: None,
             diffusivity: 1e-10,
             factor: vec![(0.4, 1.0), (0.5, 10.0), (0.8, 1000.0)],

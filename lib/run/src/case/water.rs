@@ -1,7 +1,7 @@
 //! The keys of `[adhesive.water]`.
 
 use serde::Deserialize;
-use units::{Diffusivity, Speed};
+use units::{Diffusivity, Length, Speed};
 
 use super::value::Positive;
 
@@ -13,6 +13,8 @@ pub struct WaterTable {
     pub solids: f64,
     /// Volume of water that wood takes per wetted area and time.
     pub uptake: Positive<Speed>,
+    /// Volume of water that a wall holds per area.
+    pub capacity: Option<Positive<Length>>,
     /// Diffusivity of water in the adhesive.
     pub diffusivity: Positive<Diffusivity>,
     /// Solids content from which wood takes no more.

@@ -12,6 +12,7 @@ pub(super) fn water(table: &WaterTable, density: f64) -> Result<Water, CaseError
     let law = WaterLaw {
         uptake: table.uptake.si(),
         solids: table.solids,
+        capacity: table.capacity.map(|length| length.si()),
         limit: table.limit,
         diffusivity: table.diffusivity.si(),
         factor: table.viscosity_by_solids.clone(),

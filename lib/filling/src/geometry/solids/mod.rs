@@ -12,7 +12,7 @@ use physics::{Boundary, RigidBody};
 use crate::geometry::Domain;
 use placed::{Placed, Row};
 use rows::Rows;
-pub(crate) use surface::Surface;
+pub(crate) use surface::{Surface, Wetted};
 
 /// Index of a body in the scene, or [`SIDE`] or [`OPEN`].
 pub(crate) type BodyId = u8;

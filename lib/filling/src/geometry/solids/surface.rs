@@ -54,42 +54,59 @@ impl Surface {
         Self(parts.collect())
     }
 
-    /// Area (cells^2) that the cells of `window` wet between bodies now at `solids`, with the liquid
-    /// fractions `phi` and open fractions `open` of its sub-cells.
+    /// Number of pieces.
+    pub(crate) fn len(&self) -> usize {
+        self.0.iter().map(|(_, pieces)| pieces.len()).sum()
+    }
+
+    /// What is wet of it in `window` between bodies now at `solids`, with the liquid fractions `phi` and open
+    /// fractions `open` of its sub-cells.
     pub(crate) fn wetted(
         &self,
         solids: &Solids,
         window: &Window,
         open: &[f32],
         phi: &[f32],
-    ) -> Vec<f64> {
-        let mut areas = vec![0.0; window.len()];
+    ) -> Vec<Wetted> {
+        let (mut all, mut first) = (Vec::new(), 0);
         for (body, pieces) in &self.0 {
             let shift = solids.shift(*body);
-            let found: Vec<Option<(u32, f32)>> = (pieces.par_iter())
-                .map(|piece| {
-                    let at = |off: f64| piece.off(&shift, off, window);
-                    let beside = at(BESIDE);
-                    let sub = sub_cell(window, beside)?;
-                    let wet = phi[sub];
-                    let free = |x| solids.at(x).is_none();
-                    if wet == 0.0 || !(open[sub] == 1.0 || free(beside)) {
-                        return None;
-                    }
-                    let reach = f64::from(piece.reach);
-                    let inside = |x: &[f64; 3]| sub_cell(window, *x).is_some() && free(*x);
-                    let home = [reach, 0.5 * reach].map(at).into_iter().find(inside);
-                    let home = home.unwrap_or(beside);
-                    let cell = window.index(window.local(home).map(|s| s as usize));
-                    Some((cell as u32, wet * piece.area))
+            all.par_extend(pieces.par_iter().enumerate().filter_map(|(p, piece)| {
+                let at = |off: f64| piece.off(&shift, off, window);
+                let beside = at(BESIDE);
+                let sub = sub_cell(window, beside)?;
+                let wet = phi[sub];
+                let free = |x| solids.at(x).is_none();
+                if wet == 0.0 || !(open[sub] == 1.0 || free(beside)) {
+                    return None;
+                }
+                let reach = f64::from(piece.reach);
+                let inside = |x: &[f64; 3]| sub_cell(window, *x).is_some() && free(*x);
+                let home = [reach, 0.5 * reach].map(at).into_iter().find(inside);
+                let home = home.unwrap_or(beside);
+                Some(Wetted {
+                    piece: (first + p) as u32,
+                    cell: window.index(window.local(home).map(|s| s as usize)) as u32,
+                    area: wet * piece.area,
+                    part: wet,
                 })
-                .collect();
-            for (cell, area) in found.into_iter().flatten() {
-                areas[cell as usize] += f64::from(area);
-            }
+            }));
+            first += pieces.len();
         }
-        areas
+        all
     }
+}
+
+/// A piece that is wet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Wetted {
+    /// Its number among all of its surface.
+    pub(crate) piece: u32,
+    /// The cell of the window that it takes from.
+    pub(crate) cell: u32,
+    /// Its wet area, cells^2, and the part of it that this is.
+    pub(crate) area: f32,
+    pub(crate) part: f32,
 }
 
 impl Piece {

@@ -11,6 +11,7 @@ fn water() -> Water {
     let law = WaterLaw {
         uptake: 1.0,
         solids: 0.5,
+        capacity: None,
         limit: Some(0.6),
         diffusivity: 1.0,
         factor: vec![(0.5, 1.0), (0.7, 100.0)],
@@ -48,15 +49,14 @@ fn step_without(
         let at = window.coordinates(cell);
         window.in_domain(at) && window.corner(at)[1] == 1.0
     };
-    let wetted: Vec<f64> = (0..window.len())
-        .map(|cell| f64::from(u8::from(at_floor(cell))))
+    let asked: Vec<f64> = (0..window.len())
+        .map(|cell| uptake * f64::from(u8::from(at_floor(cell))))
         .collect();
     let medium = Medium {
         water: &water,
         diffusion,
-        uptake,
     };
-    let exchange = Exchange::new(&medium, &lattice, &phi, &particles, &bins, &wetted);
+    let exchange = Exchange::new(&medium, &lattice, &phi, &particles, &bins, &asked);
     (lattice, particles, bins, exchange)
 }
 

@@ -1,6 +1,6 @@
 //! Keys of the loss of water.
 
-use units::{Diffusivity, Speed};
+use units::{Diffusivity, Length, Speed};
 
 use super::{Absent, Key, Table, quantity};
 
@@ -30,6 +30,12 @@ pub(super) const WATER: Table = Table {
             || "rows of solids content, factor".into(),
             "What multiplies the viscosity, from `[solids, 1.0]` on: linear in the logarithm of the factor.",
         ),
+        Key {
+            name: "capacity",
+            form: quantity::<Length>,
+            absent: Absent::Nothing("without end"),
+            text: "Volume of water that wetted wood holds per area, then it is full: half the thickness of a cell wall times the water that its volume takes up.",
+        },
         Key {
             name: "limit",
             form: number,

@@ -12,7 +12,8 @@ fn wetted(cells: [usize; 3], axes: usize, blocks: Vec<VoxelBlock>) -> f64 {
     let lattice = whole(solids(domain, vec![blocks]));
     let phi = vec![1.0; lattice.window.sub_len()];
     let areas = surface.wetted(&lattice.solids, &lattice.window, &lattice.open, &phi);
-    areas.iter().sum::<f64>() / if axes == 3 { cells[2] as f64 } else { 1.0 }
+    areas.iter().map(|wet| f64::from(wet.area)).sum::<f64>()
+        / if axes == 3 { cells[2] as f64 } else { 1.0 }
 }
 
 /// Voxels of `edge` cells in `cells`, offset by `offset`, open where `open` says so of their middles from
