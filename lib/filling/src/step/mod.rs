@@ -113,7 +113,7 @@ impl Implicit {
         let limit = self.state.drive.within(limit, self.state.travel);
         let mut longest = limit.time_s;
         let (mut last, mut misses) = (Fit::Good, 0);
-        for _ in 0..ATTEMPTS {
+        for attempt in 0..ATTEMPTS {
             // 1. Time step.
             let dt = self.time_step(limit)?.min(longest);
             let dt = self.aim(dt);
@@ -134,7 +134,9 @@ impl Implicit {
             let solution = solution?;
             last = self.fit(&trial, &solution, limit);
             match last {
-                Fit::Fast | Fit::Dried(_) => continue,
+                Fit::Fast | Fit::Dried(_) if attempt < ATTEMPTS / 4 => continue,
+                // Trapped air moves as far in a step of any length, until viscosity holds it back.
+                Fit::Fast | Fit::Dried(_) => longest = 0.5 * dt,
                 Fit::Missed if misses < CLOSER => misses += 1,
                 Fit::Misplaced => longest = 0.5 * dt,
                 Fit::Good | Fit::Missed => return self.follow(&trial, solution, limit),

@@ -219,3 +219,35 @@ impl Parts {
         self.0[a.max(b) as usize] = a.min(b);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::tests::{domain, lattice};
+    use crate::liquid::Volumes;
+    use crate::system::Scales;
+
+    /// Two faces of one cell: they have the mean of both by area if neither passage is twice as narrow.
+    #[test]
+    fn parts_of_a_meniscus_have_one_pressure_if_their_passages_are_alike() {
+        let lattice = lattice(domain([4, 4, 1], 2), vec![]);
+        let phi = vec![1.0; lattice.window.sub_len()];
+        let volumes = Volumes::new(&lattice, &phi);
+        let operator = Operator::new(&lattice, &volumes, Scales::plain());
+        let cell =
+            (lattice.window).index(lattice.window.local([2.5, 2.5, 0.5]).map(|x| x as usize));
+        let levelled = |other: f64| {
+            let patch = |axis: usize, front: f64, narrowness: f64| Patch {
+                face: operator.dofs.face[axis][cell],
+                front,
+                narrowness,
+                walls: [(OPEN, 0.0); 6],
+            };
+            let mut patches = [patch(0, 3.0, 1.0), patch(1, -1.0, other)];
+            operator.level(&mut patches);
+            patches.map(|patch| patch.narrowness)
+        };
+        assert_eq!(levelled(1.96), [1.24; 2]);
+        assert_eq!(levelled(2.04), [1.0, 2.04]);
+    }
+}

@@ -114,6 +114,30 @@ fn pockets_that_merge_keep_their_air() {
     assert!((last.0 - boyle).abs() < 0.02 * P0, "{} {boyle}", last.0);
 }
 
+/// Air that loses half of its volume in four steps: with one tangent each it has 8 % too little pressure, or 6 % too much.
+#[test]
+fn air_that_is_pressed_fast_has_the_pressure_of_its_volume() {
+    let speed = 2e-3;
+    let mut scheme = chamber(&[], [26, 30], speed, None);
+    let mut way = 0.0;
+    while way < 1.9 {
+        let limit = StepLimit {
+            time_s: H / speed,
+            travel_m: f64::INFINITY,
+        };
+        let report = scheme.advance(limit).unwrap();
+        way += report.dt_s * speed / H;
+        let pressure = report.pressure_bottom;
+        let boyle = WIDE * P0 * (4.0 / (4.0 - way) - 1.0);
+        let error = pressure / boyle - 1.0;
+        println!(
+            "after {way:.3} cells {pressure:.0} Pa, Boyle {boyle:.0} Pa: {:+.1} %",
+            100.0 * error
+        );
+        assert!(error.abs() < 0.05, "{error}");
+    }
+}
+
 /// A lid slides off a pocket that a piston compresses: the pressure is Boyle's until then, and none after.
 #[test]
 fn a_pocket_that_opens_comes_to_the_pressure_outside() {

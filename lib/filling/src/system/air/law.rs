@@ -227,4 +227,22 @@ mod tests {
         assert!((pressure(empty) - 1e2).abs() < 1e-6);
         assert!((pressure(crushed) / GAS.most - 1.0).abs() < 1e-9);
     }
+
+    /// Next to a vacuum errors are measured by a hundredth of the pressure outside.
+    #[test]
+    fn a_void_next_to_a_vacuum_needs_no_exact_pressure() {
+        let pockets = Contents {
+            mass: &[0.0],
+            volume: &[3.0],
+        };
+        let tangents = GAS.tangents(pockets, MEASURE);
+        // 600 Pa where 100 Pa is right: half of 1 % of 1e5 Pa, of a volume down to a quarter of 3, over two
+        // hundredths of a cell.
+        let edge = 0.5 * 0.75 / 0.02;
+        let again = |area: f64| {
+            let p = [(600.0 - GAS.outside) / 1e3];
+            GAS.nearer(&tangents, &p, pockets, area, MEASURE).is_some()
+        };
+        assert!(again(0.99 * edge) && !again(1.01 * edge), "{edge}");
+    }
 }

@@ -92,3 +92,20 @@ fn inclined_walls_have_their_own_area_not_that_of_their_stairs() {
         );
     }
 }
+
+/// A wall half a cell below the next cell takes from its own one, a wall 0.6 into it from the next.
+#[test]
+fn a_wall_takes_from_the_cell_just_below_half_a_cell_off_it() {
+    for (off, row) in [(0.5, 2), (0.6, 3)] {
+        let below = VoxelBlock::solid_box([-1.0; 3], [9.0, 2.0 + off, 9.0]);
+        let domain = domain([8, 8, 1], 2);
+        let surface = Surface::new(&solids(domain, vec![vec![below.clone()]]), |_| true);
+        let lattice = whole(solids(domain, vec![vec![below]]));
+        let phi = vec![1.0; lattice.window.sub_len()];
+        let wet = surface.wetted(&lattice.solids, &lattice.window, &lattice.open, &phi);
+        let window = &lattice.window;
+        let found = |cell: u32| window.low[1] + window.coordinates(cell as usize)[1] as i64;
+        assert!(!wet.is_empty());
+        assert!(wet.iter().all(|wet| found(wet.cell) == row), "{off}");
+    }
+}
