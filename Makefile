@@ -9,6 +9,7 @@
 #   make XCT_BOTTOM=a.tif [XCT_TOP=b.tif | PLANE="139.2 um"] SLAB="55.1 um" VOXEL=... [TURN=90]
 #                                 the same on undamaged wood: two stacks, or one cut at PLANE
 #   make species                  four species of undamaged wood, PF and PVA-PF: their Table 2
+#   make press                    a hot press of the acer piece with and without cure, air, capillarity, loss of water
 #   make sweep SWEEP=table.csv    a table of parameters, a row a run, to a table of results and a figure
 #   make engines                  a small sweep by GNU parallel, Snakemake and Slurm, where installed
 #   make interop                  what other programs read of the tools' files, where installed
@@ -62,6 +63,7 @@ include pipelines/30-runs.mk
 include pipelines/40-metrics.mk
 include pipelines/50-figures.mk
 include pipelines/55-species.mk
+include pipelines/56-press.mk
 include pipelines/57-report.mk
 include pipelines/60-studies.mk
 include pipelines/65-gate.mk
