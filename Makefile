@@ -9,7 +9,7 @@
 #   make XCT_BOTTOM=a.tif [XCT_TOP=b.tif | PLANE="139.2 um"] SLAB="55.1 um" VOXEL=... [TURN=90]
 #                                 the same on undamaged wood: two stacks, or one cut at PLANE
 #   make species                  four species of undamaged wood, PF and PVA-PF: their Table 2
-#   make press                    a hot press of the acer piece with and without cure, air, capillarity, loss of water
+#   make press                    a press of the acer piece with and without cure, capillarity, loss of water, air
 #   make sweep SWEEP=table.csv    a table of parameters, a row a run, to a table of results and a figure
 #   make engines                  a small sweep by GNU parallel, Snakemake and Slurm, where installed
 #   make interop                  what other programs read of the tools' files, where installed
