@@ -69,7 +69,10 @@ impl Implicit {
             let (front, p) = (solved.0.0.front(liquid), &now.p[liquid..]);
             match gas.nearer(&tangents, p, contents, front, measure) {
                 Some(next) if pass < PASSES => tangents = next,
-                _ => break solved,
+                left => {
+                    held.astray += u64::from(left.is_some());
+                    break solved;
+                }
             }
             pass += 1;
         };
@@ -95,6 +98,7 @@ impl Implicit {
                 "millionths of the air closed off that vanished with them",
                 (1e6 * part).round() as u64,
             ),
+            ("steps whose air did not come to its pressure", held.astray),
         ]
     }
 
@@ -108,13 +112,14 @@ impl Implicit {
             mass,
             vanished,
             passed: [closed, freed],
+            astray,
         } = &self.state.air;
         vec![
             ("air_pocket".into(), Array::U32(of.clone())),
             ("air_mass".into(), Array::F64(mass.clone())),
             (
                 "air_sums".into(),
-                Array::F64(vec![*vanished as f64, *closed, *freed]),
+                Array::F64(vec![*vanished as f64, *closed, *freed, *astray as f64]),
             ),
         ]
     }
@@ -131,11 +136,12 @@ impl Implicit {
         let sums = saved.f64s("air_sums")?;
         restored::check_finite(mass, "air_mass")?;
         restored::check_finite(sums, "air_sums")?;
-        let &[vanished, closed, freed] = sums else {
+        let &[vanished, closed, freed, astray] = sums else {
             return Err(format!("the checkpoint's sums of air are none: {sums:?}"));
         };
         let cells = self.setup.window_of_all().len();
-        let counted = vanished >= 0.0 && vanished.fract() == 0.0 && vanished <= mass.len() as f64;
+        let count = |n: f64, most: f64| (0.0..=most).contains(&n) && n.fract() == 0.0;
+        let counted = count(vanished, mass.len() as f64) && count(astray, self.state.steps as f64);
         let numbered = |&number: &u32| (number as usize) < mass.len() || Held::is_no_pocket(number);
         let whole = of.len() == cells || of.is_empty() && mass.is_empty();
         if !(counted && whole && of.iter().all(numbered) && mass.iter().all(|&m| m >= 0.0)) {
@@ -146,6 +152,7 @@ impl Implicit {
             mass: mass.to_vec(),
             vanished: vanished as usize,
             passed: [closed, freed],
+            astray: astray as u64,
         };
         Ok(())
     }

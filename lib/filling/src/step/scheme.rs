@@ -222,9 +222,15 @@ impl Scheme for Implicit {
                  whose stress falls with the rate, or whose viscosity rises with it, may be why"
             )
         });
+        let astray = self.state.air.astray;
+        let air = (astray as f64 > MOST_UNSETTLED * steps as f64).then(|| {
+            format!(
+                "in {astray} of {steps} steps the air did not come to the pressure of its volume"
+            )
+        });
         let pressure = self.state.drive.broken.1;
         let limit = (pressure > 0.0).then(|| physics::broken(pressure));
-        let said: Vec<String> = viscosity.into_iter().chain(limit).collect();
+        let said: Vec<String> = viscosity.into_iter().chain(air).chain(limit).collect();
         (!said.is_empty()).then(|| said.join("; "))
     }
 }

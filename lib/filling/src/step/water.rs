@@ -62,6 +62,10 @@ impl Implicit {
             let exchange = Exchange::new(&medium, lattice, phi, particles, bins, &asked);
             (wetted, exchange)
         });
+        let Some(exchange) = exchange else {
+            // The shorter the step, the nearer its balance is to the one before.
+            return Fit::Dried(0.5);
+        };
         let change = exchange.change;
         trial.exchange = Some(exchange);
         trial.wetted = wetted;

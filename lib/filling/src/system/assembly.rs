@@ -107,10 +107,16 @@ impl System {
         let couplings = &self.couplings;
         let rigid = |bodies: &[[f64; 3]], p: &[f64]| couplings.forces(bodies, &[], p).0[clamped][1];
         let force = force - rigid(&resting, &[]);
-        let mut pockets = vec![0.0; self.c.len()];
-        self.add_shift(&mut pockets);
         let pulled = self.pulled.get(clamped).map_or(0.0, |pull| pull[1]);
-        let still = vec![[0.0; 3]; self.bodies.len()];
+        let borne = match self.shift.is_empty() {
+            true => pulled,
+            false => {
+                let still = vec![[0.0; 3]; self.bodies.len()];
+                let mut pockets = vec![0.0; self.c.len()];
+                self.add_shift(&mut pockets);
+                rigid(&still, &pockets) + pulled
+            }
+        };
         Load {
             momentum: (0..self.b.len())
                 .into_par_iter()
@@ -121,7 +127,7 @@ impl System {
                 .map(|cell| couplings.displaced(cell, &unit))
                 .collect(),
             resistance: rigid(&unit, &[]),
-            force: force - rigid(&still, &pockets) - pulled,
+            force: force - borne,
             scale: force.max(least),
         }
     }

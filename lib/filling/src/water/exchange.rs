@@ -39,7 +39,7 @@ pub(crate) struct Exchange {
 
 impl Exchange {
     /// That of a step in `medium` for the points in `bins`, the liquid `phi` of the sub-cells and what the walls
-    /// of each cell ask for, cells.
+    /// of each cell ask for, cells; `None` where no balance of the water was found.
     pub(crate) fn new(
         medium: &Medium,
         lattice: &Lattice,
@@ -47,9 +47,9 @@ impl Exchange {
         particles: &Particles,
         bins: &Bins,
         asked: &[f64],
-    ) -> Self {
+    ) -> Option<Self> {
         let nodes = nodes(medium, lattice, phi, particles, bins, asked);
-        let (ratio, at_limit) = solve(&nodes, medium.water.least());
+        let (ratio, at_limit) = solve(&nodes, medium.water.least())?;
         let mut found = Self {
             factor: vec![1.0; lattice.window.len()],
             granted: vec![0.0; lattice.window.len()],
@@ -85,7 +85,7 @@ impl Exchange {
         images(&lattice.window, &mut found.factor);
         found.change = if moved > 0.0 { changed / moved } else { 0.0 };
         found.fluidity = if volume > 0.0 { fluid / volume } else { 1.0 };
-        found
+        Some(found)
     }
 
     /// Volume (cells) that each of `cells` loses in the step.

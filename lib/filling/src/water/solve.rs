@@ -11,8 +11,8 @@ const MAX_TURNS: usize = 30;
 /// Part of the limit by which X may fall short of it.
 const HAIR: f64 = 1e-9;
 
-/// X of each node, and whether it is held at the least that walls leave.
-pub(super) fn solve(nodes: &[Node], least: f64) -> (Vec<f64>, Vec<bool>) {
+/// X of each node, and whether it is held at the least that walls leave; `None` where no balance was found.
+pub(super) fn solve(nodes: &[Node], least: f64) -> Option<(Vec<f64>, Vec<bool>)> {
     let mut ratio: Vec<f64> = nodes.iter().map(|node| node.ratio).collect();
     // Nothing to hold or to pass on: nothing changes.
     let idle = |node: &Node| node.diagonal() <= 0.0;
@@ -26,7 +26,9 @@ pub(super) fn solve(nodes: &[Node], least: f64) -> (Vec<f64>, Vec<bool>) {
         let free: Vec<bool> = (nodes.iter().zip(&held))
             .map(|(node, held)| !held && !idle(node))
             .collect();
-        gradients(nodes, &free, &mut ratio);
+        if !gradients(nodes, &free, &mut ratio) {
+            return None;
+        }
         let mut turned = false;
         for (n, node) in nodes
             .iter()
@@ -43,14 +45,15 @@ pub(super) fn solve(nodes: &[Node], least: f64) -> (Vec<f64>, Vec<bool>) {
             turned |= turn;
         }
         if !turned {
-            break;
+            return Some((ratio, held));
         }
     }
-    (ratio, held)
+    None
 }
 
-/// Solves V_s (X - X_0) = sum K (X_n - X) - q for the free nodes by conjugate gradients with the diagonal.
-fn gradients(nodes: &[Node], free: &[bool], ratio: &mut [f64]) {
+/// Solves V_s (X - X_0) = sum K (X_n - X) - q for the free nodes by conjugate gradients with the diagonal;
+/// whether that came to its tolerance.
+fn gradients(nodes: &[Node], free: &[bool], ratio: &mut [f64]) -> bool {
     let defect = |ratio: &[f64], n: usize| {
         let node = &nodes[n];
         match free[n] {
@@ -74,7 +77,7 @@ fn gradients(nodes: &[Node], free: &[bool], ratio: &mut [f64]) {
     let mut size = dot(&rest, &correction);
     for _ in 0..MAX_ITERATIONS {
         if dot(&rest, &rest) <= TOLERANCE * TOLERANCE * scale || size <= 0.0 {
-            break;
+            return true;
         }
         let image: Vec<f64> = (0..count)
             .map(|n| match free[n] {
@@ -93,4 +96,5 @@ fn gradients(nodes: &[Node], free: &[bool], ratio: &mut [f64]) {
             *w = c + size / last * *w;
         }
     }
+    false
 }

@@ -20,6 +20,8 @@ pub(crate) struct Held {
     pub(crate) vanished: usize,
     /// Air closed off since the start, and air that came free again, Pa cells.
     pub(crate) passed: [f64; 2],
+    /// Steps whose air did not come to the pressure of its volume.
+    pub(crate) astray: u64,
 }
 
 impl Held {
@@ -97,6 +99,7 @@ impl Held {
             mass: vec![0.0; pockets.volume.len()],
             vanished: pockets.volume.len(),
             passed: self.passed,
+            astray: self.astray,
         };
         for (&(old, new), &room) in shares {
             let mass = match self.mass.get(old as usize) {

@@ -56,7 +56,7 @@ fn step_without(
         water: &water,
         diffusion,
     };
-    let exchange = Exchange::new(&medium, &lattice, &phi, &particles, &bins, &asked);
+    let exchange = Exchange::new(&medium, &lattice, &phi, &particles, &bins, &asked).unwrap();
     (lattice, particles, bins, exchange)
 }
 
