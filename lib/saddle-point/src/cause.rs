@@ -140,6 +140,7 @@ mod tests {
             a: &one,
             g: &pair(),
             pockets: 0,
+            standing: &[],
             c: &[c; 2],
             friction: &[friction],
             two_eta: &[1.0; 2],

@@ -178,6 +178,7 @@ mod tests {
                 a: &a,
                 g: &g,
                 pockets: 0,
+                standing: &[],
                 c: &[0.0],
                 friction: &[0.0; 2],
                 two_eta: &[1.0],

@@ -3,86 +3,94 @@
 use crate::csr::Csr;
 use crate::vector::Real;
 
-/// A row sum below this fraction of the diagonal counts as zero.
-const ROUNDING: f64 = 1e-12;
+/// Row sums of a component below this fraction of its diagonals count as zero.
+pub(crate) const ROUNDING: f64 = 1e-12;
 
-/// The connected components of the rows of a matrix on all of which the entries sum to zero, so
-/// that a constant is in the null space.
+/// The connected components of the rows of a matrix on which the entries sum to next to nothing, so
+/// that a constant is in the null space, or nearly.
 pub(crate) struct ClosedPockets {
     members: Vec<Vec<u32>>,
 }
 
 impl ClosedPockets {
-    pub(crate) fn find(matrix: &Csr<f64>) -> Self {
+    /// Those on which the row sums are less than `part` of the diagonals.
+    pub(crate) fn find(matrix: &Csr<f64>, part: f64) -> Self {
         let n = matrix.n_rows();
-        let open = |row: usize| {
-            let (columns, values) = matrix.row(row);
-            let sum: f64 = values.iter().sum();
-            let diagonal = columns
-                .binary_search(&(row as u32))
-                .map_or(0.0, |at| values[at]);
-            sum.abs() > ROUNDING * diagonal
-        };
-        // Flood from the rows that are open, then what is left falls into closed pockets.
-        let mut reached: Vec<bool> = (0..n).map(open).collect();
-        let mut front: Vec<u32> = (0..n as u32).filter(|&row| reached[row as usize]).collect();
-        flood(matrix, &mut reached, &mut front, |_| ());
+        let mut reached = vec![false; n];
         let mut members = Vec::new();
-        for row in 0..n {
-            if !reached[row] {
-                reached[row] = true;
-                let mut pocket = vec![row as u32];
-                flood(matrix, &mut reached, &mut vec![row as u32], |row| {
-                    pocket.push(row)
-                });
+        for first in 0..n as u32 {
+            let pocket = flood(matrix, &mut reached, first);
+            let (mut leak, mut whole) = (0.0, 0.0);
+            for &row in &pocket {
+                let (columns, values) = matrix.row(row as usize);
+                leak += values.iter().sum::<f64>().abs();
+                whole += columns.binary_search(&row).map_or(0.0, |at| values[at]);
+            }
+            if !pocket.is_empty() && leak <= part * whole {
                 members.push(pocket);
             }
         }
         Self { members }
     }
 
-    /// Subtracts the mean over every closed pocket.
-    pub(crate) fn remove_mean<T: Real>(&self, x: &mut [T]) {
-        for pocket in &self.members {
+    /// Means over every closed pocket.
+    pub(crate) fn means<T: Real>(&self, x: &[T]) -> Vec<f64> {
+        let mean = |pocket: &Vec<u32>| {
             let sum: f64 = pocket.iter().map(|&row| x[row as usize].into()).sum();
-            let mean = T::nearest(sum / pocket.len() as f64);
+            sum / pocket.len() as f64
+        };
+        self.members.iter().map(mean).collect()
+    }
+
+    /// Subtracts one value of every closed pocket.
+    pub(crate) fn subtract<T: Real>(&self, values: &[f64], x: &mut [T]) {
+        for (pocket, &value) in self.members.iter().zip(values) {
+            let value = T::nearest(value);
             for &row in pocket {
-                x[row as usize] = x[row as usize] - mean;
+                x[row as usize] = x[row as usize] - value;
             }
         }
+    }
+
+    /// Subtracts the mean over every closed pocket.
+    pub(crate) fn remove_mean<T: Real>(&self, x: &mut [T]) {
+        self.subtract(&self.means(x), x);
     }
 }
 
-/// Marks every row connected to `front`, calling `found` on each new one.
-fn flood(
-    matrix: &Csr<f64>,
-    reached: &mut [bool],
-    front: &mut Vec<u32>,
-    mut found: impl FnMut(u32),
-) {
-    while let Some(row) = front.pop() {
+/// Marks every row connected to `first`, and returns them; none where it was marked before.
+fn flood(matrix: &Csr<f64>, reached: &mut [bool], first: u32) -> Vec<u32> {
+    if std::mem::replace(&mut reached[first as usize], true) {
+        return Vec::new();
+    }
+    let mut found = vec![first];
+    let mut next = 0;
+    while let Some(&row) = found.get(next) {
+        next += 1;
         for &column in matrix.row(row as usize).0 {
             if !std::mem::replace(&mut reached[column as usize], true) {
-                found(column);
-                front.push(column);
+                found.push(column);
             }
         }
     }
+    found
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Two cells, and the part of the diagonal by which the sum of the second row is not zero.
+    /// Two cells, and the part of their diagonals by which the sum of the second row is not zero.
     #[test]
-    fn a_row_sum_of_rounding_closes_a_pocket() {
+    fn row_sums_of_rounding_close_a_pocket() {
         let pockets = |part: f64| {
             let matrix = Csr::assemble(2, 2, |row, entries| {
-                entries.add(row, if row == 0 { 1.0 } else { 1.0 + part });
+                entries.add(row, if row == 0 { 1.0 } else { 1.0 + 2.0 * part });
                 entries.add(1 - row, -1.0);
             });
-            ClosedPockets::find(&matrix.unwrap()).members.len()
+            ClosedPockets::find(&matrix.unwrap(), ROUNDING)
+                .members
+                .len()
         };
         assert_eq!([0.0, 0.75e-12, 1.5e-12].map(pockets), [1, 1, 0]);
     }

@@ -101,7 +101,7 @@ impl SaddleSolver {
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
-        let limits = self.limits(system.measure(system.b, system.volume_source));
+        let limits = self.limits(system.measure_at(u));
         let space = &mut self.space;
         let (rhs, options) = (system.right_hand_side(), &self.options);
         let report = prepared(system, options, |mut operator, mut preconditioner| {
@@ -135,7 +135,7 @@ impl SaddleSolver {
         let mut rhs = system.right_hand_side();
         rhs.push(weight * load.force);
         // The force row weighs as much as the others do with the body moving.
-        let resting = system.measure(system.b, system.volume_source);
+        let resting = system.measure_at(u);
         let limits = self.limits(resting.hypot(moving));
         let (space, options) = (&mut self.space, &self.options);
         let report = prepared(system, options, |inner, preconditioner| {

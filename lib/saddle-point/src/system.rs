@@ -28,6 +28,9 @@ pub struct SaddleSystem<'a> {
     pub two_eta: &'a [f64],
     /// Momentum right-hand side `b`, one per face.
     pub b: &'a [f64],
+    /// Part of it by which pressures push that the liquid stands under already; empty where there is none. No flow
+    /// follows from most of it, so that the tolerance is not measured by it, but by the flow of the guess.
+    pub standing: &'a [f64],
     /// Volume that walls displace, one per cell: `G u + C p = g` is this and what is carried over.
     pub volume_source: &'a [f64],
     /// Volume that compression carries over from before, `C p` of then, one per cell. No flow follows from
@@ -54,8 +57,23 @@ impl SaddleSystem<'_> {
     /// What the tolerance is relative to: the norm of what moves the liquid, of the momenta `b` and displaced volumes
     /// `moved` given, or [`FAINT`] of all.
     pub(crate) fn measure(&self, b: &[f64], moved: &[f64]) -> f64 {
-        let motion = norm(b).hypot(norm(moved));
+        let motion = norm(moved).hypot(match self.standing {
+            [] => norm(b),
+            standing => apart(b, standing),
+        });
         motion.max(FAINT * motion.hypot(norm(self.carried)))
+    }
+
+    /// [`SaddleSystem::measure`] for what is known of it, and what resists the flow of the guess `u` where pressures
+    /// stand.
+    pub(crate) fn measure_at(&self, u: &[f64]) -> f64 {
+        let known = self.measure(self.b, self.volume_source);
+        if self.standing.is_empty() {
+            return known;
+        }
+        let mut drag = vec![0.0; u.len()];
+        self.a.multiply(u, &mut drag);
+        known.hypot(norm(&drag))
     }
 
     /// Refuses lengths that do not fit, with those of the guess, and values that are not as described.
@@ -68,6 +86,11 @@ impl SaddleSystem<'_> {
             ("face frictions", self.friction.len(), faces),
             ("cell viscosities", self.two_eta.len(), cells),
             ("momentum right-hand side", self.b.len(), faces),
+            (
+                "standing forces",
+                self.standing.len(),
+                if self.standing.is_empty() { 0 } else { faces },
+            ),
             ("volume sources", self.volume_source.len(), cells),
             ("carried volumes", self.carried.len(), cells),
             ("velocities", u.len(), faces),
@@ -75,7 +98,14 @@ impl SaddleSystem<'_> {
         ] {
             check_length(what, found, expected)?;
         }
-        for values in [self.b, self.volume_source, self.carried, u, p] {
+        for values in [
+            self.b,
+            self.standing,
+            self.volume_source,
+            self.carried,
+            u,
+            p,
+        ] {
             if let Some(row) = values.iter().position(|v| !v.is_finite()) {
                 return Err(SolveError::NotFinite { row });
             }
@@ -90,4 +120,10 @@ impl SaddleSystem<'_> {
         }
         Ok(())
     }
+}
+
+/// Norm of a difference.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
+    square.sqrt()
 }

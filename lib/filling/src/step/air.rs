@@ -6,8 +6,8 @@ use physics::{Array, Failure, Saved, restored};
 use super::controlled::Solved;
 use super::solution::{Unknowns, Viscous};
 use super::{Implicit, Part, Trial};
-use crate::system::air::{Contents, Held, Measure, Pockets};
-use crate::system::{Before, Operator, Trapped};
+use crate::system::air::{Held, Measure, Pockets};
+use crate::system::{Before, Operator};
 
 /// Most solves of a step for the pressures of its air.
 const PASSES: usize = 6;
@@ -16,6 +16,8 @@ const PASSES: usize = 6;
 pub(super) struct Air {
     pub(super) pockets: Pockets,
     pub(super) held: Held,
+    /// Part of each pocket that was not closed off before.
+    pub(super) fresh: Vec<f64>,
 }
 
 impl Implicit {
@@ -25,8 +27,12 @@ impl Implicit {
         let (lattice, before) = (operator.lattice, &self.state.air);
         Some(self.workspace.clock.time(Part::Fractions, || {
             let pockets = Pockets::find(lattice, operator.volumes, &operator.dofs, outside);
-            let held = before.followed(&pockets, &lattice.window, gas.outside);
-            Air { pockets, held }
+            let (held, fresh) = before.followed(&pockets, &lattice.window, gas.outside);
+            Air {
+                pockets,
+                held,
+                fresh,
+            }
         }))
     }
 
@@ -35,7 +41,7 @@ impl Implicit {
         &mut self,
         operator: &mut Operator,
         before: Before,
-        air: (&Pockets, &mut Held),
+        air: (&Pockets, &mut Held, &[f64]),
         trial: &Trial,
         now: &mut Unknowns,
     ) -> Result<(Solved, Option<Viscous>), Failure> {
@@ -47,27 +53,29 @@ impl Implicit {
             pressure: self.setup.units.pressure(),
             cell: self.setup.units.h,
         };
-        let (pockets, held) = air;
-        let mass = &mut held.mass[..pockets.wet];
-        let contents = Contents {
-            mass,
-            volume: &pockets.volume[..pockets.wet],
-        };
-        let mut tangents = gas.tangents(contents, measure);
+        let (pockets, held, fresh) = air;
+        let mut tangents = gas.tangents(held.contents(pockets.wet), measure);
         now.p.extend(tangents.iter().map(|t| t.pressure));
         let liquid = operator.dofs.cells.len();
         let mut pass = 1;
         let solved = loop {
             let before = Before {
-                air: Trapped {
-                    tangents: &tangents,
-                    placed: &trial.bodies,
-                },
+                air: &tangents,
                 ..before
             };
             let solved = self.solve_once(operator, before, now)?;
-            let (front, p) = (solved.0.0.front(liquid), &now.p[liquid..]);
-            match gas.nearer(&tangents, p, contents, front, measure) {
+            let (system, p) = (&solved.0.0, &now.p[liquid..]);
+            if pass == 1 {
+                let half = 0.5 * trial.dt / measure.cell;
+                let growth = system.growth(liquid, before.velocity, &trial.bodies);
+                held.begin(
+                    fresh,
+                    growth.iter().map(|growth| half * growth),
+                    gas.outside,
+                );
+            }
+            let front = system.front(liquid);
+            match gas.nearer(&tangents, p, held.contents(pockets.wet), front, measure) {
                 Some(next) if pass < PASSES => tangents = next,
                 left => {
                     held.astray += u64::from(left.is_some());
@@ -76,7 +84,10 @@ impl Implicit {
             }
             pass += 1;
         };
-        held.passed[1] += gas.leak(mass, &now.p[liquid..], measure);
+        let p = &now.p[liquid..];
+        let wet = ..pockets.wet;
+        held.passed[1] += gas.leak(&mut held.mass[wet], p, measure);
+        held.volume[wet].copy_from_slice(&gas.volumes(&tangents, p, measure));
         Ok(solved)
     }
 
@@ -110,6 +121,7 @@ impl Implicit {
         let Held {
             of,
             mass,
+            volume,
             vanished,
             passed: [closed, freed],
             astray,
@@ -117,6 +129,7 @@ impl Implicit {
         vec![
             ("air_pocket".into(), Array::U32(of.clone())),
             ("air_mass".into(), Array::F64(mass.clone())),
+            ("air_volume".into(), Array::F64(volume.clone())),
             (
                 "air_sums".into(),
                 Array::F64(vec![*vanished as f64, *closed, *freed, *astray as f64]),
@@ -133,8 +146,9 @@ impl Implicit {
             return Ok(());
         }
         let (of, mass) = (saved.u32s("air_pocket")?, saved.f64s("air_mass")?);
-        let sums = saved.f64s("air_sums")?;
+        let (volume, sums) = (saved.f64s("air_volume")?, saved.f64s("air_sums")?);
         restored::check_finite(mass, "air_mass")?;
+        restored::check_finite(volume, "air_volume")?;
         restored::check_finite(sums, "air_sums")?;
         let &[vanished, closed, freed, astray] = sums else {
             return Err(format!("the checkpoint's sums of air are none: {sums:?}"));
@@ -143,13 +157,16 @@ impl Implicit {
         let count = |n: f64, most: f64| (0.0..=most).contains(&n) && n.fract() == 0.0;
         let counted = count(vanished, mass.len() as f64) && count(astray, self.state.steps as f64);
         let numbered = |&number: &u32| (number as usize) < mass.len() || Held::is_no_pocket(number);
-        let whole = of.len() == cells || of.is_empty() && mass.is_empty();
+        let whole = (of.len() == cells || of.is_empty() && mass.is_empty())
+            && volume.len() == mass.len()
+            && volume.iter().all(|&v| v > 0.0);
         if !(counted && whole && of.iter().all(numbered) && mass.iter().all(|&m| m >= 0.0)) {
             return Err("the checkpoint's air is not that of this scene".into());
         }
         self.state.air = Held {
             of: of.to_vec(),
             mass: mass.to_vec(),
+            volume: volume.to_vec(),
             vanished: vanished as usize,
             passed: [closed, freed],
             astray: astray as u64,

@@ -7,7 +7,7 @@ use super::controlled::Solved;
 use super::{Implicit, Part, Trial, Units};
 use crate::liquid::{self, Volumes};
 use crate::system::air::Held;
-use crate::system::{Before, Dofs, Found, NONE, Operator, Sheared, Trapped};
+use crate::system::{Before, Dofs, Found, NONE, Operator, Sheared};
 use crate::transport::density::Cells;
 use crate::transport::{Field, Near};
 use saddle_point::Csr;
@@ -91,21 +91,25 @@ impl Implicit {
             iterations: 0,
         };
         let (pockets, mut air) = match self.closed_off(&operator) {
-            Some(Air { pockets, held }) => (Some(pockets), Some(held)),
+            Some(Air {
+                pockets,
+                held,
+                fresh,
+            }) => (Some((pockets, fresh)), Some(held)),
             None => (None, None),
         };
-        operator.pockets = pockets.as_ref();
+        operator.pockets = pockets.as_ref().map(|(pockets, _)| pockets);
         let stiffness = self.stiffness(&start.p);
         let before = Before {
             velocity: &start.u,
             pressure: &start.p,
             stiffness: &stiffness,
             lost: &lost,
-            air: Trapped::default(),
+            air: &[],
         };
-        let ((system, forces, power), viscous) = match (operator.pockets, &mut air) {
-            (Some(pockets), Some(held)) => {
-                let air = (pockets, held);
+        let ((system, forces, power), viscous) = match (&pockets, &mut air) {
+            (Some((pockets, fresh)), Some(held)) => {
+                let air = (pockets, held, &fresh[..]);
                 self.solve_with_air(&mut operator, before, air, trial, &mut now)?
             }
             _ => self.solve_once(&mut operator, before, &mut now)?,

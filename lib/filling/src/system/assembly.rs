@@ -31,6 +31,8 @@ pub(crate) struct System {
     /// Pressures of the pockets of air, which their unknowns count from: what softens them much would outweigh
     /// all else.
     shift: Vec<f64>,
+    /// Momentum by these; empty without.
+    standing: Vec<f64>,
     /// Momentum with all bodies at rest.
     momentum: Vec<f64>,
     /// Volume that compression carries over from the step before.
@@ -54,6 +56,7 @@ impl System {
             friction: &self.friction,
             two_eta: &self.two_eta,
             b: &self.b,
+            standing: &self.standing,
             volume_source: &self.source,
             carried: &self.carried,
         }
@@ -79,6 +82,13 @@ impl System {
     pub(crate) fn front(&self, liquid: usize) -> f64 {
         let area = |row: usize| self.g.row(row).1.iter().map(|area| area.abs()).sum::<f64>();
         (liquid..self.g.n_rows()).map(area).sum()
+    }
+
+    /// What these pockets grow by, cells^2 m/s, at velocities of the face unknowns and the bodies, m/s.
+    pub(crate) fn growth(&self, liquid: usize, u: &[f64], bodies: &[[f64; 3]]) -> Vec<f64> {
+        (liquid..self.g.n_rows())
+            .map(|row| self.g.row_times_wide(row, u) - self.couplings.displaced(row, bodies))
+            .collect()
     }
 
     /// Sets the velocities of the bodies, m/s.
@@ -148,15 +158,6 @@ impl System {
     }
 }
 
-/// What is known of pockets of air before the step; nothing where they have no pressures.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Trapped<'a> {
-    /// Of each pocket.
-    pub(crate) tangents: &'a [Tangent],
-    /// Velocities of the bodies that the middle of the step was made with, m/s.
-    pub(crate) placed: &'a [[f64; 3]],
-}
-
 /// What is known of the liquid before the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Before<'a> {
@@ -168,8 +169,8 @@ pub(crate) struct Before<'a> {
     pub(crate) stiffness: &'a [f64],
     /// Volume that each pressure unknown loses in a time, cells^2 m/s; empty where none is lost.
     pub(crate) lost: &'a [f64],
-    /// Air.
-    pub(crate) air: Trapped<'a>,
+    /// Of each pocket of air; none where they have no pressures.
+    pub(crate) air: &'a [Tangent],
 }
 
 impl Operator<'_> {
@@ -207,13 +208,9 @@ impl Operator<'_> {
         let couplings = Couplings::new(self, &edges, bodies.len(), &flux);
         let mut resting: Vec<f64> = before.lost.iter().map(|lost| -lost).collect();
         let thickest = two_eta.iter().copied().fold(0.0, f64::max);
-        for tangent in before.air.tangents {
-            // Half of what went into the pocket to the middle of the step.
-            let row = c.len();
-            let ahead = g.row_times_wide(row, before.velocity)
-                - couplings.displaced(row, before.air.placed);
-            resting.resize(row, 0.0);
-            resting.push(tangent.growth + 0.5 * ahead);
+        for tangent in before.air {
+            resting.resize(c.len(), 0.0);
+            resting.push(tangent.growth);
             c.push(tangent.softness);
             two_eta.push(thickest);
         }
@@ -226,12 +223,16 @@ impl Operator<'_> {
         for (momentum, pull) in momentum.iter_mut().zip(pull) {
             *momentum += pull;
         }
-        let shift: Vec<f64> = before.air.tangents.iter().map(|t| t.pressure).collect();
+        let shift: Vec<f64> = before.air.iter().map(|t| t.pressure).collect();
+        let mut standing = vec![0.0; if shift.is_empty() { 0 } else { n }];
         for (row, shift) in (cells..).zip(&shift) {
             let (faces, areas) = g.row(row);
             for (&face, area) in faces.iter().zip(areas) {
-                momentum[face as usize] += area * shift;
+                standing[face as usize] += area * shift;
             }
+        }
+        for (momentum, standing) in momentum.iter_mut().zip(&standing) {
+            *momentum += standing;
         }
         let mut system = System {
             friction: (face_volume.iter().enumerate())
@@ -241,6 +242,7 @@ impl Operator<'_> {
             couplings,
             pulled,
             shift,
+            standing,
             momentum,
             carried,
             resting,

@@ -21,7 +21,7 @@ mod terms;
 mod viscosity;
 mod walls;
 
-pub(crate) use assembly::{Before, System, Trapped};
+pub(crate) use assembly::{Before, System};
 pub(crate) use dofs::{Dofs, NONE};
 pub(crate) use operator::Operator;
 pub(crate) use response::Found;

@@ -256,7 +256,7 @@ mod tests {
                     pressure: &cells,
                     stiffness: &vec![1.0; cells.len()],
                     lost: &[],
-                    air: crate::system::Trapped::default(),
+                    air: &[],
                 };
                 let system = operator.assemble(&bodies, before).unwrap();
                 system.reactions(&u, &cells).1

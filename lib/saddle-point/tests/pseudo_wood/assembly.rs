@@ -35,6 +35,7 @@ impl Problem {
             a: &self.a,
             g: &self.g,
             pockets: 0,
+            standing: &[],
             c: &self.c,
             friction: &self.friction,
             two_eta: &self.two_eta,

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Pockets;
+use super::law::Contents;
 use super::pockets::OUTSIDE;
 use crate::geometry::Window;
 use crate::liquid::neighbours;
@@ -16,6 +17,9 @@ pub(crate) struct Held {
     pub(crate) of: Vec<u32>,
     /// Air of each pocket, and behind the pockets of each that vanished under liquid, Pa cells.
     pub(crate) mass: Vec<f64>,
+    /// Volume that each has come to by what flowed, cells: the void counted cell by cell jumps by parts of a cell
+    /// where liquid creeps.
+    pub(crate) volume: Vec<f64>,
     /// Number of the first that vanished.
     pub(crate) vanished: usize,
     /// Air closed off since the start, and air that came free again, Pa cells.
@@ -27,14 +31,46 @@ pub(crate) struct Held {
 impl Held {
     /// The air as it is in `pockets`, with `outside` (Pa, absolute) where nothing closed it off: it stays
     /// where it was, in the parts of the void shared. A pocket where no air was takes its part of what is
-    /// next to it; a pocket under liquid keeps its air until void opens there or beside.
-    pub(crate) fn followed(&self, pockets: &Pockets, window: &Window, outside: f64) -> Self {
+    /// next to it; a pocket under liquid keeps its air until void opens there or beside. With it: the part of each
+    /// pocket that was outside.
+    pub(crate) fn followed(
+        &self,
+        pockets: &Pockets,
+        window: &Window,
+        outside: f64,
+    ) -> (Self, Vec<f64>) {
         let mut shares = self.shared(pockets);
         let bare = lacking(shares.keys().map(|pair| pair.1), pockets.volume.len());
         self.add_beside(pockets, window, &mut shares, &bare, |_, new| new);
         let lost = lacking(shares.keys().map(|pair| pair.0), self.mass.len());
         self.add_beside(pockets, window, &mut shares, &lost, |old, _| old);
-        self.shared_out(&shares, pockets, outside)
+        let fresh = (pockets.volume.iter().enumerate()).map(|(new, volume)| {
+            shares
+                .get(&(OUTSIDE, new as u32))
+                .map_or(0.0, |room| room / volume)
+        });
+        (self.shared_out(&shares, pockets, outside), fresh.collect())
+    }
+
+    /// Makes what was outside, the parts `fresh` of pockets, what it was at the start of the step, from which they
+    /// grew by `growth` (cells) to the middle.
+    pub(crate) fn begin(&mut self, fresh: &[f64], growth: impl Iterator<Item = f64>, outside: f64) {
+        for (number, (fresh, growth)) in fresh.iter().zip(growth).enumerate() {
+            let volume = &mut self.volume[number];
+            let before = (*volume - fresh * growth).max(0.5 * *volume);
+            let air = outside * (before - *volume);
+            *volume = before;
+            self.mass[number] += air;
+            self.passed[0] += air;
+        }
+    }
+
+    /// The first pockets of so many.
+    pub(crate) fn contents(&self, count: usize) -> Contents<'_> {
+        Contents {
+            mass: &self.mass[..count],
+            volume: &self.volume[..count],
+        }
     }
 
     /// Whether a number of a cell is that of the air outside, or none.
@@ -94,24 +130,38 @@ impl Held {
                 *whole += room;
             }
         }
+        let count = pockets.volume.len();
         let mut next = Self {
             of: pockets.of.clone(),
-            mass: vec![0.0; pockets.volume.len()],
-            vanished: pockets.volume.len(),
+            mass: vec![0.0; count],
+            volume: vec![0.0; count],
+            vanished: count,
             passed: self.passed,
             astray: self.astray,
         };
         for (&(old, new), &room) in shares {
-            let mass = match self.mass.get(old as usize) {
-                Some(mass) => mass * (room / whole[old as usize]),
-                None => outside * room,
+            let (mass, volume) = match self.mass.get(old as usize) {
+                Some(mass) => {
+                    let part = room / whole[old as usize];
+                    (mass * part, self.volume[old as usize] * part)
+                }
+                None => (outside * room, room),
             };
             if old == OUTSIDE {
                 next.passed[0] += mass;
             }
             match next.mass.get_mut(new as usize) {
-                Some(sum) => *sum += mass,
+                Some(sum) => {
+                    *sum += mass;
+                    next.volume[new as usize] += volume;
+                }
                 None => next.passed[1] += mass,
+            }
+        }
+        // Air that no liquid presses on has the void that it is in.
+        for (number, volume) in next.volume.iter_mut().enumerate() {
+            if number >= pockets.wet || *volume == 0.0 {
+                *volume = pockets.volume[number];
             }
         }
         let mut covered = vec![NONE; self.mass.len()];
@@ -119,6 +169,7 @@ impl Held {
             if whole[old] == 0.0 && mass > 0.0 {
                 covered[old] = next.mass.len() as u32;
                 next.mass.push(mass);
+                next.volume.push(self.volume[old]);
             }
         }
         for (cell, of) in next.of.iter_mut().enumerate() {
@@ -193,7 +244,7 @@ mod tests {
     #[test]
     fn air_stays_with_the_void_it_is_in() {
         let window = window();
-        let follow = |held: &Held, numbers| held.followed(&pockets(numbers), &window, 10.0);
+        let follow = |held: &Held, numbers| held.followed(&pockets(numbers), &window, 10.0).0;
         let two = follow(&Held::default(), [0, 0, 0, 0, X, 1, 1, X, O, O]);
         assert_eq!(
             (&two.mass[..], two.passed),

@@ -35,21 +35,28 @@ pub(crate) struct Measure {
     pub(crate) cell: f64,
 }
 
-/// A pocket's law near one volume, as a row of the system: G u + C (p - `pressure`) = `growth` + half of what
-/// went into the pocket ahead of the step's middle.
+/// A pocket's law near one volume, as a row of the system: G u + C (p - `pressure`) = `growth`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Tangent {
     /// C, scaled.
     pub(crate) softness: f64,
     /// Scaled.
     pub(crate) pressure: f64,
-    /// From the middle of the step to that volume.
+    /// To that volume in the step, scaled.
     pub(crate) growth: f64,
     /// Where the law is touched: volume, cells, absolute pressure, Pa, and -dV/dp, cells/Pa.
     at: [f64; 3],
 }
 
-/// The pockets of a step: air (Pa cells) of each, and its volume (cells) in the middle of the step.
+impl Tangent {
+    /// The volume (cells) at an absolute pressure (Pa).
+    fn volume(&self, absolute: f64) -> f64 {
+        let [volume, pressure, yielding] = self.at;
+        (volume - yielding * (absolute - pressure)).clamp(volume / STEEPEST, volume * STEEPEST)
+    }
+}
+
+/// The pockets of a step: air (Pa cells) of each, and its volume (cells) at the start of the step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contents<'a> {
     pub(crate) mass: &'a [f64],
@@ -90,8 +97,8 @@ impl Gas {
         }
     }
 
-    /// The law of `mass` at `volume`, for a step whose middle has `middle` (both cells).
-    fn tangent(&self, mass: f64, middle: f64, volume: f64, measure: Measure) -> Tangent {
+    /// The law of `mass` at `volume`, for a step that starts with `first` (both cells).
+    fn tangent(&self, mass: f64, first: f64, volume: f64, measure: Measure) -> Tangent {
         let pressure = self.pressure(mass, volume, measure.dt);
         let pace = measure.cell / measure.dt;
         // -V dp/dV without its bounds, but no less than where the air is thinnest.
@@ -103,7 +110,7 @@ impl Gas {
         Tangent {
             softness,
             pressure: gauge,
-            growth: (volume - middle) * pace,
+            growth: (volume - first) * pace,
             at: [volume, pressure, yielding],
         }
     }
@@ -128,10 +135,8 @@ impl Gas {
         let (mut astray, mut sound) = (0.0, true);
         let volumes: Vec<f64> = (tangents.iter().zip(p).zip(pockets.mass))
             .map(|((tangent, p), &mass)| {
-                let [volume, pressure, yielding] = tangent.at;
                 let absolute = p * measure.pressure + self.outside;
-                let found = (volume - yielding * (absolute - pressure))
-                    .clamp(volume / STEEPEST, volume * STEEPEST);
+                let found = tangent.volume(absolute);
                 let right = self.pressure(mass, found, measure.dt);
                 sound &= absolute > 0.0;
                 astray += found * (absolute - right).abs() / right.max(FAINT * self.outside);
@@ -140,9 +145,16 @@ impl Gas {
             .collect();
         (!sound || astray > ASTRAY * area).then(|| {
             (volumes.iter().zip(pockets.mass).zip(pockets.volume))
-                .map(|((&volume, &mass), &middle)| self.tangent(mass, middle, volume, measure))
+                .map(|((&volume, &mass), &first)| self.tangent(mass, first, volume, measure))
                 .collect()
         })
+    }
+
+    /// Volumes (cells) of pockets at their scaled pressures.
+    pub(crate) fn volumes(&self, tangents: &[Tangent], p: &[f64], measure: Measure) -> Vec<f64> {
+        (tangents.iter().zip(p))
+            .map(|(tangent, p)| tangent.volume(p * measure.pressure + self.outside))
+            .collect()
     }
 
     /// Takes from each mass (Pa cells) what leaks in a step that ends with the scaled pressures `p`; how much

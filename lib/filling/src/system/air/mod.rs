@@ -11,6 +11,6 @@ mod rows;
 
 pub(crate) use held::Held;
 pub(crate) use law::Tangent;
-pub(crate) use law::{Contents, Gas, Measure};
+pub(crate) use law::{Gas, Measure};
 pub(crate) use pockets::{Outside, Pockets};
 pub(super) use rows::append;

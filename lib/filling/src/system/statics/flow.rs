@@ -78,7 +78,7 @@ impl Flow {
             pressure: &vec![0.0; m],
             stiffness: &vec![1.0; m],
             lost: &[],
-            air: crate::system::Trapped::default(),
+            air: &[],
         };
         let system = operator.assemble(&self.speeds, before).unwrap();
         let (mut u, mut p) = (vec![0.0; n], vec![0.0; m]);

@@ -37,7 +37,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize, f6
         pressure: &vec![0.0; dofs.cells.len()],
         stiffness: &vec![1.0; dofs.cells.len()],
         lost: &[],
-        air: crate::system::Trapped::default(),
+        air: &[],
     };
     let system = operator.assemble(&[[0.0; 3]], before).unwrap();
     let pick =
