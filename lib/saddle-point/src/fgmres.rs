@@ -2,14 +2,11 @@
 
 use crate::SolveError;
 use crate::orthogonal::orthogonalise;
-use crate::vector::{Real, Work, add_scaled, dot_chunk, fit, for_chunks, for_chunks_sum, norm};
+use crate::vector::{Real, Work, add_scaled, dot_chunk, fit, for_chunks, for_chunks_sum};
 
 /// The estimated residual is driven this far below the tolerance, so that its rounding does not
 /// cost another cycle.
 const MARGIN: f64 = 0.98;
-
-/// Part of the solution's size below which a residual is rounding.
-const ROUNDING: f64 = 1e-14;
 
 /// The linear operator of the system, in double precision.
 pub(crate) trait Operator {
@@ -66,8 +63,7 @@ pub(crate) fn fgmres<K: Operator>(
         history.pop();
         history.push(residual / size);
         let iterations = history.len() - 1;
-        let wanted = (limits.tolerance * size).max(ROUNDING * norm(x));
-        if residual <= wanted {
+        if residual <= limits.tolerance * size {
             return Ok(history);
         }
         let overflow = |after: usize, residual: f64| SolveError::Overflow {
@@ -85,7 +81,7 @@ pub(crate) fn fgmres<K: Operator>(
             });
         }
         let steps = limits.restart.min(limits.max_iterations - iterations);
-        let target = MARGIN * wanted;
+        let target = MARGIN * limits.tolerance * size;
         let mut least_squares = LeastSquares::new(residual);
         normalise(&space.vector, residual, slot(&mut space.basis, 0));
         for k in 0..steps {

@@ -20,6 +20,7 @@ mod poisson;
 mod saddle;
 mod scaled;
 mod schur;
+mod sealed;
 mod simd;
 mod system;
 mod vanka;

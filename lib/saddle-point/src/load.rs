@@ -2,6 +2,7 @@
 
 use crate::fgmres::Operator;
 use crate::saddle::Preconditioner;
+use crate::sealed::Held;
 use crate::vector::{Real, Work, add_scaled, dot};
 use crate::{SaddleSystem, SolveError, check_length};
 
@@ -119,11 +120,15 @@ fn split<X: Real>(x: &[X]) -> (&[X], X) {
 }
 
 /// The preconditioner M of the system without the body, bordered: with the column k of V and
-/// z = M^-1 k, V = (r_V - k^T M^-1 r)/(d - k^T z) and x = M^-1 r - V z.
+/// z = M^-1 k, V = (r_V - k^T M^-1 r)/(d - k^T z) and x = M^-1 r - V z; and with the mean pressures of sealed pockets, of
+/// n cells each, (s V - r)/C by means s of the column and r of the residual: d is larger by sum n s^2/C, and
+/// r_V by sum n s r/C.
 pub(crate) struct Bordered<'a> {
     inner: Preconditioner<'a>,
+    faces: usize,
     column: Vec<Work>,
     response: Vec<Work>,
+    held: Held,
     pivot: f64,
 }
 
@@ -132,14 +137,32 @@ impl<'a> Bordered<'a> {
         let column = load.column(weight);
         let mut response = Vec::new();
         inner.apply(&column, &mut response);
+        let held = inner.sealed().hold(&column[load.momentum.len()..]);
         // Positive for a preconditioner near enough to the system, which resists.
-        let pivot = weight * weight * load.resistance - dot(&column, &response);
+        let pivot = weight * weight * load.resistance - dot(&column, &response) + held.resistance();
         Self {
             inner,
+            faces: load.momentum.len(),
             column,
             response,
+            held,
             pivot: pivot.abs().max(f64::MIN_POSITIVE),
         }
+    }
+
+    /// Adds mean pressures of sealed pockets and the speed that follow from the residual `r` to `x`, in double
+    /// precision before the first cycle: in single precision the rest would be lost beside them.
+    pub(crate) fn begin(&self, r: &[f64], x: &mut [f64]) {
+        let resistance = self.held.resistance();
+        if resistance <= 0.0 {
+            return;
+        }
+        let ((r, force), (x, speed)) = (split(r), x.split_at_mut(x.len() - 1));
+        let pockets = &self.inner.sealed().pockets;
+        let means = pockets.means(&r[self.faces..]);
+        let change = (force - self.held.push(&means)) / resistance;
+        pockets.subtract(&self.held.suction(&means, change), &mut x[self.faces..]);
+        speed[0] += change;
     }
 
     pub(crate) fn inner(&self) -> &Preconditioner<'a> {
@@ -149,8 +172,12 @@ impl<'a> Bordered<'a> {
     pub(crate) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
         let (r, force) = r.split_at(r.len() - 1);
         self.inner.apply(r, z);
-        let speed = (f64::from(force[0]) - dot(&self.column, z)) / self.pivot;
+        let (pockets, faces) = (&self.inner.sealed().pockets, self.faces);
+        let means = pockets.means(&r[faces..]);
+        let force = f64::from(force[0]) - dot(&self.column, z) - self.held.push(&means);
+        let speed = force / self.pivot;
         add_scaled(z, -speed, &self.response);
+        pockets.subtract(&self.held.suction(&means, speed), &mut z[faces..]);
         z.push(Work::nearest(speed));
     }
 }

@@ -33,6 +33,11 @@ impl ClosedPockets {
         Self { members }
     }
 
+    /// Numbers of their rows.
+    pub(crate) fn sizes(&self) -> impl Iterator<Item = f64> {
+        self.members.iter().map(|pocket| pocket.len() as f64)
+    }
+
     /// Means over every closed pocket.
     pub(crate) fn means<T: Real>(&self, x: &[T]) -> Vec<f64> {
         let mean = |pocket: &Vec<u32>| {

@@ -10,9 +10,13 @@ use crate::fgmres::{KrylovSpace, Limits, Operator, fgmres};
 use crate::load::{Bordered, Load, LoadedOperator};
 use crate::scaled::Scaled;
 use crate::schur::Schur;
+use crate::sealed::Sealed;
 use crate::system::SaddleSystem;
 use crate::vanka::Vanka;
-use crate::vector::{Real, Work, for_chunks};
+use crate::vector::{Real, Work, for_chunks, norm};
+
+/// Part of a solution's size below which a residual is rounding.
+const ROUNDING: f64 = 1e-14;
 
 /// Settings of the solver.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,11 +105,19 @@ impl SaddleSolver {
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
-        let limits = self.limits(system.measure_at(u));
+        let limits = self.limits(system.measure_at(u).max(self.rounding(&x)));
         let space = &mut self.space;
         let (rhs, options) = (system.right_hand_side(), &self.options);
         let report = prepared(system, options, |mut operator, mut preconditioner| {
-            let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
+            if !preconditioner.sealed().is_empty() {
+                let r = residual(&operator, &rhs, &x);
+                (preconditioner.sealed()).begin(&r[u.len()..], &mut x[u.len()..]);
+            }
+            let precondition = |r: &[Work], z: &mut Vec<Work>| {
+                preconditioner.apply(r, z);
+                let (r, z) = (&r[u.len()..], &mut z[u.len()..]);
+                preconditioner.sealed().add_means(r, z);
+            };
             let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
             (result, preconditioner.bound())
         });
@@ -128,9 +140,9 @@ impl SaddleSolver {
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         load.check(system)?;
-        let moving = load.measure(system, *speed);
-        let weight = moving / load.scale;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
+        let moving = load.measure(system, *speed).max(self.rounding(&x));
+        let weight = moving / load.scale;
         x.push(*speed / weight);
         let mut rhs = system.right_hand_side();
         rhs.push(weight * load.force);
@@ -145,6 +157,9 @@ impl SaddleSolver {
                 weight,
             };
             let mut bordered = Bordered::new(preconditioner, load, weight);
+            if !bordered.inner().sealed().is_empty() {
+                bordered.begin(&residual(&operator, &rhs, &x), &mut x);
+            }
             let precondition = |r: &[Work], z: &mut Vec<Work>| bordered.apply(r, z);
             let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
             (result, bordered.inner().bound())
@@ -152,6 +167,11 @@ impl SaddleSolver {
         *speed = weight * x.pop().unwrap_or_default();
         spread(&x, u, p);
         report.map_err(|error| explained(error, system))
+    }
+
+    /// Least that the tolerance is to be relative to: no residual is smaller than the rounding of what stands.
+    fn rounding(&self, guess: &[f64]) -> f64 {
+        ROUNDING * norm(guess) / self.options.tolerance
     }
 
     fn limits(&self, size: f64) -> Limits {
@@ -193,6 +213,16 @@ fn prepared(
             iteration: started.elapsed() - setup,
         })
     })
+}
+
+/// `b - K x`.
+fn residual(operator: &impl Operator, b: &[f64], x: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; b.len()];
+    operator.apply_exactly(x, &mut out);
+    for (out, b) in out.iter_mut().zip(b) {
+        *out = b - *out;
+    }
+    out
 }
 
 fn spread(x: &[f64], u: &mut [f64], p: &mut [f64]) {
@@ -272,6 +302,11 @@ impl<'a> Preconditioner<'a> {
             volume: vec![Work::default(); system.g.n_rows()],
             left: Vec::new(),
         })
+    }
+
+    /// The pockets whose means it leaves alone.
+    pub(crate) fn sealed(&self) -> &Sealed {
+        self.schur.sealed()
     }
 
     fn bound(&self) -> f64 {

@@ -3,28 +3,20 @@
 use crate::SolveError;
 use crate::amg::{Amg, Workspace};
 use crate::csr::Csr;
-use crate::pockets::ClosedPockets;
 use crate::poisson::operator;
+use crate::sealed::Sealed;
 use crate::system::SaddleSystem;
 use crate::vector::{Real, Work, for_chunks};
 
 /// `2 eta` times the response `sum g^2/A_ff` of a full cell's faces: six of area one, with `A_ff = 8 eta`.
 const FULL_CELL: f64 = 1.5;
 
-/// Row sums of a component below this fraction of its diagonals are lost in the cycle's single precision.
-const SEALED: f64 = 1e-8;
-/// Most by which the mean pressure of a closed pocket answers its volume, over `E`: all that its stiff liquid does is beyond
-/// single precision, and what is missing costs an iteration or two.
-const STIFF: f64 = 1e5;
-
 /// `S^-1 ~ E + (G D_B^-1 G^T + C)^-1`: the viscous part by the local viscosity, `E = 2 eta`, and less where a
 /// cell's fluxes answer more than those of a full cell; and the part of inertia and lumen friction `D_B` by a multigrid cycle (after Cahouet & Chabard 1988, Int. J.
 /// Numer. Meth. Fluids 8, 869-895, with Darcy friction joined to inertia).
 pub(crate) struct Schur {
     amg: Amg,
-    pockets: ClosedPockets,
-    /// Mean pressure over mean volume of each closed pocket, `1/C` or [`STIFF`] times `E`.
-    stiffness: Vec<f64>,
+    sealed: Sealed,
     viscous: Vec<Work>,
     workspace: Workspace,
     friction_part: Vec<Work>,
@@ -38,42 +30,33 @@ impl Schur {
             0 => matrix,
             _ => tamed(&matrix)?,
         };
-        let (pockets, viscous) = (ClosedPockets::find(&matrix, SEALED), viscous_part(system));
-        let stiffness = (pockets.means(system.c).into_iter())
-            .zip(pockets.means(&viscous))
-            .map(|(c, e)| {
-                if c > 0.0 {
-                    (1.0 / c).min(STIFF * e)
-                } else {
-                    0.0
-                }
-            });
+        let viscous = viscous_part(system);
         Ok(Self {
             amg: Amg::new(&matrix)?,
-            stiffness: stiffness.collect(),
-            pockets,
+            sealed: Sealed::find(&matrix, system.c, &viscous),
             viscous,
             workspace: Workspace::default(),
             friction_part: Vec::new(),
         })
     }
 
-    /// `p = -S^-1 r`; `r` loses its mean over closed pockets.
+    /// The pockets whose means it leaves alone.
+    pub(crate) fn sealed(&self) -> &Sealed {
+        &self.sealed
+    }
+
+    /// `p = -S^-1 r` but for the means over sealed pockets, which `r` loses.
     pub(crate) fn apply_negative(&mut self, r: &mut [Work], p: &mut [Work]) {
-        let mut means = self.pockets.means(r);
-        self.pockets.subtract(&means, r);
+        let pockets = &self.sealed.pockets;
+        pockets.remove_mean(r);
         (self.amg).cycle(r, &mut self.friction_part, &mut self.workspace);
-        self.pockets.remove_mean(&mut self.friction_part);
+        pockets.remove_mean(&mut self.friction_part);
         let (viscous, friction_part) = (&self.viscous, &self.friction_part);
         for_chunks(p, |start, part| {
             for (i, p) in part.iter_mut().enumerate() {
                 *p = -(friction_part[start + i] + viscous[start + i] * r[start + i]);
             }
         });
-        for (mean, stiffness) in means.iter_mut().zip(&self.stiffness) {
-            *mean *= stiffness;
-        }
-        self.pockets.subtract(&means, p);
     }
 }
 

@@ -7,6 +7,7 @@ mod poisson;
 #[path = "../pseudo_wood/mod.rs"]
 mod pseudo_wood;
 mod sizes;
+mod standing;
 
 use pseudo_wood::{Case, Problem};
 use saddle_point::{Csr, SaddleOptions, SaddleReport, SaddleSolver, SolveError};

@@ -1,0 +1,94 @@
+//! Liquid that stands under pressure, or nearly.
+
+use saddle_point::{Csr, Load, SaddleSolver, SaddleSystem};
+
+use crate::{options, pockets};
+
+/// A wall drives liquid slowly along a row of cells into a void with gas, which pushes back a million times as
+/// hard as that takes, and which the liquid's pressure from before balances.
+#[test]
+fn a_slow_flow_against_gas_is_solved_to_the_tolerance() {
+    let (moved, pressure, faces) = (1e-3, 1e3, 40);
+    let (row, friction) = pockets(0, faces);
+    let g = Csr::assemble(faces + 1, faces, |cell, entries| match cell == faces {
+        true => entries.add(faces - 1, -1.0),
+        false => {
+            let (columns, values) = row.row(cell);
+            for (&column, &value) in columns.iter().zip(values) {
+                entries.add(column as usize, value);
+            }
+        }
+    })
+    .unwrap();
+    let a = Csr::assemble(faces, faces, |row, entries| entries.add(row, 2.0)).unwrap();
+    let (mut source, mut c) = (vec![0.0; faces + 1], vec![0.0; faces + 1]);
+    (source[0], c[faces]) = (moved, 1e3);
+    let mut push = vec![0.0; faces];
+    push[faces - 1] = -pressure;
+    let system = SaddleSystem {
+        a: &a,
+        g: &g,
+        pockets: 1,
+        c: &c,
+        friction: &friction,
+        two_eta: &[2.0; 41],
+        b: &push,
+        standing: &push,
+        volume_source: &source,
+        carried: &[0.0; 41],
+    };
+    let (mut u, mut p) = (vec![0.0; faces], vec![pressure; faces + 1]);
+    p[faces] = 0.0;
+    (SaddleSolver::new(options(1e-3)).solve(&system, &mut u, &mut p)).unwrap();
+    let error = (u.iter()).fold(0.0, |most: f64, u| most.max((u / moved - 1.0).abs()));
+    println!("velocities off by {error:.1e} of the wall's");
+    assert!(error < 2e-3);
+}
+
+/// A wall under a force on a row of cells that is closed: all of them come to the pressure of the force, whether
+/// what the liquid gives way by is lost in double precision or in single precision.
+#[test]
+fn sealed_liquid_comes_to_the_pressure_of_its_load() {
+    let cells = 200;
+    let (g, _) = pockets(cells, 0);
+    let a = Csr::assemble(cells, cells, |row, entries| entries.add(row, 2.0)).unwrap();
+    let nothing = vec![0.0; cells];
+    let mut source = nothing.clone();
+    source[0] = 1.0;
+    let load = Load {
+        momentum: nothing.clone(),
+        source,
+        resistance: 0.0,
+        force: 3.0,
+        scale: 3.0,
+    };
+    for c in [1e-17, 1e-13, 1e-9] {
+        let system = SaddleSystem {
+            a: &a,
+            g: &g,
+            pockets: 0,
+            c: &vec![c; cells],
+            friction: &vec![2.0; cells],
+            two_eta: &vec![2.0; cells],
+            b: &nothing,
+            standing: &[],
+            volume_source: &nothing,
+            carried: &vec![c; cells],
+        };
+        let (mut u, mut p, mut speed) = (nothing.clone(), vec![1.0; cells], c);
+        let report = SaddleSolver::new(options(1e-3))
+            .solve_loaded(&system, &load, &mut u, &mut p, &mut speed)
+            .unwrap();
+        // From 1 to 3 in each.
+        let volume = 2.0 * c * cells as f64;
+        println!(
+            "C {c:.0e}: speed off by {:+.1e}, pressure at the end {:.6}; {} iterations",
+            speed / volume - 1.0,
+            p[cells - 1],
+            report.iterations()
+        );
+        assert!((p[cells - 1] / 3.0 - 1.0).abs() < 2e-3);
+        // The smaller volume is rounding of the pressures, and moves nothing.
+        assert!((speed - volume).abs() < 2e-3 * volume.max(1e-11));
+    }
+}
