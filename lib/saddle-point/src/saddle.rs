@@ -113,11 +113,7 @@ impl SaddleSolver {
                 let r = residual(&operator, &rhs, &x);
                 (preconditioner.sealed()).begin(&r[u.len()..], &mut x[u.len()..]);
             }
-            let precondition = |r: &[Work], z: &mut Vec<Work>| {
-                preconditioner.apply(r, z);
-                let (r, z) = (&r[u.len()..], &mut z[u.len()..]);
-                preconditioner.sealed().add_means(r, z);
-            };
+            let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
             let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
             (result, preconditioner.bound())
         });

@@ -33,7 +33,7 @@ impl Schur {
         let viscous = viscous_part(system);
         Ok(Self {
             amg: Amg::new(&matrix)?,
-            sealed: Sealed::find(&matrix, system.c, &viscous),
+            sealed: Sealed::find(&matrix, system.c),
             viscous,
             workspace: Workspace::default(),
             friction_part: Vec::new(),

@@ -6,28 +6,21 @@ use crate::vector::Work;
 
 /// Row sums of a component below this fraction of its diagonals are lost in the cycle's single precision.
 const SEALED: f64 = 1e-8;
-/// Most by which a mean pressure that no load holds answers its volume, over that of a cell's viscosity: in single
-/// precision the rest of the pressures is lost beside more, and what is missing costs an iteration or two.
-const STIFF: f64 = 1e5;
-
 /// Closed pockets and what their compressible liquid resists with. No flow changes the volume of one: its mean
 /// residual is of mean pressure and bodies alone, `-C p + s V`.
 pub(crate) struct Sealed {
     pub(crate) pockets: ClosedPockets,
     /// Mean of `1/C`; none where that is zero.
     stiffness: Vec<f64>,
-    /// Most of it without a load.
-    bound: Vec<f64>,
 }
 
 impl Sealed {
-    /// Those of the Poisson operator `matrix`, of the compressibility `c` and with `viscous` pressures over volumes.
-    pub(crate) fn find(matrix: &Csr<f64>, c: &[f64], viscous: &[Work]) -> Self {
+    /// Those of the Poisson operator `matrix`, of the compressibility `c`.
+    pub(crate) fn find(matrix: &Csr<f64>, c: &[f64]) -> Self {
         let pockets = ClosedPockets::find(matrix, SEALED);
         let stiffness = |c: f64| if c > 0.0 { 1.0 / c } else { 0.0 };
         Self {
             stiffness: pockets.means(c).into_iter().map(stiffness).collect(),
-            bound: (pockets.means(viscous).iter()).map(|e| STIFF * e).collect(),
             pockets,
         }
     }
@@ -37,16 +30,7 @@ impl Sealed {
         self.stiffness.is_empty()
     }
 
-    /// Adds the means that follow from the volumes `r` to the pressures `z`.
-    pub(crate) fn add_means(&self, r: &[Work], z: &mut [Work]) {
-        let means: Vec<f64> = (self.pockets.means(r).iter())
-            .zip(self.stiffness.iter().zip(&self.bound))
-            .map(|(r, (stiffness, bound))| r * stiffness.min(*bound))
-            .collect();
-        self.pockets.subtract(&means, z);
-    }
-
-    /// The same in double precision, before the first cycle: there they may be as large as they are.
+    /// Adds the means that follow from the volumes `r` to the pressures `p`.
     pub(crate) fn begin(&self, r: &[f64], p: &mut [f64]) {
         let means: Vec<f64> = (self.pockets.means(r).iter())
             .zip(&self.stiffness)
@@ -58,11 +42,9 @@ impl Sealed {
     /// What a body meets that displaces `column` in each cell at unit speed.
     pub(crate) fn hold(&self, column: &[Work]) -> Held {
         let moved = self.pockets.means(column);
-        let stiffness = (moved.iter().zip(self.stiffness.iter().zip(&self.bound)))
-            .map(|(moved, (stiffness, bound))| match *moved {
-                0.0 => stiffness.min(*bound),
-                _ => *stiffness,
-            })
+        // Others stay as they began.
+        let stiffness = (moved.iter().zip(&self.stiffness))
+            .map(|(moved, stiffness)| if *moved == 0.0 { 0.0 } else { *stiffness })
             .collect();
         Held {
             whole: (moved.iter().zip(self.pockets.sizes()))

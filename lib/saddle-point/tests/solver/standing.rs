@@ -75,6 +75,15 @@ fn sealed_liquid_comes_to_the_pressure_of_its_load() {
             volume_source: &nothing,
             carried: &vec![c; cells],
         };
+        // Without the load the volume that a wall at rest takes up is all that compresses it.
+        let taken = SaddleSystem {
+            volume_source: &vec![c; cells],
+            ..system
+        };
+        let (mut u, mut p) = (nothing.clone(), vec![1.0; cells]);
+        (SaddleSolver::new(options(1e-3)).solve(&taken, &mut u, &mut p)).unwrap();
+        assert!((p[0] / 2.0 - 1.0).abs() < 2e-3, "{}", p[0]);
+
         let (mut u, mut p, mut speed) = (nothing.clone(), vec![1.0; cells], c);
         let report = SaddleSolver::new(options(1e-3))
             .solve_loaded(&system, &load, &mut u, &mut p, &mut speed)

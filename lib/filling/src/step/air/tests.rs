@@ -138,6 +138,20 @@ fn air_that_is_pressed_fast_has_the_pressure_of_its_volume() {
     }
 }
 
+/// A piston a thousand times as slow: the liquid moves by a millionth of what the air would drive it by. With the
+/// air's pressure in what a solve's tolerance is relative to, none moves, and the piston goes into it.
+#[test]
+fn air_that_is_pressed_slowly_has_the_pressure_of_its_volume() {
+    let speed = 2e-6;
+    let mut scheme = chamber(&[], [26, 30], speed, None);
+    run(&mut scheme, 2.0, speed, |_, pressure, way| {
+        let boyle = WIDE * P0 * (4.0 / (4.0 - way) - 1.0);
+        let error = pressure / boyle - 1.0;
+        println!("after {way:.3} cells {pressure:.0} Pa, Boyle {boyle:.0} Pa: {error:+.4}");
+        assert!(error.abs() < 0.02, "{error}");
+    });
+}
+
 /// A lid slides off a pocket that a piston compresses: the pressure is Boyle's until then, and none after.
 #[test]
 fn a_pocket_that_opens_comes_to_the_pressure_outside() {
