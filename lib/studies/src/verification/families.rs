@@ -60,7 +60,7 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
     ),
     (
         "air",
-        "Filling a slit with a closed end\n\nAt constant pressure, 4 p_0 above p_0, eight widths long: filled length by the piston's travel against (L + e) dL/dt = (H^2/12 eta) (P - p_0 (m/(L_0 - L) - 1)), m = L_0, to L_0 P/(P + p_0) in the end (Boyle); e is the equivalent length of entrance and front as for washburn. With a leak dm/dt = -(m/(L_0 - L) - 1) (L_0 - L)/t_leak beside it. The liquid in a slit of 6 cells takes up 1.5 % more of the lattice than its volume, with air or without: the front stands where the air's pressure is right, the travel is short of it.",
+        "Filling a slit with a closed end\n\nAt constant pressure, 4 p_0 above p_0, eight widths long: filled length by the piston's travel against (L + e) dL/dt = (H^2/12 eta) (P - p_0 (m/(L_0 - L) - 1)), m = L_0, to L_0 P/(P + p_0) in the end (Boyle); e is the equivalent length of entrance and front as for washburn. With a leak dm/dt = -(m/(L_0 - L) - 1) (L_0 - L)/t_leak beside it. The liquid in a slit of 6 cells takes up 1.5 % more of the lattice than its volume, with air or without; the air's volume is that of the travel.",
     ),
     (
         "spheres",

@@ -202,12 +202,20 @@ pub const GOALS: &[Goal] = &[
         0.05,
     ),
     goal(
-        "filling against closed-in air, 6 cells, at the end",
+        "filling against closed-in air, 6 cells, at rest",
         &["air-n6"],
+        "implicit",
+        "L at the end, Boyle",
+        0.02,
+    ),
+    goal(
+        "filling against air that leaks, 6 cells, at the end",
+        &["air-n6-leak"],
         "implicit",
         "L at the end",
         0.02,
-    ),
+    )
+    .because(AIR),
     goal(
         "filling against closed-in air, 6 cells, course",
         &["air-n6"],
