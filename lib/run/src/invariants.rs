@@ -6,6 +6,8 @@ use particle_file::{BitGrid, BitsRef};
 use physics::{Dimensions, LiquidState, Motion, RigidBody, Scene, VoxelBlock, Water, WaterState};
 use units::Axis;
 
+use crate::crowding::crowded;
+
 /// What was found in a state; counts of material points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Invariants {
@@ -19,6 +21,9 @@ pub struct Invariants {
     pub points_in_unreachable_voids: u64,
     /// Current over initial volume of the liquid, minus one; with the water that the liquid has given off.
     pub volume_change: f64,
+    /// Part of the liquid's volume that lies where there is no room for it: beyond one and a half times that of blocks
+    /// of two cells.
+    pub crowded: f64,
     /// Of a liquid that loses water: where that is.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub water: Option<WaterAccount>,
@@ -93,6 +98,7 @@ pub fn check(
     }
     let volume: f64 = liquid.volume.iter().map(|&v| f64::from(v)).sum();
     found.volume_change = volume / initial_volume - 1.0;
+    found.crowded = crowded(scene, liquid);
     found
 }
 

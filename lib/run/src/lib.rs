@@ -8,6 +8,7 @@ mod changes;
 mod checkpoint;
 mod chords;
 mod courant;
+mod crowding;
 mod drive;
 mod expected_error;
 mod explain;

@@ -36,7 +36,8 @@ impl Implicit {
         }))
     }
 
-    /// Stages 4 to 6, until the air has the pressures of its volumes; what leaks in the step leaves it.
+    /// Stages 4 to 6, until the air has the pressures of its volumes; what leaks in the step leaves it. The last
+    /// result is what the pockets beside liquid grow by, cells.
     pub(super) fn solve_with_air(
         &mut self,
         operator: &mut Operator,
@@ -44,9 +45,10 @@ impl Implicit {
         air: (&Pockets, &mut Held, &[f64]),
         trial: &Trial,
         now: &mut Unknowns,
-    ) -> Result<(Solved, Option<Viscous>), Failure> {
+    ) -> Result<(Solved, Option<Viscous>, Vec<f64>), Failure> {
         let Some((gas, _)) = self.setup.air else {
-            return self.solve_once(operator, before, now);
+            let (solved, viscous) = self.solve_once(operator, before, now)?;
+            return Ok((solved, viscous, Vec::new()));
         };
         let measure = Measure {
             dt: trial.dt,
@@ -58,7 +60,7 @@ impl Implicit {
         now.p.extend(tangents.iter().map(|t| t.pressure));
         let liquid = operator.dofs.cells.len();
         let mut pass = 1;
-        let solved = loop {
+        let (solved, viscous) = loop {
             let before = Before {
                 air: &tangents,
                 ..before
@@ -87,8 +89,11 @@ impl Implicit {
         let p = &now.p[liquid..];
         let wet = ..pockets.wet;
         held.passed[1] += gas.leak(&mut held.mass[wet], p, measure);
-        held.volume[wet].copy_from_slice(&gas.volumes(&tangents, p, measure));
-        Ok(solved)
+        let mut growth = gas.volumes(&tangents, p, measure);
+        for (end, start) in growth.iter_mut().zip(&held.volume) {
+            *end -= start;
+        }
+        Ok((solved, viscous, growth))
     }
 
     /// What a summary counts of the air, where it has pressures.

@@ -42,8 +42,8 @@ pub(super) struct Solution {
     pub(super) g: Csr<f64>,
     pub(super) face_volume: Vec<f64>,
     pub(super) cells: Cells,
-    /// Air of the pockets, where they have pressures.
-    pub(super) air: Option<Held>,
+    /// Air of the pockets, where they have pressures, and what those beside liquid grow by in the step, cells.
+    pub(super) air: Option<(Held, Vec<f64>)>,
 }
 
 /// The flow that a viscosity was taken from.
@@ -107,12 +107,15 @@ impl Implicit {
             lost: &lost,
             air: &[],
         };
-        let ((system, forces, power), viscous) = match (&pockets, &mut air) {
+        let ((system, forces, power), viscous, growth) = match (&pockets, &mut air) {
             (Some((pockets, fresh)), Some(held)) => {
                 let air = (pockets, held, &fresh[..]);
                 self.solve_with_air(&mut operator, before, air, trial, &mut now)?
             }
-            _ => self.solve_once(&mut operator, before, &mut now)?,
+            _ => {
+                let (solved, viscous) = self.solve_once(&mut operator, before, &mut now)?;
+                (solved, viscous, Vec::new())
+            }
         };
         let pick = |field: &[f32]| {
             (operator.dofs.cells.iter())
@@ -137,7 +140,7 @@ impl Implicit {
                 Some(_) => system.g.first_rows(operator.dofs.cells.len()),
                 None => system.g,
             },
-            air,
+            air: air.map(|held| (held, growth)),
             cells,
             face_volume: system.face_volume,
             dofs: operator.dofs,

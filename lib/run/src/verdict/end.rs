@@ -14,6 +14,8 @@ const ROUNDING: f64 = 1e-3;
 const MOST_IN_WOOD: f64 = 0.01;
 /// Volume change that the pressures of the points may leave unexplained.
 const MOST_UNEXPLAINED: f64 = 1e-3;
+/// Part of the liquid's volume that may lie where there is no room for it.
+const MOST_CROWDED: f64 = 1e-3;
 /// Part of the water that the account of it may miss.
 const MOST_WATER_MISSING: f64 = 1e-9;
 
@@ -53,6 +55,12 @@ pub(crate) fn judge(
             "{} of {left} material points lie in rigid bodies, more than {} %",
             found.points_in_wood,
             100.0 * MOST_IN_WOOD
+        ));
+    }
+    if found.crowded > MOST_CROWDED {
+        reasons.push(format!(
+            "{:.1} % of the liquid lies where there is no room for it, beyond one and a half times what two cells a side hold",
+            100.0 * found.crowded
         ));
     }
     let cavities = setup.scene.liquid.cavitation_pressure.is_some();
@@ -170,6 +178,14 @@ mod tests {
         assert!(fast.contains("above its speed of sound"), "{fast}");
         let grown = said(&|l| l.volume.iter_mut().for_each(|v| *v *= 1.01), 0);
         assert!(grown.contains("+1.00 % off"), "{grown}");
+        let crammed = said(
+            &|l| {
+                let first = l.position[0];
+                l.position.fill(first);
+            },
+            0,
+        );
+        assert!(crammed.contains("no room for it"), "{crammed}");
         let missing = said(
             &|l| {
                 l.position.pop();

@@ -1,0 +1,31 @@
+//! Liquid that is where there is no room for it.
+
+use physics::{Dimensions, LiquidState, Scene};
+
+/// Edge of the blocks that liquid is counted in, cells: of single cells, material points fill some half as much
+/// again by where they happen to be.
+const BLOCK: f64 = 2.0;
+/// Part of a block's room that the points in it may fill.
+const FULL: f64 = 1.5;
+
+/// Part of the liquid's volume that lies beyond [`FULL`] in its block, wood or not.
+pub(crate) fn crowded(scene: &Scene, liquid: &LiquidState) -> f64 {
+    let grid = &scene.grid;
+    let edge = BLOCK * grid.cell_m;
+    let count: [usize; 3] = grid.cells.map(|n| (n as f64 / BLOCK).ceil() as usize);
+    let room = match scene.dimensions {
+        Dimensions::Two => edge * edge * grid.cell_m,
+        Dimensions::Three => edge.powi(3),
+    };
+    let mut filled = vec![0.0; count.iter().product()];
+    for (position, &volume) in liquid.position.iter().zip(&liquid.volume) {
+        let [i, j, k] = std::array::from_fn(|a| {
+            let at = (f64::from(position[a]) - grid.min_m[a]) / edge;
+            (at.max(0.0) as usize).min(count[a] - 1)
+        });
+        filled[(k * count[1] + j) * count[0] + i] += f64::from(volume);
+    }
+    let whole: f64 = filled.iter().sum();
+    let beyond: f64 = filled.iter().map(|v| (v - FULL * room).max(0.0)).sum();
+    if whole > 0.0 { beyond / whole } else { 0.0 }
+}
