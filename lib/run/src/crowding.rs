@@ -27,5 +27,7 @@ pub(crate) fn crowded(scene: &Scene, liquid: &LiquidState) -> f64 {
     }
     let whole: f64 = filled.iter().sum();
     let beyond: f64 = filled.iter().map(|v| (v - FULL * room).max(0.0)).sum();
+    // Of little liquid a cell more or less is chance.
+    let beyond = (beyond - grid.cell_m.powi(3)).max(0.0);
     if whole > 0.0 { beyond / whole } else { 0.0 }
 }

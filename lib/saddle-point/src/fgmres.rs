@@ -17,6 +17,18 @@ pub(crate) trait Operator {
     fn apply(&mut self, x: &[Work], y: &mut [f64]);
 }
 
+/// What approximates the inverse of the operator.
+pub(crate) trait Precondition {
+    /// `z` is that of `r`.
+    fn apply(&mut self, r: &[Work], z: &mut Vec<Work>);
+
+    /// Whether there is anything that its precision cannot tell.
+    fn begins(&self) -> bool;
+
+    /// Adds that to `x` before a cycle, in double precision, by the residual `r`.
+    fn begin(&self, r: &[f64], x: &mut [f64]);
+}
+
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
@@ -39,7 +51,7 @@ pub(crate) struct KrylovSpace {
 /// last. The last entry is the true residual, the others are those of the recurrence.
 pub(crate) fn fgmres<K: Operator>(
     operator: &mut K,
-    mut precondition: impl FnMut(&[Work], &mut Vec<Work>),
+    preconditioner: &mut impl Precondition,
     b: &[f64],
     x: &mut [f64],
     limits: Limits,
@@ -59,11 +71,16 @@ pub(crate) fn fgmres<K: Operator>(
     fit(&mut space.vector, b.len());
     let mut history = Vec::new();
     loop {
-        let residual = true_residual(operator, b, x, &mut space.vector);
+        let mut residual = true_residual(operator, b, x, &mut space.vector);
+        if preconditioner.begins() {
+            preconditioner.begin(&space.vector, x);
+            residual = true_residual(operator, b, x, &mut space.vector);
+        }
+        let wanted = limits.tolerance * size;
         history.pop();
         history.push(residual / size);
         let iterations = history.len() - 1;
-        if residual <= limits.tolerance * size {
+        if residual <= wanted {
             return Ok(history);
         }
         let overflow = |after: usize, residual: f64| SolveError::Overflow {
@@ -81,13 +98,13 @@ pub(crate) fn fgmres<K: Operator>(
             });
         }
         let steps = limits.restart.min(limits.max_iterations - iterations);
-        let target = MARGIN * limits.tolerance * size;
+        let target = MARGIN * wanted;
         let mut least_squares = LeastSquares::new(residual);
         normalise(&space.vector, residual, slot(&mut space.basis, 0));
         for k in 0..steps {
             let z = slot(&mut space.preconditioned, k);
             fit(z, b.len());
-            precondition(&space.basis[k], z);
+            preconditioner.apply(&space.basis[k], z);
             operator.apply(z, &mut space.vector);
             let (column, remaining) = orthogonalise(&space.basis[..=k], &mut space.vector);
             if !remaining.is_finite() {
@@ -218,6 +235,20 @@ mod tests {
         }
     }
 
+    struct Identity;
+
+    impl Precondition for Identity {
+        fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+            z.clone_from(&r.to_vec());
+        }
+
+        fn begins(&self) -> bool {
+            false
+        }
+
+        fn begin(&self, _: &[f64], _: &mut [f64]) {}
+    }
+
     /// Residuals by iteration, and how often the operator was applied.
     fn solve(tolerance: f64) -> (Vec<f64>, usize) {
         let (mut diagonal, mut x) = (Diagonal(AtomicUsize::new(0)), vec![0.0; 30]);
@@ -227,9 +258,16 @@ mod tests {
             max_iterations: 25,
             restart: 25,
         };
-        let identity = |from: &[Work], to: &mut Vec<Work>| to.clone_from(&from.to_vec());
         let space = &mut KrylovSpace::default();
-        let history = fgmres(&mut diagonal, identity, &[1.0; 30], &mut x, limits, space).unwrap();
+        let history = fgmres(
+            &mut diagonal,
+            &mut Identity,
+            &[1.0; 30],
+            &mut x,
+            limits,
+            space,
+        )
+        .unwrap();
         (history, diagonal.0.into_inner())
     }
 

@@ -1,6 +1,6 @@
 //! A body of unknown speed under a known force, as one more unknown of the coupled system.
 
-use crate::fgmres::Operator;
+use crate::fgmres::{Operator, Precondition};
 use crate::saddle::Preconditioner;
 use crate::sealed::Held;
 use crate::vector::{Real, Work, add_scaled, dot};
@@ -137,7 +137,8 @@ impl<'a> Bordered<'a> {
         let column = load.column(weight);
         let mut response = Vec::new();
         inner.apply(&column, &mut response);
-        let held = inner.sealed().hold(&column[load.momentum.len()..]);
+        let source: Vec<f64> = load.source.iter().map(|s| weight * s).collect();
+        let held = inner.sealed().hold(&source);
         // Positive for a preconditioner near enough to the system, which resists.
         let pivot = weight * weight * load.resistance - dot(&column, &response) + held.resistance();
         Self {
@@ -150,26 +151,13 @@ impl<'a> Bordered<'a> {
         }
     }
 
-    /// Adds mean pressures of sealed pockets and the speed that follow from the residual `r` to `x`, in double
-    /// precision before the first cycle: in single precision the rest would be lost beside them.
-    pub(crate) fn begin(&self, r: &[f64], x: &mut [f64]) {
-        let resistance = self.held.resistance();
-        if resistance <= 0.0 {
-            return;
-        }
-        let ((r, force), (x, speed)) = (split(r), x.split_at_mut(x.len() - 1));
-        let pockets = &self.inner.sealed().pockets;
-        let means = pockets.means(&r[self.faces..]);
-        let change = (force - self.held.push(&means)) / resistance;
-        pockets.subtract(&self.held.suction(&means, change), &mut x[self.faces..]);
-        speed[0] += change;
-    }
-
     pub(crate) fn inner(&self) -> &Preconditioner<'a> {
         &self.inner
     }
+}
 
-    pub(crate) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+impl Precondition for Bordered<'_> {
+    fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
         let (r, force) = r.split_at(r.len() - 1);
         self.inner.apply(r, z);
         let (pockets, faces) = (&self.inner.sealed().pockets, self.faces);
@@ -179,6 +167,23 @@ impl<'a> Bordered<'a> {
         add_scaled(z, -speed, &self.response);
         pockets.subtract(&self.held.suction(&means, speed), &mut z[faces..]);
         z.push(Work::nearest(speed));
+    }
+
+    fn begins(&self) -> bool {
+        !self.inner.sealed().is_empty()
+    }
+
+    /// Adds mean pressures of sealed pockets and the speed: in single precision the rest would be lost beside them.
+    fn begin(&self, r: &[f64], x: &mut [f64]) {
+        let sealed = self.inner.sealed();
+        let ((r, force), (x, speed)) = (split(r), x.split_at_mut(x.len() - 1));
+        let means = sealed.pockets.means(&r[self.faces..]);
+        let change = (force - self.held.push(&means)) / self.pivot;
+        let suction = self.held.suction(&means, change);
+        // Where the body displaces nothing, what the pocket holds is all that counts.
+        sealed.begin_others(&self.held, &means, &mut x[self.faces..]);
+        sealed.pockets.subtract(&suction, &mut x[self.faces..]);
+        speed[0] += change;
     }
 }
 

@@ -3,34 +3,43 @@
 use crate::csr::Csr;
 use crate::vector::Real;
 
-/// Row sums of a component below this fraction of its diagonals count as zero.
-pub(crate) const ROUNDING: f64 = 1e-12;
+/// A row sum below this fraction of the diagonal counts as zero.
+const ROUNDING: f64 = 1e-12;
 
-/// The connected components of the rows of a matrix on which the entries sum to next to nothing, so
+/// The connected components of the rows of a matrix on which the entries sum to nothing, or next to it, so
 /// that a constant is in the null space, or nearly.
 pub(crate) struct ClosedPockets {
     members: Vec<Vec<u32>>,
 }
 
 impl ClosedPockets {
-    /// Those on which the row sums are less than `part` of the diagonals.
-    pub(crate) fn find(matrix: &Csr<f64>, part: f64) -> Self {
+    /// Those in all of whose rows the sum is zero.
+    pub(crate) fn find(matrix: &Csr<f64>) -> Self {
+        Self::of(matrix, |pocket| {
+            (pocket.iter()).all(|&row| {
+                let (sum, diagonal) = sum_and_diagonal(matrix, row);
+                sum.abs() <= ROUNDING * diagonal
+            })
+        })
+    }
+
+    /// The components that `closed` finds so.
+    pub(crate) fn of(matrix: &Csr<f64>, closed: impl Fn(&[u32]) -> bool) -> Self {
         let n = matrix.n_rows();
         let mut reached = vec![false; n];
         let mut members = Vec::new();
         for first in 0..n as u32 {
             let pocket = flood(matrix, &mut reached, first);
-            let (mut leak, mut whole) = (0.0, 0.0);
-            for &row in &pocket {
-                let (columns, values) = matrix.row(row as usize);
-                leak += values.iter().sum::<f64>().abs();
-                whole += columns.binary_search(&row).map_or(0.0, |at| values[at]);
-            }
-            if !pocket.is_empty() && leak <= part * whole {
+            if !pocket.is_empty() && closed(&pocket) {
                 members.push(pocket);
             }
         }
         Self { members }
+    }
+
+    /// The rows of each.
+    pub(crate) fn members(&self) -> &[Vec<u32>] {
+        &self.members
     }
 
     /// Numbers of their rows.
@@ -63,6 +72,13 @@ impl ClosedPockets {
     }
 }
 
+/// Sum and diagonal of a row.
+pub(crate) fn sum_and_diagonal(matrix: &Csr<f64>, row: u32) -> (f64, f64) {
+    let (columns, values) = matrix.row(row as usize);
+    let diagonal = columns.binary_search(&row).map_or(0.0, |at| values[at]);
+    (values.iter().sum(), diagonal)
+}
+
 /// Marks every row connected to `first`, and returns them; none where it was marked before.
 fn flood(matrix: &Csr<f64>, reached: &mut [bool], first: u32) -> Vec<u32> {
     if std::mem::replace(&mut reached[first as usize], true) {
@@ -85,17 +101,15 @@ fn flood(matrix: &Csr<f64>, reached: &mut [bool], first: u32) -> Vec<u32> {
 mod tests {
     use super::*;
 
-    /// Two cells, and the part of their diagonals by which the sum of the second row is not zero.
+    /// Two cells, and the part of the diagonal by which the sum of the second row is not zero.
     #[test]
-    fn row_sums_of_rounding_close_a_pocket() {
+    fn a_row_sum_of_rounding_closes_a_pocket() {
         let pockets = |part: f64| {
             let matrix = Csr::assemble(2, 2, |row, entries| {
-                entries.add(row, if row == 0 { 1.0 } else { 1.0 + 2.0 * part });
+                entries.add(row, if row == 0 { 1.0 } else { 1.0 + part });
                 entries.add(1 - row, -1.0);
             });
-            ClosedPockets::find(&matrix.unwrap(), ROUNDING)
-                .members
-                .len()
+            ClosedPockets::find(&matrix.unwrap()).members.len()
         };
         assert_eq!([0.0, 0.75e-12, 1.5e-12].map(pockets), [1, 1, 0]);
     }

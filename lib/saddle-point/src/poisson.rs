@@ -3,7 +3,7 @@
 use crate::amg::Amg;
 use crate::csr::Csr;
 use crate::pcg::pcg;
-use crate::pockets::{ClosedPockets, ROUNDING};
+use crate::pockets::ClosedPockets;
 use crate::{SolveError, check_length};
 
 /// `L = G W G^T + C` with its multigrid hierarchy; `G` is cells x faces, `W` and `C` diagonal.
@@ -50,7 +50,7 @@ impl Poisson {
         }
         let matrix = operator(g, g_transposed, weight, c)?;
         let amg = Amg::new(&matrix)?;
-        let pockets = ClosedPockets::find(&matrix, ROUNDING);
+        let pockets = ClosedPockets::find(&matrix);
         Ok(Self {
             matrix,
             amg,

@@ -6,7 +6,7 @@ use crate::SolveError;
 use crate::cause::explained;
 use crate::chebyshev::Chebyshev;
 use crate::csr::Csr;
-use crate::fgmres::{KrylovSpace, Limits, Operator, fgmres};
+use crate::fgmres::{KrylovSpace, Limits, Operator, Precondition, fgmres};
 use crate::load::{Bordered, Load, LoadedOperator};
 use crate::scaled::Scaled;
 use crate::schur::Schur;
@@ -105,16 +105,13 @@ impl SaddleSolver {
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
-        let limits = self.limits(system.measure_at(u).max(self.rounding(&x)));
+        let known = system.measure(system.b, system.volume_source);
+        let limits = self.limits(known.hypot(system.brought(u)).max(self.rounding(&x)));
         let space = &mut self.space;
         let (rhs, options) = (system.right_hand_side(), &self.options);
         let report = prepared(system, options, |mut operator, mut preconditioner| {
-            if !preconditioner.sealed().is_empty() {
-                let r = residual(&operator, &rhs, &x);
-                (preconditioner.sealed()).begin(&r[u.len()..], &mut x[u.len()..]);
-            }
-            let precondition = |r: &[Work], z: &mut Vec<Work>| preconditioner.apply(r, z);
-            let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
+            let preconditioner = &mut preconditioner;
+            let result = fgmres(&mut operator, preconditioner, &rhs, &mut x, limits, space);
             (result, preconditioner.bound())
         });
         spread(&x, u, p);
@@ -137,13 +134,15 @@ impl SaddleSolver {
         system.check(u, p)?;
         load.check(system)?;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
-        let moving = load.measure(system, *speed).max(self.rounding(&x));
+        let moving = (load.measure(system, *speed))
+            .hypot(system.brought(u))
+            .max(self.rounding(&x));
         let weight = moving / load.scale;
         x.push(*speed / weight);
         let mut rhs = system.right_hand_side();
         rhs.push(weight * load.force);
         // The force row weighs as much as the others do with the body moving.
-        let resting = system.measure_at(u);
+        let resting = system.measure(system.b, system.volume_source);
         let limits = self.limits(resting.hypot(moving));
         let (space, options) = (&mut self.space, &self.options);
         let report = prepared(system, options, |inner, preconditioner| {
@@ -153,11 +152,7 @@ impl SaddleSolver {
                 weight,
             };
             let mut bordered = Bordered::new(preconditioner, load, weight);
-            if !bordered.inner().sealed().is_empty() {
-                bordered.begin(&residual(&operator, &rhs, &x), &mut x);
-            }
-            let precondition = |r: &[Work], z: &mut Vec<Work>| bordered.apply(r, z);
-            let result = fgmres(&mut operator, precondition, &rhs, &mut x, limits, space);
+            let result = fgmres(&mut operator, &mut bordered, &rhs, &mut x, limits, space);
             (result, bordered.inner().bound())
         });
         *speed = weight * x.pop().unwrap_or_default();
@@ -209,16 +204,6 @@ fn prepared(
             iteration: started.elapsed() - setup,
         })
     })
-}
-
-/// `b - K x`.
-fn residual(operator: &impl Operator, b: &[f64], x: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; b.len()];
-    operator.apply_exactly(x, &mut out);
-    for (out, b) in out.iter_mut().zip(b) {
-        *out = b - *out;
-    }
-    out
 }
 
 fn spread(x: &[f64], u: &mut [f64], p: &mut [f64]) {
@@ -308,9 +293,11 @@ impl<'a> Preconditioner<'a> {
     fn bound(&self) -> f64 {
         self.chebyshev.bound()
     }
+}
 
+impl Precondition for Preconditioner<'_> {
     /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`; then the sweep.
-    pub(crate) fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+    fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
         let (r_u, r_p) = r.split_at(self.g.n_columns());
         z.resize(r.len(), Work::default());
         let (velocity, pressure) = z.split_at_mut(r_u.len());
@@ -334,5 +321,14 @@ impl<'a> Preconditioner<'a> {
         let push = |face| Work::nearest(g_transposed.row_times_wide(face, p));
         let left = (self.chebyshev.residual(push), &self.left[..]);
         self.vanka.sweep(left, self.scale, velocity, pressure);
+    }
+
+    fn begins(&self) -> bool {
+        !self.sealed().is_empty()
+    }
+
+    fn begin(&self, r: &[f64], x: &mut [f64]) {
+        let faces = self.g.n_columns();
+        self.sealed().begin(&r[faces..], &mut x[faces..]);
     }
 }

@@ -64,16 +64,21 @@ impl SaddleSystem<'_> {
         motion.max(FAINT * motion.hypot(norm(self.carried)))
     }
 
-    /// [`SaddleSystem::measure`] for what is known of it, and what resists the flow of the guess `u` where pressures
-    /// stand.
-    pub(crate) fn measure_at(&self, u: &[f64]) -> f64 {
-        let known = self.measure(self.b, self.volume_source);
+    /// What the flow of the guess `u` brings to pockets of gas through their faces, where pressures stand; else nothing.
+    pub(crate) fn brought(&self, u: &[f64]) -> f64 {
         if self.standing.is_empty() {
-            return known;
+            return 0.0;
         }
-        let mut drag = vec![0.0; u.len()];
-        self.a.multiply(u, &mut drag);
-        known.hypot(norm(&drag))
+        let square = |row: usize| -> f64 {
+            let (faces, areas) = self.g.row(row);
+            (faces.iter().zip(areas))
+                .map(|(&face, area)| (area * u[face as usize]).powi(2))
+                .sum()
+        };
+        (self.cells()..self.g.n_rows())
+            .map(square)
+            .sum::<f64>()
+            .sqrt()
     }
 
     /// Refuses lengths that do not fit, with those of the guess, and values that are not as described.

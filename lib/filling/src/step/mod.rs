@@ -160,9 +160,7 @@ impl Implicit {
         // 7. Transport.
         let field = self.transport(lattice, &mut solution, &after, dt);
         if let Some((mut air, growth)) = solution.air.take() {
-            for (volume, growth) in air.volume.iter_mut().zip(growth) {
-                *volume += growth * (dt / trial.dt);
-            }
+            air.grow(&growth, dt / trial.dt);
             self.state.air = air;
         }
         // 8. Density projection; then particles take what is there, bodies and time advance.

@@ -101,3 +101,107 @@ fn sealed_liquid_comes_to_the_pressure_of_its_load() {
         assert!((speed - volume).abs() < 2e-3 * volume.max(1e-11));
     }
 }
+
+/// Beside liquid under a load stands sealed liquid that the load's body does not touch, or carries along, and that
+/// loses volume: its pressure falls by that over its compressibility, and the load is borne by the other.
+#[test]
+fn sealed_liquid_beside_a_load_keeps_its_own_pressure() {
+    let cells = 100;
+    let (g, friction) = pockets(cells, cells);
+    let all = 2 * cells;
+    let a = Csr::assemble(all, all, |row, entries| entries.add(row, 2.0)).unwrap();
+    let nothing = vec![0.0; all];
+    for carried in [[0.0; 3], [0.1, 0.2, -0.3]] {
+        let mut displaced = nothing.clone();
+        displaced[..3].copy_from_slice(&carried);
+        displaced[cells] = 1.0;
+        let load = Load {
+            momentum: nothing.clone(),
+            source: displaced,
+            resistance: 0.0,
+            force: 3.0,
+            scale: 3.0,
+        };
+        for (c, lost) in [(1e-9, 1e-6), (1e-9, 1e-4), (1e-12, 1e-9)] {
+            let mut source = nothing.clone();
+            source[..cells].fill(-lost);
+            let system = SaddleSystem {
+                a: &a,
+                g: &g,
+                pockets: 0,
+                c: &vec![c; all],
+                friction: &friction.iter().map(|d| 2.0 * d).collect::<Vec<_>>(),
+                two_eta: &vec![2.0; all],
+                b: &nothing,
+                standing: &[],
+                volume_source: &source,
+                carried: &nothing,
+            };
+            let (mut u, mut p, mut speed) = (nothing.clone(), nothing.clone(), 0.01);
+            let report = SaddleSolver::new(options(1e-3))
+                .solve_loaded(&system, &load, &mut u, &mut p, &mut speed)
+                .unwrap();
+            let mean = p[..cells].iter().sum::<f64>() / cells as f64;
+            let borne: f64 = load.source.iter().zip(&p).map(|(s, p)| s * p).sum();
+            println!(
+                "C {c:.0e}, {lost:.0e} lost: mean {mean:.2} of {:.2}, {borne:.4} of 3 borne; {} iterations",
+                -lost / c,
+                report.iterations()
+            );
+            assert!((mean * c / -lost - 1.0).abs() < 0.01);
+            assert!((borne / 3.0 - 1.0).abs() < 0.01);
+        }
+    }
+}
+
+/// Much liquid that one narrow opening relieves is not sealed.
+#[test]
+fn an_opening_relieves_much_liquid() {
+    let (n, closed) = (300, usize::MAX);
+    let faces = 2 * n * n;
+    // Faces behind each cell along both axes; the last ones of a row are walls but one.
+    let number = |i: usize, j: usize, axis: usize| match [i, j][axis] + 1 == n {
+        true if axis == 1 || j != 0 => closed,
+        _ => 2 * (j * n + i) + axis,
+    };
+    let g = Csr::assemble(n * n, faces, |cell, entries| {
+        let (i, j) = (cell % n, cell / n);
+        for axis in 0..2 {
+            let behind = number(i, j, axis);
+            if behind != closed {
+                entries.add(behind, 1.0);
+            }
+            if [i, j][axis] > 0 {
+                entries.add(number(i - (1 - axis), j - axis, axis), -1.0);
+            }
+        }
+    })
+    .unwrap();
+    let hole = 2 * (n - 1);
+    let friction: Vec<f64> = (0..faces)
+        .map(|f| if f == hole { 24.0 } else { 0.06 })
+        .collect();
+    let a = Csr::assemble(faces, faces, |row, entries| entries.add(row, friction[row])).unwrap();
+    let mut source = vec![0.0; n * n];
+    source[n * n - 1] = 3.0;
+    let system = SaddleSystem {
+        a: &a,
+        g: &g,
+        pockets: 0,
+        c: &vec![1e-12; n * n],
+        friction: &friction,
+        two_eta: &vec![0.06; n * n],
+        b: &vec![0.0; faces],
+        standing: &[],
+        volume_source: &source,
+        carried: &vec![0.0; n * n],
+    };
+    let (mut u, mut p) = (vec![0.0; faces], vec![0.0; n * n]);
+    let report = (SaddleSolver::new(options(1e-3)).solve(&system, &mut u, &mut p)).unwrap();
+    println!(
+        "{:.4} of 3 out, {} iterations",
+        u[hole],
+        report.iterations()
+    );
+    assert!((u[hole] / 3.0 - 1.0).abs() < 0.01);
+}

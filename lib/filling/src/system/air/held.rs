@@ -1,6 +1,6 @@
 //! How much air the pockets hold, from step to step.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Pockets;
 use super::law::Contents;
@@ -8,6 +8,9 @@ use super::pockets::OUTSIDE;
 use crate::geometry::Window;
 use crate::liquid::neighbours;
 use crate::system::dofs::NONE;
+
+/// Least volume of a pocket, cells: what is pressed from there has the pressure at which its law ends.
+const LEAST: f64 = 1e-6;
 
 /// Air of the pockets of a step, as pressure times volume; and what liquid has covered.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,6 +47,7 @@ impl Held {
         self.add_beside(pockets, window, &mut shares, &bare, |_, new| new);
         let lost = lacking(shares.keys().map(|pair| pair.0), self.mass.len());
         self.add_beside(pockets, window, &mut shares, &lost, |old, _| old);
+        pockets.add_edges(&mut shares, OUTSIDE);
         let fresh = (pockets.volume.iter().enumerate()).map(|(new, volume)| {
             shares
                 .get(&(OUTSIDE, new as u32))
@@ -57,11 +61,18 @@ impl Held {
     pub(crate) fn begin(&mut self, fresh: &[f64], growth: impl Iterator<Item = f64>, outside: f64) {
         for (number, (fresh, growth)) in fresh.iter().zip(growth).enumerate() {
             let volume = &mut self.volume[number];
-            let before = (*volume - fresh * growth).max(0.5 * *volume);
+            let before = (*volume - fresh * growth).max((1.0 - 0.5 * fresh) * *volume);
             let air = outside * (before - *volume);
             *volume = before;
             self.mass[number] += air;
             self.passed[0] += air;
+        }
+    }
+
+    /// Lets the first pockets grow by `growth` (cells), of which a step had the part `part`.
+    pub(crate) fn grow(&mut self, growth: &[f64], part: f64) {
+        for (volume, growth) in self.volume.iter_mut().zip(growth) {
+            *volume = (*volume * (1.0 + growth / *volume).powf(part)).max(LEAST);
         }
     }
 
@@ -112,12 +123,12 @@ impl Held {
             if new == NONE {
                 continue;
             }
-            for near in neighbours(window, cell).flatten() {
-                let old = self.at(window.index(window.home(window.coordinates(near))));
-                let wanted = wanted.get(which(old, new) as usize) == Some(&true);
-                if wanted && old != NONE {
-                    *shares.entry((old, new)).or_default() += f64::from(room);
-                }
+            let beside: BTreeSet<u32> = (neighbours(window, cell).flatten())
+                .map(|near| self.at(window.index(window.home(window.coordinates(near)))))
+                .filter(|&old| old != NONE && wanted.get(which(old, new) as usize) == Some(&true))
+                .collect();
+            for &old in &beside {
+                *shares.entry((old, new)).or_default() += f64::from(room) / beside.len() as f64;
             }
         }
     }
@@ -160,8 +171,8 @@ impl Held {
         }
         // Air that no liquid presses on has the void that it is in.
         for (number, volume) in next.volume.iter_mut().enumerate() {
-            if number >= pockets.wet || *volume == 0.0 {
-                *volume = pockets.volume[number];
+            if number >= pockets.wet || *volume < LEAST {
+                *volume = pockets.volume[number].max(LEAST);
             }
         }
         let mut covered = vec![NONE; self.mass.len()];
@@ -184,7 +195,7 @@ impl Held {
 }
 
 /// Void (cells) by old and new pocket.
-type Shares = BTreeMap<(u32, u32), f64>;
+pub(super) type Shares = BTreeMap<(u32, u32), f64>;
 
 /// Which of so many numbers are not among these.
 fn lacking(numbers: impl Iterator<Item = u32>, count: usize) -> Vec<bool> {
@@ -240,6 +251,19 @@ mod tests {
 
     const X: u32 = NONE;
     const O: u32 = OUTSIDE;
+
+    #[test]
+    fn a_volume_is_pressed_to_next_to_nothing_and_no_less() {
+        let mut held = Held {
+            volume: vec![2.0, 2.0, 2.0, 1e-6],
+            ..Held::default()
+        };
+        held.grow(&[1.0, -1.999, -2.0, -5e-7], 1.001);
+        let pressed = 2.0 * 0.0005_f64.powf(1.001);
+        assert!((held.volume[0] - 2.0 * 1.5_f64.powf(1.001)).abs() < 1e-12);
+        assert!((held.volume[1] / pressed - 1.0).abs() < 1e-9);
+        assert_eq!(held.volume[2..], [1e-6; 2]);
+    }
 
     #[test]
     fn air_stays_with_the_void_it_is_in() {

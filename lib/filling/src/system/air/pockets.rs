@@ -2,6 +2,7 @@
 
 use physics::Boundary;
 
+use super::held::Shares;
 use crate::geometry::{Lattice, OPEN, Window};
 use crate::liquid::{Volumes, neighbours, sub_cells};
 use crate::system::dofs::{Dofs, NONE};
@@ -77,6 +78,22 @@ impl Pockets {
             }
         }
         found
+    }
+
+    /// Counts with what new pockets share with the old one `from` their part of the void in partly filled cells.
+    pub(super) fn add_edges(&self, shares: &mut Shares, from: u32) {
+        let mut dry = vec![0.0; self.volume.len()];
+        for (&pocket, &room) in self.of.iter().zip(&self.room) {
+            if let Some(dry) = dry.get_mut(pocket as usize) {
+                *dry += f64::from(room);
+            }
+        }
+        for (&(_, new), room) in shares.iter_mut().filter(|share| share.0.0 == from) {
+            if let (Some(whole), Some(dry)) = (self.volume.get(new as usize), dry.get(new as usize))
+            {
+                *room *= whole / dry;
+            }
+        }
     }
 
     /// Numbers connected void in the order of its first cells; what each is.
