@@ -214,8 +214,7 @@ pub const GOALS: &[Goal] = &[
         "implicit",
         "L at the end",
         0.02,
-    )
-    .because(AIR),
+    ),
     goal(
         "filling against closed-in air, 6 cells, course",
         &["air-n6"],
