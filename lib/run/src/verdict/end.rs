@@ -15,7 +15,7 @@ const MOST_IN_WOOD: f64 = 0.01;
 /// Volume change that the pressures of the points may leave unexplained.
 const MOST_UNEXPLAINED: f64 = 1e-3;
 /// Part of the liquid's volume that may lie where there is no room for it.
-const MOST_CROWDED: f64 = 1e-3;
+const MOST_CROWDED: f64 = 0.01;
 /// Part of the water that the account of it may miss.
 const MOST_WATER_MISSING: f64 = 1e-9;
 
