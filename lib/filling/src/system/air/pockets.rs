@@ -82,6 +82,9 @@ impl Pockets {
 
     /// Counts with what new pockets share with the old one `from` their part of the void in partly filled cells.
     pub(super) fn add_edges(&self, shares: &mut Shares, from: u32) {
+        if !shares.keys().any(|share| share.0 == from) {
+            return;
+        }
         let mut dry = vec![0.0; self.volume.len()];
         for (&pocket, &room) in self.of.iter().zip(&self.room) {
             if let Some(dry) = dry.get_mut(pocket as usize) {
