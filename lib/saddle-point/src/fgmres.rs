@@ -35,6 +35,8 @@ pub(crate) struct Limits {
     pub(crate) tolerance: f64,
     /// What the tolerance is relative to; 0 where `b` is.
     pub(crate) size: f64,
+    /// Part of the residual at the start that is enough; 0 where the tolerance must be reached.
+    pub(crate) enough: f64,
     pub(crate) max_iterations: usize,
     pub(crate) restart: usize,
 }
@@ -70,13 +72,16 @@ pub(crate) fn fgmres<K: Operator>(
     }
     fit(&mut space.vector, b.len());
     let mut history = Vec::new();
+    let mut wanted = limits.tolerance * size;
     loop {
         let mut residual = true_residual(operator, b, x, &mut space.vector);
         if preconditioner.begins() {
             preconditioner.begin(&space.vector, x);
             residual = true_residual(operator, b, x, &mut space.vector);
         }
-        let wanted = limits.tolerance * size;
+        if history.is_empty() {
+            wanted = wanted.max(limits.enough * residual);
+        }
         history.pop();
         history.push(residual / size);
         let iterations = history.len() - 1;
@@ -255,6 +260,7 @@ mod tests {
         let limits = Limits {
             tolerance,
             size: 30.0_f64.sqrt(),
+            enough: 0.0,
             max_iterations: 25,
             restart: 25,
         };

@@ -90,6 +90,18 @@ pub enum SolveError {
     },
 }
 
+impl SolveError {
+    /// The error of an iteration that went on from so many.
+    fn after(mut self, before: usize) -> Self {
+        match &mut self {
+            Self::NotConverged { iterations, .. } => *iterations += before,
+            Self::Overflow { iteration, .. } => *iteration += before,
+            _ => (),
+        }
+        self
+    }
+}
+
 /// A residual this many times the tolerance is near enough to be used.
 pub const NEARLY: f64 = 10.0;
 

@@ -55,7 +55,7 @@ impl Load {
         self.resistance != 0.0 || acts(&self.momentum) || acts(&self.source)
     }
 
-    /// [`SaddleSystem::measure`] with the body moving at `speed`; 1 where nothing moves anything.
+    /// [`SaddleSystem::measure`] with the body moving at `speed`.
     pub(crate) fn measure(&self, system: &SaddleSystem, speed: f64) -> f64 {
         let moving = |known: &[f64], unit: &[f64]| -> Vec<f64> {
             (known.iter().zip(unit))
@@ -63,10 +63,7 @@ impl Load {
                 .collect()
         };
         let moved = moving(system.volume_source, &self.source);
-        match system.measure(&moving(system.b, &self.momentum), &moved) {
-            0.0 => 1.0,
-            size => size,
-        }
+        system.measure(&moving(system.b, &self.momentum), &moved)
     }
 
     /// The column of V without its last entry, times `weight`.
@@ -80,7 +77,7 @@ impl Load {
 
 /// The system with the body's row and column, both scaled by a weight.
 pub(crate) struct LoadedOperator<'a, K> {
-    pub(crate) inner: K,
+    pub(crate) inner: &'a mut K,
     pub(crate) load: &'a Load,
     pub(crate) weight: f64,
 }
@@ -123,8 +120,8 @@ fn split<X: Real>(x: &[X]) -> (&[X], X) {
 /// z = M^-1 k, V = (r_V - k^T M^-1 r)/(d - k^T z) and x = M^-1 r - V z; and with the mean pressures of sealed pockets, of
 /// n cells each, (s V - r)/C by means s of the column and r of the residual: d is larger by sum n s^2/C, and
 /// r_V by sum n s r/C.
-pub(crate) struct Bordered<'a> {
-    inner: Preconditioner<'a>,
+pub(crate) struct Bordered<'a, 'b> {
+    inner: &'b mut Preconditioner<'a>,
     faces: usize,
     column: Vec<Work>,
     response: Vec<Work>,
@@ -132,8 +129,8 @@ pub(crate) struct Bordered<'a> {
     pivot: f64,
 }
 
-impl<'a> Bordered<'a> {
-    pub(crate) fn new(mut inner: Preconditioner<'a>, load: &Load, weight: f64) -> Self {
+impl<'a, 'b> Bordered<'a, 'b> {
+    pub(crate) fn new(inner: &'b mut Preconditioner<'a>, load: &Load, weight: f64) -> Self {
         let column = load.column(weight);
         let mut response = Vec::new();
         inner.apply(&column, &mut response);
@@ -150,13 +147,9 @@ impl<'a> Bordered<'a> {
             pivot: pivot.abs().max(f64::MIN_POSITIVE),
         }
     }
-
-    pub(crate) fn inner(&self) -> &Preconditioner<'a> {
-        &self.inner
-    }
 }
 
-impl Precondition for Bordered<'_> {
+impl Precondition for Bordered<'_, '_> {
     fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
         let (r, force) = r.split_at(r.len() - 1);
         self.inner.apply(r, z);

@@ -105,13 +105,16 @@ impl SaddleSolver {
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
+        let rhs = system.right_hand_side();
         let known = system.measure(system.b, system.volume_source);
-        let limits = self.limits(known.hypot(system.brought(u)).max(self.rounding(&x)));
-        let space = &mut self.space;
-        let (rhs, options) = (system.right_hand_side(), &self.options);
+        let (options, space) = (&self.options, &mut self.space);
+        let measure = Measure::new(system, options, 0.0);
         let report = prepared(system, options, |mut operator, mut preconditioner| {
-            let preconditioner = &mut preconditioner;
-            let result = fgmres(&mut operator, preconditioner, &rhs, &mut x, limits, space);
+            let result = measure.stages(options, |limits| {
+                limits.size = measure.of(known, &x);
+                let (operator, preconditioner) = (&mut operator, &mut preconditioner);
+                fgmres(operator, preconditioner, &rhs, &mut x, *limits, space)
+            });
             (result, preconditioner.bound())
         });
         spread(&x, u, p);
@@ -134,44 +137,101 @@ impl SaddleSolver {
         system.check(u, p)?;
         load.check(system)?;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
-        let moving = (load.measure(system, *speed))
-            .hypot(system.brought(u))
-            .max(self.rounding(&x));
-        let weight = moving / load.scale;
-        x.push(*speed / weight);
         let mut rhs = system.right_hand_side();
-        rhs.push(weight * load.force);
+        rhs.push(0.0);
+        x.push(0.0);
+        let last = x.len() - 1;
         // The force row weighs as much as the others do with the body moving.
         let resting = system.measure(system.b, system.volume_source);
-        let limits = self.limits(resting.hypot(moving));
-        let (space, options) = (&mut self.space, &self.options);
-        let report = prepared(system, options, |inner, preconditioner| {
-            let mut operator = LoadedOperator {
-                inner,
-                load,
-                weight,
-            };
-            let mut bordered = Bordered::new(preconditioner, load, weight);
-            let result = fgmres(&mut operator, &mut bordered, &rhs, &mut x, limits, space);
-            (result, bordered.inner().bound())
+        let (options, space) = (&self.options, &mut self.space);
+        let measure = Measure::new(system, options, 1.0);
+        let report = prepared(system, options, |mut inner, mut preconditioner| {
+            let result = measure.stages(options, |limits| {
+                let moving = measure.of(load.measure(system, *speed), &x[..last]);
+                let weight = moving / load.scale;
+                (x[last], rhs[last]) = (*speed / weight, weight * load.force);
+                limits.size = resting.hypot(moving);
+                let mut operator = LoadedOperator {
+                    inner: &mut inner,
+                    load,
+                    weight,
+                };
+                let mut bordered = Bordered::new(&mut preconditioner, load, weight);
+                let result = fgmres(&mut operator, &mut bordered, &rhs, &mut x, *limits, space);
+                *speed = weight * x[last];
+                result
+            });
+            (result, preconditioner.bound())
         });
-        *speed = weight * x.pop().unwrap_or_default();
-        spread(&x, u, p);
+        spread(&x[..last], u, p);
         report.map_err(|error| explained(error, system))
     }
+}
 
-    /// Least that the tolerance is to be relative to: no residual is smaller than the rounding of what stands.
-    fn rounding(&self, guess: &[f64]) -> f64 {
-        ROUNDING * norm(guess) / self.options.tolerance
+/// What residuals are measured by.
+struct Measure {
+    /// Area by which each face is one to air; empty where no forces stand.
+    fronts: Vec<f64>,
+    /// What they are measured by where nothing moves.
+    still: f64,
+    /// Part of a solution below which they are rounding, over the tolerance.
+    rounding: f64,
+}
+
+impl Measure {
+    fn new(system: &SaddleSystem, options: &SaddleOptions, still: f64) -> Self {
+        let fronts = system.fronts();
+        let at_rest = options.tolerance * norm(system.b);
+        Self {
+            still: if fronts.is_empty() || at_rest == 0.0 {
+                still
+            } else {
+                at_rest
+            },
+            rounding: ROUNDING / options.tolerance,
+            fronts,
+        }
     }
 
-    fn limits(&self, size: f64) -> Limits {
-        Limits {
-            tolerance: self.options.tolerance,
-            size,
-            max_iterations: self.options.max_iterations,
-            restart: self.options.restart.max(1),
+    /// The measure at `x`, of what moves the liquid, `known`, and of what flows through the fronts; and no residual is
+    /// smaller than the rounding of what stands.
+    fn of(&self, known: f64, x: &[f64]) -> f64 {
+        let flow: f64 = (self.fronts.iter().zip(x))
+            .map(|(area, u)| (area * u).powi(2))
+            .sum();
+        let size = match known.hypot(flow.sqrt()) {
+            0.0 => self.still,
+            size => size,
+        };
+        size.max(self.rounding * norm(x))
+    }
+
+    /// Residuals of `solve`, which where forces stand is asked again with the measure of what it found: one of a
+    /// guess at rest would ask for too much, one of a guess that flows for too little.
+    fn stages(
+        &self,
+        options: &SaddleOptions,
+        mut solve: impl FnMut(&mut Limits) -> Result<Vec<f64>, SolveError>,
+    ) -> Result<Vec<f64>, SolveError> {
+        let stands = !self.fronts.is_empty();
+        let mut limits = Limits {
+            tolerance: options.tolerance,
+            size: 0.0,
+            enough: if stands { options.tolerance } else { 0.0 },
+            max_iterations: options.max_iterations,
+            restart: options.restart.max(1),
+        };
+        let mut history = solve(&mut limits)?;
+        let mut done = !stands;
+        while !done {
+            let before = history.len() - 1;
+            limits.max_iterations = options.max_iterations.saturating_sub(before);
+            let more = solve(&mut limits).map_err(|error| error.after(before))?;
+            done = more.len() == 1;
+            history.pop();
+            history.extend(more);
         }
+        Ok(history)
     }
 }
 

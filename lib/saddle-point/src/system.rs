@@ -28,8 +28,8 @@ pub struct SaddleSystem<'a> {
     pub two_eta: &'a [f64],
     /// Momentum right-hand side `b`, one per face.
     pub b: &'a [f64],
-    /// Part of it by which pressures push that the liquid stands under already; empty where there is none. No flow
-    /// follows from most of it, so that the tolerance is not measured by it, but by the flow of the guess.
+    /// Part of it by which air and menisci push, which pressures of the liquid balance but for little; empty where
+    /// there is none. The tolerance is not measured by it, but by the flow through the faces to air that comes of it.
     pub standing: &'a [f64],
     /// Volume that walls displace, one per cell: `G u + C p = g` is this and what is carried over.
     pub volume_source: &'a [f64],
@@ -64,21 +64,18 @@ impl SaddleSystem<'_> {
         motion.max(FAINT * motion.hypot(norm(self.carried)))
     }
 
-    /// What the flow of the guess `u` brings to pockets of gas through their faces, where pressures stand; else nothing.
-    pub(crate) fn brought(&self, u: &[f64]) -> f64 {
-        if self.standing.is_empty() {
-            return 0.0;
+    /// Area by which each face is one to air, where forces stand; else nothing.
+    pub(crate) fn fronts(&self) -> Vec<f64> {
+        let mut fronts = vec![0.0; self.standing.len()];
+        if !fronts.is_empty() {
+            for cell in 0..self.cells() {
+                let (faces, areas) = self.g.row(cell);
+                for (&face, area) in faces.iter().zip(areas) {
+                    fronts[face as usize] += area;
+                }
+            }
         }
-        let square = |row: usize| -> f64 {
-            let (faces, areas) = self.g.row(row);
-            (faces.iter().zip(areas))
-                .map(|(&face, area)| (area * u[face as usize]).powi(2))
-                .sum()
-        };
-        (self.cells()..self.g.n_rows())
-            .map(square)
-            .sum::<f64>()
-            .sqrt()
+        fronts
     }
 
     /// Refuses lengths that do not fit, with those of the guess, and values that are not as described.

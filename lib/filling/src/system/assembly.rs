@@ -31,7 +31,7 @@ pub(crate) struct System {
     /// Pressures of the pockets of air, which their unknowns count from: what softens them much would outweigh
     /// all else.
     shift: Vec<f64>,
-    /// Momentum by these; empty without.
+    /// Momentum by these and by menisci; empty without both.
     standing: Vec<f64>,
     /// Momentum with all bodies at rest.
     momentum: Vec<f64>,
@@ -216,15 +216,14 @@ impl Operator<'_> {
         }
         carried.resize(c.len(), 0.0);
         let Pull {
-            momentum: pull,
+            momentum: mut standing,
             bodies: pulled,
         } = self.pull(&g, bodies.len());
         let mut momentum = self.momentum(&face_volume, &mass, before.velocity);
-        for (momentum, pull) in momentum.iter_mut().zip(pull) {
-            *momentum += pull;
-        }
         let shift: Vec<f64> = before.air.iter().map(|t| t.pressure).collect();
-        let mut standing = vec![0.0; if shift.is_empty() { 0 } else { n }];
+        if !shift.is_empty() {
+            standing.resize(n, 0.0);
+        }
         for (row, shift) in (cells..).zip(&shift) {
             let (faces, areas) = g.row(row);
             for (&face, area) in faces.iter().zip(areas) {

@@ -19,6 +19,8 @@ pub(crate) struct Flow {
     /// Adhesion tension over viscosity.
     pub(crate) adhesion: f64,
     pub(crate) speeds: Vec<[f64; 3]>,
+    /// Of the solver.
+    pub(crate) tolerance: f64,
 }
 
 /// A solved flow.
@@ -48,6 +50,7 @@ impl Flow {
             adhesion: 0.0,
             speeds: vec![[0.0; 3]; bodies.len()],
             bodies,
+            tolerance: 1e-7,
         }
     }
 
@@ -83,7 +86,7 @@ impl Flow {
         let system = operator.assemble(&self.speeds, before).unwrap();
         let (mut u, mut p) = (vec![0.0; n], vec![0.0; m]);
         let options = SaddleOptions {
-            tolerance: 1e-7,
+            tolerance: self.tolerance,
             ..SaddleOptions::default()
         };
         SaddleSolver::new(options)

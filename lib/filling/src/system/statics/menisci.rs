@@ -78,6 +78,33 @@ fn liquid_between_equal_menisci_is_at_rest_and_holds_the_plates() {
     }
 }
 
+/// A slug of which one end is between plates farther apart by a part of a thousandth: what it flows with is a
+/// thousandth of what its menisci pull with, and as right as the solver's tolerance.
+#[test]
+fn a_slight_difference_of_menisci_moves_liquid_to_the_tolerance() {
+    let flux = |tolerance: f64| {
+        let wood = vec![
+            plate([-999.0, -999.0], [999.0, 2.0]),
+            plate([-999.0, 8.0], [100.0, 999.0]),
+            plate([100.0, 8.006], [999.0, 999.0]),
+        ];
+        let mut flow = Flow::new([200, 12, 1], 2, vec![wood]);
+        flow.adhesion = 1.0;
+        flow.tolerance = tolerance;
+        let solved = flow.solve(|x| x[0] > 10.0 && x[0] < 190.0);
+        solved.flux_through(100)
+    };
+    let exact = 2.0 / 6.0 * 0.001 * 216.0 / (12.0 * 180.0);
+    let (fine, usual) = (flux(1e-8), flux(1e-3));
+    println!(
+        "flux over {exact:.3e}: {:.4}; at the usual tolerance {:.4}",
+        -fine / exact,
+        -usual / exact
+    );
+    assert!((-fine / exact - 1.0).abs() < 0.02);
+    assert!((usual / fine - 1.0).abs() < 5e-3);
+}
+
 #[test]
 fn a_film_on_one_plate_feels_nothing_of_the_other() {
     let solved = slug(0.0, |x| x[1] < 5.0);
