@@ -103,7 +103,7 @@ impl Plan {
 
 /// Cells, one and more, that a slit of six of them draws in within `duration` (s), each of which takes a step.
 fn drawn_in(scene: &Scene, duration: f64) -> Option<f64> {
-    let adhesion = scene.liquid.wetting?.adhesion();
+    let [adhesion, _] = scene.liquid.wetting?.adhesion();
     let eta = scene.liquid.viscosity.at(0.0);
     let cells = (2.0 * adhesion * duration / (eta * scene.grid.cell_m)).sqrt();
     Some(cells.max(1.0))

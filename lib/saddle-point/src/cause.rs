@@ -141,6 +141,7 @@ mod tests {
             g: &pair(),
             pockets: 0,
             standing: &[],
+            slow: 0.0,
             c: &[c; 2],
             friction: &[friction],
             two_eta: &[1.0; 2],

@@ -204,6 +204,7 @@ mod tests {
                 g: &g,
                 pockets: 0,
                 standing: &[],
+                slow: 0.0,
                 c: &[0.0],
                 friction: &[0.0; 2],
                 two_eta: &[1.0],

@@ -172,7 +172,9 @@ impl SaddleSolver {
 struct Measure {
     /// Area by which each face is one to air; empty where no forces stand.
     fronts: Vec<f64>,
-    /// What they are measured by where nothing moves.
+    /// Velocity that counts there at least.
+    slow: f64,
+    /// What residuals are measured by where nothing moves.
     still: f64,
     /// Part of a solution below which they are rounding, over the tolerance.
     rounding: f64,
@@ -180,16 +182,14 @@ struct Measure {
 
 impl Measure {
     fn new(system: &SaddleSystem, options: &SaddleOptions, still: f64) -> Self {
-        let fronts = system.fronts();
-        let at_rest = options.tolerance * norm(system.b);
         Self {
-            still: if fronts.is_empty() || at_rest == 0.0 {
-                still
-            } else {
-                at_rest
+            fronts: system.fronts(),
+            slow: system.slow,
+            still: match options.tolerance * norm(system.b) {
+                pushed if pushed > 0.0 && !system.standing.is_empty() => pushed,
+                _ => still,
             },
             rounding: ROUNDING / options.tolerance,
-            fronts,
         }
     }
 
@@ -197,7 +197,7 @@ impl Measure {
     /// smaller than the rounding of what stands.
     fn of(&self, known: f64, x: &[f64]) -> f64 {
         let flow: f64 = (self.fronts.iter().zip(x))
-            .map(|(area, u)| (area * u).powi(2))
+            .map(|(area, u)| (area * u.abs().max(self.slow)).powi(2))
             .sum();
         let size = match known.hypot(flow.sqrt()) {
             0.0 => self.still,

@@ -31,6 +31,8 @@ pub struct SaddleSystem<'a> {
     /// Part of it by which air and menisci push, which pressures of the liquid balance but for little; empty where
     /// there is none. The tolerance is not measured by it, but by the flow through the faces to air that comes of it.
     pub standing: &'a [f64],
+    /// Velocity that counts there at least: slower flow is as good as none.
+    pub slow: f64,
     /// Volume that walls displace, one per cell: `G u + C p = g` is this and what is carried over.
     pub volume_source: &'a [f64],
     /// Volume that compression carries over from before, `C p` of then, one per cell. No flow follows from

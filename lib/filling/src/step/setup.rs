@@ -102,11 +102,16 @@ impl Setup {
     pub(super) fn scales(&self, dt: f64) -> Scales {
         let (h, eta) = (self.units.h, self.units.viscosity());
         let weight = self.liquid.density * h * h / eta;
+        let [advancing, receding] = (self.liquid.wetting).map_or([0.0; 2], |wetting| {
+            wetting.adhesion().map(|tension| tension / eta)
+        });
         Scales {
             inertia: weight / dt,
             compressibility: eta / (self.liquid.tait.bulk_modulus * dt),
             gravity: self.gravity.map(|g| weight * g),
-            adhesion: (self.liquid.wetting).map_or(0.0, |wetting| wetting.adhesion() / eta),
+            adhesion: 0.5 * (advancing + receding),
+            holding: 0.5 * (receding - advancing),
+            cell_per_step: h / dt,
             influence_length: self.influence_length(),
             width: self.width,
         }

@@ -98,6 +98,10 @@ impl Implicit {
             }) => (Some((pockets, fresh)), Some(held)),
             None => (None, None),
         };
+        let bodies = self.state.drive.velocities();
+        let moved = (self.state.steps > 0).then_some(&start.u[..]);
+        operator.pull =
+            (self.workspace.clock).time(Part::Assembly, || operator.pull(moved, &bodies));
         operator.pockets = pockets.as_ref().map(|(pockets, _)| pockets);
         let stiffness = self.stiffness(&start.p);
         let before = Before {
@@ -149,6 +153,27 @@ impl Implicit {
 
     /// Stages 4 to 6 with the air as given.
     pub(super) fn solve_once(
+        &mut self,
+        operator: &mut Operator,
+        before: Before,
+        now: &mut Unknowns,
+    ) -> Result<(Solved, Option<Viscous>), Failure> {
+        let mut solved = self.solve_held_by_lines(operator, before, now)?;
+        let starts = if self.state.steps == 0 { PASSES } else { 0 };
+        for _ in 0..starts {
+            if !operator.slow_down(&now.u) {
+                break;
+            }
+            solved = self.solve_held_by_lines(operator, before, now)?;
+        }
+        if operator.hold_turned(before.velocity, &now.u) {
+            return self.solve_held_by_lines(operator, before, now);
+        }
+        Ok(solved)
+    }
+
+    /// The same with contact lines as they are.
+    fn solve_held_by_lines(
         &mut self,
         operator: &mut Operator,
         before: Before,

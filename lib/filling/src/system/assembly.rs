@@ -5,7 +5,6 @@ use saddle_point::{Csr, Load, SaddleSystem, SolveError};
 
 use super::Operator;
 use super::air::Tangent;
-use super::capillarity::Pull;
 use super::couplings::{self, Couplings};
 use super::edges::Edges;
 use super::fluxes::Areas;
@@ -13,6 +12,9 @@ use super::terms::Velocity;
 
 /// Smallest liquid volume, in cells, that a face's mass counts with.
 const LEAST_MASS: f64 = 0.02;
+
+/// Way of a front in a step that the tolerance is relative to at least, cells.
+const SLOW: f64 = 0.01;
 
 /// The assembled system of a step, for bodies at given speeds.
 pub(crate) struct System {
@@ -33,6 +35,8 @@ pub(crate) struct System {
     shift: Vec<f64>,
     /// Momentum by these and by menisci; empty without both.
     standing: Vec<f64>,
+    /// Slowest velocity that counts at the front, m/s.
+    slow: f64,
     /// Momentum with all bodies at rest.
     momentum: Vec<f64>,
     /// Volume that compression carries over from the step before.
@@ -57,6 +61,7 @@ impl System {
             two_eta: &self.two_eta,
             b: &self.b,
             standing: &self.standing,
+            slow: self.slow,
             volume_source: &self.source,
             carried: &self.carried,
         }
@@ -215,10 +220,7 @@ impl Operator<'_> {
             two_eta.push(thickest);
         }
         carried.resize(c.len(), 0.0);
-        let Pull {
-            momentum: mut standing,
-            bodies: pulled,
-        } = self.pull(&g, bodies.len());
+        let mut standing = self.pull.momentum.clone();
         let mut momentum = self.momentum(&face_volume, &mass, before.velocity);
         let shift: Vec<f64> = before.air.iter().map(|t| t.pressure).collect();
         if !shift.is_empty() {
@@ -235,13 +237,14 @@ impl Operator<'_> {
         }
         let mut system = System {
             friction: (face_volume.iter().enumerate())
-                .map(|(face, &volume)| self.darcy(face, volume))
+                .map(|(face, &volume)| self.darcy(face, volume) + self.pull.lines.friction(face))
                 .collect(),
             two_eta,
             couplings,
-            pulled,
+            pulled: self.pull.bodies.clone(),
             shift,
             standing,
+            slow: SLOW * self.scales.cell_per_step,
             momentum,
             carried,
             resting,

@@ -1,9 +1,12 @@
 //! The pull of the menisci at the front: sigma cos(theta) times perimeter over area of the local passage.
 
 use rayon::prelude::*;
-use saddle_point::Csr;
 
-use super::{CHUNK, NONE, Operator};
+use super::couplings::fluxes;
+use super::fluxes::Areas;
+use super::lines::Lines;
+use super::terms::Velocity;
+use super::{CHUNK, NONE, Operator, Scales};
 use crate::geometry::{BodyId, Chord, OPEN, Passage, SIDE};
 
 /// Part of a face over which the liquid fraction may change without being a front, cells^2.
@@ -16,11 +19,13 @@ const INSIDE: f64 = 0.5;
 
 /// Forces of the menisci, in units of eta_0 h.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Pull {
+pub(crate) struct Pull {
     /// On each face unknown; empty where the surface pulls nowhere.
     pub(super) momentum: Vec<f64>,
     /// On the bodies whose walls they meet, as much and opposite.
     pub(super) bodies: Vec<[f64; 3]>,
+    /// Contact lines that resist; none where they recede as they advance.
+    pub(super) lines: Lines,
 }
 
 /// The part of a meniscus at a face.
@@ -36,23 +41,31 @@ struct Patch {
 }
 
 impl Operator<'_> {
-    /// The pull on the liquid of fluxes `g`, for so many bodies.
+    /// The pull on the liquid, whose faces move at `u`, unknown before the first step, and the bodies at `bodies`, m/s.
     ///
     /// A meniscus that spans a passage makes the pressure of the liquid behind it lower than that of the air by the
     /// jump P = sigma cos(theta) perimeter/area. The force of it on face unknown f is P (G^T 1)_f: what
     /// a pressure of -P in all of the liquid would leave unbalanced there. Inside the liquid that is
     /// nothing; along a passage it adds up to P times the cross-section wherever in its cells the front
     /// is, and liquid under P alone is at rest to rounding.
-    pub(super) fn pull(&self, g: &Csr<f64>, bodies: usize) -> Pull {
-        if self.scales.adhesion == 0.0 {
+    ///
+    /// Where contact lines recede at another angle than they advance, P is that of the mean of both cosines, and
+    /// [`Lines`] resist by half their difference.
+    pub(crate) fn pull(&self, u: Option<&[f64]>, bodies: &[[f64; 3]]) -> Pull {
+        let Scales {
+            adhesion, holding, ..
+        } = self.scales;
+        if adhesion == 0.0 && holding == 0.0 {
             return Pull::default();
         }
         let mut front = vec![0.0; self.dofs.faces.len()];
+        let flux = fluxes(self, &Areas::new(self));
         // Pockets of air have rows behind those of the liquid.
         for cell in 0..self.dofs.cells.len() {
-            let (faces, areas) = g.row(cell);
-            for (&face, area) in faces.iter().zip(areas) {
-                front[face as usize] += area;
+            for &(column, area) in flux.of(cell) {
+                if let Some(front) = front.get_mut(column as usize) {
+                    *front += area;
+                }
             }
         }
         let mut patches: Vec<Patch> = (front.par_iter().enumerate().with_min_len(CHUNK))
@@ -61,14 +74,28 @@ impl Operator<'_> {
         self.level(&mut patches);
         let mut pull = Pull {
             momentum: vec![0.0; front.len()],
-            bodies: vec![[0.0; 3]; bodies],
+            bodies: vec![[0.0; 3]; bodies.len()],
+            lines: Lines::default(),
         };
         for patch in patches {
-            let force = self.scales.adhesion * patch.narrowness * patch.front;
+            let force = adhesion * patch.narrowness * patch.front;
             pull.momentum[patch.face as usize] = force;
             let axis = usize::from(self.dofs.faces[patch.face as usize].0);
             for (body, share) in patch.walls.into_iter().filter(|wall| wall.0 < OPEN) {
                 pull.bodies[usize::from(body)][axis] -= share * force;
+                if holding > 0.0 && share > 0.0 {
+                    let held = share * holding * patch.narrowness * patch.front.abs();
+                    let moves = bodies[usize::from(body)][axis];
+                    let speed = u.map_or(f64::INFINITY, |u| u[patch.face as usize] - moves);
+                    let pace = self.scales.cell_per_step;
+                    pull.lines.add(
+                        patch.face,
+                        (Velocity::of_body(body, axis), moves),
+                        held,
+                        speed,
+                        pace,
+                    );
+                }
             }
         }
         pull
@@ -225,7 +252,6 @@ mod tests {
     use super::*;
     use crate::geometry::tests::{domain, lattice};
     use crate::liquid::Volumes;
-    use crate::system::Scales;
 
     /// Two faces of one cell: they have the mean of both by area if neither passage is twice as narrow.
     #[test]

@@ -14,6 +14,7 @@ mod dofs;
 mod edge_rates;
 mod edges;
 mod fluxes;
+mod lines;
 mod operator;
 mod response;
 mod sparse;
@@ -22,6 +23,7 @@ mod viscosity;
 mod walls;
 
 pub(crate) use assembly::{Before, System};
+pub(crate) use capillarity::Pull;
 pub(crate) use dofs::{Dofs, NONE};
 pub(crate) use operator::Operator;
 pub(crate) use response::Found;
@@ -43,8 +45,12 @@ pub(crate) struct Scales {
     pub(crate) compressibility: f64,
     /// Body force per face volume, rho h^2 g/eta_0, m/s.
     pub(crate) gravity: [f64; 3],
-    /// Adhesion tension over eta_0, m/s.
+    /// Adhesion tension over eta_0, mean of advancing and receding, m/s.
     pub(crate) adhesion: f64,
+    /// Half their difference.
+    pub(crate) holding: f64,
+    /// A cell in a step, h/dt, m/s.
+    pub(crate) cell_per_step: f64,
     /// 1/(k h): influence length of the wall law, cells; infinite without friction.
     pub(crate) influence_length: f64,
     /// Which width of the lumen the wall law takes.

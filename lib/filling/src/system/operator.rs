@@ -1,9 +1,9 @@
 //! Geometry, liquid and unknowns of a step together.
 
-use super::Scales;
 use super::air::Pockets;
 use super::dofs::Dofs;
 use super::walls::Walls;
+use super::{Pull, Scales};
 use crate::geometry::Lattice;
 use crate::liquid::Volumes;
 
@@ -26,6 +26,8 @@ pub(crate) struct Operator<'a> {
     pub(crate) walls: Walls,
     /// Pockets of air, where they have pressures of their own.
     pub(crate) pockets: Option<&'a Pockets>,
+    /// What menisci pull, where they do.
+    pub(crate) pull: Pull,
     pub(super) scales: Scales,
 }
 
@@ -44,6 +46,7 @@ impl<'a> Operator<'a> {
             dofs,
             walls,
             pockets: None,
+            pull: Pull::default(),
             scales,
         }
     }

@@ -40,7 +40,7 @@ pub(super) struct Term {
 }
 
 impl Term {
-    fn pair(weight: f64, low: Velocity, high: Velocity) -> Self {
+    pub(super) fn pair(weight: f64, low: Velocity, high: Velocity) -> Self {
         Self {
             weight,
             parts: [(low, -1.0), (high, 1.0), (low, 0.0), (high, 0.0)],
@@ -116,6 +116,7 @@ impl Operator<'_> {
             let wall = Velocity::of_body(link.body, axis);
             each(&Term::pair(weight, wall, Velocity::Face(face as u32)));
         }
+        self.pull.lines.terms(face, each);
     }
 
     /// Stretching of a cell along `axis`: 2 eta (D u)^2 / 2 over its liquid volume.

@@ -5,16 +5,18 @@
 pub struct Wetting {
     /// Surface tension sigma, N/m.
     pub tension: f64,
-    /// Contact angle theta, measured in the liquid: below a right angle it wets. Rad, 0 to pi.
-    pub angle: f64,
+    /// Contact angle theta of a line that advances, measured in the liquid: below a right angle it wets. Rad, 0 to pi.
+    pub advancing: f64,
+    /// The same of one that recedes, not above it; between both a line rests.
+    pub receding: f64,
 }
 
 impl Wetting {
-    /// Adhesion tension sigma cos(theta), N/m: the force along a wall of a unit of contact line. Times
+    /// Adhesion tensions sigma cos(theta), N/m, advancing and receding: the force along a wall of a unit of contact line. Times
     /// the perimeter over the area of a passage it is the pressure jump of a meniscus that spans it
     /// (Young 1805, Laplace 1806): 2/r in a tube, 2/H in a slit.
-    pub fn adhesion(&self) -> f64 {
-        self.tension * self.angle.cos()
+    pub fn adhesion(&self) -> [f64; 2] {
+        [self.advancing, self.receding].map(|angle| self.tension * angle.cos())
     }
 }
 
@@ -25,12 +27,13 @@ mod tests {
     #[test]
     fn a_right_angle_neither_draws_nor_holds() {
         let adhesion = |degrees: f64| {
-            let angle = degrees.to_radians();
-            Wetting {
+            let wetting = Wetting {
                 tension: 0.05,
-                angle,
-            }
-            .adhesion()
+                advancing: degrees.to_radians(),
+                receding: 0.0,
+            };
+            assert_eq!(wetting.adhesion()[1], 0.05);
+            wetting.adhesion()[0]
         };
         assert_eq!(adhesion(0.0), 0.05);
         assert!((adhesion(60.0) - 0.025).abs() < 1e-15 && adhesion(90.0).abs() < 1e-17);

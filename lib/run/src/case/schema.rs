@@ -103,6 +103,8 @@ pub struct Adhesive {
     pub surface_tension: Option<Positive<units::SurfaceTension>>,
     /// Contact angle, measured in the liquid.
     pub contact_angle: Option<units::Quantity<units::Angle>>,
+    /// The same where the contact line recedes.
+    pub receding_angle: Option<units::Quantity<units::Angle>>,
 }
 
 /// `[contact]`

@@ -28,14 +28,25 @@ pub(super) fn liquid(adhesive: &Adhesive) -> Result<Liquid, CaseError> {
 
 fn wetting(adhesive: &Adhesive) -> Result<Option<Wetting>, CaseError> {
     let refused = |said: &str| Err(CaseError(format!("[adhesive] {said}")));
+    let receding = adhesive.receding_angle;
     match (adhesive.surface_tension, adhesive.contact_angle) {
-        (Some(tension), Some(angle)) if (0.0..=std::f64::consts::PI).contains(&angle.si()) => {
+        (Some(tension), Some(angle)) => {
+            let (advancing, receding) = (angle.si(), receding.unwrap_or(angle).si());
+            if !(0.0..=std::f64::consts::PI).contains(&advancing) {
+                return refused("contact_angle lies between \"0 deg\" and \"180 deg\"");
+            }
+            if !(0.0..=advancing).contains(&receding) {
+                return refused("receding_angle lies between \"0 deg\" and contact_angle");
+            }
             Ok(Some(Wetting {
                 tension: tension.si(),
-                angle: angle.si(),
+                advancing,
+                receding,
             }))
         }
-        (Some(_), Some(_)) => refused("contact_angle lies between \"0 deg\" and \"180 deg\""),
+        (None, None) if receding.is_some() => {
+            refused("receding_angle goes with surface_tension and contact_angle")
+        }
         (None, None) => Ok(None),
         _ => refused("surface_tension and contact_angle go together"),
     }

@@ -87,6 +87,20 @@ fn what_contradicts_itself_is_refused() {
             "between \"0 deg\" and \"180 deg\"",
         ),
         (
+            &[IMPLICIT[0], IMPLICIT[1]],
+            &[
+                "adhesive.surface_tension=50 mN/m",
+                "adhesive.contact_angle=60 deg",
+                "adhesive.receding_angle=61 deg",
+            ],
+            "receding_angle lies between \"0 deg\" and contact_angle",
+        ),
+        (
+            &[IMPLICIT[0], IMPLICIT[1]],
+            &["adhesive.receding_angle=20 deg"],
+            "receding_angle goes with surface_tension",
+        ),
+        (
             &[("[contact]", WATER)],
             &[],
             "[adhesive.water] is for scheme",

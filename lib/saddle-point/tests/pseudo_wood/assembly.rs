@@ -36,6 +36,7 @@ impl Problem {
             g: &self.g,
             pockets: 0,
             standing: &[],
+            slow: 0.0,
             c: &self.c,
             friction: &self.friction,
             two_eta: &self.two_eta,

@@ -34,6 +34,7 @@ fn a_slow_flow_against_gas_is_solved_to_the_tolerance() {
         two_eta: &[2.0; 41],
         b: &push,
         standing: &push,
+        slow: 0.0,
         volume_source: &source,
         carried: &[0.0; 41],
     };
@@ -59,6 +60,7 @@ fn a_slight_difference_of_pulls_is_solved_from_any_guess() {
     let a = Csr::assemble(faces, faces, |row, entries| entries.add(row, 2.0)).unwrap();
     let mut b = vec![0.0; faces];
     (b[0], b[cells]) = (-pull, pull + more);
+    let exact = more / (2.0 * faces as f64);
     let system = SaddleSystem {
         a: &a,
         g: &g,
@@ -68,10 +70,10 @@ fn a_slight_difference_of_pulls_is_solved_from_any_guess() {
         two_eta: &vec![2.0; cells],
         b: &b,
         standing: &b,
+        slow: 1e-3 * exact,
         volume_source: &vec![0.0; cells],
         carried: &vec![0.0; cells],
     };
-    let exact = more / (2.0 * faces as f64);
     let mut load = Load {
         momentum: vec![0.0; faces],
         source: vec![0.0; cells],
@@ -130,6 +132,7 @@ fn sealed_liquid_comes_to_the_pressure_of_its_load() {
             two_eta: &vec![2.0; cells],
             b: &nothing,
             standing: &[],
+            slow: 0.0,
             volume_source: &nothing,
             carried: &vec![c; cells],
         };
@@ -192,6 +195,7 @@ fn sealed_liquid_beside_a_load_keeps_its_own_pressure() {
                 two_eta: &vec![2.0; all],
                 b: &nothing,
                 standing: &[],
+                slow: 0.0,
                 volume_source: &source,
                 carried: &nothing,
             };
@@ -251,6 +255,7 @@ fn an_opening_relieves_much_liquid() {
         two_eta: &vec![0.06; n * n],
         b: &vec![0.0; faces],
         standing: &[],
+        slow: 0.0,
         volume_source: &source,
         carried: &vec![0.0; n * n],
     };

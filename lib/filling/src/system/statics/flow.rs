@@ -71,11 +71,14 @@ impl Flow {
             compressibility: 1e-12,
             gravity: self.gravity,
             adhesion: self.adhesion,
+            holding: 0.0,
+            cell_per_step: 0.0,
             influence_length: self.slip,
             width: self.width,
         };
-        let operator = Operator::new(&lattice, &liquid, scales);
+        let mut operator = Operator::new(&lattice, &liquid, scales);
         let (n, m) = (operator.dofs.faces.len(), operator.dofs.cells.len());
+        operator.pull = operator.pull(None, &self.speeds);
         let before = Before {
             velocity: &vec![0.0; n],
             pressure: &vec![0.0; m],

@@ -17,6 +17,8 @@ impl Scales {
             compressibility: 0.0,
             gravity: [0.0; 3],
             adhesion: 0.0,
+            holding: 0.0,
+            cell_per_step: 0.0,
             influence_length: 0.0,
             width: WidthRule::Normal,
         }
