@@ -14,6 +14,8 @@ use saddle_point::Csr;
 
 /// Largest number of passes over a viscosity that depends on the shear rate.
 pub(super) const PASSES: usize = 20;
+/// Most solves of a step for which contact lines hold and which go.
+const LINES: usize = 6;
 /// Relative change of the viscosity, weighted by dissipation, below which no further pass is made.
 const SETTLED: f64 = 1e-3;
 /// The same after the last pass from which the viscosity does not count as that of the flow.
@@ -99,9 +101,8 @@ impl Implicit {
             None => (None, None),
         };
         let bodies = self.state.drive.velocities();
-        let moved = (self.state.steps > 0).then_some(&start.u[..]);
         operator.pull =
-            (self.workspace.clock).time(Part::Assembly, || operator.pull(moved, &bodies));
+            (self.workspace.clock).time(Part::Assembly, || operator.pull(&start.u, &bodies));
         operator.pockets = pockets.as_ref().map(|(pockets, _)| pockets);
         let stiffness = self.stiffness(&start.p);
         let before = Before {
@@ -158,22 +159,18 @@ impl Implicit {
         before: Before,
         now: &mut Unknowns,
     ) -> Result<(Solved, Option<Viscous>), Failure> {
-        let mut solved = self.solve_held_by_lines(operator, before, now)?;
-        let starts = if self.state.steps == 0 { PASSES } else { 0 };
-        for _ in 0..starts {
-            if !operator.slow_down(&now.u) {
+        let mut solved = self.solve_with_lines(operator, before, now)?;
+        for _ in 1..LINES {
+            if !operator.settle_lines(&now.u, &self.state.drive.velocities()) {
                 break;
             }
-            solved = self.solve_held_by_lines(operator, before, now)?;
-        }
-        if operator.hold_turned(before.velocity, &now.u) {
-            return self.solve_held_by_lines(operator, before, now);
+            solved = self.solve_with_lines(operator, before, now)?;
         }
         Ok(solved)
     }
 
     /// The same with contact lines as they are.
-    fn solve_held_by_lines(
+    fn solve_with_lines(
         &mut self,
         operator: &mut Operator,
         before: Before,

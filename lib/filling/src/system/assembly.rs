@@ -220,7 +220,7 @@ impl Operator<'_> {
             two_eta.push(thickest);
         }
         carried.resize(c.len(), 0.0);
-        let mut standing = self.pull.momentum.clone();
+        let (mut standing, pulled) = self.pull.forces();
         let mut momentum = self.momentum(&face_volume, &mass, before.velocity);
         let shift: Vec<f64> = before.air.iter().map(|t| t.pressure).collect();
         if !shift.is_empty() {
@@ -237,11 +237,11 @@ impl Operator<'_> {
         }
         let mut system = System {
             friction: (face_volume.iter().enumerate())
-                .map(|(face, &volume)| self.darcy(face, volume) + self.pull.lines.friction(face))
+                .map(|(face, &volume)| self.darcy(face, volume) + self.line_friction(face))
                 .collect(),
             two_eta,
             couplings,
-            pulled: self.pull.bodies.clone(),
+            pulled,
             shift,
             standing,
             slow: SLOW * self.scales.cell_per_step,

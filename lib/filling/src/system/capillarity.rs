@@ -4,8 +4,7 @@ use rayon::prelude::*;
 
 use super::couplings::fluxes;
 use super::fluxes::Areas;
-use super::lines::Lines;
-use super::terms::Velocity;
+use super::lines::{Line, Lines};
 use super::{CHUNK, NONE, Operator, Scales};
 use crate::geometry::{BodyId, Chord, OPEN, Passage, SIDE};
 
@@ -21,11 +20,24 @@ const INSIDE: f64 = 0.5;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pull {
     /// On each face unknown; empty where the surface pulls nowhere.
-    pub(super) momentum: Vec<f64>,
+    momentum: Vec<f64>,
     /// On the bodies whose walls they meet, as much and opposite.
-    pub(super) bodies: Vec<[f64; 3]>,
+    bodies: Vec<[f64; 3]>,
     /// Contact lines that resist; none where they recede as they advance.
     pub(super) lines: Lines,
+}
+
+impl Pull {
+    /// With what contact lines that go resist by: on each face unknown, and on the bodies.
+    pub(super) fn forces(&self) -> (Vec<f64>, Vec<[f64; 3]>) {
+        let (mut momentum, mut bodies) = (self.momentum.clone(), self.bodies.clone());
+        for line in self.lines.iter() {
+            let (force, wall) = (line.force(), line.wall as usize);
+            momentum[line.face as usize] += force;
+            bodies[wall / 3][wall % 3] -= force;
+        }
+        (momentum, bodies)
+    }
 }
 
 /// The part of a meniscus at a face.
@@ -41,7 +53,7 @@ struct Patch {
 }
 
 impl Operator<'_> {
-    /// The pull on the liquid, whose faces move at `u`, unknown before the first step, and the bodies at `bodies`, m/s.
+    /// The pull on the liquid, whose faces move at `u` and the bodies at `bodies`, m/s.
     ///
     /// A meniscus that spans a passage makes the pressure of the liquid behind it lower than that of the air by the
     /// jump P = sigma cos(theta) perimeter/area. The force of it on face unknown f is P (G^T 1)_f: what
@@ -51,7 +63,7 @@ impl Operator<'_> {
     ///
     /// Where contact lines recede at another angle than they advance, P is that of the mean of both cosines, and
     /// [`Lines`] resist by half their difference.
-    pub(crate) fn pull(&self, u: Option<&[f64]>, bodies: &[[f64; 3]]) -> Pull {
+    pub(crate) fn pull(&self, u: &[f64], bodies: &[[f64; 3]]) -> Pull {
         let Scales {
             adhesion, holding, ..
         } = self.scales;
@@ -84,17 +96,12 @@ impl Operator<'_> {
             for (body, share) in patch.walls.into_iter().filter(|wall| wall.0 < OPEN) {
                 pull.bodies[usize::from(body)][axis] -= share * force;
                 if holding > 0.0 && share > 0.0 {
-                    let held = share * holding * patch.narrowness * patch.front.abs();
-                    let moves = bodies[usize::from(body)][axis];
-                    let speed = u.map_or(f64::INFINITY, |u| u[patch.face as usize] - moves);
-                    let pace = self.scales.cell_per_step;
-                    pull.lines.add(
-                        patch.face,
-                        (Velocity::of_body(body, axis), moves),
-                        held,
-                        speed,
-                        pace,
-                    );
+                    let holds = share * holding * patch.narrowness * patch.front.abs();
+                    let speed = u[patch.face as usize] - bodies[usize::from(body)][axis];
+                    let (wall, pace) =
+                        (3 * u32::from(body) + axis as u32, self.scales.cell_per_step);
+                    pull.lines
+                        .push(Line::new(patch.face, wall, holds, speed, pace));
                 }
             }
         }

@@ -3,67 +3,87 @@
 use super::Operator;
 use super::terms::{Term, Velocity};
 
-/// Way of a held line in a step in which half of what it can hold pulls at it, cells.
+/// Way in a step of a held line at which all that it can hold pulls, cells: beyond, it goes.
 const CREEP: f64 = 1e-3;
-/// Relative change of the resistance of a line below which it is that of its speed.
-const SETTLED: f64 = 0.05;
-/// Way in a step from which on a line has turned around, cells.
-const TURNED: f64 = 0.01;
+/// Way in a step from which on a line counts as one that went, cells.
+const WENT: f64 = 0.01;
 
 /// The lines of a step, by their faces.
 ///
-/// Half the difference of both adhesion tensions times the length of a line, F, is the most that it holds. It resists by
-/// F v/(|v'| + v_0): v its velocity against the wall, v' that before the step, and v_0 that of [`CREEP`].
+/// Half the difference of both adhesion tensions times the length of a line, F, is the most that it holds. A line that
+/// goes resists by F; one that is held by F v/v_0, v its velocity against the wall and v_0 that of [`CREEP`].
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lines(Vec<Line>);
 
 /// A line at a face and a wall.
 #[derive(Clone, Copy, Debug)]
-struct Line {
-    face: u32,
-    wall: Velocity,
-    /// Velocity of the wall, m/s.
-    moves: f64,
-    /// Force over velocity.
-    friction: f64,
+pub(super) struct Line {
+    pub(super) face: u32,
+    /// Component of the wall's velocity, as 3 body + axis.
+    pub(super) wall: u32,
     /// The most that it holds.
-    holds: f64,
+    pub(super) holds: f64,
+    state: State,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State {
+    /// Held; whether until the end of the step, as it has turned around.
+    Held { turned: bool },
+    /// Goes along the axis, 1, or against it, -1.
+    Goes(f64),
+}
+
+impl Line {
+    /// A line that had a `speed` against its wall, in steps in which a cell is crossed at `pace`, m/s.
+    pub(super) fn new(face: u32, wall: u32, holds: f64, speed: f64, pace: f64) -> Self {
+        Self {
+            face,
+            wall,
+            holds,
+            state: match speed.abs() > WENT * pace {
+                true => State::Goes(speed.signum()),
+                false => State::Held { turned: false },
+            },
+        }
+    }
+
+    /// Force on the liquid of one that goes.
+    pub(super) fn force(&self) -> f64 {
+        match self.state {
+            State::Goes(sign) => -sign * self.holds,
+            State::Held { .. } => 0.0,
+        }
+    }
+
+    /// What one that is held resists with, force over velocity.
+    fn friction(&self, pace: f64) -> f64 {
+        match self.state {
+            State::Goes(_) => 0.0,
+            State::Held { .. } => self.holds / (CREEP * pace),
+        }
+    }
+
+    /// What it is at a velocity against its wall.
+    fn at(&self, speed: f64, pace: f64) -> State {
+        match self.state {
+            State::Goes(sign) if sign * speed < 0.0 => State::Held { turned: true },
+            State::Held { turned: false } if speed.abs() > CREEP * pace => {
+                State::Goes(speed.signum())
+            }
+            state => state,
+        }
+    }
 }
 
 impl Lines {
-    /// Adds a line at a face, not below those before, and at a wall that moves so; it holds up to `holds` and had a
-    /// `speed` against the wall, in steps in which a cell is crossed at `pace`, m/s.
-    pub(super) fn add(
-        &mut self,
-        face: u32,
-        (wall, moves): (Velocity, f64),
-        holds: f64,
-        speed: f64,
-        pace: f64,
-    ) {
-        self.0.push(Line {
-            face,
-            wall,
-            moves,
-            friction: holds / (speed.abs() + CREEP * pace),
-            holds,
-        });
+    /// Adds a line, at a face that is not below those before.
+    pub(super) fn push(&mut self, line: Line) {
+        self.0.push(line);
     }
 
-    /// What lines resist with at a face.
-    pub(super) fn friction(&self, face: usize) -> f64 {
-        self.at(face).map(|line| line.friction).sum()
-    }
-
-    /// Calls `each` with the term of every line at a face.
-    pub(super) fn terms(&self, face: usize, mut each: impl FnMut(&Term)) {
-        for line in self.at(face) {
-            each(&Term::pair(
-                line.friction,
-                line.wall,
-                Velocity::Face(line.face),
-            ));
-        }
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Line> {
+        self.0.iter()
     }
 
     fn at(&self, face: usize) -> impl Iterator<Item = &Line> {
@@ -71,43 +91,42 @@ impl Lines {
         (self.0[from..].iter()).take_while(move |line| line.face as usize == face)
     }
 
-    /// Makes lines resist by the velocities `u` of the faces, m/s; whether that changes any.
-    fn slow_down(&mut self, u: &[f64], pace: f64) -> bool {
-        let mut found = false;
+    /// Makes lines go or hold as they do at the velocities `u` of the faces and `bodies`, m/s; whether that changes any.
+    fn settle(&mut self, u: &[f64], bodies: &[[f64; 3]], pace: f64) -> bool {
+        let mut changed = false;
         for line in &mut self.0 {
-            let speed = (u[line.face as usize] - line.moves).abs();
-            let friction = line.holds / (speed + CREEP * pace);
-            found |= (friction - line.friction).abs() > SETTLED * friction;
-            line.friction = friction;
+            let wall = line.wall as usize;
+            let speed = u[line.face as usize] - bodies[wall / 3][wall % 3];
+            let state = line.at(speed, pace);
+            changed |= state != line.state;
+            line.state = state;
         }
-        found
-    }
-
-    /// Holds the lines that turned around from velocities `before` to `u` of the faces, m/s; whether there are any.
-    fn hold_turned(&mut self, before: &[f64], u: &[f64], pace: f64) -> bool {
-        let mut found = false;
-        for line in &mut self.0 {
-            let [before, now] = [before, u].map(|u| u[line.face as usize] - line.moves);
-            let held = line.holds / (CREEP * pace);
-            if before * now < 0.0 && now.abs() > TURNED * pace && line.friction < 0.5 * held {
-                (line.friction, found) = (held, true);
-            }
-        }
-        found
+        changed
     }
 }
 
 impl Operator<'_> {
-    /// Makes contact lines resist by the velocities `u`, m/s, of a first solve: there are none before. Whether that
-    /// changes any.
-    pub(crate) fn slow_down(&mut self, u: &[f64]) -> bool {
-        (self.pull.lines).slow_down(u, self.scales.cell_per_step)
+    /// Makes contact lines go or hold as they do at velocities `u` of the faces and `bodies`, m/s. One that turned around
+    /// rests until the end of the step: P jumps where it is, and would throw it to and fro. Whether that changes any.
+    pub(crate) fn settle_lines(&mut self, u: &[f64], bodies: &[[f64; 3]]) -> bool {
+        (self.pull.lines).settle(u, bodies, self.scales.cell_per_step)
     }
 
-    /// Holds the contact lines that turned around from velocities `before` to `u`, m/s: in between they come to rest, and
-    /// without this the friction of their speed lets them go to and fro for ever. Whether there are any.
-    pub(crate) fn hold_turned(&mut self, before: &[f64], u: &[f64]) -> bool {
-        (self.pull.lines).hold_turned(before, u, self.scales.cell_per_step)
+    /// What held lines resist with at a face.
+    pub(super) fn line_friction(&self, face: usize) -> f64 {
+        let pace = self.scales.cell_per_step;
+        (self.pull.lines.at(face))
+            .map(|line| line.friction(pace))
+            .sum()
+    }
+
+    /// Calls `each` with the term of every held line at a face.
+    pub(super) fn line_terms(&self, face: usize, mut each: impl FnMut(&Term)) {
+        for line in self.pull.lines.at(face) {
+            let friction = line.friction(self.scales.cell_per_step);
+            let (wall, liquid) = (Velocity::Body(line.wall), Velocity::Face(line.face));
+            each(&Term::pair(friction, wall, liquid));
+        }
     }
 }
 
@@ -115,24 +134,29 @@ impl Operator<'_> {
 mod tests {
     use super::*;
 
+    /// At walls that move at 0.1 m/s, in steps of a cell at 1 m/s.
     #[test]
-    fn a_line_that_turns_around_is_held() {
-        let mut lines = Lines::default();
-        for (face, speed) in [(3, 0.5), (5, 0.5), (5, -1e-4)] {
-            lines.add(face, (Velocity::Body(1), 0.1), 2.0, speed, 1.0);
-        }
-        let friction = |lines: &Lines| [3, 4, 5].map(|face| lines.friction(face));
-        let free = [2.0 / 0.501, 0.0, 2.0 / 0.501 + 2.0 / 0.0011];
-        assert_eq!(friction(&lines), free);
-        // Against the wall: 0.5 before, then still forward, or back by less than counts, or by more.
-        let turned = |lines: &mut Lines, u: f64| {
-            lines.hold_turned(&[0.6; 6], &[0.3, 0.3, 0.3, 0.3, 0.3, u], 1.0)
+    fn lines_hold_until_they_are_pulled_harder_or_turn() {
+        let line = |speed: f64| Line::new(0, 1, 2.0, speed, 1.0);
+        let mut lines = Lines(vec![line(0.5), line(-0.5), line(0.009)]);
+        let mut at = |u: f64| {
+            let changed = lines.settle(&[u], &[[0.0, 0.1, 0.0]], 1.0);
+            let forces: Vec<f64> = lines.iter().map(Line::force).collect();
+            let frictions: Vec<f64> = lines.iter().map(|line| line.friction(1.0)).collect();
+            (changed, forces, frictions)
         };
-        assert!(!turned(&mut lines, 0.11) && !turned(&mut lines, 0.095));
-        assert_eq!(friction(&lines), free);
-        assert!(turned(&mut lines, 0.05));
-        assert_eq!(lines.friction(3), free[0]);
-        assert!((lines.friction(5) - (2.0 / 1e-3 + 2.0 / 0.0011)).abs() < 1e-9);
-        assert!(!turned(&mut lines, 0.05), "held already");
+        // All that it holds at a thousandth of a cell.
+        let held = 2.0 / 1e-3;
+        assert_eq!(
+            at(0.1009),
+            (true, vec![-2.0, 0.0, 0.0], vec![0.0, held, held])
+        );
+        // The second has turned around, the third has not been held in this step.
+        assert_eq!(
+            at(0.102),
+            (true, vec![-2.0, 0.0, -2.0], vec![0.0, held, 0.0])
+        );
+        assert_eq!(at(0.0), (true, vec![0.0, 0.0, 0.0], vec![held, held, held]));
+        assert!(!at(0.5).0);
     }
 }

@@ -116,7 +116,7 @@ impl Operator<'_> {
             let wall = Velocity::of_body(link.body, axis);
             each(&Term::pair(weight, wall, Velocity::Face(face as u32)));
         }
-        self.pull.lines.terms(face, each);
+        self.line_terms(face, each);
     }
 
     /// Stretching of a cell along `axis`: 2 eta (D u)^2 / 2 over its liquid volume.

@@ -36,7 +36,11 @@ fn wetting(adhesive: &Adhesive) -> Result<Option<Wetting>, CaseError> {
                 return refused("contact_angle lies between \"0 deg\" and \"180 deg\"");
             }
             if !(0.0..=advancing).contains(&receding) {
-                return refused("receding_angle lies between \"0 deg\" and contact_angle");
+                let degrees = [receding, advancing].map(f64::to_degrees);
+                return refused(&format!(
+                    "receding_angle is {:.1} deg; it lies between \"0 deg\" and contact_angle, {:.1} deg",
+                    degrees[0], degrees[1]
+                ));
             }
             Ok(Some(Wetting {
                 tension: tension.si(),

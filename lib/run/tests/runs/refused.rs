@@ -93,7 +93,7 @@ fn what_contradicts_itself_is_refused() {
                 "adhesive.contact_angle=60 deg",
                 "adhesive.receding_angle=61 deg",
             ],
-            "receding_angle lies between \"0 deg\" and contact_angle",
+            "receding_angle is 61.0 deg; it lies between \"0 deg\" and contact_angle, 60.0 deg",
         ),
         (
             &[IMPLICIT[0], IMPLICIT[1]],

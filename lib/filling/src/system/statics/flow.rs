@@ -78,7 +78,7 @@ impl Flow {
         };
         let mut operator = Operator::new(&lattice, &liquid, scales);
         let (n, m) = (operator.dofs.faces.len(), operator.dofs.cells.len());
-        operator.pull = operator.pull(None, &self.speeds);
+        operator.pull = operator.pull(&vec![0.0; n], &self.speeds);
         let before = Before {
             velocity: &vec![0.0; n],
             pressure: &vec![0.0; m],

@@ -22,5 +22,5 @@ pub(super) const RECEDING_ANGLE: Key = Key {
     name: "receding_angle",
     form: quantity::<Angle>,
     absent: Absent::Nothing("that of `contact_angle`"),
-    text: "Contact angle of a front that recedes, not above `contact_angle`, which is then that of one that advances: between both it rests. On wood 20 to 60 degrees less. Without it liquid goes from wide lumens to narrow ones until one of both is empty, for seconds in a small bond.",
+    text: "Contact angle of a front that recedes, not above `contact_angle`, which is then that of one that advances: between both it rests. On wood 20 to 60 degrees less. Steps cost several times as much.",
 };
