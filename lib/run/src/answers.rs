@@ -122,11 +122,9 @@ impl<'a> Watch<'a> {
         self.measure(scheme, |state, middle| {
             let layers = depth_profile(state, middle, &self.sealed)?;
             let shares = [true, false].map(|below| shares(&layers, below));
-            Ok(Answers::new(
-                &self.moment(state, middle)?,
-                state.voxel_m,
-                shares,
-            ))
+            let mut answers = Answers::new(&self.moment(state, middle)?, state.voxel_m, shares);
+            answers.outer_face_reached = at_an_outer_face(&layers);
+            Ok(answers)
         })
     }
 
@@ -165,6 +163,12 @@ impl<'a> Watch<'a> {
             .and_then(|middle| what(&state, &middle))
             .map_err(|error| RunError::Checkpoint(format!("the bond cannot be measured: {error}")))
     }
+}
+
+/// Whether there is adhesive in the first or last layer.
+fn at_an_outer_face(layers: &[DepthLayer]) -> bool {
+    let outer = [layers.first(), layers.last()].into_iter().flatten();
+    outer.into_iter().any(|layer| layer.adhesive_fraction > 0.0)
 }
 
 /// The filled shares of the open lumens on one side, from the middle to the last layer with adhesive.
@@ -214,6 +218,8 @@ pub struct Answers {
     pub bond_line_filled: f64,
     /// `filled`, `starved` or `squeezed-out`.
     pub bond_line: String,
+    /// Whether adhesive got to an outer face of the specimen: its depths are then those of a piece too small for them.
+    pub outer_face_reached: bool,
     /// Filled share of the open lumens in layers from the middle on, as deep as there is adhesive.
     pub filled_by_depth: FilledByDepth,
 }
@@ -240,11 +246,33 @@ impl Answers {
             half_filled_depth_m: line.half_filled_m.into(),
             bond_line_filled: line.filled,
             bond_line: line.filling.to_string(),
+            outer_face_reached: false,
             filled_by_depth: FilledByDepth {
                 layer_m,
                 bottom,
                 top,
             },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn adhesive_in_the_last_layer_is_at_the_outer_face() {
+        let layers = |fractions: [f64; 4]| {
+            fractions.map(|adhesive_fraction| DepthLayer {
+                depth_m: 0.0,
+                adhesive_fraction,
+                filled_void_fraction: f64::NAN,
+                filled_open_fraction: f64::NAN,
+            })
+        };
+        assert!(!at_an_outer_face(&layers([0.0, 0.5, 1.0, 0.0])));
+        assert!(at_an_outer_face(&layers([0.0, 0.5, 1.0, 1e-3])));
+        assert!(at_an_outer_face(&layers([1e-3, 0.5, 1.0, 0.0])));
+        assert!(!at_an_outer_face(&[]));
     }
 }

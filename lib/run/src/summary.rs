@@ -220,12 +220,16 @@ impl Summary {
         let gap = self.gap_m.map_or(String::new(), |g| {
             format!(", gap {:.2} um", g.max(0.0) * 1e6)
         });
-        let line = match &self.penetration {
-            Some(found) if found.bond_line != "filled" => {
-                format!(", bond line {}", found.bond_line)
+        let line = self.penetration.as_ref().map_or(String::new(), |found| {
+            let line = match found.bond_line.as_str() {
+                "filled" => String::new(),
+                other => format!(", bond line {other}"),
+            };
+            match found.outer_face_reached {
+                true => line + ", adhesive at the outer face of the wood",
+                false => line,
             }
-            _ => String::new(),
-        };
+        });
         let left = match self.points_left {
             0 => String::new(),
             n => format!(" ({n} points left through open sides)"),

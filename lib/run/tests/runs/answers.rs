@@ -153,6 +153,7 @@ fn grooves_filled_by_a_known_volume_are_told_within_a_voxel() {
     // The filled share of the open lumens is 1 to the front and 0 behind it: markers lie within a voxel of
     // where they should, so that what is filled to any depth is known to a layer.
     let answers = summary.penetration.unwrap();
+    assert!(!answers.outer_face_reached);
     for shares in [
         &answers.filled_by_depth.bottom,
         &answers.filled_by_depth.top,
