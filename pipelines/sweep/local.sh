@@ -3,6 +3,8 @@
 # Killed anywhere, it goes on when it is started again.
 #
 #   local.sh TABLE.csv CASE.toml RESULT_COLUMN JOBS
+#
+# No figure where RESULT_COLUMN is empty: one needs a parameter of more than one number.
 set -euo pipefail
 table=$1 case=$2 response=$3 jobs=$4
 PATH=$PWD/target/release:$PATH
@@ -14,5 +16,5 @@ bond-sweep plan "$table" --case "$case" -o "$name"
 # What keeps a run from its end is said by itself; collect says which rows lack.
 xargs -P "$jobs" -I{} bond-sweep run --threads 1 "$name" {} <"$name/runs.txt" || true
 bond-sweep collect "$name" -o "$name.csv" --cost "$name-cost.csv"
-bond-figures response "$name.csv" --result "$response" -o "$name.svg"
-echo "$name.csv, $name-cost.csv, $name.svg"
+echo "$name.csv, $name-cost.csv"
+[ -z "$response" ] || bond-figures response "$name.csv" --result "$response" -o "$name.svg"
