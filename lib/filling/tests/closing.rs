@@ -7,7 +7,9 @@
 mod plain;
 
 use filling::{Implicit, Settings};
-use physics::{Clamp, Motion, Scene, Scheme, StepLimit, Stop, VoxelBlock, WallLaw};
+use physics::{
+    Clamp, Motion, Scene, Scheme, StepLimit, Stop, Table, Viscosity, VoxelBlock, WallLaw,
+};
 
 /// Edge of a cell, m.
 const H: f64 = 2.9e-6;
@@ -218,6 +220,31 @@ fn wood_closes_in_three_dimensions() {
     // Inertia of the liquid as the upper surface crosses the cells, in so small a sample.
     assert!(closed.imbalance() < 0.015 && closed.jitter()[0] < 0.03);
     assert!(closed.volume_error.abs() < 0.006);
+}
+
+/// PVA-PF at rest is 210 times as thick as it flows (paper Table 1).
+#[test]
+fn a_liquid_that_is_thick_at_rest_starts_as_it_will_flow() {
+    let wood = |top: bool, i: usize, k: usize| {
+        let shift = if top { 7 } else { 0 };
+        (i + shift) % 14 < 2 || (k + shift) % 14 < 2
+    };
+    let mut scene = scene([14, 14], 0, wood);
+    let table = Table::new(&[
+        (1.0, 210.0),
+        (6.30957, 87.0),
+        (39.8107, 1.7),
+        (501.187, 1.0),
+    ]);
+    scene.liquid.viscosity = Viscosity::Table(table.unwrap());
+    let mut scheme = Implicit::new(scene, Settings::default()).unwrap();
+    let limit = StepLimit {
+        time_s: f64::INFINITY,
+        travel_m: H,
+    };
+    let [first, second] = [(); 2].map(|()| scheme.advance(limit).unwrap().iterations);
+    println!("{first} and {second} iterations");
+    assert!(first <= 2 * second, "{first} against {second}");
 }
 
 /// Ribs on ribs until they touch: the last liquid between them must get out into the lumens.

@@ -231,16 +231,11 @@ impl Implicit {
     ) -> Result<(Solved, Option<Viscous>), Failure> {
         let carried = before_step.velocity;
         let by_formula = matches!(self.setup.liquid.viscosity, Viscosity::Law(_));
-        match &self.state.last {
-            // Liquid at rest may be decades thicker than what will flow: the first pass takes the unit.
-            None if by_formula => (),
-            last => {
-                let window = &operator.lattice.window;
-                let start = (last.as_ref()).map_or(carried.to_vec(), |last| {
-                    last.at(window, &operator.dofs, carried)
-                });
-                self.update_viscosity(operator, &start);
-            }
+        // Without a last step the first pass takes the unit: liquid at rest may be decades thicker than what will flow, and
+        // thick beside what a wall already shears is the hardest of systems.
+        if let Some(last) = &self.state.last {
+            let start = last.at(&operator.lattice.window, &operator.dofs, carried);
+            self.update_viscosity(operator, &start);
         }
         let (mut pass, mut before, mut response) = (0, None, 0.0);
         loop {
