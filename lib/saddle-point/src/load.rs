@@ -55,6 +55,33 @@ impl Load {
         self.resistance != 0.0 || acts(&self.momentum) || acts(&self.source)
     }
 
+    /// The same load with the velocities of the faces counted from the share t = m/A_ff of its speed V that each takes
+    /// alone, u = w + t V; and these shares. Liquid that is bound tightly to the body follows it: of what it drags by and
+    /// what that drags it by, next to nothing is left, which a preconditioner would have to hit to that part.
+    pub(crate) fn followed(&self, system: &SaddleSystem) -> (Self, Vec<f64>) {
+        let (a, g) = (system.a, system.g);
+        let shares: Vec<f64> = (self.momentum.iter().zip(a.diagonal()))
+            .map(|(momentum, own)| momentum / own)
+            .collect();
+        let mut taken = vec![0.0; shares.len()];
+        a.multiply(&shares, &mut taken);
+        let momentum: Vec<f64> = (self.momentum.iter().zip(&taken))
+            .map(|(momentum, taken)| momentum - taken)
+            .collect();
+        let source = (self.source.iter().enumerate())
+            .map(|(cell, source)| source - g.row_times_wide(cell, &shares))
+            .collect();
+        let least = self.resistance - dot(&self.momentum, &shares) - dot(&momentum, &shares);
+        let followed = Self {
+            momentum,
+            source,
+            resistance: least.max(0.0),
+            force: self.force + dot(&shares, system.b),
+            scale: self.scale,
+        };
+        (followed, shares)
+    }
+
     /// [`SaddleSystem::measure`] with the body moving at `speed`.
     pub(crate) fn measure(&self, system: &SaddleSystem, speed: f64) -> f64 {
         let moving = |known: &[f64], unit: &[f64]| -> Vec<f64> {

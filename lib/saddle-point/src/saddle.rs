@@ -13,7 +13,7 @@ use crate::schur::Schur;
 use crate::sealed::Sealed;
 use crate::system::SaddleSystem;
 use crate::vanka::Vanka;
-use crate::vector::{Real, Work, for_chunks, norm};
+use crate::vector::{Real, Work, add_scaled, for_chunks, norm};
 
 /// Part of a solution's size below which a residual is rounding.
 const ROUNDING: f64 = 1e-14;
@@ -137,6 +137,7 @@ impl SaddleSolver {
         system.check(u, p)?;
         load.check(system)?;
         let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
+        let (followed, shares) = load.followed(system);
         let mut rhs = system.right_hand_side();
         rhs.push(0.0);
         x.push(0.0);
@@ -147,18 +148,20 @@ impl SaddleSolver {
         let measure = Measure::new(system, options, 1.0);
         let report = prepared(system, options, |mut inner, mut preconditioner| {
             let result = measure.stages(options, |limits| {
-                let moving = measure.of(load.measure(system, *speed), &x[..last]);
-                let weight = moving / load.scale;
-                (x[last], rhs[last]) = (*speed / weight, weight * load.force);
+                let moving = measure.of(followed.measure(system, *speed), &x[..last]);
+                let weight = moving / followed.scale;
+                (x[last], rhs[last]) = (*speed / weight, weight * followed.force);
                 limits.size = resting.hypot(moving);
                 let mut operator = LoadedOperator {
                     inner: &mut inner,
-                    load,
+                    load: &followed,
                     weight,
                 };
-                let mut bordered = Bordered::new(&mut preconditioner, load, weight);
+                let mut bordered = Bordered::new(&mut preconditioner, &followed, weight);
+                add_scaled(&mut x[..shares.len()], -*speed, &shares);
                 let result = fgmres(&mut operator, &mut bordered, &rhs, &mut x, *limits, space);
                 *speed = weight * x[last];
+                add_scaled(&mut x[..shares.len()], *speed, &shares);
                 result
             });
             (result, preconditioner.bound())
