@@ -8,6 +8,8 @@ use crate::vector::{CHUNK, Real, Work, for_chunks, for_chunks_pair, reset};
 
 /// Sweeps that tighten the bound of the largest eigenvalue.
 const BOUND_SWEEPS: usize = 6;
+/// Largest over smallest eigenvalue of a widened interval.
+const WIDEST: f64 = 6400.0;
 
 /// `p(A) ~ A^-1` for a symmetric positive definite `A` with diagonal `D`: `S q(S A S) S` with
 /// `S = D^-1/2` and `q` the Chebyshev iteration of given degree on `[bound/ratio, bound]`
@@ -49,6 +51,16 @@ impl<'a> Chebyshev<'a> {
             }
         });
         &self.before
+    }
+
+    /// Takes in eigenvalues down to the bound over [`WIDEST`]; whether it did not before.
+    pub(crate) fn widen(&mut self) -> bool {
+        let wider = (WIDEST / self.ratio).sqrt();
+        if wider > 1.0 {
+            self.degree = (wider * self.degree as f64).ceil() as usize;
+            self.ratio = WIDEST;
+        }
+        wider > 1.0
     }
 
     /// Guaranteed upper bound of the eigenvalues of `D^-1 A`.
@@ -201,5 +213,17 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The degree grows as the root of the interval, once.
+    #[test]
+    fn an_interval_is_widened_once() {
+        let one = Csr::assemble(1, 1, |_, list| list.add(0, 2.0)).unwrap();
+        let scaled = Scaled::new(&one).unwrap();
+        let mut inverse = Chebyshev::new(&scaled, 24, 400.0);
+        assert!(inverse.widen());
+        assert_eq!((inverse.degree, inverse.ratio), (96, 6400.0));
+        assert!(!inverse.widen());
+        assert_eq!((inverse.degree, inverse.ratio), (96, 6400.0));
     }
 }

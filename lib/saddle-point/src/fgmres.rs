@@ -17,6 +17,11 @@ pub(crate) trait Operator {
     fn apply(&mut self, x: &[Work], y: &mut [f64]);
 }
 
+/// Iterations that must bring the residual below [`SLOW`] of what it was, or a stronger preconditioner takes over if there is
+/// one, in a cycle of its own.
+const PATIENCE: usize = 10;
+const SLOW: f64 = 0.3;
+
 /// What approximates the inverse of the operator.
 pub(crate) trait Precondition {
     /// `z` is that of `r`.
@@ -27,6 +32,9 @@ pub(crate) trait Precondition {
 
     /// Adds that to `x` before a cycle, in double precision, by the residual `r`.
     fn begin(&self, r: &[f64], x: &mut [f64]);
+
+    /// Makes it nearer to the inverse, for more work; whether it could.
+    fn strengthen(&mut self) -> bool;
 }
 
 /// When to stop.
@@ -118,6 +126,11 @@ pub(crate) fn fgmres<K: Operator>(
             least_squares.push(column, remaining);
             history.push(least_squares.residual() / size);
             if least_squares.residual() <= target || remaining == 0.0 {
+                break;
+            }
+            let before = history.iter().rev().nth(PATIENCE);
+            let slow = before.is_some_and(|before| least_squares.residual() > SLOW * before * size);
+            if slow && preconditioner.strengthen() {
                 break;
             }
             normalise(&space.vector, remaining, slot(&mut space.basis, k + 1));
@@ -252,6 +265,10 @@ mod tests {
         }
 
         fn begin(&self, _: &[f64], _: &mut [f64]) {}
+
+        fn strengthen(&mut self) -> bool {
+            false
+        }
     }
 
     /// Residuals by iteration, and how often the operator was applied.
@@ -286,5 +303,72 @@ mod tests {
         assert_eq!((below.0.len() - 1, below.1), (8, 10));
         let above = solve(r / 1.5);
         assert_eq!(above.1, above.0.len() - 1 + 2, "{:?}", above.0);
+    }
+
+    /// diag(1, 1/2^4, 1/3^4, ..), whose inverse is at hand once it is asked for.
+    struct Steep {
+        strong: bool,
+    }
+
+    const POWER: i32 = 4;
+
+    impl Operator for Steep {
+        fn apply_exactly(&self, x: &[f64], y: &mut [f64]) {
+            for (row, (y, &x)) in y.iter_mut().zip(x).enumerate() {
+                *y = x / ((row + 1) as f64).powi(POWER);
+            }
+        }
+
+        fn apply(&mut self, x: &[Work], y: &mut [f64]) {
+            let x: Vec<f64> = x.iter().map(|&x| x.into()).collect();
+            self.apply_exactly(&x, y);
+        }
+    }
+
+    impl Precondition for Steep {
+        fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+            let power = if self.strong { POWER } else { 0 };
+            let inverse = |(row, r): (usize, &Work)| r * ((row + 1) as Work).powi(power);
+            *z = r.iter().enumerate().map(inverse).collect();
+        }
+
+        fn begins(&self) -> bool {
+            false
+        }
+
+        fn begin(&self, _: &[f64], _: &mut [f64]) {}
+
+        fn strengthen(&mut self) -> bool {
+            !std::mem::replace(&mut self.strong, true)
+        }
+    }
+
+    /// After ten iterations that bring next to nothing, one or two with the inverse do.
+    #[test]
+    fn a_cycle_that_is_slow_gives_way_to_a_stronger_preconditioner() {
+        let limits = Limits {
+            tolerance: 1e-5,
+            size: 10.0,
+            enough: 0.0,
+            max_iterations: 50,
+            restart: 30,
+        };
+        let [mut operator, mut preconditioner] = [(); 2].map(|()| Steep { strong: false });
+        let (b, mut x) = ([1.0; 100], [0.0; 100]);
+        let space = &mut KrylovSpace::default();
+        let history = fgmres(
+            &mut operator,
+            &mut preconditioner,
+            &b,
+            &mut x,
+            limits,
+            space,
+        );
+        let history = history.unwrap();
+        assert!(history[PATIENCE] > SLOW, "{history:?}");
+        assert!(
+            (1..=2).contains(&(history.len() - 1 - PATIENCE)),
+            "{history:?}"
+        );
     }
 }

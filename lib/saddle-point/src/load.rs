@@ -153,26 +153,33 @@ pub(crate) struct Bordered<'a, 'b> {
     column: Vec<Work>,
     response: Vec<Work>,
     held: Held,
+    /// d.
+    resistance: f64,
     pivot: f64,
 }
 
 impl<'a, 'b> Bordered<'a, 'b> {
     pub(crate) fn new(inner: &'b mut Preconditioner<'a>, load: &Load, weight: f64) -> Self {
-        let column = load.column(weight);
-        let mut response = Vec::new();
-        inner.apply(&column, &mut response);
         let source: Vec<f64> = load.source.iter().map(|s| weight * s).collect();
-        let held = inner.sealed().hold(&source);
-        // Positive for a preconditioner near enough to the system, which resists.
-        let pivot = weight * weight * load.resistance - dot(&column, &response) + held.resistance();
-        Self {
-            inner,
+        let mut bordered = Self {
             faces: load.momentum.len(),
-            column,
-            response,
-            held,
-            pivot: pivot.abs().max(f64::MIN_POSITIVE),
-        }
+            column: load.column(weight),
+            response: Vec::new(),
+            held: inner.sealed().hold(&source),
+            resistance: weight * weight * load.resistance,
+            pivot: 0.0,
+            inner,
+        };
+        bordered.respond();
+        bordered
+    }
+
+    /// Finds the response to the column, and the pivot.
+    fn respond(&mut self) {
+        self.inner.apply(&self.column, &mut self.response);
+        // Positive for a preconditioner near enough to the system, which resists.
+        let pivot = self.resistance - dot(&self.column, &self.response) + self.held.resistance();
+        self.pivot = pivot.abs().max(f64::MIN_POSITIVE);
     }
 }
 
@@ -187,6 +194,14 @@ impl Precondition for Bordered<'_, '_> {
         add_scaled(z, -speed, &self.response);
         pockets.subtract(&self.held.suction(&means, speed), &mut z[faces..]);
         z.push(Work::nearest(speed));
+    }
+
+    fn strengthen(&mut self) -> bool {
+        let stronger = self.inner.strengthen();
+        if stronger {
+            self.respond();
+        }
+        stronger
     }
 
     fn begins(&self) -> bool {

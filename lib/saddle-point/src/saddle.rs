@@ -386,6 +386,10 @@ impl Precondition for Preconditioner<'_> {
         self.vanka.sweep(left, self.scale, velocity, pressure);
     }
 
+    fn strengthen(&mut self) -> bool {
+        self.chebyshev.widen()
+    }
+
     fn begins(&self) -> bool {
         !self.sealed().is_empty()
     }
