@@ -51,7 +51,7 @@ fn slid(n: usize, offset: f64, [advancing, receding]: [f64; 2], share: f64, time
     let (start, mut time, mut steps) = (middle(&scheme), 0.0, 0);
     while time < end * (1.0 - 1e-9) {
         let limit = StepLimit {
-            time_s: (end - time).min(0.05 * times * end),
+            time_s: (end - time).min(0.05 * end),
             travel_m: f64::INFINITY,
         };
         time += scheme.advance(limit).unwrap().dt_s;

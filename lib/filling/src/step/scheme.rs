@@ -7,12 +7,14 @@ use physics::{
 };
 use rayon::prelude::*;
 
-use super::solution::PASSES;
+use super::solution::{LINES, PASSES};
 use super::{Implicit, LastFlow, Rates};
 use crate::transport;
 
 /// Name of the array that holds where the press programme is.
 const PROGRAMME: &str = "programme";
+/// Name of the array that holds the steps whose contact lines did not settle.
+const LINES_LEFT: &str = "contact_lines";
 
 impl Scheme for Implicit {
     fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
@@ -106,6 +108,10 @@ impl Scheme for Implicit {
         let programme = self.state.drive.programme().map(PressRun::state);
         arrays.extend(programme.map(|state| (PROGRAMME.to_owned(), Array::F64(state))));
         arrays.extend(self.save_air());
+        if self.setup.lines_hold() {
+            let undecided = self.state.counts.undecided as f64;
+            arrays.push((LINES_LEFT.into(), Array::F64(vec![undecided])));
+        }
         Saved(arrays)
     }
 
@@ -168,6 +174,16 @@ impl Scheme for Implicit {
             self.state.drive.set_programme(state)?;
         }
         self.restore_air(saved)?;
+        if self.setup.lines_hold() {
+            self.state.counts.undecided = match saved.f64s(LINES_LEFT)? {
+                &[count] if (0.0..=steps).contains(&count) => count as u64,
+                other => {
+                    return Err(format!(
+                        "the checkpoint's contact lines are none: {other:?}"
+                    ));
+                }
+            };
+        }
         self.state.drive.set_state(drive);
         self.state.rates = Rates::Restored(rates.to_vec());
         Ok(())
@@ -207,6 +223,10 @@ impl Scheme for Implicit {
             let unsettled = self.state.counts.unsettled;
             counts.push(("steps whose viscosity did not settle", unsettled));
         }
+        if self.setup.lines_hold() {
+            let undecided = self.state.counts.undecided;
+            counts.push(("steps whose contact lines did not settle", undecided));
+        }
         counts.extend(self.air_counts());
         counts
     }
@@ -215,7 +235,8 @@ impl Scheme for Implicit {
         /// Part of the steps that may be so.
         const MOST_UNSETTLED: f64 = 0.1;
         let (steps, unsettled) = (self.state.steps, self.state.counts.unsettled);
-        let viscosity = (unsettled as f64 > MOST_UNSETTLED * steps as f64).then(|| {
+        let often = |count: u64| count as f64 > MOST_UNSETTLED * steps as f64;
+        let viscosity = often(unsettled).then(|| {
             format!(
                 "in {unsettled} of {steps} steps {PASSES} passes did not find the viscosity of the flow, \
                  which makes their pressures uncertain by more than 1 %; a viscosity_table \
@@ -223,14 +244,23 @@ impl Scheme for Implicit {
             )
         });
         let astray = self.state.air.astray;
-        let air = (astray as f64 > MOST_UNSETTLED * steps as f64).then(|| {
+        let air = often(astray).then(|| {
             format!(
                 "in {astray} of {steps} steps the air did not come to the pressure of its volume"
             )
         });
+        let undecided = self.state.counts.undecided;
+        let lines = often(undecided).then(|| {
+            format!(
+                "in {undecided} of {steps} steps {LINES} solves did not find which contact lines hold and which go"
+            )
+        });
         let pressure = self.state.drive.broken.1;
         let limit = (pressure > 0.0).then(|| physics::broken(pressure));
-        let said: Vec<String> = viscosity.into_iter().chain(air).chain(limit).collect();
+        let said: Vec<String> = [viscosity, air, lines, limit]
+            .into_iter()
+            .flatten()
+            .collect();
         (!said.is_empty()).then(|| said.join("; "))
     }
 }

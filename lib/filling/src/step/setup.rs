@@ -92,6 +92,11 @@ impl Setup {
         }
     }
 
+    /// Whether contact lines hold between two angles.
+    pub(super) fn lines_hold(&self) -> bool {
+        (self.liquid.wetting).is_some_and(|wetting| wetting.advancing != wetting.receding)
+    }
+
     /// The window of the whole domain.
     pub(super) fn window_of_all(&self) -> Window {
         let cells = self.domain.cells.map(|n| n as i64);

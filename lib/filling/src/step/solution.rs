@@ -15,7 +15,9 @@ use saddle_point::Csr;
 /// Largest number of passes over a viscosity that depends on the shear rate.
 pub(super) const PASSES: usize = 20;
 /// Most solves of a step for which contact lines hold and which go.
-const LINES: usize = 6;
+pub(super) const LINES: usize = 10;
+/// Part of all that lines can hold which those may have that a further solve would change.
+const DECIDED: f64 = 0.01;
 /// Relative change of the viscosity, weighted by dissipation, below which no further pass is made.
 const SETTLED: f64 = 1e-3;
 /// The same after the last pass from which the viscosity does not count as that of the flow.
@@ -39,6 +41,8 @@ pub(super) struct Solution {
     pub(super) iterations: u32,
     /// Where the viscosity depends on the shear rate: what that asked for.
     pub(super) viscous: Option<Viscous>,
+    /// Whether contact lines hold and go as the flow asks for.
+    pub(super) decided: bool,
     /// For the density projection: fluxes, liquid volumes of the faces, and the liquid in the
     /// pressure unknowns.
     pub(super) g: Csr<f64>,
@@ -140,6 +144,7 @@ impl Implicit {
             power: power * self.setup.units.force(),
             iterations: now.iterations,
             viscous,
+            decided: operator.settle_lines(&now.u, &self.state.drive.velocities()) < DECIDED,
             u: now.u,
             g: match &air {
                 Some(_) => system.g.first_rows(operator.dofs.cells.len()),
@@ -161,7 +166,7 @@ impl Implicit {
     ) -> Result<(Solved, Option<Viscous>), Failure> {
         let mut solved = self.solve_with_lines(operator, before, now)?;
         for _ in 1..LINES {
-            if !operator.settle_lines(&now.u, &self.state.drive.velocities()) {
+            if operator.settle_lines(&now.u, &self.state.drive.velocities()) < DECIDED {
                 break;
             }
             solved = self.solve_with_lines(operator, before, now)?;

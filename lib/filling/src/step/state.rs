@@ -52,8 +52,10 @@ pub(super) struct Counts {
     pub(super) deflected: u64,
     /// ... found no free place nearby between closing walls.
     pub(super) pinched: u64,
-    /// ...; and steps whose viscosity did not become that of their flow.
+    /// ...; steps whose viscosity did not become that of their flow.
     pub(super) unsettled: u64,
+    /// ...; and steps in which it was not found which contact lines hold.
+    pub(super) undecided: u64,
 }
 
 impl State {

@@ -27,6 +27,7 @@ impl Implicit {
         };
         let (viscous, influence) = (solution.viscous.take(), self.setup.influence_length());
         self.state.counts.unsettled += u64::from(viscous.as_ref().is_some_and(|v| !v.settled));
+        self.state.counts.undecided += u64::from(!solution.decided);
         let (u, face, bodies) = (&solution.u, &solution.dofs.face, &solution.bodies);
         let particles = &mut self.state.particles;
         let (field, moved) = self.workspace.clock.time(Part::Advection, || {

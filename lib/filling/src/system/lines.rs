@@ -22,7 +22,7 @@ pub(super) struct Line {
     /// Component of the wall's velocity, as 3 body + axis.
     pub(super) wall: u32,
     /// The most that it holds.
-    pub(super) holds: f64,
+    holds: f64,
     state: State,
 }
 
@@ -91,24 +91,29 @@ impl Lines {
         (self.0[from..].iter()).take_while(move |line| line.face as usize == face)
     }
 
-    /// Makes lines go or hold as they do at the velocities `u` of the faces and `bodies`, m/s; whether that changes any.
-    fn settle(&mut self, u: &[f64], bodies: &[[f64; 3]], pace: f64) -> bool {
-        let mut changed = false;
+    /// Makes lines go or hold as they do at the velocities `u` of the faces and `bodies`, m/s; the part that lines which this
+    /// changes have of all that lines can hold.
+    fn settle(&mut self, u: &[f64], bodies: &[[f64; 3]], pace: f64) -> f64 {
+        let (mut changed, mut all) = (0.0, 0.0);
         for line in &mut self.0 {
             let wall = line.wall as usize;
             let speed = u[line.face as usize] - bodies[wall / 3][wall % 3];
             let state = line.at(speed, pace);
-            changed |= state != line.state;
+            if state != line.state {
+                changed += line.holds;
+            }
+            all += line.holds;
             line.state = state;
         }
-        changed
+        if all > 0.0 { changed / all } else { 0.0 }
     }
 }
 
 impl Operator<'_> {
     /// Makes contact lines go or hold as they do at velocities `u` of the faces and `bodies`, m/s. One that turned around
-    /// rests until the end of the step: P jumps where it is, and would throw it to and fro. Whether that changes any.
-    pub(crate) fn settle_lines(&mut self, u: &[f64], bodies: &[[f64; 3]]) -> bool {
+    /// rests until the end of the step: P jumps where it is, and would throw it to and fro. The part that changes, by what
+    /// lines can hold.
+    pub(crate) fn settle_lines(&mut self, u: &[f64], bodies: &[[f64; 3]]) -> f64 {
         (self.pull.lines).settle(u, bodies, self.scales.cell_per_step)
     }
 
@@ -149,14 +154,17 @@ mod tests {
         let held = 2.0 / 1e-3;
         assert_eq!(
             at(0.1009),
-            (true, vec![-2.0, 0.0, 0.0], vec![0.0, held, held])
+            (1.0 / 3.0, vec![-2.0, 0.0, 0.0], vec![0.0, held, held])
         );
         // The second has turned around, the third has not been held in this step.
         assert_eq!(
             at(0.102),
-            (true, vec![-2.0, 0.0, -2.0], vec![0.0, held, 0.0])
+            (1.0 / 3.0, vec![-2.0, 0.0, -2.0], vec![0.0, held, 0.0])
         );
-        assert_eq!(at(0.0), (true, vec![0.0, 0.0, 0.0], vec![held, held, held]));
-        assert!(!at(0.5).0);
+        assert_eq!(
+            at(0.0),
+            (2.0 / 3.0, vec![0.0, 0.0, 0.0], vec![held, held, held])
+        );
+        assert_eq!(at(0.5).0, 0.0);
     }
 }
