@@ -1,5 +1,7 @@
 //! A body of unknown speed under a known force against the same body at a known speed.
 
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
 mod pseudo_wood;
 
 use pseudo_wood::{Case, Problem};
