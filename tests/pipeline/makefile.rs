@@ -5,13 +5,13 @@ use std::process::{Command, Output};
 
 use crate::workbench::{TOOLS, said};
 
-/// `make -n` at the top of the repository with the tools taken for built; nothing without make.
+/// `make -n` at the top of the repository with the tools taken for built and all else for not; nothing without make.
 fn plan(arguments: &[&str]) -> Option<Output> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut make = Command::new("make");
     // A make that runs the tests would hand its own flags down.
     make.env_remove("MAKEFLAGS").env_remove("MFLAGS");
-    let plan = make.args(["-n", "BUILT=1"]).args(arguments);
+    let plan = make.args(["-nB", "BUILT=1"]).args(arguments);
     match plan.current_dir(top).output() {
         Ok(output) => Some(output),
         Err(_) => {
