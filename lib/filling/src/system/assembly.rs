@@ -8,6 +8,7 @@ use super::air::Tangent;
 use super::couplings::{self, Couplings};
 use super::edges::Edges;
 use super::fluxes::Areas;
+use super::lines::Friction;
 use super::terms::Velocity;
 
 /// Smallest liquid volume, in cells, that a face's mass counts with.
@@ -33,8 +34,10 @@ pub(crate) struct System {
     /// Pressures of the pockets of air, which their unknowns count from: what softens them much would outweigh
     /// all else.
     shift: Vec<f64>,
-    /// Momentum by these and by menisci; empty without both.
+    /// Momentum by these, by menisci and by walls that move with lines that they hold; empty without any.
     standing: Vec<f64>,
+    /// Friction of those lines.
+    held: Vec<Friction>,
     /// Slowest velocity that counts at the front, m/s.
     slow: f64,
     /// Momentum with all bodies at rest.
@@ -98,6 +101,10 @@ impl System {
 
     /// Sets the velocities of the bodies, m/s.
     pub(crate) fn steer(&mut self, bodies: &[[f64; 3]]) {
+        for line in &self.held {
+            let velocity = |bodies: &[[f64; 3]]| bodies[line.wall / 3][line.wall % 3];
+            self.standing[line.face] += line.friction * (velocity(bodies) - velocity(&self.bodies));
+        }
         self.bodies = bodies.to_vec();
         let couplings = &self.couplings;
         self.b = (self.momentum.par_iter().enumerate())
@@ -244,6 +251,7 @@ impl Operator<'_> {
             pulled,
             shift,
             standing,
+            held: self.held_lines(),
             slow: SLOW * self.scales.cell_per_step,
             momentum,
             carried,
@@ -253,7 +261,7 @@ impl Operator<'_> {
             face_volume,
             g,
             c,
-            bodies: Vec::new(),
+            bodies: vec![[0.0; 3]; bodies.len()],
             b: Vec::new(),
             source: Vec::new(),
         };

@@ -109,7 +109,27 @@ impl Lines {
     }
 }
 
+/// What a held line resists with.
+pub(super) struct Friction {
+    pub(super) face: usize,
+    /// Component of the wall's velocity, as 3 body + axis.
+    pub(super) wall: usize,
+    /// Force over velocity.
+    pub(super) friction: f64,
+}
+
 impl Operator<'_> {
+    /// What all held lines resist with.
+    pub(super) fn held_lines(&self) -> Vec<Friction> {
+        let pace = self.scales.cell_per_step;
+        let held = self.pull.lines.iter().map(|line| Friction {
+            face: line.face as usize,
+            wall: line.wall as usize,
+            friction: line.friction(pace),
+        });
+        held.filter(|line| line.friction > 0.0).collect()
+    }
+
     /// Makes contact lines go or hold as they do at velocities `u` of the faces and `bodies`, m/s. One that turned around
     /// rests until the end of the step: P jumps where it is, and would throw it to and fro. The part that changes, by what
     /// lines can hold.
