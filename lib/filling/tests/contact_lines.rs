@@ -63,6 +63,8 @@ fn slid(
         time += scheme.advance(limit).unwrap().dt_s;
         steps += 1;
     }
+    let settled = ("steps whose contact lines did not settle", 0);
+    assert!(scheme.counts().contains(&settled));
     let way = (middle(&scheme) - start) / H - drift * times;
     println!(
         "slug in a slit of {n} cells off by {offset}, {advancing}/{receding} degrees, {share} of what holds, {times} times, drift {drift}: way {way:+.4} in {steps} steps"

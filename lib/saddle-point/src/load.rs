@@ -56,8 +56,8 @@ impl Load {
     }
 
     /// The same load with the velocities of the faces counted from the share t = m/A_ff of its speed V that each takes
-    /// alone, u = w + t V; and these shares. Liquid that is bound tightly to the body follows it: of what it drags by and
-    /// what that drags it by, next to nothing is left, which a preconditioner would have to hit to that part.
+    /// alone, u = w + t V; and these shares. What is bound tightly to the body drags it and is dragged by it with next to the
+    /// same force, and a preconditioner would have to hit both to the part that is left.
     pub(crate) fn followed(&self, system: &SaddleSystem) -> (Self, Vec<f64>) {
         let (a, g) = (system.a, system.g);
         let shares: Vec<f64> = (self.momentum.iter().zip(a.diagonal()))
@@ -71,11 +71,10 @@ impl Load {
         let source = (self.source.iter().enumerate())
             .map(|(cell, source)| source - g.row_times_wide(cell, &shares))
             .collect();
-        let least = self.resistance - dot(&self.momentum, &shares) - dot(&momentum, &shares);
         let followed = Self {
+            resistance: self.resistance - dot(&self.momentum, &shares) - dot(&momentum, &shares),
             momentum,
             source,
-            resistance: least.max(0.0),
             force: self.force + dot(&shares, system.b),
             scale: self.scale,
         };
@@ -153,7 +152,7 @@ pub(crate) struct Bordered<'a, 'b> {
     column: Vec<Work>,
     response: Vec<Work>,
     held: Held,
-    /// d.
+    /// d times the square of the weight.
     resistance: f64,
     pivot: f64,
 }

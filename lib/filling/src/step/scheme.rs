@@ -176,7 +176,7 @@ impl Scheme for Implicit {
         self.restore_air(saved)?;
         if self.setup.lines_hold() {
             self.state.counts.undecided = match saved.f64s(LINES_LEFT)? {
-                &[count] if (0.0..=steps).contains(&count) => count as u64,
+                &[count] if (0.0..=steps).contains(&count) && count.fract() == 0.0 => count as u64,
                 other => {
                     return Err(format!(
                         "the checkpoint's contact lines are none: {other:?}"

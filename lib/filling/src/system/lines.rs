@@ -91,8 +91,8 @@ impl Lines {
         (self.0[from..].iter()).take_while(move |line| line.face as usize == face)
     }
 
-    /// Makes lines go or hold as they do at the velocities `u` of the faces and `bodies`, m/s; the part that lines which this
-    /// changes have of all that lines can hold.
+    /// Makes lines go or hold as they do at the velocities `u` of the faces and `bodies`, m/s; by how much that changes what they
+    /// pull with, over all that lines can hold.
     fn settle(&mut self, u: &[f64], bodies: &[[f64; 3]], pace: f64) -> f64 {
         let (mut changed, mut all) = (0.0, 0.0);
         for line in &mut self.0 {
@@ -100,7 +100,8 @@ impl Lines {
             let speed = u[line.face as usize] - bodies[wall / 3][wall % 3];
             let state = line.at(speed, pace);
             if state != line.state {
-                changed += line.holds;
+                // What goes the other way pulls by no more than it holds; what was held may have pulled by more.
+                changed += (line.friction(pace) * speed.abs() - line.holds).abs();
             }
             all += line.holds;
             line.state = state;
@@ -131,8 +132,8 @@ impl Operator<'_> {
     }
 
     /// Makes contact lines go or hold as they do at velocities `u` of the faces and `bodies`, m/s. One that turned around
-    /// rests until the end of the step: P jumps where it is, and would throw it to and fro. The part that changes, by what
-    /// lines can hold.
+    /// rests until the end of the step: P jumps where it is, and would throw it to and fro. By how much that changes what they
+    /// pull with, over all that lines can hold.
     pub(crate) fn settle_lines(&mut self, u: &[f64], bodies: &[[f64; 3]]) -> f64 {
         (self.pull.lines).settle(u, bodies, self.scales.cell_per_step)
     }
@@ -168,7 +169,7 @@ mod tests {
             let changed = lines.settle(&[u], &[[0.0, 0.1, 0.0]], 1.0);
             let forces: Vec<f64> = lines.iter().map(Line::force).collect();
             let frictions: Vec<f64> = lines.iter().map(|line| line.friction(1.0)).collect();
-            (changed, forces, frictions)
+            ((3.0 * changed).round() / 3.0, forces, frictions)
         };
         // All that it holds at a thousandth of a cell.
         let held = 2.0 / 1e-3;
