@@ -16,7 +16,7 @@ use saddle_point::Csr;
 pub(super) const PASSES: usize = 20;
 /// Most solves of a step for which contact lines hold and which go.
 pub(super) const LINES: usize = 10;
-/// Part of all that lines can hold by which a further solve may change their pull.
+/// Part of all that lines can hold by which they may pull otherwise than at the velocities found.
 const DECIDED: f64 = 0.01;
 /// Relative change of the viscosity, weighted by dissipation, below which no further pass is made.
 const SETTLED: f64 = 1e-3;

@@ -7,6 +7,8 @@ use super::terms::{Term, Velocity};
 const CREEP: f64 = 1e-3;
 /// Way in a step from which on a line counts as one that went, cells.
 const WENT: f64 = 0.01;
+/// How often a line may turn around in a step before it is held to its end.
+const TURNS: usize = 2;
 
 /// The lines of a step, by their faces.
 ///
@@ -24,12 +26,13 @@ pub(super) struct Line {
     /// The most that it holds.
     holds: f64,
     state: State,
+    /// How often it has turned around in the step.
+    turns: usize,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 enum State {
-    /// Held; whether until the end of the step, as it has turned around.
-    Held { turned: bool },
+    Held,
     /// Goes along the axis, 1, or against it, -1.
     Goes(f64),
 }
@@ -43,8 +46,9 @@ impl Line {
             holds,
             state: match speed.abs() > WENT * pace {
                 true => State::Goes(speed.signum()),
-                false => State::Held { turned: false },
+                false => State::Held,
             },
+            turns: 0,
         }
     }
 
@@ -52,7 +56,7 @@ impl Line {
     pub(super) fn force(&self) -> f64 {
         match self.state {
             State::Goes(sign) => -sign * self.holds,
-            State::Held { .. } => 0.0,
+            State::Held => 0.0,
         }
     }
 
@@ -60,18 +64,29 @@ impl Line {
     fn friction(&self, pace: f64) -> f64 {
         match self.state {
             State::Goes(_) => 0.0,
-            State::Held { .. } => self.holds / (CREEP * pace),
+            State::Held => self.holds / (CREEP * pace),
         }
     }
 
-    /// What it is at a velocity against its wall.
-    fn at(&self, speed: f64, pace: f64) -> State {
+    /// By how much it pulls otherwise than one does that has a `speed` against its wall.
+    fn error(&self, speed: f64, pace: f64) -> f64 {
         match self.state {
-            State::Goes(sign) if sign * speed < 0.0 => State::Held { turned: true },
-            State::Held { turned: false } if speed.abs() > CREEP * pace => {
-                State::Goes(speed.signum())
+            State::Goes(sign) if sign * speed < 0.0 => self.holds,
+            State::Goes(_) => 0.0,
+            State::Held => (self.friction(pace) * speed.abs() - self.holds).max(0.0),
+        }
+    }
+
+    /// Makes it what it is at a `speed` against its wall, unless it has turned too often.
+    fn settle(&mut self, speed: f64, pace: f64) {
+        match self.state {
+            State::Goes(sign) if sign * speed < 0.0 => {
+                (self.state, self.turns) = (State::Held, self.turns + 1);
             }
-            state => state,
+            State::Held if self.turns < TURNS && speed.abs() > CREEP * pace => {
+                self.state = State::Goes(speed.signum());
+            }
+            _ => {}
         }
     }
 }
@@ -91,22 +106,18 @@ impl Lines {
         (self.0[from..].iter()).take_while(move |line| line.face as usize == face)
     }
 
-    /// Makes lines go or hold as they do at the velocities `u` of the faces and `bodies`, m/s; by how much that changes what they
-    /// pull with, over all that lines can hold.
+    /// By how much lines pull otherwise than they do at the velocities `u` of the faces and `bodies`, m/s, over all that they
+    /// can hold; and makes them go or hold as they do there.
     fn settle(&mut self, u: &[f64], bodies: &[[f64; 3]], pace: f64) -> f64 {
-        let (mut changed, mut all) = (0.0, 0.0);
+        let (mut error, mut all) = (0.0, 0.0);
         for line in &mut self.0 {
             let wall = line.wall as usize;
             let speed = u[line.face as usize] - bodies[wall / 3][wall % 3];
-            let state = line.at(speed, pace);
-            if state != line.state {
-                // What goes the other way pulls by no more than it holds; what was held may have pulled by more.
-                changed += (line.friction(pace) * speed.abs() - line.holds).abs();
-            }
+            error += line.error(speed, pace);
             all += line.holds;
-            line.state = state;
+            line.settle(speed, pace);
         }
-        if all > 0.0 { changed / all } else { 0.0 }
+        if all > 0.0 { error / all } else { 0.0 }
     }
 }
 
@@ -131,9 +142,9 @@ impl Operator<'_> {
         held.filter(|line| line.friction > 0.0).collect()
     }
 
-    /// Makes contact lines go or hold as they do at velocities `u` of the faces and `bodies`, m/s. One that turned around
-    /// rests until the end of the step: P jumps where it is, and would throw it to and fro. By how much that changes what they
-    /// pull with, over all that lines can hold.
+    /// By how much contact lines pull otherwise than they do at velocities `u` of the faces and `bodies`, m/s, over all that they
+    /// can hold; and makes them go or hold as they do there. One that has turned around twice in the step rests to its end: P jumps
+    /// where it is, and would throw it to and fro.
     pub(crate) fn settle_lines(&mut self, u: &[f64], bodies: &[[f64; 3]]) -> f64 {
         (self.pull.lines).settle(u, bodies, self.scales.cell_per_step)
     }
@@ -177,15 +188,13 @@ mod tests {
             at(0.1009),
             (1.0 / 3.0, vec![-2.0, 0.0, 0.0], vec![0.0, held, held])
         );
-        // The second has turned around, the third has not been held in this step.
-        assert_eq!(
-            at(0.102),
-            (1.0 / 3.0, vec![-2.0, 0.0, -2.0], vec![0.0, held, 0.0])
-        );
-        assert_eq!(
-            at(0.0),
-            (2.0 / 3.0, vec![0.0, 0.0, 0.0], vec![held, held, held])
-        );
-        assert_eq!(at(0.5).0, 0.0);
+        // Both that were held pull by twice what they hold.
+        let go = vec![-2.0; 3];
+        assert_eq!(at(0.102), (2.0 / 3.0, go.clone(), vec![0.0; 3]));
+        assert_eq!(at(0.0), (1.0, vec![0.0; 3], vec![held; 3]));
+        // The second has turned around twice and rests, however it is pulled.
+        let rests = (vec![-2.0, 0.0, -2.0], vec![0.0, held, 0.0]);
+        assert_eq!(at(0.102), (1.0, rests.0.clone(), rests.1.clone()));
+        assert_eq!(at(0.102), (1.0 / 3.0, rests.0, rests.1));
     }
 }
