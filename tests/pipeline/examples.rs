@@ -59,3 +59,44 @@ fn viscosities_are_swept_and_a_second_sweep_only_adds() {
     assert!(table.starts_with("viscosity,file,side"), "{table}");
     assert!(bench.read("out/200cP/final.mpts") == state, "run again");
 }
+
+/// Contact lines that turn around in the solves of a step hold and go as its flow asks for.
+#[test]
+fn contact_lines_settle_in_wood() {
+    let bench = Workbench::new();
+    let size = ["--size", "24x64x24", "--slab", "14.5 um", "--seed", "1"];
+    let wood = [
+        &["--adhesive", "pf", "--voxel", VOXEL, "-o", "wood.tif"],
+        &size[..],
+    ]
+    .concat();
+    bench.done("synth-xct", &wood);
+    bench.done(
+        "xct2particles",
+        &["wood.tif", "--voxel", VOXEL, "-o", "wood.mpts"],
+    );
+    bench.done(
+        "build-bondline",
+        &["wood.mpts", "--normal", "y", "-o", "bond.mpts"],
+    );
+    let case = std::fs::read_to_string(script("wicking-pf.toml")).unwrap();
+    assert!(case.contains("time = \"4 ms\""));
+    bench.write(
+        "case.toml",
+        case.replace("time = \"4 ms\"", "time = \"2 ms\""),
+    );
+    let angle = "adhesive.receding_angle=\"20 deg\"";
+    let run = [
+        "case.toml",
+        "--particles",
+        "bond.mpts",
+        "-o",
+        "run",
+        "--set",
+        angle,
+    ];
+    bench.done("mpm-run", &run);
+    let summary = String::from_utf8(bench.read("run/summary.json")).unwrap();
+    let settled = "\"steps whose contact lines did not settle\": 0,";
+    assert!(summary.contains(settled), "{summary}");
+}

@@ -82,9 +82,9 @@ fn contact_lines_hold_a_slug_until_they_are_pulled_harder() {
                 assert!((-0.004..0.004).contains(&way));
             }
         }
-        for share in [1.5, 3.0] {
+        for (share, drift) in [(1.5, 0.0), (3.0, 0.0), (1.5, 1.5)] {
             let exact = 1.0 - 1.0 / share;
-            let error = slid(6, offset, angles, [share, 1.0, 0.0]) / exact - 1.0;
+            let error = slid(6, offset, angles, [share, 1.0, drift]) / exact - 1.0;
             println!("off by {error:+.3}");
             assert!(error.abs() < 0.03);
         }

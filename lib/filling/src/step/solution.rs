@@ -64,6 +64,8 @@ pub(super) struct Unknowns {
     pub(super) u: Vec<f64>,
     pub(super) p: Vec<f64>,
     pub(super) iterations: u32,
+    /// Whether contact lines hold and go as the velocities ask for.
+    pub(super) decided: bool,
 }
 
 impl Implicit {
@@ -95,6 +97,7 @@ impl Implicit {
             u: start.u.clone(),
             p: start.p.clone(),
             iterations: 0,
+            decided: true,
         };
         let (pockets, mut air) = match self.closed_off(&operator) {
             Some(Air {
@@ -144,7 +147,7 @@ impl Implicit {
             power: power * self.setup.units.force(),
             iterations: now.iterations,
             viscous,
-            decided: operator.settle_lines(&now.u, &self.state.drive.velocities()) < DECIDED,
+            decided: now.decided,
             u: now.u,
             g: match &air {
                 Some(_) => system.g.first_rows(operator.dofs.cells.len()),
@@ -164,14 +167,16 @@ impl Implicit {
         before: Before,
         now: &mut Unknowns,
     ) -> Result<(Solved, Option<Viscous>), Failure> {
-        let mut solved = self.solve_with_lines(operator, before, now)?;
-        for _ in 1..LINES {
-            if operator.settle_lines(&now.u, &self.state.drive.velocities()) < DECIDED {
-                break;
+        let mut solves = 1;
+        loop {
+            let solved = self.solve_with_lines(operator, before, now)?;
+            let bodies = self.state.drive.velocities();
+            now.decided = operator.settle_lines(&now.u, &bodies) < DECIDED;
+            if now.decided || solves == LINES {
+                return Ok(solved);
             }
-            solved = self.solve_with_lines(operator, before, now)?;
+            solves += 1;
         }
-        Ok(solved)
     }
 
     /// The same with contact lines as they are.
@@ -212,6 +217,7 @@ impl Implicit {
                 u,
                 p,
                 iterations: 0,
+                decided: true,
             }
         })
     }

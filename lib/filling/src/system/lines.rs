@@ -7,8 +7,6 @@ use super::terms::{Term, Velocity};
 const CREEP: f64 = 1e-3;
 /// Way in a step from which on a line counts as one that went, cells.
 const WENT: f64 = 0.01;
-/// How often a line may turn around in a step before it is held to its end.
-const TURNS: usize = 2;
 
 /// The lines of a step, by their faces.
 ///
@@ -26,8 +24,6 @@ pub(super) struct Line {
     /// The most that it holds.
     holds: f64,
     state: State,
-    /// How often it has turned around in the step.
-    turns: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +44,6 @@ impl Line {
                 true => State::Goes(speed.signum()),
                 false => State::Held,
             },
-            turns: 0,
         }
     }
 
@@ -77,13 +72,11 @@ impl Line {
         }
     }
 
-    /// Makes it what it is at a `speed` against its wall, unless it has turned too often.
+    /// Makes it what it is at a `speed` against its wall.
     fn settle(&mut self, speed: f64, pace: f64) {
         match self.state {
-            State::Goes(sign) if sign * speed < 0.0 => {
-                (self.state, self.turns) = (State::Held, self.turns + 1);
-            }
-            State::Held if self.turns < TURNS && speed.abs() > CREEP * pace => {
+            State::Goes(sign) if sign * speed < 0.0 => self.state = State::Held,
+            State::Held if speed.abs() > CREEP * pace => {
                 self.state = State::Goes(speed.signum());
             }
             _ => {}
@@ -143,8 +136,7 @@ impl Operator<'_> {
     }
 
     /// By how much contact lines pull otherwise than they do at velocities `u` of the faces and `bodies`, m/s, over all that they
-    /// can hold; and makes them go or hold as they do there. One that has turned around twice in the step rests to its end: P jumps
-    /// where it is, and would throw it to and fro.
+    /// can hold; and makes them go or hold as they do there.
     pub(crate) fn settle_lines(&mut self, u: &[f64], bodies: &[[f64; 3]]) -> f64 {
         (self.pull.lines).settle(u, bodies, self.scales.cell_per_step)
     }
@@ -173,7 +165,7 @@ mod tests {
 
     /// At walls that move at 0.1 m/s, in steps of a cell at 1 m/s.
     #[test]
-    fn lines_hold_until_they_are_pulled_harder_or_turn() {
+    fn lines_hold_until_they_are_pulled_harder() {
         let line = |speed: f64| Line::new(0, 1, 2.0, speed, 1.0);
         let mut lines = Lines(vec![line(0.5), line(-0.5), line(0.009)]);
         let mut at = |u: f64| {
@@ -192,9 +184,5 @@ mod tests {
         let go = vec![-2.0; 3];
         assert_eq!(at(0.102), (2.0 / 3.0, go.clone(), vec![0.0; 3]));
         assert_eq!(at(0.0), (1.0, vec![0.0; 3], vec![held; 3]));
-        // The second has turned around twice and rests, however it is pulled.
-        let rests = (vec![-2.0, 0.0, -2.0], vec![0.0, held, 0.0]);
-        assert_eq!(at(0.102), (1.0, rests.0.clone(), rests.1.clone()));
-        assert_eq!(at(0.102), (1.0 / 3.0, rests.0, rests.1));
     }
 }

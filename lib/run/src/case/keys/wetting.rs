@@ -22,5 +22,5 @@ pub(super) const RECEDING_ANGLE: Key = Key {
     name: "receding_angle",
     form: quantity::<Angle>,
     absent: Absent::Nothing("that of `contact_angle`"),
-    text: "Contact angle of a front that recedes, not above `contact_angle`, which is then that of one that advances: between both it rests. Steps cost several times as much, and in wood most runs end as not sound.",
+    text: "Contact angle of a front that recedes, not above `contact_angle`, which is then that of one that advances: between both it rests. Steps cost three to four times as much.",
 };
