@@ -9,7 +9,7 @@ use physics::Boundary;
 
 use crate::fields::point::VOLUME;
 use crate::lanes::Lanes4;
-use crate::lattice::{EDGE, HALO, Lattice};
+use crate::lattice::{EDGE, HALO, Lattice, nearest};
 use crate::real::Real;
 use crate::simd::{Kernel, dispatch};
 use crate::tiles::{Tile, base_of};
@@ -63,9 +63,21 @@ struct Move<'a> {
 }
 
 impl Kernel for Move<'_> {
-    /// Most points stay with their node and far from every face; the others go one by one.
     #[inline(always)]
     fn run<const FMA: bool>(self) {
+        if self.tile.bodies == 0 && self.tile.at_side.is_empty() {
+            self.each::<FMA, true>();
+        } else {
+            self.each::<FMA, false>();
+        }
+    }
+}
+
+impl Move<'_> {
+    /// Most points stay with their node and far from every face; the others go one by one. `FREE` where the
+    /// tile is at no side and out of every body's reach.
+    #[inline(always)]
+    fn each<const FMA: bool, const FREE: bool>(self) {
         let Self {
             tile,
             shift: shifts,
@@ -75,17 +87,15 @@ impl Kernel for Move<'_> {
         } = self;
         let grids: Vec<FaceGrid> = faces(tile, lattice, bodies);
         let axes = lattice.axes();
+        let nearest = nearest(axes);
         let mut p = 0;
         while p < tile.points.len() {
-            let (shift, mut d) = (shifts[p], tile.points.place[p]);
-            for a in 0..3 {
-                d.0[a] += shift.0[a];
-            }
+            let shift = shifts[p];
+            let d = tile.points.place[p].plus::<FMA>(shift);
             let base = usize::from(tile.points.base[p]);
-            let stays =
-                d.0[0].abs() < 0.5 && d.0[1].abs() < 0.5 && (axes == 2 || d.0[2].abs() < 0.5);
-            let clear = !tile.near_wall[base] || far(&grids, base, &d, &shift);
-            if stays && clear && !tile.at_side[base] {
+            let clear = FREE || !tile.near_wall[base] || far(&grids, base, &d, &shift);
+            let at_side = !FREE && tile.at_side.get(base) == Some(&true);
+            if clear && !at_side && d.is_within(nearest) {
                 tile.points.place[p] = d;
                 p += 1;
             } else if !(0..axes).all(|a| shift.0[a].abs() < 0.9) {

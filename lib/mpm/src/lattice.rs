@@ -2,6 +2,8 @@
 
 use physics::{Boundary, Scene};
 
+use crate::lanes::Lanes4;
+use crate::real::Real;
 use crate::stages::Present;
 
 /// Nodes along the edge of a tile or block.
@@ -112,6 +114,13 @@ pub(crate) const fn window(dimensions: usize) -> usize {
     } else {
         plane
     }
+}
+
+/// Within what the place of a point stays with its node; volume, and an axis that is not computed, may be
+/// anything. Not infinite: the compiler would drop that comparison and take the vector apart for the others.
+pub(crate) const fn nearest(dimensions: usize) -> Lanes4 {
+    let z = if dimensions == 3 { 0.5 } else { Real::MAX };
+    Lanes4([0.5, 0.5, z, Real::MAX])
 }
 
 /// Window layers along z.

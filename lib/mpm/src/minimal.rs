@@ -81,7 +81,8 @@ impl Minimal {
         let dt = (self.cfl * self.limit_s).min(longest);
         let dt_over_cell = (dt / self.scene.grid.cell_m) as Real;
         // 2. Points to nodes.
-        self.tiles.par_iter_mut().for_each(|tile| {
+        let full = (self.tiles.par_iter_mut()).filter(|tile| !tile.points.id.is_empty());
+        full.for_each(|tile| {
             tile.points.gather_runs();
             dispatch(PointsToNodes { tile, dt_over_cell });
         });

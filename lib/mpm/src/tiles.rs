@@ -41,7 +41,7 @@ pub(crate) struct Points {
 pub(crate) struct Scratch {
     /// Nodal values of the tile's halo.
     pub(crate) field: Vec<Lanes8>,
-    /// Displacement of each point in this step (cells).
+    /// Displacement of each point in this step (cells), which adds to its place: none of the volume.
     pub(crate) shift: Vec<Lanes4>,
     /// Velocity gradient at each point (m/s per cell), derivatives along x, y, z.
     pub(crate) gradient: Vec<[Lanes4; 3]>,
@@ -180,7 +180,7 @@ pub(crate) struct Tile {
     pub(crate) cells: Vec<CellSum>,
     /// Per window base: a body is within reach of these nodes.
     pub(crate) near_wall: Vec<bool>,
-    /// Per window base: the node is on a side of the domain.
+    /// Per window base: the node is on a side of the domain; empty where none is.
     pub(crate) at_side: Vec<bool>,
     /// Bodies within reach, bit b for body b.
     pub(crate) bodies: u64,
@@ -204,6 +204,9 @@ impl Tile {
                 let node = origin[a] + local[a];
                 node <= 0 || node >= lattice.cells[a]
             });
+        }
+        if !at_side.contains(&true) {
+            at_side = Vec::new();
         }
         Self {
             key,

@@ -5,11 +5,12 @@ use physics::{Liquid, Newtonian, TAIT_C};
 use super::tiles::Tile;
 use crate::fields::point::J;
 use crate::lanes::{Lanes4, Lanes8};
-use crate::lattice::{EDGE, HALO, window};
+use crate::lattice::{EDGE, HALO, nearest, window};
 use crate::real::{Real, exp_m1};
 use crate::runs::{reorder, run_end, run_order};
 use crate::shape::Gimp;
 use crate::simd::Kernel;
+use crate::tiles::base_of;
 use crate::window::{
     BATCH, NOTHING, Sides, add, differences, gather, nodal, of_point, offsets, spread,
 };
@@ -35,7 +36,7 @@ pub(super) struct Points {
     pub(super) motion: Vec<Lanes4>,
     /// xx yy zz xy xz yz, and two lanes not used.
     stress: Vec<Lanes8>,
-    /// Displacement in this step.
+    /// Displacement in this step, 0 beside it, where a place has the mass.
     shift: Vec<Lanes4>,
     /// Derivatives of the velocity along x, y, z (m/s per cell).
     gradient: Vec<[Lanes4; 3]>,
@@ -45,7 +46,7 @@ impl Points {
     /// Adds a point with its nearest node, counted from the lowest of the tile.
     pub(super) fn push(&mut self, node: [i32; 3], point: Point) {
         self.id.push(point.id);
-        self.window.push(first(node));
+        self.window.push(base_of(node));
         self.place.push(point.place);
         self.motion.push(point.motion);
         self.stress.push(point.stress);
@@ -99,11 +100,6 @@ impl Points {
         }
         node
     }
-}
-
-/// Where the 3 x 3 x 3 nodes around a tile's node (x, y, z), each 0..4, begin in its halo.
-fn first(node: [i32; 3]) -> u16 {
-    ((node[2] * HALO as i32 + node[1]) * HALO as i32 + node[0]) as u16
 }
 
 /// Step 2: mass m S, momentum m v S, impulse of the stress -dt V sigma grad S and volume V S of the
@@ -268,18 +264,15 @@ impl Kernel for Moves<'_> {
         } = self.0;
         let mut p = 0;
         while p < points.id.len() {
-            let (shift, mut d) = (points.shift[p], points.place[p]);
-            for a in 0..3 {
-                d.0[a] += shift.0[a];
-            }
+            let d = points.place[p].plus::<FMA>(points.shift[p]);
             points.place[p] = d;
-            if d.0[0].abs() < 0.5 && d.0[1].abs() < 0.5 && d.0[2].abs() < 0.5 {
+            if d.is_within(nearest(3)) {
                 p += 1;
                 continue;
             }
             let node = points.find_node(p);
             if node.iter().all(|n| (0..EDGE as i32).contains(n)) {
-                points.window[p] = first(node);
+                points.window[p] = base_of(node);
                 p += 1;
             } else {
                 leaving.push((node, points.swap_remove(p)));

@@ -136,6 +136,8 @@ impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
         gradient.resize(n, [Lanes4::ZERO; 3]);
         let (shift, gradient) = (&mut shift[..n], &mut gradient[..n]);
         let stress = &points.stress[..n];
+        let s = self.dt_over_cell;
+        let scale = Lanes4([s, s, if D == 3 { s } else { 0.0 }, 0.0]);
         let mut start = 0;
         while start < n {
             let (base, end) = (usize::from(bases[start]), run_end(bases, start));
@@ -160,10 +162,7 @@ impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
                     let [x, y, z, _] = new.0;
                     // Nothing moves along z in plane strain, not even where a body does.
                     motion[at] = Lanes4([x, y, if D == 3 { z } else { old.0[2] }, old.0[J]]);
-                    shift[at] = travel.scaled::<FMA>(self.dt_over_cell);
-                    if D == 2 {
-                        shift[at].0[2] = 0.0;
-                    }
+                    shift[at] = travel.times::<FMA>(scale);
                 }
                 start += places.len();
             }

@@ -104,44 +104,20 @@ impl AnyFlow {
         dt: Real,
     ) {
         match self {
-            Self::Constant(flow) => dispatch(Refresh {
-                points,
-                gradient,
-                stress,
-                flow,
-                dt,
-            }),
-            Self::Segments(flow) => dispatch(Refresh {
-                points,
-                gradient,
-                stress,
-                flow,
-                dt,
-            }),
-            Self::Formula(flow) => dispatch(Refresh {
-                points,
-                gradient,
-                stress,
-                flow,
-                dt,
-            }),
+            Self::Constant(flow) => dispatch(Refresh(points, gradient, stress, flow, dt)),
+            Self::Segments(flow) => dispatch(Refresh(points, gradient, stress, flow, dt)),
+            Self::Formula(flow) => dispatch(Refresh(points, gradient, stress, flow, dt)),
         }
     }
 }
 
-struct Refresh<'a, F> {
-    points: &'a mut Points,
-    gradient: &'a [[Lanes4; 3]],
-    stress: &'a Stress,
-    flow: &'a F,
-    dt: Real,
-}
+struct Refresh<'a, F>(&'a mut Points, &'a [[Lanes4; 3]], &'a Stress, &'a F, Real);
 
 impl<F: Flow> Kernel for Refresh<'_, F> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
-        self.stress
-            .update(self.points, self.gradient, self.flow, self.dt);
+        let Self(points, gradient, stress, flow, dt) = self;
+        stress.update(points, gradient, flow, dt);
     }
 }
 
@@ -186,14 +162,7 @@ mod tests {
             g2p.run::<FMA>();
             let (flow, gradient) = (&Constant::new(1.3, 1200.0), &scratch.gradient[..]);
             let points = &mut tile.points;
-            let refresh = Refresh {
-                points,
-                gradient,
-                stress,
-                flow,
-                dt,
-            };
-            refresh.run::<FMA>();
+            Refresh(points, gradient, stress, flow, dt).run::<FMA>();
         }
     }
 
