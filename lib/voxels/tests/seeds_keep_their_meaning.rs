@@ -50,6 +50,7 @@ fn the_wood_of_a_seed_is_that_of_the_first_version() {
             species: Species::HybridPoplar,
             adhesive: Some(adhesive),
             slab: None,
+            grain_angle: None,
             seed,
         };
         let specimen = Specimen::grow(&recipe).unwrap();

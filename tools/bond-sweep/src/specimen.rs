@@ -6,16 +6,17 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use cli::Failure;
-use units::{Length, Quantity};
+use units::{Angle, Length, Quantity};
 use xxhash_rust::xxh3::xxh3_64;
 
-/// Options of `synth-xct` and their values by default: the quick specimen of
-/// pipelines/20-specimens.mk.
-pub const QUICK: [(&str, &str); 5] = [
+/// Options of `synth-xct` as columns spell them and their values by default: the quick specimen of
+/// pipelines/20-specimens.mk. One that is empty is not given.
+pub const QUICK: [(&str, &str); 6] = [
     ("adhesive", "pf"),
     ("size", "40x96x40"),
     ("slab", "14.5 um"),
     ("voxel", "1.45 um"),
+    ("grain_angle", ""),
     ("seed", "1"),
 ];
 
@@ -29,6 +30,10 @@ pub fn check(option: &str, value: &str) -> Result<(), String> {
             edges.clone().count() == 3 && edges.clone().all(|n| n.is_ok_and(|n| n > 0))
         }
         "seed" => value.parse::<u64>().is_ok(),
+        "grain_angle" => {
+            let angle = value.parse::<Quantity<Angle>>();
+            return angle.map(|_| ()).map_err(|e| e.to_string());
+        }
         _ => {
             let length = value.parse::<Quantity<Length>>();
             return length
@@ -86,8 +91,10 @@ impl Recipe {
             .map_err(|e| format!("cannot make '{}': {e}", folder.display()))?;
         let [stack, experiment] = ["specimen.tif", "experiment.mpts"].map(|n| folder.join(n));
         let mut synth = tool("synth-xct");
-        for ((option, _), value) in QUICK.iter().zip(&self.0) {
-            synth.arg(format!("--{option}")).arg(value);
+        let values = QUICK.iter().zip(&self.0);
+        for ((option, _), value) in values.filter(|(_, value)| !value.is_empty()) {
+            synth.arg(format!("--{}", option.replace('_', "-")));
+            synth.arg(value);
         }
         finished(synth.arg("-o").arg(&stack), "synth-xct")?;
         let mut convert = tool("xct2particles");
@@ -140,7 +147,7 @@ mod tests {
 
     #[test]
     fn values_that_no_specimen_has_are_refused() {
-        for (option, default) in QUICK {
+        for (option, default) in QUICK.into_iter().filter(|(_, value)| !value.is_empty()) {
             assert_eq!(check(option, default), Ok(()));
         }
         for (option, bad, word) in [
@@ -149,6 +156,7 @@ mod tests {
             ("size", "40x0x40", "40x96x40"),
             ("seed", "-1", "from 0"),
             ("slab", "14.5", "no unit"),
+            ("grain_angle", "5 um", "angle"),
             ("voxel", "-1 um", "greater than zero"),
         ] {
             let said = check(option, bad).unwrap_err();

@@ -20,7 +20,7 @@ pub(super) struct Cut {
     axes: [[f32; 3]; 3],
 }
 
-/// Grain angle against the bond plane, degrees: "a few", so that lumens end in the surface.
+/// Grain angle against the bond plane where none is given, degrees: "a few", so that lumens end in the surface.
 const DIVE: [f32; 2] = [3.0, 6.0];
 /// Largest grain angle within the bond plane, degrees.
 const DRIFT: f32 = 3.0;
@@ -34,7 +34,8 @@ impl Cut {
         let [lowest, highest] = RAY_ANGLE[side];
         let rays = random.random_range(lowest..highest).to_radians();
         let sign = if random.random::<bool>() { 1.0 } else { -1.0 };
-        let dive = sign * random.random_range(DIVE[0]..DIVE[1]).to_radians();
+        let drawn = random.random_range(DIVE[0]..DIVE[1]).to_radians();
+        let dive = sign * plan.grain_angle.unwrap_or(drawn);
         let drift = random.random_range(-DRIFT..DRIFT).to_radians();
         let l = unit([drift.tan(), dive.tan(), 1.0]);
         let across = [rays.sin(), rays.cos(), 0.0];

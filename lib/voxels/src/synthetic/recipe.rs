@@ -47,6 +47,8 @@ pub struct Recipe {
     /// Adhesive volume per bond area, m; `None` takes the paper's, but at most a sixth of the
     /// box height, rounded to whole cells of two voxels. Undamaged wood has none.
     pub slab: Option<f64>,
+    /// Angle of the fibres against the bond plane, rad; `None` draws 3 to 6 degrees for each adherend. Up or down is drawn.
+    pub grain_angle: Option<f64>,
     /// Seed of all random choices.
     pub seed: u64,
 }
@@ -74,6 +76,9 @@ pub enum RecipeError {
     /// A slab for undamaged wood.
     #[error("undamaged wood has no slab: its adhesive is given to build-bondline")]
     SlabOfWood,
+    /// Fibres that do not run near z.
+    #[error("grain angle of {0:.1} degrees is not accepted: 0 to 30 degrees are")]
+    GrainAngle(f64),
     /// Voxels that cannot resolve the cell walls.
     #[error("voxel of {0:.3} um is not accepted: walls of 4 um need a voxel of 0.2 to 2 um")]
     Voxel(f64),
@@ -109,6 +114,8 @@ pub(super) struct Plan {
     pub(super) adhesive: Option<AdhesiveSystem>,
     /// Adhesive volume per bond area, um; 0 of undamaged wood.
     pub(super) slab: f64,
+    /// Angle of the fibres against the bond plane, rad, where it is given.
+    pub(super) grain_angle: Option<f32>,
     pub(super) seed: u64,
 }
 
@@ -126,6 +133,11 @@ impl Plan {
         if !(0.2..=2.0).contains(&voxel) {
             return Err(RecipeError::Voxel(voxel));
         }
+        let steep = (recipe.grain_angle.map(f64::to_degrees))
+            .filter(|angle| !(0.0..=30.0 + 1e-9).contains(angle));
+        if let Some(angle) = steep {
+            return Err(RecipeError::GrainAngle(angle));
+        }
         let slab = match recipe.adhesive {
             Some(_) if recipe.species != Species::HybridPoplar => {
                 return Err(RecipeError::Species(recipe.species));
@@ -141,6 +153,7 @@ impl Plan {
             timber: recipe.species.timber(),
             adhesive: recipe.adhesive,
             slab,
+            grain_angle: recipe.grain_angle.map(|angle| angle as f32),
             seed: recipe.seed,
         })
     }

@@ -13,6 +13,7 @@ fn grow(size: [usize; 3], adhesive: AdhesiveSystem, seed: u64) -> Specimen {
         species: Species::HybridPoplar,
         adhesive: Some(adhesive),
         slab: None,
+        grain_angle: None,
         seed,
     };
     Specimen::grow(&recipe).unwrap()
@@ -68,8 +69,42 @@ fn wood(species: Species, size: [usize; 3], seed: u64) -> Recipe {
         species,
         adhesive: None,
         slab: None,
+        grain_angle: None,
         seed,
     }
+}
+
+/// Lumens shift from page to page as their angle says: by the rows that match best 30 pages on.
+#[test]
+fn fibres_run_at_their_grain_angle() {
+    for angle in [0.0_f64, 10.0, 20.0, 30.0] {
+        let mut recipe = wood(Species::Spruce, [160, 160, 40], 1);
+        recipe.grain_angle = Some(angle.to_radians());
+        let specimen = Specimen::grow(&recipe).unwrap();
+        let [nx, ny, _] = specimen.size();
+        let [from, to] = [4, 34].map(|z| specimen.pages().nth(z).unwrap());
+        let is_wood = |page: &[u8], x: isize, y: isize| page[y as usize * nx + x as usize] == WOOD;
+        let alike = |(dx, dy): &(isize, isize)| {
+            let middle =
+                (20..ny as isize - 20).flat_map(|y| (20..nx as isize - 20).map(move |x| (x, y)));
+            middle
+                .filter(|&(x, y)| is_wood(from, x, y) == is_wood(to, x + dx, y + dy))
+                .count()
+        };
+        let shifts = (-3..=3).flat_map(|dx| (-20..=20).map(move |dy| (dx, dy)));
+        let (_, dy) = shifts.max_by_key(alike).unwrap();
+        let expected = 30.0 * angle.to_radians().tan();
+        println!("{angle} degrees: {dy} rows in 30 pages, {expected:.1} expected");
+        assert!((dy.unsigned_abs() as f64 - expected).abs() < 1.0);
+    }
+    let steep = Recipe {
+        grain_angle: Some(0.6),
+        ..wood(Species::Spruce, [48; 3], 1)
+    };
+    assert!(matches!(
+        Specimen::grow(&steep),
+        Err(RecipeError::GrainAngle(_))
+    ));
 }
 
 /// Early wood is open and late wood dense, in rows along the rays, with a sharp ring border.
@@ -186,6 +221,7 @@ fn recipes_out_of_range_are_refused() {
         species: Species::HybridPoplar,
         adhesive: Some(AdhesiveSystem::Pf),
         slab,
+        grain_angle: None,
         seed: 1,
     };
     let refused = |recipe: Recipe| Specimen::grow(&recipe).unwrap_err();
@@ -215,6 +251,7 @@ fn recipes_out_of_range_are_refused() {
     assert_eq!(
         refused(Recipe {
             slab: Some(20e-6),
+            grain_angle: None,
             ..wood(Species::Beech, [48, 96, 48], 1)
         }),
         RecipeError::SlabOfWood

@@ -41,6 +41,7 @@ fn the_adhesive_has_the_slabs_volume() {
             species: Species::HybridPoplar,
             adhesive: Some(adhesive),
             slab: Some(slab),
+            grain_angle: None,
             seed: 7,
         };
         let specimen = Specimen::grow(&recipe).unwrap();
@@ -63,6 +64,7 @@ fn wide_lumens_are_filled_deeper_in_proportion_to_their_radius() {
         species: Species::HybridPoplar,
         adhesive: Some(AdhesiveSystem::PvaPf),
         slab: Some(30e-6),
+        grain_angle: None,
         seed: 1,
     };
     let plan = Plan::new(&recipe).unwrap();
