@@ -1,7 +1,7 @@
 //! A body of unknown speed under a known force, as one more unknown of the coupled system.
 
 use crate::fgmres::{Operator, Precondition};
-use crate::saddle::Preconditioner;
+use crate::preconditioner::Preconditioner;
 use crate::sealed::Held;
 use crate::vector::{Real, Work, add_scaled, dot};
 use crate::{SaddleSystem, SolveError, check_length};

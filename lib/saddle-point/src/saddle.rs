@@ -1,74 +1,18 @@
 //! Solution of the coupled velocity-pressure system.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::SolveError;
 use crate::cause::explained;
-use crate::chebyshev::Chebyshev;
 use crate::csr::Csr;
-use crate::fgmres::{KrylovSpace, Limits, Operator, Precondition, fgmres};
+use crate::fgmres::{KrylovSpace, Operator, fgmres};
 use crate::load::{Bordered, Load, LoadedOperator};
+use crate::measure::Measure;
+use crate::options::{SaddleOptions, SaddleReport};
+use crate::preconditioner::Preconditioner;
 use crate::scaled::Scaled;
-use crate::schur::Schur;
-use crate::sealed::Sealed;
 use crate::system::SaddleSystem;
-use crate::vanka::Vanka;
-use crate::vector::{Real, Work, add_scaled, for_chunks, norm};
-
-/// Part of a solution's size below which a residual is rounding.
-const ROUNDING: f64 = 1e-14;
-
-/// Settings of the solver.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SaddleOptions {
-    /// Residual to reach, relative to the norm of the right-hand side.
-    pub tolerance: f64,
-    /// Iterations after which the solve fails.
-    pub max_iterations: usize,
-    /// Krylov vectors before a restart; memory is 8 bytes x unknowns x this.
-    pub restart: usize,
-    /// Degree of the Chebyshev polynomial that stands for `A^-1`.
-    pub chebyshev_degree: usize,
-    /// Its interval: largest over smallest eigenvalue of `D^-1 A` treated.
-    pub chebyshev_ratio: f64,
-}
-
-impl Default for SaddleOptions {
-    fn default() -> Self {
-        Self {
-            tolerance: 1e-3,
-            max_iterations: 200,
-            restart: 30,
-            chebyshev_degree: 24,
-            chebyshev_ratio: 400.0,
-        }
-    }
-}
-
-/// What a solve did.
-#[derive(Clone, Debug)]
-pub struct SaddleReport {
-    /// Relative residual at the start and after every iteration.
-    pub history: Vec<f64>,
-    /// Upper bound of the eigenvalues of `D^-1 A` used.
-    pub eigenvalue_bound: f64,
-    /// Time to build the preconditioner.
-    pub setup: Duration,
-    /// Time of the iteration.
-    pub iteration: Duration,
-}
-
-impl SaddleReport {
-    /// Number of iterations.
-    pub fn iterations(&self) -> usize {
-        self.history.len().saturating_sub(1)
-    }
-
-    /// Relative residual reached.
-    pub fn residual(&self) -> f64 {
-        self.history.last().copied().unwrap_or(0.0)
-    }
-}
+use crate::vector::{Real, Work, add_scaled, for_chunks};
 
 /// Solver of [`SaddleSystem`]s; keeps its memory from one step to the next, nothing else.
 #[derive(Default)]
@@ -171,73 +115,6 @@ impl SaddleSolver {
     }
 }
 
-/// What residuals are measured by.
-struct Measure {
-    /// Area by which each face is one to air; empty where no forces stand.
-    fronts: Vec<f64>,
-    /// Velocity that counts there at least.
-    slow: f64,
-    /// What residuals are measured by where nothing moves.
-    still: f64,
-    /// Part of a solution below which they are rounding, over the tolerance.
-    rounding: f64,
-}
-
-impl Measure {
-    fn new(system: &SaddleSystem, options: &SaddleOptions, still: f64) -> Self {
-        Self {
-            fronts: system.fronts(),
-            slow: system.slow,
-            still: match options.tolerance * norm(system.b) {
-                pushed if pushed > 0.0 && !system.standing.is_empty() => pushed,
-                _ => still,
-            },
-            rounding: ROUNDING / options.tolerance,
-        }
-    }
-
-    /// The measure at `x`, of what moves the liquid, `known`, and of what flows through the fronts; and no residual is
-    /// smaller than the rounding of what stands.
-    fn of(&self, known: f64, x: &[f64]) -> f64 {
-        let flow: f64 = (self.fronts.iter().zip(x))
-            .map(|(area, u)| (area * u.abs().max(self.slow)).powi(2))
-            .sum();
-        let size = match known.hypot(flow.sqrt()) {
-            0.0 => self.still,
-            size => size,
-        };
-        size.max(self.rounding * norm(x))
-    }
-
-    /// Residuals of `solve`, which where forces stand is asked again with the measure of what it found: one of a
-    /// guess at rest would ask for too much, one of a guess that flows for too little.
-    fn stages(
-        &self,
-        options: &SaddleOptions,
-        mut solve: impl FnMut(&mut Limits) -> Result<Vec<f64>, SolveError>,
-    ) -> Result<Vec<f64>, SolveError> {
-        let stands = !self.fronts.is_empty();
-        let mut limits = Limits {
-            tolerance: options.tolerance,
-            size: 0.0,
-            enough: if stands { options.tolerance } else { 0.0 },
-            max_iterations: options.max_iterations,
-            restart: options.restart.max(1),
-        };
-        let mut history = solve(&mut limits)?;
-        let mut done = !stands;
-        while !done {
-            let before = history.len() - 1;
-            limits.max_iterations = options.max_iterations.saturating_sub(before);
-            let more = solve(&mut limits).map_err(|error| error.after(before))?;
-            done = more.len() == 1;
-            history.pop();
-            history.extend(more);
-        }
-        Ok(history)
-    }
-}
-
 /// History of residuals, and the eigenvalue bound of the preconditioner.
 type Iterated = (Result<Vec<f64>, SolveError>, f64);
 
@@ -257,7 +134,7 @@ fn prepared(
             scaled: &scaled,
             scratch: Vec::new(),
         };
-        let preconditioner = Preconditioner::new(&operator, options)?;
+        let preconditioner = Preconditioner::new(system, &g_transposed, &scaled, options)?;
         let setup = started.elapsed();
         let (result, eigenvalue_bound) = iterate(operator, preconditioner);
         Ok(SaddleReport {
@@ -313,89 +190,5 @@ impl Operator for SaddleOperator<'_> {
         let (y_u, y_p) = y.split_at_mut(u.len());
         self.scaled.multiply(u, &mut self.scratch, y_u);
         self.add_fluxes(u, p, y_u, y_p);
-    }
-}
-
-/// `[Ahat, 0; -G, -Shat]^-1`, then one sweep of [`Vanka`] on what that leaves.
-pub(crate) struct Preconditioner<'a> {
-    g: &'a Csr<f64>,
-    g_transposed: &'a Csr<f64>,
-    c: &'a [f64],
-    chebyshev: Chebyshev<'a>,
-    /// `D^-1/2` of the velocity block.
-    scale: &'a [Work],
-    schur: Schur,
-    vanka: Vanka,
-    /// Right-hand side of the pressure solve, and what that leaves of the volume balance.
-    volume: Vec<Work>,
-    left: Vec<Work>,
-}
-
-impl<'a> Preconditioner<'a> {
-    fn new(operator: &SaddleOperator<'a>, options: &SaddleOptions) -> Result<Self, SolveError> {
-        let (system, scaled) = (operator.system, operator.scaled);
-        let (degree, ratio) = (options.chebyshev_degree, options.chebyshev_ratio);
-        Ok(Self {
-            g: system.g,
-            g_transposed: operator.g_transposed,
-            c: system.c,
-            vanka: Vanka::new(&system, &scaled.scale),
-            chebyshev: Chebyshev::new(scaled, degree, ratio),
-            scale: &scaled.scale,
-            schur: Schur::new(&system, operator.g_transposed)?,
-            volume: vec![Work::default(); system.g.n_rows()],
-            left: Vec::new(),
-        })
-    }
-
-    /// The pockets whose means it leaves alone.
-    pub(crate) fn sealed(&self) -> &Sealed {
-        self.schur.sealed()
-    }
-
-    fn bound(&self) -> f64 {
-        self.chebyshev.bound()
-    }
-}
-
-impl Precondition for Preconditioner<'_> {
-    /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`; then the sweep.
-    fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
-        let (r_u, r_p) = r.split_at(self.g.n_columns());
-        z.resize(r.len(), Work::default());
-        let (velocity, pressure) = z.split_at_mut(r_u.len());
-        self.chebyshev.apply(r_u, velocity);
-        let (g, u) = (self.g, &*velocity);
-        for_chunks(&mut self.volume, |start, part| {
-            for (i, out) in part.iter_mut().enumerate() {
-                let flux = g.row_times_wide(start + i, u);
-                *out = r_p[start + i] + Work::nearest(flux);
-            }
-        });
-        self.left.clone_from(&self.volume);
-        self.schur.apply_negative(&mut self.volume, pressure);
-        let (c, p) = (self.c, &*pressure);
-        for_chunks(&mut self.left, |start, part| {
-            for (i, left) in part.iter_mut().enumerate() {
-                *left += Work::nearest(c[start + i]) * p[start + i];
-            }
-        });
-        let g_transposed = self.g_transposed;
-        let push = |face| Work::nearest(g_transposed.row_times_wide(face, p));
-        let left = (self.chebyshev.residual(push), &self.left[..]);
-        self.vanka.sweep(left, self.scale, velocity, pressure);
-    }
-
-    fn strengthen(&mut self) -> bool {
-        self.chebyshev.widen()
-    }
-
-    fn begins(&self) -> bool {
-        !self.sealed().is_empty()
-    }
-
-    fn begin(&self, r: &[f64], x: &mut [f64]) {
-        let faces = self.g.n_columns();
-        self.sealed().begin(&r[faces..], &mut x[faces..]);
     }
 }

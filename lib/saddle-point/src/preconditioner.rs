@@ -1,0 +1,101 @@
+//! The preconditioner of the coupled system: velocities by Chebyshev iteration, pressures by the Schur complement, both by blocks.
+
+use crate::SolveError;
+use crate::chebyshev::Chebyshev;
+use crate::csr::Csr;
+use crate::fgmres::Precondition;
+use crate::options::SaddleOptions;
+use crate::scaled::Scaled;
+use crate::schur::Schur;
+use crate::sealed::Sealed;
+use crate::system::SaddleSystem;
+use crate::vanka::Vanka;
+use crate::vector::{Real, Work, for_chunks};
+
+/// `[Ahat, 0; -G, -Shat]^-1`, then one sweep of [`Vanka`] on what that leaves.
+pub(crate) struct Preconditioner<'a> {
+    g: &'a Csr<f64>,
+    g_transposed: &'a Csr<f64>,
+    c: &'a [f64],
+    chebyshev: Chebyshev<'a>,
+    /// `D^-1/2` of the velocity block.
+    scale: &'a [Work],
+    schur: Schur,
+    vanka: Vanka,
+    /// Right-hand side of the pressure solve, and what that leaves of the volume balance.
+    volume: Vec<Work>,
+    left: Vec<Work>,
+}
+
+impl<'a> Preconditioner<'a> {
+    pub(crate) fn new(
+        system: &SaddleSystem<'a>,
+        g_transposed: &'a Csr<f64>,
+        scaled: &'a Scaled,
+        options: &SaddleOptions,
+    ) -> Result<Self, SolveError> {
+        let (degree, ratio) = (options.chebyshev_degree, options.chebyshev_ratio);
+        Ok(Self {
+            g: system.g,
+            g_transposed: g_transposed,
+            c: system.c,
+            vanka: Vanka::new(system, &scaled.scale),
+            chebyshev: Chebyshev::new(scaled, degree, ratio),
+            scale: &scaled.scale,
+            schur: Schur::new(system, g_transposed)?,
+            volume: vec![Work::default(); system.g.n_rows()],
+            left: Vec::new(),
+        })
+    }
+
+    /// The pockets whose means it leaves alone.
+    pub(crate) fn sealed(&self) -> &Sealed {
+        self.schur.sealed()
+    }
+
+    pub(crate) fn bound(&self) -> f64 {
+        self.chebyshev.bound()
+    }
+}
+
+impl Precondition for Preconditioner<'_> {
+    /// `u = Ahat^-1 r_u`, `p = -Shat^-1 (r_p + G u)`; then the sweep.
+    fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
+        let (r_u, r_p) = r.split_at(self.g.n_columns());
+        z.resize(r.len(), Work::default());
+        let (velocity, pressure) = z.split_at_mut(r_u.len());
+        self.chebyshev.apply(r_u, velocity);
+        let (g, u) = (self.g, &*velocity);
+        for_chunks(&mut self.volume, |start, part| {
+            for (i, out) in part.iter_mut().enumerate() {
+                let flux = g.row_times_wide(start + i, u);
+                *out = r_p[start + i] + Work::nearest(flux);
+            }
+        });
+        self.left.clone_from(&self.volume);
+        self.schur.apply_negative(&mut self.volume, pressure);
+        let (c, p) = (self.c, &*pressure);
+        for_chunks(&mut self.left, |start, part| {
+            for (i, left) in part.iter_mut().enumerate() {
+                *left += Work::nearest(c[start + i]) * p[start + i];
+            }
+        });
+        let g_transposed = self.g_transposed;
+        let push = |face| Work::nearest(g_transposed.row_times_wide(face, p));
+        let left = (self.chebyshev.residual(push), &self.left[..]);
+        self.vanka.sweep(left, self.scale, velocity, pressure);
+    }
+
+    fn strengthen(&mut self) -> bool {
+        self.chebyshev.widen()
+    }
+
+    fn begins(&self) -> bool {
+        !self.sealed().is_empty()
+    }
+
+    fn begin(&self, r: &[f64], x: &mut [f64]) {
+        let faces = self.g.n_columns();
+        self.sealed().begin(&r[faces..], &mut x[faces..]);
+    }
+}
