@@ -1,9 +1,10 @@
 """Permeability of voxels by lbmpy, a public lattice Boltzmann code: TRT, D3Q19, walls half way between nodes.
 
     voxel_flow.py VOXELS FRACTION SPLIT...
+    voxel_flow.py acer STACK SPLIT...
 
-Splits each voxel into so many along each axis and prints the permeability of each split over that of smooth
-spheres (Zick & Homsy 1982), and what they converge to."""
+Splits each voxel into so many along each axis and prints the permeability of each split, of spheres over that of
+smooth ones (Zick & Homsy 1982), along the grain of wood in squares of a voxel's edge, and what they converge to."""
 
 import sys
 
@@ -54,11 +55,12 @@ REST = {0.064: 0.867, 0.125: 0.878, 0.216: 0.849, 0.343: 0.815, 0.45: 0.796}
 
 
 def limit(found, rest):
-    """What values by split converge to: powers EDGE and 2 taken out of splits 2, 3 and 4, or `rest` of the
+    """What values by split converge to: powers EDGE and 2 taken out of the three finest, or `rest` of the
     change from 1 to 2."""
-    if all(split in found for split in (2, 3, 4)):
-        table = [[1.0, split**-EDGE, split**-2.0] for split in (2, 3, 4)]
-        return np.linalg.solve(table, [found[split] for split in (2, 3, 4)])[0]
+    if len(found) > 2:
+        finest = sorted(found)[-3:]
+        table = [[1.0, split**-EDGE, split**-2.0] for split in finest]
+        return np.linalg.solve(table, [found[split] for split in finest])[0]
     return found[2] - rest * (found[1] - found[2])
 
 
@@ -69,15 +71,25 @@ def sphere(voxels, fraction):
     return x[:, None, None] ** 2 + x[:, None] ** 2 + x**2 < radius**2, radius
 
 
-def main(voxels, fraction, *splits):
-    voxels, fraction = int(voxels), float(fraction)
-    solid, radius = sphere(voxels, fraction)
-    unit, found = voxels**3 / (6 * np.pi * radius * DRAG[fraction]), {}
+def acer(stack):
+    """The wood that lib/studies/src/verification/grain.rs takes, the grain along the first axis."""
+    from tifffile import imread
+
+    return imread(stack)[:48, 24:72, 40:88] == 128
+
+
+def main(what, of, *splits):
+    if what == "acer":
+        solid, unit, rest, found = acer(of), 1.0, np.nan, {}
+    else:
+        voxels, fraction = int(what), float(of)
+        solid, radius = sphere(voxels, fraction)
+        unit, rest, found = voxels**3 / (6 * np.pi * radius * DRAG[fraction]), REST[fraction], {}
     for split in map(int, splits):
         found[split] = permeability(solid, split, 20) / unit
         print(split, found[split], flush=True)
     if 1 in found and 2 in found:
-        print("limit", limit(found, REST[fraction]))
+        print("limit", limit(found, rest))
 
 
 main(*sys.argv[1:])

@@ -3,7 +3,7 @@
 use super::lumen::Section;
 use super::piston::Drive;
 use super::{
-    Scene, acoustic, air, channel, clamp, column, couette, cure, disc, drop, duct, galilean,
+    Scene, acoustic, air, channel, clamp, column, couette, cure, disc, drop, duct, galilean, grain,
     incline, jurin, laws, piston, sealed, slit, spheres, squeeze, stefan, tait, taylor_green,
     washburn, water, wicking,
 };
@@ -233,6 +233,9 @@ fn arrays() -> Vec<Entry> {
             }
             list.push((spheres::scene(n, which), methods));
         }
+    }
+    for n in [24, 48] {
+        list.push((grain::scene(n), vec![short_steps(0.02)]));
     }
     list
 }

@@ -14,6 +14,7 @@ pub mod duct;
 mod families;
 pub mod galilean;
 pub mod goals;
+pub mod grain;
 pub mod incline;
 pub mod jurin;
 pub mod laws;
