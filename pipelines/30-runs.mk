@@ -19,7 +19,7 @@ endef
 $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call run_rule,$(a),$(r)))))
 
 # The implicit runs again in cells of one voxel, for the errors of Table 2: some ten times their cost and five times
-# their memory, in the quick specimens a ninth of all runs. ERROR=no leaves them out. The full size would take
+# their memory, in the quick specimens a twenty-fifth of all runs. ERROR=no leaves them out. The full size would take
 # 48 M points.
 ERROR ?= $(if $(filter full,$(SCALE)),no,yes)
 FINER := $(if $(filter no,$(ERROR)),,$(filter implicit%,$(RUNS)))

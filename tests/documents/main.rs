@@ -88,3 +88,19 @@ fn commits_named_in_results_exist() {
         Err(why) => eprintln!("commits of results not looked up: {why}"),
     }
 }
+
+#[test]
+fn the_book_has_every_document() {
+    let root = root();
+    let chapters = std::fs::read_to_string(root.join("docs/SUMMARY.md")).unwrap();
+    for folder in ["", "results/"] {
+        for entry in std::fs::read_dir(root.join("docs").join(folder)).unwrap() {
+            let name = entry.unwrap().file_name().into_string().unwrap();
+            let is_chapter = name.ends_with(".md") && name != "SUMMARY.md";
+            assert!(
+                !is_chapter || chapters.contains(&format!("]({folder}{name})")),
+                "{folder}{name}"
+            );
+        }
+    }
+}

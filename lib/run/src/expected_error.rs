@@ -93,7 +93,10 @@ pub(crate) fn text(case: &Case) -> String {
 
 fn quote(out: &mut String, expected: &ExpectedError) -> std::fmt::Result {
     let across = expected.cells_per_lumen;
-    writeln!(out, "  lumens             {across:.1} cells across 17.4 um")?;
+    writeln!(
+        out,
+        "  lumens             of 17.4 um, not this specimen's: {across:.1} cells across"
+    )?;
     let Some(cells) = expected.measured_with_cells else {
         return writeln!(
             out,

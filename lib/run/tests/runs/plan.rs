@@ -84,7 +84,7 @@ fn a_pressed_slab_by_the_explicit_scheme() {
             // cell / (c + v) and rho cell^2 / (8 eta), half of it by the Courant number.
             "limits acoustic 2.186e-9 s, viscous 2.000e-9 s; the Courant number 0.5",
             "time step 1.0000e-9 s, set by viscous",
-            "lumens 8.7 cells across 17.4 um",
+            "lumens of 17.4 um, not this specimen's: 8.7 cells across",
             "measured with 12 cells across the lumen",
             "viscosity table Newtonian liquid, 0.3 Pa s",
             "body force gravity is zero",
@@ -135,7 +135,7 @@ fn the_same_by_the_implicit_scheme_and_by_plain_flip() {
         &said.unwrap(),
         &[
             "grid 10 x 10 x 3 cells of 2.9000 um, 3D",
-            "lumens 6.0 cells across 17.4 um",
+            "lumens of 17.4 um, not this specimen's: 6.0 cells across",
             "measured with 6 cells across the lumen",
             "and the default Courant number",
         ],
