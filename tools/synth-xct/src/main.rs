@@ -130,8 +130,12 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         Some(adhesive) => format!("synthetic {adhesive:?} adhesive"),
         None => "without adhesive".into(),
     };
+    let grain = match recipe.grain_angle {
+        Some(angle) => format!(", grain angle {:.3} deg", angle.to_degrees()),
+        None => String::new(),
+    };
     let note = format!(
-        "note=SYNTHETIC {}, {adhesive} (not a scan); seed={}; {} {}",
+        "note=SYNTHETIC {}, {adhesive}{grain} (not a scan); seed={}; {} {}",
         recipe.species.name(),
         recipe.seed,
         record.tool,

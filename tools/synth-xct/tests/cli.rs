@@ -60,3 +60,19 @@ fn the_same_arguments_give_the_same_bytes_for_any_number_of_threads() {
     assert_eq!(piped.stdout, one);
     assert_eq!(said(&piped), "");
 }
+
+#[test]
+fn the_stack_names_the_grain_angle_that_was_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let (bytes, _) = grow(folder.path(), "a.tif", &["--grain-angle", "10 deg"]);
+    let note = b"adhesive, grain angle 10.000 deg (not a scan)";
+    assert!(bytes.windows(note.len()).any(|w| w == note));
+    let steep = [&SMALL[..], &["--grain-angle", "30.0001 deg", "-o", "-"]].concat();
+    let output = synth(&steep);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        said(&output).contains("grain angle of 30.0001 degrees"),
+        "{}",
+        said(&output)
+    );
+}

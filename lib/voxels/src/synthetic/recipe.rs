@@ -77,7 +77,7 @@ pub enum RecipeError {
     #[error("undamaged wood has no slab: its adhesive is given to build-bondline")]
     SlabOfWood,
     /// Fibres that do not run near z.
-    #[error("grain angle of {0:.1} degrees is not accepted: 0 to 30 degrees are")]
+    #[error("grain angle of {0} degrees is not accepted: 0 to 30 degrees are")]
     GrainAngle(f64),
     /// Voxels that cannot resolve the cell walls.
     #[error("voxel of {0:.3} um is not accepted: walls of 4 um need a voxel of 0.2 to 2 um")]
@@ -133,8 +133,9 @@ impl Plan {
         if !(0.2..=2.0).contains(&voxel) {
             return Err(RecipeError::Voxel(voxel));
         }
-        let steep = (recipe.grain_angle.map(f64::to_degrees))
-            .filter(|angle| !(0.0..=30.0 + 1e-9).contains(angle));
+        // As it was said: degrees come back from radians with rounding.
+        let degrees = |angle: f64| (1e9 * angle.to_degrees()).round() / 1e9;
+        let steep = (recipe.grain_angle.map(degrees)).filter(|angle| !(0.0..=30.0).contains(angle));
         if let Some(angle) = steep {
             return Err(RecipeError::GrainAngle(angle));
         }
