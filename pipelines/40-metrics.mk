@@ -27,3 +27,5 @@ $(OUT)/table2.csv: $(METRICS) $(EXPERIMENTS) $(BIN)/bond-figures
 table2: runs
 	@$(MAKE) BUILT=1 --no-print-directory $(SIDE_BY_SIDE) $(OUT)/table2.csv
 	@cat $(OUT)/table2.csv $(if $(FINER),$(OUT)/errors.csv)
+	@for run in $(FINALS:/final.mpts=); do \
+	    ! grep -q '"end": "time-limit"' $$run/summary.json || echo "$$run: its time limit came before it closed"; done
