@@ -26,6 +26,8 @@ impl Operator<'_> {
     /// At a wall the rate is (u - U)/(d_eff + l), that of the wall law (paper Eq. 3), without
     /// the factor of the paper's convention for rates in the liquid; for a law by formula over the
     /// distance that suits it, [`thinning_distance`], of which the viscosity of the link makes up for the difference.
+    // Not inlined: make leave-out counts what it takes by its name.
+    #[inline(never)]
     pub(crate) fn set_viscosity<D: Fn([f64; 3]) -> f64 + Sync>(
         &mut self,
         liquid: &Liquid,

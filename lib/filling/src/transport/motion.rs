@@ -91,12 +91,23 @@ impl Path<'_> {
     /// Where the particles get with the velocities they carry, off walls and in the domain; none goes
     /// further than a cell along an axis.
     pub(crate) fn ahead(&self, particles: &Particles) -> Vec<[f64; 3]> {
+        if self.after.is_empty() {
+            self.ahead_by::<false>(particles)
+        } else {
+            self.ahead_by::<true>(particles)
+        }
+    }
+
+    /// The same, where there are `WALLS` or none.
+    fn ahead_by<const WALLS: bool>(&self, particles: &Particles) -> Vec<[f64; 3]> {
         let sides = Sides::new(&self.after.domain);
         (particles.position.par_iter().zip(&particles.velocity))
             .map(|(&x, v)| {
                 let way = v.map(|v| (self.scale * f64::from(v)).clamp(-1.0, 1.0));
-                let end = sides.inside(std::array::from_fn(|a| x[a] + way[a]));
-                let end = self.before.deflect(self.after, x, end).point;
+                let mut end = sides.inside(std::array::from_fn(|a| x[a] + way[a]));
+                if WALLS {
+                    end = self.before.deflect(self.after, x, end).point;
+                }
                 sides.wrapped(sides.inside(end))
             })
             .collect()
