@@ -37,7 +37,7 @@ impl<'a> Preconditioner<'a> {
         let (degree, ratio) = (options.chebyshev_degree, options.chebyshev_ratio);
         Ok(Self {
             g: system.g,
-            g_transposed: g_transposed,
+            g_transposed,
             c: system.c,
             vanka: Vanka::new(system, &scaled.scale),
             chebyshev: Chebyshev::new(scaled, degree, ratio),
