@@ -74,12 +74,11 @@ impl Line {
 
     /// Makes it what it is at a `speed` against its wall.
     fn settle(&mut self, speed: f64, pace: f64) {
-        match self.state {
-            State::Goes(sign) if sign * speed < 0.0 => self.state = State::Held,
-            State::Held if speed.abs() > CREEP * pace => {
-                self.state = State::Goes(speed.signum());
-            }
-            _ => {}
+        if self.error(speed, pace) > 0.0 {
+            self.state = match self.state {
+                State::Goes(_) => State::Held,
+                State::Held => State::Goes(speed.signum()),
+            };
         }
     }
 }
