@@ -23,7 +23,7 @@ pub struct Closing {
 #[derive(Clone, Debug)]
 struct Run {
     label: String,
-    /// s
+    /// s; the middles of the steps, of which pressure and speed are
     time: Vec<f64>,
     /// Pa; on the upper body, which the clamp drives
     pressure: Vec<f64>,
@@ -70,10 +70,12 @@ impl Closing {
                 runs.len()
             )));
         }
+        let sources = runs;
         let mut runs: Vec<Run> = runs.iter().map(Run::read).collect::<Result<_, _>>()?;
         for (place, fine) in finer.iter().enumerate() {
-            let mut named = runs.iter_mut().filter(|run| run.label == fine.label);
-            let (Some(run), None) = (named.next(), named.next()) else {
+            let named = runs.iter_mut().zip(sources);
+            let mut named = named.filter(|(run, _)| run.label == fine.label);
+            let (Some((run, source)), None) = (named.next(), named.next()) else {
                 return Err(Error::Request(format!(
                     "the finer run '{}' has the label of no run, or of several",
                     fine.label
@@ -85,7 +87,7 @@ impl Closing {
                     fine.label
                 )));
             }
-            run.band = run.band(&Run::read(fine)?);
+            run.band = run.band(&Run::read(fine)?, [&travel(source)?, &travel(fine)?]);
         }
         Ok(Self {
             runs,
@@ -215,40 +217,62 @@ fn name_limit(drawing: &mut Drawing, frame: &Frame, y: f64, limit: f64) {
 impl Run {
     fn read(source: &Labelled) -> Result<Self, Error> {
         let table = Table::read(&source.path)?;
+        let mut time = table.data("time_s")?;
+        // The log of a press has no steps.
+        if table.has("dt_s") {
+            let steps = table.numbers("dt_s")?;
+            (time.iter_mut().zip(steps)).for_each(|(t, dt)| *t -= 0.5 * dt);
+        }
         Ok(Self {
             label: source.label.clone(),
-            time: table.data("time_s")?,
+            time,
             pressure: table.data("pressure_top_Pa")?,
             band: Vec::new(),
             speed: table.data("closing_speed_m_s")?,
         })
     }
 
-    /// What the run `fine` in cells half as large says of the pressure in cells of no size: first
-    /// order +- the difference, as in `wp-metrics --finer`, at equal times.
-    fn band(&self, fine: &Self) -> Vec<[f64; 3]> {
-        let ends = |(&time, &fine): (&f64, &f64)| {
-            let coarse = self.pressure_at(time)?;
-            let ends = [fine, 3.0 * fine - 2.0 * coarse];
-            Some([time, ends[0].min(ends[1]), ends[0].max(ends[1])])
+    /// What a run in cells half as large says of the pressure in cells of no size: first order +- the
+    /// difference, as in `wp-metrics --finer`. Both are taken at equal `travel` of their clamps, while that
+    /// goes on, and drawn at the times of this run.
+    fn band(&self, fine: &Self, travel: [&[f64]; 2]) -> Vec<[f64; 3]> {
+        let mut farthest = f64::NEG_INFINITY;
+        let mut onwards = |&(&s, _): &(&f64, &f64)| {
+            let goes_on = s > farthest;
+            farthest = farthest.max(s);
+            goes_on
         };
-        let rows = fine.time.iter().zip(&fine.pressure);
-        let band = rows.filter_map(ends);
+        let rows = (travel[1].iter().zip(&fine.pressure)).filter(|row| onwards(row));
+        let band = rows.filter_map(|(&s, &fine)| {
+            let time = at(s, travel[0], &self.time)?;
+            let carried_on = 3.0 * fine - 2.0 * at(s, travel[0], &self.pressure)?;
+            Some([time, fine.min(carried_on), fine.max(carried_on)])
+        });
         band.filter(|row| row.iter().all(|x| x.is_finite()))
             .collect()
     }
+}
 
-    /// The pressure at a time between the first row and the last.
-    fn pressure_at(&self, time: f64) -> Option<f64> {
-        let after = self.time.partition_point(|&t| t < time);
-        let (t1, p1) = (*self.time.get(after)?, self.pressure[after]);
-        if t1 == time {
-            return Some(p1);
-        }
-        let before = after.checked_sub(1)?;
-        let (t0, p0) = (self.time[before], self.pressure[before]);
-        Some(p0 + (p1 - p0) * (time - t0) / (t1 - t0))
+/// `y` where `x` first comes to a value between its first row and its last.
+fn at(value: f64, x: &[f64], y: &[f64]) -> Option<f64> {
+    let after = x.iter().position(|&x| x >= value)?;
+    if x[after] == value {
+        return Some(y[after]);
     }
+    let before = after.checked_sub(1)?;
+    let part = (value - x[before]) / (x[after] - x[before]);
+    Some(y[before] + part * (y[after] - y[before]))
+}
+
+/// How far the clamp of a run had gone in the middles of its steps, m.
+fn travel(source: &Labelled) -> Result<Vec<f64>, Error> {
+    let table = Table::read(&source.path)?;
+    let (steps, speed) = (table.data("dt_s")?, table.data("closing_speed_m_s")?);
+    let steps = steps.iter().zip(speed);
+    let ends = table.data("displacement_m")?.into_iter();
+    Ok((ends.zip(steps))
+        .map(|(s, (dt, v))| s - 0.5 * dt * v)
+        .collect())
 }
 
 /// The largest unit that shows a time of `last` seconds as a number above one.

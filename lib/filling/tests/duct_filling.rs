@@ -137,7 +137,9 @@ impl Case {
         march::until(&mut scheme, end, |report, time| {
             iterations += report.iterations;
             let load = report.pressure_bottom * grid.area_m2() / (face * H * H);
-            pressure.push([velocity * time / (n * H), load / unit]);
+            // The pressure is that of the middle of the step.
+            let middle = time - 0.5 * report.dt_s;
+            pressure.push([velocity * middle / (n * H), load / unit]);
         });
         let liquid = scheme.liquid();
         let moved = scheme.displacements();

@@ -47,6 +47,18 @@ impl Run {
             .collect()
     }
 
+    /// Times at which the rows' viscous forces hold, s: the middles of their steps, where the implicit
+    /// scheme solves its system (docs/methods.md section 3.1).
+    ///
+    /// # Errors
+    /// When a column is missing or not numeric.
+    pub fn middles(&self) -> Result<Vec<f64>, String> {
+        let (ends, steps) = (self.history("time_s")?, self.history("dt_s")?);
+        Ok((ends.iter().zip(&steps))
+            .map(|(t, dt)| t - 0.5 * dt)
+            .collect())
+    }
+
     /// The last state.
     ///
     /// # Errors

@@ -75,16 +75,37 @@ fn lines_stand_at_the_height_of_their_data() {
     assert!((ratio - 0.5).abs() < 0.02);
 }
 
-/// A run at 1 MPa and its finer one at 1.2: in cells of no size 1.4 +- 0.2 by first order.
+/// Pressure and speed are those of the middle of a step, whatever its length.
+#[test]
+fn rows_stand_in_the_middle_of_their_steps() {
+    let folder = Folder::new();
+    let drawn = |step: f64| {
+        let mut text = String::from("time_s,dt_s,closing_speed_m_s,pressure_top_Pa\n");
+        for middle in 1..6 {
+            let end = f64::from(middle) * 1e-6 + 0.5 * step;
+            let _ = writeln!(text, "{end},{step},1,{middle}e5");
+        }
+        let run = folder.labelled("a", text);
+        pixels(&Closing::read(&[run], &[], None, "").unwrap().draw())
+    };
+    assert!(drawn(0.0) == drawn(1e-6), "a step is drawn at its end");
+}
+
+/// A run at 1 MPa and its finer one at 1.2, which goes as far in half the time: in cells of no size 1.4 +- 0.2
+/// by first order, as long as the first one takes.
 #[test]
 fn the_band_of_a_finer_run_stands_where_the_extrapolation_is() {
     let folder = Folder::new();
-    let flat = |peak: f64| {
-        let header = "time_s,closing_speed_m_s,pressure_top_Pa\n";
-        format!("{header}0,1,{peak}\n1e-5,1,{peak}\n2e-5,1,{peak}\n")
+    let flat = |peak: f64, speed: f64| {
+        let mut text =
+            String::from("time_s,dt_s,closing_speed_m_s,displacement_m,pressure_top_Pa\n");
+        for travel in [0.0, 1e-5, 2e-5, 1e-5] {
+            let _ = writeln!(text, "{},0,{speed},{travel},{peak}", travel / speed);
+        }
+        text
     };
-    let run = folder.labelled("a", flat(1e6));
-    let mut fine = folder.labelled("fine", flat(1.2e6));
+    let run = folder.labelled("a", flat(1e6, 1.0));
+    let mut fine = folder.labelled("fine", flat(1.2e6, 2.0));
     let unknown = Closing::read(from_ref(&run), from_ref(&fine), None, "");
     assert!(matches!(unknown, Err(Error::Request(said)) if said.contains("the label of no run")));
     fine.label = "a".into();

@@ -77,7 +77,8 @@ fn run(n: usize, offset: [f64; 2], settings: Settings, change: impl Fn(&mut Scen
     march::until(&mut scheme, end, |report, time| {
         iterations += report.iterations;
         let pressure = report.pressure_bottom * area / (4.0 * H * h);
-        let filled = 4.0 * SPEED * time / H;
+        // The force is that of the middle of the step.
+        let filled = 4.0 * SPEED * (time - 0.5 * report.dt_s) / H;
         force.push([filled, pressure / (12.0 * ETA * 4.0 * SPEED / H)]);
     });
     let liquid = scheme.liquid();

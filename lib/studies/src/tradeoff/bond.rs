@@ -142,24 +142,18 @@ fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Cl
     })
 }
 
-/// Mean of both reactions over the second half of the travel, by trapezoids.
+/// Mean of both reactions over the second half of the travel: the work of the steps, whose pressures are
+/// those of their middles, over the way.
 fn late_pressure(run: &Run) -> Result<f64, String> {
     let travel = run.history("displacement_m")?;
-    let sides = [
-        run.history("pressure_bottom_Pa")?,
-        run.history("pressure_top_Pa")?,
-    ];
+    let bottom = run.history("pressure_bottom_Pa")?;
+    let top = run.history("pressure_top_Pa")?;
     let end = travel.last().copied().ok_or("the history is empty")?;
-    let (mut work, mut length) = (0.0, 0.0);
-    for i in 1..travel.len() {
-        let (from, to) = (travel[i - 1].max(0.5 * end), travel[i]);
-        if to > from {
-            let at = |i: usize| 0.5 * (sides[0][i] + sides[1][i]);
-            work += 0.5 * (at(i - 1) + at(i)) * (to - from);
-            length += to - from;
-        }
-    }
-    Ok(work / length)
+    let work = (1..travel.len()).map(|i| {
+        let way = travel[i] - travel[i - 1].max(0.5 * end);
+        0.5 * (bottom[i] + top[i]) * way.max(0.0)
+    });
+    Ok(work.sum::<f64>() / (0.5 * end))
 }
 
 /// WP of all adhesive about the bond plane, um.

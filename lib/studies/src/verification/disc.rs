@@ -49,7 +49,7 @@ pub fn scene(aspect: u32, n: u32, offset: f64) -> Scene {
         case,
         against: "lubrication theory",
         measure: Box::new(move |run| {
-            let time = run.history("time_s")?;
+            let time = run.middles()?;
             let (top, bottom) = (
                 run.history("pressure_top_Pa")?,
                 run.history("pressure_bottom_Pa")?,

@@ -180,13 +180,35 @@ pub(crate) fn mean_velocity(run: &Run) -> Result<f64, String> {
     Ok(points.iter().map(|(_, v)| v[0]).sum::<f64>() / points.len() as f64)
 }
 
-/// Rows of a column in a window of another, averaged.
-pub(crate) fn window_mean(x: &[f64], y: &[f64], from: f64, to: f64) -> Option<f64> {
-    let inside: Vec<f64> = x
-        .iter()
-        .zip(y)
-        .filter(|(x, _)| (from..to).contains(*x))
-        .map(|(_, y)| *y)
-        .collect();
-    (!inside.is_empty()).then(|| inside.iter().sum::<f64>() / inside.len() as f64)
+/// A column in the middle of a window of another, on the straight line of least squares through the rows
+/// in it: their mean is that of where they happen to lie.
+pub(crate) fn at_middle(x: &[f64], y: &[f64], from: f64, to: f64) -> Option<f64> {
+    let middle = 0.5 * (from + to);
+    let rows = || (x.iter().zip(y)).filter(|(x, _)| (from..to).contains(*x));
+    let n = rows().count() as f64;
+    let mean =
+        |of: &dyn Fn(f64, f64) -> f64| rows().map(|(&x, &y)| of(x - middle, y)).sum::<f64>() / n;
+    let (dx, y) = (mean(&|dx, _| dx), mean(&|_, y| y));
+    let spread = mean(&|dx, _| dx * dx) - dx * dx;
+    let slope = (mean(&|dx, y| dx * y) - dx * y) / spread;
+    (n > 0.0).then_some(if spread > 0.0 { y - slope * dx } else { y })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::at_middle;
+
+    #[test]
+    fn rows_that_lie_to_one_side_do_not_shift_the_middle() {
+        let x = [0.0, 0.6, 0.7, 0.75, 1.0, 9.0];
+        let y = x.map(|x| 3.0 + 2.0 * x);
+        let found = at_middle(&x, &y, 0.5, 1.5).unwrap();
+        assert!((found - 5.0).abs() < 1e-12, "{found}");
+        assert_eq!(
+            at_middle(&x, &y, 8.0, 11.0),
+            Some(21.0),
+            "one row is all there is"
+        );
+        assert_eq!(at_middle(&x, &y, 2.0, 3.0), None);
+    }
 }

@@ -4,7 +4,7 @@
 //! equivalent length e of entrance and moving front.
 
 use super::lumen::{Rectangle, Section, quarter};
-use super::{LUMEN, Measured, Scene, window_mean};
+use super::{LUMEN, Measured, Scene, at_middle};
 use crate::case_text::{Body, CaseText, PF};
 use crate::outputs::Run;
 
@@ -114,7 +114,7 @@ fn pressures(
     unit: f64,
     right: f64,
 ) -> Result<Vec<Measured>, String> {
-    let time = run.history("time_s")?;
+    let time = run.middles()?;
     let pressure = run.history("pressure_top_Pa")?;
     let pressure: Vec<f64> = pressure
         .iter()
@@ -127,7 +127,7 @@ fn pressures(
         .map(|(t, p)| 4.0 / area * (speed * t / LUMEN - DEPTH * p / PF[1]))
         .collect();
     let at = |length: f64| {
-        window_mean(&filled, &pressure, length - 0.25, length + 0.25)
+        at_middle(&filled, &pressure, length - 0.25, length + 0.25)
             .map(|p| p / unit)
             .ok_or("the lumen was not filled to two diameters")
     };

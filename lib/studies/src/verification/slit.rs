@@ -1,7 +1,7 @@
 //! A piston pushes liquid from a reservoir, four slit widths wide, into a slit: the mission's
 //! own flow. Against finite elements behind a tracked front (lib/studies/reference).
 
-use super::{LUMEN, Measured, Scene, window_mean};
+use super::{LUMEN, Measured, Scene, at_middle};
 use crate::case_text::{Body, CaseText, PF};
 use crate::outputs::Run;
 
@@ -61,7 +61,7 @@ pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
                 curve(run, n)?.iter().map(|p| (p[0], p[1])).unzip();
             let mut list = Vec::new();
             for (length, entrance) in ENTRANCE {
-                if let Some(f) = window_mean(&filled, &force, length - 0.25, length + 0.25) {
+                if let Some(f) = at_middle(&filled, &force, length - 0.25, length + 0.25) {
                     list.push(Measured::relative(
                         format!("piston force at L = {length} H"),
                         f,
@@ -86,7 +86,7 @@ pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
 /// # Errors
 /// What is wrong with the history.
 pub fn curve(run: &Run, n: u32) -> Result<Vec<[f64; 2]>, String> {
-    let time = run.history("time_s")?;
+    let time = run.middles()?;
     let pressure = run.history("pressure_top_Pa")?;
     // History pressures refer to the whole cross-section of the domain.
     let section = (4.0 * f64::from(n) + 6.0) / (4.0 * f64::from(n));

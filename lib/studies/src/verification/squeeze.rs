@@ -43,7 +43,7 @@ pub fn scene(n: u32, offset: f64) -> Scene {
         case,
         against: "lubrication theory",
         measure: Box::new(move |run| {
-            let travelled: Vec<f64> = run.history("time_s")?.iter().map(|t| t * SPEED).collect();
+            let travelled: Vec<f64> = run.middles()?.iter().map(|t| t * SPEED).collect();
             let top = run.history("pressure_top_Pa")?;
             let bottom = run.history("pressure_bottom_Pa")?;
             let (Some(&s), Some(&p), Some(&q)) = (travelled.last(), top.last(), bottom.last())
