@@ -4,6 +4,8 @@
 #                                 small synthetic specimens; ends with Table 2
 #   make SCALE=small|medium|full  the same on larger specimens
 #   make ERROR=no                 without the errors of Table 2, which take finer implicit runs
+#   make RUNS="implicit flip"     only these of xpic, flip, frictionless, implicit, implicit-frictionless
+#   make JOBS=2 RUN_THREADS=1     so many runs side by side, on so many threads each
 #   make XCT_PF=a.tif XCT_PVA_PF=b.tif VOXEL="1.45 um" [LABELS=void=0,wood=1,adhesive=2]
 #                                 the same on your own stacks
 #   make XCT_BOTTOM=a.tif [XCT_TOP=b.tif | PLANE="139.2 um"] SLAB="55.1 um" VOXEL=... [TURN=90]

@@ -160,7 +160,9 @@ fn a_checkpoint_belongs_to_its_case() {
     );
     let other = bench.press("run", &["clamp.stop=0.5 us"], &["--resume"]);
     assert_eq!(other.status.code(), Some(3));
-    assert!(said(&other).contains("another case"), "{}", said(&other));
+    let told = said(&other);
+    assert!(told.contains("another case"), "{told}");
+    assert!(told.contains("(clamp.stop is \"0.5 us\", was "), "{told}");
 
     let mut bytes = bench.read("run/checkpoint.mpts");
     bytes.truncate(bytes.len() / 2);

@@ -13,6 +13,7 @@ use crate::folder::{
     ASIDE, CHECKPOINT, FINAL, HISTORY, RESOLVED, RunFolder, SNAPSHOTS, SUMMARY, is_there,
 };
 use crate::request::RunFailure;
+use crate::resolved;
 
 /// How an existing run folder is treated.
 #[derive(Clone, Copy, Debug, Default)]
@@ -46,8 +47,11 @@ pub(crate) fn start(
                 return Ok(Some(checkpoint));
             }
             Ok(None) => {}
-            Err(error) if !mode.overwrite => return Err(error.into()),
-            Err(_) => {}
+            Err(_) if mode.overwrite => {}
+            Err(RunError::Checkpoint(said)) => {
+                return Err(RunFailure::Data(said + &changed(folder, text)));
+            }
+            Err(error) => return Err(error.into()),
         }
     }
     // A run killed before its first checkpoint has nothing to lose.
@@ -60,6 +64,16 @@ pub(crate) fn start(
     clear(folder, by)?;
     folder.write_text(RESOLVED, text)?;
     Ok(None)
+}
+
+/// What of the case is not as it was when the folder's run began; nothing where that is not known.
+fn changed(folder: &RunFolder, text: &str) -> String {
+    let was = fs::read_to_string(folder.place(RESOLVED)).unwrap_or_default();
+    let changed = resolved::differences(text, &was);
+    if was.is_empty() || changed.is_empty() {
+        return String::new();
+    }
+    format!(" ({})", changed.join("; "))
 }
 
 fn held_by_a_run(folder: &Path, resume: bool) -> RunFailure {

@@ -1,6 +1,7 @@
 //! `resolved.toml`: the case as run, every key that was left out with the value that held instead.
 //! As a case file it makes the same run again.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::case::Case;
@@ -11,6 +12,9 @@ const OPENING: &str = "\
 # The case of this run, with the defaults that held: as a case file it makes the same run again.
 # What the keys are: mpm-run --reference
 ";
+
+/// Differing keys that are named.
+const TOLD: usize = 3;
 
 /// The text of the file, for a case of this `text`.
 pub(crate) fn text(text: &str, case: &Case, setup: &Setup) -> String {
@@ -34,6 +38,38 @@ pub(crate) fn text(text: &str, case: &Case, setup: &Setup) -> String {
         }
     }
     out
+}
+
+/// The first keys by which the case of one such text differs from that of another, with both values: so that a run that is not
+/// continued can say why. A list of tables counts as one key.
+pub(crate) fn differences(is: &str, was: &str) -> Vec<String> {
+    let [is, was] = [is, was].map(|text| {
+        let mut keys = BTreeMap::new();
+        flatten("", &text.parse().unwrap_or_default(), &mut keys);
+        keys
+    });
+    let mut names: Vec<&String> = is.keys().chain(was.keys()).collect();
+    names.sort_unstable();
+    names.dedup();
+    let differs = |name: &&String| is.get(*name) != was.get(*name);
+    let value = |of: &BTreeMap<String, String>, name| {
+        of.get(name).map_or("not given", |v| v.as_str()).to_owned()
+    };
+    (names.into_iter().filter(differs).take(TOLD))
+        .map(|name| format!("{name} is {}, was {}", value(&is, name), value(&was, name)))
+        .collect()
+}
+
+fn flatten(path: &str, table: &toml::Table, keys: &mut BTreeMap<String, String>) {
+    for (name, value) in table {
+        let name = format!("{path}{name}");
+        match value {
+            toml::Value::Table(inner) => flatten(&format!("{name}."), inner, keys),
+            value => {
+                keys.insert(name, value.to_string());
+            }
+        }
+    }
 }
 
 fn heading(table: &Table) -> String {

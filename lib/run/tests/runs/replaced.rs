@@ -250,7 +250,13 @@ fn a_checkpoint_of_another_case_is_refused_or_replaced() {
     let before = everything(&bench.path("run"));
     let other = ["adhesive.viscosity=2 Pa s"];
     match bench.run_changed("run", RESUME, END, &other) {
-        Err(RunFailure::Data(said)) => assert!(said.contains("another case"), "{said}"),
+        Err(RunFailure::Data(said)) => {
+            assert!(said.contains("another case"), "{said}");
+            assert!(
+                said.contains("(adhesive.viscosity is \"2 Pa s\", was "),
+                "{said}"
+            );
+        }
         ended => panic!("{ended:?}"),
     }
     assert!(everything(&bench.path("run")) == before);
