@@ -295,7 +295,8 @@ impl Operator<'_> {
     fn darcy(&self, face: usize, volume: f64) -> f64 {
         let (axis, index) = self.dofs.faces[face];
         let (axis, index) = (usize::from(axis), index as usize);
-        let eta = self.mean_viscosity([index, index - self.lattice.window.stride(axis)]);
+        let cells = [index, index - self.lattice.window.stride(axis)];
+        let eta = self.mean_law(cells) * self.mean_factor(cells);
         let widths = match f64::from(self.walls.inverse_widths[face]) {
             0.0 => 0.0,
             widths => widths / (1.0 + 6.0 * self.scales.influence_length * widths.sqrt()),

@@ -74,16 +74,25 @@ impl<'a> Operator<'a> {
         }
     }
 
+    /// The same between cells that liquid shears against each other, the mean of its inverse: a film that has dried in the corner of
+    /// a cell does not make the others as thick.
+    pub(super) fn factor_between<const N: usize>(&self, cells: [usize; N]) -> f64 {
+        match self.factor.is_empty() {
+            true => 1.0,
+            false => 1.0 / self.mean(cells, |cell| 1.0 / self.factor(cell)),
+        }
+    }
+
     /// Puts a factor on the viscosity of each cell.
     pub(crate) fn thicken(&mut self, factor: &'a [f32]) {
         self.factor = factor;
     }
 
-    /// Viscosity around a place, by the liquid in the cells that meet there.
-    pub(super) fn mean_viscosity<const N: usize>(&self, cells: [usize; N]) -> f64 {
-        match self.viscosity.is_empty() && self.factor.is_empty() {
+    /// Viscosity by the law of the shear rate around a place, by the liquid in the cells that meet there.
+    pub(super) fn mean_law<const N: usize>(&self, cells: [usize; N]) -> f64 {
+        match self.viscosity.is_empty() {
             true => 1.0,
-            false => self.mean(cells, |cell| self.eta(cell)),
+            false => self.mean(cells, |cell| f64::from(self.viscosity[cell])),
         }
     }
 

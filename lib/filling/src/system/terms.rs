@@ -147,11 +147,12 @@ impl Operator<'_> {
         let faces = [(i, at - sj), (i, at), (j, at - si), (j, at)];
         let velocities = faces.map(|(axis, index)| self.velocity(axis, index));
         let [wet, open] = edge.volume;
-        let eta = match self.edge_viscosity[3 - i - j].get(at) {
-            Some(&eta) => f64::from(eta) * self.mean_factor([at, at - si, at - sj, at - si - sj]),
-            None => self.mean_viscosity([at, at - si, at - sj, at - si - sj]),
-        } * wet
-            / open;
+        let cells = [at, at - si, at - sj, at - si - sj];
+        let law = match self.edge_viscosity[3 - i - j].get(at) {
+            Some(&eta) => f64::from(eta),
+            None => self.mean_law(cells),
+        };
+        let eta = law * self.factor_between(cells) * wet / open;
         let seen = |low: usize, which: usize| {
             let (a, b) = (velocities[low]?, velocities[low + 1]?);
             let sight = f64::from(edge.sight[which]);

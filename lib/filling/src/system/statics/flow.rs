@@ -18,6 +18,8 @@ pub(crate) struct Flow {
     pub(crate) gravity: [f64; 3],
     /// Adhesion tension over viscosity.
     pub(crate) adhesion: f64,
+    /// How many times as thick liquid is that has dried, by the middle of its cell.
+    pub(crate) factor: Option<Box<dyn Fn([f64; 3]) -> f32>>,
     pub(crate) speeds: Vec<[f64; 3]>,
     /// Of the solver.
     pub(crate) tolerance: f64,
@@ -48,6 +50,7 @@ impl Flow {
             width: WidthRule::Combined,
             gravity: [0.0; 3],
             adhesion: 0.0,
+            factor: None,
             speeds: vec![[0.0; 3]; bodies.len()],
             bodies,
             tolerance: 1e-7,
@@ -77,6 +80,12 @@ impl Flow {
             width: self.width,
         };
         let mut operator = Operator::new(&lattice, &liquid, scales);
+        let w = &lattice.window;
+        let factor: Vec<f32> = self.factor.as_ref().map_or_else(Vec::new, |factor| {
+            let middle = |cell: usize| w.corner(w.coordinates(cell)).map(|x| x + 0.5);
+            (0..w.len()).map(|cell| factor(middle(cell))).collect()
+        });
+        operator.thicken(&factor);
         let (n, m) = (operator.dofs.faces.len(), operator.dofs.cells.len());
         operator.pull = operator.pull(&vec![0.0; n], &self.speeds);
         let before = Before {
@@ -96,7 +105,6 @@ impl Flow {
             .solve(&system.saddle(), &mut u, &mut p)
             .unwrap();
         let (forces, _) = system.reactions(&u, &p);
-        let w = &lattice.window;
         let mut pressure = vec![0.0; w.len()];
         for (&index, &p) in operator.dofs.cells.iter().zip(&p) {
             pressure[index as usize] = p;
