@@ -59,6 +59,9 @@ const fn goal(
 /// Couette flow: its walls are those of Poiseuille flow, and the line through points a poor measure.
 const COUETTE: &str = "the distance of walls is that of Poiseuille flow, which makes the stress of shear \
     too large by 2/(3 n (n + 1.2)), the row above; the line through points makes 3 to 4 times as much of it";
+/// Force between a disc and a plate.
+const DISC: &str = "2.1 % at 3 cells with plates on the nodes, 1.5 % at 6, between long plates 1.3 % at most: perhaps the rim, whose flow \
+    lubrication theory leaves out; not measured apart";
 /// Force on the piston at the first width.
 const SLIT: &str = "at L = 1 H: the front stands 0.3 of a cell too far ahead, because cells at walls behind it hold \
     50 to 80 % of their volume until the density projection fills them, and entrance and piston add 0.2; 5.9 % quarter off \
@@ -303,7 +306,8 @@ pub const GOALS: &[Goal] = &[
         "implicit",
         "force",
         0.02,
-    ),
+    )
+    .because(DISC),
     goal(
         "film closed by a load, 1 us to 1000 s",
         &["stefan-n6"],
