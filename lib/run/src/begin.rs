@@ -48,7 +48,7 @@ pub(crate) fn start(
             }
             Ok(None) => {}
             Err(_) if mode.overwrite => {}
-            Err(RunError::Checkpoint(said)) => {
+            Err(RunError::Other(said)) => {
                 return Err(RunFailure::Data(said + &changed(folder, text)));
             }
             Err(error) => return Err(error.into()),
@@ -68,12 +68,12 @@ pub(crate) fn start(
 
 /// What of the case is not as it was when the folder's run began; nothing where that is not known.
 fn changed(folder: &RunFolder, text: &str) -> String {
-    let was = fs::read_to_string(folder.place(RESOLVED)).unwrap_or_default();
-    let changed = resolved::differences(text, &was);
-    if was.is_empty() || changed.is_empty() {
-        return String::new();
+    let was = fs::read_to_string(folder.place(RESOLVED));
+    let changed = was.map_or_else(|_| Vec::new(), |was| resolved::differences(text, &was));
+    match changed.is_empty() {
+        true => String::new(),
+        false => format!(" ({})", changed.join("; ")),
     }
-    format!(" ({})", changed.join("; "))
 }
 
 fn held_by_a_run(folder: &Path, resume: bool) -> RunFailure {

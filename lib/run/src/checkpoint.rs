@@ -142,10 +142,10 @@ pub fn read(folder: &Path, identity: &str) -> Result<Option<Checkpoint>, RunErro
         return Err(bad("it is no checkpoint".into()));
     }
     if header.attribute("identity") != Some(identity) {
-        return Err(bad(
-            "it belongs to another case (only integrator.cfl may change), particle file or version; use --overwrite to start anew"
-                .into(),
-        ));
+        return Err(RunError::Other(format!(
+            "{}: it belongs to another case (only integrator.cfl may change), particle file or version; use --overwrite to start anew",
+            path.display()
+        )));
     }
     let numbers = |name| file.column::<f64>(name).map_err(|e| bad(e.to_string()));
     let earlier = |what: &str| {

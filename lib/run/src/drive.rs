@@ -62,6 +62,9 @@ pub enum RunError {
     /// A checkpoint cannot be used.
     #[error("{0}")]
     Checkpoint(String),
+    /// A checkpoint is of another case, particle file or version.
+    #[error("{0}")]
+    Other(String),
 }
 
 impl RunError {

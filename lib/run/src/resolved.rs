@@ -13,6 +13,8 @@ const OPENING: &str = "\
 # What the keys are: mpm-run --reference
 ";
 
+/// What stands behind a value that was not given.
+const DEFAULT: &str = " # default";
 /// Differing keys that are named.
 const TOLD: usize = 3;
 
@@ -41,17 +43,15 @@ pub(crate) fn text(text: &str, case: &Case, setup: &Setup) -> String {
 }
 
 /// The first keys by which the case of one such text differs from that of another, with both values: so that a run that is not
-/// continued can say why. A list of tables counts as one key.
+/// continued can say why. Defaults do not count, of which some follow from the bond, nor the key that may change; a list of tables
+/// counts as one key. None where a text is no case.
 pub(crate) fn differences(is: &str, was: &str) -> Vec<String> {
-    let [is, was] = [is, was].map(|text| {
-        let mut keys = BTreeMap::new();
-        flatten("", &text.parse().unwrap_or_default(), &mut keys);
-        keys
-    });
+    let (Some(is), Some(was)) = (given(is), given(was)) else {
+        return Vec::new();
+    };
     let mut names: Vec<&String> = is.keys().chain(was.keys()).collect();
     names.sort_unstable();
     names.dedup();
-    // That one may change.
     let differs = |name: &&String| is.get(*name) != was.get(*name) && *name != "integrator.cfl";
     let value = |of: &BTreeMap<String, String>, name| {
         of.get(name).map_or("not given", |v| v.as_str()).to_owned()
@@ -59,6 +59,15 @@ pub(crate) fn differences(is: &str, was: &str) -> Vec<String> {
     (names.into_iter().filter(differs).take(TOLD))
         .map(|name| format!("{name} is {}, was {}", value(&is, name), value(&was, name)))
         .collect()
+}
+
+/// The keys that are given in such a text, by their dotted paths.
+fn given(text: &str) -> Option<BTreeMap<String, String>> {
+    let lines = text.lines().filter(|line| !line.ends_with(DEFAULT));
+    let table = lines.collect::<Vec<_>>().join("\n").parse().ok()?;
+    let mut keys = BTreeMap::new();
+    flatten("", &table, &mut keys);
+    Some(keys)
 }
 
 fn flatten(path: &str, table: &toml::Table, keys: &mut BTreeMap<String, String>) {
@@ -100,9 +109,9 @@ fn write_table(
             continue;
         }
         match absent {
-            Absent::Value(value) => writeln!(out, "{name} = {value} # default")?,
+            Absent::Value(value) => writeln!(out, "{name} = {value}{DEFAULT}")?,
             Absent::Of(_, value) => match value(case, setup) {
-                Some(value) => writeln!(out, "{name} = {value} # default")?,
+                Some(value) => writeln!(out, "{name} = {value}{DEFAULT}")?,
                 None => writeln!(out, "# {name}: not used")?,
             },
             Absent::Needed(when) => writeln!(out, "# {name}: not given, needed {}", plain(when))?,

@@ -34,8 +34,11 @@ pub(crate) struct System {
     /// Pressures of the pockets of air, which their unknowns count from: what softens them much would outweigh
     /// all else.
     shift: Vec<f64>,
-    /// Momentum by these, by menisci and by walls that move with lines that they hold; empty without any.
+    /// Momentum by these, by menisci, and by walls that move with lines that they hold that dried liquid clings to; empty
+    /// without any.
     standing: Vec<f64>,
+    /// Part of what walls drag each face by that only makes dried liquid go along; empty where none dries.
+    clinging: Vec<f64>,
     /// Friction of those lines.
     held: Vec<Friction>,
     /// Slowest velocity that counts at the front, m/s.
@@ -105,8 +108,12 @@ impl System {
             let velocity = |bodies: &[[f64; 3]]| bodies[line.wall / 3][line.wall % 3];
             self.standing[line.face] += line.friction * (velocity(bodies) - velocity(&self.bodies));
         }
-        self.bodies = bodies.to_vec();
         let couplings = &self.couplings;
+        for (face, part) in self.clinging.iter().enumerate() {
+            let more = couplings.dragged(face, bodies) - couplings.dragged(face, &self.bodies);
+            self.standing[face] += part * more;
+        }
+        self.bodies = bodies.to_vec();
         self.b = (self.momentum.par_iter().enumerate())
             .map(|(face, b)| b + couplings.dragged(face, bodies))
             .collect();
@@ -232,7 +239,8 @@ impl Operator<'_> {
         let (mut standing, pulled) = self.pull.forces();
         let mut momentum = self.momentum(&face_volume, &mass, before.velocity);
         let shift: Vec<f64> = before.air.iter().map(|t| t.pressure).collect();
-        if !shift.is_empty() {
+        let clinging = self.clinging();
+        if !(shift.is_empty() && clinging.is_empty()) {
             standing.resize(n, 0.0);
         }
         for (row, shift) in (cells..).zip(&shift) {
@@ -253,6 +261,7 @@ impl Operator<'_> {
             pulled,
             shift,
             standing,
+            clinging,
             held: self.held_lines(),
             slow: SLOW * self.scales.cell_per_step,
             momentum,
@@ -284,6 +293,18 @@ impl Operator<'_> {
                 }
             });
         })
+    }
+
+    /// Part of what walls drag each face by that only makes dried liquid go along; empty where none dries.
+    fn clinging(&self) -> Vec<f64> {
+        if self.factor.is_empty() {
+            return Vec::new();
+        }
+        let part = |&(axis, index): &(u8, u32)| {
+            let (index, stride) = (index as usize, self.lattice.window.stride(axis.into()));
+            1.0 - 1.0 / self.mean_factor([index, index - stride])
+        };
+        self.dofs.faces.iter().map(part).collect()
     }
 
     fn mass(&self, volume: f64) -> f64 {
