@@ -28,4 +28,5 @@ mod run_folder;
 mod sweep;
 mod sweep_tables;
 mod verdicts;
+mod wood;
 mod workbench;

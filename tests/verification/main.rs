@@ -187,7 +187,7 @@ fn a_piston_into_a_lumen_of_three_cells_at_any_step() {
         assert_within(pressure, &scene(), at(cfl), "pressure at L = 2 d");
     }
     let mut thick = scene();
-    thick.case.viscosity = Viscosity::Newtonian(1.25 * studies::case_text::PF[2]);
+    thick.case.viscosity = Viscosity::Newtonian(1.1 * studies::case_text::PF[2]);
     assert_caught(0.06, &thick, at(0.5), "pressure at L = 2 d");
 }
 

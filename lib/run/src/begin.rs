@@ -48,7 +48,7 @@ pub(crate) fn start(
             }
             Ok(None) => {}
             Err(_) if mode.overwrite => {}
-            Err(RunError::Other(said)) => {
+            Err(RunError::AnotherCase(said)) => {
                 return Err(RunFailure::Data(said + &changed(folder, text)));
             }
             Err(error) => return Err(error.into()),

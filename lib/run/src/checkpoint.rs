@@ -142,7 +142,7 @@ pub fn read(folder: &Path, identity: &str) -> Result<Option<Checkpoint>, RunErro
         return Err(bad("it is no checkpoint".into()));
     }
     if header.attribute("identity") != Some(identity) {
-        return Err(RunError::Other(format!(
+        return Err(RunError::AnotherCase(format!(
             "{}: it belongs to another case (only integrator.cfl may change), particle file or version; use --overwrite to start anew",
             path.display()
         )));

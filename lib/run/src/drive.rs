@@ -64,7 +64,7 @@ pub enum RunError {
     Checkpoint(String),
     /// A checkpoint is of another case, particle file or version.
     #[error("{0}")]
-    Other(String),
+    AnotherCase(String),
 }
 
 impl RunError {

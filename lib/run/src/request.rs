@@ -67,7 +67,7 @@ impl From<CaseError> for RunFailure {
 impl From<RunError> for RunFailure {
     fn from(error: RunError) -> Self {
         match error {
-            RunError::Checkpoint(said) | RunError::Other(said) => RunFailure::Data(said),
+            RunError::Checkpoint(said) | RunError::AnotherCase(said) => RunFailure::Data(said),
             RunError::Unstable {
                 failure,
                 step,

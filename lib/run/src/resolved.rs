@@ -1,11 +1,11 @@
 //! `resolved.toml`: the case as run, every key that was left out with the value that held instead.
 //! As a case file it makes the same run again.
 
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::case::Case;
 use crate::case::keys::{Absent, Key, TABLES, Table};
+use crate::courant::without_cfl;
 use crate::resolve::Setup;
 
 const OPENING: &str = "\
@@ -49,37 +49,27 @@ pub(crate) fn differences(is: &str, was: &str) -> Vec<String> {
     let (Some(is), Some(was)) = (given(is), given(was)) else {
         return Vec::new();
     };
-    let mut names: Vec<&String> = is.keys().chain(was.keys()).collect();
-    names.sort_unstable();
-    names.dedup();
-    let differs = |name: &&String| is.get(*name) != was.get(*name) && *name != "integrator.cfl";
-    let value = |of: &BTreeMap<String, String>, name| {
-        of.get(name).map_or("not given", |v| v.as_str()).to_owned()
-    };
-    (names.into_iter().filter(differs).take(TOLD))
-        .map(|name| format!("{name} is {}, was {}", value(&is, name), value(&was, name)))
+    let paths = TABLES.iter().flat_map(|table| match table.repeated {
+        true => vec![table.path.to_owned()],
+        false => (table.keys.iter())
+            .map(|key| format!("{}.{}", table.path, key.name))
+            .collect(),
+    });
+    let value = |of: Option<&toml::Value>| of.map_or("not given".to_owned(), ToString::to_string);
+    paths
+        .filter_map(|path| {
+            let [is, was] = [found(&is, &path), found(&was, &path)];
+            (is != was).then(|| format!("{path} is {}, was {}", value(is), value(was)))
+        })
+        .take(TOLD)
         .collect()
 }
 
-/// The keys that are given in such a text, by their dotted paths.
-fn given(text: &str) -> Option<BTreeMap<String, String>> {
+/// What is given in such a text and may not change.
+fn given(text: &str) -> Option<toml::Value> {
     let lines = text.lines().filter(|line| !line.ends_with(DEFAULT));
-    let table = lines.collect::<Vec<_>>().join("\n").parse().ok()?;
-    let mut keys = BTreeMap::new();
-    flatten("", &table, &mut keys);
-    Some(keys)
-}
-
-fn flatten(path: &str, table: &toml::Table, keys: &mut BTreeMap<String, String>) {
-    for (name, value) in table {
-        let name = format!("{path}{name}");
-        match value {
-            toml::Value::Table(inner) => flatten(&format!("{name}."), inner, keys),
-            value => {
-                keys.insert(name, value.to_string());
-            }
-        }
-    }
+    let text = without_cfl(&lines.collect::<Vec<_>>().join("\n"));
+    text.parse().ok().map(toml::Value::Table)
 }
 
 fn heading(table: &Table) -> String {

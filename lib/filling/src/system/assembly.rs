@@ -34,8 +34,8 @@ pub(crate) struct System {
     /// Pressures of the pockets of air, which their unknowns count from: what softens them much would outweigh
     /// all else.
     shift: Vec<f64>,
-    /// Momentum by these, by menisci, and by walls that move with lines that they hold that dried liquid clings to; empty
-    /// without any.
+    /// Momentum by these, by menisci, and by walls that move with lines that they hold or with dried liquid that clings to
+    /// them; empty without any.
     standing: Vec<f64>,
     /// Part of what walls drag each face by that only makes dried liquid go along; empty where none dries.
     clinging: Vec<f64>,

@@ -143,7 +143,7 @@ const ADVICE: &str = "\
 - **Clamp pressure and filling**: the implicit scheme as it is by default, two voxels a cell (6 cells in a 17.4 um lumen), Courant
   number 1 and tolerance 1e-3: 6 % in the slit, 4 % at a quarter of the Courant number; in the small bond line here, whose passages
   have fewer cells, 21 % of the pressure, at any Courant number, and 2 % of WP (in the crop of the acer volume 6 and 0.4 %, README.md).
-  One voxel a cell (12) brings 1 to 3 % for ten times the time. A smaller tolerance gains nothing.
+  One voxel a cell (12) brings 1 to 2 % for ten times the time. A smaller tolerance gains nothing.
 - **The explicit scheme as in the paper** gives WP and the course of a flow, not pressures: each point's own J locks the
   liquid, and the walls lie where the nodes are. Finer cells help slowly. PIC damps viscous flow away; the other updates
   differ less from each other than from the truth.

@@ -1,0 +1,52 @@
+//! Presses of synthetic wood: what comes of its rough lumens alone.
+
+use studies::outputs::Run;
+
+use crate::workbench::{VOXEL, Workbench};
+
+/// `bond.mpts` of a synthetic specimen of so many voxels and `case.toml` with this text.
+fn wood(size: &str, case: impl AsRef<[u8]>) -> Workbench {
+    let bench = Workbench::new();
+    let stack = ["--adhesive", "pf", "--voxel", VOXEL, "-o", "wood.tif"];
+    let size = ["--size", size, "--slab", "14.5 um", "--seed", "1"];
+    bench.done("synth-xct", &[&stack[..], &size].concat());
+    bench.convert("wood.tif", "wood.mpts");
+    bench.done("build-bondline", &["-q", "wood.mpts", "-o", "bond.mpts"]);
+    bench.write("case.toml", case);
+    bench
+}
+
+/// Liquid that dries a million times as thick in the corners of cells at its walls is solved as other liquid is: those corners do not
+/// make their neighbours as thick, and what drags them along is not what the solver's tolerance is relative to.
+#[test]
+fn liquid_that_dries_at_once_at_its_walls_is_solved() {
+    let case = include_str!("../../pipelines/cases/pf-implicit.toml");
+    let water = "[adhesive.water]\nsolids = 0.45\nuptake = \"20 um/s\"\ndiffusivity = \"1e-10 m2/s\"\n\
+                 viscosity_by_solids = [[0.45, 1.0], [0.55, 100.0], [0.65, 1e6]]\n";
+    let bench = wood("40x96x40", case.to_owned() + water);
+    let slowly = ["clamp.closing_speed=10 mm/s", "output.history_every=10 us"];
+    bench.pressed("run", &slowly, &[]);
+    let run = Run {
+        folder: bench.path("run"),
+    };
+    let sides = ["pressure_bottom_Pa", "pressure_top_Pa"].map(|side| run.history(side).unwrap());
+    for (step, (bottom, top)) in sides[0].iter().zip(&sides[1]).enumerate() {
+        let apart = (top / bottom - 1.0).abs();
+        assert!(apart < 0.02, "row {step}: {bottom} and {top} Pa");
+    }
+}
+
+/// Contact lines that turn around in the solves of a step hold and go as its flow asks for.
+#[test]
+fn contact_lines_settle_in_wood() {
+    let case = include_str!("../../pipelines/examples/wicking-pf.toml");
+    assert!(case.contains("time = \"4 ms\""));
+    let bench = wood(
+        "24x64x24",
+        case.replace("time = \"4 ms\"", "time = \"2 ms\""),
+    );
+    bench.pressed("run", &["adhesive.receding_angle=20 deg"], &[]);
+    let summary = String::from_utf8(bench.read("run/summary.json")).unwrap();
+    let settled = "\"steps whose contact lines did not settle\": 0,";
+    assert!(summary.contains(settled), "{summary}");
+}
