@@ -127,6 +127,7 @@ impl Space {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::VelocityBlock;
 
     /// Two cells and the face between them, closed.
     fn pair() -> Csr<f64> {
@@ -135,9 +136,9 @@ mod tests {
 
     /// What `said` makes of the pair with a friction, a compressibility and a source left over.
     fn of<T>([friction, c, left]: [f64; 3], said: impl Fn(&SaddleSystem) -> T) -> T {
-        let one = Csr::assemble(1, 1, |_, entries| entries.add(0, 1.0)).unwrap();
+        let one = VelocityBlock::assemble(1, |_, entries| entries.add(0, 1.0));
         said(&SaddleSystem {
-            a: &one,
+            a: &one.unwrap(),
             g: &pair(),
             pockets: 0,
             standing: &[],

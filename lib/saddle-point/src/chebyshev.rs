@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use crate::packed::{Absolute, Finish, LANES, PackedMatrix};
-use crate::scaled::Scaled;
 use crate::vector::{CHUNK, Real, Work, for_chunks, for_chunks_pair, reset};
+use crate::velocity_block::VelocityBlock;
 
 /// Sweeps that tighten the bound of the largest eigenvalue.
 const BOUND_SWEEPS: usize = 6;
@@ -15,7 +15,7 @@ const WIDEST: f64 = 6400.0;
 /// `S = D^-1/2` and `q` the Chebyshev iteration of given degree on `[bound/ratio, bound]`
 /// (Golub & Van Loan, Matrix Computations, 4th ed., section 11.2.8).
 pub(crate) struct Chebyshev<'a> {
-    scaled: &'a Scaled,
+    block: &'a VelocityBlock,
     bound: f64,
     degree: usize,
     ratio: f64,
@@ -26,13 +26,13 @@ pub(crate) struct Chebyshev<'a> {
 }
 
 impl<'a> Chebyshev<'a> {
-    pub(crate) fn new(scaled: &'a Scaled, degree: usize, ratio: f64) -> Self {
-        let len = scaled.matrix.padded_len();
+    pub(crate) fn new(block: &'a VelocityBlock, degree: usize, ratio: f64) -> Self {
+        let len = block.matrix.padded_len();
         let (mut now, mut before) = (vec![0.0; len], vec![0.0; len]);
-        let n = scaled.scale.len();
+        let n = block.scale.len();
         Self {
-            bound: largest_eigenvalue_bound(&scaled.matrix, n, &mut now, &mut before),
-            scaled,
+            bound: largest_eigenvalue_bound(&block.matrix, n, &mut now, &mut before),
+            block,
             degree,
             ratio,
             rhs: vec![0.0; len],
@@ -43,8 +43,8 @@ impl<'a> Chebyshev<'a> {
 
     /// What the `x` of the last [`Chebyshev::apply`] leaves of `S (b - A x)`, plus `S more(row)`;
     pub(crate) fn residual(&mut self, more: impl Fn(usize) -> Work + Sync) -> &[Work] {
-        let (rhs, now, scale) = (&self.rhs, &self.now, &self.scaled.scale);
-        (self.scaled.matrix).for_blocks(now, &mut self.before, Residual { rhs, now });
+        let (rhs, now, scale) = (&self.rhs, &self.now, &self.block.scale);
+        (self.block.matrix).for_blocks(now, &mut self.before, Residual { rhs, now });
         for_chunks(&mut self.before[..scale.len()], |start, part| {
             for (i, out) in part.iter_mut().enumerate() {
                 *out += scale[start + i] * more(start + i);
@@ -76,7 +76,7 @@ impl<'a> Chebyshev<'a> {
         let sigma = centre / half_width;
         let first = Work::nearest(1.0 / centre);
         for_chunks(&mut self.before[..n], |_, part| part.fill(0.0));
-        let scale = &self.scaled.scale;
+        let scale = &self.block.scale;
         for_chunks_pair(&mut self.rhs[..n], &mut self.now[..n], |start, rhs, now| {
             for (i, (rhs, now)) in rhs.iter_mut().zip(now).enumerate() {
                 *rhs = b[start + i] * scale[start + i];
@@ -95,7 +95,7 @@ impl<'a> Chebyshev<'a> {
                 momentum,
                 step,
             };
-            (self.scaled.matrix).for_blocks(&self.now, &mut self.before, finish);
+            (self.block.matrix).for_blocks(&self.now, &mut self.before, finish);
             std::mem::swap(&mut self.before, &mut self.now);
         }
         for_chunks(x, |start, part| {
@@ -173,7 +173,6 @@ fn largest_eigenvalue_bound(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Csr;
 
     /// Of degree k on [l, h], with T_k the Chebyshev polynomial and s = (h + l)/(h - l), an eigenvector of
     /// eigenvalue e is left with T_k(s - 2 e/(h - l)) / T_k(s) of its residual.
@@ -181,11 +180,11 @@ mod tests {
     fn the_residual_is_the_chebyshev_polynomial() {
         // D^-1 A has the eigenvalues 1.6 and 0.4, with S x = (1, 1) and (1, -1).
         let entries = [[4.0, 1.2], [1.2, 1.0]];
-        let a = Csr::assemble(2, 2, |row, list| {
+        let a = VelocityBlock::assemble(2, |row, list| {
             list.add(0, entries[row][0]);
             list.add(1, entries[row][1]);
         });
-        let scaled = Scaled::new(&a.unwrap()).unwrap();
+        let scaled = a.unwrap();
         let polynomial = |k: usize, x: f64| {
             (1..k)
                 .fold((1.0, x), |(last, now), _| (now, 2.0 * x * now - last))
@@ -218,9 +217,8 @@ mod tests {
     /// The degree grows as the root of the interval, once.
     #[test]
     fn an_interval_is_widened_once() {
-        let one = Csr::assemble(1, 1, |_, list| list.add(0, 2.0)).unwrap();
-        let scaled = Scaled::new(&one).unwrap();
-        let mut inverse = Chebyshev::new(&scaled, 24, 400.0);
+        let one = VelocityBlock::assemble(1, |_, list| list.add(0, 2.0)).unwrap();
+        let mut inverse = Chebyshev::new(&one, 24, 400.0);
         assert!(inverse.widen());
         assert_eq!((inverse.degree, inverse.ratio), (96, 6400.0));
         assert!(!inverse.widen());

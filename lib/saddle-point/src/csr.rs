@@ -56,8 +56,8 @@ impl RowEntries {
     }
 }
 
-/// Rows of one chunk, before they are joined.
-struct Rows<T> {
+/// Rows of one chunk of a matrix, before they are joined or packed.
+pub(crate) struct Rows<T> {
     row_end: Vec<u32>,
     columns: Vec<u32>,
     values: Vec<T>,
@@ -70,6 +70,18 @@ impl<T> Rows<T> {
             columns: Vec::with_capacity(entries),
             values: Vec::with_capacity(entries),
         }
+    }
+
+    /// Columns and values of its row `row`.
+    pub(crate) fn row(&self, row: usize) -> (&[u32], &[T]) {
+        let start = (row.checked_sub(1)).map_or(0, |before| self.row_end[before]);
+        let range = start as usize..self.row_end[row] as usize;
+        (&self.columns[range.clone()], &self.values[range])
+    }
+
+    /// How many rows.
+    pub(crate) fn len(&self) -> usize {
+        self.row_end.len()
     }
 }
 
@@ -85,18 +97,7 @@ impl<T: Real> Csr<T> {
         n_columns: usize,
         fill: impl Fn(usize, &mut RowEntries) + Sync,
     ) -> Result<Self, SolveError> {
-        if n_rows >= u32::MAX as usize || n_columns >= u32::MAX as usize {
-            return Err(SolveError::Matrix(format!(
-                "a matrix of {n_rows} x {n_columns} exceeds the 32-bit index range"
-            )));
-        }
-        let chunks: Vec<Rows<T>> = (0..n_rows.div_ceil(CHUNK))
-            .into_par_iter()
-            .map(|chunk| {
-                let rows = chunk * CHUNK..n_rows.min((chunk + 1) * CHUNK);
-                assemble_rows(rows, n_columns, &fill)
-            })
-            .collect::<Result<_, _>>()?;
+        let chunks: Vec<Rows<T>> = assemble_chunks(n_rows, n_columns, fill)?;
         let total: usize = chunks.iter().map(|rows| rows.columns.len()).sum();
         if total > u32::MAX as usize {
             return Err(SolveError::Matrix(format!(
@@ -257,6 +258,26 @@ impl<T: Real> Csr<T> {
             }
         });
     }
+}
+
+/// The rows of a matrix by chunks, as [`Csr::assemble`] joins them.
+pub(crate) fn assemble_chunks<T: Real>(
+    n_rows: usize,
+    n_columns: usize,
+    fill: impl Fn(usize, &mut RowEntries) + Sync,
+) -> Result<Vec<Rows<T>>, SolveError> {
+    if n_rows >= u32::MAX as usize || n_columns >= u32::MAX as usize {
+        return Err(SolveError::Matrix(format!(
+            "a matrix of {n_rows} x {n_columns} exceeds the 32-bit index range"
+        )));
+    }
+    (0..n_rows.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| {
+            let rows = chunk * CHUNK..n_rows.min((chunk + 1) * CHUNK);
+            assemble_rows(rows, n_columns, &fill)
+        })
+        .collect()
 }
 
 fn assemble_rows<T: Real>(

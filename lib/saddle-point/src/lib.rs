@@ -21,13 +21,13 @@ mod pockets;
 mod poisson;
 mod preconditioner;
 mod saddle;
-mod scaled;
 mod schur;
 mod sealed;
 mod simd;
 mod system;
 mod vanka;
 mod vector;
+mod velocity_block;
 
 pub use cause::Cause;
 pub use csr::{Csr, RowEntries};
@@ -37,6 +37,7 @@ pub use poisson::Poisson;
 pub use saddle::SaddleSolver;
 pub use system::SaddleSystem;
 pub use vector::Real;
+pub use velocity_block::VelocityBlock;
 
 /// Why a linear system was not solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -123,13 +123,7 @@ impl<K: Operator> LoadedOperator<'_, K> {
 }
 
 impl<K: Operator> Operator for LoadedOperator<'_, K> {
-    fn apply_exactly(&self, x: &[f64], y: &mut [f64]) {
-        let ((x, speed), (y, force)) = (split(x), y.split_at_mut(y.len() - 1));
-        self.inner.apply_exactly(x, y);
-        self.add_body(x, speed, y, &mut force[0]);
-    }
-
-    fn apply(&mut self, x: &[Work], y: &mut [f64]) {
+    fn apply<X: Real>(&mut self, x: &[X], y: &mut [f64]) {
         let ((x, speed), (y, force)) = (split(x), y.split_at_mut(y.len() - 1));
         self.inner.apply(x, y);
         self.add_body(x, speed, y, &mut force[0]);
@@ -224,13 +218,13 @@ impl Precondition for Bordered<'_, '_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Csr;
+    use crate::{Csr, VelocityBlock};
 
     /// Two faces and a cell, with 3 and 4 N on the faces that rest and the body's speed adding 2 and 8 to
     /// the second and the cell.
     #[test]
     fn the_tolerance_is_measured_by_what_moves() {
-        let a = Csr::assemble(2, 2, |row, entries| entries.add(row, 1.0)).unwrap();
+        let a = VelocityBlock::assemble(2, |row, entries| entries.add(row, 1.0)).unwrap();
         let g = Csr::assemble(1, 2, |_, entries| entries.add(0, 1.0)).unwrap();
         let load = Load {
             momentum: vec![0.0, 1.0],

@@ -5,7 +5,6 @@ use crate::chebyshev::Chebyshev;
 use crate::csr::Csr;
 use crate::fgmres::Precondition;
 use crate::options::SaddleOptions;
-use crate::scaled::Scaled;
 use crate::schur::Schur;
 use crate::sealed::Sealed;
 use crate::system::SaddleSystem;
@@ -31,7 +30,6 @@ impl<'a> Preconditioner<'a> {
     pub(crate) fn new(
         system: &SaddleSystem<'a>,
         g_transposed: &'a Csr<f64>,
-        scaled: &'a Scaled,
         options: &SaddleOptions,
     ) -> Result<Self, SolveError> {
         let (degree, ratio) = (options.chebyshev_degree, options.chebyshev_ratio);
@@ -39,9 +37,9 @@ impl<'a> Preconditioner<'a> {
             g: system.g,
             g_transposed,
             c: system.c,
-            vanka: Vanka::new(system, &scaled.scale),
-            chebyshev: Chebyshev::new(scaled, degree, ratio),
-            scale: &scaled.scale,
+            vanka: Vanka::new(system),
+            chebyshev: Chebyshev::new(system.a, degree, ratio),
+            scale: &system.a.scale,
             schur: Schur::new(system, g_transposed)?,
             volume: vec![Work::default(); system.g.n_rows()],
             left: Vec::new(),

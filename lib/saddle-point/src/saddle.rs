@@ -10,9 +10,8 @@ use crate::load::{Bordered, Load, LoadedOperator};
 use crate::measure::Measure;
 use crate::options::{SaddleOptions, SaddleReport};
 use crate::preconditioner::Preconditioner;
-use crate::scaled::Scaled;
 use crate::system::SaddleSystem;
-use crate::vector::{Real, Work, add_scaled, for_chunks};
+use crate::vector::{Real, add_scaled, for_chunks};
 
 /// Solver of [`SaddleSystem`]s; keeps its memory from one step to the next, nothing else.
 #[derive(Default)]
@@ -28,6 +27,11 @@ impl SaddleSolver {
             options,
             space: KrylovSpace::default(),
         }
+    }
+
+    /// Asks for another tolerance from now on.
+    pub fn set_tolerance(&mut self, tolerance: f64) {
+        self.options.tolerance = tolerance;
     }
 
     /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per
@@ -127,14 +131,13 @@ fn prepared(
     // On the thread pool throughout: its threads need not be woken for every product.
     rayon::scope(|_| {
         let started = Instant::now();
-        let (scaled, g_transposed) = (Scaled::new(system.a)?, system.g.transpose());
+        let g_transposed = system.g.transpose();
         let operator = SaddleOperator {
             system: *system,
             g_transposed: &g_transposed,
-            scaled: &scaled,
             scratch: Vec::new(),
         };
-        let preconditioner = Preconditioner::new(system, &g_transposed, &scaled, options)?;
+        let preconditioner = Preconditioner::new(system, &g_transposed, options)?;
         let setup = started.elapsed();
         let (result, eigenvalue_bound) = iterate(operator, preconditioner);
         Ok(SaddleReport {
@@ -155,7 +158,6 @@ fn spread(x: &[f64], u: &mut [f64], p: &mut [f64]) {
 struct SaddleOperator<'a> {
     system: SaddleSystem<'a>,
     g_transposed: &'a Csr<f64>,
-    scaled: &'a Scaled,
     /// Scaled velocities.
     scratch: Vec<f64>,
 }
@@ -178,17 +180,10 @@ impl SaddleOperator<'_> {
 }
 
 impl Operator for SaddleOperator<'_> {
-    fn apply_exactly(&self, x: &[f64], y: &mut [f64]) {
+    fn apply<X: Real>(&mut self, x: &[X], y: &mut [f64]) {
         let (u, p) = x.split_at(self.system.a.n_rows());
         let (y_u, y_p) = y.split_at_mut(u.len());
-        self.system.a.multiply(u, y_u);
-        self.add_fluxes(u, p, y_u, y_p);
-    }
-
-    fn apply(&mut self, x: &[Work], y: &mut [f64]) {
-        let (u, p) = x.split_at(self.system.a.n_rows());
-        let (y_u, y_p) = y.split_at_mut(u.len());
-        self.scaled.multiply(u, &mut self.scratch, y_u);
+        self.system.a.multiply_by(u, &mut self.scratch, y_u);
         self.add_fluxes(u, p, y_u, y_p);
     }
 }

@@ -76,7 +76,7 @@ fn tamed(matrix: &Csr<f64>) -> Result<Csr<f64>, SolveError> {
 
 /// The diagonal `E`.
 fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
-    let diagonal = system.a.diagonal();
+    let diagonal: Vec<f64> = system.a.diagonal().collect();
     let part = |(cell, two_eta): (usize, &f64)| {
         let (faces, areas) = system.g.row(cell);
         let response: f64 = (faces.iter().zip(areas))

@@ -2,6 +2,7 @@
 
 use crate::csr::Csr;
 use crate::vector::norm;
+use crate::velocity_block::VelocityBlock;
 use crate::{SolveError, check_length};
 
 /// The saddle-point system `[A, -G^T; -G, -C] [u; p] = [b; -g]` and what its preconditioner needs.
@@ -12,7 +13,7 @@ use crate::{SolveError, check_length};
 pub struct SaddleSystem<'a> {
     /// Velocity block, faces x faces: mass, viscosity and wall friction. Symmetric positive
     /// definite.
-    pub a: &'a Csr<f64>,
+    pub a: &'a VelocityBlock,
     /// Flux operator, cells x faces.
     pub g: &'a Csr<f64>,
     /// How many rows of it, the last, are no cells but pockets of gas: one pressure and any number of faces.
@@ -84,7 +85,6 @@ impl SaddleSystem<'_> {
     pub(crate) fn check(&self, u: &[f64], p: &[f64]) -> Result<(), SolveError> {
         let (faces, cells) = (self.a.n_rows(), self.g.n_rows());
         for (what, found, expected) in [
-            ("columns of the velocity block", self.a.n_columns(), faces),
             ("columns of the flux operator", self.g.n_columns(), faces),
             ("compressibilities", self.c.len(), cells),
             ("face frictions", self.friction.len(), faces),

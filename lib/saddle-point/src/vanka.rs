@@ -46,7 +46,7 @@ struct Block {
 
 impl Vanka {
     /// Of a system with its velocities scaled by `scale`.
-    pub(crate) fn new(system: &SaddleSystem, scale: &[Work]) -> Self {
+    pub(crate) fn new(system: &SaddleSystem) -> Self {
         // Pockets are left to the cycle before: no sweep over their surroundings meets their balance.
         let n = system.cells();
         let blocks = (0..n.div_ceil(LANES))
@@ -55,7 +55,7 @@ impl Vanka {
             .map(|block| {
                 let mut inverses = Block::default();
                 for (lane, cell) in (block * LANES..n).take(LANES).enumerate() {
-                    inverses.set(lane, system, cell, scale);
+                    inverses.set(lane, system, cell);
                 }
                 inverses
             });
@@ -143,21 +143,22 @@ impl Kernel for Solves<'_> {
 
 impl Block {
     /// Sets the inverse of one cell.
-    fn set(&mut self, lane: usize, system: &SaddleSystem, cell: usize, scale: &[Work]) {
+    fn set(&mut self, lane: usize, system: &SaddleSystem, cell: usize) {
         let (faces, fluxes) = system.g.row(cell);
         let faces = &faces[..faces.len().min(FACES)];
-        let scale_of = |face: u32| f64::from(scale[face as usize]);
         let mut block = Matrix6::identity();
         let mut flux = Vector6::zeros();
         for (i, &face) in faces.iter().enumerate() {
-            let (columns, values) = system.a.row(face as usize);
-            for (j, other) in faces[..=i].iter().enumerate() {
-                let entry = columns
-                    .binary_search(other)
-                    .map_or(0.0, |at| values[at] * scale_of(face) * scale_of(*other));
-                (block[(i, j)], block[(j, i)]) = (entry, entry);
+            for (column, entry) in system.a.matrix.row(face as usize) {
+                if let Some(j) = faces[..i]
+                    .iter()
+                    .position(|&other| other as usize == column)
+                {
+                    block[(i, j)] += entry;
+                    block[(j, i)] += entry;
+                }
             }
-            flux[i] = fluxes[i] * scale_of(face);
+            flux[i] = fluxes[i] * f64::from(system.a.scale[face as usize]);
             self.faces[i][lane] = face;
         }
         let inverse = block.try_inverse().unwrap_or_default();
@@ -216,19 +217,26 @@ fn entry(i: usize, j: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Csr;
+    use crate::{Csr, VelocityBlock};
 
     /// One cell of three faces, solved alone: the sweep takes [`DAMPING`] of its solution.
     #[test]
     fn a_sweep_takes_its_part_of_what_one_cell_lacks() {
-        let dense = |rows: &[&[f64]]| {
-            Csr::assemble(rows.len(), rows[0].len(), |row, entries| {
-                (rows[row].iter().enumerate()).for_each(|(column, &x)| entries.add(column, x));
+        let rows = [[4.0, -1.0, 0.5], [-1.0, 4.0, -1.0], [0.5, -1.0, 9.0]];
+        let a = VelocityBlock::assemble(3, |row, entries| {
+            (rows[row].iter().enumerate()).for_each(|(column, &x)| entries.add(column, x));
+        });
+        let a = a.unwrap();
+        let (g, c) = (
+            Csr::assemble(1, 3, |_, entries| {
+                [-1.0, 1.0, 0.5]
+                    .into_iter()
+                    .enumerate()
+                    .for_each(|(face, x)| entries.add(face, x));
             })
-            .unwrap()
-        };
-        let a = dense(&[&[4.0, -1.0, 0.5], &[-1.0, 4.0, -1.0], &[0.5, -1.0, 9.0]]);
-        let (g, c) = (dense(&[&[-1.0, 1.0, 0.5]]), [0.25]);
+            .unwrap(),
+            [0.25],
+        );
         let (ones, zeros) = ([1.0; 3], [0.0; 3]);
         let system = SaddleSystem {
             a: &a,
@@ -253,7 +261,7 @@ mod tests {
             .collect();
         let volume = [-(-1.0 - 2.0 + 1.5) - 0.25 * p as Work];
         let (mut v, mut q) = ([0.0; 3], [0.0]);
-        Vanka::new(&system, &scale).sweep((&momentum, &volume), &scale, &mut v, &mut q);
+        Vanka::new(&system).sweep((&momentum, &volume), &scale, &mut v, &mut q);
         for (v, u) in v.iter().chain(&q).zip(u.iter().chain(&[p])) {
             assert!((f64::from(*v) - 0.6 * u).abs() < 1e-5, "{v} of {u}");
         }
@@ -262,8 +270,7 @@ mod tests {
     /// Faces of two cells take the mean of what both say.
     #[test]
     fn a_face_of_two_cells_takes_their_mean() {
-        let diagonal = |n: usize, x: f64| Csr::assemble(n, n, |i, row| row.add(i, x)).unwrap();
-        let a = diagonal(3, 2.0);
+        let a = VelocityBlock::assemble(3, |i, row| row.add(i, 2.0)).unwrap();
         let g = Csr::assemble(2, 3, |cell, row| {
             row.add(cell, -1.0);
             row.add(cell + 1, 1.0);
@@ -285,7 +292,7 @@ mod tests {
         let (mut v, mut q) = ([0.0; 3], [0.0; 2]);
         // The first cell swells by one: half through each of its faces.
         let scale = [0.5f32.sqrt(); 3];
-        Vanka::new(&system, &scale).sweep((&[0.0; 3], &[-1.0, 0.0]), &scale, &mut v, &mut q);
+        Vanka::new(&system).sweep((&[0.0; 3], &[-1.0, 0.0]), &scale, &mut v, &mut q);
         let near = |x: Work, y: Work| (x - y).abs() < 1e-6;
         assert!(near(v[0], -0.3) && near(v[1], 0.15) && v[2] == 0.0, "{v:?}");
         assert!(near(q[0], 0.6) && q[1] == 0.0, "{q:?}");

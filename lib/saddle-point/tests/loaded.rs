@@ -5,7 +5,7 @@
 mod pseudo_wood;
 
 use pseudo_wood::{Case, Problem};
-use saddle_point::{Csr, Load, SaddleOptions, SaddleSolver, SaddleSystem, SolveError};
+use saddle_point::{Load, SaddleOptions, SaddleSolver, SaddleSystem, SolveError, VelocityBlock};
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
@@ -18,14 +18,14 @@ fn bind(problem: &mut Problem, times: f64) -> Vec<f64> {
     let bound: Vec<f64> = (problem.b.iter().zip(&diagonal))
         .map(|(b, own)| if *b == 0.0 { 0.0 } else { times * own })
         .collect();
-    let a = Csr::assemble(bound.len(), bound.len(), |row, entries| {
+    let block = VelocityBlock::assemble(bound.len(), |row, entries| {
         let (columns, values) = problem.a.row(row);
         for (&column, &value) in columns.iter().zip(values) {
             entries.add(column as usize, value);
         }
         entries.add(row, bound[row]);
     });
-    problem.a = a.unwrap();
+    problem.block = block.unwrap();
     for (face, bound) in bound.iter().enumerate() {
         problem.b[face] -= bound;
         problem.friction[face] += bound;

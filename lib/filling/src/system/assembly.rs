@@ -1,7 +1,7 @@
 //! The assembled system of a step, and the forces that follow from its solution.
 
 use rayon::prelude::*;
-use saddle_point::{Csr, Load, SaddleSystem, SolveError};
+use saddle_point::{Csr, Load, SaddleSystem, SolveError, VelocityBlock};
 
 use super::Operator;
 use super::air::Tangent;
@@ -19,7 +19,7 @@ const SLOW: f64 = 0.01;
 
 /// The assembled system of a step, for bodies at given speeds.
 pub(crate) struct System {
-    a: Csr<f64>,
+    a: VelocityBlock,
     /// Liquid fluxes, cells x faces.
     pub(crate) g: Csr<f64>,
     c: Vec<f64>,
@@ -281,8 +281,8 @@ impl Operator<'_> {
     }
 
     /// A: mass, viscosity and wall friction.
-    fn velocity_block(&self, edges: &Edges, mass: &[f64]) -> Result<Csr<f64>, SolveError> {
-        Csr::assemble(mass.len(), mass.len(), |face, entries| {
+    fn velocity_block(&self, edges: &Edges, mass: &[f64]) -> Result<VelocityBlock, SolveError> {
+        VelocityBlock::assemble(mass.len(), |face, entries| {
             entries.add(face, mass[face]);
             self.terms::<false>(edges, face, |term| {
                 let own = term.coefficient(face);

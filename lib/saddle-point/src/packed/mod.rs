@@ -1,11 +1,11 @@
 //! A compact copy of a scaled matrix, whose products are memory-bound.
 //!
-//! Entries of `D^-1/2 A D^-1/2` lie in [-1, 1] and are kept as two 16-bit fixed-point numbers: the
-//! first alone for the preconditioner, both for products to 2e-10 of the diagonal. Rows
+//! Entries of `D^-1/2 A D^-1/2` lie in [-1, 1] and are kept as two fixed-point numbers, of 16 and 32 bits: the
+//! first alone for the preconditioner, both for products to 1e-14 of the diagonal. Rows
 //! are taken eight at a time. Where several of the eight couple to the same distance (the same
 //! neighbour along a grid line), one base column serves all eight and their values of `x` are
 //! contiguous; the rest share a base column and keep 16-bit offsets. That is 2.3 to 4.5 bytes
-//! per entry (2 more for the second number) instead of 8 in plain rows, and no bounds check per entry.
+//! per entry (4 more for the second number) instead of 12 in plain rows, and no bounds check per entry.
 
 mod packer;
 mod product;
@@ -13,7 +13,7 @@ mod product;
 use rayon::prelude::*;
 
 use crate::SolveError;
-use crate::csr::Csr;
+use crate::csr::Rows;
 use crate::simd::dispatch;
 use crate::vector::{CHUNK, Work};
 use packer::Packer;
@@ -28,10 +28,11 @@ const WINDOW: usize = 1 << 16;
 /// Fixed-point unit.
 const UNIT: f64 = 32767.0;
 /// Parts of a unit that the second number counts.
-const FINE: f64 = 65536.0;
+const FINE: f64 = 4_294_967_296.0;
 
-/// Eight fixed-point values.
+/// Eight fixed-point values, and what they lack.
 type Values = [i16; LANES];
+type Rests = [i32; LANES];
 
 /// A square matrix with unit diagonal, which is not stored.
 pub(crate) struct PackedMatrix {
@@ -50,27 +51,67 @@ struct PackedRows {
     /// Couplings anywhere: row `i` to column `base + offset_i`.
     scattered: Vec<(u32, [u16; LANES], Values)>,
     /// What the values of both lists lack of the matrix, in units of [`FINE`].
-    runs_rest: Vec<Values>,
-    scattered_rest: Vec<Values>,
+    runs_rest: Vec<Rests>,
+    scattered_rest: Vec<Rests>,
+}
+
+impl PackedRows {
+    /// Columns and entries of row `lane` of block `block`.
+    fn row(&self, block: usize, lane: usize) -> impl Iterator<Item = (usize, f64)> {
+        let of = |ends: &[u32]| {
+            let start = block.checked_sub(1).map_or(0, |before| ends[before]);
+            start as usize..ends[block] as usize
+        };
+        let (runs, scattered) = (of(&self.run_end), of(&self.scattered_end));
+        let rests = &self.runs_rest[runs.clone()];
+        let in_runs = self.runs[runs]
+            .iter()
+            .zip(rests)
+            .map(move |((base, high), rest)| {
+                (*base as usize + lane, entry(high[lane], rest[lane]))
+            });
+        let rests = &self.scattered_rest[scattered.clone()];
+        let elsewhere = self.scattered[scattered].iter().zip(rests).map(
+            move |((base, offsets, high), rest)| {
+                let column = *base as usize + usize::from(offsets[lane]);
+                (column, entry(high[lane], rest[lane]))
+            },
+        );
+        in_runs
+            .chain(elsewhere)
+            .map(|(column, units)| (column, units / (UNIT * FINE)))
+    }
+}
+
+/// A value of both numbers, in units of the second.
+#[inline(always)]
+fn entry(high: i16, rest: i32) -> f64 {
+    f64::from(high) * FINE + f64::from(rest)
 }
 
 impl PackedMatrix {
-    /// Packs `S A S` for the symmetric `a` and `S = D^-1/2` given in `scale`.
+    /// Packs `S A S` for the symmetric `a`, by chunks of [`CHUNK`] rows that go as they are packed, and `S = D^-1/2` given in `scale`.
     ///
     /// Fails when an entry exceeds one: then `a` is not positive definite.
-    pub(crate) fn new(a: &Csr<f64>, scale: &[f64]) -> Result<Self, SolveError> {
-        let n = a.n_rows();
-        let chunks = (0..n.div_ceil(CHUNK))
-            .into_par_iter()
-            .map(|chunk| {
-                let mut packer = Packer::new(a, scale);
-                for first in (chunk * CHUNK..n.min((chunk + 1) * CHUNK)).step_by(LANES) {
-                    packer.pack_block(first)?;
-                }
-                Ok(packer.finish())
-            })
-            .collect::<Result<_, _>>()?;
-        Ok(Self { n, chunks })
+    pub(crate) fn new(a: Vec<Rows<f64>>, scale: &[f64]) -> Result<Self, SolveError> {
+        let pack = |(chunk, rows): (usize, Rows<f64>)| {
+            let start = chunk * CHUNK;
+            let mut packer = Packer::new(&rows, start, scale);
+            for first in (start..start + rows.len()).step_by(LANES) {
+                packer.pack_block(first)?;
+            }
+            Ok(packer.finish())
+        };
+        Ok(Self {
+            n: scale.len(),
+            chunks: (a.into_par_iter().enumerate().map(pack)).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// Columns and entries of row `row`, but for the diagonal; some of no effect are zero.
+    pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
+        let (block, lane) = (row % CHUNK / LANES, row % LANES);
+        self.chunks[row / CHUNK].row(block, lane)
     }
 
     /// Length of the vectors it multiplies: rows, then zeros.
@@ -108,6 +149,7 @@ impl PackedMatrix {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::csr::{Csr, RowEntries, assemble_chunks};
 
     struct Plain;
 
@@ -118,29 +160,27 @@ mod tests {
     }
 
     /// Neighbours at distance 1 and 300, and one far away in the mirrored row.
-    fn matrix(n: usize) -> Csr<f64> {
-        let matrix = Csr::assemble(n, n, |row, entries| {
-            entries.add(row, 5.0 + (row % 7) as f64);
-            for distance in [1, 300] {
-                if row >= distance {
-                    entries.add(row - distance, -1.0 - (row % 3) as f64);
-                }
-                if row + distance < n {
-                    entries.add(row + distance, 0.3 - (row % 5) as f64);
-                }
+    fn fill(n: usize, row: usize, entries: &mut RowEntries) {
+        entries.add(row, 5.0 + (row % 7) as f64);
+        for distance in [1, 300] {
+            if row >= distance {
+                entries.add(row - distance, -1.0 - (row % 3) as f64);
             }
-            entries.add(n - 1 - row, 0.7);
-        });
-        matrix.unwrap()
+            if row + distance < n {
+                entries.add(row + distance, 0.3 - (row % 5) as f64);
+            }
+        }
+        entries.add(n - 1 - row, 0.7);
     }
 
     #[test]
     fn products_agree_with_plain_rows() {
         // More rows than an offset reaches, and not a multiple of eight.
         let n = WINDOW + 4467;
-        let a = matrix(n);
+        let a: Csr<f64> = Csr::assemble(n, n, |row, entries| fill(n, row, entries)).unwrap();
+        let rows = assemble_chunks(n, n, |row, entries| fill(n, row, entries));
         let scale: Vec<f64> = a.diagonal().iter().map(|d| 1.0 / d.sqrt()).collect();
-        let packed = PackedMatrix::new(&a, &scale).unwrap();
+        let packed = PackedMatrix::new(rows.unwrap(), &scale).unwrap();
         let mut x = vec![0.0; packed.padded_len()];
         for (i, x) in x[..n].iter_mut().enumerate() {
             *x = (0.1 * i as Work).sin();
@@ -167,19 +207,27 @@ mod tests {
                 (sum - f64::from(plain[row])).abs() < 6.0 * 0.5 / UNIT,
                 "row {row}"
             );
-            // Half a unit of the second number, or a whole one where it has no room to be rounded up.
-            assert!((sum - fine[row]).abs() < 6.0 / (UNIT * FINE), "row {row}");
+            // Half a unit of the second number, or a whole one where it has no room to be rounded up; and rounding.
+            assert!(
+                (sum - fine[row]).abs() < 6.0 / (UNIT * FINE) + 1e-15,
+                "row {row}"
+            );
             assert!((absolute_sum - f64::from(absolute[row])).abs() < 6.0 * 0.5 / UNIT);
+            let of_row: f64 = packed
+                .row(row)
+                .map(|(column, entry)| entry * wide[column])
+                .sum();
+            assert!((of_row - fine[row]).abs() < 1e-14, "row {row}");
         }
     }
 
     #[test]
     fn an_entry_above_the_diagonal_is_refused() {
-        let a = Csr::assemble(2, 2, |row, entries| {
+        let rows = assemble_chunks(2, 2, |row, entries| {
             entries.add(row, 1.0);
             entries.add(1 - row, 1.5);
         });
-        let error = PackedMatrix::new(&a.unwrap(), &[1.0, 1.0]).err();
+        let error = PackedMatrix::new(rows.unwrap(), &[1.0, 1.0]).err();
         assert!(error.is_some_and(|e| e.to_string().contains("positive definite")));
     }
 }

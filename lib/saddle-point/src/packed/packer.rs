@@ -2,7 +2,7 @@
 
 use super::{FINE, LANES, PackedRows, UNIT};
 use crate::SolveError;
-use crate::csr::Csr;
+use crate::csr::Rows;
 
 /// Couplings at one distance among eight rows from which a common base pays.
 const MIN_RUN: usize = 4;
@@ -11,12 +11,14 @@ const MIN_RUN: usize = 4;
 #[derive(Clone, Copy, Default)]
 struct Fixed {
     high: i16,
-    rest: i16,
+    rest: i32,
 }
 
 /// Packs one block of rows after the other.
 pub(super) struct Packer<'a> {
-    a: &'a Csr<f64>,
+    chunk: &'a Rows<f64>,
+    /// Its first row.
+    start: usize,
     scale: &'a [f64],
     rows: PackedRows,
     /// Entries of every lane that found no run, columns ascending.
@@ -24,9 +26,10 @@ pub(super) struct Packer<'a> {
 }
 
 impl<'a> Packer<'a> {
-    pub(super) fn new(a: &'a Csr<f64>, scale: &'a [f64]) -> Self {
+    pub(super) fn new(chunk: &'a Rows<f64>, start: usize, scale: &'a [f64]) -> Self {
         Self {
-            a,
+            chunk,
+            start,
             scale,
             rows: PackedRows::default(),
             left: Default::default(),
@@ -36,8 +39,8 @@ impl<'a> Packer<'a> {
     pub(super) fn pack_block(&mut self, first: usize) -> Result<(), SolveError> {
         self.left.iter_mut().for_each(Vec::clear);
         let mut lanes: [(&[u32], &[f64]); LANES] = Default::default();
-        for (row, lane) in (first..self.a.n_rows()).zip(&mut lanes) {
-            *lane = self.a.row(row);
+        for (row, lane) in (first - self.start..self.chunk.len()).zip(&mut lanes) {
+            *lane = self.chunk.row(row);
         }
         while let Some(distance) = nearest(first, &lanes) {
             let mut values = [Fixed::default(); LANES];
@@ -120,17 +123,17 @@ impl<'a> Packer<'a> {
             )));
         }
         let units = scaled * UNIT;
-        let high = nearest_integer(units);
+        let high = nearest_integer(units) as i16;
         Ok(Fixed {
             high,
-            rest: nearest_integer((units - f64::from(high)) * FINE),
+            rest: nearest_integer((units - f64::from(high)) * FINE) as i32,
         })
     }
 }
 
-/// Half away from zero; what would overflow takes the largest value.
-fn nearest_integer(value: f64) -> i16 {
-    (value + 0.5f64.copysign(value)) as i16
+/// Half away from zero; what would overflow a type that it is cast to takes the largest value.
+fn nearest_integer(value: f64) -> f64 {
+    value + 0.5f64.copysign(value)
 }
 
 /// Column minus row of a lane's next entry.

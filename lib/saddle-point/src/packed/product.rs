@@ -1,6 +1,6 @@
 //! Products of packed rows.
 
-use super::{FINE, LANES, PackedRows, UNIT, WINDOW};
+use super::{FINE, LANES, PackedRows, UNIT, WINDOW, entry};
 use crate::simd::Kernel;
 use crate::vector::Work;
 
@@ -89,8 +89,6 @@ impl Kernel for FineProduct<'_> {
     #[inline(always)]
     fn run(self) {
         let Self { rows, x, .. } = self;
-        let entry =
-            |high: i16, rest: i16| f64::from(i32::from(high) * FINE as i32 + i32::from(rest));
         let (mut run, mut scattered) = (0, 0);
         let ends = rows.run_end.iter().zip(&rows.scattered_end);
         for ((&run_end, &scattered_end), out) in ends.zip(self.out.chunks_mut(LANES)) {

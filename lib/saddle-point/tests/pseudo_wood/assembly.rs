@@ -4,7 +4,7 @@
 mod shear;
 
 use super::{Case, Cell, Wood};
-use saddle_point::{Csr, RowEntries, SaddleSystem, SolveError};
+use saddle_point::{Csr, RowEntries, SaddleSystem, SolveError, VelocityBlock};
 
 /// Cell edge, m; density, kg/m3; time step, s; speed of the upper block, m/s.
 const EDGE: f64 = 2.9e-6;
@@ -18,6 +18,8 @@ const NONE: u32 = u32::MAX;
 /// An assembled problem.
 pub struct Problem {
     pub a: Csr<f64>,
+    /// The same, for the solver.
+    pub block: VelocityBlock,
     pub g: Csr<f64>,
     pub c: Vec<f64>,
     pub friction: Vec<f64>,
@@ -34,7 +36,7 @@ impl Problem {
 
     pub fn system(&self) -> SaddleSystem<'_> {
         SaddleSystem {
-            a: &self.a,
+            a: &self.block,
             g: &self.g,
             pockets: 0,
             standing: &[],
@@ -47,6 +49,16 @@ impl Problem {
             carried: &self.carried,
         }
     }
+}
+
+/// The matrix as the solver takes it.
+fn block(a: &Csr<f64>) -> Result<VelocityBlock, SolveError> {
+    VelocityBlock::assemble(a.n_rows(), |row, entries| {
+        let (columns, values) = a.row(row);
+        for (&column, &value) in columns.iter().zip(values) {
+            entries.add(column as usize, value);
+        }
+    })
 }
 
 type Point = [i64; 3];
@@ -122,6 +134,7 @@ impl Stokes {
             self.flux_row(cell, entries);
         })?;
         Ok(Problem {
+            block: block(&a)?,
             a,
             g,
             c: self

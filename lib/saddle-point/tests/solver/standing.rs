@@ -1,6 +1,6 @@
 //! Liquid that stands under pressure, or nearly.
 
-use saddle_point::{Csr, Load, SaddleSolver, SaddleSystem};
+use saddle_point::{Csr, Load, SaddleSolver, SaddleSystem, VelocityBlock};
 
 use crate::{options, pockets};
 
@@ -20,7 +20,7 @@ fn a_slow_flow_against_gas_is_solved_to_the_tolerance() {
         }
     })
     .unwrap();
-    let a = Csr::assemble(faces, faces, |row, entries| entries.add(row, 2.0)).unwrap();
+    let a = VelocityBlock::assemble(faces, |row, entries| entries.add(row, 2.0)).unwrap();
     let (mut source, mut c) = (vec![0.0; faces + 1], vec![0.0; faces + 1]);
     (source[0], c[faces]) = (moved, 1e3);
     let mut push = vec![0.0; faces];
@@ -57,7 +57,7 @@ fn a_slight_difference_of_pulls_is_solved_from_any_guess() {
     })
     .unwrap();
     let faces = cells + 1;
-    let a = Csr::assemble(faces, faces, |row, entries| entries.add(row, 2.0)).unwrap();
+    let a = VelocityBlock::assemble(faces, |row, entries| entries.add(row, 2.0)).unwrap();
     let mut b = vec![0.0; faces];
     (b[0], b[cells]) = (-pull, pull + more);
     let exact = more / (2.0 * faces as f64);
@@ -111,7 +111,7 @@ fn a_slight_difference_of_pulls_is_solved_from_any_guess() {
 fn sealed_liquid_comes_to_the_pressure_of_its_load() {
     let cells = 200;
     let (g, _) = pockets(cells, 0);
-    let a = Csr::assemble(cells, cells, |row, entries| entries.add(row, 2.0)).unwrap();
+    let a = VelocityBlock::assemble(cells, |row, entries| entries.add(row, 2.0)).unwrap();
     let nothing = vec![0.0; cells];
     let mut source = nothing.clone();
     source[0] = 1.0;
@@ -170,7 +170,7 @@ fn sealed_liquid_beside_a_load_keeps_its_own_pressure() {
     let cells = 100;
     let (g, friction) = pockets(cells, cells);
     let all = 2 * cells;
-    let a = Csr::assemble(all, all, |row, entries| entries.add(row, 2.0)).unwrap();
+    let a = VelocityBlock::assemble(all, |row, entries| entries.add(row, 2.0)).unwrap();
     let nothing = vec![0.0; all];
     for carried in [[0.0; 3], [0.1, 0.2, -0.3]] {
         let mut displaced = nothing.clone();
@@ -243,7 +243,7 @@ fn an_opening_relieves_much_liquid() {
     let friction: Vec<f64> = (0..faces)
         .map(|f| if f == hole { 24.0 } else { 0.06 })
         .collect();
-    let a = Csr::assemble(faces, faces, |row, entries| entries.add(row, friction[row])).unwrap();
+    let a = VelocityBlock::assemble(faces, |row, entries| entries.add(row, friction[row])).unwrap();
     let mut source = vec![0.0; n * n];
     source[n * n - 1] = 3.0;
     let system = SaddleSystem {
