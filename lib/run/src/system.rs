@@ -34,6 +34,18 @@ pub fn memory_bytes() -> Option<u64> {
     Some(group.map_or(machine, |limit| limit.min(machine)))
 }
 
+/// Has every array of a megabyte and more given back to the system as it is dropped. A step's arrays differ in size and go in
+/// another order than they came: the GNU allocator, which raises this bound to 32 MB by itself, then keeps a third more than is
+/// in use. To be called before a process has other threads.
+#[allow(unsafe_code)]
+pub fn give_back_large_arrays() {
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    // SAFETY: takes two numbers and sets one; no other thread allocates meanwhile (mallopt(3)).
+    unsafe {
+        libc::mallopt(libc::M_MMAP_THRESHOLD, 1 << 20);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     #[test]

@@ -79,6 +79,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
+    run::give_back_large_arrays();
     cli::main(|a: &Arguments| &a.common, start)
 }
 

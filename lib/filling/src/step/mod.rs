@@ -129,9 +129,7 @@ impl Implicit {
                 continue;
             }
             // 4 to 6. Assembly, solve and forces, in passes where the viscosity varies.
-            let solution = self.solve(&trial);
-            self.state.particles.go_back();
-            let solution = solution?;
+            let solution = self.solve(&trial)?;
             last = self.fit(&trial, &solution, limit);
             match last {
                 Fit::Fast | Fit::Dried(_) if attempt < ATTEMPTS / 4 => continue,
@@ -222,6 +220,7 @@ impl Implicit {
         clock.time(Part::Fractions, || {
             particles.sort(&trial.lattice.window, bins);
             fractions.update(particles, bins, &trial.lattice, &trial.bodies);
+            fractions.shrink();
         });
     }
 

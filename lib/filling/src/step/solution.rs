@@ -93,6 +93,7 @@ impl Implicit {
             lost.iter_mut().for_each(|lost| *lost *= scale);
         }
         let start = self.carried(&operator);
+        self.state.particles.go_back();
         let mut now = Unknowns {
             u: start.u.clone(),
             p: start.p.clone(),

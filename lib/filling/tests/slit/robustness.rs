@@ -305,7 +305,7 @@ fn the_forecast_is_that_of_the_measured_run() {
     println!("{plan:?}");
     // The liquid four times as fast as the piston, a cell a step.
     assert_eq!(plan.steps, (1e-4 * 4.0 * SPEED / h).ceil());
-    assert!((plan.memory_bytes / (560.0 * unknowns + 260.0 * gap + 900e6) - 1.0).abs() < 1e-9);
+    assert!((plan.memory_bytes / (400.0 * unknowns + 200.0 * gap + 660e6) - 1.0).abs() < 1e-9);
     // 13 iterations of 0.42 s, 5.5 s to assemble, 4.2 s for the points.
     assert!((plan.cpu_s / plan.steps / (13.0 * 0.419 + 5.48 + 4.2) - 1.0).abs() < 0.01);
 }

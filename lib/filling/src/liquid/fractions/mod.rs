@@ -64,6 +64,11 @@ impl Fractions {
         cells::densities(self, window, open);
     }
 
+    /// Gives back what is needed while they are found alone.
+    pub(crate) fn shrink(&mut self) {
+        self.deposit = Vec::new();
+    }
+
     /// Range of cells along x, per row of cells, that particles can reach with their hat.
     fn find_rows(&mut self, bins: &Bins, window: &Window) {
         let [nx, ny, nz] = window.cells;
