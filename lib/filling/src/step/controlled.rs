@@ -6,13 +6,20 @@ use saddle_point::{NEARLY, SaddleReport, SolveError};
 use super::drive::Asked;
 use super::solution::Unknowns;
 use super::{Implicit, Part};
-use crate::system::{Before, Operator, System};
+use crate::system::{Before, Operator, Reactions, System};
 
-/// A solved system, the forces on the bodies in the solver's unit, and the power dissipated.
-pub(super) type Solved = (System, Vec<[f64; 3]>, f64);
+/// Part of the forces on the bodies that what the solver leaves may add up to.
+const UNBALANCED: f64 = 0.01;
+/// Solves of a system until it is less: by all that drags the liquid, by what moves it, and so to these parts of the tolerance.
+const SOLVES: [f64; 4] = [1.0, 1.0, 0.1, 0.01];
+
+/// A solved system and what follows from its solution.
+pub(super) type Solved = (System, Reactions);
 
 impl Implicit {
-    /// Solves at the clamp's speed or, where it is held at its pressure limit, for that speed.
+    /// Solves at the clamp's speed or, where it is held at its pressure limit, for that speed; until forces on the bodies
+    /// are those on the liquid. A residual small beside what thick liquid exchanges with walls that it moves with may be
+    /// large beside what presses on them.
     pub(super) fn controlled(
         &mut self,
         operator: &Operator,
@@ -23,22 +30,50 @@ impl Implicit {
         let mut system = (self.workspace.clock)
             .time(Part::Assembly, || operator.assemble(&bodies, before))
             .map_err(|error| self.unsolved(error))?;
+        // Walls have dried liquid to drag in every step.
+        let first = usize::from(operator.dries());
+        let mut unbalanced = 0.0;
+        for (solve, part) in SOLVES.into_iter().enumerate().skip(first) {
+            if solve == 1 {
+                system.tell_apart(operator.clinging());
+            }
+            let tolerance = part * self.setup.settings.tolerance;
+            self.workspace.solver.set_tolerance(tolerance);
+            match self.solve_to_tolerance(&mut system, operator, now) {
+                Ok(reactions) if reactions.unbalanced <= UNBALANCED => {
+                    return Ok((system, reactions));
+                }
+                Ok(reactions) => unbalanced = reactions.unbalanced,
+                Err(error) if solve == first => return Err(error),
+                Err(_) => break,
+            }
+        }
+        Err(self.unbalanced(unbalanced))
+    }
+
+    /// The same to the tolerance that the solver is set to.
+    fn solve_to_tolerance(
+        &mut self,
+        system: &mut System,
+        operator: &Operator,
+        now: &mut Unknowns,
+    ) -> Result<Reactions, Failure> {
         let clamped = self.state.drive.clamped();
         let solved = match (clamped, self.state.drive.held()) {
-            (Some(clamped), Some(asked)) => self.solve_held(&mut system, clamped, asked, now)?,
+            (Some(clamped), Some(asked)) => self.solve_held(system, clamped, asked, now)?,
             _ => false,
         };
         if !solved {
-            self.solve_system(&system, now)?;
+            self.solve_system(system, now)?;
         }
-        let (forces, power) = self.reactions(&system, now);
+        let reactions = self.reactions(system, operator, now);
         let Some(clamped) = clamped else {
-            return Ok((system, forces, power));
+            return Ok(reactions);
         };
         let speed = self.state.drive.speed;
-        let pressure = self.setup.pressure(&forces, clamped);
+        let pressure = self.setup.pressure(&reactions.forces, clamped);
         let Some(asked) = self.state.drive.exceeded(pressure) else {
-            return Ok((system, forces, power));
+            return Ok(reactions);
         };
         if speed > 0.0 {
             let factor = self.state.drive.speed / speed;
@@ -46,15 +81,16 @@ impl Implicit {
                 *x *= factor;
             }
         }
-        if !self.solve_held(&mut system, clamped, asked, now)? {
-            self.solve_system(&system, now)?;
+        if !self.solve_held(system, clamped, asked, now)? {
+            self.solve_system(system, now)?;
         }
-        let (forces, power) = self.reactions(&system, now);
-        Ok((system, forces, power))
+        Ok(self.reactions(system, operator, now))
     }
 
-    fn reactions(&mut self, system: &System, now: &Unknowns) -> (Vec<[f64; 3]>, f64) {
-        (self.workspace.clock).time(Part::Forces, || system.reactions(&now.u, &now.p))
+    fn reactions(&mut self, system: &System, operator: &Operator, now: &Unknowns) -> Reactions {
+        (self.workspace.clock).time(Part::Forces, || {
+            system.reactions(&operator.dofs.faces, &now.u, &now.p)
+        })
     }
 
     /// Solves for the speed at which the pressure on body `clamped` is that asked for; `false`

@@ -120,7 +120,7 @@ impl Implicit {
             lost: &lost,
             air: &[],
         };
-        let ((system, forces, power), viscous, growth) = match (&pockets, &mut air) {
+        let ((system, reactions), viscous, growth) = match (&pockets, &mut air) {
             (Some((pockets, fresh)), Some(held)) => {
                 let air = (pockets, held, &fresh[..]);
                 self.solve_with_air(&mut operator, before, air, trial, &mut now)?
@@ -144,8 +144,8 @@ impl Implicit {
             pressure: self.spread(&operator, &now.p),
             bodies: self.state.drive.velocities(),
             speed: self.state.drive.speed,
-            forces,
-            power: power * self.setup.units.force(),
+            forces: reactions.forces,
+            power: reactions.power * self.setup.units.force(),
             iterations: now.iterations,
             viscous,
             decided: now.decided,

@@ -1,4 +1,4 @@
-//! The assembled system of a step, and the forces that follow from its solution.
+//! The assembled system of a step.
 
 use rayon::prelude::*;
 use saddle_point::{Csr, Load, SaddleSystem, SolveError, VelocityBlock};
@@ -19,30 +19,32 @@ const SLOW: f64 = 0.01;
 
 /// The assembled system of a step, for bodies at given speeds.
 pub(crate) struct System {
-    a: VelocityBlock,
+    pub(super) a: VelocityBlock,
     /// Liquid fluxes, cells x faces.
     pub(crate) g: Csr<f64>,
     c: Vec<f64>,
     friction: Vec<f64>,
     two_eta: Vec<f64>,
-    mass: Vec<f64>,
+    pub(super) mass: Vec<f64>,
     /// Liquid volume that moves with each face unknown, cells.
     pub(crate) face_volume: Vec<f64>,
-    couplings: Couplings,
+    pub(super) couplings: Couplings,
     /// Forces of menisci on the bodies.
-    pulled: Vec<[f64; 3]>,
+    pub(super) pulled: Vec<[f64; 3]>,
     /// Pressures of the pockets of air, which their unknowns count from: what softens them much would outweigh
     /// all else.
     shift: Vec<f64>,
-    /// Momentum by these, by menisci, and by walls that move with lines that they hold or with dried liquid that clings to
+    /// Momentum by these, by menisci, and by walls that move with lines that they hold or with thick liquid that clings to
     /// them; empty without any.
     standing: Vec<f64>,
-    /// Part of what walls drag each face by that only makes dried liquid go along; empty where none dries.
+    /// All that menisci pull with and weight.
+    pub(super) driven: f64,
+    /// Part of what walls drag each face by that only makes thick liquid go along; empty where that is not told apart.
     clinging: Vec<f64>,
     /// Friction of those lines.
     held: Vec<Friction>,
     /// Slowest velocity that counts at the front, m/s.
-    slow: f64,
+    pub(super) slow: f64,
     /// Momentum with all bodies at rest.
     momentum: Vec<f64>,
     /// Volume that compression carries over from the step before.
@@ -50,8 +52,8 @@ pub(crate) struct System {
     /// Volume source with all bodies at rest: what pockets of air grow by, less what is lost into walls; empty
     /// without either.
     resting: Vec<f64>,
-    bodies: Vec<[f64; 3]>,
-    b: Vec<f64>,
+    pub(super) bodies: Vec<[f64; 3]>,
+    pub(super) b: Vec<f64>,
     source: Vec<f64>,
 }
 
@@ -100,6 +102,15 @@ impl System {
         (liquid..self.g.n_rows())
             .map(|row| self.g.row_times_wide(row, u) - self.couplings.displaced(row, bodies))
             .collect()
+    }
+
+    /// Tells what drags thick liquid along with walls apart from what moves liquid: that part of each face's drag.
+    pub(crate) fn tell_apart(&mut self, clinging: Vec<f64>) {
+        self.standing.resize(clinging.len(), 0.0);
+        for (face, part) in clinging.iter().enumerate() {
+            self.standing[face] += part * self.couplings.dragged(face, &self.bodies);
+        }
+        self.clinging = clinging;
     }
 
     /// Sets the velocities of the bodies, m/s.
@@ -159,21 +170,6 @@ impl System {
             force: force - borne,
             scale: force.max(least),
         }
-    }
-
-    /// Forces of the liquid on the bodies, in units of eta_0 h, and the power dissipated by
-    /// viscosity and wall friction, in units of eta_0 h (m/s)^2.
-    pub(crate) fn reactions(&self, u: &[f64], p: &[f64]) -> (Vec<[f64; 3]>, f64) {
-        let (mut forces, of_bodies) = self.couplings.forces(&self.bodies, u, p);
-        for (force, pulled) in forces.iter_mut().zip(&self.pulled) {
-            *force = std::array::from_fn(|a| force[a] + pulled[a]);
-        }
-        let mut product = vec![0.0; u.len()];
-        self.a.multiply(u, &mut product);
-        let of_liquid: f64 = (product.iter().zip(u).zip(&self.mass))
-            .map(|((product, u), mass)| u * (product - mass * u))
-            .sum();
-        (forces, of_liquid + of_bodies)
     }
 }
 
@@ -238,9 +234,10 @@ impl Operator<'_> {
         carried.resize(c.len(), 0.0);
         let (mut standing, pulled) = self.pull.forces();
         let mut momentum = self.momentum(&face_volume, &mass, before.velocity);
+        let driven =
+            standing.iter().map(|force| force.abs()).sum::<f64>() + self.weight(&face_volume);
         let shift: Vec<f64> = before.air.iter().map(|t| t.pressure).collect();
-        let clinging = self.clinging();
-        if !(shift.is_empty() && clinging.is_empty()) {
+        if !shift.is_empty() {
             standing.resize(n, 0.0);
         }
         for (row, shift) in (cells..).zip(&shift) {
@@ -260,8 +257,9 @@ impl Operator<'_> {
             couplings,
             pulled,
             shift,
+            driven,
             standing,
-            clinging,
+            clinging: Vec::new(),
             held: self.held_lines(),
             slow: SLOW * self.scales.cell_per_step,
             momentum,
@@ -295,16 +293,21 @@ impl Operator<'_> {
         })
     }
 
-    /// Part of what walls drag each face by that only makes dried liquid go along; empty where none dries.
-    fn clinging(&self) -> Vec<f64> {
-        if self.factor.is_empty() {
-            return Vec::new();
-        }
-        let part = |&(axis, index): &(u8, u32)| {
+    /// Whether liquid thickens as it dries.
+    pub(crate) fn dries(&self) -> bool {
+        !self.factor.is_empty()
+    }
+
+    /// Part of what walls drag each face by that only makes thick liquid go along.
+    pub(crate) fn clinging(&self) -> Vec<f64> {
+        let part = |(face, &(axis, index)): (usize, &(u8, u32))| {
             let (index, stride) = (index as usize, self.lattice.window.stride(axis.into()));
-            1.0 - 1.0 / self.mean_factor([index, index - stride])
+            let cells = [index, index - stride];
+            let links = self.walls.of(face).iter().map(|link| link.viscosity.into());
+            let thick = self.mean_factor(cells) * links.fold(self.mean_law(cells), f64::max);
+            1.0 - 1.0 / thick.max(1.0)
         };
-        self.dofs.faces.iter().map(part).collect()
+        self.dofs.faces.iter().enumerate().map(part).collect()
     }
 
     fn mass(&self, volume: f64) -> f64 {
@@ -332,6 +335,14 @@ impl Operator<'_> {
                     / stiffness
             })
             .collect()
+    }
+
+    /// Weight of the liquid that moves with the face unknowns.
+    fn weight(&self, volume: &[f64]) -> f64 {
+        let one = |(&(axis, _), volume): (&(u8, u32), &f64)| {
+            volume * self.scales.gravity[usize::from(axis)].abs()
+        };
+        self.dofs.faces.iter().zip(volume).map(one).sum()
     }
 
     /// b with all bodies at rest: inertia and body force.

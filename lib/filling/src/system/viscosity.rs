@@ -261,7 +261,7 @@ mod tests {
                     air: &[],
                 };
                 let system = operator.assemble(&bodies, before).unwrap();
-                system.reactions(&u, &cells).1
+                system.reactions(&operator.dofs.faces, &u, &cells).power
             };
             let (once, found) = (power(&[]), power(&twice));
             assert!(

@@ -104,7 +104,7 @@ impl Flow {
         SaddleSolver::new(options)
             .solve(&system.saddle(), &mut u, &mut p)
             .unwrap();
-        let (forces, _) = system.reactions(&u, &p);
+        let forces = system.reactions(&operator.dofs.faces, &u, &p).forces;
         let mut pressure = vec![0.0; w.len()];
         for (&index, &p) in operator.dofs.cells.iter().zip(&p) {
             pressure[index as usize] = p;
