@@ -36,13 +36,14 @@ pub fn memory_bytes() -> Option<u64> {
 
 /// Has every array of a megabyte and more given back to the system as it is dropped. A step's arrays differ in size and go in
 /// another order than they came: the GNU allocator, which raises this bound to 32 MB by itself, then keeps a third more than is
-/// in use. To be called before a process has other threads.
+/// in use. Of smaller ones 64 MB are kept, which would be asked for again at once. To be called before a process has other threads.
 #[allow(unsafe_code)]
 pub fn give_back_large_arrays() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     // SAFETY: takes two numbers and sets one; no other thread allocates meanwhile (mallopt(3)).
     unsafe {
         libc::mallopt(libc::M_MMAP_THRESHOLD, 1 << 20);
+        libc::mallopt(libc::M_TRIM_THRESHOLD, 1 << 26);
     }
 }
 

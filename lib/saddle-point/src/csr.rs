@@ -164,10 +164,7 @@ impl<T: Real> Csr<T> {
         let mut diagonal = vec![T::default(); self.n_rows()];
         for_chunks(&mut diagonal, |start, part| {
             for (i, out) in part.iter_mut().enumerate() {
-                let (columns, values) = self.row(start + i);
-                if let Ok(at) = columns.binary_search(&((start + i) as u32)) {
-                    *out = values[at];
-                }
+                *out = value_at(self.row(start + i), start + i);
             }
         });
         diagonal
@@ -258,6 +255,12 @@ impl<T: Real> Csr<T> {
             }
         });
     }
+}
+
+/// The value of a row in a column, zero where none is stored.
+pub(crate) fn value_at<T: Real>((columns, values): (&[u32], &[T]), column: usize) -> T {
+    let at = columns.binary_search(&(column as u32));
+    at.map_or_else(|_| T::default(), |at| values[at])
 }
 
 /// The rows of a matrix by chunks, as [`Csr::assemble`] joins them.

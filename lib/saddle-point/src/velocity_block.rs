@@ -1,12 +1,12 @@
 //! The velocity block of a saddle-point system, as the solver keeps it.
 
 use crate::SolveError;
-use crate::csr::{RowEntries, Rows, assemble_chunks};
+use crate::csr::{RowEntries, Rows, assemble_chunks, value_at};
 use crate::packed::PackedMatrix;
 use crate::vector::{CHUNK, Real, Work, for_chunks};
 
-/// A symmetric positive definite matrix `A` with diagonal `D`, kept as `S A S` with `S = D^-1/2`, to 1e-14 of the diagonal, in
-/// two thirds of the memory of its rows.
+/// A symmetric positive definite matrix `A` with diagonal `D`, kept as `S A S` with `S = D^-1/2`, each entry to 1e-14 of
+/// the root of the two diagonals that it couples, in two thirds of the memory of its rows.
 pub struct VelocityBlock {
     pub(crate) matrix: PackedMatrix,
     /// `D^-1/2`.
@@ -81,18 +81,12 @@ impl VelocityBlock {
     }
 }
 
-/// The entry on the diagonal of every row, zero where none is stored.
+/// The diagonal of rows in chunks.
 fn diagonal(chunks: &[Rows<f64>]) -> Vec<f64> {
     let mut diagonal = vec![0.0; chunks.iter().map(Rows::len).sum()];
     for_chunks(&mut diagonal, |start, part| {
-        let Some(rows) = chunks.get(start / CHUNK) else {
-            return;
-        };
         for (i, out) in part.iter_mut().enumerate() {
-            let (columns, values) = rows.row(i);
-            if let Ok(at) = columns.binary_search(&((start + i) as u32)) {
-                *out = values[at];
-            }
+            *out = value_at(chunks[start / CHUNK].row(i), start + i);
         }
     });
     diagonal

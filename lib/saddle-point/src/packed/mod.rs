@@ -1,7 +1,7 @@
 //! A compact copy of a scaled matrix, whose products are memory-bound.
 //!
 //! Entries of `D^-1/2 A D^-1/2` lie in [-1, 1] and are kept as two fixed-point numbers, of 16 and 32 bits: the
-//! first alone for the preconditioner, both for products to 1e-14 of the diagonal. Rows
+//! first alone for the preconditioner, both for products to 1e-14 of them. Rows
 //! are taken eight at a time. Where several of the eight couple to the same distance (the same
 //! neighbour along a grid line), one base column serves all eight and their values of `x` are
 //! contiguous; the rest share a base column and keep 16-bit offsets. That is 2.3 to 4.5 bytes
