@@ -142,6 +142,7 @@ mod tests {
             g: &pair(),
             pockets: 0,
             standing: &[],
+            holding: &[],
             slow: 0.0,
             c: &[c; 2],
             friction: &[friction],

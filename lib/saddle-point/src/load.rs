@@ -239,6 +239,7 @@ mod tests {
                 g: &g,
                 pockets: 0,
                 standing: &[],
+                holding: &[],
                 slow: 0.0,
                 c: &[0.0],
                 friction: &[0.0; 2],

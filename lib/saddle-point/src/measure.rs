@@ -10,37 +10,39 @@ use crate::vector::norm;
 const ROUNDING: f64 = 1e-14;
 
 /// What residuals are measured by.
-pub(crate) struct Measure {
-    /// Area by which each face is one to air; empty where no forces stand.
-    fronts: Vec<f64>,
-    /// Velocity that counts there at least.
-    slow: f64,
+pub(crate) struct Measure<'a> {
+    system: &'a SaddleSystem<'a>,
+    /// Least forces of a flow that count where forces stand.
+    least: f64,
     /// What residuals are measured by where nothing moves.
     still: f64,
     /// Part of a solution below which they are rounding, over the tolerance.
     rounding: f64,
 }
 
-impl Measure {
-    pub(crate) fn new(system: &SaddleSystem, options: &SaddleOptions, still: f64) -> Self {
+impl<'a> Measure<'a> {
+    pub(crate) fn new(system: &'a SaddleSystem, options: &SaddleOptions, still: f64) -> Self {
+        // Liquid that rests without a face to air asks for as much less once more.
+        let closed = options.tolerance.powi(2) * norm(system.b);
         Self {
-            fronts: system.fronts(),
-            slow: system.slow,
-            still: match options.tolerance * norm(system.b) {
-                pushed if pushed > 0.0 && !system.standing.is_empty() => pushed,
-                _ => still,
+            system,
+            least: match system.standing {
+                [] => 0.0,
+                _ => system.slow_forces().max(closed),
             },
+            still,
             rounding: ROUNDING / options.tolerance,
         }
     }
 
-    /// The measure at `x`, of what moves the liquid, `known`, and of what flows through the fronts; and no residual is
+    /// The measure at `x`, of what moves the liquid, `known`, and where forces stand of those of the flow; and no residual is
     /// smaller than the rounding of what stands.
     pub(crate) fn of(&self, known: f64, x: &[f64]) -> f64 {
-        let flow: f64 = (self.fronts.iter().zip(x))
-            .map(|(area, u)| (area * u.abs().max(self.slow)).powi(2))
-            .sum();
-        let size = match known.hypot(flow.sqrt()) {
+        let flow = match self.system.standing {
+            [] => 0.0,
+            standing => self.system.forces(&x[..standing.len()]).max(self.least),
+        };
+        let size = match known.hypot(flow) {
             0.0 => self.still,
             size => size,
         };
@@ -54,7 +56,7 @@ impl Measure {
         options: &SaddleOptions,
         mut solve: impl FnMut(&mut Limits) -> Result<Vec<f64>, SolveError>,
     ) -> Result<Vec<f64>, SolveError> {
-        let stands = !self.fronts.is_empty();
+        let stands = !self.system.standing.is_empty();
         let mut limits = Limits {
             tolerance: options.tolerance,
             size: 0.0,

@@ -1,5 +1,7 @@
 //! The saddle-point system, and what is refused of one.
 
+use std::iter;
+
 use crate::csr::Csr;
 use crate::vector::norm;
 use crate::velocity_block::VelocityBlock;
@@ -29,10 +31,13 @@ pub struct SaddleSystem<'a> {
     pub two_eta: &'a [f64],
     /// Momentum right-hand side `b`, one per face.
     pub b: &'a [f64],
-    /// Part of it by which air and menisci push, which pressures of the liquid balance but for little; empty where
-    /// there is none. The tolerance is not measured by it, but by the flow through the faces to air that comes of it.
+    /// Part of it by which weight, air and menisci push, which pressures of the liquid balance but for little; empty where
+    /// there is none. The tolerance is not measured by it, but by the forces `A u` of the flow that comes of it.
     pub standing: &'a [f64],
-    /// Velocity that counts there at least: slower flow is as good as none.
+    /// Friction of every face that is no such force: of what holds liquid to walls, that goes along with them; empty where
+    /// nothing does.
+    pub holding: &'a [f64],
+    /// Velocity at faces to air that counts at least: slower flow is as good as none.
     pub slow: f64,
     /// Volume that walls displace, one per cell: `G u + C p = g` is this and what is carried over.
     pub volume_source: &'a [f64],
@@ -67,18 +72,30 @@ impl SaddleSystem<'_> {
         motion.max(FAINT * motion.hypot(norm(self.carried)))
     }
 
-    /// Area by which each face is one to air, where forces stand; else nothing.
-    pub(crate) fn fronts(&self) -> Vec<f64> {
-        let mut fronts = vec![0.0; self.standing.len()];
-        if !fronts.is_empty() {
-            for cell in 0..self.cells() {
-                let (faces, areas) = self.g.row(cell);
-                for (&face, area) in faces.iter().zip(areas) {
-                    fronts[face as usize] += area;
-                }
+    /// Norm of the forces of slow flow through the faces to air, by the friction of each.
+    pub(crate) fn slow_forces(&self) -> f64 {
+        let mut forces = vec![0.0; self.a.n_rows()];
+        for cell in 0..self.cells() {
+            let (faces, areas) = self.g.row(cell);
+            for (&face, area) in faces.iter().zip(areas) {
+                forces[face as usize] += area;
             }
         }
-        fronts
+        let holding = self.holding.iter().copied().chain(iter::repeat(0.0));
+        for ((force, friction), holding) in forces.iter_mut().zip(self.friction).zip(holding) {
+            *force *= self.slow * (friction - holding).clamp(0.0, 1.0);
+        }
+        norm(&forces)
+    }
+
+    /// Norm of the forces of a flow `u`.
+    pub(crate) fn forces(&self, u: &[f64]) -> f64 {
+        let mut forces = vec![0.0; u.len()];
+        self.a.multiply(u, &mut forces);
+        for ((force, holding), u) in forces.iter_mut().zip(self.holding).zip(u) {
+            *force -= holding * u;
+        }
+        norm(&forces)
     }
 
     /// Refuses lengths that do not fit, with those of the guess, and values that are not as described.
@@ -95,6 +112,11 @@ impl SaddleSystem<'_> {
                 self.standing.len(),
                 if self.standing.is_empty() { 0 } else { faces },
             ),
+            (
+                "frictions that hold",
+                self.holding.len(),
+                if self.holding.is_empty() { 0 } else { faces },
+            ),
             ("volume sources", self.volume_source.len(), cells),
             ("carried volumes", self.carried.len(), cells),
             ("velocities", u.len(), faces),
@@ -105,6 +127,7 @@ impl SaddleSystem<'_> {
         for values in [
             self.b,
             self.standing,
+            self.holding,
             self.volume_source,
             self.carried,
             u,

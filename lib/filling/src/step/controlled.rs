@@ -6,20 +6,19 @@ use saddle_point::{NEARLY, SaddleReport, SolveError};
 use super::drive::Asked;
 use super::solution::Unknowns;
 use super::{Implicit, Part};
+use crate::settings::Settings;
 use crate::system::{Before, Operator, Reactions, System};
 
-/// Part of the forces on the bodies that what the solver leaves may add up to.
-const UNBALANCED: f64 = 0.01;
-/// Solves of a system until it is less: by all that drags the liquid, by what moves it, and so to these parts of the tolerance.
-const SOLVES: [f64; 4] = [1.0, 1.0, 0.1, 0.01];
+/// Part of the forces on the bodies that what the solver leaves may add up to, over its tolerance or the usual one, where that is more.
+const UNBALANCED: f64 = 10.0;
+/// Solves of a system until it is less: to these parts of the tolerance.
+const SOLVES: [f64; 3] = [1.0, 0.1, 0.01];
 
 /// A solved system and what follows from its solution.
 pub(super) type Solved = (System, Reactions);
 
 impl Implicit {
-    /// Solves at the clamp's speed or, where it is held at its pressure limit, for that speed; until forces on the bodies
-    /// are those on the liquid. A residual small beside what thick liquid exchanges with walls that it moves with may be
-    /// large beside what presses on them.
+    /// Assembles and solves until forces on the bodies are those on the liquid.
     pub(super) fn controlled(
         &mut self,
         operator: &Operator,
@@ -30,29 +29,22 @@ impl Implicit {
         let mut system = (self.workspace.clock)
             .time(Part::Assembly, || operator.assemble(&bodies, before))
             .map_err(|error| self.unsolved(error))?;
-        // Walls have dried liquid to drag in every step.
-        let first = usize::from(operator.dries());
+        let tolerance = self.setup.settings.tolerance;
+        let most = UNBALANCED * tolerance.max(Settings::default().tolerance);
         let mut unbalanced = 0.0;
-        for (solve, part) in SOLVES.into_iter().enumerate().skip(first) {
-            if solve == 1 {
-                system.tell_apart(operator.clinging());
+        for part in SOLVES {
+            self.workspace.solver.set_tolerance(part * tolerance);
+            let reactions = self.solve_at_speed_or_load(&mut system, operator, now)?;
+            if reactions.unbalanced <= most {
+                return Ok((system, reactions));
             }
-            let tolerance = part * self.setup.settings.tolerance;
-            self.workspace.solver.set_tolerance(tolerance);
-            match self.solve_to_tolerance(&mut system, operator, now) {
-                Ok(reactions) if reactions.unbalanced <= UNBALANCED => {
-                    return Ok((system, reactions));
-                }
-                Ok(reactions) => unbalanced = reactions.unbalanced,
-                Err(error) if solve == first => return Err(error),
-                Err(_) => break,
-            }
+            unbalanced = reactions.unbalanced;
         }
         Err(self.unbalanced(unbalanced))
     }
 
-    /// The same to the tolerance that the solver is set to.
-    fn solve_to_tolerance(
+    /// Solves at the clamp's speed or, where it is held at its pressure limit, for that speed.
+    fn solve_at_speed_or_load(
         &mut self,
         system: &mut System,
         operator: &Operator,

@@ -34,8 +34,8 @@ impl Implicit {
     /// A system whose forces on the bodies differ from those on the liquid by this part of them.
     pub(super) fn unbalanced(&self, part: f64) -> Failure {
         self.failure(&format!(
-            "forces on the bodies and on the liquid differ by {:.1} % whatever the linear solver's tolerance: where viscosities lie \
-             too far apart for it, a law with a thinner liquid at low rates is needed",
+            "forces on the bodies and on the liquid differ by {:.1} % at a hundredth of the linear solver's tolerance: where viscosities lie too far apart for it, \
+             a law with a thinner liquid at low rates is needed",
             100.0 * part
         ))
     }

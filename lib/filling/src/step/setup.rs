@@ -12,6 +12,8 @@ use crate::system::{Scales, WidthRule};
 
 /// Edge of a voxel (cells) below which the steps of a wall add friction of their own.
 const FINE_VOXEL: f64 = 0.75;
+/// Part of the way that the liquid may go in a step, by a front, that the tolerance is relative to at least.
+const SLOW: f64 = 0.01;
 
 /// What never changes in a run; but for the unit of viscosity of a liquid that cures.
 pub(super) struct Setup {
@@ -117,6 +119,7 @@ impl Setup {
             adhesion: 0.5 * (advancing + receding),
             holding: 0.5 * (receding - advancing),
             cell_per_step: h / dt,
+            slow: SLOW * self.settings.cfl * h / dt,
             influence_length: self.influence_length(),
             width: self.width,
         }

@@ -14,16 +14,13 @@ use super::terms::Velocity;
 /// Smallest liquid volume, in cells, that a face's mass counts with.
 const LEAST_MASS: f64 = 0.02;
 
-/// Way of a front in a step that the tolerance is relative to at least, cells.
-const SLOW: f64 = 0.01;
-
 /// The assembled system of a step, for bodies at given speeds.
 pub(crate) struct System {
     pub(super) a: VelocityBlock,
     /// Liquid fluxes, cells x faces.
     pub(crate) g: Csr<f64>,
     c: Vec<f64>,
-    friction: Vec<f64>,
+    pub(super) friction: Vec<f64>,
     two_eta: Vec<f64>,
     pub(super) mass: Vec<f64>,
     /// Liquid volume that moves with each face unknown, cells.
@@ -39,10 +36,12 @@ pub(crate) struct System {
     standing: Vec<f64>,
     /// All that menisci pull with and weight.
     pub(super) driven: f64,
-    /// Part of what walls drag each face by that only makes thick liquid go along; empty where that is not told apart.
+    /// Part of what walls drag each face by that only makes thick liquid go along; empty where none is thick.
     clinging: Vec<f64>,
     /// Friction of those lines.
     held: Vec<Friction>,
+    /// Friction of both on each face; empty without any.
+    pub(super) holding: Vec<f64>,
     /// Slowest velocity that counts at the front, m/s.
     pub(super) slow: f64,
     /// Momentum with all bodies at rest.
@@ -69,6 +68,7 @@ impl System {
             two_eta: &self.two_eta,
             b: &self.b,
             standing: &self.standing,
+            holding: &self.holding,
             slow: self.slow,
             volume_source: &self.source,
             carried: &self.carried,
@@ -102,15 +102,6 @@ impl System {
         (liquid..self.g.n_rows())
             .map(|row| self.g.row_times_wide(row, u) - self.couplings.displaced(row, bodies))
             .collect()
-    }
-
-    /// Tells what drags thick liquid along with walls apart from what moves liquid: that part of each face's drag.
-    pub(crate) fn tell_apart(&mut self, clinging: Vec<f64>) {
-        self.standing.resize(clinging.len(), 0.0);
-        for (face, part) in clinging.iter().enumerate() {
-            self.standing[face] += part * self.couplings.dragged(face, &self.bodies);
-        }
-        self.clinging = clinging;
     }
 
     /// Sets the velocities of the bodies, m/s.
@@ -232,12 +223,15 @@ impl Operator<'_> {
             two_eta.push(thickest);
         }
         carried.resize(c.len(), 0.0);
+        let (clinging, held) = (self.clinging(), self.held_lines());
+        let holding = self.holding(&clinging, &held, &couplings, bodies.len());
         let (mut standing, pulled) = self.pull.forces();
-        let mut momentum = self.momentum(&face_volume, &mass, before.velocity);
-        let driven =
-            standing.iter().map(|force| force.abs()).sum::<f64>() + self.weight(&face_volume);
+        let inertia = mass.iter().zip(before.velocity);
+        let mut momentum: Vec<f64> = inertia.map(|(mass, velocity)| mass * velocity).collect();
+        let pulls: f64 = standing.iter().map(|force| force.abs()).sum();
+        let driven = pulls + self.add_weight(&face_volume, &mut standing);
         let shift: Vec<f64> = before.air.iter().map(|t| t.pressure).collect();
-        if !shift.is_empty() {
+        if !(shift.is_empty() && clinging.is_empty()) {
             standing.resize(n, 0.0);
         }
         for (row, shift) in (cells..).zip(&shift) {
@@ -259,9 +253,10 @@ impl Operator<'_> {
             shift,
             driven,
             standing,
-            clinging: Vec::new(),
-            held: self.held_lines(),
-            slow: SLOW * self.scales.cell_per_step,
+            clinging,
+            held,
+            holding,
+            slow: self.scales.slow,
             momentum,
             carried,
             resting,
@@ -293,23 +288,6 @@ impl Operator<'_> {
         })
     }
 
-    /// Whether liquid thickens as it dries.
-    pub(crate) fn dries(&self) -> bool {
-        !self.factor.is_empty()
-    }
-
-    /// Part of what walls drag each face by that only makes thick liquid go along.
-    pub(crate) fn clinging(&self) -> Vec<f64> {
-        let part = |(face, &(axis, index)): (usize, &(u8, u32))| {
-            let (index, stride) = (index as usize, self.lattice.window.stride(axis.into()));
-            let cells = [index, index - stride];
-            let links = self.walls.of(face).iter().map(|link| link.viscosity.into());
-            let thick = self.mean_factor(cells) * links.fold(self.mean_law(cells), f64::max);
-            1.0 - 1.0 / thick.max(1.0)
-        };
-        self.dofs.faces.iter().enumerate().map(part).collect()
-    }
-
     fn mass(&self, volume: f64) -> f64 {
         self.scales.inertia * volume.max(LEAST_MASS)
     }
@@ -333,23 +311,6 @@ impl Operator<'_> {
             .map(|(&cell, stiffness)| {
                 self.scales.compressibility * f64::from(self.volumes.cell[cell as usize])
                     / stiffness
-            })
-            .collect()
-    }
-
-    /// Weight of the liquid that moves with the face unknowns.
-    fn weight(&self, volume: &[f64]) -> f64 {
-        let one = |(&(axis, _), volume): (&(u8, u32), &f64)| {
-            volume * self.scales.gravity[usize::from(axis)].abs()
-        };
-        self.dofs.faces.iter().zip(volume).map(one).sum()
-    }
-
-    /// b with all bodies at rest: inertia and body force.
-    fn momentum(&self, volume: &[f64], mass: &[f64], velocity: &[f64]) -> Vec<f64> {
-        (self.dofs.faces.iter().enumerate())
-            .map(|(face, &(axis, _))| {
-                mass[face] * velocity[face] + volume[face] * self.scales.gravity[usize::from(axis)]
             })
             .collect()
     }

@@ -19,6 +19,7 @@ mod operator;
 mod reactions;
 mod response;
 mod sparse;
+mod standing;
 mod terms;
 mod viscosity;
 mod walls;
@@ -53,6 +54,8 @@ pub(crate) struct Scales {
     pub(crate) holding: f64,
     /// A cell in a step, h/dt, m/s.
     pub(crate) cell_per_step: f64,
+    /// Slowest velocity that counts at the front, m/s.
+    pub(crate) slow: f64,
     /// 1/(k h): influence length of the wall law, cells; infinite without friction.
     pub(crate) influence_length: f64,
     /// Which width of the lumen the wall law takes.

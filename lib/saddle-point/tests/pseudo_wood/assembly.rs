@@ -40,6 +40,7 @@ impl Problem {
             g: &self.g,
             pockets: 0,
             standing: &[],
+            holding: &[],
             slow: 0.0,
             c: &self.c,
             friction: &self.friction,

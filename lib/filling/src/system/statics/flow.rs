@@ -76,6 +76,7 @@ impl Flow {
             adhesion: self.adhesion,
             holding: 0.0,
             cell_per_step: 0.0,
+            slow: 0.0,
             influence_length: self.slip,
             width: self.width,
         };

@@ -19,6 +19,7 @@ impl Scales {
             adhesion: 0.0,
             holding: 0.0,
             cell_per_step: 0.0,
+            slow: 0.0,
             influence_length: 0.0,
             width: WidthRule::Normal,
         }
