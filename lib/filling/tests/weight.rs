@@ -2,6 +2,8 @@
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
+#[path = "common/march.rs"]
+mod march;
 #[path = "common/plain.rs"]
 mod plain;
 
@@ -9,7 +11,8 @@ use filling::{Implicit, Settings};
 use physics::{Boundary, Motion, Newtonian, Scheme, StepLimit, Viscosity, VoxelBlock};
 
 /// Nothing of it moves, by steps that grow to 0.2 s: its weight is not what the solver's tolerance is relative to. On a side of the domain
-/// no body bears it: forces on bodies are no measure of what the solver leaves. A floor bears the weight of 10 mm, less that of the half cell next to it, whose pressure is that of its centre.
+/// no body bears it: forces on bodies are no measure of what the solver leaves. A floor bears the weight of 10 mm, less that of half the
+/// cell next to it, whose pressure is that of its centre.
 #[test]
 fn thin_liquid_stands_on_a_side_and_on_a_floor() {
     let (h, far) = (1e-3, 1.0);
@@ -24,26 +27,17 @@ fn thin_liquid_stands_on_a_side_and_on_a_floor() {
         scene.liquid.viscosity = Viscosity::Newtonian(Newtonian(1e-3));
         scene.gravity[1] = -9.81;
         let mut scheme = Implicit::new(scene, Settings::default()).unwrap();
-        let (mut time, end, mut pressure) = (0.0, 0.5, 0.0);
-        while time < end * (1.0 - 1e-9) {
-            let limit = StepLimit {
-                time_s: end - time,
-                travel_m: f64::INFINITY,
-            };
-            let report = scheme.advance(limit).unwrap();
-            time += report.dt_s;
+        let mut pressure = 0.0;
+        march::until(&mut scheme, 0.5, |report, _| {
             pressure = report.pressure_bottom;
-        }
-        // The pressure next to a floor is that of the centre of a cell.
-        let weight = if floor > 0.0 {
-            1200.0 * 9.81 * 9.5 * h
-        } else {
-            0.0
-        };
+        });
         let heights = scheme.liquid().position.into_iter().map(|x| x[1].into());
         let top = heights.fold(0.0, f64::max) - floor;
-        println!("{pressure:.2} Pa for {weight:.2}, highest point at {top:.5} m");
-        assert!((pressure - weight).abs() <= 0.01 * weight, "{pressure} Pa");
+        println!("{pressure:.2} Pa, highest point at {top:.5} m");
+        if floor > 0.0 {
+            let error = pressure / (1200.0 * 9.81 * 9.5 * h) - 1.0;
+            assert!(error.abs() < 0.01, "pressure off by {error}");
+        }
         assert!((top - 9.75 * h).abs() < 0.2 * h, "{top} m");
     }
 }
@@ -104,15 +98,9 @@ fn a_thick_drop_falls() {
     scene.liquid.viscosity = Viscosity::Newtonian(Newtonian(1e3));
     scene.gravity[1] = -9.81;
     let mut scheme = Implicit::new(scene, Settings::default()).unwrap();
-    let mut time = 0.0;
-    while time < 8e-3 {
-        let limit = StepLimit {
-            time_s: 8e-3 - time,
-            travel_m: f64::INFINITY,
-        };
-        time += scheme.advance(limit).unwrap().dt_s;
-    }
-    let error = scheme.diagnostics().max_speed / (9.81 * time) - 1.0;
+    let end = 8e-3;
+    march::until(&mut scheme, end, |_, _| ());
+    let error = scheme.diagnostics().max_speed / (9.81 * end) - 1.0;
     println!("speed of free fall {error:+.1e}");
     assert!(error.abs() < 0.03, "{error}");
 }

@@ -40,7 +40,7 @@ pub fn memory_bytes() -> Option<u64> {
 #[allow(unsafe_code)]
 pub fn give_back_large_arrays() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
-    // SAFETY: takes two numbers and sets one; no other thread allocates meanwhile (mallopt(3)).
+    // SAFETY: each takes two numbers and sets one; no other thread allocates meanwhile (mallopt(3)).
     unsafe {
         libc::mallopt(libc::M_MMAP_THRESHOLD, 1 << 20);
         libc::mallopt(libc::M_TRIM_THRESHOLD, 1 << 26);

@@ -1,7 +1,5 @@
 //! The saddle-point system, and what is refused of one.
 
-use std::iter;
-
 use crate::csr::Csr;
 use crate::vector::norm;
 use crate::velocity_block::VelocityBlock;
@@ -81,11 +79,17 @@ impl SaddleSystem<'_> {
                 forces[face as usize] += area;
             }
         }
-        let holding = self.holding.iter().copied().chain(iter::repeat(0.0));
-        for ((force, friction), holding) in forces.iter_mut().zip(self.friction).zip(holding) {
-            *force *= self.slow * (friction - holding).clamp(0.0, 1.0);
+        for (face, force) in forces.iter_mut().enumerate() {
+            *force *= self.slow_force(face);
         }
         norm(&forces)
+    }
+
+    /// Force of slow flow at a face by its friction, without what holds it to walls and at most by that of a cell of liquid of
+    /// viscosity `eta_0`: thicker liquid would outweigh the rest.
+    pub fn slow_force(&self, face: usize) -> f64 {
+        let holding = self.holding.get(face).copied().unwrap_or_default();
+        self.slow * (self.friction[face] - holding).clamp(0.0, 1.0)
     }
 
     /// Norm of the forces of a flow `u`.

@@ -20,7 +20,7 @@ pub(crate) struct System {
     /// Liquid fluxes, cells x faces.
     pub(crate) g: Csr<f64>,
     c: Vec<f64>,
-    pub(super) friction: Vec<f64>,
+    friction: Vec<f64>,
     two_eta: Vec<f64>,
     pub(super) mass: Vec<f64>,
     /// Liquid volume that moves with each face unknown, cells.
@@ -31,7 +31,7 @@ pub(crate) struct System {
     /// Pressures of the pockets of air, which their unknowns count from: what softens them much would outweigh
     /// all else.
     shift: Vec<f64>,
-    /// Momentum by these, by menisci, and by walls that move with lines that they hold or with thick liquid that clings to
+    /// Momentum by these, by weight, by menisci, and by walls that move with lines that they hold or with thick liquid that clings to
     /// them; empty without any.
     standing: Vec<f64>,
     /// All that menisci pull with and weight.
@@ -41,9 +41,9 @@ pub(crate) struct System {
     /// Friction of those lines.
     held: Vec<Friction>,
     /// Friction of both on each face; empty without any.
-    pub(super) holding: Vec<f64>,
+    holding: Vec<f64>,
     /// Slowest velocity that counts at the front, m/s.
-    pub(super) slow: f64,
+    slow: f64,
     /// Momentum with all bodies at rest.
     momentum: Vec<f64>,
     /// Volume that compression carries over from the step before.

@@ -30,11 +30,8 @@ impl System {
         }
         // Walls that menisci pull liquid along bear next to nothing of both, sides of the domain are no bodies, and walls of liquid
         // at rest bear nothing.
-        let friction = self.friction.iter().enumerate();
-        let holding = |face: usize| self.holding.get(face).copied().unwrap_or_default();
-        let crept: f64 = friction
-            .map(|(face, f)| self.slow * (f - holding(face)).clamp(0.0, 1.0))
-            .sum();
+        let saddle = self.saddle();
+        let crept: f64 = (0..u.len()).map(|face| saddle.slow_force(face)).sum();
         let least = self.driven.max(stops).max(crept);
         let borne = forces.iter().copied().map(length).fold(least, f64::max);
         for (force, pulled) in forces.iter_mut().zip(&self.pulled) {
