@@ -7,6 +7,7 @@ mod constant_pressure;
 mod inertia;
 #[path = "../common/march.rs"]
 mod march;
+mod meniscus;
 #[path = "../common/plain.rs"]
 mod plain;
 mod robustness;
