@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_4;
 use filling::{Implicit, Settings};
 use physics::{Motion, Points, Scene, Scheme, StepLimit, Tait, VoxelBlock};
 
-use crate::{ETA, H, SPEED, corner, plain, scene};
+use crate::{ETA, H, INCOMPRESSIBLE, SPEED, corner, plain, reference, scene};
 
 /// How far the tip is ahead of the contact line from one filled width on, H (`lib/studies/reference`).
 const DEPTH: f64 = 0.446;
@@ -50,15 +50,7 @@ fn filled(n: usize, offset: f64, length: f64, side: usize) -> Scene {
 }
 
 /// Error of the force at a filled length, H.
-fn error(n: usize, offset: f64, length: f64, side: usize) -> f64 {
-    let reference: Vec<[f64; 2]> = include_str!("../../../studies/reference/slit-filling.csv")
-        .lines()
-        .skip(1)
-        .map(|line| {
-            let columns: Vec<f64> = line.split(',').map(|c| c.parse().unwrap()).collect();
-            [columns[0], columns[3]]
-        })
-        .collect();
+fn error(reference: &[[f64; 2]], n: usize, offset: f64, length: f64, side: usize) -> f64 {
     let scene = filled(n, offset, length, side);
     let face = scene.grid.area_m2() / (4.0 * H * H / n as f64);
     let settings = Settings {
@@ -79,9 +71,13 @@ fn error(n: usize, offset: f64, length: f64, side: usize) -> f64 {
 
 /// The same at 1, 2 and 3 filled widths, mean over four places of the front in its cells.
 fn errors(n: usize, offset: f64, side: usize) -> [f64; 3] {
+    let reference = reference(INCOMPRESSIBLE);
     [1.0, 2.0, 3.0].map(|length| {
         let places = (0..4).map(|quarter| length + (f64::from(quarter) - 1.5) / (4 * n) as f64);
-        places.map(|l| error(n, offset, l, side)).sum::<f64>() / 4.0
+        places
+            .map(|l| error(&reference, n, offset, l, side))
+            .sum::<f64>()
+            / 4.0
     })
 }
 

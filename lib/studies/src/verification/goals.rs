@@ -63,7 +63,7 @@ const COUETTE: &str = "the distance of walls is that of Poiseuille flow, which m
 const DISC: &str = "2.1 % at 3 cells with plates on the nodes, 1.5 % at 6, between long plates 1.3 % at most: perhaps the rim, whose flow \
     lubrication theory leaves out; not measured apart";
 /// Force on the piston at the first width.
-const SLIT: &str = "at L = 1 H: liquid behind a meniscus as by finite elements needs 6 to 9 % too much force before it moves, since cells take the \
+const SLIT: &str = "at L = 1 H: liquid behind a meniscus as by finite elements needs 9 % too much force before it moves, since cells take the \
     wedge of air behind the tip for liquid that sticks to the wall; 5.9 % quarter off at a Courant number of 0.1, 3 % at 12 cells; 5 % and \
     less from 2 H on";
 /// Filling at constant pressure.
