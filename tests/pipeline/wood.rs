@@ -90,3 +90,19 @@ fn contact_lines_settle_in_wood() {
     let settled = "\"steps whose contact lines did not settle\": 0,";
     assert!(summary.contains(settled), "{summary}");
 }
+
+/// Liquid that menisci alone move comes to rest, though their pressures jump from voxel to voxel: else steps stay at a millisecond.
+#[test]
+fn menisci_come_to_rest_in_wood() {
+    let case = include_str!("../../pipelines/examples/wicking-pf.toml");
+    assert!(case.contains("time = \"4 ms\""));
+    let case = case.replace("time = \"4 ms\"", "time = \"0.5 s\"");
+    let bench = wood("40x96x40", case);
+    bench.pressed("run", &[], &[]);
+    let run = Run {
+        folder: bench.path("run"),
+    };
+    let steps = run.history("dt_s").unwrap();
+    println!("{} steps", steps.len());
+    assert!(steps.len() < 150, "{} steps", steps.len());
+}

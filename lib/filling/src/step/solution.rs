@@ -16,8 +16,6 @@ use saddle_point::Csr;
 pub(super) const PASSES: usize = 20;
 /// Most solves of a step for which contact lines hold and which go.
 pub(super) const LINES: usize = 10;
-/// Part of all that lines can hold by which they may pull otherwise than at the velocities found.
-const DECIDED: f64 = 0.01;
 /// Relative change of the viscosity, weighted by dissipation, below which no further pass is made.
 const SETTLED: f64 = 1e-3;
 /// The same after the last pass from which the viscosity does not count as that of the flow.
@@ -172,7 +170,7 @@ impl Implicit {
         loop {
             let solved = self.solve_with_lines(operator, before, now)?;
             let bodies = self.state.drive.velocities();
-            now.decided = operator.settle_lines(&now.u, &bodies) < DECIDED;
+            now.decided = operator.settle_lines(&now.u, &bodies);
             if now.decided || solves == LINES {
                 return Ok(solved);
             }

@@ -5,14 +5,13 @@ use rayon::prelude::*;
 use super::couplings::fluxes;
 use super::fluxes::Areas;
 use super::lines::{Line, Lines};
+use super::pins::{Pin, Pins};
 use super::{CHUNK, NONE, Operator, Scales};
 use crate::geometry::{BodyId, Chord, OPEN, Passage, SIDE};
 
 /// Part of a face over which the liquid fraction may change without being a front, cells^2.
 const NO_FRONT: f64 = 1e-6;
 
-/// How many times narrower a passage may be than one whose meniscus is the same.
-const ALIKE: f64 = 2.0;
 /// How far inside a wall liquid is looked for, cells.
 const INSIDE: f64 = 0.5;
 
@@ -25,6 +24,8 @@ pub(crate) struct Pull {
     bodies: Vec<[f64; 3]>,
     /// Contact lines that resist; none where they recede as they advance.
     pub(super) lines: Lines,
+    /// What holds menisci in uneven passages.
+    pub(super) pins: Pins,
 }
 
 impl Pull {
@@ -42,14 +43,16 @@ impl Pull {
 
 /// The part of a meniscus at a face.
 #[derive(Clone, Copy, Debug)]
-struct Patch {
-    face: u32,
+pub(super) struct Patch {
+    pub(super) face: u32,
     /// Area by which it looks along the face's axis, cells^2.
-    front: f64,
+    pub(super) front: f64,
     /// Perimeter over area of the passage, cells^-1.
-    narrowness: f64,
+    pub(super) narrowness: f64,
+    /// Half of what that varies by around it, where an equilibrium lies between.
+    pub(super) uneven: f64,
     /// Bodies that bear it, and their shares.
-    walls: [(BodyId, f64); 6],
+    pub(super) walls: [(BodyId, f64); 6],
 }
 
 impl Operator<'_> {
@@ -62,7 +65,7 @@ impl Operator<'_> {
     /// is, and liquid under P alone is at rest to rounding.
     ///
     /// Where contact lines recede at another angle than they advance, P is that of the mean of both cosines, and
-    /// [`Lines`] resist by half their difference.
+    /// [`Lines`] resist by half their difference. [`Pins`] hold menisci where P varies.
     pub(crate) fn pull(&self, u: &[f64], bodies: &[[f64; 3]]) -> Pull {
         let Scales {
             adhesion, holding, ..
@@ -87,7 +90,7 @@ impl Operator<'_> {
         let mut pull = Pull {
             momentum: vec![0.0; front.len()],
             bodies: vec![[0.0; 3]; bodies.len()],
-            lines: Lines::default(),
+            ..Pull::default()
         };
         for patch in patches {
             let force = adhesion * patch.narrowness * patch.front;
@@ -95,13 +98,15 @@ impl Operator<'_> {
             let axis = usize::from(self.dofs.faces[patch.face as usize].0);
             for (body, share) in patch.walls.into_iter().filter(|wall| wall.0 < OPEN) {
                 pull.bodies[usize::from(body)][axis] -= share * force;
-                if holding > 0.0 && share > 0.0 {
-                    let holds = share * holding * patch.narrowness * patch.front.abs();
-                    let speed = u[patch.face as usize] - bodies[usize::from(body)][axis];
-                    let (wall, pace) =
-                        (3 * u32::from(body) + axis as u32, self.scales.cell_per_step);
-                    pull.lines
-                        .push(Line::new(patch.face, wall, holds, speed, pace));
+                let (wall, pace) = (3 * u32::from(body) + axis as u32, self.scales.cell_per_step);
+                let speed = u[patch.face as usize] - bodies[usize::from(body)][axis];
+                let [line, pin] = [holding * patch.narrowness, adhesion.abs() * patch.uneven]
+                    .map(|most| share * most * patch.front.abs());
+                if line > 0.0 {
+                    (pull.lines).push(Line::new(patch.face, wall, line, speed, pace));
+                }
+                if pin > 0.0 {
+                    (pull.pins).push(Pin::new(patch.face, wall, pin, speed, pace));
                 }
             }
         }
@@ -120,18 +125,17 @@ impl Operator<'_> {
         if front.abs() < NO_FRONT || !inside {
             return None;
         }
-        let passage = self.lattice.passage(axis, cell, front > 0.0)?;
+        let up = front > 0.0;
+        let passage = self.lattice.passage(axis, cell, up)?;
         let mut patch = Patch {
             face: face as u32,
             front,
             narrowness: 0.0,
+            uneven: 0.0,
             walls: [(OPEN, 0.0); 6],
         };
-        let wet_end = usize::from(front < 0.0);
-        for (t, chord) in passage.across(window.domain.axes) {
-            if !self.spans(&passage, t, chord) {
-                continue;
-            }
+        let wet_end = usize::from(!up);
+        for (t, chord) in self.spanned(&passage) {
             let narrowness = 2.0 / chord.length;
             patch.narrowness += narrowness;
             for (end, body) in chord.ends.into_iter().enumerate() {
@@ -145,57 +149,38 @@ impl Operator<'_> {
                 patch.walls[2 * t + end] = (body, share * narrowness);
             }
         }
+        if patch.narrowness == 0.0 {
+            return None;
+        }
         for wall in &mut patch.walls {
             wall.1 /= patch.narrowness;
         }
-        (patch.narrowness > 0.0).then_some(patch)
+        let here = patch.narrowness;
+        let beside = |at: usize| {
+            let mut cell = cell;
+            cell[axis] = at;
+            let passage = self.lattice.passage(axis, cell, up);
+            let known = passage.filter(|_| window.in_domain(cell));
+            known.map_or(here, |passage| {
+                (self.spanned(&passage))
+                    .map(|(_, chord)| 2.0 / chord.length)
+                    .sum()
+            })
+        };
+        let (low, high) = (beside(cell[axis] - 1), beside(cell[axis] + 1));
+        // A liquid that does not wet is pressed back by narrower places, not drawn on.
+        let [from, to] = match up == (self.scales.adhesion > 0.0) {
+            true => [low, high],
+            false => [high, low],
+        };
+        patch.uneven = 0.5 * (here.max(from) - here.min(to)).max(0.0);
+        Some(patch)
     }
 
-    /// Gives all parts of one meniscus their mean: it has one pressure, and differences between its parts would
-    /// stir the liquid for ever. Parts belong together that meet in a cell or in neighbouring cells of air
-    /// and whose passages are not twice as narrow as each other.
-    fn level(&self, patches: &mut [Patch]) {
-        let window = &self.lattice.window;
-        let home = |cell: usize| window.index(window.home(window.coordinates(cell))) as u32;
-        let mut at: Vec<(u32, u32)> = (patches.iter().zip(0..))
-            .flat_map(|(patch, number)| {
-                let (axis, index) = self.dofs.faces[patch.face as usize];
-                let index = index as usize;
-                [index, index - window.stride(usize::from(axis))].map(|cell| (home(cell), number))
-            })
-            .collect();
-        at.sort_unstable();
-        let of = |cell: u32| {
-            let from = at.partition_point(|entry| entry.0 < cell);
-            at[from..].iter().take_while(move |entry| entry.0 == cell)
-        };
-        let mut parts = Parts((0..patches.len() as u32).collect());
-        for &(cell, one) in &at {
-            let index = cell as usize;
-            let beside = (0..window.domain.axes).filter_map(|axis| {
-                let next = index + window.stride(axis);
-                let air = [index, next].iter().all(|&c| self.dofs.cell[c] == NONE);
-                (air && self.lattice.face(axis, next) == OPEN).then(|| home(next))
-            });
-            for near in std::iter::once(cell).chain(beside) {
-                for &(_, other) in of(near) {
-                    let [a, b] = [one, other].map(|n| patches[n as usize].narrowness);
-                    if a < ALIKE * b && b < ALIKE * a {
-                        parts.join(one, other);
-                    }
-                }
-            }
-        }
-        let mut sums = vec![[0.0; 2]; patches.len()];
-        for (patch, number) in patches.iter().zip(0..) {
-            let sum = &mut sums[parts.first(number) as usize];
-            sum[0] += patch.front.abs();
-            sum[1] += patch.front.abs() * patch.narrowness;
-        }
-        for (patch, number) in patches.iter_mut().zip(0..) {
-            let [area, sum] = sums[parts.first(number) as usize];
-            patch.narrowness = sum / area;
-        }
+    /// The chords across a passage that liquid spans.
+    fn spanned(&self, passage: &Passage) -> impl Iterator<Item = (usize, Chord)> {
+        let across = passage.across(self.lattice.window.domain.axes);
+        across.filter(|&(t, chord)| self.spans(passage, t, chord))
     }
 
     /// Whether liquid spans a passage along the chord in direction `t`, not farther from it than the
@@ -231,56 +216,5 @@ impl Operator<'_> {
         let local = window.local(at);
         let inside = (0..3).all(|a| local[a] >= 0.0 && local[a] < window.cells[a] as f64);
         inside && self.dofs.cell[window.index(window.home(local.map(|x| x as usize)))] != NONE
-    }
-}
-
-/// Which of several things belong together: each refers to one of lower number, or to itself.
-struct Parts(Vec<u32>);
-
-impl Parts {
-    /// The lowest number of those that belong together with `one`.
-    fn first(&mut self, mut one: u32) -> u32 {
-        while self.0[one as usize] != one {
-            let next = self.0[one as usize];
-            self.0[one as usize] = self.0[next as usize];
-            one = next;
-        }
-        one
-    }
-
-    fn join(&mut self, one: u32, other: u32) {
-        let (a, b) = (self.first(one), self.first(other));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::tests::{domain, lattice};
-    use crate::liquid::Volumes;
-
-    /// Two faces of one cell: they have the mean of both by area if neither passage is twice as narrow.
-    #[test]
-    fn parts_of_a_meniscus_have_one_pressure_if_their_passages_are_alike() {
-        let lattice = lattice(domain([4, 4, 1], 2), vec![]);
-        let phi = vec![1.0; lattice.window.sub_len()];
-        let volumes = Volumes::new(&lattice, &phi);
-        let operator = Operator::new(&lattice, &volumes, Scales::plain());
-        let cell =
-            (lattice.window).index(lattice.window.local([2.5, 2.5, 0.5]).map(|x| x as usize));
-        let levelled = |other: f64| {
-            let patch = |axis: usize, front: f64, narrowness: f64| Patch {
-                face: operator.dofs.face[axis][cell],
-                front,
-                narrowness,
-                walls: [(OPEN, 0.0); 6],
-            };
-            let mut patches = [patch(0, 3.0, 1.0), patch(1, -1.0, other)];
-            operator.level(&mut patches);
-            patches.map(|patch| patch.narrowness)
-        };
-        assert_eq!(levelled(1.96), [1.24; 2]);
-        assert_eq!(levelled(2.04), [1.0, 2.04]);
     }
 }

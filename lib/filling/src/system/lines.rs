@@ -7,6 +7,10 @@ use super::terms::{Term, Velocity};
 const CREEP: f64 = 1e-3;
 /// Way in a step from which on a line counts as one that went, cells.
 const WENT: f64 = 0.01;
+/// Part of all that lines can hold by which they may pull otherwise than at the velocities found.
+const DECIDED: f64 = 0.01;
+/// The same of pins, which may hold more than they can.
+const CAUGHT_UP: f64 = 0.3;
 
 /// The lines of a step, by their faces.
 ///
@@ -63,6 +67,14 @@ impl Line {
         }
     }
 
+    fn resistance(&self, pace: f64) -> Friction {
+        Friction {
+            face: self.face as usize,
+            wall: self.wall as usize,
+            friction: self.friction(pace),
+        }
+    }
+
     /// By how much it pulls otherwise than one does that has a `speed` against its wall.
     fn error(&self, speed: f64, pace: f64) -> f64 {
         match self.state {
@@ -113,7 +125,7 @@ impl Lines {
     }
 }
 
-/// What a held line resists with.
+/// What a held line, or a pin, resists with.
 pub(super) struct Friction {
     pub(super) face: usize,
     /// Component of the wall's velocity, as 3 body + axis.
@@ -123,38 +135,44 @@ pub(super) struct Friction {
 }
 
 impl Operator<'_> {
-    /// What all held lines resist with.
+    /// What all held lines and pins resist with.
     pub(super) fn held_lines(&self) -> Vec<Friction> {
         let pace = self.scales.cell_per_step;
-        let held = self.pull.lines.iter().map(|line| Friction {
-            face: line.face as usize,
-            wall: line.wall as usize,
-            friction: line.friction(pace),
-        });
-        held.filter(|line| line.friction > 0.0).collect()
+        let held = self.pull.lines.iter().map(|line| line.resistance(pace));
+        let held = held.filter(|line| line.friction > 0.0);
+        held.chain(self.pull.pins.iter()).collect()
     }
 
-    /// By how much contact lines pull otherwise than they do at velocities `u` of the faces and `bodies`, m/s, over all that they
-    /// can hold; and makes them go or hold as they do there.
-    pub(crate) fn settle_lines(&mut self, u: &[f64], bodies: &[[f64; 3]]) -> f64 {
-        (self.pull.lines).settle(u, bodies, self.scales.cell_per_step)
-    }
-
-    /// What held lines resist with at a face.
-    pub(super) fn line_friction(&self, face: usize) -> f64 {
+    /// Makes contact lines go or hold, and pins hold, as they do at velocities `u` of the faces and `bodies`, m/s; whether they did.
+    pub(crate) fn settle_lines(&mut self, u: &[f64], bodies: &[[f64; 3]]) -> bool {
         let pace = self.scales.cell_per_step;
-        (self.pull.lines.at(face))
-            .map(|line| line.friction(pace))
-            .sum()
+        let lines = self.pull.lines.settle(u, bodies, pace);
+        let pins = self.pull.pins.settle(u, bodies, pace);
+        lines < DECIDED && pins < CAUGHT_UP
     }
 
-    /// Calls `each` with the term of every held line at a face.
+    /// What held lines and pins resist with at a face.
+    pub(super) fn line_friction(&self, face: usize) -> f64 {
+        self.held_at(face).map(|held| held.friction).sum()
+    }
+
+    /// Calls `each` with the term of every held line and pin at a face.
     pub(super) fn line_terms(&self, face: usize, mut each: impl FnMut(&Term)) {
-        for line in self.pull.lines.at(face) {
-            let friction = line.friction(self.scales.cell_per_step);
-            let (wall, liquid) = (Velocity::Body(line.wall), Velocity::Face(line.face));
-            each(&Term::pair(friction, wall, liquid));
+        for held in self.held_at(face) {
+            let wall = Velocity::Body(held.wall as u32);
+            let liquid = Velocity::Face(face as u32);
+            each(&Term::pair(held.friction, wall, liquid));
         }
+    }
+
+    fn held_at(&self, face: usize) -> impl Iterator<Item = Friction> {
+        let pace = self.scales.cell_per_step;
+        let lines = self
+            .pull
+            .lines
+            .at(face)
+            .map(move |line| line.resistance(pace));
+        lines.chain(self.pull.pins.at(face))
     }
 }
 

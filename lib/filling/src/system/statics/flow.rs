@@ -75,7 +75,8 @@ impl Flow {
             gravity: self.gravity,
             adhesion: self.adhesion,
             holding: 0.0,
-            cell_per_step: 0.0,
+            // Steps too short for pins to hold.
+            cell_per_step: f64::INFINITY,
             slow: 0.0,
             influence_length: self.slip,
             width: self.width,
