@@ -90,3 +90,49 @@ fn contact_lines_hold_a_slug_until_they_are_pulled_harder() {
         }
     }
 }
+
+/// Way in its first step, over H, of a slug of 3 H between plates of which one has teeth of half a cell, a cell apart, under
+/// a pressure of `pressure` (Pa) on it, that would move it by 0.2 H; its liquid has this surface `tension`, N/m.
+fn started(pressure: f64, tension: f64) -> f64 {
+    let (n, h) = (6, H / 6.0);
+    let far = 99.0 * H;
+    let mut blocks = vec![
+        VoxelBlock::solid_box([-far, -far, 0.0], [far, h, h]),
+        VoxelBlock::solid_box([-far, h + H, 0.0], [far, far, h]),
+    ];
+    blocks.extend((0..4 * n).map(|tooth| {
+        let low = 2.0 * h * tooth as f64;
+        VoxelBlock::solid_box([low, 0.0, 0.0], [low + h, 1.5 * h, h])
+    }));
+    let mut scene = plain::scene(h, [8 * n, n + 3, 1]);
+    let size = [0.5 * h, 0.5 * h, h];
+    scene.points = plain::fill([2.0 * H, 1.5 * h, 0.0], size, [6 * n, 2 * n - 1, 1]);
+    scene.liquid.wetting = Some(Wetting {
+        tension,
+        advancing: f64::to_radians(60.0),
+        receding: f64::to_radians(60.0),
+    });
+    let force = pressure / (3.0 * H);
+    scene.gravity[0] = force / scene.liquid.density;
+    scene.bodies = vec![plain::body("plates", blocks, Motion::Constant([0.0; 3]))];
+    let mut scheme = Implicit::new(scene, Settings::default()).unwrap();
+    let time_s = 0.2 * H * 12.0 * ETA / (force * H * H);
+    let before = scheme.liquid().position;
+    let limit = StepLimit {
+        time_s,
+        travel_m: f64::INFINITY,
+    };
+    let dt = scheme.advance(limit).unwrap().dt_s;
+    let after = scheme.liquid().position;
+    let ways = before.iter().zip(&after);
+    let sum: f64 = ways.map(|(a, b)| f64::from(b[0] - a[0])).sum();
+    sum / before.len() as f64 / H * (time_s / dt)
+}
+
+/// Teeth of half a cell hold a slug by some 250 Pa: forty times as much moves it in the first step as if they did not.
+#[test]
+fn a_slug_that_teeth_hold_starts_at_once() {
+    let [held, free] = [SIGMA, 1e-9].map(|tension| started(1e4, tension));
+    println!("way {held:.4}, without menisci {free:.4} H");
+    assert!((held / free - 1.0).abs() < 0.1);
+}

@@ -108,7 +108,7 @@ impl Scheme for Implicit {
         let programme = self.state.drive.programme().map(PressRun::state);
         arrays.extend(programme.map(|state| (PROGRAMME.to_owned(), Array::F64(state))));
         arrays.extend(self.save_air());
-        if self.setup.has_menisci() {
+        if self.setup.lines_hold() {
             let undecided = self.state.counts.undecided as f64;
             arrays.push((LINES_LEFT.into(), Array::F64(vec![undecided])));
         }
@@ -174,7 +174,7 @@ impl Scheme for Implicit {
             self.state.drive.set_programme(state)?;
         }
         self.restore_air(saved)?;
-        if self.setup.has_menisci() {
+        if self.setup.lines_hold() {
             self.state.counts.undecided = match saved.f64s(LINES_LEFT)? {
                 &[count] if (0.0..=steps).contains(&count) && count.fract() == 0.0 => count as u64,
                 other => {
@@ -223,7 +223,7 @@ impl Scheme for Implicit {
             let unsettled = self.state.counts.unsettled;
             counts.push(("steps whose viscosity did not settle", unsettled));
         }
-        if self.setup.has_menisci() {
+        if self.setup.lines_hold() {
             let undecided = self.state.counts.undecided;
             counts.push(("steps whose contact lines did not settle", undecided));
         }

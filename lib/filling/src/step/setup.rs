@@ -94,9 +94,9 @@ impl Setup {
         }
     }
 
-    /// Whether the liquid's surface pulls, or contact lines hold.
-    pub(super) fn has_menisci(&self) -> bool {
-        self.liquid.wetting.is_some()
+    /// Whether contact lines hold between two angles.
+    pub(super) fn lines_hold(&self) -> bool {
+        (self.liquid.wetting).is_some_and(|wetting| wetting.advancing != wetting.receding)
     }
 
     /// The window of the whole domain.

@@ -9,8 +9,6 @@ const CREEP: f64 = 1e-3;
 const WENT: f64 = 0.01;
 /// Part of all that lines can hold by which they may pull otherwise than at the velocities found.
 const DECIDED: f64 = 0.01;
-/// The same of pins, which may hold more than they can.
-const CAUGHT_UP: f64 = 0.3;
 
 /// The lines of a step, by their faces.
 ///
@@ -143,12 +141,10 @@ impl Operator<'_> {
         held.chain(self.pull.pins.iter()).collect()
     }
 
-    /// Makes contact lines go or hold, and pins hold, as they do at velocities `u` of the faces and `bodies`, m/s; whether they did.
+    /// Makes contact lines go or hold as they do at velocities `u` of the faces and `bodies`, m/s; whether they did.
     pub(crate) fn settle_lines(&mut self, u: &[f64], bodies: &[[f64; 3]]) -> bool {
         let pace = self.scales.cell_per_step;
-        let lines = self.pull.lines.settle(u, bodies, pace);
-        let pins = self.pull.pins.settle(u, bodies, pace);
-        lines < DECIDED && pins < CAUGHT_UP
+        self.pull.lines.settle(u, bodies, pace) < DECIDED
     }
 
     /// What held lines and pins resist with at a face.

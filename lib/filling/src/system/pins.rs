@@ -19,19 +19,16 @@ pub(super) struct Pin {
     face: u32,
     /// Component of the wall's velocity, as 3 body + axis.
     wall: u32,
-    /// The most that it holds.
-    holds: f64,
     /// Force over velocity.
     friction: f64,
 }
 
 impl Pin {
-    /// A pin of a meniscus that had a `speed` against its wall, in steps in which a cell is crossed at `pace`, m/s.
+    /// A pin that `holds` at most so much, of a meniscus that had a `speed` against its wall, in steps in which a cell is crossed at `pace`, m/s.
     pub(super) fn new(face: u32, wall: u32, holds: f64, speed: f64, pace: f64) -> Self {
         Self {
             face,
             wall,
-            holds,
             friction: holds / (speed.abs() + CAUGHT * pace),
         }
     }
@@ -63,41 +60,24 @@ impl Pins {
         let here = (self.0[from..].iter()).take_while(move |pin| pin.face as usize == face);
         here.map(Friction::from)
     }
-
-    /// By how much more than they can pins hold at the velocities `u` of the faces and `bodies`, m/s, over all that they can;
-    /// and makes them hold by these.
-    pub(super) fn settle(&mut self, u: &[f64], bodies: &[[f64; 3]], pace: f64) -> f64 {
-        let (mut beyond, mut all) = (0.0, 0.0);
-        for pin in &mut self.0 {
-            let wall = pin.wall as usize;
-            let speed = u[pin.face as usize] - bodies[wall / 3][wall % 3];
-            beyond += (pin.friction * speed.abs() - pin.holds).max(0.0);
-            all += pin.holds;
-            *pin = Pin::new(pin.face, pin.wall, pin.holds, speed, pace);
-        }
-        if all > 0.0 { beyond / all } else { 0.0 }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// At a wall that moves at 0.1 m/s, in steps of a cell at 1 m/s: what goes slower is held more, and what goes faster than
-    /// it was thought to is held by no more than it can be.
+    /// In steps of a cell at 1 m/s, of two faces.
     #[test]
-    fn pins_hold_by_the_speed_found() {
-        let mut pins = Pins(vec![Pin::new(0, 1, 2.0, 0.19, 1.0)]);
-        let mut at = |u: f64| {
-            let beyond = pins.settle(&[u], &[[0.0, 0.1, 0.0]], 1.0);
-            let friction: f64 = pins.at(0).map(|pin| pin.friction).sum();
-            [beyond, friction].map(|x| (1e6 * x).round() / 1e6)
-        };
-        // A friction of 20: at 0.1 m/s all that it holds.
-        assert_eq!(at(0.2), [0.0, 18.181818]);
-        assert_eq!(at(0.1), [0.0, 200.0]);
-        // 0.03 m/s are held by 6, thrice as much as it can.
-        assert_eq!(at(0.13), [2.0, 50.0]);
-        assert_eq!(pins.iter().count() + pins.at(1).count(), 1);
+    fn what_goes_slower_is_held_more() {
+        let mut pins = Pins::default();
+        for (face, speed) in [(3, -0.19), (3, 0.0), (5, 0.09)] {
+            pins.push(Pin::new(face, 1, 2.0, speed, 1.0));
+        }
+        let at = |face: usize| pins.at(face).map(|pin| pin.friction).collect::<Vec<f64>>();
+        assert_eq!(
+            (at(3), at(4), at(5)),
+            (vec![10.0, 200.0], vec![], vec![20.0])
+        );
+        assert_eq!(pins.iter().count(), 3);
     }
 }
