@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::couplings::fluxes;
 use super::fluxes::Areas;
 use super::lines::{Line, Lines};
-use super::pins::{Pin, Pins};
+use super::pins::Pins;
 use super::{CHUNK, NONE, Operator, Scales};
 use crate::geometry::{BodyId, Chord, OPEN, Passage, SIDE};
 
@@ -106,7 +106,7 @@ impl Operator<'_> {
                     (pull.lines).push(Line::new(patch.face, wall, line, speed, pace));
                 }
                 if pin > 0.0 {
-                    (pull.pins).push(Pin::new(patch.face, wall, pin, speed, pace));
+                    pull.pins.push(patch.face, wall, pin, speed, pace);
                 }
             }
         }

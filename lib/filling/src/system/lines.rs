@@ -124,6 +124,7 @@ impl Lines {
 }
 
 /// What a held line, or a pin, resists with.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Friction {
     pub(super) face: usize,
     /// Component of the wall's velocity, as 3 body + axis.

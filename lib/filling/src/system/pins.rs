@@ -9,56 +9,29 @@ const CAUGHT: f64 = 0.01;
 ///
 /// Where the passage is wider ahead than behind, the jump falls from one to the other, and a meniscus rests there under any
 /// pressure between; in voxels it falls at once. F, half of the fall, is the most that holds it. The friction is F v/(|v'| + v_0), v its velocity
-/// against the wall, v' that of the solve before, of [`CAUGHT`] v_0: what goes to and fro around its place is held ever more.
+/// against the wall, v' that of the step before, v_0 that of [`CAUGHT`]: what goes to and fro around its place is held ever more.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Pins(Vec<Pin>);
-
-/// A pin at a face and a wall.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pin {
-    face: u32,
-    /// Component of the wall's velocity, as 3 body + axis.
-    wall: u32,
-    /// Force over velocity.
-    friction: f64,
-}
-
-impl Pin {
-    /// A pin that `holds` at most so much, of a meniscus that had a `speed` against its wall, in steps in which a cell is crossed at `pace`, m/s.
-    pub(super) fn new(face: u32, wall: u32, holds: f64, speed: f64, pace: f64) -> Self {
-        Self {
-            face,
-            wall,
-            friction: holds / (speed.abs() + CAUGHT * pace),
-        }
-    }
-}
-
-impl From<&Pin> for Friction {
-    fn from(pin: &Pin) -> Self {
-        Self {
-            face: pin.face as usize,
-            wall: pin.wall as usize,
-            friction: pin.friction,
-        }
-    }
-}
+pub(super) struct Pins(Vec<Friction>);
 
 impl Pins {
-    /// Adds a pin, at a face that is not below those before.
-    pub(super) fn push(&mut self, pin: Pin) {
-        self.0.push(pin);
+    /// Adds a pin, at a face that is not below those before, that `holds` at most so much of a meniscus that had a `speed` against
+    /// its wall, in steps in which a cell is crossed at `pace`, m/s.
+    pub(super) fn push(&mut self, face: u32, wall: u32, holds: f64, speed: f64, pace: f64) {
+        self.0.push(Friction {
+            face: face as usize,
+            wall: wall as usize,
+            friction: holds / (speed.abs() + CAUGHT * pace),
+        });
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = Friction> {
-        self.0.iter().map(Friction::from)
+        self.0.iter().copied()
     }
 
     /// What holds at a face.
     pub(super) fn at(&self, face: usize) -> impl Iterator<Item = Friction> {
-        let from = (self.0).partition_point(|pin| (pin.face as usize) < face);
-        let here = (self.0[from..].iter()).take_while(move |pin| pin.face as usize == face);
-        here.map(Friction::from)
+        let from = self.0.partition_point(|pin| pin.face < face);
+        (self.0[from..].iter().copied()).take_while(move |pin| pin.face == face)
     }
 }
 
@@ -71,7 +44,7 @@ mod tests {
     fn what_goes_slower_is_held_more() {
         let mut pins = Pins::default();
         for (face, speed) in [(3, -0.19), (3, 0.0), (5, 0.09)] {
-            pins.push(Pin::new(face, 1, 2.0, speed, 1.0));
+            pins.push(face, 1, 2.0, speed, 1.0);
         }
         let at = |face: usize| pins.at(face).map(|pin| pin.friction).collect::<Vec<f64>>();
         assert_eq!(
