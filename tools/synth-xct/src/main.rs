@@ -144,7 +144,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     arguments.output.write_with_record(&record, |out| {
         let mut tiff = TiffWriter::with_note(out, specimen.size(), recipe.voxel, &note)?;
         for page in specimen.pages() {
-            tiff.write_page(page)?;
+            tiff.write_page(&page)?;
         }
         tiff.finish()
     })

@@ -85,12 +85,12 @@ impl Anatomy {
     pub(super) fn measure(
         plan: &Plan,
         adherends: &[Adherend],
-        pages: &[[Counts; 2]],
+        pages: impl Iterator<Item = Counts>,
         filled: &Filled,
         lumens: Lumens,
     ) -> Self {
         let mut counts = Counts::default();
-        pages.iter().flatten().for_each(|page| counts += page);
+        pages.for_each(|page| counts += &page);
         let wood = counts.all.iter().sum::<u64>().max(1) as f64;
         let open = counts.open.iter().sum::<u64>() as f64;
         let voxels = [filled.gap, filled.wood, filled.tube];

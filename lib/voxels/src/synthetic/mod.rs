@@ -13,6 +13,7 @@
 
 mod adherend;
 mod anatomy;
+mod cells;
 mod cross_section;
 mod cut;
 mod fibres;
@@ -34,9 +35,10 @@ pub use anatomy::{Anatomy, Target};
 pub use recipe::{AdhesiveSystem, Recipe, RecipeError};
 pub use species::Species;
 
-use adherend::{Adherend, Counts};
+use adherend::{Adherend, Counts, Sample};
+use cells::{Cells, State};
 use lumens::Lumens;
-use penetration::Filled;
+use penetration::{Filled, Passages};
 use recipe::Plan;
 use surface::Face;
 
@@ -47,11 +49,11 @@ pub const WOOD: u8 = 128;
 /// Label of adhesive voxels.
 pub const ADHESIVE: u8 = 255;
 
-/// A synthetic label volume and what was measured on it.
+/// A synthetic label volume and what was measured on it; a quarter of a byte a voxel.
 #[derive(Clone, Debug)]
 pub struct Specimen {
     size: [usize; 3],
-    labels: Vec<u8>,
+    cells: Cells,
     anatomy: Anatomy,
 }
 
@@ -63,35 +65,37 @@ impl Specimen {
     /// reachable void does not hold the adhesive.
     pub fn grow(recipe: &Recipe) -> Result<Self, RecipeError> {
         let plan = Plan::new(recipe)?;
-        let adherends = Adherend::all(&plan);
         let faces: Vec<Face> = match plan.adhesive {
             Some(_) => [0, 1].map(|side| Face::new(&plan, side)).into(),
             None => Vec::new(),
         };
-        let [nx, ny, _] = plan.size;
-        let mut cells = vec![0_u8; plan.voxels()];
-        let counts: Vec<[Counts; 2]> = cells
-            .par_chunks_mut(nx * ny)
-            .enumerate()
-            .map(|(page, cells)| carve(&plan, &adherends, &faces, page, cells))
+        let pieces = Pieces {
+            adherends: Adherend::all(&plan),
+            faces,
+            plan,
+        };
+        let Pieces {
+            plan, adherends, ..
+        } = &pieces;
+        let mut cells = Cells::new(plan.size);
+        let counts: Vec<Page> = (cells.pages_mut().enumerate())
+            .map(|(page, bytes)| pieces.carve(page, bytes))
             .collect();
         let adhesive = match plan.adhesive {
-            Some(_) => penetration::fill(&mut cells, &plan)?,
+            Some(_) => {
+                let sum = |of: fn(&Page) -> usize| counts.iter().map(of).sum();
+                let already = [sum(|page| page.gap), sum(|page| page.tube)];
+                penetration::fill(&mut cells, plan, &pieces, already)?
+            }
             None => Filled::default(),
         };
-        cells.par_iter_mut().for_each(|cell| {
-            *cell = match *cell {
-                0 => WOOD,
-                penetration::FILLED => ADHESIVE,
-                _ => VOID,
-            }
-        });
-        let middle = plan.size[2] / 2 * nx * ny;
-        let lumens = Lumens::measure(&cells[middle..middle + nx * ny], &plan);
-        let anatomy = Anatomy::measure(&plan, &adherends, &counts, &adhesive, lumens);
+        let middle: Vec<u8> = labels(&cells, plan.size[2] / 2).collect();
+        let lumens = Lumens::measure(&middle, plan);
+        let wood = counts.iter().map(|page| page.wood);
+        let anatomy = Anatomy::measure(plan, adherends, wood, &adhesive, lumens);
         Ok(Self {
             size: plan.size,
-            labels: cells,
+            cells,
             anatomy,
         })
     }
@@ -102,13 +106,13 @@ impl Specimen {
     }
 
     /// Labels of each page in turn, x fastest.
-    pub fn pages(&self) -> impl Iterator<Item = &[u8]> {
-        self.labels.chunks(self.size[0] * self.size[1])
+    pub fn pages(&self) -> impl Iterator<Item = Vec<u8>> {
+        (0..self.size[2]).map(|page| labels(&self.cells, page).collect())
     }
 
-    /// All labels, x fastest, then y, then z.
-    pub fn labels(&self) -> &[u8] {
-        &self.labels
+    /// All labels, x fastest, then y, then z: a byte a voxel.
+    pub fn labels(&self) -> Vec<u8> {
+        self.pages().flatten().collect()
     }
 
     /// What was measured on this volume.
@@ -117,33 +121,79 @@ impl Specimen {
     }
 }
 
-/// Writes one page of lumen codes (0 wood, else the lumen's radius class; see
-/// [`penetration`]) and counts the tissues of both adherends on it.
-fn carve(
-    plan: &Plan,
-    adherends: &[Adherend],
-    faces: &[Face],
-    page: usize,
-    cells: &mut [u8],
-) -> [Counts; 2] {
-    let mut counts = [Counts::default(); 2];
-    let nx = plan.size[0];
-    for (row, cells) in cells.chunks_mut(nx).enumerate() {
-        for (column, cell) in cells.iter_mut().enumerate() {
-            let position = plan.centre(column, row, page);
-            let side = match adherends {
-                [_] => 0,
-                _ => usize::from(position[1] > 0.0),
+fn labels(cells: &Cells, page: usize) -> impl Iterator<Item = u8> {
+    cells.page_states(page).map(|state| match state {
+        State::Wood => WOOD,
+        State::Open | State::Queued => VOID,
+        State::Adhesive => ADHESIVE,
+    })
+}
+
+/// All that says what is where before the adhesive goes in.
+struct Pieces {
+    plan: Plan,
+    adherends: Vec<Adherend>,
+    /// Of both adherends; none of undamaged wood.
+    faces: Vec<Face>,
+}
+
+/// What one page holds: tissues of both adherends, voxels of the gap and of the isolated tube.
+#[derive(Default)]
+struct Page {
+    wood: Counts,
+    gap: usize,
+    tube: usize,
+}
+
+impl Pieces {
+    /// Writes the states of one page and counts what is on it.
+    fn carve(&self, page: usize, bytes: &mut [u8]) -> Page {
+        let mut counts = Page::default();
+        let [nx, ny, _] = self.plan.size;
+        for index in 0..nx * ny {
+            let place = [index % nx, index / nx, page];
+            let state = if self.is_gap(place) {
+                counts.gap += 1;
+                State::Adhesive
+            } else {
+                let sample = self.sample(place);
+                counts.wood.add(&sample);
+                match sample {
+                    Sample::Wall(_) => State::Wood,
+                    Sample::Lumen(..) => State::Open,
+                    Sample::Tube => {
+                        counts.tube += 1;
+                        State::Adhesive
+                    }
+                }
             };
-            let face = faces.get(side);
-            if face.is_some_and(|face| position[1].abs() < face.recess(column, page)) {
-                *cell = penetration::GAP;
-                continue;
-            }
-            let sample = adherends[side].at(position);
-            counts[side].add(&sample);
-            *cell = penetration::lumen_code(&sample);
+            cells::put(bytes, index, state);
+        }
+        counts
+    }
+
+    /// The bottom piece or the top one; undamaged wood is one.
+    fn side(&self, position: [f32; 3]) -> usize {
+        usize::from(self.adherends.len() > 1 && position[1] > 0.0)
+    }
+
+    fn sample(&self, place: [usize; 3]) -> Sample {
+        let position = self.plan.centre(place);
+        self.adherends[self.side(position)].at(position)
+    }
+}
+
+impl Passages for Pieces {
+    fn is_gap(&self, place: [usize; 3]) -> bool {
+        let position = self.plan.centre(place);
+        let face = self.faces.get(self.side(position));
+        face.is_some_and(|face| position[1].abs() < face.recess(place[0], place[2]))
+    }
+
+    fn radius(&self, place: [usize; 3]) -> f32 {
+        match self.sample(place) {
+            Sample::Lumen(_, radius) => radius,
+            Sample::Wall(_) | Sample::Tube => unreachable!("open voxels are lumens"),
         }
     }
-    counts
 }

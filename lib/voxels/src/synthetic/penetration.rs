@@ -6,17 +6,13 @@
 //! for imbibition; Poiseuille's law at constant pressure), so equal L/r means equal time. The
 //! filling stops when the volume is that of the slab. No flow equation of the solvers is used.
 
-use super::adherend::Sample;
+use super::cells::{Cells, State};
 use super::recipe::{Plan, RecipeError};
 
-/// Cell codes: 0 is wood, below [`TUBE`] the radius of a lumen in um.
-const TUBE: u8 = 253;
-/// Void between the faces.
-pub(super) const GAP: u8 = 254;
-/// Adhesive; only after [`fill`].
-pub(super) const FILLED: u8 = 255;
 /// Cost of one voxel at radius 1 um; a voxel at radius r costs this over r.
 const COST: u16 = 800;
+/// Radii (um) are whole numbers between these.
+const RADII: [f32; 2] = [1.0, 250.0];
 
 /// How much adhesive went where, voxels.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,42 +22,34 @@ pub(super) struct Filled {
     pub(super) tube: usize,
 }
 
-pub(super) fn lumen_code(sample: &Sample) -> u8 {
-    match sample {
-        Sample::Wall(_) => 0,
-        Sample::Lumen(_, radius) => radius.clamp(1.0, 250.0) as u8,
-        Sample::Tube => TUBE,
-    }
+/// What the front asks of a specimen, by column, row and page.
+pub(super) trait Passages: Sync {
+    /// Whether the voxel lies between the faces.
+    fn is_gap(&self, place: [usize; 3]) -> bool;
+
+    /// Radius (um) of the lumen that an open voxel of the wood belongs to.
+    fn radius(&self, place: [usize; 3]) -> f32;
 }
 
-/// Turns cells into [`FILLED`] until the plan's adhesive volume is reached exactly.
-pub(super) fn fill(cells: &mut [u8], plan: &Plan) -> Result<Filled, RecipeError> {
+/// Turns open cells into adhesive until the plan's volume of it is reached exactly. On entry the
+/// `gap` and the isolated `tube` of so many voxels are adhesive, and nothing else is.
+pub(super) fn fill(
+    cells: &mut Cells,
+    plan: &Plan,
+    passages: &impl Passages,
+    [gap, tube]: [usize; 2],
+) -> Result<Filled, RecipeError> {
     let asked = plan.adhesive_voxels();
-    let mut filled = Filled {
-        gap: 0,
-        wood: 0,
-        tube: 0,
+    let mut front = Front {
+        cells,
+        passages,
+        buckets: vec![Vec::new(); usize::from(COST) + 1],
     };
-    let mut front = Front::new(plan.size);
-    for (index, cell) in cells.iter_mut().enumerate() {
-        match *cell {
-            TUBE => {
-                *cell = FILLED;
-                filled.tube += 1;
-            }
-            GAP => {
-                *cell = FILLED;
-                filled.gap += 1;
-                front.buckets[0].push(index);
-            }
-            _ => {}
-        }
-    }
-    let for_wood = asked.saturating_sub(filled.gap + filled.tube);
-    filled.wood = front.advance(cells, for_wood);
-    let held = filled.gap + filled.wood + filled.tube;
+    front.enter_from_gap();
+    let wood = front.advance(asked.saturating_sub(gap + tube));
+    let held = gap + wood + tube;
     if held == asked {
-        return Ok(filled);
+        return Ok(Filled { gap, wood, tube });
     }
     let per_area = |voxels: usize| {
         let area = (plan.size[0] * plan.size[2]) as f64;
@@ -75,64 +63,54 @@ pub(super) fn fill(cells: &mut [u8], plan: &Plan) -> Result<Filled, RecipeError>
 
 /// Dijkstra's front with the cost on the entered voxel: the first neighbour to be reached is
 /// then the cheapest way in, so one visit per voxel and a ring of buckets are enough.
-struct Front {
-    size: [usize; 3],
+struct Front<'a, P> {
+    cells: &'a mut Cells,
+    passages: &'a P,
     buckets: Vec<Vec<usize>>,
 }
 
-impl Front {
-    fn new(size: [usize; 3]) -> Self {
-        Self {
-            size,
-            buckets: vec![Vec::new(); usize::from(COST) + 1],
+impl<P: Passages> Front<'_, P> {
+    fn enter_from_gap(&mut self) {
+        for index in self.cells.indices() {
+            let is_adhesive = self.cells.get(index) == State::Adhesive;
+            if is_adhesive && self.passages.is_gap(self.cells.place(index)) {
+                self.enter_neighbours(index, 0);
+            }
         }
     }
 
     /// Fills lumens in the order of cost until `count` are filled or none is left; gives how
     /// many were filled.
-    fn advance(&mut self, cells: &mut [u8], count: usize) -> usize {
-        // Bit set: queued already. Kept apart from the codes, which the order needs.
-        let mut queued = vec![false; cells.len()];
+    fn advance(&mut self, count: usize) -> usize {
         let mut done = 0;
         let mut empty = 0;
-        let mut cost = 0;
-        while empty < self.buckets.len() && done < count {
+        let mut cost = 1;
+        while empty < self.buckets.len() {
             let slot = cost % self.buckets.len();
             let reached = std::mem::take(&mut self.buckets[slot]);
             empty = if reached.is_empty() { empty + 1 } else { 0 };
             for index in reached {
-                if cells[index] != FILLED {
-                    if done == count {
-                        break;
-                    }
-                    cells[index] = FILLED;
-                    done += 1;
+                if done == count {
+                    return done;
                 }
-                self.enter_neighbours(index, cost, cells, &mut queued);
+                self.cells.set(index, State::Adhesive);
+                done += 1;
+                self.enter_neighbours(index, cost);
             }
             cost += 1;
         }
         done
     }
 
-    fn enter_neighbours(&mut self, index: usize, cost: usize, cells: &[u8], queued: &mut [bool]) {
-        let [nx, ny, nz] = self.size;
-        let (x, y, z) = (index % nx, index / nx % ny, index / (nx * ny));
-        let neighbours = [
-            (x > 0, index.wrapping_sub(1)),
-            (x + 1 < nx, index + 1),
-            (y > 0, index.wrapping_sub(nx)),
-            (y + 1 < ny, index + nx),
-            (z > 0, index.wrapping_sub(nx * ny)),
-            (z + 1 < nz, index + nx * ny),
-        ];
-        for (_, next) in neighbours.into_iter().filter(|(inside, _)| *inside) {
-            let code = cells[next];
-            if code == 0 || code >= TUBE || queued[next] {
+    fn enter_neighbours(&mut self, index: usize, cost: usize) {
+        for next in self.cells.neighbours(index) {
+            if self.cells.get(next) != State::Open {
                 continue;
             }
-            queued[next] = true;
-            let slot = (cost + usize::from(COST / u16::from(code))) % self.buckets.len();
+            self.cells.set(next, State::Queued);
+            let radius = self.passages.radius(self.cells.place(next));
+            let step = COST / radius.clamp(RADII[0], RADII[1]) as u16;
+            let slot = (cost + usize::from(step)) % self.buckets.len();
             self.buckets[slot].push(next);
         }
     }

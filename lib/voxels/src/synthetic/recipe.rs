@@ -159,20 +159,15 @@ impl Plan {
         })
     }
 
-    pub(super) fn voxels(&self) -> usize {
-        self.size.iter().product()
-    }
-
     /// Edges of the box along x, y and z, um.
     pub(super) fn edges(&self) -> [f32; 3] {
         self.size.map(|n| n as f32 * self.voxel)
     }
 
-    /// Voxel centre, um from the middle of the bond plane.
-    pub(super) fn centre(&self, column: usize, row: usize, page: usize) -> [f32; 3] {
+    /// Centre of the voxel of a column, row and page, um from the middle of the bond plane.
+    pub(super) fn centre(&self, place: [usize; 3]) -> [f32; 3] {
         let half = self.edges().map(|edge| 0.5 * edge);
-        let index = [column, row, page];
-        [0, 1, 2].map(|i| (index[i] as f32 + 0.5) * self.voxel - half[i])
+        [0, 1, 2].map(|i| (place[i] as f32 + 0.5) * self.voxel - half[i])
     }
 
     /// Corners of the half of the box that belongs to adherend `side` (0 bottom, 1 top);

@@ -36,7 +36,7 @@ impl Face {
         let [columns, _, pages] = plan.size;
         let mut recess: Vec<f32> = (0..columns * pages)
             .map(|i| {
-                let [x, _, z] = plan.centre(i % columns, 0, i / columns);
+                let [x, _, z] = plan.centre([i % columns, 0, i / columns]);
                 waves
                     .iter()
                     .map(|[kx, kz, phase, size]| size * (kx * x + kz * z + phase).cos())

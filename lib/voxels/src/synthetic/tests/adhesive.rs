@@ -68,20 +68,29 @@ fn wide_lumens_are_filled_deeper_in_proportion_to_their_radius() {
         seed: 1,
     };
     let plan = Plan::new(&recipe).unwrap();
-    let mut cells = vec![0_u8; plan.voxels()];
-    for (i, cell) in cells.iter_mut().enumerate() {
-        let (x, y) = (i % 24, i / 24 % 240);
-        *cell = match (x, y) {
-            (_, 118..=121) => penetration::GAP,
-            (0..=5, _) => 40,
-            (12..=13, _) => 10,
-            _ => 0,
-        };
+    struct Tubes;
+    impl penetration::Passages for Tubes {
+        fn is_gap(&self, [_, y, _]: [usize; 3]) -> bool {
+            (118..=121).contains(&y)
+        }
+        fn radius(&self, [x, _, _]: [usize; 3]) -> f32 {
+            if x <= 5 { 40.0 } else { 10.0 }
+        }
     }
-    penetration::fill(&mut cells, &plan).unwrap();
+    let mut cells = Cells::new(size);
+    for index in cells.indices() {
+        let place = cells.place(index);
+        let state = match place[0] {
+            _ if penetration::Passages::is_gap(&Tubes, place) => State::Adhesive,
+            0..=5 | 12..=13 => State::Open,
+            _ => State::Wood,
+        };
+        cells.set(index, state);
+    }
+    penetration::fill(&mut cells, &plan, &Tubes, [24 * 4 * 24, 0]).unwrap();
     let depth = |x: usize| {
-        let column = (122..240).map(|y| cells[y * 24 + x]);
-        column.take_while(|&c| c == penetration::FILLED).count() as f64
+        let column = (122..240).map(|y| cells.get(cells.index([x, y, 0])));
+        column.take_while(|&c| c == State::Adhesive).count() as f64
     };
     let (wide, narrow) = (depth(2), depth(12));
     println!(
@@ -105,7 +114,8 @@ fn adhesive_is_connected_to_the_gap_but_for_the_tube_of_pf() {
         assert_eq!(tube > 0, adhesive == AdhesiveSystem::Pf);
         // Not even over voxel corners and through empty lumens does the tube meet the gap.
         let through_void = flood(&specimen, ADHESIVE, |label| label != WOOD, true);
-        let outside = specimen.labels().iter().zip(&through_void);
+        let labels = specimen.labels();
+        let outside = labels.iter().zip(&through_void);
         let isolated = outside.filter(|(label, reached)| **label == ADHESIVE && !**reached);
         assert_eq!(isolated.count(), tube);
     }
