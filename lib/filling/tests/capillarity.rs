@@ -183,6 +183,28 @@ fn lucas_washburn_in_a_tube() {
     }
 }
 
+/// Teeth of half a cell, a cell apart, on one wall of a slit hold menisci by a twelfth of their pull: liquid at rest starts.
+#[test]
+fn liquid_at_rest_enters_a_slit_with_teeth() {
+    let (mut scene, mouth) = wicking(Passage::Slit, 6, [0.0, 0.0], 60.0);
+    let h = H / 6.0;
+    let low = 1.5 * H;
+    scene.bodies[0].blocks.extend((0..24).map(|tooth| {
+        let x = mouth + 2.0 * h * f64::from(tooth);
+        VoxelBlock::solid_box([x, low, 0.0], [x + h, low + 0.5 * h, h])
+    }));
+    let unit = 3.0 * ETA * H / wetting(60.0).adhesion()[0];
+    let course = course(scene, mouth, f64::INFINITY, 4.0 * unit);
+    // Where no tooth is: L (L + 2 e) = t/unit.
+    let smooth = f64::hypot(2.0, 0.24) - 0.24;
+    let part = course[course.len() - 1][1] / (H * H * h) / smooth;
+    println!(
+        "slit with teeth: {part:.3} of a smooth one's length in {} steps",
+        course.len() - 1
+    );
+    assert!((0.7..1.0).contains(&part));
+}
+
 /// What is in the passage after 20 units of time where it does not wet, over H, pressed by a body force that gives
 /// `share` of its jump at the mouth.
 fn entered(kind: Passage, share: f64) -> f64 {

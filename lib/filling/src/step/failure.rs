@@ -69,8 +69,8 @@ fn advice(cause: Cause) -> String {
              a lower viscosity, a higher bulk_modulus or a slower motion is needed"
         ),
         Cause::Inertial { ratio } => format!(
-            "inertia is {ratio:.0e} times the viscous stress in a cell, rho h^2/(eta dt): a higher \
-             viscosity or scheme = \"explicit\" is needed"
+            "inertia, rho h^2/(eta dt), or what holds menisci at rest is {ratio:.0e} times the viscous stress in a \
+             cell: a higher viscosity, an earlier end where nothing flows any more or scheme = \"explicit\" is needed"
         ),
         Cause::Unknown => "a smaller integrator.cfl makes the steps and their systems easier, a \
                            larger integrator.tolerance asks for less"

@@ -52,7 +52,13 @@ impl Implicit {
         } else {
             // From rest under a body force: the distance fallen in the step.
             let pull = setup.gravity.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
-            (2.0 * setup.settings.cfl * setup.units.h / pull).sqrt()
+            let way = setup.settings.cfl * setup.units.h;
+            let fallen = (2.0 * way / pull).sqrt();
+            // No meniscus draws liquid on faster than sigma/eta. Without this bound pins, which know no
+            // speed of a step before, would hold one that fills for all of the time that is left.
+            (setup.liquid.wetting).map_or(fallen, |wetting| {
+                fallen.min(way * setup.units.viscosity() / wetting.tension)
+            })
         };
         let step = (setup.liquid.cure.as_ref())
             .map_or(step, |cure| step.min(cure.steady(self.state.time, CURED)));

@@ -135,7 +135,7 @@ impl Operator<'_> {
             walls: [(OPEN, 0.0); 6],
         };
         let wet_end = usize::from(!up);
-        for (t, chord) in self.spanned(&passage) {
+        for (t, chord) in self.spanned(&passage, 0) {
             let narrowness = 2.0 / chord.length;
             patch.narrowness += narrowness;
             for (end, body) in chord.ends.into_iter().enumerate() {
@@ -162,7 +162,7 @@ impl Operator<'_> {
             let passage = self.lattice.passage(axis, cell, up);
             let known = passage.filter(|_| window.in_domain(cell));
             known.map_or(here, |passage| {
-                (self.spanned(&passage))
+                (self.spanned(&passage, 1))
                     .map(|(_, chord)| 2.0 / chord.length)
                     .sum()
             })
@@ -177,16 +177,16 @@ impl Operator<'_> {
         Some(patch)
     }
 
-    /// The chords across a passage that liquid spans.
-    fn spanned(&self, passage: &Passage) -> impl Iterator<Item = (usize, Chord)> {
+    /// The chords across a passage, so many cells `off` the front, that liquid spans.
+    fn spanned(&self, passage: &Passage, off: usize) -> impl Iterator<Item = (usize, Chord)> {
         let across = passage.across(self.lattice.window.domain.axes);
-        across.filter(|&(t, chord)| self.spans(passage, t, chord))
+        across.filter(move |&(t, chord)| self.spans(passage, off, t, chord))
     }
 
     /// Whether liquid spans a passage along the chord in direction `t`, not farther from it than the
-    /// chord is long: nearer to the wall or the middle than that a meniscus reaches. Liquid that only lies
+    /// chord is long and `off`: nearer to the wall or the middle than that a meniscus reaches. Liquid that only lies
     /// on a wall has none.
-    fn spans(&self, passage: &Passage, t: usize, chord: Chord) -> bool {
+    fn spans(&self, passage: &Passage, off: usize, t: usize, chord: Chord) -> bool {
         let ends = [-1.0, 1.0].map(|side| side * (0.5 * chord.length - INSIDE).max(0.0));
         let ends = [(ends[0], chord.ends[0]), (ends[1], chord.ends[1])];
         let wet_at = |place: [f64; 3]| {
@@ -199,7 +199,7 @@ impl Operator<'_> {
                 })
         };
         let axes = self.lattice.window.domain.axes;
-        (0..=chord.length.ceil() as usize).any(|way| {
+        (0..=chord.length.ceil() as usize + off).any(|way| {
             (0..axes).filter(|&a| a != t).any(|a| {
                 [-1.0, 1.0].into_iter().any(|side| {
                     let mut place = passage.middle;

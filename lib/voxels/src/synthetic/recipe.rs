@@ -129,7 +129,8 @@ impl Plan {
             let size = recipe.size;
             return Err(RecipeError::Size { size, least });
         }
-        let voxel = recipe.voxel * 1e6;
+        // As it was said, to a millionth of a micrometre.
+        let voxel = (recipe.voxel * 1e12).round() / 1e6;
         if !(0.2..=2.0).contains(&voxel) {
             return Err(RecipeError::Voxel(voxel));
         }

@@ -238,6 +238,14 @@ fn recipes_out_of_range_are_refused() {
         refused(recipe([48, 96, 48], f64::NAN, None)),
         RecipeError::Voxel(_)
     ));
+    // The least that is accepted is, however it was written.
+    for least in [0.2e-6, 0.2 * 1e-6, 200.0 * 1e-9] {
+        let accepted = Specimen::grow(&Recipe {
+            voxel: least,
+            ..wood(Species::Spruce, [24; 3], 1)
+        });
+        assert!(accepted.is_ok());
+    }
     assert!(matches!(
         refused(recipe([48, 96, 48], VOXEL, Some(100e-6))),
         RecipeError::Slab { .. }
