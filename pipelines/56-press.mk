@@ -1,5 +1,5 @@
 # What each effect is worth in a press of maple: hot press PF (1 MPa within 2 s, 5 min) on the acer piece of the tutorial, with cure,
-# capillarity, loss of water and all three; with trapped air, that and cure, and these and loss of water; then the paper's hurry
+# capillarity, loss of water and all three; with trapped air, that and cure, these and loss of water or capillarity, and all; then the paper's hurry
 # (1 m/s to the same pressure), without and with trapped air. A table; some ten minutes.
 PRESS_OUT := out/press
 ACER := pipelines/examples/acer/bondline-acer-64x192x128.tif
