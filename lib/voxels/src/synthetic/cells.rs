@@ -1,5 +1,7 @@
 //! What every voxel of a specimen is, in a quarter of a byte each.
 
+use rayon::prelude::*;
+
 /// What a voxel is, while the adhesive goes in and after.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
@@ -37,11 +39,9 @@ impl Cells {
     }
 
     /// The bytes of each page, for [`put`] by its own indices.
-    pub(super) fn pages_mut(
-        &mut self,
-    ) -> impl rayon::iter::IndexedParallelIterator<Item = &mut [u8]> {
+    pub(super) fn pages_mut(&mut self) -> impl IndexedParallelIterator<Item = &mut [u8]> {
         let page = self.page() / PER_BYTE;
-        rayon::slice::ParallelSliceMut::par_chunks_mut(&mut self.bytes[..], page)
+        self.bytes.par_chunks_mut(page)
     }
 
     /// The indices of all voxels, page by page.
