@@ -5,6 +5,7 @@ use super::Operator;
 use super::dofs::NONE;
 use super::sparse::Sparse;
 use super::terms::Velocity;
+use super::walls::{Beside, REACH};
 use crate::geometry::{OPEN, half};
 
 /// An edge in the plane of two axes i and j.
@@ -13,7 +14,7 @@ pub(super) struct Edge {
     /// Liquid and open volume of the sub-cells around it.
     pub(super) volume: [f64; 2],
     /// Part of the columns across which the two velocities along i, and those along j, see each
-    /// other; 0 where there are no two.
+    /// other, times the factor of re-entrant edges along these; 0 where there are no two.
     pub(super) sight: [f32; 2],
     /// Distances between the places of these velocities, cells.
     pub(super) distance: [f64; 2],
@@ -90,7 +91,13 @@ impl Operator<'_> {
             return None;
         }
         let seen = |low: usize, axis: usize, t: usize| match velocities[low..low + 2] {
-            [Some(a), Some(b)] => self.sight(axis, t, cell, [a, b]),
+            [Some(a), Some(b)] => {
+                let (sight, distance) = self.sight(axis, t, cell, [a, b]);
+                match a.is_body() || b.is_body() {
+                    true => (sight, distance),
+                    false => (sight * self.beside(axis, t, cell), distance),
+                }
+            }
             _ => (0.0, 1.0),
         };
         let (along, across) = (seen(0, i, j), seen(2, j, i));
@@ -100,6 +107,44 @@ impl Operator<'_> {
             distance: [along.1, across.1],
             walled: velocities.iter().flatten().any(|v| v.is_body()),
         })
+    }
+
+    /// Factor of the exchange between the face along `axis` below `cell` and that of `cell`, neighbours
+    /// along `t`, by re-entrant edges along `axis`.
+    fn beside(&self, axis: usize, t: usize, cell: [usize; 3]) -> f64 {
+        let window = &self.lattice.window;
+        if window.domain.axes < 3 {
+            return 1.0;
+        }
+        let other = 3 - axis - t;
+        let all = self.lattice.all_parts();
+        let upper = window.index(cell);
+        let open = |by: usize| {
+            let beside = upper + by - window.stride(other);
+            [beside, beside - window.stride(t)].iter().all(|&at| {
+                let part = |cell: usize, high: bool| {
+                    let part = all & half(axis, high);
+                    self.lattice.uniform[cell].open & part == part
+                };
+                part(at, false) && part(at - window.stride(axis), true)
+            })
+        };
+        let inside = 0 < cell[other] && cell[other] + 1 < window.cells[other];
+        if !inside || [0, 1, 2].iter().all(|n| open(n * window.stride(other))) {
+            return 1.0;
+        }
+        let mut middle = window.face_centre(axis, cell);
+        middle[t] -= 0.5;
+        let place = [middle[t.min(other)], middle[t.max(other)]];
+        let mut found = Vec::new();
+        let factors = [-0.25, 0.25].map(|half| {
+            let mut point = middle;
+            point[axis] += half;
+            found.clear();
+            (self.lattice.solids).reentrant(axis, point, REACH, &mut found);
+            Beside::new(&found, place).factor
+        });
+        0.5 * (factors[0] + factors[1])
     }
 
     /// Part of the columns between the centre of the face along `axis` below `cell` and that

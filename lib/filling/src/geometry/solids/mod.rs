@@ -1,6 +1,7 @@
 //! Where the rigid bodies are: point, ray and overlap queries by voxel index arithmetic.
 
 mod placed;
+mod reentrant;
 mod rows;
 mod surface;
 mod sweep;
@@ -11,6 +12,7 @@ use physics::{Boundary, RigidBody};
 
 use crate::geometry::Domain;
 use placed::{Placed, Row};
+pub(crate) use reentrant::{LONG, Reentrant};
 use rows::Rows;
 pub(crate) use surface::{Surface, Wetted};
 

@@ -35,7 +35,7 @@ impl Placed {
     }
 
     #[inline]
-    fn index(&self, axis: usize, x: f64) -> Option<usize> {
+    pub(super) fn index(&self, axis: usize, x: f64) -> Option<usize> {
         let s = (x - self.origin[axis]) / self.edge[axis];
         (s >= 0.0 && s < self.rows.block.dims()[axis] as f64).then_some(s as usize)
     }

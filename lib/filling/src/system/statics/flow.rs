@@ -187,15 +187,28 @@ fn in_tube(j: usize, k: usize, voxel: f64, radius: f64, centre: [f64; 2]) -> boo
 
 /// Flux of a tube made of voxels over that by finite differences in the same staircase.
 pub(crate) fn tube_of_voxels(radius: f64, shift: [f64; 2], voxel: f64, width: WidthRule) -> f64 {
+    tube_off(radius, shift, [0.0; 2], voxel, width)
+}
+
+/// The same with the voxels `off` the cells.
+pub(crate) fn tube_off(
+    radius: f64,
+    shift: [f64; 2],
+    off: [f64; 2],
+    voxel: f64,
+    width: WidthRule,
+) -> f64 {
     let n = (2.0 * radius).ceil() as usize + 4;
     let centre = shift.map(|s| 0.5 * n as f64 + s - 0.5);
     let voxels = (n as f64 / voxel) as usize;
     let tube = |j: usize, k: usize| in_tube(j, k, voxel, radius, centre);
+    let rim = (1.0 / voxel) as usize;
+    let size = voxels + 2 * rim;
     let block = VoxelBlock::from_fn(
-        [-99.0, 0.0, 0.0],
+        [-99.0, off[0] - 1.0, off[1] - 1.0],
         [999.0, voxel, voxel],
-        [1, voxels, voxels],
-        |_, j, k| !tube(j, k),
+        [1, size, size],
+        |_, j, k| j < rim || k < rim || !tube(j - rim, k - rim),
     );
     let mut flow = Flow::new([3, n, n], 3, vec![vec![block]]);
     flow.width = width;

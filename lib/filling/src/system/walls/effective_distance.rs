@@ -16,13 +16,14 @@
 /// d_eff = h1/2 - h1^2/(3 H) + (1 - 2 h1/H) (h1^2 - 1)/(3 H),
 ///
 /// makes the discrete flux exact for any offset of the walls. Where both walls bound one
-/// control volume, u = H^2/12 G/eta requires d_eff = H/6.
-pub(crate) fn effective_distance(d: f64, opposite: f64, width: f64) -> f64 {
+/// control volume, u = H^2/12 G/eta requires d_eff = H/6. Only the part `slit` of the defect counts,
+/// less than all of it beside edges, where flow is none between plane walls.
+pub(crate) fn effective_distance(d: f64, opposite: f64, width: f64, slit: f64) -> f64 {
     if d + opposite <= width + 1e-9 && opposite <= 1.0 + 1e-6 {
         return width / 6.0;
     }
     let h1 = d + 0.5;
-    let lack = (1.0 - 2.0 * h1 / width) * (h1 * h1 - 1.0);
+    let lack = slit * (1.0 - 2.0 * h1 / width) * (h1 * h1 - 1.0);
     (0.5 * h1 + (lack - h1 * h1) / (3.0 * width)).max(0.1 * h1)
 }
 
@@ -57,7 +58,7 @@ mod tests {
             let [below, above] = walls(j);
             points[j] + shift_of_mean(below) - shift_of_mean(above)
         };
-        let friction = |d: f64| 1.0 / (effective_distance(d, n - d, n) + slip);
+        let friction = |d: f64| 1.0 / (effective_distance(d, n - d, n, 1.0) + slip);
         let link = |j: usize| 1.0 / (place(j + 1) - place(j));
         // Tridiagonal solve.
         let (mut diagonal, mut rhs) = (Vec::new(), Vec::new());
@@ -121,7 +122,7 @@ mod tests {
                     let offset = 0.05 * f64::from(i);
                     let first = flow(n, offset, slip, 0.0, 1.0)[0];
                     let d = first[0] - 0.5;
-                    let stress = first[1] / (effective_distance(d, n - d, n) + slip);
+                    let stress = first[1] / (effective_distance(d, n - d, n, 1.0) + slip);
                     stress * (n + 2.0 * slip) - 1.0
                 });
                 let worst = errors.fold(0.0, |a: f64, e| if e.abs() > a.abs() { e } else { a });

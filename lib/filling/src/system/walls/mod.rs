@@ -1,6 +1,7 @@
 //! Friction of walls on face velocities, and the widths of the lumens that go with it.
 
 mod effective_distance;
+mod reentrant;
 mod thinning;
 mod view;
 
@@ -8,6 +9,8 @@ use rayon::prelude::*;
 
 use super::dofs::Dofs;
 use crate::geometry::{BodyId, Lattice};
+use reentrant::PROFILE;
+pub(super) use reentrant::{Beside, REACH};
 pub(crate) use thinning::thinning_distance;
 use view::View;
 
@@ -32,7 +35,7 @@ pub(crate) enum WidthRule {
 pub(crate) struct WallLink {
     /// Whose surface.
     pub(crate) body: BodyId,
-    /// Wetted area, cells^2.
+    /// Wetted area, cells^2, times the factor of edges near it.
     pub(crate) area: f32,
     /// d_eff of [`effective_distance`], cells.
     pub(crate) distance: f32,

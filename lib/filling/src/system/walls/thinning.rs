@@ -50,7 +50,7 @@ mod tests {
     fn the_flux_between_plates_is_that_of_the_profile() {
         for (n, tolerance) in [(1_i32, 1e-9), (2, 1e-3), (3, 1e-3), (6, 1e-3), (12, 1e-3)] {
             let width = f64::from(n);
-            let newtonian = effective_distance(0.5, width - 0.5, width);
+            let newtonian = effective_distance(0.5, width - 0.5, width, 1.0);
             for p in [0.7, 1.0, 2.0, 10.0 / 3.0, 8.0] {
                 let (mut u, mut flux) = (thinning_distance(newtonian, width, p), 0.0);
                 for j in 0..(n + 1) / 2 {

@@ -1,8 +1,8 @@
 //! The walls that one face velocity sees.
 
 use super::effective_distance::{effective_distance, shift_of_mean};
-use super::{Shifts, WallLink, WidthRule};
-use crate::geometry::{Column, Lattice};
+use super::{Beside, PROFILE, Shifts, WallLink, WidthRule};
+use crate::geometry::{Column, Lattice, Reentrant};
 
 /// Least combined width over the lesser of the two across a lumen, where one control volume
 /// reaches from the wall to the middle: the value that is exact for a square duct of two control
@@ -88,6 +88,7 @@ impl View {
         };
         let tangents = lattice.tangents(self.axis);
         let count = lattice.column_count();
+        let edges = self.edges(lattice);
         for (t, &tangent) in tangents.iter().enumerate().filter(|(t, _)| self.near[*t]) {
             let across = match rule {
                 WidthRule::Combined if tangents.len() == 2 => Some(self.width(1 - t)),
@@ -98,12 +99,13 @@ impl View {
                 if !column.blocked() {
                     let area = self.wetted(lattice, phi, self.cell, tangent, index) / count as f64;
                     for side in (0..2).filter(|&s| column.touches(s)) {
-                        links.add(column, side, area, across);
+                        let beside = edges.beside(t, index, 0.0, &column, side);
+                        links.add(column, side, area, across, beside);
                     }
                 }
             }
             if tangents.len() == 2 {
-                self.push_sliver_links(lattice, phi, t, across, &mut links);
+                self.push_sliver_links(lattice, phi, t, across, &edges, &mut links);
             }
         }
     }
@@ -116,6 +118,7 @@ impl View {
         phi: &[f32],
         t: usize,
         across: Option<f64>,
+        edges: &Edges,
         links: &mut Collector,
     ) {
         let tangents = lattice.tangents(self.axis);
@@ -136,11 +139,34 @@ impl View {
                     let column = lattice.column(self.axis, closed, tangent, index);
                     if column.touches(side) && !column.blocked() {
                         let wet = self.wetted(lattice, phi, closed, tangent, index);
-                        links.add(column, side, 0.25 * share * wet, across);
+                        let off = if up { 1.0 } else { -1.0 };
+                        let beside = edges.beside(t, index, off, &column, side);
+                        links.add(column, side, 0.25 * share * wet, across, beside);
                     }
                 }
             }
         }
+    }
+
+    /// The re-entrant edges along the face's axis that reach its walls.
+    fn edges(&self, lattice: &Lattice) -> Edges {
+        let centre = lattice.window.face_centre(self.axis, self.cell);
+        let mut edges = Edges {
+            centre: [0.0; 2],
+            halves: Default::default(),
+        };
+        if let &[s, t] = lattice.tangents(self.axis)
+            && self.near.contains(&true)
+        {
+            edges.centre = [centre[s], centre[t]];
+            for (half, found) in edges.halves.iter_mut().enumerate() {
+                let mut point = centre;
+                point[self.axis] += half as f64 / 2.0 - 0.25;
+                let solids = &lattice.solids;
+                solids.reentrant(self.axis, point, 1.0 + PROFILE, found);
+            }
+        }
+        edges
     }
 
     /// Liquid fraction of the part of a column that lies at the face of `cell`.
@@ -163,6 +189,27 @@ impl View {
     }
 }
 
+/// Edges around a face's centre, in the halves of its control volume below and above it.
+struct Edges {
+    centre: [f64; 2],
+    halves: [Vec<Reentrant>; 2],
+}
+
+impl Edges {
+    /// What they do where a column along the tangential direction `t`, `off` cells beside the face,
+    /// meets its wall at `side`.
+    fn beside(&self, t: usize, index: usize, off: f64, column: &Column, side: usize) -> Beside {
+        let edges = &self.halves[index & 1];
+        if edges.is_empty() {
+            return Beside::NONE;
+        }
+        let mut place = self.centre;
+        place[t] += [-1.0, 1.0][side] * column.distance[side];
+        place[1 - t] += off + if index & 2 == 2 { 0.25 } else { -0.25 };
+        Beside::new(edges, place)
+    }
+}
+
 /// Gathers the links of one face; equal ones join.
 struct Collector<'a> {
     links: &'a mut Vec<WallLink>,
@@ -171,18 +218,20 @@ struct Collector<'a> {
 
 impl Collector<'_> {
     /// The wall of `column` at `side`, in a lumen of width `across` along the other
-    /// tangential direction if that is to count.
-    fn add(&mut self, column: Column, side: usize, area: f64, across: Option<f64>) {
+    /// tangential direction if that is to count, which it does no more `beside` edges.
+    fn add(&mut self, column: Column, side: usize, area: f64, across: Option<f64>, beside: Beside) {
         let along = column.width();
         let (d, opposite) = (column.distance[side], column.distance[1 - side]);
         let width = across.map_or(along, |a| {
             let least = SQUARE * along.min(a).min(2.0 * (d + 0.5));
             (along.powi(-2) + a.powi(-2)).powf(-0.5).max(least)
         });
+        let slit = 1.0 - beside.near;
+        let width = (slit * width.powi(-2) + beside.near * along.powi(-2)).powf(-0.5);
         let link = WallLink {
             body: column.body[side],
-            area: area as f32,
-            distance: effective_distance(d, opposite, width.max(d)) as f32,
+            area: (area * beside.factor) as f32,
+            distance: effective_distance(d, opposite, width.max(d), slit) as f32,
             viscosity: 1.0,
         };
         let equal = |l: &&mut WallLink| l.body == link.body && l.distance == link.distance;

@@ -1,0 +1,269 @@
+//! Re-entrant edges of voxels: along them solid fills one quadrant and three are open.
+
+use super::placed::Placed;
+use super::{Boundary, Solids};
+
+/// Blocks of finer voxels (cells) have no edges here: their steps lie within a cell.
+const FINEST: f64 = 0.45;
+/// Walls are followed for so many cells.
+pub(crate) const LONG: f64 = 3.0;
+/// Distance (cells) at which the quadrants around an edge are probed for other blocks.
+const PROBE: f64 = 1e-3;
+
+/// A re-entrant edge, in the plane across it; the two directions in this plane in ascending order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reentrant {
+    /// Where it is, cells.
+    pub(crate) at: [f64; 2],
+    /// Whether its solid is above it.
+    pub(crate) above: [bool; 2],
+    /// Length of the shorter of its two walls up to their next step, cells, at most [`LONG`].
+    pub(crate) straight: f64,
+}
+
+impl Solids {
+    /// Adds the re-entrant edges along `axis` that lie no farther than `reach` cells from `point` in
+    /// both directions across.
+    pub(crate) fn reentrant(
+        &self,
+        axis: usize,
+        point: [f64; 3],
+        reach: f64,
+        found: &mut Vec<Reentrant>,
+    ) {
+        for block in &self.blocks {
+            block.reentrant(axis, point, reach, |edge| {
+                if self.is_free(axis, point, &edge) {
+                    found.push(edge);
+                }
+            });
+        }
+    }
+
+    /// Whether an edge of one block is on no symmetry plane and no other block is in its open quadrants.
+    fn is_free(&self, axis: usize, point: [f64; 3], edge: &Reentrant) -> bool {
+        let across = ACROSS[axis];
+        let inside = (across.iter().zip(edge.at)).all(|(&t, x)| {
+            let end = self.domain.cells[t] as f64;
+            self.domain.boundary[t] != Boundary::Symmetry || PROBE < x && x < end - PROBE
+        });
+        let open = |quadrant: [bool; 2]| {
+            let mut probe = point;
+            for (n, &t) in across.iter().enumerate() {
+                probe[t] = edge.at[n] + if quadrant[n] { PROBE } else { -PROBE };
+            }
+            quadrant == edge.above || self.at(probe).is_none()
+        };
+        inside
+            && (self.blocks.len() == 1
+                || [[false, false], [false, true], [true, false], [true, true]]
+                    .into_iter()
+                    .all(open))
+    }
+}
+
+/// The directions across an axis.
+const ACROSS: [[usize; 2]; 3] = [[1, 2], [0, 2], [0, 1]];
+
+impl Placed {
+    fn reentrant(
+        &self,
+        axis: usize,
+        point: [f64; 3],
+        reach: f64,
+        mut found: impl FnMut(Reentrant),
+    ) {
+        let [s, t] = ACROSS[axis];
+        if self.edge[s].min(self.edge[t]) < FINEST {
+            return;
+        }
+        let Some(along) = self.index(axis, point[axis]) else {
+            return;
+        };
+        // Corners of voxels in reach, counted by the voxel above them.
+        let corners = |a: usize| {
+            let corner = |x: f64| (x - self.origin[a]) / self.edge[a];
+            let low = corner(point[a] - reach).ceil().max(0.0);
+            let high = corner(point[a] + reach).floor();
+            (
+                low as i64,
+                high.min(self.rows.block.dims()[a] as f64) as i64,
+            )
+        };
+        let ((low, high), (first, last)) = (corners(s), corners(t));
+        if low > high || first > last {
+            return;
+        }
+        // Bit b of a row is the voxel below corner low + b.
+        let row = |k: i64| match usize::try_from(k) {
+            Ok(k) if k < self.rows.block.dims()[t] => {
+                let mut voxel = [0; 3];
+                (voxel[axis], voxel[t]) = (along, k);
+                word(self.rows.along(s, voxel), low - 1)
+            }
+            _ => 0,
+        };
+        let count = (high - low + 1).min(63);
+        let mut below = row(first - 1);
+        for k in first..=last {
+            let above = row(k);
+            let (a, b, c, d) = (below, below >> 1, above, above >> 1);
+            let pairs = a & b | c & d | (a | b) & (c | d);
+            let mut single = (a ^ b ^ c ^ d) & !pairs & ((1 << count) - 1);
+            while single != 0 {
+                let bit = single.trailing_zeros();
+                single &= single - 1;
+                let solid = [(b | d) >> bit & 1 == 1, (c | d) >> bit & 1 == 1];
+                let corner = [low + i64::from(bit), k];
+                let place = |n: usize, a: usize| self.origin[a] + corner[n] as f64 * self.edge[a];
+                found(Reentrant {
+                    at: [place(0, s), place(1, t)],
+                    above: solid,
+                    straight: (self.straight([axis, s, t], along, corner, solid)).min(
+                        self.straight(
+                            [axis, t, s],
+                            along,
+                            [corner[1], corner[0]],
+                            [solid[1], solid[0]],
+                        ),
+                    ),
+                });
+            }
+            below = above;
+        }
+    }
+
+    /// How far a wall runs along `s` from a corner without a step, at most [`LONG`].
+    fn straight(
+        &self,
+        [axis, s, t]: [usize; 3],
+        along: usize,
+        corner: [i64; 2],
+        above: [bool; 2],
+    ) -> f64 {
+        let dims = self.rows.block.dims();
+        let solid = |at_s: i64, at_t: i64| {
+            let mut voxel = [along; 3];
+            for (a, at) in [(s, at_s), (t, at_t)] {
+                match usize::try_from(at) {
+                    Ok(at) if at < dims[a] => voxel[a] = at,
+                    _ => return false,
+                }
+            }
+            voxel[axis] = along;
+            self.rows.block.solid(voxel[0], voxel[1], voxel[2])
+        };
+        let [inside, outside] = match above[1] {
+            true => [corner[1], corner[1] - 1],
+            false => [corner[1] - 1, corner[1]],
+        };
+        let mut length = 0.0;
+        let mut at = if above[0] { corner[0] } else { corner[0] - 1 };
+        while length < LONG && solid(at, inside) && !solid(at, outside) {
+            length += self.edge[s];
+            at += if above[0] { 1 } else { -1 };
+        }
+        length.min(LONG)
+    }
+}
+
+/// 64 bits of a row from bit `from` on; beyond its ends there are none.
+fn word(row: &[u64], from: i64) -> u64 {
+    let at = |word: i64| {
+        let word = usize::try_from(word).ok().and_then(|word| row.get(word));
+        word.copied().unwrap_or(0)
+    };
+    let (first, shift) = (from.div_euclid(64), from.rem_euclid(64));
+    match shift {
+        0 => at(first),
+        _ => at(first) >> shift | at(first + 1) << (64 - shift),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use physics::VoxelBlock;
+
+    use super::*;
+    use crate::geometry::tests::{domain, solids};
+
+    /// The edges along `axis` of blocks given in the plane across it.
+    fn edges(axis: usize, boxes: &[[[f64; 2]; 2]]) -> Vec<Reentrant> {
+        let block = |[low, high]: &[[f64; 2]; 2]| {
+            let (mut from, mut to) = ([0.0; 3], [6.0; 3]);
+            for (n, &t) in ACROSS[axis].iter().enumerate() {
+                (from[t], to[t]) = (low[n], high[n]);
+            }
+            VoxelBlock::solid_box(from, to)
+        };
+        let solids = solids(domain([6; 3], 3), vec![boxes.iter().map(block).collect()]);
+        let mut found = Vec::new();
+        solids.reentrant(axis, [3.0; 3], 2.0, &mut found);
+        found
+    }
+
+    #[test]
+    fn edges_are_where_one_quadrant_is_solid() {
+        for axis in 0..3 {
+            let edge = |at, above, straight| Reentrant {
+                at,
+                above,
+                straight,
+            };
+            let one = edges(axis, &[[[0.0, 0.0], [2.25, 3.5]]]);
+            assert_eq!(one, [edge([2.25, 3.5], [false; 2], 2.25)], "{axis}");
+            // Beside another block the wall goes on; its own edge is out of reach.
+            let boxes = [[[0.0, 0.0], [2.25, 3.5]], [[2.25, 0.0], [6.0, 3.5]]];
+            assert_eq!(edges(axis, &boxes), [], "{axis}");
+            // A tooth half a cell wide.
+            let tooth = edges(axis, &[[[2.5, 4.0], [3.0, 6.0]]]);
+            let right = edge([3.0, 4.0], [false, true], 0.5);
+            assert_eq!(tooth, [edge([2.5, 4.0], [true; 2], 0.5), right], "{axis}");
+        }
+    }
+
+    #[test]
+    fn edges_of_voxels_are_those_by_probes() {
+        let block = VoxelBlock::from_fn(
+            [0.3, -0.2, 0.1],
+            [0.5, 0.75, 1.0],
+            [130, 9, 7],
+            |i, j, k| (i * i + 3 * j * k + j + 5 * k) % 7 < 3,
+        );
+        let mut domain = domain([70, 7, 7], 3);
+        domain.boundary = [Boundary::Open; 3];
+        let solids = solids(domain, vec![vec![block]]);
+        let mut count = 0;
+        for axis in 0..3 {
+            let [s, t] = ACROSS[axis];
+            for n in 0..200 {
+                let part = |of: f64| f64::from(n) * of % 1.0;
+                let point = [part(0.317) * 65.0, part(0.731) * 6.0, part(0.093) * 6.0];
+                let mut found = Vec::new();
+                solids.reentrant(axis, point, 1.3, &mut found);
+                let mut expected = 0;
+                for j in 0..140 {
+                    for k in 0..140 {
+                        let corner = |a: usize, n: i32| {
+                            [0.3, -0.2, 0.1][a] + f64::from(n) * [0.5, 0.75, 1.0][a]
+                        };
+                        let at = [corner(s, j), corner(t, k)];
+                        if (at[0] - point[s]).abs() > 1.3 || (at[1] - point[t]).abs() > 1.3 {
+                            continue;
+                        }
+                        let solid = |x: f64, y: f64| {
+                            let mut probe = point;
+                            (probe[s], probe[t]) = (at[0] + x, at[1] + y);
+                            usize::from(solids.at(probe).is_some())
+                        };
+                        let around = solid(0.1, 0.1) + solid(-0.1, 0.1) + solid(0.1, -0.1);
+                        expected += usize::from(around + solid(-0.1, -0.1) == 1);
+                    }
+                }
+                assert_eq!(found.len(), expected, "{axis} {point:?}");
+                count += expected;
+            }
+        }
+        assert!(count > 300, "{count}");
+    }
+}
