@@ -7,7 +7,9 @@ mod window;
 
 pub(crate) use lattice::{Aperture, Chord, Column, Lattice, Passage, half};
 pub(crate) use sealed::fill_sealed;
-pub(crate) use solids::{BodyId, LONG, MAX_BODIES, OPEN, Reentrant, SIDE, Solids, Surface, Wetted};
+pub(crate) use solids::{
+    Across, BodyId, LONG, MAX_BODIES, OPEN, Reentrant, SIDE, Solids, Surface, Wetted,
+};
 pub(crate) use window::{Domain, PAD, Window};
 
 #[cfg(test)]

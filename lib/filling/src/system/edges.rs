@@ -6,7 +6,7 @@ use super::dofs::NONE;
 use super::sparse::Sparse;
 use super::terms::Velocity;
 use super::walls::{Beside, REACH};
-use crate::geometry::{OPEN, half};
+use crate::geometry::{Across, OPEN, half};
 
 /// An edge in the plane of two axes i and j.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,10 +138,14 @@ impl Operator<'_> {
         let place = [middle[t.min(other)], middle[t.max(other)]];
         let mut found = Vec::new();
         let factors = [-0.25, 0.25].map(|half| {
-            let mut point = middle;
-            point[axis] += half;
+            let across = Across {
+                axis,
+                along: middle[axis] + half,
+                low: place.map(|x| x - REACH),
+                high: place.map(|x| x + REACH),
+            };
             found.clear();
-            (self.lattice.solids).reentrant(axis, point, REACH, &mut found);
+            self.lattice.solids.reentrant(&across, &mut found);
             Beside::new(&found, place).factor
         });
         0.5 * (factors[0] + factors[1])

@@ -12,7 +12,7 @@ use physics::{Boundary, RigidBody};
 
 use crate::geometry::Domain;
 use placed::{Placed, Row};
-pub(crate) use reentrant::{LONG, Reentrant};
+pub(crate) use reentrant::{Across, LONG, Reentrant};
 use rows::Rows;
 pub(crate) use surface::{Surface, Wetted};
 

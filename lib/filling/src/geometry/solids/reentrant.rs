@@ -21,44 +21,51 @@ pub(crate) struct Reentrant {
     pub(crate) straight: f64,
 }
 
+/// A rectangle in the plane across an axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Across {
+    pub(crate) axis: usize,
+    /// Where it lies along the axis, cells.
+    pub(crate) along: f64,
+    pub(crate) low: [f64; 2],
+    pub(crate) high: [f64; 2],
+}
+
 impl Solids {
-    /// Adds the re-entrant edges along `axis` that lie no farther than `reach` cells from `point` in
-    /// both directions across.
-    pub(crate) fn reentrant(
-        &self,
-        axis: usize,
-        point: [f64; 3],
-        reach: f64,
-        found: &mut Vec<Reentrant>,
-    ) {
-        for block in &self.blocks {
-            block.reentrant(axis, point, reach, |edge| {
-                if self.is_free(axis, point, &edge) {
+    /// Adds the re-entrant edges that cross a rectangle.
+    pub(crate) fn reentrant(&self, across: &Across, found: &mut Vec<Reentrant>) {
+        for (number, block) in self.blocks.iter().enumerate() {
+            block.reentrant(across, |edge| {
+                if self.is_free(number, across, &edge) {
                     found.push(edge);
                 }
             });
         }
     }
 
-    /// Whether an edge of one block is on no symmetry plane and no other block is in its open quadrants.
-    fn is_free(&self, axis: usize, point: [f64; 3], edge: &Reentrant) -> bool {
-        let across = ACROSS[axis];
-        let inside = (across.iter().zip(edge.at)).all(|(&t, x)| {
+    /// Whether an edge of a block is on no symmetry plane and no other block is in its open quadrants.
+    fn is_free(&self, number: usize, across: &Across, edge: &Reentrant) -> bool {
+        let axes = ACROSS[across.axis];
+        let inside = (axes.iter().zip(edge.at)).all(|(&t, x)| {
             let end = self.domain.cells[t] as f64;
             self.domain.boundary[t] != Boundary::Symmetry || PROBE < x && x < end - PROBE
         });
-        let open = |quadrant: [bool; 2]| {
-            let mut probe = point;
-            for (n, &t) in across.iter().enumerate() {
+        let point = |quadrant: [bool; 2]| {
+            let mut probe = [across.along; 3];
+            for (n, &t) in axes.iter().enumerate() {
                 probe[t] = edge.at[n] + if quadrant[n] { PROBE } else { -PROBE };
             }
-            quadrant == edge.above || self.at(probe).is_none()
+            probe
         };
-        inside
-            && (self.blocks.len() == 1
-                || [[false, false], [false, true], [true, false], [true, true]]
+        let taken = |block: &Placed| {
+            let reaches = (axes.iter().zip(edge.at)).all(|(&t, x)| block.reaches(t, [x; 2], PROBE));
+            reaches
+                && [[false, false], [false, true], [true, false], [true, true]]
                     .into_iter()
-                    .all(open))
+                    .any(|quadrant| quadrant != edge.above && block.contains(point(quadrant)))
+        };
+        let mut others = self.blocks.iter().enumerate();
+        inside && !others.any(|(n, block)| n != number && taken(block))
     }
 }
 
@@ -66,31 +73,35 @@ impl Solids {
 const ACROSS: [[usize; 2]; 3] = [[1, 2], [0, 2], [0, 1]];
 
 impl Placed {
-    fn reentrant(
-        &self,
-        axis: usize,
-        point: [f64; 3],
-        reach: f64,
-        mut found: impl FnMut(Reentrant),
-    ) {
+    /// Whether the block reaches an interval along `axis`, give or take `more`.
+    fn reaches(&self, axis: usize, [low, high]: [f64; 2], more: f64) -> bool {
+        let end = self.origin[axis] + self.rows.block.dims()[axis] as f64 * self.edge[axis];
+        self.origin[axis] - more <= high && low <= end + more
+    }
+
+    fn reentrant(&self, across: &Across, mut found: impl FnMut(Reentrant)) {
+        let axis = across.axis;
         let [s, t] = ACROSS[axis];
-        if self.edge[s].min(self.edge[t]) < FINEST {
+        if self.edge[s].min(self.edge[t]) < FINEST
+            || !self.reaches(s, [across.low[0], across.high[0]], 0.0)
+            || !self.reaches(t, [across.low[1], across.high[1]], 0.0)
+        {
             return;
         }
-        let Some(along) = self.index(axis, point[axis]) else {
+        let Some(along) = self.index(axis, across.along) else {
             return;
         };
         // Corners of voxels in reach, counted by the voxel above them.
-        let corners = |a: usize| {
+        let corners = |n: usize, a: usize| {
             let corner = |x: f64| (x - self.origin[a]) / self.edge[a];
-            let low = corner(point[a] - reach).ceil().max(0.0);
-            let high = corner(point[a] + reach).floor();
+            let low = corner(across.low[n]).ceil().max(0.0);
+            let high = corner(across.high[n]).floor();
             (
                 low as i64,
                 high.min(self.rows.block.dims()[a] as f64) as i64,
             )
         };
-        let ((low, high), (first, last)) = (corners(s), corners(t));
+        let ((low, high), (first, last)) = (corners(0, s), corners(1, t));
         if low > high || first > last {
             return;
         }
@@ -198,7 +209,13 @@ mod tests {
         };
         let solids = solids(domain([6; 3], 3), vec![boxes.iter().map(block).collect()]);
         let mut found = Vec::new();
-        solids.reentrant(axis, [3.0; 3], 2.0, &mut found);
+        let across = Across {
+            axis,
+            along: 3.0,
+            low: [1.0; 2],
+            high: [5.0; 2],
+        };
+        solids.reentrant(&across, &mut found);
         found
     }
 
@@ -240,7 +257,13 @@ mod tests {
                 let part = |of: f64| f64::from(n) * of % 1.0;
                 let point = [part(0.317) * 65.0, part(0.731) * 6.0, part(0.093) * 6.0];
                 let mut found = Vec::new();
-                solids.reentrant(axis, point, 1.3, &mut found);
+                let across = Across {
+                    axis,
+                    along: point[axis],
+                    low: [point[s] - 1.3, point[t] - 1.3],
+                    high: [point[s] + 1.3, point[t] + 1.3],
+                };
+                solids.reentrant(&across, &mut found);
                 let mut expected = 0;
                 for j in 0..140 {
                     for k in 0..140 {

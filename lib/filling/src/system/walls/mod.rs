@@ -9,7 +9,6 @@ use rayon::prelude::*;
 
 use super::dofs::Dofs;
 use crate::geometry::{BodyId, Lattice};
-use reentrant::PROFILE;
 pub(super) use reentrant::{Beside, REACH};
 pub(crate) use thinning::thinning_distance;
 use view::View;

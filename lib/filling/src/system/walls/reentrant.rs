@@ -13,7 +13,7 @@
 //! differences over it nor the width along the wall counts there. How far that reaches is what tubes of voxels
 //! say, no theory.
 
-use crate::geometry::{LONG, Reentrant};
+use crate::geometry::{Column, LONG, Reentrant};
 
 /// Distance within which an edge multiplies, cells.
 pub(in crate::system) const REACH: f64 = 1.0;
@@ -65,6 +65,34 @@ impl Beside {
             beside.near = beside.near.max(steps * near);
         }
         beside
+    }
+}
+
+/// Edges around a face's centre, in the halves of its control volume below and above it.
+pub(super) struct Edges {
+    pub(super) centre: [f64; 2],
+    pub(super) halves: [Vec<Reentrant>; 2],
+}
+
+impl Edges {
+    /// What they do where a column along the tangential direction `t`, `off` cells beside the face,
+    /// meets its wall at `side`.
+    pub(super) fn beside(
+        &self,
+        t: usize,
+        index: usize,
+        off: f64,
+        column: &Column,
+        side: usize,
+    ) -> Beside {
+        let edges = &self.halves[index & 1];
+        if edges.is_empty() {
+            return Beside::NONE;
+        }
+        let mut place = self.centre;
+        place[t] += [-1.0, 1.0][side] * column.distance[side];
+        place[1 - t] += off + if index & 2 == 2 { 0.25 } else { -0.25 };
+        Beside::new(edges, place)
     }
 }
 

@@ -1,8 +1,9 @@
 //! The walls that one face velocity sees.
 
 use super::effective_distance::{effective_distance, shift_of_mean};
-use super::{Beside, PROFILE, Shifts, WallLink, WidthRule};
-use crate::geometry::{Column, Lattice, Reentrant};
+use super::reentrant::{Beside, Edges, PROFILE};
+use super::{Shifts, WallLink, WidthRule};
+use crate::geometry::{Across, Column, Lattice};
 
 /// Least combined width over the lesser of the two across a lumen, where one control volume
 /// reaches from the wall to the middle: the value that is exact for a square duct of two control
@@ -155,18 +156,52 @@ impl View {
             centre: [0.0; 2],
             halves: Default::default(),
         };
-        if let &[s, t] = lattice.tangents(self.axis)
-            && self.near.contains(&true)
-        {
-            edges.centre = [centre[s], centre[t]];
-            for (half, found) in edges.halves.iter_mut().enumerate() {
-                let mut point = centre;
-                point[self.axis] += half as f64 / 2.0 - 0.25;
-                let solids = &lattice.solids;
-                solids.reentrant(self.axis, point, 1.0 + PROFILE, found);
-            }
+        let &[s, t] = lattice.tangents(self.axis) else {
+            return edges;
+        };
+        edges.centre = [centre[s], centre[t]];
+        let Some([low, high]) = self.walls(lattice) else {
+            return edges;
+        };
+        for (half, found) in edges.halves.iter_mut().enumerate() {
+            let across = Across {
+                axis: self.axis,
+                along: centre[self.axis] + half as f64 / 2.0 - 0.25,
+                low: [0, 1].map(|n| edges.centre[n] + low[n] - PROFILE),
+                high: [0, 1].map(|n| edges.centre[n] + high[n] + PROFILE),
+            };
+            lattice.solids.reentrant(&across, found);
         }
         edges
+    }
+
+    /// Ends, from the face's centre, of the rectangle that holds all places where its columns meet walls;
+    /// `None` where none does.
+    fn walls(&self, lattice: &Lattice) -> Option<[[f64; 2]; 2]> {
+        let tangents = lattice.tangents(self.axis);
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let mut add = |n: usize, from: f64, to: f64| {
+            low[n] = low[n].min(from);
+            high[n] = high[n].max(to);
+        };
+        for t in (0..2).filter(|&t| self.near[t]) {
+            for column in self.columns[t].iter().filter(|column| !column.blocked()) {
+                for side in (0..2).filter(|&side| column.touches(side)) {
+                    let at = [-1.0, 1.0][side] * column.distance[side];
+                    add(t, at, at);
+                    add(1 - t, -0.25, 0.25);
+                }
+            }
+            for up in [false, true] {
+                let other = tangents[1 - t];
+                if (lattice.closed_neighbour(self.axis, self.cell, other, up)).is_some() {
+                    let off = if up { 1.0 } else { -1.0 };
+                    add(t, -1.0, 1.0);
+                    add(1 - t, off - 0.25, off + 0.25);
+                }
+            }
+        }
+        (low[0] <= high[0] && low[1] <= high[1]).then_some([low, high])
     }
 
     /// Liquid fraction of the part of a column that lies at the face of `cell`.
@@ -186,27 +221,6 @@ impl View {
             sub += (index >> 1) * w.sub_stride(other);
         }
         0.5 * f64::from(phi[sub] + phi[sub + w.sub_stride(tangent)])
-    }
-}
-
-/// Edges around a face's centre, in the halves of its control volume below and above it.
-struct Edges {
-    centre: [f64; 2],
-    halves: [Vec<Reentrant>; 2],
-}
-
-impl Edges {
-    /// What they do where a column along the tangential direction `t`, `off` cells beside the face,
-    /// meets its wall at `side`.
-    fn beside(&self, t: usize, index: usize, off: f64, column: &Column, side: usize) -> Beside {
-        let edges = &self.halves[index & 1];
-        if edges.is_empty() {
-            return Beside::NONE;
-        }
-        let mut place = self.centre;
-        place[t] += [-1.0, 1.0][side] * column.distance[side];
-        place[1 - t] += off + if index & 2 == 2 { 0.25 } else { -0.25 };
-        Beside::new(edges, place)
     }
 }
 
