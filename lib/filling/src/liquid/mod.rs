@@ -2,10 +2,12 @@
 
 mod fractions;
 mod particles;
+mod rolling;
 mod volumes;
 
 pub(crate) use fractions::{Fractions, neighbours, pressures, sub_cells, velocities};
 pub(crate) use particles::{Bins, Particles};
+pub(crate) use rolling::touching;
 pub(crate) use volumes::Volumes;
 
 #[cfg(test)]

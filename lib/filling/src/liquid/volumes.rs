@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::rolling;
 use crate::geometry::Lattice;
 
 /// How much liquid the cells and control volumes of a window hold.
@@ -13,6 +14,8 @@ pub(crate) struct Volumes<'a> {
     pub(crate) cell: Vec<f32>,
     /// Liquid fraction of the open part of each cell.
     pub(crate) fraction: Vec<f32>,
+    /// Density of each cell; empty where all are full.
+    density: &'a [f32],
 }
 
 impl<'a> Volumes<'a> {
@@ -41,7 +44,27 @@ impl<'a> Volumes<'a> {
             phi,
             cell: volume,
             fraction,
+            density: &[],
         }
+    }
+
+    /// The same, of cells of these densities.
+    pub(crate) fn of_density(self, density: &'a [f32]) -> Self {
+        Self { density, ..self }
+    }
+
+    fn density(&self, cell: usize) -> f32 {
+        self.density.get(cell).copied().unwrap_or(1.0)
+    }
+
+    /// Volume (cells) that a full cell lacks behind a front.
+    pub(crate) fn lack(&self, cell: usize) -> f32 {
+        rolling::lack(self.fraction[cell], self.density(cell)) * self.cell[cell]
+    }
+
+    /// Part of the wet walls of a cell that its liquid touches.
+    pub(crate) fn touching(&self, cell: usize) -> f32 {
+        rolling::touching(self.fraction[cell], self.density(cell))
     }
 
     /// Liquid and open volume (sub-cells) of the block of `parts` sub-cells from `first` on.

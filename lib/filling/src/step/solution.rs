@@ -5,7 +5,7 @@ use physics::{Failure, Viscosity};
 use super::air::Air;
 use super::controlled::Solved;
 use super::{Implicit, Part, Trial, Units};
-use crate::liquid::{self, Volumes};
+use crate::liquid::{self, Fractions, Volumes};
 use crate::system::air::Held;
 use crate::system::{Before, Dofs, Found, NONE, Operator, Sheared};
 use crate::transport::density::Cells;
@@ -69,26 +69,22 @@ pub(super) struct Unknowns {
 impl Implicit {
     /// Stages 4 to 6: assembles, solves and finds the forces, with viscosity passes and load control.
     pub(super) fn solve(&mut self, trial: &Trial) -> Result<Solution, Failure> {
-        let phi = std::mem::take(&mut self.workspace.fractions.liquid);
-        let result = self.solve_with(trial, &phi);
-        self.workspace.fractions.liquid = phi;
+        let fractions = std::mem::take(&mut self.workspace.fractions);
+        let result = self.solve_with(trial, &fractions);
+        self.workspace.fractions = fractions;
         result
     }
 
-    fn solve_with(&mut self, trial: &Trial, phi: &[f32]) -> Result<Solution, Failure> {
+    fn solve_with(&mut self, trial: &Trial, fractions: &Fractions) -> Result<Solution, Failure> {
         let lattice = &trial.lattice;
         let scales = self.setup.scales(trial.dt);
-        let volumes = Volumes::new(lattice, phi);
+        let volumes = Volumes::new(lattice, &fractions.liquid).of_density(&fractions.density);
         let mut operator = self
             .workspace
             .clock
             .time(Part::Assembly, || Operator::new(lattice, &volumes, scales));
-        let mut lost = Vec::new();
         if let Some(exchange) = &trial.exchange {
             operator.thicken(&exchange.factor);
-            let scale = self.setup.units.h / trial.dt;
-            lost = exchange.lost(&lattice.window, &operator.dofs.cells);
-            lost.iter_mut().for_each(|lost| *lost *= scale);
         }
         let start = self.carried(&operator);
         self.state.particles.go_back();
@@ -110,6 +106,7 @@ impl Implicit {
         operator.pull =
             (self.workspace.clock).time(Part::Assembly, || operator.pull(&start.u, &bodies));
         operator.pockets = pockets.as_ref().map(|(pockets, _)| pockets);
+        let lost = self.lost(&operator, trial, &start.u);
         let stiffness = self.stiffness(&start.p);
         let before = Before {
             velocity: &start.u,
@@ -134,7 +131,7 @@ impl Implicit {
                 .collect()
         };
         let cells = Cells {
-            density: pick(&self.workspace.fractions.density),
+            density: pick(&fractions.density),
             fraction: pick(&volumes.fraction),
             volume: pick(&volumes.cell),
         };
@@ -157,6 +154,17 @@ impl Implicit {
             face_volume: system.face_volume,
             dofs: operator.dofs,
         })
+    }
+
+    /// What liquid loses to cells that are not as full as they count, with the velocities `u` before the step, and to walls,
+    /// cells^2 m/s.
+    fn lost(&self, operator: &Operator, trial: &Trial, u: &[f64]) -> Vec<f64> {
+        let mut lost = operator.filling(u);
+        if let Some(exchange) = &trial.exchange {
+            lost.resize(lost.len().max(operator.dofs.cells.len()), 0.0);
+            exchange.add_lost(&operator.dofs.cell, self.setup.units.h / trial.dt, &mut lost);
+        }
+        lost
     }
 
     /// Stages 4 to 6 with the air as given.

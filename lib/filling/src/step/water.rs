@@ -5,6 +5,7 @@ use physics::{Array, SET, Saved, WaterState};
 
 use super::length::Fit;
 use super::{Implicit, Part, Trial};
+use crate::liquid::touching;
 use crate::water::{Exchange, Medium, give_off};
 
 /// Change of ln(viscosity), where the liquid dries, that a step aims at; its viscosity is that of its
@@ -49,11 +50,17 @@ impl Implicit {
             diffusion: trial.dt * water.diffusivity() / (h * h),
         };
         let (lattice, particles) = (&trial.lattice, &self.state.particles);
-        let (phi, bins) = (&self.workspace.fractions.liquid, &self.workspace.bins);
+        let (fractions, bins) = (&self.workspace.fractions, &self.workspace.bins);
+        let phi = &fractions.liquid;
         let (uptake, soaked) = (trial.dt * water.uptake() / h, &self.state.soaked);
         let capacity = water.capacity().map_or(f64::INFINITY, |length| length / h);
         let (wetted, exchange) = self.workspace.clock.time(Part::Water, || {
-            let wetted = surface.wetted(&lattice.solids, &lattice.window, &lattice.open, phi);
+            let mut wetted = surface.wetted(&lattice.solids, &lattice.window, &lattice.open, phi);
+            for wet in &mut wetted {
+                let cell = wet.cell as usize;
+                let touching = touching(fractions.cell[cell], fractions.density[cell]);
+                (wet.area, wet.part) = (wet.area * touching, wet.part * touching);
+            }
             let mut asked = vec![0.0; lattice.window.len()];
             for wet in &wetted {
                 let depth = depth(wet.piece, uptake, capacity, soaked);

@@ -173,7 +173,7 @@ pub(crate) struct Before<'a> {
     pub(crate) pressure: &'a [f64],
     /// Resistance of the liquid at that pressure to a change of its present volume, over K.
     pub(crate) stiffness: &'a [f64],
-    /// Volume that each pressure unknown loses in a time, cells^2 m/s; empty where none is lost.
+    /// Volume that each pressure unknown, pockets of air behind the cells, loses in a time, cells^2 m/s; empty where none is lost.
     pub(crate) lost: &'a [f64],
     /// Of each pocket of air; none where they have no pressures.
     pub(crate) air: &'a [Tangent],
@@ -216,9 +216,11 @@ impl Operator<'_> {
         let couplings = Couplings::new(self, &edges, bodies.len(), &flux);
         let mut resting: Vec<f64> = before.lost.iter().map(|lost| -lost).collect();
         let thickest = two_eta.iter().copied().fold(0.0, f64::max);
-        for tangent in before.air {
-            resting.resize(c.len(), 0.0);
-            resting.push(tangent.growth);
+        if !before.air.is_empty() {
+            resting.resize(cells + before.air.len(), 0.0);
+        }
+        for (resting, tangent) in resting.iter_mut().skip(cells).zip(before.air) {
+            *resting += tangent.growth;
             c.push(tangent.softness);
             two_eta.push(thickest);
         }

@@ -20,6 +20,7 @@ mod operator;
 mod pins;
 mod reactions;
 mod response;
+mod rolling;
 mod sparse;
 mod standing;
 mod terms;

@@ -38,7 +38,7 @@ impl<'a> Operator<'a> {
     pub(crate) fn new(lattice: &'a Lattice, volumes: &'a Volumes<'a>, scales: Scales) -> Self {
         let dofs = Dofs::new(lattice, volumes);
         let friction = scales.influence_length.is_finite();
-        let walls = Walls::new(lattice, volumes.phi, &dofs, scales.width, friction);
+        let walls = Walls::new(lattice, volumes, &dofs, scales.width, friction);
         Self {
             lattice,
             volumes,

@@ -88,13 +88,13 @@ impl Exchange {
         Some(found)
     }
 
-    /// Volume (cells) that each of `cells` loses in the step.
-    pub(crate) fn lost(&self, window: &Window, cells: &[u32]) -> Vec<f64> {
-        let mut all = vec![0.0; window.len()];
+    /// Adds the volume that each cell loses in the step, times `pace`, by the numbers that `number` gives the cells of the window.
+    pub(crate) fn add_lost(&self, number: &[u32], pace: f64, lost: &mut [f64]) {
         for &(cell, gained) in &self.gained {
-            all[cell as usize] = -gained;
+            if let Some(lost) = lost.get_mut(number[cell as usize] as usize) {
+                *lost -= pace * gained;
+            }
         }
-        cells.iter().map(|&cell| all[cell as usize]).collect()
     }
 }
 

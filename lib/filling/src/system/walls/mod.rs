@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::dofs::Dofs;
 use crate::geometry::{BodyId, Lattice};
+use crate::liquid::Volumes;
 pub(super) use reentrant::{Beside, REACH};
 pub(crate) use thinning::thinning_distance;
 use view::View;
@@ -71,7 +72,7 @@ impl Walls {
     /// Marches the rays from all face unknowns. `friction` false leaves the links out.
     pub(crate) fn new(
         lattice: &Lattice,
-        phi: &[f32],
+        volumes: &Volumes,
         dofs: &Dofs,
         rule: WidthRule,
         friction: bool,
@@ -87,7 +88,7 @@ impl Walls {
                         .push(view.inverse_widths(lattice) as f32);
                     part.shifts.push(view.shifts());
                     if friction {
-                        view.push_links(lattice, phi, rule, &mut part.links);
+                        view.push_links(lattice, volumes, rule, &mut part.links);
                     }
                     part.counts.push((part.links.len() - before) as u32);
                 }

@@ -4,6 +4,7 @@ use super::effective_distance::{effective_distance, shift_of_mean};
 use super::reentrant::{Beside, Edges, PROFILE};
 use super::{Shifts, WallLink, WidthRule};
 use crate::geometry::{Across, Column, Lattice};
+use crate::liquid::Volumes;
 
 /// Least combined width over the lesser of the two across a lumen, where one control volume
 /// reaches from the wall to the middle: the value that is exact for a square duct of two control
@@ -79,7 +80,7 @@ impl View {
     pub(super) fn push_links(
         &self,
         lattice: &Lattice,
-        phi: &[f32],
+        volumes: &Volumes,
         rule: WidthRule,
         links: &mut Vec<WallLink>,
     ) {
@@ -98,7 +99,8 @@ impl View {
             for index in 0..count {
                 let column = self.columns[t][index];
                 if !column.blocked() {
-                    let area = self.wetted(lattice, phi, self.cell, tangent, index) / count as f64;
+                    let area =
+                        self.wetted(lattice, volumes, self.cell, tangent, index) / count as f64;
                     for side in (0..2).filter(|&s| column.touches(s)) {
                         let beside = edges.beside(t, index, 0.0, &column, side);
                         links.add(column, side, area, across, beside);
@@ -106,7 +108,7 @@ impl View {
                 }
             }
             if tangents.len() == 2 {
-                self.push_sliver_links(lattice, phi, t, across, &edges, &mut links);
+                self.push_sliver_links(lattice, volumes, t, across, &edges, &mut links);
             }
         }
     }
@@ -116,7 +118,7 @@ impl View {
     fn push_sliver_links(
         &self,
         lattice: &Lattice,
-        phi: &[f32],
+        volumes: &Volumes,
         t: usize,
         across: Option<f64>,
         edges: &Edges,
@@ -139,7 +141,7 @@ impl View {
                     let index = normal | near_half << 1;
                     let column = lattice.column(self.axis, closed, tangent, index);
                     if column.touches(side) && !column.blocked() {
-                        let wet = self.wetted(lattice, phi, closed, tangent, index);
+                        let wet = self.wetted(lattice, volumes, closed, tangent, index);
                         let off = if up { 1.0 } else { -1.0 };
                         let beside = edges.beside(t, index, off, &column, side);
                         links.add(column, side, 0.25 * share * wet, across, beside);
@@ -204,11 +206,11 @@ impl View {
         (low[0] <= high[0] && low[1] <= high[1]).then_some([low, high])
     }
 
-    /// Liquid fraction of the part of a column that lies at the face of `cell`.
+    /// Liquid fraction of the part of a column that lies at the face of `cell`, less what does not touch walls.
     fn wetted(
         &self,
         lattice: &Lattice,
-        phi: &[f32],
+        volumes: &Volumes,
         cell: [usize; 3],
         tangent: usize,
         index: usize,
@@ -220,7 +222,9 @@ impl View {
         if other < w.domain.axes {
             sub += (index >> 1) * w.sub_stride(other);
         }
-        0.5 * f64::from(phi[sub] + phi[sub + w.sub_stride(tangent)])
+        let phi = 0.5 * (volumes.phi[sub] + volumes.phi[sub + w.sub_stride(tangent)]);
+        let below = (1 - (index & 1)) * w.stride(self.axis);
+        f64::from(phi * volumes.touching(w.index(cell) - below))
     }
 }
 
@@ -273,6 +277,7 @@ mod tests {
         let phi: Vec<f32> = (0..nx * ny * nz)
             .map(|sub| value(place(sub).map(|x| x as f64)) as f32)
             .collect();
+        let volumes = Volumes::new(&lattice, &phi);
         let cell = [2; 3];
         for (axis, tangent) in [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)] {
             let view = View::new(&lattice, axis, cell);
@@ -282,7 +287,7 @@ mod tests {
                 at[axis] = if index & 1 == 1 { 4.0 } else { 3.0 };
                 at[tangent] = 4.5;
                 at[3 - axis - tangent] = if index & 2 == 2 { 5.0 } else { 4.0 };
-                let found = view.wetted(&lattice, &phi, cell, tangent, index);
+                let found = view.wetted(&lattice, &volumes, cell, tangent, index);
                 assert!((found - value(at)).abs() < 1e-9, "{axis} {tangent} {index}");
             }
         }
