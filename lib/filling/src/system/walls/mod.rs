@@ -95,8 +95,13 @@ impl Walls {
                 part
             })
             .collect();
+        // All of it stays while the step is solved, so nothing is allocated beyond it.
+        let links = parts.iter().map(|part| part.links.len()).sum();
+        let shifts = parts.iter().flat_map(|part| &part.shifts);
         let mut walls = Self {
             start: vec![0],
+            links: Vec::with_capacity(links),
+            shifts: Vec::with_capacity(shifts.flatten().count()),
             ..Self::default()
         };
         let mut end = 0;
