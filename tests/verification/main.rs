@@ -139,8 +139,8 @@ fn an_adhesive_that_cures_comes_to_rest_where_it_should() {
 fn an_adhesive_that_dries_comes_to_rest_where_it_should() {
     type Make = fn() -> Scene;
     let scenes: [(Make, f64); 2] = [
-        (|| water::slit_scene(6), 0.04),
-        (|| water::tube_scene(6), 0.065),
+        (|| water::slit_scene(6), 0.03),
+        (|| water::tube_scene(6), 0.055),
     ];
     for (scene, most) in scenes {
         assert_within(most, &scene(), Method::implicit(), "L where it stops");
@@ -158,6 +158,12 @@ fn air_behind_liquid_is_compressed_and_leaks() {
     for (leak_time, goal) in [(None, 0.005), (Some(20.0), 0.02)] {
         let scene = || air::scene(6, leak_time);
         assert_within(goal, &scene(), Method::implicit(), what);
+        assert_within(
+            0.02,
+            &scene(),
+            Method::implicit(),
+            "L(t) from L = d on, worst",
+        );
         let mut wrong = scene();
         wrong.case.air = Some("pressure = \"1.5e5 Pa\"\n".into());
         assert_caught(goal, &wrong, Method::implicit(), what);

@@ -20,3 +20,19 @@ pub(crate) fn lack(fraction: f32, density: f32) -> f32 {
 pub(crate) fn touching(fraction: f32, density: f32) -> f32 {
     1.0 - (lack(fraction, density) / (ENOUGH - APART)).min(1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn full_cells_alone_lack_liquid() {
+        let both = |fraction, density| (lack(fraction, density), touching(fraction, density));
+        assert_eq!(both(0.99, 0.1), (0.0, 1.0));
+        assert_eq!(both(1.0, 0.81), (0.0, 1.0));
+        let (lack, touching) = both(1.0, 0.65);
+        assert!((lack - 0.15).abs() < 1e-6 && (touching - 0.5).abs() < 1e-6);
+        assert_eq!(both(1.0, 0.5).1, 0.0);
+        assert_eq!(both(1.0, 0.2).1, 0.0);
+    }
+}

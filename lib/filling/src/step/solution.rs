@@ -162,7 +162,11 @@ impl Implicit {
         let mut lost = operator.filling(u);
         if let Some(exchange) = &trial.exchange {
             lost.resize(lost.len().max(operator.dofs.cells.len()), 0.0);
-            exchange.add_lost(&operator.dofs.cell, self.setup.units.h / trial.dt, &mut lost);
+            exchange.add_lost(
+                &operator.dofs.cell,
+                self.setup.units.h / trial.dt,
+                &mut lost,
+            );
         }
         lost
     }

@@ -74,3 +74,64 @@ impl Operator<'_> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::tests::{domain, lattice};
+    use crate::liquid::{Volumes, sub_cells};
+    use crate::system::Scales;
+    use crate::system::air::{Outside, Pockets};
+
+    /// Liquid up to x = `wet` in a box of 12 x 3 cells with the density 1/2 in the cell at `x`, and the velocity `speed` everywhere: the
+    /// volume in a time that the cell and the pocket of air lose, and that of all.
+    fn filling(wet: usize, x: usize, speed: f64, cell_per_step: f64) -> [f64; 3] {
+        let lattice = lattice(domain([12, 3, 1], 2), vec![]);
+        let window = &lattice.window;
+        let mut phi = vec![0.0; window.sub_len()];
+        let mut density = vec![1.0; window.len()];
+        let mut cell = 0;
+        for index in 0..window.len() {
+            let at = [0, 1].map(|a| window.coordinates(index)[a] as i64 + window.low[a]);
+            if at[0] < wet as i64 {
+                sub_cells(window, index).for_each(|sub| phi[sub] = 1.0);
+            }
+            if at == [x as i64, 1] {
+                (density[index], cell) = (0.5, index);
+            }
+        }
+        let volumes = Volumes::new(&lattice, &phi).of_density(&density);
+        let scales = Scales {
+            cell_per_step,
+            ..Scales::plain()
+        };
+        let mut operator = Operator::new(&lattice, &volumes, scales);
+        let pockets = Pockets::find(&lattice, &volumes, &operator.dofs, Outside::default());
+        operator.pockets = Some(&pockets);
+        let lost = operator.filling(&vec![speed; operator.dofs.faces.len()]);
+        let of = |number: usize| lost.get(number).copied().unwrap_or_default();
+        let cells = operator.dofs.cells.len();
+        [
+            of(operator.dofs.cell[cell] as usize),
+            of(cells),
+            lost.iter().sum(),
+        ]
+    }
+
+    #[test]
+    fn a_full_cell_takes_up_what_it_lacks_from_the_front_near_it() {
+        let near = |found: [f64; 3], expected: f64| {
+            let off = [found[0] - expected, found[1] + expected, found[2]];
+            assert!(off.iter().all(|off| off.abs() < 1e-7), "{found:?}");
+        };
+        // 0.3 cells, as the flow passes a quarter of a cell, or in the step where that is longer.
+        near(filling(6, 5, 0.1, 9.0), 0.3 * 0.4);
+        near(filling(6, 5, -0.1, 0.25), 0.3 * 0.25);
+        near(filling(6, 2, 0.1, 9.0), 0.3 * 0.4);
+        near(filling(6, 1, 0.1, 9.0), 0.0);
+        near(filling(6, 5, 0.0, 9.0), 0.0);
+        // Air, and liquid that is closed in.
+        near(filling(6, 6, 0.1, 9.0), 0.0);
+        near(filling(12, 5, 0.1, 9.0), 0.0);
+    }
+}
