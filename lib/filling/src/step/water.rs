@@ -56,9 +56,9 @@ impl Implicit {
         let capacity = water.capacity().map_or(f64::INFINITY, |length| length / h);
         let (wetted, exchange) = self.workspace.clock.time(Part::Water, || {
             let mut wetted = surface.wetted(&lattice.solids, &lattice.window, &lattice.open, phi);
+            // Of cells at the surface, too, what lacks is next to walls.
             for wet in &mut wetted {
-                let cell = wet.cell as usize;
-                let touching = touching(fractions.cell[cell], fractions.density[cell]);
+                let touching = touching(1.0, fractions.density[wet.cell as usize]);
                 (wet.area, wet.part) = (wet.area * touching, wet.part * touching);
             }
             let mut asked = vec![0.0; lattice.window.len()];
