@@ -19,12 +19,10 @@ use crate::geometry::{Column, LONG, Reentrant};
 pub(in crate::system) const REACH: f64 = 1.0;
 /// Distance within which it changes the profile at a wall, cells.
 pub(super) const PROFILE: f64 = 1.5;
-/// Places within a cell, of an edge whose solid is below it, between which ln g is linear.
-const QUARTERS: usize = 4;
 /// A wall this close beyond a quarter of a cell is on it.
 const TOUCH: f64 = 1e-4;
-/// ln g at the ends of the quarters, along both directions; symmetric.
-const LN_G: [[f64; 2 * QUARTERS]; 2 * QUARTERS] = [
+/// ln g at the ends of the quarters of a cell, of an edge whose solid is below it, between which it is linear; symmetric.
+const LN_G: [[f64; 8]; 8] = [
     [0.37, 0.61, -0.06, 0.20, -0.11, 0.31, 0.06, 0.37],
     [0.61, 0.89, 0.08, 0.39, 0.17, 0.58, 0.25, 0.61],
     [-0.06, 0.08, -0.34, -0.17, -0.36, -0.11, -0.26, -0.06],
