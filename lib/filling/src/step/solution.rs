@@ -159,7 +159,7 @@ impl Implicit {
     /// What liquid loses to cells that are not as full as they count, with the velocities `u` before the step, and to walls,
     /// cells^2 m/s.
     fn lost(&self, operator: &Operator, trial: &Trial, u: &[f64]) -> Vec<f64> {
-        let mut lost = operator.filling(u);
+        let mut lost = operator.filling(u, &trial.bodies);
         if let Some(exchange) = &trial.exchange {
             lost.resize(lost.len().max(operator.dofs.cells.len()), 0.0);
             exchange.add_lost(

@@ -3,6 +3,8 @@
 //! Solved as if they were full they would let all that comes pass on to the front, whose tip then runs ahead of its contact
 //! lines, the farther the shorter the steps.
 
+use std::mem;
+
 use super::Operator;
 use super::dofs::NONE;
 
@@ -14,14 +16,15 @@ const SWIFT: f64 = 4.0;
 
 impl Operator<'_> {
     /// Volume (cells^2 m/s) that each pressure unknown, pockets of air behind the cells, loses in a time to the filling of
-    /// cells, with the velocities `u` before the step; what is so kept from the front at a pocket is none that the pocket
-    /// loses to it. Empty where no cell lacks any.
+    /// cells, with the velocities `u` before the step and `bodies` in it; what is so kept from the front at a pocket is none
+    /// that the pocket loses to it. Empty where no cell lacks any.
     ///
-    /// A cell fills as the flow there passes a cell, or within the step.
-    pub(crate) fn filling(&self, u: &[f64]) -> Vec<f64> {
+    /// A cell fills as the flow there, or a body, passes a part of a cell, or within the step.
+    pub(crate) fn filling(&self, u: &[f64], bodies: &[[f64; 3]]) -> Vec<f64> {
         let cells = self.dofs.cells.len();
         let pockets = self.pockets.map_or(0, |pockets| pockets.wet);
         let mut lost = Vec::new();
+        let closes = (bodies.as_flattened().iter()).fold(0.0, |most: f64, v| most.max(v.abs()));
         for (number, &cell) in self.dofs.cells.iter().enumerate() {
             let lack = f64::from(self.volumes.lack(cell as usize));
             if lack == 0.0 {
@@ -30,7 +33,7 @@ impl Operator<'_> {
             let Some((air, speed)) = self.nearest_air(cell as usize, u) else {
                 continue;
             };
-            let filling = lack * (SWIFT * speed).min(self.scales.cell_per_step);
+            let filling = lack * (SWIFT * speed.max(closes)).min(self.scales.cell_per_step);
             lost.resize(cells + pockets, 0.0);
             lost[number] = filling;
             let pocket = self.pockets.map_or(NONE, |pockets| pockets.of[air]);
@@ -44,34 +47,38 @@ impl Operator<'_> {
     /// The cell of air that is the fewest faces with velocities away from a liquid one, if it is within [`REACH`], and the
     /// fastest velocity (m/s) of those looked at.
     fn nearest_air(&self, cell: usize, u: &[f64]) -> Option<(usize, f64)> {
-        let window = &self.lattice.window;
-        let (mut known, mut next, mut speed) = (vec![cell], 0, 0.0_f64);
+        let (mut known, mut ring, mut speed) = (vec![cell], vec![cell], 0.0_f64);
         for _ in 0..REACH {
-            let mut found = None;
-            for _ in next..known.len() {
-                let from = known[next];
-                next += 1;
-                for axis in 0..window.domain.axes {
-                    let stride = window.stride(axis);
-                    for (face, to) in [(from, from - stride), (from + stride, from + stride)] {
-                        let Some(u) = u.get(self.dofs.face[axis][face] as usize) else {
-                            continue;
-                        };
-                        speed = speed.max(u.abs());
-                        let to = window.index(window.home(window.coordinates(to)));
-                        if self.dofs.cell[to] == NONE {
-                            found = found.or(Some(to));
-                        } else if !known.contains(&to) {
-                            known.push(to);
-                        }
-                    }
+            let mut air = None;
+            for (face, to) in mem::take(&mut ring).into_iter().flat_map(|c| self.sides(c)) {
+                let Some(u) = u.get(face as usize) else {
+                    continue;
+                };
+                speed = speed.max(u.abs());
+                if self.dofs.cell[to] == NONE {
+                    air = air.or(Some(to));
+                } else if !known.contains(&to) {
+                    known.push(to);
+                    ring.push(to);
                 }
             }
-            if let Some(air) = found {
+            if let Some(air) = air {
                 return Some((air, speed));
             }
         }
         None
+    }
+
+    /// The numbers of the faces of a cell, and the cells beyond them.
+    fn sides(&self, cell: usize) -> impl Iterator<Item = (u32, usize)> {
+        let window = &self.lattice.window;
+        (0..window.domain.axes).flat_map(move |axis| {
+            let stride = window.stride(axis);
+            [(cell, cell - stride), (cell + stride, cell + stride)].map(|(face, beyond)| {
+                let home = window.home(window.coordinates(beyond));
+                (self.dofs.face[axis][face], window.index(home))
+            })
+        })
     }
 }
 
@@ -86,18 +93,29 @@ mod tests {
     /// Liquid up to x = `wet` in a box of 12 x 3 cells with the density 1/2 in the cell at `x`, and the velocity `speed` everywhere: the
     /// volume in a time that the cell and the pocket of air lose, and that of all.
     fn filling(wet: usize, x: usize, speed: f64, cell_per_step: f64) -> [f64; 3] {
+        beside(&[], wet, x, speed, cell_per_step)
+    }
+
+    /// The same beside bodies of these velocities.
+    fn beside(
+        bodies: &[[f64; 3]],
+        wet: usize,
+        x: usize,
+        speed: f64,
+        cell_per_step: f64,
+    ) -> [f64; 3] {
         let lattice = lattice(domain([12, 3, 1], 2), vec![]);
         let window = &lattice.window;
         let mut phi = vec![0.0; window.sub_len()];
         let mut density = vec![1.0; window.len()];
         let mut cell = 0;
-        for index in 0..window.len() {
+        for (index, density) in density.iter_mut().enumerate() {
             let at = [0, 1].map(|a| window.coordinates(index)[a] as i64 + window.low[a]);
             if at[0] < wet as i64 {
                 sub_cells(window, index).for_each(|sub| phi[sub] = 1.0);
             }
             if at == [x as i64, 1] {
-                (density[index], cell) = (0.5, index);
+                (*density, cell) = (0.5, index);
             }
         }
         let volumes = Volumes::new(&lattice, &phi).of_density(&density);
@@ -108,7 +126,7 @@ mod tests {
         let mut operator = Operator::new(&lattice, &volumes, scales);
         let pockets = Pockets::find(&lattice, &volumes, &operator.dofs, Outside::default());
         operator.pockets = Some(&pockets);
-        let lost = operator.filling(&vec![speed; operator.dofs.faces.len()]);
+        let lost = operator.filling(&vec![speed; operator.dofs.faces.len()], bodies);
         let of = |number: usize| lost.get(number).copied().unwrap_or_default();
         let cells = operator.dofs.cells.len();
         [
@@ -130,6 +148,7 @@ mod tests {
         near(filling(6, 2, 0.1, 9.0), 0.3 * 0.4);
         near(filling(6, 1, 0.1, 9.0), 0.0);
         near(filling(6, 5, 0.0, 9.0), 0.0);
+        near(beside(&[[0.0, -0.2, 0.1]], 6, 5, 0.0, 9.0), 0.3 * 0.8);
         // Air, and liquid that is closed in.
         near(filling(6, 6, 0.1, 9.0), 0.0);
         near(filling(12, 5, 0.1, 9.0), 0.0);
