@@ -179,8 +179,7 @@ fn flow_through_lumens_in_three_dimensions() {
     assert_caught(0.01, &lifted(square(), 0), Method::implicit(), what);
     let tube = duct::scene(Section::Round(1), 6, 2e-6);
     let same = "mean velocity, same staircase";
-    // Differences at the edges of its steps let 5 to 6 % too much through.
-    assert_within(0.065, &tube, Method::implicit(), same);
+    assert_within(0.015, &tube, Method::implicit(), same);
 }
 
 /// Walls half way in their cells. The growth is the difference of two pressures of a few steps each.
@@ -188,13 +187,13 @@ fn flow_through_lumens_in_three_dimensions() {
 fn a_piston_into_a_lumen_of_three_cells_at_any_step() {
     let scene = || piston::scene(Section::Square, 3, piston::Drive::Speed(0.5));
     let at = |cfl: f64| Method::implicit().setting(format!("integrator.cfl={cfl}"));
-    for (cfl, growth, pressure) in [(1.0, 0.21, 0.105), (0.5, 0.13, 0.06), (0.1, 0.08, 0.07)] {
+    for (cfl, growth, pressure) in [(1.0, 0.12, 0.06), (0.5, 0.05, 0.06), (0.1, 0.13, 0.10)] {
         assert_within(growth, &scene(), at(cfl), "pressure per filled diameter");
         assert_within(pressure, &scene(), at(cfl), "pressure at L = 2 d");
     }
-    let mut thick = scene();
-    thick.case.viscosity = Viscosity::Newtonian(1.1 * studies::case_text::PF[2]);
-    assert_caught(0.06, &thick, at(0.5), "pressure at L = 2 d");
+    let mut thin = scene();
+    thin.case.viscosity = Viscosity::Newtonian(0.9 * studies::case_text::PF[2]);
+    assert_caught(0.06, &thin, at(0.5), "pressure at L = 2 d");
 }
 
 #[test]
@@ -210,15 +209,15 @@ fn squeeze_films() {
     }
 }
 
-/// 1.3 % of the gap with three cells, the same from a microsecond to minutes; a viscosity 5 % off is 1 %.
+/// 0.6 % of the gap with three cells, the same from a microsecond to minutes; a viscosity 5 % off is 1 to 2 %.
 #[test]
 fn a_film_closed_by_a_press_programme() {
     use stefan::Load::{Hold, Programme};
     for (load, time) in [(Hold, 1e-6), (Hold, 1e3), (Programme, 300.0)] {
         let scene = || stefan::scene(3, load, time);
-        assert_within(0.015, &scene(), Method::implicit(), "gap over time");
+        assert_within(0.01, &scene(), Method::implicit(), "gap over time");
         assert_caught(
-            0.015,
+            0.01,
             &thicker(scene()),
             Method::implicit(),
             "gap over time",
