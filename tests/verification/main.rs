@@ -216,12 +216,7 @@ fn a_film_closed_by_a_press_programme() {
     for (load, time) in [(Hold, 1e-6), (Hold, 1e3), (Programme, 300.0)] {
         let scene = || stefan::scene(3, load, time);
         assert_within(0.01, &scene(), Method::implicit(), "gap over time");
-        assert_caught(
-            0.01,
-            &thicker(scene()),
-            Method::implicit(),
-            "gap over time",
-        );
+        assert_caught(0.01, &thicker(scene()), Method::implicit(), "gap over time");
     }
 }
 
