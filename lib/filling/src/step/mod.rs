@@ -37,6 +37,8 @@ use units::Units;
 const CLOSER: usize = 3;
 /// Attempts at a step of acceptable length.
 const ATTEMPTS: usize = 12;
+/// Solves of a step that may fail where menisci hold, each of a quarter of the length of the one before.
+const UNSOLVED: usize = 3;
 
 /// The implicit scheme on a scene: a staggered, coupled pressure-viscosity solve per step with
 /// the particles as markers.
@@ -112,7 +114,7 @@ impl Implicit {
         self.state.rates = Rates::Zero;
         let limit = self.state.drive.within(limit, self.state.travel);
         let mut longest = limit.time_s;
-        let (mut last, mut misses) = (Fit::Good, 0);
+        let (mut last, mut misses, mut unsolved) = (Fit::Good, 0, 0);
         for attempt in 0..ATTEMPTS {
             // 1. Time step.
             let dt = self.time_step(limit)?.min(longest);
@@ -129,7 +131,16 @@ impl Implicit {
                 continue;
             }
             // 4 to 6. Assembly, solve and forces, in passes where the viscosity varies.
-            let solution = self.solve(&trial)?;
+            let solution = match self.solve(&trial) {
+                Ok(solution) => solution,
+                // What holds menisci at rest is the stiffer the longer the step (3.12).
+                Err(_) if self.setup.liquid.wetting.is_some() && unsolved < UNSOLVED => {
+                    unsolved += 1;
+                    longest = 0.25 * dt;
+                    continue;
+                }
+                Err(failure) => return Err(failure),
+            };
             last = self.fit(&trial, &solution, limit);
             match last {
                 Fit::Fast | Fit::Dried(_) if attempt < ATTEMPTS / 4 => continue,
