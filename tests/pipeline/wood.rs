@@ -49,7 +49,7 @@ fn liquid_that_thins_by_decades_is_solved() {
         assert_eq!(usual.len(), tight.len());
         for (usual, tight) in usual.iter().zip(&tight).skip(1) {
             let error = usual / tight - 1.0;
-            assert!(error.abs() < 0.01, "{usual} for {tight} Pa");
+            assert!(error.abs() < 0.015, "{size}: {usual} for {tight} Pa");
         }
     }
 }
