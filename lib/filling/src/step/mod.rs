@@ -277,3 +277,6 @@ fn programme(scene: &Scene) -> Option<PressRun> {
     let stages = &scene.programme;
     (!stages.is_empty()).then(|| PressRun::new(stages.clone(), room))
 }
+
+#[cfg(test)]
+mod tests;
