@@ -63,11 +63,21 @@ impl SaddleSystem<'_> {
     /// What the tolerance is relative to: the norm of what moves the liquid, of the momenta `b` and displaced volumes
     /// `moved` given, or [`FAINT`] of all.
     pub(crate) fn measure(&self, b: &[f64], moved: &[f64]) -> f64 {
-        let motion = norm(moved).hypot(match self.standing {
+        let motion = self.norm_of_volumes(moved).hypot(match self.standing {
             [] => norm(b),
             standing => apart(b, standing),
         });
         motion.max(FAINT * motion.hypot(norm(self.carried)))
+    }
+
+    /// Norm of volumes, one per cell and pocket. That of a pocket counts as faces of its front that share it alike would: whole, what
+    /// a wide front passes would outweigh all that moves the liquid.
+    fn norm_of_volumes(&self, volumes: &[f64]) -> f64 {
+        let (cells, pockets) = volumes.split_at(self.cells());
+        let shared =
+            |(volume, row): (&f64, usize)| volume.powi(2) / self.g.row(row).0.len().max(1) as f64;
+        let shared: f64 = pockets.iter().zip(self.cells()..).map(shared).sum();
+        norm(cells).hypot(shared.sqrt())
     }
 
     /// Norm of the forces of slow flow through the faces to air, by the friction of each.
