@@ -7,7 +7,7 @@ mod volumes;
 
 pub(crate) use fractions::{Fractions, neighbours, pressures, sub_cells, velocities};
 pub(crate) use particles::{Bins, Particles};
-pub(crate) use rolling::touching;
+pub(crate) use rolling::nearest_air;
 pub(crate) use volumes::Volumes;
 
 #[cfg(test)]

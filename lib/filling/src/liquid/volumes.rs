@@ -14,8 +14,8 @@ pub(crate) struct Volumes<'a> {
     pub(crate) cell: Vec<f32>,
     /// Liquid fraction of the open part of each cell.
     pub(crate) fraction: Vec<f32>,
-    /// Density of each cell; empty where all are full.
-    density: &'a [f32],
+    /// Density that each full cell behind a front lacks; empty where none does.
+    lack: &'a [f32],
 }
 
 impl<'a> Volumes<'a> {
@@ -44,27 +44,27 @@ impl<'a> Volumes<'a> {
             phi,
             cell: volume,
             fraction,
-            density: &[],
+            lack: &[],
         }
     }
 
-    /// The same, of cells of these densities.
-    pub(crate) fn of_density(self, density: &'a [f32]) -> Self {
-        Self { density, ..self }
-    }
-
-    fn density(&self, cell: usize) -> f32 {
-        self.density.get(cell).copied().unwrap_or(1.0)
+    /// The same, of cells that lack these densities.
+    pub(crate) fn lacking(self, lack: &'a [f32]) -> Self {
+        Self { lack, ..self }
     }
 
     /// Volume (cells) that a full cell lacks behind a front.
     pub(crate) fn lack(&self, cell: usize) -> f32 {
-        rolling::lack(self.fraction[cell], self.density(cell)) * self.cell[cell]
+        self.lack
+            .get(cell)
+            .map_or(0.0, |lack| lack * self.cell[cell])
     }
 
     /// Part of the wet walls of a cell that its liquid touches.
     pub(crate) fn touching(&self, cell: usize) -> f32 {
-        rolling::touching(self.fraction[cell], self.density(cell))
+        self.lack
+            .get(cell)
+            .map_or(1.0, |&lack| rolling::touching(lack))
     }
 
     /// Liquid and open volume (sub-cells) of the block of `parts` sub-cells from `first` on.

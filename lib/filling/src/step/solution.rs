@@ -78,7 +78,7 @@ impl Implicit {
     fn solve_with(&mut self, trial: &Trial, fractions: &Fractions) -> Result<Solution, Failure> {
         let lattice = &trial.lattice;
         let scales = self.setup.scales(trial.dt);
-        let volumes = Volumes::new(lattice, &fractions.liquid).of_density(&fractions.density);
+        let volumes = Volumes::new(lattice, &fractions.liquid).lacking(&fractions.lack);
         let mut operator = self
             .workspace
             .clock

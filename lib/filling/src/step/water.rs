@@ -5,7 +5,6 @@ use physics::{Array, SET, Saved, WaterState};
 
 use super::length::Fit;
 use super::{Implicit, Part, Trial};
-use crate::liquid::touching;
 use crate::water::{Exchange, Medium, give_off};
 
 /// Change of ln(viscosity), where the liquid dries, that a step aims at; its viscosity is that of its
@@ -56,9 +55,8 @@ impl Implicit {
         let capacity = water.capacity().map_or(f64::INFINITY, |length| length / h);
         let (wetted, exchange) = self.workspace.clock.time(Part::Water, || {
             let mut wetted = surface.wetted(&lattice.solids, &lattice.window, &lattice.open, phi);
-            // Of cells at the surface, too, what lacks is next to walls.
             for wet in &mut wetted {
-                let touching = touching(1.0, fractions.density[wet.cell as usize]);
+                let touching = fractions.touching(wet.cell as usize);
                 (wet.area, wet.part) = (wet.area * touching, wet.part * touching);
             }
             let mut asked = vec![0.0; lattice.window.len()];

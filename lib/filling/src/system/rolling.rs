@@ -3,13 +3,10 @@
 //! Solved as if they were full they would let all that comes pass on to the front, whose tip then runs ahead of its contact
 //! lines, the farther the shorter the steps.
 
-use std::mem;
-
 use super::Operator;
 use super::dofs::NONE;
+use crate::liquid::nearest_air;
 
-/// Faces between such a cell and the air at most: farther away is no front, and closed-in liquid has no room to take up from.
-const REACH: usize = 4;
 /// How often a cell that lacks liquid could be filled while the flow there passes a cell: what steps of less than its inverse
 /// leave of it, the front runs ahead by.
 const SWIFT: f64 = 4.0;
@@ -44,29 +41,20 @@ impl Operator<'_> {
         lost
     }
 
-    /// The cell of air that is the fewest faces with velocities away from a liquid one, if it is within [`REACH`], and the
-    /// fastest velocity (m/s) of those looked at.
+    /// The cell of air that is the fewest faces with velocities away from a liquid one, if it is near, and the fastest velocity
+    /// (m/s) of those looked at.
     fn nearest_air(&self, cell: usize, u: &[f64]) -> Option<(usize, f64)> {
-        let (mut known, mut ring, mut speed) = (vec![cell], vec![cell], 0.0_f64);
-        for _ in 0..REACH {
-            let mut air = None;
-            for (face, to) in mem::take(&mut ring).into_iter().flat_map(|c| self.sides(c)) {
-                let Some(u) = u.get(face as usize) else {
-                    continue;
-                };
-                speed = speed.max(u.abs());
-                if self.dofs.cell[to] == NONE {
-                    air = air.or(Some(to));
-                } else if !known.contains(&to) {
-                    known.push(to);
-                    ring.push(to);
+        let mut speed = 0.0_f64;
+        let beyond = |from: usize, next: &mut Vec<usize>| {
+            for (face, to) in self.sides(from) {
+                if let Some(u) = u.get(face as usize) {
+                    speed = speed.max(u.abs());
+                    next.push(to);
                 }
             }
-            if let Some(air) = air {
-                return Some((air, speed));
-            }
-        }
-        None
+        };
+        let air = nearest_air(cell, beyond, |to| self.dofs.cell[to] == NONE)?;
+        Some((air, speed))
     }
 
     /// The numbers of the faces of a cell, and the cells beyond them.
@@ -90,7 +78,7 @@ mod tests {
     use crate::system::Scales;
     use crate::system::air::{Outside, Pockets};
 
-    /// Liquid up to x = `wet` in a box of 12 x 3 cells with the density 1/2 in the cell at `x`, and the velocity `speed` everywhere: the
+    /// Liquid up to x = `wet` in a box of 12 x 3 cells, 0.3 of which lack in the cell at `x`, and the velocity `speed` everywhere: the
     /// volume in a time that the cell and the pocket of air lose, and that of all.
     fn filling(wet: usize, x: usize, speed: f64, cell_per_step: f64) -> [f64; 3] {
         beside(&[], wet, x, speed, cell_per_step)
@@ -107,18 +95,18 @@ mod tests {
         let lattice = lattice(domain([12, 3, 1], 2), vec![]);
         let window = &lattice.window;
         let mut phi = vec![0.0; window.sub_len()];
-        let mut density = vec![1.0; window.len()];
+        let mut lack = vec![0.0; window.len()];
         let mut cell = 0;
-        for (index, density) in density.iter_mut().enumerate() {
+        for (index, lack) in lack.iter_mut().enumerate() {
             let at = [0, 1].map(|a| window.coordinates(index)[a] as i64 + window.low[a]);
             if at[0] < wet as i64 {
                 sub_cells(window, index).for_each(|sub| phi[sub] = 1.0);
             }
             if at == [x as i64, 1] {
-                (*density, cell) = (0.5, index);
+                (*lack, cell) = (0.3, index);
             }
         }
-        let volumes = Volumes::new(&lattice, &phi).of_density(&density);
+        let volumes = Volumes::new(&lattice, &phi).lacking(&lack);
         let scales = Scales {
             cell_per_step,
             ..Scales::plain()

@@ -3,8 +3,9 @@
 use physics::Tait;
 use rayon::prelude::*;
 
-use super::{Fractions, HAT, around, collapse};
-use crate::geometry::Window;
+use super::hidden::behind_walls;
+use super::{Fractions, HAT, around, collapse, sub_cells};
+use crate::geometry::{Lattice, Window};
 use crate::liquid::{Bins, Particles};
 
 /// Weights of the density of a cell: its own sub-cells double, the next ones on each side
@@ -16,8 +17,10 @@ const OWN_TWICE: [f32; 4] = [1.0, 2.0, 2.0, 1.0];
 const ENOUGH_OPEN: f32 = 0.2;
 
 /// Fills [`Fractions::density`].
-pub(super) fn densities(fractions: &mut Fractions, window: &Window, open: &[f32]) {
+pub(super) fn densities(fractions: &mut Fractions, lattice: &Lattice) {
+    let (window, open) = (&lattice.window, &lattice.open);
     let Fractions {
+        liquid,
         density,
         deposit,
         rows,
@@ -51,11 +54,30 @@ pub(super) fn densities(fractions: &mut Fractions, window: &Window, open: &[f32]
             let room = collapse(open, sx, at, lines, span.clone(), &wide);
             for i in cells {
                 let room = around(&room, 2 * i, span.start, &wide);
+                let room = room - empty_behind_walls(lattice, liquid, row * nx + i, &wide);
                 if room > ENOUGH_OPEN * free {
                     out[i] = around(&mass, 2 * i, span.start, &OWN_TWICE) / room;
                 }
             }
         });
+}
+
+/// Open volume around a cell, as its density sees it, that lies behind walls and is empty: what liquid is there counts on both
+/// sides, for deposits do not tell from which side of a thin wall they came.
+fn empty_behind_walls(lattice: &Lattice, liquid: &[f32], cell: usize, wide: &[f32; 6]) -> f32 {
+    let window = &lattice.window;
+    let mut empty = 0.0;
+    behind_walls(lattice, cell, |hidden, at| {
+        for (bit, sub) in sub_cells(window, hidden).enumerate() {
+            let weight = |axis: usize| match axis < window.domain.axes {
+                true => wide[2 * at[axis] + (bit >> axis & 1)],
+                false => 1.0,
+            };
+            let weight: f32 = (0..3).map(weight).product();
+            empty += weight * lattice.open[sub] * (1.0 - liquid[sub]);
+        }
+    });
+    empty
 }
 
 /// Mean pressure (Pa) of the particles of each cell by `tait`, the p* of the compressibility

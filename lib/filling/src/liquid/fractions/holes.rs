@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::hidden::behind_walls;
 use super::{Fractions, films, sub_cells, sub_cells_of};
 use crate::geometry::{Lattice, Window};
 
@@ -9,7 +10,7 @@ use crate::geometry::{Lattice, Window};
 const LARGEST_HOLE: usize = 4;
 
 /// Fills small enclosed air pockets, films under liquid and the inside of the liquid: a cell without
-/// an air cell among its 3^d neighbours is full. `bodies` are the bodies' velocities.
+/// an air cell among its 3^d neighbours, those behind walls left out, is full. `bodies` are the bodies' velocities.
 pub(super) fn close(fractions: &mut Fractions, lattice: &Lattice, bodies: &[[f64; 3]]) {
     let (window, open) = (&lattice.window, &lattice.open);
     let nx = window.cells[0];
@@ -43,10 +44,7 @@ pub(super) fn close(fractions: &mut Fractions, lattice: &Lattice, bodies: &[[f64
     }
     let full: Vec<bool> = (0..kinds.len())
         .into_par_iter()
-        .map(|c| {
-            kinds[c] == Kind::Liquid
-                && neighbours(window, c).all(|n| n.is_some_and(|n| kinds[n] != Kind::Air))
-        })
+        .map(|c| kinds[c] == Kind::Liquid && beside_no_air(&kinds, lattice, c))
         .collect();
     for hole in holes {
         fill(fractions, window, hole as usize);
@@ -66,6 +64,23 @@ pub(super) fn close(fractions: &mut Fractions, lattice: &Lattice, bodies: &[[f64
             *phi = 1.0;
         }
     });
+}
+
+/// Whether no neighbour of a cell is air, but for those that it does not meet.
+fn beside_no_air(kinds: &[Kind], lattice: &Lattice, cell: usize) -> bool {
+    let (mut air, mut apart) = (0, 0);
+    for neighbour in neighbours(&lattice.window, cell) {
+        match neighbour {
+            Some(neighbour) => air += usize::from(kinds[neighbour] == Kind::Air),
+            None => return false,
+        }
+    }
+    if air > 0 {
+        behind_walls(lattice, cell, |neighbour, _| {
+            apart += usize::from(kinds[neighbour] == Kind::Air);
+        });
+    }
+    air == apart
 }
 
 /// What a cell holds.

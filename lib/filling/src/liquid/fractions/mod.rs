@@ -10,6 +10,7 @@
 mod cells;
 mod deposit;
 mod films;
+mod hidden;
 mod holes;
 
 use std::ops::Range;
@@ -17,7 +18,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::geometry::{Lattice, Window};
-use crate::liquid::{Bins, Particles};
+use crate::liquid::{Bins, Particles, rolling};
 
 pub(crate) use cells::pressures;
 pub(crate) use deposit::velocities;
@@ -33,6 +34,8 @@ pub(crate) struct Fractions {
     /// Density r of each cell, liquid deposited over what its open volume holds; 1 where too
     /// little is open to tell.
     pub(crate) density: Vec<f32>,
+    /// Density that each full cell behind a front lacks; empty where none does.
+    pub(crate) lack: Vec<f32>,
     /// Deposited volume per volume of a sub-cell.
     deposit: Vec<f32>,
     rows: Vec<Range<usize>>,
@@ -61,7 +64,16 @@ impl Fractions {
         self.fill_sub_cells(window, open);
         self.fill_cells(window, open);
         holes::close(self, lattice, bodies);
-        cells::densities(self, window, open);
+        cells::densities(self, lattice);
+        rolling::behind_fronts(self, lattice);
+    }
+
+    /// Part of the walls at a cell that its liquid touches: at the surface, too, what lacks is next to walls.
+    pub(crate) fn touching(&self, cell: usize) -> f32 {
+        rolling::touching(match self.cell[cell] < 1.0 {
+            true => rolling::lacks(self.density[cell]),
+            false => self.lack.get(cell).copied().unwrap_or_default(),
+        })
     }
 
     /// Gives back what is needed while they are found alone.
