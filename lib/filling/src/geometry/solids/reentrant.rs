@@ -21,6 +21,15 @@ pub(crate) struct Reentrant {
     pub(crate) straight: f64,
 }
 
+/// How far a wall of an edge runs in its block.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    /// Cells; from [`LONG`] on it does not matter.
+    length: f64,
+    /// Whether the block ends there.
+    to_end: bool,
+}
+
 /// A rectangle in the plane across an axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Across {
@@ -32,15 +41,90 @@ pub(crate) struct Across {
 }
 
 impl Solids {
-    /// Adds the re-entrant edges that cross a rectangle.
+    /// Adds the re-entrant edges that cross a rectangle, and the images of those whose images beyond symmetry planes do.
     pub(crate) fn reentrant(&self, across: &Across, found: &mut Vec<Reentrant>) {
-        for (number, block) in self.blocks.iter().enumerate() {
-            block.reentrant(across, |edge| {
-                if self.is_free(number, across, &edge) {
+        let [firsts, seconds] = [0, 1].map(|n| self.planes(across, n));
+        for first in firsts {
+            for second in seconds.clone() {
+                let planes = [first, second];
+                let mut image = *across;
+                for (n, plane) in planes.into_iter().enumerate() {
+                    if let Some(plane) = plane {
+                        let [low, high] = [across.low[n], across.high[n]];
+                        (image.low[n], image.high[n]) = (2.0 * plane - high, 2.0 * plane - low);
+                    }
+                }
+                self.inside(&image, |mut edge| {
+                    for (n, plane) in planes.into_iter().enumerate() {
+                        if let Some(plane) = plane {
+                            edge.at[n] = 2.0 * plane - edge.at[n];
+                            edge.above[n] = !edge.above[n];
+                        }
+                    }
                     found.push(edge);
+                });
+            }
+        }
+    }
+
+    /// None, and the symmetry planes across the `n`-th direction of a rectangle that it reaches beyond.
+    fn planes(
+        &self,
+        across: &Across,
+        n: usize,
+    ) -> impl Iterator<Item = Option<f64>> + Clone + use<> {
+        let axis = ACROSS[across.axis][n];
+        let [low, high] = [across.low[n], across.high[n]];
+        let mirrors = self.domain.boundary[axis] == Boundary::Symmetry;
+        let crossed = move |plane: &f64| mirrors && low < *plane && *plane < high;
+        let planes = [0.0, self.domain.cells[axis] as f64].into_iter();
+        std::iter::once(None).chain(planes.filter(crossed).map(Some))
+    }
+
+    /// The re-entrant edges in the domain that cross a rectangle.
+    fn inside(&self, across: &Across, mut found: impl FnMut(Reentrant)) {
+        for (number, block) in self.blocks.iter().enumerate() {
+            block.reentrant(across, |mut edge, runs| {
+                if self.is_free(number, across, &edge) {
+                    let straight = [0, 1].map(|n| self.run(block, across, &edge, n, runs[n]));
+                    edge.straight = straight[0].min(straight[1]);
+                    found(edge);
                 }
             });
         }
+    }
+
+    /// How far the wall of an edge of `block` runs along the `n`-th direction across without a step, if `run` is how far it does in
+    /// the block: on in the next block, and beyond a symmetry plane.
+    fn run(&self, block: &Placed, across: &Across, edge: &Reentrant, n: usize, run: Run) -> f64 {
+        let axes = ACROSS[across.axis];
+        let (axis, end) = (axes[n], self.domain.cells[axes[n]] as f64);
+        let to_plane = match (self.domain.boundary[axis], edge.above[n]) {
+            (Boundary::Symmetry, true) => end - edge.at[n],
+            (Boundary::Symmetry, false) => edge.at[n],
+            _ => f64::INFINITY,
+        };
+        let mut length = run.length.min(to_plane);
+        if length == run.length && !run.to_end {
+            return length.min(LONG);
+        }
+        let sign = |above: bool| if above { 1.0 } else { -1.0 };
+        let solid = |along: f64, into: f64| {
+            let mut point = [across.along; 3];
+            point[axis] = edge.at[n] + sign(edge.above[n]) * along;
+            point[axes[1 - n]] = edge.at[1 - n] + sign(edge.above[1 - n]) * into;
+            if self.domain.boundary[axis] == Boundary::Symmetry {
+                let x = point[axis].abs();
+                point[axis] = if x > end { 2.0 * end - x } else { x };
+            }
+            self.at(point).is_some()
+        };
+        let step = block.edge[axis].min(0.5);
+        let middle = |length: f64| length + 0.5 * step;
+        while length < LONG && solid(middle(length), PROBE) && !solid(middle(length), -PROBE) {
+            length += step;
+        }
+        length.min(LONG)
     }
 
     /// Whether an edge of a block is on no symmetry plane and no other block is in its open quadrants.
@@ -79,7 +163,7 @@ impl Placed {
         self.origin[axis] - more <= high && low <= end + more
     }
 
-    fn reentrant(&self, across: &Across, mut found: impl FnMut(Reentrant)) {
+    fn reentrant(&self, across: &Across, mut found: impl FnMut(Reentrant, [Run; 2])) {
         let axis = across.axis;
         let [s, t] = ACROSS[axis];
         if self.edge[s].min(self.edge[t]) < FINEST
@@ -127,31 +211,30 @@ impl Placed {
                 let solid = [(b | d) >> bit & 1 == 1, (c | d) >> bit & 1 == 1];
                 let corner = [low + i64::from(bit), k];
                 let place = |n: usize, a: usize| self.origin[a] + corner[n] as f64 * self.edge[a];
-                found(Reentrant {
+                let edge = Reentrant {
                     at: [place(0, s), place(1, t)],
                     above: solid,
-                    straight: (self.straight([axis, s, t], along, corner, solid)).min(
-                        self.straight(
-                            [axis, t, s],
-                            along,
-                            [corner[1], corner[0]],
-                            [solid[1], solid[0]],
-                        ),
-                    ),
-                });
+                    straight: 0.0,
+                };
+                let turned = ([corner[1], corner[0]], [solid[1], solid[0]]);
+                let runs = [
+                    self.straight([axis, s, t], along, corner, solid),
+                    self.straight([axis, t, s], along, turned.0, turned.1),
+                ];
+                found(edge, runs);
             }
             below = above;
         }
     }
 
-    /// How far a wall runs along `s` from a corner without a step, at most [`LONG`].
+    /// How far a wall runs along `s` from a corner without a step.
     fn straight(
         &self,
         [axis, s, t]: [usize; 3],
         along: usize,
         corner: [i64; 2],
         above: [bool; 2],
-    ) -> f64 {
+    ) -> Run {
         let dims = self.rows.block.dims();
         let solid = |at_s: i64, at_t: i64| {
             let mut voxel = [along; 3];
@@ -174,7 +257,10 @@ impl Placed {
             length += self.edge[s];
             at += if above[0] { 1 } else { -1 };
         }
-        length.min(LONG)
+        Run {
+            length,
+            to_end: length < LONG && !(0..dims[s] as i64).contains(&at),
+        }
     }
 }
 
@@ -200,6 +286,10 @@ mod tests {
 
     /// The edges along `axis` of blocks given in the plane across it.
     fn edges(axis: usize, boxes: &[[[f64; 2]; 2]]) -> Vec<Reentrant> {
+        edges_within(axis, boxes, [1.0; 2])
+    }
+
+    fn edges_within(axis: usize, boxes: &[[[f64; 2]; 2]], low: [f64; 2]) -> Vec<Reentrant> {
         let block = |[low, high]: &[[f64; 2]; 2]| {
             let (mut from, mut to) = ([0.0; 3], [6.0; 3]);
             for (n, &t) in ACROSS[axis].iter().enumerate() {
@@ -212,7 +302,7 @@ mod tests {
         let across = Across {
             axis,
             along: 3.0,
-            low: [1.0; 2],
+            low,
             high: [5.0; 2],
         };
         solids.reentrant(&across, &mut found);
@@ -228,7 +318,7 @@ mod tests {
                 straight,
             };
             let one = edges(axis, &[[[0.0, 0.0], [2.25, 3.5]]]);
-            assert_eq!(one, [edge([2.25, 3.5], [false; 2], 2.25)], "{axis}");
+            assert_eq!(one, [edge([2.25, 3.5], [false; 2], LONG)], "{axis}");
             // Beside another block the wall goes on; its own edge is out of reach.
             let boxes = [[[0.0, 0.0], [2.25, 3.5]], [[2.25, 0.0], [6.0, 3.5]]];
             assert_eq!(edges(axis, &boxes), [], "{axis}");
@@ -236,6 +326,29 @@ mod tests {
             let tooth = edges(axis, &[[[2.5, 4.0], [3.0, 6.0]]]);
             let right = edge([3.0, 4.0], [false, true], 0.5);
             assert_eq!(tooth, [edge([2.5, 4.0], [true; 2], 0.5), right], "{axis}");
+        }
+    }
+
+    /// A wall that ends at a symmetry plane, or at another block, runs on beyond it; the edges beyond the plane are images.
+    #[test]
+    fn edges_and_walls_go_on_beyond_planes_and_blocks() {
+        for axis in 0..3 {
+            let edge = |at, above, straight| Reentrant {
+                at,
+                above,
+                straight,
+            };
+            let half = edges_within(axis, &[[[0.0, 2.0], [0.5, 6.0]]], [-1.0, 1.0]);
+            let right = edge([0.5, 2.0], [false, true], 1.0);
+            let image = edge([-0.5, 2.0], [true; 2], 1.0);
+            assert_eq!(half, [right, image], "{axis}");
+            let whole = [[[3.0, 2.0], [4.0, 6.0]]];
+            let pieces = [[[3.0, 2.0], [3.5, 6.0]], [[3.5, 2.0], [4.0, 6.0]]];
+            let beyond = [[[-9.0, 2.0], [0.5, 6.0]]];
+            assert_eq!(edges_within(axis, &beyond, [-1.0, 1.0]), half, "{axis}");
+            let [whole, pieces] = [edges(axis, &whole), edges(axis, &pieces)];
+            assert_eq!(whole, pieces, "{axis}");
+            assert_eq!(whole[0].straight, 1.0, "{axis}");
         }
     }
 
