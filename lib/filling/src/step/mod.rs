@@ -173,7 +173,7 @@ impl Implicit {
             self.state.air = air;
         }
         // 8. Density projection; then particles take what is there, bodies and time advance.
-        self.project(lattice, &solution, &after)?;
+        self.project(lattice, &solution, &after, dt)?;
         if self.state.counts.lost > lost {
             self.let_go(water);
         }

@@ -43,12 +43,13 @@ impl Implicit {
         field
     }
 
-    /// Stage 8: moves particles such that the liquid keeps its density.
+    /// Stage 8: moves particles such that the liquid keeps its density, after a step of `dt` (s).
     pub(super) fn project(
         &mut self,
         lattice: &Lattice,
         solution: &Solution,
         after: &Solids,
+        dt: f64,
     ) -> Result<(), Failure> {
         let path = Path {
             before: after,
@@ -58,7 +59,10 @@ impl Implicit {
         let particles = &mut self.state.particles;
         let projected = self.workspace.clock.time(Part::Density, || {
             let (g, volume) = (&solution.g, &solution.face_volume);
-            let (moves, _) = density::displacement(g, &g.transpose(), volume, &solution.cells)?;
+            let fastest = (solution.u.iter()).fold(0.0, |most: f64, u| most.max(u.abs()));
+            let way = fastest * dt / self.setup.units.h;
+            let (moves, _) =
+                density::displacement(g, &g.transpose(), volume, &solution.cells, way)?;
             let field = density::Field::new(&lattice.window, &solution.dofs.face, moves);
             Ok(path.follow(particles, |x, near| field.at(x, near)))
         });

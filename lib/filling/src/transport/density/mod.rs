@@ -16,6 +16,9 @@ use saddle_point::{Csr, Poisson, SolveError};
 
 /// Fraction of the density error that one step removes.
 const KAPPA: f64 = 0.5;
+/// Way of the fastest liquid in a step, cells, from which it does; a shorter one removes as much less, for liquid that rests makes
+/// no errors, and what is left of old ones would move it by the number of steps.
+const WAY: f64 = 0.05;
 /// Largest relative error that counts.
 const CLIP: f64 = 0.3;
 /// Liquid fraction from which a cell below unit density is contracted; below, it is partly filled
@@ -42,7 +45,7 @@ pub(crate) struct Cells {
 
 /// Displacement (cells) of each face unknown that reduces the density error, and the number of
 /// iterations it took. `g` are the fluxes, cells x faces, `face_volume` the liquid volumes of the
-/// faces in cells.
+/// faces in cells, `way` that of the fastest liquid in the step, cells.
 ///
 /// # Errors
 /// Those of [`Poisson`], except that a solution short of its tolerance is used as it is: what is
@@ -54,7 +57,9 @@ pub(crate) fn displacement(
     g_transposed: &Csr<f64>,
     face_volume: &[f64],
     cells: &Cells,
+    way: f64,
 ) -> Result<(Vec<f64>, usize), SolveError> {
+    let kappa = KAPPA * (way / WAY).min(1.0);
     let weight: Vec<f64> = (face_volume.iter())
         .map(|v| 1.0 / v.max(LEAST_VOLUME))
         .collect();
@@ -66,7 +71,7 @@ pub(crate) fn displacement(
             if error < 0.0 && phi < FULL {
                 0.0
             } else {
-                KAPPA * error * f64::from(volume)
+                kappa * error * f64::from(volume)
             }
         })
         .collect();

@@ -52,6 +52,7 @@ fn project(lattice: &Lattice, particles: &mut Particles) -> ([f64; 2], usize, f6
         &system.g.transpose(),
         &system.face_volume,
         &cells,
+        1.0,
     )
     .unwrap();
     assert!(moves.iter().all(|d| d.abs() <= LONGEST));
@@ -166,9 +167,24 @@ fn a_cell_alone_moves_by_its_error() {
         fraction: vec![1.0, 1.0, 1.0, 0.84, 0.86],
         volume: vec![1.0; 5],
     };
-    let (moves, _) = displacement(&g, &g.transpose(), &[1.0; 5], &cells).unwrap();
+    let (moves, _) = displacement(&g, &g.transpose(), &[1.0; 5], &cells, 1.0).unwrap();
     for (moved, wanted) in moves.iter().zip([0.05, 0.15, 0.25, 0.0, -0.05]) {
         assert!((moved - wanted).abs() < 1e-3, "{moves:?}");
+    }
+}
+
+/// After a step in which nothing went farther than a fiftieth of a cell, 0.4 of that; where all rests, nothing.
+#[test]
+fn liquid_that_rests_is_left_where_it_is() {
+    let g = Csr::assemble(1, 1, |_, entries| entries.add(0, 1.0)).unwrap();
+    let cells = Cells {
+        density: vec![1.1],
+        fraction: vec![1.0],
+        volume: vec![1.0],
+    };
+    for (way, wanted) in [(0.05, 0.05), (0.02, 0.02), (0.0, 0.0)] {
+        let (moves, _) = displacement(&g, &g.transpose(), &[1.0], &cells, way).unwrap();
+        assert!((moves[0] - wanted).abs() < 1e-6, "{way}: {moves:?}");
     }
 }
 
@@ -184,6 +200,6 @@ fn a_face_with_next_to_no_liquid_takes_its_share() {
         fraction: vec![1.0],
         volume: vec![1.0],
     };
-    let (moves, _) = displacement(&g, &g.transpose(), &[0.001, 1.0], &cells).unwrap();
+    let (moves, _) = displacement(&g, &g.transpose(), &[0.001, 1.0], &cells, 1.0).unwrap();
     assert!((moves[0] / moves[1] / 50.0 - 1.0).abs() < 1e-3, "{moves:?}");
 }
