@@ -23,7 +23,7 @@ pub fn shortage(need: u64) -> Option<Shortage> {
 }
 
 impl fmt::Display for Shortage {
-    /// `17.2 GB of memory, and this process may have 2.0 GB`, to stand behind "needs".
+    /// `17.2 GB of memory, and this process may have 2.0 GB`, to stand behind "needs" or "would take".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
