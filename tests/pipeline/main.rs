@@ -27,6 +27,7 @@ mod report;
 mod run_folder;
 mod sweep;
 mod sweep_tables;
+mod too_large;
 mod verdicts;
 mod wood;
 mod workbench;

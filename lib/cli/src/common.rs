@@ -55,6 +55,7 @@ pub fn main<A: Parser + CommandFactory>(
         Err(error) => return usage(&error, &tool),
     };
     signals::catch_file_limit();
+    signals::catch_abort();
     let ended = setup(common(&arguments)).and_then(|()| run(arguments));
     match ended {
         Ok(()) => ExitCode::SUCCESS,

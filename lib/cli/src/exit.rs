@@ -9,11 +9,11 @@ use crate::message;
 /// Exit statuses of every tool, documented here and in README.md only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The run failed: unstable, particle lost, output could not be written.
+    /// The run failed: unstable, particle lost, output could not be written, memory ran out.
     Failed = 1,
     /// Usage or case-file error.
     Usage = 2,
-    /// Unreadable or corrupt data file.
+    /// Unreadable or corrupt data file, or one that does not fit into memory.
     Data = 3,
     /// Stopped early and resumable.
     Resumable = 75,
@@ -46,7 +46,7 @@ impl Failure {
         Self::new(Status::Usage, message)
     }
 
-    /// Unreadable or corrupt data (exit 3).
+    /// Unreadable, corrupt or too large data (exit 3).
     pub fn data(message: impl fmt::Display) -> Self {
         Self::new(Status::Data, message)
     }

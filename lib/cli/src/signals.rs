@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
+use signal_hook::consts::{SIGABRT, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::iterator::Signals;
 
 use crate::{Failure, Status, message};
@@ -49,6 +49,16 @@ pub fn catch_interrupts() -> Result<(), Failure> {
 pub(crate) fn catch_file_limit() {
     // Where the system refuses the handler, the signal does what it did.
     let _ = signal_hook::flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
+}
+
+/// From now on an allocation that fails, which has said so and aborts, ends the process with exit 1 and no
+/// core file. What is known to be large is refused before it is begun ([`crate::enough_memory`]); this is
+/// for what is not foreseen.
+pub(crate) fn catch_abort() {
+    let always = Arc::new(AtomicBool::new(true));
+    let failed = i32::from(Status::Failed as u8);
+    // Where the system refuses the handler, the signal does what it did.
+    let _ = signal_hook::flag::register_conditional_shutdown(SIGABRT, failed, always);
 }
 
 fn end_after_grace(mut signals: Signals) {

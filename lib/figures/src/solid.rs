@@ -1,6 +1,7 @@
 //! Voxels as lit solids: their surface where the trilinear interpolation between voxel centres is
 //! one half, so that one voxel alone is still there and a full one ends at its faces.
 
+use particle_file::limits;
 use voxels::{ADHESIVE, LabelVolume, VOID, WOOD};
 
 /// What a ray meets.
@@ -41,6 +42,11 @@ fn bit(label: u8) -> u8 {
 }
 
 impl Solids {
+    /// Memory that the voxels of `dims` take while they are made: a byte for label, bits and surface each.
+    pub(crate) fn bytes(dims: [usize; 3]) -> u64 {
+        3 * limits::volume(dims.map(|n| n as u64 + 2))
+    }
+
     /// The adhesive of `labels`, and of its wood the voxels that are shown.
     pub(crate) fn new(labels: &LabelVolume, shown: impl Fn([usize; 3]) -> bool) -> Self {
         let dims = labels.dims.map(|n| n + 2);

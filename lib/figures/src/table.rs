@@ -4,9 +4,13 @@ use std::io::Read;
 use std::path::Path;
 
 use csv::StringRecord;
-use particle_file::limits;
+use particle_file::read_table;
 
 use crate::Error;
+
+/// Bytes of a row and of a cell: records of the csv crate, 195 bytes a row of three cells, and the numbers
+/// of the columns that are drawn.
+const RECORD: [u64; 2] = [180, 16];
 
 /// A CSV file whose columns are asked for by name.
 pub(crate) struct Table {
@@ -19,17 +23,7 @@ impl Table {
     pub(crate) fn read(path: &Path) -> Result<Self, Error> {
         let name = path.display().to_string();
         let unreadable = |e| Error::Data(format!("cannot read '{name}': {e}"));
-        let mut text = Vec::new();
-        let file = std::fs::File::open(path).map_err(unreadable)?;
-        file.take(limits::TABLE + 1)
-            .read_to_end(&mut text)
-            .map_err(unreadable)?;
-        if text.len() as u64 > limits::TABLE {
-            return Err(Error::Data(format!(
-                "'{name}' is no table: it has more than {} bytes",
-                limits::TABLE
-            )));
-        }
+        let text = read_table(path, RECORD).map_err(unreadable)?;
         Self::from_reader(text.as_slice(), name)
     }
 

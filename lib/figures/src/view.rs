@@ -235,6 +235,8 @@ impl Panel {
         camera: &Camera,
     ) -> Result<Self, Error> {
         let labels = LabelVolume::of(file).map_err(data)?;
+        let bytes = Solids::bytes(labels.dims);
+        file.fits(bytes, "a view of its voxels").map_err(data)?;
         let middle = labels.dims[camera.front] / 2;
         let solids = Solids::new(&labels, |voxel| match wood {
             Wood::Hidden => false,

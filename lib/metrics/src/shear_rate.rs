@@ -81,6 +81,8 @@ impl ShearRates {
                 rates[i], volumes[i]
             )));
         }
+        let bytes = rates.len() * size_of::<(f64, f64)>();
+        file.fits(bytes as u64, "the order of its shear rates")?;
         let weighted = Weighted::new(
             pairs
                 .map(|(&r, &v)| (factor * f64::from(r), f64::from(v)))

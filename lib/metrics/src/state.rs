@@ -202,12 +202,14 @@ impl<'a> State<'a> {
 /// Refuses a file whose box has more columns across the bond than it is worth; the layers along
 /// the normal are bounded for every file.
 fn worth_its_columns(file: &ParticleFile) -> Result<(), Error> {
-    /// Bytes of a row of the map, the largest thing made of a column.
+    /// Bytes of a row of the map, the largest thing made of a column; half of them stay in memory.
     const ROW: u64 = 64;
     let span = file.header().span();
     let columns = limits::volume(span) / span[usize::from(file.header().normal)].max(1);
-    Ok(file.is_worth(
+    let (bytes, what) = (
         columns.saturating_mul(ROW),
         "what is measured in each column",
-    )?)
+    );
+    file.is_worth(bytes, what)?;
+    Ok(file.fits(bytes / 2, what)?)
 }

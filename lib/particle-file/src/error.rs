@@ -2,6 +2,8 @@
 
 use std::io;
 
+use machine::Shortage;
+
 /// Why a particle file cannot be used; every case is exit status 3.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -21,6 +23,16 @@ pub enum Error {
         /// What is wrong and what would be accepted.
         what: String,
     },
+    /// More would be made of it than fits into memory.
+    #[error("'{file}' is too large: {what} would take {short}")]
+    TooLarge {
+        /// The file as the user named it, "standard input" for `-`.
+        file: String,
+        /// What would be made.
+        what: String,
+        /// What it takes and what there is.
+        short: Shortage,
+    },
     /// A sound file without the block or column asked for.
     #[error("'{file}' has no {wanted}; it holds {present}")]
     Missing {
@@ -39,6 +51,9 @@ impl Error {
         match self {
             Error::Unreadable { source, .. } => format!("the file cannot be read: {source}"),
             Error::Corrupt { what, .. } => format!("the file {what}"),
+            Error::TooLarge { what, short, .. } => {
+                format!("the file is too large: {what} would take {short}")
+            }
             Error::Missing {
                 wanted, present, ..
             } => format!("the file has no {wanted}; it holds {present}"),

@@ -32,6 +32,8 @@ mod map;
 mod read;
 mod spool;
 mod sum;
+mod table_text;
+mod worth;
 mod write;
 
 pub use bits::{BitGrid, BitsRef};
@@ -40,7 +42,8 @@ pub use header::{Block, Header, Kind, Material, Provenance};
 pub use layout::{Element, Section};
 pub use map::Mapped;
 pub use read::{ParticleFile, Value};
-pub use spool::{spool, spool_exactly};
+pub use spool::{spool, spool_exactly, temporary_file};
+pub use table_text::read_table;
 pub use write::Draft;
 
 const _: () = assert!(

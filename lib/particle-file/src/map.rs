@@ -37,7 +37,11 @@ impl Mapped {
     pub fn read(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<Self> {
         match opened(path, recognised)? {
             Opened::Named(mut file) => {
-                let len = usize::try_from(file.metadata()?.len()).map_err(io::Error::other)?;
+                let len = file.metadata()?.len();
+                if let Some(short) = machine::shortage(len) {
+                    return Err(io::Error::other(format!("reading it needs {short}")));
+                }
+                let len = usize::try_from(len).map_err(io::Error::other)?;
                 let mut bytes = MmapMut::map_anon(len.max(1))?;
                 file.read_exact(&mut bytes[..len])?;
                 Ok(Self(bytes.make_read_only()?))

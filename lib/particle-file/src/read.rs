@@ -10,7 +10,6 @@ use crate::bits::BitsRef;
 use crate::error::Error;
 use crate::header::{Block, Header, Stored};
 use crate::layout::{self, END_LEN, Element, PREAMBLE, Preamble, Section};
-use crate::limits;
 use crate::map::Mapped;
 
 /// A type that columns are made of.
@@ -106,26 +105,6 @@ impl ParticleFile {
             }),
             Err(what) => Err(Error::Corrupt { file: name, what }),
         }
-    }
-
-    /// Refuses a file from which `what`, of so many bytes, would be made although the file is
-    /// too small to be worth them: a header can claim any box.
-    ///
-    /// # Errors
-    /// The bound and what is asked for.
-    pub fn is_worth(&self, bytes: u64, what: &str) -> Result<(), Error> {
-        let len = self.bytes.len() as u64;
-        let most = limits::made_of(len);
-        if bytes <= most {
-            return Ok(());
-        }
-        let [x, y, z] = self.header().span();
-        Err(self.corrupt(format!(
-            "has {len} bytes and claims a box of {x} x {y} x {z} voxels: {what} would take \
-             {bytes} bytes, and at most {most} are made of it ({} and {} for each of its bytes)",
-            limits::MADE_AT_LEAST,
-            limits::MADE_PER_BYTE
-        )))
     }
 
     /// Length of the file, bytes.

@@ -37,12 +37,7 @@ pub fn spool(mut pipe: impl Read, recognised: impl Fn(&[u8]) -> bool) -> io::Res
 /// The system's reason, content that ends before, or more bytes than half of what is free in the
 /// folder of temporary files.
 pub fn spool_exactly(content: impl Read, bytes: u64) -> io::Result<File> {
-    let mut file = tempfile::tempfile()?;
-    let free = rustix::fs::fstatvfs(&file)?;
-    let most = free.f_bavail.saturating_mul(free.f_frsize) / 2;
-    if bytes > most {
-        return Err(too_much(most));
-    }
+    let mut file = temporary_file(bytes)?;
     let found = io::copy(&mut content.take(bytes), &mut file)?;
     if found < bytes {
         return Err(io::Error::other(format!(
@@ -51,6 +46,20 @@ pub fn spool_exactly(content: impl Read, bytes: u64) -> io::Result<File> {
     }
     file.seek(SeekFrom::Start(0))?;
     Ok(file)
+}
+
+/// An unnamed temporary file that will hold `bytes`.
+///
+/// # Errors
+/// The system's reason, or more bytes than half of what is free in the folder of temporary files.
+pub fn temporary_file(bytes: u64) -> io::Result<File> {
+    let file = tempfile::tempfile()?;
+    let free = rustix::fs::fstatvfs(&file)?;
+    let most = free.f_bavail.saturating_mul(free.f_frsize) / 2;
+    match bytes > most {
+        true => Err(too_much(most)),
+        false => Ok(file),
+    }
 }
 
 /// Copies all of `pipe` unless it is more than `most` bytes.

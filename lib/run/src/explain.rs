@@ -10,7 +10,6 @@ use physics::{
 use crate::case::{Case, SchemeName};
 use crate::left_out::left_out;
 use crate::resolve::Setup;
-use crate::system;
 use crate::{chords, expected_error};
 
 /// What the loss of water does in a tube of six cells of `cell_m` that nothing flows into.
@@ -69,14 +68,14 @@ impl Forecast {
                 self.limit
             ));
         }
-        let machine = system::memory_bytes()? as f64;
-        (!fits(self.memory_bytes, machine)).then(|| {
-            format!(
-                "the run would need {:.1} GB of memory and this machine has {:.1} GB; a coarser cell, fewer points_per_direction or a smaller specimen is needed",
-                self.memory_bytes / 1e9,
-                machine / 1e9
-            )
-        })
+        let need = match self.memory_bytes.is_nan() {
+            true => u64::MAX,
+            false => self.memory_bytes as u64,
+        };
+        let short = machine::shortage(need)?;
+        Some(format!(
+            "the run would need {short}; a coarser cell, fewer points_per_direction or a smaller specimen is needed"
+        ))
     }
 }
 
@@ -352,8 +351,10 @@ mod tests {
         };
         assert!(slow.excess().is_some_and(|said| said.contains("11.6 days")));
         if cfg!(target_os = "linux") {
-            let said = forecast(1.0, 1e18).excess().expect("a refusal");
-            assert!(said.contains("GB"), "{said}");
+            for bytes in [1e18, f64::NAN] {
+                let said = forecast(1.0, bytes).excess().expect("a refusal");
+                assert!(said.contains("GB of memory, and this process"), "{said}");
+            }
         }
     }
 

@@ -24,7 +24,6 @@ mod resolved;
 mod schemes;
 mod snapshot;
 mod summary;
-mod system;
 mod verdict;
 
 pub use answers::{Answers, FilledByDepth, Sides};
@@ -37,5 +36,4 @@ pub use invariants::Invariants;
 pub use left_out::LeftOut;
 pub use request::{Request, RunFailure};
 pub use summary::{PressedStage, Stage, Summary};
-pub use system::give_back_large_arrays;
 pub use verdict::Verdict;

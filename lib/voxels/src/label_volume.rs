@@ -299,6 +299,10 @@ fn dims(file: &ParticleFile, blocks: &[Placed]) -> Result<[usize; 3], Error> {
     /// Bytes of a voxel: a label, and where there are points the volume fraction.
     const LABEL: u64 = 1;
     const FRACTION: u64 = 4;
+    /// And which are open, reached and chosen, rounded up.
+    const BITS: u64 = 1;
+    /// Bytes of the voxels that a liquid point reaches while the fullest are found.
+    const RANKS: u64 = 32;
     let header = file.header();
     let end = |placed: &Placed, a: usize| placed.at[a].saturating_add(placed.bits.dims()[a]);
     let dims: [usize; 3] = std::array::from_fn(|a| match blocks {
@@ -314,6 +318,15 @@ fn dims(file: &ParticleFile, blocks: &[Placed]) -> Result<[usize; 3], Error> {
     } else {
         LABEL
     };
-    file.is_worth(voxels.saturating_mul(bytes), "labels of its voxels")?;
+    let what = "labels of its voxels";
+    file.is_worth(voxels.saturating_mul(bytes), what)?;
+    if header.particles > 0 {
+        // Labels are made page by page; fractions and ranks are not.
+        let ranks = header.particles.saturating_mul(RANKS);
+        file.fits(
+            voxels.saturating_mul(FRACTION + BITS).saturating_add(ranks),
+            what,
+        )?;
+    }
     Ok(dims)
 }

@@ -45,7 +45,7 @@ pub use label_volume::{ADHESIVE, LabelVolume, VOID, WOOD};
 pub use phases::{Grey, Labels, Phase, Phases};
 pub use raw_layout::{Dims, RawType};
 pub use sample::{PageFormat, Sample};
-pub use segment::{Segmented, segment};
+pub use segment::{Segmented, check, segment};
 pub use source::Source;
 pub use stack::Stack;
 pub use surface::Surface;

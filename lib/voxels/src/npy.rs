@@ -5,6 +5,8 @@
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 
+use particle_file::{limits, temporary_file};
+
 use crate::Error;
 use crate::raw::RawVolume;
 use crate::sample::{PageFormat, Sample};
@@ -45,7 +47,14 @@ pub(crate) fn open(source: Source) -> Result<RawVolume, Error> {
     let Some(source) = sources.last() else {
         return Err(Error::Usage("no stack is given".into()));
     };
-    let ordered = in_c_order(source, data, header.shape, header.sample.bytes());
+    let size = header.sample.bytes();
+    if let Some(short) = machine::shortage(bytes_in_order(header.shape, size)) {
+        let what = format!(
+            "it is stored with z fastest (fortran_order), and to put it in order needs {short}: save it by numpy.ascontiguousarray"
+        );
+        return Err(Error::file(source, what));
+    }
+    let ordered = in_c_order(source, data, header.shape, size);
     let ordered = ordered.map_err(|e| Error::io(source, e))?;
     RawVolume::unpacked(sources, ordered, format, nz, 0, big_endian)
 }
@@ -145,14 +154,27 @@ fn sample_of(descr: &str) -> Result<(Sample, bool), String> {
     }
 }
 
+/// Pages that are put in order in one pass over an array: as many as fit into one byte per voxel.
+fn pages_at_once([nz, ..]: [usize; 3], size: usize) -> usize {
+    nz.div_ceil(size)
+}
+
+/// Memory that these take.
+fn bytes_in_order(shape: [usize; 3], size: usize) -> u64 {
+    let [_, ny, nx] = shape.map(|n| n as u64);
+    let pages = pages_at_once(shape, size) as u64;
+    limits::volume([nx.saturating_mul(size as u64), ny, pages])
+}
+
 /// Copies an array stored with z fastest to an unnamed file with x fastest.
 ///
 /// Each pass reads the whole array and gathers as many pages as fit into one byte per voxel,
 /// so a stack needs as many passes as a sample has bytes.
 fn in_c_order(source: &Source, data: u64, shape: [usize; 3], size: usize) -> io::Result<File> {
     let [nz, ny, nx] = shape;
-    let batch = nz.div_ceil(size);
-    let mut out = BufWriter::new(tempfile::tempfile()?);
+    let batch = pages_at_once(shape, size);
+    let whole = limits::volume([(nx * size) as u64, ny as u64, nz as u64]);
+    let mut out = BufWriter::new(temporary_file(whole)?);
     let mut column = vec![0; nz * size];
     for z0 in (0..nz).step_by(batch) {
         let pages = batch.min(nz - z0);

@@ -1,12 +1,15 @@
 //! Stacks sorted into wood and adhesive.
 
-use particle_file::BitGrid;
+use particle_file::{BitGrid, limits};
 use rayon::prelude::*;
 
 use crate::coder::{Coder, UNKNOWN, guessed};
 use crate::label::Label;
 use crate::phases::Phases;
 use crate::{Crop, Error, Stack};
+
+/// Phases that have a bit of each voxel: wood and adhesive.
+const PHASES: u64 = 2;
 
 /// A stack as sets of voxels; void is what is in neither.
 #[derive(Clone, Debug)]
@@ -26,30 +29,16 @@ pub struct Segmented {
 ///
 /// # Errors
 /// A page that cannot be read, the first pixel without a phase, or a crop that reaches out
-/// of the stack.
+/// of the stack; and as [`check`].
 pub fn segment(
     stack: &Stack,
     phases: &Phases,
     crop: &Crop,
     on_page: impl Fn() + Sync,
 ) -> Result<Segmented, Error> {
-    crop.check(stack.dims()).map_err(Error::Usage)?;
-    if stack.format().channels > 1 && matches!(phases, Phases::Grey(_)) {
-        return Err(Error::Usage(format!(
-            "{}: grey values are asked for but its pixels are R:G:B; give R:G:B labels instead",
-            stack.name()
-        )));
-    }
-    if stack.is_lossy() && !matches!(phases, Phases::Grey(_)) {
-        return Err(Error::Usage(format!(
-            "{}: the compression of JPEG changes values, so that no labels survive it; give grey values by --grey",
-            stack.name()
-        )));
-    }
+    check(stack, phases, crop)?;
     let too_large = || Error::file(stack.name(), "it has more voxels than can be counted");
     let [nx, ny, nz] = crop.dims();
-    let voxels = nx.checked_mul(ny).and_then(|n| n.checked_mul(nz));
-    voxels.ok_or_else(too_large)?;
     let words_per_row = nx.div_ceil(u64::BITS as usize);
     let words_per_page = words_per_row * ny;
     let mut wood = vec![0; words_per_page * nz];
@@ -95,6 +84,31 @@ pub fn segment(
         adhesive: BitGrid::from_words(crop.dims(), adhesive).ok_or_else(too_large)?,
         guessed,
     })
+}
+
+/// What [`segment`] refuses before it reads a page: it takes no time.
+///
+/// # Errors
+/// A crop that reaches out of the stack, phases that its pages cannot have, or more memory than
+/// this process may have.
+pub fn check(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<(), Error> {
+    crop.check(stack.dims()).map_err(Error::Usage)?;
+    if stack.format().channels > 1 && matches!(phases, Phases::Grey(_)) {
+        return Err(Error::Usage(format!(
+            "{}: grey values are asked for but its pixels are R:G:B; give R:G:B labels instead",
+            stack.name()
+        )));
+    }
+    if stack.is_lossy() && !matches!(phases, Phases::Grey(_)) {
+        return Err(Error::Usage(format!(
+            "{}: the compression of JPEG changes values, so that no labels survive it; give grey values by --grey",
+            stack.name()
+        )));
+    }
+    let [nx, ny, nz] = crop.dims().map(|n| n as u64);
+    let words = limits::volume([nx.div_ceil(u64::BITS.into()), ny, nz]);
+    let grids = words.saturating_mul(PHASES * (u64::BITS / u8::BITS) as u64);
+    stack.fits(grids.saturating_add(stack.reading_bytes()))
 }
 
 /// The error for the first pixel of a page that has no phase.

@@ -1,5 +1,7 @@
 //! A stack of any format, page by page.
 
+mod memory;
+
 use std::fs::File;
 use std::path::{Path, PathBuf};
 

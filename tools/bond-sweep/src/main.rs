@@ -70,7 +70,7 @@ struct PlanArgs {
     /// Folder of the sweep
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
-    /// Plan runs too where the forecast is more than 1e9 steps, a week, or the memory of this machine
+    /// Plan runs too where the forecast is more than 1e9 steps, a week, or the memory that this process may have
     #[arg(long)]
     yes_really: bool,
     #[command(flatten)]

@@ -1,12 +1,10 @@
 //! The table of a sweep as text: its columns and cells, before any of them is understood.
 
 use std::fmt::Display;
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use cli::Failure;
-use particle_file::limits;
+use particle_file::read_table;
 
 use crate::specimen;
 
@@ -22,6 +20,11 @@ pub enum Kind {
     /// A key of the case.
     Key,
 }
+
+/// Bytes of a row and of a cell: lists of texts.
+const ROW_AND_CELL: [u64; 2] = [64, 64];
+/// More columns than a case has keys: each is held against all others.
+const MOST_COLUMNS: usize = 1000;
 
 /// A table: every row has a cell for each column.
 #[derive(Debug)]
@@ -41,16 +44,8 @@ impl Table {
     /// twice, a row of another length.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let name = path.display();
-        let mut text = Vec::new();
-        (File::open(path))
-            .and_then(|file| file.take(limits::TABLE + 1).read_to_end(&mut text))
+        let text = read_table(path, ROW_AND_CELL)
             .map_err(|e| Failure::data(format!("cannot read '{name}': {e}")))?;
-        if text.len() as u64 > limits::TABLE {
-            let most = limits::TABLE;
-            return Err(Failure::data(format!(
-                "'{name}' has more than {most} bytes"
-            )));
-        }
         Self::parse(path, &text)
     }
 
@@ -69,6 +64,12 @@ impl Table {
             columns: Vec::new(),
             rows: Vec::new(),
         };
+        if header.len() > MOST_COLUMNS {
+            return Err(table.wrong(format_args!(
+                "it has {} columns, and a sweep at most {MOST_COLUMNS}",
+                header.len()
+            )));
+        }
         for name in &header {
             if table.columns.iter().any(|(other, _)| other == name) {
                 return Err(table.wrong(format_args!("there are two columns '{name}'")));

@@ -14,6 +14,10 @@ use units::Axis;
 
 use arguments::Arguments;
 
+/// Memory that a bond takes while it is made, in lengths of the file of each piece: copies of the wood
+/// whole and in two parts, and as it is turned.
+const MADE_OF_A_BYTE: u64 = 2;
+
 fn main() -> ExitCode {
     cli::main(|a: &Arguments| &a.common, run)
 }
@@ -30,6 +34,10 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let files = (paths.iter())
         .map(|path| specimen(path))
         .collect::<Result<Vec<_>, Failure>>()?;
+    for file in &files {
+        let bytes = file.len_bytes().saturating_mul(MADE_OF_A_BYTE);
+        file.fits(bytes, "a bond of it").map_err(Failure::data)?;
+    }
     let normal = normal(&arguments, &files)?;
     let bond = match slab_m {
         None => bonded(&files[0], &arguments, normal)?,

@@ -64,7 +64,7 @@ struct Arguments {
     /// Print every table and key of a case file: unit, default, when to change it (Markdown)
     #[arg(long, conflicts_with_all = ["case", "particles", "output", "set", "explain"])]
     reference: bool,
-    /// Run even where the forecast is more than 1e9 steps, a week, or the memory of this machine
+    /// Run even where the forecast is more than 1e9 steps, a week, or the memory that this process may have
     #[arg(long)]
     yes_really: bool,
     /// Continue from the run folder's last checkpoint, at the case's integrator.cfl even where it
@@ -79,7 +79,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    run::give_back_large_arrays();
+    machine::give_back_large_arrays();
     cli::main(|a: &Arguments| &a.common, start)
 }
 

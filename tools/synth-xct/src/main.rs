@@ -43,6 +43,9 @@ struct Arguments {
     /// Angle of the fibres against the bond plane, 0 to 30 deg [default: drawn from 3 to 6 deg for each adherend]
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, value_parser = angle)]
     grain_angle: Option<f64>,
+    /// Grow it even where that is forecast to need more memory than this process may have
+    #[arg(long)]
+    yes_really: bool,
     /// Seed of all random choices
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -120,6 +123,14 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         seed: arguments.seed,
     };
     cli::keep_apart_with_records([], [&arguments.output])?;
+    let [nx, ny, nz] = recipe.size;
+    let bytes = recipe.memory_bytes().map_err(Failure::usage)?;
+    cli::enough_memory(
+        format_args!("a specimen of {nx} x {ny} x {nz} voxels"),
+        bytes,
+        "a smaller --size",
+        arguments.yes_really,
+    )?;
     let specimen = Specimen::grow(&recipe).map_err(|error| match error {
         RecipeError::Overfull { .. } => Failure::failed(error),
         _ => Failure::usage(error),

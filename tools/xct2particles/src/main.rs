@@ -141,6 +141,8 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         _ => Phases::Guess,
     };
+    // Hashing a large file takes minutes: what cannot be read is refused before.
+    voxels::check(&stack, &phases, &crop).map_err(failure)?;
     let (segmented, inputs) = rayon::join(
         || read_pages(&stack, &phases, &crop),
         || hashes(stack.sources()),

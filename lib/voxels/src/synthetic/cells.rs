@@ -26,11 +26,15 @@ const BITS: usize = 2;
 impl Cells {
     /// Wood everywhere.
     pub(super) fn new(size: [usize; 3]) -> Self {
-        let page = (size[0] * size[1]).div_ceil(PER_BYTE);
         Self {
             size,
-            bytes: vec![0; page * size[2]],
+            bytes: vec![0; Self::bytes(size)],
         }
+    }
+
+    /// Memory that the states of so many voxels take.
+    pub(super) fn bytes(size: [usize; 3]) -> usize {
+        (size[0] * size[1]).div_ceil(PER_BYTE) * size[2]
     }
 
     /// Indices from one page to the next.

@@ -137,6 +137,11 @@ impl TiffPages {
         self.pages.len()
     }
 
+    /// Whether pages are read as they are stored, without a copy to decode.
+    pub(crate) fn are_plain(&self) -> bool {
+        self.pages.iter().all(PageLayout::is_plain)
+    }
+
     pub(crate) fn format(&self) -> PageFormat {
         self.pages[0].format
     }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use cli::Failure;
-use particle_file::{Element, ParticleFile, Section};
+use particle_file::{Element, Material, ParticleFile, Section};
 
 /// Material points as a table: the liquid points of a file with all their columns or, where
 /// it has none, the adhesive voxels with centre and volume.
@@ -46,7 +46,12 @@ impl<'a> Points<'a> {
     }
 
     fn of_voxels(file: &ParticleFile) -> Result<Self, Failure> {
-        let (mut position, mut volume) = (Vec::new(), Vec::new());
+        let count = adhesive_voxels(file).map_err(Failure::data)?;
+        let bytes = count.saturating_mul(4 * size_of::<f32>() as u64);
+        file.fits(bytes, "a table of its adhesive")
+            .map_err(Failure::data)?;
+        let mut position = Vec::with_capacity(3 * count as usize);
+        let mut volume = Vec::with_capacity(count as usize);
         file.for_each_adhesive(|p, v| {
             position.extend(p.map(|x| x as f32));
             volume.push(v as f32);
@@ -65,6 +70,15 @@ impl<'a> Points<'a> {
             columns: vec![column("position", 3, position), column("volume", 1, volume)],
         })
     }
+}
+
+/// How many there are, by their bits: a header can claim any number.
+fn adhesive_voxels(file: &ParticleFile) -> Result<u64, particle_file::Error> {
+    let blocks = file.header().blocks.iter().enumerate();
+    blocks
+        .filter(|(_, block)| block.material == Material::Adhesive)
+        .map(|(index, _)| Ok(file.block(index)?.1.count()))
+        .sum()
 }
 
 /// The column that `section` of `file` describes.

@@ -1,4 +1,4 @@
-//! What the operating system knows of this process.
+//! What this process has taken so far, and how its allocator behaves.
 
 use std::fs;
 
@@ -15,23 +15,7 @@ pub fn cpu_seconds() -> Option<f64> {
 /// Largest resident memory of this process so far in bytes, where /proc tells.
 pub fn peak_memory_bytes() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|l| l.starts_with("VmHWM:"))?;
-    Some(line.split_whitespace().nth(1)?.parse::<u64>().ok()? * 1024)
-}
-
-/// Memory that this process may use in bytes, where /proc tells: the machine's, or less where a
-/// control group limits it.
-pub fn memory_bytes() -> Option<u64> {
-    let text = fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find(|l| l.starts_with("MemTotal:"))?;
-    let machine = line.split_whitespace().nth(1)?.parse::<u64>().ok()? * 1024;
-    let group = [
-        "/sys/fs/cgroup/memory.max",
-        "/sys/fs/cgroup/memory/memory.limit_in_bytes",
-    ]
-    .iter()
-    .find_map(|path| fs::read_to_string(path).ok()?.trim().parse::<u64>().ok());
-    Some(group.map_or(machine, |limit| limit.min(machine)))
+    crate::memory::kilobytes(&status, "VmHWM:")
 }
 
 /// Has every array of a megabyte and more given back to the system as it is dropped. A step's arrays differ in size and go in
@@ -54,6 +38,5 @@ mod tests {
     fn linux_tells() {
         assert!(super::cpu_seconds().is_some());
         assert!(super::peak_memory_bytes().is_some_and(|b| b > 100_000));
-        assert!(super::memory_bytes() > super::peak_memory_bytes());
     }
 }

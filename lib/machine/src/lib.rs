@@ -1,0 +1,12 @@
+//! What the operating system knows of this process, and how much memory it will still give it.
+//!
+//! Nothing is known on systems without `/proc`: there every size is tried.
+
+mod control_group;
+mod memory;
+mod process;
+mod shortage;
+
+pub use memory::available_bytes;
+pub use process::{cpu_seconds, give_back_large_arrays, peak_memory_bytes};
+pub use shortage::{Shortage, shortage};
