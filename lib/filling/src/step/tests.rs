@@ -5,7 +5,7 @@ use physics::{Motion, Scheme, StepLimit, VoxelBlock, Wetting};
 use super::*;
 
 #[path = "../../tests/common/plain.rs"]
-mod plain;
+pub(super) mod plain;
 
 /// Edge of a cell, m.
 const H: f64 = 2.9e-6;

@@ -34,10 +34,10 @@ pub(super) fn behind_walls(lattice: &Lattice, cell: usize, mut see: impl FnMut(u
     while next < found {
         let from = ways[next];
         next += 1;
-        for axis in 0..axes {
+        for (axis, &step) in steps.iter().enumerate().take(axes) {
             let at = place(from, axis);
-            let below = (at > 0).then(|| (from - steps[axis], from));
-            let above = (at + 1 < AROUND).then(|| (from + steps[axis], from + steps[axis]));
+            let below = (at > 0).then(|| (from - step, from));
+            let above = (at + 1 < AROUND).then(|| (from + step, from + step));
             for (to, upper) in [below, above].into_iter().flatten() {
                 if !reached[to] && lattice.face(axis, index[upper]) == OPEN {
                     (reached[to], ways[found]) = (true, to);

@@ -4,9 +4,7 @@ use physics::{Boundary, Motion, Scheme, StepLimit, VoxelBlock};
 
 use super::*;
 use crate::Settings;
-
-#[path = "../../../tests/common/plain.rs"]
-mod plain;
+use crate::step::tests::plain;
 
 /// Edge of a cell, m.
 const H: f64 = 2.9e-6;
