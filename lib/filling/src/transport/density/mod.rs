@@ -18,7 +18,7 @@ use saddle_point::{Csr, Poisson, SolveError};
 const KAPPA: f64 = 0.5;
 /// Way of the fastest liquid in a step, cells, from which it does; a shorter one removes as much less, for liquid that rests makes
 /// no errors, and what is left of old ones would move it by the number of steps.
-const WAY: f64 = 0.01;
+const WAY: f64 = 0.001;
 /// Largest relative error that counts.
 const CLIP: f64 = 0.3;
 /// Liquid fraction from which a cell below unit density is contracted; below, it is partly filled
