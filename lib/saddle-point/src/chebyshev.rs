@@ -43,8 +43,10 @@ impl<'a> Chebyshev<'a> {
 
     /// What the `x` of the last [`Chebyshev::apply`] leaves of `S (b - A x)`, plus `S more(row)`;
     pub(crate) fn residual(&mut self, more: impl Fn(usize) -> Work + Sync) -> &[Work] {
-        let (rhs, now, scale) = (&self.rhs, &self.now, &self.block.scale);
-        (self.block.matrix).for_blocks(now, &mut self.before, Residual { rhs, now });
+        let (rhs, scale) = (&self.rhs, &self.block.scale);
+        let (now, before) = (&mut self.now, &mut self.before);
+        (self.block.matrix).sweep(now, before, &[Residual { rhs }]);
+        std::mem::swap(now, before);
         for_chunks(&mut self.before[..scale.len()], |start, part| {
             for (i, out) in part.iter_mut().enumerate() {
                 *out += scale[start + i] * more(start + i);
@@ -84,20 +86,18 @@ impl<'a> Chebyshev<'a> {
             }
         });
         let mut rho = 1.0 / sigma;
-        for _ in 1..self.degree {
+        let steps = (1..self.degree).map(|_| {
             let next = 1.0 / (2.0 * sigma - rho);
             let momentum = Work::nearest(next * rho);
-            let step = Work::nearest(2.0 * next / half_width);
             rho = next;
-            let finish = Step {
+            Step {
                 rhs: &self.rhs,
-                now: &self.now,
                 momentum,
-                step,
-            };
-            (self.block.matrix).for_blocks(&self.now, &mut self.before, finish);
-            std::mem::swap(&mut self.before, &mut self.now);
-        }
+                step: Work::nearest(2.0 * next / half_width),
+            }
+        });
+        let steps: Vec<_> = steps.collect();
+        (self.block.matrix).sweep(&mut self.now, &mut self.before, &steps);
         for_chunks(x, |start, part| {
             for (i, x) in part.iter_mut().enumerate() {
                 *x = self.now[start + i] * scale[start + i];
@@ -109,13 +109,18 @@ impl<'a> Chebyshev<'a> {
 /// `rhs - now - product`.
 struct Residual<'a> {
     rhs: &'a [Work],
-    now: &'a [Work],
 }
 
 impl Finish for Residual<'_> {
     #[inline(always)]
-    fn finish(&self, block: usize, product: [Work; LANES], out: &mut [Work; LANES]) {
-        let [rhs, now] = [self.rhs, self.now].map(|v| &v.as_chunks::<LANES>().0[block]);
+    fn finish(
+        &self,
+        block: usize,
+        now: &[Work; LANES],
+        product: [Work; LANES],
+        out: &mut [Work; LANES],
+    ) {
+        let rhs = &self.rhs.as_chunks::<LANES>().0[block];
         *out = std::array::from_fn(|i| rhs[i] - now[i] - product[i]);
     }
 }
@@ -123,15 +128,20 @@ impl Finish for Residual<'_> {
 /// The next iterate in the place of the one before the last.
 struct Step<'a> {
     rhs: &'a [Work],
-    now: &'a [Work],
     momentum: Work,
     step: Work,
 }
 
 impl Finish for Step<'_> {
     #[inline(always)]
-    fn finish(&self, block: usize, product: [Work; LANES], old: &mut [Work; LANES]) {
-        let [rhs, now] = [self.rhs, self.now].map(|v| &v.as_chunks::<LANES>().0[block]);
+    fn finish(
+        &self,
+        block: usize,
+        now: &[Work; LANES],
+        product: [Work; LANES],
+        old: &mut [Work; LANES],
+    ) {
+        let rhs = &self.rhs.as_chunks::<LANES>().0[block];
         *old = std::array::from_fn(|i| {
             let residual = rhs[i] - now[i] - product[i];
             now[i] + self.momentum * (now[i] - old[i]) + self.step * residual
@@ -152,10 +162,7 @@ fn largest_eigenvalue_bound(
     next: &mut Vec<Work>,
 ) -> f64 {
     w[..n].fill(1.0);
-    for _ in 0..BOUND_SWEEPS {
-        matrix.for_blocks(w, next, Absolute(w));
-        std::mem::swap(w, next);
-    }
+    matrix.sweep(w, next, &[const { Absolute }; BOUND_SWEEPS]);
     let bound = (w[..n].par_chunks(CHUNK).zip(next[..n].par_chunks(CHUNK)))
         .map(|(after, before)| {
             let ratios = after.iter().zip(before).map(|(a, b)| a / b);

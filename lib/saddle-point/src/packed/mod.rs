@@ -6,25 +6,29 @@
 //! neighbour along a grid line), one base column serves all eight and their values of `x` are
 //! contiguous; the rest share a base column and keep 16-bit offsets. That is 2.3 to 4.5 bytes
 //! per entry (4 more for the second number) instead of 12 in plain rows, and no bounds check per entry.
+//! Products that follow one another are taken in waves ([`sweeps`]), so that rows come from memory once for several.
 
 mod packer;
 mod product;
+mod sweeps;
 
 use rayon::prelude::*;
 
 use crate::SolveError;
 use crate::csr::Rows;
 use crate::simd::dispatch;
-use crate::vector::{CHUNK, Work};
+use crate::vector::CHUNK;
 use packer::Packer;
-use product::{FineProduct, Product};
+use product::FineProduct;
 
 pub(crate) use product::{Absolute, Finish};
 
 /// Rows handled together.
 pub(crate) const LANES: usize = 8;
-/// Reach of a 16-bit offset; vectors carry this many zeros behind their last value.
-const WINDOW: usize = 1 << 16;
+/// Rows multiplied by one task.
+const PIECE: usize = 1 << 11;
+/// Reach of an offset; vectors carry this many zeros behind their last value.
+const WINDOW: usize = 1 << 11;
 /// Fixed-point unit.
 const UNIT: f64 = 32767.0;
 /// Parts of a unit that the second number counts.
@@ -38,11 +42,15 @@ type Rests = [i32; LANES];
 pub(crate) struct PackedMatrix {
     n: usize,
     chunks: Vec<PackedRows>,
+    /// How far from its block a row's couplings may lie.
+    reach: usize,
 }
 
 /// The rows of one chunk in blocks of eight.
 #[derive(Default)]
 struct PackedRows {
+    /// How far from its block a row's couplings may lie.
+    reach: usize,
     /// End of every block in the two lists below.
     run_end: Vec<u32>,
     scattered_end: Vec<u32>,
@@ -56,13 +64,20 @@ struct PackedRows {
 }
 
 impl PackedRows {
+    /// Where in the two lists block `block` begins.
+    fn starts(&self, block: usize) -> (usize, usize) {
+        let of = |ends: &[u32]| {
+            block
+                .checked_sub(1)
+                .map_or(0, |before| ends[before] as usize)
+        };
+        (of(&self.run_end), of(&self.scattered_end))
+    }
+
     /// Columns and entries of row `lane` of block `block`.
     fn row(&self, block: usize, lane: usize) -> impl Iterator<Item = (usize, f64)> {
-        let of = |ends: &[u32]| {
-            let start = block.checked_sub(1).map_or(0, |before| ends[before]);
-            start as usize..ends[block] as usize
-        };
-        let (runs, scattered) = (of(&self.run_end), of(&self.scattered_end));
+        let ((run, place), (run_end, end)) = (self.starts(block), self.starts(block + 1));
+        let (runs, scattered) = (run..run_end, place..end);
         let rests = &self.runs_rest[runs.clone()];
         let in_runs = self.runs[runs]
             .iter()
@@ -90,7 +105,7 @@ fn entry(high: i16, rest: i32) -> f64 {
 }
 
 impl PackedMatrix {
-    /// Packs `S A S` for the symmetric `a`, by chunks of [`CHUNK`] rows that go as they are packed, and `S = D^-1/2` given in `scale`.
+    /// Packs `S A S` for the symmetric `a`, by chunks of rows that go as they are packed, and `S = D^-1/2` given in `scale`.
     ///
     /// Fails when an entry exceeds one: then `a` is not positive definite.
     pub(crate) fn new(a: Vec<Rows<f64>>, scale: &[f64]) -> Result<Self, SolveError> {
@@ -102,9 +117,12 @@ impl PackedMatrix {
             }
             Ok(packer.finish())
         };
+        let packed = a.into_par_iter().enumerate().map(pack);
+        let chunks: Vec<PackedRows> = packed.collect::<Result<_, _>>()?;
         Ok(Self {
             n: scale.len(),
-            chunks: (a.into_par_iter().enumerate().map(pack)).collect::<Result<_, _>>()?,
+            reach: chunks.iter().map(|rows| rows.reach).max().unwrap_or(0),
+            chunks,
         })
     }
 
@@ -119,25 +137,6 @@ impl PackedMatrix {
         self.n.next_multiple_of(LANES) + WINDOW
     }
 
-    /// Finishes every block of eight rows with the off-diagonal part times `x`; `x` and `out` have
-    /// the padded length.
-    pub(crate) fn for_blocks(&self, x: &[Work], out: &mut [Work], finish: impl Finish) {
-        let rows = &mut out[..self.n.next_multiple_of(LANES)];
-        let (blocks, _) = rows.as_chunks_mut::<LANES>();
-        (self.chunks.par_iter())
-            .zip(blocks.par_chunks_mut(CHUNK / LANES))
-            .enumerate()
-            .for_each(|(chunk, (rows, out))| {
-                dispatch(Product {
-                    rows,
-                    x,
-                    first: chunk * CHUNK / LANES,
-                    out,
-                    finish: &finish,
-                });
-            });
-    }
-
     /// `out = M x` in double precision, with `M` the off-diagonal part; `x` has the padded length.
     pub(crate) fn multiply_fine(&self, x: &[f64], out: &mut [f64]) {
         (self.chunks.par_iter())
@@ -150,11 +149,18 @@ impl PackedMatrix {
 mod tests {
     use super::*;
     use crate::csr::{Csr, RowEntries, assemble_chunks};
+    use crate::vector::Work;
 
     struct Plain;
 
     impl Finish for Plain {
-        fn finish(&self, _: usize, product: [Work; LANES], out: &mut [Work; LANES]) {
+        fn finish(
+            &self,
+            _: usize,
+            _: &[Work; LANES],
+            product: [Work; LANES],
+            out: &mut [Work; LANES],
+        ) {
             *out = product;
         }
     }
@@ -175,8 +181,8 @@ mod tests {
 
     #[test]
     fn products_agree_with_plain_rows() {
-        // More rows than an offset reaches, and not a multiple of eight.
-        let n = WINDOW + 4467;
+        // More than a chunk, far more than an offset reaches, and not a multiple of eight.
+        let n = 4 * CHUNK + 4467;
         let a: Csr<f64> = Csr::assemble(n, n, |row, entries| fill(n, row, entries)).unwrap();
         let rows = assemble_chunks(n, n, |row, entries| fill(n, row, entries));
         let scale: Vec<f64> = a.diagonal().iter().map(|d| 1.0 / d.sqrt()).collect();
@@ -185,9 +191,13 @@ mod tests {
         for (i, x) in x[..n].iter_mut().enumerate() {
             *x = (0.1 * i as Work).sin();
         }
-        let (mut plain, mut absolute) = (vec![0.0; x.len()], vec![0.0; x.len()]);
-        packed.for_blocks(&x, &mut plain, Plain);
-        packed.for_blocks(&x, &mut absolute, Absolute(&x));
+        let once = |sweep: &dyn Fn(&mut Vec<Work>, &mut Vec<Work>)| {
+            let (mut now, mut out) = (x.clone(), vec![0.0; x.len()]);
+            sweep(&mut now, &mut out);
+            now
+        };
+        let plain = once(&|now, out| packed.sweep(now, out, &[Plain]));
+        let absolute = once(&|now, out| packed.sweep(now, out, &[Absolute]));
         let wide: Vec<f64> = x.iter().map(|&x| x.into()).collect();
         let mut fine = vec![0.0; n];
         packed.multiply_fine(&wide, &mut fine);

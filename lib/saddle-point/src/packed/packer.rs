@@ -1,6 +1,6 @@
 //! Packs the rows of a matrix, eight at a time.
 
-use super::{FINE, LANES, PackedRows, UNIT};
+use super::{FINE, LANES, PackedRows, UNIT, WINDOW};
 use crate::SolveError;
 use crate::csr::Rows;
 
@@ -71,6 +71,7 @@ impl<'a> Packer<'a> {
             }
         }
         self.scatter();
+        self.take_reach(first);
         self.rows.run_end.push(self.rows.runs.len() as u32);
         self.rows
             .scattered_end
@@ -101,9 +102,9 @@ impl<'a> Packer<'a> {
             let mut values = [Fixed::default(); LANES];
             for (i, left) in self.left.iter().enumerate() {
                 if let Some(&(column, value)) = left.get(next[i])
-                    && let Ok(offset) = u16::try_from(column - base)
+                    && ((column - base) as usize) < WINDOW
                 {
-                    offsets[i] = offset;
+                    offsets[i] = (column - base) as u16;
                     values[i] = value;
                     next[i] += 1;
                 }
@@ -111,6 +112,21 @@ impl<'a> Packer<'a> {
             let high = values.map(|value| value.high);
             self.rows.scattered.push((base, offsets, high));
             (self.rows.scattered_rest).push(values.map(|value| value.rest));
+        }
+    }
+
+    /// Takes in how far the last block, of which row `first` is the first, reads.
+    fn take_reach(&mut self, first: usize) {
+        let (run, place) = (self.rows.run_end.last(), self.rows.scattered_end.last());
+        let of = |end: Option<&u32>| end.map_or(0, |&end| end as usize);
+        let runs = self.rows.runs[of(run)..].iter().map(|run| (run.0, LANES));
+        let scattered = (self.rows.scattered[of(place)..].iter()).map(|run| (run.0, WINDOW));
+        for (base, length) in runs.chain(scattered) {
+            let base = base as usize;
+            let reach = first
+                .saturating_sub(base)
+                .max((base + length).saturating_sub(first + LANES));
+            self.rows.reach = self.rows.reach.max(reach);
         }
     }
 

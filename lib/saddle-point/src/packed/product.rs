@@ -2,7 +2,7 @@
 
 use super::{FINE, LANES, PackedRows, UNIT, WINDOW, entry};
 use crate::simd::Kernel;
-use crate::vector::Work;
+use crate::vector::{CHUNK, Work};
 
 /// What is made of the product of a block of eight rows.
 pub(crate) trait Finish: Sync {
@@ -12,31 +12,44 @@ pub(crate) trait Finish: Sync {
         value
     }
 
-    /// Takes the product of block `block`; must be `#[inline(always)]`.
-    fn finish(&self, block: usize, product: [Work; LANES], out: &mut [Work; LANES]);
+    /// Takes the product of block `block` with a vector that is `here` in that block; must be `#[inline(always)]`.
+    fn finish(
+        &self,
+        block: usize,
+        here: &[Work; LANES],
+        product: [Work; LANES],
+        out: &mut [Work; LANES],
+    );
 }
 
-/// `(I + |M|) x` of a vector, with `M` the off-diagonal part.
-pub(crate) struct Absolute<'a>(pub(crate) &'a [Work]);
+/// `(I + |M|) x`, with `M` the off-diagonal part.
+pub(crate) struct Absolute;
 
-impl Finish for Absolute<'_> {
+impl Finish for Absolute {
     #[inline(always)]
     fn entry(value: i16) -> i16 {
         value.abs()
     }
 
     #[inline(always)]
-    fn finish(&self, block: usize, product: [Work; LANES], out: &mut [Work; LANES]) {
-        let here = &self.0.as_chunks::<LANES>().0[block];
+    fn finish(
+        &self,
+        _: usize,
+        here: &[Work; LANES],
+        product: [Work; LANES],
+        out: &mut [Work; LANES],
+    ) {
         *out = std::array::from_fn(|i| here[i] + product[i]);
     }
 }
 
-/// The product of one chunk of rows.
+/// The product of some of the rows of a chunk.
 pub(super) struct Product<'a, F> {
     pub(super) rows: &'a PackedRows,
+    /// The vector from row `x_start` on, as far as the rows reach.
     pub(super) x: &'a [Work],
-    /// Block of the first row.
+    pub(super) x_start: usize,
+    /// Block from which on.
     pub(super) first: usize,
     pub(super) out: &'a mut [[Work; LANES]],
     pub(super) finish: &'a F,
@@ -48,32 +61,50 @@ impl<F: Finish> Kernel for Product<'_, F> {
     #[inline(always)]
     fn run(self) {
         let Self { rows, x, .. } = self;
-        let (mut run, mut scattered) = (0, 0);
-        let ends = rows.run_end.iter().zip(&rows.scattered_end);
-        for (block, ((&run_end, &scattered_end), out)) in ends.zip(self.out).enumerate() {
+        let here = x.get((self.first * LANES).wrapping_sub(self.x_start)..);
+        let (here, _) = here.unwrap_or_default().as_chunks::<LANES>();
+        let of_chunk = self.first % (CHUNK / LANES);
+        let (mut run, mut scattered) = rows.starts(of_chunk);
+        let ends = (rows.run_end.iter().zip(&rows.scattered_end)).skip(of_chunk);
+        for (block, (((&run_end, &scattered_end), out), here)) in
+            ends.zip(self.out).zip(here).enumerate()
+        {
             let mut sum = [0.0; LANES];
             for (base, values) in &rows.runs[run..run_end as usize] {
-                let Some(x) = x[*base as usize..].first_chunk::<LANES>() else {
+                let Some(x) = window(x, (*base as usize).wrapping_sub(self.x_start)) else {
                     continue;
                 };
+                let x: &[Work; LANES] = x;
                 for lane in 0..LANES {
                     sum[lane] += Work::from(F::entry(values[lane])) * x[lane];
                 }
             }
             for (base, offsets, values) in &rows.scattered[scattered..scattered_end as usize] {
-                // A window as long as offsets reach needs no check per entry.
-                let Some(x) = x[*base as usize..].first_chunk::<WINDOW>() else {
+                // Masked offsets need no check per entry.
+                let Some(x) = window(x, (*base as usize).wrapping_sub(self.x_start)) else {
                     continue;
                 };
+                let x: &[Work; WINDOW] = x;
                 for lane in 0..LANES {
-                    sum[lane] += Work::from(F::entry(values[lane])) * x[offsets[lane] as usize];
+                    sum[lane] +=
+                        Work::from(F::entry(values[lane])) * x[offsets[lane] as usize % WINDOW];
                 }
             }
             (run, scattered) = (run_end as usize, scattered_end as usize);
             let product = sum.map(|sum| sum * (1.0 / UNIT) as Work);
-            self.finish.finish(self.first + block, product, out);
+            self.finish.finish(self.first + block, here, product, out);
         }
     }
+}
+
+/// `N` values from place `at` on, if there are as many.
+#[inline(always)]
+fn window<T, const N: usize>(x: &[T], at: usize) -> Option<&[T; N]> {
+    let last = x.len().checked_sub(N)?;
+    if at > last {
+        return None;
+    }
+    x[at..at + N].first_chunk()
 }
 
 /// The off-diagonal part times `x` of one chunk of rows, of both halves of the entries.
@@ -95,7 +126,7 @@ impl Kernel for FineProduct<'_> {
             let mut sum = [0.0; LANES];
             let here = run..run_end as usize;
             for ((base, high), rest) in rows.runs[here.clone()].iter().zip(&rows.runs_rest[here]) {
-                let Some(x) = x[*base as usize..].first_chunk::<LANES>() else {
+                let Some(x) = window::<_, LANES>(x, *base as usize) else {
                     continue;
                 };
                 for lane in 0..LANES {
@@ -105,11 +136,11 @@ impl Kernel for FineProduct<'_> {
             let here = scattered..scattered_end as usize;
             let rests = &rows.scattered_rest[here.clone()];
             for ((base, offsets, high), rest) in rows.scattered[here].iter().zip(rests) {
-                let Some(x) = x[*base as usize..].first_chunk::<WINDOW>() else {
+                let Some(x) = window::<_, WINDOW>(x, *base as usize) else {
                     continue;
                 };
                 for lane in 0..LANES {
-                    sum[lane] += entry(high[lane], rest[lane]) * x[offsets[lane] as usize];
+                    sum[lane] += entry(high[lane], rest[lane]) * x[offsets[lane] as usize % WINDOW];
                 }
             }
             (run, scattered) = (run_end as usize, scattered_end as usize);

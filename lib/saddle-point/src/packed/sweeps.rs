@@ -1,0 +1,217 @@
+//! Products that follow one another, in waves.
+//!
+//! A sweep reads the last iterate and writes over the one before it. Row by row it needs the last iterate only
+//! as far as its couplings reach, so the next sweep can follow at that distance while the rows are still in the cache: of
+//! several sweeps each is taken a little behind the one before. What a wave reads and what it writes are separate
+//! parts of the two vectors, and every row is computed as it would be by itself: the same bits in any order.
+
+use std::mem::{swap, take};
+
+use rayon::prelude::*;
+
+use super::product::{Finish, Product};
+use super::{LANES, PIECE, PackedMatrix};
+use crate::simd::dispatch;
+use crate::vector::{CHUNK, Work};
+
+/// Sweeps in one wave.
+const DEPTH: usize = 8;
+/// Tiles in the reach of a row: the smaller a tile, the closer sweeps follow one another, and the less of a wave there is for
+/// threads to share.
+const TILES_IN_REACH: usize = 5;
+
+impl PackedMatrix {
+    /// Finishes every block of eight rows with the off-diagonal part times `now`, over `before`, and swaps the two; so for
+    /// each of `sweeps`. Both have the padded length.
+    pub(crate) fn sweep<F: Finish>(
+        &self,
+        now: &mut Vec<Work>,
+        before: &mut Vec<Work>,
+        sweeps: &[F],
+    ) {
+        for sweeps in sweeps.chunks(DEPTH) {
+            let waves = Waves::new(self, sweeps);
+            for wave in 0..waves.len() {
+                waves.run(wave, now, before);
+            }
+            if sweeps.len() % 2 == 1 {
+                swap(now, before);
+            }
+        }
+    }
+}
+
+/// Sweeps over tiles of rows, each so many tiles behind the one before.
+struct Waves<'a, F> {
+    matrix: &'a PackedMatrix,
+    sweeps: &'a [F],
+    /// Rows of a tile, tiles that a row's couplings reach beyond its own.
+    rows: usize,
+    reach: usize,
+}
+
+/// A tile of one sweep: what it reads, from row `x_start` on, and what it writes, from row `first` on.
+struct Tile<'a, F> {
+    sweep: &'a F,
+    x: &'a [Work],
+    x_start: usize,
+    out: &'a mut [Work],
+    first: usize,
+}
+
+impl<'a, F: Finish> Waves<'a, F> {
+    fn new(matrix: &'a PackedMatrix, sweeps: &'a [F]) -> Self {
+        let rows = matrix.reach.div_ceil(TILES_IN_REACH);
+        let rows = rows.next_multiple_of(PIECE).max(PIECE);
+        Self {
+            matrix,
+            sweeps,
+            rows,
+            reach: matrix.reach.div_ceil(rows),
+        }
+    }
+
+    /// How far behind the one before a sweep follows.
+    fn lag(&self) -> usize {
+        self.reach + 1
+    }
+
+    fn len(&self) -> usize {
+        self.matrix.n.div_ceil(self.rows) + (self.sweeps.len() - 1) * self.lag()
+    }
+
+    /// Takes one tile of each sweep that has begun and has not ended.
+    fn run(&self, wave: usize, now: &mut [Work], before: &mut [Work]) {
+        let tiles = self.tiles(wave, now, before);
+        let pieces = tiles.into_iter().flat_map(|tile| {
+            let rows = (tile.first..).step_by(PIECE);
+            rows.zip(tile.out.chunks_mut(PIECE))
+                .map(move |(row, out)| Product {
+                    rows: &self.matrix.chunks[row / CHUNK],
+                    first: row / LANES,
+                    x: tile.x,
+                    x_start: tile.x_start,
+                    out: out.as_chunks_mut::<LANES>().0,
+                    finish: tile.sweep,
+                })
+        });
+        let pieces: Vec<_> = pieces.collect();
+        pieces.into_par_iter().for_each(dispatch);
+    }
+
+    /// The tiles of a wave. Their parts of both vectors follow one another from the end on.
+    fn tiles<'v>(
+        &self,
+        wave: usize,
+        now: &'v mut [Work],
+        before: &'v mut [Work],
+    ) -> Vec<Tile<'v, F>>
+    where
+        'a: 'v,
+    {
+        let rows = self.matrix.n.next_multiple_of(LANES);
+        let mut rest = [now, before];
+        let mut tiles = Vec::with_capacity(self.sweeps.len());
+        for (j, sweep) in self.sweeps.iter().enumerate() {
+            let first = (wave.checked_sub(j * self.lag())).map_or(rows, |tile| tile * self.rows);
+            if first >= rows {
+                continue;
+            }
+            let end = (first + self.rows).min(rows);
+            let x_start = first.saturating_sub(self.reach * self.rows);
+            let x = cut(&mut rest[j % 2], x_start, end + self.reach * self.rows);
+            let out = cut(&mut rest[(j + 1) % 2], first, end);
+            tiles.push(Tile {
+                sweep,
+                x,
+                x_start,
+                out,
+                first,
+            });
+        }
+        tiles
+    }
+}
+
+/// Takes `start..end` of `rest`, or as much of it as there is, and leaves what is before.
+fn cut<'v>(rest: &mut &'v mut [Work], start: usize, end: usize) -> &'v mut [Work] {
+    let (before, part) = take(rest).split_at_mut(start);
+    *rest = before;
+    let end = part.len().min(end - start);
+    &mut part[..end]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::csr::assemble_chunks;
+
+    /// A step that depends on the row, its iterate and the one before.
+    struct Mix(Work);
+
+    impl Finish for Mix {
+        fn finish(
+            &self,
+            block: usize,
+            here: &[Work; LANES],
+            product: [Work; LANES],
+            out: &mut [Work; LANES],
+        ) {
+            for (i, out) in out.iter_mut().enumerate() {
+                *out = 0.3 * here[i] - 0.2 * *out + self.0 * product[i] + (block % 5) as Work;
+            }
+        }
+    }
+
+    /// Many sweeps in waves are one after the other, to the bit: rows that reach a part of a tile, several tiles,
+    /// unevenly, and from one end to the other; fewer sweeps than a wave takes, and more.
+    #[test]
+    fn sweeps_in_waves_are_sweeps_one_by_one() {
+        const N: usize = 3 * CHUNK + 5 * PIECE + 21;
+        let n = N;
+        let reaches: [fn(usize) -> usize; 4] = [
+            |row| row ^ 1,
+            |row| (row + 11_000) % N,
+            |row| row + (row % 2) * (2 * PIECE + 1),
+            |row| N - 1 - row,
+        ];
+        for reach in reaches {
+            let rows = assemble_chunks(n, n, |row, entries| {
+                entries.add(row, 1.0);
+                for (column, value) in [
+                    (reach(row), 0.4),
+                    (row + 1, 0.3),
+                    (row.wrapping_sub(1), 0.3),
+                ] {
+                    if column < n && column != row {
+                        entries.add(
+                            column,
+                            value * (1.0 + (row + column) as f64 / n as f64) / 3.0,
+                        );
+                    }
+                }
+            });
+            let matrix = PackedMatrix::new(rows.unwrap(), &vec![1.0; n]).unwrap();
+            for count in [1, 2, DEPTH, 2 * DEPTH + 3] {
+                let sweeps: Vec<_> = (0..count).map(|i| Mix(0.1 + 0.05 * i as Work)).collect();
+                let start: Vec<Work> = (0..matrix.padded_len())
+                    .map(|i| if i < n { (0.01 * i as Work).sin() } else { 0.0 })
+                    .collect();
+                let (mut now, mut before) = (start.clone(), start.clone());
+                matrix.sweep(&mut now, &mut before, &sweeps);
+                let (mut one, mut last) = (start.clone(), start);
+                for sweep in sweeps.chunks(1) {
+                    matrix.sweep(&mut one, &mut last, sweep);
+                }
+                for (a, b) in [(now, one), (before, last)] {
+                    assert!(
+                        a[..n]
+                            .iter()
+                            .zip(&b[..n])
+                            .all(|(a, b)| a.to_bits() == b.to_bits())
+                    );
+                }
+            }
+        }
+    }
+}
