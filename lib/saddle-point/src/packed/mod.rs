@@ -42,14 +42,14 @@ type Rests = [i32; LANES];
 pub(crate) struct PackedMatrix {
     n: usize,
     chunks: Vec<PackedRows>,
-    /// How far from its block a row's couplings may lie.
+    /// The most that a block of rows reads before its first row or behind its last, zeros of its runs included.
     reach: usize,
 }
 
 /// The rows of one chunk in blocks of eight.
 #[derive(Default)]
 struct PackedRows {
-    /// How far from its block a row's couplings may lie.
+    /// As that of the matrix.
     reach: usize,
     /// End of every block in the two lists below.
     run_end: Vec<u32>,

@@ -61,8 +61,7 @@ impl<F: Finish> Kernel for Product<'_, F> {
     #[inline(always)]
     fn run(self) {
         let Self { rows, x, .. } = self;
-        let here = x.get((self.first * LANES).wrapping_sub(self.x_start)..);
-        let (here, _) = here.unwrap_or_default().as_chunks::<LANES>();
+        let (here, _) = x[self.first * LANES - self.x_start..].as_chunks::<LANES>();
         let of_chunk = self.first % (CHUNK / LANES);
         let (mut run, mut scattered) = rows.starts(of_chunk);
         let ends = (rows.run_end.iter().zip(&rows.scattered_end)).skip(of_chunk);
@@ -101,6 +100,7 @@ impl<F: Finish> Kernel for Product<'_, F> {
 #[inline(always)]
 fn window<T, const N: usize>(x: &[T], at: usize) -> Option<&[T; N]> {
     let last = x.len().checked_sub(N)?;
+    debug_assert!(at <= last, "{at} reaches beyond {last}");
     if at > last {
         return None;
     }

@@ -45,9 +45,9 @@ impl PackedMatrix {
 struct Waves<'a, F> {
     matrix: &'a PackedMatrix,
     sweeps: &'a [F],
-    /// Rows of a tile, tiles that a row's couplings reach beyond its own.
+    /// Rows of a tile, and how many tiles before and after its own it reads.
     rows: usize,
-    reach: usize,
+    tiles_reached: usize,
 }
 
 /// A tile of one sweep: what it reads, from row `x_start` on, and what it writes, from row `first` on.
@@ -61,19 +61,23 @@ struct Tile<'a, F> {
 
 impl<'a, F: Finish> Waves<'a, F> {
     fn new(matrix: &'a PackedMatrix, sweeps: &'a [F]) -> Self {
-        let rows = matrix.reach.div_ceil(TILES_IN_REACH);
+        // One sweep has none to stay close to: a single tile, shared by all threads.
+        let rows = match sweeps {
+            [_] => matrix.n,
+            _ => matrix.reach.div_ceil(TILES_IN_REACH),
+        };
         let rows = rows.next_multiple_of(PIECE).max(PIECE);
         Self {
             matrix,
             sweeps,
             rows,
-            reach: matrix.reach.div_ceil(rows),
+            tiles_reached: matrix.reach.div_ceil(rows),
         }
     }
 
     /// How far behind the one before a sweep follows.
     fn lag(&self) -> usize {
-        self.reach + 1
+        self.tiles_reached + 1
     }
 
     fn len(&self) -> usize {
@@ -118,8 +122,9 @@ impl<'a, F: Finish> Waves<'a, F> {
                 continue;
             }
             let end = (first + self.rows).min(rows);
-            let x_start = first.saturating_sub(self.reach * self.rows);
-            let x = cut(&mut rest[j % 2], x_start, end + self.reach * self.rows);
+            let reach = self.tiles_reached * self.rows;
+            let x_start = first.saturating_sub(reach);
+            let x = cut(&mut rest[j % 2], x_start, end + reach);
             let out = cut(&mut rest[(j + 1) % 2], first, end);
             tiles.push(Tile {
                 sweep,
@@ -163,39 +168,39 @@ mod tests {
         }
     }
 
-    /// Many sweeps in waves are one after the other, to the bit: rows that reach a part of a tile, several tiles,
-    /// unevenly, and from one end to the other; fewer sweeps than a wave takes, and more.
+    /// Many sweeps in waves are one after the other, each over the whole vector, to the bit: rows that reach a part of a tile,
+    /// several tiles, unevenly, here and there, and from one end to the other; fewer sweeps than a wave takes, and more.
     #[test]
     fn sweeps_in_waves_are_sweeps_one_by_one() {
         const N: usize = 3 * CHUNK + 5 * PIECE + 21;
-        let n = N;
-        let reaches: [fn(usize) -> usize; 4] = [
+        let reaches: [fn(usize) -> usize; 5] = [
             |row| row ^ 1,
-            |row| (row + 11_000) % N,
+            |row| row + 11_000,
             |row| row + (row % 2) * (2 * PIECE + 1),
+            |row| row + row * row % 1_999,
             |row| N - 1 - row,
         ];
         for reach in reaches {
-            let rows = assemble_chunks(n, n, |row, entries| {
+            let rows = assemble_chunks(N, N, |row, entries| {
                 entries.add(row, 1.0);
                 for (column, value) in [
                     (reach(row), 0.4),
                     (row + 1, 0.3),
                     (row.wrapping_sub(1), 0.3),
                 ] {
-                    if column < n && column != row {
+                    if column < N && column != row {
                         entries.add(
                             column,
-                            value * (1.0 + (row + column) as f64 / n as f64) / 3.0,
+                            value * (1.0 + (row + column) as f64 / N as f64) / 3.0,
                         );
                     }
                 }
             });
-            let matrix = PackedMatrix::new(rows.unwrap(), &vec![1.0; n]).unwrap();
+            let matrix = PackedMatrix::new(rows.unwrap(), &vec![1.0; N]).unwrap();
             for count in [1, 2, DEPTH, 2 * DEPTH + 3] {
                 let sweeps: Vec<_> = (0..count).map(|i| Mix(0.1 + 0.05 * i as Work)).collect();
                 let start: Vec<Work> = (0..matrix.padded_len())
-                    .map(|i| if i < n { (0.01 * i as Work).sin() } else { 0.0 })
+                    .map(|i| if i < N { (0.01 * i as Work).sin() } else { 0.0 })
                     .collect();
                 let (mut now, mut before) = (start.clone(), start.clone());
                 matrix.sweep(&mut now, &mut before, &sweeps);
@@ -205,9 +210,9 @@ mod tests {
                 }
                 for (a, b) in [(now, one), (before, last)] {
                     assert!(
-                        a[..n]
+                        a[..N]
                             .iter()
-                            .zip(&b[..n])
+                            .zip(&b[..N])
                             .all(|(a, b)| a.to_bits() == b.to_bits())
                     );
                 }
