@@ -70,20 +70,20 @@ impl<F: Finish> Kernel for Product<'_, F> {
         {
             let mut sum = [0.0; LANES];
             for (base, values) in &rows.runs[run..run_end as usize] {
-                let Some(x) = window(x, (*base as usize).wrapping_sub(self.x_start)) else {
+                let at = (*base as usize).wrapping_sub(self.x_start);
+                let Some(x) = window::<_, LANES>(x, at) else {
                     continue;
                 };
-                let x: &[Work; LANES] = x;
                 for lane in 0..LANES {
                     sum[lane] += Work::from(F::entry(values[lane])) * x[lane];
                 }
             }
             for (base, offsets, values) in &rows.scattered[scattered..scattered_end as usize] {
                 // Masked offsets need no check per entry.
-                let Some(x) = window(x, (*base as usize).wrapping_sub(self.x_start)) else {
+                let at = (*base as usize).wrapping_sub(self.x_start);
+                let Some(x) = window::<_, WINDOW>(x, at) else {
                     continue;
                 };
-                let x: &[Work; WINDOW] = x;
                 for lane in 0..LANES {
                     sum[lane] +=
                         Work::from(F::entry(values[lane])) * x[offsets[lane] as usize % WINDOW];
