@@ -2,10 +2,8 @@
 
 use std::fmt;
 
-use rayon::prelude::*;
-
-use crate::quantile::by_value;
-use crate::{Adhesive, Datum, State, Weighted};
+use crate::quantile::quantiles_up_to;
+use crate::{Adhesive, Datum, State};
 
 /// One side of the bond line, or both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,36 +76,52 @@ pub struct Penetration {
 /// Voxels count at their centres. The square of the total WP is the volume-weighted mean of
 /// the squares of the sides.
 pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
-    let samples = samples(state, datum);
+    let layers = layers(state, datum);
+    // Material points, millions of them, are visited again rather than listed.
+    let each = |visit: &mut dyn FnMut(Sample)| match &layers {
+        Some(layers) => layers.iter().copied().for_each(visit),
+        None => state.for_each_parcel(|point, volume| {
+            visit(Sample::new(datum.depth(point), volume, 1));
+        }),
+    };
+    let mut sums = [Sum::default(); 3];
+    each(&mut |sample| {
+        for (sum, side) in sums.iter_mut().zip(Side::ALL) {
+            if side.includes(sample.side) {
+                sum.add(&sample);
+            }
+        }
+    });
     let area = state.area_m2();
-    let total: f64 = samples.iter().map(|s| s.volume).sum();
-    let pair = |s: &Sample| ((s.depth, s.volume), s.side);
-    let mut sorted: Vec<((f64, f64), Side)> = samples.iter().map(pair).collect();
-    sorted.par_sort_unstable_by(|a, b| by_value(&a.0, &b.0));
+    let [.., total] = sums;
     Side::ALL.map(|side| {
-        let of_side = || samples.iter().filter(|s| side.includes(s.side));
-        // The sum of nothing is -0.
-        let volume = of_side().map(|s| s.volume).sum::<f64>() + 0.0;
-        let squares: f64 = of_side().map(|s| s.volume * s.depth * s.depth).sum();
-        let depths = sorted.iter().filter(|(_, s)| side.includes(*s));
-        let depths = Weighted::of_sorted(depths.map(|(pair, _)| *pair).collect());
-        let [p95_depth_m, p99_depth_m] = depths.quantiles([0.95, 0.99]);
+        let sum = sums[side as usize];
+        let depths = |visit: &mut dyn FnMut(f64, f64)| {
+            each(&mut |sample| {
+                if side.includes(sample.side) {
+                    visit(sample.depth, sample.volume);
+                }
+            });
+        };
+        let [p95_depth_m, p99_depth_m] =
+            quantiles_up_to(sum.deepest, sum.volume, depths, [0.95, 0.99]);
         Penetration {
             side,
             plane_m: datum.plane_m(side),
-            wp_m: (squares / volume).sqrt(),
-            slab_wp_m: total / area / 12_f64.sqrt(),
-            ep_m: volume / area,
-            max_depth_m: depths.max(),
+            wp_m: (sum.squares / sum.volume).sqrt(),
+            slab_wp_m: total.volume / area / 12_f64.sqrt(),
+            ep_m: sum.volume / area,
+            max_depth_m: sum.deepest,
             p95_depth_m,
             p99_depth_m,
-            volume_m3: volume,
-            voxels: of_side().map(|s| s.voxels).sum(),
+            volume_m3: sum.volume,
+            voxels: sum.voxels,
         }
     })
 }
 
 /// Adhesive at one depth.
+#[derive(Clone, Copy)]
 struct Sample {
     side: Side,
     depth: f64,
@@ -115,30 +129,60 @@ struct Sample {
     voxels: u64,
 }
 
-fn samples(state: &State, datum: &Datum) -> Vec<Sample> {
-    let sample = |(side, depth), volume, voxels| Sample {
-        side,
-        depth,
-        volume,
-        voxels,
-    };
-    let mut samples = Vec::new();
-    match (state.adhesive, datum) {
-        // All voxels of a layer have the same depth.
-        (Adhesive::Voxels(voxels), Datum::Level { normal, .. }) => {
-            let n = normal.index();
-            let volume = voxels.voxel_m.powi(3);
-            for (layer, count) in voxels.bits.counts_along(n).into_iter().enumerate() {
-                let centre = voxels.origin_m[n] + (layer as f64 + 0.5) * voxels.voxel_m;
-                if count > 0 {
-                    let depth = datum.depth_of_level(centre);
-                    samples.push(sample(depth, count as f64 * volume, count));
-                }
-            }
+impl Sample {
+    fn new((side, depth): (Side, f64), volume: f64, voxels: u64) -> Self {
+        Self {
+            side,
+            depth,
+            volume,
+            voxels,
         }
-        _ => state.for_each_parcel(|point, volume| {
-            samples.push(sample(datum.depth(point), volume, 1));
-        }),
     }
-    samples
+}
+
+/// What the samples of a side add up to.
+#[derive(Clone, Copy)]
+struct Sum {
+    volume: f64,
+    squares: f64,
+    voxels: u64,
+    /// NaN without samples.
+    deepest: f64,
+}
+
+impl Default for Sum {
+    fn default() -> Self {
+        Self {
+            volume: 0.0,
+            squares: 0.0,
+            voxels: 0,
+            deepest: f64::NAN,
+        }
+    }
+}
+
+impl Sum {
+    fn add(&mut self, sample: &Sample) {
+        self.volume += sample.volume;
+        self.squares += sample.volume * sample.depth * sample.depth;
+        self.voxels += sample.voxels;
+        self.deepest = self.deepest.max(sample.depth);
+    }
+}
+
+/// Voxels by layers, all of one depth; none of a tilted datum or of material points.
+fn layers(state: &State, datum: &Datum) -> Option<Vec<Sample>> {
+    let (Adhesive::Voxels(voxels), Datum::Level { normal, .. }) = (state.adhesive, datum) else {
+        return None;
+    };
+    let n = normal.index();
+    let volume = voxels.voxel_m.powi(3);
+    let counts = voxels.bits.counts_along(n).into_iter().enumerate();
+    let filled = counts.filter(|(_, count)| *count > 0);
+    let sample = |(layer, count): (usize, u64)| {
+        let centre = voxels.origin_m[n] + (layer as f64 + 0.5) * voxels.voxel_m;
+        let depth = datum.depth_of_level(centre);
+        Sample::new(depth, count as f64 * volume, count)
+    };
+    Some(filled.map(sample).collect())
 }

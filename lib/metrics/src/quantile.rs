@@ -12,7 +12,7 @@ pub struct Weighted {
 }
 
 /// By value, then weight: equal pairs are alike, so the order is unique.
-pub(crate) fn by_value(a: &(f64, f64), b: &(f64, f64)) -> Ordering {
+fn by_value(a: &(f64, f64), b: &(f64, f64)) -> Ordering {
     a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
 }
 
@@ -20,11 +20,6 @@ impl Weighted {
     /// From pairs of value and weight; weights are positive, values are numbers.
     pub fn new(mut pairs: Vec<(f64, f64)>) -> Self {
         pairs.par_sort_unstable_by(by_value);
-        Self::of_sorted(pairs)
-    }
-
-    /// From pairs in the order of [`by_value`].
-    pub(crate) fn of_sorted(pairs: Vec<(f64, f64)>) -> Self {
         let total = pairs.iter().map(|(_, w)| w).sum();
         Self {
             sorted: pairs,
@@ -65,6 +60,43 @@ impl Weighted {
     }
 }
 
+/// Bins of [`quantiles_up_to`].
+const BINS: usize = 4096;
+
+/// [`Weighted::quantiles`] of values from 0 to `largest` of `total` weight that are visited, twice, rather than
+/// kept: only those near the quantiles are. All are where one value is far beyond the others.
+pub(crate) fn quantiles_up_to<const N: usize>(
+    largest: f64,
+    total: f64,
+    each: impl Fn(&mut dyn FnMut(f64, f64)),
+    shares: [f64; N],
+) -> [f64; N] {
+    let bin = |value: f64| ((value / largest * BINS as f64) as usize).min(BINS - 1);
+    let mut weights = vec![0.0; BINS];
+    each(&mut |value, weight| weights[bin(value)] += weight);
+    shares.map(|share| {
+        let goal = share * total * (1.0 - 1e-12);
+        let (mut found, mut reached) = (0, 0.0);
+        while found < BINS - 1 && reached + weights[found] < goal {
+            reached += weights[found];
+            found += 1;
+        }
+        let mut near = Vec::new();
+        each(&mut |value, weight| {
+            if bin(value) == found {
+                near.push((value, weight));
+            }
+        });
+        near.sort_unstable_by(by_value);
+        let at = near.iter().find(|(_, weight)| {
+            reached += weight;
+            reached >= goal
+        });
+        // Rounding may leave the sum of the last bin below the goal.
+        at.or(near.last()).map_or(f64::NAN, |(value, _)| *value)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -93,9 +125,34 @@ mod tests {
     }
 
     #[test]
+    fn values_visited_have_the_quantiles_of_values_kept() {
+        // Even, crowded near zero, and one far beyond all others; weights from 1 to 3.
+        let spread = |power: i32| move |i: i32| (f64::from(i * 7919 % 10_007) / 1e4).powi(power);
+        let lone = |i: i32| if i == 5 { 1e9 } else { f64::from(i) };
+        let shares = [1e-4, 0.5, 0.95, 0.99, 1.0];
+        let compare = |value: &dyn Fn(i32) -> f64| {
+            let pair = |i: i32| (value(i), f64::from(i % 3 + 1));
+            let kept = Weighted::new((0..20_000).map(pair).collect());
+            let each = |visit: &mut dyn FnMut(f64, f64)| {
+                (0..20_000)
+                    .map(pair)
+                    .for_each(|(value, weight)| visit(value, weight));
+            };
+            let visited = quantiles_up_to(kept.max(), kept.total(), each, shares);
+            assert_eq!(visited, kept.quantiles(shares));
+        };
+        compare(&spread(1));
+        compare(&spread(6));
+        compare(&lone);
+        compare(&|_| 0.0);
+    }
+
+    #[test]
     fn nothing_has_no_quantiles() {
         let none = Weighted::new(Vec::new());
         assert!(none.max().is_nan() && none.mean().is_nan());
         assert!(none.quantiles([0.5])[0].is_nan());
+        let visited = quantiles_up_to(f64::NAN, 0.0, |_| {}, [0.5]);
+        assert!(visited[0].is_nan());
     }
 }
