@@ -40,6 +40,7 @@ pub(crate) struct Block {
 struct Filtered {
     /// w_l of the recursion, and 1 where there is mass.
     w: Vec<Lanes4>,
+    /// Empty where no body is near.
     meetings: Vec<Option<Meeting>>,
 }
 
@@ -68,7 +69,7 @@ impl Block {
         let filtered = if present.filter { n } else { 0 };
         let filter = Filtered {
             w: vec![Lanes4::ZERO; filtered],
-            meetings: vec![None; filtered],
+            meetings: Vec::new(),
         };
         Self {
             origin,
@@ -105,6 +106,10 @@ impl Block {
     pub(crate) fn advance<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
         self.reaction.fill([0.0; 3]);
         let walls = self.walls.iter().any(|w| w.near != 0);
+        let meetings = if walls { self.filter.w.len() } else { 0 };
+        if self.filter.meetings.len() != meetings {
+            self.filter.meetings = vec![None; meetings];
+        }
         let sums = self.sums(tiles, |tile| &tile.local, [sum::MOMENTUM, sum::IMPULSE]);
         let near = walls.then(|| {
             let vectors = [wall_sum::MOMENT, wall_sum::GRADIENT];
@@ -131,8 +136,8 @@ impl Block {
         }
     }
 
-    /// Sums over the tiles that reach each node; vectors begin at the lanes `vectors`. A tile without a body
-    /// in reach may hold older values: where such bodies are it adds nothing that counts.
+    /// Sums over the tiles that reach each node; vectors begin at the lanes `vectors`. A tile without values adds
+    /// nothing.
     fn sums<'a>(
         &self,
         tiles: &'a [Tile],
@@ -141,7 +146,9 @@ impl Block {
     ) -> [Lanes8; NODES] {
         let mut sums = [Lanes8::ZERO; NODES];
         for span in &self.spans {
-            let values = &values(&tiles[span.other as usize])[span.entries()];
+            let Some(values) = values(&tiles[span.other as usize]).get(span.entries()) else {
+                continue;
+            };
             for (sum, &value) in sums[span.nodes()].iter_mut().zip(values) {
                 let mut value = value;
                 for a in span.mirrored() {
@@ -206,7 +213,9 @@ impl Block {
                 after
             };
             self.filter.w[node] = Lanes4([w[0], w[1], w[2], 1.0]);
-            self.filter.meetings[node] = touching;
+            if let Some(meeting) = self.filter.meetings.get_mut(node) {
+                *meeting = touching;
+            }
         }
     }
 
@@ -236,7 +245,7 @@ impl Block {
                 std::array::from_fn(|a| old[a] - sum[a] / mass),
             );
             let mut w = free;
-            if let Some(meeting) = &self.filter.meetings[node] {
+            if let Some(Some(meeting)) = self.filter.meetings.get(node) {
                 meeting.restrain(&mut w, step.law);
                 w = hold(self.planes[node], w);
                 for (a, r) in self.reaction[meeting.body].iter_mut().enumerate() {

@@ -2,7 +2,7 @@
 //! `double`, which shows how large rounding errors are and what it costs. Sums over the whole run, positions
 //! of bodies and the clamp are in double precision in both.
 
-use physics::{Array, Saved};
+use physics::{Pieces, Saved, Saving};
 
 /// A number of a point or node.
 #[cfg(not(feature = "double"))]
@@ -14,18 +14,15 @@ pub(crate) type Real = f64;
 /// Bytes of a [`Real`].
 pub(crate) const BYTES: u64 = size_of::<Real>() as u64;
 
-/// `values` as they are kept in checkpoints.
-#[cfg(not(feature = "double"))]
-pub(crate) fn array(values: Vec<Real>) -> Array {
-    Array::F32(values)
-}
-/// `values` as they are kept in checkpoints.
-#[cfg(feature = "double")]
-pub(crate) fn array(values: Vec<Real>) -> Array {
-    Array::F64(values)
+/// Numbers as they are kept in checkpoints.
+pub(crate) fn saving(pieces: Pieces<'_, Real>) -> Saving<'_> {
+    #[cfg(not(feature = "double"))]
+    return Saving::F32(pieces);
+    #[cfg(feature = "double")]
+    return Saving::F64(pieces);
 }
 
-/// What [`array`] kept under `name`; a checkpoint of the other precision is refused.
+/// What [`saving`] kept under `name`; a checkpoint of the other precision is refused.
 pub(crate) fn saved<'a>(saved: &'a Saved, name: &str) -> Result<&'a [Real], String> {
     #[cfg(not(feature = "double"))]
     return saved.f32s(name);

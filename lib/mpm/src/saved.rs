@@ -1,13 +1,13 @@
 //! Saving and restoring: points in their order in memory, so that sums keep theirs.
 
 use physics::restored;
-use physics::{Array, Motion, Saved};
+use physics::{Array, Motion, Pieces, Saved, Saving};
 
 use crate::explicit::{Corrections, Explicit, State};
 use crate::fields::point::{J, VOLUME};
 use crate::lanes::{Lanes4, Lanes8};
-use crate::real::{self, Real, array};
-use crate::tiles::Point;
+use crate::real::{self, Real};
+use crate::tiles::{Point, Points, Tile};
 use crate::topology::Grid;
 
 /// Integers of [`State`] in the array "counts", two words each: step, lost, stopped, trapped.
@@ -19,26 +19,7 @@ fn words(counts: [u64; 4]) -> Vec<u32> {
 }
 
 impl Explicit {
-    pub(crate) fn to_saved(&self) -> Saved {
-        let count: usize = self.grid.tiles.iter().map(|tile| tile.points.len()).sum();
-        let reals = |each: usize| Vec::with_capacity(each * count);
-        let (mut id, mut node) = (Vec::with_capacity(count), Vec::with_capacity(3 * count));
-        let (mut place, mut motion, mut stress) = (reals(4), reals(4), reals(8));
-        let mut affine = reals(if self.present.affine { 12 } else { 0 });
-        for tile in &self.grid.tiles {
-            let points = &tile.points;
-            id.extend_from_slice(&points.id);
-            node.extend(
-                points
-                    .base
-                    .iter()
-                    .flat_map(|&b| tile.node_of(b).map(|n| n as u32)),
-            );
-            place.extend(points.place.iter().flat_map(|q| q.0));
-            motion.extend(points.motion.iter().flat_map(|q| q.0));
-            stress.extend(points.stress.iter().flat_map(|o| o.0));
-            affine.extend(points.affine.iter().flatten().flat_map(|q| q.0));
-        }
+    pub(crate) fn to_saving(&self) -> Vec<(String, Saving<'_>)> {
         let state = &self.state;
         let control = self.control.as_ref().map_or([0.0; 3], |c| c.state());
         let mut clock = vec![state.time_s, state.travel_m, state.limit_s];
@@ -50,41 +31,67 @@ impl Explicit {
             corrections.stopped,
             corrections.trapped,
         ];
+        let displacement = state.displacement.iter().flatten().copied().collect();
+        let whole = Saving::Whole;
+        let node = |tile: &Tile| {
+            let nodes = tile.points.base.iter().map(|&base| tile.node_of(base));
+            nodes.flatten().map(|n| n as u32).collect()
+        };
         let mut arrays = vec![
-            ("id", Array::U32(id)),
-            ("node", Array::U32(node)),
-            ("place", array(place)),
-            ("motion", array(motion)),
-            ("stress", array(stress)),
-            ("clock", Array::F64(clock)),
-            ("counts", Array::U32(words(counts))),
             (
-                "displacement",
-                Array::F64(state.displacement.iter().flatten().copied().collect()),
+                "id",
+                Saving::U32(self.by_tile(|tile| tile.points.id.clone())),
             ),
+            ("node", Saving::U32(self.by_tile(node))),
+            (
+                "place",
+                self.reals(|points| points.place.iter().flat_map(|q| q.0)),
+            ),
+            (
+                "motion",
+                self.reals(|points| points.motion.iter().flat_map(|q| q.0)),
+            ),
+            (
+                "stress",
+                self.reals(|points| points.stress.iter().flat_map(|o| o.0)),
+            ),
+            ("clock", whole(Array::F64(clock))),
+            ("counts", whole(Array::U32(words(counts)))),
+            ("displacement", whole(Array::F64(displacement))),
         ];
         if self.present.affine {
-            arrays.push(("affine", array(affine)));
+            let affine = self.reals(|points| points.affine.iter().flatten().flat_map(|q| q.0));
+            arrays.push(("affine", affine));
         }
         if let Some(projection) = &self.projection {
-            arrays.push(("projection", Array::F64(projection.state())));
+            arrays.push(("projection", whole(Array::F64(projection.state()))));
         }
-        Saved(
-            arrays
-                .into_iter()
-                .map(|(name, array)| (name.to_string(), array))
-                .collect(),
-        )
+        let named = arrays.into_iter();
+        named
+            .map(|(name, array)| (name.to_owned(), array))
+            .collect()
+    }
+
+    /// What `of` makes of each tile, one after the other.
+    fn by_tile<'a, T>(&'a self, of: impl Fn(&'a Tile) -> Vec<T> + 'a) -> Pieces<'a, T> {
+        Box::new(move |take| self.grid.tiles.iter().for_each(|tile| take(&of(tile))))
+    }
+
+    /// Numbers of all points.
+    fn reals<'a, I: Iterator<Item = Real>>(
+        &'a self,
+        of: impl Fn(&'a Points) -> I + 'a,
+    ) -> Saving<'a> {
+        real::saving(self.by_tile(move |tile| of(&tile.points).collect()))
     }
 
     pub(crate) fn take_saved(&mut self, saved: &Saved) -> Result<(), String> {
-        let points = self.saved_points(saved)?;
         let clock = sized(saved.f64s("clock")?, 6, "clock")?;
         let counts = sized(saved.u32s("counts")?, 8, "counts")?;
         let bodies = self.scene.bodies.len();
         let displacement = sized(saved.f64s("displacement")?, 3 * bodies, "displacement")?;
         let count = |i: usize| u64::from(counts[2 * i]) | u64::from(counts[2 * i + 1]) << 32;
-        self.check_saved(saved, &points, clock, count(1), displacement)?;
+        self.check_saved(saved, clock, count(1), displacement)?;
         self.state = State {
             step: count(0),
             time_s: clock[0],
@@ -108,6 +115,8 @@ impl Explicit {
             restored::check_finite(state, "projection")?;
             projection.set_state([state[0], state[1], state[2]]);
         }
+        // Checked above, all of them.
+        let points = self.saved_points(saved)?.flatten();
         self.grid = Grid::like(&self.grid);
         self.grid.insert(points);
         Ok(())
@@ -117,7 +126,6 @@ impl Explicit {
     fn check_saved(
         &self,
         saved: &Saved,
-        points: &[([i32; 3], Point)],
         clock: &[f64],
         lost: u64,
         displacement: &[f64],
@@ -126,8 +134,9 @@ impl Explicit {
         let total = present().count() + self.state.lost as usize;
         restored::check_points(saved.u32s("id")?, total, lost)?;
         let most = present().map(|place| place.0[VOLUME]).fold(0.0, Real::max);
-        for (at, point) in points {
-            self.check_point(*at, point, most)?;
+        for saved in self.saved_points(saved)? {
+            let (at, point) = saved?;
+            self.check_point(at, &point, most)?;
         }
         restored::check_finite(clock, "clock")?;
         restored::check_travel(&self.scene, clock[1])?;
@@ -175,7 +184,11 @@ impl Explicit {
         }
     }
 
-    fn saved_points(&self, saved: &Saved) -> Result<Vec<([i32; 3], Point)>, String> {
+    /// The points with their nodes, one by one.
+    fn saved_points<'a>(
+        &self,
+        saved: &'a Saved,
+    ) -> Result<impl Iterator<Item = Result<([i32; 3], Point), String>> + use<'a>, String> {
         let id = saved.u32s("id")?;
         let n = id.len();
         let node = sized(saved.u32s("node")?, 3 * n, "node")?;
@@ -189,30 +202,28 @@ impl Explicit {
         };
         let quad = |a: &[Real], i: usize| Lanes4([a[i], a[i + 1], a[i + 2], a[i + 3]]);
         let cells = self.grid.lattice.cells;
-        (0..n)
-            .map(|p| {
-                let at: [i32; 3] = std::array::from_fn(|a| node[3 * p + a] as i32);
-                if (0..3).any(|a| !(0..=cells[a]).contains(&at[a])) {
-                    return Err(format!(
-                        "point {p} of the checkpoint is at node {at:?} of a grid of {cells:?} cells"
-                    ));
-                }
-                let point = Point {
-                    id: id[p],
-                    place: quad(place, 4 * p),
-                    motion: quad(motion, 4 * p),
-                    stress: Lanes8(std::array::from_fn(|l| stress[8 * p + l])),
-                    affine: std::array::from_fn(|a| {
-                        if affine.is_empty() {
-                            Lanes4::ZERO
-                        } else {
-                            quad(affine, 12 * p + 4 * a)
-                        }
-                    }),
-                };
-                Ok((at, point))
-            })
-            .collect()
+        Ok((0..n).map(move |p| {
+            let at: [i32; 3] = std::array::from_fn(|a| node[3 * p + a] as i32);
+            if (0..3).any(|a| !(0..=cells[a]).contains(&at[a])) {
+                return Err(format!(
+                    "point {p} of the checkpoint is at node {at:?} of a grid of {cells:?} cells"
+                ));
+            }
+            let point = Point {
+                id: id[p],
+                place: quad(place, 4 * p),
+                motion: quad(motion, 4 * p),
+                stress: Lanes8(std::array::from_fn(|l| stress[8 * p + l])),
+                affine: std::array::from_fn(|a| {
+                    if affine.is_empty() {
+                        Lanes4::ZERO
+                    } else {
+                        quad(affine, 12 * p + 4 * a)
+                    }
+                }),
+            };
+            Ok((at, point))
+        }))
     }
 }
 

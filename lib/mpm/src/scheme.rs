@@ -1,6 +1,8 @@
 //! What a run asks of the scheme: `physics::Scheme`.
 
-use physics::{Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport};
+use physics::{
+    Diagnostics, Failure, LiquidState, Saved, Saving, Scheme, StageTime, StepLimit, StepReport,
+};
 
 use crate::explicit::{Corrections, Explicit};
 use crate::fields::point;
@@ -47,37 +49,33 @@ impl Scheme for Explicit {
     fn liquid(&self) -> LiquidState {
         let (cell, min) = (self.scene.grid.cell_m, self.scene.grid.min_m);
         let count = self.grid.tiles.iter().map(|tile| tile.points.len()).sum();
-        let mut order: Vec<[u32; 3]> = Vec::with_capacity(count);
-        for (t, tile) in self.grid.tiles.iter().enumerate() {
-            let ids = tile.points.id.iter().enumerate();
-            order.extend(ids.map(|(p, &id)| [id, t as u32, p as u32]));
-        }
-        order.sort_unstable();
+        let ranks = self.ranks();
         let mut state = LiquidState {
-            position: Vec::with_capacity(count),
-            velocity: Vec::with_capacity(count),
-            volume: Vec::with_capacity(count),
-            pressure: Vec::with_capacity(count),
-            shear_rate: Vec::with_capacity(count),
+            position: vec![[0.0; 3]; count],
+            velocity: vec![[0.0; 3]; count],
+            volume: vec![0.0; count],
+            pressure: vec![0.0; count],
+            shear_rate: vec![0.0; count],
             solids: Vec::new(),
         };
-        for [_, t, p] in order {
-            let (tile, p) = (&self.grid.tiles[t as usize], p as usize);
+        for tile in &self.grid.tiles {
             let points = &tile.points;
-            let node = tile.node_of(points.base[p]);
-            let [vx, vy, vz, j] = points.motion[p].0;
-            state.position.push(std::array::from_fn(|a| {
-                let offset = f64::from(node[a]) + f64::from(points.place[p].0[a]);
-                (min[a] + offset * cell) as f32
-            }));
-            state.velocity.push([vx, vy, vz].map(|v| v as f32));
-            let v0 = f64::from(points.place[p].0[point::VOLUME]) * cell.powi(3);
-            state.volume.push((v0 * (1.0 + f64::from(j))) as f32);
-            let pressure = self.stress.pressure(j) * self.scene.liquid.density as Real;
-            state.pressure.push(pressure as f32);
-            state
-                .shear_rate
-                .push(points.stress[p].0[point::SHEAR_RATE] as f32);
+            for p in 0..points.len() {
+                let id = points.id[p] as usize;
+                let at = ranks.get(id).map_or(id, |&rank| rank as usize);
+                let node = tile.node_of(points.base[p]);
+                let [vx, vy, vz, j] = points.motion[p].0;
+                state.position[at] = std::array::from_fn(|a| {
+                    let offset = f64::from(node[a]) + f64::from(points.place[p].0[a]);
+                    (min[a] + offset * cell) as f32
+                });
+                state.velocity[at] = [vx, vy, vz].map(|v| v as f32);
+                let v0 = f64::from(points.place[p].0[point::VOLUME]) * cell.powi(3);
+                state.volume[at] = (v0 * (1.0 + f64::from(j))) as f32;
+                let pressure = self.stress.pressure(j) * self.scene.liquid.density as Real;
+                state.pressure[at] = pressure as f32;
+                state.shear_rate[at] = points.stress[p].0[point::SHEAR_RATE] as f32;
+            }
         }
         state
     }
@@ -86,8 +84,8 @@ impl Scheme for Explicit {
         self.state.displacement.clone()
     }
 
-    fn save(&self) -> Saved {
-        self.to_saved()
+    fn saving(&self) -> Vec<(String, Saving<'_>)> {
+        self.to_saving()
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), String> {
@@ -112,5 +110,25 @@ impl Scheme for Explicit {
 
     fn objection(&self) -> Option<String> {
         (self.control.as_ref()?.overwhelmed()).map(physics::broken)
+    }
+}
+
+impl Explicit {
+    /// The place of each point in the order of their numbers; empty where none is lost, so that they are it.
+    fn ranks(&self) -> Vec<u32> {
+        if self.state.lost == 0 {
+            return Vec::new();
+        }
+        let tiles = &self.grid.tiles;
+        let ids = || tiles.iter().flat_map(|tile| &tile.points.id);
+        let mut ranks = vec![0; ids().max().map_or(0, |&last| last as usize + 1)];
+        for &id in ids() {
+            ranks[id as usize] = 1;
+        }
+        let mut before = 0;
+        for rank in &mut ranks {
+            (*rank, before) = (before, before + *rank);
+        }
+        ranks
     }
 }

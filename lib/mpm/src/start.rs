@@ -1,6 +1,6 @@
 //! The start of a run: the scheme of a scene, and its points on the grid.
 
-use physics::{Amount, PidControl, Scene, Viscosity};
+use physics::{Amount, PidControl, Scene, Seed, Viscosity};
 
 use crate::collide::Obstacle;
 use crate::contact::separation_limit;
@@ -25,6 +25,21 @@ impl Explicit {
     /// # Errors
     /// Settings out of range, more bodies than 64, and points outside the grid or in a body.
     pub fn new(scene: &Scene, settings: &Settings) -> Result<Self, String> {
+        let amount = Amount::of(&scene.points);
+        Self::of_points(scene, &amount, scene.points.seeds(), settings)
+    }
+
+    /// The same with `points` instead of the scene's, `amount` in all, which are taken one by one and need not be
+    /// in memory twice.
+    ///
+    /// # Errors
+    /// As [`Explicit::new`].
+    pub fn of_points(
+        scene: &Scene,
+        amount: &Amount,
+        points: impl Iterator<Item = Seed>,
+        settings: &Settings,
+    ) -> Result<Self, String> {
         settings.check()?;
         if scene.bodies.len() > 64 {
             return Err(format!(
@@ -32,7 +47,7 @@ impl Explicit {
                 scene.bodies.len()
             ));
         }
-        let plan = Plan::new(scene, &Amount::of(&scene.points), settings);
+        let plan = Plan::new(scene, amount, settings);
         let present = Present::from(&plan.stages);
         let lattice = Lattice::new(scene, present);
         let mode = settings.velocity_update.mode();
@@ -62,7 +77,7 @@ impl Explicit {
             control: (scene.clamp.filter(|_| present.clamp))
                 .map(|clamp| PidControl::new(clamp, cell / scene.liquid.sound_speed())),
             projection: (settings.density_projection.filter(|_| present.projection))
-                .map(|every| Projection::new(every, scene.initial_speed())),
+                .map(|every| Projection::new(every, scene.speed_with(amount))),
             state: State {
                 step: 0,
                 time_s: 0.0,
@@ -75,19 +90,17 @@ impl Explicit {
             clock: Clock::new(),
             plan,
         };
-        explicit.grid = explicit.initial_grid(scene)?;
+        explicit.grid = explicit.initial_grid(points)?;
         Ok(explicit)
     }
 
-    /// The grid with the scene's points at their nearest nodes, which are put there one by one: a list of
-    /// them would be most of a run's memory.
-    fn initial_grid(&self, scene: &Scene) -> Result<Grid, String> {
+    /// The grid with `points` at their nearest nodes.
+    fn initial_grid(&self, points: impl Iterator<Item = Seed>) -> Result<Grid, String> {
         let here = &self.state.displacement;
-        let rest = self.obstacles(here, here, &vec![[0.0; 3]; scene.bodies.len()]);
+        let rest = self.obstacles(here, here, &vec![[0.0; 3]; self.scene.bodies.len()]);
         let (mut grid, mut fault) = (Grid::like(&self.grid), None);
-        let ids = 0..scene.points.position.len();
-        grid.insert(ids.map_while(|id| {
-            let point = self.initial_point(scene, id, &rest);
+        grid.insert(points.enumerate().map_while(|(id, seed)| {
+            let point = self.initial_point(id, &seed, &rest);
             point.map_err(|said| fault = Some(said)).ok()
         }));
         fault.map_or(Ok(grid), Err)
@@ -95,16 +108,15 @@ impl Explicit {
 
     fn initial_point(
         &self,
-        scene: &Scene,
         id: usize,
+        seed: &Seed,
         rest: &[Obstacle],
     ) -> Result<([i32; 3], Point), String> {
-        let (lattice, cell) = (&self.grid.lattice, scene.grid.cell_m);
-        let axes = lattice.axes();
-        let liquid = &scene.points;
-        let (x, v) = (liquid.position[id], liquid.velocity[id]);
+        let (scene, lattice) = (&self.scene, &self.grid.lattice);
+        let (axes, cell) = (lattice.axes(), scene.grid.cell_m);
+        let (x, v) = (seed.position, seed.velocity);
         let (mut node, mut place, mut motion) = ([0; 3], Lanes4::ZERO, Lanes4::ZERO);
-        place.0[VOLUME] = (liquid.volume[id] / cell.powi(3)) as Real;
+        place.0[VOLUME] = (seed.volume / cell.powi(3)) as Real;
         for a in 0..3 {
             let at = (x[a] - scene.grid.min_m[a]) / cell;
             if !(0.0..=scene.grid.cells[a] as f64).contains(&at) {

@@ -125,7 +125,7 @@ pub(crate) struct Span {
     /// The block, or seen from the block the tile.
     pub(crate) other: u32,
     /// First entry of the halo.
-    pub(crate) local: u16,
+    pub(crate) local: u8,
     /// First node of the block.
     pub(crate) node: u8,
     pub(crate) len: u8,
@@ -171,7 +171,7 @@ pub(crate) struct Tile {
     pub(crate) spans: Vec<Span>,
     /// Sums over this tile's points.
     pub(crate) local: Vec<Lanes8>,
-    /// Sums that contact needs; empty without bodies.
+    /// Sums that contact needs; empty where no body is within reach.
     pub(crate) wall_local: Vec<Lanes8>,
     /// Sums of the velocity filter over this tile's points; empty without one.
     pub(crate) filtered: Vec<Lanes4>,
@@ -215,7 +215,7 @@ impl Tile {
             points: Points::default(),
             spans: Vec::new(),
             local: vec![Lanes8::ZERO; n],
-            wall_local: vec![Lanes8::ZERO; if present.contact { n } else { 0 }],
+            wall_local: Vec::new(),
             filtered: vec![Lanes4::ZERO; if present.filter { n } else { 0 }],
             cells: vec![[0.0; 2]; if present.cell_mean { n } else { 0 }],
             near_wall: vec![false; n],

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use rayon::prelude::*;
 
+use crate::lanes::Lanes8;
 use crate::lattice::{HALO, Lattice, block_index};
 use crate::nodes::Block;
 use crate::stages::Present;
@@ -91,10 +92,12 @@ impl Grid {
             .drain(..)
             .zip(self.blocks.drain(..))
             .collect();
-        let halos: Vec<Vec<Option<(u64, usize, u8)>>> =
-            self.tiles.iter().map(|tile| halo(tile, lattice)).collect();
-        let keys: BTreeSet<u64> = halos.iter().flatten().flatten().map(|h| h.0).collect();
-        self.block_keys = keys.into_iter().collect();
+        let places = self
+            .tiles
+            .iter()
+            .flat_map(|tile| halo(tile.origin, lattice));
+        let keys = places.flatten().map(|(key, ..)| key);
+        self.block_keys = distinct(keys).into_iter().collect();
         let mut index = HashMap::with_capacity(self.block_keys.len());
         for (b, &key) in self.block_keys.iter().enumerate() {
             index.insert(key, b);
@@ -106,10 +109,10 @@ impl Grid {
         for block in &mut self.blocks {
             block.spans.clear();
         }
-        for (t, (tile, halo)) in self.tiles.iter_mut().zip(&halos).enumerate() {
+        for (t, tile) in self.tiles.iter_mut().enumerate() {
             tile.spans.clear();
-            for (local, place) in halo.iter().enumerate() {
-                let Some((key, node, flip)) = *place else {
+            for (local, place) in halo(tile.origin, lattice).enumerate() {
+                let Some((key, node, flip)) = place else {
                     continue;
                 };
                 let b = index[&key] as u32;
@@ -122,7 +125,7 @@ impl Grid {
                 }
                 tile.spans.push(Span {
                     other: b,
-                    local: local as u16,
+                    local: local as u8,
                     node: node as u8,
                     len: 1,
                     flip,
@@ -153,7 +156,8 @@ impl Grid {
         }
     }
 
-    /// Marks the cells of every tile from which a body is within reach.
+    /// Marks the cells of every tile from which a body is within reach, and makes room for what contact needs
+    /// where there is one.
     fn mark_walls(&mut self) {
         let layers = if self.lattice.three { 3 } else { 1 };
         for tile in &mut self.tiles {
@@ -169,6 +173,10 @@ impl Grid {
                         }
                     }
                 }
+            }
+            let sums = if tile.bodies == 0 { 0 } else { at.len() };
+            if tile.wall_local.len() != sums {
+                tile.wall_local = vec![Lanes8::ZERO; sums];
             }
             for base in bases(&self.lattice) {
                 let base = usize::from(base);
@@ -207,24 +215,34 @@ fn see(
     changed
 }
 
-/// Block key, node in the block and mirrored axes of every halo node of a tile.
-fn halo(tile: &Tile, lattice: &Lattice) -> Vec<Option<(u64, usize, u8)>> {
-    (0..lattice.halo_len())
-        .map(|local| {
-            let depth = if lattice.three {
-                (local / (HALO * HALO)) as i32 - 1
-            } else {
-                0
-            };
-            let folded = lattice.fold([
-                tile.origin[0] + (local % HALO) as i32 - 1,
-                tile.origin[1] + (local / HALO % HALO) as i32 - 1,
-                tile.origin[2] + depth,
-            ])?;
-            let key = lattice.tile_key(folded.node);
-            let origin = lattice.tile_origin(key);
-            let within = std::array::from_fn(|a| folded.node[a] - origin[a]);
-            Some((key, block_index(within), folded.flip))
-        })
-        .collect()
+/// The keys in order, each once; most of the list repeat the one before.
+fn distinct(keys: impl Iterator<Item = u64>) -> BTreeSet<u64> {
+    let (mut set, mut last) = (BTreeSet::new(), None);
+    for key in keys {
+        if last.replace(key) != Some(key) {
+            set.insert(key);
+        }
+    }
+    set
+}
+
+/// Block key, node in the block and mirrored axes of every halo node of the tile whose lowest node is
+/// `origin`.
+fn halo(origin: [i32; 3], lattice: &Lattice) -> impl Iterator<Item = Option<(u64, usize, u8)>> {
+    (0..lattice.halo_len()).map(move |local| {
+        let depth = if lattice.three {
+            (local / (HALO * HALO)) as i32 - 1
+        } else {
+            0
+        };
+        let folded = lattice.fold([
+            origin[0] + (local % HALO) as i32 - 1,
+            origin[1] + (local / HALO % HALO) as i32 - 1,
+            origin[2] + depth,
+        ])?;
+        let key = lattice.tile_key(folded.node);
+        let lowest = lattice.tile_origin(key);
+        let within = std::array::from_fn(|a| folded.node[a] - lowest[a]);
+        Some((key, block_index(within), folded.flip))
+    })
 }

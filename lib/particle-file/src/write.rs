@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use rayon::prelude::*;
+use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::bits::BitsRef;
 use crate::header::{Block, Header, MAX_HEADER, Stored};
@@ -20,7 +20,72 @@ pub struct Draft<'a> {
 
 struct Array<'a> {
     section: Section,
-    bytes: &'a [u8],
+    content: Content<'a>,
+}
+
+/// The bytes of an array.
+enum Content<'a> {
+    /// As they are.
+    Whole(&'a [u8]),
+    /// One piece after the other, each time anew.
+    Pieces(Box<Visit<'a>>),
+}
+
+/// Gives the bytes of an array piece by piece.
+type Visit<'a> = dyn Fn(&mut dyn FnMut(&[u8])) + 'a;
+
+impl Array<'_> {
+    /// Its section with the number of rows and the checksum.
+    fn counted(&self) -> Result<Section, String> {
+        let (mut hasher, mut length) = (Xxh3Default::new(), 0);
+        self.content.visit(&mut |bytes| {
+            hasher.update(bytes);
+            length += bytes.len() as u64;
+        });
+        let Section {
+            name,
+            element,
+            components,
+            rows,
+            ..
+        } = &self.section;
+        let row = u64::from(*components) * element.size();
+        let rows = match self.content {
+            Content::Whole(_) => *rows,
+            Content::Pieces(_) => length / row.max(1),
+        };
+        match rows.checked_mul(row) == Some(length) {
+            true => Ok(Section {
+                rows,
+                xxh3: hasher.digest(),
+                ..self.section.clone()
+            }),
+            false => Err(format!(
+                "'{name}' does not end with a whole row of {components} values"
+            )),
+        }
+    }
+}
+
+impl Content<'_> {
+    fn visit(&self, take: &mut dyn FnMut(&[u8])) {
+        match self {
+            Self::Whole(bytes) => take(bytes),
+            Self::Pieces(visit) => visit(take),
+        }
+    }
+
+    /// Writes all, and tells how many bytes that are.
+    fn write_to(&self, out: &mut (impl Write + ?Sized)) -> io::Result<u64> {
+        let (mut written, mut length) = (Ok(()), 0);
+        self.visit(&mut |bytes| {
+            if written.is_ok() {
+                written = out.write_all(bytes);
+                length += bytes.len() as u64;
+            }
+        });
+        written.map(|()| length)
+    }
 }
 
 impl<'a> Draft<'a> {
@@ -52,7 +117,7 @@ impl<'a> Draft<'a> {
                 offset: 0,
                 xxh3: 0,
             },
-            bytes: bytemuck::cast_slice(bits.words()),
+            content: Content::Whole(bytemuck::cast_slice(bits.words())),
         });
         self.header.blocks.push(Block {
             dims: dims.map(|n| n as u64),
@@ -71,23 +136,42 @@ impl<'a> Draft<'a> {
         if name == "position" || self.columns.is_empty() {
             self.header.particles = rows;
         }
-        self.push(
-            name,
-            T::ELEMENT,
-            components,
-            rows,
-            bytemuck::cast_slice(values),
-        );
+        let content = Content::Whole(bytemuck::cast_slice(values));
+        self.push(name, T::ELEMENT, components, rows, content);
+        self
+    }
+
+    /// Adds a column like [`Draft::column`], not the first, whose values `visit` gives piece by piece: once to be
+    /// counted and once to be written, the same both times.
+    pub fn pieces<T: Value>(
+        mut self,
+        name: &str,
+        components: u32,
+        visit: impl Fn(&mut dyn FnMut(&[T])) + 'a,
+    ) -> Self {
+        let content = Content::Pieces(Box::new(move |take| {
+            visit(&mut |piece| take(bytemuck::cast_slice(piece)));
+        }));
+        // Counted when it is written.
+        self.push(name, T::ELEMENT, components, 0, content);
         self
     }
 
     /// Adds bytes of any length.
     pub fn blob(mut self, name: &str, bytes: &'a [u8]) -> Self {
-        self.push(name, Element::Blob, 1, bytes.len() as u64, bytes);
+        let content = Content::Whole(bytes);
+        self.push(name, Element::Blob, 1, bytes.len() as u64, content);
         self
     }
 
-    fn push(&mut self, name: &str, element: Element, components: u32, rows: u64, bytes: &'a [u8]) {
+    fn push(
+        &mut self,
+        name: &str,
+        element: Element,
+        components: u32,
+        rows: u64,
+        content: Content<'a>,
+    ) {
         self.columns.push(Array {
             section: Section {
                 name: name.into(),
@@ -97,7 +181,7 @@ impl<'a> Draft<'a> {
                 offset: 0,
                 xxh3: 0,
             },
-            bytes,
+            content,
         });
     }
 
@@ -108,32 +192,26 @@ impl<'a> Draft<'a> {
     /// particle file (see FORMAT.md): nothing is written then.
     pub fn write_to<W: Write + ?Sized>(&self, out: &mut W) -> io::Result<()> {
         let arrays: Vec<&Array> = self.bits.iter().chain(&self.columns).collect();
-        let (head, file_len) = self.head(&arrays).map_err(|fault| {
-            io::Error::new(
-                io::ErrorKind::InvalidInput,
-                format!("a particle file cannot hold this: {fault}"),
-            )
-        })?;
+        let invalid = |fault: String| {
+            let said = format!("a particle file cannot hold this: {fault}");
+            io::Error::new(io::ErrorKind::InvalidInput, said)
+        };
+        let sections: Result<Vec<Section>, String> =
+            arrays.iter().map(|array| array.counted()).collect();
+        let (head, file_len) = sections.and_then(|s| self.head(s)).map_err(invalid)?;
         let preamble = Preamble::new(&head, file_len);
         out.write_all(&preamble.to_bytes())?;
         out.write_all(&head)?;
         for array in &arrays {
-            out.write_all(array.bytes)?;
-            let padding = array.bytes.len().next_multiple_of(ALIGN as usize) - array.bytes.len();
-            out.write_all(&[0; ALIGN as usize][..padding])?;
+            let length = array.content.write_to(out)?;
+            let padding = length.next_multiple_of(ALIGN) - length;
+            out.write_all(&[0; ALIGN as usize][..padding as usize])?;
         }
         out.write_all(&layout::end_marker(preamble.checksum))
     }
 
     /// The encoded header with its padding, and the length of the whole file.
-    fn head(&self, arrays: &[&Array]) -> Result<(Vec<u8>, u64), String> {
-        let sections: Vec<Section> = arrays
-            .par_iter()
-            .map(|array| Section {
-                xxh3: layout::checksum(array.bytes),
-                ..array.section.clone()
-            })
-            .collect();
+    fn head(&self, sections: Vec<Section>) -> Result<(Vec<u8>, u64), String> {
         let mut stored = Stored {
             header: self.header.clone(),
             sections,
@@ -141,14 +219,6 @@ impl<'a> Draft<'a> {
         let fault = stored.header.fault();
         if let Some(fault) = fault.or_else(|| layout::fault(&stored.header, &stored.sections)) {
             return Err(fault);
-        }
-        for array in arrays {
-            if array.section.bytes() != Some(array.bytes.len() as u64) {
-                let (name, n) = (&array.section.name, array.section.components);
-                return Err(format!(
-                    "'{name}' does not end with a whole row of {n} values"
-                ));
-            }
         }
         // All integers have a fixed width: the length does not depend on the offsets.
         let header_len = layout::padded_header(stored.encode()?.len());

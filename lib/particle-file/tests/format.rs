@@ -241,10 +241,38 @@ fn what_is_no_particle_file_is_not_written() {
                 .column("u", 1, &three[..2]),
             "2 rows",
         ),
+        (
+            Draft::new(header())
+                .column("volume", 1, &three[..1])
+                .pieces("u", 2, |take| take(&three)),
+            "whole row",
+        ),
     ] {
         let said = refused(draft);
         assert!(said.contains(reason), "'{said}' should say '{reason}'");
     }
+}
+
+#[test]
+fn a_column_in_pieces_is_the_column() {
+    let (volume, velocity) = ([1.0_f32; 4], [[0.5_f32, -1.0, 2.0]; 4]);
+    let flat = velocity.as_flattened();
+    let written = |draft: Draft| {
+        let mut bytes = Vec::new();
+        draft.write_to(&mut bytes).unwrap();
+        bytes
+    };
+    let header = Header::new(Kind::State, 1e-6, 1, [0.0; 3], [1e-6; 3]);
+    let begun = || Draft::new(header.clone()).column("volume", 1, &volume);
+    let whole = written(begun().column("velocity", 3, flat));
+    // Pieces need not end with rows, and may be empty.
+    let pieces = written(begun().pieces("velocity", 3, |take| {
+        [0..5, 5..5, 5..12].map(|part| take(&flat[part]));
+    }));
+    assert!(pieces == whole);
+    // One that is not as long as the others is refused, as a column is.
+    let none = begun().pieces::<f32>("velocity", 3, |_| {});
+    assert!(none.write_to(&mut Vec::new()).is_err());
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Rigid bodies of voxels and how they move.
 
+use std::sync::Arc;
+
 /// How a rigid body moves. Bodies only translate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
@@ -40,7 +42,8 @@ pub struct VoxelBlock {
     voxel: [f64; 3],
     dims: [usize; 3],
     words_per_row: usize,
-    bits: Vec<u64>,
+    /// Shared by the clones of a block, of which a run has several.
+    bits: Arc<[u64]>,
 }
 
 impl VoxelBlock {
@@ -60,7 +63,7 @@ impl VoxelBlock {
             voxel,
             dims,
             words_per_row,
-            bits,
+            bits: bits.into(),
         }
     }
 
@@ -93,7 +96,7 @@ impl VoxelBlock {
             voxel,
             dims,
             words_per_row,
-            bits,
+            bits: bits.into(),
         }
     }
 

@@ -23,10 +23,10 @@ pub use material::{
 };
 pub use press::{Press, PressRun, PressStage, PressStep, Reason, StageEnd};
 pub use regime::Regime;
-pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Stop};
+pub use scene::{Amount, Boundary, Dimensions, GridBox, Points, Scene, Seed, Stop};
 pub use scheme::{
-    Array, Diagnostics, Failure, LiquidState, Saved, Scheme, StageTime, StepLimit, StepReport,
-    WaterState,
+    Array, Diagnostics, Failure, LiquidState, Pieces, Saved, Saving, Scheme, StageTime, StepLimit,
+    StepReport, WaterState,
 };
 pub use stages::{Stage, Stages};
 pub use wall_law::WallLaw;

@@ -65,6 +65,41 @@ pub struct Points {
     pub volume: Vec<f64>,
 }
 
+/// One of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Seed {
+    /// Position, m.
+    pub position: [f64; 3],
+    /// Velocity, m/s.
+    pub velocity: [f64; 3],
+    /// Volume at J = 1, m3.
+    pub volume: f64,
+}
+
+impl Points {
+    /// The points one by one.
+    pub fn seeds(&self) -> impl Iterator<Item = Seed> + '_ {
+        let motions = self.position.iter().zip(&self.velocity);
+        (motions.zip(&self.volume)).map(|((&position, &velocity), &volume)| Seed {
+            position,
+            velocity,
+            volume,
+        })
+    }
+}
+
+impl FromIterator<Seed> for Points {
+    fn from_iter<I: IntoIterator<Item = Seed>>(seeds: I) -> Self {
+        let mut points = Self::default();
+        for seed in seeds {
+            points.position.push(seed.position);
+            points.velocity.push(seed.velocity);
+            points.volume.push(seed.volume);
+        }
+        points
+    }
+}
+
 /// How much liquid a scene starts with and where: what plans need, known before its points are
 /// made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,20 +132,15 @@ impl Default for Amount {
 impl Amount {
     /// That of `points`.
     pub fn of(points: &Points) -> Self {
-        let mut sum = Self::default();
-        for ((&x, &v), &volume) in (points.position.iter())
-            .zip(&points.velocity)
-            .zip(&points.volume)
-        {
-            sum = sum.and(Self {
+        points.seeds().fold(Self::default(), |sum, seed| {
+            sum.and(Self {
                 points: 1,
-                volume_m3: volume,
-                low_m: x,
-                high_m: x,
-                speed: norm(v),
-            });
-        }
-        sum
+                volume_m3: seed.volume,
+                low_m: seed.position,
+                high_m: seed.position,
+                speed: norm(seed.velocity),
+            })
+        })
     }
 
     /// This and `other` together.

@@ -91,6 +91,39 @@ pub enum Array {
     U32(Vec<u32>),
 }
 
+/// What an array consists of, piece by piece and in order, each time anew.
+pub type Pieces<'a, T> = Box<dyn Fn(&mut dyn FnMut(&[T])) + 'a>;
+
+/// One array of a scheme that is being saved: as it is, or in pieces, so that what is as large as the liquid is not
+/// in memory twice.
+pub enum Saving<'a> {
+    /// All of it.
+    Whole(Array),
+    /// In single precision.
+    F32(Pieces<'a, f32>),
+    /// In double precision.
+    F64(Pieces<'a, f64>),
+    /// Indices.
+    U32(Pieces<'a, u32>),
+}
+
+impl Saving<'_> {
+    /// The array.
+    fn whole(self) -> Array {
+        fn joined<T: Copy>(pieces: &Pieces<T>) -> Vec<T> {
+            let mut all = Vec::new();
+            pieces(&mut |piece| all.extend_from_slice(piece));
+            all
+        }
+        match self {
+            Self::Whole(array) => array,
+            Self::F32(pieces) => Array::F32(joined(&pieces)),
+            Self::F64(pieces) => Array::F64(joined(&pieces)),
+            Self::U32(pieces) => Array::U32(joined(&pieces)),
+        }
+    }
+}
+
 /// Everything a scheme needs to go on bit by bit where it stopped: named arrays.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Saved(pub Vec<(String, Array)>);
@@ -178,8 +211,13 @@ pub trait Scheme {
     fn liquid(&self) -> LiquidState;
     /// Displacement of each body of the scene, m.
     fn displacements(&self) -> Vec<[f64; 3]>;
-    /// All that [`Scheme::restore`] needs.
-    fn save(&self) -> Saved;
+    /// All that [`Scheme::restore`] needs, by name.
+    fn saving(&self) -> Vec<(String, Saving<'_>)>;
+    /// The same in memory.
+    fn save(&self) -> Saved {
+        let arrays = self.saving().into_iter();
+        Saved(arrays.map(|(name, array)| (name, array.whole())).collect())
+    }
     /// Goes back to a saved state.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use metrics::{
     depth_profile, penetration,
 };
 use particle_file::ParticleFile;
-use physics::{Dimensions, Scheme};
+use physics::{Dimensions, LiquidState, Scheme};
 use serde::Serialize;
 use units::Axis;
 
@@ -111,15 +111,25 @@ impl<'a> Watch<'a> {
     /// # Errors
     /// A bond file that cannot be read any more.
     pub(crate) fn look(&self, scheme: &dyn Scheme) -> Result<Moment, RunError> {
-        self.measure(scheme, |state, middle| self.moment(state, middle))
+        let mut liquid = scheme.liquid();
+        in_file_axes(&mut liquid, self.normal);
+        let displacements = scheme.displacements();
+        self.measure(&liquid, &displacements, |state, middle| {
+            self.moment(state, middle)
+        })
     }
 
-    /// The same with the filled share of the open lumens by depth.
+    /// The same of `liquid`, in the axes of the bond file, and bodies so displaced (m), with the filled share of the
+    /// open lumens by depth.
     ///
     /// # Errors
     /// As [`Watch::look`].
-    pub(crate) fn look_closely(&self, scheme: &dyn Scheme) -> Result<Answers, RunError> {
-        self.measure(scheme, |state, middle| {
+    pub(crate) fn look_closely(
+        &self,
+        liquid: &LiquidState,
+        displacements: &[[f64; 3]],
+    ) -> Result<Answers, RunError> {
+        self.measure(liquid, displacements, |state, middle| {
             let layers = depth_profile(state, middle, &self.sealed)?;
             let shares = [true, false].map(|below| shares(&layers, below));
             let mut answers = Answers::new(&self.moment(state, middle)?, state.voxel_m, shares);
@@ -137,12 +147,11 @@ impl<'a> Watch<'a> {
 
     fn measure<T>(
         &self,
-        scheme: &dyn Scheme,
+        liquid: &LiquidState,
+        displacements: &[[f64; 3]],
         what: impl FnOnce(&State, &Datum) -> Result<T, metrics::Error>,
     ) -> Result<T, RunError> {
-        let mut liquid = scheme.liquid();
-        in_file_axes(&mut liquid, self.normal);
-        let wood = wood_now(self.bond, &scheme.displacements(), self.normal)?;
+        let wood = wood_now(self.bond, displacements, self.normal)?;
         let [bottom, top] = wood
             .each_ref()
             .map(|(block, bits)| bondline::Placed::of_block((block, *bits)));

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use particle_file::{Draft, Header, Kind, ParticleFile};
-use physics::{Array, Saved, StepReport};
+use physics::{Array, Saved, Saving, StepReport};
 
 use crate::courant::Courant;
 use crate::drive::RunError;
@@ -49,9 +49,9 @@ impl Clock {
     }
 }
 
-/// A run as its checkpoint holds it.
+/// A run as its checkpoint holds it; `S` is what is read of the scheme's state, or what writes it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Checkpoint {
+pub struct Checkpoint<S = Saved> {
     /// Where the run is.
     pub clock: Clock,
     /// Which part of it was taken at which Courant number.
@@ -59,7 +59,7 @@ pub struct Checkpoint {
     /// How far its history went.
     pub history: Extent,
     /// State of the scheme.
-    pub saved: Saved,
+    pub saved: S,
 }
 
 /// The end of a sentence that says where the last checkpoint is.
@@ -85,7 +85,7 @@ pub(crate) fn write(
         courant,
         history,
         saved,
-    }: &Checkpoint,
+    }: Checkpoint<Vec<(String, Saving)>>,
 ) -> Result<(), RunError> {
     let mut header = Header::new(Kind::Checkpoint, 1.0, 1, [0.0; 3], [0.0; 3]);
     (header.time_s, header.step) = (clock.time_s, clock.step);
@@ -116,11 +116,14 @@ pub(crate) fn write(
         .column("run.clock", 1, &times)
         .column("run.last_step", 1, &last)
         .column("run.courant", 1, &courant);
-    for (name, array) in &saved.0 {
+    for (name, array) in &saved {
         draft = match array {
-            Array::F32(values) => draft.column(name, 1, values),
-            Array::F64(values) => draft.column(name, 1, values),
-            Array::U32(values) => draft.column(name, 1, values),
+            Saving::Whole(Array::F32(values)) => draft.column(name, 1, values),
+            Saving::Whole(Array::F64(values)) => draft.column(name, 1, values),
+            Saving::Whole(Array::U32(values)) => draft.column(name, 1, values),
+            Saving::F32(pieces) => draft.pieces(name, 1, pieces),
+            Saving::F64(pieces) => draft.pieces(name, 1, pieces),
+            Saving::U32(pieces) => draft.pieces(name, 1, pieces),
         };
     }
     folder.write_whole(CHECKPOINT, |out| draft.write_to(out))
@@ -230,6 +233,8 @@ fn attribute<T: std::str::FromStr>(header: &Header, name: &str) -> Option<T> {
 
 #[cfg(test)]
 mod tests {
+    use physics::Pieces;
+
     use super::*;
     use crate::folder::tests::held;
 
@@ -260,18 +265,30 @@ mod tests {
             ("c".into(), Array::U32(vec![4, 5])),
         ]);
         let courant = [(0, 1.0), (5, 0.3)].map(|(after_step, cfl)| Courant { after_step, cfl });
+        let history = Extent {
+            bytes: 1 << 60,
+            hash: u64::MAX,
+        };
+        let whole = |array: &Array| Saving::Whole(array.clone());
+        // An array in pieces is the same in the file.
+        let numbers: Pieces<f32> =
+            Box::new(|take| [2, 0, 3].iter().for_each(|&n| take(&[0.1; 3][..n])));
+        let saving = vec![
+            ("a".into(), whole(&saved.0[0].1)),
+            ("b".into(), Saving::F32(numbers)),
+            ("c".into(), whole(&saved.0[2].1)),
+        ];
         let checkpoint = Checkpoint {
             clock,
             courant: courant.to_vec(),
-            history: Extent {
-                bytes: 1 << 60,
-                hash: u64::MAX,
-            },
-            saved,
+            history,
+            saved: saving,
         };
         assert_eq!(read(place.path(), "x").unwrap(), None);
-        write(&folder, "x", &checkpoint).unwrap();
-        assert_eq!(read(place.path(), "x").unwrap(), Some(checkpoint));
+        write(&folder, "x", checkpoint).unwrap();
+        let found = read(place.path(), "x").unwrap().unwrap();
+        assert_eq!((found.clock, found.courant), (clock, courant.to_vec()));
+        assert_eq!((found.history, found.saved), (history, saved));
         let said = read(place.path(), "y").unwrap_err().to_string();
         assert!(said.contains("another case"), "{said}");
     }

@@ -154,9 +154,9 @@ pub(crate) fn drive(
                     clock: state.clock,
                     courant: controls.courant.clone(),
                     history: history.sync()?,
-                    saved: scheme.save(),
+                    saved: scheme.saving(),
                 };
-                checkpoint::write(folder, &controls.identity, &checkpoint)?;
+                checkpoint::write(folder, &controls.identity, checkpoint)?;
             }
             state.last_checkpoint = Instant::now();
         }

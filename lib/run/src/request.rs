@@ -22,7 +22,7 @@ use crate::load;
 use crate::resolve::{self, Setup};
 use crate::resolved;
 use crate::schemes;
-use crate::snapshot::{SnapshotWriter, is_final_of};
+use crate::snapshot::{SnapshotWriter, in_file_axes, is_final_of};
 use crate::summary::{self, Facts, Summary};
 use crate::verdict;
 
@@ -211,7 +211,7 @@ impl Request {
             None => {}
         }
         let stages = schemes::forecast(&self.case, &self.setup)?.stages;
-        let mut scheme = schemes::build(&self.case, self.setup.scene_for_scheme())?;
+        let mut scheme = schemes::build(&self.case, &self.setup)?;
         let cfl = schemes::cfl(&self.case);
         let folder = &match found {
             Some(found) => found,
@@ -292,33 +292,36 @@ impl Request {
             ended => ended?,
         };
         let scene = &self.setup.scene;
-        let liquid = scheme.liquid();
-        let invariants = invariants::check(
-            scene,
-            self.setup.liquid.volume_m3,
+        let (mut liquid, displacements) = (scheme.liquid(), scheme.displacements());
+        let (stages, counts) = (scheme.stage_times(), scheme.counts());
+        let programme = summary::programme(scheme.programme());
+        let objection = scheme.objection();
+        // Most of a run's memory, beside which the liquid is measured.
+        drop(scheme);
+        let invariants =
+            invariants::check(scene, self.setup.liquid.volume_m3, &liquid, &displacements)
+                .with_water(outcome.diagnostics.water, self.setup.liquid.volume_m3);
+        let verdict = verdict::judge(
+            &self.setup,
             &liquid,
-            &scheme.displacements(),
+            &invariants,
+            outcome.diagnostics.water,
+            outcome.clock.last.lost,
         )
-        .with_water(outcome.diagnostics.water, self.setup.liquid.volume_m3);
+        .and(objection);
+        in_file_axes(&mut liquid, self.setup.normal);
         let summary = Summary::new(
             &outcome,
             Facts {
                 courant_numbers: controls.courant,
                 liquid_points: self.setup.liquid.points,
                 initial_gap_m: self.setup.initial_gap_m,
-                stages: scheme.stage_times(),
-                counts: scheme.counts(),
-                verdict: verdict::judge(
-                    &self.setup,
-                    &liquid,
-                    &invariants,
-                    outcome.diagnostics.water,
-                    outcome.clock.last.lost,
-                )
-                .and(scheme.objection()),
-                programme: summary::programme(scheme.programme()),
+                stages,
+                counts,
+                verdict,
+                programme,
                 penetration: watch
-                    .map(|watch| watch.look_closely(scheme.as_ref()))
+                    .map(|watch| watch.look_closely(&liquid, &displacements))
                     .transpose()?,
                 set_s: scene.liquid.cure.as_ref().and_then(Cure::set_at),
                 invariants,
@@ -329,7 +332,7 @@ impl Request {
         );
         folder.write_text(SUMMARY, &summary::text(&summary))?;
         if outcome.end != drive::End::Interrupted {
-            writer.write_final(&outcome.clock, scheme.as_ref())?;
+            writer.write_final(&outcome.clock, &liquid, &displacements)?;
             folder.remove(CHECKPOINT)?;
         }
         Ok(Some(summary))

@@ -26,12 +26,19 @@ pub(crate) fn default_cfl(case: &Case) -> f64 {
 ///
 /// # Errors
 /// Settings that are not of this scheme, and scenes it cannot do.
-pub(crate) fn build(case: &Case, scene: Scene) -> Result<Box<dyn Scheme>, RunFailure> {
+pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFailure> {
+    let scene = &setup.scene;
     Ok(match case.integrator.scheme {
         SchemeName::Explicit => {
-            Box::new(Explicit::new(&scene, &explicit(case)?).map_err(RunFailure::Usage)?)
+            let scheme =
+                Explicit::of_points(scene, &setup.liquid, setup.points(), &explicit(case)?);
+            Box::new(scheme.map_err(RunFailure::Usage)?)
         }
         SchemeName::Implicit => {
+            let scene = Scene {
+                points: setup.points().collect(),
+                ..scene.clone()
+            };
             Box::new(Implicit::new(scene, implicit(case)?).map_err(RunFailure::Usage)?)
         }
     })
@@ -171,10 +178,8 @@ fn latest(setup: &Setup) -> f64 {
     }
 }
 
-/// Bytes of the points as they are handed to a scheme: position, velocity and volume.
-fn start_bytes(setup: &Setup) -> f64 {
-    56.0 * setup.liquid.points as f64
-}
+/// Bytes of a point as it is handed to the implicit scheme: position, velocity and volume.
+const POINT_BYTES: f64 = 56.0;
 
 fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast, RunFailure> {
     let plan = mpm::Plan::new(&setup.scene, &setup.liquid, settings);
@@ -201,7 +206,7 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
         steps: plan.steps,
         // Its step does not grow while the clamp is held.
         most_steps: plan.steps * latest(setup),
-        memory_bytes: plan.memory_bytes + start_bytes(setup),
+        memory_bytes: plan.memory_bytes,
         step_s: points * cost / (EXPLICIT_SPEED * rayon::current_num_threads() as f64),
         notes,
         stages: plan.stages,
@@ -247,7 +252,7 @@ fn implicit_forecast(settings: &filling::Settings, setup: &Setup) -> Forecast {
         steps: plan.steps,
         // Its step grows as the clamp slows down: what counts is the way.
         most_steps: plan.steps,
-        memory_bytes: plan.memory_bytes + start_bytes(setup),
+        memory_bytes: plan.memory_bytes + POINT_BYTES * setup.liquid.points as f64,
         step_s: plan.cpu_s / plan.steps / rayon::current_num_threads() as f64,
         notes,
         stages: plan.stages,

@@ -101,22 +101,34 @@ impl<'a> SnapshotWriter<'a> {
         scheme: &dyn Scheme,
     ) -> Result<(), RunError> {
         self.folder.make_snapshots()?;
-        self.write(&snapshot_name(clock.snapshots), clock, scheme)?;
+        let mut liquid = scheme.liquid();
+        in_file_axes(&mut liquid, self.normal);
+        let name = snapshot_name(clock.snapshots);
+        self.write(&name, clock, &liquid, &scheme.displacements())?;
         clock.snapshots += 1;
         Ok(())
     }
 
-    /// Writes `final.mpts`.
+    /// Writes `final.mpts` of `liquid`, in the axes of the file, and bodies so displaced (m).
     ///
     /// # Errors
     /// The file and the system's reason.
-    pub(crate) fn write_final(&self, clock: &Clock, scheme: &dyn Scheme) -> Result<(), RunError> {
-        self.write(FINAL, clock, scheme)
+    pub(crate) fn write_final(
+        &self,
+        clock: &Clock,
+        liquid: &LiquidState,
+        displacements: &[[f64; 3]],
+    ) -> Result<(), RunError> {
+        self.write(FINAL, clock, liquid, displacements)
     }
 
-    fn write(&self, name: &str, clock: &Clock, scheme: &dyn Scheme) -> Result<(), RunError> {
-        let mut state = scheme.liquid();
-        in_file_axes(&mut state, self.normal);
+    fn write(
+        &self,
+        name: &str,
+        clock: &Clock,
+        state: &LiquidState,
+        displacements: &[[f64; 3]],
+    ) -> Result<(), RunError> {
         let mut header = self.header.clone();
         (header.time_s, header.step) = (clock.time_s, clock.step);
         header.set_attribute(PRESSURE, clock.last.pressure_top);
@@ -125,7 +137,7 @@ impl<'a> SnapshotWriter<'a> {
         }
         let mut draft = Draft::new(header);
         if let Some(bond) = self.bond {
-            for (block, bits) in wood_now(bond, &scheme.displacements(), self.normal)? {
+            for (block, bits) in wood_now(bond, displacements, self.normal)? {
                 draft = draft.block(block, bits);
             }
         }

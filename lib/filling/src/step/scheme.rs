@@ -2,8 +2,8 @@
 
 use physics::restored;
 use physics::{
-    Array, Diagnostics, Failure, LiquidState, PressRun, Saved, Scheme, StageTime, StepLimit,
-    StepReport,
+    Array, Diagnostics, Failure, LiquidState, PressRun, Saved, Saving, Scheme, StageTime,
+    StepLimit, StepReport,
 };
 use rayon::prelude::*;
 
@@ -74,7 +74,7 @@ impl Scheme for Implicit {
         self.state.displacement.clone()
     }
 
-    fn save(&self) -> Saved {
+    fn saving(&self) -> Vec<(String, Saving<'_>)> {
         let particles = &self.state.particles;
         let flat = |v: &[[f64; 3]]| v.iter().flatten().copied().collect::<Vec<f64>>();
         let velocity = particles.velocity.iter().flatten().copied().collect();
@@ -112,7 +112,10 @@ impl Scheme for Implicit {
             let undecided = self.state.counts.undecided as f64;
             arrays.push((LINES_LEFT.into(), Array::F64(vec![undecided])));
         }
-        Saved(arrays)
+        let arrays = arrays.into_iter();
+        arrays
+            .map(|(name, array)| (name, Saving::Whole(array)))
+            .collect()
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), String> {

@@ -179,6 +179,7 @@ mod tests {
         };
         let mut tile = Tile::new(lattice.tile_key([4; 3]), &lattice, present, 1);
         tile.bodies = 1;
+        tile.wall_local = vec![Lanes8::ZERO; lattice.halo_len()];
         let mut seed = 1_u32;
         let mut noise = || {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

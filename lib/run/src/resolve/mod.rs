@@ -11,7 +11,8 @@ mod water;
 
 use particle_file::limits;
 use physics::{
-    Amount, Boundary, Clamp, Dimensions, Pid, Points, PressStage, RigidBody, Scene, Stop, WallLaw,
+    Amount, Boundary, Clamp, Dimensions, Pid, Points, PressStage, RigidBody, Scene, Seed, Stop,
+    WallLaw,
 };
 
 use crate::case::{Case, CaseError, ClampTable, Contact, StopRule};
@@ -34,7 +35,7 @@ fn cells_along(n: f64) -> Result<usize, CaseError> {
 /// A run resolved to SI with what the run loop needs beside the scene.
 #[derive(Debug)]
 pub struct Setup {
-    /// The scene; its points are made by [`Setup::scene_for_scheme`].
+    /// The scene; its points are made by [`Setup::points`].
     pub scene: Scene,
     /// How much liquid it starts with.
     pub liquid: Amount,
@@ -54,13 +55,10 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// The scene with its material points, for a scheme that takes them over: millions of them
-    /// need not stay in memory twice, and a plan needs none.
-    pub(crate) fn scene_for_scheme(&self) -> Scene {
-        Scene {
-            points: self.seeds.points(),
-            ..self.scene.clone()
-        }
+    /// The liquid's material points, made one by one: millions of them need not stay in memory twice, and a
+    /// plan needs none.
+    pub(crate) fn points(&self) -> impl Iterator<Item = Seed> {
+        self.seeds.points()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Material points of the liquid at the start: counted before they are made.
 
-use physics::{Amount, Points, VoxelBlock};
+use physics::{Amount, Seed, VoxelBlock};
 
 /// Largest number of material points a run accepts: beyond it the request is a mistake.
 const MOST_POINTS: u64 = 2_000_000_000;
@@ -65,17 +65,15 @@ impl Lattice {
         }
     }
 
-    fn fill(&self, points: &mut Points) {
-        let volume = self.point_volume();
-        for k in 0..self.n[2] {
-            for j in 0..self.n[1] {
-                for i in 0..self.n[0] {
-                    points.position.push(self.at([i, j, k]));
-                    points.velocity.push(self.velocity);
-                    points.volume.push(volume);
-                }
-            }
-        }
+    fn seeds(self) -> impl Iterator<Item = Seed> {
+        let [nx, ny, nz] = self.n;
+        let indices =
+            (0..nz).flat_map(move |k| (0..ny).flat_map(move |j| (0..nx).map(move |i| [i, j, k])));
+        indices.map(move |index| Seed {
+            position: self.at(index),
+            velocity: self.velocity,
+            volume: self.point_volume(),
+        })
     }
 }
 
@@ -98,16 +96,8 @@ impl Seeds {
     /// # Errors
     /// A sentence when there is none or more than any run takes.
     pub(super) fn amount(&self) -> Result<Amount, String> {
-        let amount = match self {
-            Self::Boxes(boxes) => boxes
-                .iter()
-                .fold(Amount::default(), |sum, lattice| sum.and(lattice.amount())),
-            Self::Voxels { block, .. } => {
-                let mut sum = Amount::default();
-                self.each_voxel(block, |lattice| sum = sum.and(lattice.amount()));
-                sum
-            }
-        };
+        let amount =
+            (self.lattices()).fold(Amount::default(), |sum, lattice| sum.and(lattice.amount()));
         match amount.points {
             0 => Err("the scene holds no adhesive: no material point lies inside the grid".into()),
             1..=MOST_POINTS => Ok(amount),
@@ -118,44 +108,33 @@ impl Seeds {
     }
 
     /// The points.
-    pub(super) fn points(&self) -> Points {
-        let mut points = Points::default();
-        match self {
-            Self::Boxes(boxes) => boxes.iter().for_each(|lattice| lattice.fill(&mut points)),
-            Self::Voxels { block, .. } => {
-                self.each_voxel(block, |lattice| lattice.fill(&mut points));
-            }
-        }
-        points
+    pub(super) fn points(&self) -> impl Iterator<Item = Seed> {
+        self.lattices().flat_map(Lattice::seeds)
     }
 
-    fn each_voxel(&self, block: &VoxelBlock, mut visit: impl FnMut(Lattice)) {
-        let Self::Voxels {
-            spacing,
-            plane_strain_depth,
-            ..
-        } = *self
-        else {
-            return;
-        };
-        let [nx, ny, nz] = block.dims();
-        for k in 0..nz {
-            for j in 0..ny {
-                for i in (0..nx).filter(|&i| block.solid(i, j, k)) {
-                    let index = [i, j, k];
-                    let min: [f64; 3] = std::array::from_fn(|a| {
-                        block.origin()[a] + index[a] as f64 * block.voxel()[a]
-                    });
-                    let max = std::array::from_fn(|a| min[a] + block.voxel()[a]);
-                    visit(Lattice::new(
-                        min,
-                        max,
-                        spacing,
-                        plane_strain_depth,
-                        [0.0; 3],
-                    ));
-                }
-            }
+    fn lattices(&self) -> Box<dyn Iterator<Item = Lattice> + '_> {
+        match self {
+            Self::Boxes(boxes) => Box::new(boxes.iter().copied()),
+            Self::Voxels {
+                block,
+                spacing,
+                plane_strain_depth,
+            } => Box::new(solid(block).map(|index| {
+                let min: [f64; 3] =
+                    std::array::from_fn(|a| block.origin()[a] + index[a] as f64 * block.voxel()[a]);
+                let max = std::array::from_fn(|a| min[a] + block.voxel()[a]);
+                Lattice::new(min, max, *spacing, *plane_strain_depth, [0.0; 3])
+            })),
         }
     }
+}
+
+/// The solid voxels of a block.
+fn solid(block: &VoxelBlock) -> impl Iterator<Item = [usize; 3]> {
+    let [nx, ny, nz] = block.dims();
+    let rows = (0..nz).flat_map(move |k| (0..ny).map(move |j| [j, k]));
+    rows.flat_map(move |[j, k]| {
+        let voxels = (0..nx).filter(move |&i| block.solid(i, j, k));
+        voxels.map(move |i| [i, j, k])
+    })
 }

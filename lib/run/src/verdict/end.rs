@@ -129,11 +129,13 @@ fn unexplained(scene: &Scene, liquid: &LiquidState, initial: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use physics::Points;
+
     use super::*;
     use crate::verdict::tests::setup;
 
     fn at_rest(setup: &Setup) -> LiquidState {
-        let points = setup.scene_for_scheme().points;
+        let points: Points = setup.points().collect();
         let n = points.position.len();
         LiquidState {
             position: (points.position.iter())
