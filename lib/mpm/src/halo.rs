@@ -7,31 +7,36 @@ use crate::tiles::Tile;
 
 /// Copies the nodal velocities of a tile's halo to `field`.
 pub(crate) fn gather_velocity(tile: &Tile, blocks: &[Block], field: &mut Vec<Lanes8>) {
-    copy(tile, blocks, field, |block, node| block.velocity[node]);
+    copy(tile, field, |block| &blocks[block].velocity, |v| v);
 }
 
 /// Copies w_l of the velocity filter of a tile's halo to `field`, twice: for two points at a time.
 pub(crate) fn gather_filtered(tile: &Tile, blocks: &[Block], field: &mut Vec<Lanes8>) {
-    copy(tile, blocks, field, |block, node| {
-        let w = block.filtered(node);
-        Lanes8::of(w, w)
-    });
+    copy(
+        tile,
+        field,
+        |block| blocks[block].filtered(),
+        |w| Lanes8::of(w, w),
+    );
 }
 
+/// What no span covers is out of every point's reach: it keeps what was there before.
 #[inline(always)]
-fn copy(
+fn copy<'a, T: Copy + 'a>(
     tile: &Tile,
-    blocks: &[Block],
     field: &mut Vec<Lanes8>,
-    of: impl Fn(&Block, usize) -> Lanes8,
+    nodes: impl Fn(usize) -> &'a [T],
+    of: impl Fn(T) -> Lanes8,
 ) {
-    field.clear();
     field.resize(tile.local.len(), Lanes8::ZERO);
     for span in &tile.spans {
-        let block = &blocks[span.other as usize];
-        for (value, node) in field[span.entries()].iter_mut().zip(span.nodes()) {
-            *value = of(block, node);
-            for a in span.mirrored() {
+        let nodes = &nodes(span.other as usize)[span.nodes()];
+        let values = &mut field[span.entries()];
+        for (value, &node) in values.iter_mut().zip(nodes) {
+            *value = of(node);
+        }
+        for a in span.mirrored() {
+            for value in &mut *values {
                 value.0[a] = -value.0[a];
                 value.0[node::SECOND + a] = -value.0[node::SECOND + a];
             }

@@ -62,6 +62,16 @@ macro_rules! lanes {
                 }
                 Self(r)
             }
+
+            /// Whether every lane is less than that of `reach` from 0; none that is not a number is.
+            #[inline(always)]
+            pub(crate) fn is_within(self, reach: Self) -> bool {
+                let mut within = true;
+                for l in 0..$n {
+                    within &= self.0[l].abs() < reach.0[l];
+                }
+                within
+            }
         }
     };
 }
@@ -74,12 +84,6 @@ impl Lanes4 {
     #[inline(always)]
     pub(crate) fn add_scaled<const FMA: bool>(self, w: Real, x: Self) -> Self {
         self.add_product::<FMA>(Self([w; 4]), x)
-    }
-
-    /// Whether every lane is less than that of `reach` from 0; none that is not a number is.
-    #[inline(always)]
-    pub(crate) fn is_within(self, reach: Self) -> bool {
-        (0..4).fold(true, |within, l| within & (self.0[l].abs() < reach.0[l]))
     }
 }
 

@@ -83,9 +83,9 @@ impl Block {
         }
     }
 
-    /// w_l of the filter at a node.
-    pub(crate) fn filtered(&self, node: usize) -> Lanes4 {
-        self.filter.w[node]
+    /// w_l of the filter at the nodes.
+    pub(crate) fn filtered(&self) -> &[Lanes4] {
+        &self.filter.w
     }
 
     /// The body of most volume at `node`, if any is there.
@@ -149,7 +149,12 @@ impl Block {
             let Some(values) = values(&tiles[span.other as usize]).get(span.entries()) else {
                 continue;
             };
-            for (sum, &value) in sums[span.nodes()].iter_mut().zip(values) {
+            let sums = sums[span.nodes()].iter_mut().zip(values);
+            if span.flip == 0 {
+                sums.for_each(|(sum, &value)| *sum = sum.plus::<false>(value));
+                continue;
+            }
+            for (sum, &value) in sums {
                 let mut value = value;
                 for a in span.mirrored() {
                     value.0[vectors[0] + a] = -value.0[vectors[0] + a];
@@ -225,7 +230,12 @@ impl Block {
         let mut sums = [Lanes4::ZERO; NODES];
         for span in &self.spans {
             let values = &tiles[span.other as usize].filtered[span.entries()];
-            for (sum, &value) in sums[span.nodes()].iter_mut().zip(values) {
+            let sums = sums[span.nodes()].iter_mut().zip(values);
+            if span.flip == 0 {
+                sums.for_each(|(sum, &value)| *sum = sum.plus::<false>(value));
+                continue;
+            }
+            for (sum, &value) in sums {
                 let mut value = value;
                 for a in span.mirrored() {
                     value.0[a] = -value.0[a];

@@ -4,6 +4,8 @@
 
 use physics::{Pieces, Saved, Saving};
 
+use crate::lanes::Lanes8;
+
 /// A number of a point or node.
 #[cfg(not(feature = "double"))]
 pub(crate) type Real = f32;
@@ -55,4 +57,21 @@ pub(crate) fn exp_m1(x: Real) -> Real {
     } else {
         x.exp() - 1.0
     }
+}
+
+/// [`exp_m1`] of eight numbers.
+#[inline(always)]
+pub(crate) fn exp_m1_of_eight<const FMA: bool>(x: Lanes8) -> Lanes8 {
+    if !x.is_within(Lanes8([0.25; 8])) {
+        let mut each = x;
+        for x in &mut each.0 {
+            *x = exp_m1(*x);
+        }
+        return each;
+    }
+    let mut tail = Lanes8([RECIPROCALS[TERMS]; 8]);
+    for k in (2..TERMS).rev() {
+        tail = Lanes8([RECIPROCALS[k]; 8]).plus::<FMA>(x.times::<FMA>(tail));
+    }
+    x.plus::<FMA>(x.times::<FMA>(x).times::<FMA>(tail))
 }

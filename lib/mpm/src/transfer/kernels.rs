@@ -117,7 +117,7 @@ impl<F: Flow> Kernel for Refresh<'_, F> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Self(points, gradient, stress, flow, dt) = self;
-        stress.update(points, gradient, flow, dt);
+        stress.update::<F, FMA>(points, gradient, flow, dt);
     }
 }
 
