@@ -26,34 +26,44 @@ pub struct Mode {
     pub however_long: bool,
 }
 
-/// Finds the checkpoint to start from; none to start anew, with the earlier run's files gone.
+/// The checkpoint to go on from, if there is one that is wanted. Nothing is changed.
 ///
 /// # Errors
-/// Another run that may not be replaced, a file in the way that is not the tool's own, a
-/// checkpoint that cannot be used, a failed write.
-pub(crate) fn start(
+/// A checkpoint that cannot be used and may not be replaced.
+pub(crate) fn checkpoint(
     folder: &RunFolder,
     mode: Mode,
     identity: &str,
     text: &str,
     by: &Provenance,
 ) -> Result<Option<Checkpoint>, RunFailure> {
-    let holds = |name: &str| is_there(&folder.place(name));
     // A run with a final state has ended; a checkpoint beside it waits to be removed.
-    if mode.resume && !holds(FINAL) {
-        match checkpoint::read(folder.path(), identity) {
-            Ok(Some(checkpoint)) => {
-                prove_snapshots(folder, checkpoint.clock.snapshots, by)?;
-                return Ok(Some(checkpoint));
-            }
-            Ok(None) => {}
-            Err(_) if mode.overwrite => {}
-            Err(RunError::AnotherCase(said)) => {
-                return Err(RunFailure::Data(said + &changed(folder, text)));
-            }
-            Err(error) => return Err(error.into()),
-        }
+    if !mode.resume || is_there(&folder.place(FINAL)) {
+        return Ok(None);
     }
+    match checkpoint::read(folder.path(), identity) {
+        Ok(Some(checkpoint)) => {
+            prove_snapshots(folder, checkpoint.clock.snapshots, by)?;
+            Ok(Some(checkpoint))
+        }
+        Ok(None) => Ok(None),
+        Err(_) if mode.overwrite => Ok(None),
+        Err(RunError::AnotherCase(said)) => Err(RunFailure::Data(said + &changed(folder, text))),
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// Starts anew, with the earlier run's files gone.
+///
+/// # Errors
+/// Another run that may not be replaced, a file in the way that is not the tool's own, a failed write.
+pub(crate) fn anew(
+    folder: &RunFolder,
+    mode: Mode,
+    text: &str,
+    by: &Provenance,
+) -> Result<(), RunFailure> {
+    let holds = |name: &str| is_there(&folder.place(name));
     // A run killed before its first checkpoint has nothing to lose.
     let begun = || fs::read_to_string(folder.place(RESOLVED)).is_ok_and(|found| found == text);
     let again = mode.resume && !holds(FINAL) && begun();
@@ -63,7 +73,7 @@ pub(crate) fn start(
     }
     clear(folder, by)?;
     folder.write_text(RESOLVED, text)?;
-    Ok(None)
+    Ok(())
 }
 
 /// What of the case is not as it was when the folder's run began; nothing where that is not known.

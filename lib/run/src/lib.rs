@@ -7,6 +7,7 @@ pub mod case;
 mod changes;
 mod checkpoint;
 mod chords;
+mod conclude;
 mod courant;
 mod crowding;
 mod drive;

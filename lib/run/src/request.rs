@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use particle_file::{ParticleFile, Provenance};
-use physics::{Cure, Regime, StepReport};
+use physics::{Regime, StepReport};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::answers;
@@ -11,19 +11,19 @@ use crate::begin::{self, Mode};
 use crate::case::{Case, CaseError};
 use crate::changes::changed;
 use crate::checkpoint::{Checkpoint, Clock};
+use crate::conclude::{Asked, conclude};
 use crate::courant::{continued, without_cfl};
 use crate::drive::{self, Controls, RunError};
 use crate::expected_error;
 use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
 use crate::history::History;
-use crate::invariants;
 use crate::left_out::left_out;
 use crate::load;
 use crate::resolve::{self, Setup};
 use crate::resolved;
 use crate::schemes;
-use crate::snapshot::{SnapshotWriter, in_file_axes, is_final_of};
-use crate::summary::{self, Facts, Summary};
+use crate::snapshot::{SnapshotWriter, is_final_of};
+use crate::summary::{self, Summary};
 use crate::verdict;
 
 /// Why a run could not be made ready or did not end well; tools map it to exit status.
@@ -211,6 +211,12 @@ impl Request {
             None => {}
         }
         let stages = schemes::forecast(&self.case, &self.setup)?.stages;
+        let resolved = resolved::text(&self.text, &self.case, &self.setup);
+        // Read before there is a scheme, beside which its file need not be in memory, too.
+        let checkpoint = match &found {
+            Some(found) => begin::checkpoint(found, mode, &continuable, &resolved, &by)?,
+            None => None,
+        };
         let mut scheme = schemes::build(&self.case, &self.setup)?;
         let cfl = schemes::cfl(&self.case);
         let folder = &match found {
@@ -218,9 +224,7 @@ impl Request {
             None => RunFolder::make(folder, &by)?,
         };
         folder.warning().into_iter().for_each(warn);
-        let resolved = resolved::text(&self.text, &self.case, &self.setup);
-        let start = begin::start(folder, mode, &continuable, &resolved, &by)?;
-        let (clock, courant, mut history) = match start {
+        let (clock, courant, mut history) = match checkpoint {
             Some(Checkpoint {
                 clock,
                 courant,
@@ -232,17 +236,17 @@ impl Request {
                 begin::forget_what_came_after(folder, &clock, &resolved)?;
                 (clock, continued(courant, clock.step, cfl), history)
             }
-            None => (
-                Clock::default(),
-                continued(Vec::new(), 0, cfl),
-                History::create(
+            None => {
+                begin::anew(folder, mode, &resolved, &by)?;
+                let history = History::create(
                     folder,
                     self.setup.scene.liquid.cure.is_some(),
                     self.setup.scene.liquid.water.is_some(),
                     !self.setup.scene.programme.is_empty(),
                     self.case.output.penetration,
-                )?,
-            ),
+                )?;
+                (Clock::default(), continued(Vec::new(), 0, cfl), history)
+            }
         };
         let watch = watch.as_ref();
         let mut controls = Controls {
@@ -291,45 +295,13 @@ impl Request {
             }
             ended => ended?,
         };
-        let scene = &self.setup.scene;
-        let (mut liquid, displacements) = (scheme.liquid(), scheme.displacements());
-        let (stages, counts) = (scheme.stage_times(), scheme.counts());
-        let programme = summary::programme(scheme.programme());
-        let objection = scheme.objection();
-        // Most of a run's memory, beside which the liquid is measured.
-        drop(scheme);
-        let invariants =
-            invariants::check(scene, self.setup.liquid.volume_m3, &liquid, &displacements)
-                .with_water(outcome.diagnostics.water, self.setup.liquid.volume_m3);
-        let verdict = verdict::judge(
-            &self.setup,
-            &liquid,
-            &invariants,
-            outcome.diagnostics.water,
-            outcome.clock.last.lost,
-        )
-        .and(objection);
-        in_file_axes(&mut liquid, self.setup.normal);
-        let summary = Summary::new(
-            &outcome,
-            Facts {
-                courant_numbers: controls.courant,
-                liquid_points: self.setup.liquid.points,
-                initial_gap_m: self.setup.initial_gap_m,
-                stages,
-                counts,
-                verdict,
-                programme,
-                penetration: watch
-                    .map(|watch| watch.look_closely(&liquid, &displacements))
-                    .transpose()?,
-                set_s: scene.liquid.cure.as_ref().and_then(Cure::set_at),
-                invariants,
-                expected_error: expected_error::of(&self.case),
-                left_out,
-                provenance,
-            },
-        );
+        let asked = Asked {
+            courant_numbers: controls.courant,
+            left_out,
+            provenance,
+        };
+        let (summary, liquid, displacements) =
+            conclude(&self.case, &self.setup, scheme, &outcome, watch, asked)?;
         folder.write_text(SUMMARY, &summary::text(&summary))?;
         if outcome.end != drive::End::Interrupted {
             writer.write_final(&outcome.clock, &liquid, &displacements)?;
