@@ -42,7 +42,7 @@ pub struct Plan {
     pub viscosity_cap: f64,
     /// Steps to the end if the clamp keeps its full speed.
     pub steps: f64,
-    /// Memory of points and nodes, bytes.
+    /// Memory of points and nodes, and of the points while they are written, bytes.
     pub memory_bytes: f64,
     /// What a step consists of.
     pub stages: Stages,
@@ -97,20 +97,21 @@ pub(crate) fn acoustic_limit(scene: &Scene, speed: f64, j: f64) -> f64 {
     scene.grid.cell_m / (sound + speed)
 }
 
-/// Bytes of points and nodes: tiles and blocks at the filling that lumens a few cells wide
-/// leave, about a quarter.
+/// Bytes of points, of their state while it is written, and of nodes: tiles and blocks as full as lumens leave
+/// them late in a run, about half.
 fn memory(scene: &Scene, amount: &Amount, settings: &Settings) -> f64 {
     let affine = settings.velocity_update == VelocityUpdate::Apic;
     let bodies = scene.bodies.len() as u64;
     let filtered = u64::from(settings.velocity_update.order() > 1);
     // With the room that tiles leave for more, an eighth at most.
-    let per_point = 17.0 / 16.0 * (6 + BYTES * if affine { 28 } else { 16 }) as f64;
-    let spans = 108 * 12;
+    let kept = 17.0 / 16.0 * (6 + BYTES * if affine { 28 } else { 16 }) as f64;
+    let written = 36.0;
+    let spans = 108 * 8;
     let lanes = 8 * (1 + u64::from(bodies > 0)) + 4 * filtered;
     let per_tile = 216 * (BYTES * lanes + 2) + spans;
     let per_node = 1 + 8 * BYTES + (24 + 8 * BYTES) * bodies + (44 + 4 * BYTES) * filtered;
     let per_block = 64 * per_node + spans;
     let volume = amount.volume_m3 / scene.grid.cell_m.powi(3);
-    let tiles = (volume / 64.0 * 4.0).ceil() + 1.0;
-    amount.points as f64 * per_point + tiles * (per_tile + 2 * per_block) as f64
+    let tiles = (volume / 64.0 * 2.0).ceil() + 1.0;
+    amount.points as f64 * (kept + written) + tiles * (per_tile + 2 * per_block) as f64
 }
