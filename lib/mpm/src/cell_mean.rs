@@ -11,9 +11,9 @@ use rayon::prelude::*;
 
 use crate::fields::point::{J, VOLUME};
 use crate::lattice::HALO;
-use crate::material::Stress;
 use crate::nodes::Block;
 use crate::real::Real;
+use crate::stress::Stress;
 use crate::tiles::{Points, Scratch, Tile};
 use crate::topology::Grid;
 

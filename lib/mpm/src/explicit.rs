@@ -4,11 +4,11 @@ use physics::{Motion, PidControl, Scene};
 
 use crate::collide::Obstacle;
 use crate::density::Projection;
-use crate::material::Stress;
 use crate::plan::Plan;
 use crate::real::Real;
 use crate::settings::{Mode, Settings};
 use crate::stages::{Clock, Present};
+use crate::stress::Stress;
 use crate::topology::Grid;
 use crate::transfer::{AnyFlow, Kernels};
 use crate::walls::{BlockShape, Integrator};

@@ -46,6 +46,7 @@ mod simd;
 mod stages;
 mod start;
 mod step;
+mod stress;
 mod tiles;
 mod topology;
 mod transfer;

@@ -1,12 +1,8 @@
-//! The liquid's stress at its points (paper Eqs. 1 and 2).
+//! The liquid's viscosity laws, over its density and in the precision of its points.
 
-use physics::{Law, Liquid, Rheology, TAIT_C, Table};
+use physics::{Law, Rheology, Table};
 
-use crate::fields::point::J;
-use crate::lanes::{Lanes4, Lanes8, transposed};
-use crate::real::{Real, exp_m1, exp_m1_of_eight};
-use crate::tiles::Points;
-use crate::window::BATCH;
+use crate::real::Real;
 
 /// Kinematic viscosity (m2/s) of a shear rate (1/s).
 pub(crate) trait Flow: Send + Sync {
@@ -21,6 +17,12 @@ impl Flow for Constant {
     #[inline(always)]
     fn viscosity(&self, _rate: Real) -> Real {
         self.0
+    }
+}
+
+impl Constant {
+    pub(crate) fn new(viscosity: f64, density: f64) -> Self {
+        Self((viscosity / density) as Real)
     }
 }
 
@@ -82,225 +84,9 @@ impl Flow for Formula {
     }
 }
 
-/// The liquid's law with its constants divided by the density.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Stress {
-    /// C K / rho, m2/s2.
-    stiffness: Real,
-    /// Largest tension over rho, m2/s2.
-    tension: Real,
-    /// Largest kinematic viscosity the step is stable with, m2/s.
-    pub(crate) cap: Real,
-    rate_factor: Real,
-    per_cell: Real,
-}
-
-impl Stress {
-    /// `cell` in m, `cap` the largest viscosity in Pa s.
-    pub(crate) fn new(liquid: &Liquid, cell: f64, cap: f64) -> Self {
-        Self {
-            stiffness: (TAIT_C * liquid.tait.bulk_modulus / liquid.density) as Real,
-            tension: liquid
-                .cavitation_pressure
-                .map_or(Real::INFINITY, |p| (p / liquid.density) as Real),
-            cap: (cap / liquid.density) as Real,
-            rate_factor: liquid.shear_rate.factor() as Real,
-            per_cell: (1.0 / cell) as Real,
-        }
-    }
-
-    /// Pressure over density at j = J - 1.
-    #[inline(always)]
-    pub(crate) fn pressure(&self, j: Real) -> Real {
-        (self.stiffness * exp_m1(-j * (1.0 / TAIT_C) as Real)).max(-self.tension)
-    }
-
-    /// Pressure over density of eight points at their j = J - 1.
-    #[inline(always)]
-    fn pressures<const FMA: bool>(&self, j: Lanes8) -> Lanes8 {
-        let strain = j.scaled::<FMA>(-1.0).scaled::<FMA>((1.0 / TAIT_C) as Real);
-        let mut pressure = exp_m1_of_eight::<FMA>(strain).scaled::<FMA>(self.stiffness);
-        for p in &mut pressure.0 {
-            *p = p.max(-self.tension);
-        }
-        pressure
-    }
-
-    /// Volume change, shear rate and stress of the points after a step of `dt`, from the gradient of velocity
-    /// (m/s per cell) at each, eight points at a time.
-    #[inline(always)]
-    pub(crate) fn update<F: Flow, const FMA: bool>(
-        &self,
-        points: &mut Points,
-        gradient: &[[Lanes4; 3]],
-        flow: &F,
-        dt: Real,
-    ) {
-        let n = points.len();
-        let gradient = &gradient[..n];
-        let (motion, stress) = (&mut points.motion[..n], &mut points.stress[..n]);
-        let mut start = 0;
-        while start < n {
-            let end = n.min(start + BATCH);
-            let (mut rows, mut j) = ([[Lanes4::ZERO; BATCH]; 3], Lanes8::ZERO);
-            for p in start..end {
-                for a in 0..3 {
-                    rows[a][p - start] = gradient[p][a];
-                }
-                j.0[p - start] = motion[p].0[J];
-            }
-            let x = transposed::<FMA>(&rows[0]);
-            let y = transposed::<FMA>(&rows[1]);
-            let z = transposed::<FMA>(&rows[2]);
-            let (j, new) = self.of_eight::<F, FMA>(&[x, y, z], j, flow, dt);
-            for p in start..end {
-                motion[p].0[J] = j.0[p - start];
-                stress[p] = new[p - start];
-            }
-            start = end;
-        }
-    }
-
-    /// j and what `stress` holds of eight points, from their derivatives along x, y, z.
-    #[inline(always)]
-    fn of_eight<F: Flow, const FMA: bool>(
-        &self,
-        [x, y, z]: &[[Lanes8; 4]; 3],
-        j: Lanes8,
-        flow: &F,
-        dt: Real,
-    ) -> (Lanes8, [Lanes8; BATCH]) {
-        let trace = x[0].plus::<FMA>(y[1]).plus::<FMA>(z[2]);
-        let trace = trace.scaled::<FMA>(self.per_cell);
-        let now = Lanes8([1.0; BATCH]).plus::<FMA>(j);
-        let j = j.plus::<FMA>(now.times::<FMA>(trace.scaled::<FMA>(dt)));
-        let mut third = trace;
-        for third in &mut third.0 {
-            *third /= 3.0;
-        }
-        let mut fields = [
-            x[0],
-            y[1],
-            z[2],
-            x[1].plus::<FMA>(y[0]),
-            x[2].plus::<FMA>(z[0]),
-            y[2].plus::<FMA>(z[1]),
-            Lanes8::ZERO,
-            Lanes8::ZERO,
-        ];
-        for a in 0..3 {
-            fields[a] = fields[a].scaled::<FMA>(self.per_cell).minus::<FMA>(third);
-            fields[3 + a] = fields[3 + a].scaled::<FMA>(0.5 * self.per_cell);
-        }
-        let sides = squares::<FMA>(&fields[3..6]).scaled::<FMA>(2.0);
-        let mut rate = squares::<FMA>(&fields[..3]).plus::<FMA>(sides);
-        for rate in &mut rate.0 {
-            *rate = rate.sqrt();
-        }
-        let rate = rate.scaled::<FMA>(self.rate_factor);
-        let mut viscosity = rate;
-        for viscosity in &mut viscosity.0 {
-            *viscosity = flow.viscosity(*viscosity).min(self.cap);
-        }
-        let (k, p_rho) = (viscosity.scaled::<FMA>(2.0), self.pressures::<FMA>(j));
-        for a in 0..3 {
-            fields[a] = k.times::<FMA>(fields[a]).minus::<FMA>(p_rho);
-            fields[3 + a] = k.times::<FMA>(fields[3 + a]);
-        }
-        (fields[6], fields[7]) = (rate, viscosity);
-        (j, by_point::<FMA>(&fields))
-    }
-}
-
-#[inline(always)]
-fn squares<const FMA: bool>(list: &[Lanes8]) -> Lanes8 {
-    let xy = list[0]
-        .times::<FMA>(list[0])
-        .plus::<FMA>(list[1].times::<FMA>(list[1]));
-    xy.plus::<FMA>(list[2].times::<FMA>(list[2]))
-}
-
-/// Eight fields of each of eight points.
-#[inline(always)]
-fn by_point<const FMA: bool>(fields: &[Lanes8; BATCH]) -> [Lanes8; BATCH] {
-    let (mut low, mut high) = ([Lanes4::ZERO; BATCH], [Lanes4::ZERO; BATCH]);
-    for f in 0..BATCH {
-        (low[f], high[f]) = (fields[f].low(), fields[f].high());
-    }
-    let ([a, b, c, d], [e, f, g, h]) = (transposed::<FMA>(&low), transposed::<FMA>(&high));
-    [a, b, c, d, e, f, g, h]
-}
-
-impl Constant {
-    pub(crate) fn new(viscosity: f64, density: f64) -> Self {
-        Self((viscosity / density) as Real)
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use physics::{Newtonian, ShearRate, Tait, Viscosity};
-
     use super::*;
-    use crate::tiles::Point;
-
-    fn liquid() -> Liquid {
-        Liquid {
-            density: 1200.0,
-            tait: Tait { bulk_modulus: 1e9 },
-            viscosity: Viscosity::Newtonian(Newtonian(1.3)),
-            shear_rate: ShearRate::Paper,
-            cure: None,
-            water: None,
-            cavitation_pressure: None,
-            wetting: None,
-        }
-    }
-
-    #[test]
-    fn tait_pressure_to_rounding() {
-        let liquid = liquid();
-        let law = Stress::new(&liquid, 2.9e-6, f64::INFINITY);
-        let mut worst = 0.0_f64;
-        for i in -600..1200 {
-            let j = f64::from(i) * 5e-4 + 1e-7;
-            let exact = liquid.tait.pressure(f64::from(j as Real));
-            worst = worst.max((f64::from(law.pressure(j as Real)) * 1200.0 / exact - 1.0).abs());
-        }
-        println!("largest relative error of the pressure for J in 0.7 to 1.6: {worst:e}");
-        assert!(worst < 2e-6);
-    }
-
-    #[test]
-    fn stress_of_compression_and_simple_shear() {
-        let liquid = liquid();
-        let cell = 2.9e-6;
-        let law = Stress::new(&liquid, cell, f64::INFINITY);
-        let flow = Constant::new(1.3, liquid.density);
-        let mut points = Points::default();
-        let point = Point {
-            id: 0,
-            place: Lanes4([0.0, 0.0, 0.0, 0.125]),
-            motion: Lanes4::ZERO,
-            stress: Lanes8::ZERO,
-            affine: [Lanes4::ZERO; 3],
-        };
-        points.push(&point, 0, false);
-        let rate = 1e5_f64;
-        // dv_x/dy = rate, and a compression that ends at j = -1e-3 after the step.
-        let (dt, squeeze) = (1e-9_f64, -1e-3 / 1e-9);
-        let mut gradient = [[Lanes4::ZERO; 3]];
-        gradient[0][1].0[0] = (rate * cell) as Real;
-        gradient[0][2].0[2] = (squeeze * cell) as Real;
-        law.update::<_, false>(&mut points, &gradient, &flow, dt as Real);
-        let s = points.stress[0].0.map(|s| f64::from(s) * 1200.0);
-        let p = liquid.tait.pressure(-1e-3);
-        let sigma_zz = -p + 2.0 * 1.3 * squeeze * (1.0 - 1.0 / 3.0);
-        println!("shear {} Pa, sigma_zz {} of {sigma_zz} Pa", s[3], s[2]);
-        assert!((s[3] / (1.3 * rate) - 1.0).abs() < 1e-5);
-        assert!((s[2] / sigma_zz - 1.0).abs() < 1e-5);
-        assert!((s[0] + s[1] + s[2] + 3.0 * p).abs() < 1e-5 * p.abs() + 50.0);
-    }
 
     #[test]
     fn segments_are_the_table() {

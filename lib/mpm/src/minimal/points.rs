@@ -6,10 +6,11 @@ use super::tiles::Tile;
 use crate::fields::point::J;
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{EDGE, HALO, nearest, window};
-use crate::real::{Real, exp_m1};
+use crate::real::{Real, exp_m1, exp_m1_of_eight};
 use crate::runs::{reorder, run_end, run_order};
 use crate::shape::Gimp;
 use crate::simd::Kernel;
+use crate::stress::{by_component, by_point};
 use crate::tiles::base_of;
 use crate::window::{
     BATCH, NOTHING, Sides, add, differences, gather, nodal, of_point, offsets, spread,
@@ -213,6 +214,13 @@ impl Law {
     pub(super) fn pressure(&self, j: Real) -> Real {
         self.stiffness * exp_m1(-j * (1.0 / TAIT_C) as Real)
     }
+
+    /// The same of eight points.
+    #[inline(always)]
+    fn pressures<const FMA: bool>(&self, j: Lanes8) -> Lanes8 {
+        let strain = j.scaled::<FMA>(-1.0).scaled::<FMA>((1.0 / TAIT_C) as Real);
+        exp_m1_of_eight::<FMA>(strain).scaled::<FMA>(self.stiffness)
+    }
 }
 
 /// Step 7: volume change and stress, 2 eta D' - p, of a tile's points.
@@ -231,24 +239,46 @@ impl Kernel for Stresses<'_> {
         let n = points.id.len();
         let gradient = &points.gradient[..n];
         let (motion, stress) = (&mut points.motion[..n], &mut points.stress[..n]);
-        for p in 0..n {
-            let [x, y, z] = &gradient[p];
-            let trace = (x.0[0] + y.0[1] + z.0[2]) * law.per_cell;
-            let j = &mut motion[p].0[J];
-            *j += (1.0 + *j) * (dt * trace);
-            let (k, pressure) = (2.0 * law.viscosity, law.pressure(*j));
-            let third = trace / 3.0;
-            let half = 0.5 * law.per_cell;
-            stress[p].0 = [
-                k * (x.0[0] * law.per_cell - third) - pressure,
-                k * (y.0[1] * law.per_cell - third) - pressure,
-                k * (z.0[2] * law.per_cell - third) - pressure,
-                k * ((x.0[1] + y.0[0]) * half),
-                k * ((x.0[2] + z.0[0]) * half),
-                k * ((y.0[2] + z.0[1]) * half),
-                0.0,
-                0.0,
+        let mut start = 0;
+        while start < n {
+            let end = n.min(start + BATCH);
+            let mut j = Lanes8::ZERO;
+            for p in start..end {
+                j.0[p - start] = motion[p].0[J];
+            }
+            let [x, y, z] = by_component::<FMA>(&gradient[start..end]);
+            let trace = x[0].plus::<FMA>(y[1]).plus::<FMA>(z[2]);
+            let trace = trace.scaled::<FMA>(law.per_cell);
+            let now = Lanes8([1.0; BATCH]).plus::<FMA>(j);
+            let j = j.plus::<FMA>(now.times::<FMA>(trace.scaled::<FMA>(dt)));
+            let pressure = law.pressures::<FMA>(j);
+            let mut third = trace;
+            for third in &mut third.0 {
+                *third /= 3.0;
+            }
+            let mut fields = [
+                x[0],
+                y[1],
+                z[2],
+                x[1].plus::<FMA>(y[0]),
+                x[2].plus::<FMA>(z[0]),
+                y[2].plus::<FMA>(z[1]),
+                Lanes8::ZERO,
+                Lanes8::ZERO,
             ];
+            let k = 2.0 * law.viscosity;
+            for a in 0..3 {
+                let rate = fields[a].scaled::<FMA>(law.per_cell).minus::<FMA>(third);
+                fields[a] = rate.scaled::<FMA>(k).minus::<FMA>(pressure);
+                let half = fields[3 + a].scaled::<FMA>(0.5 * law.per_cell);
+                fields[3 + a] = half.scaled::<FMA>(k);
+            }
+            let new = by_point::<FMA>(&fields);
+            for p in start..end {
+                motion[p].0[J] = j.0[p - start];
+                stress[p] = new[p - start];
+            }
+            start = end;
         }
     }
 }

@@ -6,11 +6,12 @@ use super::filter::Filter;
 use super::g2p::{Affine, FilterAfter, FilterBefore, G2p, Increment, Replace, Update};
 use super::p2g::P2g;
 use crate::lanes::{Lanes4, Lanes8};
-use crate::material::{Constant, Flow, Formula, Segments, Stress};
+use crate::material::{Constant, Flow, Formula, Segments};
 use crate::real::Real;
 use crate::settings::{Mode, ShapeFunction};
 use crate::shape::{Bspline2, Gimp, Linear, Shape};
 use crate::simd::{Kernel, dispatch};
+use crate::stress::Stress;
 use crate::tiles::{Points, Scratch, Tile};
 
 /// The kernels of a run, chosen once, so that no scene pays for what it does not use.
