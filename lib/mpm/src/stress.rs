@@ -171,10 +171,11 @@ pub(crate) fn by_point<const FMA: bool>(fields: &[Lanes8; BATCH]) -> [Lanes8; BA
 
 #[cfg(test)]
 mod tests {
-    use physics::{Newtonian, ShearRate, Tait, Viscosity};
+    use physics::{Newtonian, ShearRate, Table, Tait, Viscosity};
 
     use super::*;
-    use crate::material::Constant;
+    use crate::material::{Constant, Segments};
+    use crate::simd::{Kernel, dispatch};
     use crate::tiles::Point;
 
     fn liquid() -> Liquid {
@@ -210,21 +211,62 @@ mod tests {
         assert!(worst < 2e-6);
     }
 
+    /// Points with these j.
+    fn points(list: &[Real]) -> Points {
+        let mut points = Points::default();
+        for &j in list {
+            let point = Point {
+                id: 0,
+                place: Lanes4([0.0, 0.0, 0.0, 0.125]),
+                motion: Lanes4([1.0, 2.0, 3.0, j]),
+                stress: Lanes8::ZERO,
+                affine: [Lanes4::ZERO; 3],
+            };
+            points.push(&point, 0, false);
+        }
+        points
+    }
+
+    /// Nineteen points by eights against each by itself, j within the series of the exponential and not.
+    struct Batches;
+
+    impl Kernel for Batches {
+        fn run<const FMA: bool>(self) {
+            let law = Stress::new(&liquid(), 2.9e-6, f64::INFINITY);
+            let table = Table::new(&[(1.0, 210.0), (1e4, 1.7), (1e6, 1.0)]).unwrap();
+            let flow = Segments::new(&table, 1200.0);
+            let wave = |i: usize| ((i * 7919 % 1009) as Real / 504.5 - 1.0) * 0.1;
+            let j: Vec<Real> = (0..19).map(|p| wave(p) * (1 + p % 4) as Real).collect();
+            let slope = |i: usize| Lanes4([0, 1, 2, 3].map(|l| wave(11 * i + l)));
+            let slopes = (0..19).map(|p| [0, 1, 2].map(|a| slope(3 * p + a)));
+            let slopes: Vec<[Lanes4; 3]> = slopes.collect();
+            let mut all = points(&j);
+            law.update::<_, FMA>(&mut all, &slopes, &flow, 1e-9);
+            for p in 0..j.len() {
+                let mut one = points(&j[p..=p]);
+                law.update::<_, FMA>(&mut one, &slopes[p..=p], &flow, 1e-9);
+                assert_eq!(one.motion[0], all.motion[p], "{p}");
+                assert_eq!(one.stress[0], all.stress[p], "{p}");
+                let exact = -law.pressure(one.motion[0].0[J]);
+                let mean = one.stress[0].0[..3].iter().sum::<Real>() / 3.0;
+                assert!((mean / exact - 1.0).abs() < 1e-4, "{p}: {mean} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn points_by_eights_are_points_one_by_one() {
+        dispatch(Batches);
+        Batches.run::<false>();
+    }
+
     #[test]
     fn stress_of_compression_and_simple_shear() {
         let liquid = liquid();
         let cell = 2.9e-6;
         let law = Stress::new(&liquid, cell, f64::INFINITY);
         let flow = Constant::new(1.3, liquid.density);
-        let mut points = Points::default();
-        let point = Point {
-            id: 0,
-            place: Lanes4([0.0, 0.0, 0.0, 0.125]),
-            motion: Lanes4::ZERO,
-            stress: Lanes8::ZERO,
-            affine: [Lanes4::ZERO; 3],
-        };
-        points.push(&point, 0, false);
+        let mut points = points(&[0.0]);
         let rate = 1e5_f64;
         // dv_x/dy = rate, and a compression that ends at j = -1e-3 after the step.
         let (dt, squeeze) = (1e-9_f64, -1e-3 / 1e-9);

@@ -5,8 +5,8 @@
 //! half_closed BOND STATE RUNDIR
 //! ```
 //!
-//! STATE is a snapshot or final state of any run of BOND, whose normal is y; RUNDIR holds the explicit run's
-//! checkpoint, which is replaced. Points take place, velocity and volume of the state, and have no stress until
+//! STATE is a snapshot or final state of any run of BOND, whose normal is y; RUNDIR holds the checkpoint, which is
+//! replaced, of an explicit run by FLIP, PIC, XPIC or FMPM without density projection. Points take place, velocity and volume of the state, and have no stress until
 //! the next step. `mpm-run --resume` goes on from there.
 
 use std::error::Error;
@@ -82,7 +82,8 @@ impl Points {
         let low = state.header().box_min_m;
         let (position, volume) = state.liquid()?;
         let velocity = state.column::<f32>("velocity")?;
-        if position.len() != ids.len() {
+        let known = |id: &u32| (*id as usize) < position.len();
+        if position.len() != ids.len() || !ids.iter().all(known) {
             return Err("the state has lost points, or is of another bond".into());
         }
         let mut points = Self::default();
