@@ -6,8 +6,9 @@
 //! ```
 //!
 //! STATE is a snapshot or final state of any run of BOND, whose normal is y; RUNDIR holds the checkpoint, which is
-//! replaced, of an explicit run by FLIP, PIC, XPIC or FMPM without density projection. Points take place, velocity and volume of the state, and have no stress until
-//! the next step. `mpm-run --resume` goes on from there.
+//! replaced, of an explicit run by FLIP, PIC, XPIC or FMPM without density projection. Points take place, velocity
+//! and volume of the state, and have no stress until the next step. `mpm-run --resume` goes on from there.
+#![allow(clippy::print_stdout, reason = "prints for developers")]
 
 use std::error::Error;
 use std::fs::{self, File};
