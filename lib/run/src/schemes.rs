@@ -161,7 +161,7 @@ fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
 }
 
 /// Liquid particle-steps per second and thread of FLIP in a scene with walls, as measured
-/// (docs/results/README.md#speed-of-the-explicit-scheme).
+/// (docs/results/README.md#speed-and-memory-of-the-explicit-scheme).
 const EXPLICIT_SPEED: f64 = 11e6;
 /// What each further order of a velocity filter costs, in FLIP steps, by the same measurement.
 const FILTER_ORDER: f64 = 0.32;
