@@ -94,8 +94,8 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     });
     let area = state.area_m2();
     let [.., total] = sums;
-    Side::ALL.map(|side| {
-        let sum = sums[side as usize];
+    std::array::from_fn(|i| {
+        let (side, sum) = (Side::ALL[i], sums[i]);
         let depths = |visit: &mut dyn FnMut(f64, f64)| {
             each(&mut |sample| {
                 if side.includes(sample.side) {

@@ -63,8 +63,8 @@ impl Weighted {
 /// Bins of [`quantiles_up_to`].
 const BINS: usize = 4096;
 
-/// [`Weighted::quantiles`] of values from 0 to `largest` of `total` weight that are visited, twice, rather than
-/// kept: only those near the quantiles are. All are where one value is far beyond the others.
+/// [`Weighted::quantiles`] of values from 0 to `largest`, of `total` weight, that `each` visits, twice, so that they
+/// need not be kept: of `BINS` even bins only those that hold a quantile are listed.
 pub(crate) fn quantiles_up_to<const N: usize>(
     largest: f64,
     total: f64,
@@ -74,27 +74,53 @@ pub(crate) fn quantiles_up_to<const N: usize>(
     let bin = |value: f64| ((value / largest * BINS as f64) as usize).min(BINS - 1);
     let mut weights = vec![0.0; BINS];
     each(&mut |value, weight| weights[bin(value)] += weight);
-    shares.map(|share| {
-        let goal = share * total * (1.0 - 1e-12);
-        let (mut found, mut reached) = (0, 0.0);
-        while found < BINS - 1 && reached + weights[found] < goal {
-            reached += weights[found];
-            found += 1;
-        }
-        let mut near = Vec::new();
-        each(&mut |value, weight| {
-            if bin(value) == found {
-                near.push((value, weight));
+    let mut near = shares.map(|share| Near::new(&weights, share * total * (1.0 - 1e-12)));
+    each(&mut |value, weight| {
+        for near in &mut near {
+            if bin(value) == near.bin {
+                near.pairs.push((value, weight));
             }
-        });
-        near.sort_unstable_by(by_value);
-        let at = near.iter().find(|(_, weight)| {
+        }
+    });
+    near.map(Near::value)
+}
+
+/// The bin of a quantile.
+struct Near {
+    bin: usize,
+    /// Weight of the bins below.
+    below: f64,
+    /// Weight up to the quantile.
+    goal: f64,
+    pairs: Vec<(f64, f64)>,
+}
+
+impl Near {
+    fn new(weights: &[f64], goal: f64) -> Self {
+        let (mut bin, mut below) = (0, 0.0);
+        while bin < BINS - 1 && below + weights[bin] < goal {
+            below += weights[bin];
+            bin += 1;
+        }
+        Self {
+            bin,
+            below,
+            goal,
+            pairs: Vec::new(),
+        }
+    }
+
+    fn value(mut self) -> f64 {
+        self.pairs.sort_unstable_by(by_value);
+        let mut reached = self.below;
+        let at = self.pairs.iter().find(|(_, weight)| {
             reached += weight;
-            reached >= goal
+            reached >= self.goal
         });
-        // Rounding may leave the sum of the last bin below the goal.
-        at.or(near.last()).map_or(f64::NAN, |(value, _)| *value)
-    })
+        // Rounding may leave the sum of the bin below the goal.
+        let last = self.pairs.last();
+        at.or(last).map_or(f64::NAN, |(value, _)| *value)
+    }
 }
 
 #[cfg(test)]

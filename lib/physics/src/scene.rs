@@ -65,7 +65,7 @@ pub struct Points {
     pub volume: Vec<f64>,
 }
 
-/// One of them.
+/// A material point of the liquid at the start, one of [`Points`].
 #[derive(Clone, Copy, Debug)]
 pub struct Seed {
     /// Position, m.
