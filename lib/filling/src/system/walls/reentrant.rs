@@ -53,7 +53,8 @@ impl Beside {
     pub(in crate::system) fn new(edges: &[Reentrant], place: [f64; 2]) -> Self {
         let mut beside = Self::NONE;
         for edge in edges {
-            let r = (place[0] - edge.at[0]).hypot(place[1] - edge.at[1]);
+            let way = [0, 1].map(|n| place[n] - edge.at[n]);
+            let r = (way[0] * way[0] + way[1] * way[1]).sqrt();
             let part = 1.0 - r / REACH;
             if part > 1e-6 {
                 beside.factor *= 1.0 + (g(edge) - 1.0) * part;

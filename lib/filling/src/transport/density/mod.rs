@@ -128,54 +128,85 @@ impl<'a> Field<'a> {
     #[inline]
     fn along<const AXES: usize>(&self, point: [f64; 3], near: &mut Near) -> [f64; 3] {
         let local = self.window.local(point);
+        let cell: [usize; AXES] =
+            std::array::from_fn(|a| (local[a].max(1.0) as usize).min(self.window.cells[a] - 2));
+        let index = (0..AXES).map(|a| cell[a] * self.window.stride(a)).sum();
+        if near.cell != index {
+            near.cell = index;
+            self.gather::<AXES>(index, &mut near.moves);
+        }
+        // Lower neighbour in the stencil, and part of the way to the upper one: among faces, which begin in the
+        // cell, and among centres, which begin in the one below.
+        let faces: [_; AXES] = std::array::from_fn(|a| (0, local[a] - cell[a] as f64));
+        let centres = faces.map(|(_, part)| match part < 0.5 {
+            true => (0, part + 0.5),
+            false => (1, part - 0.5),
+        });
         let mut found = [0.0; 3];
         for (axis, found) in found.iter_mut().enumerate().take(AXES) {
-            let mut low = [0_usize; 3];
-            let mut parts = [[1.0; 2]; 3];
-            for a in 0..AXES {
-                let x = (local[a] - if a == axis { 0.0 } else { 0.5 }).max(0.0);
-                low[a] = (x as usize).min(self.window.cells[a] - 2);
-                let part = x - low[a] as f64;
-                parts[a] = [1.0 - part, part];
+            let mut at = centres;
+            at[axis] = faces[axis];
+            let base: usize = (0..AXES).map(|a| at[a].0 * STRIDE[a]).sum();
+            let mut moves: [f64; 8] = std::array::from_fn(|corner| {
+                let step = |a: usize| (corner >> a & 1) * STRIDE[a];
+                near.moves[axis][base + (0..AXES).map(step).sum::<usize>()]
+            });
+            for (a, (_, part)) in at.into_iter().enumerate() {
+                for pair in 0..1 << (AXES - 1 - a) {
+                    let [low, high] = [moves[2 * pair], moves[2 * pair + 1]];
+                    moves[pair] = low + part * (high - low);
+                }
             }
-            let base = self.window.index(low);
-            if near.base[axis] != base {
-                near.base[axis] = base;
-                self.gather::<AXES>(axis, base, &mut near.moves[axis]);
-            }
-            for (corner, moved) in near.moves[axis].iter().enumerate().take(1 << AXES) {
-                let part = |weight: f64, a: usize| weight * parts[a][corner >> a & 1];
-                *found += (0..AXES).fold(1.0, part) * moved;
-            }
+            *found = moves[0];
         }
         found
     }
 
-    /// Displacements of the faces along `axis` at the corners from face `base` on; bit a of a corner's
-    /// number: the higher one along a.
-    #[inline]
-    fn gather<const AXES: usize>(&self, axis: usize, base: usize, moves: &mut [f64; 8]) {
-        for (corner, moved) in moves.iter_mut().enumerate().take(1 << AXES) {
-            let step = |a: usize| (corner >> a & 1) * self.window.stride(a);
-            let face = self.face[axis][base + (0..AXES).map(step).sum::<usize>()] as usize;
-            // No face, a number beyond all, stands at the end and does not move.
-            *moved = self.moves[face.min(self.moves.len() - 1)];
+    /// Displacements of the faces along each axis that reach into a cell.
+    fn gather<const AXES: usize>(&self, cell: usize, moves: &mut [[f64; 27]; 3]) {
+        let layers = |a: usize, axis: usize| match a {
+            _ if a >= AXES => 1,
+            _ if a == axis => 2,
+            _ => 3,
+        };
+        for (axis, moves) in moves.iter_mut().enumerate().take(AXES) {
+            let below: usize = (0..AXES)
+                .filter(|&a| a != axis)
+                .map(|a| self.window.stride(a))
+                .sum();
+            for k in 0..layers(2, axis) {
+                for j in 0..layers(1, axis) {
+                    for i in 0..layers(0, axis) {
+                        let way = [i, j, k];
+                        let step = |strides: [usize; 3]| {
+                            (0..3).map(|a| way[a] * strides[a]).sum::<usize>()
+                        };
+                        let index = cell - below + step([0, 1, 2].map(|a| self.window.stride(a)));
+                        // No face, a number beyond all, stands at the end and does not move.
+                        let face = self.face[axis][index] as usize;
+                        moves[step(STRIDE)] = self.moves[face.min(self.moves.len() - 1)];
+                    }
+                }
+            }
         }
     }
 }
 
-/// The displacements that were asked for last: half a step ahead of a point they are mostly its own.
+/// Between neighbours in a stencil, along each axis.
+const STRIDE: [usize; 3] = [1, 3, 9];
+
+/// The displacements around the cell that was asked for last, in which are most points that come next.
 pub(crate) struct Near {
-    /// The lowest face along each axis.
-    base: [usize; 3],
-    moves: [[f64; 8]; 3],
+    /// Its index in the window.
+    cell: usize,
+    moves: [[f64; 27]; 3],
 }
 
 impl Default for Near {
     fn default() -> Self {
         Self {
-            base: [usize::MAX; 3],
-            moves: [[0.0; 8]; 3],
+            cell: usize::MAX,
+            moves: [[0.0; 27]; 3],
         }
     }
 }
