@@ -26,7 +26,7 @@ enum Beyond {
 
 /// A piston pushes liquid along a slit of `n` cells, half a cell off, with a wall of half a cell between it and what is beyond:
 /// the mean force over the second half of its way, over 12 eta V L/H, and how far the front got, over what the piston went.
-fn pushed(n: f64, beyond: Beyond) -> [f64; 2] {
+fn pushed(cfl: f64, n: f64, beyond: Beyond) -> [f64; 2] {
     let (low, far) = (2.5, 999.0);
     let (wall, other) = (low + n, low + n + 0.5);
     let end = other + n;
@@ -70,7 +70,11 @@ fn pushed(n: f64, beyond: Beyond) -> [f64; 2] {
         scene.points.volume.extend(more.volume);
     }
     let area = (end.ceil() + 2.0) * H;
-    let mut scheme = Implicit::new(scene, Settings::default()).unwrap();
+    let settings = Settings {
+        cfl,
+        ..Settings::default()
+    };
+    let mut scheme = Implicit::new(scene, settings).unwrap();
     let (mut way, mut work, mut half) = (0.0, 0.0, 0.0);
     while way < WAY * (1.0 - 1e-9) {
         let limit = StepLimit {
@@ -93,12 +97,20 @@ fn pushed(n: f64, beyond: Beyond) -> [f64; 2] {
     [work / half / force, (front - 4.0 - LENGTH) / WAY]
 }
 
+/// The mean of six Courant numbers: where steps end makes a force scatter by 8 % in two cells, 2 % in four.
+fn mean_pushed(n: f64, beyond: Beyond) -> [f64; 2] {
+    let courant = [0.8, 0.84, 0.88, 0.92, 0.96, 1.0];
+    let runs = courant.map(|cfl| pushed(cfl, n, beyond));
+    [0, 1].map(|i| runs.iter().map(|run| run[i]).sum::<f64>() / 6.0)
+}
+
 /// Liquid does not feel what is beyond a wall of half a cell. Its density did: beside an empty lumen force was 18 % low and
 /// the front 11 % too far.
 #[test]
 fn a_piston_feels_nothing_of_the_next_lumen() {
-    for (n, off, apart) in [(2.0, 0.14, 0.07), (3.0, 0.02, 0.09), (4.0, 0.03, 0.02)] {
-        let found = [Beyond::Solid, Beyond::Empty, Beyond::Full].map(|beyond| pushed(n, beyond));
+    for (n, off, apart) in [(2.0, 0.15, 0.1), (3.0, 0.03, 0.03), (4.0, 0.05, 0.03)] {
+        let found =
+            [Beyond::Solid, Beyond::Empty, Beyond::Full].map(|beyond| mean_pushed(n, beyond));
         println!("{n} cells: force, front beside solid, empty, full {found:.3?}");
         assert!((found[0][0] - 1.0).abs() < off, "{n}: {found:?}");
         for other in &found[1..] {
@@ -106,7 +118,7 @@ fn a_piston_feels_nothing_of_the_next_lumen() {
                 (other[0] / found[0][0] - 1.0).abs() < apart,
                 "{n}: {found:?}"
             );
-            assert!((other[1] - found[0][1]).abs() < 0.04, "{n}: {found:?}");
+            assert!((other[1] - found[0][1]).abs() < 0.07, "{n}: {found:?}");
         }
     }
 }

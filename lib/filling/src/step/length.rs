@@ -1,13 +1,14 @@
 //! How long a step is, and whether what was solved fits it.
 
-use physics::{Failure, StepLimit};
+use physics::{Failure, StepLimit, restored};
 use rayon::prelude::*;
 
 use super::{Implicit, Solution, State, Trial};
 
-/// Part of the CFL number that the liquid is to cross in a step; a step in which it crosses more than the
-/// whole is solved again.
+/// Part of the CFL number that the liquid is to cross in a step.
 const AIM: f64 = 0.97;
+/// CFL numbers that it may cross; a step in which it crosses more is solved again.
+const OVERSHOT: f64 = 1.1;
 /// Cells by which the middle of a body's way may lie off the place that the step was solved for: its
 /// speed under load control is known only then. With a tenth of a cell a plate that is about to
 /// touch liquid can be held back before it does, step after step.
@@ -38,7 +39,81 @@ pub(super) enum Fit {
     Dried(f64),
 }
 
+/// How the flow changed from the last step but one to the last, by which the next is foreseen.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Trend {
+    /// Change of ln(pace) and of ln(speed of the clamp) over time, 1/s.
+    rates: [f64; 2],
+    /// Both in the last step, m/s; 0 before the first.
+    last: [f64; 2],
+    /// Its length, s.
+    dt: f64,
+}
+
+/// Name of the array that holds it in a checkpoint.
+pub(super) const TREND: &str = "trend";
+/// Most that pace and speed are foreseen to change by in a step.
+const FORESEEN: f64 = 1.25;
+/// Growth of the pace that is not foreseen: with the place of fronts in their cells that of a steady flow goes up and down.
+const UNSTEADY: f64 = 1.05;
+
+impl Trend {
+    /// Takes in `pace` and `speed` (m/s) of the middle of a step of `dt` (s).
+    pub(super) fn observe(&mut self, now: [f64; 2], dt: f64) {
+        let between = 0.5 * (self.dt + dt);
+        self.rates = std::array::from_fn(|i| match self.last[i] > 0.0 && now[i] > 0.0 {
+            true => (now[i] / self.last[i]).ln() / between,
+            false => 0.0,
+        });
+        (self.last, self.dt) = (now, dt);
+    }
+
+    /// For checkpoints.
+    pub(super) fn state(&self) -> Vec<f64> {
+        let Self { rates, last, dt } = self;
+        [&rates[..], last, &[*dt]].concat()
+    }
+
+    /// That of a checkpoint.
+    ///
+    /// # Errors
+    /// A sentence where no run saves it.
+    pub(super) fn restore(saved: &[f64]) -> Result<Self, String> {
+        let &[pace, speed, last_pace, last_speed, dt] = saved else {
+            return Err("the checkpoint's trend is not that of the implicit scheme".into());
+        };
+        restored::check_finite(saved, TREND)?;
+        if dt < 0.0 {
+            return Err(format!("the checkpoint's last step is {dt} s long"));
+        }
+        Ok(Self {
+            rates: [pace, speed],
+            last: [last_pace, last_speed],
+            dt,
+        })
+    }
+
+    /// What pace and speed grow by until the middle of a next step of `dt` (s).
+    fn growth(&self, dt: f64) -> [f64; 2] {
+        let between = 0.5 * (self.dt + dt);
+        (self.rates).map(|rate| (rate * between).exp().clamp(1.0 / FORESEEN, FORESEEN))
+    }
+}
+
 impl Implicit {
+    /// Pace and, where it is held, speed of the clamp in the middle of the next step, as the last two go on. A
+    /// programme has its own ([`Drive::aim`](super::Drive::aim)).
+    pub(super) fn foresee(&mut self, limit: StepLimit) -> Result<(), Failure> {
+        if self.state.drive.programme().is_some() {
+            return Ok(());
+        }
+        let dt = self.time_step(limit)?;
+        let [pace, speed] = self.state.trend.growth(dt);
+        self.state.pace *= (pace / UNSTEADY).max(1.0);
+        self.state.drive.foresee(speed);
+        Ok(())
+    }
+
     /// Stage 1: CFL cells of the fastest motion known, in equal parts of what is left, s.
     pub(super) fn time_step(&self, limit: StepLimit) -> Result<f64, Failure> {
         let (setup, drive) = (&self.setup, &self.state.drive);
@@ -106,7 +181,7 @@ impl Implicit {
         let misplaced = 0.5 * trial.dt / h * apart(&trial.bodies, &solution.bodies);
         if misplaced > MISPLACED {
             Fit::Misplaced
-        } else if cells > cfl * (1.0 + 1e-9) {
+        } else if cells > cfl * OVERSHOT {
             Fit::Fast
         } else if self.misses(trial, solution, limit) {
             Fit::Missed
@@ -124,7 +199,7 @@ impl Implicit {
         let end = limit.travel_m / solution.speed;
         let cells = self.state.pace.max(fastest(&solution.bodies)) * end / self.setup.units.h;
         let near = (trial.dt / end - 1.0).abs() <= MISSED;
-        if near && end <= limit.time_s && cells <= self.setup.settings.cfl * (1.0 + 1e-9) {
+        if near && end <= limit.time_s && cells <= self.setup.settings.cfl * OVERSHOT {
             end
         } else {
             trial.dt.min(end)
@@ -170,6 +245,28 @@ fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::{FORESEEN, Trend};
+
+    /// What doubles in 4 s goes on doing so, for as long as both steps take; what jumps is not followed.
+    #[test]
+    fn the_next_step_goes_on_as_the_last_two() {
+        let mut trend = Trend::default();
+        assert_eq!(trend.growth(1.0), [1.0; 2]);
+        trend.observe([3.0, 0.0], 1.0);
+        assert_eq!(trend.growth(1.0), [1.0; 2]);
+        // Middles are 2 s apart.
+        trend.observe([3.0 * 2_f64.sqrt(), 0.5], 3.0);
+        let [pace, speed] = trend.growth(0.5);
+        assert!((pace - 2_f64.powf(1.75 / 4.0).min(FORESEEN)).abs() < 1e-12);
+        assert_eq!(speed, 1.0);
+        trend.observe([3.0 * 2_f64.powf(0.5 + 1.75 / 4.0), 0.25], 0.5);
+        let [pace, speed] = trend.growth(0.5);
+        assert!((pace - 2_f64.powf(0.5 / 4.0)).abs() < 1e-12, "{pace}");
+        assert!((speed - 0.5_f64.powf(0.5 / 1.75)).abs() < 1e-12, "{speed}");
+        trend.observe([1e3, 1e-9], 0.5);
+        assert_eq!(trend.growth(0.5), [FORESEEN, 1.0 / FORESEEN]);
+    }
+
     #[test]
     fn a_thousandth_of_the_faces_may_be_jets_of_one_and_a_half_cells() {
         let paced = |jets: usize, speed: f64| {

@@ -7,6 +7,7 @@ use physics::{
 };
 use rayon::prelude::*;
 
+use super::length::{TREND, Trend};
 use super::solution::{LINES, PASSES};
 use super::{Implicit, LastFlow, Rates};
 use crate::transport;
@@ -98,6 +99,7 @@ impl Scheme for Implicit {
             ("point", Array::U32(particles.id.clone())),
             ("displacement", Array::F64(flat(&self.state.displacement))),
             ("scalars", Array::F64(scalars)),
+            (TREND, Array::F64(self.state.trend.state())),
         ];
         let mut arrays: Vec<_> = arrays.map(|(name, array)| (name.to_string(), array)).into();
         arrays.extend((self.state.last.iter()).flat_map(LastFlow::save));
@@ -148,6 +150,7 @@ impl Scheme for Implicit {
         let Ok(drive) = <[f64; 7]>::try_from(drive) else {
             return Err("the checkpoint's clamp state is not that of the implicit scheme".into());
         };
+        self.state.trend = Trend::restore(saved.f64s(TREND)?)?;
         let keeps = steps > 0.0 && self.setup.present.table;
         self.state.last = match keeps {
             true => Some(LastFlow::restore(saved, self.setup.domain)?),

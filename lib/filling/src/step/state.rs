@@ -1,5 +1,6 @@
 //! What changes from step to step.
 
+use super::length::Trend;
 use super::{Drive, LastFlow};
 use crate::liquid::Particles;
 use crate::system::air::Held;
@@ -14,6 +15,7 @@ pub(super) struct State {
     pub(super) drive: Drive,
     /// Speed that sets the time step, m/s.
     pub(super) pace: f64,
+    pub(super) trend: Trend,
     /// Clamp travel, m.
     pub(super) travel: f64,
     pub(super) steps: u64,
@@ -71,6 +73,7 @@ impl State {
             displacement: vec![[0.0; 3]; drive.motions().len()],
             drive,
             pace,
+            trend: Trend::default(),
             travel: 0.0,
             steps: 0,
             time: 0.0,
