@@ -43,13 +43,9 @@ pub(crate) fn share_rate(tile: &Tile, scratch: &mut Scratch, axes: usize) {
                 rate += if corner >> a & 1 == 1 { v[a] } else { -v[a] };
             }
         }
-        let gradient = &mut scratch.gradient[p];
-        let own = gradient[0].0[0] + gradient[1].0[1] + gradient[2].0[2];
+        let own = scratch.gradient.trace(p);
         // A third to each axis, also in plane strain, so that the deviator stays.
-        let change = (rate * scale - own) / 3.0;
-        for a in 0..3 {
-            gradient[a].0[a] += change;
-        }
+        scratch.gradient.stretch(p, (rate * scale - own) / 3.0);
     }
 }
 

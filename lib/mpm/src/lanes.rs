@@ -157,6 +157,30 @@ pub(crate) fn transposed<const FMA: bool>(list: &[Lanes4; 8]) -> [Lanes8; 4] {
     r
 }
 
+/// Eight vectors, or as many as there are and the last one again.
+#[inline(always)]
+pub(crate) fn first_eight(list: &[Lanes4]) -> [Lanes4; 8] {
+    if let Some(eight) = list.first_chunk() {
+        return *eight;
+    }
+    let mut eight = [list[list.len() - 1]; 8];
+    for (to, x) in eight.iter_mut().zip(list) {
+        *to = *x;
+    }
+    eight
+}
+
+/// Lane 0, 1, ... 7 of all eight vectors.
+#[inline(always)]
+pub(crate) fn transposed_eight<const FMA: bool>(list: &[Lanes8; 8]) -> [Lanes8; 8] {
+    let (mut low, mut high) = ([Lanes4::ZERO; 8], [Lanes4::ZERO; 8]);
+    for f in 0..8 {
+        (low[f], high[f]) = (list[f].low(), list[f].high());
+    }
+    let ([a, b, c, d], [e, f, g, h]) = (transposed::<FMA>(&low), transposed::<FMA>(&high));
+    [a, b, c, d, e, f, g, h]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -29,6 +29,7 @@ mod contact;
 mod density;
 mod explicit;
 mod fields;
+mod gradient;
 mod halo;
 mod lanes;
 mod lattice;

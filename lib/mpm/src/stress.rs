@@ -3,7 +3,8 @@
 use physics::{Liquid, TAIT_C};
 
 use crate::fields::point::J;
-use crate::lanes::{Lanes4, Lanes8, transposed};
+use crate::gradient::Gradient;
+use crate::lanes::{Lanes8, transposed_eight};
 use crate::material::Flow;
 use crate::real::{Real, exp_m1, exp_m1_of_eight};
 use crate::tiles::Points;
@@ -59,12 +60,11 @@ impl Stress {
     pub(crate) fn update<F: Flow, const FMA: bool>(
         &self,
         points: &mut Points,
-        gradient: &[[Lanes4; 3]],
+        gradient: &Gradient,
         flow: &F,
         dt: Real,
     ) {
         let n = points.len();
-        let gradient = &gradient[..n];
         let (motion, stress) = (&mut points.motion[..n], &mut points.stress[..n]);
         let mut start = 0;
         while start < n {
@@ -73,7 +73,7 @@ impl Stress {
             for p in start..end {
                 j.0[p - start] = motion[p].0[J];
             }
-            let slopes = by_component::<FMA>(&gradient[start..end]);
+            let slopes = gradient.of_eight(start);
             let (j, new) = self.of_eight::<F, FMA>(&slopes, j, flow, dt);
             for p in start..end {
                 motion[p].0[J] = j.0[p - start];
@@ -87,7 +87,7 @@ impl Stress {
     #[inline(always)]
     fn of_eight<F: Flow, const FMA: bool>(
         &self,
-        [x, y, z]: &[[Lanes8; 4]; 3],
+        [x, y, z]: &[[Lanes8; 3]; 3],
         j: Lanes8,
         flow: &F,
         dt: Real,
@@ -130,7 +130,7 @@ impl Stress {
             fields[3 + a] = k.times::<FMA>(fields[3 + a]);
         }
         (fields[6], fields[7]) = (rate, viscosity);
-        (j, by_point::<FMA>(&fields))
+        (j, transposed_eight::<FMA>(&fields))
     }
 }
 
@@ -140,33 +140,6 @@ fn squares<const FMA: bool>(list: &[Lanes8]) -> Lanes8 {
         .times::<FMA>(list[0])
         .plus::<FMA>(list[1].times::<FMA>(list[1]));
     xy.plus::<FMA>(list[2].times::<FMA>(list[2]))
-}
-
-/// Derivatives along x, y, z of the components of the velocity at one to eight points; lanes are points.
-#[inline(always)]
-pub(crate) fn by_component<const FMA: bool>(gradient: &[[Lanes4; 3]]) -> [[Lanes8; 4]; 3] {
-    let mut rows = [[Lanes4::ZERO; BATCH]; 3];
-    for p in 0..gradient.len() {
-        for a in 0..3 {
-            rows[a][p] = gradient[p][a];
-        }
-    }
-    [
-        transposed::<FMA>(&rows[0]),
-        transposed::<FMA>(&rows[1]),
-        transposed::<FMA>(&rows[2]),
-    ]
-}
-
-/// Eight fields, whose lanes are points, as those of each of eight points.
-#[inline(always)]
-pub(crate) fn by_point<const FMA: bool>(fields: &[Lanes8; BATCH]) -> [Lanes8; BATCH] {
-    let (mut low, mut high) = ([Lanes4::ZERO; BATCH], [Lanes4::ZERO; BATCH]);
-    for f in 0..BATCH {
-        (low[f], high[f]) = (fields[f].low(), fields[f].high());
-    }
-    let ([a, b, c, d], [e, f, g, h]) = (transposed::<FMA>(&low), transposed::<FMA>(&high));
-    [a, b, c, d, e, f, g, h]
 }
 
 #[cfg(test)]

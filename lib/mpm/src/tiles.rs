@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::gradient::Gradient;
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{HALO, Lattice, block_node};
 use crate::real::Real;
@@ -43,8 +44,7 @@ pub(crate) struct Scratch {
     pub(crate) field: Vec<Lanes8>,
     /// Displacement of each point in this step (cells), which adds to its place: none of the volume.
     pub(crate) shift: Vec<Lanes4>,
-    /// Velocity gradient at each point (m/s per cell), derivatives along x, y, z.
-    pub(crate) gradient: Vec<[Lanes4; 3]>,
+    pub(crate) gradient: Gradient,
 }
 
 impl Points {

@@ -8,9 +8,8 @@
 //! work, and a uniform field is its own value at a point to the last bit, with no gradient.
 
 // Functions, not closures: only what is inlined always may hold instructions of a processor asked at run time.
-use crate::lanes::{Lanes4, Lanes8, transposed};
+use crate::lanes::{Lanes4, Lanes8, first_eight, transposed};
 use crate::lattice::{HALO, layers};
-use crate::real::Real;
 use crate::shape::Shape;
 
 /// Points whose weights are computed at once.
@@ -52,15 +51,10 @@ impl Sides {
     }
 }
 
-/// Offsets along x, y, z of one to eight points; lanes are points, beyond the last it is repeated.
+/// Offsets along x, y, z of the first eight points; lanes are points, beyond the last it is repeated.
 #[inline(always)]
 pub(crate) fn offsets<const FMA: bool>(places: &[Lanes4]) -> [Lanes8; 3] {
-    let last = places.len() - 1;
-    let mut list = [Lanes4::ZERO; BATCH];
-    for (p, place) in list.iter_mut().enumerate() {
-        *place = places[p.min(last)];
-    }
-    let [x, y, z, _] = transposed::<FMA>(&list);
+    let [x, y, z, _] = transposed::<FMA>(&first_eight(places));
     [x, y, z]
 }
 
@@ -186,24 +180,24 @@ fn between<const FMA: bool>(f: &Line, w: &[Lanes8; 2]) -> Lanes8 {
         .add_product::<FMA>(w[1], f[2])
 }
 
-/// A field at point `p`, and the derivatives along x, y, z (per cell) of its first four lanes.
+/// Lane `c` of the field at eight points, and its derivatives along x, y, z (per cell); lanes are points.
 #[inline(always)]
 pub(crate) fn gather<const D: usize, const FMA: bool>(
     window: &Window,
+    c: usize,
     sides: &Sides,
-    p: usize,
-) -> (Lanes8, [Lanes4; 3]) {
-    let (w, g) = (&of_point(&sides.w, p), &of_point(&sides.g, p));
-    let (first, first_x, first_y) = plane_field::<FMA>(&window[0], w, g);
+) -> (Lanes8, [Lanes8; 3]) {
+    let Sides { w, g } = sides;
+    let (first, first_x, first_y) = plane_of::<FMA>(&window[0], c, w, g);
     if D == 2 {
-        return (first, [first_x, first_y, Lanes4::ZERO]);
+        return (first, [first_x, first_y, Lanes8::ZERO]);
     }
-    let (second, second_x, second_y) = plane_field::<FMA>(&window[1], w, g);
-    let (third, third_x, third_y) = plane_field::<FMA>(&window[2], w, g);
+    let (second, second_x, second_y) = plane_of::<FMA>(&window[1], c, w, g);
+    let (third, third_x, third_y) = plane_of::<FMA>(&window[2], c, w, g);
     let planes = [first, second, third];
     let slopes = [
-        between4::<FMA>([first_x, second_x, third_x], &w[2]),
-        between4::<FMA>([first_y, second_y, third_y], &w[2]),
+        between::<FMA>(&[first_x, second_x, third_x], &w[2]),
+        between::<FMA>(&[first_y, second_y, third_y], &w[2]),
         slope::<FMA>(&planes, &g[2]),
     ];
     (between::<FMA>(&planes, &w[2]), slopes)
@@ -211,36 +205,70 @@ pub(crate) fn gather<const D: usize, const FMA: bool>(
 
 /// Value, and derivatives along x and y.
 #[inline(always)]
-fn plane_field<const FMA: bool>(plane: &Plane, w: &Pairs, g: &Pairs) -> (Lanes8, Lanes4, Lanes4) {
+fn plane_of<const FMA: bool>(
+    plane: &Plane,
+    c: usize,
+    w: &Pairs,
+    g: &Pairs,
+) -> (Lanes8, Lanes8, Lanes8) {
+    let nodes = [
+        in_all(&plane[0], c),
+        in_all(&plane[1], c),
+        in_all(&plane[2], c),
+    ];
     let lines = [
-        between::<FMA>(&plane[0], &w[0]),
-        between::<FMA>(&plane[1], &w[0]),
-        between::<FMA>(&plane[2], &w[0]),
+        between::<FMA>(&nodes[0], &w[0]),
+        between::<FMA>(&nodes[1], &w[0]),
+        between::<FMA>(&nodes[2], &w[0]),
     ];
     let slopes = [
-        slope::<FMA>(&plane[0], &g[0]),
-        slope::<FMA>(&plane[1], &g[0]),
-        slope::<FMA>(&plane[2], &g[0]),
+        slope::<FMA>(&nodes[0], &g[0]),
+        slope::<FMA>(&nodes[1], &g[0]),
+        slope::<FMA>(&nodes[2], &g[0]),
     ];
     (
         between::<FMA>(&lines, &w[1]),
-        between4::<FMA>(slopes, &w[1]),
+        between::<FMA>(&slopes, &w[1]),
         slope::<FMA>(&lines, &g[1]),
     )
 }
 
+/// Lane `c` of each node in all lanes.
 #[inline(always)]
-fn between4<const FMA: bool>(f: [Lanes4; 3], w: &[Lanes8; 2]) -> Lanes4 {
-    let (lower, upper): (Real, Real) = (w[0].0[0], w[1].0[0]);
-    f[1].add_scaled::<FMA>(lower, f[0])
-        .add_scaled::<FMA>(upper, f[2])
+fn in_all(line: &Line, c: usize) -> Line {
+    [
+        Lanes8([line[0].0[c]; 8]),
+        Lanes8([line[1].0[c]; 8]),
+        Lanes8([line[2].0[c]; 8]),
+    ]
 }
 
 #[inline(always)]
-fn slope<const FMA: bool>(f: &Line, g: &[Lanes8; 2]) -> Lanes4 {
-    f[0].low()
-        .scaled::<FMA>(g[0].0[0])
-        .add_scaled::<FMA>(g[1].0[0], f[2].low())
+fn slope<const FMA: bool>(f: &Line, g: &[Lanes8; 2]) -> Lanes8 {
+    f[0].times::<FMA>(g[0]).add_product::<FMA>(g[1], f[2])
+}
+
+/// Lane `c` of the field at eight points.
+#[inline(always)]
+pub(crate) fn gather_lane<const D: usize, const FMA: bool>(
+    window: &Window,
+    c: usize,
+    w: &Pairs,
+) -> Lanes8 {
+    let mut planes = [Lanes8::ZERO; 3];
+    for k in 0..layers(D) {
+        let plane = &window[k];
+        let lines = [
+            between::<FMA>(&in_all(&plane[0], c), &w[0]),
+            between::<FMA>(&in_all(&plane[1], c), &w[0]),
+            between::<FMA>(&in_all(&plane[2], c), &w[0]),
+        ];
+        planes[k] = between::<FMA>(&lines, &w[1]);
+    }
+    if D == 2 {
+        return planes[0];
+    }
+    between::<FMA>(&planes, &w[2])
 }
 
 /// Adds `x` of a point by its weights `w`, lane by lane, to sums in the form of differences.

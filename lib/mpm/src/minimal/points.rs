@@ -4,16 +4,16 @@ use physics::{Liquid, Newtonian, TAIT_C};
 
 use super::tiles::Tile;
 use crate::fields::point::J;
-use crate::lanes::{Lanes4, Lanes8};
+use crate::gradient::Gradient;
+use crate::lanes::{Lanes4, Lanes8, first_eight, transposed, transposed_eight};
 use crate::lattice::{EDGE, HALO, nearest, window};
 use crate::real::{Real, exp_m1, exp_m1_of_eight};
 use crate::runs::{reorder, run_end, run_order};
 use crate::shape::Gimp;
 use crate::simd::Kernel;
-use crate::stress::{by_component, by_point};
 use crate::tiles::base_of;
 use crate::window::{
-    BATCH, NOTHING, Sides, add, differences, gather, nodal, of_point, offsets, spread,
+    BATCH, NOTHING, Sides, add, differences, gather, gather_lane, nodal, of_point, offsets, spread,
 };
 
 /// A material point on its way to another tile.
@@ -39,8 +39,7 @@ pub(super) struct Points {
     stress: Vec<Lanes8>,
     /// Displacement in this step, 0 beside it, where a place has the mass.
     shift: Vec<Lanes4>,
-    /// Derivatives of the velocity along x, y, z (m/s per cell).
-    gradient: Vec<[Lanes4; 3]>,
+    gradient: Gradient,
 }
 
 impl Points {
@@ -52,14 +51,12 @@ impl Points {
         self.motion.push(point.motion);
         self.stress.push(point.stress);
         self.shift.push(Lanes4::ZERO);
-        self.gradient.push([Lanes4::ZERO; 3]);
     }
 
     /// Takes out point `p`; the last one takes its place.
     fn swap_remove(&mut self, p: usize) -> Point {
         self.window.swap_remove(p);
         self.shift.swap_remove(p);
-        self.gradient.swap_remove(p);
         Point {
             id: self.id.swap_remove(p),
             place: self.place.swap_remove(p),
@@ -125,7 +122,7 @@ impl Kernel for PointsToNodes<'_> {
             let (end, mut sums) = (run_end(windows, start), NOTHING);
             while start < end {
                 let batch = start..end.min(start + BATCH);
-                let d = offsets::<FMA>(&places[batch.clone()]);
+                let d = offsets::<FMA>(&places[start..]);
                 let sides = Sides::new::<Gimp, 3, FMA>(&d);
                 for (i, p) in batch.enumerate() {
                     let ([.., mass], [vx, vy, vz, j]) = (places[p].0, motions[p].0);
@@ -167,24 +164,32 @@ impl Kernel for NodesToPoints<'_> {
         let n = points.id.len();
         let (places, windows) = (&points.place[..n], &points.window[..n]);
         let (motion, shift) = (&mut points.motion[..n], &mut points.shift[..n]);
-        let gradient = &mut points.gradient[..n];
+        points.gradient.resize(n);
+        let scale = Lanes8([self.dt_over_cell; BATCH]);
         let mut start = 0;
         while start < n {
             let (first, end) = (usize::from(windows[start]), run_end(windows, start));
             let field = differences::<3, FMA>(&halo[first..first + window(3)]);
             while start < end {
                 let batch = start..end.min(start + BATCH);
-                let d = offsets::<FMA>(&places[batch.clone()]);
-                let sides = Sides::new::<Gimp, 3, FMA>(&d);
-                for (i, p) in batch.enumerate() {
-                    let (value, slope) = gather::<3, FMA>(&field, &sides, i);
-                    let (after, change) = (value.low(), value.high());
-                    gradient[p] = slope;
-                    motion[p] = motion[p].add_scaled::<FMA>(1.0, change);
-                    let travel = after.add_scaled::<FMA>(-0.5, change);
-                    shift[p] = travel.scaled::<FMA>(self.dt_over_cell);
+                let sides = Sides::new::<Gimp, 3, FMA>(&offsets::<FMA>(&places[start..]));
+                let old = transposed::<FMA>(&first_eight(&motion[start..]));
+                // New velocity and j, displacement.
+                let mut fields = [Lanes8::ZERO; 8];
+                fields[J] = old[J];
+                for c in 0..3 {
+                    let (after, slopes) = gather::<3, FMA>(&field, c, &sides);
+                    let change = gather_lane::<3, FMA>(&field, 4 + c, &sides.w);
+                    points.gradient.set(start, c, &slopes);
+                    fields[c] = old[c].plus::<FMA>(change);
+                    let travel = after.add_product::<FMA>(Lanes8([-0.5; BATCH]), change);
+                    fields[4 + c] = travel.times::<FMA>(scale);
                 }
-                start = end.min(start + BATCH);
+                let list = transposed_eight::<FMA>(&fields);
+                for p in batch.clone() {
+                    (motion[p], shift[p]) = (list[p - start].low(), list[p - start].high());
+                }
+                start = batch.end;
             }
         }
     }
@@ -237,7 +242,6 @@ impl Kernel for Stresses<'_> {
         let Self { tile, law, dt } = self;
         let points = &mut tile.points;
         let n = points.id.len();
-        let gradient = &points.gradient[..n];
         let (motion, stress) = (&mut points.motion[..n], &mut points.stress[..n]);
         let mut start = 0;
         while start < n {
@@ -246,7 +250,7 @@ impl Kernel for Stresses<'_> {
             for p in start..end {
                 j.0[p - start] = motion[p].0[J];
             }
-            let [x, y, z] = by_component::<FMA>(&gradient[start..end]);
+            let [x, y, z] = points.gradient.of_eight(start);
             let trace = x[0].plus::<FMA>(y[1]).plus::<FMA>(z[2]);
             let trace = trace.scaled::<FMA>(law.per_cell);
             let now = Lanes8([1.0; BATCH]).plus::<FMA>(j);
@@ -273,7 +277,7 @@ impl Kernel for Stresses<'_> {
                 let half = fields[3 + a].scaled::<FMA>(0.5 * law.per_cell);
                 fields[3 + a] = half.scaled::<FMA>(k);
             }
-            let new = by_point::<FMA>(&fields);
+            let new = transposed_eight::<FMA>(&fields);
             for p in start..end {
                 motion[p].0[J] = j.0[p - start];
                 stress[p] = new[p - start];

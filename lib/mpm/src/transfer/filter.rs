@@ -43,7 +43,7 @@ impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
             let mut sums = NOTHING;
             while start < end {
                 let places = &place[start..end.min(start + BATCH)];
-                let sides = Sides::new::<S, D, FMA>(&offsets::<FMA>(places));
+                let sides = Sides::new::<S, D, FMA>(&offsets::<FMA>(&place[start..]));
                 for p in (0..places.len()).step_by(2) {
                     let pair = pair(&sides.w, p);
                     let value = gather_value::<D, FMA>(&field, &pair);

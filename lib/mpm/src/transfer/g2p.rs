@@ -2,15 +2,15 @@
 
 use std::marker::PhantomData;
 
-use crate::fields::point::J;
-use crate::lanes::{Lanes4, Lanes8};
+use crate::fields::{node, point::J};
+use crate::lanes::{Lanes4, Lanes8, first_eight, transposed, transposed_eight};
 use crate::lattice::window;
 use crate::real::Real;
 use crate::runs::run_end;
 use crate::shape::Shape;
 use crate::simd::Kernel;
 use crate::tiles::{Scratch, Tile};
-use crate::window::{BATCH, Sides, differences, gather, offsets};
+use crate::window::{BATCH, Sides, Window, differences, gather, gather_lane, offsets};
 
 /// Nodes to points: new velocity, velocity gradient and displacement.
 ///
@@ -27,15 +27,19 @@ pub(crate) struct G2p<'a, S, U, const D: usize> {
 pub(crate) trait Update {
     /// Points carry an affine field.
     const AFFINE: bool = false;
+    /// It takes the second half of a node's velocities.
+    const SECOND: bool = true;
+    /// It takes S w_1 of the points.
+    const DRIFT: bool = false;
 
-    /// New velocity of a point and the velocity of its displacement from its own (`old`), S v+
-    /// (`plus`), S of the second half (`second`) and S w_1 (`drift`).
+    /// Of a component at eight points, the new velocity and that of the displacement from their own (`old`),
+    /// S v+ (`plus`), S of the second half (`second`) and S w_1 (`drift`).
     fn apply<const FMA: bool>(
-        old: Lanes4,
-        plus: Lanes4,
-        second: Lanes4,
-        drift: Lanes4,
-    ) -> (Lanes4, Lanes4);
+        old: Lanes8,
+        plus: Lanes8,
+        second: Lanes8,
+        drift: Lanes8,
+    ) -> [Lanes8; 2];
 }
 
 /// FLIP.
@@ -51,54 +55,47 @@ pub(crate) struct FilterAfter;
 
 impl Update for Increment {
     #[inline(always)]
-    fn apply<const FMA: bool>(
-        old: Lanes4,
-        plus: Lanes4,
-        second: Lanes4,
-        _: Lanes4,
-    ) -> (Lanes4, Lanes4) {
-        let new = old.add_scaled::<FMA>(1.0, second);
-        (new, plus.add_scaled::<FMA>(-0.5, second))
+    fn apply<const FMA: bool>(old: Lanes8, plus: Lanes8, second: Lanes8, _: Lanes8) -> [Lanes8; 2] {
+        let new = old.plus::<FMA>(second);
+        [new, plus.add_product::<FMA>(Lanes8([-0.5; 8]), second)]
     }
 }
 
 impl Update for Replace {
+    const SECOND: bool = false;
     #[inline(always)]
-    fn apply<const FMA: bool>(_: Lanes4, plus: Lanes4, _: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
-        (plus, plus)
+    fn apply<const FMA: bool>(_: Lanes8, plus: Lanes8, _: Lanes8, _: Lanes8) -> [Lanes8; 2] {
+        [plus, plus]
     }
 }
 
 impl Update for Affine {
     const AFFINE: bool = true;
+    const SECOND: bool = false;
     #[inline(always)]
-    fn apply<const FMA: bool>(_: Lanes4, plus: Lanes4, _: Lanes4, _: Lanes4) -> (Lanes4, Lanes4) {
-        (plus, plus)
+    fn apply<const FMA: bool>(_: Lanes8, plus: Lanes8, _: Lanes8, _: Lanes8) -> [Lanes8; 2] {
+        [plus, plus]
     }
 }
 
 impl Update for FilterBefore {
+    const DRIFT: bool = true;
     #[inline(always)]
     fn apply<const FMA: bool>(
-        old: Lanes4,
-        _: Lanes4,
-        second: Lanes4,
-        drift: Lanes4,
-    ) -> (Lanes4, Lanes4) {
-        let change = second.add_scaled::<FMA>(-1.0, old);
-        (second, drift.add_scaled::<FMA>(0.5, change))
+        old: Lanes8,
+        _: Lanes8,
+        second: Lanes8,
+        drift: Lanes8,
+    ) -> [Lanes8; 2] {
+        let change = second.minus::<FMA>(old);
+        [second, drift.add_product::<FMA>(Lanes8([0.5; 8]), change)]
     }
 }
 
 impl Update for FilterAfter {
     #[inline(always)]
-    fn apply<const FMA: bool>(
-        _: Lanes4,
-        plus: Lanes4,
-        second: Lanes4,
-        _: Lanes4,
-    ) -> (Lanes4, Lanes4) {
-        (second, plus)
+    fn apply<const FMA: bool>(_: Lanes8, plus: Lanes8, second: Lanes8, _: Lanes8) -> [Lanes8; 2] {
+        [second, plus]
     }
 }
 
@@ -120,6 +117,38 @@ fn moments<const D: usize>(d: &[Lanes8; 3], sides: &Sides) -> Sides {
     Sides { w: sides.w, g }
 }
 
+/// The affine field of APIC at eight points: its derivatives along x, y, z.
+#[inline(always)]
+fn affine<const D: usize, const FMA: bool>(
+    window: &Window,
+    moments: &Sides,
+) -> [[Lanes4; 3]; BATCH] {
+    let mut along = [[Lanes8::ZERO; 3]; 3];
+    for c in 0..3 {
+        along[c] = gather::<D, FMA>(window, c, moments).1;
+    }
+    let [x, y, z] = along;
+    let o = Lanes8::ZERO;
+    let list = transposed_eight::<FMA>(&[x[0], y[0], z[0], o, x[1], y[1], z[1], o]);
+    let last = transposed_eight::<FMA>(&[x[2], y[2], z[2], o, o, o, o, o]);
+    let mut fields = [[Lanes4::ZERO; 3]; BATCH];
+    for p in 0..BATCH {
+        fields[p] = [list[p].low(), list[p].high(), last[p].low()];
+    }
+    fields
+}
+
+/// Lanes 0 to 2 of `stress` of up to eight points.
+#[inline(always)]
+fn drift<const FMA: bool>(stress: &[Lanes8]) -> [Lanes8; 3] {
+    let mut list = [Lanes4::ZERO; BATCH];
+    for (drift, stress) in list.iter_mut().zip(stress) {
+        *drift = stress.low();
+    }
+    let [x, y, z, _] = transposed::<FMA>(&list);
+    [x, y, z]
+}
+
 impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
@@ -131,40 +160,51 @@ impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
         } = self.scratch;
         let n = points.len();
         let (place, bases) = (&points.place[..n], &points.base[..n]);
-        let motion = &mut points.motion[..n];
+        let (motion, stress) = (&mut points.motion[..n], &points.stress[..n]);
         shift.resize(n, Lanes4::ZERO);
-        gradient.resize(n, [Lanes4::ZERO; 3]);
-        let (shift, gradient) = (&mut shift[..n], &mut gradient[..n]);
-        let stress = &points.stress[..n];
-        let s = self.dt_over_cell;
-        let scale = Lanes4([s, s, if D == 3 { s } else { 0.0 }, 0.0]);
+        gradient.resize(n);
+        let shift = &mut shift[..n];
+        let scale = Lanes8([self.dt_over_cell; BATCH]);
         let mut start = 0;
         while start < n {
             let (base, end) = (usize::from(bases[start]), run_end(bases, start));
-            let nodes = &field[base..base + window(D)];
-            let window = differences::<D, FMA>(nodes);
+            let window = differences::<D, FMA>(&field[base..base + window(D)]);
             while start < end {
-                let places = &place[start..end.min(start + BATCH)];
-                let d = offsets::<FMA>(places);
+                let batch = start..end.min(start + BATCH);
+                let d = offsets::<FMA>(&place[start..]);
                 let sides = Sides::new::<S, D, FMA>(&d);
                 if U::AFFINE {
-                    let moments = moments::<D>(&d, &sides);
-                    for p in 0..places.len() {
-                        points.affine[start + p] = gather::<D, FMA>(&window, &moments, p).1;
+                    let fields = affine::<D, FMA>(&window, &moments::<D>(&d, &sides));
+                    for p in batch.clone() {
+                        points.affine[p] = fields[p - start];
                     }
                 }
-                for p in 0..places.len() {
-                    let at = start + p;
-                    let (value, slope) = gather::<D, FMA>(&window, &sides, p);
-                    gradient[at] = slope;
-                    let (old, drift) = (motion[at], stress[at].low());
-                    let (new, travel) = U::apply::<FMA>(old, value.low(), value.high(), drift);
-                    let [x, y, z, _] = new.0;
-                    // Nothing moves along z in plane strain, not even where a body does.
-                    motion[at] = Lanes4([x, y, if D == 3 { z } else { old.0[2] }, old.0[J]]);
-                    shift[at] = travel.times::<FMA>(scale);
+                let old = transposed::<FMA>(&first_eight(&motion[start..]));
+                let mut drifts = [Lanes8::ZERO; 3];
+                if U::DRIFT {
+                    drifts = drift::<FMA>(&stress[start..]);
                 }
-                start += places.len();
+                // New velocity and j, displacement.
+                let mut fields = [Lanes8::ZERO; 8];
+                (fields[2], fields[J]) = (old[2], old[J]);
+                for c in 0..3 {
+                    let (plus, slopes) = gather::<D, FMA>(&window, c, &sides);
+                    gradient.set(start, c, &slopes);
+                    // Nothing moves along z in plane strain, not even where a body does.
+                    if c < D {
+                        let mut second = Lanes8::ZERO;
+                        if U::SECOND {
+                            second = gather_lane::<D, FMA>(&window, node::SECOND + c, &sides.w);
+                        }
+                        let [new, travel] = U::apply::<FMA>(old[c], plus, second, drifts[c]);
+                        (fields[c], fields[4 + c]) = (new, travel.times::<FMA>(scale));
+                    }
+                }
+                let list = transposed_eight::<FMA>(&fields);
+                for p in batch.clone() {
+                    (motion[p], shift[p]) = (list[p - start].low(), list[p - start].high());
+                }
+                start = batch.end;
             }
         }
     }

@@ -5,7 +5,8 @@ use std::marker::PhantomData;
 use super::filter::Filter;
 use super::g2p::{Affine, FilterAfter, FilterBefore, G2p, Increment, Replace, Update};
 use super::p2g::P2g;
-use crate::lanes::{Lanes4, Lanes8};
+use crate::gradient::Gradient;
+use crate::lanes::Lanes8;
 use crate::material::{Constant, Flow, Formula, Segments};
 use crate::real::Real;
 use crate::settings::{Mode, ShapeFunction};
@@ -100,7 +101,7 @@ impl AnyFlow {
     pub(crate) fn update(
         &self,
         points: &mut Points,
-        gradient: &[[Lanes4; 3]],
+        gradient: &Gradient,
         stress: &Stress,
         dt: Real,
     ) {
@@ -112,7 +113,7 @@ impl AnyFlow {
     }
 }
 
-struct Refresh<'a, F>(&'a mut Points, &'a [[Lanes4; 3]], &'a Stress, &'a F, Real);
+struct Refresh<'a, F>(&'a mut Points, &'a Gradient, &'a Stress, &'a F, Real);
 
 impl<F: Flow> Kernel for Refresh<'_, F> {
     #[inline(always)]

@@ -86,7 +86,7 @@ impl Run<'_> {
         let mut start = self.start;
         while start < self.end {
             let places = &self.points.place[start..self.end.min(start + BATCH)];
-            let d = offsets::<FMA>(places);
+            let d = offsets::<FMA>(&self.points.place[start..]);
             let sides = Sides::new::<S, D, FMA>(&d);
             let arms = if AFFINE { arms(&d, &sides) } else { sides.g };
             let motion = &self.points.motion[start..start + places.len()];
@@ -137,7 +137,7 @@ impl Run<'_> {
         let mut start = self.start;
         while start < self.end {
             let places = &self.points.place[start..self.end.min(start + BATCH)];
-            let d = offsets::<FMA>(places);
+            let d = offsets::<FMA>(&self.points.place[start..]);
             let sides = Sides::new::<S, D, FMA>(&d);
             let motion = &self.points.motion[start..start + places.len()];
             for p in 0..places.len() {
