@@ -32,13 +32,13 @@ fn copy<'a, T: Copy + 'a>(
     for span in &tile.spans {
         let nodes = &nodes(span.other as usize)[span.nodes()];
         let values = &mut field[span.entries()];
-        for (value, &node) in values.iter_mut().zip(nodes) {
-            *value = of(node);
-        }
-        for a in span.mirrored() {
-            for value in &mut *values {
-                value.0[a] = -value.0[a];
-                value.0[node::SECOND + a] = -value.0[node::SECOND + a];
+        span.each(values, nodes, |value, &node| *value = of(node));
+        if span.flip != 0 {
+            for a in span.mirrored() {
+                for value in &mut *values {
+                    value.0[a] = -value.0[a];
+                    value.0[node::SECOND + a] = -value.0[node::SECOND + a];
+                }
             }
         }
     }

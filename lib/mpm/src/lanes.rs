@@ -173,12 +173,20 @@ pub(crate) fn first_eight(list: &[Lanes4]) -> [Lanes4; 8] {
 /// Lane 0, 1, ... 7 of all eight vectors.
 #[inline(always)]
 pub(crate) fn transposed_eight<const FMA: bool>(list: &[Lanes8; 8]) -> [Lanes8; 8] {
-    let (mut low, mut high) = ([Lanes4::ZERO; 8], [Lanes4::ZERO; 8]);
-    for f in 0..8 {
-        (low[f], high[f]) = (list[f].low(), list[f].high());
+    if FMA {
+        let [a, b, c, d, e, f, g, h] = *list;
+        let list = [a.0, b.0, c.0, d.0, e.0, f.0, g.0, h.0];
+        let [a, b, c, d, e, f, g, h] = vector::transposed_eight(list);
+        let ([a, b, c, d], [e, f, g, h]) = ([a, b, c, d].map(Lanes8), [e, f, g, h].map(Lanes8));
+        return [a, b, c, d, e, f, g, h];
     }
-    let ([a, b, c, d], [e, f, g, h]) = (transposed::<FMA>(&low), transposed::<FMA>(&high));
-    [a, b, c, d, e, f, g, h]
+    let mut r = [Lanes8::ZERO; 8];
+    for (p, x) in list.iter().enumerate() {
+        for l in 0..8 {
+            r[l].0[p] = x.0[l];
+        }
+    }
+    r
 }
 
 #[cfg(test)]
@@ -197,7 +205,11 @@ mod tests {
             assert_eq!(wide, transposed::<false>(&list));
             let from = [7, 0, 3, 3, 1, 6, 2, 5];
             assert_eq!(wide[1].pick::<FMA>(from), wide[1].pick::<false>(from));
-            let (a, b, c) = (wide[0], wide[1], wide[2]);
+            let [a, b, c, d] = wide;
+            let eight = [a, b, c, d, d, c, a, b];
+            let columns = transposed_eight::<FMA>(&eight);
+            assert_eq!(columns, transposed_eight::<false>(&eight));
+            assert_eq!(transposed_eight::<false>(&columns), eight);
             // Exact, so that a fused sum is the same.
             assert_eq!(c.add_product::<FMA>(a, b), c.add_product::<false>(a, b));
             assert_eq!(a.minus::<FMA>(b), a.minus::<false>(b));

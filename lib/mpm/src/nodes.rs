@@ -51,8 +51,8 @@ pub(crate) struct NodeStep<'a, R> {
     /// Velocity of each body, m/s.
     pub(crate) velocities: &'a [[Real; 3]],
     pub(crate) separation: Real,
-    /// Gravity times dt, m/s.
-    pub(crate) fall: [Real; 3],
+    /// Gravity times dt, m/s, and nothing beside it.
+    pub(crate) fall: [Real; 4],
     /// dt / (rho cell), m2 s/kg per cell^2 of area and unit of mass.
     pub(crate) dt_over_mass: f64,
     pub(crate) mode: Mode,
@@ -149,12 +149,12 @@ impl Block {
             let Some(values) = values(&tiles[span.other as usize]).get(span.entries()) else {
                 continue;
             };
-            let sums = sums[span.nodes()].iter_mut().zip(values);
+            let sums = &mut sums[span.nodes()];
             if span.flip == 0 {
-                sums.for_each(|(sum, &value)| *sum = sum.plus::<false>(value));
+                span.each(sums, values, |sum, &value| *sum = sum.plus::<false>(value));
                 continue;
             }
-            for (sum, &value) in sums {
+            for (sum, &value) in sums.iter_mut().zip(values) {
                 let mut value = value;
                 for a in span.mirrored() {
                     value.0[vectors[0] + a] = -value.0[vectors[0] + a];
@@ -173,27 +173,23 @@ impl Block {
         meeting: Option<Meeting>,
         step: &NodeStep<R>,
     ) {
-        let [px, py, pz, mass, fx, fy, fz, _] = sum.0;
         let planes = self.planes[node];
-        let raw = hold(planes, [px / mass, py / mass, pz / mass]);
-        let force = [fx, fy, fz];
-        let gain = hold(
-            planes,
-            std::array::from_fn(|a| force[a] / mass + step.fall[a]),
-        );
+        let (momentum, impulse, mass) = (sum.low().0, sum.high().0, sum.0[sum::MASS]);
+        // In whole vectors; the fourth lane of the first is 1, that of the second means nothing.
+        let raw: [Real; 4] = hold(planes, momentum.map(|p| p / mass));
+        let gain: [Real; 4] = std::array::from_fn(|a| impulse[a] / mass + step.fall[a]);
+        let [x, y, z, _] = hold(planes, gain);
+        let gain = [x, y, z, 0.0];
         // Contact before and after the forces is one decision: were it taken twice, a wall
         // that sticks would let go of the velocity before the forces whenever noise lifts it.
-        let touching = meeting.filter(|m| m.holds(std::array::from_fn(|a| raw[a] + gain[a])));
-        let mut before = raw;
+        let touching = meeting.filter(|m| m.holds([0, 1, 2].map(|a| raw[a] + gain[a])));
+        let (mut before, mut after) = (raw, std::array::from_fn(|a| raw[a] + gain[a]));
         if let Some(meeting) = &touching {
-            meeting.stop_approach(&mut before, step.law);
+            before = vector(&raw, |v| meeting.stop_approach(v, step.law));
             before = hold(planes, before);
-        }
-        let mut after: [Real; 3] = std::array::from_fn(|a| before[a] + gain[a]);
-        if let Some(meeting) = &touching {
-            let free = after;
+            let free: [Real; 4] = std::array::from_fn(|a| before[a] + gain[a]);
             let dose = step.dt_over_mass / f64::from(mass);
-            meeting.resolve(&mut after, step.law, step.rheology, dose);
+            after = vector(&free, |v| meeting.resolve(v, step.law, step.rheology, dose));
             after = hold(planes, after);
             let reaction = &mut self.reaction[meeting.body];
             for a in 0..3 {
@@ -206,18 +202,12 @@ impl Block {
         }
         let second = match step.mode {
             Mode::Increment => std::array::from_fn(|a| after[a] - before[a]),
-            _ => after,
+            _ => [after[0], after[1], after[2], 0.0],
         };
-        self.velocity[node] = Lanes8([
-            after[0], after[1], after[2], 1.0, second[0], second[1], second[2], 0.0,
-        ]);
+        self.velocity[node] = Lanes8::of(Lanes4(after), Lanes4(second));
         if matches!(step.mode, Mode::FilterBefore | Mode::FilterAfter) {
-            let w = if step.mode == Mode::FilterBefore {
-                before
-            } else {
-                after
-            };
-            self.filter.w[node] = Lanes4([w[0], w[1], w[2], 1.0]);
+            let of_before = step.mode == Mode::FilterBefore;
+            self.filter.w[node] = Lanes4(if of_before { before } else { after });
             if let Some(meeting) = self.filter.meetings.get_mut(node) {
                 *meeting = touching;
             }
@@ -230,12 +220,12 @@ impl Block {
         let mut sums = [Lanes4::ZERO; NODES];
         for span in &self.spans {
             let values = &tiles[span.other as usize].filtered[span.entries()];
-            let sums = sums[span.nodes()].iter_mut().zip(values);
+            let sums = &mut sums[span.nodes()];
             if span.flip == 0 {
-                sums.for_each(|(sum, &value)| *sum = sum.plus::<false>(value));
+                span.each(sums, values, |sum, &value| *sum = sum.plus::<false>(value));
                 continue;
             }
-            for (sum, &value) in sums {
+            for (sum, &value) in sums.iter_mut().zip(values) {
                 let mut value = value;
                 for a in span.mirrored() {
                     value.0[a] = -value.0[a];
@@ -247,34 +237,43 @@ impl Block {
             if self.filter.w[node].0[node::ONE] == 0.0 {
                 continue;
             }
-            let sum = sums[node].0;
+            let (sum, old) = (sums[node].0, self.filter.w[node].0);
+            // In whole vectors: in the fourth lane, 1 less a mass over itself, nothing is left.
             let mass = sum[sum::MASS];
-            let old = self.filter.w[node].0;
-            let free = hold(
-                self.planes[node],
-                std::array::from_fn(|a| old[a] - sum[a] / mass),
-            );
+            let free: [Real; 4] = std::array::from_fn(|a| old[a] - sum[a] / mass);
+            let free = hold(self.planes[node], free);
             let mut w = free;
             if let Some(Some(meeting)) = self.filter.meetings.get(node) {
-                meeting.restrain(&mut w, step.law);
-                w = hold(self.planes[node], w);
+                let mut restrained = [w[0], w[1], w[2]];
+                meeting.restrain(&mut restrained, step.law);
+                let [x, y, z] = restrained;
+                w = hold(self.planes[node], [x, y, z, 0.0]);
                 for (a, r) in self.reaction[meeting.body].iter_mut().enumerate() {
                     *r += f64::from(mass * (free[a] - w[a]));
                 }
             }
             self.filter.w[node] = Lanes4([w[0], w[1], w[2], 1.0]);
-            for (a, w) in w.iter().enumerate() {
-                self.velocity[node].0[node::SECOND + a] += w;
-            }
+            let velocity = &mut self.velocity[node];
+            let sum = velocity.high().plus::<false>(Lanes4(w));
+            *velocity = Lanes8::of(velocity.low(), sum);
         }
     }
 }
 
+/// `v` with its first three lanes as `of` leaves them.
+fn vector(v: &[Real; 4], of: impl Fn(&mut [Real; 3])) -> [Real; 4] {
+    let mut x = [v[0], v[1], v[2]];
+    of(&mut x);
+    [x[0], x[1], x[2], v[3]]
+}
+
 /// Removes the components normal to the mirror planes of a node.
-fn hold(planes: u8, mut v: [Real; 3]) -> [Real; 3] {
-    for (a, v) in v.iter_mut().enumerate() {
-        if planes & (1 << a) != 0 {
-            *v = 0.0;
+fn hold<const N: usize>(planes: u8, mut v: [Real; N]) -> [Real; N] {
+    if planes != 0 {
+        for (a, v) in v.iter_mut().enumerate() {
+            if planes & (1 << a) != 0 {
+                *v = 0.0;
+            }
         }
     }
     v

@@ -106,9 +106,10 @@ impl Explicit {
             velocities,
             separation: self.separation,
             fall: if self.present.force {
-                self.scene.gravity.map(|g| (g * dt) as Real)
+                let [x, y, z] = self.scene.gravity.map(|g| (g * dt) as Real);
+                [x, y, z, 0.0]
             } else {
-                [0.0; 3]
+                [0.0; 4]
             },
             dt_over_mass: dt / (density * cell),
             mode,

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::gradient::Gradient;
 use crate::lanes::{Lanes4, Lanes8};
-use crate::lattice::{HALO, Lattice, block_node};
+use crate::lattice::{EDGE, HALO, Lattice, block_node};
 use crate::real::Real;
 use crate::runs::{reorder, run_order};
 use crate::stages::Present;
@@ -144,6 +144,26 @@ impl Span {
     #[inline(always)]
     pub(crate) fn nodes(&self) -> Range<usize> {
         usize::from(self.node)..usize::from(self.node) + usize::from(self.len)
+    }
+
+    /// Does `with` to each of `to` with that of `from`, both as long as the span. Most spans are a row of a block
+    /// or its end: loops of a length that the compiler knows.
+    #[inline(always)]
+    pub(crate) fn each<A, B>(&self, to: &mut [A], from: &[B], with: impl Fn(&mut A, &B)) {
+        if let (Ok(to), Ok(from)) = (
+            <&mut [A; EDGE]>::try_from(&mut *to),
+            <&[B; EDGE]>::try_from(from),
+        ) {
+            for i in 0..EDGE {
+                with(&mut to[i], &from[i]);
+            }
+        } else if let ([to], [from]) = (&mut *to, from) {
+            with(to, from);
+        } else {
+            for (to, from) in to.iter_mut().zip(from) {
+                with(to, from);
+            }
+        }
     }
 
     /// The mirrored axes.

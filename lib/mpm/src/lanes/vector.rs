@@ -104,10 +104,34 @@ mod x86 {
             ])
         }
     }
+
+    /// The lower halves of two, and their upper halves.
+    #[inline(always)]
+    fn halves(x: [f32; 8], y: [f32; 8]) -> [[f32; 8]; 2] {
+        // SAFETY: `simd` has found AVX; arrays and vectors are the same bits.
+        unsafe {
+            let x = transmute::<[f32; 8], __m256>(x);
+            let y = transmute::<[f32; 8], __m256>(y);
+            transmute::<[__m256; 2], [[f32; 8]; 2]>([
+                _mm256_permute2f128_ps::<0x20>(x, y),
+                _mm256_permute2f128_ps::<0x31>(x, y),
+            ])
+        }
+    }
+
+    /// Lane 0, 1, ... 7 of all eight.
+    #[inline(always)]
+    pub(in crate::lanes) fn transposed_eight(list: [[f32; 8]; 8]) -> [[f32; 8]; 8] {
+        let [a, b, c, d, e, f, g, h] = list;
+        let ([a, e], [b, f]) = (halves(a, e), halves(b, f));
+        let ([c, g], [d, h]) = (halves(c, g), halves(d, h));
+        let ([a, b, c, d], [e, f, g, h]) = (transposed([a, b, c, d]), transposed([e, f, g, h]));
+        [a, b, c, d, e, f, g, h]
+    }
 }
 
 #[cfg(all(target_arch = "x86_64", not(feature = "double")))]
-pub(super) use x86::{difference, eight, four, pick, transposed};
+pub(super) use x86::{difference, eight, four, pick, transposed, transposed_eight};
 
 /// The same as loops: other processors, and double precision.
 #[cfg(not(all(target_arch = "x86_64", not(feature = "double"))))]
@@ -157,7 +181,13 @@ mod plain {
     pub(in crate::lanes) fn transposed(pairs: [[Real; 8]; 4]) -> [[Real; 8]; 4] {
         std::array::from_fn(|l| std::array::from_fn(|p| pairs[p % 4][p / 4 * 4 + l]))
     }
+
+    /// Lane 0, 1, ... 7 of all eight.
+    #[inline(always)]
+    pub(in crate::lanes) fn transposed_eight(list: [[Real; 8]; 8]) -> [[Real; 8]; 8] {
+        std::array::from_fn(|l| list.map(|x| x[l]))
+    }
 }
 
 #[cfg(not(all(target_arch = "x86_64", not(feature = "double"))))]
-pub(super) use plain::{difference, eight, four, pick, transposed};
+pub(super) use plain::{difference, eight, four, pick, transposed, transposed_eight};

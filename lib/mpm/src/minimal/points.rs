@@ -186,8 +186,11 @@ impl Kernel for NodesToPoints<'_> {
                     fields[4 + c] = travel.times::<FMA>(scale);
                 }
                 let list = transposed_eight::<FMA>(&fields);
-                for p in batch.clone() {
-                    (motion[p], shift[p]) = (list[p - start].low(), list[p - start].high());
+                let ends = motion[batch.clone()]
+                    .iter_mut()
+                    .zip(&mut shift[batch.clone()]);
+                for ((motion, shift), end) in ends.zip(&list) {
+                    (*motion, *shift) = (end.low(), end.high());
                 }
                 start = batch.end;
             }

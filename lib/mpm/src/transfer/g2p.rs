@@ -201,8 +201,11 @@ impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
                     }
                 }
                 let list = transposed_eight::<FMA>(&fields);
-                for p in batch.clone() {
-                    (motion[p], shift[p]) = (list[p - start].low(), list[p - start].high());
+                let ends = motion[batch.clone()]
+                    .iter_mut()
+                    .zip(&mut shift[batch.clone()]);
+                for ((motion, shift), end) in ends.zip(&list) {
+                    (*motion, *shift) = (end.low(), end.high());
                 }
                 start = batch.end;
             }
