@@ -1,5 +1,7 @@
 //! Contact of the liquid with a rigid body at one node.
 
+use std::num::NonZeroU32;
+
 use physics::{Rheology, WallLaw};
 
 use crate::fields::{body, wall_sum};
@@ -135,15 +137,11 @@ impl Meeting {
         self.apply(v, remaining as Real);
     }
 
-    /// Takes from an increment of velocity what a contact does not allow.
-    pub(crate) fn restrain(&self, w: &mut [Real; 3], law: WallLaw) {
-        if law == WallLaw::Stick {
-            *w = [0.0; 3];
-            return;
-        }
-        let normal = dot(*w, self.normal);
-        for (w, n) in w.iter_mut().zip(self.normal) {
-            *w -= normal * n;
+    /// What the velocity filter asks for.
+    pub(crate) fn restraint(&self) -> Restraint {
+        Restraint {
+            normal: self.normal,
+            after: NonZeroU32::MIN.saturating_add(self.body as u32),
         }
     }
 
@@ -159,6 +157,34 @@ impl Meeting {
         for a in 0..3 {
             let sliding = slip[a] - normal * self.normal[a];
             v[a] = self.velocity[a] + leaving * self.normal[a] + remaining * sliding;
+        }
+    }
+}
+
+/// A meeting as the velocity filter keeps it at a node: no more, since most nodes of a lumen have one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Restraint {
+    /// Unit normal from the body into the liquid.
+    normal: [Real; 3],
+    /// One more than the body's place in the list, so that no restraint takes no room beside it.
+    after: NonZeroU32,
+}
+
+impl Restraint {
+    /// Which body.
+    pub(crate) fn body(&self) -> usize {
+        self.after.get() as usize - 1
+    }
+
+    /// Takes from an increment of velocity what a contact does not allow.
+    pub(crate) fn restrain(&self, w: &mut [Real; 3], law: WallLaw) {
+        if law == WallLaw::Stick {
+            *w = [0.0; 3];
+            return;
+        }
+        let normal = dot(*w, self.normal);
+        for (w, n) in w.iter_mut().zip(self.normal) {
+            *w -= normal * n;
         }
     }
 }

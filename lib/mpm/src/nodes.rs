@@ -2,7 +2,7 @@
 
 use physics::{Rheology, WallLaw};
 
-use crate::contact::{Meeting, meeting};
+use crate::contact::{Meeting, Restraint, meeting};
 use crate::fields::{body, node, sum, wall_sum};
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{EDGE, Lattice, block_node};
@@ -41,7 +41,7 @@ struct Filtered {
     /// w_l of the recursion, and 1 where there is mass.
     w: Vec<Lanes4>,
     /// Empty where no body is near.
-    meetings: Vec<Option<Meeting>>,
+    restraints: Vec<Option<Restraint>>,
 }
 
 /// What all nodes of a step share.
@@ -69,7 +69,7 @@ impl Block {
         let filtered = if present.filter { n } else { 0 };
         let filter = Filtered {
             w: vec![Lanes4::ZERO; filtered],
-            meetings: Vec::new(),
+            restraints: Vec::new(),
         };
         Self {
             origin,
@@ -106,9 +106,9 @@ impl Block {
     pub(crate) fn advance<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
         self.reaction.fill([0.0; 3]);
         let walls = self.walls.iter().any(|w| w.near != 0);
-        let meetings = if walls { self.filter.w.len() } else { 0 };
-        if self.filter.meetings.len() != meetings {
-            self.filter.meetings = vec![None; meetings];
+        let restraints = if walls { self.filter.w.len() } else { 0 };
+        if self.filter.restraints.len() != restraints {
+            self.filter.restraints = vec![None; restraints];
         }
         let sums = self.sums(tiles, |tile| &tile.local, [sum::MOMENTUM, sum::IMPULSE]);
         let near = walls.then(|| {
@@ -208,8 +208,8 @@ impl Block {
         if matches!(step.mode, Mode::FilterBefore | Mode::FilterAfter) {
             let of_before = step.mode == Mode::FilterBefore;
             self.filter.w[node] = Lanes4(if of_before { before } else { after });
-            if let Some(meeting) = self.filter.meetings.get_mut(node) {
-                *meeting = touching;
+            if let Some(restraint) = self.filter.restraints.get_mut(node) {
+                *restraint = touching.map(|meeting| meeting.restraint());
             }
         }
     }
@@ -243,12 +243,12 @@ impl Block {
             let free: [Real; 4] = std::array::from_fn(|a| old[a] - sum[a] / mass);
             let free = hold(self.planes[node], free);
             let mut w = free;
-            if let Some(Some(meeting)) = self.filter.meetings.get(node) {
+            if let Some(Some(restraint)) = self.filter.restraints.get(node) {
                 let mut restrained = [w[0], w[1], w[2]];
-                meeting.restrain(&mut restrained, step.law);
+                restraint.restrain(&mut restrained, step.law);
                 let [x, y, z] = restrained;
                 w = hold(self.planes[node], [x, y, z, 0.0]);
-                for (a, r) in self.reaction[meeting.body].iter_mut().enumerate() {
+                for (a, r) in self.reaction[restraint.body()].iter_mut().enumerate() {
                     *r += f64::from(mass * (free[a] - w[a]));
                 }
             }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use physics::{Amount, Rheology, Scene, Stages, Stop, Viscosity};
+use physics::{Amount, Motion, Rheology, RigidBody, Scene, Stages, Stop, Viscosity};
 
 use crate::real::BYTES;
 use crate::settings::{Settings, VelocityUpdate};
@@ -102,6 +102,8 @@ pub(crate) fn acoustic_limit(scene: &Scene, speed: f64, j: f64) -> f64 {
 fn memory(scene: &Scene, amount: &Amount, settings: &Settings) -> f64 {
     let affine = settings.velocity_update == VelocityUpdate::Apic;
     let bodies = scene.bodies.len() as u64;
+    let moves = |body: &&RigidBody| body.motion != Motion::Fixed;
+    let moving = scene.bodies.iter().filter(moves).count() as u64;
     let filtered = u64::from(settings.velocity_update.order() > 1);
     // With the room that tiles leave for more, an eighth at most.
     let kept = 17.0 / 16.0 * (6 + BYTES * if affine { 28 } else { 16 }) as f64;
@@ -109,7 +111,8 @@ fn memory(scene: &Scene, amount: &Amount, settings: &Settings) -> f64 {
     let spans = 108 * 8;
     let lanes = 8 * (1 + u64::from(bodies > 0)) + 4 * filtered;
     let per_tile = 216 * (BYTES * lanes + 2) + spans;
-    let per_node = 1 + 8 * BYTES + (24 + 8 * BYTES) * bodies + (44 + 4 * BYTES) * filtered;
+    let of_bodies = 8 * BYTES * bodies + 24 * moving;
+    let per_node = 1 + 8 * BYTES + of_bodies + (16 + 4 * BYTES) * filtered;
     let per_block = 64 * per_node + spans;
     let volume = amount.volume_m3 / scene.grid.cell_m.powi(3);
     let tiles = (volume / 64.0 * 2.0).ceil() + 1.0;

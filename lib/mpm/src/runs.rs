@@ -17,11 +17,11 @@ pub(crate) fn run_end(bases: &[u16], start: usize) -> usize {
 /// runs a node. By what the tile holds alone, so that a run which is continued sorts alike.
 pub(crate) fn run_order(bases: &[u16]) -> Option<Vec<u32>> {
     let mut counts = [0_u32; HALO * HALO * HALO];
-    let (mut runs, mut last) = (0, u16::MAX);
-    for &base in bases {
-        runs += usize::from(base != last);
-        last = base;
-        counts[usize::from(base)] += 1;
+    let (mut runs, mut start) = (0, 0);
+    while start < bases.len() {
+        let end = run_end(bases, start);
+        counts[usize::from(bases[start])] += (end - start) as u32;
+        (runs, start) = (runs + 1, end);
     }
     let nodes = counts.iter().filter(|&&n| n > 0).count();
     if runs <= nodes + nodes / 2 {

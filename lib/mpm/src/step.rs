@@ -1,6 +1,6 @@
 //! One time step; reads as the algorithm.
 
-use physics::{Failure, Rheology, StepLimit, StepReport, Viscosity, WallLaw};
+use physics::{Failure, Motion, Rheology, StepLimit, StepReport, Viscosity, WallLaw};
 use rayon::prelude::*;
 
 use crate::cell_mean::{equalise, share_rate};
@@ -74,11 +74,10 @@ impl Explicit {
     /// Integrals of the bodies at the nodes, for where the bodies are now.
     fn see_bodies(&mut self) {
         let cell = self.scene.grid.cell_m;
-        let shifts: Vec<[f64; 3]> = self
-            .state
-            .displacement
-            .iter()
-            .map(|x| x.map(|x| x / cell))
+        let displacements = self.state.displacement.iter();
+        let shifts: Vec<([f64; 3], bool)> = displacements
+            .zip(&self.scene.bodies)
+            .map(|(x, body)| (x.map(|x| x / cell), body.motion != Motion::Fixed))
             .collect();
         self.grid.see_bodies(&self.parts, &shifts, &self.integrator);
     }

@@ -140,11 +140,11 @@ impl Grid {
         }
     }
 
-    /// Integrals of the bodies, displaced by `shifts` (cells), at the nodes.
+    /// Integrals of the bodies, displaced by `shifts` (cells) and whether each ever moves, at the nodes.
     pub(crate) fn see_bodies(
         &mut self,
         parts: &[Vec<BlockShape>],
-        shifts: &[[f64; 3]],
+        shifts: &[([f64; 3], bool)],
         integrator: &Integrator,
     ) {
         let changed = (self.blocks.par_iter_mut())
@@ -192,11 +192,11 @@ impl Grid {
 fn see(
     block: &mut Block,
     parts: &[Vec<BlockShape>],
-    shifts: &[[f64; 3]],
+    shifts: &[([f64; 3], bool)],
     integrator: &Integrator,
 ) -> bool {
     let mut changed = false;
-    for (body, (parts, &shift)) in parts.iter().zip(shifts).enumerate() {
+    for (body, (parts, &(shift, moves))) in parts.iter().zip(shifts).enumerate() {
         match block.walls.get_mut(body) {
             None => {
                 block
@@ -210,7 +210,7 @@ fn see(
             }
             Some(_) => {}
         }
-        block.walls[body].update(parts, block.origin, shift, integrator);
+        block.walls[body].update(parts, block.origin, shift, moves, integrator);
     }
     changed
 }
