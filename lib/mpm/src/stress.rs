@@ -147,6 +147,7 @@ mod tests {
     use physics::{Newtonian, ShearRate, Table, Tait, Viscosity};
 
     use super::*;
+    use crate::lanes::Lanes4;
     use crate::material::{Constant, Segments};
     use crate::simd::{Kernel, dispatch};
     use crate::tiles::Point;
@@ -200,6 +201,18 @@ mod tests {
         points
     }
 
+    /// Of each point the derivatives along x, y, z of the components.
+    fn gradient(list: &[[[Real; 3]; 3]]) -> Gradient {
+        let mut gradient = Gradient::default();
+        gradient.resize(list.len());
+        for (p, along) in list.iter().enumerate() {
+            for c in 0..3 {
+                gradient.set(p, c, &along.map(|v| Lanes8([v[c]; 8])));
+            }
+        }
+        gradient
+    }
+
     /// Nineteen points by eights against each by itself, j within the series of the exponential and not.
     struct Batches;
 
@@ -210,14 +223,14 @@ mod tests {
             let flow = Segments::new(&table, 1200.0);
             let wave = |i: usize| ((i * 7919 % 1009) as Real / 504.5 - 1.0) * 0.1;
             let j: Vec<Real> = (0..19).map(|p| wave(p) * (1 + p % 4) as Real).collect();
-            let slope = |i: usize| Lanes4([0, 1, 2, 3].map(|l| wave(11 * i + l)));
+            let slope = |i: usize| [0, 1, 2].map(|l| wave(11 * i + l));
             let slopes = (0..19).map(|p| [0, 1, 2].map(|a| slope(3 * p + a)));
-            let slopes: Vec<[Lanes4; 3]> = slopes.collect();
+            let slopes: Vec<[[Real; 3]; 3]> = slopes.collect();
             let mut all = points(&j);
-            law.update::<_, FMA>(&mut all, &slopes, &flow, 1e-9);
+            law.update::<_, FMA>(&mut all, &gradient(&slopes), &flow, 1e-9);
             for p in 0..j.len() {
                 let mut one = points(&j[p..=p]);
-                law.update::<_, FMA>(&mut one, &slopes[p..=p], &flow, 1e-9);
+                law.update::<_, FMA>(&mut one, &gradient(&slopes[p..=p]), &flow, 1e-9);
                 assert_eq!(one.motion[0], all.motion[p], "{p}");
                 assert_eq!(one.stress[0], all.stress[p], "{p}");
                 let exact = -law.pressure(one.motion[0].0[J]);
@@ -243,10 +256,10 @@ mod tests {
         let rate = 1e5_f64;
         // dv_x/dy = rate, and a compression that ends at j = -1e-3 after the step.
         let (dt, squeeze) = (1e-9_f64, -1e-3 / 1e-9);
-        let mut gradient = [[Lanes4::ZERO; 3]];
-        gradient[0][1].0[0] = (rate * cell) as Real;
-        gradient[0][2].0[2] = (squeeze * cell) as Real;
-        law.update::<_, false>(&mut points, &gradient, &flow, dt as Real);
+        let mut along = [[0.0; 3]; 3];
+        along[1][0] = (rate * cell) as Real;
+        along[2][2] = (squeeze * cell) as Real;
+        law.update::<_, false>(&mut points, &gradient(&[along]), &flow, dt as Real);
         let s = points.stress[0].0.map(|s| f64::from(s) * 1200.0);
         let p = liquid.tait.pressure(-1e-3);
         let sigma_zz = -p + 2.0 * 1.3 * squeeze * (1.0 - 1.0 / 3.0);

@@ -126,6 +126,7 @@ impl<F: Flow> Kernel for Refresh<'_, F> {
 #[cfg(all(test, target_arch = "x86_64", not(feature = "double")))]
 mod tests {
     use super::*;
+    use crate::lanes::Lanes4;
     use crate::lattice::Lattice;
     use crate::stages::Present;
     use crate::tiles::{Point, base_of};
@@ -162,7 +163,7 @@ mod tests {
                 of,
             };
             g2p.run::<FMA>();
-            let (flow, gradient) = (&Constant::new(1.3, 1200.0), &scratch.gradient[..]);
+            let (flow, gradient) = (&Constant::new(1.3, 1200.0), &scratch.gradient);
             let points = &mut tile.points;
             Refresh(points, gradient, stress, flow, dt).run::<FMA>();
         }
@@ -209,9 +210,12 @@ mod tests {
         let eights = tile.local.iter().chain(&tile.wall_local);
         let eights = eights.chain(&points.stress).flat_map(|x| x.0);
         let fours = points.motion.iter().chain(&tile.filtered);
-        let fours = fours.chain(&scratch.shift);
-        let fours = fours.chain(scratch.gradient.iter().flatten());
-        let all = eights.chain(fours.flat_map(|x| x.0));
+        let fours = fours.chain(&scratch.shift).flat_map(|x| x.0);
+        let starts = (0..scratch.shift.len()).step_by(8);
+        let slopes = starts.flat_map(|p| scratch.gradient.of_eight(p));
+        let all = eights
+            .chain(fours)
+            .chain(slopes.flatten().flat_map(|x| x.0));
         all.map(f32::to_bits).collect()
     }
 
