@@ -11,7 +11,7 @@ FORCE:
 # target of such a rule for changed, whatever their time stamps say.
 ifndef BUILT
 $(BINARIES) &: FORCE
-	@$(CARGO) build --release --quiet $(TOOLS:%=-p %)
+	@$(CARGO) build --release --quiet --workspace
 endif
 
 .PHONY: test
