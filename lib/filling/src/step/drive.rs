@@ -145,15 +145,6 @@ impl Drive {
         factor
     }
 
-    /// Guesses that a clamp that is held moves `growth` times as fast in the next step.
-    pub(super) fn foresee(&mut self, growth: f64) {
-        if let Control::Limit(hold) = self.control
-            && hold.held
-        {
-            self.speed = (self.speed * growth).min(hold.speeds[0]);
-        }
-    }
-
     /// How each body moves.
     pub(super) fn motions(&self) -> &[Motion] {
         &self.motions

@@ -39,39 +39,43 @@ pub(super) enum Fit {
     Dried(f64),
 }
 
-/// How the flow changed from the last step but one to the last, by which the next is foreseen.
+/// How the pace changed from the last step but one to the last, by which the next is foreseen.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Trend {
-    /// Change of ln(pace) and of ln(speed of the clamp) over time, 1/s.
-    rates: [f64; 2],
-    /// Both in the last step, m/s; 0 before the first.
-    last: [f64; 2],
+    /// Change of ln(pace) over time, 1/s.
+    rate: f64,
+    /// Pace of the last step, m/s; 0 before the first.
+    last: f64,
     /// Its length, s.
     dt: f64,
 }
 
 /// Name of the array that holds it in a checkpoint.
 pub(super) const TREND: &str = "trend";
-/// Most that pace and speed are foreseen to change by in a step.
+/// Most that the pace is foreseen to grow by in a step.
 const FORESEEN: f64 = 1.25;
-/// Growth of the pace that is not foreseen: with the place of fronts in their cells that of a steady flow goes up and down.
+/// Growth of it that is not foreseen: with the place of fronts in their cells that of a steady flow goes up and down.
 const UNSTEADY: f64 = 1.05;
 
 impl Trend {
-    /// Takes in `pace` and `speed` (m/s) of the middle of a step of `dt` (s).
-    pub(super) fn observe(&mut self, now: [f64; 2], dt: f64) {
-        let between = 0.5 * (self.dt + dt);
-        self.rates = std::array::from_fn(|i| match self.last[i] > 0.0 && now[i] > 0.0 {
-            true => (now[i] / self.last[i]).ln() / between,
+    /// Takes in the pace (m/s) of the middle of a step of `dt` (s).
+    pub(super) fn observe(&mut self, pace: f64, dt: f64) {
+        self.rate = match self.last > 0.0 && pace > 0.0 {
+            true => (pace / self.last).ln() / (0.5 * (self.dt + dt)),
             false => 0.0,
-        });
-        (self.last, self.dt) = (now, dt);
+        };
+        (self.last, self.dt) = (pace, dt);
+    }
+
+    /// What the pace grows by until the middle of a next step of `dt` (s); 1 where it falls.
+    fn growth(&self, dt: f64) -> f64 {
+        let growth = (self.rate * 0.5 * (self.dt + dt)).exp();
+        (growth / UNSTEADY).clamp(1.0, FORESEEN)
     }
 
     /// For checkpoints.
     pub(super) fn state(&self) -> Vec<f64> {
-        let Self { rates, last, dt } = self;
-        [&rates[..], last, &[*dt]].concat()
+        vec![self.rate, self.last, self.dt]
     }
 
     /// That of a checkpoint.
@@ -79,38 +83,22 @@ impl Trend {
     /// # Errors
     /// A sentence where no run saves it.
     pub(super) fn restore(saved: &[f64]) -> Result<Self, String> {
-        let &[pace, speed, last_pace, last_speed, dt] = saved else {
-            return Err("the checkpoint's trend is not that of the implicit scheme".into());
-        };
         restored::check_finite(saved, TREND)?;
-        if dt < 0.0 {
-            return Err(format!("the checkpoint's last step is {dt} s long"));
+        match saved {
+            &[rate, last, dt] if last >= 0.0 && dt >= 0.0 => Ok(Self { rate, last, dt }),
+            _ => Err("the checkpoint's trend is not that of the implicit scheme".into()),
         }
-        Ok(Self {
-            rates: [pace, speed],
-            last: [last_pace, last_speed],
-            dt,
-        })
-    }
-
-    /// What pace and speed grow by until the middle of a next step of `dt` (s).
-    fn growth(&self, dt: f64) -> [f64; 2] {
-        let between = 0.5 * (self.dt + dt);
-        (self.rates).map(|rate| (rate * between).exp().clamp(1.0 / FORESEEN, FORESEEN))
     }
 }
 
 impl Implicit {
-    /// Pace and, where it is held, speed of the clamp in the middle of the next step, as the last two go on. A
-    /// programme has its own ([`Drive::aim`](super::Drive::aim)).
+    /// Sets the pace to that of the middle of the next step, as the last two go on. A programme foresees by its
+    /// pressure ([`Drive::aim`](super::Drive::aim)).
     pub(super) fn foresee(&mut self, limit: StepLimit) -> Result<(), Failure> {
-        if self.state.drive.programme().is_some() {
-            return Ok(());
+        if self.state.drive.programme().is_none() {
+            let dt = self.time_step(limit)?;
+            self.state.pace *= self.state.trend.growth(dt);
         }
-        let dt = self.time_step(limit)?;
-        let [pace, speed] = self.state.trend.growth(dt);
-        self.state.pace *= (pace / UNSTEADY).max(1.0);
-        self.state.drive.foresee(speed);
         Ok(())
     }
 
@@ -245,26 +233,23 @@ fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{FORESEEN, Trend};
+    use super::{FORESEEN, Trend, UNSTEADY};
 
-    /// What doubles in 4 s goes on doing so, for as long as both steps take; what jumps is not followed.
+    /// What doubles in 4 s goes on doing so, for as long as both steps take; what jumps is not followed, nor what falls.
     #[test]
     fn the_next_step_goes_on_as_the_last_two() {
         let mut trend = Trend::default();
-        assert_eq!(trend.growth(1.0), [1.0; 2]);
-        trend.observe([3.0, 0.0], 1.0);
-        assert_eq!(trend.growth(1.0), [1.0; 2]);
+        assert_eq!(trend.growth(1.0), 1.0);
+        trend.observe(3.0, 1.0);
+        assert_eq!(trend.growth(1.0), 1.0);
         // Middles are 2 s apart.
-        trend.observe([3.0 * 2_f64.sqrt(), 0.5], 3.0);
-        let [pace, speed] = trend.growth(0.5);
-        assert!((pace - 2_f64.powf(1.75 / 4.0).min(FORESEEN)).abs() < 1e-12);
-        assert_eq!(speed, 1.0);
-        trend.observe([3.0 * 2_f64.powf(0.5 + 1.75 / 4.0), 0.25], 0.5);
-        let [pace, speed] = trend.growth(0.5);
-        assert!((pace - 2_f64.powf(0.5 / 4.0)).abs() < 1e-12, "{pace}");
-        assert!((speed - 0.5_f64.powf(0.5 / 1.75)).abs() < 1e-12, "{speed}");
-        trend.observe([1e3, 1e-9], 0.5);
-        assert_eq!(trend.growth(0.5), [FORESEEN, 1.0 / FORESEEN]);
+        trend.observe(3.0 * 2_f64.sqrt(), 3.0);
+        let growth = 2_f64.powf(1.5 / 4.0) / UNSTEADY;
+        assert!((trend.growth(0.0) - growth).abs() < 1e-12);
+        trend.observe(1e3, 0.5);
+        assert_eq!(trend.growth(0.5), FORESEEN);
+        trend.observe(1.0, 0.5);
+        assert_eq!(trend.growth(0.5), 1.0);
     }
 
     #[test]

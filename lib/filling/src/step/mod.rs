@@ -114,7 +114,7 @@ impl Implicit {
         self.state.rates = Rates::Zero;
         let limit = self.state.drive.within(limit, self.state.travel);
         let mut longest = limit.time_s;
-        let (mut last, mut misses, mut unsolved, mut misplaced) = (Fit::Good, 0, 0, 0);
+        let (mut last, mut misses, mut unsolved) = (Fit::Good, 0, 0);
         self.foresee(limit)?;
         for attempt in 0..ATTEMPTS {
             // 1. Time step.
@@ -148,8 +148,6 @@ impl Implicit {
                 // Trapped air moves as far in a step of any length, until viscosity holds it back.
                 Fit::Fast | Fit::Dried(_) => longest = 0.5 * dt,
                 Fit::Missed if misses < CLOSER => misses += 1,
-                // At the speed that was solved for it mostly fits.
-                Fit::Misplaced if misplaced == 0 => (misplaced, longest) = (1, dt),
                 Fit::Misplaced => longest = 0.5 * dt,
                 Fit::Good | Fit::Missed => return self.follow(&trial, solution, limit),
             }
@@ -253,7 +251,7 @@ impl Implicit {
         let (bottom, top) = (pressure(setup.bottom, -1.0), pressure(setup.top, 1.0));
         let clamped = pressure(state.drive.clamped(), 1.0);
         state.drive.observe(clamped, dt, state.travel);
-        state.trend.observe([state.pace, solution.speed], dt);
+        state.trend.observe(state.pace, dt);
         state.steps += 1;
         state.time += dt;
         state.power = solution.power;
