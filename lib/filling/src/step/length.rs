@@ -7,7 +7,7 @@ use super::{Implicit, Solution, State, Trial};
 
 /// Part of the CFL number that the liquid is to cross in a step.
 const AIM: f64 = 0.97;
-/// CFL numbers that it may cross; a step in which it crosses more is solved again.
+/// CFL numbers that it may cross, bodies one; a step in which more is crossed is solved again.
 const OVERSHOT: f64 = 1.1;
 /// Cells by which the middle of a body's way may lie off the place that the step was solved for: its
 /// speed under load control is known only then. With a tenth of a cell a plate that is about to
@@ -165,11 +165,11 @@ impl Implicit {
     pub(super) fn fit(&mut self, trial: &Trial, solution: &Solution, limit: StepLimit) -> Fit {
         let (cfl, h) = (self.setup.settings.cfl, self.setup.units.h);
         self.state.pace = pace(&solution.u, cfl);
-        let cells = self.state.pace.max(fastest(&solution.bodies)) * trial.dt / h;
+        let overshoots = self.overshoots(&solution.bodies, trial.dt);
         let misplaced = 0.5 * trial.dt / h * apart(&trial.bodies, &solution.bodies);
         if misplaced > MISPLACED {
             Fit::Misplaced
-        } else if cells > cfl * OVERSHOT {
+        } else if overshoots {
             Fit::Fast
         } else if self.misses(trial, solution, limit) {
             Fit::Missed
@@ -185,13 +185,18 @@ impl Implicit {
             return trial.dt;
         }
         let end = limit.travel_m / solution.speed;
-        let cells = self.state.pace.max(fastest(&solution.bodies)) * end / self.setup.units.h;
         let near = (trial.dt / end - 1.0).abs() <= MISSED;
-        if near && end <= limit.time_s && cells <= self.setup.settings.cfl * OVERSHOT {
+        if near && end <= limit.time_s && !self.overshoots(&solution.bodies, end) {
             end
         } else {
             trial.dt.min(end)
         }
+    }
+
+    /// Whether liquid or bodies cross too many cells in `dt` (s).
+    fn overshoots(&self, bodies: &[[f64; 3]], dt: f64) -> bool {
+        let way = self.setup.settings.cfl * self.setup.units.h;
+        self.state.pace * dt > OVERSHOT * way || fastest(bodies) * dt > way * (1.0 + 1e-9)
     }
 
     fn misses(&self, trial: &Trial, solution: &Solution, limit: StepLimit) -> bool {
