@@ -195,8 +195,13 @@ impl Implicit {
 
     /// Whether liquid or bodies cross too many cells in `dt` (s).
     fn overshoots(&self, bodies: &[[f64; 3]], dt: f64) -> bool {
-        let way = self.setup.settings.cfl * self.setup.units.h;
-        self.state.pace * dt > OVERSHOT * way || fastest(bodies) * dt > way * (1.0 + 1e-9)
+        let way = self.setup.settings.cfl * self.setup.units.h * (1.0 + 1e-9);
+        // A clamp at its limit follows the step: a long one there is felt all the way after.
+        let most = match self.state.drive.held() {
+            Some(_) => 1.0,
+            None => OVERSHOT,
+        };
+        self.state.pace * dt > most * way || fastest(bodies) * dt > way
     }
 
     fn misses(&self, trial: &Trial, solution: &Solution, limit: StepLimit) -> bool {
