@@ -1,5 +1,6 @@
 //! Where the rigid bodies are: point, ray and overlap queries by voxel index arithmetic.
 
+mod block;
 mod placed;
 mod reentrant;
 mod rows;
@@ -11,6 +12,7 @@ use std::sync::Arc;
 use physics::{Boundary, RigidBody};
 
 use crate::geometry::Domain;
+use block::{Block, Periods};
 use placed::{Placed, Row};
 pub(crate) use reentrant::{Across, LONG, Reentrant};
 use rows::Rows;
@@ -52,49 +54,47 @@ fn nearer(first: &mut Option<Hit>, body: BodyId, row: &Row, up: bool, reach: f64
 /// All rigid bodies of a scene at one moment, in cell units of the domain.
 #[derive(Clone, Debug)]
 pub(crate) struct Solids {
-    blocks: Vec<Placed>,
+    blocks: Vec<Block>,
+    periods: Periods,
     /// Sides of the domain.
     pub(crate) domain: Domain,
 }
 
 impl Solids {
     /// The bodies of a scene, undisplaced, in a domain with low corner `min_m` and cells of
-    /// `cell_m`. Periodic sides get images of the bodies as far as rays reach.
+    /// `cell_m`. Beyond periodic sides they have images without end.
     pub(crate) fn new(
         bodies: Vec<RigidBody>,
         domain: Domain,
         min_m: [f64; 3],
         cell_m: f64,
     ) -> Self {
+        let periods = [0, 1, 2].map(|a| match a < domain.axes && domain.periodic(a) {
+            true => domain.cells[a] as f64,
+            false => f64::INFINITY,
+        });
         let mut blocks = Vec::new();
         for (id, body) in bodies.into_iter().enumerate() {
             for block in body.blocks {
                 let origin = std::array::from_fn(|a| (block.origin()[a] - min_m[a]) / cell_m);
-                blocks.push(Placed {
+                let mut block = Block {
                     body: id as BodyId,
                     rest: origin,
                     origin,
                     edge: std::array::from_fn(|a| block.voxel()[a] / cell_m),
                     rows: Arc::new(Rows::new(block, domain.axes)),
-                });
+                };
+                for (axis, &period) in periods.iter().enumerate().filter(|(_, p)| p.is_finite()) {
+                    block.clip(axis, period);
+                }
+                blocks.push(block);
             }
         }
-        for axis in (0..domain.axes).filter(|&a| domain.periodic(a)) {
-            let period = domain.cells[axis] as f64;
-            let images = (FAR / period).ceil() as i64;
-            for block in &mut blocks {
-                block.clip(axis, period);
-            }
-            let originals = blocks.clone();
-            for shift in (-images..=images).filter(|&s| s != 0) {
-                blocks.extend(originals.iter().cloned().map(|mut image| {
-                    image.rest[axis] += shift as f64 * period;
-                    image.origin = image.rest;
-                    image
-                }));
-            }
+        Self {
+            blocks,
+            periods: Periods::new(periods),
+            domain,
         }
-        Self { blocks, domain }
     }
 
     /// Whether there are no bodies.
@@ -112,37 +112,65 @@ impl Solids {
         moved
     }
 
+    /// The first that `look` finds in one of the blocks and images that reach the box `low..high`, or may.
+    #[inline(always)]
+    fn find<'a, R>(
+        &'a self,
+        low: [f64; 3],
+        high: [f64; 3],
+        look: impl FnMut(Placed<'a>) -> Option<R>,
+    ) -> Option<R> {
+        self.periods.find(&self.blocks, low, high, look)
+    }
+
+    /// Shows `look` all of these.
+    #[inline(always)]
+    fn each<'a>(&'a self, low: [f64; 3], high: [f64; 3], mut look: impl FnMut(Placed<'a>)) {
+        let none: Option<()> = self.find(low, high, |block| {
+            look(block);
+            None
+        });
+        debug_assert!(none.is_none());
+    }
+
     /// The body whose voxel holds `point`; low faces belong to a voxel, high faces do not.
     /// Bodies only: domain sides are not looked at.
     #[inline]
     pub(crate) fn at(&self, point: [f64; 3]) -> Option<BodyId> {
-        self.blocks
-            .iter()
-            .find(|block| block.contains(point))
-            .map(|block| block.body)
+        let holds = |block: Placed| block.contains(point).then_some(block.body);
+        self.find(point, point, holds)
+    }
+
+    /// Shows `look` the rows of voxels along `axis` that the line through `from` runs in within `reach` cells.
+    #[inline(always)]
+    fn rows(&self, from: [f64; 3], axis: usize, reach: f64, mut look: impl FnMut(BodyId, Row)) {
+        let (mut low, mut high) = (from, from);
+        low[axis] -= reach;
+        high[axis] += reach;
+        self.each(low, high, |block| {
+            if let Some(row) = block.row(from, axis) {
+                look(block.body, row);
+            }
+        });
     }
 
     /// First solid along `axis` from `from`, upwards or downwards, no farther than `reach`
     /// cells. A symmetry plane of the domain is a hit with body [`SIDE`].
     pub(crate) fn ray(&self, from: [f64; 3], axis: usize, up: bool, reach: f64) -> Option<Hit> {
         let mut first = self.side(from, axis, up, reach);
-        for block in &self.blocks {
-            if let Some(row) = block.row(from, axis) {
-                nearer(&mut first, block.body, &row, up, reach);
-            }
-        }
+        self.rows(from, axis, reach, |body, row| {
+            nearer(&mut first, body, &row, up, reach);
+        });
         first
     }
 
     /// The first solids along `axis` from `from` downwards and upwards, as of [`Solids::ray`].
     pub(crate) fn rays(&self, from: [f64; 3], axis: usize, reach: f64) -> [Option<Hit>; 2] {
         let mut first = [false, true].map(|up| self.side(from, axis, up, reach));
-        for block in &self.blocks {
-            if let Some(row) = block.row(from, axis) {
-                nearer(&mut first[0], block.body, &row, false, reach);
-                nearer(&mut first[1], block.body, &row, true, reach);
-            }
-        }
+        self.rows(from, axis, reach, |body, row| {
+            nearer(&mut first[0], body, &row, false, reach);
+            nearer(&mut first[1], body, &row, true, reach);
+        });
         first
     }
 
@@ -172,21 +200,22 @@ impl Solids {
         high: [f64; 3],
         mut found: impl FnMut(BodyId, f64),
     ) {
-        for block in &self.blocks {
+        self.each(low, high, |block| {
             let volume = block.overlap(low, high);
             if volume > 0.0 {
                 found(block.body, volume);
             }
-        }
+        });
     }
 
     /// Subtracts the solid part from `open`, the open fractions of one row of sub-cells that
     /// covers the intervals `y` and `z`; its first sub-cell begins at `x0` and is `dx` wide.
     pub(crate) fn carve_row(&self, y: [f64; 2], z: [f64; 2], x0: f64, dx: f64, open: &mut [f32]) {
         let area = (y[1] - y[0]) * (z[1] - z[0]);
-        for block in &self.blocks {
+        let end = x0 + open.len() as f64 * dx;
+        self.each([x0, y[0], z[0]], [end, y[1], z[1]], |block| {
             block.carve(y, z, x0, dx, 1.0 / area, open);
-        }
+        });
         for o in open {
             // Rounding of a sum of overlaps must not leave a sub-cell that is almost solid.
             *o = if *o < 1e-5 { 0.0 } else { *o };

@@ -1,37 +1,26 @@
 //! One block of voxels at its place: what of it points, boxes, rows and rays meet.
 
-use std::sync::Arc;
-
 use super::BodyId;
 use super::rows::{self, Rows};
 
 /// Points this close (cells) to a surface count as on it.
 pub(super) const TOUCH: f64 = 1e-7;
 
-/// A block of voxels at its place, in cell units.
-#[derive(Clone, Debug)]
-pub(super) struct Placed {
+/// A block of voxels, or an image of it beyond periodic sides, at its place, in cell units.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed<'a> {
     pub(super) body: BodyId,
-    pub(super) rows: Arc<Rows>,
-    /// Low corner without displacement.
-    pub(super) rest: [f64; 3],
-    /// Low corner now.
+    pub(super) rows: &'a Rows,
+    /// Low corner.
     pub(super) origin: [f64; 3],
     /// Edges of a voxel.
     pub(super) edge: [f64; 3],
 }
 
-impl Placed {
-    /// Cuts a block of one voxel along `axis` to `0..period`, where its images must not
-    /// overlap it.
-    pub(super) fn clip(&mut self, axis: usize, period: f64) {
-        if self.rows.block.dims()[axis] == 1 {
-            let low = self.rest[axis].clamp(0.0, period);
-            let high = (self.rest[axis] + self.edge[axis]).clamp(0.0, period);
-            self.rest[axis] = low;
-            self.edge[axis] = (high - low).max(TOUCH);
-            self.origin = self.rest;
-        }
+impl<'a> Placed<'a> {
+    /// Whether it is that block or image.
+    pub(super) fn is(&self, other: &Placed) -> bool {
+        std::ptr::eq(self.rows, other.rows) && self.origin == other.origin
     }
 
     #[inline]
@@ -126,7 +115,7 @@ impl Placed {
 
     /// The row of voxels along `axis` that the line through `from` runs in.
     #[inline]
-    pub(super) fn row(&self, from: [f64; 3], axis: usize) -> Option<Row<'_>> {
+    pub(super) fn row(&self, from: [f64; 3], axis: usize) -> Option<Row<'a>> {
         let mut voxel = [0_usize; 3];
         for t in (0..3).filter(|&t| t != axis) {
             voxel[t] = self.index(t, from[t])?;
@@ -247,8 +236,7 @@ mod tests {
         let origin = [-0.37, 1.21, 0.4];
         let placed = Placed {
             body: 0,
-            rows: Arc::new(Rows::new(block, 3)),
-            rest: origin,
+            rows: &Rows::new(block, 3),
             origin,
             edge,
         };

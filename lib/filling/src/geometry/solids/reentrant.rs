@@ -83,15 +83,16 @@ impl Solids {
 
     /// The re-entrant edges in the domain that cross a rectangle.
     fn inside(&self, across: &Across, mut found: impl FnMut(Reentrant)) {
-        for (number, block) in self.blocks.iter().enumerate() {
+        let [low, high] = across.corners();
+        self.each(low, high, |block| {
             block.reentrant(across, |mut edge, runs| {
-                if self.is_free(number, across, &edge) {
-                    let straight = [0, 1].map(|n| self.run(block, across, &edge, n, runs[n]));
+                if self.is_free(&block, across, &edge) {
+                    let straight = [0, 1].map(|n| self.run(&block, across, &edge, n, runs[n]));
                     edge.straight = straight[0].min(straight[1]);
                     found(edge);
                 }
             });
-        }
+        });
     }
 
     /// How far the wall of an edge of `block` runs along the `n`-th direction across without a step, if `run` is how far it does in
@@ -128,7 +129,7 @@ impl Solids {
     }
 
     /// Whether an edge of a block is on no symmetry plane and no other block is in its open quadrants.
-    fn is_free(&self, number: usize, across: &Across, edge: &Reentrant) -> bool {
+    fn is_free(&self, own: &Placed, across: &Across, edge: &Reentrant) -> bool {
         let axes = ACROSS[across.axis];
         let inside = (axes.iter().zip(edge.at)).all(|(&t, x)| {
             let end = self.domain.cells[t] as f64;
@@ -141,22 +142,37 @@ impl Solids {
             }
             probe
         };
-        let taken = |block: &Placed| {
+        let taken = |block: Placed| {
             let reaches = (axes.iter().zip(edge.at)).all(|(&t, x)| block.reaches(t, [x; 2], PROBE));
-            reaches
+            let taken = !block.is(own)
+                && reaches
                 && [[false, false], [false, true], [true, false], [true, true]]
                     .into_iter()
-                    .any(|quadrant| quadrant != edge.above && block.contains(point(quadrant)))
+                    .any(|quadrant| quadrant != edge.above && block.contains(point(quadrant)));
+            taken.then_some(())
         };
-        let mut others = self.blocks.iter().enumerate();
-        inside && !others.any(|(n, block)| n != number && taken(block))
+        let [low, high] = [point([false; 2]), point([true; 2])];
+        inside && self.find(low, high, taken).is_none()
     }
 }
 
 /// The directions across an axis.
 const ACROSS: [[usize; 2]; 3] = [[1, 2], [0, 2], [0, 1]];
 
-impl Placed {
+impl Across {
+    /// Low and high corner.
+    fn corners(&self) -> [[f64; 3]; 2] {
+        [self.low, self.high].map(|corner| {
+            let mut place = [self.along; 3];
+            for (n, &t) in ACROSS[self.axis].iter().enumerate() {
+                place[t] = corner[n];
+            }
+            place
+        })
+    }
+}
+
+impl Placed<'_> {
     /// Whether the block reaches an interval along `axis`, give or take `more`.
     fn reaches(&self, axis: usize, [low, high]: [f64; 2], more: f64) -> bool {
         let end = self.origin[axis] + self.rows.block.dims()[axis] as f64 * self.edge[axis];

@@ -43,15 +43,18 @@ impl Surface {
     /// counts its area times the cosine between its normal and that of the wall: the way from the
     /// face to the middle of what is open around it.
     pub(crate) fn new(solids: &Solids, wanted: impl Fn(BodyId) -> bool) -> Self {
-        let blocks = solids.blocks.iter().filter(|block| wanted(block.body));
-        let parts = blocks.map(|block| {
-            let pieces = (0..block.rows.block.dims()[2])
-                .into_par_iter()
-                .flat_map_iter(|layer| solids.pieces(block, layer))
-                .collect();
-            (block.body, pieces)
+        let mut parts = Vec::new();
+        let end = solids.domain.cells.map(|n| n as f64);
+        solids.each([0.0; 3], end, |block| {
+            if wanted(block.body) {
+                let pieces = (0..block.rows.block.dims()[2])
+                    .into_par_iter()
+                    .flat_map_iter(|layer| solids.pieces(&block, layer))
+                    .collect();
+                parts.push((block.body, pieces));
+            }
         });
-        Self(parts.collect())
+        Self(parts)
     }
 
     /// Number of pieces.
@@ -148,7 +151,7 @@ impl Solids {
         let voxels = &block.rows.block;
         let axes = self.domain.axes;
         let mut pieces = Vec::new();
-        let low = |a: usize, i: usize| block.rest[a] + i as f64 * block.edge[a];
+        let low = |a: usize, i: usize| block.origin[a] + i as f64 * block.edge[a];
         if axes == 2 && !(low(2, k) <= 0.5 && low(2, k + 1) > 0.5) {
             return pieces;
         }
@@ -182,6 +185,11 @@ impl Solids {
         pieces: &mut Vec<Piece>,
     ) {
         let domain = &self.domain;
+        // A face on a periodic side is one with its image there.
+        let inside = (0.0..domain.cells[axis] as f64).contains(&corners[axis][0]);
+        if domain.periodic(axis) && !inside {
+            return;
+        }
         for a in (0..3).filter(|&a| a != axis) {
             let n = domain.cells[a] as f64;
             // What lies beyond the sides stays there: bodies move along y, or over periodic sides.

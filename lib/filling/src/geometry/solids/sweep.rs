@@ -67,11 +67,23 @@ impl Solids {
     fn first_entry(&self, after: &Solids, from: [f64; 3], to: [f64; 3]) -> Option<Entry> {
         let mut first: Option<Entry> = None;
         for (before, after) in self.blocks.iter().zip(&after.blocks) {
-            if let Some(entry) = before.entry(after, from, to)
-                && first.as_ref().is_none_or(|f| entry.time < f.time)
-            {
-                first = Some(entry);
-            }
+            // Where the end is for the block as it was.
+            let end: [f64; 3] =
+                std::array::from_fn(|a| to[a] - (after.origin[a] - before.origin[a]));
+            let low = std::array::from_fn(|a| from[a].min(end[a]));
+            let high = std::array::from_fn(|a| from[a].max(end[a]));
+            let blocks = std::slice::from_ref(before);
+            let none: Option<()> = self.periods.find(blocks, low, high, |image| {
+                let shift: [f64; 3] = std::array::from_fn(|a| image.origin[a] - before.origin[a]);
+                let after = std::array::from_fn(|a| after.origin[a] + shift[a]);
+                if let Some(entry) = image.entry(after, from, to)
+                    && first.as_ref().is_none_or(|f| entry.time < f.time)
+                {
+                    first = Some(entry);
+                }
+                None
+            });
+            debug_assert!(none.is_none());
         }
         first
     }
@@ -103,16 +115,16 @@ impl Solids {
     }
 }
 
-impl Placed {
-    /// First entry of the path into a solid voxel of the block; a voxel that the path starts
-    /// in does not count.
-    fn entry(&self, after: &Placed, from: [f64; 3], to: [f64; 3]) -> Option<Entry> {
+impl Placed<'_> {
+    /// First entry of the path into a solid voxel of the block, whose low corner goes to `after`; a voxel that
+    /// the path starts in does not count.
+    fn entry(&self, after: [f64; 3], from: [f64; 3], to: [f64; 3]) -> Option<Entry> {
         // Most paths lie below one of the blocks, which takes no division to tell.
-        if (0..3).any(|i| from[i] < self.origin[i] && to[i] < after.origin[i]) {
+        if (0..3).any(|i| from[i] < self.origin[i] && to[i] < after[i]) {
             return None;
         }
         let a: [f64; 3] = std::array::from_fn(|i| (from[i] - self.origin[i]) / self.edge[i]);
-        let b: [f64; 3] = std::array::from_fn(|i| (to[i] - after.origin[i]) / self.edge[i]);
+        let b: [f64; 3] = std::array::from_fn(|i| (to[i] - after[i]) / self.edge[i]);
         let dims = self.rows.block.dims().map(|n| n as f64);
         if (0..3).any(|i| a[i].max(b[i]) < 0.0 || a[i].min(b[i]) > dims[i]) {
             return None;
@@ -157,7 +169,7 @@ impl Placed {
                 return Some(Entry {
                     time,
                     axis,
-                    surface: after.origin[axis] + border as f64 * self.edge[axis],
+                    surface: after[axis] + border as f64 * self.edge[axis],
                     up,
                 });
             }

@@ -109,3 +109,28 @@ fn a_wall_takes_from_the_cell_just_below_half_a_cell_off_it() {
         assert!(wet.iter().all(|wet| found(wet.cell) == row), "{off}");
     }
 }
+
+/// A wall across periodic sides, at any place between them and on them, has two faces, not those of its images.
+#[test]
+fn a_wall_across_periodic_sides_has_two_faces() {
+    for axis in 0..3 {
+        for low in [0.0, 1.25, 5.5, 6.0] {
+            let (mut from, mut to) = ([0.0; 3], [8.0; 3]);
+            (from[axis], to[axis]) = (low, low + 2.0);
+            let mut domain = domain([8; 3], 3);
+            domain.boundary[axis] = physics::Boundary::Periodic;
+            let wall = VoxelBlock::from_fn(
+                from,
+                [0.5; 3],
+                [0, 1, 2].map(|a| (2.0 * (to[a] - from[a])) as usize),
+                |_, _, _| true,
+            );
+            let surface = Surface::new(&solids(domain, vec![vec![wall.clone()]]), |_| true);
+            let lattice = whole(solids(domain, vec![vec![wall]]));
+            let phi = vec![1.0; lattice.window.sub_len()];
+            let areas = surface.wetted(&lattice.solids, &lattice.window, &lattice.open, &phi);
+            let found: f64 = areas.iter().map(|wet| f64::from(wet.area)).sum();
+            assert!((found - 128.0).abs() < 1e-3, "{axis} {low}: {found}");
+        }
+    }
+}

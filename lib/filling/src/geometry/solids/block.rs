@@ -1,0 +1,220 @@
+//! The blocks of voxels of a scene, and their images beyond periodic sides.
+
+use std::sync::Arc;
+
+use super::BodyId;
+use super::placed::{Placed, TOUCH};
+use super::rows::Rows;
+
+/// A block of voxels and where it is now, in cell units.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    pub(super) body: BodyId,
+    pub(super) rows: Arc<Rows>,
+    /// Low corner without displacement.
+    pub(super) rest: [f64; 3],
+    /// Low corner now.
+    pub(super) origin: [f64; 3],
+    /// Edges of a voxel.
+    pub(super) edge: [f64; 3],
+}
+
+impl Block {
+    /// Cuts a block of one voxel along `axis` to `0..period`, where its images must not
+    /// overlap it.
+    pub(super) fn clip(&mut self, axis: usize, period: f64) {
+        if self.rows.block.dims()[axis] == 1 {
+            let low = self.rest[axis].clamp(0.0, period);
+            let high = (self.rest[axis] + self.edge[axis]).clamp(0.0, period);
+            self.rest[axis] = low;
+            self.edge[axis] = (high - low).max(TOUCH);
+            self.origin = self.rest;
+        }
+    }
+
+    /// The block itself.
+    #[inline(always)]
+    pub(super) fn here(&self) -> Placed<'_> {
+        Placed {
+            body: self.body,
+            rows: &self.rows,
+            origin: self.origin,
+            edge: self.edge,
+        }
+    }
+
+    /// How many periods along `axis` its images lie off it that reach `low..high`, from the first to the last.
+    fn shifts(&self, axis: usize, period: f64, low: f64, high: f64) -> [i64; 2] {
+        let length = self.rows.block.dims()[axis] as f64 * self.edge[axis];
+        [
+            ((low - TOUCH - length - self.origin[axis]) / period).ceil() as i64,
+            ((high + TOUCH - self.origin[axis]) / period).floor() as i64,
+        ]
+    }
+}
+
+/// How far apart the images of a scene's blocks are along each axis, cells; infinite where nothing repeats.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Periods([f64; 3]);
+
+impl Periods {
+    pub(super) fn new(periods: [f64; 3]) -> Self {
+        Self(periods)
+    }
+
+    /// The first that `look` finds in one of the `blocks` and of those of their images that reach the box `low..high`.
+    #[inline(always)]
+    pub(super) fn find<'a, R>(
+        &self,
+        blocks: &'a [Block],
+        low: [f64; 3],
+        high: [f64; 3],
+        mut look: impl FnMut(Placed<'a>) -> Option<R>,
+    ) -> Option<R> {
+        if self.0 == [f64::INFINITY; 3] {
+            return blocks.iter().find_map(|block| look(block.here()));
+        }
+        (blocks.iter()).find_map(|block| self.find_image(block, low, high, &mut look))
+    }
+
+    fn find_image<'a, R>(
+        &self,
+        block: &'a Block,
+        low: [f64; 3],
+        high: [f64; 3],
+        look: &mut impl FnMut(Placed<'a>) -> Option<R>,
+    ) -> Option<R> {
+        let shifts = |a: usize| {
+            let [first, last] = match self.0[a].is_finite() {
+                true => block.shifts(a, self.0[a], low[a], high[a]),
+                false => [0, 0],
+            };
+            first..=last
+        };
+        let by = |a: usize, n: i64| match n {
+            0 => 0.0,
+            n => n as f64 * self.0[a],
+        };
+        for z in shifts(2) {
+            for y in shifts(1) {
+                for x in shifts(0) {
+                    let mut image = block.here();
+                    for (a, n) in [x, y, z].into_iter().enumerate() {
+                        image.origin[a] += by(a, n);
+                    }
+                    if let Some(found) = look(image) {
+                        return Some(found);
+                    }
+                }
+            }
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use physics::{Boundary, VoxelBlock};
+
+    use crate::geometry::tests::{domain, solids};
+    use crate::geometry::{Across, Domain, Solids};
+
+    const CELLS: [usize; 3] = [9, 8, 7];
+
+    /// A domain whose sides along `axes` are periodic.
+    fn repeating(axes: &[usize]) -> Domain {
+        let mut domain = domain(CELLS, 3);
+        for a in 0..3 {
+            domain.boundary[a] = match axes.contains(&a) {
+                true => Boundary::Periodic,
+                false => Boundary::Open,
+            };
+        }
+        domain
+    }
+
+    /// Voxels of half a cell that fill the domain, hanging over its sides by a third.
+    fn wood(low: [f64; 3]) -> VoxelBlock {
+        let solid = |i, j, k| (i * i + 3 * j * k + j + 5 * k) % 7 < 3;
+        VoxelBlock::from_fn(low, [0.5; 3], CELLS.map(|n| 2 * n), solid)
+    }
+
+    /// What is asked of solids around a place.
+    fn asked(solids: &Solids, after: &Solids, x: [f64; 3], reach: f64) -> String {
+        let high = std::array::from_fn(|a| x[a] + [0.7, 1.3, 0.0][a]);
+        let (mut volume, mut edges) = (0.0, Vec::new());
+        solids.overlaps(x, high, |_, v| volume += v);
+        let [low, high] = [[x[1] - 1.5, x[2] - 1.5], [x[1] + 1.5, x[2] + 1.5]];
+        let (axis, along) = (0, x[0]);
+        solids.reentrant(
+            &Across {
+                axis,
+                along,
+                low,
+                high,
+            },
+            &mut edges,
+        );
+        edges.sort_by(|a, b| {
+            a.at[0]
+                .total_cmp(&b.at[0])
+                .then(a.at[1].total_cmp(&b.at[1]))
+        });
+        let rays = [0, 1, 2].map(|axis| solids.rays(x, axis, reach));
+        let to = [x[0] + 0.9, x[1] - 0.6, x[2] + 0.4];
+        // Where points that walls have pinched are put depends on the sides of the domain.
+        let inside = (0..3).all(|a| 2.5 < x[a] && x[a] < CELLS[a] as f64 - 2.5);
+        let end = inside.then(|| solids.deflect(after, x, to));
+        let mut row = [1.0; 9];
+        solids.carve_row([x[1], x[1] + 0.5], [x[2], x[2] + 0.5], x[0], 0.5, &mut row);
+        format!(
+            "{:?} {rays:.6?} {volume:.6} {edges:.6?} {end:.6?} {row:.4?}",
+            solids.at(x)
+        )
+    }
+
+    /// Blocks that repeat are what the same blocks laid side by side are.
+    #[test]
+    fn images_are_the_blocks_again() {
+        let low = [-0.31, 0.17, 0.23];
+        for axes in [&[0][..], &[1, 2], &[0, 1, 2]] {
+            let count = |a: usize| if axes.contains(&a) { -3..4 } else { 0..1 };
+            let mut copies = Vec::new();
+            for (x, y, z) in
+                count(0).flat_map(|x| count(1).flat_map(move |y| count(2).map(move |z| (x, y, z))))
+            {
+                let by = [x, y, z];
+                copies.push(wood(std::array::from_fn(|a| {
+                    low[a] + f64::from(by[a]) * CELLS[a] as f64
+                })));
+            }
+            let images = solids(repeating(axes), vec![vec![wood(low)]]);
+            let copies = solids(repeating(&[]), vec![copies]);
+            let by = [[0.2, -0.15, 0.1]];
+            let after = [images.displaced(&by), copies.displaced(&by)];
+            for n in 0..400_u32 {
+                let part = |of: f64| f64::from(n) * of % 1.0;
+                let x = [part(0.317) * 9.0, part(0.731) * 8.0, part(0.093) * 7.0];
+                let [found, wanted] =
+                    [(&images, &after[0]), (&copies, &after[1])].map(|(s, a)| asked(s, a, x, 7.5));
+                assert_eq!(found, wanted, "{axes:?} {x:?}");
+            }
+        }
+    }
+
+    /// However far a body has gone over periodic sides.
+    #[test]
+    fn a_body_that_went_many_periods_is_where_it_was() {
+        let start = solids(repeating(&[0, 1, 2]), vec![vec![wood([0.125; 3])]]);
+        let gone = start.displaced(&[[9000.0, -8000.0, 700.0]]);
+        for n in 0..200_u32 {
+            let part = |of: f64| f64::from(n) * of % 1.0;
+            let x = [part(0.317) * 9.0, part(0.731) * 8.0, part(0.093) * 7.0];
+            assert_eq!(
+                asked(&gone, &gone, x, 64.0),
+                asked(&start, &start, x, 64.0),
+                "{x:?}"
+            );
+        }
+    }
+}
