@@ -1,23 +1,13 @@
 //! The blocks of voxels of a scene, and their images beyond periodic sides.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use super::BodyId;
 use super::placed::{Placed, TOUCH};
 use super::rows::Rows;
 
-/// A block of voxels and where it is now, in cell units.
-#[derive(Clone, Debug)]
-pub(super) struct Block {
-    pub(super) body: BodyId,
-    pub(super) rows: Arc<Rows>,
-    /// Low corner without displacement.
-    pub(super) rest: [f64; 3],
-    /// Low corner now.
-    pub(super) origin: [f64; 3],
-    /// Edges of a voxel.
-    pub(super) edge: [f64; 3],
-}
+/// A block of voxels.
+pub(super) type Block = Placed<Arc<Rows>>;
 
 impl Block {
     /// Cuts a block of one voxel along `axis` to `0..period`, where its images must not
@@ -32,85 +22,80 @@ impl Block {
         }
     }
 
-    /// The block itself.
-    #[inline(always)]
-    pub(super) fn here(&self) -> Placed<'_> {
+    /// Its image that lies off it by `shift`.
+    fn shifted(&self, shift: [f64; 3]) -> Placed<&Rows> {
+        let off = |place: [f64; 3]| std::array::from_fn(|a| place[a] + shift[a]);
         Placed {
             body: self.body,
             rows: &self.rows,
-            origin: self.origin,
+            rest: off(self.rest),
+            origin: off(self.origin),
             edge: self.edge,
         }
     }
-
-    /// How many periods along `axis` its images lie off it that reach `low..high`, from the first to the last.
-    fn shifts(&self, axis: usize, period: f64, low: f64, high: f64) -> [i64; 2] {
-        let length = self.rows.block.dims()[axis] as f64 * self.edge[axis];
-        [
-            ((low - TOUCH - length - self.origin[axis]) / period).ceil() as i64,
-            ((high + TOUCH - self.origin[axis]) / period).floor() as i64,
-        ]
-    }
 }
 
-/// How far apart the images of a scene's blocks are along each axis, cells; infinite where nothing repeats.
+/// How far apart the images of a scene's blocks are along each axis, cells; 0 where nothing repeats.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Periods([f64; 3]);
 
 impl Periods {
-    pub(super) fn new(periods: [f64; 3]) -> Self {
-        Self(periods)
+    /// None where nothing repeats.
+    pub(super) fn new(lengths: [f64; 3]) -> Option<Self> {
+        lengths.iter().any(|&l| l > 0.0).then_some(Self(lengths))
     }
 
-    /// The first that `look` finds in one of the `blocks` and of those of their images that reach the box `low..high`.
-    #[inline(always)]
-    pub(super) fn find<'a, R>(
+    /// The images of `blocks`, themselves among them, that reach the box with opposite corners `from` and `to`.
+    pub(super) fn images<'a>(
         &self,
         blocks: &'a [Block],
-        low: [f64; 3],
-        high: [f64; 3],
-        mut look: impl FnMut(Placed<'a>) -> Option<R>,
-    ) -> Option<R> {
-        if self.0 == [f64::INFINITY; 3] {
-            return blocks.iter().find_map(|block| look(block.here()));
-        }
-        (blocks.iter()).find_map(|block| self.find_image(block, low, high, &mut look))
-    }
-
-    fn find_image<'a, R>(
-        &self,
-        block: &'a Block,
-        low: [f64; 3],
-        high: [f64; 3],
-        look: &mut impl FnMut(Placed<'a>) -> Option<R>,
-    ) -> Option<R> {
-        let shifts = |a: usize| {
-            let [first, last] = match self.0[a].is_finite() {
-                true => block.shifts(a, self.0[a], low[a], high[a]),
-                false => [0, 0],
-            };
-            first..=last
-        };
-        let by = |a: usize, n: i64| match n {
-            0 => 0.0,
-            n => n as f64 * self.0[a],
-        };
-        for z in shifts(2) {
-            for y in shifts(1) {
-                for x in shifts(0) {
-                    let mut image = block.here();
-                    for (a, n) in [x, y, z].into_iter().enumerate() {
-                        image.origin[a] += by(a, n);
-                    }
-                    if let Some(found) = look(image) {
-                        return Some(found);
+        from: [f64; 3],
+        to: [f64; 3],
+    ) -> Vec<Placed<&'a Rows>> {
+        let mut images = Vec::new();
+        for block in blocks {
+            let [xs, ys, zs] = [0, 1, 2].map(|a| self.shifts(block, a, from[a], to[a]));
+            for z in zs {
+                for y in ys.clone() {
+                    for x in xs.clone() {
+                        let periods = [x, y, z];
+                        let shift = std::array::from_fn(|a| periods[a] as f64 * self.0[a]);
+                        images.push(block.shifted(shift));
                     }
                 }
             }
         }
-        None
+        images
+    }
+
+    /// How many periods along an axis the images of a block lie off it that reach an interval.
+    fn shifts(&self, block: &Block, axis: usize, from: f64, to: f64) -> RangeInclusive<i64> {
+        let period = self.0[axis];
+        if period == 0.0 {
+            return 0..=0;
+        }
+        let length = block.rows.block.dims()[axis] as f64 * block.edge[axis];
+        let first = (from.min(to) - TOUCH - length - block.origin[axis]) / period;
+        let last = (from.max(to) + TOUCH - block.origin[axis]) / period;
+        first.ceil() as i64..=last.floor() as i64
     }
 }
+
+/// Runs `$body` for `$block`, one after the other the `$blocks` and their images that reach the box with opposite corners `$from`
+/// and `$to`. The body is there twice, so that where nothing repeats it is that of a plain loop: points ask millions of times.
+macro_rules! for_each {
+    ($block:ident in $periods:expr, $blocks:expr, $from:expr, $to:expr => $body:block) => {
+        match $periods {
+            None => {
+                for $block in $blocks $body
+            }
+            Some(periods) => {
+                for $block in &periods.images($blocks, $from, $to) $body
+            }
+        }
+    };
+}
+pub(super) use for_each;
 
 #[cfg(test)]
 mod tests {

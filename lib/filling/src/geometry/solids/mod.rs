@@ -12,8 +12,8 @@ use std::sync::Arc;
 use physics::{Boundary, RigidBody};
 
 use crate::geometry::Domain;
-use block::{Block, Periods};
-use placed::{Placed, Row};
+use block::{Block, Periods, for_each};
+use placed::Row;
 pub(crate) use reentrant::{Across, LONG, Reentrant};
 use rows::Rows;
 pub(crate) use surface::{Surface, Wetted};
@@ -55,7 +55,8 @@ fn nearer(first: &mut Option<Hit>, body: BodyId, row: &Row, up: bool, reach: f64
 #[derive(Clone, Debug)]
 pub(crate) struct Solids {
     blocks: Vec<Block>,
-    periods: Periods,
+    /// Of scenes with periodic sides.
+    periods: Option<Periods>,
     /// Sides of the domain.
     pub(crate) domain: Domain,
 }
@@ -71,7 +72,7 @@ impl Solids {
     ) -> Self {
         let periods = [0, 1, 2].map(|a| match a < domain.axes && domain.periodic(a) {
             true => domain.cells[a] as f64,
-            false => f64::INFINITY,
+            false => 0.0,
         });
         let mut blocks = Vec::new();
         for (id, body) in bodies.into_iter().enumerate() {
@@ -84,7 +85,7 @@ impl Solids {
                     edge: std::array::from_fn(|a| block.voxel()[a] / cell_m),
                     rows: Arc::new(Rows::new(block, domain.axes)),
                 };
-                for (axis, &period) in periods.iter().enumerate().filter(|(_, p)| p.is_finite()) {
+                for (axis, &period) in periods.iter().enumerate().filter(|(_, p)| **p > 0.0) {
                     block.clip(axis, period);
                 }
                 blocks.push(block);
@@ -112,54 +113,36 @@ impl Solids {
         moved
     }
 
-    /// The first that `look` finds in one of the blocks and images that reach the box `low..high`, or may.
-    #[inline(always)]
-    fn find<'a, R>(
-        &'a self,
-        low: [f64; 3],
-        high: [f64; 3],
-        look: impl FnMut(Placed<'a>) -> Option<R>,
-    ) -> Option<R> {
-        self.periods.find(&self.blocks, low, high, look)
-    }
-
-    /// Shows `look` all of these.
-    #[inline(always)]
-    fn each<'a>(&'a self, low: [f64; 3], high: [f64; 3], mut look: impl FnMut(Placed<'a>)) {
-        let none: Option<()> = self.find(low, high, |block| {
-            look(block);
-            None
-        });
-        debug_assert!(none.is_none());
-    }
-
     /// The body whose voxel holds `point`; low faces belong to a voxel, high faces do not.
     /// Bodies only: domain sides are not looked at.
     #[inline]
     pub(crate) fn at(&self, point: [f64; 3]) -> Option<BodyId> {
-        let holds = |block: Placed| block.contains(point).then_some(block.body);
-        self.find(point, point, holds)
-    }
-
-    /// Shows `look` the rows of voxels along `axis` that the line through `from` runs in within `reach` cells.
-    #[inline(always)]
-    fn rows(&self, from: [f64; 3], axis: usize, reach: f64, mut look: impl FnMut(BodyId, Row)) {
-        let (mut low, mut high) = (from, from);
-        low[axis] -= reach;
-        high[axis] += reach;
-        self.each(low, high, |block| {
-            if let Some(row) = block.row(from, axis) {
-                look(block.body, row);
+        for_each!(block in &self.periods, &self.blocks, point, point => {
+            if block.contains(point) {
+                return Some(block.body);
             }
         });
+        None
+    }
+
+    /// Ends of the line along `axis` through `from` that reaches `reach` cells.
+    fn line(from: [f64; 3], axis: usize, reach: f64) -> [[f64; 3]; 2] {
+        [-reach, reach].map(|by| {
+            let mut end = from;
+            end[axis] += by;
+            end
+        })
     }
 
     /// First solid along `axis` from `from`, upwards or downwards, no farther than `reach`
     /// cells. A symmetry plane of the domain is a hit with body [`SIDE`].
     pub(crate) fn ray(&self, from: [f64; 3], axis: usize, up: bool, reach: f64) -> Option<Hit> {
         let mut first = self.side(from, axis, up, reach);
-        self.rows(from, axis, reach, |body, row| {
-            nearer(&mut first, body, &row, up, reach);
+        let [low, high] = Self::line(from, axis, reach);
+        for_each!(block in &self.periods, &self.blocks, low, high => {
+            if let Some(row) = block.row(from, axis) {
+                nearer(&mut first, block.body, &row, up, reach);
+            }
         });
         first
     }
@@ -167,9 +150,12 @@ impl Solids {
     /// The first solids along `axis` from `from` downwards and upwards, as of [`Solids::ray`].
     pub(crate) fn rays(&self, from: [f64; 3], axis: usize, reach: f64) -> [Option<Hit>; 2] {
         let mut first = [false, true].map(|up| self.side(from, axis, up, reach));
-        self.rows(from, axis, reach, |body, row| {
-            nearer(&mut first[0], body, &row, false, reach);
-            nearer(&mut first[1], body, &row, true, reach);
+        let [low, high] = Self::line(from, axis, reach);
+        for_each!(block in &self.periods, &self.blocks, low, high => {
+            if let Some(row) = block.row(from, axis) {
+                nearer(&mut first[0], block.body, &row, false, reach);
+                nearer(&mut first[1], block.body, &row, true, reach);
+            }
         });
         first
     }
@@ -200,7 +186,7 @@ impl Solids {
         high: [f64; 3],
         mut found: impl FnMut(BodyId, f64),
     ) {
-        self.each(low, high, |block| {
+        for_each!(block in &self.periods, &self.blocks, low, high => {
             let volume = block.overlap(low, high);
             if volume > 0.0 {
                 found(block.body, volume);
@@ -213,7 +199,7 @@ impl Solids {
     pub(crate) fn carve_row(&self, y: [f64; 2], z: [f64; 2], x0: f64, dx: f64, open: &mut [f32]) {
         let area = (y[1] - y[0]) * (z[1] - z[0]);
         let end = x0 + open.len() as f64 * dx;
-        self.each([x0, y[0], z[0]], [end, y[1], z[1]], |block| {
+        for_each!(block in &self.periods, &self.blocks, [x0, y[0], z[0]], [end, y[1], z[1]] => {
             block.carve(y, z, x0, dx, 1.0 / area, open);
         });
         for o in open {

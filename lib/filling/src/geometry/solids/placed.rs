@@ -1,26 +1,30 @@
 //! One block of voxels at its place: what of it points, boxes, rows and rays meet.
 
+use std::ops::Deref;
+
 use super::BodyId;
 use super::rows::{self, Rows};
 
 /// Points this close (cells) to a surface count as on it.
 pub(super) const TOUCH: f64 = 1e-7;
 
-/// A block of voxels, or an image of it beyond periodic sides, at its place, in cell units.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Placed<'a> {
+/// A block of voxels at its place, or, with borrowed `rows`, an image of it beyond periodic sides; in cell units.
+#[derive(Clone, Debug)]
+pub(super) struct Placed<R> {
     pub(super) body: BodyId,
-    pub(super) rows: &'a Rows,
-    /// Low corner.
+    pub(super) rows: R,
+    /// Low corner without displacement.
+    pub(super) rest: [f64; 3],
+    /// Low corner now.
     pub(super) origin: [f64; 3],
     /// Edges of a voxel.
     pub(super) edge: [f64; 3],
 }
 
-impl<'a> Placed<'a> {
+impl<R: Deref<Target = Rows>> Placed<R> {
     /// Whether it is that block or image.
-    pub(super) fn is(&self, other: &Placed) -> bool {
-        std::ptr::eq(self.rows, other.rows) && self.origin == other.origin
+    pub(super) fn is(&self, other: &Placed<impl Deref<Target = Rows>>) -> bool {
+        std::ptr::eq(&*self.rows, &*other.rows) && self.origin == other.origin
     }
 
     #[inline]
@@ -115,7 +119,7 @@ impl<'a> Placed<'a> {
 
     /// The row of voxels along `axis` that the line through `from` runs in.
     #[inline]
-    pub(super) fn row(&self, from: [f64; 3], axis: usize) -> Option<Row<'a>> {
+    pub(super) fn row(&self, from: [f64; 3], axis: usize) -> Option<Row<'_>> {
         let mut voxel = [0_usize; 3];
         for t in (0..3).filter(|&t| t != axis) {
             voxel[t] = self.index(t, from[t])?;
@@ -198,7 +202,7 @@ mod tests {
     use super::*;
 
     /// A ray by its definition: voxel after voxel.
-    fn walked(placed: &Placed, from: [f64; 3], axis: usize, up: bool) -> Option<(f64, f64)> {
+    fn walked(placed: &Placed<&Rows>, from: [f64; 3], axis: usize, up: bool) -> Option<(f64, f64)> {
         let (edge, n) = (placed.edge[axis], placed.rows.block.dims()[axis] as i64);
         let along = from[axis] - placed.origin[axis];
         let solid = |v: i64| {
@@ -237,6 +241,7 @@ mod tests {
         let placed = Placed {
             body: 0,
             rows: &Rows::new(block, 3),
+            rest: origin,
             origin,
             edge,
         };

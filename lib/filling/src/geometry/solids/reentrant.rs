@@ -1,6 +1,10 @@
 //! Re-entrant edges of voxels: along them solid fills one quadrant and three are open.
 
+use std::ops::Deref;
+
+use super::block::for_each;
 use super::placed::Placed;
+use super::rows::Rows;
 use super::{Boundary, Solids};
 
 /// Blocks of finer voxels (cells) have no edges here: their steps lie within a cell.
@@ -84,10 +88,10 @@ impl Solids {
     /// The re-entrant edges in the domain that cross a rectangle.
     fn inside(&self, across: &Across, mut found: impl FnMut(Reentrant)) {
         let [low, high] = across.corners();
-        self.each(low, high, |block| {
+        for_each!(block in &self.periods, &self.blocks, low, high => {
             block.reentrant(across, |mut edge, runs| {
-                if self.is_free(&block, across, &edge) {
-                    let straight = [0, 1].map(|n| self.run(&block, across, &edge, n, runs[n]));
+                if self.is_free(block, across, &edge) {
+                    let straight = [0, 1].map(|n| self.run(block, across, &edge, n, runs[n]));
                     edge.straight = straight[0].min(straight[1]);
                     found(edge);
                 }
@@ -97,7 +101,14 @@ impl Solids {
 
     /// How far the wall of an edge of `block` runs along the `n`-th direction across without a step, if `run` is how far it does in
     /// the block: on in the next block, and beyond a symmetry plane.
-    fn run(&self, block: &Placed, across: &Across, edge: &Reentrant, n: usize, run: Run) -> f64 {
+    fn run(
+        &self,
+        block: &Placed<impl Deref<Target = Rows>>,
+        across: &Across,
+        edge: &Reentrant,
+        n: usize,
+        run: Run,
+    ) -> f64 {
         let axes = ACROSS[across.axis];
         let (axis, end) = (axes[n], self.domain.cells[axes[n]] as f64);
         let to_plane = match (self.domain.boundary[axis], edge.above[n]) {
@@ -129,7 +140,12 @@ impl Solids {
     }
 
     /// Whether an edge of a block is on no symmetry plane and no other block is in its open quadrants.
-    fn is_free(&self, own: &Placed, across: &Across, edge: &Reentrant) -> bool {
+    fn is_free(
+        &self,
+        own: &Placed<impl Deref<Target = Rows>>,
+        across: &Across,
+        edge: &Reentrant,
+    ) -> bool {
         let axes = ACROSS[across.axis];
         let inside = (axes.iter().zip(edge.at)).all(|(&t, x)| {
             let end = self.domain.cells[t] as f64;
@@ -142,17 +158,16 @@ impl Solids {
             }
             probe
         };
-        let taken = |block: Placed| {
-            let reaches = (axes.iter().zip(edge.at)).all(|(&t, x)| block.reaches(t, [x; 2], PROBE));
-            let taken = !block.is(own)
-                && reaches
-                && [[false, false], [false, true], [true, false], [true, true]]
-                    .into_iter()
-                    .any(|quadrant| quadrant != edge.above && block.contains(point(quadrant)));
-            taken.then_some(())
-        };
+        let quadrants = [[false, false], [false, true], [true, false], [true, true]];
+        let open = || (quadrants.into_iter()).filter(|&quadrant| quadrant != edge.above);
         let [low, high] = [point([false; 2]), point([true; 2])];
-        inside && self.find(low, high, taken).is_none()
+        for_each!(block in &self.periods, &self.blocks, low, high => {
+            let reaches = (axes.iter().zip(edge.at)).all(|(&t, x)| block.reaches(t, [x; 2], PROBE));
+            if reaches && !block.is(own) && open().any(|q| block.contains(point(q))) {
+                return false;
+            }
+        });
+        inside
     }
 }
 
@@ -172,7 +187,7 @@ impl Across {
     }
 }
 
-impl Placed<'_> {
+impl<R: Deref<Target = Rows>> Placed<R> {
     /// Whether the block reaches an interval along `axis`, give or take `more`.
     fn reaches(&self, axis: usize, [low, high]: [f64; 2], more: f64) -> bool {
         let end = self.origin[axis] + self.rows.block.dims()[axis] as f64 * self.edge[axis];

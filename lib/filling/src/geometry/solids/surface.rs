@@ -1,8 +1,13 @@
 //! The surface of the bodies in pieces, with the area that it has where voxels step along an inclined wall.
 
+use std::ops::Deref;
+
 use rayon::prelude::*;
 
-use super::{BodyId, Placed, Solids};
+use super::block::for_each;
+use super::placed::Placed;
+use super::rows::Rows;
+use super::{BodyId, Solids};
 use crate::geometry::Window;
 use physics::Boundary;
 
@@ -45,11 +50,11 @@ impl Surface {
     pub(crate) fn new(solids: &Solids, wanted: impl Fn(BodyId) -> bool) -> Self {
         let mut parts = Vec::new();
         let end = solids.domain.cells.map(|n| n as f64);
-        solids.each([0.0; 3], end, |block| {
+        for_each!(block in &solids.periods, &solids.blocks, [0.0; 3], end => {
             if wanted(block.body) {
                 let pieces = (0..block.rows.block.dims()[2])
                     .into_par_iter()
-                    .flat_map_iter(|layer| solids.pieces(&block, layer))
+                    .flat_map_iter(|layer| solids.pieces(block, layer))
                     .collect();
                 parts.push((block.body, pieces));
             }
@@ -147,7 +152,7 @@ impl Solids {
     }
 
     /// The pieces of the surface of layer `k` of a block.
-    fn pieces(&self, block: &Placed, k: usize) -> Vec<Piece> {
+    fn pieces(&self, block: &Placed<impl Deref<Target = Rows>>, k: usize) -> Vec<Piece> {
         let voxels = &block.rows.block;
         let axes = self.domain.axes;
         let mut pieces = Vec::new();

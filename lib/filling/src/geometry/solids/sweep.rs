@@ -1,7 +1,11 @@
 //! Swept collision of points with moving bodies: nothing passes a wall, however thin.
 
+use std::ops::Deref;
+
 use super::Solids;
+use super::block::for_each;
 use super::placed::{Placed, TOUCH};
+use super::rows::Rows;
 
 /// Distance (cells) at which a deflected point stays off a wall.
 const CLEARANCE: f64 = 0.02;
@@ -70,20 +74,15 @@ impl Solids {
             // Where the end is for the block as it was.
             let end: [f64; 3] =
                 std::array::from_fn(|a| to[a] - (after.origin[a] - before.origin[a]));
-            let low = std::array::from_fn(|a| from[a].min(end[a]));
-            let high = std::array::from_fn(|a| from[a].max(end[a]));
-            let blocks = std::slice::from_ref(before);
-            let none: Option<()> = self.periods.find(blocks, low, high, |image| {
-                let shift: [f64; 3] = std::array::from_fn(|a| image.origin[a] - before.origin[a]);
-                let after = std::array::from_fn(|a| after.origin[a] + shift[a]);
+            for_each!(image in &self.periods, std::slice::from_ref(before), from, end => {
+                let shift = |a: usize| image.origin[a] - before.origin[a];
+                let after = std::array::from_fn(|a| after.origin[a] + shift(a));
                 if let Some(entry) = image.entry(after, from, to)
                     && first.as_ref().is_none_or(|f| entry.time < f.time)
                 {
                     first = Some(entry);
                 }
-                None
             });
-            debug_assert!(none.is_none());
         }
         first
     }
@@ -115,7 +114,7 @@ impl Solids {
     }
 }
 
-impl Placed<'_> {
+impl<R: Deref<Target = Rows>> Placed<R> {
     /// First entry of the path into a solid voxel of the block, whose low corner goes to `after`; a voxel that
     /// the path starts in does not count.
     fn entry(&self, after: [f64; 3], from: [f64; 3], to: [f64; 3]) -> Option<Entry> {
