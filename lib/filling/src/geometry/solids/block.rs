@@ -1,9 +1,9 @@
 //! The blocks of voxels of a scene, and their images beyond periodic sides.
 
-use std::ops::RangeInclusive;
+use std::ops::Range;
 use std::sync::Arc;
 
-use super::placed::{Placed, TOUCH};
+use super::placed::{Placed, TOUCH, floor};
 use super::rows::Rows;
 
 /// A block of voxels.
@@ -47,37 +47,32 @@ impl Periods {
 
     /// The images of `blocks`, themselves among them, that reach the box with opposite corners `from` and `to`.
     pub(super) fn images<'a>(
-        &self,
+        &'a self,
         blocks: &'a [Block],
         from: [f64; 3],
         to: [f64; 3],
-    ) -> Vec<Placed<&'a Rows>> {
-        let mut images = Vec::new();
-        for block in blocks {
-            let [xs, ys, zs] = [0, 1, 2].map(|a| self.shifts(block, a, from[a], to[a]));
-            for z in zs {
-                for y in ys.clone() {
-                    for x in xs.clone() {
-                        let periods = [x, y, z];
-                        let shift = std::array::from_fn(|a| periods[a] as f64 * self.0[a]);
-                        images.push(block.shifted(shift));
-                    }
-                }
-            }
-        }
-        images
+    ) -> impl Iterator<Item = Placed<&'a Rows>> {
+        blocks.iter().flat_map(move |block| {
+            let shifts = [0, 1, 2].map(|a| self.shifts(block, a, from[a], to[a]));
+            let [nx, ny, nz] = shifts.clone().map(|s| (s.end - s.start).max(0));
+            (0..nx * ny * nz).map(move |n| {
+                let number = [n % nx, n / nx % ny, n / (nx * ny)];
+                let periods = |a: usize| (shifts[a].start + number[a]) as f64;
+                block.shifted(std::array::from_fn(|a| periods(a) * self.0[a]))
+            })
+        })
     }
 
     /// How many periods along an axis the images of a block lie off it that reach an interval.
-    fn shifts(&self, block: &Block, axis: usize, from: f64, to: f64) -> RangeInclusive<i64> {
+    fn shifts(&self, block: &Block, axis: usize, from: f64, to: f64) -> Range<i64> {
         let period = self.0[axis];
         if period == 0.0 {
-            return 0..=0;
+            return 0..1;
         }
         let length = block.rows.block.dims()[axis] as f64 * block.edge[axis];
-        let first = (from.min(to) - TOUCH - length - block.origin[axis]) / period;
+        let beyond = (from.min(to) - TOUCH - length - block.origin[axis]) / period;
         let last = (from.max(to) + TOUCH - block.origin[axis]) / period;
-        first.ceil() as i64..=last.floor() as i64
+        floor(beyond) + 1..floor(last) + 1
     }
 }
 
@@ -90,7 +85,10 @@ macro_rules! for_each {
                 for $block in $blocks $body
             }
             Some(periods) => {
-                for $block in &periods.images($blocks, $from, $to) $body
+                for image in periods.images($blocks, $from, $to) {
+                    let $block = &image;
+                    $body
+                }
             }
         }
     };

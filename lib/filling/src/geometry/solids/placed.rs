@@ -140,6 +140,13 @@ fn ceil(x: f64) -> usize {
     whole + usize::from((whole as f64) < x)
 }
 
+/// The integer at or below `x`, by two conversions instead of a call.
+#[inline]
+pub(super) fn floor(x: f64) -> i64 {
+    let towards_zero = x as i64;
+    towards_zero - i64::from(x < towards_zero as f64)
+}
+
 /// A row of voxels, and a point of the line through it from which rays start.
 pub(super) struct Row<'a> {
     bits: &'a [u64],

@@ -4,7 +4,7 @@ use std::ops::Deref;
 
 use super::Solids;
 use super::block::for_each;
-use super::placed::{Placed, TOUCH};
+use super::placed::{Placed, TOUCH, floor};
 use super::rows::Rows;
 
 /// Distance (cells) at which a deflected point stays off a wall.
@@ -174,11 +174,4 @@ impl<R: Deref<Target = Rows>> Placed<R> {
             }
         }
     }
-}
-
-/// The integer at or below `x`, by two conversions instead of a call.
-#[inline]
-fn floor(x: f64) -> i64 {
-    let towards_zero = x as i64;
-    towards_zero - i64::from(x < towards_zero as f64)
 }
