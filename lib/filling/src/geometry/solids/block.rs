@@ -99,6 +99,7 @@ pub(super) use for_each;
 mod tests {
     use physics::{Boundary, VoxelBlock};
 
+    use crate::geometry::solids::Hit;
     use crate::geometry::tests::{domain, solids};
     use crate::geometry::{Across, Domain, Solids};
 
@@ -143,7 +144,9 @@ mod tests {
                 .total_cmp(&b.at[0])
                 .then(a.at[1].total_cmp(&b.at[1]))
         });
-        let rays = [0, 1, 2].map(|axis| solids.rays(x, axis, reach));
+        let ray = [0, 1, 2].map(|axis| solids.ray(x, axis, true, reach));
+        let near = |hit: Option<Hit>| hit.map(|hit| (hit.near, hit.body));
+        let rays = [0, 1, 2].map(|axis| solids.rays(x, axis, reach).map(near));
         let to = [x[0] + 0.9, x[1] - 0.6, x[2] + 0.4];
         // Where points that walls have pinched are put depends on the sides of the domain.
         let inside = (0..3).all(|a| 2.5 < x[a] && x[a] < CELLS[a] as f64 - 2.5);
@@ -151,7 +154,7 @@ mod tests {
         let mut row = [1.0; 9];
         solids.carve_row([x[1], x[1] + 0.5], [x[2], x[2] + 0.5], x[0], 0.5, &mut row);
         format!(
-            "{:?} {rays:.6?} {volume:.6} {edges:.6?} {end:.6?} {row:.4?}",
+            "{:?} {ray:.6?} {rays:.6?} {volume:.6} {edges:.6?} {end:.6?} {row:.4?}",
             solids.at(x)
         )
     }
@@ -179,7 +182,7 @@ mod tests {
                 let part = |of: f64| f64::from(n) * of % 1.0;
                 let x = [part(0.317) * 9.0, part(0.731) * 8.0, part(0.093) * 7.0];
                 let [found, wanted] =
-                    [(&images, &after[0]), (&copies, &after[1])].map(|(s, a)| asked(s, a, x, 7.5));
+                    [(&images, &after[0]), (&copies, &after[1])].map(|(s, a)| asked(s, a, x, 19.0));
                 assert_eq!(found, wanted, "{axes:?} {x:?}");
             }
         }

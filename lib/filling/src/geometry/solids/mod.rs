@@ -149,6 +149,18 @@ impl Solids {
 
     /// The first solids along `axis` from `from` downwards and upwards, as of [`Solids::ray`].
     pub(crate) fn rays(&self, from: [f64; 3], axis: usize, reach: f64) -> [Option<Hit>; 2] {
+        // Walls are mostly found before a ray has gone through all images that it may reach.
+        const NEAR: f64 = 8.0;
+        if self.periods.is_some() {
+            let near = self.both_ways(from, axis, reach.min(NEAR));
+            if near.iter().all(Option::is_some) {
+                return near;
+            }
+        }
+        self.both_ways(from, axis, reach)
+    }
+
+    fn both_ways(&self, from: [f64; 3], axis: usize, reach: f64) -> [Option<Hit>; 2] {
         let mut first = [false, true].map(|up| self.side(from, axis, up, reach));
         let [low, high] = Self::line(from, axis, reach);
         for_each!(block in &self.periods, &self.blocks, low, high => {
