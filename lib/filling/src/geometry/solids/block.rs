@@ -1,6 +1,5 @@
 //! The blocks of voxels of a scene, and their images beyond periodic sides.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use super::placed::{Placed, TOUCH, floor};
@@ -46,33 +45,75 @@ impl Periods {
     }
 
     /// The images of `blocks`, themselves among them, that reach the box with opposite corners `from` and `to`.
+    #[inline]
     pub(super) fn images<'a>(
         &'a self,
         blocks: &'a [Block],
         from: [f64; 3],
         to: [f64; 3],
     ) -> impl Iterator<Item = Placed<&'a Rows>> {
-        blocks.iter().flat_map(move |block| {
-            let shifts = [0, 1, 2].map(|a| self.shifts(block, a, from[a], to[a]));
-            let [nx, ny, nz] = shifts.clone().map(|s| (s.end - s.start).max(0));
-            (0..nx * ny * nz).map(move |n| {
-                let number = [n % nx, n / nx % ny, n / (nx * ny)];
-                let periods = |a: usize| (shifts[a].start + number[a]) as f64;
-                block.shifted(std::array::from_fn(|a| periods(a) * self.0[a]))
-            })
+        let mut blocks = blocks.iter();
+        let mut images: Option<Images> = None;
+        std::iter::from_fn(move || {
+            loop {
+                if let Some(image) = images.as_mut().and_then(|images| images.next(self)) {
+                    return Some(image);
+                }
+                images = Some(Images::new(blocks.next()?, self, from, to));
+            }
         })
     }
 
-    /// How many periods along an axis the images of a block lie off it that reach an interval.
-    fn shifts(&self, block: &Block, axis: usize, from: f64, to: f64) -> Range<i64> {
+    /// How many periods along an axis the images of a block lie off it that reach an interval: the least and the most.
+    #[inline]
+    fn shifts(&self, block: &Block, axis: usize, from: f64, to: f64) -> [i64; 2] {
         let period = self.0[axis];
         if period == 0.0 {
-            return 0..1;
+            return [0; 2];
         }
         let length = block.rows.block.dims()[axis] as f64 * block.edge[axis];
         let beyond = (from.min(to) - TOUCH - length - block.origin[axis]) / period;
         let last = (from.max(to) + TOUCH - block.origin[axis]) / period;
-        floor(beyond) + 1..floor(last) + 1
+        [floor(beyond) + 1, floor(last)]
+    }
+}
+
+/// Images of one block.
+struct Images<'a> {
+    block: &'a Block,
+    /// Periods along each axis that the first, the last and the next one lie off it.
+    first: [i64; 3],
+    last: [i64; 3],
+    next: [i64; 3],
+}
+
+impl<'a> Images<'a> {
+    #[inline]
+    fn new(block: &'a Block, periods: &Periods, from: [f64; 3], to: [f64; 3]) -> Self {
+        let shifts = [0, 1, 2].map(|a| periods.shifts(block, a, from[a], to[a]));
+        let [first, last] = [0, 1].map(|end| shifts.map(|ends| ends[end]));
+        Self {
+            block,
+            first,
+            last,
+            next: first,
+        }
+    }
+
+    #[inline]
+    fn next(&mut self, periods: &Periods) -> Option<Placed<&'a Rows>> {
+        if (0..3).any(|a| self.next[a] > self.last[a]) {
+            return None;
+        }
+        let shift = std::array::from_fn(|a| self.next[a] as f64 * periods.0[a]);
+        self.next[0] += 1;
+        for a in 0..2 {
+            if self.next[a] > self.last[a] {
+                self.next[a] = self.first[a];
+                self.next[a + 1] += 1;
+            }
+        }
+        Some(self.block.shifted(shift))
     }
 }
 
