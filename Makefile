@@ -22,6 +22,7 @@
 #   make leave-out                what a scene pays for features it does not use
 #   make crash                    runs killed at every write, continued: all end the same
 #   make forge                    50 000 forged particle files and checkpoints
+#   make faults                   inputs that were once read wrongly; BASE=folder: beside an older build
 #   make fuzz                     coverage-guided attack on every reader, FUZZ_SECONDS (600) each
 #   make mutants                  changes of the code that no test notices, MUTANTS (100) a crate
 #   make constants                half and twice each numerical constant: tests, small runs

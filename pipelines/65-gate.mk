@@ -12,6 +12,12 @@ FUZZ_SECONDS ?= 600
 fuzz:
 	@pipelines/gate/fuzz.sh $(FUZZ_SECONDS) $(or $(ONLY),particle-file checkpoint case tiff npy mhd)
 
+# Inputs that were once read wrongly: a table of what this build says of each, and of what the build
+# in the folder BASE said. Needs ../shared/data/repro.
+.PHONY: faults
+faults: $(BINARIES)
+	@pipelines/gate/faults.sh $(BIN) "$(BASE:%=%/target/release)" $(ONLY)
+
 # Changes of the code that no test notices: a sample of MUTANTS changes of each crate, of which
 # 95 % must be noticed. ONLY="mpm run" takes those crates. Needs cargo-mutants.
 MUTANTS ?= 100
