@@ -1,0 +1,312 @@
+//! The voxels of a scene on one lattice: which body fills each, and how the parts move against each other.
+
+use physics::{Boundary, Dimensions, GridBox, Motion, RigidBody, Scene, Stop};
+
+/// Code of a voxel that liquid can fill. A body `b` has `b + 1`.
+pub(crate) const OPEN: u8 = 0;
+/// Code beyond a side of symmetry: neither open nor a wall.
+pub(crate) const MIRROR: u8 = u8::MAX;
+/// Most bodies of a scene.
+pub(crate) const MAX_BODIES: usize = 200;
+/// Part of a voxel that a face of a body may be off the lattice, as rounding.
+const ALIGNED: f64 = 1e-3;
+
+/// A layer of voxels at constant y: codes, x fastest.
+type Layer = Vec<u8>;
+
+/// Voxels of a scene, `k` to the edge of a cell, in three parts along y: layers below the gap, counted down from it; the
+/// gap, which is the same at every height; layers above it, counted up.
+#[derive(Clone, Debug)]
+pub(crate) struct Lattice {
+    /// Voxels along the edge of a cell: 1 or 2.
+    pub(crate) k: usize,
+    /// Cells along x and z.
+    pub(crate) cells: [usize; 2],
+    pub(crate) boundary: [Boundary; 3],
+    /// Plane strain: no velocity along z.
+    pub(crate) flat: bool,
+    pub(crate) below: Vec<Layer>,
+    pub(crate) gap: Layer,
+    pub(crate) above: Vec<Layer>,
+    /// y of the low side of the gap at the start, m, and height of the gap, cells.
+    pub(crate) gap_low_m: f64,
+    pub(crate) gap_height: f64,
+    /// The parts that move along y with the closing speed: the body above comes down, or that below comes up.
+    pub(crate) moving: Option<Moving>,
+    /// The body that does.
+    pub(crate) mover: Option<usize>,
+    /// Velocity of each body along x, y, z where that is not the clamp's, m/s: walls that move along themselves.
+    pub(crate) slide: Vec<[f64; 3]>,
+}
+
+/// The part of the grid that moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Moving {
+    Below,
+    Above,
+}
+
+impl Moving {
+    /// Which way it moves along y.
+    fn direction(self) -> f64 {
+        match self {
+            Self::Below => 1.0,
+            Self::Above => -1.0,
+        }
+    }
+}
+
+impl Lattice {
+    /// The lattice of a scene.
+    ///
+    /// # Errors
+    /// A sentence on what of the scene does not lie on the voxels or moves otherwise than a clamp.
+    pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
+        let grid = &scene.grid;
+        if scene.bodies.len() > MAX_BODIES {
+            return Err(format!(
+                "the scene has {} rigid bodies; the implicit scheme takes at most {MAX_BODIES}",
+                scene.bodies.len()
+            ));
+        }
+        let mover = mover(scene)?;
+        let frames = Frames::new(scene, mover)?;
+        let k = voxels_per_cell(scene, &frames)?;
+        let edge = grid.cell_m / k as f64;
+        let across = [0, 2].map(|a| grid.cells[a] * k);
+        let layers = |from: f64, to: f64| ((to - from) / edge + ALIGNED).floor().max(0.0) as usize;
+        let [low, high] = [grid.min_m[1], grid.max_m()[1]];
+        let code = |at: [f64; 3]| code(&scene.bodies, at);
+        let layer = |y: f64| -> Layer {
+            let mut layer = Vec::with_capacity(across[0] * across[1]);
+            for z in 0..across[1] {
+                for x in 0..across[0] {
+                    let place = |a: usize, i: usize| grid.min_m[a] + (i as f64 + 0.5) * edge;
+                    layer.push(code([place(0, x), y, place(2, z)]));
+                }
+            }
+            layer
+        };
+        let [bottom, top] = frames.gap;
+        let below: Vec<Layer> = (0..layers(low, bottom))
+            .map(|n| layer(bottom - (n as f64 + 0.5) * edge))
+            .collect();
+        let above: Vec<Layer> = (0..layers(top, high))
+            .map(|n| layer(top + (n as f64 + 0.5) * edge))
+            .collect();
+        let gap = layer(0.5 * (bottom + top));
+        let lattice = Self {
+            k,
+            cells: [grid.cells[0], grid.cells[2]],
+            boundary: scene.boundary,
+            flat: scene.dimensions == Dimensions::Two,
+            below,
+            gap,
+            above,
+            gap_low_m: bottom,
+            gap_height: (top - bottom) / grid.cell_m,
+            moving: frames.moving,
+            mover,
+            slide: (scene.bodies.iter())
+                .map(|body| match body.motion {
+                    Motion::Constant(v) => v,
+                    _ => [0.0; 3],
+                })
+                .collect(),
+        };
+        lattice.check(scene, &frames)?;
+        Ok(lattice)
+    }
+
+    /// Velocity of a body along y over the closing speed.
+    pub(crate) fn speed_of(&self, body: usize) -> f64 {
+        match self.moving {
+            Some(moving) if self.mover == Some(body) => moving.direction(),
+            _ => 0.0,
+        }
+    }
+
+    /// Velocity of the grid along y over the closing speed where it takes part in the body above's by `share`.
+    pub(crate) fn speed_at(&self, share: f64) -> f64 {
+        match self.moving {
+            Some(Moving::Above) => -share,
+            Some(Moving::Below) => 1.0 - share,
+            None => 0.0,
+        }
+    }
+
+    /// Voxels along x and z.
+    pub(crate) fn across(&self) -> [usize; 2] {
+        self.cells.map(|n| n * self.k)
+    }
+
+    /// Refuses bodies whose faces lie off the lattice.
+    fn check(&self, scene: &Scene, frames: &Frames) -> Result<(), String> {
+        let edge = scene.grid.cell_m / self.k as f64;
+        let (low, high) = (scene.grid.min_m, scene.grid.max_m());
+        let whole = |x: f64| (x / edge - (x / edge).round()).abs() < ALIGNED;
+        for body in &scene.bodies {
+            for block in &body.blocks {
+                for a in 0..3 {
+                    let from = if a == 1 { frames.gap } else { [low[a]; 2] };
+                    let inside = |x: f64| x > low[a] && x < high[a];
+                    let placed = |x: f64| !inside(x) || from.iter().any(|from| whole(x - from));
+                    let fits = placed(block.origin()[a]) && placed(block.max()[a]);
+                    if !fits || block.dims()[a] > 1 && !whole(block.voxel()[a]) {
+                        return Err(format!(
+                            "the faces of body '{}' lie off the lattice along {}: the implicit scheme takes cells of one \
+                             or two voxels, or a whole number of cells a voxel, and boxes on the faces of cells or half \
+                             way between them",
+                            body.name,
+                            ["x", "y", "z"][a]
+                        ));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The body that moves along y, if one does, and its speed against the others.
+fn mover(scene: &Scene) -> Result<Option<usize>, String> {
+    let mut found = None;
+    for (index, body) in scene.bodies.iter().enumerate() {
+        let along_y = match body.motion {
+            Motion::Fixed => false,
+            Motion::Clamped => true,
+            Motion::Constant(v) => v[1] != 0.0,
+        };
+        if !along_y {
+            continue;
+        }
+        if let Motion::Constant([x, _, z]) = body.motion
+            && (x != 0.0 || z != 0.0)
+        {
+            return Err(format!(
+                "body '{}' moves along y and aside: the implicit scheme moves bodies along y, or walls along themselves",
+                body.name
+            ));
+        }
+        if found.replace(index).is_some() {
+            return Err(format!(
+                "two bodies move along y, '{}' the second of them: the implicit scheme takes one",
+                body.name
+            ));
+        }
+    }
+    Ok(found)
+}
+
+/// Where the gap lies and what moves.
+struct Frames {
+    gap: [f64; 2],
+    moving: Option<Moving>,
+}
+
+impl Frames {
+    /// The gap lies between the body that moves and the nearest voxels of others that end towards it; without such a body it
+    /// is none, at the low side of the domain.
+    fn new(scene: &Scene, mover: Option<usize>) -> Result<Self, String> {
+        let low = scene.grid.min_m[1];
+        let Some(mover) = mover else {
+            return Ok(Self {
+                gap: [low; 2],
+                moving: None,
+            });
+        };
+        let body = &scene.bodies[mover];
+        let down = match body.motion {
+            Motion::Constant(v) => v[1] < 0.0,
+            _ => true,
+        };
+        let (bottom, top) = solid_extent(body);
+        let high = scene.grid.max_m()[1];
+        let tight = ALIGNED * scene.grid.cell_m;
+        // Sides of other bodies that cross the mover's path: where one ends, the gap ends.
+        let mut stop = if down { low } else { high };
+        for other in scene.bodies.iter().enumerate().filter(|(i, _)| *i != mover) {
+            for block in &other.1.blocks {
+                for y in sides(block) {
+                    if down && y <= bottom + tight {
+                        stop = stop.max(y);
+                    } else if !down && y >= top - tight {
+                        stop = stop.min(y);
+                    }
+                }
+            }
+        }
+        let (gap, moving) = match down {
+            true => ([stop, bottom], Moving::Above),
+            false => ([top, stop], Moving::Below),
+        };
+        if let Stop::Closed { travel_m } = scene.stop
+            && travel_m > gap[1] - gap[0] + tight
+        {
+            return Err(format!(
+                "the clamp is to travel {:.4} um, but the bodies meet after {:.4} um: the implicit scheme closes one gap",
+                1e6 * travel_m,
+                1e6 * (gap[1] - gap[0])
+            ));
+        }
+        Ok(Self {
+            gap,
+            moving: Some(moving),
+        })
+    }
+}
+
+/// Lowest and highest y of the solid voxels of a body.
+fn solid_extent(body: &RigidBody) -> (f64, f64) {
+    let mut extent = (f64::INFINITY, f64::NEG_INFINITY);
+    for block in &body.blocks {
+        for y in sides(block) {
+            extent = (extent.0.min(y), extent.1.max(y));
+        }
+    }
+    extent
+}
+
+/// y of the first and the last layer of a block that holds solid voxels, its outer sides.
+fn sides(block: &physics::VoxelBlock) -> Vec<f64> {
+    let [_, ny, nz] = block.dims();
+    let holds = |j: usize| (0..nz).any(|k| block.row(j, k).iter().any(|&word| word != 0));
+    let y = |j: usize| block.origin()[1] + j as f64 * block.voxel()[1];
+    let first = (0..ny).find(|&j| holds(j));
+    let last = (0..ny).rfind(|&j| holds(j));
+    first.map(y).into_iter().chain(last.map(|j| y(j + 1))).collect()
+}
+
+/// Voxels along the edge of a cell: one where every face lies on those of cells, else two.
+fn voxels_per_cell(scene: &Scene, frames: &Frames) -> Result<usize, String> {
+    let GridBox { cell_m, min_m, cells } = scene.grid;
+    let on_cells = |x: f64, from: f64| {
+        let n = (x - from) / cell_m;
+        (n - n.round()).abs() < ALIGNED
+    };
+    for block in scene.bodies.iter().flat_map(|body| &body.blocks) {
+        for a in 0..3 {
+            let (low, high) = (block.origin()[a], block.max()[a]);
+            let fine = block.dims()[a] > 1 && !on_cells(block.voxel()[a], 0.0);
+            if fine {
+                return Ok(2);
+            }
+            let from = if a == 1 { frames.gap[0] } else { min_m[a] };
+            let end = min_m[a] + cells[a] as f64 * cell_m;
+            for x in [low, high] {
+                let inside = x > min_m[a] && x < end;
+                let other = if a == 1 { frames.gap[1] } else { from };
+                if inside && !on_cells(x, from) && !on_cells(x, other) {
+                    return Ok(2);
+                }
+            }
+        }
+    }
+    Ok(1)
+}
+
+/// The code of the body at a place, m.
+fn code(bodies: &[RigidBody], at: [f64; 3]) -> u8 {
+    let body = bodies.iter().position(|body| body.contains(at));
+    body.map_or(OPEN, |body| body as u8 + 1)
+}

@@ -1,0 +1,331 @@
+//! Pores and faces: the control volumes of the liquid and what joins them.
+
+use std::ops::Range;
+
+use physics::Boundary;
+
+use super::chords::Place;
+use super::lattice::{Lattice, MIRROR, OPEN};
+use super::rows::{Kind, Rows};
+use super::split::connected;
+
+/// No pore.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// A connected part of the open voxels of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Pore {
+    pub(crate) cell: u32,
+    /// Its voxels, a bit each, x fastest.
+    pub(crate) voxels: u8,
+}
+
+/// Open voxel faces between two pores of neighbouring cells, which share a velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Face {
+    pub(crate) low: u32,
+    pub(crate) high: u32,
+    /// The voxel faces, a bit each, the lower of the two other axes fastest.
+    pub(crate) open: u8,
+    pub(crate) axis: u8,
+}
+
+/// The pores and faces of a range of rows. Cells are counted x first, then y (rows), then z; on open sides a layer of
+/// cells beyond the domain takes what leaves it.
+pub(crate) struct Mesh {
+    pub(crate) k: usize,
+    /// Cells along x, rows, z, with those beyond open sides.
+    pub(crate) size: [usize; 3],
+    /// Cells beyond the low sides.
+    pub(crate) beyond: [usize; 3],
+    pub(crate) rows: Rows,
+    /// Rows of the grid that are here.
+    pub(crate) range: Range<usize>,
+    boundary: [Boundary; 3],
+    pub(crate) pores: Vec<Pore>,
+    pub(crate) faces: Vec<Face>,
+    /// First pore of each cell, and one more.
+    pore_start: Vec<u32>,
+    /// First face of each cell towards x, y, z, and one more.
+    face_start: Vec<u32>,
+    /// Open voxels of each cell.
+    open: Vec<u8>,
+}
+
+impl Mesh {
+    /// The mesh of the rows in `range`.
+    pub(crate) fn new(lattice: &Lattice, rows: Rows, range: Range<usize>) -> Self {
+        let open_side = |a: usize| usize::from(lattice.boundary[a] == Boundary::Open);
+        let beyond = [open_side(0), 0, open_side(2)];
+        let [nx, nz] = lattice.cells;
+        let size = [nx + 2 * beyond[0], range.len(), nz + 2 * beyond[2]];
+        let cells: usize = size.iter().product();
+        let mut mesh = Self {
+            k: lattice.k,
+            size,
+            beyond,
+            rows,
+            range,
+            boundary: lattice.boundary,
+            pores: Vec::new(),
+            faces: Vec::new(),
+            pore_start: Vec::with_capacity(cells + 1),
+            face_start: Vec::with_capacity(3 * cells + 1),
+            open: Vec::with_capacity(cells),
+        };
+        for cell in 0..cells {
+            mesh.pore_start.push(mesh.pores.len() as u32);
+            let open = mesh.open_voxels(lattice, cell);
+            mesh.open.push(open);
+            mesh.pores.extend(connected(open, mesh.k).map(|voxels| Pore {
+                cell: cell as u32,
+                voxels,
+            }));
+        }
+        mesh.pore_start.push(mesh.pores.len() as u32);
+        for cell in 0..cells {
+            for axis in 0..3 {
+                mesh.face_start.push(mesh.faces.len() as u32);
+                if lattice.flat && axis == 2 {
+                    continue;
+                }
+                if let Some(next) = mesh.neighbour(cell, axis, true) {
+                    mesh.join(cell, next, axis);
+                }
+            }
+        }
+        mesh.face_start.push(mesh.faces.len() as u32);
+        mesh
+    }
+
+    fn open_voxels(&self, lattice: &Lattice, cell: usize) -> u8 {
+        let mut open = 0;
+        let n = self.k;
+        for bit in 0..n * n * n {
+            if self.code(lattice, cell, self.voxel(bit)) == OPEN {
+                open |= 1 << bit;
+            }
+        }
+        open
+    }
+
+    /// Adds the faces between the pores of two cells.
+    fn join(&mut self, low: usize, high: usize, axis: usize) {
+        for l in self.pores_of(low) {
+            for h in self.pores_of(high) {
+                let from = self.side(self.pores[l].voxels, axis, true);
+                let to = self.side(self.pores[h].voxels, axis, false);
+                if from & to != 0 {
+                    self.faces.push(Face {
+                        low: l as u32,
+                        high: h as u32,
+                        open: from & to,
+                        axis: axis as u8,
+                    });
+                }
+            }
+        }
+    }
+
+    /// The place in its cell of the voxel of a bit.
+    pub(crate) fn voxel(&self, bit: usize) -> [usize; 3] {
+        let k = self.k;
+        [bit % k, bit / k % k, bit / (k * k)]
+    }
+
+    /// The bit of the voxel at a place in its cell.
+    pub(crate) fn bit(&self, at: [usize; 3]) -> usize {
+        at[0] + self.k * (at[1] + self.k * at[2])
+    }
+
+    /// Voxels on the high or low side of a cell along an axis, as bits of the other two axes, the lower fastest.
+    fn side(&self, voxels: u8, axis: usize, high: bool) -> u8 {
+        let k = self.k;
+        let mut side = 0;
+        for bit in 0..k * k * k {
+            let at = self.voxel(bit);
+            if voxels >> bit & 1 == 1 && at[axis] == if high { k - 1 } else { 0 } {
+                let [s, t] = others(axis);
+                side |= 1 << (at[s] + k * at[t]);
+            }
+        }
+        side
+    }
+
+    /// Place of a cell: x, row of the mesh, z.
+    pub(crate) fn place(&self, cell: usize) -> [usize; 3] {
+        let [nx, ny, _] = self.size;
+        [cell % nx, cell / nx % ny, cell / (nx * ny)]
+    }
+
+    pub(crate) fn cell_at(&self, [x, y, z]: [usize; 3]) -> usize {
+        x + self.size[0] * (y + self.size[1] * z)
+    }
+
+    /// Row of the grid of a cell.
+    pub(crate) fn row(&self, cell: usize) -> usize {
+        self.place(cell)[1] + self.range.start
+    }
+
+    /// The next cell along an axis, over periodic sides too; `None` at other sides.
+    pub(crate) fn neighbour(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
+        let mut place = self.place(cell);
+        let n = self.size[axis];
+        let periodic = self.boundary[axis] == Boundary::Periodic
+            && (axis != 1 || self.range.len() == self.rows.len());
+        place[axis] = match (up, place[axis]) {
+            (true, i) if i + 1 < n => i + 1,
+            (false, i) if i > 0 => i - 1,
+            (true, _) if periodic => 0,
+            (false, _) if periodic => n - 1,
+            _ => return None,
+        };
+        Some(self.cell_at(place))
+    }
+
+    /// Pores of a cell.
+    pub(crate) fn pores_of(&self, cell: usize) -> Range<usize> {
+        self.pore_start[cell] as usize..self.pore_start[cell + 1] as usize
+    }
+
+    /// Faces from a cell towards its next cell along an axis.
+    pub(crate) fn faces_of(&self, cell: usize, axis: usize) -> Range<usize> {
+        let at = 3 * cell + axis;
+        self.face_start[at] as usize..self.face_start[at + 1] as usize
+    }
+
+    /// Faces of a pore on its high (`up`) or low side along an axis.
+    pub(crate) fn faces_at(&self, pore: usize, axis: usize, up: bool) -> impl Iterator<Item = usize> {
+        let cell = self.pores[pore].cell as usize;
+        let range = match up {
+            true => self.faces_of(cell, axis),
+            false => (self.neighbour(cell, axis, false)).map_or(0..0, |low| self.faces_of(low, axis)),
+        };
+        range.filter(move |&face| {
+            let face = &self.faces[face];
+            let own = if up { face.low } else { face.high };
+            own as usize == pore
+        })
+    }
+
+    /// The pore of a cell that holds a voxel.
+    pub(crate) fn pore_with(&self, cell: usize, voxel: [usize; 3]) -> Option<usize> {
+        let bit = self.bit(voxel);
+        self.pores_of(cell).find(|&pore| self.pores[pore].voxels >> bit & 1 == 1)
+    }
+
+    /// The face between two pores along an axis.
+    pub(crate) fn face_between(&self, low: usize, high: usize, axis: usize) -> Option<usize> {
+        self.faces_of(self.pores[low].cell as usize, axis).find(|&face| {
+            let face = &self.faces[face];
+            face.low as usize == low && face.high as usize == high
+        })
+    }
+
+    /// Whether a cell lies beyond an open side.
+    pub(crate) fn is_beyond(&self, cell: usize) -> bool {
+        let place = self.place(cell);
+        let across = |a: usize| self.beyond[a] == 1 && (place[a] == 0 || place[a] + 1 == self.size[a]);
+        let row = place[1] + self.range.start;
+        let along = self.boundary[1] == Boundary::Open && (row == 0 || row + 1 == self.rows.len());
+        along || across(0) || across(2)
+    }
+
+    /// Edges of a cell along x, y, z, cells.
+    pub(crate) fn edges(&self, cell: usize) -> [f64; 3] {
+        [1.0, self.rows.height_of(self.row(cell)), 1.0]
+    }
+
+    /// Volume of a pore, cells.
+    pub(crate) fn volume(&self, pore: usize) -> f64 {
+        self.volume_at(pore, self.rows.height)
+    }
+
+    /// The same with a gap of another height.
+    pub(crate) fn volume_at(&self, pore: usize, height: f64) -> f64 {
+        let Pore { cell, voxels } = self.pores[pore];
+        let part = f64::from(voxels.count_ones()) / (self.k * self.k * self.k) as f64;
+        let rows = Rows { height, ..self.rows };
+        part * rows.height_of(self.row(cell as usize))
+    }
+
+    /// Area of a face, cells.
+    pub(crate) fn area(&self, face: usize) -> f64 {
+        let Face { low, open, axis, .. } = self.faces[face];
+        let part = f64::from(open.count_ones()) / (self.k * self.k) as f64;
+        match axis {
+            1 => part,
+            _ => part * self.rows.height_of(self.row(self.pores[low as usize].cell as usize)),
+        }
+    }
+
+    /// Velocity of the grid along y at a face over the closing speed; of faces across y alone.
+    pub(crate) fn frame(&self, lattice: &Lattice, face: usize) -> f64 {
+        let cell = self.pores[self.faces[face].high as usize].cell as usize;
+        lattice.speed_at(self.rows.share(self.row(cell)))
+    }
+
+    /// Open voxels of a cell.
+    pub(crate) fn open(&self, cell: usize) -> u8 {
+        self.open[cell]
+    }
+
+    /// Where in the lattice a voxel of a cell lies; `None` beyond the layers of a part or an open side.
+    pub(crate) fn lattice_place(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> Option<Place> {
+        let [x, y, z] = self.place(cell);
+        let across = lattice.across();
+        let sub = |i: usize, a: usize| (i * self.k + voxel[a]).checked_sub(self.beyond[a] * self.k);
+        let (x, z) = (sub(x, 0)?, sub(z, 2)?);
+        if x >= across[0] || z >= across[1] {
+            return None;
+        }
+        let at = x + across[0] * z;
+        let row = y + self.range.start;
+        let (b, rows) = (voxel[1], &self.rows);
+        match rows.kind(row) {
+            Kind::Below => {
+                let layer = (rows.below - 1 - row) * self.k + (self.k - 1 - b);
+                (layer < lattice.below.len()).then_some(Place::Below(layer, at))
+            }
+            Kind::Gap => Some(Place::Gap(at)),
+            Kind::Above => {
+                let layer = (row - rows.below - rows.gap) * self.k + b;
+                (layer < lattice.above.len()).then_some(Place::Above(layer, at))
+            }
+        }
+    }
+
+    /// What fills a voxel of a cell.
+    pub(crate) fn code(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> u8 {
+        match self.lattice_place(lattice, cell, voxel) {
+            Some(Place::Below(layer, at)) => lattice.below[layer][at],
+            Some(Place::Gap(at)) => lattice.gap[at],
+            Some(Place::Above(layer, at)) => lattice.above[layer][at],
+            None if self.boundary[1] == Boundary::Open || self.is_beyond(cell) => OPEN,
+            None => MIRROR,
+        }
+    }
+
+    /// The voxel next to one along an axis: its cell and place; `None` beyond the mesh.
+    pub(crate) fn next_voxel(
+        &self,
+        cell: usize,
+        mut voxel: [usize; 3],
+        axis: usize,
+        up: bool,
+    ) -> Option<(usize, [usize; 3])> {
+        let last = self.k - 1;
+        let crosses = voxel[axis] == if up { last } else { 0 };
+        if !crosses {
+            voxel[axis] = if up { voxel[axis] + 1 } else { voxel[axis] - 1 };
+            return Some((cell, voxel));
+        }
+        voxel[axis] = if up { 0 } else { last };
+        self.neighbour(cell, axis, up).map(|cell| (cell, voxel))
+    }
+}
+
+/// The two other axes, the lower first.
+pub(crate) fn others(axis: usize) -> [usize; 2] {
+    [[1, 2], [0, 2], [0, 1]][axis]
+}

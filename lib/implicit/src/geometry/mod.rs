@@ -1,0 +1,13 @@
+//! Where liquid can be: voxels of the bodies, rows of cells between them, pores and faces.
+
+mod chords;
+mod lattice;
+mod mesh;
+mod rows;
+mod split;
+
+pub(crate) use chords::Chords;
+pub(crate) use lattice::{Lattice, MIRROR, OPEN};
+pub(crate) use chords::Place;
+pub(crate) use mesh::{Face, Mesh, Pore, others};
+pub(crate) use rows::{Kind, Rows};

@@ -1,0 +1,107 @@
+//! What volumes and velocities become on a mesh of other rows.
+
+use crate::geometry::{Kind, Mesh};
+
+/// The row of `old` that a row of the body below or above of `new` is; `None` where it is not there.
+fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
+    let row = match new.rows.kind(row) {
+        Kind::Below => row,
+        Kind::Gap => return None,
+        Kind::Above => row - new.rows.gap + old.rows.gap,
+    };
+    old.range.contains(&row).then(|| row - old.range.start)
+}
+
+/// Rows of `old` that overlap a row of the gap of `new`, with the part of each that does. Both gaps have the same height.
+fn overlapping(new: &Mesh, old: &Mesh, row: usize) -> Vec<(usize, f64)> {
+    let part = |row: usize, rows: usize| {
+        let first = row as f64 / rows as f64;
+        [first, first + 1.0 / rows as f64]
+    };
+    let [low, high] = part(row - new.rows.below, new.rows.gap);
+    (0..old.rows.gap)
+        .filter_map(|index| {
+            let [l, h] = part(index, old.rows.gap);
+            let overlap = (high.min(h) - low.max(l)) * old.rows.gap as f64;
+            (overlap > 0.0).then(|| (index + old.rows.below - old.range.start, overlap))
+        })
+        .collect()
+}
+
+/// Volumes of `old` on `new`; what the last row of a gap held that is gone goes to the pores beside it.
+pub(crate) fn carried_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f64> {
+    let mut carried = vec![0.0; new.pores.len()];
+    for (pore, carried) in carried.iter_mut().enumerate() {
+        let cell = new.pores[pore].cell as usize;
+        let index = pore - new.pores_of(cell).start;
+        let [x, _, z] = new.place(cell);
+        let row = new.row(cell);
+        let of = |y: usize| volumes[old.pores_of(old.cell_at([x, y, z])).start + index];
+        *carried = match same_row(new, old, row) {
+            Some(y) => of(y),
+            None if new.rows.kind(row) == Kind::Gap => {
+                overlapping(new, old, row).iter().map(|&(y, part)| part * of(y)).sum()
+            }
+            None => 0.0,
+        };
+    }
+    if new.rows.gap == 0 && old.rows.gap > 0 {
+        for y in old.rows.below..old.rows.below + old.rows.gap {
+            squeeze_out(new, old, y - old.range.start, volumes, &mut carried);
+        }
+    }
+    carried
+}
+
+/// Gives what a row of `old` that is gone held to the pores above and below it, half each where both are.
+fn squeeze_out(new: &Mesh, old: &Mesh, y: usize, volumes: &[f64], carried: &mut [f64]) {
+    for z in 0..old.size[2] {
+        for x in 0..old.size[0] {
+            for pore in old.pores_of(old.cell_at([x, y, z])) {
+                let mut beside = Vec::new();
+                for (row, voxel_row) in [(new.rows.below.wrapping_sub(1), new.k - 1), (new.rows.below, 0)] {
+                    if !new.range.contains(&row) {
+                        continue;
+                    }
+                    let cell = new.cell_at([x, row - new.range.start, z]);
+                    for bit in (0..8).filter(|bit| old.pores[pore].voxels >> bit & 1 == 1) {
+                        let [a, b, c] = old.voxel(bit);
+                        if b == 0 {
+                            beside.extend(new.pore_with(cell, [a, voxel_row, c]));
+                        }
+                    }
+                }
+                let part = volumes[pore] / beside.len().max(1) as f64;
+                for pore in beside {
+                    carried[pore] += part;
+                }
+            }
+        }
+    }
+}
+
+/// Values of the faces of `old`, velocities, on `new`.
+pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Vec<f64> {
+    let mut carried = vec![0.0; new.faces.len()];
+    for (face, carried) in carried.iter_mut().enumerate() {
+        let f = new.faces[face];
+        let (axis, cell) = (usize::from(f.axis), new.pores[f.low as usize].cell as usize);
+        let index = face - new.faces_of(cell, axis).start;
+        let [x, _, z] = new.place(cell);
+        let row = new.row(cell);
+        let of = |y: usize| {
+            let faces = old.faces_of(old.cell_at([x, y, z]), axis);
+            faces.clone().nth(index).map_or(0.0, |face| velocity[face])
+        };
+        let touches_gap = axis == 1 && row + 1 == new.rows.below;
+        *carried = match same_row(new, old, row) {
+            Some(y) if !touches_gap || new.rows.gap > 0 => of(y),
+            None if new.rows.kind(row) == Kind::Gap => {
+                overlapping(new, old, row).iter().map(|&(y, part)| part * of(y)).sum::<f64>()
+                    / overlapping(new, old, row).iter().map(|o| o.1).sum::<f64>()
+            }
+            _ => 0.0,
+        };
+    }
+    carried
+}

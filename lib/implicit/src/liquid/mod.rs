@@ -1,0 +1,12 @@
+//! The liquid: the volume of it in each pore, how it starts, moves, and is shown.
+
+mod carry;
+mod deposit;
+mod output;
+mod overflow;
+mod transport;
+
+pub(crate) use carry::{carried_volumes, carried_velocities};
+pub(crate) use deposit::{Place, deposit};
+pub(crate) use output::{Shown, points};
+pub(crate) use transport::{Moved, transport};

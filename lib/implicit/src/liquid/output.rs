@@ -1,0 +1,54 @@
+//! The liquid as points, as states and metrics take it: one in each voxel of a pore with liquid.
+
+use physics::LiquidState;
+
+use super::deposit::Place;
+use crate::geometry::Mesh;
+
+/// Least volume of a point, cells.
+const LEAST: f64 = 1e-9;
+
+/// What is shown of the liquid, in cells and the scheme's units.
+pub(crate) struct Shown<'a> {
+    pub(crate) volumes: &'a [f64],
+    /// Velocity of each pore against the lattice at rest, cells/s.
+    pub(crate) velocity: &'a dyn Fn(usize) -> [f64; 3],
+    /// Pressure of each pore, Pa.
+    pub(crate) pressure: &'a dyn Fn(usize) -> f64,
+    /// Shear rate of each pore, 1/s.
+    pub(crate) rate: &'a dyn Fn(usize) -> f64,
+}
+
+/// The points of the liquid.
+pub(crate) fn points(mesh: &Mesh, place: Place, shown: &Shown) -> LiquidState {
+    let mut state = LiquidState::default();
+    let k = mesh.k;
+    for pore in 0..mesh.pores.len() {
+        let voxels = mesh.pores[pore].voxels;
+        let n = f64::from(voxels.count_ones());
+        let volume = shown.volumes[pore].min(mesh.volume(pore)) / n;
+        if volume < LEAST {
+            continue;
+        }
+        let cell = mesh.pores[pore].cell as usize;
+        let (at, edges) = (mesh.place(cell), mesh.edges(cell));
+        let low = [
+            at[0] as f64 - mesh.beyond[0] as f64,
+            mesh.rows.low(mesh.row(cell)),
+            at[2] as f64 - mesh.beyond[2] as f64,
+        ];
+        let velocity = (shown.velocity)(pore).map(|v| (v * place.cell_m) as f32);
+        for bit in (0..k * k * k).filter(|bit| voxels >> bit & 1 == 1) {
+            let voxel = mesh.voxel(bit);
+            state.position.push(std::array::from_fn(|a| {
+                let cells = low[a] + edges[a] * (voxel[a] as f64 + 0.5) / k as f64;
+                (place.origin_m[a] + place.cell_m * cells) as f32
+            }));
+            state.velocity.push(velocity);
+            state.volume.push((volume * place.cell_m.powi(3)) as f32);
+            state.pressure.push((shown.pressure)(pore) as f32);
+            state.shear_rate.push((shown.rate)(pore) as f32);
+        }
+    }
+    state
+}

@@ -1,0 +1,113 @@
+//! Liquid beyond what a pore can hold goes on to pores beside it.
+
+use crate::geometry::Mesh;
+
+/// Excess, cells, that stays where it is.
+const NOTHING: f64 = 1e-13;
+/// Passes after which what is left stays: a pore over its volume is full in the next step, whose pressure drives it on.
+const PASSES: usize = 100;
+
+/// A face by which excess may leave a pore.
+#[derive(Clone, Copy)]
+struct Way {
+    face: usize,
+    up: bool,
+    /// What flows there.
+    flow: f64,
+    /// What came in on the opposite side and would go straight on.
+    straight: f64,
+    area: f64,
+    /// Whether the pore behind it has room.
+    room: bool,
+}
+
+/// Passes what pores hold above their `capacities` on to their neighbours, all pores at once, so that their order does not
+/// count: in proportion to what flows there, to those with room before others, which pass it on. `flux` takes what
+/// crosses each face.
+pub(super) fn overflow(
+    mesh: &Mesh,
+    volumes: &mut [f64],
+    capacities: &[f64],
+    swept: &[f64],
+    flux: &mut [f64],
+) {
+    let mut over: Vec<usize> = (0..mesh.pores.len())
+        .filter(|&pore| volumes[pore] - capacities[pore] > NOTHING)
+        .collect();
+    for _ in 0..PASSES {
+        let mut passed: Vec<(usize, bool, f64)> = Vec::new();
+        for &pore in &over {
+            let excess = volumes[pore] - capacities[pore];
+            let room = |other: usize| capacities[other] - volumes[other] > NOTHING;
+            passed.extend(shares(&ways(mesh, pore, room, swept, flux), excess));
+        }
+        if passed.is_empty() {
+            return;
+        }
+        over.clear();
+        for (face, up, volume) in passed {
+            let f = mesh.faces[face];
+            let (from, to) = if up { (f.low, f.high) } else { (f.high, f.low) };
+            volumes[from as usize] -= volume;
+            volumes[to as usize] += volume;
+            flux[face] += if up { volume } else { -volume };
+            over.push(to as usize);
+        }
+        over.sort_unstable();
+        over.dedup();
+        over.retain(|&pore| volumes[pore] - capacities[pore] > NOTHING);
+    }
+}
+
+/// How much of an excess goes by each of the ways.
+fn shares(ways: &[Way], excess: f64) -> Vec<(usize, bool, f64)> {
+    let weights: [fn(&Way) -> f64; 4] = [
+        |way| if way.room { way.flow + way.straight } else { 0.0 },
+        |way| if way.room { way.area } else { 0.0 },
+        |way| way.flow,
+        |way| way.area,
+    ];
+    for weight in weights {
+        let all: f64 = ways.iter().map(weight).sum();
+        if all > NOTHING {
+            return (ways.iter())
+                .filter(|way| weight(way) > 0.0)
+                .map(|way| (way.face, way.up, excess * weight(way) / all))
+                .collect();
+        }
+    }
+    Vec::new()
+}
+
+/// The faces of a pore.
+fn ways(
+    mesh: &Mesh,
+    pore: usize,
+    room: impl Fn(usize) -> bool,
+    swept: &[f64],
+    flux: &[f64],
+) -> Vec<Way> {
+    let mut ways = Vec::new();
+    for axis in 0..3 {
+        for up in [false, true] {
+            let sign = if up { 1.0 } else { -1.0 };
+            let straight: f64 = (mesh.faces_at(pore, axis, !up))
+                .map(|face| (sign * flux[face]).max(0.0))
+                .sum();
+            let all: f64 = mesh.faces_at(pore, axis, up).map(|face| mesh.area(face)).sum();
+            ways.extend(mesh.faces_at(pore, axis, up).map(|face| {
+                let f = mesh.faces[face];
+                let area = mesh.area(face);
+                Way {
+                    face,
+                    up,
+                    flow: (sign * swept[face]).max(0.0),
+                    straight: straight * area / all,
+                    area,
+                    room: room(if up { f.high } else { f.low } as usize),
+                }
+            }));
+        }
+    }
+    ways
+}

@@ -1,0 +1,185 @@
+//! Motion of liquid between pores: what crosses each face in a step.
+
+use rayon::prelude::*;
+
+use super::overflow::overflow;
+use crate::geometry::Mesh;
+
+/// Least part of the surface's normal along a face's axis for which the face passes on what lies ahead.
+const NORMAL: f64 = 0.7;
+/// Cells that liquid crosses at most between two looks at the surface: a front keeps its shape to first order in it, and
+/// looks cost next to nothing beside a solution.
+const CROSSED: f64 = 0.25;
+
+/// Liquid after a step.
+pub(crate) struct Moved {
+    /// Volume at no pressure in each pore, cells.
+    pub(crate) volumes: Vec<f64>,
+    /// Volume that left the domain.
+    pub(crate) lost: f64,
+}
+
+/// Moves the liquid `volumes` by the velocities of the faces, over `dt`, into pores of capacity `capacities`. A pore that
+/// is `full` passes on what its velocities say. One that is partly filled passes on its share, or, where the surface is
+/// across the flow, what lies ahead until its own air is gone (donor and acceptor, Hirt & Nichols 1981,
+/// 10.1016/0021-9991(81)90145-5), and never more than it holds.
+pub(crate) fn transport(
+    mesh: &Mesh,
+    volumes: &[f64],
+    full: &[bool],
+    capacities: &[f64],
+    velocity: &[f64],
+    dt: f64,
+) -> Moved {
+    let fastest = velocity.iter().fold(0.0_f64, |most, v| v.abs().max(most));
+    let parts = (fastest * dt / CROSSED - 1e-9).ceil().max(1.0);
+    let swept: Vec<f64> = (0..mesh.faces.len())
+        .into_par_iter()
+        .map(|face| velocity[face] * mesh.area(face) * dt / parts)
+        .collect();
+    let mut moved = Moved {
+        volumes: volumes.to_vec(),
+        lost: 0.0,
+    };
+    for _ in 0..parts as usize {
+        moved = look(mesh, moved, full, capacities, &swept);
+    }
+    moved
+}
+
+/// Moves the liquid on by the volumes that faces sweep.
+fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[f64]) -> Moved {
+    let Moved {
+        mut volumes,
+        mut lost,
+    } = before;
+    let pores = 0..mesh.pores.len();
+    let fractions: Vec<f64> = (pores.clone().into_par_iter())
+        .map(|pore| match full[pore] {
+            true => 1.0,
+            false => (volumes[pore] / mesh.volume(pore)).min(1.0),
+        })
+        .collect();
+    let gradients: Vec<[f64; 3]> = (pores.clone().into_par_iter())
+        .map(|pore| gradient(mesh, &fractions, pore))
+        .collect();
+    let mut flux: Vec<f64> = (swept.par_iter().enumerate())
+        .map(|(face, &swept)| {
+            let crossing = Crossing::new(mesh, &fractions, face, swept);
+            swept.signum() * crossing.passed(&gradients, swept.abs(), mesh)
+        })
+        .collect();
+    let shares: Vec<f64> = (pores.clone().into_par_iter())
+        .map(|pore| match full[pore] {
+            true => 1.0,
+            false => (volumes[pore] / outflow(mesh, &flux, pore)).min(1.0),
+        })
+        .collect();
+    flux.par_iter_mut().enumerate().for_each(|(face, flux)| {
+        let f = mesh.faces[face];
+        let donor = if *flux > 0.0 { f.low } else { f.high };
+        *flux *= shares[donor as usize];
+    });
+    volumes.par_iter_mut().enumerate().for_each(|(pore, volume)| {
+        *volume += net_inflow(mesh, &flux, pore);
+    });
+    // Full pores hold what their pressure makes of them.
+    let capacities: Vec<f64> = pores
+        .map(|pore| match full[pore] {
+            true => capacities[pore].max(volumes[pore]),
+            false => capacities[pore],
+        })
+        .collect();
+    overflow(mesh, &mut volumes, &capacities, swept, &mut flux);
+    for (pore, volume) in volumes.iter_mut().enumerate() {
+        if mesh.is_beyond(mesh.pores[pore].cell as usize) {
+            lost += std::mem::take(volume);
+        }
+    }
+    Moved { volumes, lost }
+}
+
+/// Change of the volume fraction across a pore along each axis, from neighbour to neighbour.
+fn gradient(mesh: &Mesh, fractions: &[f64], pore: usize) -> [f64; 3] {
+    std::array::from_fn(|axis| {
+        [false, true]
+            .into_iter()
+            .flat_map(|up| mesh.faces_at(pore, axis, up))
+            .map(|face| {
+                let f = mesh.faces[face];
+                fractions[f.high as usize] - fractions[f.low as usize]
+            })
+            .sum()
+    })
+}
+
+/// A face with the pore that liquid leaves by it and the pore that it enters.
+struct Crossing {
+    donor: usize,
+    axis: usize,
+    /// Whether it passes liquid on to higher coordinates.
+    up: bool,
+    /// Volume fractions of the donor and of the pore ahead.
+    fractions: [f64; 2],
+}
+
+impl Crossing {
+    fn new(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> Self {
+        let f = mesh.faces[face];
+        let up = swept > 0.0;
+        let (donor, ahead) = if up { (f.low, f.high) } else { (f.high, f.low) };
+        Self {
+            donor: donor as usize,
+            axis: usize::from(f.axis),
+            up,
+            fractions: [donor, ahead].map(|pore| fractions[pore as usize]),
+        }
+    }
+
+    /// Liquid in a swept volume.
+    fn passed(&self, gradients: &[[f64; 3]], swept: f64, mesh: &Mesh) -> f64 {
+        let [own, ahead] = self.fractions;
+        if own == 1.0 {
+            return swept;
+        }
+        let gradient = gradients[self.donor];
+        // Change of the fraction along the flow, from the pore behind to the pore ahead.
+        let change = if self.up { gradient[self.axis] } else { -gradient[self.axis] };
+        let behind = ahead - change;
+        let aside = (0..3)
+            .filter(|&a| a != self.axis)
+            .map(|a| gradient[a] * gradient[a])
+            .sum::<f64>()
+            .sqrt();
+        // Air with liquid before and behind it is no surface; it stays behind.
+        let hole = own <= ahead && own <= behind;
+        if hole || change == 0.0 || change.abs() < NORMAL * aside {
+            return own * swept;
+        }
+        let volume = mesh.volume(self.donor);
+        let air = (1.0 - own) * volume;
+        (ahead * swept + ((1.0 - ahead) * swept - air).max(0.0)).min(own * volume)
+    }
+}
+
+/// What leaves a pore.
+fn outflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
+    let out = sum(mesh, pore, |face, up| {
+        if up { flux[face] } else { -flux[face] }.max(0.0)
+    });
+    out.max(f64::MIN_POSITIVE)
+}
+
+/// What comes into a pore less what leaves it.
+fn net_inflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
+    sum(mesh, pore, |face, up| if up { -flux[face] } else { flux[face] })
+}
+
+/// Sum over the faces of a pore.
+fn sum(mesh: &Mesh, pore: usize, of: impl Fn(usize, bool) -> f64) -> f64 {
+    let of = &of;
+    (0..3)
+        .flat_map(|axis| [false, true].map(|up| (axis, up)))
+        .flat_map(|(axis, up)| mesh.faces_at(pore, axis, up).map(move |face| of(face, up)))
+        .sum()
+}

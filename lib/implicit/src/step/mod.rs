@@ -1,0 +1,336 @@
+//! The scheme, and the order of one step.
+
+mod control;
+mod scheme;
+mod setup;
+
+use physics::{Failure, Scene, StepLimit, StepReport};
+use rayon::prelude::*;
+use saddle_point::{SaddleOptions, SaddleSolver};
+
+use crate::geometry::{Mesh, Rows};
+use crate::liquid::{Moved, carried_velocities, carried_volumes, transport};
+use crate::settings::Settings;
+use crate::system::{Drive, FULL, Flow, Links, Problem, Scales, Unknowns, forces, solve};
+use control::Control;
+use setup::Setup;
+
+/// Attempts at a step of acceptable length.
+const ATTEMPTS: usize = 8;
+/// Excess over the Courant number that a step may have.
+const EXCESS: f64 = 1.1;
+/// Rows of cells around the liquid that a mesh has, and the least that it may have before it is made anew.
+const MARGIN: [usize; 2] = [8, 2];
+/// Part of the travel that is left below which it is over.
+const ARRIVED: f64 = 1e-9;
+
+/// The implicit scheme on a scene.
+pub struct Implicit {
+    setup: Setup,
+    state: State,
+    mesh: Mesh,
+    links: Links,
+    /// Height of the gap between steps, cells; in a step, the mesh has that in its middle.
+    height: f64,
+    solver: SaddleSolver,
+}
+
+/// What changes from step to step.
+struct State {
+    /// Liquid in each pore at no pressure, cells.
+    volumes: Vec<f64>,
+    flow: Flow,
+    control: Control,
+    /// Displacement of each body, m.
+    displacement: Vec<[f64; 3]>,
+    /// Clamp travel, m.
+    travel: f64,
+    time: f64,
+    steps: u64,
+    /// Fastest flow, cells/s.
+    fastest: f64,
+    /// Liquid that left the domain, cells.
+    lost: f64,
+    /// Viscous dissipation, W.
+    power: f64,
+}
+
+/// A step that was solved.
+struct Solved {
+    dt: f64,
+    flow: Flow,
+    full: Vec<bool>,
+    forces: Vec<f64>,
+    power: f64,
+}
+
+impl Implicit {
+    /// The scheme for `scene`.
+    ///
+    /// # Errors
+    /// A sentence on what this scheme cannot do with the scene or the settings.
+    pub fn new(scene: &Scene, settings: Settings) -> Result<Self, String> {
+        settings.check()?;
+        let (setup, mesh, volumes) = Setup::new(scene, settings)?;
+        let links = setup.links(&mesh);
+        let flow = Flow {
+            velocity: setup.initial_velocity(scene, &mesh),
+            pressure: vec![0.0; mesh.pores.len()],
+            ..Flow::default()
+        };
+        let control = Control::new(scene, setup.units);
+        let speed = scene.initial_speed() / setup.units.cell_m;
+        Ok(Self {
+            state: State {
+                volumes,
+                flow: Flow {
+                    speed: control.speed(),
+                    ..flow
+                },
+                control,
+                displacement: vec![[0.0; 3]; scene.bodies.len()],
+                travel: 0.0,
+                time: 0.0,
+                steps: 0,
+                fastest: speed,
+                lost: 0.0,
+                power: 0.0,
+            },
+            solver: SaddleSolver::new(SaddleOptions {
+                tolerance: settings.tolerance,
+                ..SaddleOptions::default()
+            }),
+            height: mesh.rows.height,
+            setup,
+            mesh,
+            links,
+        })
+    }
+
+    /// Takes one step: its length, which pores are full, the solution, the liquid that moves, the rows that close.
+    fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
+        self.fit_mesh();
+        let mut longest = limit.time_s;
+        for _ in 0..ATTEMPTS {
+            let dt = self.length(limit).min(longest);
+            let solved = self.solve(dt, limit).map_err(|why| self.failure(&why))?;
+            let crossed = fastest(&self.mesh, &solved.flow) * solved.dt;
+            if crossed <= EXCESS * self.setup.settings.cfl {
+                return Ok(self.follow(solved));
+            }
+            longest = 0.95 * solved.dt * self.setup.settings.cfl / crossed;
+        }
+        Err(self.failure("the liquid is faster than any step that was tried allows for"))
+    }
+
+    fn failure(&self, why: &str) -> Failure {
+        Failure(format!(
+            "step {} at {:.6e} s: {why}",
+            self.state.steps + 1,
+            self.state.time
+        ))
+    }
+
+    /// Makes the mesh anew where the gap has fewer rows now, or the liquid has come near its end.
+    fn fit_mesh(&mut self) {
+        self.mesh.rows.height = self.height;
+        let rows = Rows::of_gap(self.mesh.rows.below, self.mesh.rows.above, self.height);
+        let wet = self.wet_rows();
+        let near = |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < MARGIN[1];
+        let range = &self.mesh.range;
+        if rows.gap == self.mesh.rows.gap
+            && !near(wet.start, range.start, 0)
+            && !near(wet.end, range.end, self.mesh.rows.len())
+        {
+            return;
+        }
+        let removed = self.mesh.rows.gap - rows.gap;
+        let end = wet.end.saturating_sub(removed).max(wet.start) + MARGIN[0];
+        let range = wet.start.saturating_sub(MARGIN[0])..end.min(rows.len());
+        let mesh = Mesh::new(&self.setup.lattice, rows, range);
+        let old = std::mem::replace(&mut self.mesh, mesh);
+        let (state, mesh) = (&mut self.state, &self.mesh);
+        state.volumes = carried_volumes(mesh, &old, &state.volumes);
+        state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
+        state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
+        self.links = self.setup.links(mesh);
+    }
+
+    /// Rows of the grid that hold liquid, and those of the gap.
+    fn wet_rows(&self) -> std::ops::Range<usize> {
+        let mesh = &self.mesh;
+        let gap = mesh.rows.below..mesh.rows.below + mesh.rows.gap;
+        (0..mesh.pores.len())
+            .filter(|&pore| self.state.volumes[pore] > 0.0)
+            .map(|pore| mesh.row(mesh.pores[pore].cell as usize))
+            .fold(gap, |range, row| range.start.min(row)..range.end.max(row + 1))
+    }
+
+    /// Length of the next step by the flow of the last, s.
+    fn length(&self, limit: StepLimit) -> f64 {
+        let settings = &self.setup.settings;
+        let pull = self.setup.pull();
+        let fastest = self.state.fastest.max(self.state.flow.speed.abs());
+        let free = settings.cfl / fastest;
+        // From rest, weight sets the pace.
+        let falls = (2.0 * settings.cfl / pull).sqrt();
+        let dt = free.min(if self.state.steps == 0 { falls } else { f64::INFINITY });
+        let left = limit.travel_m / self.setup.units.cell_m / self.state.flow.speed.max(f64::MIN_POSITIVE);
+        dt.min(limit.time_s).min(left)
+    }
+
+    /// Solves the flow of a step of `dt` (s), shorter where the clamp arrives.
+    fn solve(&mut self, dt: f64, limit: StepLimit) -> Result<Solved, String> {
+        let left = limit.travel_m / self.setup.units.cell_m;
+        let mut solved = self.solve_driven(dt, self.state.control.drive())?;
+        if let Some(drive) = self.state.control.exceeded(solved.flow.force, solved.flow.speed) {
+            solved = self.solve_driven(dt, drive)?;
+            if let Some(drive) = self.state.control.too_fast(solved.flow.speed) {
+                solved = self.solve_driven(dt, drive)?;
+            }
+        }
+        if solved.flow.speed * dt > left * (1.0 + ARRIVED) {
+            let dt = left / solved.flow.speed;
+            let speed = solved.flow.speed;
+            solved = self.solve_driven(dt, Drive::Speed(speed))?;
+        }
+        Ok(solved)
+    }
+
+    /// Puts the rows where they are in the middle of a step of `dt` (s) by the last closing speed; which pores are full now,
+    /// and what they are filled to in the middle by the last flow.
+    fn middle(&mut self, dt: f64) -> (Vec<bool>, Vec<f64>) {
+        let height = self.height;
+        let state = &self.state;
+        let full: Vec<bool> = (0..self.mesh.pores.len())
+            .map(|pore| state.volumes[pore] >= FULL * self.mesh.volume_at(pore, height))
+            .collect();
+        if self.setup.lattice.moving.is_some() {
+            self.mesh.rows.height = (height - 0.5 * dt * state.flow.speed).max(0.5 * height);
+        }
+        let mesh = &self.mesh;
+        let moved = if state.steps == 0 || std::env::var("EULER").is_ok() { state.volumes.clone() } else {
+            transport(mesh, &state.volumes, &full, &self.capacities(), &state.flow.velocity, 0.5 * dt).volumes
+        };
+        self.links = self.setup.links(mesh);
+        let fractions = (0..mesh.pores.len())
+            .map(|pore| match moved[pore] / mesh.volume(pore) {
+                _ if full[pore] => 1.0,
+                then if then >= FULL => 1.0,
+                then => then,
+            })
+            .collect();
+        (full, fractions)
+    }
+
+    /// What each pore can hold: without end beyond open sides.
+    fn capacities(&self) -> Vec<f64> {
+        let mesh = &self.mesh;
+        (0..mesh.pores.len())
+            .into_par_iter()
+            .map(|pore| match mesh.is_beyond(mesh.pores[pore].cell as usize) {
+                true => f64::INFINITY,
+                false => mesh.volume(pore),
+            })
+            .collect()
+    }
+
+    fn solve_driven(&mut self, dt: f64, drive: Drive) -> Result<Solved, String> {
+        let (full, fractions) = self.middle(dt);
+        let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
+        let unknowns = Unknowns::new(mesh, &fractions);
+        let viscosity = vec![1.0; mesh.pores.len()];
+        let wall_viscosity = vec![[1.0; 2]; mesh.faces.len()];
+        let problem = Problem {
+            lattice: &setup.lattice,
+            mesh,
+            links: &self.links,
+            unknowns: &unknowns,
+            fractions: &fractions,
+            viscosity: &viscosity,
+            wall_viscosity: &wall_viscosity,
+            before: &state.flow.velocity,
+            speed_before: state.flow.speed,
+            scales: setup.scales(dt),
+        };
+        let carried = setup.carried(mesh, &unknowns, state, &full, self.height, dt);
+        let flow = solve(&problem, &carried, drive, &state.flow, &mut self.solver)
+            .map_err(|error| error.to_string())?;
+        let forces = forces(&problem, &flow, state.displacement.len());
+        Ok(Solved {
+            dt,
+            forces,
+            full,
+            power: flow.force * flow.speed,
+            flow,
+        })
+    }
+
+    /// Completes an accepted step.
+    fn follow(&mut self, solved: Solved) -> StepReport {
+        let Solved {
+            dt,
+            flow,
+            full,
+            forces,
+            power,
+        } = solved;
+        let cell_m = self.setup.units.cell_m;
+        // Liquid moves through the faces of the middle of the step into the pores of its end.
+        let middle = self.mesh.rows.height;
+        if self.setup.lattice.moving.is_some() {
+            self.height = (self.height - flow.speed * dt).max(0.0);
+        }
+        self.mesh.rows.height = self.height;
+        let capacities = self.capacities();
+        self.mesh.rows.height = middle;
+        let mesh = &mut self.mesh;
+        let Moved { volumes, lost } =
+            transport(mesh, &self.state.volumes, &full, &capacities, &flow.velocity, dt);
+        mesh.rows.height = self.height;
+        let state = &mut self.state;
+        state.volumes = volumes;
+        state.lost += lost;
+        state.fastest = fastest(mesh, &flow);
+        state.control.observe(flow.force, dt);
+        state.power = power;
+        state.time += dt;
+        state.steps += 1;
+        state.travel += flow.speed * dt * cell_m;
+        for (body, displacement) in state.displacement.iter_mut().enumerate() {
+            let slide = self.setup.lattice.slide[body];
+            for a in 0..3 {
+                displacement[a] += slide[a] * dt;
+            }
+            if self.setup.lattice.mover == Some(body) {
+                displacement[1] += self.setup.lattice.speed_of(body) * flow.speed * dt * cell_m
+                    - slide[1] * dt;
+            }
+        }
+        let pressure = |body: Option<usize>, sign: f64| {
+            body.map_or(0.0, |body| {
+                let force = match self.setup.lattice.mover == Some(body) {
+                    true => -sign * self.setup.lattice.speed_of(body) * flow.force,
+                    false => sign * forces[body],
+                };
+                self.setup.pressure(force)
+            })
+        };
+        let report = StepReport {
+            dt_s: dt,
+            closing_speed: flow.speed * cell_m,
+            travel_m: state.travel,
+            pressure_bottom: pressure(self.setup.bottom, -1.0),
+            pressure_top: pressure(self.setup.top, 1.0),
+            lost: self.setup.points_of(state.lost),
+            iterations: flow.iterations,
+        };
+        state.flow = flow;
+        report
+    }
+}
+
+/// The largest velocity of a face beside a full pore or of one that carries liquid, cells/s.
+fn fastest(_mesh: &Mesh, flow: &Flow) -> f64 {
+    flow.velocity.iter().fold(0.0, |most, v| v.abs().max(most))
+}

@@ -1,0 +1,168 @@
+//! What never changes in a run, made of the scene.
+
+use physics::{Dimensions, Liquid, Scene};
+
+use super::State;
+use crate::geometry::{Chords, Lattice, Mesh, Rows};
+use crate::liquid::{Place, deposit};
+use crate::settings::Settings;
+use crate::system::{Links, Scales, Unknowns, Walls};
+
+/// Units of the scheme.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Units {
+    /// Edge of a cell, m.
+    pub(super) cell_m: f64,
+    /// Unit of viscosity, Pa s.
+    pub(super) viscosity: f64,
+}
+
+impl Units {
+    /// Unit of force, N: viscosity times area over time.
+    pub(super) fn force(self) -> f64 {
+        self.viscosity * self.cell_m * self.cell_m
+    }
+
+    /// Unit of volume, m3.
+    pub(super) fn volume(self) -> f64 {
+        self.cell_m.powi(3)
+    }
+}
+
+/// What never changes in a run.
+pub(super) struct Setup {
+    pub(super) settings: Settings,
+    pub(super) lattice: Lattice,
+    chords: Chords,
+    pub(super) liquid: Liquid,
+    pub(super) units: Units,
+    pub(super) place: Place,
+    gravity: [f64; 3],
+    walls: Walls,
+    pub(super) bottom: Option<usize>,
+    pub(super) top: Option<usize>,
+    /// Area that pressures refer to, m2.
+    area: f64,
+}
+
+impl Setup {
+    /// The setup of a scene, its first mesh, and the liquid in its pores.
+    ///
+    /// # Errors
+    /// A sentence on what the scheme cannot do with the scene.
+    pub(super) fn new(scene: &Scene, settings: Settings) -> Result<(Self, Mesh, Vec<f64>), String> {
+        if scene.points.position.is_empty() {
+            return Err("the scene holds no liquid: nothing would move".into());
+        }
+        let lattice = Lattice::new(scene)?;
+        let cell_m = scene.grid.cell_m;
+        let speed = scene.clamp.map_or(scene.initial_speed(), |clamp| clamp.closing_speed);
+        let units = Units {
+            cell_m,
+            viscosity: scene.liquid.viscosity.at(speed / cell_m),
+        };
+        let flat = scene.dimensions == Dimensions::Two;
+        let place = Place {
+            cell_m,
+            origin_m: [scene.grid.min_m[0], lattice.gap_low_m, scene.grid.min_m[2]],
+            depth: flat.then_some(1.0),
+        };
+        let rows = lattice.rows();
+        let mesh = Mesh::new(&lattice, rows, 0..rows.len());
+        let volumes = deposit(&mesh, &scene.points, place)?;
+        let setup = Self {
+            settings,
+            chords: Chords::new(&lattice),
+            lattice,
+            liquid: scene.liquid.clone(),
+            units,
+            place,
+            gravity: scene.gravity,
+            walls: Walls {
+                influence_length: scene.wall.influence_length() / cell_m,
+                per_metre: 1.0 / cell_m,
+            },
+            bottom: scene.bottom,
+            top: scene.top,
+            area: scene.grid.area_m2(),
+        };
+        Ok((setup, mesh, volumes))
+    }
+
+    /// Friction of the walls of a mesh.
+    pub(super) fn links(&self, mesh: &Mesh) -> Links {
+        Links::new(&self.lattice, &self.chords, mesh, self.walls)
+    }
+
+    /// Velocity of each face at the start, cells/s, against the grid: that of the points around it.
+    pub(super) fn initial_velocity(&self, _scene: &Scene, mesh: &Mesh) -> Vec<f64> {
+        vec![0.0; mesh.faces.len()]
+    }
+
+    /// What multiplies the terms of a step of `dt` (s).
+    pub(super) fn scales(&self, dt: f64) -> Scales {
+        let (h, eta) = (self.units.cell_m, self.units.viscosity);
+        let density = self.liquid.density;
+        Scales {
+            dt,
+            inertia: density * h * h / (eta * dt),
+            gravity: self.gravity.map(|g| density * h * g / eta),
+            compressibility: eta / self.liquid.tait.bulk_modulus,
+            influence_length: self.walls.influence_length,
+        }
+    }
+
+    /// What each pore with a pressure holds more than its volume at no pressure, and what of that Tait's law at the
+    /// pressure before the step makes of the unit of compression, over `dt`.
+    pub(super) fn carried(
+        &self,
+        mesh: &Mesh,
+        unknowns: &Unknowns,
+        state: &State,
+        full: &[bool],
+        height: f64,
+        dt: f64,
+    ) -> Vec<f64> {
+        let unit = self.units.viscosity / self.liquid.tait.bulk_modulus;
+        (unknowns.pores.iter())
+            .map(|&pore| {
+                let pore = pore as usize;
+                if !full[pore] {
+                    return 0.0;
+                }
+                let (volume, p) = (mesh.volume_at(pore, height), state.flow.pressure[pore]);
+                let change = self.liquid.tait.volume_change(p * self.units.viscosity);
+                let density = 1.0 / (1.0 + change);
+                (state.volumes[pore] - volume * (density - unit * p)) / dt
+            })
+            .collect()
+    }
+
+    /// Acceleration by weight, cells/s2.
+    pub(super) fn pull(&self) -> f64 {
+        self.gravity.iter().map(|g| g * g).sum::<f64>().sqrt() / self.units.cell_m
+    }
+
+    /// Pressure of a force on the area of the bond, Pa.
+    pub(super) fn pressure(&self, force: f64) -> f64 {
+        force * self.units.force() / self.area
+    }
+
+    /// Points that a volume of liquid would be, one a voxel.
+    pub(super) fn points_of(&self, volume: f64) -> u64 {
+        (volume * (self.lattice.k.pow(3)) as f64).round() as u64
+    }
+}
+
+impl Lattice {
+    /// Rows at the start.
+    fn rows(&self) -> Rows {
+        let open = usize::from(self.boundary[1] == physics::Boundary::Open);
+        let cells = |layers: usize| layers.div_ceil(self.k);
+        let below = match self.moving {
+            Some(_) => cells(self.below.len()) + open,
+            None => open,
+        };
+        Rows::of_gap(below, cells(self.above.len()) + open, self.gap_height)
+    }
+}

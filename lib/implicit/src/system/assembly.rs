@@ -1,0 +1,249 @@
+//! The equations of a step: momentum of faces, volume of pores, force on the body that closes the gap.
+
+use rayon::prelude::*;
+use saddle_point::{Csr, RowEntries, SolveError, VelocityBlock};
+
+use super::links::Links;
+use super::terms::{edges, stretching};
+use super::unknowns::Unknowns;
+use crate::geometry::{Kind, Lattice, Mesh};
+
+/// Friction over viscosity of liquid that touches nothing, so that it has a velocity.
+const FREE: f64 = 1e-7;
+
+/// What multiplies the terms of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scales {
+    /// Length of the step, s.
+    pub(crate) dt: f64,
+    /// rho h^2/(eta dt).
+    pub(crate) inertia: f64,
+    /// rho h g/eta along each axis.
+    pub(crate) gravity: [f64; 3],
+    /// eta/K, the compression of a unit of pressure.
+    pub(crate) compressibility: f64,
+    /// Influence length of the walls, cells; infinite without friction.
+    pub(crate) influence_length: f64,
+}
+
+/// What the equations are made of.
+pub(crate) struct Problem<'a> {
+    pub(crate) lattice: &'a Lattice,
+    pub(crate) mesh: &'a Mesh,
+    pub(crate) links: &'a Links,
+    pub(crate) unknowns: &'a Unknowns,
+    /// Volume fraction of each pore, at most 1.
+    pub(crate) fractions: &'a [f64],
+    /// Viscosity of each pore over the unit of viscosity.
+    pub(crate) viscosity: &'a [f64],
+    /// Viscosity at the walls of each face over the unit.
+    pub(crate) wall_viscosity: &'a [[f64; 2]],
+    /// Velocity of each face before the step, against the grid, cells/s, and the closing speed then.
+    pub(crate) before: &'a [f64],
+    pub(crate) speed_before: f64,
+    pub(crate) scales: Scales,
+}
+
+/// Momenta on the right-hand side: known, per closing speed, and the weight's part of what is known.
+pub(crate) struct Sides {
+    pub(crate) known: Vec<f64>,
+    pub(crate) closing: Vec<f64>,
+    pub(crate) weight: Vec<f64>,
+    /// Known force on the body that closes the gap, by the inertia and the weight of the liquid that it carries along.
+    pub(crate) carried: f64,
+}
+
+impl Problem<'_> {
+    /// Viscosity times fraction of a pore.
+    fn stiffness(&self, pore: usize) -> f64 {
+        self.fractions[pore] * self.viscosity[pore]
+    }
+
+    /// The two pores of a face.
+    fn ends(&self, face: usize) -> [usize; 2] {
+        let face = &self.mesh.faces[face];
+        [face.low as usize, face.high as usize]
+    }
+
+    /// Liquid that moves with a face: its share of the half pores on both sides.
+    pub(crate) fn carried(&self, face: usize) -> f64 {
+        let axis = usize::from(self.mesh.faces[face].axis);
+        let share = |pore: usize, up: bool| {
+            let all: f64 = self.mesh.faces_at(pore, axis, up).map(|f| self.mesh.area(f)).sum();
+            0.5 * self.fractions[pore] * self.mesh.volume(pore) * self.mesh.area(face) / all
+        };
+        let [low, high] = self.ends(face);
+        share(low, true) + share(high, false)
+    }
+
+    /// Friction of the walls at a face, in its low and its high half.
+    pub(crate) fn wall_weights(&self, face: usize) -> [f64; 2] {
+        let ([low, high], eta) = (self.ends(face), self.wall_viscosity[face]);
+        [self.fractions[low] * eta[0], self.fractions[high] * eta[1]]
+    }
+
+    /// The velocity block.
+    pub(crate) fn velocity_block(&self) -> Result<VelocityBlock, SolveError> {
+        let faces = &self.unknowns.faces;
+        VelocityBlock::assemble(faces.len(), |row, entries| {
+            self.momentum(faces[row] as usize, row, entries);
+        })
+    }
+
+    fn momentum(&self, face: usize, row: usize, entries: &mut RowEntries) {
+        let link = &self.links.0[face];
+        let weights = self.wall_weights(face);
+        let friction = weights[0] * link.friction[0] + weights[1] * link.friction[1];
+        entries.add(row, friction + self.scales.inertia * self.carried(face) + FREE);
+        let number = |face: usize| self.unknowns.face(face);
+        let ends = self.ends(face);
+        for (pore, up) in [(ends[0], false), (ends[1], true)] {
+            let stiffness = self.stiffness(pore);
+            if stiffness == 0.0 {
+                continue;
+            }
+            stretching(self.mesh, face, up, |pull| {
+                let weight = stiffness * pull.weight;
+                match pull.other.map(number) {
+                    None => entries.add(row, weight),
+                    Some(None) => {}
+                    Some(Some(other)) => {
+                        entries.add(row, weight);
+                        entries.add(other, -weight);
+                    }
+                }
+            });
+        }
+        edges(self.mesh, face, self.lattice.flat, |edge| {
+            let eta: f64 = edge.pores.iter().map(|&pore| 0.25 * self.stiffness(pore)).sum();
+            let Some(next) = number(edge.next) else {
+                return;
+            };
+            entries.add(row, eta * edge.shear);
+            entries.add(next, -eta * edge.shear);
+            if let [Some(low), Some(high)] = edge.across.map(number) {
+                let weight = if edge.up { -eta } else { eta } * edge.length;
+                entries.add(high, weight);
+                entries.add(low, -weight);
+            }
+        });
+    }
+
+    /// Right-hand side of the momenta.
+    pub(crate) fn momenta(&self) -> Sides {
+        let faces = &self.unknowns.faces;
+        let sides: Vec<[f64; 4]> = (faces.par_iter())
+            .map(|&face| self.force(face as usize))
+            .collect();
+        let column = |i: usize| sides.iter().map(|side| side[i]).collect::<Vec<f64>>();
+        Sides {
+            known: column(0),
+            closing: column(1),
+            weight: column(2),
+            carried: column(3).iter().sum(),
+        }
+    }
+
+    /// What pushes a face, as in [`Sides`].
+    fn force(&self, face: usize) -> [f64; 4] {
+        let f = self.mesh.faces[face];
+        let axis = usize::from(f.axis);
+        let carried = self.carried(face);
+        let inertia = self.scales.inertia * carried;
+        let weight = self.scales.gravity[axis] * carried;
+        let mut force = [inertia * self.before[face] + weight, 0.0, weight, 0.0];
+        let link = &self.links.0[face];
+        let weights = self.wall_weights(face);
+        for half in 0..2 {
+            force[0] += weights[half] * link.sliding[half][0];
+            force[1] += weights[half] * link.sliding[half][1];
+        }
+        if axis == 1 && self.lattice.moving.is_some() {
+            let frame = self.mesh.frame(self.lattice, face);
+            force[0] += inertia * frame * self.speed_before;
+            force[1] -= inertia * frame;
+            force[3] = -frame * force[0];
+            let ends = self.ends(face);
+            for (pore, up) in [(ends[0], false), (ends[1], true)] {
+                let stiffness = self.stiffness(pore);
+                stretching(self.mesh, face, up, |pull| {
+                    if pull.other.is_none_or(|other| self.unknowns.face(other).is_some()) {
+                        force[1] += stiffness * pull.weight * pull.closing;
+                    }
+                });
+            }
+        }
+        force
+    }
+
+    /// Force per closing speed on the body that closes, by liquid that stays where it is in the grid.
+    pub(crate) fn resistance(&self) -> f64 {
+        let faces: f64 = (self.unknowns.faces.iter())
+            .map(|&face| self.resistance_of(face as usize))
+            .sum();
+        faces + (0..self.mesh.pores.len()).map(|pore| self.squeezed(pore)).sum::<f64>()
+    }
+
+    fn resistance_of(&self, face: usize) -> f64 {
+        let link = &self.links.0[face];
+        let weights = self.wall_weights(face);
+        let walls = weights[0] * link.resistance[0] + weights[1] * link.resistance[1];
+        if self.mesh.faces[face].axis != 1 {
+            return walls;
+        }
+        let frame = self.mesh.frame(self.lattice, face);
+        walls + self.scales.inertia * self.carried(face) * frame * frame
+    }
+
+    /// Resistance of a pore of the gap to being squeezed with its faces at rest.
+    fn squeezed(&self, pore: usize) -> f64 {
+        let cell = self.mesh.pores[pore].cell as usize;
+        let stiffness = self.stiffness(pore);
+        if stiffness == 0.0 || self.mesh.rows.kind(self.mesh.row(cell)) != Kind::Gap {
+            return 0.0;
+        }
+        let mut sum = 0.0;
+        for face in self.mesh.faces_at(pore, 1, false).filter(|&f| self.unknowns.face(f).is_some()) {
+            stretching(self.mesh, face, true, |pull| {
+                if pull.other.is_none_or(|other| self.unknowns.face(other).is_some()) {
+                    sum += pull.weight * pull.closing * pull.closing;
+                }
+            });
+        }
+        if self.mesh.faces_at(pore, 1, false).next().is_none() {
+            for face in self.mesh.faces_at(pore, 1, true).filter(|&f| self.unknowns.face(f).is_some()) {
+                stretching(self.mesh, face, false, |pull| {
+                    sum += pull.weight * pull.closing * pull.closing;
+                });
+            }
+        }
+        stiffness * sum
+    }
+
+    /// Outflow of each pore with a pressure by the velocities of its faces.
+    pub(crate) fn outflow(&self) -> Result<Csr<f64>, SolveError> {
+        let (pores, faces) = (&self.unknowns.pores, &self.unknowns.faces);
+        Csr::assemble(pores.len(), faces.len(), |row, entries| {
+            let pore = pores[row] as usize;
+            for axis in 0..3 {
+                for up in [false, true] {
+                    for face in self.mesh.faces_at(pore, axis, up) {
+                        if let Some(number) = self.unknowns.face(face) {
+                            let area = self.mesh.area(face);
+                            entries.add(number, if up { area } else { -area });
+                        }
+                    }
+                }
+            }
+        })
+    }
+
+    /// Volume that a pore loses per closing speed.
+    pub(crate) fn closing(&self, pore: usize) -> f64 {
+        let mesh = self.mesh;
+        match mesh.rows.kind(mesh.row(mesh.pores[pore].cell as usize)) {
+            Kind::Gap => mesh.volume(pore) / mesh.rows.height,
+            _ => 0.0,
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Friction of walls: what each face is held with by the walls beside it.
+
+use rayon::prelude::*;
+
+use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, Place, others};
+
+/// Least effective distance over the open height of a column.
+const LEAST: f64 = 0.1;
+/// Least part of the narrowest width that counts where walls stand on both axes.
+const NARROWEST: f64 = 0.85;
+
+/// Friction that holds a face to the walls beside it, per viscosity: in its low and its high half.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Link {
+    /// Area of walls over the distance to them, of the halves in the low and the high pore.
+    pub(crate) friction: [f64; 2],
+    /// The same times the velocity of the walls along the face: what moves by itself, cells/s, and what moves with the
+    /// closing speed, per unit of that.
+    pub(crate) sliding: [[f64; 2]; 2],
+    /// The same times the square of the latter.
+    pub(crate) resistance: [f64; 2],
+    /// Area of walls, of both halves.
+    pub(crate) area: f64,
+    /// Code of the body that most recently was found beside it.
+    pub(crate) body: u8,
+    /// Sum of 1/H^2 over the axes across the face.
+    pub(crate) narrowness: f64,
+}
+
+/// The links of all faces of a mesh.
+pub(crate) struct Links(pub(crate) Vec<Link>);
+
+/// What walls are like in a scene.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Walls {
+    /// Influence length of Eq. 3, cells; infinite without friction.
+    pub(crate) influence_length: f64,
+    /// Cells a metre.
+    pub(crate) per_metre: f64,
+}
+
+impl Links {
+    pub(crate) fn new(lattice: &Lattice, chords: &Chords, mesh: &Mesh, walls: Walls) -> Self {
+        let view = View {
+            lattice,
+            chords,
+            mesh,
+            walls,
+        };
+        Self((0..mesh.faces.len()).into_par_iter().map(|face| view.link(face)).collect())
+    }
+}
+
+/// What a link is found from.
+struct View<'a> {
+    lattice: &'a Lattice,
+    chords: &'a Chords,
+    mesh: &'a Mesh,
+    walls: Walls,
+}
+
+/// The walls beside one column of a face, in units of the edge of its cells across the column.
+struct Column {
+    /// Open height.
+    height: f64,
+    /// Width of the channel along the column and across it.
+    widths: [f64; 2],
+}
+
+impl View<'_> {
+    fn link(&self, face: usize) -> Link {
+        let mut link = Link::default();
+        let f = self.mesh.faces[face];
+        let axis = usize::from(f.axis);
+        if self.walls.influence_length.is_infinite() {
+            return link;
+        }
+        for t in others(axis) {
+            if self.lattice.flat && t == 2 {
+                continue;
+            }
+            for r in 0..self.mesh.k {
+                self.column(face, axis, t, r, &mut link);
+            }
+        }
+        link
+    }
+
+    /// Adds the walls at both ends along `t` of column `r` of a face.
+    fn column(&self, face: usize, axis: usize, t: usize, r: usize, link: &mut Link) {
+        let (mesh, k) = (self.mesh, self.mesh.k);
+        let f = mesh.faces[face];
+        let cells = [f.low, f.high].map(|pore| mesh.pores[pore as usize].cell as usize);
+        let across = 3 - axis - t;
+        let voxel = |half: usize, i: usize| {
+            let mut at = [0; 3];
+            (at[axis], at[t], at[across]) = (if half == 0 { k - 1 } else { 0 }, i, r);
+            at
+        };
+        let bit = |i: usize| {
+            let at = voxel(0, i);
+            let [s, q] = others(axis);
+            at[s] + k * at[q]
+        };
+        let open: Vec<usize> = (0..k).filter(|&i| f.open >> bit(i) & 1 == 1).collect();
+        let (Some(&first), Some(&last)) = (open.first(), open.last()) else {
+            return;
+        };
+        for half in 0..2 {
+            let cell = cells[half];
+            let edges = mesh.edges(cell);
+            let ends = [(first, false), (last, true)].map(|(i, up)| {
+                mesh.next_voxel(cell, voxel(half, i), t, up)
+                    .map_or(MIRROR, |(cell, at)| mesh.code(self.lattice, cell, at))
+            });
+            let is_wall = |code: u8| code != OPEN && code != MIRROR;
+            let column = Column {
+                height: open.len() as f64 / k as f64,
+                widths: [t, across].map(|a| self.width(cell, voxel(half, first), a) / edges[t]),
+            };
+            let part = 0.5 * edges[axis] * edges[across] / k as f64;
+            link.narrowness += column.widths[0].powi(-2) * part / (edges[t] * edges[t]);
+            if !ends.iter().any(|&code| is_wall(code)) {
+                continue;
+            }
+            let between = ends.iter().all(|&code| is_wall(code));
+            let distance = edges[t] * self.distance(&column, between) + self.walls.influence_length;
+            for code in ends.into_iter().filter(|&code| is_wall(code)) {
+                let friction = part / distance;
+                let [own, clamp] = self.sliding(code, face, axis);
+                link.friction[half] += friction;
+                link.sliding[half][0] += friction * own;
+                link.sliding[half][1] += friction * clamp;
+                link.resistance[half] += friction * clamp * clamp;
+                link.area += part;
+                link.body = code;
+            }
+        }
+    }
+
+    /// Width of the channel along an axis at a voxel, cells.
+    fn width(&self, cell: usize, voxel: [usize; 3], axis: usize) -> f64 {
+        let (mesh, k) = (self.mesh, self.mesh.k as f64);
+        let place = mesh.lattice_place(self.lattice, cell, voxel);
+        let voxels = place.map_or(f64::INFINITY, |place: Place| {
+            self.chords.length(place, axis, mesh.rows.height * k)
+        });
+        (voxels / k).max(0.25)
+    }
+
+    /// Distance over which the velocity of a column falls to that of its walls, in cells of it: that which makes the flux
+    /// of plane Poiseuille flow exact at every height `h1` of the column in a channel of width `H` (docs/methods.md).
+    fn distance(&self, column: &Column, between: bool) -> f64 {
+        let h1 = column.height;
+        let [along, across] = column.widths;
+        if between {
+            return along / 6.0;
+        }
+        let width = match self.mesh.k {
+            1 => {
+                let least = along.min(across).min(2.0 * h1.max(0.5));
+                (along.powi(-2) + across.powi(-2)).powf(-0.5).max(NARROWEST * least)
+            }
+            _ => along,
+        };
+        let distance = 0.5 * h1 - h1 * h1 / (3.0 * width)
+            + (1.0 - 2.0 * h1 / width) * (h1 * h1 - 1.0) / (3.0 * width);
+        distance.max(LEAST * h1)
+    }
+
+    /// Velocity of a wall along an axis against the row of a face: its own, cells/s, and per closing speed.
+    fn sliding(&self, code: u8, face: usize, axis: usize) -> [f64; 2] {
+        let body = usize::from(code - 1);
+        let own = self.lattice.slide[body][axis] * self.walls.per_metre;
+        if axis != 1 {
+            return [own, 0.0];
+        }
+        [0.0, self.lattice.speed_of(body) - self.mesh.frame(self.lattice, face)]
+    }
+}

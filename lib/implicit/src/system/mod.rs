@@ -1,0 +1,12 @@
+//! Unknowns and equations of one step.
+
+mod assembly;
+mod links;
+mod solution;
+mod terms;
+mod unknowns;
+
+pub(crate) use assembly::{Problem, Scales};
+pub(crate) use links::{Links, Walls};
+pub(crate) use solution::{Drive, Flow, forces, solve};
+pub(crate) use unknowns::{FULL, Unknowns};

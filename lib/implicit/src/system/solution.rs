@@ -1,0 +1,184 @@
+//! Solution of the equations of a step, and the forces on the bodies.
+
+use rayon::prelude::*;
+use saddle_point::{Load, SaddleSolver, SaddleSystem, SolveError};
+
+use super::assembly::{Problem, Sides};
+use crate::geometry::{MIRROR, OPEN};
+
+/// How the body that closes the gap is driven.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Drive {
+    /// At this speed, cells/s.
+    Speed(f64),
+    /// By this force over the unit of viscosity, at a speed near the second number.
+    Force(f64, f64),
+}
+
+/// What flows in a step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Flow {
+    /// Velocity of each face against the grid, cells/s.
+    pub(crate) velocity: Vec<f64>,
+    /// Pressure of each pore over the unit of viscosity.
+    pub(crate) pressure: Vec<f64>,
+    /// Closing speed, cells/s.
+    pub(crate) speed: f64,
+    /// Force on the body that closes the gap, against it.
+    pub(crate) force: f64,
+    pub(crate) iterations: u32,
+}
+
+/// Share of the cells that liquid may cross in a step below which flow counts as none.
+const SLOW: f64 = 0.01;
+
+/// Solves a problem. `carried` is the volume, over the time step, that each pore with a pressure holds more than its
+/// volume at no pressure, and `guess` a flow to start from.
+pub(crate) fn solve(
+    problem: &Problem,
+    carried: &[f64],
+    drive: Drive,
+    guess: &Flow,
+    solver: &mut SaddleSolver,
+) -> Result<Flow, SolveError> {
+    let unknowns = problem.unknowns;
+    let (a, g) = (problem.velocity_block()?, problem.outflow()?);
+    let Sides {
+        mut known,
+        closing,
+        weight,
+        carried: carried_force,
+    } = problem.momenta();
+    let scales = &problem.scales;
+    let source: Vec<f64> = (unknowns.pores.iter())
+        .map(|&pore| problem.closing(pore as usize))
+        .collect();
+    let c: Vec<f64> = (unknowns.pores.iter())
+        .map(|&pore| problem.mesh.volume(pore as usize) * scales.compressibility / scales.dt)
+        .collect();
+    let friction: Vec<f64> = (unknowns.faces.par_iter())
+        .map(|&face| resistance(problem, face as usize))
+        .collect();
+    let two_eta: Vec<f64> = (unknowns.pores.iter())
+        .map(|&pore| 2.0 * problem.viscosity[pore as usize])
+        .collect();
+    let speed = match drive {
+        Drive::Speed(speed) | Drive::Force(_, speed) => speed,
+    };
+    let mut volume_source = vec![0.0; source.len()];
+    if let Drive::Speed(speed) = drive {
+        for (known, closing) in known.iter_mut().zip(&closing) {
+            *known += speed * closing;
+        }
+        for (moved, source) in volume_source.iter_mut().zip(&source) {
+            *moved = speed * source;
+        }
+    }
+    let system = SaddleSystem {
+        a: &a,
+        g: &g,
+        pockets: 0,
+        c: &c,
+        friction: &friction,
+        two_eta: &two_eta,
+        b: &known,
+        standing: if scales.gravity == [0.0; 3] { &[] } else { &weight },
+        holding: &[],
+        slow: SLOW / scales.dt,
+        volume_source: &volume_source,
+        carried,
+    };
+    let mut u: Vec<f64> = (unknowns.faces.iter())
+        .map(|&face| guess.velocity[face as usize])
+        .collect();
+    let mut p: Vec<f64> = (unknowns.pores.iter())
+        .map(|&pore| guess.pressure[pore as usize])
+        .collect();
+    let mut flow = Flow {
+        velocity: vec![0.0; problem.mesh.faces.len()],
+        pressure: vec![0.0; problem.mesh.pores.len()],
+        speed,
+        ..Flow::default()
+    };
+    let drag = problem.resistance();
+    let solved = match drive {
+        Drive::Speed(_) => solver.solve(&system, &mut u, &mut p),
+        Drive::Force(force, _) => {
+            let load = Load {
+                momentum: closing.clone(),
+                source: source.clone(),
+                resistance: drag,
+                force: force - carried_force,
+                scale: force.abs().max(f64::MIN_POSITIVE),
+            };
+            solver.solve_loaded(&system, &load, &mut u, &mut p, &mut flow.speed)
+        }
+    };
+    flow.iterations = match solved {
+        Ok(report) => report.iterations() as u32,
+        Err(SolveError::NotConverged { iterations, .. }) => iterations as u32,
+        Err(error) => return Err(error),
+    };
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    flow.force = dot(&source, &p) - dot(&closing, &u) + drag * flow.speed + carried_force;
+    for (&face, &u) in unknowns.faces.iter().zip(&u) {
+        flow.velocity[face as usize] = u;
+    }
+    for (&pore, &p) in unknowns.pores.iter().zip(&p) {
+        flow.pressure[pore as usize] = p;
+    }
+    Ok(flow)
+}
+
+/// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md).
+fn resistance(problem: &Problem, face: usize) -> f64 {
+    let link = &problem.links.0[face];
+    let slip = problem.scales.influence_length;
+    let narrow = match slip.is_finite() {
+        true => 12.0 * link.narrowness / (1.0 + 6.0 * slip * link.narrowness.sqrt()),
+        false => 0.0,
+    };
+    let f = problem.mesh.faces[face];
+    let eta = problem.viscosity[f.low as usize].max(problem.viscosity[f.high as usize]);
+    let least = 1e-6;
+    (problem.carried(face) * (problem.scales.inertia + eta * narrow)).max(least)
+}
+
+/// Forces on the bodies along y, over the unit of viscosity: pressure on walls across y, friction along it, and
+/// stretching of the liquid before walls.
+pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> {
+    let (mesh, lattice) = (problem.mesh, problem.lattice);
+    let mut forces = vec![0.0; bodies];
+    let mut push = |code: u8, force: f64| {
+        if code != OPEN && code != MIRROR {
+            forces[usize::from(code - 1)] += force;
+        }
+    };
+    let part = 1.0 / (mesh.k * mesh.k) as f64;
+    for &pore in &problem.unknowns.pores {
+        let pore = pore as usize;
+        let (p, cell) = (flow.pressure[pore], mesh.pores[pore].cell as usize);
+        for bit in (0..8).filter(|bit| mesh.pores[pore].voxels >> bit & 1 == 1) {
+            for (up, sign) in [(false, -1.0), (true, 1.0)] {
+                if let Some((cell, voxel)) = mesh.next_voxel(cell, mesh.voxel(bit), 1, up) {
+                    push(mesh.code(lattice, cell, voxel), sign * p * part);
+                }
+            }
+        }
+    }
+    for &face in &problem.unknowns.faces {
+        let face = face as usize;
+        let link = &problem.links.0[face];
+        if mesh.faces[face].axis == 1 {
+            let weights = problem.wall_weights(face);
+            let drag: f64 = (0..2)
+                .map(|half| {
+                    let wall = link.sliding[half][0] + flow.speed * link.sliding[half][1];
+                    weights[half] * (link.friction[half] * flow.velocity[face] - wall)
+                })
+                .sum();
+            push(link.body, drag);
+        }
+    }
+    forces
+}

@@ -1,0 +1,93 @@
+//! Developed flow along channels and ducts under weight, walls on the faces of cells and half way between them.
+
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
+#[path = "common/plain.rs"]
+mod plain;
+
+use implicit::{Implicit, Settings};
+use physics::{Boundary, Motion, Scene, Scheme, StepLimit, VoxelBlock};
+
+/// Edge of a cell, m.
+const CELL: f64 = 2.9e-6;
+const ETA: f64 = 1.3;
+const PULL: f64 = 1e5;
+
+/// Mean velocity over the open cross-section after one long step.
+fn mean_velocity(scene: &Scene) -> f64 {
+    let settings = Settings {
+        tolerance: 1e-6,
+        ..Settings::default()
+    };
+    let mut scheme = Implicit::new(scene, settings).unwrap();
+    let limit = StepLimit {
+        time_s: 1e-5,
+        travel_m: f64::INFINITY,
+    };
+    let report = scheme.advance(limit).unwrap();
+    let liquid = scheme.liquid();
+    let volume: f64 = liquid.volume.iter().map(|&v| f64::from(v)).sum();
+    let flux: f64 = (liquid.velocity.iter().zip(&liquid.volume))
+        .map(|(v, &volume)| f64::from(v[0]) * f64::from(volume))
+        .sum();
+    println!("   {} iterations, dt {:.2e}", report.iterations, report.dt_s);
+    flux / volume
+}
+
+/// A channel or duct along x of `width` half-cells, its low walls `offset` half-cells off the faces of cells.
+fn channel(width: usize, offset: usize, square: bool) -> Scene {
+    let h = CELL;
+    let n = width.div_ceil(2) + 2;
+    let cells = [4, n, if square { n } else { 1 }];
+    let mut scene = plain::scene(h, cells);
+    let at = |half: usize| 0.5 * h * half as f64;
+    let (low, high) = (at(2 + offset), at(2 + offset + width));
+    let end = h * n as f64;
+    let length = 4.0 * h;
+    let slab = |low: [f64; 3], high: [f64; 3]| VoxelBlock::solid_box(low, high);
+    let depth = if square { end } else { h };
+    let mut walls = vec![
+        slab([0.0; 3], [length, low, depth]),
+        slab([0.0, high, 0.0], [length, end, depth]),
+    ];
+    let mut points = [4, width, 2];
+    let (mut from, mut size) = ([0.0, low, 0.0], [h, 0.5 * h, 0.5 * h]);
+    if square {
+        walls.push(slab([0.0, low, 0.0], [length, high, low]));
+        walls.push(slab([0.0, low, high], [length, high, end]));
+        points[2] = width;
+        from[2] = low;
+    } else {
+        points[2] = 1;
+        size[2] = h;
+    }
+    (size[0], points[0]) = (0.5 * h, 8);
+    scene.points = plain::fill(from, size, points);
+    scene.bodies = vec![plain::body("wall", walls, Motion::Fixed)];
+    scene.boundary[0] = Boundary::Periodic;
+    scene.gravity = [PULL, 0.0, 0.0];
+    scene.liquid.density = 1200.0;
+    scene
+}
+
+/// One step from rest with inertia: the flow of backward Euler, close to that of no inertia in long steps.
+fn error(width: usize, offset: usize, square: bool) -> f64 {
+    let scene = channel(width, offset, square);
+    let h = 0.5 * CELL * width as f64;
+    let factor = if square { 0.035_144_3 } else { 1.0 / 12.0 };
+    let expected = factor * h * h * 1200.0 * PULL / ETA;
+    let error = mean_velocity(&scene) / expected - 1.0;
+    println!("width {} cells, offset {}, square {square}: {:+.3} %", width as f64 / 2.0, offset as f64 / 2.0, 100.0 * error);
+    error
+}
+
+#[test]
+fn flow_along_channels_and_ducts_is_that_of_the_closed_forms() {
+    for width in [2, 3, 4, 6, 8, 12, 24] {
+        for offset in [0, 1] {
+            let plane = error(width, offset, false);
+            let square = error(width, offset, true);
+            let _ = (plane, square);
+        }
+    }
+}
