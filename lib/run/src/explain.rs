@@ -232,6 +232,7 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
     let scheme = match case.integrator.scheme {
         SchemeName::Explicit => "explicit material point method",
         SchemeName::Implicit => "implicit staggered filling solver",
+        SchemeName::VolumeFraction => "implicit, liquid as volume fractions",
     };
     writeln!(out, "  scheme             {scheme}")
 }

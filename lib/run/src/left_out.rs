@@ -57,7 +57,7 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
             format!("{lumen:.1} kPa in a six-cell lumen{share}: no surface_tension"),
         );
     }
-    if case.integrator.scheme == SchemeName::Implicit {
+    if case.integrator.scheme != SchemeName::Explicit {
         add(
             "sound waves",
             format!(

@@ -19,6 +19,7 @@ pub(crate) fn default_cfl(case: &Case) -> f64 {
     match case.integrator.scheme {
         SchemeName::Explicit => mpm::Settings::default().cfl,
         SchemeName::Implicit => filling::Settings::default().cfl,
+        SchemeName::VolumeFraction => implicit::Settings::default().cfl,
     }
 }
 
@@ -41,6 +42,14 @@ pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFa
             };
             Box::new(Implicit::new(scene, implicit(case)?).map_err(RunFailure::Usage)?)
         }
+        SchemeName::VolumeFraction => {
+            let scene = Scene {
+                points: setup.points().collect(),
+                ..scene.clone()
+            };
+            let scheme = implicit::Implicit::new(&scene, volume_fraction(case)?);
+            Box::new(scheme.map_err(RunFailure::Usage)?)
+        }
     })
 }
 
@@ -48,7 +57,9 @@ pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFa
 pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailure> {
     match case.integrator.scheme {
         SchemeName::Explicit => explicit_forecast(&explicit(case)?, setup),
-        SchemeName::Implicit => Ok(implicit_forecast(&implicit(case)?, setup)),
+        SchemeName::Implicit | SchemeName::VolumeFraction => {
+            Ok(implicit_forecast(&implicit(case)?, setup))
+        }
     }
 }
 
@@ -158,6 +169,25 @@ fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
     };
     settings.check().map_err(CaseError)?;
     Ok(settings)
+}
+
+/// Settings of the scheme of volume fractions.
+fn volume_fraction(case: &Case) -> Result<implicit::Settings, CaseError> {
+    let settings = implicit(case)?;
+    let not_yet = [
+        (case.adhesive.water.is_some(), "[adhesive.water]"),
+        (case.adhesive.surface_tension.is_some(), "[adhesive] surface_tension"),
+        (case.air.is_some(), "[air]"),
+    ];
+    if let Some((_, key)) = not_yet.iter().find(|(given, _)| *given) {
+        return Err(CaseError(format!(
+            "{key} is for scheme = \"implicit\" only: scheme = \"volume-fraction\" does not have it yet"
+        )));
+    }
+    Ok(implicit::Settings {
+        cfl: settings.cfl,
+        tolerance: settings.tolerance,
+    })
 }
 
 /// Liquid particle-steps per second and thread of FLIP in a scene with walls, as measured

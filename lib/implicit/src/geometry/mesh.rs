@@ -9,9 +9,6 @@ use super::lattice::{Lattice, MIRROR, OPEN};
 use super::rows::{Kind, Rows};
 use super::split::connected;
 
-/// No pore.
-pub(crate) const NONE: u32 = u32::MAX;
-
 /// A connected part of the open voxels of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Pore {
@@ -48,8 +45,6 @@ pub(crate) struct Mesh {
     pore_start: Vec<u32>,
     /// First face of each cell towards x, y, z, and one more.
     face_start: Vec<u32>,
-    /// Open voxels of each cell.
-    open: Vec<u8>,
 }
 
 impl Mesh {
@@ -71,12 +66,10 @@ impl Mesh {
             faces: Vec::new(),
             pore_start: Vec::with_capacity(cells + 1),
             face_start: Vec::with_capacity(3 * cells + 1),
-            open: Vec::with_capacity(cells),
         };
         for cell in 0..cells {
             mesh.pore_start.push(mesh.pores.len() as u32);
             let open = mesh.open_voxels(lattice, cell);
-            mesh.open.push(open);
             mesh.pores.extend(connected(open, mesh.k).map(|voxels| Pore {
                 cell: cell as u32,
                 voxels,
@@ -263,11 +256,6 @@ impl Mesh {
     pub(crate) fn frame(&self, lattice: &Lattice, face: usize) -> f64 {
         let cell = self.pores[self.faces[face].high as usize].cell as usize;
         lattice.speed_at(self.rows.share(self.row(cell)))
-    }
-
-    /// Open voxels of a cell.
-    pub(crate) fn open(&self, cell: usize) -> u8 {
-        self.open[cell]
     }
 
     /// Where in the lattice a voxel of a cell lies; `None` beyond the layers of a part or an open side.

@@ -9,5 +9,5 @@ mod split;
 pub(crate) use chords::Chords;
 pub(crate) use lattice::{Lattice, MIRROR, OPEN};
 pub(crate) use chords::Place;
-pub(crate) use mesh::{Face, Mesh, Pore, others};
+pub(crate) use mesh::{Mesh, others};
 pub(crate) use rows::{Kind, Rows};

@@ -1,6 +1,6 @@
 //! The scheme, and the order of one step.
 
-mod control;
+mod drive;
 mod scheme;
 mod setup;
 
@@ -11,8 +11,8 @@ use saddle_point::{SaddleOptions, SaddleSolver};
 use crate::geometry::{Mesh, Rows};
 use crate::liquid::{Moved, carried_velocities, carried_volumes, transport};
 use crate::settings::Settings;
-use crate::system::{Drive, FULL, Flow, Links, Problem, Scales, Unknowns, forces, solve};
-use control::Control;
+use crate::system::{Drive, FULL, Flow, Links, Problem, Rates, Unknowns, Viscosities, forces, halves, solve};
+use drive::{Asked, ClampDrive};
 use setup::Setup;
 
 /// Attempts at a step of acceptable length.
@@ -21,6 +21,14 @@ const ATTEMPTS: usize = 8;
 const EXCESS: f64 = 1.1;
 /// Rows of cells around the liquid that a mesh has, and the least that it may have before it is made anew.
 const MARGIN: [usize; 2] = [8, 2];
+/// Most that cure changes ln(viscosity) by in a step.
+const CURED: f64 = 0.2;
+/// Passes in which the viscosity of the flow is sought, and its mean change, weighted by dissipation, that ends them.
+const PASSES: usize = 20;
+const SETTLED: f64 = 2e-3;
+/// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
+const JETS: f64 = 1e-3;
+const JET_CFL: f64 = 1.5;
 /// Part of the travel that is left below which it is over.
 const ARRIVED: f64 = 1e-9;
 
@@ -40,7 +48,7 @@ struct State {
     /// Liquid in each pore at no pressure, cells.
     volumes: Vec<f64>,
     flow: Flow,
-    control: Control,
+    drive: ClampDrive,
     /// Displacement of each body, m.
     displacement: Vec<[f64; 3]>,
     /// Clamp travel, m.
@@ -51,8 +59,10 @@ struct State {
     fastest: f64,
     /// Liquid that left the domain, cells.
     lost: f64,
-    /// Viscous dissipation, W.
+    /// Viscous dissipation, over the unit of viscosity.
     power: f64,
+    /// Steps whose viscosity did not settle.
+    unsettled: u64,
 }
 
 /// A step that was solved.
@@ -61,7 +71,8 @@ struct Solved {
     flow: Flow,
     full: Vec<bool>,
     forces: Vec<f64>,
-    power: f64,
+    /// Whether the viscosity is that of the flow.
+    settled: bool,
 }
 
 impl Implicit {
@@ -78,16 +89,16 @@ impl Implicit {
             pressure: vec![0.0; mesh.pores.len()],
             ..Flow::default()
         };
-        let control = Control::new(scene, setup.units);
+        let drive = setup.drive(scene);
         let speed = scene.initial_speed() / setup.units.cell_m;
         Ok(Self {
             state: State {
                 volumes,
                 flow: Flow {
-                    speed: control.speed(),
+                    speed: drive.speed / setup.units.cell_m,
                     ..flow
                 },
-                control,
+                drive,
                 displacement: vec![[0.0; 3]; scene.bodies.len()],
                 travel: 0.0,
                 time: 0.0,
@@ -95,6 +106,7 @@ impl Implicit {
                 fastest: speed,
                 lost: 0.0,
                 power: 0.0,
+                unsettled: 0,
             },
             solver: SaddleSolver::new(SaddleOptions {
                 tolerance: settings.tolerance,
@@ -109,12 +121,13 @@ impl Implicit {
 
     /// Takes one step: its length, which pores are full, the solution, the liquid that moves, the rows that close.
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
+        let limit = self.state.drive.within(limit, self.state.travel);
         self.fit_mesh();
         let mut longest = limit.time_s;
         for _ in 0..ATTEMPTS {
             let dt = self.length(limit).min(longest);
             let solved = self.solve(dt, limit).map_err(|why| self.failure(&why))?;
-            let crossed = fastest(&self.mesh, &solved.flow) * solved.dt;
+            let crossed = fastest(&solved.flow, self.setup.settings.cfl) * solved.dt;
             if crossed <= EXCESS * self.setup.settings.cfl {
                 return Ok(self.follow(solved));
             }
@@ -174,6 +187,9 @@ impl Implicit {
         let free = settings.cfl / fastest;
         // From rest, weight sets the pace.
         let falls = (2.0 * settings.cfl / pull).sqrt();
+        // The viscosity of a liquid that cures is that of the middle of the step.
+        let cure = self.setup.liquid.cure.as_ref();
+        let free = cure.map_or(free, |cure| cure.steady(self.state.time, CURED).min(free));
         let dt = free.min(if self.state.steps == 0 { falls } else { f64::INFINITY });
         let left = limit.travel_m / self.setup.units.cell_m / self.state.flow.speed.max(f64::MIN_POSITIVE);
         dt.min(limit.time_s).min(left)
@@ -181,20 +197,38 @@ impl Implicit {
 
     /// Solves the flow of a step of `dt` (s), shorter where the clamp arrives.
     fn solve(&mut self, dt: f64, limit: StepLimit) -> Result<Solved, String> {
-        let left = limit.travel_m / self.setup.units.cell_m;
-        let mut solved = self.solve_driven(dt, self.state.control.drive())?;
-        if let Some(drive) = self.state.control.exceeded(solved.flow.force, solved.flow.speed) {
-            solved = self.solve_driven(dt, drive)?;
-            if let Some(drive) = self.state.control.too_fast(solved.flow.speed) {
-                solved = self.solve_driven(dt, drive)?;
+        self.state.drive.aim(dt);
+        let mut solved = match self.state.drive.held() {
+            Some(asked) => self.solve_held(dt, asked)?,
+            None => {
+                let free = self.solve_driven(dt, Drive::Speed(self.state.drive.speed / self.setup.units.cell_m))?;
+                match self.state.drive.exceeded(self.setup.pressure(free.flow.force)) {
+                    Some(asked) => self.solve_held(dt, asked)?,
+                    None => free,
+                }
             }
-        }
+        };
+        let left = limit.travel_m / self.setup.units.cell_m;
         if solved.flow.speed * dt > left * (1.0 + ARRIVED) {
-            let dt = left / solved.flow.speed;
             let speed = solved.flow.speed;
-            solved = self.solve_driven(dt, Drive::Speed(speed))?;
+            solved = self.solve_driven(left / speed, Drive::Speed(speed))?;
         }
         Ok(solved)
+    }
+
+    /// The same under a pressure on the clamp, at the nearest speed that it can follow.
+    fn solve_held(&mut self, dt: f64, asked: Asked) -> Result<Solved, String> {
+        let cell_m = self.setup.units.cell_m;
+        let drive = Drive::Force {
+            force: self.setup.force(asked.limit),
+            scale: self.setup.force(asked.limit.max(asked.least)),
+            guess: self.state.drive.speed / cell_m,
+        };
+        let solved = self.solve_driven(dt, drive)?;
+        match self.state.drive.follow(solved.flow.speed * cell_m) {
+            true => Ok(solved),
+            false => self.solve_driven(dt, Drive::Speed(self.state.drive.speed / cell_m)),
+        }
     }
 
     /// Puts the rows where they are in the middle of a step of `dt` (s) by the last closing speed; which pores are full now,
@@ -209,7 +243,7 @@ impl Implicit {
             self.mesh.rows.height = (height - 0.5 * dt * state.flow.speed).max(0.5 * height);
         }
         let mesh = &self.mesh;
-        let moved = if state.steps == 0 || std::env::var("EULER").is_ok() { state.volumes.clone() } else {
+        let moved = if state.steps == 0 { state.volumes.clone() } else {
             transport(mesh, &state.volumes, &full, &self.capacities(), &state.flow.velocity, 0.5 * dt).volumes
         };
         self.links = self.setup.links(mesh);
@@ -235,35 +269,63 @@ impl Implicit {
             .collect()
     }
 
+    /// Solves with the body that closes the gap driven so: in passes where the viscosity depends on the flow, until that
+    /// no longer changes.
     fn solve_driven(&mut self, dt: f64, drive: Drive) -> Result<Solved, String> {
         let (full, fractions) = self.middle(dt);
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
         let unknowns = Unknowns::new(mesh, &fractions);
-        let viscosity = vec![1.0; mesh.pores.len()];
-        let wall_viscosity = vec![[1.0; 2]; mesh.faces.len()];
-        let problem = Problem {
-            lattice: &setup.lattice,
-            mesh,
-            links: &self.links,
-            unknowns: &unknowns,
-            fractions: &fractions,
-            viscosity: &viscosity,
-            wall_viscosity: &wall_viscosity,
-            before: &state.flow.velocity,
-            speed_before: state.flow.speed,
-            scales: setup.scales(dt),
-        };
+        let halves = halves(mesh, &fractions);
         let carried = setup.carried(mesh, &unknowns, state, &full, self.height, dt);
-        let flow = solve(&problem, &carried, drive, &state.flow, &mut self.solver)
-            .map_err(|error| error.to_string())?;
-        let forces = forces(&problem, &flow, state.displacement.len());
-        Ok(Solved {
-            dt,
-            forces,
-            full,
-            power: flow.force * flow.speed,
-            flow,
-        })
+        let cured = setup.viscosity_at(state.time + 0.5 * dt);
+        let factor = cured / setup.units.viscosity;
+        let varies = setup.varies();
+        let rates = |flow: &Flow| {
+            let convention = setup.liquid.shear_rate;
+            Rates::of(&setup.lattice, mesh, &self.links, &flow.velocity, flow.speed, convention)
+        };
+        let mut viscosities = match varies && state.steps > 0 {
+            true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor),
+            false => Viscosities::constant(mesh, cured),
+        };
+        let mut flow = state.flow.clone();
+        let (mut iterations, mut settled) = (0, false);
+        for _ in 0..PASSES {
+            let problem = Problem {
+                lattice: &setup.lattice,
+                mesh,
+                links: &self.links,
+                unknowns: &unknowns,
+                fractions: &fractions,
+                halves: &halves,
+                viscosity: &viscosities.pores,
+                wall_viscosity: &viscosities.walls,
+                before: &state.flow.velocity,
+                speed_before: state.flow.speed,
+                scales: setup.scales(dt),
+            };
+            flow = solve(&problem, &carried, drive, &flow, &mut self.solver)
+                .map_err(|error| error.to_string())?;
+            iterations += flow.iterations;
+            let next = match varies {
+                true => rates(&flow),
+                false => Rates::default(),
+            };
+            let changed = match varies {
+                true => Viscosities::of(&next, &setup.liquid, factor),
+                false => Viscosities::default(),
+            };
+            settled = !varies || viscosities.change(&changed, &next, mesh, &fractions) < SETTLED;
+            if settled {
+                let forces = forces(&problem, &flow, state.displacement.len());
+                flow.iterations = iterations;
+                return Ok(Solved { dt, forces, full, settled, flow });
+            }
+            viscosities = changed;
+        }
+        let forces = vec![0.0; state.displacement.len()];
+        flow.iterations = iterations;
+        Ok(Solved { dt, forces, full, settled, flow })
     }
 
     /// Completes an accepted step.
@@ -273,7 +335,7 @@ impl Implicit {
             flow,
             full,
             forces,
-            power,
+            settled,
         } = solved;
         let cell_m = self.setup.units.cell_m;
         // Liquid moves through the faces of the middle of the step into the pores of its end.
@@ -291,9 +353,9 @@ impl Implicit {
         let state = &mut self.state;
         state.volumes = volumes;
         state.lost += lost;
-        state.fastest = fastest(mesh, &flow);
-        state.control.observe(flow.force, dt);
-        state.power = power;
+        state.fastest = fastest(&flow, self.setup.settings.cfl);
+        state.unsettled += u64::from(!settled);
+        state.power = flow.dissipation;
         state.time += dt;
         state.steps += 1;
         state.travel += flow.speed * dt * cell_m;
@@ -316,6 +378,7 @@ impl Implicit {
                 self.setup.pressure(force)
             })
         };
+        state.drive.observe(self.setup.pressure(flow.force), dt, state.travel);
         let report = StepReport {
             dt_s: dt,
             closing_speed: flow.speed * cell_m,
@@ -330,7 +393,17 @@ impl Implicit {
     }
 }
 
-/// The largest velocity of a face beside a full pore or of one that carries liquid, cells/s.
-fn fastest(_mesh: &Mesh, flow: &Flow) -> f64 {
-    flow.velocity.iter().fold(0.0, |most, v| v.abs().max(most))
+/// Cells a second that count: those of the fastest faces but for jets through single voxels, which may cross more.
+fn fastest(flow: &Flow, cfl: f64) -> f64 {
+    let mut speeds: Vec<f64> = (flow.velocity.iter())
+        .filter(|v| **v != 0.0)
+        .map(|v| v.abs())
+        .collect();
+    if speeds.is_empty() {
+        return 0.0;
+    }
+    let at = ((1.0 - JETS) * (speeds.len() - 1) as f64) as usize;
+    let most = speeds.iter().fold(0.0, |most: f64, &v| v.max(most));
+    let (_, &mut counted, _) = speeds.select_nth_unstable_by(at, f64::total_cmp);
+    counted.max(most * cfl / JET_CFL)
 }

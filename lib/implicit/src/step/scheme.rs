@@ -1,11 +1,17 @@
 //! `physics::Scheme` of the implicit scheme: what it shows, saves and restores.
 
 use physics::{
-    Array, Diagnostics, Failure, LiquidState, Saved, Saving, Scheme, StageTime, StepLimit, StepReport,
+    Array, Diagnostics, Failure, LiquidState, PressRun, Saved, Saving, Scheme, StageTime, StepLimit,
+    StepReport, restored,
 };
 
 use super::Implicit;
+use crate::geometry::{Mesh, Rows};
 use crate::liquid::{Shown, points};
+use crate::system::Rates;
+
+/// Name of the array that holds where the press programme is.
+const PROGRAMME: &str = "programme";
 
 impl Scheme for Implicit {
     fn advance(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
@@ -13,28 +19,45 @@ impl Scheme for Implicit {
     }
 
     fn diagnostics(&self) -> Diagnostics {
-        let volume: f64 = (0..self.mesh.pores.len())
-            .map(|pore| self.state.volumes[pore].min(self.mesh.volume(pore)))
-            .sum();
+        let (mesh, units) = (&self.mesh, self.setup.units);
+        let (mut volume, mut energy) = (0.0, 0.0);
+        for pore in 0..mesh.pores.len() {
+            let held = self.state.volumes[pore];
+            if held > 0.0 {
+                let speed = self.pore_velocity(pore).iter().map(|v| v * v).sum::<f64>();
+                volume += held.min(mesh.volume(pore));
+                energy += 0.5 * held * speed;
+            }
+        }
         Diagnostics {
-            kinetic_energy: 0.0,
-            viscous_power: self.state.power * self.setup.units.force() * self.setup.units.cell_m,
-            volume: volume * self.setup.units.volume(),
-            max_speed: self.state.fastest * self.setup.units.cell_m,
+            kinetic_energy: energy * self.setup.liquid.density * units.volume() * units.cell_m.powi(2),
+            viscous_power: self.state.power * units.force() * units.cell_m,
+            volume: volume * units.volume(),
+            max_speed: self.state.fastest * units.cell_m,
             capped_fraction: 0.0,
             water: None,
         }
     }
 
     fn liquid(&self) -> LiquidState {
-        let pressure = |pore: usize| self.state.flow.pressure[pore] * self.setup.units.viscosity;
+        let (setup, state) = (&self.setup, &self.state);
+        let convention = setup.liquid.shear_rate;
+        let flow = &state.flow;
+        let rates = Rates::of(
+            &setup.lattice,
+            &self.mesh,
+            &self.links,
+            &flow.velocity,
+            flow.speed,
+            convention,
+        );
         let shown = Shown {
-            volumes: &self.state.volumes,
+            volumes: &state.volumes,
             velocity: &|pore| self.pore_velocity(pore),
-            pressure: &pressure,
-            rate: &|_| 0.0,
+            pressure: &|pore| flow.pressure[pore] * setup.units.viscosity,
+            rate: &|pore| rates.pores[pore],
         };
-        points(&self.mesh, self.setup.place, &shown)
+        points(&self.mesh, setup.place, &shown)
     }
 
     fn displacements(&self) -> Vec<[f64; 3]> {
@@ -42,11 +65,90 @@ impl Scheme for Implicit {
     }
 
     fn saving(&self) -> Vec<(String, Saving<'_>)> {
-        vec![("volumes".into(), Saving::Whole(Array::F64(self.state.volumes.clone())))]
+        let state = &self.state;
+        let mut scalars = vec![
+            self.height,
+            state.travel,
+            state.time,
+            state.steps as f64,
+            state.fastest,
+            state.lost,
+            state.power,
+            state.unsettled as f64,
+            state.flow.speed,
+            state.flow.force,
+        ];
+        scalars.extend(state.drive.state());
+        let rows = [
+            self.mesh.rows.gap,
+            self.mesh.range.start,
+            self.mesh.range.end,
+        ];
+        let mut arrays = vec![
+            ("scalars", Array::F64(scalars)),
+            ("rows", Array::U32(rows.map(|row| row as u32).to_vec())),
+            ("volumes", Array::F64(state.volumes.clone())),
+            ("velocities", Array::F64(state.flow.velocity.clone())),
+            ("pressures", Array::F64(state.flow.pressure.clone())),
+            ("displacement", Array::F64(state.displacement.as_flattened().to_vec())),
+        ];
+        let programme = state.drive.programme().map(PressRun::state);
+        arrays.extend(programme.map(|state| (PROGRAMME, Array::F64(state))));
+        (arrays.into_iter())
+            .map(|(name, array)| (name.to_owned(), Saving::Whole(array)))
+            .collect()
     }
 
-    fn restore(&mut self, _saved: &Saved) -> Result<(), String> {
-        Err("not yet".into())
+    fn restore(&mut self, saved: &Saved) -> Result<(), String> {
+        let scalars = saved.f64s("scalars")?;
+        restored::check_finite(scalars, "scalars")?;
+        let &[height, travel, time, steps, fastest, lost, power, unsettled, speed, force, ref drive @ ..] =
+            scalars
+        else {
+            return Err("the checkpoint's scalars are not those of this scheme".into());
+        };
+        let Ok(drive) = <[f64; 7]>::try_from(drive) else {
+            return Err("the checkpoint's clamp state is not that of this scheme".into());
+        };
+        if [height, time, steps, fastest, lost, unsettled].iter().any(|&x| x < 0.0) {
+            return Err("a scalar of the checkpoint is negative where none can be".into());
+        }
+        let mesh = self.saved_mesh(saved, height)?;
+        let array = |name: &str, n: usize| -> Result<Vec<f64>, String> {
+            let values = saved.f64s(name)?;
+            restored::check_finite(values, name)?;
+            match values.len() == n {
+                true => Ok(values.to_vec()),
+                false => Err(format!(
+                    "array '{name}' of the checkpoint has {} values where this scene has {n}",
+                    values.len()
+                )),
+            }
+        };
+        let volumes = array("volumes", mesh.pores.len())?;
+        if volumes.iter().any(|&volume| volume < 0.0) {
+            return Err("a volume of the checkpoint is negative".into());
+        }
+        let velocity = array("velocities", mesh.faces.len())?;
+        let pressure = array("pressures", mesh.pores.len())?;
+        let displacement = array("displacement", 3 * self.state.displacement.len())?;
+        if self.state.drive.programme().is_some() {
+            let state = saved.f64s(PROGRAMME)?;
+            restored::check_finite(state, PROGRAMME)?;
+            self.state.drive.set_programme(state)?;
+        }
+        self.state.drive.set_state(drive);
+        let state = &mut self.state;
+        (state.travel, state.time, state.steps) = (travel, time, steps as u64);
+        (state.fastest, state.lost, state.power) = (fastest, lost, power);
+        state.unsettled = unsettled as u64;
+        state.volumes = volumes;
+        (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
+        (state.flow.speed, state.flow.force) = (speed, force);
+        state.displacement = displacement.as_chunks::<3>().0.to_vec();
+        self.links = self.setup.links(&mesh);
+        (self.mesh, self.height) = (mesh, height);
+        Ok(())
     }
 
     fn stage_times(&self) -> Vec<StageTime> {
@@ -54,11 +156,55 @@ impl Scheme for Implicit {
     }
 
     fn counts(&self) -> Vec<(&'static str, u64)> {
-        Vec::new()
+        let mut counts = Vec::new();
+        if self.setup.limited {
+            counts.push(("steps above the pressure limit", self.state.drive.broken.0));
+        }
+        if self.setup.varies() {
+            counts.push(("steps whose viscosity did not settle", self.state.unsettled));
+        }
+        counts
+    }
+
+    fn programme(&self) -> Option<&PressRun> {
+        self.state.drive.programme()
+    }
+
+    fn objection(&self) -> Option<String> {
+        /// Part of the steps that may be so.
+        const MOST_UNSETTLED: f64 = 0.1;
+        let (steps, unsettled) = (self.state.steps, self.state.unsettled);
+        let viscosity = (unsettled as f64 > MOST_UNSETTLED * steps as f64).then(|| {
+            format!("in {unsettled} of {steps} steps the passes did not find the viscosity of the flow")
+        });
+        let pressure = self.state.drive.broken.1;
+        let limit = (pressure > 0.0).then(|| physics::broken(pressure));
+        let said: Vec<String> = [viscosity, limit].into_iter().flatten().collect();
+        (!said.is_empty()).then(|| said.join("; "))
     }
 }
 
 impl Implicit {
+    /// The mesh of a checkpoint, of a gap of `height`.
+    fn saved_mesh(&self, saved: &Saved, height: f64) -> Result<Mesh, String> {
+        let &[gap, start, end] = saved.u32s("rows")? else {
+            return Err("the checkpoint's rows are not those of this scheme".into());
+        };
+        let rows = Rows {
+            gap: gap as usize,
+            height,
+            ..self.mesh.rows
+        };
+        let range = start as usize..end as usize;
+        let most = self.setup.most_rows();
+        if gap as usize > most || range.is_empty() || range.end > rows.len() || gap == 0 && height > 0.0 {
+            return Err(format!(
+                "the checkpoint has rows {start} to {end} with {gap} in the gap, which this scene does not have"
+            ));
+        }
+        Ok(Mesh::new(&self.setup.lattice, rows, range))
+    }
+
     /// Mean velocity of a pore, cells/s.
     fn pore_velocity(&self, pore: usize) -> [f64; 3] {
         let mesh = &self.mesh;

@@ -1,8 +1,9 @@
 //! What never changes in a run, made of the scene.
 
-use physics::{Dimensions, Liquid, Scene};
+use physics::{Dimensions, Liquid, PressRun, Scene, Stop, Viscosity};
 
 use super::State;
+use super::drive::ClampDrive;
 use crate::geometry::{Chords, Lattice, Mesh, Rows};
 use crate::liquid::{Place, deposit};
 use crate::settings::Settings;
@@ -43,6 +44,8 @@ pub(super) struct Setup {
     pub(super) top: Option<usize>,
     /// Area that pressures refer to, m2.
     area: f64,
+    /// Whether a clamp has a pressure limit.
+    pub(super) limited: bool,
 }
 
 impl Setup {
@@ -85,8 +88,14 @@ impl Setup {
             bottom: scene.bottom,
             top: scene.top,
             area: scene.grid.area_m2(),
+            limited: scene.clamp.is_some_and(|clamp| clamp.max_pressure.is_some()),
         };
         Ok((setup, mesh, volumes))
+    }
+
+    /// Most rows of the gap.
+    pub(super) fn most_rows(&self) -> usize {
+        self.lattice.rows().gap
     }
 
     /// Friction of the walls of a mesh.
@@ -97,6 +106,29 @@ impl Setup {
     /// Velocity of each face at the start, cells/s, against the grid: that of the points around it.
     pub(super) fn initial_velocity(&self, _scene: &Scene, mesh: &Mesh) -> Vec<f64> {
         vec![0.0; mesh.faces.len()]
+    }
+
+    /// The drive of the body that closes the gap.
+    pub(super) fn drive(&self, scene: &Scene) -> ClampDrive {
+        let travel = match scene.stop {
+            Stop::Closed { travel_m } => travel_m,
+            Stop::Time(_) => f64::INFINITY,
+        };
+        let stages = &scene.programme;
+        let programme = (!stages.is_empty()).then(|| PressRun::new(stages.clone(), travel));
+        let full = self.lattice.mover.map_or(0.0, |body| scene.velocity(scene.bodies[body].motion)[1].abs());
+        let acoustic = self.units.cell_m / self.liquid.sound_speed();
+        ClampDrive::new(scene.clamp, programme, acoustic, full)
+    }
+
+    /// Factor of the viscosity by cure.
+    pub(super) fn viscosity_at(&self, time: f64) -> f64 {
+        (self.liquid.cure.as_ref()).map_or(1.0, |cure| cure.factor(time))
+    }
+
+    /// Whether the viscosity depends on the flow.
+    pub(super) fn varies(&self) -> bool {
+        !matches!(self.liquid.viscosity, Viscosity::Newtonian(_))
     }
 
     /// What multiplies the terms of a step of `dt` (s).
@@ -141,6 +173,11 @@ impl Setup {
     /// Acceleration by weight, cells/s2.
     pub(super) fn pull(&self) -> f64 {
         self.gravity.iter().map(|g| g * g).sum::<f64>().sqrt() / self.units.cell_m
+    }
+
+    /// Force of a pressure (Pa) on the area of the bond.
+    pub(super) fn force(&self, pressure: f64) -> f64 {
+        pressure * self.area / self.units.force()
     }
 
     /// Pressure of a force on the area of the bond, Pa.

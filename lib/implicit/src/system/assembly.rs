@@ -5,7 +5,7 @@ use saddle_point::{Csr, RowEntries, SolveError, VelocityBlock};
 
 use super::links::Links;
 use super::terms::{edges, stretching};
-use super::unknowns::Unknowns;
+use super::unknowns::{FULL, Unknowns};
 use crate::geometry::{Kind, Lattice, Mesh};
 
 /// Friction over viscosity of liquid that touches nothing, so that it has a velocity.
@@ -34,6 +34,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) unknowns: &'a Unknowns,
     /// Volume fraction of each pore, at most 1.
     pub(crate) fractions: &'a [f64],
+    /// Liquid in the low and the high half of each face, over the volume of that half.
+    pub(crate) halves: &'a [[f64; 2]],
     /// Viscosity of each pore over the unit of viscosity.
     pub(crate) viscosity: &'a [f64],
     /// Viscosity at the walls of each face over the unit.
@@ -59,6 +61,15 @@ impl Problem<'_> {
         self.fractions[pore] * self.viscosity[pore]
     }
 
+    /// Viscosity times liquid of the halves of two faces that meet at an edge.
+    fn edge_stiffness(&self, faces: [usize; 2]) -> f64 {
+        let of = |face: usize| {
+            let (parts, ends) = (self.halves[face], self.ends(face));
+            parts[0] * self.viscosity[ends[0]] + parts[1] * self.viscosity[ends[1]]
+        };
+        0.25 * (of(faces[0]) + of(faces[1]))
+    }
+
     /// The two pores of a face.
     fn ends(&self, face: usize) -> [usize; 2] {
         let face = &self.mesh.faces[face];
@@ -68,18 +79,18 @@ impl Problem<'_> {
     /// Liquid that moves with a face: its share of the half pores on both sides.
     pub(crate) fn carried(&self, face: usize) -> f64 {
         let axis = usize::from(self.mesh.faces[face].axis);
-        let share = |pore: usize, up: bool| {
+        let share = |pore: usize, up: bool, part: f64| {
             let all: f64 = self.mesh.faces_at(pore, axis, up).map(|f| self.mesh.area(f)).sum();
-            0.5 * self.fractions[pore] * self.mesh.volume(pore) * self.mesh.area(face) / all
+            0.5 * part * self.mesh.volume(pore) * self.mesh.area(face) / all
         };
-        let [low, high] = self.ends(face);
-        share(low, true) + share(high, false)
+        let ([low, high], parts) = (self.ends(face), self.halves[face]);
+        share(low, true, parts[0]) + share(high, false, parts[1])
     }
 
     /// Friction of the walls at a face, in its low and its high half.
     pub(crate) fn wall_weights(&self, face: usize) -> [f64; 2] {
-        let ([low, high], eta) = (self.ends(face), self.wall_viscosity[face]);
-        [self.fractions[low] * eta[0], self.fractions[high] * eta[1]]
+        let (parts, eta) = (self.halves[face], self.wall_viscosity[face]);
+        [parts[0] * eta[0], parts[1] * eta[1]]
     }
 
     /// The velocity block.
@@ -115,13 +126,15 @@ impl Problem<'_> {
             });
         }
         edges(self.mesh, face, self.lattice.flat, |edge| {
-            let eta: f64 = edge.pores.iter().map(|&pore| 0.25 * self.stiffness(pore)).sum();
+            let eta = self.edge_stiffness([face, edge.next]);
             let Some(next) = number(edge.next) else {
                 return;
             };
             entries.add(row, eta * edge.shear);
             entries.add(next, -eta * edge.shear);
             if let [Some(low), Some(high)] = edge.across.map(number) {
+                // Where a surface crosses the edge, the faces across share less or more liquid.
+                let eta = eta.min(self.edge_stiffness(edge.across));
                 let weight = if edge.up { -eta } else { eta } * edge.length;
                 entries.add(high, weight);
                 entries.add(low, -weight);
@@ -220,6 +233,29 @@ impl Problem<'_> {
         stiffness * sum
     }
 
+    /// What the power of the velocities `u` of the faces misses of viscous dissipation: less inertia, more walls that move
+    /// along themselves.
+    pub(crate) fn viscous_parts(&self, u: &[f64], speed: f64) -> f64 {
+        let part = |(&face, u): (&u32, &f64)| {
+            let face = face as usize;
+            let link = &self.links.0[face];
+            let weights = self.wall_weights(face);
+            let frame = match self.mesh.faces[face].axis {
+                1 => self.mesh.frame(self.lattice, face) * speed,
+                _ => 0.0,
+            };
+            let walls: f64 = (0..2)
+                .filter(|&half| link.sliding[half][0] != 0.0)
+                .map(|half| {
+                    let own = link.sliding[half][0];
+                    weights[half] * (own * own / link.friction[half] - 2.0 * own * u)
+                })
+                .sum();
+            walls - self.scales.inertia * self.carried(face) * (u + frame).powi(2)
+        };
+        self.unknowns.faces.iter().zip(u).map(part).sum()
+    }
+
     /// Outflow of each pore with a pressure by the velocities of its faces.
     pub(crate) fn outflow(&self) -> Result<Csr<f64>, SolveError> {
         let (pores, faces) = (&self.unknowns.pores, &self.unknowns.faces);
@@ -246,4 +282,33 @@ impl Problem<'_> {
             _ => 0.0,
         }
     }
+}
+
+/// Liquid in the halves of each face, over their volumes. A pore that a full one beside it fills has all of its liquid in
+/// that half: what the pressure of the full pore moves reaches to the surface.
+pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
+    let full = |pore: u32| fractions[pore as usize] >= FULL;
+    (mesh.faces.par_iter())
+        .map(|face| {
+            let ends = [face.low, face.high];
+            [0, 1].map(|half| {
+                let (pore, other) = (ends[half], ends[1 - half]);
+                let fraction = fractions[pore as usize];
+                if full(pore) || fraction == 0.0 {
+                    return fraction;
+                }
+                let up = half == 1;
+                let mut opposite = mesh.faces_at(pore as usize, usize::from(face.axis), up);
+                let behind = opposite.any(|opposite| {
+                    let opposite = &mesh.faces[opposite];
+                    full(if up { opposite.high } else { opposite.low })
+                });
+                match (full(other), behind) {
+                    (true, false) => 2.0 * fraction,
+                    (false, true) => 0.0,
+                    _ => fraction,
+                }
+            })
+        })
+        .collect()
 }

@@ -5,8 +5,10 @@ mod links;
 mod solution;
 mod terms;
 mod unknowns;
+mod viscosity;
 
-pub(crate) use assembly::{Problem, Scales};
+pub(crate) use assembly::{Problem, Scales, halves};
 pub(crate) use links::{Links, Walls};
 pub(crate) use solution::{Drive, Flow, forces, solve};
 pub(crate) use unknowns::{FULL, Unknowns};
+pub(crate) use viscosity::{Rates, Viscosities};

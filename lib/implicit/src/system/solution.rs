@@ -11,8 +11,8 @@ use crate::geometry::{MIRROR, OPEN};
 pub(crate) enum Drive {
     /// At this speed, cells/s.
     Speed(f64),
-    /// By this force over the unit of viscosity, at a speed near the second number.
-    Force(f64, f64),
+    /// By a force over the unit of viscosity, of which errors are measured by `scale`, at a speed near `guess`.
+    Force { force: f64, scale: f64, guess: f64 },
 }
 
 /// What flows in a step.
@@ -26,6 +26,8 @@ pub(crate) struct Flow {
     pub(crate) speed: f64,
     /// Force on the body that closes the gap, against it.
     pub(crate) force: f64,
+    /// Viscous dissipation, over the unit of viscosity.
+    pub(crate) dissipation: f64,
     pub(crate) iterations: u32,
 }
 
@@ -63,7 +65,7 @@ pub(crate) fn solve(
         .map(|&pore| 2.0 * problem.viscosity[pore as usize])
         .collect();
     let speed = match drive {
-        Drive::Speed(speed) | Drive::Force(_, speed) => speed,
+        Drive::Speed(speed) | Drive::Force { guess: speed, .. } => speed,
     };
     let mut volume_source = vec![0.0; source.len()];
     if let Drive::Speed(speed) = drive {
@@ -103,13 +105,13 @@ pub(crate) fn solve(
     let drag = problem.resistance();
     let solved = match drive {
         Drive::Speed(_) => solver.solve(&system, &mut u, &mut p),
-        Drive::Force(force, _) => {
+        Drive::Force { force, scale, .. } => {
             let load = Load {
                 momentum: closing.clone(),
                 source: source.clone(),
                 resistance: drag,
                 force: force - carried_force,
-                scale: force.abs().max(f64::MIN_POSITIVE),
+                scale: scale.max(f64::MIN_POSITIVE),
             };
             solver.solve_loaded(&system, &load, &mut u, &mut p, &mut flow.speed)
         }
@@ -121,6 +123,10 @@ pub(crate) fn solve(
     };
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     flow.force = dot(&source, &p) - dot(&closing, &u) + drag * flow.speed + carried_force;
+    let mut au = vec![0.0; u.len()];
+    a.multiply(&u, &mut au);
+    let viscous = problem.viscous_parts(&u, flow.speed);
+    flow.dissipation = dot(&u, &au) - 2.0 * flow.speed * dot(&closing, &u) + drag * flow.speed.powi(2) + viscous;
     for (&face, &u) in unknowns.faces.iter().zip(&u) {
         flow.velocity[face as usize] = u;
     }

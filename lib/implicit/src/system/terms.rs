@@ -56,8 +56,6 @@ pub(crate) struct Edge {
     pub(crate) next: usize,
     /// The faces across, between the low pores of both and between the high pores of both.
     pub(crate) across: [usize; 2],
-    /// The four pores around it.
-    pub(crate) pores: [usize; 4],
     /// Whether the next face lies on the high side.
     pub(crate) up: bool,
     /// Area over distance between the two faces, and length of the edge.
@@ -126,7 +124,6 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
     Some(Edge {
         next,
         across: [joined(ends[0], low)?, joined(ends[1], high)?],
-        pores: [ends[0], ends[1], low, high],
         up,
         shear: length * 0.5 * (sizes[0][axis] + sizes[1][axis]) / distance,
         length,

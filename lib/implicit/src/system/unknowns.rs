@@ -16,7 +16,6 @@ pub(crate) struct Unknowns {
     /// Pores with a pressure.
     pub(crate) pores: Vec<u32>,
     face_number: Vec<u32>,
-    pore_number: Vec<u32>,
 }
 
 impl Unknowns {
@@ -27,8 +26,8 @@ impl Unknowns {
             faces: Vec::new(),
             pores: Vec::new(),
             face_number: vec![ABSENT; mesh.faces.len()],
-            pore_number: vec![ABSENT; mesh.pores.len()],
         };
+        let mut bounded = vec![false; mesh.pores.len()];
         for (index, face) in mesh.faces.iter().enumerate() {
             let ends = [face.low, face.high];
             let liquid = |pore: u32| fractions[pore as usize] * mesh.volume(pore as usize);
@@ -39,29 +38,17 @@ impl Unknowns {
             unknowns.face_number[index] = unknowns.faces.len() as u32;
             unknowns.faces.push(index as u32);
             for pore in ends.into_iter().filter(|&pore| full(pore)) {
-                unknowns.pore_number[pore as usize] = 0;
+                bounded[pore as usize] = true;
             }
         }
-        for (pore, number) in unknowns.pore_number.iter_mut().enumerate() {
-            if *number != ABSENT {
-                *number = unknowns.pores.len() as u32;
-                unknowns.pores.push(pore as u32);
-            }
-        }
+        let pores = (0..mesh.pores.len() as u32).filter(|&pore| bounded[pore as usize]);
+        unknowns.pores.extend(pores);
         unknowns
     }
 
     /// Number of the velocity of a face.
     pub(crate) fn face(&self, face: usize) -> Option<usize> {
-        number(&self.face_number, face)
+        let number = self.face_number[face];
+        (number != ABSENT).then_some(number as usize)
     }
-
-    /// Number of the pressure of a pore.
-    pub(crate) fn pore(&self, pore: usize) -> Option<usize> {
-        number(&self.pore_number, pore)
-    }
-}
-
-fn number(numbers: &[u32], index: usize) -> Option<usize> {
-    (numbers[index] != ABSENT).then_some(numbers[index] as usize)
 }

@@ -185,11 +185,16 @@ pub enum SchemeName {
     Explicit,
     /// The staggered filling solver.
     Implicit,
+    /// Liquid as volume fractions on a grid that closes with the press: what `Implicit` will be.
+    VolumeFraction,
 }
 
 impl Choice for SchemeName {
-    const NAMED: &'static [(&'static str, Self)] =
-        &[("explicit", Self::Explicit), ("implicit", Self::Implicit)];
+    const NAMED: &'static [(&'static str, Self)] = &[
+        ("explicit", Self::Explicit),
+        ("implicit", Self::Implicit),
+        ("volume-fraction", Self::VolumeFraction),
+    ];
 }
 
 /// `[output]`

@@ -60,7 +60,7 @@ pub(super) const INTEGRATOR: Table = Table {
             name: "tolerance",
             form: || "1e-8 to 1e-2".into(),
             absent: Absent::Of("1e-3", |case, _| {
-                let used = case.integrator.scheme == SchemeName::Implicit;
+                let used = case.integrator.scheme != SchemeName::Explicit;
                 used.then(|| format!("{:?}", filling::Settings::default().tolerance))
             }),
             text: "Implicit scheme: relative residual at which a step's linear solve ends. 1e-3 keeps forces to 0.1 to 0.3 %; 1e-4 is for verification.",

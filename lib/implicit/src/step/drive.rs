@@ -1,0 +1,284 @@
+//! Speed of the body that closes the gap: constant, or that of a clamp under load control.
+
+use physics::{Clamp, PidControl, Press, PressRun, PressStep, StepLimit, breaks};
+
+/// Relative excess over the pressure limit that is tolerated.
+const TOLERANCE: f64 = 5e-3;
+
+/// Part of a programme's largest pressure that excess over a pressure next to nothing is measured by.
+const FAINT: f64 = 1e-3;
+
+/// Speed of the clamp.
+#[derive(Clone, Copy, Debug)]
+enum Control {
+    /// Nothing is clamped, or at constant speed.
+    Free,
+    /// At full speed until that would exceed the limit; held at the limit then, and at full speed again
+    /// where that no longer reaches it.
+    Limit(Hold),
+    /// By the case's PID, after each step.
+    Pid(PidControl),
+}
+
+/// A clamp under its own load control.
+#[derive(Clone, Copy, Debug)]
+struct Hold {
+    /// Largest speed, and the least, below zero where the clamp gives way, m/s.
+    speeds: [f64; 2],
+    /// Pressure limit, and the least that excess over it is measured by, Pa.
+    limit: f64,
+    least: f64,
+    held: bool,
+}
+
+/// What a clamp is held at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Asked {
+    /// Pressure, Pa.
+    pub(super) limit: f64,
+    /// Least pressure that errors of it are measured by, Pa.
+    pub(super) least: f64,
+}
+
+impl Hold {
+    /// That of the stage that is on.
+    fn of(programme: &PressRun) -> Self {
+        let stage = programme.stage();
+        let full = match programme.is_closed() {
+            true => 0.0,
+            false => stage.speed,
+        };
+        Self {
+            speeds: [full, -stage.speed],
+            limit: programme.set_pressure(0.0),
+            least: FAINT * programme.largest(),
+            held: stage.kind == Press::Release,
+        }
+    }
+
+    /// What excess over the limit is measured by, Pa.
+    fn scale(&self) -> f64 {
+        self.limit.max(self.least)
+    }
+
+    fn asked(&self) -> Asked {
+        Asked {
+            limit: self.limit,
+            least: self.least,
+        }
+    }
+}
+
+/// The drive of the body that closes the gap.
+#[derive(Clone, Debug)]
+pub(super) struct ClampDrive {
+    control: Control,
+    /// The press programme that sets the control, if there is one.
+    programme: Option<PressRun>,
+    /// Closing speed now, m/s.
+    pub(super) speed: f64,
+    /// Steps that did not keep the pressure limit, and the pressure of the last step if it is one, Pa.
+    pub(super) broken: (u64, f64),
+}
+
+impl ClampDrive {
+    /// `acoustic_time` is how long sound takes to cross a cell, s; `full` the speed of a body that no clamp moves, m/s.
+    pub(super) fn new(
+        clamp: Option<Clamp>,
+        programme: Option<PressRun>,
+        acoustic_time: f64,
+        full: f64,
+    ) -> Self {
+        let limited = clamp.and_then(|clamp| Some((clamp, clamp.max_pressure?)));
+        let control = match (&programme, limited) {
+            (Some(programme), _) => Control::Limit(Hold::of(programme)),
+            (None, Some((clamp, _))) if clamp.pid.is_some() => {
+                Control::Pid(PidControl::new(clamp, acoustic_time))
+            }
+            (None, Some((clamp, limit))) => Control::Limit(Hold {
+                speeds: [clamp.closing_speed, 0.0],
+                limit,
+                least: 0.0,
+                held: false,
+            }),
+            _ => Control::Free,
+        };
+        let first = |programme: &PressRun| programme.stage().speed;
+        Self {
+            control,
+            speed: programme.as_ref().map_or(full, first),
+            programme,
+            broken: (0, 0.0),
+        }
+    }
+
+    /// The press programme and where it is.
+    pub(super) fn programme(&self) -> Option<&PressRun> {
+        self.programme.as_ref()
+    }
+
+    /// A limit of a step within the stage that is on, for a clamp that has travelled `travel` (m).
+    pub(super) fn within(&self, limit: StepLimit, travel: f64) -> StepLimit {
+        let programme = self.programme.as_ref();
+        programme.map_or(limit, |programme| programme.within(limit, travel))
+    }
+
+    /// Sets the pressure limit to that in the middle of a step of `dt` (s), as is its geometry; by what
+    /// factor that is expected to change the flow: viscous liquid answers a force in proportion.
+    pub(super) fn aim(&mut self, dt: f64) -> f64 {
+        let (Some(programme), Control::Limit(hold)) = (&self.programme, &mut self.control) else {
+            return 1.0;
+        };
+        let limit = programme.set_pressure(0.5 * dt);
+        let factor = limit / hold.limit;
+        hold.limit = limit;
+        if !(hold.held && factor > 0.0 && factor.is_finite()) {
+            return 1.0;
+        }
+        self.speed = (self.speed * factor).min(hold.speeds[0]);
+        factor
+    }
+
+    /// What the clamp is held at, its speed being unknown.
+    pub(super) fn held(&self) -> Option<Asked> {
+        match self.control {
+            Control::Limit(hold) if hold.held => Some(hold.asked()),
+            _ => None,
+        }
+    }
+
+    /// The limit where `pressure` (Pa) at full speed exceeds it: the clamp is held from now
+    /// on, and `speed` is a guess at its speed.
+    pub(super) fn exceeded(&mut self, pressure: f64) -> Option<Asked> {
+        let Control::Limit(hold) = &mut self.control else {
+            return None;
+        };
+        if hold.held || pressure <= hold.limit + TOLERANCE * hold.scale() {
+            return None;
+        }
+        hold.held = true;
+        self.speed *= hold.limit / pressure;
+        Some(hold.asked())
+    }
+
+    /// Takes the speed (m/s) that the limit asks for; `false` where the clamp cannot follow it and
+    /// moves at the nearest speed that it can: it goes no faster than at full speed, and without a
+    /// programme stands where compressed liquid would open it.
+    pub(super) fn follow(&mut self, speed: f64) -> bool {
+        let Control::Limit(hold) = &mut self.control else {
+            return true;
+        };
+        let [full, least] = hold.speeds;
+        hold.held = speed < full;
+        self.speed = speed.clamp(least, full);
+        self.speed == speed
+    }
+
+    /// Takes in the pressure (Pa) of a step of `dt` (s) that is over, after which the clamp has travelled
+    /// `travel` (m).
+    pub(super) fn observe(&mut self, pressure: f64, dt: f64, travel: f64) {
+        let bounds = match &self.control {
+            Control::Limit(hold) => Some((hold.limit, hold.scale())),
+            Control::Pid(pid) => pid.limit().map(|limit| (limit, limit)),
+            Control::Free => None,
+        };
+        if bounds.is_some_and(|(limit, scale)| breaks(pressure, limit, scale)) {
+            self.broken = (self.broken.0 + 1, pressure);
+        } else {
+            self.broken.1 = 0.0;
+        }
+        match (&mut self.control, &mut self.programme) {
+            (Control::Pid(pid), _) => {
+                pid.observe(pressure, dt);
+                self.speed = pid.speed();
+            }
+            (Control::Limit(hold), Some(programme)) => {
+                let step = PressStep {
+                    dt_s: dt,
+                    speed: self.speed,
+                    travel_m: travel,
+                    pressure,
+                };
+                let next = programme.observe(step);
+                let before = *hold;
+                *hold = Hold::of(programme);
+                let kind = programme.stage().kind;
+                if !next || before.held && kind != Press::Approach && before.limit > 0.0 {
+                    // Speed and limit of the last step say what those of the next are.
+                    (hold.held, hold.limit) = (before.held || hold.held, before.limit);
+                    self.speed = self.speed.min(hold.speeds[0]);
+                } else {
+                    self.speed = match kind {
+                        Press::Release => 0.0,
+                        _ => hold.speeds[0],
+                    };
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The changing part, for checkpoints.
+    pub(super) fn state(&self) -> [f64; 7] {
+        let rest = match (&self.control, &self.programme) {
+            (Control::Pid(pid), _) => pid.state(),
+            (Control::Limit(hold), Some(_)) if hold.limit.is_finite() => [hold.limit, 0.0, 0.0],
+            _ => [0.0; 3],
+        };
+        let held = f64::from(u8::from(self.held().is_some()));
+        let (steps, pressure) = (self.broken.0 as f64, self.broken.1);
+        [self.speed, held, steps, pressure, rest[0], rest[1], rest[2]]
+    }
+
+    /// Goes back to a saved changing part, of a programme that is back where it was.
+    pub(super) fn set_state(&mut self, [speed, was_held, steps, pressure, a, b, c]: [f64; 7]) {
+        (self.speed, self.broken) = (speed, (steps as u64, pressure));
+        match (&mut self.control, &self.programme) {
+            (Control::Pid(pid), _) => pid.set_state([a, b, c]),
+            (Control::Limit(hold), programme) => {
+                if let Some(programme) = programme {
+                    *hold = Hold::of(programme);
+                    hold.limit = a;
+                }
+                hold.held = was_held != 0.0;
+            }
+            (Control::Free, _) => {}
+        }
+    }
+
+    /// Goes back to a saved place in the programme.
+    ///
+    /// # Errors
+    /// A sentence where no run of it saves that.
+    pub(super) fn set_programme(&mut self, state: &[f64]) -> Result<(), String> {
+        (self.programme.as_mut()).map_or(Ok(()), |programme| programme.set_state(state))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_clamp_is_held_above_half_a_percent_and_never_opens() {
+        let clamp = Clamp {
+            closing_speed: 2.0,
+            max_pressure: Some(1e6),
+            pid: None,
+        };
+        let mut drive = ClampDrive::new(Some(clamp), None, 1e-9, 2.0);
+        assert_eq!(drive.exceeded(1.004e6), None);
+        let asked = Asked {
+            limit: 1e6,
+            least: 0.0,
+        };
+        assert_eq!(drive.exceeded(1.006e6), Some(asked));
+        assert!(!drive.follow(-1.0));
+        assert_eq!((drive.speed, drive.held()), (0.0, Some(asked)));
+        let broken = [1.019e6, 1.021e6, 1.03e6, 1e6].map(|pressure| {
+            drive.observe(pressure, 1e-9, 0.0);
+            drive.broken
+        });
+        assert_eq!(broken, [(0, 0.0), (1, 1.021e6), (2, 1.03e6), (2, 0.0)]);
+    }
+}

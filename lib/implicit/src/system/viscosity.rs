@@ -1,0 +1,147 @@
+//! Shear rates of a flow, and the viscosities that follow from them.
+
+use physics::{Liquid, ShearRate};
+use rayon::prelude::*;
+
+use super::terms::{edges, stretching};
+use crate::geometry::{Lattice, Mesh};
+use crate::system::Links;
+
+/// Viscosities over their unit: of each pore, and at the walls of the halves of each face.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Viscosities {
+    pub(crate) pores: Vec<f64>,
+    pub(crate) walls: Vec<[f64; 2]>,
+}
+
+impl Viscosities {
+    /// One viscosity everywhere.
+    pub(crate) fn constant(mesh: &Mesh, viscosity: f64) -> Self {
+        Self {
+            pores: vec![viscosity; mesh.pores.len()],
+            walls: vec![[viscosity; 2]; mesh.faces.len()],
+        }
+    }
+
+    /// Those of a flow: `factor` times the law of the liquid, in Pa s.
+    pub(crate) fn of(rates: &Rates, liquid: &Liquid, factor: f64) -> Self {
+        let at = |rate: f64| factor * liquid.viscosity.at(rate);
+        Self {
+            pores: rates.pores.par_iter().map(|&rate| at(rate)).collect(),
+            walls: rates.walls.par_iter().map(|&rate| [at(rate); 2]).collect(),
+        }
+    }
+
+    /// Mean change of ln(viscosity) from `self` to `next`, weighted by the dissipation of each pore.
+    pub(crate) fn change(&self, next: &Self, rates: &Rates, mesh: &Mesh, fractions: &[f64]) -> f64 {
+        let mut sums = [0.0; 2];
+        for pore in (0..mesh.pores.len()).filter(|&pore| fractions[pore] > 0.0) {
+            let power = next.pores[pore] * rates.pores[pore].powi(2) * mesh.volume(pore) * fractions[pore];
+            sums[0] += power * (next.pores[pore] / self.pores[pore]).ln().abs();
+            sums[1] += power;
+        }
+        if sums[1] > 0.0 { sums[0] / sums[1] } else { 0.0 }
+    }
+}
+
+/// Shear rates, 1/s, by the convention of the scene: of each pore, and at the walls of each face.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rates {
+    pub(crate) pores: Vec<f64>,
+    pub(crate) walls: Vec<f64>,
+}
+
+impl Rates {
+    /// Those of a flow. The rate of a pore is that whose dissipation is the mean over it.
+    pub(crate) fn of(
+        lattice: &Lattice,
+        mesh: &Mesh,
+        links: &Links,
+        velocity: &[f64],
+        speed: f64,
+        convention: ShearRate,
+    ) -> Self {
+        // The factor is of |dev D|; the rate of simple shear, sqrt(2 D:D), is sqrt(2) of it.
+        let factor = convention.factor() / std::f64::consts::SQRT_2;
+        let view = View {
+            lattice,
+            mesh,
+            links,
+            velocity,
+            speed,
+        };
+        Self {
+            pores: (0..mesh.pores.len())
+                .into_par_iter()
+                .map(|pore| factor * (view.power(pore) / mesh.volume(pore)).max(0.0).sqrt())
+                .collect(),
+            walls: (0..mesh.faces.len())
+                .into_par_iter()
+                .map(|face| factor * view.wall_rate(face))
+                .collect(),
+        }
+    }
+}
+
+/// A flow, to take rates of.
+struct View<'a> {
+    lattice: &'a Lattice,
+    mesh: &'a Mesh,
+    links: &'a Links,
+    velocity: &'a [f64],
+    speed: f64,
+}
+
+impl View<'_> {
+    /// Dissipation in a full pore over its viscosity.
+    fn power(&self, pore: usize) -> f64 {
+        let (mesh, u) = (self.mesh, self.velocity);
+        let mut power = 0.0;
+        for axis in 0..3 {
+            for up in [false, true] {
+                for face in mesh.faces_at(pore, axis, up) {
+                    if !up {
+                        // The pore is on the high side of its low faces.
+                        stretching(mesh, face, true, |pull| {
+                            let other = pull.other.map_or(0.0, |other| u[other]);
+                            power += pull.weight * (other - u[face] + pull.closing * self.speed).powi(2);
+                        });
+                    }
+                    edges(mesh, face, self.lattice.flat, |edge| {
+                        let sign = if edge.up { 1.0 } else { -1.0 };
+                        let along = sign * (u[edge.next] - u[face]);
+                        let across = u[edge.across[1]] - u[edge.across[0]];
+                        power += 0.25 * (edge.shear * along * along + edge.length * along * across);
+                    });
+                    let link = &self.links.0[face];
+                    let half = usize::from(!up);
+                    if link.friction[half] > 0.0 {
+                        let wall = self.wall(face, half);
+                        power += link.friction[half] * (u[face] - wall).powi(2);
+                    }
+                }
+            }
+        }
+        power
+    }
+
+    /// Mean velocity of the walls beside the half of a face.
+    fn wall(&self, face: usize, half: usize) -> f64 {
+        let link = &self.links.0[face];
+        let [own, closing] = link.sliding[half];
+        (own + closing * self.speed) / link.friction[half]
+    }
+
+    /// Rate of simple shear at the walls of a face.
+    fn wall_rate(&self, face: usize) -> f64 {
+        let link = &self.links.0[face];
+        let friction: f64 = link.friction.iter().sum();
+        if friction == 0.0 {
+            return 0.0;
+        }
+        let wall: f64 = (0..2)
+            .map(|half| link.sliding[half][0] + link.sliding[half][1] * self.speed)
+            .sum();
+        (friction * self.velocity[face] - wall).abs() / link.area
+    }
+}
