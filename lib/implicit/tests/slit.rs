@@ -75,7 +75,9 @@ fn run(n: usize, offset: [f64; 2], cfl: f64) -> (Vec<[f64; 3]>, f64) {
 }
 
 /// Part of a step before its end that its pressure is of.
-fn of_step() -> f64 { std::env::var("OF").map_or(0.5, |t| t.parse().unwrap()) }
+fn of_step() -> f64 {
+    std::env::var("OF").map_or(0.5, |t| t.parse().unwrap())
+}
 
 /// Force at a filled length, by a line through those within a quarter H.
 fn at(force: &[[f64; 3]], length: f64) -> f64 {
@@ -122,13 +124,23 @@ fn the_force_is_that_of_finite_elements() {
     for n in only {
         for offset in [0.0, 0.5] {
             let all: Vec<[f64; 4]> = (0..count)
-                .map(|i| errors(n, [offset, 0.0], scale * (1.0 - 0.2 * i as f64 / count as f64)))
+                .map(|i| {
+                    errors(
+                        n,
+                        [offset, 0.0],
+                        scale * (1.0 - 0.2 * i as f64 / count as f64),
+                    )
+                })
                 .collect();
             let mean = [0, 1, 2, 3].map(|i| all.iter().map(|e| e[i]).sum::<f64>() / count as f64);
             let deviation = [0, 1, 2, 3].map(|i| {
                 (all.iter().map(|e| (e[i] - mean[i]).powi(2)).sum::<f64>() / count as f64).sqrt()
             });
-            println!("slit of {n} cells, offset {offset}: mean {:+.2?} deviation {:.2?} %", mean.map(|e| 100.0 * e), deviation.map(|e| 100.0 * e));
+            println!(
+                "slit of {n} cells, offset {offset}: mean {:+.2?} deviation {:.2?} %",
+                mean.map(|e| 100.0 * e),
+                deviation.map(|e| 100.0 * e)
+            );
         }
     }
 }
@@ -143,7 +155,11 @@ fn flat_ends() {
             let m = |cells: f64| cells * h;
             let w = n as f64;
             let (x0, y0) = (2.0 + offset, 2.0);
-            let more = plain::fill([m(x0 + 1.5 * w), m(y0 + 2.0 * w), 0.0], [m(0.5), m(0.5), h], [2 * n, 4 * n, 1]);
+            let more = plain::fill(
+                [m(x0 + 1.5 * w), m(y0 + 2.0 * w), 0.0],
+                [m(0.5), m(0.5), h],
+                [2 * n, 4 * n, 1],
+            );
             scene.points.position.extend(more.position);
             scene.points.velocity.extend(more.velocity);
             scene.points.volume.extend(more.volume);
@@ -151,9 +167,25 @@ fn flat_ends() {
             scene.liquid.tait.bulk_modulus = 1e14;
             let area = scene.grid.area_m2();
             let scale = area / (4.0 * H * h) / (12.0 * ETA * 4.0 * SPEED / H);
-            let mut scheme = Implicit::new(&scene, Settings { cfl: 1e-3, tolerance: 1e-6 }).unwrap();
-            let report = scheme.advance(physics::StepLimit { time_s: 1.0, travel_m: f64::INFINITY }).unwrap();
-            println!("flat {n} offset {offset}: {:.4} {:.4}", report.pressure_bottom * scale, report.pressure_top * scale);
+            let mut scheme = Implicit::new(
+                &scene,
+                Settings {
+                    cfl: 1e-3,
+                    tolerance: 1e-6,
+                },
+            )
+            .unwrap();
+            let report = scheme
+                .advance(physics::StepLimit {
+                    time_s: 1.0,
+                    travel_m: f64::INFINITY,
+                })
+                .unwrap();
+            println!(
+                "flat {n} offset {offset}: {:.4} {:.4}",
+                report.pressure_bottom * scale,
+                report.pressure_top * scale
+            );
         }
     }
 }

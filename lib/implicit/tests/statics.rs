@@ -30,7 +30,10 @@ fn mean_velocity(scene: &Scene) -> f64 {
     let flux: f64 = (liquid.velocity.iter().zip(&liquid.volume))
         .map(|(v, &volume)| f64::from(v[0]) * f64::from(volume))
         .sum();
-    println!("   {} iterations, dt {:.2e}", report.iterations, report.dt_s);
+    println!(
+        "   {} iterations, dt {:.2e}",
+        report.iterations, report.dt_s
+    );
     flux / volume
 }
 
@@ -77,7 +80,12 @@ fn error(width: usize, offset: usize, square: bool) -> f64 {
     let factor = if square { 0.035_144_3 } else { 1.0 / 12.0 };
     let expected = factor * h * h * 1200.0 * PULL / ETA;
     let error = mean_velocity(&scene) / expected - 1.0;
-    println!("width {} cells, offset {}, square {square}: {:+.3} %", width as f64 / 2.0, offset as f64 / 2.0, 100.0 * error);
+    println!(
+        "width {} cells, offset {}, square {square}: {:+.3} %",
+        width as f64 / 2.0,
+        offset as f64 / 2.0,
+        100.0 * error
+    );
     error
 }
 

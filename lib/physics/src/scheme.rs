@@ -235,6 +235,11 @@ pub trait Scheme {
     fn has_set(&self) -> bool {
         false
     }
+    /// Whether the points of [`Scheme::liquid`] are those of the scene, followed from its start; else they are places of a
+    /// field, of any number.
+    fn follows_points(&self) -> bool {
+        true
+    }
     /// What the scheme itself knows against its results, a clause.
     fn objection(&self) -> Option<String> {
         None

@@ -38,13 +38,13 @@ pub(crate) fn conclude(
     let (mut liquid, displacements) = (scheme.liquid(), scheme.displacements());
     let (stages, counts) = (scheme.stage_times(), scheme.counts());
     let programme = summary::programme(scheme.programme());
-    let objection = scheme.objection();
+    let (objection, follows) = (scheme.objection(), scheme.follows_points());
     drop(scheme);
     let (begun_m3, water) = (setup.liquid.volume_m3, outcome.diagnostics.water);
     let invariants = invariants::check(&setup.scene, begun_m3, &liquid, &displacements)
         .with_water(water, begun_m3);
     let lost = outcome.clock.last.lost;
-    let verdict = verdict::judge(setup, &liquid, &invariants, water, lost).and(objection);
+    let verdict = verdict::judge(setup, &liquid, &invariants, water, lost, follows).and(objection);
     in_file_axes(&mut liquid, setup.normal);
     let penetration = watch
         .map(|watch| watch.look_closely(&liquid, &displacements))

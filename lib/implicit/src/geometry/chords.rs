@@ -114,13 +114,23 @@ fn runs(layer: &[u8], size: [usize; 2], axis: usize, lattice: &Lattice) -> Vec<u
                 i * size[0] + line
             }
         };
-        chords(n, boundary, |i| layer[at(i)] == OPEN, |i, length| lengths[at(i)] = length);
+        chords(
+            n,
+            boundary,
+            |i| layer[at(i)] == OPEN,
+            |i, length| lengths[at(i)] = length,
+        );
     }
     lengths
 }
 
 /// Chords of a line of `n` voxels with sides of a kind: doubled by a mirror, joined over periodic sides.
-fn chords(n: usize, boundary: Boundary, open: impl Fn(usize) -> bool, mut set: impl FnMut(usize, u16)) {
+fn chords(
+    n: usize,
+    boundary: Boundary,
+    open: impl Fn(usize) -> bool,
+    mut set: impl FnMut(usize, u16),
+) {
     let mut start = 0;
     let mut spans: Vec<(usize, usize)> = Vec::new();
     for i in 0..=n {

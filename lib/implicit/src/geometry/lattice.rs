@@ -274,12 +274,20 @@ fn sides(block: &physics::VoxelBlock) -> Vec<f64> {
     let y = |j: usize| block.origin()[1] + j as f64 * block.voxel()[1];
     let first = (0..ny).find(|&j| holds(j));
     let last = (0..ny).rfind(|&j| holds(j));
-    first.map(y).into_iter().chain(last.map(|j| y(j + 1))).collect()
+    first
+        .map(y)
+        .into_iter()
+        .chain(last.map(|j| y(j + 1)))
+        .collect()
 }
 
 /// Voxels along the edge of a cell: one where every face lies on those of cells, else two.
 fn voxels_per_cell(scene: &Scene, frames: &Frames) -> Result<usize, String> {
-    let GridBox { cell_m, min_m, cells } = scene.grid;
+    let GridBox {
+        cell_m,
+        min_m,
+        cells,
+    } = scene.grid;
     let on_cells = |x: f64, from: f64| {
         let n = (x - from) / cell_m;
         (n - n.round()).abs() < ALIGNED

@@ -70,10 +70,11 @@ impl Mesh {
         for cell in 0..cells {
             mesh.pore_start.push(mesh.pores.len() as u32);
             let open = mesh.open_voxels(lattice, cell);
-            mesh.pores.extend(connected(open, mesh.k).map(|voxels| Pore {
-                cell: cell as u32,
-                voxels,
-            }));
+            mesh.pores
+                .extend(connected(open, mesh.k).map(|voxels| Pore {
+                    cell: cell as u32,
+                    voxels,
+                }));
         }
         mesh.pore_start.push(mesh.pores.len() as u32);
         for cell in 0..cells {
@@ -188,11 +189,18 @@ impl Mesh {
     }
 
     /// Faces of a pore on its high (`up`) or low side along an axis.
-    pub(crate) fn faces_at(&self, pore: usize, axis: usize, up: bool) -> impl Iterator<Item = usize> {
+    pub(crate) fn faces_at(
+        &self,
+        pore: usize,
+        axis: usize,
+        up: bool,
+    ) -> impl Iterator<Item = usize> {
         let cell = self.pores[pore].cell as usize;
         let range = match up {
             true => self.faces_of(cell, axis),
-            false => (self.neighbour(cell, axis, false)).map_or(0..0, |low| self.faces_of(low, axis)),
+            false => {
+                (self.neighbour(cell, axis, false)).map_or(0..0, |low| self.faces_of(low, axis))
+            }
         };
         range.filter(move |&face| {
             let face = &self.faces[face];
@@ -204,21 +212,24 @@ impl Mesh {
     /// The pore of a cell that holds a voxel.
     pub(crate) fn pore_with(&self, cell: usize, voxel: [usize; 3]) -> Option<usize> {
         let bit = self.bit(voxel);
-        self.pores_of(cell).find(|&pore| self.pores[pore].voxels >> bit & 1 == 1)
+        self.pores_of(cell)
+            .find(|&pore| self.pores[pore].voxels >> bit & 1 == 1)
     }
 
     /// The face between two pores along an axis.
     pub(crate) fn face_between(&self, low: usize, high: usize, axis: usize) -> Option<usize> {
-        self.faces_of(self.pores[low].cell as usize, axis).find(|&face| {
-            let face = &self.faces[face];
-            face.low as usize == low && face.high as usize == high
-        })
+        self.faces_of(self.pores[low].cell as usize, axis)
+            .find(|&face| {
+                let face = &self.faces[face];
+                face.low as usize == low && face.high as usize == high
+            })
     }
 
     /// Whether a cell lies beyond an open side.
     pub(crate) fn is_beyond(&self, cell: usize) -> bool {
         let place = self.place(cell);
-        let across = |a: usize| self.beyond[a] == 1 && (place[a] == 0 || place[a] + 1 == self.size[a]);
+        let across =
+            |a: usize| self.beyond[a] == 1 && (place[a] == 0 || place[a] + 1 == self.size[a]);
         let row = place[1] + self.range.start;
         let along = self.boundary[1] == Boundary::Open && (row == 0 || row + 1 == self.rows.len());
         along || across(0) || across(2)
@@ -238,17 +249,26 @@ impl Mesh {
     pub(crate) fn volume_at(&self, pore: usize, height: f64) -> f64 {
         let Pore { cell, voxels } = self.pores[pore];
         let part = f64::from(voxels.count_ones()) / (self.k * self.k * self.k) as f64;
-        let rows = Rows { height, ..self.rows };
+        let rows = Rows {
+            height,
+            ..self.rows
+        };
         part * rows.height_of(self.row(cell as usize))
     }
 
     /// Area of a face, cells.
     pub(crate) fn area(&self, face: usize) -> f64 {
-        let Face { low, open, axis, .. } = self.faces[face];
+        let Face {
+            low, open, axis, ..
+        } = self.faces[face];
         let part = f64::from(open.count_ones()) / (self.k * self.k) as f64;
         match axis {
             1 => part,
-            _ => part * self.rows.height_of(self.row(self.pores[low as usize].cell as usize)),
+            _ => {
+                part * self
+                    .rows
+                    .height_of(self.row(self.pores[low as usize].cell as usize))
+            }
         }
     }
 
@@ -259,7 +279,12 @@ impl Mesh {
     }
 
     /// Where in the lattice a voxel of a cell lies; `None` beyond the layers of a part or an open side.
-    pub(crate) fn lattice_place(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> Option<Place> {
+    pub(crate) fn lattice_place(
+        &self,
+        lattice: &Lattice,
+        cell: usize,
+        voxel: [usize; 3],
+    ) -> Option<Place> {
         let [x, y, z] = self.place(cell);
         let across = lattice.across();
         let sub = |i: usize, a: usize| (i * self.k + voxel[a]).checked_sub(self.beyond[a] * self.k);

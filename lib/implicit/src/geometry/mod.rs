@@ -7,7 +7,7 @@ mod rows;
 mod split;
 
 pub(crate) use chords::Chords;
-pub(crate) use lattice::{Lattice, MIRROR, OPEN};
 pub(crate) use chords::Place;
+pub(crate) use lattice::{Lattice, MIRROR, OPEN};
 pub(crate) use mesh::{Mesh, others};
 pub(crate) use rows::{Kind, Rows};

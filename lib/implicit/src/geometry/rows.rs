@@ -88,7 +88,10 @@ mod tests {
         let third = 2.5 / 3.0;
         assert_eq!(low, [-3.0, -2.0, -1.0, 0.0, third, 2.0 * third, 2.5, 3.5]);
         assert_eq!(rows.height_of(4), third);
-        assert_eq!([2, 3, 5, 6].map(|row| rows.share(row)), [0.0, 0.0, 2.0 / 3.0, 1.0]);
+        assert_eq!(
+            [2, 3, 5, 6].map(|row| rows.share(row)),
+            [0.0, 0.0, 2.0 / 3.0, 1.0]
+        );
         assert_eq!(Rows::of_gap(3, 2, 3.0 + 1e-9).gap, 3);
         assert_eq!(Rows::of_gap(3, 2, 0.0).gap, 0);
     }

@@ -39,9 +39,10 @@ pub(crate) fn carried_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f6
         let of = |y: usize| volumes[old.pores_of(old.cell_at([x, y, z])).start + index];
         *carried = match same_row(new, old, row) {
             Some(y) => of(y),
-            None if new.rows.kind(row) == Kind::Gap => {
-                overlapping(new, old, row).iter().map(|&(y, part)| part * of(y)).sum()
-            }
+            None if new.rows.kind(row) == Kind::Gap => overlapping(new, old, row)
+                .iter()
+                .map(|&(y, part)| part * of(y))
+                .sum(),
             None => 0.0,
         };
     }
@@ -59,7 +60,10 @@ fn squeeze_out(new: &Mesh, old: &Mesh, y: usize, volumes: &[f64], carried: &mut 
         for x in 0..old.size[0] {
             for pore in old.pores_of(old.cell_at([x, y, z])) {
                 let mut beside = Vec::new();
-                for (row, voxel_row) in [(new.rows.below.wrapping_sub(1), new.k - 1), (new.rows.below, 0)] {
+                for (row, voxel_row) in [
+                    (new.rows.below.wrapping_sub(1), new.k - 1),
+                    (new.rows.below, 0),
+                ] {
                     if !new.range.contains(&row) {
                         continue;
                     }
@@ -97,7 +101,10 @@ pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Ve
         *carried = match same_row(new, old, row) {
             Some(y) if !touches_gap || new.rows.gap > 0 => of(y),
             None if new.rows.kind(row) == Kind::Gap => {
-                overlapping(new, old, row).iter().map(|&(y, part)| part * of(y)).sum::<f64>()
+                overlapping(new, old, row)
+                    .iter()
+                    .map(|&(y, part)| part * of(y))
+                    .sum::<f64>()
                     / overlapping(new, old, row).iter().map(|o| o.1).sum::<f64>()
             }
             _ => 0.0,

@@ -40,7 +40,13 @@ pub(crate) fn deposit(mesh: &Mesh, points: &Points, place: Place) -> Result<Vec<
 }
 
 /// Spreads a volume over the open voxels in a box around a place, cells from the origin; `None` where there are none.
-fn spread(mesh: &Mesh, at: [f64; 3], half: [f64; 3], volume: f64, volumes: &mut [f64]) -> Option<()> {
+fn spread(
+    mesh: &Mesh,
+    at: [f64; 3],
+    half: [f64; 3],
+    volume: f64,
+    volumes: &mut [f64],
+) -> Option<()> {
     let overlap = |a: usize, low: f64, high: f64| {
         (high.min(at[a] + half[a]) - low.max(at[a] - half[a])).max(0.0)
     };

@@ -26,7 +26,7 @@ pub(crate) fn points(mesh: &Mesh, place: Place, shown: &Shown) -> LiquidState {
     for pore in 0..mesh.pores.len() {
         let voxels = mesh.pores[pore].voxels;
         let n = f64::from(voxels.count_ones());
-        let volume = shown.volumes[pore].min(mesh.volume(pore)) / n;
+        let volume = shown.volumes[pore] / n;
         if volume < LEAST {
             continue;
         }

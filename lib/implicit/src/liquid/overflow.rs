@@ -62,7 +62,13 @@ pub(super) fn overflow(
 /// How much of an excess goes by each of the ways.
 fn shares(ways: &[Way], excess: f64) -> Vec<(usize, bool, f64)> {
     let weights: [fn(&Way) -> f64; 4] = [
-        |way| if way.room { way.flow + way.straight } else { 0.0 },
+        |way| {
+            if way.room {
+                way.flow + way.straight
+            } else {
+                0.0
+            }
+        },
         |way| if way.room { way.area } else { 0.0 },
         |way| way.flow,
         |way| way.area,
@@ -94,7 +100,10 @@ fn ways(
             let straight: f64 = (mesh.faces_at(pore, axis, !up))
                 .map(|face| (sign * flux[face]).max(0.0))
                 .sum();
-            let all: f64 = mesh.faces_at(pore, axis, up).map(|face| mesh.area(face)).sum();
+            let all: f64 = mesh
+                .faces_at(pore, axis, up)
+                .map(|face| mesh.area(face))
+                .sum();
             ways.extend(mesh.faces_at(pore, axis, up).map(|face| {
                 let f = mesh.faces[face];
                 let area = mesh.area(face);

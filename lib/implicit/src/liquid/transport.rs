@@ -80,9 +80,12 @@ fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[
         let donor = if *flux > 0.0 { f.low } else { f.high };
         *flux *= shares[donor as usize];
     });
-    volumes.par_iter_mut().enumerate().for_each(|(pore, volume)| {
-        *volume += net_inflow(mesh, &flux, pore);
-    });
+    volumes
+        .par_iter_mut()
+        .enumerate()
+        .for_each(|(pore, volume)| {
+            *volume += net_inflow(mesh, &flux, pore);
+        });
     // Full pores hold what their pressure makes of them.
     let capacities: Vec<f64> = pores
         .map(|pore| match full[pore] {
@@ -144,7 +147,11 @@ impl Crossing {
         }
         let gradient = gradients[self.donor];
         // Change of the fraction along the flow, from the pore behind to the pore ahead.
-        let change = if self.up { gradient[self.axis] } else { -gradient[self.axis] };
+        let change = if self.up {
+            gradient[self.axis]
+        } else {
+            -gradient[self.axis]
+        };
         let behind = ahead - change;
         let aside = (0..3)
             .filter(|&a| a != self.axis)
@@ -172,7 +179,11 @@ fn outflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
 
 /// What comes into a pore less what leaves it.
 fn net_inflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
-    sum(mesh, pore, |face, up| if up { -flux[face] } else { flux[face] })
+    sum(
+        mesh,
+        pore,
+        |face, up| if up { -flux[face] } else { flux[face] },
+    )
 }
 
 /// Sum over the faces of a pore.

@@ -11,7 +11,9 @@ use saddle_point::{SaddleOptions, SaddleSolver};
 use crate::geometry::{Mesh, Rows};
 use crate::liquid::{Moved, carried_velocities, carried_volumes, transport};
 use crate::settings::Settings;
-use crate::system::{Drive, FULL, Flow, Links, Problem, Rates, Unknowns, Viscosities, forces, halves, solve};
+use crate::system::{
+    Drive, FULL, Flow, Links, Problem, Rates, Unknowns, Viscosities, forces, halves, solve,
+};
 use drive::{Asked, ClampDrive};
 use setup::Setup;
 
@@ -149,7 +151,8 @@ impl Implicit {
         self.mesh.rows.height = self.height;
         let rows = Rows::of_gap(self.mesh.rows.below, self.mesh.rows.above, self.height);
         let wet = self.wet_rows();
-        let near = |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < MARGIN[1];
+        let near =
+            |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < MARGIN[1];
         let range = &self.mesh.range;
         if rows.gap == self.mesh.rows.gap
             && !near(wet.start, range.start, 0)
@@ -176,7 +179,9 @@ impl Implicit {
         (0..mesh.pores.len())
             .filter(|&pore| self.state.volumes[pore] > 0.0)
             .map(|pore| mesh.row(mesh.pores[pore].cell as usize))
-            .fold(gap, |range, row| range.start.min(row)..range.end.max(row + 1))
+            .fold(gap, |range, row| {
+                range.start.min(row)..range.end.max(row + 1)
+            })
     }
 
     /// Length of the next step by the flow of the last, s.
@@ -190,8 +195,13 @@ impl Implicit {
         // The viscosity of a liquid that cures is that of the middle of the step.
         let cure = self.setup.liquid.cure.as_ref();
         let free = cure.map_or(free, |cure| cure.steady(self.state.time, CURED).min(free));
-        let dt = free.min(if self.state.steps == 0 { falls } else { f64::INFINITY });
-        let left = limit.travel_m / self.setup.units.cell_m / self.state.flow.speed.max(f64::MIN_POSITIVE);
+        let dt = free.min(if self.state.steps == 0 {
+            falls
+        } else {
+            f64::INFINITY
+        });
+        let left =
+            limit.travel_m / self.setup.units.cell_m / self.state.flow.speed.max(f64::MIN_POSITIVE);
         dt.min(limit.time_s).min(left)
     }
 
@@ -201,8 +211,15 @@ impl Implicit {
         let mut solved = match self.state.drive.held() {
             Some(asked) => self.solve_held(dt, asked)?,
             None => {
-                let free = self.solve_driven(dt, Drive::Speed(self.state.drive.speed / self.setup.units.cell_m))?;
-                match self.state.drive.exceeded(self.setup.pressure(free.flow.force)) {
+                let free = self.solve_driven(
+                    dt,
+                    Drive::Speed(self.state.drive.speed / self.setup.units.cell_m),
+                )?;
+                match self
+                    .state
+                    .drive
+                    .exceeded(self.setup.pressure(free.flow.force))
+                {
                     Some(asked) => self.solve_held(dt, asked)?,
                     None => free,
                 }
@@ -243,8 +260,18 @@ impl Implicit {
             self.mesh.rows.height = (height - 0.5 * dt * state.flow.speed).max(0.5 * height);
         }
         let mesh = &self.mesh;
-        let moved = if state.steps == 0 { state.volumes.clone() } else {
-            transport(mesh, &state.volumes, &full, &self.capacities(), &state.flow.velocity, 0.5 * dt).volumes
+        let moved = if state.steps == 0 {
+            state.volumes.clone()
+        } else {
+            transport(
+                mesh,
+                &state.volumes,
+                &full,
+                &self.capacities(),
+                &state.flow.velocity,
+                0.5 * dt,
+            )
+            .volumes
         };
         self.links = self.setup.links(mesh);
         let fractions = (0..mesh.pores.len())
@@ -262,10 +289,12 @@ impl Implicit {
         let mesh = &self.mesh;
         (0..mesh.pores.len())
             .into_par_iter()
-            .map(|pore| match mesh.is_beyond(mesh.pores[pore].cell as usize) {
-                true => f64::INFINITY,
-                false => mesh.volume(pore),
-            })
+            .map(
+                |pore| match mesh.is_beyond(mesh.pores[pore].cell as usize) {
+                    true => f64::INFINITY,
+                    false => mesh.volume(pore),
+                },
+            )
             .collect()
     }
 
@@ -282,7 +311,14 @@ impl Implicit {
         let varies = setup.varies();
         let rates = |flow: &Flow| {
             let convention = setup.liquid.shear_rate;
-            Rates::of(&setup.lattice, mesh, &self.links, &flow.velocity, flow.speed, convention)
+            Rates::of(
+                &setup.lattice,
+                mesh,
+                &self.links,
+                &flow.velocity,
+                flow.speed,
+                convention,
+            )
         };
         let mut viscosities = match varies && state.steps > 0 {
             true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor),
@@ -319,13 +355,25 @@ impl Implicit {
             if settled {
                 let forces = forces(&problem, &flow, state.displacement.len());
                 flow.iterations = iterations;
-                return Ok(Solved { dt, forces, full, settled, flow });
+                return Ok(Solved {
+                    dt,
+                    forces,
+                    full,
+                    settled,
+                    flow,
+                });
             }
             viscosities = changed;
         }
         let forces = vec![0.0; state.displacement.len()];
         flow.iterations = iterations;
-        Ok(Solved { dt, forces, full, settled, flow })
+        Ok(Solved {
+            dt,
+            forces,
+            full,
+            settled,
+            flow,
+        })
     }
 
     /// Completes an accepted step.
@@ -347,8 +395,14 @@ impl Implicit {
         let capacities = self.capacities();
         self.mesh.rows.height = middle;
         let mesh = &mut self.mesh;
-        let Moved { volumes, lost } =
-            transport(mesh, &self.state.volumes, &full, &capacities, &flow.velocity, dt);
+        let Moved { volumes, lost } = transport(
+            mesh,
+            &self.state.volumes,
+            &full,
+            &capacities,
+            &flow.velocity,
+            dt,
+        );
         mesh.rows.height = self.height;
         let state = &mut self.state;
         state.volumes = volumes;
@@ -365,8 +419,8 @@ impl Implicit {
                 displacement[a] += slide[a] * dt;
             }
             if self.setup.lattice.mover == Some(body) {
-                displacement[1] += self.setup.lattice.speed_of(body) * flow.speed * dt * cell_m
-                    - slide[1] * dt;
+                displacement[1] +=
+                    self.setup.lattice.speed_of(body) * flow.speed * dt * cell_m - slide[1] * dt;
             }
         }
         let pressure = |body: Option<usize>, sign: f64| {
@@ -378,7 +432,9 @@ impl Implicit {
                 self.setup.pressure(force)
             })
         };
-        state.drive.observe(self.setup.pressure(flow.force), dt, state.travel);
+        state
+            .drive
+            .observe(self.setup.pressure(flow.force), dt, state.travel);
         let report = StepReport {
             dt_s: dt,
             closing_speed: flow.speed * cell_m,

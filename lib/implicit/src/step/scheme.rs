@@ -1,8 +1,8 @@
 //! `physics::Scheme` of the implicit scheme: what it shows, saves and restores.
 
 use physics::{
-    Array, Diagnostics, Failure, LiquidState, PressRun, Saved, Saving, Scheme, StageTime, StepLimit,
-    StepReport, restored,
+    Array, Diagnostics, Failure, LiquidState, PressRun, Saved, Saving, Scheme, StageTime,
+    StepLimit, StepReport, restored,
 };
 
 use super::Implicit;
@@ -25,12 +25,15 @@ impl Scheme for Implicit {
             let held = self.state.volumes[pore];
             if held > 0.0 {
                 let speed = self.pore_velocity(pore).iter().map(|v| v * v).sum::<f64>();
-                volume += held.min(mesh.volume(pore));
+                volume += held * self.compressed(pore);
                 energy += 0.5 * held * speed;
             }
         }
         Diagnostics {
-            kinetic_energy: energy * self.setup.liquid.density * units.volume() * units.cell_m.powi(2),
+            kinetic_energy: energy
+                * self.setup.liquid.density
+                * units.volume()
+                * units.cell_m.powi(2),
             viscous_power: self.state.power * units.force() * units.cell_m,
             volume: volume * units.volume(),
             max_speed: self.state.fastest * units.cell_m,
@@ -51,8 +54,11 @@ impl Scheme for Implicit {
             flow.speed,
             convention,
         );
+        let volumes: Vec<f64> = (0..self.mesh.pores.len())
+            .map(|pore| state.volumes[pore] * self.compressed(pore))
+            .collect();
         let shown = Shown {
-            volumes: &state.volumes,
+            volumes: &volumes,
             velocity: &|pore| self.pore_velocity(pore),
             pressure: &|pore| flow.pressure[pore] * setup.units.viscosity,
             rate: &|pore| rates.pores[pore],
@@ -90,7 +96,10 @@ impl Scheme for Implicit {
             ("volumes", Array::F64(state.volumes.clone())),
             ("velocities", Array::F64(state.flow.velocity.clone())),
             ("pressures", Array::F64(state.flow.pressure.clone())),
-            ("displacement", Array::F64(state.displacement.as_flattened().to_vec())),
+            (
+                "displacement",
+                Array::F64(state.displacement.as_flattened().to_vec()),
+            ),
         ];
         let programme = state.drive.programme().map(PressRun::state);
         arrays.extend(programme.map(|state| (PROGRAMME, Array::F64(state))));
@@ -102,15 +111,29 @@ impl Scheme for Implicit {
     fn restore(&mut self, saved: &Saved) -> Result<(), String> {
         let scalars = saved.f64s("scalars")?;
         restored::check_finite(scalars, "scalars")?;
-        let &[height, travel, time, steps, fastest, lost, power, unsettled, speed, force, ref drive @ ..] =
-            scalars
+        let &[
+            height,
+            travel,
+            time,
+            steps,
+            fastest,
+            lost,
+            power,
+            unsettled,
+            speed,
+            force,
+            ref drive @ ..,
+        ] = scalars
         else {
             return Err("the checkpoint's scalars are not those of this scheme".into());
         };
         let Ok(drive) = <[f64; 7]>::try_from(drive) else {
             return Err("the checkpoint's clamp state is not that of this scheme".into());
         };
-        if [height, time, steps, fastest, lost, unsettled].iter().any(|&x| x < 0.0) {
+        if [height, time, steps, fastest, lost, unsettled]
+            .iter()
+            .any(|&x| x < 0.0)
+        {
             return Err("a scalar of the checkpoint is negative where none can be".into());
         }
         let mesh = self.saved_mesh(saved, height)?;
@@ -170,12 +193,18 @@ impl Scheme for Implicit {
         self.state.drive.programme()
     }
 
+    fn follows_points(&self) -> bool {
+        false
+    }
+
     fn objection(&self) -> Option<String> {
         /// Part of the steps that may be so.
         const MOST_UNSETTLED: f64 = 0.1;
         let (steps, unsettled) = (self.state.steps, self.state.unsettled);
         let viscosity = (unsettled as f64 > MOST_UNSETTLED * steps as f64).then(|| {
-            format!("in {unsettled} of {steps} steps the passes did not find the viscosity of the flow")
+            format!(
+                "in {unsettled} of {steps} steps the passes did not find the viscosity of the flow"
+            )
         });
         let pressure = self.state.drive.broken.1;
         let limit = (pressure > 0.0).then(|| physics::broken(pressure));
@@ -197,12 +226,22 @@ impl Implicit {
         };
         let range = start as usize..end as usize;
         let most = self.setup.most_rows();
-        if gap as usize > most || range.is_empty() || range.end > rows.len() || gap == 0 && height > 0.0 {
+        if gap as usize > most
+            || range.is_empty()
+            || range.end > rows.len()
+            || gap == 0 && height > 0.0
+        {
             return Err(format!(
                 "the checkpoint has rows {start} to {end} with {gap} in the gap, which this scene does not have"
             ));
         }
         Ok(Mesh::new(&self.setup.lattice, rows, range))
+    }
+
+    /// Volume of the liquid of a pore over that at no pressure, Tait's J.
+    fn compressed(&self, pore: usize) -> f64 {
+        let pressure = self.state.flow.pressure[pore] * self.setup.units.viscosity;
+        1.0 + self.setup.liquid.tait.volume_change(pressure)
     }
 
     /// Mean velocity of a pore, cells/s.

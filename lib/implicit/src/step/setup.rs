@@ -59,7 +59,9 @@ impl Setup {
         }
         let lattice = Lattice::new(scene)?;
         let cell_m = scene.grid.cell_m;
-        let speed = scene.clamp.map_or(scene.initial_speed(), |clamp| clamp.closing_speed);
+        let speed = scene
+            .clamp
+            .map_or(scene.initial_speed(), |clamp| clamp.closing_speed);
         let units = Units {
             cell_m,
             viscosity: scene.liquid.viscosity.at(speed / cell_m),
@@ -88,7 +90,9 @@ impl Setup {
             bottom: scene.bottom,
             top: scene.top,
             area: scene.grid.area_m2(),
-            limited: scene.clamp.is_some_and(|clamp| clamp.max_pressure.is_some()),
+            limited: scene
+                .clamp
+                .is_some_and(|clamp| clamp.max_pressure.is_some()),
         };
         Ok((setup, mesh, volumes))
     }
@@ -116,7 +120,9 @@ impl Setup {
         };
         let stages = &scene.programme;
         let programme = (!stages.is_empty()).then(|| PressRun::new(stages.clone(), travel));
-        let full = self.lattice.mover.map_or(0.0, |body| scene.velocity(scene.bodies[body].motion)[1].abs());
+        let full = self.lattice.mover.map_or(0.0, |body| {
+            scene.velocity(scene.bodies[body].motion)[1].abs()
+        });
         let acoustic = self.units.cell_m / self.liquid.sound_speed();
         ClampDrive::new(scene.clamp, programme, acoustic, full)
     }

@@ -80,7 +80,11 @@ impl Problem<'_> {
     pub(crate) fn carried(&self, face: usize) -> f64 {
         let axis = usize::from(self.mesh.faces[face].axis);
         let share = |pore: usize, up: bool, part: f64| {
-            let all: f64 = self.mesh.faces_at(pore, axis, up).map(|f| self.mesh.area(f)).sum();
+            let all: f64 = self
+                .mesh
+                .faces_at(pore, axis, up)
+                .map(|f| self.mesh.area(f))
+                .sum();
             0.5 * part * self.mesh.volume(pore) * self.mesh.area(face) / all
         };
         let ([low, high], parts) = (self.ends(face), self.halves[face]);
@@ -105,7 +109,10 @@ impl Problem<'_> {
         let link = &self.links.0[face];
         let weights = self.wall_weights(face);
         let friction = weights[0] * link.friction[0] + weights[1] * link.friction[1];
-        entries.add(row, friction + self.scales.inertia * self.carried(face) + FREE);
+        entries.add(
+            row,
+            friction + self.scales.inertia * self.carried(face) + FREE,
+        );
         let number = |face: usize| self.unknowns.face(face);
         let ends = self.ends(face);
         for (pore, up) in [(ends[0], false), (ends[1], true)] {
@@ -180,7 +187,10 @@ impl Problem<'_> {
             for (pore, up) in [(ends[0], false), (ends[1], true)] {
                 let stiffness = self.stiffness(pore);
                 stretching(self.mesh, face, up, |pull| {
-                    if pull.other.is_none_or(|other| self.unknowns.face(other).is_some()) {
+                    if pull
+                        .other
+                        .is_none_or(|other| self.unknowns.face(other).is_some())
+                    {
                         force[1] += stiffness * pull.weight * pull.closing;
                     }
                 });
@@ -194,7 +204,10 @@ impl Problem<'_> {
         let faces: f64 = (self.unknowns.faces.iter())
             .map(|&face| self.resistance_of(face as usize))
             .sum();
-        faces + (0..self.mesh.pores.len()).map(|pore| self.squeezed(pore)).sum::<f64>()
+        faces
+            + (0..self.mesh.pores.len())
+                .map(|pore| self.squeezed(pore))
+                .sum::<f64>()
     }
 
     fn resistance_of(&self, face: usize) -> f64 {
@@ -216,15 +229,26 @@ impl Problem<'_> {
             return 0.0;
         }
         let mut sum = 0.0;
-        for face in self.mesh.faces_at(pore, 1, false).filter(|&f| self.unknowns.face(f).is_some()) {
+        for face in self
+            .mesh
+            .faces_at(pore, 1, false)
+            .filter(|&f| self.unknowns.face(f).is_some())
+        {
             stretching(self.mesh, face, true, |pull| {
-                if pull.other.is_none_or(|other| self.unknowns.face(other).is_some()) {
+                if pull
+                    .other
+                    .is_none_or(|other| self.unknowns.face(other).is_some())
+                {
                     sum += pull.weight * pull.closing * pull.closing;
                 }
             });
         }
         if self.mesh.faces_at(pore, 1, false).next().is_none() {
-            for face in self.mesh.faces_at(pore, 1, true).filter(|&f| self.unknowns.face(f).is_some()) {
+            for face in self
+                .mesh
+                .faces_at(pore, 1, true)
+                .filter(|&f| self.unknowns.face(f).is_some())
+            {
                 stretching(self.mesh, face, false, |pull| {
                     sum += pull.weight * pull.closing * pull.closing;
                 });

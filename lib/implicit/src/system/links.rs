@@ -47,7 +47,12 @@ impl Links {
             mesh,
             walls,
         };
-        Self((0..mesh.faces.len()).into_par_iter().map(|face| view.link(face)).collect())
+        Self(
+            (0..mesh.faces.len())
+                .into_par_iter()
+                .map(|face| view.link(face))
+                .collect(),
+        )
     }
 }
 
@@ -159,7 +164,9 @@ impl View<'_> {
         let width = match self.mesh.k {
             1 => {
                 let least = along.min(across).min(2.0 * h1.max(0.5));
-                (along.powi(-2) + across.powi(-2)).powf(-0.5).max(NARROWEST * least)
+                (along.powi(-2) + across.powi(-2))
+                    .powf(-0.5)
+                    .max(NARROWEST * least)
             }
             _ => along,
         };
@@ -175,6 +182,9 @@ impl View<'_> {
         if axis != 1 {
             return [own, 0.0];
         }
-        [0.0, self.lattice.speed_of(body) - self.mesh.frame(self.lattice, face)]
+        [
+            0.0,
+            self.lattice.speed_of(body) - self.mesh.frame(self.lattice, face),
+        ]
     }
 }

@@ -84,7 +84,11 @@ pub(crate) fn solve(
         friction: &friction,
         two_eta: &two_eta,
         b: &known,
-        standing: if scales.gravity == [0.0; 3] { &[] } else { &weight },
+        standing: if scales.gravity == [0.0; 3] {
+            &[]
+        } else {
+            &weight
+        },
         holding: &[],
         slow: SLOW / scales.dt,
         volume_source: &volume_source,
@@ -126,7 +130,8 @@ pub(crate) fn solve(
     let mut au = vec![0.0; u.len()];
     a.multiply(&u, &mut au);
     let viscous = problem.viscous_parts(&u, flow.speed);
-    flow.dissipation = dot(&u, &au) - 2.0 * flow.speed * dot(&closing, &u) + drag * flow.speed.powi(2) + viscous;
+    flow.dissipation =
+        dot(&u, &au) - 2.0 * flow.speed * dot(&closing, &u) + drag * flow.speed.powi(2) + viscous;
     for (&face, &u) in unknowns.faces.iter().zip(&u) {
         flow.velocity[face as usize] = u;
     }

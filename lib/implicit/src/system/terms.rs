@@ -23,7 +23,11 @@ pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut
     let cell = mesh.pores[pore].cell as usize;
     let edge = mesh.edges(cell)[axis];
     let weight = 2.0 * mesh.volume(pore) / (edge * edge);
-    let area = |up: bool| mesh.faces_at(pore, axis, up).map(|face| mesh.area(face)).sum::<f64>();
+    let area = |up: bool| {
+        mesh.faces_at(pore, axis, up)
+            .map(|face| mesh.area(face))
+            .sum::<f64>()
+    };
     let own = mesh.area(face) / area(!up);
     let closing = match (axis, mesh.rows.kind(mesh.row(cell))) {
         (1, Kind::Gap) => 1.0 / mesh.rows.gap as f64,
@@ -105,7 +109,10 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
     }
     let ends = [f.low, f.high].map(|pore| pore as usize);
     let cells = ends.map(|pore| mesh.pores[pore].cell as usize);
-    let beside = [mesh.neighbour(cells[0], t, up)?, mesh.neighbour(cells[1], t, up)?];
+    let beside = [
+        mesh.neighbour(cells[0], t, up)?,
+        mesh.neighbour(cells[1], t, up)?,
+    ];
     let voxel = |half: usize| {
         let mut at = [0; 3];
         (at[axis], at[t], at[across]) = (if half == 0 { k - 1 } else { 0 }, far, r);

@@ -36,11 +36,16 @@ impl Viscosities {
     pub(crate) fn change(&self, next: &Self, rates: &Rates, mesh: &Mesh, fractions: &[f64]) -> f64 {
         let mut sums = [0.0; 2];
         for pore in (0..mesh.pores.len()).filter(|&pore| fractions[pore] > 0.0) {
-            let power = next.pores[pore] * rates.pores[pore].powi(2) * mesh.volume(pore) * fractions[pore];
+            let power =
+                next.pores[pore] * rates.pores[pore].powi(2) * mesh.volume(pore) * fractions[pore];
             sums[0] += power * (next.pores[pore] / self.pores[pore]).ln().abs();
             sums[1] += power;
         }
-        if sums[1] > 0.0 { sums[0] / sums[1] } else { 0.0 }
+        if sums[1] > 0.0 {
+            sums[0] / sums[1]
+        } else {
+            0.0
+        }
     }
 }
 
@@ -104,7 +109,8 @@ impl View<'_> {
                         // The pore is on the high side of its low faces.
                         stretching(mesh, face, true, |pull| {
                             let other = pull.other.map_or(0.0, |other| u[other]);
-                            power += pull.weight * (other - u[face] + pull.closing * self.speed).powi(2);
+                            power +=
+                                pull.weight * (other - u[face] + pull.closing * self.speed).powi(2);
                         });
                     }
                     edges(mesh, face, self.lattice.flat, |edge| {

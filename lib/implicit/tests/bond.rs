@@ -1,0 +1,183 @@
+//! A bond of voxels with lumens, pressed: what must not depend on how it lies, on threads, or on a stop on the way.
+
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
+#[path = "common/plain.rs"]
+mod plain;
+
+use implicit::{Implicit, Settings};
+use physics::{
+    Boundary, Clamp, LiquidState, Motion, Scene, Scheme, StepLimit, Stop, VoxelBlock, WallLaw,
+};
+
+/// Edge of a voxel, m.
+const VOXEL: f64 = 1.45e-6;
+/// Voxels along x and z, of each body along y, and of the slab.
+const N: usize = 16;
+const DEEP: usize = 16;
+const SLAB: usize = 4;
+
+/// Whether a voxel of a body is wood, `layer` counted from the bond: lumens along z cut open at the bond and below it,
+/// one along x, and a pit.
+fn wood(x: usize, layer: usize, z: usize) -> bool {
+    let in_disc = |cx: f64, cy: f64, r: f64| {
+        let (dx, dy) = (x as f64 + 0.5 - cx, layer as f64 + 0.5 - cy);
+        dx * dx + dy * dy < r * r
+    };
+    let across = {
+        let (dz, dy) = (z as f64 + 0.5 - 11.0, layer as f64 + 0.5 - 2.0);
+        dz * dz + dy * dy < 5.0
+    };
+    let pit = (5..7).contains(&x) && layer < 10 && (3..5).contains(&z);
+    !(in_disc(4.0, 8.0, 3.6) || in_disc(11.5, 1.0, 3.3) || across || pit)
+}
+
+/// How the bond lies: its voxel (x, z) is the wood of `place(x, z)`.
+fn scene(k: usize, boundary: Boundary, place: impl Fn(usize, usize) -> [usize; 2]) -> Scene {
+    let cell = VOXEL * k as f64;
+    let height = 2 * DEEP + SLAB;
+    let mut scene = plain::scene(cell, [N / k, height / k, N / k]);
+    let v = |n: usize| n as f64 * VOXEL;
+    let block = |y: usize, up: bool| {
+        VoxelBlock::from_fn([0.0, v(y), 0.0], [VOXEL; 3], [N, DEEP, N], |x, j, z| {
+            let layer = if up { j } else { DEEP - 1 - j };
+            let [x, z] = place(x, z);
+            // The upper body is the lower one turned by half a turn.
+            if up {
+                wood(N - 1 - x, layer, N - 1 - z)
+            } else {
+                wood(x, layer, z)
+            }
+        })
+    };
+    scene.bodies = vec![
+        plain::body("wood-bottom", vec![block(0, false)], Motion::Fixed),
+        plain::body("wood-top", vec![block(DEEP + SLAB, true)], Motion::Clamped),
+    ];
+    scene.points = plain::fill([0.0, v(DEEP), 0.0], [VOXEL; 3], [N, SLAB, N]);
+    scene.boundary = [boundary, Boundary::Symmetry, boundary];
+    scene.wall = WallLaw::PartialSlip {
+        influence_length_m: 0.01 * cell,
+    };
+    scene.clamp = Some(Clamp {
+        closing_speed: 1.0,
+        max_pressure: Some(2.5e6),
+        pid: None,
+    });
+    scene.stop = Stop::Closed { travel_m: v(SLAB) };
+    (scene.bottom, scene.top) = (Some(0), Some(1));
+    scene
+}
+
+/// Presses a bond for so many steps or to its end: pressures of the steps, and the liquid.
+fn press(scheme: &mut Implicit, steps: usize) -> (Vec<f64>, LiquidState) {
+    let travel = VOXEL * SLAB as f64;
+    let mut pressures = Vec::new();
+    let mut left = travel + scheme.displacements()[1][1];
+    while left > 1e-9 * travel && pressures.len() < steps {
+        let limit = StepLimit {
+            time_s: 1e-3,
+            travel_m: left,
+        };
+        let report = scheme.advance(limit).unwrap();
+        left = travel - report.travel_m;
+        pressures.push(report.pressure_top);
+    }
+    (pressures, scheme.liquid())
+}
+
+fn new(scene: &Scene) -> Implicit {
+    Implicit::new(
+        scene,
+        Settings {
+            tolerance: 1e-5,
+            ..Settings::default()
+        },
+    )
+    .unwrap()
+}
+
+/// Root of the mean square of the liquid's distance from the bond, um.
+fn penetration(liquid: &LiquidState) -> f64 {
+    let mid = VOXEL * DEEP as f64;
+    let mean = |f: &dyn Fn(f64) -> f64| -> f64 {
+        let sum = liquid.position.iter().zip(&liquid.volume);
+        sum.map(|(x, &v)| f(f64::from(x[1])) * f64::from(v)).sum()
+    };
+    1e6 * (mean(&|y| (y - mid).powi(2)) / mean(&|_| 1.0)).sqrt()
+}
+
+#[test]
+fn a_bond_is_pressed_the_same_however_it_lies() {
+    for k in [1, 2] {
+        let found = |boundary, place: &dyn Fn(usize, usize) -> [usize; 2]| {
+            let (pressures, liquid) = press(&mut new(&scene(k, boundary, place)), usize::MAX);
+            (pressures, penetration(&liquid))
+        };
+        let (mirror, turn) = (Boundary::Symmetry, Boundary::Periodic);
+        let plain = found(mirror, &|x, z| [x, z]);
+        let periodic = found(turn, &|x, z| [x, z]);
+        println!(
+            "k {k}: {} steps, WP {:.4} um, periodic {:.4} um",
+            plain.0.len(),
+            plain.1,
+            periodic.1
+        );
+        for (name, as_it_lies, other) in [
+            ("x mirrored", &plain, found(mirror, &|x, z| [N - 1 - x, z])),
+            ("z mirrored", &plain, found(mirror, &|x, z| [x, N - 1 - z])),
+            ("x and z exchanged", &plain, found(mirror, &|x, z| [z, x])),
+            (
+                "shifted by 6 voxels over x",
+                &periodic,
+                found(turn, &|x, z| [(x + 6) % N, z]),
+            ),
+            (
+                "shifted by 10 voxels over z",
+                &periodic,
+                found(turn, &|x, z| [x, (z + 10) % N]),
+            ),
+        ] {
+            let last = |pressures: &[f64]| pressures[pressures.len() - 2];
+            let depth = other.1 / as_it_lies.1 - 1.0;
+            let pressure = last(&other.0) / last(&as_it_lies.0) - 1.0;
+            println!("k {k}, {name}: WP {depth:+.1e}, pressure {pressure:+.1e}");
+            assert!(depth.abs() < 1e-3 && pressure.abs() < 1e-3, "{name}");
+        }
+    }
+}
+
+/// Volume of the liquid without its pressure.
+fn at_rest(scene: &Scene, liquid: &LiquidState) -> f64 {
+    (liquid.volume.iter().zip(&liquid.pressure))
+        .map(|(&v, &p)| f64::from(v) / (1.0 + scene.liquid.tait.volume_change(f64::from(p))))
+        .sum()
+}
+
+#[test]
+fn no_liquid_is_made_or_lost() {
+    for k in [1, 2] {
+        let scene = scene(k, Boundary::Symmetry, |x, z| [x, z]);
+        let (_, liquid) = press(&mut new(&scene), usize::MAX);
+        let error = at_rest(&scene, &liquid) / scene.liquid_volume() - 1.0;
+        println!("k {k}: volume {error:+.1e}");
+        // Points are in single precision.
+        assert!(error.abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_run_that_was_stopped_goes_on_to_the_same_end_on_any_number_of_threads() {
+    let scene = scene(2, Boundary::Symmetry, |x, z| [x, z]);
+    let mut whole = new(&scene);
+    let on = |threads: usize, work: &mut (dyn FnMut() + Send)| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(work);
+    };
+    on(1, &mut || drop(press(&mut whole, 5)));
+    let mut resumed = new(&scene);
+    resumed.restore(&whole.save()).unwrap();
+    on(1, &mut || drop(press(&mut whole, usize::MAX)));
+    on(2, &mut || drop(press(&mut resumed, usize::MAX)));
+    assert!(whole.save() == resumed.save());
+}
