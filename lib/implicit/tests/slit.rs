@@ -66,17 +66,12 @@ fn run(n: usize, offset: [f64; 2], cfl: f64) -> (Vec<[f64; 3]>, f64) {
     march::until(&mut scheme, end, |report, time| {
         let filled = |time: f64| 4.0 * SPEED * time / H;
         force.push([
-            filled(time - of_step() * report.dt_s),
+            filled(time - 0.5 * report.dt_s),
             report.pressure_bottom * scale,
             report.pressure_top * scale,
         ]);
     });
     (force, scheme.diagnostics().volume / start - 1.0)
-}
-
-/// Part of a step before its end that its pressure is of.
-fn of_step() -> f64 {
-    std::env::var("OF").map_or(0.5, |t| t.parse().unwrap())
 }
 
 /// Force at a filled length, by a line through those within a quarter H.
@@ -116,76 +111,43 @@ fn errors(n: usize, offset: [f64; 2], cfl: f64) -> [f64; 4] {
     [1.0, 2.0, 3.0, 4.0].map(|l| at(&force, l) / (at(&reference, l) + corner(n)) - 1.0)
 }
 
+/// Errors at one to four filled widths over Courant numbers from 0.8 to 1: the largest mean, the largest deviation.
+fn scatter(n: usize, offset: f64, runs: usize) -> (f64, f64) {
+    let all: Vec<[f64; 4]> = (0..runs)
+        .map(|i| errors(n, [offset, 0.0], 1.0 - 0.2 * i as f64 / runs as f64))
+        .collect();
+    let mean_of =
+        |values: &dyn Fn(&[f64; 4]) -> f64| all.iter().map(values).sum::<f64>() / runs as f64;
+    let mean = [0, 1, 2, 3].map(|i| mean_of(&|e| e[i]));
+    let deviation = [0, 1, 2, 3].map(|i| mean_of(&|e| (e[i] - mean[i]).powi(2)).sqrt());
+    println!(
+        "slit of {n} cells, walls off by {offset}: at L = 1..4 H {:+.2?} %, standard deviation {:.2?} %",
+        mean.map(|e| 100.0 * e),
+        deviation.map(|e| 100.0 * e)
+    );
+    let most = |values: [f64; 4]| values.iter().fold(0.0, |most: f64, v| v.abs().max(most));
+    (most(mean), most(deviation))
+}
+
 #[test]
 fn the_force_is_that_of_finite_elements() {
-    let only: Vec<usize> = std::env::var("N").map_or(vec![3, 6, 12], |n| vec![n.parse().unwrap()]);
-    let count: usize = std::env::var("COUNT").map_or(8, |n| n.parse().unwrap());
-    let scale: f64 = std::env::var("CFL").map_or(1.0, |n| n.parse().unwrap());
-    for n in only {
+    for (n, most, spread) in [(3, 0.06, 0.03), (6, 0.055, 0.01)] {
         for offset in [0.0, 0.5] {
-            let all: Vec<[f64; 4]> = (0..count)
-                .map(|i| {
-                    errors(
-                        n,
-                        [offset, 0.0],
-                        scale * (1.0 - 0.2 * i as f64 / count as f64),
-                    )
-                })
-                .collect();
-            let mean = [0, 1, 2, 3].map(|i| all.iter().map(|e| e[i]).sum::<f64>() / count as f64);
-            let deviation = [0, 1, 2, 3].map(|i| {
-                (all.iter().map(|e| (e[i] - mean[i]).powi(2)).sum::<f64>() / count as f64).sqrt()
-            });
-            println!(
-                "slit of {n} cells, offset {offset}: mean {:+.2?} deviation {:.2?} %",
-                mean.map(|e| 100.0 * e),
-                deviation.map(|e| 100.0 * e)
-            );
+            let (mean, deviation) = scatter(n, offset, 4);
+            assert!(mean < most && deviation < spread);
         }
     }
 }
 
-/// Force on liquid that fills the slit to a flat end at two widths.
 #[test]
-fn flat_ends() {
-    for n in [6, 12, 24, 48] {
+#[ignore = "a minute; prints the numbers of the issue"]
+fn the_force_of_twelve_cells_and_of_forty_courant_numbers() {
+    for n in [2, 3, 6] {
         for offset in [0.0, 0.5] {
-            let mut scene = scene(n, [offset, 0.0]);
-            let h = H / n as f64;
-            let m = |cells: f64| cells * h;
-            let w = n as f64;
-            let (x0, y0) = (2.0 + offset, 2.0);
-            let more = plain::fill(
-                [m(x0 + 1.5 * w), m(y0 + 2.0 * w), 0.0],
-                [m(0.5), m(0.5), h],
-                [2 * n, 4 * n, 1],
-            );
-            scene.points.position.extend(more.position);
-            scene.points.velocity.extend(more.velocity);
-            scene.points.volume.extend(more.volume);
-            scene.liquid.density = 1e-3;
-            scene.liquid.tait.bulk_modulus = 1e14;
-            let area = scene.grid.area_m2();
-            let scale = area / (4.0 * H * h) / (12.0 * ETA * 4.0 * SPEED / H);
-            let mut scheme = Implicit::new(
-                &scene,
-                Settings {
-                    cfl: 1e-3,
-                    tolerance: 1e-6,
-                },
-            )
-            .unwrap();
-            let report = scheme
-                .advance(physics::StepLimit {
-                    time_s: 1.0,
-                    travel_m: f64::INFINITY,
-                })
-                .unwrap();
-            println!(
-                "flat {n} offset {offset}: {:.4} {:.4}",
-                report.pressure_bottom * scale,
-                report.pressure_top * scale
-            );
+            scatter(n, offset, 40);
         }
+    }
+    for offset in [0.0, 0.5] {
+        scatter(12, offset, 6);
     }
 }
