@@ -24,16 +24,12 @@ fn mean_velocity(scene: &Scene) -> f64 {
         time_s: 1e-5,
         travel_m: f64::INFINITY,
     };
-    let report = scheme.advance(limit).unwrap();
+    scheme.advance(limit).unwrap();
     let liquid = scheme.liquid();
     let volume: f64 = liquid.volume.iter().map(|&v| f64::from(v)).sum();
     let flux: f64 = (liquid.velocity.iter().zip(&liquid.volume))
         .map(|(v, &volume)| f64::from(v[0]) * f64::from(volume))
         .sum();
-    println!(
-        "   {} iterations, dt {:.2e}",
-        report.iterations, report.dt_s
-    );
     flux / volume
 }
 
@@ -91,11 +87,11 @@ fn error(width: usize, offset: usize, square: bool) -> f64 {
 
 #[test]
 fn flow_along_channels_and_ducts_is_that_of_the_closed_forms() {
-    for width in [2, 3, 4, 6, 8, 12, 24] {
+    for width in [4, 6, 8, 12] {
         for offset in [0, 1] {
-            let plane = error(width, offset, false);
-            let square = error(width, offset, true);
-            let _ = (plane, square);
+            assert!(error(width, offset, false).abs() < 4e-3);
+            // Ducts of three cells and more.
+            assert!(width < 6 || error(width, offset, true).abs() < 0.013);
         }
     }
 }

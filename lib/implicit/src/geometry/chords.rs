@@ -83,6 +83,15 @@ impl Chords {
         }
     }
 
+    /// Whether the chord along y through a voxel goes through the gap.
+    pub(crate) fn through_gap(&self, place: Place) -> bool {
+        match place {
+            Place::Gap(_) => true,
+            Place::Below(layer, at) => self.below.along[layer][at].through_gap,
+            Place::Above(layer, at) => self.above.along[layer][at].through_gap,
+        }
+    }
+
     /// Length of the chord along y through the gap at a place in the layer.
     fn through(&self, at: usize, gap: f64) -> f64 {
         let [low, high] = [&self.below, &self.above].map(|part| part.from_gap[at]);

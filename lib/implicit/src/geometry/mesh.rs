@@ -35,7 +35,7 @@ pub(crate) struct Mesh {
     pub(crate) size: [usize; 3],
     /// Cells beyond the low sides.
     pub(crate) beyond: [usize; 3],
-    pub(crate) rows: Rows,
+    rows: Rows,
     /// Rows of the grid that are here.
     pub(crate) range: Range<usize>,
     boundary: [Boundary; 3],
@@ -45,6 +45,12 @@ pub(crate) struct Mesh {
     pore_start: Vec<u32>,
     /// First face of each cell towards x, y, z, and one more.
     face_start: Vec<u32>,
+    /// Faces of each pore on its low and its high side along x, y, z, and where those of each side begin.
+    sides: Vec<u32>,
+    side_start: Vec<u32>,
+    /// Volume of each pore and area of each face with the gap as high as it is, cells.
+    volumes: Vec<f64>,
+    areas: Vec<f64>,
 }
 
 impl Mesh {
@@ -66,6 +72,10 @@ impl Mesh {
             faces: Vec::new(),
             pore_start: Vec::with_capacity(cells + 1),
             face_start: Vec::with_capacity(3 * cells + 1),
+            sides: Vec::new(),
+            side_start: Vec::new(),
+            volumes: Vec::new(),
+            areas: Vec::new(),
         };
         for cell in 0..cells {
             mesh.pore_start.push(mesh.pores.len() as u32);
@@ -89,7 +99,62 @@ impl Mesh {
             }
         }
         mesh.face_start.push(mesh.faces.len() as u32);
+        mesh.list_sides();
+        mesh.measure();
         mesh
+    }
+
+    /// Lists the faces of each pore.
+    fn list_sides(&mut self) {
+        for pore in 0..self.pores.len() {
+            let cell = self.pores[pore].cell as usize;
+            for axis in 0..3 {
+                for up in [false, true] {
+                    self.side_start.push(self.sides.len() as u32);
+                    let range = match up {
+                        true => self.faces_of(cell, axis),
+                        false => (self.neighbour(cell, axis, false))
+                            .map_or(0..0, |low| self.faces_of(low, axis)),
+                    };
+                    for face in range {
+                        let f = self.faces[face];
+                        if (if up { f.low } else { f.high }) as usize == pore {
+                            self.sides.push(face as u32);
+                        }
+                    }
+                }
+            }
+        }
+        self.side_start.push(self.sides.len() as u32);
+    }
+
+    /// Numbers of rows, and the height of the gap.
+    pub(crate) fn rows(&self) -> &Rows {
+        &self.rows
+    }
+
+    /// Makes the gap as high as this, cells.
+    pub(crate) fn set_height(&mut self, height: f64) {
+        self.rows.height = height;
+        self.measure();
+    }
+
+    /// Measures pores and faces.
+    fn measure(&mut self) {
+        let volumes = (0..self.pores.len()).map(|pore| self.volume_at(pore, self.rows.height));
+        self.volumes = volumes.collect();
+        let part = |face: &Face| f64::from(face.open.count_ones()) / (self.k * self.k) as f64;
+        let height = |face: &Face| match face.axis {
+            1 => 1.0,
+            _ => self
+                .rows
+                .height_of(self.row(self.pores[face.low as usize].cell as usize)),
+        };
+        self.areas = self
+            .faces
+            .iter()
+            .map(|face| part(face) * height(face))
+            .collect();
     }
 
     fn open_voxels(&self, lattice: &Lattice, cell: usize) -> u8 {
@@ -194,19 +259,25 @@ impl Mesh {
         pore: usize,
         axis: usize,
         up: bool,
-    ) -> impl Iterator<Item = usize> {
-        let cell = self.pores[pore].cell as usize;
-        let range = match up {
-            true => self.faces_of(cell, axis),
-            false => {
-                (self.neighbour(cell, axis, false)).map_or(0..0, |low| self.faces_of(low, axis))
-            }
-        };
-        range.filter(move |&face| {
-            let face = &self.faces[face];
-            let own = if up { face.low } else { face.high };
-            own as usize == pore
-        })
+    ) -> impl Iterator<Item = usize> + Clone {
+        let at = 6 * pore + 2 * axis + usize::from(up);
+        let range = self.side_start[at] as usize..self.side_start[at + 1] as usize;
+        self.sides[range].iter().map(|&face| face as usize)
+    }
+
+    /// Whether a face is in the gap or beside it.
+    pub(crate) fn is_by_gap(&self, face: usize) -> bool {
+        let f = self.faces[face];
+        let row = |pore: u32| self.row(self.pores[pore as usize].cell as usize);
+        let gap = self.rows.below..self.rows.below + self.rows.gap + 1;
+        gap.contains(&row(f.high)) || gap.contains(&(row(f.low) + 1))
+    }
+
+    /// Area of all faces of a pore on one side, cells.
+    pub(crate) fn side_area(&self, pore: usize, axis: usize, up: bool) -> f64 {
+        self.faces_at(pore, axis, up)
+            .map(|face| self.areas[face])
+            .sum()
     }
 
     /// The pore of a cell that holds a voxel.
@@ -242,7 +313,7 @@ impl Mesh {
 
     /// Volume of a pore, cells.
     pub(crate) fn volume(&self, pore: usize) -> f64 {
-        self.volume_at(pore, self.rows.height)
+        self.volumes[pore]
     }
 
     /// The same with a gap of another height.
@@ -258,18 +329,7 @@ impl Mesh {
 
     /// Area of a face, cells.
     pub(crate) fn area(&self, face: usize) -> f64 {
-        let Face {
-            low, open, axis, ..
-        } = self.faces[face];
-        let part = f64::from(open.count_ones()) / (self.k * self.k) as f64;
-        match axis {
-            1 => part,
-            _ => {
-                part * self
-                    .rows
-                    .height_of(self.row(self.pores[low as usize].cell as usize))
-            }
-        }
+        self.areas[face]
     }
 
     /// Velocity of the grid along y at a face over the closing speed; of faces across y alone.

@@ -4,10 +4,10 @@ use crate::geometry::{Kind, Mesh};
 
 /// The row of `old` that a row of the body below or above of `new` is; `None` where it is not there.
 fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
-    let row = match new.rows.kind(row) {
+    let row = match new.rows().kind(row) {
         Kind::Below => row,
         Kind::Gap => return None,
-        Kind::Above => row - new.rows.gap + old.rows.gap,
+        Kind::Above => row - new.rows().gap + old.rows().gap,
     };
     old.range.contains(&row).then(|| row - old.range.start)
 }
@@ -18,12 +18,12 @@ fn overlapping(new: &Mesh, old: &Mesh, row: usize) -> Vec<(usize, f64)> {
         let first = row as f64 / rows as f64;
         [first, first + 1.0 / rows as f64]
     };
-    let [low, high] = part(row - new.rows.below, new.rows.gap);
-    (0..old.rows.gap)
+    let [low, high] = part(row - new.rows().below, new.rows().gap);
+    (0..old.rows().gap)
         .filter_map(|index| {
-            let [l, h] = part(index, old.rows.gap);
-            let overlap = (high.min(h) - low.max(l)) * old.rows.gap as f64;
-            (overlap > 0.0).then(|| (index + old.rows.below - old.range.start, overlap))
+            let [l, h] = part(index, old.rows().gap);
+            let overlap = (high.min(h) - low.max(l)) * old.rows().gap as f64;
+            (overlap > 0.0).then(|| (index + old.rows().below - old.range.start, overlap))
         })
         .collect()
 }
@@ -39,15 +39,15 @@ pub(crate) fn carried_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f6
         let of = |y: usize| volumes[old.pores_of(old.cell_at([x, y, z])).start + index];
         *carried = match same_row(new, old, row) {
             Some(y) => of(y),
-            None if new.rows.kind(row) == Kind::Gap => overlapping(new, old, row)
+            None if new.rows().kind(row) == Kind::Gap => overlapping(new, old, row)
                 .iter()
                 .map(|&(y, part)| part * of(y))
                 .sum(),
             None => 0.0,
         };
     }
-    if new.rows.gap == 0 && old.rows.gap > 0 {
-        for y in old.rows.below..old.rows.below + old.rows.gap {
+    if new.rows().gap == 0 && old.rows().gap > 0 {
+        for y in old.rows().below..old.rows().below + old.rows().gap {
             squeeze_out(new, old, y - old.range.start, volumes, &mut carried);
         }
     }
@@ -61,8 +61,8 @@ fn squeeze_out(new: &Mesh, old: &Mesh, y: usize, volumes: &[f64], carried: &mut 
             for pore in old.pores_of(old.cell_at([x, y, z])) {
                 let mut beside = Vec::new();
                 for (row, voxel_row) in [
-                    (new.rows.below.wrapping_sub(1), new.k - 1),
-                    (new.rows.below, 0),
+                    (new.rows().below.wrapping_sub(1), new.k - 1),
+                    (new.rows().below, 0),
                 ] {
                     if !new.range.contains(&row) {
                         continue;
@@ -97,10 +97,10 @@ pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Ve
             let faces = old.faces_of(old.cell_at([x, y, z]), axis);
             faces.clone().nth(index).map_or(0.0, |face| velocity[face])
         };
-        let touches_gap = axis == 1 && row + 1 == new.rows.below;
+        let touches_gap = axis == 1 && row + 1 == new.rows().below;
         *carried = match same_row(new, old, row) {
-            Some(y) if !touches_gap || new.rows.gap > 0 => of(y),
-            None if new.rows.kind(row) == Kind::Gap => {
+            Some(y) if !touches_gap || new.rows().gap > 0 => of(y),
+            None if new.rows().kind(row) == Kind::Gap => {
                 overlapping(new, old, row)
                     .iter()
                     .map(|&(y, part)| part * of(y))

@@ -54,7 +54,7 @@ fn spread(
         let voxels = |cell: usize| match a {
             1 => {
                 let row = cell + mesh.range.start;
-                (mesh.rows.low(row), mesh.rows.height_of(row))
+                (mesh.rows().low(row), mesh.rows().height_of(row))
             }
             _ => (cell as f64 - mesh.beyond[a] as f64, 1.0),
         };

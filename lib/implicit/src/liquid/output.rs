@@ -34,7 +34,7 @@ pub(crate) fn points(mesh: &Mesh, place: Place, shown: &Shown) -> LiquidState {
         let (at, edges) = (mesh.place(cell), mesh.edges(cell));
         let low = [
             at[0] as f64 - mesh.beyond[0] as f64,
-            mesh.rows.low(mesh.row(cell)),
+            mesh.rows().low(mesh.row(cell)),
             at[2] as f64 - mesh.beyond[2] as f64,
         ];
         let velocity = (shown.velocity)(pore).map(|v| (v * place.cell_m) as f32);

@@ -12,7 +12,7 @@ use crate::geometry::{Mesh, Rows};
 use crate::liquid::{Moved, carried_velocities, carried_volumes, transport};
 use crate::settings::Settings;
 use crate::system::{
-    Drive, FULL, Flow, Links, Problem, Rates, Unknowns, Viscosities, forces, halves, solve,
+    Drive, Edges, FULL, Flow, Links, Problem, Rates, Unknowns, Viscosities, forces, halves, solve,
 };
 use drive::{Asked, ClampDrive};
 use setup::Setup;
@@ -31,7 +31,9 @@ const SETTLED: f64 = 2e-3;
 /// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
 const JETS: f64 = 1e-3;
 const JET_CFL: f64 = 1.5;
-/// Part of the travel that is left below which it is over.
+/// Part of the travel that is left from which on a step that covers it is made to end it, and what of a step's length is
+/// rounding.
+const NEAR: f64 = 0.7;
 const ARRIVED: f64 = 1e-9;
 
 /// The implicit scheme on a scene.
@@ -40,6 +42,7 @@ pub struct Implicit {
     state: State,
     mesh: Mesh,
     links: Links,
+    edges: Edges,
     /// Height of the gap between steps, cells; in a step, the mesh has that in its middle.
     height: f64,
     solver: SaddleSolver,
@@ -114,7 +117,8 @@ impl Implicit {
                 tolerance: settings.tolerance,
                 ..SaddleOptions::default()
             }),
-            height: mesh.rows.height,
+            height: mesh.rows().height,
+            edges: Edges::new(&mesh, setup.lattice.flat),
             setup,
             mesh,
             links,
@@ -148,19 +152,19 @@ impl Implicit {
 
     /// Makes the mesh anew where the gap has fewer rows now, or the liquid has come near its end.
     fn fit_mesh(&mut self) {
-        self.mesh.rows.height = self.height;
-        let rows = Rows::of_gap(self.mesh.rows.below, self.mesh.rows.above, self.height);
+        self.mesh.set_height(self.height);
+        let rows = Rows::of_gap(self.mesh.rows().below, self.mesh.rows().above, self.height);
         let wet = self.wet_rows();
         let near =
             |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < MARGIN[1];
         let range = &self.mesh.range;
-        if rows.gap == self.mesh.rows.gap
+        if rows.gap == self.mesh.rows().gap
             && !near(wet.start, range.start, 0)
-            && !near(wet.end, range.end, self.mesh.rows.len())
+            && !near(wet.end, range.end, self.mesh.rows().len())
         {
             return;
         }
-        let removed = self.mesh.rows.gap - rows.gap;
+        let removed = self.mesh.rows().gap - rows.gap;
         let end = wet.end.saturating_sub(removed).max(wet.start) + MARGIN[0];
         let range = wet.start.saturating_sub(MARGIN[0])..end.min(rows.len());
         let mesh = Mesh::new(&self.setup.lattice, rows, range);
@@ -170,12 +174,13 @@ impl Implicit {
         state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
         state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
         self.links = self.setup.links(mesh);
+        self.edges = Edges::new(mesh, self.setup.lattice.flat);
     }
 
     /// Rows of the grid that hold liquid, and those of the gap.
     fn wet_rows(&self) -> std::ops::Range<usize> {
         let mesh = &self.mesh;
-        let gap = mesh.rows.below..mesh.rows.below + mesh.rows.gap;
+        let gap = mesh.rows().below..mesh.rows().below + mesh.rows().gap;
         (0..mesh.pores.len())
             .filter(|&pore| self.state.volumes[pore] > 0.0)
             .map(|pore| mesh.row(mesh.pores[pore].cell as usize))
@@ -226,8 +231,12 @@ impl Implicit {
             }
         };
         let left = limit.travel_m / self.setup.units.cell_m;
-        if solved.flow.speed * dt > left * (1.0 + ARRIVED) {
-            let speed = solved.flow.speed;
+        let speed = solved.flow.speed;
+        // A step that comes near the end of the travel ends there.
+        if speed * dt > NEAR * left
+            && left / speed <= limit.time_s
+            && (left / speed - dt).abs() > ARRIVED * dt
+        {
             solved = self.solve_driven(left / speed, Drive::Speed(speed))?;
         }
         Ok(solved)
@@ -257,7 +266,10 @@ impl Implicit {
             .map(|pore| state.volumes[pore] >= FULL * self.mesh.volume_at(pore, height))
             .collect();
         if self.setup.lattice.moving.is_some() {
-            self.mesh.rows.height = (height - 0.5 * dt * state.flow.speed).max(0.5 * height);
+            let middle = (height - 0.5 * dt * state.flow.speed).max(0.5 * height);
+            self.mesh.set_height(middle);
+            self.setup.measure(&mut self.links, &self.mesh);
+            self.edges.measure(&self.mesh, self.setup.lattice.flat);
         }
         let mesh = &self.mesh;
         let moved = if state.steps == 0 {
@@ -273,7 +285,6 @@ impl Implicit {
             )
             .volumes
         };
-        self.links = self.setup.links(mesh);
         let fractions = (0..mesh.pores.len())
             .map(|pore| match moved[pore] / mesh.volume(pore) {
                 _ if full[pore] => 1.0,
@@ -312,9 +323,9 @@ impl Implicit {
         let rates = |flow: &Flow| {
             let convention = setup.liquid.shear_rate;
             Rates::of(
-                &setup.lattice,
                 mesh,
                 &self.links,
+                &self.edges,
                 &flow.velocity,
                 flow.speed,
                 convention,
@@ -331,6 +342,7 @@ impl Implicit {
                 lattice: &setup.lattice,
                 mesh,
                 links: &self.links,
+                edges: &self.edges,
                 unknowns: &unknowns,
                 fractions: &fractions,
                 halves: &halves,
@@ -387,13 +399,13 @@ impl Implicit {
         } = solved;
         let cell_m = self.setup.units.cell_m;
         // Liquid moves through the faces of the middle of the step into the pores of its end.
-        let middle = self.mesh.rows.height;
+        let middle = self.mesh.rows().height;
         if self.setup.lattice.moving.is_some() {
             self.height = (self.height - flow.speed * dt).max(0.0);
         }
-        self.mesh.rows.height = self.height;
+        self.mesh.set_height(self.height);
         let capacities = self.capacities();
-        self.mesh.rows.height = middle;
+        self.mesh.set_height(middle);
         let mesh = &mut self.mesh;
         let Moved { volumes, lost } = transport(
             mesh,
@@ -403,7 +415,7 @@ impl Implicit {
             &flow.velocity,
             dt,
         );
-        mesh.rows.height = self.height;
+        mesh.set_height(self.height);
         let state = &mut self.state;
         state.volumes = volumes;
         state.lost += lost;

@@ -8,7 +8,7 @@ use physics::{
 use super::Implicit;
 use crate::geometry::{Mesh, Rows};
 use crate::liquid::{Shown, points};
-use crate::system::Rates;
+use crate::system::{Edges, Rates};
 
 /// Name of the array that holds where the press programme is.
 const PROGRAMME: &str = "programme";
@@ -47,9 +47,9 @@ impl Scheme for Implicit {
         let convention = setup.liquid.shear_rate;
         let flow = &state.flow;
         let rates = Rates::of(
-            &setup.lattice,
             &self.mesh,
             &self.links,
+            &self.edges,
             &flow.velocity,
             flow.speed,
             convention,
@@ -86,7 +86,7 @@ impl Scheme for Implicit {
         ];
         scalars.extend(state.drive.state());
         let rows = [
-            self.mesh.rows.gap,
+            self.mesh.rows().gap,
             self.mesh.range.start,
             self.mesh.range.end,
         ];
@@ -170,6 +170,7 @@ impl Scheme for Implicit {
         (state.flow.speed, state.flow.force) = (speed, force);
         state.displacement = displacement.as_chunks::<3>().0.to_vec();
         self.links = self.setup.links(&mesh);
+        self.edges = Edges::new(&mesh, self.setup.lattice.flat);
         (self.mesh, self.height) = (mesh, height);
         Ok(())
     }
@@ -222,7 +223,7 @@ impl Implicit {
         let rows = Rows {
             gap: gap as usize,
             height,
-            ..self.mesh.rows
+            ..*self.mesh.rows()
         };
         let range = start as usize..end as usize;
         let most = self.setup.most_rows();

@@ -112,6 +112,11 @@ impl Setup {
         vec![0.0; mesh.faces.len()]
     }
 
+    /// Finds anew the friction that the gap's height is part of.
+    pub(super) fn measure(&self, links: &mut Links, mesh: &Mesh) {
+        links.measure(&self.lattice, &self.chords, mesh, self.walls);
+    }
+
     /// The drive of the body that closes the gap.
     pub(super) fn drive(&self, scene: &Scene) -> ClampDrive {
         let travel = match scene.stop {

@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 use saddle_point::{Csr, RowEntries, SolveError, VelocityBlock};
 
+use super::edges::Edges;
 use super::links::Links;
-use super::terms::{edges, stretching};
+use super::stretching::stretching;
 use super::unknowns::{FULL, Unknowns};
 use crate::geometry::{Kind, Lattice, Mesh};
 
@@ -31,6 +32,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) lattice: &'a Lattice,
     pub(crate) mesh: &'a Mesh,
     pub(crate) links: &'a Links,
+    pub(crate) edges: &'a Edges,
     pub(crate) unknowns: &'a Unknowns,
     /// Volume fraction of each pore, at most 1.
     pub(crate) fractions: &'a [f64],
@@ -80,11 +82,7 @@ impl Problem<'_> {
     pub(crate) fn carried(&self, face: usize) -> f64 {
         let axis = usize::from(self.mesh.faces[face].axis);
         let share = |pore: usize, up: bool, part: f64| {
-            let all: f64 = self
-                .mesh
-                .faces_at(pore, axis, up)
-                .map(|f| self.mesh.area(f))
-                .sum();
+            let all = self.mesh.side_area(pore, axis, up);
             0.5 * part * self.mesh.volume(pore) * self.mesh.area(face) / all
         };
         let ([low, high], parts) = (self.ends(face), self.halves[face]);
@@ -132,21 +130,21 @@ impl Problem<'_> {
                 }
             });
         }
-        edges(self.mesh, face, self.lattice.flat, |edge| {
-            let eta = self.edge_stiffness([face, edge.next]);
-            let Some(next) = number(edge.next) else {
-                return;
+        for edge in self.edges.of(face) {
+            let Some(next) = number(edge.next as usize) else {
+                continue;
             };
-            entries.add(row, eta * edge.shear);
-            entries.add(next, -eta * edge.shear);
-            if let [Some(low), Some(high)] = edge.across.map(number) {
+            let eta = self.edge_stiffness([face, edge.next as usize]);
+            entries.add(row, eta * f64::from(edge.shear));
+            entries.add(next, -eta * f64::from(edge.shear));
+            let across = edge.across.map(|face| face as usize);
+            if let [Some(low), Some(high)] = across.map(number) {
                 // Where a surface crosses the edge, the faces across share less or more liquid.
-                let eta = eta.min(self.edge_stiffness(edge.across));
-                let weight = if edge.up { -eta } else { eta } * edge.length;
-                entries.add(high, weight);
-                entries.add(low, -weight);
+                let weight = eta.min(self.edge_stiffness(across)) * f64::from(edge.length);
+                entries.add(high, -weight);
+                entries.add(low, weight);
             }
-        });
+        }
     }
 
     /// Right-hand side of the momenta.
@@ -225,7 +223,7 @@ impl Problem<'_> {
     fn squeezed(&self, pore: usize) -> f64 {
         let cell = self.mesh.pores[pore].cell as usize;
         let stiffness = self.stiffness(pore);
-        if stiffness == 0.0 || self.mesh.rows.kind(self.mesh.row(cell)) != Kind::Gap {
+        if stiffness == 0.0 || self.mesh.rows().kind(self.mesh.row(cell)) != Kind::Gap {
             return 0.0;
         }
         let mut sum = 0.0;
@@ -301,8 +299,8 @@ impl Problem<'_> {
     /// Volume that a pore loses per closing speed.
     pub(crate) fn closing(&self, pore: usize) -> f64 {
         let mesh = self.mesh;
-        match mesh.rows.kind(mesh.row(mesh.pores[pore].cell as usize)) {
-            Kind::Gap => mesh.volume(pore) / mesh.rows.height,
+        match mesh.rows().kind(mesh.row(mesh.pores[pore].cell as usize)) {
+            Kind::Gap => mesh.volume(pore) / mesh.rows().height,
             _ => 0.0,
         }
     }

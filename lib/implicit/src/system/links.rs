@@ -21,6 +21,8 @@ pub(crate) struct Link {
     pub(crate) resistance: [f64; 2],
     /// Area of walls, of both halves.
     pub(crate) area: f64,
+    /// Whether the height of the gap is part of it.
+    pub(crate) by_gap: bool,
     /// Code of the body that most recently was found beside it.
     pub(crate) body: u8,
     /// Sum of 1/H^2 over the axes across the face.
@@ -54,6 +56,27 @@ impl Links {
                 .collect(),
         )
     }
+
+    /// Finds anew the links of faces whose channels the gap's height is part of.
+    pub(crate) fn measure(
+        &mut self,
+        lattice: &Lattice,
+        chords: &Chords,
+        mesh: &Mesh,
+        walls: Walls,
+    ) {
+        let view = View {
+            lattice,
+            chords,
+            mesh,
+            walls,
+        };
+        self.0.par_iter_mut().enumerate().for_each(|(face, link)| {
+            if link.by_gap {
+                *link = view.link(face);
+            }
+        });
+    }
 }
 
 /// What a link is found from.
@@ -74,7 +97,10 @@ struct Column {
 
 impl View<'_> {
     fn link(&self, face: usize) -> Link {
-        let mut link = Link::default();
+        let mut link = Link {
+            by_gap: self.mesh.is_by_gap(face),
+            ..Link::default()
+        };
         let f = self.mesh.faces[face];
         let axis = usize::from(f.axis);
         if self.walls.influence_length.is_infinite() {
@@ -123,6 +149,7 @@ impl View<'_> {
                 height: open.len() as f64 / k as f64,
                 widths: [t, across].map(|a| self.width(cell, voxel(half, first), a) / edges[t]),
             };
+            link.by_gap |= self.reaches_gap(cell, voxel(half, first));
             let part = 0.5 * edges[axis] * edges[across] / k as f64;
             link.narrowness += column.widths[0].powi(-2) * part / (edges[t] * edges[t]);
             if !ends.iter().any(|&code| is_wall(code)) {
@@ -143,12 +170,18 @@ impl View<'_> {
         }
     }
 
+    /// Whether the chord along y through a voxel goes through the gap.
+    fn reaches_gap(&self, cell: usize, voxel: [usize; 3]) -> bool {
+        let place = self.mesh.lattice_place(self.lattice, cell, voxel);
+        place.is_some_and(|place| self.chords.through_gap(place))
+    }
+
     /// Width of the channel along an axis at a voxel, cells.
     fn width(&self, cell: usize, voxel: [usize; 3], axis: usize) -> f64 {
         let (mesh, k) = (self.mesh, self.mesh.k as f64);
         let place = mesh.lattice_place(self.lattice, cell, voxel);
         let voxels = place.map_or(f64::INFINITY, |place: Place| {
-            self.chords.length(place, axis, mesh.rows.height * k)
+            self.chords.length(place, axis, mesh.rows().height * k)
         });
         (voxels / k).max(0.25)
     }

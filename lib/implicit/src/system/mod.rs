@@ -1,13 +1,15 @@
 //! Unknowns and equations of one step.
 
 mod assembly;
+mod edges;
 mod links;
 mod solution;
-mod terms;
+mod stretching;
 mod unknowns;
 mod viscosity;
 
 pub(crate) use assembly::{Problem, Scales, halves};
+pub(crate) use edges::Edges;
 pub(crate) use links::{Links, Walls};
 pub(crate) use solution::{Drive, Flow, forces, solve};
 pub(crate) use unknowns::{FULL, Unknowns};

@@ -3,8 +3,9 @@
 use physics::{Liquid, ShearRate};
 use rayon::prelude::*;
 
-use super::terms::{edges, stretching};
-use crate::geometry::{Lattice, Mesh};
+use super::edges::Edges;
+use super::stretching::stretching;
+use crate::geometry::Mesh;
 use crate::system::Links;
 
 /// Viscosities over their unit: of each pore, and at the walls of the halves of each face.
@@ -59,9 +60,9 @@ pub(crate) struct Rates {
 impl Rates {
     /// Those of a flow. The rate of a pore is that whose dissipation is the mean over it.
     pub(crate) fn of(
-        lattice: &Lattice,
         mesh: &Mesh,
         links: &Links,
+        edges: &Edges,
         velocity: &[f64],
         speed: f64,
         convention: ShearRate,
@@ -69,9 +70,9 @@ impl Rates {
         // The factor is of |dev D|; the rate of simple shear, sqrt(2 D:D), is sqrt(2) of it.
         let factor = convention.factor() / std::f64::consts::SQRT_2;
         let view = View {
-            lattice,
             mesh,
             links,
+            edges,
             velocity,
             speed,
         };
@@ -90,9 +91,9 @@ impl Rates {
 
 /// A flow, to take rates of.
 struct View<'a> {
-    lattice: &'a Lattice,
     mesh: &'a Mesh,
     links: &'a Links,
+    edges: &'a Edges,
     velocity: &'a [f64],
     speed: f64,
 }
@@ -113,12 +114,13 @@ impl View<'_> {
                                 pull.weight * (other - u[face] + pull.closing * self.speed).powi(2);
                         });
                     }
-                    edges(mesh, face, self.lattice.flat, |edge| {
-                        let sign = if edge.up { 1.0 } else { -1.0 };
-                        let along = sign * (u[edge.next] - u[face]);
-                        let across = u[edge.across[1]] - u[edge.across[0]];
-                        power += 0.25 * (edge.shear * along * along + edge.length * along * across);
-                    });
+                    for edge in self.edges.of(face) {
+                        let along = u[edge.next as usize] - u[face];
+                        let across = u[edge.across[1] as usize] - u[edge.across[0] as usize];
+                        let sheared =
+                            f64::from(edge.shear) * along + f64::from(edge.length) * across;
+                        power += 0.25 * along * sheared;
+                    }
                     let link = &self.links.0[face];
                     let half = usize::from(!up);
                     if link.friction[half] > 0.0 {

@@ -1,0 +1,134 @@
+//! Shear between a face and the faces beside it of the same axis, across the edges that they share.
+
+use rayon::prelude::*;
+
+use crate::geometry::{Mesh, others};
+
+/// An edge that a face shares with the next face across.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Edge {
+    /// The next face.
+    pub(crate) next: u32,
+    /// The faces across, between the low pores of both and between the high pores of both.
+    pub(crate) across: [u32; 2],
+    /// Area over distance between the two faces, cells.
+    pub(crate) shear: f32,
+    /// Length of the edge, cells, negative where the next face lies on the low side.
+    pub(crate) length: f32,
+}
+
+/// The edges of all faces of a mesh.
+pub(crate) struct Edges {
+    start: Vec<u32>,
+    edges: Vec<Edge>,
+}
+
+impl Edges {
+    pub(crate) fn new(mesh: &Mesh, flat: bool) -> Self {
+        let faces = 0..mesh.faces.len();
+        let lists: Vec<Vec<Edge>> = faces
+            .into_par_iter()
+            .map(|face| edges(mesh, face, flat))
+            .collect();
+        let mut start = vec![0];
+        start.extend(lists.iter().scan(0, |end, list| {
+            *end += list.len() as u32;
+            Some(*end)
+        }));
+        Self {
+            start,
+            edges: lists.concat(),
+        }
+    }
+
+    /// The edges of a face.
+    pub(crate) fn of(&self, face: usize) -> &[Edge] {
+        &self.edges[self.start[face] as usize..self.start[face + 1] as usize]
+    }
+
+    /// Measures anew the edges of faces in or beside the gap, whose height has changed.
+    pub(crate) fn measure(&mut self, mesh: &Mesh, flat: bool) {
+        for face in (0..mesh.faces.len()).filter(|&face| mesh.is_by_gap(face)) {
+            let range = self.start[face] as usize..self.start[face + 1] as usize;
+            self.edges[range].copy_from_slice(&edges(mesh, face, flat));
+        }
+    }
+}
+
+/// The edges of a face, in which voxels of the same faces are joined.
+fn edges(mesh: &Mesh, face: usize, flat: bool) -> Vec<Edge> {
+    let axis = usize::from(mesh.faces[face].axis);
+    let mut found: Vec<Edge> = Vec::new();
+    for t in others(axis).into_iter().filter(|&t| !(flat && t == 2)) {
+        for up in [false, true] {
+            for r in 0..mesh.k {
+                let Some(edge) = edge(mesh, face, t, up, r) else {
+                    continue;
+                };
+                let same =
+                    |other: &&mut Edge| other.next == edge.next && other.across == edge.across;
+                match found.iter_mut().find(same) {
+                    Some(other) if other.length.signum() == edge.length.signum() => {
+                        other.shear += edge.shear;
+                        other.length += edge.length;
+                    }
+                    _ => found.push(edge),
+                }
+            }
+        }
+    }
+    found
+}
+
+fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> {
+    let k = mesh.k;
+    let f = mesh.faces[face];
+    let axis = usize::from(f.axis);
+    let across = 3 - axis - t;
+    let [s, q] = others(axis);
+    let bit = |i: usize| {
+        let mut at = [0; 3];
+        (at[t], at[across]) = (i, r);
+        at[s] + k * at[q]
+    };
+    let height = |face: usize, end: usize| {
+        let open = mesh.faces[face].open;
+        if open >> bit(end) & 1 == 0 {
+            return 0.0;
+        }
+        (0..k).filter(|&i| open >> bit(i) & 1 == 1).count() as f64 / k as f64
+    };
+    let (near, far) = if up { (k - 1, 0) } else { (0, k - 1) };
+    let own = height(face, near);
+    if own == 0.0 {
+        return None;
+    }
+    let ends = [f.low, f.high].map(|pore| pore as usize);
+    let cells = ends.map(|pore| mesh.pores[pore].cell as usize);
+    let beside = [
+        mesh.neighbour(cells[0], t, up)?,
+        mesh.neighbour(cells[1], t, up)?,
+    ];
+    let voxel = |half: usize| {
+        let mut at = [0; 3];
+        (at[axis], at[t], at[across]) = (if half == 0 { k - 1 } else { 0 }, far, r);
+        at
+    };
+    let low = mesh.pore_with(beside[0], voxel(0))?;
+    let high = mesh.pore_with(beside[1], voxel(1))?;
+    let next = mesh.face_between(low, high, axis)?;
+    let joined = |near: usize, far: usize| match up {
+        true => mesh.face_between(near, far, t),
+        false => mesh.face_between(far, near, t),
+    };
+    let sizes = [cells[0], cells[1], beside[0]].map(|cell| mesh.edges(cell));
+    let distance = 0.5 * (own * sizes[0][t] + height(next, far) * sizes[2][t]);
+    let length = sizes[0][across] / k as f64;
+    let shear = length * 0.5 * (sizes[0][axis] + sizes[1][axis]) / distance;
+    Some(Edge {
+        next: next as u32,
+        across: [joined(ends[0], low)? as u32, joined(ends[1], high)? as u32],
+        shear: shear as f32,
+        length: if up { length } else { -length } as f32,
+    })
+}

@@ -1,0 +1,55 @@
+//! Stretching of the pores on the two sides of a face.
+
+use crate::geometry::{Kind, Mesh};
+
+/// Nearest that a wall ahead counts, in edges of the cell.
+const NEAREST: f64 = 0.3;
+
+/// A velocity that pulls at a face with a weight; the wall ahead has none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pull {
+    /// The other face; `None` for the wall ahead.
+    pub(crate) other: Option<usize>,
+    pub(crate) weight: f64,
+    /// Difference of velocities across the pore that the closing of its row makes, per closing speed, seen from this face.
+    pub(crate) closing: f64,
+}
+
+/// Pulls at `face` of the stretching of the pore on its high (`up`) or low side, per viscosity and liquid fraction.
+pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut(Pull)) {
+    let f = mesh.faces[face];
+    let axis = usize::from(f.axis);
+    let pore = if up { f.high } else { f.low } as usize;
+    let cell = mesh.pores[pore].cell as usize;
+    let edge = mesh.edges(cell)[axis];
+    let weight = 2.0 * mesh.volume(pore) / (edge * edge);
+    let area = |up: bool| {
+        mesh.faces_at(pore, axis, up)
+            .map(|face| mesh.area(face))
+            .sum::<f64>()
+    };
+    let own = mesh.area(face) / area(!up);
+    let closing = match (axis, mesh.rows().kind(mesh.row(cell))) {
+        (1, Kind::Gap) => 1.0 / mesh.rows().gap as f64,
+        _ => 0.0,
+    };
+    // The high side moves against the low one by the closing.
+    let closing = if up { -closing } else { closing };
+    let ahead = mesh.side_area(pore, axis, up);
+    if ahead == 0.0 {
+        let distance = (mesh.volume(pore) / mesh.area(face) / edge).clamp(NEAREST, 1.0);
+        add(Pull {
+            other: None,
+            weight: weight * own / (distance * distance),
+            closing,
+        });
+        return;
+    }
+    for other in mesh.faces_at(pore, axis, up) {
+        add(Pull {
+            other: Some(other),
+            weight: weight * own * mesh.area(other) / ahead,
+            closing,
+        });
+    }
+}
