@@ -176,7 +176,10 @@ fn volume_fraction(case: &Case) -> Result<implicit::Settings, CaseError> {
     let settings = implicit(case)?;
     let not_yet = [
         (case.adhesive.water.is_some(), "[adhesive.water]"),
-        (case.adhesive.surface_tension.is_some(), "[adhesive] surface_tension"),
+        (
+            case.adhesive.surface_tension.is_some(),
+            "[adhesive] surface_tension",
+        ),
         (case.air.is_some(), "[air]"),
     ];
     if let Some((_, key)) = not_yet.iter().find(|(given, _)| *given) {
