@@ -10,6 +10,7 @@ mod chords;
 mod conclude;
 mod courant;
 mod crowding;
+mod depth;
 mod drive;
 mod expected_error;
 mod explain;
