@@ -2,7 +2,6 @@
 //! a run writes (`history.csv`, snapshots, checkpoint, `final.mpts`, `summary.json`).
 
 mod answers;
-mod begin;
 pub mod case;
 mod changes;
 mod checkpoint;
@@ -12,8 +11,10 @@ mod courant;
 mod crowding;
 mod depth;
 mod drive;
+mod earlier_run;
 mod expected_error;
 mod explain;
+mod files;
 mod folder;
 mod history;
 mod invariants;
@@ -29,10 +30,10 @@ mod summary;
 mod verdict;
 
 pub use answers::{Answers, FilledByDepth, Sides};
-pub use begin::Mode;
 pub use changes::changed_case;
 pub use courant::Courant;
 pub use drive::End;
+pub use earlier_run::Mode;
 pub use expected_error::{ExpectedError, QuantityError};
 pub use invariants::Invariants;
 pub use left_out::LeftOut;

@@ -7,13 +7,13 @@ use physics::{Regime, StepReport};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::answers;
-use crate::begin::{self, Mode};
 use crate::case::{Case, CaseError};
 use crate::changes::changed;
 use crate::checkpoint::{Checkpoint, Clock};
 use crate::conclude::{Asked, conclude};
 use crate::courant::{continued, without_cfl};
 use crate::drive::{self, Controls, RunError};
+use crate::earlier_run::{self, Mode};
 use crate::expected_error;
 use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
 use crate::history::History;
@@ -188,7 +188,7 @@ impl Request {
         };
         let found = RunFolder::find(folder, &by)?;
         if let Some(found) = &found {
-            begin::make_room(found, &self.places)?;
+            earlier_run::make_room(found, &self.places)?;
         }
         // In a folder without the mark nothing is known to be a run's: making it one refuses.
         if let Some(found) = &found
@@ -196,7 +196,7 @@ impl Request {
             && !mode.overwrite
             && is_final_of(folder, &identity)?
         {
-            begin::tidy(found, &continuable)?;
+            earlier_run::tidy(found, &continuable)?;
             return Ok(None);
         }
         // What is refused must not cost a run folder.
@@ -214,7 +214,7 @@ impl Request {
         let resolved = resolved::text(&self.text, &self.case, &self.setup);
         // Read before there is a scheme, beside which its file need not be in memory, too.
         let checkpoint = match &found {
-            Some(found) => begin::checkpoint(found, mode, &continuable, &resolved, &by)?,
+            Some(found) => earlier_run::checkpoint(found, mode, &continuable, &resolved, &by)?,
             None => None,
         };
         let mut scheme = schemes::build(&self.case, &self.setup)?;
@@ -233,11 +233,11 @@ impl Request {
             }) => {
                 scheme.restore(&saved).map_err(RunFailure::Data)?;
                 let history = History::resume(folder, history)?;
-                begin::forget_what_came_after(folder, &clock, &resolved)?;
+                earlier_run::forget_what_came_after(folder, &clock, &resolved)?;
                 (clock, continued(courant, clock.step, cfl), history)
             }
             None => {
-                begin::anew(folder, mode, &resolved, &by)?;
+                earlier_run::anew(folder, mode, &resolved, &by)?;
                 let history = History::create(
                     folder,
                     self.setup.scene.liquid.cure.is_some(),

@@ -5,6 +5,7 @@ mod answers;
 mod bench;
 mod bond;
 mod fall;
+mod permissions;
 mod plan;
 mod press;
 mod refused;
