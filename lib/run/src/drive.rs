@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use physics::{Cure, Diagnostics, Failure, Scheme, StepLimit, StepReport, Stop};
 
 use crate::answers::Watch;
-use crate::checkpoint::{self, Checkpoint, Clock};
+use crate::checkpoint::{self, Checkpoint, Clock, Origin};
 use crate::courant::Courant;
 use crate::folder::RunFolder;
 use crate::history::{History, RowMore};
@@ -62,7 +62,7 @@ pub enum RunError {
     /// A checkpoint cannot be used.
     #[error("{0}")]
     Checkpoint(String),
-    /// A checkpoint is of another case, particle file or version.
+    /// A checkpoint is of another case or particle file.
     #[error("{0}")]
     AnotherCase(String),
 }
@@ -91,8 +91,8 @@ pub(crate) struct Controls<'a> {
     pub interrupted: &'a dyn Fn() -> bool,
     /// Told after every step: fraction done, time in s, last report.
     pub progress: &'a mut dyn FnMut(f64, f64, &StepReport),
-    /// Identifies case and particle file in checkpoints.
-    pub identity: String,
+    /// What checkpoints are of.
+    pub origin: Origin,
     /// Which part of the run was, and will be, taken at which Courant number.
     pub courant: Vec<Courant>,
 }
@@ -156,7 +156,7 @@ pub(crate) fn drive(
                     history: history.sync()?,
                     saved: scheme.saving(),
                 };
-                checkpoint::write(folder, &controls.identity, checkpoint)?;
+                checkpoint::write(folder, &controls.origin, checkpoint)?;
             }
             state.last_checkpoint = Instant::now();
         }

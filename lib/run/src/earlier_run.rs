@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use particle_file::{Kind, ParticleFile, Provenance};
 use same_file::is_same_file;
 
-use crate::checkpoint::{self, Checkpoint, Clock};
+use crate::checkpoint::{self, Checkpoint, Clock, Origin};
 use crate::drive::RunError;
 use crate::files::is_there;
 use crate::folder::{ASIDE, CHECKPOINT, FINAL, HISTORY, RESOLVED, RunFolder, SNAPSHOTS, SUMMARY};
@@ -32,17 +32,16 @@ pub struct Mode {
 pub(crate) fn checkpoint(
     folder: &RunFolder,
     mode: Mode,
-    identity: &str,
+    origin: &Origin,
     text: &str,
-    by: &Provenance,
 ) -> Result<Option<Checkpoint>, RunFailure> {
     // A run with a final state has ended; a checkpoint beside it waits to be removed.
     if !mode.resume || is_there(&folder.place(FINAL)) {
         return Ok(None);
     }
-    match checkpoint::read(folder.path(), identity) {
+    match checkpoint::read(folder.path(), origin) {
         Ok(Some(checkpoint)) => {
-            prove_snapshots(folder, checkpoint.clock.snapshots, by)?;
+            prove_snapshots(folder, checkpoint.clock.snapshots, &origin.by)?;
             folder.check_writable(&replaced(folder, checkpoint.clock.snapshots)?)?;
             Ok(Some(checkpoint))
         }
@@ -145,8 +144,8 @@ fn clear(folder: &RunFolder, by: &Provenance) -> Result<(), RunFailure> {
 ///
 /// # Errors
 /// A failed removal.
-pub(crate) fn tidy(folder: &RunFolder, identity: &str) -> Result<(), RunFailure> {
-    if checkpoint::read(folder.path(), identity).is_ok_and(|found| found.is_some()) {
+pub(crate) fn tidy(folder: &RunFolder, origin: &Origin) -> Result<(), RunFailure> {
+    if checkpoint::read(folder.path(), origin).is_ok_and(|found| found.is_some()) {
         folder.remove(CHECKPOINT)?;
     }
     Ok(())

@@ -9,7 +9,7 @@ use xxhash_rust::xxh3::xxh3_64;
 use crate::answers;
 use crate::case::{Case, CaseError};
 use crate::changes::changed;
-use crate::checkpoint::{Checkpoint, Clock};
+use crate::checkpoint::{self, Checkpoint, Clock, Origin};
 use crate::conclude::{Asked, conclude};
 use crate::courant::{continued, without_cfl};
 use crate::drive::{self, Controls, RunError};
@@ -181,10 +181,14 @@ impl Request {
         warn: &dyn Fn(String),
     ) -> Result<Option<Summary>, RunFailure> {
         let identity = self.identity(&by);
-        let continuable = self.identity_of(&without_cfl(&self.text), &by);
         let by = Provenance {
             inputs: self.inputs.clone(),
             ..by
+        };
+        let origin = Origin {
+            identity: self.content_hashes(&without_cfl(&self.text)),
+            format: checkpoint::format(self.case.integrator.scheme),
+            by: by.clone(),
         };
         let found = RunFolder::find(folder, &by)?;
         if let Some(found) = &found {
@@ -196,7 +200,7 @@ impl Request {
             && !mode.overwrite
             && is_final_of(folder, &identity)?
         {
-            earlier_run::tidy(found, &continuable)?;
+            earlier_run::tidy(found, &origin)?;
             return Ok(None);
         }
         // What is refused must not cost a run folder.
@@ -214,7 +218,7 @@ impl Request {
         let resolved = resolved::text(&self.text, &self.case, &self.setup);
         // Read before there is a scheme, beside which its file need not be in memory, too.
         let checkpoint = match &found {
-            Some(found) => earlier_run::checkpoint(found, mode, &continuable, &resolved, &by)?,
+            Some(found) => earlier_run::checkpoint(found, mode, &origin, &resolved)?,
             None => None,
         };
         let mut scheme = schemes::build(&self.case, &self.setup)?;
@@ -231,7 +235,11 @@ impl Request {
                 history,
                 saved,
             }) => {
-                scheme.restore(&saved).map_err(RunFailure::Data)?;
+                let restored = scheme.restore(&saved);
+                restored.map_err(|said| {
+                    let path = folder.place(CHECKPOINT);
+                    RunFailure::Data(format!("{}: {said}", path.display()))
+                })?;
                 let history = History::resume(folder, history)?;
                 earlier_run::forget_what_came_after(folder, &clock, &resolved)?;
                 (clock, continued(courant, clock.step, cfl), history)
@@ -262,7 +270,7 @@ impl Request {
                     format!("{}, {pressure:.3} MPa", summary::time(time_s, 3)),
                 );
             },
-            identity: continuable,
+            origin,
             courant,
         };
         let provenance = provenance_json(&by);
@@ -312,16 +320,13 @@ impl Request {
 
     /// What makes two runs the same: the case as run, the inputs and the version.
     fn identity(&self, by: &Provenance) -> String {
-        self.identity_of(&self.text, by)
+        format!("{} {}", by.version, self.content_hashes(&self.text))
     }
 
-    fn identity_of(&self, case: &str, by: &Provenance) -> String {
+    /// Hashes of a case and the bond file.
+    fn content_hashes(&self, case: &str) -> String {
         let bond = self.inputs.get(1).map_or(0, |i| i.1);
-        format!(
-            "{} {:016x} {bond:016x}",
-            by.version,
-            xxh3_64(case.as_bytes())
-        )
+        format!("{:016x} {bond:016x}", xxh3_64(case.as_bytes()))
     }
 
     fn snapshot_every(&self) -> f64 {

@@ -4,6 +4,7 @@
 mod answers;
 mod bench;
 mod bond;
+mod checkpoint_format;
 mod fall;
 mod permissions;
 mod plan;
