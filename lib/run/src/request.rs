@@ -14,6 +14,7 @@ use crate::conclude::{Asked, conclude};
 use crate::courant::{continued, without_cfl};
 use crate::drive::{self, Controls, RunError};
 use crate::earlier_run::{self, Mode};
+use crate::ends::{Ahead, End};
 use crate::expected_error;
 use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
 use crate::history::History;
@@ -177,7 +178,7 @@ impl Request {
         mode: Mode,
         by: Provenance,
         interrupted: &dyn Fn() -> bool,
-        progress: &mut dyn FnMut(f64, String),
+        progress: &mut dyn FnMut(&[Ahead], String),
         warn: &dyn Fn(String),
     ) -> Result<Option<Summary>, RunFailure> {
         let identity = self.identity(&by);
@@ -263,12 +264,10 @@ impl Request {
             snapshot_every_s: self.snapshot_every(),
             snapshots_of_way: self.case.output.snapshots,
             interrupted,
-            progress: &mut |fraction, time_s, report: &StepReport| {
+            progress: &mut |ends, time_s, report: &StepReport| {
                 let pressure = report.pressure_top / 1e6;
-                progress(
-                    fraction,
-                    format!("{}, {pressure:.3} MPa", summary::time(time_s, 3)),
-                );
+                let state = format!("{}, {pressure:.3} MPa", summary::time(time_s, 3));
+                progress(ends, state);
             },
             origin,
             courant,
@@ -311,7 +310,7 @@ impl Request {
         let (summary, liquid, displacements) =
             conclude(&self.case, &self.setup, scheme, &outcome, watch, asked)?;
         folder.write_text(SUMMARY, &summary::text(&summary))?;
-        if outcome.end != drive::End::Interrupted {
+        if outcome.end != End::Interrupted {
             writer.write_final(&outcome.clock, &liquid, &displacements)?;
             folder.remove(CHECKPOINT)?;
         }

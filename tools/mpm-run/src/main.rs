@@ -117,7 +117,7 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         },
         by,
         &cli::interrupted,
-        &mut |fraction, state| progress.update(fraction, || state),
+        &mut |ends, state| progress.update(ends, || state),
         &|warning| cli::warn(warning),
     );
     progress.finish();
