@@ -6,6 +6,7 @@ mod bench;
 mod bond;
 mod checkpoint_format;
 mod fall;
+mod periodic;
 mod permissions;
 mod plan;
 mod press;
