@@ -4,7 +4,7 @@ mod read;
 mod write;
 
 use particle_file::Provenance;
-use physics::{Saved, StepReport};
+use physics::{Choice, Saved, StepReport};
 
 use crate::case::SchemeName;
 use crate::courant::Courant;
@@ -30,11 +30,12 @@ pub(crate) struct Origin {
 
 /// The layout of the checkpoints of a scheme by this build.
 pub(crate) fn format(scheme: SchemeName) -> String {
-    let (name, number) = match scheme {
-        SchemeName::Explicit => ("explicit", mpm::CHECKPOINT_FORMAT),
-        SchemeName::Implicit => ("implicit", filling::CHECKPOINT_FORMAT),
+    let number = match scheme {
+        SchemeName::Explicit => mpm::CHECKPOINT_FORMAT,
+        SchemeName::Implicit => filling::CHECKPOINT_FORMAT,
+        SchemeName::VolumeFraction => implicit::CHECKPOINT_FORMAT,
     };
-    format!("{name} {number}, run {RUN_FORMAT}")
+    format!("{} {number}, run {RUN_FORMAT}", scheme.name())
 }
 
 // Attributes of a checkpoint's header.
