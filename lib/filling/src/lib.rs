@@ -18,4 +18,4 @@ mod water;
 
 pub use plan::Plan;
 pub use settings::Settings;
-pub use step::{CHECKPOINT_FORMAT, Implicit};
+pub use step::Implicit;

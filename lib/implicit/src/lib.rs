@@ -13,6 +13,3 @@ mod system;
 
 pub use settings::Settings;
 pub use step::Implicit;
-
-/// Number of the layout of a saved state: raised by any change of its arrays or of what they mean.
-pub const CHECKPOINT_FORMAT: u32 = 1;

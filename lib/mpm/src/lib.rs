@@ -57,5 +57,4 @@ mod window;
 pub use explicit::Explicit;
 pub use minimal::Minimal;
 pub use plan::{Limit, Plan};
-pub use saved::CHECKPOINT_FORMAT;
 pub use settings::{PressureFrom, Settings, ShapeFunction, VelocityUpdate};

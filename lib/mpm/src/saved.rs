@@ -10,9 +10,6 @@ use crate::real::{self, Real};
 use crate::tiles::{Point, Points, Tile};
 use crate::topology::Grid;
 
-/// Number of the layout of a saved state: raised by any change of its arrays or of what they mean.
-pub const CHECKPOINT_FORMAT: u32 = 1;
-
 /// Integers of [`State`] in the array "counts", two words each: step, lost, stopped, trapped.
 fn words(counts: [u64; 4]) -> Vec<u32> {
     counts

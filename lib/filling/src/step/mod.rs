@@ -27,7 +27,6 @@ use clock::{Clock, Part};
 use drive::Drive;
 use last::LastFlow;
 use length::Fit;
-pub use scheme::CHECKPOINT_FORMAT;
 use setup::Setup;
 use solution::Solution;
 use state::{Rates, State};

@@ -12,9 +12,6 @@ use super::solution::{LINES, PASSES};
 use super::{Implicit, LastFlow, Rates};
 use crate::transport;
 
-/// Number of the layout of a saved state: raised by any change of its arrays or of what they mean.
-pub const CHECKPOINT_FORMAT: u32 = 1;
-
 /// Name of the array that holds where the press programme is.
 const PROGRAMME: &str = "programme";
 /// Name of the array that holds the steps whose contact lines did not settle.

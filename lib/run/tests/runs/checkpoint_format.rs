@@ -40,7 +40,7 @@ viscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]"#;
 const RUN: &str = "identity, checkpoint_format, snapshots, row_missing, history_bytes, history_hash, lost, iterations, \
 run.clock F64 4, run.last_step F64 5, run.courant F64 2";
 
-/// Where this fails the arrays of a checkpoint have changed: raise `CHECKPOINT_FORMAT` of the scheme, or `RUN_FORMAT`, and
+/// Where this fails the arrays of a checkpoint have changed: raise the number of the scheme, or `RUN_FORMAT`, in `run/src/checkpoint`, and
 /// write the new layout here, so that no build goes on from what it misreads.
 #[test]
 fn a_format_has_one_layout() {
