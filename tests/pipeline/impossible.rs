@@ -144,8 +144,23 @@ fn bodies_do_not_pass_through_each_other() {
             "[\"10 um\", \"6 um\", \"0 um\"], max = [\"12 um\""
         ),
     );
+    // It comes round four times before it is as low as the pillar.
+    let after_periods = through_a_side
+        .replace(
+            "\"-1 m/s\", \"0 m/s\", \"0 m/s\"",
+            "\"-10 m/s\", \"-0.5 m/s\", \"0 m/s\"",
+        )
+        .replace("[\"2 um\", \"6 um\"", "[\"2 um\", \"28 um\"")
+        .replace("[\"6 um\", \"24 um\"", "[\"6 um\", \"29 um\"")
+        .replace("time = \"8 us\"", "time = \"12 us\"");
+    let through_a_mirror = through_a_side.replace("x = \"periodic\"", "x = \"symmetry\"");
     let bench = Workbench::new();
     for (case, sentence) in [
+        (after_periods, "'plate' and 'pillar' would overlap"),
+        (
+            through_a_mirror,
+            "'plate' would go through the symmetry side at the lower end of x",
+        ),
         (with(SMALL, &riser), "when 'riser' of given velocity comes"),
         (with(SMALL, &post), "its body meets 'post'"),
         (through_a_side, "'plate' and 'pillar' would overlap"),

@@ -27,7 +27,12 @@ const SLOW_IMPLICIT: [&str; 4] = [
 /// Starts a run and waits until its history has `rows` lines.
 fn started(bench: &Workbench, folder: &str, changes: &[&str], more: &[&str], rows: usize) -> Child {
     let arguments = press_arguments(folder, changes, more);
-    let mut child = bench.command("mpm-run", &arguments).spawn().unwrap();
+    let child = bench.command("mpm-run", &arguments).spawn().unwrap();
+    with_rows(bench, folder, child, rows)
+}
+
+/// `child` once the history of its run has `rows` lines.
+fn with_rows(bench: &Workbench, folder: &str, mut child: Child, rows: usize) -> Child {
     let history = bench.path(folder).join("history.csv");
     let begun = Instant::now();
     while fs::read_to_string(&history).map_or(0, |text| text.lines().count()) < rows {
@@ -41,13 +46,17 @@ fn started(bench: &Workbench, folder: &str, changes: &[&str], more: &[&str], row
     child
 }
 
+fn send(child: &Child, signal: &str) {
+    let sent = Command::new("kill")
+        .args(["-s", signal, &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+}
+
 /// Sends SIGTERM more than once, as GNU `timeout` and batch systems do.
 fn terminate(child: &mut Child) -> Option<i32> {
     for _ in 0..3 {
-        let sent = Command::new("kill")
-            .args(["-TERM", &child.id().to_string()])
-            .status();
-        assert!(sent.unwrap().success());
+        send(child, "TERM");
     }
     child.wait().unwrap().code()
 }
@@ -92,6 +101,33 @@ fn a_stopped_explicit_run_goes_on_bit_by_bit() {
 #[test]
 fn a_stopped_implicit_run_goes_on_bit_by_bit() {
     goes_on_bit_by_bit(&SLOW_IMPLICIT, [8, 20, 32]);
+}
+
+/// What clusters send before the end ended a run without a checkpoint.
+#[test]
+fn every_warning_of_a_batch_system_stops_a_run_with_a_checkpoint() {
+    let bench = Workbench::with_bond();
+    for signal in ["USR1", "USR2", "HUP", "XCPU"] {
+        let mut child = started(&bench, signal, &SLOW, &[], 20);
+        send(&child, signal);
+        assert_eq!(child.wait().unwrap().code(), Some(75), "{signal}");
+        assert!(
+            bench.path(signal).join("checkpoint.mpts").is_file(),
+            "{signal}"
+        );
+    }
+}
+
+/// `nohup` has a program begin with SIGHUP ignored.
+#[test]
+fn a_run_that_was_begun_to_ignore_a_signal_goes_on() {
+    let bench = Workbench::with_bond();
+    let arguments = press_arguments("run", &SLOW, &[]).join("' '");
+    let mut command = bench.shell_command(&format!("trap '' HUP; exec mpm-run '{arguments}'"));
+    let mut child = with_rows(&bench, "run", command.spawn().unwrap(), 20);
+    send(&child, "HUP");
+    child = with_rows(&bench, "run", child, 120);
+    assert_eq!(terminate(&mut child), Some(75));
 }
 
 #[test]

@@ -114,17 +114,22 @@ impl Workbench {
 
     /// A shell line inside the folder with the tools on the path.
     pub fn shell(&self, line: &str) -> Output {
+        self.shell_command(line).output().unwrap()
+    }
+
+    /// A line of bash with the tools on its path.
+    pub fn shell_command(&self, line: &str) -> Command {
         let path = std::env::var_os("PATH").unwrap_or_default();
         let folders = [outputs::bin_folder()]
             .into_iter()
             .chain(std::env::split_paths(&path));
-        Command::new("bash")
+        let mut command = Command::new("bash");
+        command
             .args(["-c", &format!("set -euo pipefail; {line}")])
             .env("PATH", std::env::join_paths(folders).unwrap())
             .current_dir(self.folder())
-            .stdin(Stdio::null())
-            .output()
-            .unwrap()
+            .stdin(Stdio::null());
+        command
     }
 
     /// The stack `specimen.npy`, the files `specimen.mpts` and `bond.mpts` and `case.toml`.

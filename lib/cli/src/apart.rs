@@ -1,4 +1,4 @@
-//! Outputs that would replace what is read, or one another, are refused.
+//! Outputs that would replace what is read, one another, or what is write-protected are refused.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use crate::{Failure, Output};
 use crate::{aside, provenance};
 
-/// Refuses outputs that would replace a file that is read, or one another.
+/// Refuses outputs that would replace a file that is read, one another, or a write-protected file.
 ///
 /// # Errors
-/// Exit 2 with the file that is named twice.
+/// Exit 2 with the file that is named twice; exit 1 with the one that is write-protected.
 pub fn keep_apart<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     outputs: impl IntoIterator<Item = &'a Output>,
@@ -23,7 +23,8 @@ pub fn keep_apart<'a>(
 /// outputs too, and replace nothing but records.
 ///
 /// # Errors
-/// Exit 2 with the file that is named twice, or that stands where a record goes.
+/// Exit 2 with the file that is named twice, or that stands where a record goes; exit 1 with the one that is
+/// write-protected.
 pub fn keep_apart_with_records<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     outputs: impl IntoIterator<Item = &'a Output>,
@@ -77,6 +78,7 @@ impl Places {
                 "{output} is given for two outputs: give each a file name of its own"
             )));
         }
+        machine::replaced_permissions(&place).map_err(|e| Failure::write(output, &e))?;
         self.written.push(place);
         Ok(())
     }

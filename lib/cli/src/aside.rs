@@ -33,16 +33,25 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// An empty file beside `target` that nobody else takes for forgotten, readable as the user's
-/// umask says.
+/// An empty file beside `target` that nobody else takes for forgotten, with the permissions of the file that it is to
+/// replace, or those of a new one by the user's umask.
+///
+/// # Errors
+/// A target that is write-protected; the system's reason.
 pub(crate) fn file_for(target: &Path) -> io::Result<NamedTempFile> {
+    let replaced = machine::replaced_permissions(target)?;
+    let new = || fs::Permissions::from_mode(0o666);
     sweep(target);
     loop {
         let mut builder = Builder::new();
         let prefix = prefix(target);
         builder.prefix(&prefix).suffix(ENDING);
-        builder.permissions(fs::Permissions::from_mode(0o666));
+        builder.permissions(replaced.clone().unwrap_or_else(new));
         let file = builder.tempfile_in(folder_of(target))?;
+        // The umask holds for new files only.
+        if let Some(permissions) = &replaced {
+            file.as_file().set_permissions(permissions.clone())?;
+        }
         if claimed(file.as_file())? {
             return Ok(file);
         }

@@ -12,7 +12,7 @@ use crate::{aside, provenance};
 /// Where a tool's data go: standard output (`-`) or a file.
 ///
 /// A regular file appears whole or not at all: it is written beside its target and renamed.
-/// Devices and pipes are written in place. A symbolic link is followed: what it points to is
+/// What it replaces must not be write-protected, and passes its permissions on. Devices and pipes are written in place. A symbolic link is followed: what it points to is
 /// replaced or made, and the link stays.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Output {
@@ -121,6 +121,9 @@ fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) 
 
 #[cfg(test)]
 mod tests {
+    use std::fs::Permissions;
+    use std::os::unix::fs::PermissionsExt;
+
     use super::*;
 
     #[test]
@@ -160,6 +163,35 @@ mod tests {
         let round = Output::File(inside("loop")).write(|out| out.write_all(b"x"));
         assert!(round.is_err());
         assert_eq!(fs::read_dir(inside("elsewhere")).unwrap().count(), 2);
+    }
+
+    /// A write-protected file was replaced by one that all may read.
+    #[test]
+    fn permissions_are_kept_and_write_protection_is_heeded() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.csv");
+        let output = Output::File(target.clone());
+        let record = Record::new("tool", "1.0", Vec::new());
+        let write = || output.write_with_record(&record, |out| out.write_all(b"x"));
+        write().unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
+        let set = |path: &Path, mode| fs::set_permissions(path, Permissions::from_mode(mode));
+        let beside = provenance::beside(&target);
+        assert_eq!(mode(&target), mode(&beside), "as the umask has it");
+        for bits in [0o600, 0o640, 0o666] {
+            set(&target, bits).unwrap();
+            write().unwrap();
+            assert_eq!(mode(&target), bits);
+        }
+        for path in [&target, &beside] {
+            set(path, 0o444).unwrap();
+            let refused = crate::keep_apart_with_records([], [&output]);
+            assert!(refused.is_err() && write().is_err());
+            assert_eq!(mode(path), 0o444);
+            set(path, 0o644).unwrap();
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+        write().unwrap();
     }
 
     #[test]

@@ -66,11 +66,14 @@ pub(crate) fn beside(path: &Path) -> PathBuf {
     beside.into()
 }
 
-/// Refuses to replace what stands at `path` unless it is a record.
+/// Refuses to replace what stands at `path` unless it is a record that may be written.
 pub(crate) fn may_replace(path: &Path) -> Result<(), Failure> {
     let free = matches!(fs::metadata(path), Err(e) if e.kind() == io::ErrorKind::NotFound);
     if free || is_record(path) {
-        return Ok(());
+        let named = format_args!("'{}'", path.display());
+        return machine::replaced_permissions(path)
+            .map(|_| ())
+            .map_err(|e| Failure::write(named, &e));
     }
     Err(Failure::usage(format!(
         "'{}' is no provenance record and would be replaced by one: give another file name",

@@ -1,11 +1,12 @@
 //! Signals that end a run at its next step.
 
+use std::io;
 use std::sync::Arc;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use signal_hook::consts::{SIGABRT, SIGINT, SIGTERM, SIGXFSZ};
+use signal_hook::consts::{SIGABRT, SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ};
 use signal_hook::iterator::Signals;
 
 use crate::{Failure, Status, message};
@@ -16,10 +17,14 @@ static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 /// within 5 s is promised.
 const GRACE: Duration = Duration::from_secs(4);
 
-/// From now on SIGINT and SIGTERM set the flag that [`interrupted`] reads. A process that has
+/// Signals that batch systems and a closed terminal send before the end. Of them those that the process was begun to
+/// ignore, as by `nohup`, stay ignored.
+const WARNINGS: [i32; 4] = [SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU];
+
+/// From now on SIGINT, SIGTERM and the [`WARNINGS`] set the flag that [`interrupted`] reads. A process that has
 /// not ended [`GRACE`] later, because it is in the middle of something long, is ended with exit
 /// 75; what it writes must be whole or absent at any moment. A second SIGINT, a user's second
-/// Ctrl-C, ends it at once. Not so a second SIGTERM: GNU `timeout` and batch systems send one
+/// Ctrl-C, ends it at once. Not so a second of the others: GNU `timeout` and batch systems send one
 /// to the process and one to its group.
 ///
 /// Before this call, as in tools that never make it, a signal ends the process at once.
@@ -27,21 +32,23 @@ const GRACE: Duration = Duration::from_secs(4);
 /// # Errors
 /// Exit 1 when the system refuses the handler.
 pub fn catch_interrupts() -> Result<(), Failure> {
+    let warnings = WARNINGS
+        .into_iter()
+        .filter(|&signal| !machine::ignores(signal));
+    let signals: Vec<i32> = [SIGINT, SIGTERM].into_iter().chain(warnings).collect();
+    catch(&signals).map_err(|e| Failure::failed(format!("cannot catch interrupts: {e}")))
+}
+
+fn catch(signals: &[i32]) -> io::Result<()> {
     let flag = FLAG.get_or_init(|| Arc::new(AtomicBool::new(false)));
     let end_now = i32::from(Status::Resumable as u8);
-    let caught =
-        signal_hook::flag::register_conditional_shutdown(SIGINT, end_now, Arc::clone(flag))
-            .and_then(|_| signal_hook::flag::register(SIGINT, Arc::clone(flag)))
-            .and_then(|_| signal_hook::flag::register(SIGTERM, Arc::clone(flag)))
-            .and_then(|_| Signals::new([SIGINT, SIGTERM]))
-            .and_then(|signals| {
-                std::thread::Builder::new()
-                    .name("signals".into())
-                    .spawn(move || end_after_grace(signals))
-            });
-    caught
-        .map(|_| ())
-        .map_err(|e| Failure::failed(format!("cannot catch interrupts: {e}")))
+    signal_hook::flag::register_conditional_shutdown(SIGINT, end_now, Arc::clone(flag))?;
+    for &signal in signals {
+        signal_hook::flag::register(signal, Arc::clone(flag))?;
+    }
+    let signals = Signals::new(signals)?;
+    let thread = std::thread::Builder::new().name("signals".into());
+    thread.spawn(move || end_after_grace(signals)).map(|_| ())
 }
 
 /// From now on a write beyond the limit on the size of files fails as one to a full disk does, with a

@@ -43,11 +43,11 @@ impl StagedFolder {
     /// an earlier output.
     ///
     /// # Errors
-    /// Exit 2 where another file has one of the names, before anything is moved; exit 1 with
-    /// the system's reason.
+    /// Exit 2 where another file has one of the names, and exit 1 where one is write-protected, before
+    /// anything is moved; exit 1 with the system's reason.
     pub fn put_in_place(self, ours: impl Fn(&Path) -> bool) -> Result<(), Failure> {
         let moves = self.moves().map_err(|e| failure(&self.target, &e))?;
-        for (_, to) in &moves {
+        for (from, to) in &moves {
             if let Ok(found) = to.symlink_metadata() {
                 // A file with a record of its own is an output that was asked for by its name.
                 let named = provenance::beside(to).exists();
@@ -57,6 +57,11 @@ impl StagedFolder {
                         to.display()
                     )));
                 }
+                let keep = || match machine::replaced_permissions(to)? {
+                    Some(permissions) => fs::set_permissions(from, permissions),
+                    None => Ok(()),
+                };
+                keep().map_err(|e| failure(to, &e))?;
             }
         }
         let put = || {
@@ -76,4 +81,46 @@ impl StagedFolder {
 
 fn failure(target: &Path, error: &io::Error) -> Failure {
     Failure::write(format_args!("'{}'", target.display()), error)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs::Permissions;
+    use std::os::unix::fs::PermissionsExt;
+
+    use super::*;
+
+    #[test]
+    fn parts_keep_the_mode_of_those_they_replace_and_spare_the_write_protected() {
+        let place = tempfile::tempdir().unwrap();
+        let target = place.path().join("parts");
+        let put = || {
+            let staged = StagedFolder::new(&target).unwrap();
+            for name in ["a", "b"] {
+                fs::write(staged.path(name), "new").unwrap();
+            }
+            staged.put_in_place(|_| true)
+        };
+        put().unwrap();
+        let set = |name: &str, mode| {
+            fs::write(target.join(name), "old").unwrap();
+            fs::set_permissions(target.join(name), Permissions::from_mode(mode)).unwrap();
+        };
+        let read = |name: &str| fs::read_to_string(target.join(name)).unwrap();
+        set("a", 0o600);
+        set("b", 0o444);
+        assert!(put().is_err());
+        assert_eq!((read("a"), read("b")), ("old".into(), "old".into()));
+        fs::set_permissions(target.join("b"), Permissions::from_mode(0o640)).unwrap();
+        put().unwrap();
+        let mode = |name| {
+            fs::metadata(target.join(name))
+                .unwrap()
+                .permissions()
+                .mode()
+                & 0o777
+        };
+        assert_eq!((mode("a"), mode("b")), (0o600, 0o640));
+        assert_eq!(read("a"), "new");
+    }
 }

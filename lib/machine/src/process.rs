@@ -1,4 +1,4 @@
-//! What this process has taken so far, and how its allocator behaves.
+//! Time and memory that this process has taken, its allocator, and the signals that it was told to ignore.
 
 use std::fs;
 
@@ -29,6 +29,16 @@ pub fn give_back_large_arrays() {
         libc::mallopt(libc::M_MMAP_THRESHOLD, 1 << 20);
         libc::mallopt(libc::M_TRIM_THRESHOLD, 1 << 26);
     }
+}
+
+/// Whether this process ignores `signal`, as `nohup` or a shell's `trap '' HUP` had it begin.
+#[allow(unsafe_code)]
+pub fn ignores(signal: i32) -> bool {
+    let mut now = std::mem::MaybeUninit::<libc::sigaction>::zeroed();
+    // SAFETY: no action is set, and the one in force is written to a place of its size (sigaction(2)).
+    let told = unsafe { libc::sigaction(signal, std::ptr::null(), now.as_mut_ptr()) };
+    // SAFETY: all of it was zero before, which is an action.
+    told == 0 && unsafe { now.assume_init() }.sa_sigaction == libc::SIG_IGN
 }
 
 #[cfg(test)]

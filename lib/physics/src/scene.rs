@@ -11,6 +11,16 @@ pub enum Dimensions {
     Three,
 }
 
+impl Dimensions {
+    /// Number of axes along which things differ.
+    pub fn axes(self) -> usize {
+        match self {
+            Self::Two => 2,
+            Self::Three => 3,
+        }
+    }
+}
+
 /// What happens at the two sides of the domain normal to an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Boundary {
@@ -222,6 +232,12 @@ impl Scene {
         (self.bodies.iter())
             .map(|body| norm(self.velocity(body.motion)))
             .fold(liquid.speed, f64::max)
+    }
+
+    /// Length (m) after which all repeats along `axis`; `None` where its sides are not periodic.
+    pub fn period(&self, axis: usize) -> Option<f64> {
+        let periodic = axis < self.dimensions.axes() && self.boundary[axis] == Boundary::Periodic;
+        periodic.then(|| self.grid.cells[axis] as f64 * self.grid.cell_m)
     }
 
     /// The body that the clamp drives, and whose pressure it is controlled by.

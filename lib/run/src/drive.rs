@@ -4,11 +4,12 @@ use std::io;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use physics::{Cure, Diagnostics, Failure, Scheme, StepLimit, StepReport, Stop};
+use physics::{Diagnostics, Failure, Scheme, StepReport, Stop};
 
 use crate::answers::Watch;
-use crate::checkpoint::{self, Checkpoint, Clock};
+use crate::checkpoint::{self, Checkpoint, Clock, Origin};
 use crate::courant::Courant;
+use crate::ends::{Ahead, End, Ends};
 use crate::folder::RunFolder;
 use crate::history::{History, RowMore};
 use crate::resolve::Setup;
@@ -17,24 +18,6 @@ use crate::verdict;
 
 /// Wall time between checkpoints.
 const CHECKPOINT_EVERY: Duration = Duration::from_secs(60);
-
-/// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum End {
-    /// The adherends are back in place.
-    Closed,
-    /// The time asked for is reached.
-    Time,
-    /// All stages of the press programme are over.
-    Programme,
-    /// Closure did not come before the time limit: the pressure limit holds the gap open.
-    TimeLimit,
-    /// The adhesive has set and flows no more.
-    Set,
-    /// Stopped by the user; can be resumed.
-    Interrupted,
-}
 
 /// Why a run stopped without an end.
 #[derive(Debug, thiserror::Error)]
@@ -62,7 +45,7 @@ pub enum RunError {
     /// A checkpoint cannot be used.
     #[error("{0}")]
     Checkpoint(String),
-    /// A checkpoint is of another case, particle file or version.
+    /// A checkpoint is of another case or particle file.
     #[error("{0}")]
     AnotherCase(String),
 }
@@ -89,10 +72,10 @@ pub(crate) struct Controls<'a> {
     pub watch: Option<&'a Watch<'a>>,
     /// Whether the user asked to stop.
     pub interrupted: &'a dyn Fn() -> bool,
-    /// Told after every step: fraction done, time in s, last report.
-    pub progress: &'a mut dyn FnMut(f64, f64, &StepReport),
-    /// Identifies case and particle file in checkpoints.
-    pub identity: String,
+    /// Told after every step: the ends ahead, time in s, last report.
+    pub progress: &'a mut dyn FnMut(&[Ahead], f64, &StepReport),
+    /// What checkpoints are of.
+    pub origin: Origin,
     /// Which part of the run was, and will be, taken at which Courant number.
     pub courant: Vec<Courant>,
 }
@@ -127,12 +110,12 @@ pub(crate) fn drive(
     let mut state = Loop::new(setup, folder, clock);
     state.stages_over = scheme.programme().map_or(0, |run| run.ended().count());
     loop {
-        if let Some(end) = state.end(scheme) {
+        if let Some(end) = state.ends.reached(&state.clock, scheme) {
             return state.finish(end, scheme, history, controls.watch);
         }
         let begun = Instant::now();
         let report = scheme
-            .advance(state.limit())
+            .advance(state.ends.limit(&state.clock))
             .and_then(|report| verdict::step(setup, &report).map(|()| report))
             .map_err(|failure| RunError::Unstable {
                 failure,
@@ -143,7 +126,7 @@ pub(crate) fn drive(
         state.stepping += begun.elapsed();
         let stage = scheme.programme().map(|run| run.ended().count());
         state.took(report, stage, controls.snapshots_of_way);
-        (controls.progress)(state.fraction(), state.clock.time_s, &report);
+        (controls.progress)(&state.ends.ahead(&state.clock), state.clock.time_s, &report);
         state.write_due(scheme, history, snapshots, controls)?;
         let stop = (controls.interrupted)();
         if stop || state.last_checkpoint.elapsed() >= CHECKPOINT_EVERY {
@@ -156,7 +139,7 @@ pub(crate) fn drive(
                     history: history.sync()?,
                     saved: scheme.saving(),
                 };
-                checkpoint::write(folder, &controls.identity, checkpoint)?;
+                checkpoint::write(folder, &controls.origin, checkpoint)?;
             }
             state.last_checkpoint = Instant::now();
         }
@@ -168,8 +151,7 @@ pub(crate) fn drive(
 
 struct Loop<'a> {
     setup: &'a Setup,
-    /// When the adhesive will have set, s.
-    set: Option<f64>,
+    ends: Ends<'a>,
     folder: &'a RunFolder,
     clock: Clock,
     stepping: Duration,
@@ -185,7 +167,7 @@ impl<'a> Loop<'a> {
     fn new(setup: &'a Setup, folder: &'a RunFolder, clock: Clock) -> Self {
         Self {
             setup,
-            set: setup.scene.liquid.cure.as_ref().and_then(Cure::set_at),
+            ends: Ends::of(setup),
             folder,
             clock,
             stepping: Duration::ZERO,
@@ -193,53 +175,6 @@ impl<'a> Loop<'a> {
             last_checkpoint: Instant::now(),
             stages_over: 0,
             snapshot_of_way: false,
-        }
-    }
-
-    fn end(&self, scheme: &dyn Scheme) -> Option<End> {
-        // A relative hair, so that a sum of many steps that should meet the end does.
-        let reached = |t: f64, goal: f64| t >= goal * (1.0 - 1e-12);
-        if self.set.is_some_and(|set| reached(self.clock.time_s, set)) {
-            return Some(End::Set);
-        }
-        if scheme.has_set() {
-            return Some(End::Set);
-        }
-        if let Some(programme) = scheme.programme() {
-            return programme.is_over().then_some(End::Programme);
-        }
-        match self.setup.scene.stop {
-            Stop::Time(t) => reached(self.clock.time_s, t).then_some(End::Time),
-            Stop::Closed { travel_m } => {
-                if self.clock.travel_m >= travel_m * (1.0 - 1e-9) {
-                    Some(End::Closed)
-                } else {
-                    reached(self.clock.time_s, self.setup.time_limit_s).then_some(End::TimeLimit)
-                }
-            }
-        }
-    }
-
-    /// When the run ends at the latest, s.
-    fn latest_s(&self) -> f64 {
-        let limit = self.setup.time_limit_s;
-        self.set.map_or(limit, |set| limit.min(set))
-    }
-
-    fn limit(&self) -> StepLimit {
-        if !self.setup.scene.programme.is_empty() {
-            // Its stages have their own ends.
-            return StepLimit {
-                time_s: (self.set).map_or(f64::INFINITY, |set| set - self.clock.time_s),
-                travel_m: f64::INFINITY,
-            };
-        }
-        StepLimit {
-            time_s: self.latest_s() - self.clock.time_s,
-            travel_m: match self.setup.scene.stop {
-                Stop::Closed { travel_m } => travel_m - self.clock.travel_m,
-                Stop::Time(_) => f64::INFINITY,
-            },
         }
     }
 
@@ -257,14 +192,6 @@ impl<'a> Loop<'a> {
         self.steps_here += 1;
         self.clock.last = report;
         self.clock.row_missing = true;
-    }
-
-    fn fraction(&self) -> f64 {
-        let time = self.clock.time_s / self.latest_s();
-        match self.setup.scene.stop {
-            Stop::Closed { travel_m } => time.max(self.clock.travel_m / travel_m),
-            Stop::Time(_) => time,
-        }
     }
 
     fn write_due(

@@ -1,13 +1,15 @@
 //! The run folder: marked as one, held by one run at a time, written file by file.
 
-use std::fs::{self, File, TryLockError};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::fs::{self, File, Permissions, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use particle_file::Provenance;
-use same_file::Handle;
 
 use crate::drive::RunError;
+use crate::files::{is_still, is_there, sync_folder};
 use crate::mark::{self, MARKER};
 use crate::request::RunFailure;
 
@@ -34,6 +36,8 @@ pub(crate) struct RunFolder {
     marker: File,
     /// Why it could not be locked.
     unlocked: Option<io::Error>,
+    /// Permissions of files that were removed, for those that come in their place.
+    removed: RefCell<HashMap<PathBuf, Permissions>>,
 }
 
 impl RunFolder {
@@ -119,6 +123,7 @@ impl RunFolder {
             path: path.to_owned(),
             marker,
             unlocked,
+            removed: RefCell::default(),
         })
     }
 
@@ -141,10 +146,11 @@ impl RunFolder {
         self.path.join(name)
     }
 
-    /// Writes `name` whole or not at all: beside its place, to the disk, and then renamed.
+    /// Writes `name` whole or not at all: beside its place, to the disk, and then renamed. It keeps the permissions of
+    /// what stood there.
     ///
     /// # Errors
-    /// The file and the system's reason.
+    /// The file and the system's reason; a file there that is write-protected.
     pub(crate) fn write_whole(
         &self,
         name: &str,
@@ -155,9 +161,14 @@ impl RunFolder {
         let aside = within.join(ASIDE);
         let place = self.place(MARKER);
         is_still(&self.marker, &place).map_err(RunError::write(&place))?;
+        let replaced = machine::replaced_permissions(&path).map_err(RunError::write(&path))?;
         // A new file, so that nothing is written through a link.
         let file = File::create_new(&aside).map_err(RunError::write(&path))?;
         let write = || {
+            if let Some(permissions) = replaced.or_else(|| self.removed.borrow_mut().remove(&path))
+            {
+                file.set_permissions(permissions)?;
+            }
             let mut out = BufWriter::with_capacity(1 << 20, file);
             body(&mut out)?;
             out.into_inner().map_err(|e| e.into_error())?.sync_all()?;
@@ -185,17 +196,26 @@ impl RunFolder {
     /// The file and the system's reason.
     pub(crate) fn remove(&self, name: &str) -> Result<(), RunError> {
         let path = self.place(name);
-        match fs::remove_file(&path) {
-            Err(e) if e.kind() != io::ErrorKind::NotFound => Err(RunError::write(&path)(e)),
-            _ => Ok(()),
-        }
+        let remove = || match machine::replaced_permissions(&path)? {
+            Some(permissions) => {
+                fs::remove_file(&path)?;
+                self.removed.borrow_mut().insert(path.clone(), permissions);
+                Ok(())
+            }
+            None => Ok(()),
+        };
+        remove().map_err(RunError::write(&path))
     }
 
-    /// Fails where nothing can be written, before anything is removed to make room for it.
+    /// Fails where nothing can be written, or one of `names` is write-protected, before anything is removed to make room.
     ///
     /// # Errors
-    /// The folder and the system's reason.
-    pub(crate) fn check_writable(&self) -> Result<(), RunError> {
+    /// The folder or file and the reason.
+    pub(crate) fn check_writable(&self, names: &[String]) -> Result<(), RunError> {
+        for name in names {
+            let path = self.place(name);
+            machine::replaced_permissions(&path).map_err(RunError::write(&path))?;
+        }
         for within in [self.path.clone(), self.place(SNAPSHOTS)] {
             let aside = within.join(ASIDE);
             match File::create_new(&aside).and_then(|_| fs::remove_file(&aside)) {
@@ -217,31 +237,6 @@ impl RunFolder {
             made => made.and_then(|()| sync_folder(&self.path)),
         }
         .map_err(RunError::write(&path))
-    }
-}
-
-/// Fails when the open `file` at `path` was removed or replaced behind the run's back.
-pub(crate) fn is_still(file: &File, path: &Path) -> io::Result<()> {
-    let ours = Handle::from_file(file.try_clone()?)?;
-    if Handle::from_path(path).is_ok_and(|there| there == ours) {
-        return Ok(());
-    }
-    Err(io::Error::other(
-        "it was removed or replaced while the run was on",
-    ))
-}
-
-/// Whether there is anything of this name, a dangling link too.
-pub(crate) fn is_there(path: &Path) -> bool {
-    fs::symlink_metadata(path).is_ok()
-}
-
-/// Brings the names in a folder to the disk, where the file system can.
-fn sync_folder(path: &Path) -> io::Result<()> {
-    use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
-    match File::open(path).and_then(|folder| folder.sync_all()) {
-        Err(e) if matches!(e.kind(), InvalidInput | PermissionDenied | Unsupported) => Ok(()),
-        done => done,
     }
 }
 
@@ -294,14 +289,14 @@ pub(crate) mod tests {
         let (place, folder) = held();
         folder.make_snapshots().unwrap();
         for within in [place.path().to_owned(), place.path().join(SNAPSHOTS)] {
-            folder.check_writable().unwrap();
+            folder.check_writable(&[]).unwrap();
             assert!(!is_there(&within.join(ASIDE)));
             fs::write(within.join(ASIDE), "theirs").unwrap();
-            assert!(folder.check_writable().is_err());
+            assert!(folder.check_writable(&[]).is_err());
             fs::remove_file(within.join(ASIDE)).unwrap();
         }
         fs::remove_dir(place.path().join(SNAPSHOTS)).unwrap();
-        folder.check_writable().unwrap();
+        folder.check_writable(&[]).unwrap();
     }
 
     #[test]

@@ -9,7 +9,8 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::answers::{self, Moment};
 use crate::drive::RunError;
-use crate::folder::{HISTORY, RunFolder, is_still};
+use crate::files::is_still;
+use crate::folder::{HISTORY, RunFolder};
 use crate::request::RunFailure;
 
 /// The columns, contract first, then what the two schemes add.

@@ -3,10 +3,11 @@
 
 use bondline::open_voids;
 use particle_file::{BitGrid, BitsRef};
-use physics::{Dimensions, LiquidState, Motion, RigidBody, Scene, VoxelBlock, Water, WaterState};
+use physics::{LiquidState, Motion, RigidBody, Scene, VoxelBlock, Water, WaterState};
 use units::Axis;
 
 use crate::crowding::crowded;
+use crate::depth::Placed;
 
 /// What was found in a state; counts of material points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
@@ -102,61 +103,6 @@ pub fn check(
     found
 }
 
-/// The bodies of a scene where they are now.
-struct Placed<'a> {
-    scene: &'a Scene,
-    displacements: &'a [[f64; 3]],
-}
-
-impl Placed<'_> {
-    /// Low and high corner of a solid voxel that holds `point`.
-    fn voxel(&self, point: [f64; 3]) -> Option<[[f64; 3]; 2]> {
-        (self.scene.bodies.iter().zip(self.displacements)).find_map(|(body, shift)| {
-            let own: [f64; 3] = std::array::from_fn(|a| point[a] - shift[a]);
-            let block = body.blocks.iter().find(|b| b.contains(own))?;
-            let (origin, voxel) = (block.origin(), block.voxel());
-            let low: [f64; 3] = std::array::from_fn(|a| {
-                origin[a] + ((own[a] - origin[a]) / voxel[a]).floor() * voxel[a] + shift[a]
-            });
-            Some([low, std::array::from_fn(|a| low[a] + voxel[a])])
-        })
-    }
-
-    /// Distance from `point` in a body to the nearest place along an axis that no body fills and
-    /// that is inside the domain, looking no further than `far`.
-    fn depth(&self, point: [f64; 3], far: f64) -> f64 {
-        let (min, max) = (self.scene.grid.min_m, self.scene.grid.max_m());
-        // Into the next voxel.
-        let hair = 1e-6 * self.scene.grid.cell_m;
-        let mut nearest = far;
-        for a in 0..self.axes() {
-            for up in [false, true] {
-                let (mut at, mut face) = (point, point[a]);
-                while let Some([low, high]) = self.voxel(at) {
-                    face = if up { high[a] } else { low[a] };
-                    let beyond = if up { face + hair } else { face - hair };
-                    if (face - point[a]).abs() >= nearest || beyond == at[a] {
-                        break;
-                    }
-                    at[a] = beyond;
-                }
-                let inside = at[a] >= min[a] && at[a] <= max[a];
-                if inside && self.voxel(at).is_none() {
-                    nearest = nearest.min((face - point[a]).abs());
-                }
-            }
-        }
-        nearest
-    }
-
-    fn axes(&self) -> usize {
-        match self.scene.dimensions {
-            Dimensions::Two => 2,
-            Dimensions::Three => 3,
-        }
-    }
-}
-
 /// The voids of one adherend that open paths connect to its bond surface.
 struct Reachable<'a> {
     block: &'a VoxelBlock,
@@ -194,22 +140,23 @@ impl<'a> Reachable<'a> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use physics::{
-        Boundary, GridBox, Liquid, Newtonian, Points, ShearRate, Stop, Tait, Viscosity, WallLaw,
+        Boundary, Dimensions, GridBox, Liquid, Newtonian, Points, ShearRate, Stop, Tait, Viscosity,
+        WallLaw,
     };
 
     use super::*;
 
     /// Floor at j = 0, a closed lumen at (2, 2) and an open one at x = 5.
-    fn block() -> VoxelBlock {
+    pub(crate) fn block() -> VoxelBlock {
         VoxelBlock::from_fn([0.0; 3], [1.0; 3], [8, 5, 3], |i, j, k| {
             !((i == 2 && j == 2 && k == 1) || (i == 5 && j >= 1))
         })
     }
 
     /// A domain of 8 x 6 x 3 cells of 1 m with `bodies`.
-    fn scene(bodies: Vec<VoxelBlock>) -> Scene {
+    pub(crate) fn scene(bodies: Vec<VoxelBlock>) -> Scene {
         let body = |(i, block): (usize, VoxelBlock)| RigidBody {
             name: format!("body {i}"),
             blocks: vec![block],
@@ -243,40 +190,6 @@ mod tests {
             bottom: None,
             top: None,
         }
-    }
-
-    fn depth(scene: &Scene, point: [f64; 3]) -> f64 {
-        let placed = Placed {
-            scene,
-            displacements: &vec![[0.0; 3]; scene.bodies.len()],
-        };
-        placed.depth(point, 4.0)
-    }
-
-    #[test]
-    fn depth_is_measured_to_the_nearest_open_face() {
-        let scene = scene(vec![block()]);
-        assert!((depth(&scene, [5.0 - 0.25, 2.5, 1.5]) - 0.25).abs() < 1e-12);
-        // Out of the domain leads no way.
-        assert!((depth(&scene, [2.5, 2.5, 0.4]) - 0.6).abs() < 1e-12);
-        assert!((depth(&scene, [0.4, 2.5, 0.4]) - 2.5).abs() < 1e-12);
-    }
-
-    /// Before, the next body was taken for open space, and liquid under a clamp that had gone
-    /// through the floor was as deep as the nearest face of either.
-    #[test]
-    fn another_body_beyond_a_face_is_no_way_out() {
-        let floor = VoxelBlock::solid_box([0.0; 3], [8.0, 3.0, 3.0]);
-        let plate = VoxelBlock::solid_box([0.0, 1.0, 0.0], [8.0, 5.0, 3.0]);
-        let scene = scene(vec![floor, plate]);
-        assert!((depth(&scene, [4.0, 2.5, 1.5]) - 2.5).abs() < 1e-12);
-        let at = LiquidState {
-            position: vec![[4.0, 2.5, 1.5]],
-            volume: vec![1.0],
-            ..LiquidState::default()
-        };
-        let found = check(&scene, 1.0, &at, &[[0.0; 3]; 2]);
-        assert_eq!((found.points_in_wood, found.points_deep_in_wood), (1, 1));
     }
 
     /// No way out is looked for beyond four cells.

@@ -2,7 +2,6 @@
 //! a run writes (`history.csv`, snapshots, checkpoint, `final.mpts`, `summary.json`).
 
 mod answers;
-mod begin;
 pub mod case;
 mod changes;
 mod checkpoint;
@@ -10,9 +9,13 @@ mod chords;
 mod conclude;
 mod courant;
 mod crowding;
+mod depth;
 mod drive;
+mod earlier_run;
+mod ends;
 mod expected_error;
 mod explain;
+mod files;
 mod folder;
 mod history;
 mod invariants;
@@ -28,10 +31,10 @@ mod summary;
 mod verdict;
 
 pub use answers::{Answers, FilledByDepth, Sides};
-pub use begin::Mode;
 pub use changes::changed_case;
 pub use courant::Courant;
-pub use drive::End;
+pub use earlier_run::Mode;
+pub use ends::{Ahead, End};
 pub use expected_error::{ExpectedError, QuantityError};
 pub use invariants::Invariants;
 pub use left_out::LeftOut;

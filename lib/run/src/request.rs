@@ -7,13 +7,14 @@ use physics::{Regime, StepReport};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::answers;
-use crate::begin::{self, Mode};
 use crate::case::{Case, CaseError};
 use crate::changes::changed;
-use crate::checkpoint::{Checkpoint, Clock};
+use crate::checkpoint::{self, Checkpoint, Clock, Origin};
 use crate::conclude::{Asked, conclude};
 use crate::courant::{continued, without_cfl};
 use crate::drive::{self, Controls, RunError};
+use crate::earlier_run::{self, Mode};
+use crate::ends::{Ahead, End};
 use crate::expected_error;
 use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
 use crate::history::History;
@@ -177,18 +178,22 @@ impl Request {
         mode: Mode,
         by: Provenance,
         interrupted: &dyn Fn() -> bool,
-        progress: &mut dyn FnMut(f64, String),
+        progress: &mut dyn FnMut(&[Ahead], String),
         warn: &dyn Fn(String),
     ) -> Result<Option<Summary>, RunFailure> {
         let identity = self.identity(&by);
-        let continuable = self.identity_of(&without_cfl(&self.text), &by);
         let by = Provenance {
             inputs: self.inputs.clone(),
             ..by
         };
+        let origin = Origin {
+            identity: self.content_hashes(&without_cfl(&self.text)),
+            format: checkpoint::format(self.case.integrator.scheme),
+            by: by.clone(),
+        };
         let found = RunFolder::find(folder, &by)?;
         if let Some(found) = &found {
-            begin::make_room(found, &self.places)?;
+            earlier_run::make_room(found, &self.places)?;
         }
         // In a folder without the mark nothing is known to be a run's: making it one refuses.
         if let Some(found) = &found
@@ -196,7 +201,7 @@ impl Request {
             && !mode.overwrite
             && is_final_of(folder, &identity)?
         {
-            begin::tidy(found, &continuable)?;
+            earlier_run::tidy(found, &origin)?;
             return Ok(None);
         }
         // What is refused must not cost a run folder.
@@ -214,7 +219,7 @@ impl Request {
         let resolved = resolved::text(&self.text, &self.case, &self.setup);
         // Read before there is a scheme, beside which its file need not be in memory, too.
         let checkpoint = match &found {
-            Some(found) => begin::checkpoint(found, mode, &continuable, &resolved, &by)?,
+            Some(found) => earlier_run::checkpoint(found, mode, &origin, &resolved)?,
             None => None,
         };
         let mut scheme = schemes::build(&self.case, &self.setup)?;
@@ -231,13 +236,17 @@ impl Request {
                 history,
                 saved,
             }) => {
-                scheme.restore(&saved).map_err(RunFailure::Data)?;
+                let restored = scheme.restore(&saved);
+                restored.map_err(|said| {
+                    let path = folder.place(CHECKPOINT);
+                    RunFailure::Data(format!("{}: {said}", path.display()))
+                })?;
                 let history = History::resume(folder, history)?;
-                begin::forget_what_came_after(folder, &clock, &resolved)?;
+                earlier_run::forget_what_came_after(folder, &clock, &resolved)?;
                 (clock, continued(courant, clock.step, cfl), history)
             }
             None => {
-                begin::anew(folder, mode, &resolved, &by)?;
+                earlier_run::anew(folder, mode, &resolved, &by)?;
                 let history = History::create(
                     folder,
                     self.setup.scene.liquid.cure.is_some(),
@@ -255,14 +264,12 @@ impl Request {
             snapshot_every_s: self.snapshot_every(),
             snapshots_of_way: self.case.output.snapshots,
             interrupted,
-            progress: &mut |fraction, time_s, report: &StepReport| {
+            progress: &mut |ends, time_s, report: &StepReport| {
                 let pressure = report.pressure_top / 1e6;
-                progress(
-                    fraction,
-                    format!("{}, {pressure:.3} MPa", summary::time(time_s, 3)),
-                );
+                let state = format!("{}, {pressure:.3} MPa", summary::time(time_s, 3));
+                progress(ends, state);
             },
-            identity: continuable,
+            origin,
             courant,
         };
         let provenance = provenance_json(&by);
@@ -303,7 +310,7 @@ impl Request {
         let (summary, liquid, displacements) =
             conclude(&self.case, &self.setup, scheme, &outcome, watch, asked)?;
         folder.write_text(SUMMARY, &summary::text(&summary))?;
-        if outcome.end != drive::End::Interrupted {
+        if outcome.end != End::Interrupted {
             writer.write_final(&outcome.clock, &liquid, &displacements)?;
             folder.remove(CHECKPOINT)?;
         }
@@ -312,16 +319,13 @@ impl Request {
 
     /// What makes two runs the same: the case as run, the inputs and the version.
     fn identity(&self, by: &Provenance) -> String {
-        self.identity_of(&self.text, by)
+        format!("{} {}", by.version, self.content_hashes(&self.text))
     }
 
-    fn identity_of(&self, case: &str, by: &Provenance) -> String {
+    /// Hashes of a case and the bond file.
+    fn content_hashes(&self, case: &str) -> String {
         let bond = self.inputs.get(1).map_or(0, |i| i.1);
-        format!(
-            "{} {:016x} {bond:016x}",
-            by.version,
-            xxh3_64(case.as_bytes())
-        )
+        format!("{:016x} {bond:016x}", xxh3_64(case.as_bytes()))
     }
 
     fn snapshot_every(&self) -> f64 {

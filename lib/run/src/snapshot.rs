@@ -6,9 +6,9 @@ use particle_file::{BitsRef, Block, Draft, Header, Kind, ParticleFile, Provenanc
 use physics::{LiquidState, Scheme, ShearRate};
 use units::Axis;
 
-use crate::begin::snapshot_name;
 use crate::checkpoint::Clock;
 use crate::drive::RunError;
+use crate::earlier_run::snapshot_name;
 use crate::folder::{FINAL, RunFolder};
 use crate::load::swap;
 use crate::request::RunFailure;

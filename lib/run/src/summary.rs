@@ -7,7 +7,8 @@ use serde::Serialize;
 
 use crate::answers::Answers;
 use crate::courant::Courant;
-use crate::drive::{End, Outcome};
+use crate::drive::Outcome;
+use crate::ends::End;
 use crate::expected_error::ExpectedError;
 use crate::invariants::Invariants;
 use crate::left_out::LeftOut;

@@ -70,7 +70,7 @@ fn press(case: &Path, bond: &Path, place: &Path, however_long: bool) -> Result<E
         mode,
         by,
         &cli::interrupted,
-        &mut |fraction, state| progress.update(fraction, || state),
+        &mut |ends, state| progress.update(ends, || state),
         &|warning| cli::warn(warning),
     );
     progress.finish();

@@ -37,7 +37,8 @@ Keys of the explicit scheme that are not the paper's, off unless given \
   contact.separation = \"0.8 cell\"              how near liquid and wall touch
 
 Exit status: 0 ok, the results are sound; 1 the run failed (unstable, not sound, cannot write); \
-2 usage or case file; 3 unreadable or corrupt data; 75 stopped early, continue with --resume."
+2 usage or case file; 3 unreadable or corrupt data; 75 stopped early (SIGINT, SIGTERM, \
+SIGUSR1, SIGUSR2, SIGXCPU, or SIGHUP unless begun by nohup), continue with --resume."
 )]
 struct Arguments {
     /// Case file (TOML)
@@ -116,7 +117,7 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         },
         by,
         &cli::interrupted,
-        &mut |fraction, state| progress.update(fraction, || state),
+        &mut |ends, state| progress.update(ends, || state),
         &|warning| cli::warn(warning),
     );
     progress.finish();

@@ -193,9 +193,8 @@ fn read_pages(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<Segmented, 
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         // A page that finds the bar in use need not wait for it.
         if let Ok(mut progress) = progress.try_lock() {
-            progress.update(done as f64 / total as f64, || {
-                format!("page {done} of {total}")
-            });
+            let end = ("read, {} left", done as f64 / total as f64);
+            progress.update(&[end], || format!("page {done} of {total}"));
         }
     };
     let segmented = segment(stack, phases, crop, on_page).map_err(failure);

@@ -2,7 +2,7 @@
 
 use physics::Boundary;
 
-use super::room::covered;
+use super::covered::covered;
 use crate::collide::Obstacle;
 use crate::fields::point::{J, VOLUME};
 use crate::lanes::Lanes4;

@@ -11,7 +11,7 @@
 //! stress of the points stay as they are.
 
 mod cells;
-mod room;
+mod covered;
 mod solve;
 
 use rayon::prelude::*;

@@ -32,19 +32,26 @@ impl BlockShape {
     }
 
     /// Position of a point in voxels of this block displaced by `shift`.
-    fn voxels(&self, node: [i32; 3], d: &Lanes4, shift: &[f64; 3], lattice: &Lattice) -> [f64; 3] {
+    fn voxels(&self, node: [i32; 3], d: &Lanes4, shift: &[f64; 3]) -> [f64; 3] {
         std::array::from_fn(|a| {
-            let mut x = f64::from(node[a]) + f64::from(d.0[a]) - shift[a] - self.origin[a];
-            if lattice.boundary[a] == Boundary::Periodic && a < lattice.axes() {
-                x = x.rem_euclid(f64::from(lattice.cells[a]));
-            }
+            let x = f64::from(node[a]) + f64::from(d.0[a]) - shift[a] - self.origin[a];
             x / self.voxel[a]
         })
     }
 
-    fn solid_at(&self, x: [f64; 3]) -> bool {
-        x.iter().all(|&x| x >= 0.0) && {
-            let [i, j, k] = x.map(|x| x as usize);
+    /// The place (voxels) in the block itself of one in its images beyond periodic sides.
+    fn folded(&self, x: [f64; 3], lattice: &Lattice) -> [f64; 3] {
+        std::array::from_fn(|a| {
+            match lattice.boundary[a] == Boundary::Periodic && a < lattice.axes() {
+                true => x[a].rem_euclid(f64::from(lattice.cells[a]) / self.voxel[a]),
+                false => x[a],
+            }
+        })
+    }
+
+    fn solid_at(&self, folded: [f64; 3]) -> bool {
+        folded.iter().all(|&x| x >= 0.0) && {
+            let [i, j, k] = folded.map(|x| x as usize);
             self.solid.solid(i, j, k)
         }
     }
@@ -57,7 +64,7 @@ impl BlockShape {
         shift: &[f64; 3],
         lattice: &Lattice,
     ) -> bool {
-        self.solid_at(self.voxels(node, d, shift, lattice))
+        self.solid_at(self.folded(self.voxels(node, d, shift), lattice))
     }
 
     /// Follows a point from `start` to `end` axis by axis and stops it before solid voxels.
@@ -70,25 +77,29 @@ impl BlockShape {
         (from, to): (&[f64; 3], &[f64; 3]),
         lattice: &Lattice,
     ) -> Option<[i8; 3]> {
-        let mut at = self.voxels(node, start, from, lattice);
-        let target = self.voxels(node, end, to, lattice);
-        if at.map(f64::floor) == target.map(f64::floor) || self.solid_at(at) {
+        let mut at = self.voxels(node, start, from);
+        let target = self.voxels(node, end, to);
+        let [here, there] = [at, target].map(|x| self.folded(x, lattice));
+        if here.map(f64::floor) == there.map(f64::floor) || self.solid_at(here) {
             return None;
         }
         let mut stops = [0_i8; 3];
         for a in 0..3 {
             let free = at[a];
             at[a] = target[a];
-            if !self.solid_at(at) {
+            let folded = self.folded(at, lattice);
+            if !self.solid_at(folded) {
                 continue;
             }
             let up = target[a] > free;
             stops[a] = if up { 1 } else { -1 };
             let stand_off = STAND_OFF / self.voxel[a];
+            // Faces are whole numbers in the block, but not in its images.
+            let face = target[a] - folded[a] + folded[a].floor();
             let stopped = if up {
-                target[a].floor() - stand_off
+                face - stand_off
             } else {
-                target[a].floor() + 1.0 + stand_off
+                face + 1.0 + stand_off
             };
             at[a] = stopped;
             end.0[a] += ((stopped - target[a]) * self.voxel[a]) as Real;
@@ -112,14 +123,18 @@ mod tests {
         }
     }
 
+    fn lattice(boundary: Boundary) -> Lattice {
+        Lattice {
+            cells: [10; 3],
+            boundary: [boundary; 3],
+            three: true,
+        }
+    }
+
     /// Where a point that goes from `start` to `end` (x, y) while the body rises by `rise` comes to, and in
     /// which directions it was stopped.
     fn swept(start: [f64; 2], end: [f64; 2], rise: f64) -> ([f64; 2], Option<[i8; 3]>) {
-        let lattice = Lattice {
-            cells: [10; 3],
-            boundary: [Boundary::Open; 3],
-            three: true,
-        };
+        let lattice = lattice(Boundary::Open);
         let node = [5; 3];
         let from_node =
             |x: [f64; 2]| Lanes4([(x[0] - 5.0) as Real, (x[1] - 5.0) as Real, 0.0, 0.0]);
@@ -147,6 +162,29 @@ mod tests {
             let way = f64::from(stops.map_or(0, |[_, way, _]| way));
             let off = [found[0] - at[0], found[1] - at[1] + 1e-5 * way];
             assert!(off.iter().all(|x| x.abs() < 1e-6), "{found:?}, not {at:?}");
+        }
+    }
+
+    /// A point that came to the low face of a body was put behind its high face.
+    #[test]
+    fn a_point_is_stopped_before_the_faces_of_images() {
+        let post = BlockShape {
+            origin: [3.0, 0.0, 0.0],
+            voxel: [4.0, 10.0, 10.0],
+            solid: VoxelBlock::solid_box([0.0; 3], [1.0; 3]),
+        };
+        let lattice = lattice(Boundary::Periodic);
+        for (from, by, to) in [(2.8, 0.5, 3.0), (7.2, -0.5, 7.0)] {
+            for periods in [-3.0, -1.0, 0.0, 1.0, 2.0, 7.0] {
+                let shift = [10.0 * periods + 0.5, 0.0, 0.0];
+                let place = |x: f64| Lanes4([(x + 0.5 - 5.0) as Real, 0.2, 0.2, 0.0]);
+                let (start, mut d) = (place(from), place(from + by));
+                let stops = post.sweep([5; 3], &start, &mut d, (&shift, &shift), &lattice);
+                assert_eq!(stops, Some([if by > 0.0 { 1 } else { -1 }, 0, 0]));
+                let found = f64::from(d.0[0]) + 4.5;
+                assert!((found - to).abs() < 3e-5, "{periods}: {found} for {to}");
+                assert!(!post.contains([5; 3], &d, &shift, &lattice));
+            }
         }
     }
 }

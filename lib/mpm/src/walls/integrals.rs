@@ -94,9 +94,18 @@ impl Integrator {
         let n = f64::from(self.lattice.cells[axis]);
         let x = f64::from(g);
         let boundary = self.lattice.boundary[axis];
+        let reach = self.reach() + margin;
         let mut images = vec![(x, 1.0)];
         match boundary {
-            Boundary::Periodic => images.extend([(x - n, 1.0), (x + n, 1.0)]),
+            Boundary::Periodic => {
+                // However many periods the body has gone.
+                let (low, high) = (
+                    origin - reach - x,
+                    origin + count as f64 * voxel + reach - x,
+                );
+                let periods = (low / n).ceil() as i64..=(high / n).floor() as i64;
+                images = periods.map(|k| (x + k as f64 * n, 1.0)).collect();
+            }
             Boundary::Symmetry => {
                 images.extend((g != 0).then_some((-x, -1.0)));
                 images.extend((x != n).then_some((2.0 * n - x, -1.0)));
@@ -108,7 +117,6 @@ impl Integrator {
         } else {
             (f64::NEG_INFINITY, f64::INFINITY)
         };
-        let reach = self.reach() + margin;
         for (node, sign) in images {
             let first = ((node - reach - origin) / voxel).floor().max(0.0) as usize;
             let last = ((node + reach - origin) / voxel)
@@ -150,7 +158,41 @@ fn depth_slices(origin: f64, voxel: f64, count: usize) -> Vec<Slice> {
 
 #[cfg(test)]
 mod tests {
+    use physics::VoxelBlock;
+
     use super::*;
+
+    /// A body that had gone more than a period was gone for the nodes.
+    #[test]
+    fn a_body_is_felt_however_many_periods_it_has_gone() {
+        let lattice = Lattice {
+            cells: [6; 3],
+            boundary: [Boundary::Periodic; 3],
+            three: true,
+        };
+        let of = Integrator::new(&lattice, ShapeFunction::Gimp);
+        for width in [1, 4, 12] {
+            let block = BlockShape {
+                origin: [4.0; 3],
+                voxel: [0.5; 3],
+                solid: VoxelBlock::from_fn([0.0; 3], [1.0; 3], [width; 3], |_, _, _| true),
+            };
+            for g in 0..6 {
+                let felt = |shift: f64| -> [f64; 2] {
+                    let slices = of.slices(&block, 0, g, shift, 0.0);
+                    let sum =
+                        |of: fn(&Slice) -> Real| slices.iter().map(|s| f64::from(of(s))).sum();
+                    [sum(|s| s.w), sum(|s| s.g)]
+                };
+                let near = |a: [f64; 2], b: [f64; 2]| (0..2).all(|i| (a[i] - b[i]).abs() < 1e-6);
+                for periods in [-1000.0, -2.0, -1.0, 1.0, 2.0, 3.0, 1000.0] {
+                    let (there, here) = (felt(0.25 + 6.0 * periods), felt(0.25));
+                    assert!(near(there, here), "{width} {g}: {there:?} for {here:?}");
+                }
+                assert!(width < 12 || near(felt(0.25), [1.0, 0.0]), "a full period");
+            }
+        }
+    }
 
     /// By the midpoint rule from beyond the reach on.
     #[test]

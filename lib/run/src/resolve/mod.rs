@@ -1,8 +1,11 @@
 //! A case and its bodies or bond file, resolved to a [`Scene`] in SI.
 
 mod bond;
+mod clearance;
+mod collisions;
+mod intervals;
 mod liquid;
-mod meeting;
+mod periodic;
 mod plausible;
 mod press;
 mod primitives;
@@ -42,8 +45,8 @@ pub struct Setup {
     seeds: Seeds,
     /// Latest end, s.
     pub time_limit_s: f64,
-    /// How far the clamp can travel before its body meets the one named, m.
-    pub clamp_room: Option<(f64, String)>,
+    /// How far the clamp can travel before its body meets what is named, m.
+    pub clamp_clearance: Option<(f64, String)>,
     /// Gap between the adherends at the start, m; `None` without a clamp.
     pub initial_gap_m: Option<f64>,
     /// Duration that snapshots and history divide, s.
@@ -61,6 +64,9 @@ impl Setup {
         self.seeds.points()
     }
 }
+
+/// Low and high corner of a box, m.
+type Corners = ([f64; 3], [f64; 3]);
 
 /// Geometry of a scene: what differs between a bond file and `[[body]]` tables.
 struct Geometry {
@@ -141,7 +147,7 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
         water::check(water, &scene.bodies)?;
     }
     let liquid = geometry.seeds.amount().map_err(CaseError)?;
-    plausible::check(&scene, &liquid)?;
+    plausible::check(&scene, &liquid, time_limit_s)?;
     let initial_gap_m = scene.clamp.and(geometry.travel_m);
     // The steps of a press programme follow the flow, from microseconds to hours: each has a row.
     let history_every_s = match (case.output.history_every, scene.programme.is_empty()) {
@@ -150,7 +156,7 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
         (None, false) => 0.0,
     };
     Ok(Setup {
-        clamp_room: plausible::clamp_room(&scene),
+        clamp_clearance: plausible::clamp_clearance(&scene, time_limit_s),
         scene,
         liquid,
         seeds: geometry.seeds,

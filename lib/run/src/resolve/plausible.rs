@@ -1,8 +1,8 @@
 //! Scenes that no scheme can give a meaningful answer to, refused before they start.
 
-use physics::{Amount, Motion, Scene, Stop};
+use physics::{Amount, Clamp, Motion, Scene, Stop};
 
-use super::meeting;
+use super::collisions::{self, Obstacle};
 use crate::case::CaseError;
 use crate::verdict::MOST_PRESSURE;
 
@@ -10,11 +10,15 @@ use crate::verdict::MOST_PRESSURE;
 /// let touching bodies move against each other only to tell their reactions apart.
 pub(crate) const OVERLAP: f64 = 0.02;
 
+/// Periods that a body may go over periodic sides, within which collisions are looked for.
+const MOST_PERIODS: f64 = 1e6;
+
 /// Refuses a scene in which nothing is pressed, bodies would overlap, or speeds or weights are
-/// beyond what a nearly incompressible liquid can follow.
-pub(super) fn check(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
+/// beyond what a nearly incompressible liquid can follow. It ends at `limit_s` (s) at the latest.
+pub(super) fn check(scene: &Scene, liquid: &Amount, limit_s: f64) -> Result<(), CaseError> {
     slower_than_sound(scene, liquid)?;
     weight(scene)?;
+    periods(scene, limit_s)?;
     if let Some(clamp) = scene.clamp {
         if !scene.bodies.iter().any(|b| b.motion == Motion::Clamped) {
             return Err(CaseError(
@@ -27,44 +31,69 @@ pub(super) fn check(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
             Stop::Time(time) => time * clamp.closing_speed,
         };
         reached(scene, liquid, travel_m)?;
-        // Where pressure may stop the clamp before, the run itself looks at its travel.
-        let certain = matches!(scene.stop, Stop::Closed { .. }) || clamp.max_pressure.is_none();
-        if clamp.max_pressure.is_some() {
-            let (end_s, most_m) = match scene.stop {
-                Stop::Closed { travel_m } => (f64::INFINITY, travel_m),
-                Stop::Time(time) => (time, f64::INFINITY),
-            };
-            let slack = OVERLAP * scene.grid.cell_m;
-            if let Some(other) = meeting::possible(scene, end_s, most_m, slack) {
-                return Err(CaseError(format!(
-                    "where the clamp is when '{}' of given velocity comes into its way depends on [clamp] max_pressure, and bodies cannot overlap: no max_pressure, another velocity or an earlier end is needed",
-                    other.name
-                )));
-            }
-        }
-        if let Some((room_m, other)) = clamp_room(scene)
-            .filter(|(room_m, _)| certain || *room_m < -OVERLAP * scene.grid.cell_m)
-            && travel_m > room_m + OVERLAP * scene.grid.cell_m
-        {
+        clamp_is_clear(scene, clamp, travel_m, limit_s)?;
+    }
+    apart(scene, limit_s)
+}
+
+/// Refuses a clamp that would travel (m) into another body.
+fn clamp_is_clear(
+    scene: &Scene,
+    clamp: Clamp,
+    travel_m: f64,
+    limit_s: f64,
+) -> Result<(), CaseError> {
+    let slack = OVERLAP * scene.grid.cell_m;
+    if clamp.max_pressure.is_some() {
+        let most_m = match scene.stop {
+            Stop::Closed { travel_m } => travel_m,
+            Stop::Time(_) => f64::INFINITY,
+        };
+        if let Some(other) = collisions::possible(scene, limit_s, most_m, slack) {
             return Err(CaseError(format!(
-                "the clamp would travel {:.4} um, but its body meets '{other}' after {:.4} um and bodies cannot overlap: a smaller [clamp] travel (or stop time) is needed",
-                1e6 * travel_m,
-                1e6 * room_m.max(0.0)
+                "where the clamp is when '{}' of given velocity comes into its way depends on [clamp] max_pressure, and bodies cannot overlap: no max_pressure, another velocity or an earlier end is needed",
+                other.name
             )));
         }
     }
-    apart(scene)
+    // Where pressure may stop the clamp before, the run itself looks at its travel.
+    let certain = matches!(scene.stop, Stop::Closed { .. }) || clamp.max_pressure.is_none();
+    match clamp_clearance(scene, limit_s) {
+        Some((clearance_m, other))
+            if (certain || clearance_m < -slack) && travel_m > clearance_m + slack =>
+        {
+            Err(CaseError(format!(
+                "the clamp would travel {:.4} um, but its body meets {other} after {:.4} um and bodies cannot overlap: a smaller [clamp] travel (or stop time) is needed",
+                1e6 * travel_m,
+                1e6 * clearance_m.max(0.0)
+            )))
+        }
+        _ => Ok(()),
+    }
 }
 
-/// How far the clamp can travel before its body meets another one, m, and the name of that one.
-pub(super) fn clamp_room(scene: &Scene) -> Option<(f64, String)> {
-    let meeting = meeting::first(scene, true)?;
-    let [a, b] = meeting.bodies;
-    let other = if a.motion == Motion::Clamped { b } else { a };
-    Some((
-        meeting.time_s * scene.clamp?.closing_speed,
-        other.name.clone(),
-    ))
+/// How far the clamp can travel until `limit_s` (s) before its body meets something, m, and what that is.
+pub(super) fn clamp_clearance(scene: &Scene, limit_s: f64) -> Option<(f64, String)> {
+    let collision = collisions::first(scene, true, limit_s)?;
+    let travel_m = collision.time_s * scene.clamp?.closing_speed;
+    Some((travel_m, collision.with.to_string()))
+}
+
+/// Refuses bodies that go over more periods than collisions can be looked for in.
+fn periods(scene: &Scene, limit_s: f64) -> Result<(), CaseError> {
+    for body in &scene.bodies {
+        let v = scene.velocity(body.motion);
+        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+            let count = (scene.period(axis)).map_or(0.0, |length| v[axis].abs() * limit_s / length);
+            if count > MOST_PERIODS {
+                return Err(CaseError(format!(
+                    "the body '{}' would go over {count:.1e} periods of the domain along {name} by {limit_s:.4e} s; accepted are {MOST_PERIODS:.0e}: a lower velocity or an earlier end is needed",
+                    body.name
+                )));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn slower_than_sound(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
@@ -126,30 +155,30 @@ fn reached(scene: &Scene, liquid: &Amount, travel_m: f64) -> Result<(), CaseErro
     )))
 }
 
-/// Bodies of given velocities that would meet before the end.
-fn apart(scene: &Scene) -> Result<(), CaseError> {
+/// Refuses bodies of given velocities that would collide before the end.
+fn apart(scene: &Scene, limit_s: f64) -> Result<(), CaseError> {
     let end_s = match (scene.stop, scene.clamp) {
-        _ if !scene.programme.is_empty() => scene.programme.iter().map(|s| s.time_s).sum(),
-        (Stop::Time(time), _) => time,
-        (Stop::Closed { travel_m }, Some(clamp)) => travel_m / clamp.closing_speed,
-        (Stop::Closed { .. }, None) => return Ok(()),
-    };
-    match meeting::first(scene, false) {
-        Some(meeting) if overlap(scene, &meeting, end_s) > OVERLAP * scene.grid.cell_m => {
-            Err(CaseError(format!(
-                "the bodies '{}' and '{}' would overlap from {:.4e} s on, before the end at {end_s:.4e} s: other velocities or an earlier end are needed",
-                meeting.bodies[0].name,
-                meeting.bodies[1].name,
-                meeting.time_s.max(0.0)
-            )))
+        (Stop::Closed { travel_m }, Some(clamp))
+            if scene.programme.is_empty() && clamp.max_pressure.is_none() =>
+        {
+            limit_s.min(travel_m / clamp.closing_speed)
         }
-        _ => Ok(()),
+        _ => limit_s,
+    };
+    let Some(met) = collisions::first(scene, false, end_s) else {
+        return Ok(());
+    };
+    if met.speed * (end_s - met.time_s) <= OVERLAP * scene.grid.cell_m {
+        return Ok(());
     }
-}
-
-/// How far two bodies that meet have gone on at the end, m.
-fn overlap(scene: &Scene, meeting: &meeting::Meeting, end_s: f64) -> f64 {
-    let [a, b] = meeting.bodies.map(|body| scene.velocity(body.motion));
-    let square: f64 = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum();
-    square.sqrt() * (end_s - meeting.time_s)
+    let (name, from_s) = (&met.body.name, met.time_s.max(0.0));
+    Err(CaseError(match met.with {
+        Obstacle::Body(other) => format!(
+            "the bodies '{name}' and '{}' would overlap from {from_s:.4e} s on, before the end at {end_s:.4e} s: other velocities or an earlier end are needed",
+            other.name
+        ),
+        side @ Obstacle::Mirror(..) => format!(
+            "the body '{name}' would go through {side} from {from_s:.4e} s on, before the end at {end_s:.4e} s: another velocity, an open side or an earlier end is needed"
+        ),
+    }))
 }

@@ -3,13 +3,16 @@
 use physics::{Dimensions, GridBox, Motion, RigidBody, VoxelBlock};
 
 use super::seed::{Lattice, Seeds};
-use super::{Geometry, cells_along};
+use super::{Corners, Geometry, boundary, cells_along, periodic};
 use crate::case::{Body, BodyVelocity, BoxCorners, Case, CaseError, MaterialName};
 
 pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, CaseError> {
     let cell = case.grid.cell.si();
     let depth = (dimensions == Dimensions::Two).then_some(cell);
-    let grid = grid(case, cell, depth)?;
+    let boundary = boundary(case, dimensions)?;
+    let domain = domain(case, depth)?;
+    let grid = grid(domain, cell)?;
+    periodic::check(&grid, domain, boundary)?;
     let mut lattices = Vec::new();
     let mut bodies: Vec<RigidBody> = Vec::new();
     let mut filled: Vec<(usize, Corners)> = Vec::new();
@@ -41,7 +44,10 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
                     .map_err(|e| CaseError(format!("[[body]] number {}: {e}", index + 1)))?;
                 lattices.push(lattice);
             }
-            MaterialName::Rigid => add_rigid(&mut bodies, body, min, max, case.clamp.is_some())?,
+            MaterialName::Rigid => {
+                let parts = periodic::inside((min, max), &grid, boundary, dimensions);
+                add_rigid(&mut bodies, body, parts, case.clamp.is_some())?;
+            }
         }
     }
     let moving = bodies.iter().position(|b| b.motion != Motion::Fixed);
@@ -58,9 +64,6 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
     })
 }
 
-/// Low and high corner of a box, m.
-type Corners = ([f64; 3], [f64; 3]);
-
 /// Whether two boxes share more than rounding makes of a common face.
 fn overlap(a: &Corners, b: &Corners) -> bool {
     (0..3).all(|i| {
@@ -73,8 +76,7 @@ fn overlap(a: &Corners, b: &Corners) -> bool {
 fn add_rigid(
     bodies: &mut Vec<RigidBody>,
     body: &Body,
-    min: [f64; 3],
-    max: [f64; 3],
+    parts: Vec<Corners>,
     clamped: bool,
 ) -> Result<(), CaseError> {
     let motion = match body.velocity {
@@ -89,15 +91,15 @@ fn add_rigid(
         }
     };
     let name = body.name.clone().unwrap_or_else(|| "wall".into());
-    let block = VoxelBlock::solid_box(min, max);
+    let blocks = (parts.into_iter()).map(|(min, max)| VoxelBlock::solid_box(min, max));
     match bodies
         .iter_mut()
         .find(|b| b.name == name && b.motion == motion)
     {
-        Some(same) => same.blocks.push(block),
+        Some(same) => same.blocks.extend(blocks),
         None => bodies.push(RigidBody {
             name,
-            blocks: vec![block],
+            blocks: blocks.collect(),
             motion,
         }),
     }
@@ -118,24 +120,24 @@ fn corners(corners: &BoxCorners, depth: Option<f64>) -> Result<Corners, String> 
     }
 }
 
-fn grid(case: &Case, cell: f64, depth: Option<f64>) -> Result<GridBox, CaseError> {
-    let (min, max) = match &case.grid.domain {
-        Some(domain) => {
-            corners(domain, depth).map_err(|e| CaseError(format!("[grid] domain: {e}")))?
+/// The domain as given, or the box around all bodies.
+fn domain(case: &Case, depth: Option<f64>) -> Result<Corners, CaseError> {
+    if let Some(domain) = &case.grid.domain {
+        return corners(domain, depth).map_err(|e| CaseError(format!("[grid] domain: {e}")));
+    }
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for body in &case.body {
+        let (min, max) = corners(&body.corners, depth).map_err(CaseError)?;
+        for a in 0..3 {
+            low[a] = low[a].min(min[a]);
+            high[a] = high[a].max(max[a]);
         }
-        None => {
-            let mut low = [f64::INFINITY; 3];
-            let mut high = [f64::NEG_INFINITY; 3];
-            for body in &case.body {
-                let (min, max) = corners(&body.corners, depth).map_err(CaseError)?;
-                for a in 0..3 {
-                    low[a] = low[a].min(min[a]);
-                    high[a] = high[a].max(max[a]);
-                }
-            }
-            (low, high)
-        }
-    };
+    }
+    Ok((low, high))
+}
+
+fn grid((min, max): Corners, cell: f64) -> Result<GridBox, CaseError> {
     let mut cells = [0; 3];
     for a in 0..3 {
         cells[a] = cells_along((max[a] - min[a]) / cell - 1e-6)?;

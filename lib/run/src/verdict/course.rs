@@ -23,11 +23,13 @@ pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
         ("pressure on the upper body", report.pressure_top),
     ];
     finite(&numbers)?;
-    match &setup.clamp_room {
-        Some((room_m, other)) if report.travel_m > room_m + OVERLAP * setup.scene.grid.cell_m => {
+    match &setup.clamp_clearance {
+        Some((clearance_m, other))
+            if report.travel_m > clearance_m + OVERLAP * setup.scene.grid.cell_m =>
+        {
             Err(Failure(format!(
-                "the clamp's body has met '{other}' after {:.4} um and would overlap it; an earlier stop, stop = \"closed\" or a lower max_pressure is needed",
-                1e6 * room_m
+                "the clamp's body has met {other} after {:.4} um and would overlap it; an earlier stop, stop = \"closed\" or a lower max_pressure is needed",
+                1e6 * clearance_m
             )))
         }
         _ => Ok(()),
@@ -142,7 +144,7 @@ mod tests {
     #[test]
     fn a_step_reports_finite_numbers_and_no_body_in_another() {
         let mut setup = setup();
-        setup.clamp_room = Some((1e-6, "bottom".into()));
+        setup.clamp_clearance = Some((1e-6, "'bottom'".into()));
         let report = StepReport {
             travel_m: 1e-6,
             ..StepReport::default()

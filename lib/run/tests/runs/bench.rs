@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use particle_file::Provenance;
-use run::{Mode, Request, RunFailure, Summary};
+use run::{Ahead, Mode, Request, RunFailure, Summary};
 use tempfile::TempDir;
 
 /// A case of a drop `drop` um wide and 10 um high on the lower of two plates in a box `wide` um wide,
@@ -137,7 +137,7 @@ snapshots = 3"#
         folder: &str,
         mode: Mode,
         stop: &dyn Fn() -> bool,
-        progress: &mut dyn FnMut(f64, String),
+        progress: &mut dyn FnMut(&[Ahead], String),
         changes: &[&str],
     ) -> Result<Option<Summary>, RunFailure> {
         let by = Provenance {

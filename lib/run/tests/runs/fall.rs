@@ -1,7 +1,7 @@
 //! A run as its folder tells it: a drop in free fall, whose speed, energy and place are known.
 
 use particle_file::ParticleFile;
-use run::{End, Summary};
+use run::{Ahead, End, Summary};
 
 use crate::bench::{Bench, PLAIN};
 
@@ -37,7 +37,10 @@ history_every = "0.1 us"
 
 fn fall(bench: &Bench) -> Summary {
     let mut fractions = Vec::new();
-    let mut progress = |fraction: f64, said: String| {
+    let mut progress = |ends: &[Ahead], said: String| {
+        let &[("of the time, {} left", fraction)] = ends else {
+            panic!("{ends:?}");
+        };
         let time: f64 = said.split(' ').next().unwrap().parse().unwrap();
         // Told to a thousandth of the run's 1 us.
         assert!((fraction - time).abs() < 6e-4, "{fraction}: {said}");

@@ -4,7 +4,10 @@
 mod answers;
 mod bench;
 mod bond;
+mod checkpoint_format;
 mod fall;
+mod periodic;
+mod permissions;
 mod plan;
 mod press;
 mod refused;

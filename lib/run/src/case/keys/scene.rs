@@ -120,7 +120,7 @@ pub(super) const BOUNDARY: Table = Table {
     path: "boundary",
     repeated: false,
     always: true,
-    about: "The sides of the box: `\"symmetry\"` mirrors, liquid leaves through `\"open\"`, `\"periodic\"` joins both ends.",
+    about: "The sides of the box: `\"symmetry\"` mirrors, liquid leaves through `\"open\"`, `\"periodic\"` joins both ends. What of a rigid box lies beyond a periodic side comes in at the other one. A moving body that would collide with another one, through periodic sides too, or go from within through a mirror is refused.",
     keys: &[
         Key {
             name: "x",

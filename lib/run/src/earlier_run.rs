@@ -1,4 +1,4 @@
-//! What of an earlier run in a run folder is kept, continued or replaced.
+//! Files of an earlier run in a run folder: kept, continued or replaced.
 
 use std::fs;
 use std::io;
@@ -7,11 +7,10 @@ use std::path::{Path, PathBuf};
 use particle_file::{Kind, ParticleFile, Provenance};
 use same_file::is_same_file;
 
-use crate::checkpoint::{self, Checkpoint, Clock};
+use crate::checkpoint::{self, Checkpoint, Clock, Origin};
 use crate::drive::RunError;
-use crate::folder::{
-    ASIDE, CHECKPOINT, FINAL, HISTORY, RESOLVED, RunFolder, SNAPSHOTS, SUMMARY, is_there,
-};
+use crate::files::is_there;
+use crate::folder::{ASIDE, CHECKPOINT, FINAL, HISTORY, RESOLVED, RunFolder, SNAPSHOTS, SUMMARY};
 use crate::request::RunFailure;
 use crate::resolved;
 
@@ -33,17 +32,17 @@ pub struct Mode {
 pub(crate) fn checkpoint(
     folder: &RunFolder,
     mode: Mode,
-    identity: &str,
+    origin: &Origin,
     text: &str,
-    by: &Provenance,
 ) -> Result<Option<Checkpoint>, RunFailure> {
     // A run with a final state has ended; a checkpoint beside it waits to be removed.
     if !mode.resume || is_there(&folder.place(FINAL)) {
         return Ok(None);
     }
-    match checkpoint::read(folder.path(), identity) {
+    match checkpoint::read(folder.path(), origin) {
         Ok(Some(checkpoint)) => {
-            prove_snapshots(folder, checkpoint.clock.snapshots, by)?;
+            prove_snapshots(folder, checkpoint.clock.snapshots, &origin.by)?;
+            folder.check_writable(&replaced(folder, checkpoint.clock.snapshots)?)?;
             Ok(Some(checkpoint))
         }
         Ok(None) => Ok(None),
@@ -129,7 +128,7 @@ fn clear(folder: &RunFolder, by: &Provenance) -> Result<(), RunFailure> {
         })?;
     }
     prove_snapshots(folder, 0, by)?;
-    folder.check_writable()?;
+    folder.check_writable(&replaced(folder, 0)?)?;
     for name in [FINAL, CHECKPOINT, SUMMARY, HISTORY] {
         folder.remove(name)?;
     }
@@ -145,8 +144,8 @@ fn clear(folder: &RunFolder, by: &Provenance) -> Result<(), RunFailure> {
 ///
 /// # Errors
 /// A failed removal.
-pub(crate) fn tidy(folder: &RunFolder, identity: &str) -> Result<(), RunFailure> {
-    if checkpoint::read(folder.path(), identity).is_ok_and(|found| found.is_some()) {
+pub(crate) fn tidy(folder: &RunFolder, origin: &Origin) -> Result<(), RunFailure> {
+    if checkpoint::read(folder.path(), origin).is_ok_and(|found| found.is_some()) {
         folder.remove(CHECKPOINT)?;
     }
     Ok(())
@@ -166,12 +165,7 @@ pub(crate) fn make_room(folder: &RunFolder, inputs: &[PathBuf]) -> Result<(), Ru
         ));
     }
     let asides = [ASIDE.to_owned(), format!("{SNAPSHOTS}/{ASIDE}")];
-    let mut names: Vec<String> = [FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED]
-        .map(String::from)
-        .into();
-    names.extend(asides.clone());
-    names.extend(snapshots(folder, 0)?);
-    for name in &names {
+    for name in replaced(folder, 0)?.iter().chain(&asides) {
         let path = folder.place(name);
         let Ok(found) = fs::symlink_metadata(&path) else {
             continue;
@@ -193,6 +187,12 @@ pub(crate) fn make_room(folder: &RunFolder, inputs: &[PathBuf]) -> Result<(), Ru
 fn is_same(input: &Path, path: &Path) -> bool {
     fs::metadata(input).is_ok_and(|found| found.is_file())
         && is_same_file(input, path).unwrap_or(false)
+}
+
+/// Names of the files that a run replaces which goes on with snapshot number `first`.
+fn replaced(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunError> {
+    let names = [FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED].map(String::from);
+    Ok([names.into(), snapshots(folder, first)?].concat())
 }
 
 /// Names in the run folder of the snapshots from number `first` on.

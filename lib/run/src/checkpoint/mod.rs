@@ -1,0 +1,233 @@
+//! Checkpoints: all that a run needs to go on bit by bit.
+
+mod read;
+mod write;
+
+use particle_file::Provenance;
+use physics::{Choice, Saved, StepReport};
+
+use crate::case::SchemeName;
+use crate::courant::Courant;
+use crate::folder::{CHECKPOINT, RunFolder};
+use crate::history::Extent;
+
+pub(crate) use read::read;
+pub(crate) use write::write;
+
+/// Number of the layout of what a run adds to the arrays of its scheme: raised by any change of it.
+const RUN_FORMAT: u32 = 1;
+
+/// What a checkpoint must be of for a run to go on from it.
+#[derive(Debug)]
+pub(crate) struct Origin {
+    /// The case but for its Courant number, and the bond file.
+    pub(crate) identity: String,
+    /// The layout of its arrays.
+    pub(crate) format: String,
+    /// The tool that writes it, with its version.
+    pub(crate) by: Provenance,
+}
+
+/// The layout of the checkpoints of a scheme by this build: its number is raised by any change of the arrays that the
+/// scheme saves, or of what they mean.
+pub(crate) fn format(scheme: SchemeName) -> String {
+    let number = match scheme {
+        SchemeName::Explicit => 1,
+        SchemeName::Implicit => 1,
+        SchemeName::VolumeFraction => 1,
+    };
+    format!("{} {number}, run {RUN_FORMAT}", scheme.name())
+}
+
+// Attributes of a checkpoint's header.
+const IDENTITY: &str = "identity";
+const FORMAT: &str = "checkpoint_format";
+const SNAPSHOTS: &str = "snapshots";
+const ROW_MISSING: &str = "row_missing";
+const HISTORY_BYTES: &str = "history_bytes";
+const HISTORY_HASH: &str = "history_hash";
+const LOST: &str = "lost";
+const ITERATIONS: &str = "iterations";
+
+/// Where a run is in time, and what it has written.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Clock {
+    /// Steps taken.
+    pub step: u64,
+    /// Time, s.
+    pub time_s: f64,
+    /// Clamp travel, m.
+    pub travel_m: f64,
+    /// When the next row of the history is due, s.
+    pub next_history_s: f64,
+    /// When the next snapshot is due, s.
+    pub next_snapshot_s: f64,
+    /// Snapshots written.
+    pub snapshots: u32,
+    /// Report of the last step, which the end of a run quotes.
+    pub last: StepReport,
+    /// Whether that step has no row in the history.
+    pub row_missing: bool,
+}
+
+impl Clock {
+    /// Refuses what is no place in time; `header_s` is the time that the file's header says.
+    fn check(&self, header_s: f64) -> Result<(), String> {
+        /// Steps that a double counts one by one.
+        const MOST_STEPS: u64 = 1 << 53;
+        let due = |t: f64| t >= 0.0; // infinite where nothing is due
+        let sound = self.time_s == header_s
+            && self.travel_m.is_finite()
+            && due(self.next_history_s)
+            && due(self.next_snapshot_s)
+            && self.step <= MOST_STEPS;
+        match sound {
+            true => Ok(()),
+            false => Err(format!("its clock is not that of a run: {self:?}")),
+        }
+    }
+}
+
+/// A run as its checkpoint holds it; `S` is what is read of the scheme's state, or what writes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint<S = Saved> {
+    /// Where the run is.
+    pub clock: Clock,
+    /// Which part of it was taken at which Courant number.
+    pub courant: Vec<Courant>,
+    /// How far its history went.
+    pub history: Extent,
+    /// State of the scheme.
+    pub saved: S,
+}
+
+/// The end of a sentence that says where the last checkpoint is.
+pub(crate) fn where_last(folder: &RunFolder) -> String {
+    let path = folder.place(CHECKPOINT);
+    if path.exists() {
+        format!(
+            "; --resume goes on from the last good checkpoint, {}, at another integrator.cfl if wanted",
+            path.display()
+        )
+    } else {
+        "; it came before the first checkpoint".into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use particle_file::{Draft, Header, Kind};
+    use physics::{Array, Pieces, Saving};
+
+    use super::*;
+    use crate::folder::tests::{by, held};
+
+    #[test]
+    fn a_checkpoint_comes_back_bit_by_bit_and_only_to_its_own_run() {
+        let (place, folder) = held();
+        let clock = Clock {
+            step: 7,
+            time_s: 0.1 + 0.2,
+            travel_m: 1e-6,
+            next_history_s: 0.3,
+            next_snapshot_s: f64::INFINITY,
+            snapshots: 3,
+            last: StepReport {
+                dt_s: 0.1,
+                closing_speed: 1.0,
+                travel_m: 1e-6,
+                pressure_bottom: -0.0,
+                pressure_top: 1e300,
+                lost: u64::MAX,
+                iterations: 7,
+            },
+            row_missing: true,
+        };
+        let saved = Saved(vec![
+            ("a".into(), Array::F64(vec![1.0, -0.0, 1e-300])),
+            ("b".into(), Array::F32(vec![0.1; 5])),
+            ("c".into(), Array::U32(vec![4, 5])),
+        ]);
+        let courant = [(0, 1.0), (5, 0.3)].map(|(after_step, cfl)| Courant { after_step, cfl });
+        let history = Extent {
+            bytes: 1 << 60,
+            hash: u64::MAX,
+        };
+        let whole = |array: &Array| Saving::Whole(array.clone());
+        // An array in pieces is the same in the file.
+        let numbers: Pieces<f32> =
+            Box::new(|take| [2, 0, 3].iter().for_each(|&n| take(&[0.1; 3][..n])));
+        let saving = vec![
+            ("a".into(), whole(&saved.0[0].1)),
+            ("b".into(), Saving::F32(numbers)),
+            ("c".into(), whole(&saved.0[2].1)),
+        ];
+        let checkpoint = Checkpoint {
+            clock,
+            courant: courant.to_vec(),
+            history,
+            saved: saving,
+        };
+        let of = |identity: &str| Origin {
+            identity: identity.into(),
+            format: "explicit 1, run 1".into(),
+            by: by("0.1.0"),
+        };
+        assert_eq!(read(place.path(), &of("x")).unwrap(), None);
+        write(&folder, &of("x"), checkpoint).unwrap();
+        let found = read(place.path(), &of("x")).unwrap().unwrap();
+        assert_eq!((found.clock, found.courant), (clock, courant.to_vec()));
+        assert_eq!((found.history, found.saved), (history, saved));
+        let said = read(place.path(), &of("y")).unwrap_err().to_string();
+        assert!(said.contains("another case"), "{said}");
+    }
+
+    /// It was said to have no array of some name.
+    #[test]
+    fn a_checkpoint_of_another_build_names_that_build() {
+        let (place, folder) = held();
+        let of = |version: &str, format: &str| Origin {
+            identity: "x".into(),
+            format: format.into(),
+            by: by(version),
+        };
+        let checkpoint = Checkpoint {
+            clock: Clock::default(),
+            courant: Vec::new(),
+            history: Extent::default(),
+            saved: Vec::new(),
+        };
+        write(&folder, &of("0.1.0", "explicit 1, run 1"), checkpoint).unwrap();
+        let said = |version: &str, format: &str| {
+            let found = read(place.path(), &of(version, format));
+            found.map(|_| ()).map_err(|error| error.to_string())
+        };
+        said("0.1.0", "explicit 1, run 1").unwrap();
+        for (version, format) in [
+            ("0.1.0", "explicit 2, run 1"),
+            ("0.2.0", "explicit 1, run 1"),
+        ] {
+            let told = said(version, format).unwrap_err();
+            let there = "written by mpm-run 0.1.0 in the checkpoint format 'explicit 1, run 1'";
+            let here = format!("this is mpm-run {version} in the checkpoint format '{format}'");
+            assert!(told.contains(there) && told.contains(&here), "{told}");
+            assert!(
+                told.contains("continue the run with the build that wrote it"),
+                "{told}"
+            );
+        }
+        // As builds did that named no format.
+        let mut header = Header::new(Kind::Checkpoint, 1.0, 1, [0.0; 3], [0.0; 3]);
+        header.set_attribute(IDENTITY, "0.1.0 0123456789abcdef 0000000000000000");
+        let mut bytes = Vec::new();
+        Draft::new(header).write_to(&mut bytes).unwrap();
+        fs::write(place.path().join(CHECKPOINT), bytes).unwrap();
+        let told = said("0.2.0", "explicit 1, run 1").unwrap_err();
+        assert!(
+            told.contains("a build of mpm-run 0.1.0 whose checkpoints do not name"),
+            "{told}"
+        );
+    }
+}

@@ -1,0 +1,134 @@
+//! Reading a checkpoint.
+
+use std::path::Path;
+
+use particle_file::{Header, Kind, ParticleFile};
+use physics::{Array, Saved, StepReport};
+
+use super::*;
+use crate::drive::RunError;
+
+/// Reads the run folder's checkpoint, if there is one.
+///
+/// # Errors
+/// A checkpoint that is corrupt, or belongs to another case or particle file, or was written by another build.
+pub(crate) fn read(folder: &Path, origin: &Origin) -> Result<Option<Checkpoint>, RunError> {
+    let path = folder.join(CHECKPOINT);
+    if !path.exists() {
+        return Ok(None);
+    }
+    let bad = |said: String| RunError::Checkpoint(format!("{}: {said}", path.display()));
+    let file = ParticleFile::open(&path).map_err(|e| RunError::Checkpoint(e.to_string()))?;
+    let header = file.header();
+    if header.kind != Kind::Checkpoint {
+        return Err(bad("it is no checkpoint".into()));
+    }
+    let written = header.attribute(FORMAT).is_some();
+    if written && header.attribute(IDENTITY) != Some(&origin.identity) {
+        return Err(RunError::AnotherCase(format!(
+            "{}: it belongs to another case (only integrator.cfl may change) or particle file; use --overwrite to start anew",
+            path.display()
+        )));
+    }
+    another_build(header, origin).map_or(Ok(()), |said| Err(bad(said)))?;
+    content(&file).map(Some).map_err(bad)
+}
+
+/// Which build wrote a checkpoint that this one does not go on from.
+fn another_build(header: &Header, origin: &Origin) -> Option<String> {
+    let here = &origin.by;
+    let of = |tool: &str, version: &str, format: &str| {
+        format!("{tool} {version} in the checkpoint format '{format}'")
+    };
+    let writer = match (header.provenance.last(), header.attribute(FORMAT)) {
+        (Some(by), Some(format)) if by.version == here.version && format == origin.format => {
+            return None;
+        }
+        (Some(by), Some(format)) => of(&by.tool, &by.version, format),
+        // Before formats had names the identity began with the version.
+        _ => {
+            let version = (header.attribute(IDENTITY)).and_then(|text| text.split(' ').next());
+            let version = version.unwrap_or("of unknown version");
+            format!(
+                "a build of {} {version} whose checkpoints do not name their format",
+                here.tool
+            )
+        }
+    };
+    Some(format!(
+        "it was written by {writer}, and this is {}; continue the run with the build that wrote it, or use --overwrite to start anew",
+        of(&here.tool, &here.version, &origin.format)
+    ))
+}
+
+/// What a checkpoint of this build holds.
+fn content(file: &ParticleFile) -> Result<Checkpoint, String> {
+    let header = file.header();
+    let numbers = |name| file.column::<f64>(name).map_err(|e| e.to_string());
+    let clock = clock(header, numbers("run.clock")?, numbers("run.last_step")?)?;
+    clock.check(header.time_s)?;
+    let courant = (numbers("run.courant")?.as_chunks().0.iter())
+        .map(|&[after, cfl]| Courant {
+            after_step: after as u64,
+            cfl,
+        })
+        .collect();
+    let columns = file.columns().filter(|c| !c.name.starts_with("run."));
+    let saved = columns.map(|column| Ok((column.name.clone(), array(file, &column.name)?)));
+    Ok(Checkpoint {
+        clock,
+        courant,
+        history: Extent {
+            bytes: attribute(header, HISTORY_BYTES)?,
+            hash: attribute(header, HISTORY_HASH)?,
+        },
+        saved: Saved(saved.collect::<Result<_, String>>()?),
+    })
+}
+
+fn clock(header: &Header, times: &[f64], last: &[f64]) -> Result<Clock, String> {
+    let &[time_s, travel_m, next_history_s, next_snapshot_s] = times else {
+        return Err("it has no whole clock".into());
+    };
+    let &[
+        dt_s,
+        closing_speed,
+        last_travel_m,
+        pressure_bottom,
+        pressure_top,
+    ] = last
+    else {
+        return Err("it has no whole last step".into());
+    };
+    Ok(Clock {
+        step: header.step,
+        time_s,
+        travel_m,
+        next_history_s,
+        next_snapshot_s,
+        snapshots: attribute(header, SNAPSHOTS)?,
+        last: StepReport {
+            dt_s,
+            closing_speed,
+            travel_m: last_travel_m,
+            pressure_bottom,
+            pressure_top,
+            lost: attribute(header, LOST)?,
+            iterations: attribute(header, ITERATIONS)?,
+        },
+        row_missing: attribute(header, ROW_MISSING)?,
+    })
+}
+
+fn array(file: &ParticleFile, name: &str) -> Result<Array, String> {
+    file.column::<f64>(name)
+        .map(|v| Array::F64(v.to_vec()))
+        .or_else(|_| file.column::<f32>(name).map(|v| Array::F32(v.to_vec())))
+        .or_else(|_| file.column::<u32>(name).map(|v| Array::U32(v.to_vec())))
+        .map_err(|e| e.to_string())
+}
+
+fn attribute<T: std::str::FromStr>(header: &Header, name: &str) -> Result<T, String> {
+    let found = header.attribute(name).and_then(|text| text.parse().ok());
+    found.ok_or_else(|| format!("its attribute '{name}' is missing or no number"))
+}

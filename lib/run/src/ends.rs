@@ -1,0 +1,169 @@
+//! Ends of a run: which is reached, how far a step may go, and how far the run is on the way to each.
+
+use physics::{Cure, Scheme, StepLimit, Stop};
+
+use crate::checkpoint::Clock;
+use crate::resolve::Setup;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum End {
+    /// The adherends are back in place.
+    Closed,
+    /// The time asked for is reached.
+    Time,
+    /// All stages of the press programme are over.
+    Programme,
+    /// Closure did not come before the time limit: the pressure limit holds the gap open.
+    TimeLimit,
+    /// The adhesive has set and flows no more.
+    Set,
+    /// Stopped by the user; can be resumed.
+    Interrupted,
+}
+
+/// An end that a run may come to: what is said of it, in which `{}` stands for the time left, and the part of the way
+/// there that is done. Of several the last one comes at the latest.
+pub type Ahead = (&'static str, f64);
+
+/// The ends of a run.
+pub(crate) struct Ends<'a> {
+    setup: &'a Setup,
+    /// When the adhesive will have set, s.
+    set: Option<f64>,
+}
+
+impl<'a> Ends<'a> {
+    pub(crate) fn of(setup: &'a Setup) -> Self {
+        Self {
+            setup,
+            set: setup.scene.liquid.cure.as_ref().and_then(Cure::set_at),
+        }
+    }
+
+    /// The end that a run has come to.
+    pub(crate) fn reached(&self, clock: &Clock, scheme: &dyn Scheme) -> Option<End> {
+        // A relative hair, so that a sum of many steps that should meet the end does.
+        let reached = |t: f64, goal: f64| t >= goal * (1.0 - 1e-12);
+        if self.set.is_some_and(|set| reached(clock.time_s, set)) {
+            return Some(End::Set);
+        }
+        if scheme.has_set() {
+            return Some(End::Set);
+        }
+        if let Some(programme) = scheme.programme() {
+            return programme.is_over().then_some(End::Programme);
+        }
+        match self.setup.scene.stop {
+            Stop::Time(t) => reached(clock.time_s, t).then_some(End::Time),
+            Stop::Closed { travel_m } => {
+                if clock.travel_m >= travel_m * (1.0 - 1e-9) {
+                    Some(End::Closed)
+                } else {
+                    reached(clock.time_s, self.setup.time_limit_s).then_some(End::TimeLimit)
+                }
+            }
+        }
+    }
+
+    /// When a run ends at the latest, s.
+    fn latest_s(&self) -> f64 {
+        let limit = self.setup.time_limit_s;
+        self.set.map_or(limit, |set| limit.min(set))
+    }
+
+    /// How far the next step may go.
+    pub(crate) fn limit(&self, clock: &Clock) -> StepLimit {
+        if !self.setup.scene.programme.is_empty() {
+            // Its stages have their own ends.
+            return StepLimit {
+                time_s: (self.set).map_or(f64::INFINITY, |set| set - clock.time_s),
+                travel_m: f64::INFINITY,
+            };
+        }
+        StepLimit {
+            time_s: self.latest_s() - clock.time_s,
+            travel_m: match self.setup.scene.stop {
+                Stop::Closed { travel_m } => travel_m - clock.travel_m,
+                Stop::Time(_) => f64::INFINITY,
+            },
+        }
+    }
+
+    /// The ends that a run may come to. A pressure limit slows a clamp down more and more, and may hold it: when it
+    /// has closed is known from below alone, and the time limit is the latest end.
+    pub(crate) fn ahead(&self, clock: &Clock) -> Vec<Ahead> {
+        let scene = &self.setup.scene;
+        let latest_s = self.latest_s();
+        let time = clock.time_s / latest_s;
+        let sets = latest_s < self.setup.time_limit_s;
+        let Stop::Closed { travel_m } = scene.stop else {
+            let time_is_up = "of the time, {} left";
+            let set = "of the time until it sets, {} left at most";
+            return vec![(if sets { set } else { time_is_up }, time)];
+        };
+        let latest = match (sets, scene.programme.is_empty()) {
+            (true, _) => "of the time until it sets, {} left at most",
+            (false, true) => "of the time limit, {} left at most",
+            (false, false) => "of the programme's time, {} left at most",
+        };
+        if !scene.programme.is_empty() {
+            // Stages go on where the clamp has come to its end.
+            return vec![(latest, time)];
+        }
+        let closed = clock.travel_m / travel_m;
+        let (limited, speed) = (scene.clamp).map_or((false, 0.0), |clamp| {
+            (clamp.max_pressure.is_some(), clamp.closing_speed)
+        });
+        match limited {
+            true => vec![("closed, {} left at least", closed), (latest, time)],
+            false if travel_m <= speed * latest_s => vec![("closed, {} left", closed)],
+            false => vec![(latest, time)],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use physics::Clamp;
+
+    use super::*;
+    use crate::verdict::tests::setup;
+
+    /// The part of the way closed was taken for that of the time, too, where a limit may hold the clamp.
+    #[test]
+    fn a_clamp_with_a_limit_closes_at_the_earliest_and_ends_at_its_time_limit_at_the_latest() {
+        let mut setup = setup();
+        let clamp = |max_pressure| Clamp {
+            closing_speed: 1.0,
+            max_pressure,
+            pid: None,
+        };
+        setup.scene.stop = Stop::Closed { travel_m: 4e-6 };
+        setup.time_limit_s = 8e-6;
+        let clock = Clock {
+            time_s: 2e-6,
+            travel_m: 1e-6,
+            ..Clock::default()
+        };
+        let mut ahead = |clamp, limit_s| {
+            setup.scene.clamp = Some(clamp);
+            setup.time_limit_s = limit_s;
+            Ends::of(&setup).ahead(&clock)
+        };
+        let limit = ("of the time limit, {} left at most", 0.25);
+        assert_eq!(
+            ahead(clamp(Some(1e6)), 8e-6),
+            [("closed, {} left at least", 0.25), limit]
+        );
+        assert_eq!(ahead(clamp(None), 8e-6), [("closed, {} left", 0.25)]);
+        assert_eq!(ahead(clamp(None), 3e-6)[0].1, 2.0 / 3.0);
+        setup.scene.stop = Stop::Time(8e-6);
+        setup.time_limit_s = 8e-6;
+        assert_eq!(
+            Ends::of(&setup).ahead(&clock),
+            [("of the time, {} left", 0.25)]
+        );
+    }
+}

@@ -1,0 +1,74 @@
+//! How far one block of voxels can come down before it lies on another.
+
+use physics::VoxelBlock;
+
+/// How far `upper` can come down before a solid voxel of it meets one of `lower`, m.
+pub(super) fn clearance(upper: &VoxelBlock, lower: &VoxelBlock, slack: f64) -> Option<f64> {
+    let [nx, _, nz] = upper.dims();
+    let mut least: Option<f64> = None;
+    for k in 0..nz {
+        for i in 0..nx {
+            let Some(bottom) = lowest(upper, i, k) else {
+                continue;
+            };
+            let (columns_x, columns_z) = (
+                columns(upper, i, lower, 0, slack),
+                columns(upper, k, lower, 2, slack),
+            );
+            for (c, d) in columns_x.flat_map(|c| columns_z.clone().map(move |d| (c, d))) {
+                if let Some(top) = highest_below(lower, c, d, bottom + slack) {
+                    let here = bottom - top;
+                    least = Some(least.map_or(here, |least| least.min(here)));
+                }
+            }
+        }
+    }
+    least
+}
+
+/// Indices along `axis` of the voxels of `other` that voxel `index` of `block` shares a place with.
+fn columns(
+    block: &VoxelBlock,
+    index: usize,
+    other: &VoxelBlock,
+    axis: usize,
+    slack: f64,
+) -> std::ops::Range<usize> {
+    let low = block.origin()[axis] + index as f64 * block.voxel()[axis] + slack;
+    let high = low + block.voxel()[axis] - 2.0 * slack;
+    let place = |x: f64| (x - other.origin()[axis]) / other.voxel()[axis];
+    // A cast takes negative places to 0.
+    place(low) as usize..(place(high).ceil().max(0.0) as usize).min(other.dims()[axis])
+}
+
+/// Lower face of the lowest solid voxel of a column, m.
+fn lowest(block: &VoxelBlock, i: usize, k: usize) -> Option<f64> {
+    let j = (0..block.dims()[1]).find(|&j| block.solid(i, j, k))?;
+    Some(block.origin()[1] + j as f64 * block.voxel()[1])
+}
+
+/// Upper face of the highest solid voxel of a column that ends at or below `limit`, m.
+fn highest_below(block: &VoxelBlock, i: usize, k: usize, limit: f64) -> Option<f64> {
+    let top = |j: usize| block.origin()[1] + (j + 1) as f64 * block.voxel()[1];
+    let j = (0..block.dims()[1])
+        .rev()
+        .find(|&j| top(j) <= limit && block.solid(i, j, k))?;
+    Some(top(j))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn voxels_meet_where_one_stands_over_the_other() {
+        // The lower block has a groove at i = 1; the upper a tooth of two voxels above it.
+        let lower = VoxelBlock::from_fn([0.0; 3], [1.0; 3], [3, 3, 1], |i, j, _| i != 1 || j < 1);
+        let tooth = VoxelBlock::from_fn([0.0, 5.0, 0.0], [1.0; 3], [3, 3, 1], |i, j, _| {
+            i == 1 || j > 1
+        });
+        assert_eq!(clearance(&tooth, &lower, 1e-9), Some(4.0));
+        let plate = VoxelBlock::solid_box([0.0, 5.0, 0.0], [3.0, 6.0, 1.0]);
+        assert_eq!(clearance(&plate, &lower, 1e-9), Some(2.0));
+    }
+}

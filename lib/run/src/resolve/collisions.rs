@@ -1,0 +1,314 @@
+//! Collisions: when rigid bodies would overlap one another, or a body its mirror image, so that the liquid between
+//! them would have no place left.
+
+use std::fmt;
+
+use physics::{Boundary, Motion, RigidBody, Scene, VoxelBlock};
+
+use super::clearance::clearance;
+use super::intervals::{Overlap, common};
+
+/// Part of a cell by which bodies may overlap by rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// What a body collides with.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Obstacle<'a> {
+    /// Another body.
+    Body(&'a RigidBody),
+    /// A symmetry side, behind which its own image comes towards it: axis, and whether it is the upper side.
+    Mirror(usize, bool),
+}
+
+impl fmt::Display for Obstacle<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Body(body) => write!(f, "'{}'", body.name),
+            Self::Mirror(axis, upper) => write!(
+                f,
+                "the symmetry side at the {} end of {}",
+                if upper { "upper" } else { "lower" },
+                ["x", "y", "z"][axis]
+            ),
+        }
+    }
+}
+
+/// A body and what it collides with.
+#[derive(Debug)]
+pub(super) struct Collision<'a> {
+    pub(super) body: &'a RigidBody,
+    pub(super) with: Obstacle<'a>,
+    /// When, at full speed, s; before 0 where they have begun to run into each other.
+    pub(super) time_s: f64,
+    /// Speed of the one against the other, m/s.
+    pub(super) speed: f64,
+}
+
+/// The first collision until `until_s` (s) of two bodies one of which, and not more, the clamp drives (`clamped`), or of
+/// two that it does not; or of such a body with a symmetry side.
+pub(super) fn first(scene: &Scene, clamped: bool, until_s: f64) -> Option<Collision<'_>> {
+    let driven = |body: &RigidBody| body.motion == Motion::Clamped;
+    let bodies = &scene.bodies;
+    let pairs = (bodies.iter().enumerate())
+        .flat_map(|(i, a)| bodies.iter().skip(i + 1).map(move |b| (a, b)))
+        .filter(|(a, b)| a.motion != b.motion && (driven(a) != driven(b)) == clamped)
+        .filter_map(|(a, b)| with_body(scene, a, b, until_s));
+    let mirrored = (bodies.iter().filter(|body| driven(body) == clamped))
+        .filter_map(|body| with_mirror(scene, body, until_s));
+    (pairs.chain(mirrored)).min_by(|a, b| a.time_s.total_cmp(&b.time_s))
+}
+
+/// When bodies `a` and `b` first overlap at their full speeds. Bodies that overlap from the start on purpose, as
+/// walls do, do not collide; those that have only begun to run into each other did so before the start.
+fn with_body<'a>(
+    scene: &Scene,
+    a: &'a RigidBody,
+    b: &'a RigidBody,
+    until_s: f64,
+) -> Option<Collision<'a>> {
+    let (va, vb) = (scene.velocity(a.motion), scene.velocity(b.motion));
+    let v: [f64; 3] = std::array::from_fn(|i| va[i] - vb[i]);
+    let voxels = |block: &VoxelBlock| block.dims() != [1; 3];
+    let pairs = (a.blocks.iter()).flat_map(|x| b.blocks.iter().map(move |y| (x, y)));
+    let time_s = pairs
+        .filter_map(|(x, y)| {
+            let met = of_boxes(scene, x, y, v, until_s)?;
+            if !voxels(x) && !voxels(y) {
+                return Some(met);
+            }
+            // Voxels are bodies of a bond, which move along y alone.
+            let slack = ROUNDING * scene.grid.cell_m;
+            match v {
+                [0.0, down, 0.0] if down < 0.0 => Some(clearance(x, y, slack)? / -down),
+                [0.0, up, 0.0] => Some(clearance(y, x, slack)? / up),
+                _ => Some(met),
+            }
+        })
+        .reduce(f64::min)?;
+    let (body, with) = match b.motion {
+        Motion::Clamped => (b, a),
+        _ => (a, b),
+    };
+    Some(Collision {
+        body,
+        with: Obstacle::Body(with),
+        time_s,
+        speed: norm(v),
+    })
+}
+
+/// When the boxes around two blocks first overlap, the first moving at `v` (m/s) against the second.
+fn of_boxes(
+    scene: &Scene,
+    a: &VoxelBlock,
+    b: &VoxelBlock,
+    v: [f64; 3],
+    until_s: f64,
+) -> Option<f64> {
+    let along = |i| overlap(scene, i, a, b, v[i]);
+    let axes = [along(0)?, along(1)?, along(2)?];
+    common(axes, until_s)
+        .find(|found| found.begin >= 0.0 || found.entering(&axes, scene.dimensions.axes()))
+        .map(|found| found.begin)
+}
+
+/// When the boxes around two blocks overlap along `axis`, the first moving at `v` (m/s) along it against the second.
+fn overlap(scene: &Scene, axis: usize, a: &VoxelBlock, b: &VoxelBlock, v: f64) -> Option<Overlap> {
+    let [a, b] = [a, b].map(|block| [block.origin()[axis], block.max()[axis]]);
+    let length = scene.period(axis).unwrap_or(f64::INFINITY);
+    Overlap::of(a, b, v, length, ROUNDING * scene.grid.cell_m)
+}
+
+/// When a body within the domain first comes to a symmetry side. One that lies across a side from the start is a
+/// wall or piston that goes through it.
+fn with_mirror<'a>(scene: &Scene, body: &'a RigidBody, until_s: f64) -> Option<Collision<'a>> {
+    let v = scene.velocity(body.motion);
+    let (low, high) = (scene.grid.min_m, scene.grid.max_m());
+    let slack = ROUNDING * scene.grid.cell_m;
+    let sides = (0..scene.dimensions.axes())
+        .filter(|&a| scene.boundary[a] == Boundary::Symmetry && v[a] != 0.0);
+    sides
+        .flat_map(|a| body.blocks.iter().map(move |block| (a, block)))
+        .filter_map(|(a, block)| {
+            let gap = match v[a] > 0.0 {
+                true => high[a] - block.max()[a],
+                false => block.origin()[a] - low[a],
+            };
+            let time_s = gap.max(0.0) / v[a].abs();
+            (gap > -slack && time_s < until_s).then_some(Collision {
+                body,
+                with: Obstacle::Mirror(a, v[a] > 0.0),
+                time_s,
+                speed: v[a].abs(),
+            })
+        })
+        .min_by(|a, b| a.time_s.total_cmp(&b.time_s))
+}
+
+fn norm(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// A body of given velocity that the clamp's may collide with until `until_s`, however a pressure limit slows the clamp
+/// down within its `travel_m`: by the boxes around their blocks.
+pub(super) fn possible(
+    scene: &Scene,
+    until_s: f64,
+    travel_m: f64,
+    slack: f64,
+) -> Option<&RigidBody> {
+    let closing = scene.clamp?.closing_speed;
+    let clamped = || {
+        let bodies = scene.bodies.iter();
+        bodies.filter(|body| body.motion == Motion::Clamped)
+    };
+    let moving = |body: &&RigidBody| {
+        matches!(body.motion, Motion::Constant(_)) && scene.velocity(body.motion) != [0.0; 3]
+    };
+    scene.bodies.iter().filter(moving).find(|body| {
+        let v = scene.velocity(body.motion);
+        let blocks = clamped().flat_map(|clamp| &clamp.blocks);
+        (blocks.flat_map(|x| body.blocks.iter().map(move |y| (x, y)))).any(|(x, y)| {
+            let along = |axis| overlap(scene, axis, y, x, v[axis]);
+            let (Some(along_x), Some(along_z)) = (along(0), along(2)) else {
+                return false;
+            };
+            // The clamp's box may have any height down to where it is at full speed.
+            let (above, below) = (
+                y.max()[1] - x.origin()[1] - slack,
+                x.max()[1] - y.origin()[1] - slack,
+            );
+            let limits = [
+                (above + travel_m, v[1]),
+                (above, v[1] + closing),
+                (below, -v[1]),
+            ];
+            let along_y = limits.into_iter().fold((0.0, until_s), positive);
+            common(
+                [along_x, Overlap::between(along_y.0, along_y.1), along_z],
+                until_s,
+            )
+            .next()
+            .is_some()
+        })
+    })
+}
+
+/// The part of an interval of time in which `gap + rate t` is positive.
+fn positive((begin, end): (f64, f64), (gap, rate): (f64, f64)) -> (f64, f64) {
+    match rate {
+        rate if rate > 0.0 => (begin.max(-gap / rate), end),
+        rate if rate < 0.0 => (begin, end.min(-gap / rate)),
+        _ if gap > 0.0 => (begin, end),
+        _ => (end, begin),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use physics::{Clamp, Dimensions, GridBox};
+
+    use super::*;
+    use crate::verdict::tests::setup;
+
+    const UM: f64 = 1e-6;
+
+    /// A plane domain of 40 x 20 cells of 1 um with periodic sides along x and mirrors along y.
+    fn scene(bodies: &[(&str, Motion, [f64; 4])]) -> Scene {
+        let body = |&(name, motion, [x, y, to_x, to_y]): &(&str, Motion, [f64; 4])| RigidBody {
+            name: name.into(),
+            blocks: vec![VoxelBlock::solid_box(
+                [x * UM, y * UM, 0.0],
+                [to_x * UM, to_y * UM, UM],
+            )],
+            motion,
+        };
+        Scene {
+            dimensions: Dimensions::Two,
+            grid: GridBox {
+                cell_m: UM,
+                min_m: [0.0; 3],
+                cells: [40, 20, 1],
+            },
+            boundary: [Boundary::Periodic, Boundary::Symmetry, Boundary::Symmetry],
+            bodies: bodies.iter().map(body).collect(),
+            ..setup().scene
+        }
+    }
+
+    fn said(collision: Option<Collision>) -> (String, f64) {
+        let met = collision.unwrap();
+        (
+            format!("{} and {}", met.body.name, met.with),
+            met.time_s / UM,
+        )
+    }
+
+    const FLOOR: (&str, Motion, [f64; 4]) = ("floor", Motion::Fixed, [0.0, 0.0, 40.0, 2.0]);
+    const POST: (&str, Motion, [f64; 4]) = ("post", Motion::Fixed, [30.0, 2.0, 32.0, 8.0]);
+
+    /// Only images one period away were looked at.
+    #[test]
+    fn a_bar_meets_a_post_in_the_period_in_which_it_has_come_down_to_it() {
+        let bar = Motion::Constant([1.0, -0.05, 0.0]);
+        let bar = ("bar", bar, [2.0, 12.0, 22.0, 14.0]);
+        // From 80 us on it is as low as the post, over which it is then from the second period on.
+        let over = scene(&[FLOOR, bar, POST]);
+        let (who, time) = said(first(&over, false, 300.0 * UM));
+        assert_eq!(who, "bar and 'post'");
+        assert!((time - 88.0).abs() < 1e-3, "{time}");
+        assert!(first(&over, false, 87.0 * UM).is_none());
+        let alone = scene(&[FLOOR, bar]);
+        let (who, time) = said(first(&alone, false, 300.0 * UM));
+        assert_eq!(who, "floor and 'bar'");
+        assert!((time - 200.0).abs() < 1e-3, "{time}");
+    }
+
+    #[test]
+    fn a_body_meets_its_image_where_it_comes_to_a_mirror() {
+        let block = |v: f64, y: f64| {
+            let block = Motion::Constant([3.0, v, 0.0]);
+            scene(&[("block", block, [2.0, y, 4.0, y + 4.0])])
+        };
+        let (who, time) = said(first(&block(-1.0, 5.0), false, 1.0));
+        assert_eq!(who, "block and the symmetry side at the lower end of y");
+        assert!((time - 5.0).abs() < 1e-9, "{time}");
+        let (who, time) = said(first(&block(2.0, 5.0), false, 1.0));
+        assert_eq!(who, "block and the symmetry side at the upper end of y");
+        assert!((time - 5.5).abs() < 1e-9, "{time}");
+        // A piston through the side, and one that comes in.
+        assert!(first(&block(-1.0, -1.0), false, 1.0).is_none());
+        assert!(first(&block(-1.0, 20.0), false, 19.0 * UM).is_none());
+        // A plate goes along the floor for ever.
+        let plate = (
+            "plate",
+            Motion::Constant([1.0, 0.0, 0.0]),
+            [0.0, 2.0, 40.0, 4.0],
+        );
+        assert!(first(&scene(&[FLOOR, plate]), false, 1.0).is_none());
+    }
+
+    /// The clamp, at any height between where it is and where it is at full speed, and a body that comes round.
+    #[test]
+    fn a_body_may_come_under_the_clamp_after_many_periods() {
+        let top = ("top", Motion::Clamped, [30.0, 14.0, 34.0, 18.0]);
+        let bar = |v: [f64; 2], y: f64| {
+            let bar = Motion::Constant([v[0], v[1], 0.0]);
+            let mut scene = scene(&[top, ("bar", bar, [2.0, y, 4.0, y + 1.0])]);
+            scene.clamp = Some(Clamp {
+                closing_speed: 0.05,
+                max_pressure: Some(1e6),
+                pid: None,
+            });
+            scene
+        };
+        let within = |scene: &Scene, until: f64, travel: f64| {
+            possible(scene, until * UM, travel * UM, 1e-3 * UM).is_some()
+        };
+        let bar = bar([1.0, 0.0], 11.0);
+        // The clamp comes down to 12 um after 40 us; the bar is under it from 26 to 32 and from 66 to 72 us.
+        assert!(!within(&bar, 65.0, 3.0) && within(&bar, 67.0, 3.0));
+        assert!(!within(&bar, 1e3, 1.9), "it does not come so far down");
+    }
+}

@@ -1,0 +1,229 @@
+//! Times at which two boxes in uniform motion overlap, through periodic sides too.
+
+/// Times (s) at which two boxes overlap along one axis: from `begin` to `end`, and again after every `period`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Overlap {
+    begin: f64,
+    end: f64,
+    /// Infinite where the axis has no periodic sides, or nothing moves along it.
+    period: f64,
+    /// Speed of one box against the other, m/s.
+    speed: f64,
+    /// Longest overlap, m.
+    most: f64,
+}
+
+/// One time at which boxes overlap along all axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Common {
+    /// When it begins, s; before 0 where boxes overlap from the start.
+    pub(super) begin: f64,
+    /// When it ends, s.
+    pub(super) end: f64,
+    /// The same along each axis.
+    along: [(f64, f64); 3],
+}
+
+impl Overlap {
+    /// Of the intervals `a` and `b` (m) within a domain, the first moving at `v` (m/s) against the second. All repeats
+    /// after every `length` (m; infinite without periodic sides). Overlaps up to `slack` (m) do not count.
+    pub(super) fn of(a: [f64; 2], b: [f64; 2], v: f64, length: f64, slack: f64) -> Option<Self> {
+        let (below, above) = (b[0] + slack - a[1], b[1] - slack - a[0]);
+        let most = (a[1] - a[0]).min(b[1] - b[0]);
+        let always = |most| Self {
+            most,
+            ..Self::between(f64::NEG_INFINITY, f64::INFINITY)
+        };
+        if v == 0.0 {
+            let shared = a[1].min(b[1]) - a[0].max(b[0]);
+            return (below < 0.0 && above > 0.0).then(|| always(shared));
+        }
+        // One of them, or both, fill the period.
+        if above - below >= length {
+            return Some(always(most));
+        }
+        (above > below).then(|| Self {
+            begin: (below / v).min(above / v),
+            end: (below / v).max(above / v),
+            period: length / v.abs(),
+            speed: v.abs(),
+            most,
+        })
+    }
+
+    /// A time that comes once.
+    pub(super) fn between(begin: f64, end: f64) -> Self {
+        Self {
+            begin,
+            end,
+            period: f64::INFINITY,
+            speed: 0.0,
+            most: f64::INFINITY,
+        }
+    }
+
+    /// The first begin and end of which the end is after `time`.
+    fn after(&self, time: f64) -> Option<(f64, f64)> {
+        let shifted = |by: f64| (self.begin + by, self.end + by);
+        if self.period.is_infinite() {
+            return (self.end > time).then_some((self.begin, self.end));
+        }
+        let periods = ((time - self.end) / self.period).floor() + 1.0;
+        // The quotient may be rounded down to the last one that has ended.
+        let found = shifted(periods * self.period);
+        Some(match found.1 > time {
+            true => found,
+            false => shifted((periods + 1.0) * self.period),
+        })
+    }
+
+    /// Overlap (m) at time 0 of boxes that overlap along this axis in the `interval` that holds it.
+    fn now(&self, (begin, end): (f64, f64)) -> f64 {
+        match self.speed {
+            0.0 => self.most,
+            speed => (-begin * speed).min(end * speed).min(self.most),
+        }
+    }
+}
+
+/// The times until `until` (s) at which boxes overlap along all axes, one after the other.
+pub(super) fn common(axes: [Overlap; 3], until: f64) -> impl Iterator<Item = Common> {
+    let mut time = 0.0;
+    std::iter::from_fn(move || {
+        while time < until {
+            let mut along = [(0.0, 0.0); 3];
+            for (interval, axis) in along.iter_mut().zip(&axes) {
+                *interval = axis.after(time)?;
+            }
+            let begin = along.iter().map(|a| a.0).fold(f64::NEG_INFINITY, f64::max);
+            let end = along.iter().map(|a| a.1).fold(f64::INFINITY, f64::min);
+            // Before `begin` one axis keeps them apart; after `end` another does.
+            time = if begin < end { end } else { begin };
+            if begin < end && begin < until {
+                return Some(Common { begin, end, along });
+            }
+        }
+        None
+    })
+}
+
+impl Common {
+    /// Whether boxes that overlap from the start have only begun to run into each other: they are less deep in
+    /// each other along the axis by which they came than along any other of the first `count`.
+    pub(super) fn entering(&self, axes: &[Overlap; 3], count: usize) -> bool {
+        let came = (0..3).find(|&i| self.along[i].0 == self.begin);
+        let Some(way) = came.filter(|_| self.begin.is_finite()) else {
+            return false;
+        };
+        let depth = -self.begin * axes[way].speed;
+        -self.begin <= self.end
+            && (0..count).all(|i| i == way || depth <= axes[i].now(self.along[i]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SLACK: f64 = 1e-9;
+
+    type Corners = ([f64; 3], [f64; 3]);
+
+    fn axes(a: Corners, b: Corners, v: [f64; 3], lengths: [f64; 3]) -> Option<[Overlap; 3]> {
+        let along = |i: usize| {
+            let [a, b] = [a, b].map(|(low, high)| [low[i], high[i]]);
+            Overlap::of(a, b, v[i], lengths[i], SLACK)
+        };
+        Some([along(0)?, along(1)?, along(2)?])
+    }
+
+    fn met(a: Corners, b: Corners, v: [f64; 3], lengths: [f64; 3]) -> Option<f64> {
+        let axes = axes(a, b, v, lengths)?;
+        common(axes, 1e3)
+            .find(|found| found.begin >= 0.0 || found.entering(&axes, 2))
+            .map(|found| found.begin)
+    }
+
+    #[test]
+    fn boxes_meet_when_their_gap_is_used_up_and_not_when_they_pass() {
+        let floor = ([0.0; 3], [4.0, 1.0, 1.0]);
+        let plate = ([0.0, 3.0, 0.0], [4.0, 4.0, 1.0]);
+        let met = |a, b, v| met(a, b, v, [f64::INFINITY; 3]);
+        let at = |v| met(plate, floor, v);
+        assert!((at([0.0, -2.0, 0.0]).unwrap() - 1.0).abs() < 1e-6);
+        assert_eq!(at([0.0, 2.0, 0.0]), None, "it moves away");
+        assert_eq!(at([8.0, -2.0, 0.0]), None, "it has passed by then");
+        let far = ([-10.0, 3.0, 0.0], [-6.0, 4.0, 1.0]);
+        assert_eq!(
+            met(far, floor, [2.0, -2.0, 0.0]),
+            None,
+            "it has fallen past the floor before it comes over it"
+        );
+        let beside = ([4.0, 0.0, 0.0], [5.0, 4.0, 1.0]);
+        assert_eq!(met(plate, beside, [0.0, -2.0, 0.0]), None);
+        let within = ([0.0; 3], [4.0, 3.1, 1.0]);
+        let early = met(plate, within, [0.0, -2.0, 0.0]).unwrap();
+        assert!((early + 0.05).abs() < 1e-6, "{early}");
+        assert_eq!(met(plate, within, [0.0, 2.0, 0.0]), None);
+        assert_eq!(met(plate, within, [1.0, 0.0, 0.0]), None, "a wall along it");
+    }
+
+    /// Images one by one: until 40 s a box goes over at most twelve periods.
+    #[test]
+    fn boxes_meet_through_periodic_sides_when_one_of_all_images_does() {
+        const UNTIL: f64 = 40.0;
+        let mut place = 0.5_f64;
+        let mut next = || {
+            place = (place * 997.0 + 0.137) % 1.0;
+            place
+        };
+        let mut found = 0;
+        for case in 0..400 {
+            let lengths = [8.0, 10.0, f64::INFINITY];
+            let mut corners = || {
+                let low = [5.0 * next(), 7.0 * next(), 0.0];
+                (low, [low[0] + 3.0 * next(), low[1] + 3.0 * next(), 1.0])
+            };
+            let (a, b) = (corners(), corners());
+            let mut v = [4.0 * next() - 2.0, 4.0 * next() - 2.0, 0.0];
+            if case % 3 == 0 {
+                v[case % 2] = 0.0;
+            }
+            let images =
+                (-14..=14).flat_map(|i| (-14..=14).map(move |j| [f64::from(i), f64::from(j)]));
+            let first = images
+                .filter_map(|[i, j]| {
+                    let by = [8.0 * i, 10.0 * j, 0.0];
+                    let off = |x: [f64; 3]| std::array::from_fn(|a| x[a] + by[a]);
+                    let image = (off(b.0), off(b.1));
+                    let axes = axes(a, image, v, [f64::INFINITY; 3])?;
+                    common(axes, UNTIL).next().map(|first| first.begin)
+                })
+                .filter(|&begin| begin < UNTIL)
+                .reduce(f64::min);
+            let here = axes(a, b, v, lengths).and_then(|axes| common(axes, UNTIL).next());
+            match (first, here.map(|first| first.begin)) {
+                (Some(first), Some(here)) => {
+                    found += 1;
+                    assert!((first - here).abs() < 1e-9, "{case}: {here} for {first}");
+                }
+                (first, here) => assert_eq!(first, here, "{case}"),
+            }
+        }
+        assert!((200..400).contains(&found), "{found}");
+    }
+
+    #[test]
+    fn a_box_as_long_as_a_period_is_everywhere_along_it() {
+        let plate = ([0.0, 5.0, 0.0], [8.0, 6.0, 1.0]);
+        let post = ([3.0, 0.0, 0.0], [4.0, 2.0, 1.0]);
+        let lengths = [8.0, f64::INFINITY, f64::INFINITY];
+        assert_eq!(met(plate, post, [5.0, 0.0, 0.0], lengths), None);
+        let time = met(plate, post, [5.0, -0.1, 0.0], lengths).unwrap();
+        assert!((time - 30.0).abs() < 1e-6, "{time}");
+        // What overlaps on purpose at first may yet collide when it comes round.
+        let block = ([3.6, 1.0, 0.0], [3.9, 3.0, 1.0]);
+        let time = met(block, post, [1.0, 0.0, 0.0], lengths).unwrap();
+        assert!((time - 7.1).abs() < 1e-6, "{time}");
+    }
+}

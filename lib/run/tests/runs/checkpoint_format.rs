@@ -1,0 +1,67 @@
+//! The layout of checkpoints by the number of its format.
+
+use particle_file::ParticleFile;
+
+use crate::bench::{Bench, RESUME};
+
+/// Attributes and arrays of the checkpoint of a run stopped after four steps: name, type and, of arrays whose length does
+/// not follow the liquid, number of rows.
+fn layout(bench: &Bench, changes: &[&str]) -> (String, String) {
+    let stopped = bench.run_changed("run", RESUME, 4, changes);
+    assert_eq!(stopped.unwrap().unwrap().end, run::End::Interrupted);
+    let file = ParticleFile::open(bench.path("run/checkpoint.mpts")).unwrap();
+    let attributes = file.header().attributes.iter();
+    let mut names: Vec<String> = attributes.map(|(name, _)| name.clone()).collect();
+    for column in file.columns() {
+        let rows = match column.rows {
+            rows if rows < 20 => format!(" {rows}"),
+            _ => String::new(),
+        };
+        names.push(format!("{} {:?}{rows}", column.name, column.element));
+    }
+    let format = file.header().attribute("checkpoint_format").unwrap();
+    (format.to_owned(), names.join(", "))
+}
+
+/// Liquid with all that the implicit scheme keeps an account of.
+const IMPLICIT: &str = r#"scheme = "implicit"
+cfl = 0.05
+[air]
+pressure = "100 kPa"
+[adhesive.cure]
+gel_time = "1 ms"
+exponent = 2
+[adhesive.water]
+solids = 0.45
+uptake = "0.2 m/s"
+diffusivity = "1e-5 m2/s"
+viscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]"#;
+
+const RUN: &str = "identity, checkpoint_format, snapshots, row_missing, history_bytes, history_hash, lost, iterations, \
+run.clock F64 4, run.last_step F64 5, run.courant F64 2";
+
+/// Where this fails the arrays of a checkpoint have changed: raise the number of the scheme, or `RUN_FORMAT`, in `run/src/checkpoint`, and
+/// write the new layout here, so that no build goes on from what it misreads.
+#[test]
+fn a_format_has_one_layout() {
+    let settings = [
+        "integrator.velocity_update=apic",
+        "integrator.density_projection=0.04 cell",
+    ];
+    let (format, names) = layout(&Bench::explicit(), &settings);
+    assert_eq!(format, "explicit 1, run 1");
+    let arrays = "id U32, node U32, place F32, motion F32, stress F32, clock F64 6, counts U32 8, displacement F64 6, \
+affine F32, projection F64 3";
+    assert_eq!(names, format!("{RUN}, {arrays}"));
+
+    let wetting = [
+        "adhesive.surface_tension=40 mN/m",
+        "adhesive.contact_angle=60 deg",
+    ];
+    let (format, names) = layout(&Bench::new(IMPLICIT, "1.45 us", "0.1 us"), &wetting);
+    assert_eq!(format, "implicit 1, run 1");
+    let arrays = "position F64, velocity F32, volume F32, volume_change F32, shear_rate F32, point U32, \
+displacement F64 6, scalars F64 15, trend F64 3, time F64 1, solids_and_water F64, water F64 5, water_in_walls F32 0, \
+air_pocket U32, air_mass F64 1, air_volume F64 1, air_sums F64 4";
+    assert_eq!(names, format!("{RUN}, {arrays}"));
+}

@@ -1,0 +1,80 @@
+//! Permissions of the files of a run folder.
+
+use std::fs::{self, Permissions};
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+
+use crate::bench::{Bench, OVERWRITE, RESUME, everything};
+
+const END: usize = usize::MAX;
+
+fn mode(path: &Path) -> u32 {
+    fs::metadata(path).unwrap().permissions().mode() & 0o777
+}
+
+fn set(path: &Path, mode: u32) {
+    fs::set_permissions(path, Permissions::from_mode(mode)).unwrap();
+}
+
+/// All became readable by everybody.
+#[test]
+fn files_keep_their_modes_when_another_run_takes_their_place() {
+    let bench = Bench::explicit();
+    bench.ran("run", OVERWRITE, END);
+    let names = everything(&bench.path("run")).into_keys();
+    let names: Vec<_> = names.filter(|name| name != "bondline-run.toml").collect();
+    assert!(names.len() >= 7, "{names:?}");
+    for (name, bits) in names.iter().zip([0o600, 0o640].into_iter().cycle()) {
+        set(&bench.path("run").join(name), bits);
+    }
+    bench.ran("run", OVERWRITE, END);
+    for (name, bits) in names.iter().zip([0o600, 0o640].into_iter().cycle()) {
+        assert_eq!(mode(&bench.path("run").join(name)), bits, "{name}");
+    }
+}
+
+#[test]
+fn a_checkpoint_keeps_its_mode() {
+    let bench = Bench::explicit();
+    bench.ran("run", RESUME, 9);
+    let checkpoint = bench.path("run/checkpoint.mpts");
+    set(&checkpoint, 0o600);
+    bench.ran("run", RESUME, 4);
+    assert_eq!(mode(&checkpoint), 0o600);
+}
+
+/// Write-protected files were replaced.
+#[test]
+fn a_write_protected_file_is_neither_replaced_nor_removed() {
+    for name in [
+        "final.mpts",
+        "history.csv",
+        "summary.json",
+        "snapshots/0000.mpts",
+    ] {
+        let bench = Bench::explicit();
+        bench.ran("run", OVERWRITE, END);
+        set(&bench.path("run").join(name), 0o444);
+        let before = everything(&bench.path("run"));
+        let said = bench.run("run", OVERWRITE, END).unwrap_err().to_string();
+        assert!(
+            said.contains(name) && said.contains("write-protected"),
+            "{said}"
+        );
+        assert!(everything(&bench.path("run")) == before, "{name}");
+        // Nothing of a run that has ended is written.
+        assert!(bench.run("run", RESUME, END).unwrap().is_none());
+    }
+    for name in ["checkpoint.mpts", "history.csv", "resolved.toml"] {
+        let bench = Bench::explicit();
+        bench.ran("run", RESUME, 9);
+        set(&bench.path("run").join(name), 0o400);
+        let before = everything(&bench.path("run"));
+        let said = bench.run("run", RESUME, END).unwrap_err().to_string();
+        assert!(
+            said.contains(name) && said.contains("write-protected"),
+            "{said}"
+        );
+        assert!(everything(&bench.path("run")) == before, "{name}");
+    }
+}
