@@ -7,7 +7,7 @@ use super::{Geometry, cells_along};
 use crate::case::{Body, BodyVelocity, BoxCorners, Case, CaseError, MaterialName};
 
 pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, CaseError> {
-    let cell = case.grid.cell.si();
+    let cell = case.grid.cell.si(None)?;
     let depth = (dimensions == Dimensions::Two).then_some(cell);
     let grid = grid(case, cell, depth)?;
     let mut lattices = Vec::new();
