@@ -193,8 +193,7 @@ impl Request {
         // In a folder without the mark nothing is known to be a run's: making it one refuses.
         if let Some(found) = &found
             && mode.resume
-            && !mode.overwrite
-            && is_final_of(folder, &identity)?
+            && is_final_of(folder, &identity, mode.overwrite)?
         {
             begin::tidy(found, &continuable)?;
             return Ok(None);
@@ -285,7 +284,7 @@ impl Request {
                     verdict: verdict::Verdict::because(vec![failure.said()]),
                     steps: step,
                     time_s,
-                    expected_error: expected_error::of(&self.case),
+                    expected_error: expected_error::of(&self.case, self.setup.scene.grid.cell_m),
                     left_out,
                     provenance,
                 };
