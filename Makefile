@@ -1,13 +1,16 @@
 # bondline: from XCT stack to penetration metrics.
 #
 #   make                          the paper's six runs and their implicit counterparts on two
-#                                 small synthetic specimens; ends with Table 2
+#                                 small synthetic specimens; ends with Table 2, figures and a report
 #   make SCALE=small|medium|full  the same on larger specimens
 #   make ERROR=no                 without the errors of Table 2, which take finer implicit runs
 #   make RUNS="implicit flip"     only these of xpic, flip, frictionless, implicit, implicit-frictionless
 #   make JOBS=2 RUN_THREADS=1     so many runs side by side, on so many threads each
-#   make XCT_PF=a.tif XCT_PVA_PF=b.tif VOXEL="1.45 um" [LABELS=void=0,wood=1,adhesive=2]
-#                                 the same on your own stacks
+#   make SET="adhesive.viscosity=500 cP clamp.max_pressure=1 MPa"   with keys of the cases changed
+#   make CELL="1 voxel"           in other cells than those of two voxels
+#   make YES=1                    starts runs of more than an hour unasked; V=1 shows commands and CSV
+#   make XCT_PF=a.tif XCT_PVA_PF=b.tif [VOXEL="1.45 um"] [LABELS=void=0,wood=1,adhesive=2]
+#                                 your own stacks, implicit runs alone unless RUNS says more
 #   make XCT_BOTTOM=a.tif [XCT_TOP=b.tif | PLANE="139.2 um"] SLAB="55.1 um" VOXEL=... [TURN=90]
 #                                 the same on undamaged wood: two stacks, or one cut at PLANE
 #   make species                  four species of undamaged wood, PF and PVA-PF: their Table 2
@@ -35,7 +38,6 @@
 #   make figures                  every figure of the paper; FORMATS="svg png pdf" FIGURE_WIDTH="84 mm" FIGURE_DPI=300
 #   make man install clean help
 
-.DELETE_ON_ERROR:
 # Specimens and bond files on the way are kept: they are looked at and used again.
 .SECONDARY:
 .SUFFIXES:
@@ -43,12 +45,12 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 
 SCALE ?= quick
-VOXEL ?= 1.45 um
 NORMAL ?= y
 CARGO ?= cargo
-JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+JOBS := $(or $(JOBS),$(shell nproc 2>/dev/null || getconf _NPROCESSORS_ONLN))
 # Runs share the cores side by side, unless make was told by -j how many may.
 SIDE_BY_SIDE = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
+AT_ONCE = $(or $(patsubst -j%,%,$(firstword $(filter -j%,$(MAKEFLAGS)) $(JOBS))),$(JOBS))
 PREFIX ?= $(HOME)/.local
 
 BIN := target/release
@@ -58,16 +60,22 @@ BINARIES := $(TOOLS:%=$(BIN)/%)
 OUT := out/$(if $(XCT_BOTTOM),wood,$(if $(XCT_PF)$(XCT_PVA_PF),xct,$(SCALE)))
 
 .PHONY: all
-all: table2 figures
+all:
 
 include pipelines/10-tools.mk
+include pipelines/15-inputs.mk
+include pipelines/16-made.mk
+ifneq ($(BUILT),)
 include pipelines/20-specimens.mk
 include pipelines/30-runs.mk
 include pipelines/40-metrics.mk
 include pipelines/50-figures.mk
 include pipelines/55-species.mk
-include pipelines/56-press.mk
 include pipelines/57-report.mk
+else
+include pipelines/18-goals.mk
+endif
+include pipelines/56-press.mk
 include pipelines/60-studies.mk
 include pipelines/65-gate.mk
 include pipelines/70-sweep.mk

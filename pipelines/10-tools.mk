@@ -1,5 +1,4 @@
-# Stage 1: the tools. Cargo decides what to rebuild; a binary that did not change keeps its
-# time stamp, so nothing after it is made again.
+# Stage 1: the tools. Cargo decides what to rebuild.
 
 .PHONY: FORCE
 FORCE:
@@ -7,11 +6,11 @@ FORCE:
 # A build that fails leaves the tools of the last good one.
 .PRECIOUS: $(BINARIES)
 
-# Sub-makes find the tools built: GNU make 4.3 running side by side takes all but the first
-# target of such a rule for changed, whatever their time stamps say.
-ifndef BUILT
+# Sub-makes find the tools built.
+ifeq ($(BUILT),)
 $(BINARIES) &: FORCE
-	@$(CARGO) build --release --quiet --workspace
+	@[ -x $(BIN)/mpm-run ] || echo "building the tools, once: about ten minutes of one core, five of two" >&2
+	@$(CARGO) build --release --workspace
 endif
 
 .PHONY: test

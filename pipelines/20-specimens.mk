@@ -16,54 +16,43 @@ SLAB_medium_pva-pf := 78.3 um
 SLAB_full_pf := 55.1 um
 SLAB_full_pva-pf := 78.3 um
 
-# Blanks of a path, for make.
-EMPTY :=
-XCT_pf := $(subst $(EMPTY) ,\ ,$(XCT_PF))
-XCT_pva-pf := $(subst $(EMPTY) ,\ ,$(XCT_PVA_PF))
-
-ifeq ($(XCT_PF)$(XCT_PVA_PF),)
-$(OUT)/%/specimen.tif: $(BIN)/synth-xct
-	@mkdir -p $(@D)
-	$(BIN)/synth-xct --quiet --adhesive $* --size $(SIZE_$(SCALE)) --slab "$(SLAB_$(SCALE)_$*)" \
-	    --voxel "$(VOXEL)" --seed 1 -o $@
-
-$(OUT)/%/experiment.mpts: $(OUT)/%/specimen.tif $(BIN)/xct2particles
-	$(BIN)/xct2particles --quiet $< -o $@
-else
-define experiment_rule
-$(OUT)/$(1)/experiment.mpts: $(XCT_$(1)) $(BIN)/xct2particles
-	@mkdir -p $$(@D)
-	$(BIN)/xct2particles "$$<" --voxel "$(VOXEL)" $(if $(LABELS),--labels "$(LABELS)") -o $$@
+# The stack that a variable names, as a particle file; its voxel is the one that it states, unless told.
+STATED = $(if $(VOXEL),--voxel $(call q,$(VOXEL))) $(if $(LABELS),--labels $(call q,$(LABELS)))
+define stack_rule
+$(1): private READS = $$(call q,$$($(2)))
+$(1): $(BIN)/xct2particles FORCE
+	$$(call made,$(BIN)/xct2particles $$(READS) $$(STATED) -o $$@)
 endef
-$(foreach a,$(ADHESIVES),$(eval $(call experiment_rule,$(a))))
+STACK_pf := XCT_PF
+STACK_pva-pf := XCT_PVA_PF
+
+EXPERIMENTS := $(ADHESIVES:%=$(OUT)/%/experiment.mpts)
+BONDS := $(ADHESIVES:%=$(OUT)/%/bond.mpts)
+
+ifndef OWN
+$(EXPERIMENTS:experiment.mpts=specimen.tif): $(OUT)/%/specimen.tif: $(BIN)/synth-xct FORCE
+	$(call made,$(BIN)/synth-xct --quiet --adhesive $* --size $(SIZE_$(SCALE)) --slab "$(SLAB_$(SCALE)_$*)" \
+	    --voxel $(call q,$(or $(VOXEL),1.45 um)) --seed 1 -o $@)
+
+$(EXPERIMENTS): %/experiment.mpts: %/specimen.tif $(BIN)/xct2particles FORCE
+	$(call made,$(BIN)/xct2particles --quiet $< -o $@)
+else
+$(foreach a,$(ADHESIVES),$(eval $(call stack_rule,$(OUT)/$(a)/experiment.mpts,$(STACK_$(a)))))
 endif
 
 ifeq ($(XCT_BOTTOM),)
-$(if $(XCT_TOP),$(error XCT_TOP needs XCT_BOTTOM))
-$(OUT)/%/bond.mpts: $(OUT)/%/experiment.mpts $(BIN)/build-bondline
-	$(BIN)/build-bondline $< --normal $(NORMAL) -o $@
+$(BONDS): %/bond.mpts: %/experiment.mpts $(BIN)/build-bondline FORCE
+	$(call made,$(BIN)/build-bondline $(if $(OWN),,--quiet) $< --normal $(call q,$(NORMAL)) -o $@)
 else
-# Undamaged wood: two stacks, or one cut at PLANE.
-ifneq ($(XCT_PF)$(XCT_PVA_PF),)
-$(error XCT_BOTTOM is undamaged wood, XCT_PF and XCT_PVA_PF are bonded specimens: give one kind)
-endif
-$(if $(SLAB),,$(error undamaged wood holds no adhesive: give SLAB="55.1 um"))
-$(if $(XCT_TOP)$(PLANE),,$(error give XCT_TOP=, or PLANE= to cut XCT_BOTTOM at))
-$(if $(XCT_TOP),$(if $(PLANE),$(error PLANE cuts one stack: leave out XCT_TOP or PLANE)))
+# Undamaged wood, which is no experiment: two stacks, or one cut at PLANE.
+EXPERIMENTS :=
 TURN ?= 0
-XCT_bottom := $(subst $(EMPTY) ,\ ,$(XCT_BOTTOM))
-XCT_top := $(subst $(EMPTY) ,\ ,$(XCT_TOP))
-PIECES := $(OUT)/bottom.mpts $(if $(XCT_TOP),$(OUT)/top.mpts)
+BOTTOM := $(OUT)/bottom.mpts
+TOP := $(if $(XCT_TOP),$(OUT)/top.mpts)
+$(eval $(call stack_rule,$(BOTTOM),XCT_BOTTOM))
+$(if $(TOP),$(eval $(call stack_rule,$(TOP),XCT_TOP)))
 
-define piece_rule
-$(OUT)/$(1).mpts: $(XCT_$(1)) $(BIN)/xct2particles
-	@mkdir -p $$(@D)
-	$(BIN)/xct2particles "$$<" --voxel "$(VOXEL)" $(if $(LABELS),--labels "$(LABELS)") -o $$@
-endef
-$(foreach p,bottom $(if $(XCT_TOP),top),$(eval $(call piece_rule,$(p))))
-
-$(OUT)/%/bond.mpts: $(PIECES) $(BIN)/build-bondline
-	@mkdir -p $(@D)
-	$(BIN)/build-bondline $(if $(XCT_TOP),--bottom $(OUT)/bottom.mpts --top $(OUT)/top.mpts,$(OUT)/bottom.mpts --plane "$(PLANE)") \
-	    --slab "$(SLAB)" --turn-top $(TURN) --normal $(NORMAL) -o $@
+$(BONDS): $(BOTTOM) $(TOP) $(BIN)/build-bondline FORCE
+	$(call made,$(BIN)/build-bondline $(if $(TOP),--bottom $(BOTTOM) --top $(TOP),$(BOTTOM) --plane $(call q,$(PLANE))) \
+	    --slab $(call q,$(SLAB)) --turn-top $(call q,$(TURN)) --normal $(call q,$(NORMAL)) -o $@)
 endif

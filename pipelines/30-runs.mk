@@ -1,39 +1,36 @@
-# Stage 3: five runs per adhesive. The runs are independent, so they share the cores side by
-# side with one thread each, which costs less than splitting each small run.
+# Stage 3: the runs of each adhesive. They are independent, so they share the cores side by side, each with so many threads
+# as leave no core idle (RUN_THREADS; goal.sh). Of user's stacks implicit runs alone: others take days.
 
-RUNS := xpic flip frictionless implicit implicit-frictionless
-RUN_THREADS ?= 1
-# The explicit runs of the full size take more than the week at which a run is refused unasked.
-RUN_FLAGS ?= $(if $(filter full,$(SCALE)),--yes-really)
-# A cell is two voxels, as in the paper.
-voxels = $(shell echo "$(VOXEL)" | awk '{ unit = $$0; sub(/^[-+0-9.eE ]*/, "", unit); printf "%.9g %s", $(1) * $$0, unit }')
-CELL = $(call voxels,2)
-
-FINALS := $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(OUT)/$(a)/$(r)/final.mpts))
-
-define run_rule
-$(OUT)/$(1)/$(2)/final.mpts: pipelines/cases/$(1)-$(2).toml $(OUT)/$(1)/bond.mpts $(BIN)/mpm-run
-	$(BIN)/mpm-run $$< --particles $(OUT)/$(1)/bond.mpts --set grid.cell="$$(CELL)" \
-	    --resume --overwrite --threads $(RUN_THREADS) $(RUN_FLAGS) -o $$(@D)
-endef
-$(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call run_rule,$(a),$(r)))))
+RUNS := $(if $(OWN),,xpic flip frictionless) implicit implicit-frictionless
+# The cases have the paper's cells, two voxels.
+CELL ?=
+COARSE = $(if $(CELL),--set grid.cell=$(call q,$(CELL)))
 
 # The implicit runs again in cells of one voxel, for the errors of Table 2: some ten times their cost and five times
 # their memory, in the quick specimens a twenty-fifth of all runs. ERROR=no leaves them out. The full size would take
 # 48 M points.
-ERROR ?= $(if $(filter full,$(SCALE)),no,yes)
+ERROR ?= $(if $(filter full,$(SCALE))$(CELL),no,yes)
 FINER := $(if $(filter no,$(ERROR)),,$(filter implicit%,$(RUNS)))
-FINER_FINALS := $(foreach a,$(ADHESIVES),$(foreach r,$(FINER),$(OUT)/$(a)/$(r)-finer/final.mpts))
+FINE = --set grid.cell="1 voxel"
 # The influence length of partial slip, 0.01 cells of two voxels, stays the same length.
-SLIP_implicit = --set contact.influence_length="$(call voxels,0.02)"
+FINE_implicit = --set contact.influence_length="0.02 cell"
 
-define finer_rule
-$(OUT)/$(1)/$(2)-finer/final.mpts: pipelines/cases/$(1)-$(2).toml $(OUT)/$(1)/bond.mpts $(BIN)/mpm-run
-	$(BIN)/mpm-run $$< --particles $(OUT)/$(1)/bond.mpts --set grid.cell="$$(call voxels,1)" $$(SLIP_$(2)) \
-	    --resume --overwrite --threads $(RUN_THREADS) $(RUN_FLAGS) -o $$(@D)
+finals = $(foreach a,$(ADHESIVES),$(foreach r,$(1),$(OUT)/$(a)/$(r)/final.mpts))
+FINALS := $(call finals,$(RUNS))
+FINER_FINALS := $(call finals,$(FINER:%=%-finer))
+# A run that has just ended may be told to stop: its final state stays.
+.PRECIOUS: $(FINALS) $(FINER_FINALS)
+
+# Table 2 of the implicit runs comes before the explicit runs, which take longer.
+FIRST_TABLE := $(if $(filter implicit%,$(RUNS)),first-table)
+
+# Adhesive, run, its folder, its cells.
+define run_rule
+$(OUT)/$(1)/$(3)/final.mpts: pipelines/cases/$(1)-$(2).toml $(OUT)/$(1)/bond.mpts $(BIN)/mpm-run FORCE $(if $(filter implicit%,$(2)),,| $(FIRST_TABLE))
+	$$(call made,$(BIN)/mpm-run $$< --particles $(OUT)/$(1)/bond.mpts $(4) $$(SETS) $$$$HOW --overwrite -o $$(@D))
 endef
-$(foreach a,$(ADHESIVES),$(foreach r,$(FINER),$(eval $(call finer_rule,$(a),$(r)))))
+$(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call run_rule,$(a),$(r),$(r),$$(COARSE)))))
+$(foreach a,$(ADHESIVES),$(foreach r,$(FINER),$(eval $(call run_rule,$(a),$(r),$(r)-finer,$$(FINE) $$(FINE_$(r))))))
 
 .PHONY: runs
-runs: $(BINARIES)
-	@$(MAKE) BUILT=1 --no-print-directory $(SIDE_BY_SIDE) $(FINALS) $(FINER_FINALS)
+runs: $(FINALS) $(FINER_FINALS)

@@ -1,31 +1,44 @@
 # Stage 4: penetration metrics, maps, profiles, shear rates, Table 2.
 
 METRICS := $(FINALS:%/final.mpts=%/wp.csv)
-# Undamaged wood is no experiment.
-EXPERIMENTS := $(if $(XCT_BOTTOM),,$(ADHESIVES:%=$(OUT)/%/experiment.csv))
 
 define wp_rule
-$(OUT)/$(1)/wp.csv: $(OUT)/$(1)/final.mpts $(2) $(BIN)/wp-metrics
-	$(BIN)/wp-metrics $$< --pressure $(2:%=--finer %) --map $$(@D)/map.csv --profile $$(@D)/depth.csv -o $$@
+$(OUT)/$(1)/wp.csv: private OUTPUTS = $$(@D)/map.csv $$(@D)/depth.csv
+$(OUT)/$(1)/wp.csv: $(OUT)/$(1)/final.mpts $(2) $(BIN)/wp-metrics FORCE
+	$$(call made,$(BIN)/wp-metrics $$< --pressure $(2:%=--finer %) --map $$(@D)/map.csv --profile $$(@D)/depth.csv -o $$@ && \
+	    awk -F$$(COMMA) -f pipelines/row.awk run=$(1) $$@)
 endef
 $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),$(eval $(call wp_rule,$(a)/$(r),$(if $(filter $(r),$(FINER)),$(OUT)/$(a)/$(r)-finer/final.mpts)))))
 
-$(OUT)/%/experiment.csv: $(OUT)/%/experiment.mpts $(BIN)/wp-metrics
-	$(BIN)/wp-metrics $< --map $(@D)/experiment-map.csv --profile $(@D)/experiment-depth.csv -o $@
+EXPERIMENT_TABLES := $(EXPERIMENTS:.mpts=.csv)
+$(EXPERIMENT_TABLES): private OUTPUTS = $(@D)/experiment-map.csv $(@D)/experiment-depth.csv
+$(EXPERIMENT_TABLES): %.csv: %.mpts $(BIN)/wp-metrics FORCE
+	$(call made,$(BIN)/wp-metrics $< --map $(@D)/experiment-map.csv --profile $(@D)/experiment-depth.csv -o $@)
 
-$(OUT)/%/shear.csv: $(OUT)/%/final.mpts $(BIN)/shear-stats
-	$(BIN)/shear-stats $(@D)/snapshots/*.mpts $< -o $@
+SHEARS := $(FINALS:final.mpts=shear.csv)
+$(SHEARS): private READS = $(@D)/snapshots
+$(SHEARS): %/shear.csv: %/final.mpts $(BIN)/shear-stats FORCE
+	$(call made,$(BIN)/shear-stats $(@D)/snapshots/*.mpts $< -o $@)
 
-TABLE2 = $(if $(EXPERIMENTS),$(foreach a,$(ADHESIVES),--experiment $(a)=$(OUT)/$(a)/experiment.csv)) \
-    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run $(a):$(r)=$(OUT)/$(a)/$(r)/wp.csv))
-$(OUT)/table2.csv: $(METRICS) $(EXPERIMENTS) $(BIN)/bond-figures
-	$(BIN)/bond-figures table2 $(TABLE2) \
-	    $(if $(FINER),--errors $(OUT)/errors.csv) -o $@
+# Rows of Table 2, of some of the runs.
+table2_rows = $(if $(EXPERIMENTS),$(foreach a,$(ADHESIVES),--experiment $(a)=$(OUT)/$(a)/experiment.csv)) \
+    $(foreach a,$(ADHESIVES),$(foreach r,$(1),--run $(a):$(r)=$(OUT)/$(a)/$(r)/wp.csv))
+$(OUT)/table2.csv: private OUTPUTS = $(OUT)/table2.txt $(if $(FINER),$(OUT)/errors.csv)
+$(OUT)/table2.csv: $(METRICS) $(EXPERIMENT_TABLES) $(BIN)/bond-figures FORCE
+	$(call made,$(BIN)/bond-figures table2 $(call table2_rows,$(RUNS)) $(if $(FINER),--errors $(OUT)/errors.csv) \
+	    -o $@ >$(OUT)/table2.txt $(if $(FINER),,&& rm -f $(OUT)/errors.csv))
 
-# The bond files and runs come first and side by side; what follows is quick.
+.PHONY: first-table
+IMPLICIT := $(filter implicit%,$(RUNS))
+first-table: $(foreach a,$(ADHESIVES),$(IMPLICIT:%=$(OUT)/$(a)/%/wp.csv)) $(EXPERIMENT_TABLES)
+	$(if $(filter %/wp.csv,$(MADE)),@$(BIN)/bond-figures table2 $(call table2_rows,$(IMPLICIT)) -o - >/dev/null)
+
+define show_table2
+@cat $(OUT)/table2.txt $(if $(V),$(OUT)/table2.csv $(if $(FINER),$(OUT)/errors.csv))
+@for run in $(FINALS:/final.mpts=); do \
+    ! grep -q '"end": "time-limit"' $$run/summary.json || echo "$$run: its time limit came before it closed"; done
+@echo "Table 2: $(OUT)/table2.csv$(if $(FINER),$(COMMA) its errors: $(OUT)/errors.csv)"
+endef
 .PHONY: table2
-table2: runs
-	@$(MAKE) BUILT=1 --no-print-directory $(SIDE_BY_SIDE) $(OUT)/table2.csv
-	@cat $(OUT)/table2.csv $(if $(FINER),$(OUT)/errors.csv)
-	@for run in $(FINALS:/final.mpts=); do \
-	    ! grep -q '"end": "time-limit"' $$run/summary.json || echo "$$run: its time limit came before it closed"; done
+table2: $(OUT)/table2.csv
+	$(show_table2)

@@ -15,39 +15,38 @@ SPECIES_TURN ?= 0
 SPECIES_OUT := out/species
 
 define species_bond
-$(SPECIES_OUT)/$(1)-$(2)/bond.mpts: $(BIN)/synth-xct $(BIN)/xct2particles $(BIN)/build-bondline
-	@mkdir -p $$(@D)
-	$(BIN)/synth-xct --quiet --adhesive none --species $(1) --size $(SPECIES_SIZE) --voxel "1.45 um" --seed $(2) -o $$(@D)/wood.tif
-	$(BIN)/xct2particles --quiet $$(@D)/wood.tif -o $$(@D)/wood.mpts
-	$(BIN)/build-bondline $$(@D)/wood.mpts --plane "$(SPECIES_PLANE)" --slab "$(SPECIES_SLAB)" --turn-top $(SPECIES_TURN) -o $$@
+$(SPECIES_OUT)/$(1)-$(2)/bond.mpts: $(BIN)/synth-xct $(BIN)/xct2particles $(BIN)/build-bondline FORCE
+	$$(call made,$(BIN)/synth-xct --quiet --adhesive none --species $(1) --size $(SPECIES_SIZE) --voxel "1.45 um" --seed $(2) -o $$(@D)/wood.tif && \
+	    $(BIN)/xct2particles --quiet $$(@D)/wood.tif -o $$(@D)/wood.mpts && \
+	    $(BIN)/build-bondline $$(@D)/wood.mpts --plane "$(SPECIES_PLANE)" --slab "$(SPECIES_SLAB)" --turn-top $(SPECIES_TURN) -o $$@)
 endef
 $(foreach s,$(SPECIES),$(foreach n,$(SPECIES_SEEDS),$(eval $(call species_bond,$(s),$(n)))))
 
 # Species and seed, adhesive, name of the folder, options of the cells.
 define species_run
-$(SPECIES_OUT)/$(1)/$(2)$(3)/final.mpts: pipelines/cases/$(2)-implicit.toml $(SPECIES_OUT)/$(1)/bond.mpts $(BIN)/mpm-run
-	$(BIN)/mpm-run $$< --particles $(SPECIES_OUT)/$(1)/bond.mpts --set clamp.travel="$(SPECIES_TRAVEL)" $(4) --resume --overwrite --threads 1 -o $$(@D)
+$(SPECIES_OUT)/$(1)/$(2)$(3)/final.mpts: pipelines/cases/$(2)-implicit.toml $(SPECIES_OUT)/$(1)/bond.mpts $(BIN)/mpm-run FORCE
+	$$(call made,$(BIN)/mpm-run $$< --particles $(SPECIES_OUT)/$(1)/bond.mpts --set clamp.travel="$(SPECIES_TRAVEL)" $(4) $$$$HOW --overwrite -o $$(@D))
 endef
 SPECIES_FIRST := $(firstword $(SPECIES_SEEDS))
-SPECIES_FINER := --set grid.cell="1.45 um" --set contact.influence_length="0.029 um"
+SPECIES_FINER := --set grid.cell="1 voxel" --set contact.influence_length="0.02 cell"
 SPECIES_BONDS := $(foreach s,$(SPECIES),$(foreach n,$(SPECIES_SEEDS),$(s)-$(n)))
 SPECIES_FIRSTS := $(SPECIES:%=%-$(SPECIES_FIRST))
 $(foreach b,$(SPECIES_BONDS),$(foreach a,pf pva-pf,$(eval $(call species_run,$(b),$(a),,))))
 $(foreach b,$(SPECIES_FIRSTS),$(foreach a,pf pva-pf,$(eval $(call species_run,$(b),$(a),-finer,$(SPECIES_FINER)))))
 
 define species_wp
-$(SPECIES_OUT)/$(1)/$(2)/wp.csv: $(SPECIES_OUT)/$(1)/$(2)/final.mpts $(3) $(BIN)/wp-metrics
-	$(BIN)/wp-metrics $$< $(3:%=--finer %) -o $$@
+$(SPECIES_OUT)/$(1)/$(2)/wp.csv: $(SPECIES_OUT)/$(1)/$(2)/final.mpts $(3) $(BIN)/wp-metrics FORCE
+	$$(call made,$(BIN)/wp-metrics $$< $(3:%=--finer %) -o $$@)
 endef
 $(foreach b,$(SPECIES_BONDS),$(foreach a,pf pva-pf,$(eval $(call species_wp,$(b),$(a),$(if $(filter $(b),$(SPECIES_FIRSTS)),$(SPECIES_OUT)/$(b)/$(a)-finer/final.mpts)))))
 
 # The first piece's run is called "implicit": the others' differences are then from it, with its error.
 species_case = $(if $(filter $(1),$(SPECIES_FIRST)),implicit,piece $(1))
-$(SPECIES_OUT)/table2.csv: $(foreach b,$(SPECIES_BONDS),$(foreach a,pf pva-pf,$(SPECIES_OUT)/$(b)/$(a)/wp.csv)) $(BIN)/bond-figures
-	$(BIN)/bond-figures table2 --errors $(SPECIES_OUT)/errors.csv -o $@ $(foreach s,$(SPECIES),$(foreach a,pf pva-pf,$(foreach \
-	    n,$(SPECIES_SEEDS),--run "$(s) $(a):$(call species_case,$(n))=$(SPECIES_OUT)/$(s)-$(n)/$(a)/wp.csv")))
+$(SPECIES_OUT)/table2.csv: private OUTPUTS = $(SPECIES_OUT)/table2.txt $(SPECIES_OUT)/errors.csv
+$(SPECIES_OUT)/table2.csv: $(foreach b,$(SPECIES_BONDS),$(foreach a,pf pva-pf,$(SPECIES_OUT)/$(b)/$(a)/wp.csv)) $(BIN)/bond-figures FORCE
+	$(call made,$(BIN)/bond-figures table2 --errors $(SPECIES_OUT)/errors.csv -o $@ $(foreach s,$(SPECIES),$(foreach a,pf pva-pf,$(foreach \
+	    n,$(SPECIES_SEEDS),--run "$(s) $(a):$(call species_case,$(n))=$(SPECIES_OUT)/$(s)-$(n)/$(a)/wp.csv"))) >$(SPECIES_OUT)/table2.txt)
 
 .PHONY: species
-species: $(BINARIES)
-	@$(MAKE) BUILT=1 --no-print-directory $(SIDE_BY_SIDE) $(SPECIES_OUT)/table2.csv
-	@cat $(SPECIES_OUT)/table2.csv $(SPECIES_OUT)/errors.csv
+species: $(SPECIES_OUT)/table2.csv
+	@cat $(SPECIES_OUT)/table2.txt $(if $(V),$< $(SPECIES_OUT)/errors.csv)

@@ -4,14 +4,13 @@
 PRESS_OUT := out/press
 ACER := pipelines/examples/acer/bondline-acer-64x192x128.tif
 
-$(PRESS_OUT)/acer.mpts: $(ACER) $(BIN)/xct2particles
-	@mkdir -p $(@D)
-	$(BIN)/xct2particles $(ACER) --voxel "1.45 um" --crop 0:64,36:156,0:64 -o $@
-$(PRESS_OUT)/bond.mpts: $(PRESS_OUT)/acer.mpts $(BIN)/build-bondline
-	$(BIN)/build-bondline $< -o $@
+ifneq ($(BUILT),)
+$(PRESS_OUT)/acer.mpts: $(ACER) $(BIN)/xct2particles FORCE
+	$(call made,$(BIN)/xct2particles $(ACER) --voxel "1.45 um" --crop 0:64$(COMMA)36:156$(COMMA)0:64 -o $@)
+$(PRESS_OUT)/bond.mpts: $(PRESS_OUT)/acer.mpts $(BIN)/build-bondline FORCE
+	$(call made,$(BIN)/build-bondline $< -o $@)
+endif
 
 .PHONY: press
-press: $(BINARIES)
-	@$(MAKE) BUILT=1 --no-print-directory $(PRESS_OUT)/bond.mpts
-	@pipelines/sweep/local.sh pipelines/sweep/press.csv pipelines/examples/hot-press-pf.toml "" \
-	    $(patsubst -j%,%,$(or $(firstword $(filter -j%,$(MAKEFLAGS))),$(JOBS)))
+press: $(PRESS_OUT)/bond.mpts
+	@pipelines/sweep/local.sh pipelines/sweep/press.csv pipelines/examples/hot-press-pf.toml "" $(AT_ONCE)

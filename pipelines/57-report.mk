@@ -19,13 +19,18 @@ SEEN := $(firstword $(filter implicit,$(RUNS)) $(RUNS))
 SHOWN_PICTURES = $(filter %.svg %.png,$(FIGURES))
 
 .PHONY: report
-report: runs
-	@$(MAKE) BUILT=1 --no-print-directory $(SIDE_BY_SIDE) $(REPORT)
+report: $(REPORT)
+	@echo "report: $(REPORT)"
 
-$(REPORT): $(OUT)/table2.csv $(FIGURES) $(FINALS) $(BIN)/bond-report
-	$(BIN)/bond-report --title "Adhesive pressed into wood: $(notdir $(OUT))" \
+$(REPORT): private READS = $(foreach file,history.csv summary.json resolved.toml,$(FINALS:final.mpts=$(file))) $(if $(FINER),$(OUT)/errors.csv)
+$(REPORT): $(OUT)/table2.csv $(FIGURES) $(FINALS) $(BIN)/bond-report FORCE
+	$(call made,$(BIN)/bond-report --title "Adhesive pressed into wood: $(notdir $(OUT))" \
 	    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run "$(NAME_$(a)) $(r)=$(OUT)/$(a)/$(r)")) \
 	    --table "Table 2: weighted penetration (WP)=$(OUT)/table2.csv" \
 	    $(if $(FINER),--table "Error by the size of the cells=$(OUT)/errors.csv") \
 	    $(foreach p,$(SHOWN_PICTURES),--picture "$(strip $(call picture_caption,$(basename $(notdir $(p)))))=$(p)") \
-	    $(foreach a,$(ADHESIVES),--state "$(NAME_$(a)) $(SEEN) at the end=$(OUT)/$(a)/$(SEEN)/final.mpts") -o $@
+	    $(foreach a,$(ADHESIVES),--state "$(NAME_$(a)) $(SEEN) at the end=$(OUT)/$(a)/$(SEEN)/final.mpts") -o $@)
+
+all: $(OUT)/table2.csv $(FIGURES) $(REPORT)
+	$(show_table2)
+	@echo "figures: $(OUT)/figures, all on one page: $(REPORT)"

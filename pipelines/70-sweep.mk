@@ -2,12 +2,10 @@
 
 # make sweep SWEEP=table.csv [SWEEP_CASE=case.toml] [RESPONSE=ep_um]
 # Starting it again goes on where it was stopped; rows added to the table are added to the results.
-SWEEP_CASE ?= pipelines/cases/pf-implicit.toml
 RESPONSE ?= wp_um
 .PHONY: sweep
 sweep: $(BINARIES)
-	@pipelines/sweep/local.sh "$(SWEEP)" "$(SWEEP_CASE)" "$(RESPONSE)" \
-	    $(patsubst -j%,%,$(or $(firstword $(filter -j%,$(MAKEFLAGS))),$(JOBS)))
+	@pipelines/sweep/local.sh $(call q,$(SWEEP)) $(call q,$(or $(SWEEP_CASE),pipelines/cases/pf-implicit.toml)) "$(RESPONSE)" $(AT_ONCE)
 
 # The same small sweep by every engine that is installed here, with jobs killed on the way: which were
 # found, and whether their tables are the same byte for byte. Writes to out/engines.

@@ -4,7 +4,7 @@
 #
 #   local.sh TABLE.csv CASE.toml RESULT_COLUMN JOBS
 #
-# No figure where RESULT_COLUMN is empty: one needs a parameter of more than one number.
+# No figure where RESULT_COLUMN is empty.
 set -euo pipefail
 table=$1 case=$2 response=$3 jobs=$4
 PATH=$PWD/target/release:$PATH

@@ -179,9 +179,11 @@ fn a_run_folder_is_not_reused_by_accident() {
     let other = again(&["adhesive.viscosity=400 cP"], &["--resume"]);
     assert_eq!(other.status.code(), Some(2));
     assert!(said(&other).contains("another run"), "{}", said(&other));
+    let kept = again(&[], &["--resume", "--overwrite"]);
+    assert!(kept.status.success(), "{}", said(&kept));
     assert!(bench.read("run/final.mpts") == state, "the run was touched");
 
-    let replaced = again(&["adhesive.viscosity=400 cP"], &["--overwrite"]);
+    let replaced = again(&["adhesive.viscosity=400 cP"], &["--resume", "--overwrite"]);
     assert!(replaced.status.success(), "{}", said(&replaced));
     assert!(bench.read("run/final.mpts") != state);
 }

@@ -11,6 +11,7 @@
 mod acer_volume;
 mod apart;
 mod cell_error;
+mod clone;
 mod conservation;
 mod examples;
 mod exported;
@@ -25,6 +26,8 @@ mod refusals;
 mod repeatability;
 mod report;
 mod run_folder;
+mod stale;
+mod started;
 mod sweep;
 mod sweep_tables;
 mod too_large;

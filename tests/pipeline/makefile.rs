@@ -27,39 +27,68 @@ fn lines(arguments: &[&str]) -> Option<String> {
     Some(String::from_utf8(output.stdout).unwrap())
 }
 
-/// `VOXEL=1.45um` once made a cell of "2.9 ", without a unit.
+/// A VOXEL that was not given once was 1.45 um, and runs of days were started of one's own stacks.
 #[test]
-fn a_voxel_with_and_without_a_blank_makes_a_cell_of_two() {
-    for (voxel, cell, half) in [
-        ("1.45um", "2.9 um", "1.45 um"),
-        ("1.45 um", "2.9 um", "1.45 um"),
-        (".725E3nm", "1450 nm", "725 nm"),
-    ] {
-        let voxel = format!("VOXEL={voxel}");
-        let runs = [
-            "out/quick/pf/implicit/final.mpts",
-            "out/quick/pf/implicit-finer/final.mpts",
-        ];
-        for (run, cell) in runs.into_iter().zip([cell, half]) {
-            let Some(lines) = lines(&["ERROR=yes", &voxel, run]) else {
-                return;
-            };
-            let wanted = format!("--set grid.cell=\"{cell}\"");
-            assert!(lines.contains(&wanted), "{voxel}: {lines}");
-        }
+fn own_stacks_have_their_own_voxel_and_runs_that_end_soon() {
+    let Some(planned) = lines(&["XCT_PF=a.tif", "runs"]) else {
+        return;
+    };
+    assert!(!planned.contains("--voxel"), "{planned}");
+    let runs: Vec<&str> = planned
+        .lines()
+        .filter(|line| line.contains("mpm-run "))
+        .collect();
+    assert_eq!(runs.len(), 4, "{planned}");
+    let finer = "--set grid.cell=\"1 voxel\" --set contact.influence_length=\"0.02 cell\"";
+    for (run, cells) in [("implicit", ""), ("implicit-finer", finer)] {
+        let run = format!("-o out/xct/pf/{run}");
+        let line = runs.iter().find(|line| line.ends_with(&run)).expect(&run);
+        assert!(
+            line.contains(cells) && line.contains("grid.cell") != cells.is_empty(),
+            "{line}"
+        );
     }
+    let set = "SET=adhesive.viscosity=500 cP clamp.max_pressure=\"1 MPa\"";
+    let planned = lines(&["XCT_PF=a.tif", "VOXEL=.725E3nm", "CELL=1.5 um", set, "runs"]).unwrap();
+    for wanted in [
+        "--voxel '.725E3nm'",
+        "--set grid.cell='1.5 um'",
+        "--set 'adhesive.viscosity=500 cP' --set 'clamp.max_pressure=\"1 MPa\"' ",
+    ] {
+        assert!(planned.contains(wanted), "{wanted}: {planned}");
+    }
+    let refused = plan(&["SET=grid.cell=1 um", "runs"]).unwrap();
+    assert!(said(&refused).contains("give CELL="), "{}", said(&refused));
 }
 
-/// There was no rule for a stack with a blank in its path.
+/// Names that make reads as its own once gave make's own messages, or another file.
 #[test]
-fn stacks_may_have_blanks_in_their_path() {
-    let folder = tempfile::tempdir().unwrap();
-    let stack = folder.path().join("a b  c.tif");
-    std::fs::write(&stack, "").unwrap();
-    let path = format!("XCT_PF={}", stack.display());
-    if let Some(lines) = lines(&[&path, "out/xct/pf/experiment.mpts"]) {
-        let named = format!("xct2particles \"{}\"", stack.display());
+fn stacks_may_be_called_anything_and_folders_of_results_are_refused_in_a_sentence() {
+    for name in [
+        "a b  c.tif",
+        "a:b=c.tif",
+        "a#b.tif",
+        "a;b.tif",
+        "a$b$(c).tif",
+        "s[1].tif",
+        "*?.tif",
+        "it's.tif",
+        "a\"b\\c.tif",
+        "%,(.tif",
+    ] {
+        let Some(lines) = lines(&[&format!("XCT_PF={name}"), "out/xct/pf/experiment.mpts"]) else {
+            return;
+        };
+        let named = format!("xct2particles '{}' ", name.replace('\'', "'\\''"));
         assert!(lines.contains(&named), "{lines}");
+        let refused = plan(&[&format!("OUT=out/{name}"), "table2"]).unwrap();
+        let told = said(&refused);
+        assert!(
+            !refused.status.success()
+                && told.contains("the name of the folder of results is made of"),
+            "{told}"
+        );
+        assert_eq!(told.trim().lines().count(), 1, "{told}");
     }
 }
 
@@ -94,7 +123,7 @@ fn the_tools_are_installed_stripped() {
 #[test]
 fn jobs_that_were_asked_for_hold_in_sub_makes() {
     for jobs in ["-j3", "-j1", "-j"] {
-        let Some(output) = plan(&[jobs, "ERROR=no", "table2"]) else {
+        let Some(output) = plan(&[jobs, "BUILT=", "CARGO=true", "ERROR=no", "table2"]) else {
             return;
         };
         assert!(output.status.success(), "{jobs}: {}", said(&output));
@@ -131,7 +160,7 @@ fn undamaged_wood_is_laid_up_and_is_no_experiment() {
     let Some(planned) = lines(&two) else {
         return;
     };
-    let laid = "--slab \"55.1 um\" --turn-top 90 --normal y -o out/wood/pva-pf/bond.mpts";
+    let laid = "--slab '55.1 um' --turn-top '90' --normal 'y' -o out/wood/pva-pf/bond.mpts";
     assert!(
         planned.contains("--bottom out/wood/bottom.mpts --top out/wood/top.mpts"),
         "{planned}"
@@ -145,7 +174,7 @@ fn undamaged_wood_is_laid_up_and_is_no_experiment() {
         return;
     };
     assert!(
-        planned.contains("out/wood/bottom.mpts --plane \"139.2 um\""),
+        planned.contains("out/wood/bottom.mpts --plane '139.2 um'"),
         "{planned}"
     );
     for (arguments, sentence) in [

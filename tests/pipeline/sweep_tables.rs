@@ -231,6 +231,23 @@ fn killed_runs_give_the_same_table_and_failed_ones_their_reason() {
     assert!(said(&changed).contains("plan again"), "{}", said(&changed));
 }
 
+/// The figure failed, and `make sweep` with it, though all was done.
+#[test]
+fn a_sweep_of_one_row_has_a_figure_and_rows_of_commas_are_none() {
+    let bench = bench("particles,adhesive.viscosity\nbond.mpts,300 cP\n,\n,\n");
+    let [run] = planned(&bench, "one").try_into().unwrap();
+    bench.done("bond-sweep", &["run", "-q", "one", &run]);
+    bench.done("bond-sweep", &["collect", "-q", "one", "-o", "one.csv"]);
+    let arguments = ["response", "one.csv", "--result", "wp_um", "-o", "one.svg"];
+    let figure = bench.run("bond-figures", &arguments);
+    assert!(figure.status.success(), "{}", said(&figure));
+    let drawn = String::from_utf8(bench.read("one.svg")).unwrap();
+    assert!(
+        drawn.contains("\n1 run\n") && drawn.contains("\nrow\n"),
+        "{drawn}"
+    );
+}
+
 /// One of the runs that ended sound.
 fn sound(bench: &Workbench, runs: &[String]) -> String {
     let row = |run: &&String| bench.read(&format!("whole/runs/{run}/row.csv"));

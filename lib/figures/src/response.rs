@@ -42,11 +42,11 @@ const HEIGHT: f64 = 0.74;
 const MARGIN: f64 = 24.0;
 
 impl Response {
-    /// Reads `result`, a column of numbers, and every parameter with more than one number.
+    /// Reads `result`, a column of numbers, and every parameter with more than one number; where
+    /// there is none, the row.
     ///
     /// # Errors
-    /// [`Error::Data`] for a table that is not of a sweep, a result without a number, or runs that
-    /// differ in no number.
+    /// [`Error::Data`] for a table that is not of a sweep or a result without a number.
     pub fn read(sweep: &Labelled, result: &str) -> Result<Self, Error> {
         let table = Table::read(&sweep.path)?;
         let values = table.data(result)?;
@@ -67,10 +67,10 @@ impl Response {
             }
         }
         if parameters.is_empty() {
-            return Err(Error::Data(format!(
-                "'{}' has no parameter with more than one number, and so no response to draw",
-                table.name()
-            )));
+            parameters.push(Parameter {
+                name: "row".into(),
+                values: (1..=values.len()).map(|row| row as f64).collect(),
+            });
         }
         Ok(Self {
             result: result.to_owned(),
@@ -135,6 +135,7 @@ impl Response {
     fn title(&self) -> String {
         let runs = self.values.len();
         match self.values.iter().filter(|v| !v.is_finite()).count() {
+            0 if runs == 1 => "1 run".to_owned(),
             0 => format!("{runs} runs"),
             n => format!("{runs} runs, of which {n} have no result"),
         }
@@ -237,6 +238,7 @@ fn worded(column: &str) -> String {
         "um3" => Some("µm³".to_owned()),
         "pa" => Some("Pa".to_owned()),
         "cell" => Some("cells".to_owned()),
+        "voxel" | "voxels" => Some("voxels".to_owned()),
         unit => units::unit(unit).map(|_| unit.replace("um", "µm")),
     };
     // The longest unit: some hold a blank, which is an underscore here.

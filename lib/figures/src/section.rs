@@ -95,6 +95,10 @@ impl Section {
         }
     }
 
+    pub(crate) fn voxel_m(&self) -> f64 {
+        self.edges[0] / self.size[0] as f64
+    }
+
     /// Across and up, um.
     pub(crate) fn axes(&self) -> [Axis; 2] {
         [0, 1].map(|i| {

@@ -81,6 +81,11 @@ impl Slices {
         Self { page, ..self }
     }
 
+    /// Edge of a voxel of the first state, m.
+    pub fn voxel_m(&self) -> f64 {
+        self.sections.first().map_or(f64::NAN, Section::voxel_m)
+    }
+
     /// The same of a part of the slices only: its ends across and up, m.
     ///
     /// # Errors

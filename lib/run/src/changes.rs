@@ -102,7 +102,7 @@ mod tests {
         let changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
         let text = changed(original, Path::new("c"), &changes).unwrap();
         let case = Case::parse(&text, Path::new("c")).unwrap();
-        assert!((case.grid.cell.si() - 1.45e-6).abs() < 1e-18);
+        assert!((case.grid.cell.si(None).unwrap() - 1.45e-6).abs() < 1e-18);
         assert_eq!((case.integrator.cfl, case.grid.dimensions), (Some(0.25), 2));
         assert!(case.clamp.is_some());
         let body = format!(

@@ -60,7 +60,7 @@ pub(crate) fn conclude(
         penetration,
         set_s: setup.scene.liquid.cure.as_ref().and_then(Cure::set_at),
         invariants,
-        expected_error: expected_error::of(case),
+        expected_error: expected_error::of(case, setup.scene.grid.cell_m),
         left_out: asked.left_out,
         provenance: asked.provenance,
     };

@@ -48,9 +48,9 @@ pub struct QuantityError {
     pub relative: f64,
 }
 
-/// The error to expect of a case.
-pub(crate) fn of(case: &Case) -> ExpectedError {
-    let cells = LUMEN_M / case.grid.cell.si();
+/// The error to expect of a case in cells of `cell_m`.
+pub(crate) fn of(case: &Case, cell_m: f64) -> ExpectedError {
+    let cells = LUMEN_M / cell_m;
     let row = nearest(&key(case), cells);
     let (press, bond) = ("piston into slit", "a small bond line");
     let [slit, channel, pressure, wp] = row.as_ref().map_or([None; 4], |row| row.errors);
@@ -83,11 +83,11 @@ pub(crate) fn of(case: &Case) -> ExpectedError {
     }
 }
 
-/// The lines of `--explain` about a case.
-pub(crate) fn text(case: &Case) -> String {
+/// The lines of `--explain` about a case in cells of `cell_m`.
+pub(crate) fn text(case: &Case, cell_m: f64) -> String {
     let mut out = String::from("\nerror to expect (measured, docs/results/tradeoff.md)\n");
     // Writing to a string cannot fail.
-    let _ = quote(&mut out, &of(case));
+    let _ = quote(&mut out, &of(case, cell_m));
     out
 }
 

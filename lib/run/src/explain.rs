@@ -85,7 +85,7 @@ pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
     // Writing to a string cannot fail.
     let _ = scene(&mut out, case, setup);
     let _ = cost(&mut out, setup, forecast);
-    out.push_str(&expected_error::text(case));
+    out.push_str(&expected_error::text(case, setup.scene.grid.cell_m));
     out.push_str(&chords::text(&setup.scene));
     let _ = writeln!(
         out,

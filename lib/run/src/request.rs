@@ -198,8 +198,7 @@ impl Request {
         // In a folder without the mark nothing is known to be a run's: making it one refuses.
         if let Some(found) = &found
             && mode.resume
-            && !mode.overwrite
-            && is_final_of(folder, &identity)?
+            && is_final_of(folder, &identity, mode.overwrite)?
         {
             earlier_run::tidy(found, &origin)?;
             return Ok(None);
@@ -292,7 +291,7 @@ impl Request {
                     verdict: verdict::Verdict::because(vec![failure.said()]),
                     steps: step,
                     time_s,
-                    expected_error: expected_error::of(&self.case),
+                    expected_error: expected_error::of(&self.case, self.setup.scene.grid.cell_m),
                     left_out,
                     provenance,
                 };

@@ -31,8 +31,12 @@ pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFa
     let scene = &setup.scene;
     Ok(match case.integrator.scheme {
         SchemeName::Explicit => {
-            let scheme =
-                Explicit::of_points(scene, &setup.liquid, setup.points(), &explicit(case)?);
+            let scheme = Explicit::of_points(
+                scene,
+                &setup.liquid,
+                setup.points(),
+                &explicit(case, setup.scene.grid.cell_m)?,
+            );
             Box::new(scheme.map_err(RunFailure::Usage)?)
         }
         SchemeName::Implicit => {
@@ -56,14 +60,14 @@ pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFa
 /// What a run is expected to take.
 pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailure> {
     match case.integrator.scheme {
-        SchemeName::Explicit => explicit_forecast(&explicit(case)?, setup),
+        SchemeName::Explicit => explicit_forecast(&explicit(case, setup.scene.grid.cell_m)?, setup),
         SchemeName::Implicit | SchemeName::VolumeFraction => {
             Ok(implicit_forecast(&implicit(case)?, setup))
         }
     }
 }
 
-fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
+fn explicit(case: &Case, cell: f64) -> Result<mpm::Settings, CaseError> {
     let table = &case.integrator;
     if table.tolerance.is_some() {
         return Err(CaseError(
@@ -117,7 +121,6 @@ fn explicit(case: &Case) -> Result<mpm::Settings, CaseError> {
         }
         (update, None) => update,
     };
-    let cell = case.grid.cell.si();
     let settings = mpm::Settings {
         shape: case.grid.shape.unwrap_or_default(),
         velocity_update,

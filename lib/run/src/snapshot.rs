@@ -20,11 +20,16 @@ const PRESSURE: &str = "pressure_pa";
 /// Way of the clamp left until the bond is closed, m; that of the bond file in its header.
 const GAP: &str = "gap_m";
 
-/// Whether `folder` holds the final state of the run with this identity, whole.
+/// Whether `folder` holds the final state of the run with this identity, whole. One that is damaged
+/// is none where it is `replaceable`.
 ///
 /// # Errors
-/// It does, but what it holds is damaged.
-pub(crate) fn is_final_of(folder: &Path, identity: &str) -> Result<bool, RunFailure> {
+/// A damaged one that is not.
+pub(crate) fn is_final_of(
+    folder: &Path,
+    identity: &str,
+    replaceable: bool,
+) -> Result<bool, RunFailure> {
     let Ok(file) = ParticleFile::open(folder.join(FINAL)) else {
         return Ok(false);
     };
@@ -33,6 +38,7 @@ pub(crate) fn is_final_of(folder: &Path, identity: &str) -> Result<bool, RunFail
     }
     match file.check() {
         Ok(()) => Ok(true),
+        Err(_) if replaceable => Ok(false),
         Err(error) => Err(RunFailure::Data(format!(
             "the run has ended, but its final state is damaged ({error}): use --overwrite to run it again"
         ))),

@@ -6,8 +6,8 @@ use figures::{Case, Direction, Labelled, Page, Position};
 use units::Axis;
 
 use crate::values::{
-    Colour, Limit, Part, Shown, Target, Wood, degrees, dpi, experiment, given, labelled, length,
-    name, part, position, run, width,
+    Colour, Extent, Limit, Part, Shown, Target, Wood, cell, degrees, dpi, experiment, given,
+    labelled, name, part, position, run, width,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -73,7 +73,7 @@ pub(crate) enum Figure {
   bond-figures slice bond.mpts -o bond.png
   bond-figures slice start=bond.mpts end=final.mpts --normal x --at 40% -o ends.png
   bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg
-  bond-figures slice bond.mpts --part \"0 um:40 um,20 um:60 um\" --grid \"2.9 um\" -o fig3.svg")]
+  bond-figures slice bond.mpts --part \"0 um:40 um,20 um:60 um\" --grid \"2 voxels\" -o fig3.svg")]
     Slice(SliceArgs),
     /// A result of a sweep against each of its parameters
     #[command(after_help = "Examples:
@@ -206,12 +206,13 @@ pub(crate) struct SliceArgs {
     /// Colour the adhesive: plain, or by its pressure
     #[arg(long, value_enum, default_value = "plain")]
     pub(crate) colour: Colour,
-    /// Only this part of the slice: ends along the axis to the right, then along the one up
+    /// Only this part of the slice: ends along the axis to the right, then along the one up; lengths
+    /// or voxels
     #[arg(long, value_name = "LEN:LEN,LEN:LEN", allow_hyphen_values = true, value_parser = part)]
     pub(crate) part: Option<Part>,
-    /// Draw the grid of a run in cells of this size (Fig. 3)
-    #[arg(long, value_name = "LEN", value_parser = length)]
-    pub(crate) grid: Option<f64>,
+    /// Draw the grid of a run in cells of this size (Fig. 3), a length or voxels
+    #[arg(long, value_name = "LEN", value_parser = cell)]
+    pub(crate) grid: Option<Extent>,
     #[command(flatten)]
     pub(crate) picture: Picture,
 }

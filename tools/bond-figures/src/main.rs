@@ -80,11 +80,13 @@ fn slice(a: SliceArgs) -> Result<(), Failure> {
         position: a.at,
     };
     let mut figure = Slices::read(inputs.files(), cut, a.colour.into()).map_err(failure)?;
+    let voxel = figure.voxel_m();
     if let Some(part) = a.part {
+        let part = part.map(|ends| ends.map(|end| end.si(voxel)));
         figure = figure.part(part).map_err(failure)?;
     }
     if let Some(cell) = a.grid {
-        figure = figure.grid(cell).map_err(failure)?;
+        figure = figure.grid(cell.si(voxel)).map_err(failure)?;
     }
     write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
 }

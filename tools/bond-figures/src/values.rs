@@ -241,25 +241,57 @@ pub(crate) fn dpi(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A positive length, m.
-pub(crate) fn length(text: &str) -> Result<f64, String> {
-    let length = text.parse::<Quantity<Length>>();
-    let length = length.and_then(Quantity::positive);
-    length.map(Quantity::si).map_err(|e| e.to_string())
+/// A length, or a multiple of the voxel of the first file.
+#[derive(Clone, Copy)]
+pub(crate) enum Extent {
+    Metres(f64),
+    Voxels(f64),
 }
 
-/// Ends across and up, m.
-pub(crate) type Part = [[f64; 2]; 2];
+impl Extent {
+    pub(crate) fn si(self, voxel_m: f64) -> f64 {
+        match self {
+            Self::Metres(length) => length,
+            Self::Voxels(n) => n * voxel_m,
+        }
+    }
+}
+
+impl FromStr for Extent {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let text = text.trim();
+        let number = text.strip_suffix("voxels").or(text.strip_suffix("voxel"));
+        let number = number.and_then(|number| number.trim().parse().ok());
+        match number.filter(|n: &f64| n.is_finite()) {
+            Some(n) => Ok(Self::Voxels(n)),
+            None => (text.parse::<Quantity<Length>>())
+                .map(|length| Self::Metres(length.si()))
+                .map_err(|e| format!("{e}, or voxels, as in \"2 voxels\"")),
+        }
+    }
+}
+
+/// The edge of a cell.
+pub(crate) fn cell(text: &str) -> Result<Extent, String> {
+    let cell: Extent = text.parse()?;
+    match cell.si(1.0) > 0.0 {
+        true => Ok(cell),
+        false => Err(format!(
+            "a cell of '{text}' is no cell: its edge must be greater than zero"
+        )),
+    }
+}
+
+/// Ends across and up.
+pub(crate) type Part = [[Extent; 2]; 2];
 
 pub(crate) fn part(text: &str) -> Result<Part, String> {
     let wrong = || format!("'{text}' is not a part, as in \"0 um:40 um,20 um:60 um\"");
-    let coordinate = |text: &str| {
-        let length = text.trim().parse::<Quantity<Length>>();
-        length.map(Quantity::si).map_err(|e| e.to_string())
-    };
-    let range = |text: &str| -> Result<[f64; 2], String> {
+    let range = |text: &str| -> Result<[Extent; 2], String> {
         let (from, to) = text.split_once(':').ok_or_else(wrong)?;
-        Ok([coordinate(from)?, coordinate(to)?])
+        Ok([from.parse()?, to.parse()?])
     };
     let (across, up) = text.split_once(',').ok_or_else(wrong)?;
     Ok([range(across)?, range(up)?])

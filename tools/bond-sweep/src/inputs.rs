@@ -92,8 +92,8 @@ fn with_unit(name: &str, cells: Vec<String>) -> (String, Vec<String>) {
     (format!("{name}_{}", first.replace(' ', "_")), numbers)
 }
 
-/// Number, unit, what it measures, and the unit in SI; multiples of the cell are a measure of their
-/// own.
+/// Number, unit, what it measures, and the unit in SI; multiples of the cell and of the
+/// voxel are measures of their own.
 fn quantity(cell: &str) -> Option<(&str, &str, &'static str, f64)> {
     // The shortest unit, so that an exponent is none.
     let split = (1..cell.len())
@@ -104,6 +104,7 @@ fn quantity(cell: &str) -> Option<(&str, &str, &'static str, f64)> {
         number.parse::<f64>().ok().filter(|n| n.is_finite())?;
         let (dimension, factor) = match symbol {
             "cell" => ("cells", 1.0),
+            "voxel" | "voxels" => ("voxels", 1.0),
             symbol => unit(symbol)?,
         };
         Some((number, symbol, dimension, factor))
@@ -134,6 +135,7 @@ mod tests {
                 "a.b_cell",
                 vec!["0.01", "0.02"],
             ),
+            (vec!["2 voxels", "1 voxel"], "a.b_voxels", vec!["2", "1"]),
             (vec!["0.25", "1"], "a.b", vec!["0.25", "1"]),
             (vec!["closed", "0.08 ms"], "a.b", vec!["closed", "0.08 ms"]),
             (vec!["0.01 cell", "2 um"], "a.b", vec!["0.01 cell", "2 um"]),

@@ -37,7 +37,8 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a CSV file with a header; lines that begin with `#` are passed over.
+    /// Reads a CSV file with a header; lines that begin with `#` are passed over, and rows of empty
+    /// cells alone, which spreadsheets write.
     ///
     /// # Errors
     /// Exit 3 for a file that cannot be read or is no CSV, exit 2 for an unknown column, a name
@@ -77,12 +78,15 @@ impl Table {
             let kind = kind_of(name).map_err(|why| table.wrong(why))?;
             table.columns.push((name.to_owned(), kind));
         }
-        for (i, record) in reader.records().enumerate() {
+        for record in reader.records() {
             let record = record.map_err(broken)?;
+            if record.iter().all(str::is_empty) {
+                continue;
+            }
             if record.len() != header.len() {
                 return Err(table.wrong(format_args!(
                     "row {} has {} cells and the header {}: a cell that holds a comma stands in quotes",
-                    i + 1,
+                    table.rows.len() + 1,
                     record.len(),
                     header.len()
                 )));
@@ -176,6 +180,15 @@ mod tests {
         assert_eq!(table.rows[0][2], "1300 cP");
         assert_eq!(table.given(1).count(), 1);
         assert_eq!(table.beside("bond"), Path::new("f/bond"));
+    }
+
+    #[test]
+    fn rows_of_empty_cells_are_none() {
+        let text = "a.b,c.d\n,\n1,2\n , \n,,,,\n\n3,4\n,\n";
+        let table = Table::parse(Path::new("t.csv"), text.as_bytes()).unwrap();
+        assert_eq!(table.rows, [["1", "2"], ["3", "4"]]);
+        assert!(said("a.b,c.d\n,\n1\n").contains("row 1 has 1 cells"));
+        assert!(said("a.b,c.d\n,\n,\n").contains("no row"));
     }
 
     #[test]

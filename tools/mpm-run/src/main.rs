@@ -72,7 +72,8 @@ struct Arguments {
     /// was another before; start if there is none, do nothing if the run has ended
     #[arg(long, conflicts_with = "explain")]
     resume: bool,
-    /// Replace the files of another run in the run folder, and no others
+    /// Replace the files of another run in the run folder, and no others; with --resume this very
+    /// run is continued, and stays where it has ended
     #[arg(long, conflicts_with = "explain")]
     overwrite: bool,
     #[command(flatten)]

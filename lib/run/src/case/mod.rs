@@ -22,7 +22,7 @@ pub use schema::{
     Adhesive, Axes, Body, BoxCorners, Case, ClampTable, Contact, Grid, Integrator, MaterialName,
     OutputTable, PidGains, SchemeName,
 };
-pub use value::{BodyVelocity, CellLength, Positive, StopRule};
+pub use value::{BodyVelocity, CellEdge, CellLength, Positive, StopRule};
 pub use water::WaterTable;
 
 /// Why a case cannot be run; one sentence with file, line and column where known.
@@ -83,7 +83,7 @@ order = 5
     #[test]
     fn the_example_parses() {
         let case = Case::parse(GOOD, Path::new("case.toml")).unwrap();
-        assert!((case.grid.cell.si() - 2.9e-6).abs() < 1e-18);
+        assert!((case.grid.cell.si(None).unwrap() - 2.9e-6).abs() < 1e-18);
         assert_eq!(case.integrator.order, Some(5));
     }
 

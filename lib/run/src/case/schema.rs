@@ -9,7 +9,7 @@ use super::air::AirTable;
 use super::cure::CureTable;
 use super::press::StageTable;
 use super::rheology::{CarreauYasuda, Cross, HerschelBulkley, PowerLaw};
-use super::value::{BodyVelocity, CellLength, Positive, StopRule, choice, some_choice};
+use super::value::{BodyVelocity, CellEdge, CellLength, Positive, StopRule, choice, some_choice};
 use super::water::WaterTable;
 
 /// A case file.
@@ -48,7 +48,7 @@ pub struct Case {
 #[serde(deny_unknown_fields)]
 pub struct Grid {
     /// Edge of a cubic cell.
-    pub cell: Positive<Length>,
+    pub cell: CellEdge,
     /// 2 (plane strain) or 3.
     #[serde(default = "three")]
     pub dimensions: u8,

@@ -7,6 +7,8 @@ use serde::Deserialize;
 use serde::de::{self, Deserializer};
 use units::{Dimension, Length, Quantity, Speed, Time};
 
+use super::CaseError;
+
 /// A quantity that must be greater than zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Positive<D: Dimension>(Quantity<D>);
@@ -64,12 +66,11 @@ impl<'de> Deserialize<'de> for CellLength {
             "a length such as \"29 nm\" or a multiple of the cell such as \"0.01 cell\"",
         )?;
         if let Some(number) = text.trim().strip_suffix("cell") {
-            return match number.trim().parse::<f64>() {
-                Ok(n) if n > 0.0 && n.is_finite() => Ok(CellLength::Cells(n)),
-                _ => Err(de::Error::custom(format!(
+            return multiple(number).map(CellLength::Cells).ok_or_else(|| {
+                de::Error::custom(format!(
                     "'{text}' is not accepted: a number of cells greater than zero is needed, such as \"0.01 cell\""
-                ))),
-            };
+                ))
+            });
         }
         text.parse::<Quantity<Length>>()
             .and_then(Quantity::positive)
@@ -78,6 +79,59 @@ impl<'de> Deserialize<'de> for CellLength {
                 de::Error::custom(format!("{e}, or a number of cells such as \"0.01 cell\""))
             })
     }
+}
+
+/// The edge of a cell: a length, or a multiple of the specimen's voxel (`"2 voxels"`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CellEdge {
+    /// In voxels.
+    Voxels(f64),
+    /// In metres.
+    Metres(f64),
+}
+
+impl CellEdge {
+    /// In metres, with the voxel of a bond file where there is one.
+    ///
+    /// # Errors
+    /// A multiple of a voxel where nothing has voxels.
+    pub fn si(self, voxel_m: Option<f64>) -> Result<f64, CaseError> {
+        match (self, voxel_m) {
+            (CellEdge::Metres(edge), _) => Ok(edge),
+            (CellEdge::Voxels(n), Some(voxel)) => Ok(n * voxel),
+            (CellEdge::Voxels(_), None) => Err(CaseError(
+                "[grid] cell is given in voxels, and [[body]] tables have none: give a length such as \"2.9 um\"".into(),
+            )),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for CellEdge {
+    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
+        let text = text(
+            reader,
+            "a length such as \"2.9 um\" or a multiple of the specimen's voxel such as \"2 voxels\"",
+        )?;
+        let bare = text.trim();
+        let number = bare.strip_suffix("voxels").or(bare.strip_suffix("voxel"));
+        if let Some(number) = number {
+            return multiple(number).map(CellEdge::Voxels).ok_or_else(|| {
+                de::Error::custom(format!(
+                    "'{text}' is not accepted: a number of voxels greater than zero is needed, such as \"2 voxels\""
+                ))
+            });
+        }
+        text.parse::<Quantity<Length>>()
+            .and_then(Quantity::positive)
+            .map(|edge| CellEdge::Metres(edge.si()))
+            .map_err(|e| de::Error::custom(format!("{e}, or voxels, such as \"2 voxels\"")))
+    }
+}
+
+/// The number before a unit of which there is a whole or a part.
+fn multiple(number: &str) -> Option<f64> {
+    let number = number.trim().parse::<f64>().ok();
+    number.filter(|n| *n > 0.0 && n.is_finite())
 }
 
 /// `stop` of the clamp: `"closed"` or a time.

@@ -33,7 +33,7 @@ pub(super) fn geometry(
     dimensions: Dimensions,
     bond: Bond,
 ) -> Result<Geometry, CaseError> {
-    let cell = case.grid.cell.si();
+    let cell = case.grid.cell.si(Some(bond.adhesive.voxel()[0]))?;
     if case.grid.domain.is_some() {
         return Err(CaseError(
             "[grid] domain is for [[body]] scenes; a bond file has its own box".into(),

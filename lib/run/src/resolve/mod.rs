@@ -114,7 +114,7 @@ pub fn resolve(case: &Case, bond: Option<Bond>) -> Result<Setup, CaseError> {
 }
 
 fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Setup, CaseError> {
-    let cell = case.grid.cell.si();
+    let cell = geometry.grid.cell_m;
     let programme = match &case.clamp {
         Some(table) => press::programme(table, geometry.travel_m)?,
         None => Vec::new(),

@@ -7,7 +7,7 @@ use super::{Corners, Geometry, boundary, cells_along, periodic};
 use crate::case::{Body, BodyVelocity, BoxCorners, Case, CaseError, MaterialName};
 
 pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, CaseError> {
-    let cell = case.grid.cell.si();
+    let cell = case.grid.cell.si(None)?;
     let depth = (dimensions == Dimensions::Two).then_some(cell);
     let boundary = boundary(case, dimensions)?;
     let domain = domain(case, depth)?;

@@ -93,6 +93,36 @@ fn the_bond_normal_is_turned_to_y_and_every_adhesive_voxel_filled() {
     assert!(said.contains("end closed after 3.00 um of travel"));
 }
 
+/// A case that names voxels fits any specimen.
+#[test]
+fn cells_may_be_voxels_of_the_bond() {
+    let bench = Bench::with(CASE);
+    bond(&bench, 8, |_| {});
+    for (cell, grid) in [
+        ("0.5 voxel", "grid 8 x 15 x 16 cells of 1.0000 um"),
+        ("1voxel", "grid 4 x 8 x 8 cells of 2.0000 um"),
+        ("2 voxels", "grid 2 x 4 x 4 cells of 4.0000 um"),
+    ] {
+        let said = plan(&bench, &[&format!("grid.cell={cell}")]);
+        assert!(said.contains(grid), "{cell}: {said}");
+    }
+    for (cell, sentence) in [
+        ("2 voxel s", "or voxels, such as \"2 voxels\""),
+        ("voxels", "a number of voxels greater than zero is needed"),
+        (
+            "-2 voxels",
+            "a number of voxels greater than zero is needed",
+        ),
+        (
+            "nan voxels",
+            "a number of voxels greater than zero is needed",
+        ),
+    ] {
+        let refused = read(&bench, &[&format!("grid.cell={cell}")]).unwrap_err();
+        assert!(refused.to_string().contains(sentence), "{cell}: {refused}");
+    }
+}
+
 #[test]
 fn plane_strain_is_one_voxel_thick_and_one_cell_deep() {
     let bench = Bench::with(CASE);

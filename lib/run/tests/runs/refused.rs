@@ -18,6 +18,11 @@ fn what_contradicts_itself_is_refused() {
         (&[], &["grid.cell=1e-5 um"], "cells long"),
         (
             &[],
+            &["grid.cell=2 voxels"],
+            "[[body]] tables have none: give a length",
+        ),
+        (
+            &[],
             &["integrator.tolerance=1e-6"],
             "tolerance is for scheme = \"implicit\"",
         ),

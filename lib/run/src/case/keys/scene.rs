@@ -15,9 +15,9 @@ pub(super) const GRID: Table = Table {
     keys: &[
         Key {
             name: "cell",
-            form: quantity::<Length>,
+            form: || format!("{}, voxels", quantity::<Length>()),
             absent: Absent::Needed("always"),
-            text: "Edge of a cubic cell. Two voxels of the stack are the paper's and usual. Take one voxel where `--explain` says that half of the lumens' volume has fewer than 5 cells across, and for errors (`make` does so by itself): some ten times the cost, five times the memory.",
+            text: "Edge of a cubic cell, a length or a multiple of the bond file's voxel: `\"2 voxels\"`. Two voxels of the stack are the paper's and usual. Take one voxel where `--explain` says that half of the lumens' volume has fewer than 5 cells across, and for errors (`make` does so by itself): some ten times the cost, five times the memory.",
         },
         Key {
             name: "dimensions",

@@ -1,0 +1,157 @@
+//! What `make` starts and keeps: runs that are killed, twice at once, found not sound, or too long to be
+//! started unasked.
+
+use std::os::unix::process::CommandExt;
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use crate::clone::{clone, command, make, table};
+use crate::workbench::{Workbench, grooved, npy, said};
+
+const STACK: [&str; 3] = [
+    "XCT_PF=a.npy",
+    "VOXEL=1.45 um",
+    "SET=output.history_every=1 ns",
+];
+
+/// The copy with a stack.
+fn with_stack() -> Option<Workbench> {
+    let bench = clone()?;
+    bench.write("a.npy", npy([16, 32, 16], grooved));
+    Some(bench)
+}
+
+/// Ends a make and all that it has started, at a moment.
+fn killed(bench: &Workbench, after: Duration) {
+    let mut make = command(bench, &[&STACK[..], &["OUT=killed", "table2"]].concat())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .process_group(0)
+        .spawn()
+        .unwrap();
+    sleep(after);
+    let group = format!("-{}", make.id());
+    let kill = Command::new("kill")
+        .args(["-KILL", "--", &group])
+        .stderr(Stdio::null())
+        .status();
+    assert!(kill.is_ok());
+    make.wait().unwrap();
+}
+
+#[test]
+fn kills_at_any_moment_and_another_make_change_nothing() {
+    let Some(bench) = with_stack() else {
+        return;
+    };
+    let whole = table(&bench, "whole", &STACK).unwrap();
+    for moment in [150, 300, 450, 600, 800, 1000] {
+        killed(&bench, Duration::from_millis(moment));
+    }
+    assert_eq!(table(&bench, "killed", &STACK).as_ref(), Some(&whole));
+    // Two at once, of other variables: each shows its own.
+    let other = [&STACK[..2], &["SET=adhesive.viscosity=5 Pa s"]].concat();
+    let one = |arguments: &[&str]| {
+        let arguments = [arguments, &["OUT=both", "V=1", "table2"]].concat();
+        command(&bench, &arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap()
+    };
+    let both = [one(&STACK), one(&other)].map(|make| make.wait_with_output().unwrap());
+    for (made, arguments) in both.iter().zip([&STACK[..], &other]) {
+        assert!(made.status.success(), "{}", said(made));
+        let anew = table(&bench, "alone", arguments).unwrap();
+        let shown = String::from_utf8_lossy(&made.stdout);
+        assert!(shown.contains(&anew), "{anew}{shown}");
+    }
+}
+
+/// A press that ends with more than its pressure.
+const UNSOUND: &str = r#"
+[grid]
+cell = "2 voxels"
+[adhesive]
+density = "1200 kg/m3"
+bulk_modulus = "1 GPa"
+viscosity = "0.7 Pa s"
+[contact]
+law = "stick"
+[[clamp.stage]]
+kind = "approach"
+speed = "6 mm/s"
+pressure = "300 kPa"
+[[clamp.stage]]
+kind = "ramp"
+pressure = "1 MPa"
+time = "1 ms"
+[[clamp.stage]]
+kind = "release"
+time = "0.3 ms"
+[air]
+pressure = "101325 Pa"
+[boundary]
+x = "periodic"
+z = "periodic"
+[integrator]
+scheme = "implicit"
+"#;
+
+/// make removed what the run had said that it keeps.
+#[test]
+fn a_run_that_is_not_sound_stays_and_is_told_again() {
+    let Some(bench) = with_stack() else {
+        return;
+    };
+    bench.write("pipelines/cases/pf-implicit.toml", UNSOUND);
+    let pressed = || {
+        let made = make(
+            &bench,
+            &["XCT_PF=a.npy", "VOXEL=1.45 um", "SET=", "OUT=o", "table2"],
+        );
+        assert!(!made.status.success());
+        let told = said(&made);
+        assert!(told.contains("not sound (kept, and marked so"), "{told}");
+        (told, String::from_utf8(made.stdout).unwrap())
+    };
+    let (_, planned) = pressed();
+    assert!(planned.contains("1 run,"), "{planned}");
+    let state = bench.read("o/pf/implicit/final.mpts");
+    let (told, planned) = pressed();
+    assert!(
+        told.contains("has ended already") && planned.is_empty(),
+        "{told}{planned}"
+    );
+    assert!(bench.read("o/pf/implicit/final.mpts") == state);
+    // Another run takes its place.
+    let other = ["XCT_PF=a.npy", "VOXEL=1.45 um", "SET=", "CELL=1 voxel"];
+    table(&bench, "o", &other);
+    assert!(bench.read("o/pf/implicit/final.mpts") != state);
+}
+
+#[test]
+fn runs_of_more_than_an_hour_are_not_started_unasked() {
+    let Some(bench) = with_stack() else {
+        return;
+    };
+    let long = [
+        "RUNS=flip",
+        "SET=clamp.closing_speed=1 um/s",
+        "OUT=o",
+        "runs",
+    ];
+    let refused = make(&bench, &[&STACK[..2], &long].concat());
+    let plan = String::from_utf8_lossy(&refused.stdout);
+    assert!(
+        plan.contains("o/pf/flip") && plan.contains("1 run, "),
+        "{plan}"
+    );
+    assert!(
+        !refused.status.success() && said(&refused).contains("YES=1 starts it"),
+        "{}",
+        said(&refused)
+    );
+    assert!(!bench.path("o/pf/flip").exists());
+}
