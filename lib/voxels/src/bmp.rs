@@ -3,6 +3,7 @@
 //! Our own, for stored values are labels: the `image` crate gives the colours of a palette, and
 //! where it is asked for indices of fewer than 8 bits it panics (0.25.10).
 
+use crate::colours::Shown;
 use crate::sample::{PageFormat, Sample, unpack_bits};
 use crate::source::Source;
 
@@ -17,6 +18,10 @@ struct Header {
     /// The first row stored is the highest, not the lowest.
     from_top: bool,
     offset: u64,
+    /// Bytes from the beginning to the palette.
+    palette: u64,
+    /// Bytes of one of its colours.
+    colour: usize,
 }
 
 impl Header {
@@ -50,7 +55,21 @@ impl Header {
             bits: bits.into(),
             from_top: height < 0,
             offset: long(10).into(),
+            palette: 14 + u64::from(long(14)),
+            colour: if long(14) == 12 { 3 } else { 4 },
         })
+    }
+
+    fn shown(&self, source: &Source) -> Result<Shown, String> {
+        if self.bits == 24 {
+            return Ok(Shown::RGB);
+        }
+        let room = self.offset.saturating_sub(self.palette);
+        let bytes = room.min((self.colour << self.bits) as u64) as usize;
+        let stored = source.window(self.palette, bytes);
+        let stored = stored.map_err(|e| e.to_string())?;
+        let colours = stored.chunks_exact(self.colour);
+        Ok(Shown::opaque(colours.map(|bgr| [bgr[2], bgr[1], bgr[0]])))
     }
 
     /// Stored bytes of a row: whole words of 32 bits.
@@ -59,8 +78,11 @@ impl Header {
     }
 }
 
-/// The format of the file, whose header is read; its pixels too where there is a `page` for them.
-pub(crate) fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Result<PageFormat, String> {
+/// The format of the file and what its values show; its pixels are read where there is a `page` for them.
+pub(crate) fn read(
+    source: &Source,
+    page: Option<&mut Vec<u8>>,
+) -> Result<(PageFormat, Shown), String> {
     let header = Header::read(source)?;
     let (row, format) = (header.row(), header.format);
     let bytes = row * format.height;
@@ -69,8 +91,9 @@ pub(crate) fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Result<PageFo
             "it is {format}, but the file ends before: it is truncated"
         ));
     }
+    let shown = header.shown(source)?;
     let Some(page) = page else {
-        return Ok(format);
+        return Ok((format, shown));
     };
     let stored = source.window(header.offset, bytes);
     let mut stored = stored.map_err(|e| e.to_string())?;
@@ -78,7 +101,6 @@ pub(crate) fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Result<PageFo
         let rows: Vec<&[u8]> = stored.chunks_exact(row).rev().collect();
         stored = rows.concat();
     }
-    page.clear();
     for row in stored.chunks_exact(row) {
         match header.bits {
             24 => {
@@ -88,5 +110,5 @@ pub(crate) fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Result<PageFo
             bits => page.extend(unpack_bits(row, bits, format.width)),
         }
     }
-    Ok(format)
+    Ok((format, shown))
 }

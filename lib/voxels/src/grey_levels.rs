@@ -22,6 +22,7 @@ impl Histogram {
     /// that reaches out of the stack.
     pub fn of(stack: &Stack, crop: &Crop) -> Result<Self, Error> {
         crop.check(stack.dims()).map_err(Error::Usage)?;
+        stack.check_numbers()?;
         stack.fits(stack.reading_bytes())?;
         let format = stack.format();
         let (lowest, values) = match (format.sample, format.channels) {

@@ -1,13 +1,16 @@
 //! Slices as BMP, PNG and JPEG, a file for each page.
 
 use std::io::{BufRead, BufReader, Seek};
+use std::iter;
+use std::sync::Arc;
 
 use image::codecs::jpeg::JpegDecoder;
 use image::{ColorType, ImageDecoder};
 
+use crate::colours::Shown;
 use crate::sample::{PageFormat, Sample, swap_bytes, unpack_bits};
 use crate::source::Source;
-use crate::{Error, bmp};
+use crate::{Error, bmp, colours};
 
 /// What a file of one page is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +40,7 @@ pub(crate) fn is_image(head: &[u8]) -> bool {
 pub(crate) struct ImagePages {
     sources: Vec<Source>,
     format: PageFormat,
+    shown: Vec<Arc<Shown>>,
     lossy: bool,
 }
 
@@ -47,9 +51,10 @@ pub(crate) struct ImagePages {
 /// first.
 pub(crate) fn open(sources: Vec<Source>) -> Result<ImagePages, Error> {
     let mut format: Option<PageFormat> = None;
+    let mut shown: Vec<Arc<Shown>> = Vec::new();
     let mut lossy = false;
     for (i, source) in sources.iter().enumerate() {
-        let own = read(source, None).map_err(|what| Error::file(source, what))?;
+        let (own, colours) = read(source, None).map_err(|what| Error::file(source, what))?;
         let head = source.window(0, 16).map_err(|e| Error::io(source, e))?;
         lossy |= Kind::of(&head) == Some(Kind::Jpeg);
         let first = *format.get_or_insert(own);
@@ -58,11 +63,14 @@ pub(crate) fn open(sources: Vec<Source>) -> Result<ImagePages, Error> {
                 format!("it is {own} but page 1 is {first}; the pages of a stack must be alike");
             return Err(Error::page(source, i, what));
         }
+        let same = shown.last().filter(|last| ***last == colours).cloned();
+        shown.push(same.unwrap_or_else(|| Arc::new(colours)));
     }
     match format {
         Some(format) => Ok(ImagePages {
             sources,
             format,
+            shown,
             lossy,
         }),
         None => Err(Error::Usage("no stack is given".into())),
@@ -76,6 +84,10 @@ impl ImagePages {
 
     pub(crate) fn format(&self) -> PageFormat {
         self.format
+    }
+
+    pub(crate) fn shown(&self) -> Vec<Arc<Shown>> {
+        self.shown.clone()
     }
 
     /// Whether their compression changes values.
@@ -97,7 +109,7 @@ impl ImagePages {
             return Err(Error::Usage(format!("there is no page {}", z + 1)));
         };
         let wrong = |what| Error::page(source, z, what);
-        let format = read(source, Some(page)).map_err(wrong)?;
+        let (format, _) = read(source, Some(page)).map_err(wrong)?;
         match format == self.format {
             true => Ok(()),
             false => Err(wrong("it has changed since the stack was opened".into())),
@@ -105,8 +117,8 @@ impl ImagePages {
     }
 }
 
-/// The format of an image, whose header is read; its pixels too where there is a `page` for them.
-fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Result<PageFormat, String> {
+/// The format of an image and what its values show; its pixels are read where there is a `page` for them.
+fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Result<(PageFormat, Shown), String> {
     let head = source.window(0, 16).map_err(|e| e.to_string())?;
     let kind = Kind::of(&head).ok_or("it is no BMP, PNG or JPEG as the other slices are")?;
     let content = source.reader_from(0).map_err(|e| e.to_string())?;
@@ -114,12 +126,29 @@ fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Result<PageFormat, Strin
     let said = |e: image::ImageError| e.to_string();
     match kind {
         Kind::Bmp => bmp::read(source, page),
+        Kind::Jpeg if page.is_some() && !ends_as_jpeg(source)? => {
+            Err("its last scan has no end: it is truncated".into())
+        }
         Kind::Jpeg => decoded(JpegDecoder::new(content).map_err(said)?, page),
         Kind::Png => png(content, page),
     }
 }
 
-fn decoded(decoder: impl ImageDecoder, page: Option<&mut Vec<u8>>) -> Result<PageFormat, String> {
+/// Whether the last scan of a JPEG is followed by its end. The decoder makes up what is missing; within a scan
+/// neither of the two markers can stand.
+fn ends_as_jpeg(source: &Source) -> Result<bool, String> {
+    const SCAN: [u8; 2] = [0xff, 0xda];
+    const END: [u8; 2] = [0xff, 0xd9];
+    let bytes = source.window(0, source.len() as usize);
+    let bytes = bytes.map_err(|e| e.to_string())?;
+    let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
+    Ok(last(END) > last(SCAN))
+}
+
+fn decoded(
+    decoder: impl ImageDecoder,
+    page: Option<&mut Vec<u8>>,
+) -> Result<(PageFormat, Shown), String> {
     let (width, height) = decoder.dimensions();
     let channels = match decoder.color_type() {
         ColorType::L8 => 1,
@@ -131,17 +160,35 @@ fn decoded(decoder: impl ImageDecoder, page: Option<&mut Vec<u8>>) -> Result<Pag
         page.resize(format.page_bytes().unwrap_or(0), 0);
         decoder.read_image(page).map_err(|e| e.to_string())?;
     }
-    Ok(format)
+    Ok((
+        format,
+        if channels == 1 {
+            Shown::GREY
+        } else {
+            Shown::RGB
+        },
+    ))
 }
 
 /// Stored samples as they are: no palette, no gamma, no scaling of fewer than 8 bits.
-fn png(content: impl BufRead + Seek, page: Option<&mut Vec<u8>>) -> Result<PageFormat, String> {
+fn png(
+    content: impl BufRead + Seek,
+    page: Option<&mut Vec<u8>>,
+) -> Result<(PageFormat, Shown), String> {
     let mut decoder = png::Decoder::new(content);
     decoder.set_transformations(png::Transformations::IDENTITY);
     let mut reader = decoder.read_info().map_err(|e| e.to_string())?;
     let info = reader.info();
     let (width, height) = info.size();
     let (color, depth) = (info.color_type, info.bit_depth);
+    if let Some(frames) = (info.animation_control)
+        .map(|a| a.num_frames)
+        .filter(|n| *n > 1)
+    {
+        return Err(format!(
+            "it is an animation of {frames} frames; accepted is one image a file: save each frame as a slice"
+        ));
+    }
     let channels = match color {
         png::ColorType::Grayscale | png::ColorType::Indexed => 1,
         png::ColorType::Rgb => 3,
@@ -152,8 +199,9 @@ fn png(content: impl BufRead + Seek, page: Option<&mut Vec<u8>>) -> Result<PageF
         _ => Sample::U8,
     };
     let format = format_of(width, height, sample, channels)?;
+    let shown = png_shown(info);
     let Some(page) = page else {
-        return Ok(format);
+        return Ok((format, shown));
     };
     let stored = reader.output_buffer_size().ok_or("it is too large")?;
     page.resize(stored, 0);
@@ -170,7 +218,26 @@ fn png(content: impl BufRead + Seek, page: Option<&mut Vec<u8>>) -> Result<PageF
                 .collect();
         }
     }
-    Ok(format)
+    Ok((format, shown))
+}
+
+fn png_shown(info: &png::Info) -> Shown {
+    let colours = info.palette.as_deref().unwrap_or_default();
+    let opacity = info.trns.as_deref().unwrap_or_default();
+    let opacity = opacity.iter().copied().chain(iter::repeat(colours::OPAQUE));
+    match (info.color_type, info.bit_depth as u16) {
+        (png::ColorType::Rgb, _) => Shown::RGB,
+        (png::ColorType::Indexed, _) => Shown::Palette(
+            (colours.as_chunks().0.iter().zip(opacity))
+                .map(|([r, g, b], opacity)| [*r, *g, *b, opacity])
+                .collect(),
+        ),
+        (_, 16) => Shown::GREY,
+        (_, bits) => Shown::Grey {
+            bits,
+            inverted: false,
+        },
+    }
 }
 
 fn format_of(

@@ -55,6 +55,11 @@ impl Labels {
     pub fn phase(&self, label: Label) -> Option<Phase> {
         self.0.iter().find(|(l, _)| *l == label).map(|(_, p)| *p)
     }
+
+    /// Whether they are colours.
+    pub(crate) fn are_colours(&self) -> bool {
+        self.0.iter().any(|(l, _)| matches!(l, Label::Rgb(_)))
+    }
 }
 
 impl FromStr for Labels {

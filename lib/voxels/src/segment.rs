@@ -93,6 +93,9 @@ pub fn segment(
 /// this process may have.
 pub fn check(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<(), Error> {
     crop.check(stack.dims()).map_err(Error::Usage)?;
+    if !matches!(phases, Phases::Labels(labels) if labels.are_colours()) {
+        stack.check_numbers()?;
+    }
     if stack.format().channels > 1 && matches!(phases, Phases::Grey(_)) {
         return Err(Error::Usage(format!(
             "{}: grey values are asked for but its pixels are R:G:B; give R:G:B labels instead",

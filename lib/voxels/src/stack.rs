@@ -7,9 +7,11 @@ use std::path::{Path, PathBuf};
 
 use particle_file::limits;
 
+use crate::colours::Colours;
 use crate::images::ImagePages;
 use crate::raw::RawVolume;
 use crate::sample::PageFormat;
+use crate::series::Series;
 use crate::source::{Source, quoted};
 use crate::tiff::TiffPages;
 use crate::voxel_size::VoxelSize;
@@ -20,11 +22,13 @@ use crate::{
 /// A stack of label or grey images, read page by page.
 ///
 /// The stored sample value is the label, whatever a photometric interpretation, colour map or
-/// lookup table would make of it.
+/// lookup table would make of it; where a value shows another colour on another page, the colour is.
 #[derive(Debug)]
 pub struct Stack {
     name: String,
     pages: Pages,
+    /// The colours that its pages are read as, where their stored values do not all show the same.
+    colours: Option<Colours>,
     voxel_size: Option<VoxelSize>,
     /// What is missing among its slices.
     gap: Option<String>,
@@ -44,7 +48,7 @@ const NO_STACK: &str = "it is not a stack; accepted are TIFF, BigTIFF, .npy, .np
 impl Stack {
     /// Opens one multi-page TIFF, `.npy`, `.npz`, MetaImage, NRRD or NIfTI file (`-` is standard
     /// input), one folder of slices (TIFF, BMP, PNG, JPEG), or several slices, which are put in
-    /// natural order.
+    /// the order of their numbers.
     ///
     /// All headers are read and checked here; pixels are read by [`Stack::read_page`].
     ///
@@ -53,20 +57,18 @@ impl Stack {
     pub fn open(paths: &[PathBuf]) -> Result<Self, Error> {
         match paths {
             [] => Err(Error::Usage("no stack is given".into())),
-            [path] if path.is_dir() => Self::of_slices(quoted(path), &folder::slices(path)?),
+            [path] if path.is_dir() => Self::of_slices(quoted(path), folder::slices(path)?),
             [path] => Self::of_file(path),
             slices => {
-                let mut slices = slices.to_vec();
-                folder::sort_naturally(&mut slices);
                 let name = format!("{} and {} more", quoted(&slices[0]), slices.len() - 1);
-                Self::of_slices(name, &slices)
+                Self::of_slices(name, slices.to_vec())
             }
         }
     }
 
-    fn of_slices(name: String, paths: &[PathBuf]) -> Result<Self, Error> {
-        let sources = paths
-            .iter()
+    fn of_slices(name: String, paths: Vec<PathBuf>) -> Result<Self, Error> {
+        let series = Series::of(paths).map_err(|what| Error::file(&name, what))?;
+        let sources = (series.slices.iter())
             .map(|path| Source::open_slice(path))
             .collect::<Result<Vec<_>, _>>()?;
         let head = match sources.first() {
@@ -79,13 +81,7 @@ impl Stack {
             let (pages, voxel_size) = tiff::open_slices(sources)?;
             (Pages::Tiff(pages), voxel_size)
         };
-        Self {
-            name,
-            pages,
-            voxel_size,
-            gap: folder::gap(paths),
-        }
-        .within_limits()
+        Self::new(name, pages, voxel_size, series.gap)
     }
 
     /// Opens a file of nothing but pixels, x fastest.
@@ -116,13 +112,7 @@ impl Stack {
             )));
         }
         let volume = RawVolume::new(vec![source], format, pages, 0, kind.big_endian)?;
-        Self {
-            name,
-            pages: Pages::Raw(volume),
-            voxel_size: None,
-            gap: None,
-        }
-        .within_limits()
+        Self::new(name, Pages::Raw(volume), None, None)
     }
 
     fn of_file(path: &Path) -> Result<Self, Error> {
@@ -164,17 +154,38 @@ impl Stack {
             let known = foreign::conversion(&head);
             return Err(Error::file(name, known.unwrap_or(NO_STACK)));
         };
-        Self {
-            name,
-            pages,
-            voxel_size,
-            gap: None,
-        }
-        .within_limits()
+        Self::new(name, pages, voxel_size, None)
     }
 
-    /// Refuses a stack that declares more voxels than its files can be worth.
-    fn within_limits(self) -> Result<Self, Error> {
+    /// A stack that declares no more voxels than its files can be worth, and whose pages are labelled alike.
+    fn new(
+        name: String,
+        pages: Pages,
+        voxel_size: Option<VoxelSize>,
+        gap: Option<String>,
+    ) -> Result<Self, Error> {
+        let mut stack = Self {
+            name,
+            pages,
+            colours: None,
+            voxel_size,
+            gap,
+        };
+        stack.check_size()?;
+        let shown = match &stack.pages {
+            Pages::Tiff(pages) => pages.shown(),
+            Pages::Images(pages) => pages.shown(),
+            Pages::Raw(_) => Vec::new(),
+        };
+        stack.colours = Colours::of(shown, stack.format().sample).map_err(|unlike| {
+            let [a, b] = unlike.map(|z| stack.page_name(z));
+            let what = format!("a stored value shows another colour in {a} than in {b}, so that it is no label of the stack: save all pages with the same photometric interpretation and colour map");
+            Error::file(&stack.name, what)
+        })?;
+        Ok(stack)
+    }
+
+    fn check_size(&self) -> Result<(), Error> {
         let dims = self.dims().map(|n| n as u64);
         let [x, y, z] = dims;
         let bytes: u64 = self.sources().iter().map(Source::len).sum();
@@ -185,16 +196,16 @@ impl Stack {
                 "it declares {x} x {y} x {z} voxels, more than {} along an axis",
                 limits::PER_AXIS
             );
-            return Err(Error::file(self.name, what));
+            return Err(Error::file(&self.name, what));
         }
         if limits::volume(dims) > most {
             let what = format!(
                 "it declares {x} x {y} x {z} voxels in {bytes} bytes, more than {} for each byte",
                 limits::VOXELS_PER_BYTE
             );
-            return Err(Error::file(self.name, what));
+            return Err(Error::file(&self.name, what));
         }
-        Ok(self)
+        Ok(())
     }
 
     /// Whether a file that begins with `head` is of an accepted kind.
@@ -227,11 +238,31 @@ impl Stack {
 
     /// What every page shares.
     pub fn format(&self) -> PageFormat {
-        match &self.pages {
+        let stored = match &self.pages {
             Pages::Tiff(pages) => pages.format(),
             Pages::Images(pages) => pages.format(),
             Pages::Raw(volume) => volume.format(),
-        }
+        };
+        let channels = if self.colours.is_some() {
+            3
+        } else {
+            stored.channels
+        };
+        PageFormat { channels, ..stored }
+    }
+
+    /// Refuses numbers as labels where a number shows another colour on another page.
+    pub(crate) fn check_numbers(&self) -> Result<(), Error> {
+        let Some(colours) = &self.colours else {
+            return Ok(());
+        };
+        let [a, b] = colours
+            .unlike
+            .map(|z| (self.page_name(z), colours.first(z)));
+        Err(Error::Usage(format!(
+            "{}: the values 0, 1, ... show {} in {} but {} in {}, so that no number is a label of the stack: give the colours as R:G:B in --labels",
+            self.name, a.1, a.0, b.1, b.0
+        )))
     }
 
     /// The voxel size that the metadata state, if they do.
@@ -264,10 +295,18 @@ impl Stack {
     /// # Errors
     /// A page that does not decode to its declared size.
     pub fn read_page(&self, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
+        // No reader may rely on writing every byte: the page before would show through.
+        page.clear();
         match &self.pages {
-            Pages::Tiff(pages) => pages.read(z, page),
-            Pages::Images(pages) => pages.read(z, page),
-            Pages::Raw(volume) => volume.read(z, page),
+            Pages::Tiff(pages) => pages.read(z, page)?,
+            Pages::Images(pages) => pages.read(z, page)?,
+            Pages::Raw(volume) => volume.read(z, page)?,
+        }
+        match &self.colours {
+            Some(colours) => {
+                (colours.show(z, page)).map_err(|what| Error::file(self.page_name(z), what))
+            }
+            None => Ok(()),
         }
     }
 

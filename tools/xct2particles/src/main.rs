@@ -21,7 +21,8 @@ use voxels::{
 /// Turn a stack of XCT label images into a particle file
 ///
 /// Every voxel of wood or adhesive becomes one material point. The stored sample value is the
-/// label, whatever colours an image program shows for it. Pages are z, rows y, columns x.
+/// label, whatever colour an image program shows for it, unless that differs between pages: then
+/// the colours are the labels. Pages are z, rows y, columns x.
 #[derive(Parser)]
 #[command(
     version,

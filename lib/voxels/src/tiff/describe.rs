@@ -1,5 +1,5 @@
 //! What programs write into a TIFF's image description: the number of planes and the size
-//! of a voxel. ImageJ writes `key=value` lines, tifffile a JSON object, OME an XML document.
+//! of a voxel. ImageJ writes `key=value` lines, tifffile the shape, OME an XML document.
 
 use super::ifd::{Container, Directory, tag};
 use super::layout::PageLayout;
@@ -24,8 +24,8 @@ pub(crate) fn describe(
     let resolution = [tag::X_RESOLUTION, tag::Y_RESOLUTION].map(|t| tiff.rational(page, t));
     let mut description = if text.starts_with("ImageJ=") {
         imagej(&text, resolution)?
-    } else if text.trim_start().starts_with("{\"shape\"") {
-        shaped(&text, layout)?
+    } else if let Some(shape) = shape(&text)? {
+        shaped(&shape, layout)?
     } else if text.contains("<OME") {
         ome(&text, layout)?
     } else {
@@ -65,14 +65,28 @@ fn imagej(text: &str, resolution: [Option<f64>; 2]) -> Result<Description, Strin
     })
 }
 
-/// tifffile: `{"shape": [N, rows, columns]}`, with RGB `[N, rows, columns, 3]` or
-/// `[N, 3, rows, columns]`.
-fn shaped(text: &str, layout: &PageLayout) -> Result<Description, String> {
+/// The shape that tifffile writes: a JSON object with the key `shape`, once `shape=(N, rows, columns)`.
+fn shape(text: &str) -> Result<Option<Vec<Option<u64>>>, String> {
+    let text = text.trim();
+    if let Some(axes) = text
+        .strip_prefix("shape=(")
+        .and_then(|t| t.strip_suffix(')'))
+    {
+        let axes = axes.trim_end_matches(',').split(',');
+        return Ok(Some(axes.map(|n| n.trim().parse().ok()).collect()));
+    }
+    if !(text.starts_with('{') && text.contains("\"shape\"")) {
+        return Ok(None);
+    }
     let json: serde_json::Value = serde_json::from_str(text)
         .map_err(|e| format!("its description is not the JSON it begins as: {e}"))?;
-    let axes = json.get("shape").and_then(|s| s.as_array());
-    let axes: Option<Vec<u64>> = axes.and_then(|a| a.iter().map(|n| n.as_u64()).collect());
-    let total = axes.and_then(|axes| axes.iter().try_fold(1_u64, |n, axis| n.checked_mul(*axis)));
+    let axes = json.get("shape").and_then(|shape| shape.as_array());
+    Ok(axes.map(|axes| axes.iter().map(|n| n.as_u64()).collect()))
+}
+
+/// Of `[N, rows, columns]`, with RGB `[N, rows, columns, 3]` or `[N, 3, rows, columns]`.
+fn shaped(axes: &[Option<u64>], layout: &PageLayout) -> Result<Description, String> {
+    let total = (axes.iter()).try_fold(1_u64, |n, axis| n.checked_mul((*axis)?));
     let format = layout.format;
     let plane = (format.width as u64)
         .checked_mul(format.height as u64)

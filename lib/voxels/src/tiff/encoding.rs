@@ -1,6 +1,7 @@
 //! How samples are encoded: number type, compression, predictor.
 
 use super::ifd::{Container, Directory, tag};
+use crate::colours::Shown;
 use crate::sample::Sample;
 
 /// How pixels are packed into chunks.
@@ -72,6 +73,28 @@ impl Compression {
             Self::Zstd => 32_768,
         }
     }
+}
+
+/// What the values of a page of one channel or of colours show.
+pub(crate) fn shown(
+    tiff: &Container,
+    page: &Directory,
+    sample: Sample,
+    bits: u16,
+) -> Result<Shown, String> {
+    let code = tiff.first_uint(page, tag::PHOTOMETRIC)?.unwrap_or(1);
+    let inverted = code == 0;
+    Ok(match (code, tiff.uints(page, tag::COLOR_MAP)?) {
+        (3, Some(map)) => {
+            // Some programs write 8 bits of each colour instead of 16.
+            let shift = if map.iter().all(|n| *n < 256) { 0 } else { 8 };
+            let third = map.len() / 3;
+            let colour = |i| [0, 1, 2].map(|c| (map[c * third + i] >> shift) as u8);
+            Shown::opaque((0..third).map(colour))
+        }
+        (0 | 1, _) if sample == Sample::U8 => Shown::Grey { bits, inverted },
+        (code, _) => Shown::Other(code),
+    })
 }
 
 /// Sample type after unpacking, stored bits, channels.

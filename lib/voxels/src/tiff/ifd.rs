@@ -27,6 +27,7 @@ pub(crate) mod tag {
     pub(crate) const PLANAR_CONFIGURATION: u16 = 284;
     pub(crate) const RESOLUTION_UNIT: u16 = 296;
     pub(crate) const PREDICTOR: u16 = 317;
+    pub(crate) const COLOR_MAP: u16 = 320;
     pub(crate) const TILE_WIDTH: u16 = 322;
     pub(crate) const TILE_LENGTH: u16 = 323;
     pub(crate) const TILE_OFFSETS: u16 = 324;
@@ -50,6 +51,8 @@ pub(crate) struct Container<'a> {
 /// A directory: where the values of each tag stand.
 pub(crate) struct Directory {
     entries: BTreeMap<u16, Entry>,
+    /// Bytes that the file's header, the directory and the values of its tags fill.
+    pub(crate) bytes: u64,
 }
 
 #[derive(Clone, Copy)]
@@ -137,20 +140,26 @@ impl<'a> Container<'a> {
         let list = bytes.get(count_bytes..size).ok_or_else(truncated)?;
         let (list, next) = list.split_at(size - count_bytes - offset_bytes);
         let mut entries = BTreeMap::new();
+        let header = if self.big_tiff { 16 } else { 8 };
+        let mut filled = header + size as u64;
         for (i, entry) in list.chunks_exact(entry_bytes).enumerate() {
             let (head, value) = entry.split_at(entry_bytes - offset_bytes);
             let kind = self.uint(&head[2..4]) as u16;
             let count = self.uint(&head[4..]);
-            let inline =
-                type_bytes(kind).and_then(|n| count.checked_mul(n)) <= Some(offset_bytes as u64);
-            let at = if inline {
+            let bytes = type_bytes(kind).and_then(|n| count.checked_mul(n));
+            let at = if bytes <= Some(offset_bytes as u64) {
                 at + (count_bytes + (i + 1) * entry_bytes - offset_bytes) as u64
             } else {
+                filled = filled.saturating_add(bytes.unwrap_or(0));
                 self.uint(value)
             };
             entries.insert(self.uint(&head[..2]) as u16, Entry { kind, count, at });
         }
-        Ok((Directory { entries }, self.uint(next)))
+        let directory = Directory {
+            entries,
+            bytes: filled,
+        };
+        Ok((directory, self.uint(next)))
     }
 
     /// Bytes of a tag's value; the size is checked against the file before it is allocated.

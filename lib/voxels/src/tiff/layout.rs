@@ -1,10 +1,13 @@
 //! How the pixels of one page are stored, checked against the file before anything is
 //! allocated.
 
+use std::sync::Arc;
+
 use particle_file::limits;
 
-use super::encoding::{Compression, sample_of};
+use super::encoding::{Compression, sample_of, shown};
 use super::ifd::{Container, Directory, tag};
+use crate::colours::Shown;
 use crate::sample::PageFormat;
 
 /// How the page is cut into chunks.
@@ -21,6 +24,8 @@ pub(crate) enum Cut {
 pub(crate) struct PageLayout {
     /// What reading the page yields.
     pub(crate) format: PageFormat,
+    /// What its values show.
+    pub(crate) shown: Arc<Shown>,
     /// Stored bits per sample; below 8 only with unsigned samples, one channel.
     pub(crate) bits: u16,
     pub(crate) compression: Compression,
@@ -64,6 +69,7 @@ impl PageLayout {
                 sample,
                 channels,
             },
+            shown: Arc::new(shown(tiff, page, sample, bits)?),
             bits,
             compression,
             predictor,

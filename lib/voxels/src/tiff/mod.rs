@@ -10,9 +10,12 @@ mod write;
 pub(crate) use ifd::is_tiff;
 pub use write::TiffWriter;
 
+use std::sync::Arc;
+
 use particle_file::limits;
 
 use crate::Error;
+use crate::colours::Shown;
 use crate::sample::PageFormat;
 use crate::source::Source;
 use crate::voxel_size::VoxelSize;
@@ -88,7 +91,33 @@ fn read_directories(source: &Source) -> Result<(Vec<PageLayout>, Description), E
     };
     let description =
         describe::describe(&tiff, directory, page).map_err(|what| Error::page(source, 0, what))?;
+    if directories.len() == 1 {
+        let planes = description.planes.unwrap_or(1).max(1);
+        let described = stored_bytes(&pages).saturating_mul(planes);
+        let described = described.saturating_add(directory.bytes);
+        nothing_behind(source, page, described)?;
+    }
     Ok((pages, description))
+}
+
+fn stored_bytes(pages: &[PageLayout]) -> u64 {
+    let chunks = pages.iter().flat_map(|page| &page.chunks);
+    chunks.fold(0, |sum, (_, bytes)| sum.saturating_add(*bytes))
+}
+
+/// Refuses a file of one directory, which describes so many bytes, with room for another plane in the others:
+/// some programs write planes there that only their own tags tell of.
+fn nothing_behind(source: &Source, page: &PageLayout, described: u64) -> Result<(), Error> {
+    let (_, plane) = page.plane_bytes().unwrap_or_default();
+    let plane = (plane * page.planes()) as u64;
+    let rest = source.len().saturating_sub(described);
+    if rest < plane {
+        return Ok(());
+    }
+    let what = format!(
+        "its only directory describes {described} of its bytes, and the {rest} others have room for more planes of {plane} bytes: save it with a directory for each plane"
+    );
+    Err(Error::file(source, what))
 }
 
 /// The layouts of planes that stand one after another behind a single directory.
@@ -144,6 +173,11 @@ impl TiffPages {
 
     pub(crate) fn format(&self) -> PageFormat {
         self.pages[0].format
+    }
+
+    pub(crate) fn shown(&self) -> Vec<Arc<Shown>> {
+        let shown = |page: &PageLayout| Arc::clone(&page.shown);
+        self.pages.iter().map(shown).collect()
     }
 
     pub(crate) fn sources(&self) -> &[Source] {

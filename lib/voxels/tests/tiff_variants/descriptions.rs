@@ -26,10 +26,53 @@ fn planes_behind_a_single_directory() {
     );
     let frames = format!("ImageJ=1.53t\nimages={nz}\nframes={nz}\nunit=\\u00B5m\n");
     let shaped = format!("{{\"shape\": [{nz}, {}, {}]}}", DIMS[1], DIMS[0]);
-    for description in [hyperstack, frames, shaped] {
+    let [axes, old] = [["{\"axes\": \"ZYX\", \"shape\": [", "]}"], ["shape=(", ")"]]
+        .map(|[a, b]| format!("{a}{nz}, {}, {}{b}", DIMS[1], DIMS[0]));
+    for description in [hyperstack, frames, shaped, axes, old] {
         let bytes = tiff(CLASSIC, &[single_directory(&description)]);
         check(&description, &bytes, ["0", "1", "2"]);
     }
+}
+
+/// Only tags of their own tell of the planes in MetaMorph's and other programs' files.
+#[test]
+fn planes_that_nothing_tells_of_are_refused() {
+    let [nx, ny, _] = DIMS;
+    let plane = |bits: usize| ((nx * bits).div_ceil(8) * ny) as u32;
+    let of = |page: Page, bits, file: &dyn Fn(Page) -> Vec<u8>| {
+        let page = page.tag(279, Value::Long(vec![plane(bits)]));
+        refusal("a.tif", &file(page.short(258, bits as u16)))
+    };
+    let alone = |page: Page| tiff(CLASSIC, &[page]);
+    for description in [
+        "",
+        "ImageJ=1.53t\nimages=1\n",
+        "{\"shape\": [13, 21]}",
+        "{\"note\": 1}",
+    ] {
+        let said = of(single_directory(description), 8, &alone);
+        assert!(said.contains("room for more planes of 273 bytes"), "{said}");
+    }
+    let said = of(single_directory("ImageJ=1.53t\nimages=3\n"), 8, &alone);
+    assert!(said.contains("the 273 others"), "{said}");
+    let said = of(single_directory(""), 1, &alone);
+    assert!(said.contains("planes of 39 bytes"), "{said}");
+    // As slices of a folder, too.
+    let folder = tempfile::tempdir().unwrap();
+    for z in 0..2 {
+        let page = single_directory("").tag(279, Value::Long(vec![plane(8)]));
+        std::fs::write(folder.path().join(format!("s{z}.tif")), alone(page)).unwrap();
+    }
+    let said = Stack::open(&[folder.path().to_owned()])
+        .unwrap_err()
+        .to_string();
+    assert!(said.contains("more planes"), "{said}");
+    // What is less than a plane is padding.
+    let [mut page, ..] = [plain_pages().remove(0)];
+    page.chunks[0].extend(vec![0; nx * ny - 1]);
+    let page = page.tag(279, Value::Long(vec![plane(8)]));
+    let (_folder, path) = stored("a.tif", &alone(page));
+    assert_eq!(Stack::open(&[path]).unwrap().dims(), [nx, ny, 1]);
 }
 
 #[test]

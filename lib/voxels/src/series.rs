@@ -1,0 +1,310 @@
+//! One clear series of slices, in the order of the numbers in their names.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+use crate::names::{self, Name, ONE};
+use crate::source::quoted;
+
+/// Slices in order.
+#[derive(Debug)]
+pub(crate) struct Series {
+    pub(crate) slices: Vec<PathBuf>,
+    /// A sentence about slices that seem to be missing.
+    pub(crate) gap: Option<String>,
+}
+
+/// Slices in the order of a number in their names.
+struct Order {
+    slices: Vec<usize>,
+    /// In units of the ninth decimal.
+    numbers: Vec<i128>,
+    /// The unit of the last decimal that is written.
+    unit: i128,
+    /// No other number in the names differs.
+    alone: bool,
+}
+
+/// Two slices that are not of one series.
+struct Odd {
+    slices: [usize; 2],
+    why: &'static str,
+    /// How many texts the names have, numbers left out.
+    texts: usize,
+}
+
+impl Series {
+    /// Puts slices in the order of the one number in which their names differ, or of several that grow together in
+    /// even steps. A dot between digits is a decimal point where the numbers come in even steps only then.
+    ///
+    /// # Errors
+    /// A sentence that names two slices where all are not one clear series.
+    pub(crate) fn of(slices: Vec<PathBuf>) -> Result<Self, String> {
+        if slices.len() < 2 {
+            return Ok(Self { slices, gap: None });
+        }
+        let odd = match [false, true].map(|points| Order::of(&names::read(&slices, points))) {
+            [Ok(order), _] | [_, Ok(order)] if order.is_even() => return Ok(order.sort(&slices)),
+            [Ok(plain), Ok(pointed)] if plain.slices != pointed.slices => plain.turned(&pointed),
+            [Ok(order), _] if order.alone && order.numbers[0] >= 0 => {
+                return Ok(order.sort(&slices));
+            }
+            [Ok(order), _] | [Err(_), Ok(order)] => order.uneven(),
+            [Err(plain), Err(pointed)] if pointed.texts < plain.texts => pointed,
+            [Err(odd), Err(_)] => odd,
+        };
+        let [a, b] = odd.slices.map(|i| quoted(&slices[i]));
+        Err(format!(
+            "{a} and {b} are not of one clear series of slices: {}; accepted are names that differ in one number: move away what is no slice, or rename the slices",
+            odd.why
+        ))
+    }
+}
+
+impl Order {
+    /// The order by the number that tells most slices apart, in even steps if there is a choice.
+    fn of(names: &[Name]) -> Result<Self, Odd> {
+        let texts = names::texts(names);
+        if texts.len() > 1 {
+            return Err(Odd::of_texts(names, &texts));
+        }
+        let differs = |k: &usize| names.iter().any(|n| n.numbers[*k] != names[0].numbers[*k]);
+        let columns: Vec<usize> = (0..names[0].numbers.len()).filter(differs).collect();
+        let by = |&key: &usize| {
+            let mut slices: Vec<usize> = (0..names.len()).collect();
+            slices.sort_by_key(|&i| (names[i].numbers[key], &names[i].numbers));
+            let order = Self {
+                numbers: slices.iter().map(|&i| names[i].numbers[key]).collect(),
+                slices,
+                unit: ONE / 10_i128.pow(names.iter().map(|n| n.decimals).max().unwrap_or(0) as u32),
+                alone: columns.len() == 1,
+            };
+            let distinct: BTreeSet<_> = order.numbers.iter().collect();
+            ((distinct.len(), order.is_even()), key, order)
+        };
+        let best = columns.iter().map(by).max_by_key(|(rank, ..)| *rank);
+        let odd = |slices, why| Odd {
+            slices,
+            why,
+            texts: 1,
+        };
+        let Some((_, key, order)) = best else {
+            return Err(odd([0, 1], "they have the same number"));
+        };
+        // The others may be a date, whose parts grow one after the other.
+        let others = |numbers: &[i128]| [&numbers[..key], &numbers[key + 1..]].concat();
+        for pair in order.slices.windows(2) {
+            let [a, b] = [pair[0], pair[1]].map(|i| &names[i].numbers);
+            if a == b {
+                return Err(odd([pair[0], pair[1]], "they have the same number"));
+            }
+            if a[key] == b[key] || others(a) > others(b) {
+                let why = "more than one number in their names counts";
+                return Err(odd([pair[0], pair[1]], why));
+            }
+        }
+        Ok(order)
+    }
+
+    fn steps(&self) -> impl Iterator<Item = i128> {
+        self.numbers.windows(2).map(|pair| pair[1] - pair[0])
+    }
+
+    /// Whether the numbers come in even steps, but for the rounding of long decimals.
+    fn is_even(&self) -> bool {
+        let least = self.steps().min().unwrap_or(0);
+        let most = self.steps().max().unwrap_or(0);
+        let rounding = if self.unit < ONE && least >= 10 * self.unit {
+            self.unit
+        } else {
+            0
+        };
+        least > 0 && most - least <= rounding
+    }
+
+    fn sort(&self, slices: &[PathBuf]) -> Series {
+        let slices: Vec<_> = self.slices.iter().map(|&i| slices[i].clone()).collect();
+        let gap = self.gap(&slices);
+        Series { slices, gap }
+    }
+
+    /// The first gap in what is else counted evenly. What is not in at least half of its steps, such as times, has no
+    /// gaps.
+    fn gap(&self, slices: &[PathBuf]) -> Option<String> {
+        if self.is_even() {
+            return None;
+        }
+        let even = self.steps().min()?;
+        let gaps = self.steps().filter(|step| *step != even).count();
+        let at = self.steps().position(|step| step != even)?;
+        let [before, behind] = [at, at + 1].map(|i| quoted(&slices[i]));
+        (2 * gaps < slices.len()).then(|| {
+            format!(
+                "the slices are numbered in steps of {}, but between {before} and {behind} it is {}{}: the stack is read as if nothing were missing",
+                even / ONE,
+                self.steps().nth(at).unwrap_or(even) / ONE,
+                match gaps {
+                    1 => String::new(),
+                    n => format!(", and at {} more places", n - 1),
+                }
+            )
+        })
+    }
+
+    /// The slices about the first step that is unlike the shortest.
+    fn uneven(&self) -> Odd {
+        let even = self.steps().min();
+        let at = self
+            .steps()
+            .position(|step| Some(step) != even)
+            .unwrap_or(0);
+        Odd {
+            slices: [self.slices[at], self.slices[at + 1]],
+            why: "the numbers do not go on there in even steps",
+            texts: 1,
+        }
+    }
+
+    /// The slices whose places depend on what a dot is.
+    fn turned(&self, pointed: &Self) -> Odd {
+        let places = self.slices.iter().zip(&pointed.slices);
+        let turned = places.map(|(a, b)| [*a, *b]).find(|[a, b]| a != b);
+        Odd {
+            slices: turned.unwrap_or([0, 1]),
+            why: "which comes first depends on whether a dot is a decimal point",
+            texts: 1,
+        }
+    }
+}
+
+impl Odd {
+    /// A slice of the rarest text and the one of the most frequent text that is most alike.
+    fn of_texts(names: &[Name], texts: &BTreeMap<&str, Vec<usize>>) -> Self {
+        let size = |slices: &&Vec<usize>| slices.len();
+        let few = texts
+            .values()
+            .min_by_key(size)
+            .map_or(0, |slices| slices[0]);
+        let many = texts.values().max_by_key(size);
+        let alike = |&i: &usize| {
+            let text = names[i].numbers.iter().zip(&names[few].numbers);
+            text.take_while(|(a, b)| a == b).count()
+        };
+        let many = many.and_then(|slices| slices.iter().copied().rev().max_by_key(alike));
+        Self {
+            slices: [few, many.unwrap_or(0)],
+            why: "their names differ in more than a number",
+            texts: texts.len(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(names: &[&str]) -> Result<Series, String> {
+        Series::of(names.iter().map(PathBuf::from).collect())
+    }
+
+    /// Names given in their right order are put in it, whatever order they came in.
+    fn assert_order(right: &[&str]) -> Option<String> {
+        let mut given = right.to_vec();
+        given.sort_unstable();
+        let series = of(&given).unwrap();
+        let found: Vec<_> = series.slices.iter().map(|p| p.to_str().unwrap()).collect();
+        assert_eq!(found, right);
+        series.gap
+    }
+
+    #[test]
+    fn numbers_count_by_their_value() {
+        for right in [
+            &["s 8.tiff", "s 9.TIF", "s 10.tif", "s 11.tif"][..],
+            &["s_8.tif", "s_9.tif", "s_010.tif", "s_0011.tif"],
+            &["s   9.tif", "s  10.tif", "s  11.tif"],
+            &["z-2.tif", "z-1.tif", "z0.tif", "z1.tif"],
+            &["-10", "-5", "0", "5", "10"],
+            &["scan-001.tif", "scan-002.tif", "scan-003.tif"],
+            &["z-1.5.tif", "z-1.tif", "z-0.5.tif", "z0.tif", "z0.5.tif"],
+            &["z0.25.tif", "z0.5.tif", "z0.75.tif", "z1.tif"],
+            &["z9.5um.tif", "z10um.tif", "z10.5um.tif"],
+            &["0.33.png", "0.67.png", "1.00.png", "1.33.png"],
+            &["v2.8.tif", "v2.9.tif", "v2.10.tif", "v2.11.tif"],
+            &["1.45um_8.tif", "1.45um_9.tif", "1.45um_10.tif"],
+            &["scan.0009.ome.tif", "scan.0010.ome.tif"],
+            &["stack.009", "stack.010", "stack.011"],
+            &["9/s.tif", "10/s.tif", "11/s.tif"],
+            &["µ9", "µ10", "µ11"],
+            // Times; an index beside times, dates and places.
+            &["t103015", "t103047", "t103112", "t103214"],
+            &["1_2024-01-31", "2_2024-02-01", "3_2024-02-01"],
+            &["s_0_z-1.0", "s_1_z-0.5", "s_2_z0.0", "s_3_z0.5"],
+            &["20240131235958123456789", "20240131235958123456790"],
+        ] {
+            assert_eq!(assert_order(right), None, "{right:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_clear_series_is_refused_by_two_names() {
+        for (names, odd) in [
+            (
+                &["s_001.tif", "s_002.tif", "s_002 (1).tif"][..],
+                ["s_002 (1).tif", "s_002.tif"],
+            ),
+            (
+                &["s1.tif", "s2.tif", "s2 - Copy.tif"],
+                ["s2 - Copy.tif", "s2.tif"],
+            ),
+            (
+                &["w0.bmp", "w1.bmp", "w2.bmp", "w_spr.bmp"],
+                ["w_spr.bmp", "w0.bmp"],
+            ),
+            (
+                &["a_1.tif", "a_2.tif", "b_1.tif", "b_2.tif"],
+                ["a_1.tif", "b_1.tif"],
+            ),
+            (
+                &["r1_1.tif", "r1_2.tif", "r2_1.tif", "r2_2.tif"],
+                ["r1_1.tif", "r2_1.tif"],
+            ),
+            (&["a/1.tif", "a/2.tif", "b/1.tif"], ["b/1.tif", "a/1.tif"]),
+            (&["s1.tif", "s01.tif", "s2.tif"], ["s1.tif", "s01.tif"]),
+            (&["s1.tif", "s1.tiff", "s2.tif"], ["s1.tif", "s1.tiff"]),
+            (&["z-0.tif", "z0.tif", "z1.tif"], ["z-0.tif", "z0.tif"]),
+            (
+                &["bottom.tif", "middle.tif", "top.tif"],
+                ["bottom.tif", "top.tif"],
+            ),
+            // Two series whose numbers go on, or that a hyphen parts.
+            (&["1.01", "1.02", "2.01", "2.02"], ["1.02", "2.01"]),
+            (&["a-2", "a-1", "a1", "a2"], ["a-1", "a1"]),
+            // Either order may be meant.
+            (&["0.2", "0.25", "0.5"], ["0.5", "0.25"]),
+        ] {
+            let said = of(names).unwrap_err();
+            let [a, b] = odd;
+            assert!(
+                said.starts_with(&format!("'{a}' and '{b}'"))
+                    || said.starts_with(&format!("'{b}' and '{a}'")),
+                "{names:?}: {said}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_slice_that_is_missing_is_missed() {
+        let said = assert_order(&["s_08.tif", "s_09.tif", "s_12.tif", "s_13.tif"]).unwrap();
+        assert!(
+            said.contains("'s_09.tif' and 's_12.tif' it is 3:"),
+            "{said}"
+        );
+        let said = assert_order(&["s1", "s3", "s5", "s9", "s11", "s15", "s17"]).unwrap();
+        assert!(
+            said.contains("steps of 2") && said.contains("1 more places"),
+            "{said}"
+        );
+        assert_order(&["scan-1", "scan-2", "scan-4", "scan-5"]).unwrap();
+    }
+}
