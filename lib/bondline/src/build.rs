@@ -5,7 +5,7 @@ use units::Axis;
 
 use crate::placed::crop;
 use crate::slab;
-use crate::{BondLine, Error, Face, Placed, Specimen, find};
+use crate::{BondLine, Error, Face, Placed, Specimen, find, severed};
 
 /// Where to split the wood.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -262,7 +262,7 @@ fn place(specimen: &Specimen, options: &Options) -> Result<(usize, Option<BondLi
     let wood = specimen.wood();
     match options.plane {
         Plane::Auto => {
-            let line = find(&specimen.profile(options.normal))?;
+            let line = find(specimen, options.normal)?;
             // A middle inside a voxel goes to the face below it: nothing but adhesive or air
             // lies between the two surfaces on average.
             Ok((line.middle() as usize, Some(line)))
@@ -306,22 +306,4 @@ fn free_layers(
         bottom.ok_or_else(|| no_wood("below"))? as f64 * voxel_m,
         top.ok_or_else(|| no_wood("above"))? as f64 * voxel_m,
     ])
-}
-
-/// Pairs of wood voxels that touch across the plane below layer `plane`.
-fn severed(wood: BitsRef, normal: Axis, plane: usize) -> u64 {
-    let dims = wood.dims();
-    let [u, v] = match normal {
-        Axis::X => [1, 2],
-        Axis::Y => [0, 2],
-        Axis::Z => [0, 1],
-    };
-    let is_wood = |layer: usize, i: usize, j: usize| {
-        let mut index = [0; 3];
-        (index[normal.index()], index[u], index[v]) = (layer, i, j);
-        wood.get(index[0], index[1], index[2])
-    };
-    let pair = |i, j| is_wood(plane - 1, i, j) && is_wood(plane, i, j);
-    let in_column = |j| (0..dims[u]).filter(|&i| pair(i, j)).count() as u64;
-    (0..dims[v]).map(in_column).sum()
 }

@@ -29,6 +29,21 @@ pub enum Error {
         /// Best adhesive less wood area fraction.
         contrast: f64,
     },
+    /// The bond lies across another axis.
+    #[error(
+        "the bond lies across {fits}, not across {normal}: adhesive covers up to {:.1} % of the area more than wood in layers normal to {fits}, and {:.1} % in those normal to {normal}; give --normal {fits}, or the plane by hand",
+        100.0 * best, 100.0 * contrast
+    )]
+    OtherNormal {
+        /// The axis looked along.
+        normal: units::Axis,
+        /// Best adhesive less wood area fraction along it.
+        contrast: f64,
+        /// The axis that fits.
+        fits: units::Axis,
+        /// That along the axis that fits.
+        best: f64,
+    },
     /// The blocks of the specimen are not voxels of one stack.
     #[error("the wood and the adhesive of the specimen are not voxels of the same stack")]
     Mismatch,

@@ -9,6 +9,7 @@
 //! normal. "Bottom" is the low-coordinate side.
 
 mod build;
+mod cut;
 mod error;
 mod faces;
 mod open;
@@ -18,9 +19,10 @@ mod slab;
 mod wood;
 
 pub use build::{Bond, Options, Plane, build};
+pub use cut::{doubt, severed};
 pub use error::Error;
 pub use faces::Face;
 pub use open::open_voids;
 pub use placed::{Placed, Specimen};
-pub use plane::{BondLine, Profile, find, surface};
+pub use plane::{BondLine, find, surface};
 pub use wood::{Layup, Pieces, Turn, lay_up};

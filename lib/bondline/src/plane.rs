@@ -2,7 +2,7 @@
 
 use units::Axis;
 
-use crate::Error;
+use crate::{Error, Specimen};
 
 /// A layer counts as the surface of an adherend from this share of the wood fraction that is
 /// typical inside it. A cut face jumps from nothing to well above a quarter; a rough face
@@ -13,17 +13,43 @@ use crate::Error;
 /// 0.4).
 const SURFACE_SHARE: f64 = 0.25;
 
+/// The bond lies across another axis if adhesive outweighs wood there by so many times the share of a layer, and by so
+/// much of one. In 67 specimens (a real one, synthetic ones of eight shapes) that is 74 to 100 % of a layer across the
+/// bond and 30 % at most across other axes; in 252 made worse (rough faces that touch, tilted by up to 17
+/// degrees) 25 % at least across the bond. None is refused by these.
+const PLAINER: f64 = 2.0;
+const PLAIN: f64 = 0.2;
+
 /// How much of each layer normal to the bond is wood and adhesive.
 #[derive(Clone, Debug)]
-pub struct Profile {
+pub(crate) struct Profile {
     /// The axis the layers are normal to.
-    pub normal: Axis,
+    pub(crate) normal: Axis,
     /// Voxels in a layer.
-    pub area: u64,
+    pub(crate) area: u64,
     /// Wood voxels in each layer.
-    pub wood: Vec<u64>,
+    pub(crate) wood: Vec<u64>,
     /// Adhesive voxels in each layer.
-    pub adhesive: Vec<u64>,
+    pub(crate) adhesive: Vec<u64>,
+}
+
+impl Profile {
+    /// Adhesive less wood area fraction in a layer.
+    fn contrast(&self, layer: usize) -> f64 {
+        (self.adhesive[layer] as f64 - self.wood[layer] as f64) / self.area as f64
+    }
+
+    /// The first layer in which adhesive most outweighs wood.
+    fn seed(&self) -> usize {
+        let more = |best, y| {
+            if self.contrast(y) > self.contrast(best) {
+                y
+            } else {
+                best
+            }
+        };
+        (0..self.wood.len()).reduce(more).unwrap_or(0)
+    }
 }
 
 /// Where the bond line is, in voxels from the low face of the stack.
@@ -46,34 +72,50 @@ impl BondLine {
     }
 }
 
+/// Finds the bond line of a specimen across `normal`.
+///
+/// # Errors
+/// No adhesive; no wood on a side; no layer in which adhesive covers more than wood; a bond that plainly lies across
+/// another axis.
+pub fn find(specimen: &Specimen, normal: Axis) -> Result<BondLine, Error> {
+    let profile = specimen.profile(normal);
+    let found = along(&profile);
+    let contrast = profile.contrast(profile.seed());
+    let others = Axis::ALL.into_iter().filter(|axis| *axis != normal);
+    let fits = others
+        // No contrast is twice as much as a half.
+        .filter(|_| PLAINER * contrast < 1.0)
+        .filter_map(|axis| Some((axis, along(&specimen.profile(axis)).ok()?.contrast)))
+        .max_by(|a, b| a.1.total_cmp(&b.1));
+    match fits {
+        Some((fits, best)) if best > PLAIN && best > PLAINER * contrast => {
+            Err(Error::OtherNormal {
+                normal,
+                contrast,
+                fits,
+                best,
+            })
+        }
+        _ => found,
+    }
+}
+
 /// Finds the bond line from the layers alone.
 ///
 /// The seed is the layer where the adhesive area most exceeds the wood area: a filled vessel
 /// never wins against the bond line, because wood surrounds it. From there, downwards and
 /// upwards, the first layer that holds a quarter of the wood fraction typical of that side
 /// is the bond surface of that adherend.
-///
-/// # Errors
-/// No adhesive; no wood on a side; no layer in which adhesive covers more than wood.
-pub fn find(profile: &Profile) -> Result<BondLine, Error> {
+fn along(profile: &Profile) -> Result<BondLine, Error> {
     if profile.adhesive.iter().all(|&n| n == 0) {
         return Err(Error::NoAdhesive);
     }
-    let area = profile.area as f64;
-    let contrast = |y: usize| (profile.adhesive[y] as f64 - profile.wood[y] as f64) / area;
-    let seed = (0..profile.wood.len())
-        .reduce(|best, y| {
-            if contrast(y) > contrast(best) {
-                y
-            } else {
-                best
-            }
-        })
-        .unwrap_or(0);
-    if contrast(seed) <= 0.0 {
+    let seed = profile.seed();
+    let contrast = profile.contrast(seed);
+    if contrast <= 0.0 {
         return Err(Error::NoBondLine {
             normal: profile.normal,
-            contrast: contrast(seed),
+            contrast,
         });
     }
     let no_wood = |side| Error::NoWood {
@@ -89,7 +131,7 @@ pub fn find(profile: &Profile) -> Result<BondLine, Error> {
     let top = seed + 1 + surface(above).ok_or_else(|| no_wood("above"))?;
     Ok(BondLine {
         seed,
-        contrast: contrast(seed),
+        contrast,
         bottom,
         top,
     })
@@ -111,7 +153,7 @@ mod tests {
     use super::*;
 
     fn found(wood: &[u64], adhesive: &[u64]) -> Result<BondLine, Error> {
-        find(&Profile {
+        along(&Profile {
             normal: Axis::Y,
             area: 100,
             wood: wood.to_vec(),
@@ -156,7 +198,7 @@ mod tests {
                 }
             })
             .collect();
-        let line = find(&Profile {
+        let line = along(&Profile {
             normal: Axis::Y,
             area: 100_000,
             wood,

@@ -135,6 +135,10 @@ fn a_plane_through_the_wood_severs_it_and_says_so() {
     let bond = stack.build(&at(10.2)).unwrap();
     assert!(near(bond.plane_m, 10.0 * VOXEL));
     assert_eq!(bond.severed, 60 * 12);
+    let doubt = bondline::doubt(bond.severed, bond.area).unwrap();
+    assert!(doubt.contains("75.0 % of the bond area"), "{doubt}");
+    let sound = stack.build(&options(Axis::Y)).unwrap();
+    assert_eq!(bondline::doubt(sound.severed, sound.area), None);
     assert_eq!(
         bond.bottom.bits.count() + bond.top.bits.count(),
         stack.wood.count()
@@ -149,14 +153,68 @@ fn a_plane_through_the_wood_severs_it_and_says_so() {
     ));
 }
 
+/// Adhesive covers 34 % of a layer in the grooves, too, and all of one in the gap.
+#[test]
+fn a_bond_across_another_axis_is_refused_by_its_name() {
+    for across in Axis::ALL {
+        let stack = Stack::new(across, [80, 12]);
+        for normal in Axis::ALL.into_iter().filter(|axis| *axis != across) {
+            let error = stack.build(&options(normal)).unwrap_err();
+            assert!(
+                matches!(error, Error::OtherNormal { fits, .. } if fits == across),
+                "{error}"
+            );
+            let said = format!("lies across {across}, not across {normal}");
+            assert!(error.to_string().contains(&said), "{error}");
+        }
+        let by_hand = Options {
+            plane: Plane::At(7.0 * VOXEL),
+            tolerance: 1.0,
+            ..options(Axis::ALL[(across.index() + 1) % 3])
+        };
+        assert!(stack.build(&by_hand).is_ok());
+    }
+}
+
+/// Faces that touch leave little adhesive in any layer: as long as no other axis is plainly better, that is the bond.
+#[test]
+fn a_starved_bond_is_found_all_the_same() {
+    let letter = |x: usize, y: usize, z: usize| match (y, (x + z) % 4) {
+        (_, 0 | 1) if y != 20 => 'w',
+        (20, 0) => 'w',
+        (17..=23, _) => 'a',
+        _ => ' ',
+    };
+    let grid = |wanted| BitGrid::from_fn([16, 41, 16], |x, y, z| letter(x, y, z) == wanted);
+    let stack = Stack {
+        wood: grid('w'),
+        adhesive: grid('a'),
+    };
+    let rough = Options {
+        tolerance: 1.0,
+        ..options(Axis::Y)
+    };
+    let bond = stack.build(&rough).unwrap();
+    let found = bond.found.unwrap();
+    assert_eq!((found.seed, found.contrast), (20, 0.5));
+    // Without that layer nothing outweighs the wood anywhere.
+    let even = Stack {
+        wood: BitGrid::from_fn([16, 41, 16], |x, _, z| (x + z) % 4 < 2),
+        adhesive: BitGrid::from_fn([16, 41, 16], |x, y, z| {
+            (17..=23).contains(&y) && (x + z) % 4 > 1
+        }),
+    };
+    for normal in Axis::ALL {
+        assert!(matches!(
+            even.build(&options(normal)),
+            Err(Error::NoBondLine { .. })
+        ));
+    }
+}
+
 #[test]
 fn refusals() {
     let stack = Stack::new(Axis::Y, [80, 12]);
-    // Every layer across z is alike: no bond line.
-    assert!(matches!(
-        stack.build(&options(Axis::Z)),
-        Err(Error::NoBondLine { .. })
-    ));
     let strict = Options {
         tolerance: 0.01,
         ..options(Axis::Y)

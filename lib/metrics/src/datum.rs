@@ -7,7 +7,7 @@ use units::Axis;
 
 use crate::fit::{self, Plane};
 use crate::penetration::Side;
-use crate::{Error, State, Wood};
+use crate::{Adhesive, Error, State, Wood};
 
 /// What penetration is measured from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,6 +89,22 @@ impl Datum {
         }
     }
 
+    /// A sentence where it cuts through so much wood of a specimen that it is hardly a bond.
+    pub fn doubt(&self, state: &State) -> Option<String> {
+        let (Wood::Whole(wood), Adhesive::Voxels(_)) = (state.wood, state.adhesive) else {
+            return None;
+        };
+        let n = state.normal.index();
+        let layers = (self.plane_m(Side::Total) - wood.origin_m[n]) / wood.voxel_m;
+        // Planes between voxels may be off by rounding.
+        let severed = bondline::severed(wood.bits, state.normal, (layers + 1e-6) as usize);
+        let area: usize = (0..3)
+            .filter(|a| *a != n)
+            .map(|a| wood.bits.dims()[a])
+            .product();
+        bondline::doubt(severed, area as u64)
+    }
+
     /// On which side of the bond `point` is, and its distance (m) from the zero of that side.
     pub fn depth(&self, point: [f64; 3]) -> (Side, f64) {
         match self {
@@ -136,11 +152,11 @@ fn bond_surfaces(state: &State) -> Result<[f64; 2], Error> {
     match state.wood {
         Wood::None => Err(no_wood("wood")),
         Wood::Whole(wood) => {
-            let crate::Adhesive::Voxels(adhesive) = state.adhesive else {
+            let Adhesive::Voxels(adhesive) = state.adhesive else {
                 return Err(no_wood("bottom and top adherend"));
             };
             let specimen = bondline::Specimen::new(wood, adhesive)?;
-            let line = bondline::find(&specimen.profile(state.normal))?;
+            let line = bondline::find(&specimen, state.normal)?;
             let at = |layers: usize| wood.origin_m[n] + layers as f64 * wood.voxel_m;
             Ok([at(line.bottom), at(line.top)])
         }

@@ -1,4 +1,5 @@
-//! Stored values that do not show the same on every page are no labels; their colours are.
+//! Stored values that do not show the same on every page are no labels; their colours are. Nor are pages in different
+//! orientations a stack.
 
 mod common;
 
@@ -213,6 +214,25 @@ fn numbers_are_labels_where_they_show_the_same() {
         _ => png(&plain(z), png::BitDepth::Eight, None, &[]),
     });
     assert_test_volume("greys", slices.path(), ["0", "1", "2"]);
+}
+
+/// Some programs turn a picture by a tag alone.
+#[test]
+fn slices_in_different_orientations_are_refused() {
+    let file = |z: usize, orientation: u16| {
+        let page = plain_pages().remove(z).short(274, orientation);
+        tiff(CLASSIC, &[page])
+    };
+    let slices = folder("tif", |z| file(z, [1, 1, 4, 4][z]));
+    let said = Stack::open(&[slices.path().to_owned()])
+        .unwrap_err()
+        .to_string();
+    assert!(
+        said.contains("s2.tif") && said.contains("of orientation 4"),
+        "{said}"
+    );
+    let slices = folder("tif", |z| file(z, 4));
+    assert_test_volume("turned alike", slices.path(), ["0", "1", "2"]);
 }
 
 #[test]

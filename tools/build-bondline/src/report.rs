@@ -69,6 +69,9 @@ fn plane(bond: &Bond, normal: Axis) {
         um(bond.plane_m),
         bond.severed,
     ));
+    bondline::doubt(bond.severed, bond.area)
+        .into_iter()
+        .for_each(cli::warn);
 }
 
 /// The face of one piece of undamaged wood.

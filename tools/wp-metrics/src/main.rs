@@ -234,6 +234,9 @@ fn measure(
     let fail = |error| input.failure(&error);
     let state = input.state(arguments.normal)?;
     let datum = Datum::find(arguments.reference, &state).map_err(fail)?;
+    if let Some(doubt) = datum.doubt(&state) {
+        cli::warn(format!("'{}': {doubt}", input.name));
+    }
     if let Some(output) = &arguments.map {
         let map = Map::new(&state, &datum, Side::Total);
         output.write_with_record(&record.finish(), |out| table::write_map(out, &map))?;

@@ -26,6 +26,8 @@ pub(crate) struct PageLayout {
     pub(crate) format: PageFormat,
     /// What its values show.
     pub(crate) shown: Arc<Shown>,
+    /// Value of tag 274; rows are read as they are stored, whatever it is.
+    pub(crate) orientation: u64,
     /// Stored bits per sample; below 8 only with unsigned samples, one channel.
     pub(crate) bits: u16,
     pub(crate) compression: Compression,
@@ -69,6 +71,7 @@ impl PageLayout {
                 sample,
                 channels,
             },
+            orientation: first(tag::ORIENTATION, 1)?,
             shown: Arc::new(shown(tiff, page, sample, bits)?),
             bits,
             compression,

@@ -147,18 +147,16 @@ fn same_format<'a>(
     pages: &[PageLayout],
     source: impl Fn(usize) -> &'a Source,
 ) -> Result<(), Error> {
-    let odd = pages.iter().position(|page| page.format != pages[0].format);
-    match odd {
-        None => Ok(()),
-        Some(i) => Err(Error::page(
-            source(i),
-            i,
-            format!(
-                "it is {} but page 1 is {}; the pages of a stack must be alike",
-                pages[i].format, pages[0].format
-            ),
-        )),
-    }
+    let odd = |own: &dyn Fn(&PageLayout) -> String| {
+        let first = own(pages.first()?);
+        let odd = pages.iter().position(|page| own(page) != first)?;
+        let own = own(&pages[odd]);
+        let what = format!("it is {own} but page 1 is {first}; the pages of a stack must be alike");
+        Some(Error::page(source(odd), odd, what))
+    };
+    let format = odd(&|page| page.format.to_string());
+    let turned = || odd(&|page| format!("of orientation {}", page.orientation));
+    format.or_else(turned).map_or(Ok(()), Err)
 }
 
 impl TiffPages {
