@@ -9,7 +9,7 @@ use crate::raw::RawVolume;
 use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
 use crate::unpacked::{self, Packing};
-use crate::voxel_size::{VoxelSize, metres_of_unit};
+use crate::voxel_size::{VoxelSize, decimal};
 
 /// Spacings that can be meant, in whatever unit.
 const SPACING: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
@@ -180,7 +180,7 @@ fn voxel_size(
         return Ok(None);
     };
     let edges: Option<Vec<f64>> = (text.split_whitespace())
-        .map(|edge| edge.parse().ok().filter(|e| SPACING.contains(e)))
+        .map(|edge| decimal(edge).filter(|e| SPACING.contains(e)))
         .collect();
     let Some(&[x, y, z]) = edges.as_deref() else {
         return Err(format!(
@@ -189,9 +189,6 @@ fn voxel_size(
             SPACING.end()
         ));
     };
-    let size = |metres| {
-        let [x, y, z] = [x, y, z].map(|edge| edge * metres);
-        VoxelSize::new(x, y, Some(z), "MetaImage spacing")
-    };
-    Ok(units.and_then(|(unit, _)| size(metres_of_unit(unit)?)))
+    let size = |(unit, _)| VoxelSize::in_units([x, y, z], [unit; 3], "MetaImage spacing");
+    Ok(units.and_then(size))
 }

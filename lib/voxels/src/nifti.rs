@@ -159,14 +159,9 @@ impl<'a> Fields<'a> {
             true => i32::from_le_bytes(self.number(500)) as u8,
             false => self.head[123],
         };
-        let metres = match units & 7 {
-            1 => 1.0,
-            2 => 1e-3,
-            3 => 1e-6,
-            _ => return None,
-        };
-        let [x, y, z] = [1, 2, 3].map(|i| self.pixdim(i).abs() * metres);
-        VoxelSize::new(x, y, Some(z), "NIfTI pixdim")
+        let unit = ["", "m", "mm", "um"].get(usize::from(units & 7))?;
+        let edges = [1, 2, 3].map(|i| self.pixdim(i).abs());
+        VoxelSize::in_units(edges, [unit; 3], "NIfTI pixdim")
     }
 }
 

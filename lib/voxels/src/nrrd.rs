@@ -9,7 +9,7 @@ use crate::raw::RawVolume;
 use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
 use crate::unpacked::{self, Packing};
-use crate::voxel_size::{VoxelSize, metres_of_unit};
+use crate::voxel_size::{VoxelSize, decimal};
 
 /// A header longer than this is none.
 const MAX_HEADER: usize = 1 << 16;
@@ -199,28 +199,29 @@ fn sample_of(kind: &str) -> Result<Sample, String> {
     })
 }
 
-/// Spacings, or lengths of space directions, with their units; without a unit they are no size.
+/// Spacings, or lengths of space directions, with the unit of each; without units they are no size.
+/// The colours of an axis in front have neither.
 fn voxel_size<'a>(field: &impl Fn(&[&str]) -> Option<&'a str>) -> Option<VoxelSize> {
-    let unit = field(&["space units", "units"])?;
-    let unit = unit.split('"').map(str::trim).rfind(|u| !u.is_empty())?;
-    let metres = metres_of_unit(unit)?;
-    let edges: Vec<f64> = match field(&["spacings"]) {
+    let text = field(&["space units", "units"])?;
+    let units: Vec<&str> = (text.split('"').skip(1).step_by(2))
+        .filter(|unit| !unit.trim().is_empty())
+        .collect();
+    let edges: Option<Vec<f64>> = match field(&["spacings"]) {
         Some(text) => (text.split_whitespace())
-            .filter_map(|edge| edge.parse().ok())
-            .filter(|edge: &f64| edge.is_finite())
+            .filter(|edge| !edge.eq_ignore_ascii_case("nan"))
+            .map(decimal)
             .collect(),
         None => (field(&["space directions"])?.split(')'))
-            .filter_map(|vector| {
-                let (_, inside) = vector.split_once('(')?;
-                let parts = inside.split(',').map(|x| x.trim().parse::<f64>().ok());
-                let squares = parts.map(|x| Some(x? * x?)).sum::<Option<f64>>()?;
-                Some(squares.sqrt())
-            })
+            .filter_map(|vector| Some(length(vector.split_once('(')?.1)))
             .collect(),
     };
-    let &[x, y, z] = edges.as_slice() else {
-        return None;
-    };
-    let [x, y, z] = [x, y, z].map(|edge| edge * metres);
-    VoxelSize::new(x, y, Some(z), "NRRD spacings")
+    let edges = edges?.try_into().ok()?;
+    VoxelSize::in_units(edges, units.try_into().ok()?, "NRRD spacings")
+}
+
+/// The length of a vector of three numbers.
+fn length(vector: &str) -> Option<f64> {
+    let parts: Option<Vec<f64>> = (vector.split(',').map(|x| x.trim().parse().ok())).collect();
+    let [x, y, z]: [f64; 3] = parts?.try_into().ok()?;
+    Some((x * x + y * y + z * z).sqrt())
 }

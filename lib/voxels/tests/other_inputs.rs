@@ -56,6 +56,28 @@ fn slices_that_do_not_belong_together_are_refused() {
     assert!(missing.to_string().contains("none.tif"), "{missing}");
 }
 
+#[test]
+fn slices_that_contradict_one_another_state_no_voxel_size() {
+    let (_folder, paths) = slices(|z| format!("{z}.tif"));
+    let stated = |changes: [Option<u32>; 2]| {
+        for (path, micrometres) in paths.iter().zip(changes) {
+            let page = plain_pages().remove(0).short(296, 3);
+            let page = match micrometres {
+                None => page,
+                Some(n) => {
+                    (page.tag(282, Value::Rational(10_000, n))).tag(283, Value::Rational(10_000, n))
+                }
+            };
+            fs::write(path, tiff(CLASSIC, &[page])).unwrap();
+        }
+        let stack = Stack::open(&paths[..2]).unwrap();
+        stack.voxel_size().map(|size| size.cube_edge().unwrap())
+    };
+    let close = |edge: Option<f64>| (edge.unwrap() / 2e-6 - 1.0).abs() < 1e-9;
+    assert!(close(stated([Some(2), Some(2)])) && close(stated([Some(2), None])));
+    assert_eq!(stated([Some(2), Some(3)]), None);
+}
+
 /// A `.npy` file as `numpy.save` writes it.
 fn npy(version: u8, descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
     let order = if fortran { "True" } else { "False" };

@@ -210,6 +210,7 @@ fn stack(opened: Result<Stack, voxels::Error>, options: &StackOptions) -> Result
     let stack = opened.map_err(stack_failure)?;
     let edge = VoxelEdge::resolve(options.voxel_m, stack.voxel_size(), stack.name())
         .map_err(stack_failure)?;
+    edge.doubt().into_iter().for_each(cli::warn);
     stack.gap().into_iter().for_each(cli::warn);
     let whole = Crop::whole(stack.dims());
     let phases = options.phases(&stack)?;

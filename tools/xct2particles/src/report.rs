@@ -15,6 +15,7 @@ pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
     ));
     let um = edge.metres * 1e6;
     cli::note(format_args!("voxel edge  {um:.6} um, from {}", edge.from));
+    edge.doubt().into_iter().for_each(cli::warn);
     let Some(stated) = stack.voxel_size() else {
         return;
     };
@@ -25,7 +26,7 @@ pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
         }
     } else if !stated.cube_edge().is_ok_and(near) {
         cli::warn(format_args!(
-            "{} says a voxel is {stated}; {} is taken instead",
+            "by {} a voxel is {stated}; {} is taken instead",
             stated.from(),
             edge.from
         ));

@@ -3,13 +3,15 @@
 
 use super::ifd::{Container, Directory, tag};
 use super::layout::PageLayout;
-use crate::voxel_size::{VoxelSize, metres_of_unit};
+use crate::voxel_size::{VoxelSize, decimal, metres_of_unit};
 
 /// What the first page says about the whole file.
 #[derive(Debug, Default)]
 pub(crate) struct Description {
     /// Planes in the file, if stated.
     pub(crate) planes: Option<u64>,
+    /// Whether it gives a size of a voxel, be it no length, so that resolution tags do not.
+    states_size: bool,
     /// Size of a voxel, if stated.
     pub(crate) voxel_size: Option<VoxelSize>,
 }
@@ -31,14 +33,15 @@ pub(crate) fn describe(
     } else {
         Description::default()
     };
-    if let (None, [Some(x), Some(y)]) = (&description.voxel_size, resolution) {
+    if let (false, [Some(x), Some(y)]) = (description.states_size, resolution) {
         let unit = tiff.first_uint(page, tag::RESOLUTION_UNIT)?.unwrap_or(2);
         description.voxel_size = VoxelSize::from_resolution(x, y, unit);
     }
     Ok(description)
 }
 
-/// ImageJ: XResolution counts pixels per `unit`, `spacing` is the distance of planes in it.
+/// ImageJ: XResolution counts pixels per `unit`, YResolution per `yunit`; `spacing` is the distance
+/// of planes in `zunit`.
 fn imagej(text: &str, resolution: [Option<f64>; 2]) -> Result<Description, String> {
     let value = |key: &str| {
         text.lines()
@@ -47,21 +50,25 @@ fn imagej(text: &str, resolution: [Option<f64>; 2]) -> Result<Description, Strin
     };
     let count = |key| value(key).and_then(|n| n.parse::<u64>().ok());
     one_axis(["channels", "slices", "frames"].map(|key| count(key).unwrap_or(1)))?;
-    let voxel_size = match (value("unit").and_then(metres_of_unit), resolution) {
-        (Some(unit), [Some(x), Some(y)]) => {
-            let spacing = value("spacing").and_then(|s| s.parse::<f64>().ok());
-            VoxelSize::new(
-                unit / x,
-                unit / y,
-                spacing.map(|s| s * unit),
-                "ImageJ metadata",
-            )
-        }
-        _ => None,
+    let metres = |key| metres_of_unit(value(key).or(value("unit"))?);
+    let spacing = |text: &str| Some(decimal(text)?.abs() * metres("zunit")?);
+    let voxel_size = || {
+        let z = match value("spacing") {
+            None => None,
+            Some(text) => Some(spacing(text)?),
+        };
+        let [x, y] = resolution;
+        VoxelSize::new(
+            metres("unit")? / x?,
+            metres("yunit")? / y?,
+            z,
+            "ImageJ metadata",
+        )
     };
     Ok(Description {
         planes: count("images"),
-        voxel_size,
+        states_size: value("unit").is_some(),
+        voxel_size: voxel_size(),
     })
 }
 
@@ -94,7 +101,7 @@ fn shaped(axes: &[Option<u64>], layout: &PageLayout) -> Result<Description, Stri
     match (total, plane) {
         (Some(total), Some(plane)) if total > 0 && total % plane == 0 => Ok(Description {
             planes: Some(total / plane),
-            voxel_size: None,
+            ..Description::default()
         }),
         _ => Err(format!(
             "its description declares a shape that is no number of planes of {format}"
@@ -148,26 +155,22 @@ fn ome(text: &str, layout: &PageLayout) -> Result<Description, String> {
             return Err("its OME description puts the pages in another order than the file; accepted is file order".into());
         }
     }
-    let edge = |key: &str, unit_key: &str| {
-        let size: f64 = pixels.attribute(key)?.parse().ok()?;
-        Some(size * metres_of_unit(pixels.attribute(unit_key).unwrap_or("um"))?)
+    let size = |axis: &str| pixels.attribute(format!("PhysicalSize{axis}").as_str());
+    let edge = |axis: &str| {
+        let unit = pixels.attribute(format!("PhysicalSize{axis}Unit").as_str());
+        Some(decimal(size(axis)?)? * metres_of_unit(unit.unwrap_or("um"))?)
     };
-    let edges = (
-        edge("PhysicalSizeX", "PhysicalSizeXUnit"),
-        edge("PhysicalSizeY", "PhysicalSizeYUnit"),
-    );
-    let voxel_size = match edges {
-        (Some(x), Some(y)) => VoxelSize::new(
-            x,
-            y,
-            edge("PhysicalSizeZ", "PhysicalSizeZUnit"),
-            "OME metadata",
-        ),
-        _ => None,
+    let voxel_size = || {
+        let z = match size("Z") {
+            None => None,
+            Some(_) => Some(edge("Z")?),
+        };
+        VoxelSize::new(edge("X")?, edge("Y")?, z, "OME metadata")
     };
     Ok(Description {
         planes: planes.into_iter().max(),
-        voxel_size,
+        states_size: size("X").is_some(),
+        voxel_size: voxel_size(),
     })
 }
 

@@ -47,8 +47,8 @@ pub(crate) fn open(source: Source) -> Result<(TiffPages, Option<VoxelSize>), Err
 /// Opens files of one page each, in this order.
 pub(crate) fn open_slices(sources: Vec<Source>) -> Result<(TiffPages, Option<VoxelSize>), Error> {
     let mut pages = Vec::with_capacity(sources.len());
-    let mut voxel_size = None;
-    for (i, source) in sources.iter().enumerate() {
+    let mut sizes = Vec::new();
+    for source in &sources {
         let (mut page, description) = read_directories(source)?;
         if page.len() != 1
             || description
@@ -62,11 +62,12 @@ pub(crate) fn open_slices(sources: Vec<Source>) -> Result<(TiffPages, Option<Vox
             return Err(Error::file(source, what));
         }
         pages.append(&mut page);
-        if i == 0 {
-            voxel_size = description.voxel_size;
-        }
+        sizes.extend(description.voxel_size);
     }
     same_format(&pages, |i| &sources[i])?;
+    // Slices that contradict one another state no size.
+    sizes.dedup();
+    let voxel_size = sizes.pop().filter(|_| sizes.is_empty());
     Ok((TiffPages { sources, pages }, voxel_size))
 }
 
