@@ -26,6 +26,7 @@ mod npy;
 mod npz;
 mod nrrd;
 mod phases;
+mod pixels;
 mod raw;
 mod raw_layout;
 mod sample;
@@ -36,7 +37,6 @@ mod stack;
 mod surface;
 pub mod synthetic;
 mod tiff;
-mod unpacked;
 mod volume_fractions;
 mod voxel_size;
 

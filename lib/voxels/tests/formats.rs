@@ -116,8 +116,10 @@ fn nrrd_raw_and_gzipped_behind_and_beside() {
     assert_test_volume("beside", &path, PLAIN);
     for (more, said) in [
         ("data file: ../a.raw\n", "'..'"),
-        ("data file: LIST\n", "several files"),
-        ("byte skip: -1\n\n", "byte skip"),
+        ("data file: LIST\n", "no names below"),
+        ("data file: LIST\n../a.raw\n", "'..'"),
+        ("byte skip: -2\n\n", "byte skip"),
+        ("line skip: 2\n\n", "skips lines"),
         ("nonsense\n\n", "KEY: VALUE"),
         ("\n", "truncated"),
     ] {
@@ -126,7 +128,9 @@ fn nrrd_raw_and_gzipped_behind_and_beside() {
     }
     for (kind, encoding, said) in [
         ("block", "raw", "type is 'block'"),
-        ("uchar", "bzip2", "bzip2"),
+        ("uchar", "bzip2", "compressed bytes are stored"),
+        ("uchar", "hex", "raw, gzip, bzip2 and ascii"),
+        ("uchar", "ascii", "are stored: its size"),
         ("ushort", "raw", "endian"),
     ] {
         let sentence = refusal("a.nrrd", nrrd(kind, encoding, "\n").as_bytes());

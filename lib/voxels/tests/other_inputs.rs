@@ -194,12 +194,27 @@ fn meta_images_beside_and_behind_their_header() {
 
     for (bad, said) in [
         (header("MET_USHORT", "", "none.raw"), "none.raw"),
-        (header("MET_LONG_LONG", "", "a.raw"), "line 4"),
+        (header("MET_LONG_DOUBLE", "", "a.raw"), "line 4"),
         (
             header("MET_UCHAR", "CompressedData = True\n", "LOCAL"),
             "0 compressed bytes are stored",
         ),
-        (header("MET_UCHAR", "HeaderSize = -1\n", "LOCAL"), "line 5"),
+        (header("MET_UCHAR", "HeaderSize = -2\n", "a.raw"), "line 5"),
+        (
+            header("MET_UCHAR", "BinaryData = False\n", "LOCAL") + "1 2 x" + &" 1".repeat(1100),
+            "'x', which is not",
+        ),
+        (
+            header("MET_UCHAR", "BinaryData = False\n", "LOCAL") + "1 256" + &" 1".repeat(1100),
+            "'256', which is not",
+        ),
+        (
+            header("MET_UCHAR", "BinaryData = 0\n", "LOCAL") + &"1 ".repeat(700),
+            "700 numbers",
+        ),
+        (header("MET_UCHAR", "", "a%03d.raw 0 4 1"), "a000.raw"),
+        (header("MET_UCHAR", "", "a%s 0 4 1"), "no pattern"),
+        (header("MET_UCHAR", "", "LIST"), "no names below"),
         (header("MET_UCHAR", "", "LOCAL"), "truncated"),
         ("NDims = 3\n".into(), "ElementDataFile"),
     ] {

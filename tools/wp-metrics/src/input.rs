@@ -7,7 +7,7 @@ use std::path::Path;
 use bondline::{Placed, Specimen};
 use cli::{Failure, InputRecord};
 use metrics::State;
-use particle_file::{BitGrid, Mapped, ParticleFile};
+use particle_file::{BitGrid, Mapped, ParticleFile, temporary_file};
 use units::Axis;
 use voxels::{
     Crop, Dims, Grey, Histogram, Labels, Phases, RawType, Segmented, Source, Stack, VoxelEdge,
@@ -201,7 +201,7 @@ fn begins_as_particles(path: &Path) -> bool {
 }
 
 fn copy(bytes: &[u8]) -> std::io::Result<File> {
-    let mut file = tempfile::tempfile()?;
+    let mut file = temporary_file(bytes.len() as u64)?;
     file.write_all(bytes)?;
     Ok(file)
 }
