@@ -64,7 +64,7 @@ fn numbered(value: &str) -> Option<Vec<String>> {
 
 /// The file `name`, which the header at `path` calls its `field`, in the folder of the header;
 /// nothing outside that folder is read, be it through `..` or a link.
-fn data_file(path: &Path, name: &Path, field: &str) -> Result<PathBuf, String> {
+pub(crate) fn data_file(path: &Path, name: &Path, field: &str) -> Result<PathBuf, String> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

@@ -15,3 +15,7 @@ fault "NRRD by bzip2" "wood 466 voxels (0)" '{ printf "NRRD0004\ntype: uchar\ndi
 fault "NRRD as text" "wood 466 voxels (0)" '{ printf "NRRD0004\ntype: ushort\ndimension: 3\nsizes: 14 10 6\nencoding: ascii\n\n"; cat $IN/files/asc.raw; } >a.nrrd; '"xct2particles a.nrrd $known 2>&1 | $counts"
 fault "a PNG of no bytes" "s00.png is empty (3)" "xct2particles \$IN/files/zero-byte-first-png $known"
 fault "TMPDIR that does not exist" "names TMPDIR (3)" "TMPDIR=/none xct2particles \$IN/files/nifti-default-1mm.nii.gz $known"
+fault "STK" "wood 466 voxels (0)" "xct2particles \$IN/files/stk-6-planes.stk $known 2>&1 | $counts"
+fault "OME-TIFF of six files, by its folder" "wood 466 voxels (0)" "xct2particles \$IN/files/ome-multifile $known 2>&1 | $counts"
+fault "OME-TIFF of six files, by one" "wood 466 voxels (0)" "xct2particles \$IN/files/ome-multifile/w_Z3.ome.tif $known 2>&1 | $counts"
+fault "tiles that were left out" "3840, 255 and 1 voxels (0)" 'xct2particles $IN/files/sparse-tiles.tif --voxel 1.45um --histogram g.csv && cat g.csv | paste -sd " "'

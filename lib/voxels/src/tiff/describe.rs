@@ -3,6 +3,8 @@
 
 use super::ifd::{Container, Directory, tag};
 use super::layout::PageLayout;
+use super::ome::{self, Block};
+use crate::source::Source;
 use crate::voxel_size::{VoxelSize, decimal, metres_of_unit};
 
 /// What the first page says about the whole file.
@@ -11,9 +13,19 @@ pub(crate) struct Description {
     /// Planes in the file, if stated.
     pub(crate) planes: Option<u64>,
     /// Whether it gives a size of a voxel, be it no length, so that resolution tags do not.
-    states_size: bool,
+    pub(crate) states_size: bool,
     /// Size of a voxel, if stated.
     pub(crate) voxel_size: Option<VoxelSize>,
+    /// Which planes stand where, if that is told; else they stand in file order.
+    pub(crate) blocks: Vec<Block>,
+}
+
+impl Description {
+    /// The files that the planes of `source` are in; none where it holds them all.
+    pub(crate) fn files(&mut self, source: &Source) -> Vec<String> {
+        let own = source.path().file_name().unwrap_or_default();
+        ome::files(&mut self.blocks, &own.to_string_lossy())
+    }
 }
 
 /// Reads the description of the first page.
@@ -29,10 +41,12 @@ pub(crate) fn describe(
     } else if let Some(shape) = shape(&text)? {
         shaped(&shape, layout)?
     } else if text.contains("<OME") {
-        ome(&text, layout)?
+        ome::describe(&text, layout)?
     } else {
         Description::default()
     };
+    // MetaMorph's STK has a value of this tag for each plane behind its only directory.
+    description.planes = description.planes.or(tiff.count(page, tag::UIC2));
     if let (false, [Some(x), Some(y)]) = (description.states_size, resolution) {
         let unit = tiff.first_uint(page, tag::RESOLUTION_UNIT)?.unwrap_or(2);
         description.voxel_size = VoxelSize::from_resolution(x, y, unit);
@@ -69,6 +83,7 @@ fn imagej(text: &str, resolution: [Option<f64>; 2]) -> Result<Description, Strin
         planes: count("images"),
         states_size: value("unit").is_some(),
         voxel_size: voxel_size(),
+        blocks: Vec::new(),
     })
 }
 
@@ -109,73 +124,8 @@ fn shaped(axes: &[Option<u64>], layout: &PageLayout) -> Result<Description, Stri
     }
 }
 
-/// OME-TIFF: <https://docs.openmicroscopy.org/ome-model/latest/ome-tiff/specification.html>.
-fn ome(text: &str, layout: &PageLayout) -> Result<Description, String> {
-    let xml = roxmltree::Document::parse(text)
-        .map_err(|e| format!("its OME description is not valid XML: {e}"))?;
-    let named = |name: &'static str| {
-        xml.descendants()
-            .filter(move |n| n.tag_name().name() == name)
-    };
-    let mut images = named("Pixels");
-    let pixels = images.next().ok_or("its OME description has no Pixels")?;
-    if images.next().is_some() {
-        return Err("its OME description holds several images; one is accepted".into());
-    }
-    let count = |key| pixels.attribute(key).and_then(|n| n.parse::<u64>().ok());
-    let format = layout.format;
-    if [count("SizeX"), count("SizeY")] != [Some(format.width as u64), Some(format.height as u64)] {
-        return Err(format!(
-            "its OME description declares another size than {format}"
-        ));
-    }
-    let channels = count("SizeC").unwrap_or(1);
-    let planes = [
-        if channels == format.channels as u64 {
-            1
-        } else {
-            channels
-        },
-        count("SizeZ").unwrap_or(1),
-        count("SizeT").unwrap_or(1),
-    ];
-    one_axis(planes)?;
-    for block in named("TiffData") {
-        let at = |key| {
-            block
-                .attribute(key)
-                .and_then(|n| n.parse::<u64>().ok())
-                .unwrap_or(0)
-        };
-        // Only one of the three axes is longer than 1, so their sum is the plane.
-        let plane = at("FirstZ")
-            .checked_add(at("FirstT"))
-            .and_then(|n| n.checked_add(at("FirstC")));
-        if plane != Some(at("IFD")) && block.has_attribute("IFD") {
-            return Err("its OME description puts the pages in another order than the file; accepted is file order".into());
-        }
-    }
-    let size = |axis: &str| pixels.attribute(format!("PhysicalSize{axis}").as_str());
-    let edge = |axis: &str| {
-        let unit = pixels.attribute(format!("PhysicalSize{axis}Unit").as_str());
-        Some(decimal(size(axis)?)? * metres_of_unit(unit.unwrap_or("um"))?)
-    };
-    let voxel_size = || {
-        let z = match size("Z") {
-            None => None,
-            Some(_) => Some(edge("Z")?),
-        };
-        VoxelSize::new(edge("X")?, edge("Y")?, z, "OME metadata")
-    };
-    Ok(Description {
-        planes: planes.into_iter().max(),
-        states_size: size("X").is_some(),
-        voxel_size: voxel_size(),
-    })
-}
-
 /// Refuses hyperstacks: of channels, slices and frames only one may be more than 1.
-fn one_axis(counts: [u64; 3]) -> Result<(), String> {
+pub(super) fn one_axis(counts: [u64; 3]) -> Result<(), String> {
     if counts.iter().filter(|n| **n > 1).count() > 1 {
         let [c, z, t] = counts;
         return Err(format!(

@@ -250,6 +250,9 @@ impl PageLayout {
                     "its pixels at byte {offset}, {stored} long, reach beyond the end of the file at byte {file_len}: the file is truncated"
                 ));
             }
+            if self.is_left_out(stored) {
+                continue;
+            }
             let declared = self.chunk_bytes(i).ok_or(TOO_LARGE)?;
             if declared > stored.saturating_mul(self.compression.max_ratio()) {
                 return Err(format!(
@@ -294,6 +297,12 @@ impl PageLayout {
         let rows = u64::from(height).checked_mul(self.chunks_per_plane());
         rows.filter(|n| *n <= u32::MAX.into()).ok_or(TOO_LARGE)?;
         Ok(())
+    }
+
+    /// Whether a chunk with so many bytes is a tile that its writer left out: all 0. A strip without
+    /// bytes is what writers leave that were ended before.
+    pub(crate) fn is_left_out(&self, stored: u64) -> bool {
+        stored == 0 && matches!(self.cut, Cut::Tiles(..))
     }
 
     /// Whether the pixels stand in the file as they are.
