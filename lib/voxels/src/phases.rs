@@ -113,11 +113,11 @@ pub struct Grey {
 }
 
 impl Grey {
-    /// The phase of a grey value; not-a-number has none.
+    /// The phase of a grey value; infinity and what is not a number have none.
     pub fn phase(&self, grey: f64) -> Option<Phase> {
         let within = |(low, high): (f64, f64)| low <= grey && grey <= high;
         match () {
-            () if grey.is_nan() => None,
+            () if !grey.is_finite() => None,
             () if within(self.wood) => Some(Phase::Wood),
             () if self.adhesive.is_some_and(within) => Some(Phase::Adhesive),
             () => Some(Phase::Void),
@@ -235,6 +235,9 @@ mod tests {
             ("void=0,wood,adhesive=1", "PHASE=LABEL"),
             ("void=0,glue=2", "not a phase"),
             ("void=0,wood=9007199254740993,adhesive=1", "2^53"),
+            ("void=0,wood=0.1", "whole number"),
+            ("void=0,wood=nan", "whole number"),
+            ("void=0,wood=1:0.5:0", "whole number"),
             ("", "PHASE=LABEL"),
         ] {
             let said = bad.parse::<Labels>().unwrap_err();
@@ -250,7 +253,9 @@ mod tests {
         assert_eq!(phase(90.0), Phase::Wood);
         assert_eq!(phase(170.0), Phase::Wood);
         assert_eq!(phase(171.0), Phase::Adhesive);
-        assert_eq!(grey.phase(f64::NAN), None);
+        for none in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(grey.phase(none), None);
+        }
         let bare: Grey = "wood=90..".parse().unwrap();
         assert_eq!(bare.to_string(), "wood=90..");
         let found = [89.0, 90.0, 1e9].map(|v| bare.phase(v).unwrap());

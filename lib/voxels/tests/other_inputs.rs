@@ -6,7 +6,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use common::*;
-use voxels::{Phases, Stack, VoxelEdge};
+use voxels::{Stack, VoxelEdge};
 
 fn slices(names: impl Fn(usize) -> String) -> (tempfile::TempDir, Vec<PathBuf>) {
     let folder = tempfile::tempdir().unwrap();
@@ -297,22 +297,5 @@ fn a_stack_beyond_the_limits_is_refused() {
     assert!(
         sentence.contains("more than 100000 along an axis"),
         "{sentence}"
-    );
-}
-
-#[test]
-fn grey_values_become_phases_by_range() {
-    let (_folder, path) = stored("a.tif", &tiff(CLASSIC, &plain_pages()));
-    let grey = Phases::Grey("wood=1..1.5,adhesive=1.6..".parse().unwrap());
-    let found = segmented(&[path], &grey).unwrap();
-    let labels = |wanted| {
-        (0..DIMS[2])
-            .flat_map(|z| page(z, |l| l))
-            .filter(|l| *l == wanted)
-            .count() as u64
-    };
-    assert_eq!(
-        [found.wood.count(), found.adhesive.count()],
-        [labels(1), labels(2)]
     );
 }

@@ -19,3 +19,6 @@ fault "STK" "wood 466 voxels (0)" "xct2particles \$IN/files/stk-6-planes.stk $kn
 fault "OME-TIFF of six files, by its folder" "wood 466 voxels (0)" "xct2particles \$IN/files/ome-multifile $known 2>&1 | $counts"
 fault "OME-TIFF of six files, by one" "wood 466 voxels (0)" "xct2particles \$IN/files/ome-multifile/w_Z3.ome.tif $known 2>&1 | $counts"
 fault "tiles that were left out" "3840, 255 and 1 voxels (0)" 'xct2particles $IN/files/sparse-tiles.tif --voxel 1.45um --histogram g.csv && cat g.csv | paste -sd " "'
+fault "a mask of 0 and 255" "says so, and --labels void=0,wood=255 (2)" 'printf "NDims = 3\nDimSize = 2 2 1\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n\377\0\377\0" >a.mha; xct2particles a.mha --voxel 1.45um -o s.mpts'
+fault "NaN among float labels" "the voxel, and that labels are whole numbers (2)" 'printf "NDims = 3\nDimSize = 2 1 1\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n\0\0\0\0\0\0\300\177" >a.mha; xct2particles a.mha --voxel 1.45um --labels void=0,wood=1 -o s.mpts'
+fault "0.1 as a label" "labels are whole numbers (2)" "xct2particles \$IN/files/make-stale-a.tif --voxel 1.45um --labels void=0,wood=0.1,adhesive=2 -o s.mpts 2>&1 | head -1; exit 2"

@@ -10,7 +10,7 @@ use super::ifd::tag;
 use super::layout::{Cut, PageLayout};
 use crate::sample::{Sample, swap_bytes, unpack_bits};
 
-/// Reads the page into `page`: rows without padding, channels interleaved, one sample per
+/// Reads the page into `page`, which is empty: rows without padding, channels interleaved, one sample per
 /// pixel and channel in native byte order.
 pub(crate) fn read(file: &File, layout: &PageLayout, page: &mut Vec<u8>) -> Result<(), String> {
     let (row_bytes, plane_bytes) = layout.plane_bytes().unwrap_or_default();
@@ -59,7 +59,6 @@ fn decode_plane(
         .filter(|&(_, bytes)| !layout.is_left_out(bytes))
         .collect();
     if stored.is_empty() {
-        plane.fill(0);
         return Ok(());
     }
     let bytes = as_grey_tiff(file, layout, &stored)?;

@@ -232,6 +232,35 @@ fn guesses_and_crops() {
 }
 
 #[test]
+fn a_mask_says_what_was_found_and_what_to_give() {
+    let said = |values: [u8; 3]| {
+        let pages: Vec<Page> = (pages(|l| [values[usize::from(l)]]).into_iter())
+            .map(|data| Page::new(DIMS[0], DIMS[1], 8, data))
+            .collect();
+        let (_folder, path) = stored("a.tif", &tiff(CLASSIC, &pages));
+        segmented(&[path], &Phases::Guess).unwrap_err().to_string()
+    };
+    let mask = said([0, 255, 255]);
+    for part in [
+        "it holds 0 and 255 alone",
+        "ImageJ",
+        "--labels void=0,wood=255",
+    ] {
+        assert!(mask.contains(part), "{mask}");
+    }
+    let pair = said([0, 2, 2]);
+    assert!(
+        pair.contains("0 and 2 alone; ") && pair.contains("void=0,wood=2"),
+        "{pair}"
+    );
+    assert!(
+        said([1, 1, 1]).contains("it holds 1 alone"),
+        "{}",
+        said([1, 1, 1])
+    );
+}
+
+#[test]
 fn an_unknown_label_is_named_with_its_place() {
     let mut pages = plain_pages();
     pages[2].chunks[0][5 * DIMS[0] + 7] = 9;
