@@ -19,7 +19,7 @@ pub enum Phase {
 impl Phase {
     const ALL: [Phase; 3] = [Phase::Void, Phase::Wood, Phase::Adhesive];
 
-    fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         ["void", "wood", "adhesive"][self as usize]
     }
 
@@ -126,19 +126,20 @@ impl Grey {
 }
 
 impl Grey {
-    /// Void below `wood`, wood below `adhesive`, adhesive from there on.
-    pub(crate) fn between(wood: i64, adhesive: i64) -> Self {
+    /// Void below the first threshold, wood from there on, adhesive from the second on where there is
+    /// one. What is at `top` and above is void again. `whole` numbers end at the last before the next.
+    pub(crate) fn of_thresholds(thresholds: &[f64], top: Option<f64>, whole: bool) -> Self {
+        let before = |v: f64| if whole { v - 1.0 } else { v.next_down() };
+        let end = |next: Option<&f64>| next.map_or(f64::INFINITY, |v| before(*v));
+        let above = |from: f64| top.filter(|top| *top > from);
+        let range = |i: usize| {
+            let from = *thresholds.get(i)?;
+            let top = above(from);
+            Some((from, end(thresholds.get(i + 1).or(top.as_ref()))))
+        };
         Self {
-            wood: (wood as f64, (adhesive - 1) as f64),
-            adhesive: Some((adhesive as f64, f64::INFINITY)),
-        }
-    }
-
-    /// Void below `wood`, wood from there on.
-    pub(crate) fn wood_from(wood: i64) -> Self {
-        Self {
-            wood: (wood as f64, f64::INFINITY),
-            adhesive: None,
+            wood: range(0).unwrap_or((f64::INFINITY, f64::INFINITY)),
+            adhesive: range(1),
         }
     }
 }

@@ -38,6 +38,11 @@ impl Sample {
         }
     }
 
+    /// Whether it is an integer.
+    pub(crate) fn is_whole(self) -> bool {
+        !matches!(self, Sample::F32 | Sample::F64)
+    }
+
     /// The value of one sample in native byte order; `bytes` holds at least
     /// [`Sample::bytes`]. Integers beyond 2^53 are rounded, which no label reaches.
     pub(crate) fn value(self, bytes: &[u8]) -> f64 {

@@ -310,7 +310,7 @@ fn grey_values_are_counted_and_parted() {
     assert_eq!(histogram.counts.iter().sum::<u64>(), 21 * 13 * 4);
     let cropped = Histogram::of(&stack, &"0:5,0:13,1:3".parse().unwrap()).unwrap();
     assert_eq!(cropped.counts.iter().sum::<u64>(), 5 * 13 * 2);
-    let phases = Phases::Grey(histogram.otsu().unwrap());
+    let phases = Phases::Grey(histogram.otsu().unwrap().grey);
     let found = segment(&stack, &phases, &Crop::whole(DIMS), || {}).unwrap();
     assert_eq!(
         (found.wood.count(), found.adhesive.count()),

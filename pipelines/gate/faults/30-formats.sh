@@ -22,3 +22,6 @@ fault "tiles that were left out" "3840, 255 and 1 voxels (0)" 'xct2particles $IN
 fault "a mask of 0 and 255" "says so, and --labels void=0,wood=255 (2)" 'printf "NDims = 3\nDimSize = 2 2 1\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n\377\0\377\0" >a.mha; xct2particles a.mha --voxel 1.45um -o s.mpts'
 fault "NaN among float labels" "the voxel, and that labels are whole numbers (2)" 'printf "NDims = 3\nDimSize = 2 1 1\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n\0\0\0\0\0\0\300\177" >a.mha; xct2particles a.mha --voxel 1.45um --labels void=0,wood=1 -o s.mpts'
 fault "0.1 as a label" "labels are whole numbers (2)" "xct2particles \$IN/files/make-stale-a.tif --voxel 1.45um --labels void=0,wood=0.1,adhesive=2 -o s.mpts 2>&1 | head -1; exit 2"
+for name in otsu-clean.tif otsu-one-zinger.tif; do
+    fault "$name by --grey auto" "wood 466 voxels, or 465 beside the zinger (0)" "xct2particles \$IN/files/$name --voxel 1.45um --grey auto -o s.mpts 2>&1 | $counts"
+done

@@ -44,11 +44,13 @@ impl StackOptions {
                 let whole = Crop::whole(stack.dims());
                 let histogram = Histogram::of(stack, &whole).map_err(stack_failure)?;
                 let wrong = |why| Failure::usage(format!("{}: {why}", stack.name()));
-                let grey = histogram.otsu().map_err(wrong)?;
+                let proposal = histogram.otsu().map_err(wrong)?;
+                let grey = proposal.grey;
                 cli::note(format_args!(
                     "{}: grey values taken as {grey}",
                     stack.name()
                 ));
+                proposal.left_out.iter().for_each(cli::warn);
                 Phases::Grey(grey)
             }
             (None, None) => Phases::Guess,

@@ -138,7 +138,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         (None, Some(GreyLevels::Given(grey)), _) => Phases::Grey(grey),
         (None, Some(GreyLevels::Auto | GreyLevels::AutoWood), Some(proposed)) => {
             let wrong = |why| Failure::usage(format!("{}: {why}", stack.name()));
-            Phases::Grey(proposed.map_err(wrong)?)
+            Phases::Grey(proposed.map_err(wrong)?.grey)
         }
         _ => Phases::Guess,
     };
@@ -169,12 +169,7 @@ fn open(arguments: &Arguments) -> Result<Stack, voxels::Error> {
 /// `grey,voxels` from the lowest to the highest value found.
 fn write_histogram(histogram: &Histogram, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "grey,voxels")?;
-    let found = |n: &u64| *n > 0;
-    let first = histogram.counts.iter().position(found).unwrap_or(0);
-    let last = histogram.counts.iter().rposition(found).unwrap_or(0);
-    let counts = &histogram.counts[first..=last];
-    (counts.iter().zip(histogram.lowest + first as i64..))
-        .try_for_each(|(count, grey)| writeln!(out, "{grey},{count}"))
+    (histogram.values()).try_for_each(|(grey, voxels)| writeln!(out, "{grey},{voxels}"))
 }
 
 /// Other arguments may help (exit 2) or the file is at fault (exit 3).

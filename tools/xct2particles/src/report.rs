@@ -1,6 +1,6 @@
 //! What the tool says on standard error.
 
-use voxels::{Grey, Segmented, Stack, VoxelEdge};
+use voxels::{Proposal, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
 const EDGE_TOLERANCE: f64 = 0.01;
@@ -33,12 +33,16 @@ pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
     }
 }
 
-/// What two thresholds would part, where that was asked for.
-pub(crate) fn proposal(proposed: &Option<Result<Grey, String>>) {
+/// What thresholds would part, where that was asked for.
+pub(crate) fn proposal(proposed: &Option<Result<Proposal, String>>) {
     match proposed {
-        Some(Ok(grey)) => cli::note(format_args!(
-            "grey        proposed by Otsu's thresholds: --grey {grey}"
-        )),
+        Some(Ok(proposal)) => {
+            let grey = &proposal.grey;
+            cli::note(format_args!(
+                "grey        proposed by Otsu's thresholds: --grey {grey}"
+            ));
+            proposal.left_out.iter().for_each(cli::warn);
+        }
         Some(Err(why)) => cli::warn(format_args!("no grey values are proposed: {why}")),
         None => {}
     }
