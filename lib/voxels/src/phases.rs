@@ -17,7 +17,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    const ALL: [Phase; 3] = [Phase::Void, Phase::Wood, Phase::Adhesive];
+    pub(crate) const ALL: [Phase; 3] = [Phase::Void, Phase::Wood, Phase::Adhesive];
 
     pub(crate) fn name(self) -> &'static str {
         ["void", "wood", "adhesive"][self as usize]

@@ -217,6 +217,7 @@ fn stack(opened: Result<Stack, voxels::Error>, options: &StackOptions) -> Result
     let whole = Crop::whole(stack.dims());
     let phases = options.phases(&stack)?;
     let voxels = voxels::segment(&stack, &phases, &whole, || ()).map_err(stack_failure)?;
+    voxels.swapped().into_iter().for_each(cli::warn);
     if let Some([void, wood, adhesive]) = voxels.guessed {
         cli::note(format!(
             "{}: labels taken as void={void}, wood={wood}, adhesive={adhesive}",

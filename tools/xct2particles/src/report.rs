@@ -1,6 +1,6 @@
 //! What the tool says on standard error.
 
-use voxels::{Proposal, Segmented, Stack, VoxelEdge};
+use voxels::{Despeckled, Proposal, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
 const EDGE_TOLERANCE: f64 = 0.01;
@@ -48,6 +48,15 @@ pub(crate) fn proposal(proposed: &Option<Result<Proposal, String>>) {
     }
 }
 
+/// What became of specks of at most so many voxels.
+pub(crate) fn despeckled(found: &Despeckled, most: u16) {
+    let [void, wood, adhesive] = found.voxels;
+    cli::note(format_args!(
+        "despeckled  {} pieces of at most {most} voxels took the phase around them: {adhesive} voxels of adhesive, {wood} of wood, {void} of void",
+        found.pieces
+    ));
+}
+
 /// Counts, fractions and bond area of a specimen with voxels of `edge` (m).
 pub(crate) fn phases(specimen: &Segmented, edge: f64) {
     match specimen.guessed {
@@ -75,6 +84,9 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64) {
         if voxels == 0 && name == "wood" {
             cli::warn("no voxel is wood");
         }
+    }
+    if adhesive > wood {
+        cli::warn("more voxels are adhesive than wood: are their labels the right way round?");
     }
     let um = edge * 1e6;
     let area = (nx * nz) as f64 * um * um;
