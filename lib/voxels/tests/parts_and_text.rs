@@ -1,4 +1,4 @@
-//! Volumes as text, in many files, by bzip2 and at the end of their file.
+//! Volumes as text, compressed, in many files and at the end of their file.
 
 mod common;
 
@@ -7,6 +7,7 @@ use std::io::Write;
 use std::path::Path;
 
 use common::*;
+use voxels::Stack;
 
 const PLAIN: [&str; 3] = ["0", "1", "2"];
 
@@ -91,7 +92,7 @@ fn pixels_at_the_end_of_their_file() {
         fs::write(folder.path().join("a.raw"), &raw).unwrap();
         assert_test_volume(name, &path, PLAIN);
         fs::write(folder.path().join("a.raw"), &raw[30..]).unwrap();
-        let said = voxels::Stack::open(&[path]).unwrap_err().to_string();
+        let said = Stack::open(&[path]).unwrap_err().to_string();
         assert!(said.contains("it is truncated"), "{said}");
     };
     beside(
@@ -127,20 +128,43 @@ fn volumes_in_many_files() {
         written(folder.path(), names);
         assert_test_volume(&head, &path, PLAIN);
         fs::write(folder.path().join(names[2]), &data[2][1..]).unwrap();
-        let said = voxels::Stack::open(&[path]).unwrap_err().to_string();
+        let said = Stack::open(&[path]).unwrap_err().to_string();
         assert!(
             said.contains(names[2]) && said.contains("end after 272 of 273"),
             "{said}"
         );
     }
     let (folder, path) = stored("a.mhd", mhd(kind, "half %d.raw 1 2 1").as_bytes());
-    let said = voxels::Stack::open(std::slice::from_ref(&path)).unwrap_err();
+    let said = Stack::open(std::slice::from_ref(&path)).unwrap_err();
     assert!(said.to_string().contains("no pattern"), "{said}");
     fs::write(&path, mhd(kind, "half%d.raw 1 2 1")).unwrap();
     fs::write(folder.path().join("half1.raw"), data[..2].concat()).unwrap();
     fs::write(folder.path().join("half2.raw"), data[2..].concat()).unwrap();
     assert_test_volume("two pages a file", &path, PLAIN);
     fs::write(&path, mhd(kind, "LIST\nhalf1.raw\nhalf2.raw\nhalf1.raw")).unwrap();
-    let said = voxels::Stack::open(&[path]).unwrap_err().to_string();
+    let said = Stack::open(&[path]).unwrap_err().to_string();
     assert!(said.contains("4 pages are in 3 files"), "{said}");
+}
+
+#[test]
+fn meta_images_that_are_compressed() {
+    let [nx, ny, nz] = DIMS;
+    let header = |file: &str, size: usize| {
+        format!(
+            "NDims = 3\nDimSize = {nx} {ny} {nz}\nElementType = MET_UCHAR\nCompressedData = True\nCompressedDataSize = {size}\nElementDataFile = {file}\n"
+        )
+    };
+    let packed = zlib(&pages(|l| [l]).concat());
+    let behind = [header("LOCAL", packed.len()).as_bytes(), &packed].concat();
+    let (_folder, path) = stored("a.mha", &behind);
+    assert_test_volume("mha", &path, PLAIN);
+    let (folder, path) = stored("a.mhd", header("a.zraw", packed.len()).as_bytes());
+    fs::write(folder.path().join("a.zraw"), &packed).unwrap();
+    assert_test_volume("mhd", &path, PLAIN);
+    assert_eq!(Stack::open(&[path]).unwrap().sources().len(), 2);
+    let cut = refusal("a.mha", &behind[..behind.len() - 40]);
+    assert!(cut.contains("compressed pixels"), "{cut}");
+    let bomb = header("LOCAL", 1).replace(&format!("{nx} {ny} {nz}"), "90000 90000 90000");
+    let said = refusal("a.mha", &[bomb.as_bytes(), &packed].concat());
+    assert!(said.contains("compressed bytes are stored"), "{said}");
 }

@@ -25,3 +25,8 @@ fault "0.1 as a label" "labels are whole numbers (2)" "xct2particles \$IN/files/
 for name in otsu-clean.tif otsu-one-zinger.tif; do
     fault "$name by --grey auto" "wood 466 voxels, or 465 beside the zinger (0)" "xct2particles \$IN/files/$name --voxel 1.45um --grey auto -o s.mpts 2>&1 | $counts"
 done
+acer='$TOP/pipelines/examples/acer/bondline-acer-64x192x128.tif --voxel 1.45um'
+fault "wood and void exchanged" "they look exchanged (2)" "xct2particles $acer --labels void=128,wood=0,adhesive=255 -o s.mpts"
+fault "a preview alone" "a PNG (0)" "xct2particles $acer --preview look.png 2>/dev/null; head -c 4 look.png | tail -c 3"
+fault "one voxel of noise, --despeckle 1" "1 voxels of adhesive (0)" '{ printf "NDims = 3\nDimSize = 9 9 9\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n"; head -c 400 /dev/zero | tr "\0" "\1"; printf "\2"; head -c 328 /dev/zero; } >a.mha; xct2particles a.mha --voxel 1.45um --labels void=0,wood=1,adhesive=2 --despeckle 1 -o s.mpts 2>&1 | grep -o -e "[0-9]* voxels of adhesive" -e "error.*"'
+fault "32-bit BMP" "wood 1 voxels (0)" '{ printf "BM\76\0\0\0\0\0\0\0\66\0\0\0\50\0\0\0\2\0\0\0\1\0\0\0\1\0\40\0\0\0\0\0"; head -c 20 /dev/zero; printf "\0\0\0\377\1\1\1\377"; } >a.bmp; xct2particles a.bmp --voxel 1.45um --labels void=0:0:0,wood=1:1:1 -o s.mpts 2>&1 | '"$counts"
