@@ -179,10 +179,18 @@ fn slices_of_other_sizes_or_kinds_are_no_stack() {
         3 => bmp(z, 24),
         _ => png(z, png::ColorType::Grayscale, png::BitDepth::Eight),
     });
-    let said = Stack::open(&[mixed.path().to_owned()])
-        .unwrap_err()
-        .to_string();
-    assert!(said.contains("must be alike"), "{said}");
+    let said = |folder: &tempfile::TempDir| {
+        let opened = Stack::open(&[folder.path().to_owned()]);
+        opened.unwrap_err().to_string()
+    };
+    assert!(said(&mixed).contains("must be alike"), "{}", said(&mixed));
+    for (content, refused) in [
+        (&b""[..], "slice 8.png': it is empty"),
+        (b"text", "no slice of a stack"),
+    ] {
+        fs::write(mixed.path().join("slice 8.png"), content).unwrap();
+        assert!(said(&mixed).contains(refused), "{}", said(&mixed));
+    }
     let [nx, ny, _] = DIMS;
     let mut clear = Vec::new();
     let mut encoder = png::Encoder::new(&mut clear, nx as u32, ny as u32);

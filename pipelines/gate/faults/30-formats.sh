@@ -1,6 +1,6 @@
 known='--labels void=0,wood=1,adhesive=2 -o s.mpts'
 for name in res-72.009dpi.tif res-px-per-um-as-inch.tif nifti-default-1mm.nii.gz; do
-    fault "$name states no size of a voxel" "give --voxel (2)" "xct2particles \$IN/files/$name $known"
+    fault "$name states no size of a voxel" "give --voxel (2)" "cp \$IN/files/$name . && xct2particles $name $known"
 done
 fault "ImageJ's zunit" "1.45 um (0)" "xct2particles \$IN/files/imagej-zunit-mm.tif $known 2>&1 | grep -m 1 -e 'voxel edge' -e 'a voxel is'"
 fault "--voxel '1.45 mm'" "a warning (0)" "xct2particles \$IN/files/make-stale-a.tif --voxel 1.45mm $known 2>&1 | grep -e 'unit right'"
@@ -13,8 +13,8 @@ fault "a list of raw files" "wood 466 voxels (0)" 'cp $IN/files/hm.raw . && tail
     printf "NDims = 3\nDimSize = 14 10 6\nElementType = MET_UCHAR\nElementDataFile = p%%d 0 5 1\n" >a.mhd; '"xct2particles a.mhd $known 2>&1 | $counts"
 fault "NRRD by bzip2" "wood 466 voxels (0)" '{ printf "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 14 10 6\nencoding: bzip2\n\n"; tail -c 840 $IN/files/hm.raw | bzip2; } >a.nrrd; '"xct2particles a.nrrd $known 2>&1 | $counts"
 fault "NRRD as text" "wood 466 voxels (0)" '{ printf "NRRD0004\ntype: ushort\ndimension: 3\nsizes: 14 10 6\nencoding: ascii\n\n"; cat $IN/files/asc.raw; } >a.nrrd; '"xct2particles a.nrrd $known 2>&1 | $counts"
-fault "a PNG of no bytes" "s00.png is empty (3)" "xct2particles \$IN/files/zero-byte-first-png $known"
-fault "TMPDIR that does not exist" "names TMPDIR (3)" "TMPDIR=/none xct2particles \$IN/files/nifti-default-1mm.nii.gz $known"
+fault "a PNG of no bytes" "s00.png is empty (3)" "cp -r \$IN/files/zero-byte-first-png a && xct2particles a $known"
+fault "TMPDIR that does not exist" "names TMPDIR (3)" "cp \$IN/files/nifti-default-1mm.nii.gz a.nii.gz && TMPDIR=/none xct2particles a.nii.gz $known"
 fault "STK" "wood 466 voxels (0)" "xct2particles \$IN/files/stk-6-planes.stk $known 2>&1 | $counts"
 fault "OME-TIFF of six files, by its folder" "wood 466 voxels (0)" "xct2particles \$IN/files/ome-multifile $known 2>&1 | $counts"
 fault "OME-TIFF of six files, by one" "wood 466 voxels (0)" "xct2particles \$IN/files/ome-multifile/w_Z3.ome.tif $known 2>&1 | $counts"

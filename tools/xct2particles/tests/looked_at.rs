@@ -177,3 +177,20 @@ fn an_edge_in_the_wrong_unit_is_doubted() {
         );
     }
 }
+
+#[test]
+fn a_folder_of_temporary_files_that_is_not_there_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let [stack, head] = ["a.txt", "a.mhd"].map(|name| folder.path().join(name));
+    fs::write(&stack, "0 1").unwrap();
+    fs::write(&head, "NDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\nBinaryData = False\nElementDataFile = a.txt\n").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_xct2particles"));
+    command.args([text(&head), "--voxel", "1.45um", "-o", "-"]);
+    let output = command.env("TMPDIR", "/none").output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(
+        said.contains("'/none'") && said.contains("set TMPDIR"),
+        "{said}"
+    );
+}

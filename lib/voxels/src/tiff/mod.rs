@@ -209,7 +209,8 @@ impl TiffPages {
             let first = own(&self.pages[0].1);
             let odd = self.pages.iter().position(|(_, page)| own(page) != first)?;
             let own = own(&self.pages[odd].1);
-            let what = format!("it is {own} but page 1 is {first}; the pages of a stack must be alike");
+            let what =
+                format!("it is {own} but page 1 is {first}; the pages of a stack must be alike");
             Some(Error::page(self.source(odd), odd, what))
         };
         let format = odd(&|page| page.format.to_string());
