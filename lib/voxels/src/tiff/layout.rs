@@ -321,9 +321,7 @@ impl PageLayout {
         if !self.is_plain() {
             return Err("planes that follow one another need uncompressed strips of pixels".into());
         }
-        let begin = bytes
-            .checked_mul(k as u64)
-            .and_then(|n| n.checked_add(offset));
+        let begin = offset.checked_add(bytes.saturating_mul(k as u64));
         let end = begin.and_then(|n| n.checked_add(bytes));
         match (begin, end) {
             (Some(begin), Some(end)) if end <= file_len => Ok(Self {
