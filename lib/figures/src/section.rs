@@ -40,8 +40,17 @@ pub(crate) const KEY: [(&str, [u8; 3]); 3] =
 impl Section {
     pub(crate) fn read(state: &Labelled, cut: Cut, colouring: Colouring) -> Result<Self, Error> {
         let file = ParticleFile::open(&state.path).map_err(|e| Error::Data(e.to_string()))?;
+        Self::of(&file, &state.label, cut, colouring)
+    }
+
+    pub(crate) fn of(
+        file: &ParticleFile,
+        label: &str,
+        cut: Cut,
+        colouring: Colouring,
+    ) -> Result<Self, Error> {
         let data = |e: particle_file::Error| Error::Data(e.to_string());
-        let labels = LabelVolume::of(&file).map_err(data)?;
+        let labels = LabelVolume::of(file).map_err(data)?;
         let low = labels.origin_m;
         let high: [f64; 3] =
             std::array::from_fn(|a| low[a] + labels.dims[a] as f64 * labels.voxel_m);
@@ -60,7 +69,7 @@ impl Section {
                 high[normal] * 1e6
             )));
         }
-        let raster = Raster::new(&file, &labels, cut.axis, at, colouring).map_err(data)?;
+        let raster = Raster::new(file, &labels, cut.axis, at, colouring).map_err(data)?;
         let (unit, name) = time_unit(file.header().time_s);
         let time = match file.header().kind {
             particle_file::Kind::State => {
@@ -72,7 +81,7 @@ impl Section {
             _ => String::new(),
         };
         Ok(Self {
-            label: state.label.clone(),
+            label: label.to_owned(),
             detail: format!("{time}{}\u{a0}=\u{a0}{:.1}\u{a0}µm", cut.axis, at * 1e6),
             low: raster.axes.map(|a| low[a]),
             corner: raster.axes.map(|a| file.header().box_min_m[a]),

@@ -1,5 +1,6 @@
 //! The figure of slices through states.
 
+use particle_file::ParticleFile;
 use units::Axis as Direction;
 
 use crate::axes::Axis;
@@ -67,13 +68,29 @@ impl Slices {
     /// shown, [`Error::Request`] for a slice beside the box.
     pub fn read(states: &[Labelled], cut: Cut, colouring: Colouring) -> Result<Self, Error> {
         let read = |state| Section::read(state, cut, colouring);
-        let sections = states.iter().map(read).collect::<Result<_, _>>()?;
-        Ok(Self {
+        Ok(Self::of(
+            states.iter().map(read).collect::<Result<_, _>>()?,
+            colouring,
+        ))
+    }
+
+    /// A panel for each of several cuts through what `file`, called `label`, holds.
+    ///
+    /// # Errors
+    /// As [`Slices::read`].
+    pub fn through(file: &ParticleFile, label: &str, cuts: &[Cut]) -> Result<Self, Error> {
+        let section = |&cut| Section::of(file, label, cut, Colouring::Plain);
+        let sections = cuts.iter().map(section).collect::<Result<_, _>>()?;
+        Ok(Self::of(sections, Colouring::Plain))
+    }
+
+    fn of(sections: Vec<Section>, colouring: Colouring) -> Self {
+        Self {
             sections,
             colouring,
             cell: None,
             page: Page::default(),
-        })
+        }
     }
 
     /// The same for a page.

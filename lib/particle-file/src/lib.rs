@@ -42,7 +42,7 @@ pub use header::{Block, Header, Kind, Material, Provenance};
 pub use layout::{Element, Section};
 pub use map::Mapped;
 pub use read::{ParticleFile, Value};
-pub use spool::{spool, spool_exactly, temporary_file};
+pub use spool::{fill, spool, temporary_file};
 pub use table_text::read_table;
 pub use write::Draft;
 

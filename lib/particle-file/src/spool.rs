@@ -15,7 +15,7 @@ const HEAD: usize = 512;
 /// # Errors
 /// The system's reason, or a pipe that gives more.
 pub fn spool(mut pipe: impl Read, recognised: impl Fn(&[u8]) -> bool) -> io::Result<File> {
-    let mut file = tempfile::tempfile()?;
+    let mut file = unnamed_file()?;
     let mut head = Vec::with_capacity(HEAD);
     pipe.by_ref().take(HEAD as u64).read_to_end(&mut head)?;
     file.write_all(&head)?;
@@ -31,21 +31,18 @@ pub fn spool(mut pipe: impl Read, recognised: impl Fn(&[u8]) -> bool) -> io::Res
     Ok(file)
 }
 
-/// Copies what `content` gives, `bytes` and no more, to an unnamed temporary file.
+/// Copies what `content` gives to `file`, `bytes` and no more, and goes back to its start.
 ///
 /// # Errors
-/// The system's reason, content that ends before, or more bytes than half of what is free in the
-/// folder of temporary files.
-pub fn spool_exactly(content: impl Read, bytes: u64) -> io::Result<File> {
-    let mut file = temporary_file(bytes)?;
-    let found = io::copy(&mut content.take(bytes), &mut file)?;
+/// The system's reason, or content that ends before.
+pub fn fill(file: &mut File, content: impl Read, bytes: u64) -> io::Result<()> {
+    let found = io::copy(&mut content.take(bytes), file)?;
     if found < bytes {
         return Err(io::Error::other(format!(
             "it ends after {found} of {bytes} bytes"
         )));
     }
-    file.seek(SeekFrom::Start(0))?;
-    Ok(file)
+    file.seek(SeekFrom::Start(0)).map(|_| ())
 }
 
 /// An unnamed temporary file that will hold `bytes`.
@@ -53,13 +50,24 @@ pub fn spool_exactly(content: impl Read, bytes: u64) -> io::Result<File> {
 /// # Errors
 /// The system's reason, or more bytes than half of what is free in the folder of temporary files.
 pub fn temporary_file(bytes: u64) -> io::Result<File> {
-    let file = tempfile::tempfile()?;
+    let file = unnamed_file()?;
     let free = rustix::fs::fstatvfs(&file)?;
     let most = free.f_bavail.saturating_mul(free.f_frsize) / 2;
     match bytes > most {
         true => Err(too_much(most)),
         false => Ok(file),
     }
+}
+
+fn unnamed_file() -> io::Result<File> {
+    tempfile::tempfile().map_err(|e| {
+        let folder = std::env::temp_dir();
+        let what = format!(
+            "no temporary file can be made in '{}' ({e}): set TMPDIR to a folder that can be written",
+            folder.display()
+        );
+        io::Error::new(e.kind(), what)
+    })
 }
 
 /// Copies all of `pipe` unless it is more than `most` bytes.
@@ -100,9 +108,11 @@ mod tests {
         let whole = spool(pipe.as_slice(), |head| head == [7; HEAD]).unwrap();
         assert_eq!(content(whole), pipe);
         assert_eq!(content(spool([9].as_slice(), |_| true).unwrap()), [9]);
-        assert_eq!(content(spool_exactly(io::repeat(3), 2).unwrap()), [3, 3]);
-        let said = spool_exactly([9].as_slice(), 2).unwrap_err();
+        let mut file = temporary_file(2).unwrap();
+        fill(&mut file, io::repeat(3), 2).unwrap();
+        assert_eq!(content(file), [3, 3]);
+        let said = fill(&mut temporary_file(2).unwrap(), [9].as_slice(), 2).unwrap_err();
         assert!(said.to_string().contains("1 of 2 bytes"), "{said}");
-        assert!(spool_exactly(io::repeat(3), u64::MAX).is_err());
+        assert!(temporary_file(u64::MAX).is_err());
     }
 }

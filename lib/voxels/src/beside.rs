@@ -1,6 +1,66 @@
-//! Pixels in a file beside their header's.
+//! Pixels in files beside their header's.
 
 use std::path::{Component, Path, PathBuf};
+
+use particle_file::limits;
+
+/// The files that a header at `path` names by `value` of its `field`: one, many by a pattern and
+/// its numbers (`slice%03d.raw 0 99 1`), or those in the lines `below` it (`LIST`).
+///
+/// # Errors
+/// A sentence for a pattern that is none, and as [`data_file`].
+pub(crate) fn data_files(
+    path: &Path,
+    value: &str,
+    below: &[u8],
+    field: &str,
+) -> Result<Vec<PathBuf>, String> {
+    let names: Vec<String> = if value.split_whitespace().next() == Some("LIST") {
+        let text = String::from_utf8_lossy(below);
+        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+        lines.map(str::to_owned).collect()
+    } else if value.contains('%') {
+        numbered(value).ok_or_else(|| {
+            format!("its {field} '{value}' is no pattern; accepted is such as slice%03d.raw 0 99 1")
+        })?
+    } else {
+        vec![value.to_owned()]
+    };
+    if names.is_empty() {
+        return Err(format!("its {field} LIST has no names below it"));
+    }
+    (names.iter())
+        .map(|name| data_file(path, Path::new(name), field))
+        .collect()
+}
+
+/// The names of a pattern, first number, last number and step; none where they are not such.
+fn numbered(value: &str) -> Option<Vec<String>> {
+    let mut words = value.split_whitespace();
+    let (before, rest) = words.next()?.split_once('%')?;
+    let (width, behind) = rest.split_once('d')?;
+    // No flag or width prints as width 0.
+    let width: usize = format!("0{width}")
+        .parse()
+        .ok()
+        .filter(|width| *width < 20)?;
+    let padded = rest.starts_with('0');
+    let numbers: Option<Vec<u64>> = words.map(|n| n.parse().ok()).collect();
+    let (first, last, step) = match numbers?[..] {
+        [first, last] => (first, last, 1),
+        // A fourth tells the axes of a file.
+        [first, last, step] | [first, last, step, _] => (first, last, step),
+        _ => return None,
+    };
+    if step == 0 || last < first || (last - first) / step >= limits::PER_AXIS {
+        return None;
+    }
+    let name = |n: u64| match padded {
+        true => format!("{before}{n:0width$}{behind}"),
+        false => format!("{before}{n}{behind}"),
+    };
+    Some((first..=last).step_by(step as usize).map(name).collect())
+}
 
 /// The file `name`, which the header at `path` calls its `field`, in the folder of the header;
 /// nothing outside that folder is read, be it through `..` or a link.
@@ -28,5 +88,29 @@ pub(crate) fn data_file(path: &Path, name: &Path, field: &str) -> Result<PathBuf
     match place.is_file() {
         true => Ok(beside),
         false => Err(refused("is no regular file")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_as_printf_reads_them() {
+        assert_eq!(
+            numbered("a%03d.raw 8 12 2").unwrap(),
+            ["a008.raw", "a010.raw", "a012.raw"]
+        );
+        assert_eq!(numbered("a%d 9 10 1 2").unwrap(), ["a9", "a10"]);
+        for none in [
+            "a%03d",
+            "a%s 1 2 1",
+            "a%d 2 1 1",
+            "a%d 1 2 0",
+            "a%d 0 99999999 1",
+            "a%d -1 2 1",
+        ] {
+            assert_eq!(numbered(none), None, "{none}");
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Uncompressed BMP: the indices of a palette, or RGB.
+//! Uncompressed BMP: the indices of a palette, or RGB, of 24 or 32 bits.
 //!
 //! Our own, for stored values are labels: the `image` crate gives the colours of a palette, and
 //! where it is asked for indices of fewer than 8 bits it panics (0.25.10).
@@ -9,6 +9,10 @@ use crate::source::Source;
 
 /// Bytes that hold the fields of the oldest and of later headers.
 const HEAD: usize = 34;
+/// Where later headers hold which bits of a pixel are red, green and blue.
+const MASKS: u64 = 54;
+/// Blue, green, red and a byte that is opacity or unused.
+const BGRX: [u8; 12] = [0, 0, 0xff, 0, 0, 0xff, 0, 0, 0xff, 0, 0, 0];
 
 /// Where the pixels of a file are and how they are stored.
 struct Header {
@@ -37,9 +41,17 @@ impl Header {
             40.. => (long(18) as i32, long(22) as i32, short(28), long(30)),
             n => return Err(format!("its header of {n} bytes is of no known version")),
         };
-        if compression != 0 || ![1, 2, 4, 8, 24].contains(&bits) {
+        let masks = source.window(MASKS, BGRX.len());
+        let masks = masks.map_err(|e| e.to_string())?;
+        let plain = match (bits, compression) {
+            (1 | 2 | 4 | 8 | 24 | 32, 0) => true,
+            // By masks, which are those of plain pixels.
+            (32, 3 | 6) => masks == BGRX,
+            _ => false,
+        };
+        if !plain {
             return Err(format!(
-                "its pixels have {bits} bits and compression {compression}; accepted is BMP of 1, 4, 8 or 24 bits without compression"
+                "its pixels have {bits} bits and compression {compression}; accepted is BMP of 1, 4, 8, 24 or 32 bits without compression"
             ));
         }
         if width <= 0 || height == 0 {
@@ -50,7 +62,7 @@ impl Header {
                 width: width as usize,
                 height: height.unsigned_abs() as usize,
                 sample: Sample::U8,
-                channels: if bits == 24 { 3 } else { 1 },
+                channels: if bits >= 24 { 3 } else { 1 },
             },
             bits: bits.into(),
             from_top: height < 0,
@@ -61,7 +73,7 @@ impl Header {
     }
 
     fn shown(&self, source: &Source) -> Result<Shown, String> {
-        if self.bits == 24 {
+        if self.bits >= 24 {
             return Ok(Shown::RGB);
         }
         let room = self.offset.saturating_sub(self.palette);
@@ -101,11 +113,14 @@ pub(crate) fn read(
         let rows: Vec<&[u8]> = stored.chunks_exact(row).rev().collect();
         stored = rows.concat();
     }
+    if header.bits == 32 && stored.chunks_exact(4).any(|pixel| pixel[3] != stored[3]) {
+        return Err("some of its pixels are transparent: save it without transparency".into());
+    }
     for row in stored.chunks_exact(row) {
         match header.bits {
-            24 => {
-                let pixels = row.chunks_exact(3).take(format.width);
-                pixels.for_each(|bgr| page.extend(bgr.iter().rev()));
+            bits @ (24 | 32) => {
+                let pixels = row.chunks_exact(bits / 8).take(format.width);
+                pixels.for_each(|bgr| page.extend(bgr[..3].iter().rev()));
             }
             bits => page.extend(unpack_bits(row, bits, format.width)),
         }

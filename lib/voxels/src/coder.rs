@@ -107,6 +107,17 @@ pub(crate) fn guessed(union: u8) -> Option<&'static [f64]> {
     })
 }
 
+/// The labels of either set that a stack with this union of codes held.
+pub(crate) fn found(union: u8) -> Vec<f64> {
+    let [(low, low_seen), (high, high_seen)] = GUESSES;
+    let all = low
+        .iter()
+        .zip(low_seen)
+        .chain(high.iter().zip(high_seen).skip(1));
+    let held = all.filter(|(_, seen)| union & seen != 0);
+    held.map(|(label, _)| *label).collect()
+}
+
 fn phase_code(phase: Phase) -> u8 {
     match phase {
         Phase::Void => 0,
@@ -173,6 +184,11 @@ mod tests {
         assert_eq!(of(&[255.0, 0.0, 128.0]), Some(&[0.0, 128.0, 255.0][..]));
         assert_eq!(of(&[0.0, 1.0]), Some(&[0.0, 1.0][..]));
         assert_eq!(of(&[128.0, 0.0]), Some(&[0.0, 128.0][..]));
+        let held = [255.0, 0.0, 2.0]
+            .map(guess_code)
+            .iter()
+            .fold(0, |u, code| u | code);
+        assert_eq!(found(held), [0.0, 2.0, 255.0]);
         // What 255 beside 0 alone is, wood or adhesive, nobody can tell.
         for unknown in [
             &[0.0][..],

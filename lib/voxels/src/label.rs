@@ -15,6 +15,14 @@ pub enum Label {
 }
 
 impl Label {
+    /// Whether it is made of whole numbers, as labels are; a float may be none.
+    pub(crate) fn is_whole(self) -> bool {
+        match self {
+            Label::Value(v) => v.fract() == 0.0,
+            Label::Rgb(parts) => parts.iter().all(|v| v.fract() == 0.0),
+        }
+    }
+
     /// The label of the pixel stored in `bytes` (native byte order, channels interleaved).
     pub(crate) fn of_pixel(bytes: &[u8], sample: Sample, channels: usize) -> Self {
         if channels == 3 {
@@ -44,14 +52,14 @@ impl FromStr for Label {
             part.trim()
                 .parse::<f64>()
                 .ok()
-                .filter(|v| v.abs() < 9_007_199_254_740_992.0)
+                .filter(|v| v.abs() < 9_007_199_254_740_992.0 && v.fract() == 0.0)
         };
         let parts: Option<Vec<f64>> = text.split(':').map(number).collect();
         match parts.as_deref() {
             Some(&[value]) => Ok(Label::Value(value)),
             Some(&[r, g, b]) => Ok(Label::Rgb([r, g, b])),
             _ => Err(format!(
-                "'{text}' is not a label; accepted are a number below 2^53 and R:G:B"
+                "'{text}' is not a label; accepted are a whole number below 2^53 and R:G:B"
             )),
         }
     }

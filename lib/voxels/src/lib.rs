@@ -2,7 +2,7 @@
 //! to TIFF.
 //!
 //! [`Stack`] opens TIFF in its many variants, folders of slices (BMP, PNG, JPEG too), `.npy`,
-//! `.npz`, MetaImage, NRRD, NIfTI and raw volumes; [`Histogram`] counts grey values;
+//! `.npz`, MetaImage, NRRD, NIfTI and raw volumes; [`Histogram`] counts grey values and proposes thresholds;
 //! [`segment`] sorts its voxels into [`Phases`], page by page. [`LabelVolume`] is
 //! the other way: what a particle file holds, liquid by its volume, as labels; [`TiffWriter`] writes them.
 //! A stack is indexed (z = page, y = row, x = column), x fastest.
@@ -12,20 +12,24 @@ mod bmp;
 mod coder;
 mod colours;
 mod crop;
+mod despeckle;
 mod error;
 mod folder;
 mod foreign;
-mod grey_levels;
+mod histogram;
 mod images;
 mod label;
 mod label_volume;
+mod levels;
 mod mhd;
 mod names;
 mod nifti;
 mod npy;
 mod npz;
 mod nrrd;
+mod otsu;
 mod phases;
+mod pixels;
 mod raw;
 mod raw_layout;
 mod sample;
@@ -34,17 +38,19 @@ mod series;
 mod source;
 mod stack;
 mod surface;
+mod swapped;
 pub mod synthetic;
 mod tiff;
-mod unpacked;
 mod volume_fractions;
 mod voxel_size;
 
 pub use crop::Crop;
+pub use despeckle::Despeckled;
 pub use error::Error;
-pub use grey_levels::Histogram;
+pub use histogram::Histogram;
 pub use label::Label;
 pub use label_volume::{ADHESIVE, LabelVolume, VOID, WOOD};
+pub use otsu::Proposal;
 pub use phases::{Grey, Labels, Phase, Phases};
 pub use raw_layout::{Dims, RawType};
 pub use sample::{PageFormat, Sample};

@@ -1,20 +1,20 @@
-//! MetaImage: a text header (`.mhd`) and pixels, raw or by zlib, beside it or behind it
+//! MetaImage: a text header (`.mhd`) and pixels, raw, by zlib or as text, beside it or behind it
 //! (<https://itk.org/Wiki/ITK/MetaIO/Documentation>).
 
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::beside::data_file;
+use crate::beside::data_files;
+use crate::pixels::{Coding, Pixels, Start};
 use crate::raw::RawVolume;
 use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
-use crate::unpacked::{self, Packing};
-use crate::voxel_size::{VoxelSize, metres_of_unit};
+use crate::voxel_size::{VoxelSize, decimal};
 
 /// Spacings that can be meant, in whatever unit.
 const SPACING: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
-/// A header longer than this is none.
-const MAX_HEADER: usize = 1 << 16;
+/// A header longer than this is none; it may name thousands of files.
+const MAX_HEADER: usize = 1 << 20;
 
 pub(crate) fn is_mhd(head: &[u8]) -> bool {
     let text = String::from_utf8_lossy(head);
@@ -27,55 +27,23 @@ pub(crate) fn open(source: Source, path: &Path) -> Result<(RawVolume, Option<Vox
     let head = source
         .window(0, MAX_HEADER)
         .map_err(|e| Error::io(&source, e))?;
-    let header = Header::parse(&head).map_err(|what| Error::file(&source, what))?;
-    let format = PageFormat {
-        width: header.dims[0],
-        height: header.dims[1],
-        sample: header.sample,
-        channels: header.channels,
-    };
-    let voxel_size = header.voxel_size;
-    let (sources, offset) = match &header.data {
-        Data::Behind(offset) => (vec![source], *offset),
-        Data::File(name) => {
-            let beside = data_file(path, name, "ElementDataFile")
-                .map_err(|what| Error::file(&source, what))?;
-            (vec![source, Source::open(&beside)?], header.skip)
-        }
-    };
-    let (pages, big) = (header.dims[2], header.big_endian);
-    let bytes = format.page_bytes().and_then(|n| n.checked_mul(pages));
-    let volume = match (header.compressed, bytes, sources.last()) {
-        (true, Some(bytes), Some(pixels)) => {
-            let file = unpacked::unpack(pixels, offset, Packing::Zlib, bytes as u64)?;
-            RawVolume::unpacked(sources, file, format, pages, 0, big)?
-        }
-        _ => RawVolume::new(sources, format, pages, offset, big)?,
-    };
-    Ok((volume, voxel_size))
-}
-
-enum Data {
-    /// In the header's own file, from this byte.
-    Behind(u64),
-    File(PathBuf),
+    let wrong = |what| Error::file(&source, what);
+    let header = Header::parse(&head, path).map_err(wrong)?;
+    let beside = (header.files.iter())
+        .map(|file| Source::open_slice(file))
+        .collect::<Result<_, _>>()?;
+    Ok((header.pixels.open(source, beside)?, header.voxel_size))
 }
 
 struct Header {
-    dims: [usize; 3],
-    sample: Sample,
-    channels: usize,
-    /// By zlib.
-    compressed: bool,
-    big_endian: bool,
-    /// Bytes to skip in the data file.
-    skip: u64,
-    data: Data,
+    pixels: Pixels,
+    /// None where the pixels stand behind the header.
+    files: Vec<PathBuf>,
     voxel_size: Option<VoxelSize>,
 }
 
 impl Header {
-    fn parse(head: &[u8]) -> Result<Self, String> {
+    fn parse(head: &[u8], path: &Path) -> Result<Self, String> {
         let (fields, end) = fields(head)?;
         let field = |key: &str| {
             let found = fields.iter().find(|f| f.key == key);
@@ -84,39 +52,63 @@ impl Header {
         let wrong =
             |line, accepted: &str| format!("line {line} of its header: accepted is {accepted}");
         let needed = |key: &str| field(key).ok_or_else(|| format!("its header has no {key}"));
-        let number = |key: &str, default| match field(key) {
-            None => Ok(default),
-            Some((v, line)) => v.parse::<u64>().map_err(|_| wrong(line, "a number from 0")),
-        };
-        let flag = |key: &str| field(key).is_some_and(|(v, _)| v.eq_ignore_ascii_case("true"));
+        // As its own library reads them.
+        let is =
+            |key: &str, first: [char; 3]| field(key).is_some_and(|(v, _)| v.starts_with(first));
+        let flag = |key: &str| is(key, ['T', 't', '1']);
 
         let (dims, line) = needed("DimSize")?;
         let axes: Option<Vec<usize>> = dims.split_whitespace().map(|n| n.parse().ok()).collect();
-        let dims = axes
+        let [width, height, pages] = axes
             .and_then(|axes| axes.try_into().ok())
             .ok_or_else(|| wrong(line, "three numbers of voxels along x, y, z"))?;
         let (kind, line) = needed("ElementType")?;
         let sample = sample_of(kind).ok_or_else(|| {
-            wrong(line, "MET_UCHAR, MET_CHAR, MET_USHORT, MET_SHORT, MET_UINT, MET_INT, MET_FLOAT or MET_DOUBLE")
+            wrong(line, "MET_ and UCHAR, CHAR, USHORT, SHORT, UINT, INT, ULONG, LONG, ULONG_LONG, LONG_LONG, FLOAT or DOUBLE")
         })?;
-        let channels = number("ElementNumberOfChannels", 1)?;
-        if channels != 1 && channels != 3 {
-            return Err("its pixels have neither 1 nor 3 channels".into());
-        }
-        let (file, line) = needed("ElementDataFile")?;
-        let data = match file {
-            "LOCAL" => Data::Behind(end as u64),
-            "LIST" | "" => return Err(wrong(line, "one file name or LOCAL")),
-            _ => Data::File(file.into()),
+        let channels = match field("ElementNumberOfChannels") {
+            None | Some(("1", _)) => 1,
+            Some(("3", _)) => 3,
+            Some(_) => return Err("its pixels have neither 1 nor 3 channels".into()),
+        };
+        let (value, line) = needed("ElementDataFile")?;
+        let (files, start) = match (value, field("HeaderSize")) {
+            ("", _) => return Err(wrong(line, "a file name, LOCAL or LIST")),
+            ("LOCAL", _) => (Vec::new(), Start::At(end as u64)),
+            (_, skip) => {
+                let start = match skip {
+                    None => Start::At(0),
+                    Some(("-1", _)) => Start::FromEnd,
+                    Some((n, line)) => Start::At(
+                        n.parse()
+                            .map_err(|_| wrong(line, "a number from 0, or -1"))?,
+                    ),
+                };
+                (
+                    data_files(path, value, &head[end..], "ElementDataFile")?,
+                    start,
+                )
+            }
         };
         Ok(Self {
-            dims,
-            sample,
-            channels: channels as usize,
-            compressed: flag("CompressedData"),
-            big_endian: flag("ElementByteOrderMSB") || flag("BinaryDataByteOrderMSB"),
-            skip: number("HeaderSize", 0)?,
-            data,
+            pixels: Pixels {
+                format: PageFormat {
+                    width,
+                    height,
+                    sample,
+                    channels,
+                },
+                pages,
+                big_endian: flag("ElementByteOrderMSB") || flag("BinaryDataByteOrderMSB"),
+                coding: match () {
+                    () if flag("CompressedData") => Coding::Zlib,
+                    () if is("BinaryData", ['F', 'f', '0']) => Coding::Text,
+                    () => Coding::Raw,
+                },
+                start,
+                skip: 0,
+            },
+            files,
             voxel_size: voxel_size(field("ElementSpacing"), field("DistanceUnits"))?,
         })
     }
@@ -163,8 +155,11 @@ fn sample_of(kind: &str) -> Option<Sample> {
         "MET_CHAR" => Sample::I8,
         "MET_USHORT" => Sample::U16,
         "MET_SHORT" => Sample::I16,
-        "MET_UINT" => Sample::U32,
-        "MET_INT" => Sample::I32,
+        // Four bytes wherever they are written.
+        "MET_UINT" | "MET_ULONG" => Sample::U32,
+        "MET_INT" | "MET_LONG" => Sample::I32,
+        "MET_ULONG_LONG" => Sample::U64,
+        "MET_LONG_LONG" => Sample::I64,
         "MET_FLOAT" => Sample::F32,
         "MET_DOUBLE" => Sample::F64,
         _ => return None,
@@ -180,7 +175,7 @@ fn voxel_size(
         return Ok(None);
     };
     let edges: Option<Vec<f64>> = (text.split_whitespace())
-        .map(|edge| edge.parse().ok().filter(|e| SPACING.contains(e)))
+        .map(|edge| decimal(edge).filter(|e| SPACING.contains(e)))
         .collect();
     let Some(&[x, y, z]) = edges.as_deref() else {
         return Err(format!(
@@ -189,9 +184,6 @@ fn voxel_size(
             SPACING.end()
         ));
     };
-    let size = |metres| {
-        let [x, y, z] = [x, y, z].map(|edge| edge * metres);
-        VoxelSize::new(x, y, Some(z), "MetaImage spacing")
-    };
-    Ok(units.and_then(|(unit, _)| size(metres_of_unit(unit)?)))
+    let size = |(unit, _)| VoxelSize::in_units([x, y, z], [unit; 3], "MetaImage spacing");
+    Ok(units.and_then(size))
 }

@@ -5,16 +5,16 @@
 use std::io::Read;
 
 use crate::Error;
+use crate::pixels::{self, Coding, Pixels, Start};
 use crate::raw::RawVolume;
 use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
-use crate::unpacked::{self, Packing};
 use crate::voxel_size::VoxelSize;
 
 /// Length of a header of version 1 and 2, which is also its first field.
 const HEADERS: [usize; 2] = [348, 540];
 
-/// Whether a file that begins so is NIfTI; a gzipped one is told by [`unpacked::is_gzip`], for
+/// Whether a file that begins so is NIfTI; a gzipped one is told by [`pixels::is_gzip`], for
 /// nothing else is read gzipped.
 pub(crate) fn is_nifti(head: &[u8]) -> bool {
     Fields::new(head).is_some()
@@ -25,10 +25,10 @@ pub(crate) fn open(source: Source) -> Result<(RawVolume, Option<VoxelSize>), Err
     let plain = source
         .window(0, length)
         .map_err(|e| Error::io(&source, e))?;
-    let packed = unpacked::is_gzip(&plain);
+    let packed = pixels::is_gzip(&plain);
     let head = if packed {
         let mut head = Vec::new();
-        unpacked::reader(&source, 0, Packing::Gzip)?
+        pixels::reader(&source, 0, Coding::Gzip)?
             .take(length as u64)
             .read_to_end(&mut head)
             .map_err(|e| Error::io(&source, e))?;
@@ -43,33 +43,11 @@ pub(crate) fn open(source: Source) -> Result<(RawVolume, Option<VoxelSize>), Err
     if head.len() < HEADERS[usize::from(fields.second)] {
         return Err(wrong("its header is truncated"));
     }
-    let header = fields.header().map_err(|what| wrong(&what))?;
-    let pages = header.pages;
-    let Some(data) = header.format.volume_bytes(header.pages) else {
-        return Err(wrong("its header declares more voxels than can be counted"));
-    };
-    let big = fields.big_endian;
-    let volume = if packed {
-        // Deflate cannot seek, so the header is unpacked with the pixels.
-        let file = unpacked::unpack(
-            &source,
-            0,
-            Packing::Gzip,
-            header.offset.saturating_add(data),
-        )?;
-        RawVolume::unpacked(vec![source], file, header.format, pages, header.offset, big)?
-    } else {
-        RawVolume::new(vec![source], header.format, pages, header.offset, big)?
-    };
-    Ok((volume, header.voxel_size))
-}
-
-struct Header {
-    format: PageFormat,
-    pages: usize,
-    /// Where the pixels begin.
-    offset: u64,
-    voxel_size: Option<VoxelSize>,
+    let (mut pixels, voxel_size) = fields.header().map_err(|what| wrong(&what))?;
+    if packed {
+        pixels.coding = Coding::Gzip;
+    }
+    Ok((pixels.open(source, Vec::new())?, voxel_size))
 }
 
 /// The fields of a header by where they stand.
@@ -121,7 +99,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    fn header(&self) -> Result<Header, String> {
+    fn header(&self) -> Result<(Pixels, Option<VoxelSize>), String> {
         let magic = if self.second { 4 } else { 344 };
         if self.head[magic + 1] == b'i' {
             return Err("its pixels stand in an .img file beside it; accepted is NIfTI in one file: save it as .nii or .nii.gz".into());
@@ -141,7 +119,7 @@ impl<'a> Fields<'a> {
             false => f32::from_le_bytes(self.number(108)) as i64,
         };
         let offset = u64::try_from(offset).ok().filter(|n| *n >= 348);
-        Ok(Header {
+        let pixels = Pixels {
             format: PageFormat {
                 width,
                 height,
@@ -149,9 +127,13 @@ impl<'a> Fields<'a> {
                 channels,
             },
             pages,
-            offset: offset.ok_or("its pixels begin inside its header")?,
-            voxel_size: self.voxel_size(),
-        })
+            big_endian: self.big_endian,
+            coding: Coding::Raw,
+            start: Start::At(0),
+            // Deflate cannot seek, so the header is unpacked with the pixels.
+            skip: offset.ok_or("its pixels begin inside its header")?,
+        };
+        Ok((pixels, self.voxel_size()))
     }
 
     fn voxel_size(&self) -> Option<VoxelSize> {
@@ -159,14 +141,9 @@ impl<'a> Fields<'a> {
             true => i32::from_le_bytes(self.number(500)) as u8,
             false => self.head[123],
         };
-        let metres = match units & 7 {
-            1 => 1.0,
-            2 => 1e-3,
-            3 => 1e-6,
-            _ => return None,
-        };
-        let [x, y, z] = [1, 2, 3].map(|i| self.pixdim(i).abs() * metres);
-        VoxelSize::new(x, y, Some(z), "NIfTI pixdim")
+        let unit = ["", "m", "mm", "um"].get(usize::from(units & 7))?;
+        let edges = [1, 2, 3].map(|i| self.pixdim(i).abs());
+        VoxelSize::in_units(edges, [unit; 3], "NIfTI pixdim")
     }
 }
 

@@ -116,7 +116,7 @@ impl Header {
             .strip_prefix('(')
             .and_then(|rest| rest.split_once(')'))
             .map(|(inside, _)| inside.trim().trim_end_matches(','))
-            .and_then(|inside| inside.split(',').map(|n| n.trim().parse().ok()).collect());
+            .and_then(|inside| inside.split(',').map(axis).collect());
         let shape = axes
             .and_then(|axes| axes.try_into().ok())
             .ok_or("its array has not three axes; accepted is the shape (pages, rows, columns)")?;
@@ -127,6 +127,11 @@ impl Header {
             shape,
         })
     }
+}
+
+/// A number of voxels; Python 2 wrote an L behind it.
+fn axis(number: &str) -> Option<usize> {
+    number.trim().trim_end_matches('L').parse().ok()
 }
 
 fn sample_of(descr: &str) -> Result<(Sample, bool), String> {
@@ -213,6 +218,8 @@ mod tests {
         assert_eq!(header.sample, Sample::U16);
         assert!(header.big_endian && header.fortran);
         assert_eq!(header.shape, [40, 64, 96]);
+        let of_python_2 = "{'descr': '|u1', 'fortran_order': False, 'shape': (6L, 10L, 14L), }";
+        assert_eq!(parse(of_python_2).unwrap().shape, [6, 10, 14]);
         for bad in [
             "{'descr': '<c8', 'fortran_order': False, 'shape': (1, 1, 1), }",
             "{'descr': [('a', '<u2')], 'fortran_order': False, 'shape': (1, 1, 1), }",

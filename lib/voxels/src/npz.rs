@@ -2,7 +2,7 @@
 
 use std::io::{BufReader, Read};
 
-use particle_file::spool_exactly;
+use particle_file::{fill, temporary_file};
 use zip::ZipArchive;
 
 use crate::raw::RawVolume;
@@ -57,7 +57,8 @@ pub(crate) fn open(source: Source) -> Result<RawVolume, Error> {
             "it declares {size} bytes, more than deflate packs into what is stored"
         )));
     }
-    let array = spool_exactly(entry, size).map_err(|e| unreadable(&e))?;
+    let mut array = temporary_file(size).map_err(|e| Error::io(&source, e))?;
+    fill(&mut array, entry, size).map_err(|e| unreadable(&e))?;
     let array = source
         .with_content(array)
         .map_err(|e| Error::io(&source, e))?;

@@ -1,18 +1,18 @@
-//! NRRD, raw or gzipped, with its pixels behind the header or in a file beside it
+//! NRRD, raw, gzipped, by bzip2 or as text, with its pixels behind the header or in files beside it
 //! (<https://teem.sourceforge.net/nrrd/format.html>).
 
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::beside::data_file;
+use crate::beside::data_files;
+use crate::pixels::{Coding, Pixels, Start};
 use crate::raw::RawVolume;
 use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
-use crate::unpacked::{self, Packing};
-use crate::voxel_size::{VoxelSize, metres_of_unit};
+use crate::voxel_size::{VoxelSize, decimal};
 
-/// A header longer than this is none.
-const MAX_HEADER: usize = 1 << 16;
+/// A header longer than this is none; it may name thousands of files.
+const MAX_HEADER: usize = 1 << 20;
 
 pub(crate) fn is_nrrd(head: &[u8]) -> bool {
     head.starts_with(b"NRRD000")
@@ -23,50 +23,23 @@ pub(crate) fn open(source: Source, path: &Path) -> Result<(RawVolume, Option<Vox
     let head = source
         .window(0, MAX_HEADER)
         .map_err(|e| Error::io(&source, e))?;
-    let wrong = |what: String| Error::file(&source, what);
-    let header = Header::parse(&head).map_err(wrong)?;
-    let beside = match &header.data {
-        None => None,
-        Some(name) => Some(data_file(path, name, "data file").map_err(wrong)?),
-    };
-    let pages = header.pages;
-    let Some(data) = header.format.volume_bytes(header.pages) else {
-        return Err(wrong("it declares more voxels than can be counted".into()));
-    };
-    let (sources, start) = match beside {
-        None => (vec![source], header.end),
-        Some(beside) => (vec![source, Source::open(&beside)?], 0),
-    };
-    let skip = header.skip;
-    let volume = match (sources.last(), header.packed) {
-        (Some(pixels), true) => {
-            let bytes = skip.saturating_add(data);
-            let file = unpacked::unpack(pixels, start, Packing::Gzip, bytes)?;
-            RawVolume::unpacked(sources, file, header.format, pages, skip, header.big_endian)?
-        }
-        _ => {
-            let offset = start.saturating_add(skip);
-            RawVolume::new(sources, header.format, pages, offset, header.big_endian)?
-        }
-    };
-    Ok((volume, header.voxel_size))
+    let wrong = |what| Error::file(&source, what);
+    let header = Header::parse(&head, path).map_err(wrong)?;
+    let beside = (header.files.iter())
+        .map(|file| Source::open_slice(file))
+        .collect::<Result<_, _>>()?;
+    Ok((header.pixels.open(source, beside)?, header.voxel_size))
 }
 
 struct Header {
-    format: PageFormat,
-    pages: usize,
-    packed: bool,
-    big_endian: bool,
-    /// Bytes before the pixels, counted once unpacked.
-    skip: u64,
-    data: Option<PathBuf>,
-    /// The byte behind the header.
-    end: u64,
+    pixels: Pixels,
+    /// None where the pixels stand behind the header.
+    files: Vec<PathBuf>,
     voxel_size: Option<VoxelSize>,
 }
 
 impl Header {
-    fn parse(head: &[u8]) -> Result<Self, String> {
+    fn parse(head: &[u8], path: &Path) -> Result<Self, String> {
         let (fields, end) = fields(head)?;
         let field = |keys: &[&str]| {
             let found = fields.iter().find(|(key, _)| keys.contains(&key.as_str()));
@@ -87,19 +60,21 @@ impl Header {
             }
         };
         let sample = sample_of(needed("type")?)?;
-        let packed = match needed("encoding")? {
-            "raw" => false,
-            "gzip" | "gz" => true,
+        let coding = match needed("encoding")? {
+            "raw" => Coding::Raw,
+            "gzip" | "gz" => Coding::Gzip,
+            "bzip2" | "bz2" => Coding::Bzip2,
+            "ascii" | "text" | "txt" => Coding::Text,
             other => {
                 return Err(format!(
-                    "its encoding is '{other}'; accepted are raw and gzip: save it again, e.g. with unu save -f nrrd -e gzip"
+                    "its encoding is '{other}'; accepted are raw, gzip, bzip2 and ascii: save it again, e.g. with unu save -f nrrd -e gzip"
                 ));
             }
         };
         let big_endian = match field(&["endian"]) {
             Some("big") => true,
             Some("little") => false,
-            None if sample.bytes() == 1 => false,
+            None if sample.bytes() == 1 || coding == Coding::Text => false,
             _ => {
                 return Err(
                     "its header does not say whether its bytes are little or big endian".into(),
@@ -109,37 +84,42 @@ impl Header {
         if field(&["line skip", "lineskip"]).is_some_and(|n| n != "0") {
             return Err("it skips lines of its data file; accepted is a skip of bytes".into());
         }
-        let skip = field(&["byte skip", "byteskip"])
-            .unwrap_or("0")
-            .parse::<u64>();
-        let data = field(&["data file", "datafile"]).map(PathBuf::from);
-        let several = |name: &PathBuf| {
-            let text = name.to_string_lossy();
-            text.starts_with("LIST") || text.contains('%')
+        let files = match field(&["data file", "datafile"]) {
+            None => Vec::new(),
+            Some(value) => data_files(path, value, &head[end..], "data file")?,
         };
-        if data.as_ref().is_some_and(several) {
-            return Err("its pixels stand in several files; accepted is one".into());
-        }
+        let skip = field(&["byte skip", "byteskip"]).unwrap_or("0");
+        let begin = if files.is_empty() { end as u64 } else { 0 };
+        let (start, skip) = match skip {
+            "-1" => (Start::FromEnd, 0),
+            n => (
+                Start::At(begin),
+                n.parse()
+                    .map_err(|_| "its byte skip is neither -1 nor a number from 0")?,
+            ),
+        };
         Ok(Self {
-            format: PageFormat {
-                width,
-                height,
-                sample,
-                channels,
+            pixels: Pixels {
+                format: PageFormat {
+                    width,
+                    height,
+                    sample,
+                    channels,
+                },
+                pages,
+                big_endian,
+                coding,
+                start,
+                skip,
             },
-            pages,
-            packed,
-            big_endian,
-            skip: skip.map_err(|_| "its byte skip is no number from 0")?,
-            data,
-            end: end as u64,
+            files,
             voxel_size: voxel_size(&field),
         })
     }
 }
 
-/// `key: value` lines in lower case up to the empty line that ends the header, and the byte
-/// behind it; comments and `key:=value` pairs are passed over.
+/// `key: value` lines in lower case up to the empty line that ends the header, or a list of files,
+/// and the byte behind it; comments and `key:=value` pairs are passed over.
 fn fields(head: &[u8]) -> Result<(Vec<(String, String)>, usize), String> {
     let mut fields = Vec::new();
     let mut end = 0;
@@ -161,6 +141,9 @@ fn fields(head: &[u8]) -> Result<(Vec<(String, String)>, usize), String> {
             .split_once(':')
             .ok_or("a line of its header is not KEY: VALUE")?;
         fields.push((key.trim().to_lowercase(), value.trim().to_owned()));
+        if key.starts_with("data") && value.trim().starts_with("LIST") {
+            return Ok((fields, end));
+        }
     }
     // A header in a file of its own may end with the file.
     match fields.iter().any(|(key, _)| key.starts_with("data")) && head.len() < MAX_HEADER {
@@ -199,28 +182,29 @@ fn sample_of(kind: &str) -> Result<Sample, String> {
     })
 }
 
-/// Spacings, or lengths of space directions, with their units; without a unit they are no size.
+/// Spacings, or lengths of space directions, with the unit of each; without units they are no size.
+/// The colours of an axis in front have neither.
 fn voxel_size<'a>(field: &impl Fn(&[&str]) -> Option<&'a str>) -> Option<VoxelSize> {
-    let unit = field(&["space units", "units"])?;
-    let unit = unit.split('"').map(str::trim).rfind(|u| !u.is_empty())?;
-    let metres = metres_of_unit(unit)?;
-    let edges: Vec<f64> = match field(&["spacings"]) {
+    let text = field(&["space units", "units"])?;
+    let units: Vec<&str> = (text.split('"').skip(1).step_by(2))
+        .filter(|unit| !unit.trim().is_empty())
+        .collect();
+    let edges: Option<Vec<f64>> = match field(&["spacings"]) {
         Some(text) => (text.split_whitespace())
-            .filter_map(|edge| edge.parse().ok())
-            .filter(|edge: &f64| edge.is_finite())
+            .filter(|edge| !edge.eq_ignore_ascii_case("nan"))
+            .map(decimal)
             .collect(),
         None => (field(&["space directions"])?.split(')'))
-            .filter_map(|vector| {
-                let (_, inside) = vector.split_once('(')?;
-                let parts = inside.split(',').map(|x| x.trim().parse::<f64>().ok());
-                let squares = parts.map(|x| Some(x? * x?)).sum::<Option<f64>>()?;
-                Some(squares.sqrt())
-            })
+            .filter_map(|vector| Some(length(vector.split_once('(')?.1)))
             .collect(),
     };
-    let &[x, y, z] = edges.as_slice() else {
-        return None;
-    };
-    let [x, y, z] = [x, y, z].map(|edge| edge * metres);
-    VoxelSize::new(x, y, Some(z), "NRRD spacings")
+    let edges = edges?.try_into().ok()?;
+    VoxelSize::in_units(edges, units.try_into().ok()?, "NRRD spacings")
+}
+
+/// The length of a vector of three numbers.
+fn length(vector: &str) -> Option<f64> {
+    let parts: Option<Vec<f64>> = (vector.split(',').map(|x| x.trim().parse().ok())).collect();
+    let [x, y, z]: [f64; 3] = parts?.try_into().ok()?;
+    Some((x * x + y * y + z * z).sqrt())
 }

@@ -17,9 +17,9 @@ pub enum Phase {
 }
 
 impl Phase {
-    const ALL: [Phase; 3] = [Phase::Void, Phase::Wood, Phase::Adhesive];
+    pub(crate) const ALL: [Phase; 3] = [Phase::Void, Phase::Wood, Phase::Adhesive];
 
-    fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         ["void", "wood", "adhesive"][self as usize]
     }
 
@@ -113,11 +113,11 @@ pub struct Grey {
 }
 
 impl Grey {
-    /// The phase of a grey value; not-a-number has none.
+    /// The phase of a grey value; infinity and what is not a number have none.
     pub fn phase(&self, grey: f64) -> Option<Phase> {
         let within = |(low, high): (f64, f64)| low <= grey && grey <= high;
         match () {
-            () if grey.is_nan() => None,
+            () if !grey.is_finite() => None,
             () if within(self.wood) => Some(Phase::Wood),
             () if self.adhesive.is_some_and(within) => Some(Phase::Adhesive),
             () => Some(Phase::Void),
@@ -126,19 +126,20 @@ impl Grey {
 }
 
 impl Grey {
-    /// Void below `wood`, wood below `adhesive`, adhesive from there on.
-    pub(crate) fn between(wood: i64, adhesive: i64) -> Self {
+    /// Void below the first threshold, wood from there on, adhesive from the second on where there is
+    /// one. What is at `top` and above is void again. `whole` numbers end at the last before the next.
+    pub(crate) fn of_thresholds(thresholds: &[f64], top: Option<f64>, whole: bool) -> Self {
+        let before = |v: f64| if whole { v - 1.0 } else { v.next_down() };
+        let end = |next: Option<&f64>| next.map_or(f64::INFINITY, |v| before(*v));
+        let above = |from: f64| top.filter(|top| *top > from);
+        let range = |i: usize| {
+            let from = *thresholds.get(i)?;
+            let top = above(from);
+            Some((from, end(thresholds.get(i + 1).or(top.as_ref()))))
+        };
         Self {
-            wood: (wood as f64, (adhesive - 1) as f64),
-            adhesive: Some((adhesive as f64, f64::INFINITY)),
-        }
-    }
-
-    /// Void below `wood`, wood from there on.
-    pub(crate) fn wood_from(wood: i64) -> Self {
-        Self {
-            wood: (wood as f64, f64::INFINITY),
-            adhesive: None,
+            wood: range(0).unwrap_or((f64::INFINITY, f64::INFINITY)),
+            adhesive: range(1),
         }
     }
 }
@@ -235,6 +236,9 @@ mod tests {
             ("void=0,wood,adhesive=1", "PHASE=LABEL"),
             ("void=0,glue=2", "not a phase"),
             ("void=0,wood=9007199254740993,adhesive=1", "2^53"),
+            ("void=0,wood=0.1", "whole number"),
+            ("void=0,wood=nan", "whole number"),
+            ("void=0,wood=1:0.5:0", "whole number"),
             ("", "PHASE=LABEL"),
         ] {
             let said = bad.parse::<Labels>().unwrap_err();
@@ -250,7 +254,9 @@ mod tests {
         assert_eq!(phase(90.0), Phase::Wood);
         assert_eq!(phase(170.0), Phase::Wood);
         assert_eq!(phase(171.0), Phase::Adhesive);
-        assert_eq!(grey.phase(f64::NAN), None);
+        for none in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(grey.phase(none), None);
+        }
         let bare: Grey = "wood=90..".parse().unwrap();
         assert_eq!(bare.to_string(), "wood=90..");
         let found = [89.0, 90.0, 1e9].map(|v| bare.phase(v).unwrap());

@@ -38,6 +38,11 @@ impl Sample {
         }
     }
 
+    /// Whether it is an integer.
+    pub(crate) fn is_whole(self) -> bool {
+        !matches!(self, Sample::F32 | Sample::F64)
+    }
+
     /// The value of one sample in native byte order; `bytes` holds at least
     /// [`Sample::bytes`]. Integers beyond 2^53 are rounded, which no label reaches.
     pub(crate) fn value(self, bytes: &[u8]) -> f64 {
@@ -58,6 +63,30 @@ impl Sample {
             Sample::F32 => f64::from(f32::from_ne_bytes(take(bytes))),
             Sample::F64 => f64::from_ne_bytes(take(bytes)),
         }
+    }
+
+    /// The sample, in native byte order, of a number that is written as text; none where it does
+    /// not fit.
+    pub(crate) fn parse(self, text: &str) -> Option<Vec<u8>> {
+        fn whole<N: TryFrom<i128>>(text: &str) -> Option<N> {
+            let number = text.parse().ok().or_else(|| {
+                let number: f64 = text.parse().ok()?;
+                (number.fract() == 0.0).then_some(number as i128)
+            });
+            N::try_from(number?).ok()
+        }
+        Some(match self {
+            Sample::U8 => whole::<u8>(text)?.to_ne_bytes().to_vec(),
+            Sample::I8 => whole::<i8>(text)?.to_ne_bytes().to_vec(),
+            Sample::U16 => whole::<u16>(text)?.to_ne_bytes().to_vec(),
+            Sample::I16 => whole::<i16>(text)?.to_ne_bytes().to_vec(),
+            Sample::U32 => whole::<u32>(text)?.to_ne_bytes().to_vec(),
+            Sample::I32 => whole::<i32>(text)?.to_ne_bytes().to_vec(),
+            Sample::U64 => whole::<u64>(text)?.to_ne_bytes().to_vec(),
+            Sample::I64 => whole::<i64>(text)?.to_ne_bytes().to_vec(),
+            Sample::F32 => text.parse::<f32>().ok()?.to_ne_bytes().to_vec(),
+            Sample::F64 => text.parse::<f64>().ok()?.to_ne_bytes().to_vec(),
+        })
     }
 }
 

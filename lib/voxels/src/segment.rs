@@ -3,7 +3,7 @@
 use particle_file::{BitGrid, limits};
 use rayon::prelude::*;
 
-use crate::coder::{Coder, UNKNOWN, guessed};
+use crate::coder::{Coder, UNKNOWN, found, guessed};
 use crate::label::Label;
 use crate::phases::Phases;
 use crate::{Crop, Error, Stack};
@@ -71,12 +71,7 @@ pub fn segment(
         union |= page?;
     }
     let guessed = match phases {
-        Phases::Guess => Some(guessed(union).ok_or_else(|| {
-            Error::Usage(format!(
-                "{}: its labels are neither exactly 0, 1, 2 nor exactly 0, 128, 255, nor, for wood alone, the first two of either; say which is which with --labels or --grey",
-                stack.name()
-            ))
-        })?),
+        Phases::Guess => Some(guessed(union).ok_or_else(|| not_guessed(stack, union))?),
         _ => None,
     };
     Ok(Segmented {
@@ -114,6 +109,29 @@ pub fn check(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<(), Error> {
     stack.fits(grids.saturating_add(stack.reading_bytes()))
 }
 
+/// The error for a stack that holds known labels, but not all of a set.
+fn not_guessed(stack: &Stack, union: u8) -> Error {
+    let found = found(union);
+    let names = ["void=", "wood=", "adhesive="];
+    let example: Vec<String> = (names.iter().zip(&found))
+        .map(|(name, label)| format!("{name}{label}"))
+        .collect();
+    let listed: Vec<String> = found.iter().map(f64::to_string).collect();
+    Error::Usage(format!(
+        "{}: it holds {} alone{}; labels are guessed only from exactly 0, 1, 2 or 0, 128, 255, or, for wood alone, the first two of either: say which is which, as in --labels {}",
+        stack.name(),
+        listed.join(" and "),
+        match found[..] {
+            [0.0, 255.0] => ", a mask as ImageJ makes it, whose 255 may be wood, adhesive or void",
+            _ => "",
+        },
+        match found.len() {
+            1 => "void=0,wood=1,adhesive=2".to_owned(),
+            _ => example.join(","),
+        },
+    ))
+}
+
 /// The error for the first pixel of a page that has no phase.
 fn unknown_label(
     stack: &Stack,
@@ -134,8 +152,13 @@ fn unknown_label(
         });
     let (label, x, y) = found.unwrap_or((Label::Value(f64::NAN), x0, y0));
     let cure = match phases {
+        Phases::Labels(_) | Phases::Guess if !label.is_whole() => {
+            "labels are whole numbers; grey values are given by --grey"
+        }
         Phases::Labels(_) => "no phase has that label; name it in --labels",
-        Phases::Grey(_) => "it has no grey value",
+        Phases::Grey(_) => {
+            "that is no grey value: leave it out by --crop, or save the stack with a number there"
+        }
         Phases::Guess => {
             "labels are guessed only from exactly 0, 1, 2 or 0, 128, 255; say which is which with --labels or --grey"
         }

@@ -38,24 +38,29 @@ impl Source {
     /// unnamed temporary file first, because pages are not read in order.
     pub(crate) fn open(path: &Path) -> Result<Self, Error> {
         let name = quoted(path);
+        let source = Self::of_any_kind(path, &name).map_err(|e| Error::io(&name, e))?;
+        match source.len {
+            0 => Err(Error::file(name, "it is empty")),
+            _ => Ok(source),
+        }
+    }
+
+    fn of_any_kind(path: &Path, name: &str) -> io::Result<Self> {
         let opened = if path.as_os_str() == "-" {
             io::stdin().as_fd().try_clone_to_owned().map(File::from)
         } else {
             File::open(path)
         };
-        opened
-            .and_then(|file| {
-                let meta = file.metadata()?;
-                if meta.is_dir() {
-                    return Err(io::Error::other("it is a folder"));
-                }
-                let file = match meta.is_file() {
-                    true => file,
-                    false => spool(file, Stack::recognises)?,
-                };
-                Self::held(path.to_owned(), name.clone(), file)
-            })
-            .map_err(|e| Error::io(&name, e))
+        let file = opened?;
+        let meta = file.metadata()?;
+        if meta.is_dir() {
+            return Err(io::Error::other("it is a folder"));
+        }
+        let file = match meta.is_file() {
+            true => file,
+            false => spool(file, Stack::recognises)?,
+        };
+        Self::held(path.to_owned(), name.to_owned(), file)
     }
 
     fn held(path: PathBuf, name: String, file: File) -> io::Result<Self> {

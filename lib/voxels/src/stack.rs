@@ -16,7 +16,7 @@ use crate::source::{Source, quoted};
 use crate::tiff::TiffPages;
 use crate::voxel_size::VoxelSize;
 use crate::{
-    Dims, Error, RawType, folder, foreign, images, mhd, nifti, npy, npz, nrrd, tiff, unpacked,
+    Dims, Error, RawType, folder, foreign, images, mhd, nifti, npy, npz, nrrd, pixels, tiff,
 };
 
 /// A stack of label or grey images, read page by page.
@@ -43,6 +43,7 @@ enum Pages {
 
 /// Bytes from which a format is told.
 const HEAD: usize = 512;
+const NO_SLICE: &str = "it is no slice of a stack; accepted are TIFF, BMP, PNG and JPEG";
 const NO_STACK: &str = "it is not a stack; accepted are TIFF, BigTIFF, .npy, .npz, .mhd, .nrrd and .nii files, folders of TIFF, BMP, PNG or JPEG slices, and with --dims and --type raw volumes";
 
 impl Stack {
@@ -77,9 +78,12 @@ impl Stack {
         };
         let (pages, voxel_size) = if images::is_image(&head) {
             (Pages::Images(images::open(sources)?), None)
-        } else {
+        } else if tiff::is_tiff(&head) {
             let (pages, voxel_size) = tiff::open_slices(sources)?;
             (Pages::Tiff(pages), voxel_size)
+        } else {
+            let first = sources.first().map_or(name.as_str(), Source::name);
+            return Err(Error::file(first, NO_SLICE));
         };
         Self::new(name, pages, voxel_size, series.gap)
     }
@@ -143,7 +147,7 @@ impl Stack {
         } else if nrrd::is_nrrd(&head) {
             let (volume, voxel_size) = nrrd::open(source, path)?;
             (Pages::Raw(volume), voxel_size)
-        } else if nifti::is_nifti(&head) || unpacked::is_gzip(&head) {
+        } else if nifti::is_nifti(&head) || pixels::is_gzip(&head) {
             let (volume, voxel_size) = nifti::open(source)?;
             (Pages::Raw(volume), voxel_size)
         } else if npz::is_zip(&head) {
@@ -216,7 +220,7 @@ impl Stack {
             || mhd::is_mhd(head)
             || nrrd::is_nrrd(head)
             || nifti::is_nifti(head)
-            || unpacked::is_gzip(head)
+            || pixels::is_gzip(head)
             || images::is_image(head)
     }
 

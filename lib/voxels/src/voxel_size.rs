@@ -1,17 +1,24 @@
 //! How large a voxel is, by a file's metadata.
 
 use std::fmt;
+use std::ops::RangeInclusive;
 
-use particle_file::limits;
 use units::{Length, Quantity};
 
 use crate::Error;
 
 /// How far the edges of a voxel may differ and still make a cube.
 const CUBE_TOLERANCE: f64 = 0.01;
-/// Resolutions in dots per inch that image programs write by default; they do not say how
-/// large a voxel is.
-const DEFAULT_DPI: [f64; 5] = [72.0, 96.0, 150.0, 300.0, 600.0];
+/// Edges (m) that a file is believed to state: what lies beyond is mostly what programs write by
+/// default, or in another unit than they say.
+const BELIEVED: RangeInclusive<f64> = 1e-8..=50e-6;
+/// Edges (m) of voxels in which cells of wood are seen.
+const USUAL: RangeInclusive<f64> = 0.1e-6..=20e-6;
+/// Dots per inch of screens, printers and scanners, which image programs write by default; they
+/// do not say how large a voxel is.
+const DEFAULT_DPI: [f64; 8] = [72.0, 96.0, 150.0, 300.0, 600.0, 1200.0, 2400.0, 4800.0];
+/// How far a rounded resolution may be from one of them.
+const DPI_TOLERANCE: f64 = 1e-3;
 
 /// Size of a voxel as a file states it.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +39,12 @@ impl VoxelSize {
         })
     }
 
+    /// A size from edges along x, y, z and their units as metadata spell them.
+    pub(crate) fn in_units(edges: [f64; 3], units: [&str; 3], from: &'static str) -> Option<Self> {
+        let metres = |i: usize| Some(edges[i] * metres_of_unit(units[i])?);
+        Self::new(metres(0)?, metres(1)?, Some(metres(2)?), from)
+    }
+
     /// A size from pixels per centimetre or inch (TIFF tags 282, 283, 296).
     pub(crate) fn from_resolution(x: f64, y: f64, unit: u64) -> Option<Self> {
         let metres = match unit {
@@ -39,8 +52,9 @@ impl VoxelSize {
             3 => 0.01,
             _ => return None,
         };
-        let dpi = (0.0254 * x / metres).round();
-        if unit == 2 && (x - dpi).abs() < 1e-6 && DEFAULT_DPI.contains(&dpi) {
+        let dpi = 0.0254 * x / metres;
+        let default = |usual: &f64| (dpi / usual - 1.0).abs() <= DPI_TOLERANCE;
+        if DEFAULT_DPI.iter().any(default) {
             return None;
         }
         Self::new(metres / x, metres / y, None, "the resolution tags")
@@ -71,7 +85,7 @@ impl VoxelSize {
         let (low, high) = (x.min(y).min(z), x.max(y).max(z));
         if high > low * (1.0 + CUBE_TOLERANCE) {
             return Err(format!(
-                "{} says a voxel is {self}; voxels must be cubes to 1 %: resample the stack, or give the true edge with --voxel",
+                "by {} a voxel is {self}; voxels must be cubes to 1 %: resample the stack, or give the true edge with --voxel",
                 self.from
             ));
         }
@@ -92,21 +106,38 @@ impl fmt::Display for VoxelSize {
 
 /// Micrometres, rounded to the picometre so that conversions leave no trailing digits.
 pub(crate) fn micrometres(metres: f64) -> f64 {
-    (metres * 1e12).round() * 1e-6
+    (metres * 1e12).round() / 1e6
+}
+
+/// A number as people and programs write it, with a point or a comma before its decimals.
+pub(crate) fn decimal(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let number: f64 = match text.contains('.') {
+        true => text.parse(),
+        false => text.replacen(',', ".", 1).parse(),
+    }
+    .ok()?;
+    number.is_finite().then_some(number)
 }
 
 /// Metres of `1 unit` where `unit` is spelled as imaging programs do; none for pixels and
 /// for units that are not lengths.
 pub(crate) fn metres_of_unit(unit: &str) -> Option<f64> {
-    let unit = unit.trim();
-    let quantity = match unit.to_lowercase().as_str() {
-        "micron" | "microns" | "micrometer" | "micrometre" | "\\u00b5m" => "1 um".into(),
+    // ImageJ escapes the sign of micro; read in another encoding it is two letters.
+    let unit = unit.trim().trim_matches('"').to_lowercase();
+    let unit = unit
+        .replace("\\u00b5", "µ")
+        .replace("\\u03bc", "µ")
+        .replace("âµ", "µ");
+    let quantity = match unit.trim_end_matches('s') {
+        "micron" | "micrometer" | "micrometre" | "mu" | "µ" => "1 um".into(),
         "millimeter" | "millimetre" => "1 mm".into(),
         "nanometer" | "nanometre" => "1 nm".into(),
+        "angstrom" | "ångström" | "å" => "0.1 nm".into(),
         "cm" | "centimeter" | "centimetre" => "10 mm".into(),
-        "inch" | "in" => "25.4 mm".into(),
+        "inch" | "inche" | "in" => "25.4 mm".into(),
         "meter" | "metre" => "1 m".into(),
-        _ => format!("1 {unit}"),
+        short => format!("1 {short}"),
     };
     quantity.parse::<Quantity<Length>>().ok().map(Quantity::si)
 }
@@ -136,23 +167,42 @@ impl VoxelEdge {
         }
         let stated = stated.ok_or_else(|| {
             Error::Usage(format!(
-                "{name} does not say how large a voxel is; give its edge, e.g. --voxel '1.45 um'"
+                "{name} does not say how large a voxel is, in a unit of length; give its edge, e.g. --voxel '1.45 um'"
             ))
         })?;
-        let metres = stated.cube_edge().map_err(|what| Error::file(name, what))?;
-        let from = stated.from;
-        let accepted = limits::VOXEL_M;
-        if !accepted.contains(&metres) {
-            return Err(Error::file(
-                name,
-                format!(
-                    "{from} says a voxel is {metres:e} m; accepted are {:e} to {:e} m: give the true edge with --voxel",
-                    accepted.start(),
-                    accepted.end()
-                ),
-            ));
+        let refused = |why: String| Error::Usage(format!("{name}: {why}"));
+        let (metres, from) = (stated.cube_edge().map_err(refused)?, stated.from);
+        if !BELIEVED.contains(&metres) {
+            return Err(refused(format!(
+                "by {from} a voxel is {}, which is mostly a default or a wrong unit (believed are {} to {}): give the true edge with --voxel",
+                length(metres),
+                length(*BELIEVED.start()),
+                length(*BELIEVED.end())
+            )));
         }
         Ok(Self { metres, from })
+    }
+
+    /// A sentence about an edge that is rare for wood, and may be in a wrong unit.
+    pub fn doubt(&self) -> Option<String> {
+        (!USUAL.contains(&self.metres)).then(|| {
+            format!(
+                "a voxel is {} by {}; cells of wood are seen in voxels of {} to {}: is the unit right?",
+                length(self.metres),
+                self.from,
+                length(*USUAL.start()),
+                length(*USUAL.end())
+            )
+        })
+    }
+}
+
+/// A length with its unit.
+fn length(metres: f64) -> String {
+    match metres {
+        1e-12..1e-3 => format!("{} um", micrometres(metres)),
+        1e-3..1.0 => format!("{} mm", micrometres(metres) / 1e3),
+        _ => format!("{metres:e} m"),
     }
 }
 
@@ -182,16 +232,76 @@ mod tests {
         let edge = |x, unit| VoxelSize::from_resolution(x, x, unit).map(|s| s.cube_edge().unwrap());
         assert!(close(edge(10_000.0, 3).unwrap(), 1e-6));
         assert!(close(edge(25_400.0, 2).unwrap(), 1e-6));
-        assert_eq!(edge(72.0, 2), None);
+        // Rounded, or written per centimetre.
+        for (x, unit) in [(72.0, 2), (72.009, 2), (28.35, 3), (236.22, 3), (4800.0, 2)] {
+            assert_eq!(edge(x, unit), None, "{x} {unit}");
+        }
         assert_eq!(edge(1.0, 1), None);
     }
 
     #[test]
     fn units_as_programs_spell_them() {
-        for micron in ["micron", "um", "µm", "μm", "\\u00B5m", "Microns"] {
+        for micron in [
+            "micron",
+            "um",
+            "µm",
+            "μm",
+            "\\u00B5m",
+            "\\u03bcm",
+            "Âµm",
+            "Microns",
+            "micrometers",
+            "\"um\"",
+            "µ",
+        ] {
             assert!(close(metres_of_unit(micron).unwrap(), 1e-6), "{micron}");
         }
-        assert!(close(metres_of_unit("inch").unwrap(), 0.0254));
-        assert_eq!(metres_of_unit("pixel"), None);
+        assert!(close(metres_of_unit("inches").unwrap(), 0.0254));
+        for none in ["pixel", "pixels", "", "s", "voxel", "gray", "1 um"] {
+            assert_eq!(metres_of_unit(none), None, "{none}");
+        }
+    }
+
+    #[test]
+    fn commas_before_decimals() {
+        assert_eq!(decimal(" 1,45 "), Some(1.45));
+        assert_eq!(decimal("1.45"), Some(1.45));
+        for none in ["1,450.5", "1.450,5", "1,4,5", "", "nan", "inf", "x"] {
+            assert_eq!(decimal(none), None, "{none}");
+        }
+    }
+
+    #[test]
+    fn sizes_that_a_file_is_not_believed_need_the_argument() {
+        let stated = |metres| VoxelSize::new(metres, metres, None, "test");
+        let resolve = |given, metres| VoxelEdge::resolve(given, stated(metres).as_ref(), "'a'");
+        for (metres, said) in [(1e-3, "1 mm"), (50.1e-6, "50.1 um"), (9e-9, "0.009 um")] {
+            let error = resolve(None, metres).unwrap_err();
+            let sentence = error.to_string();
+            assert!(
+                sentence.contains(said) && sentence.contains("--voxel"),
+                "{sentence}"
+            );
+            assert!(error.is_usage());
+            assert_eq!(resolve(Some(1e-3), metres).unwrap().metres, 1e-3);
+        }
+        assert_eq!(resolve(None, 50e-6).unwrap().metres, 50e-6);
+    }
+
+    #[test]
+    fn edges_beyond_what_shows_cells_are_doubted() {
+        let doubt = |metres| {
+            VoxelEdge {
+                metres,
+                from: "--voxel",
+            }
+            .doubt()
+        };
+        assert_eq!(
+            [doubt(1.45e-6), doubt(0.1e-6), doubt(20e-6)],
+            [None, None, None]
+        );
+        assert!(doubt(1.45e-3).unwrap().contains("1.45 mm by --voxel"));
+        assert!(doubt(0.09e-6).unwrap().contains("unit"));
     }
 }

@@ -50,6 +50,12 @@ fn elements_of_every_type() {
     check("MET_FLOAT", "32-bit float", bytes, plain);
     let bytes = pages(|l| f64::from(seven(l)).to_le_bytes()).concat();
     check("MET_DOUBLE", "64-bit float", bytes, signed);
+    let bytes = pages(|l| seven(l).to_le_bytes()).concat();
+    check("MET_LONG", "signed 32 bits", bytes, signed);
+    let bytes = pages(|l| i64::from(seven(l)).to_le_bytes()).concat();
+    check("MET_LONG_LONG", "signed 64 bits", bytes, signed);
+    let bytes = pages(|l| u64::from(l).to_le_bytes()).concat();
+    check("MET_ULONG_LONG", "unsigned 64 bits", bytes, plain);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use common::*;
-use voxels::{Phases, Stack, VoxelEdge};
+use voxels::{Stack, VoxelEdge};
 
 fn slices(names: impl Fn(usize) -> String) -> (tempfile::TempDir, Vec<PathBuf>) {
     let folder = tempfile::tempdir().unwrap();
@@ -54,6 +54,28 @@ fn slices_that_do_not_belong_together_are_refused() {
     assert!(open().contains("7.tif', page 5: it is 3 x 2"), "{}", open());
     let missing = Stack::open(&[folder.path().join("none.tif")]).unwrap_err();
     assert!(missing.to_string().contains("none.tif"), "{missing}");
+}
+
+#[test]
+fn slices_that_contradict_one_another_state_no_voxel_size() {
+    let (_folder, paths) = slices(|z| format!("{z}.tif"));
+    let stated = |changes: [Option<u32>; 2]| {
+        for (path, micrometres) in paths.iter().zip(changes) {
+            let page = plain_pages().remove(0).short(296, 3);
+            let page = match micrometres {
+                None => page,
+                Some(n) => {
+                    (page.tag(282, Value::Rational(10_000, n))).tag(283, Value::Rational(10_000, n))
+                }
+            };
+            fs::write(path, tiff(CLASSIC, &[page])).unwrap();
+        }
+        let stack = Stack::open(&paths[..2]).unwrap();
+        stack.voxel_size().map(|size| size.cube_edge().unwrap())
+    };
+    let close = |edge: Option<f64>| (edge.unwrap() / 2e-6 - 1.0).abs() < 1e-9;
+    assert!(close(stated([Some(2), Some(2)])) && close(stated([Some(2), None])));
+    assert_eq!(stated([Some(2), Some(3)]), None);
 }
 
 /// A `.npy` file as `numpy.save` writes it.
@@ -172,12 +194,27 @@ fn meta_images_beside_and_behind_their_header() {
 
     for (bad, said) in [
         (header("MET_USHORT", "", "none.raw"), "none.raw"),
-        (header("MET_LONG_LONG", "", "a.raw"), "line 4"),
+        (header("MET_LONG_DOUBLE", "", "a.raw"), "line 4"),
         (
             header("MET_UCHAR", "CompressedData = True\n", "LOCAL"),
             "0 compressed bytes are stored",
         ),
-        (header("MET_UCHAR", "HeaderSize = -1\n", "LOCAL"), "line 5"),
+        (header("MET_UCHAR", "HeaderSize = -2\n", "a.raw"), "line 5"),
+        (
+            header("MET_UCHAR", "BinaryData = False\n", "LOCAL") + "1 2 x" + &" 1".repeat(1100),
+            "'x', which is not",
+        ),
+        (
+            header("MET_UCHAR", "BinaryData = False\n", "LOCAL") + "1 256" + &" 1".repeat(1100),
+            "'256', which is not",
+        ),
+        (
+            header("MET_UCHAR", "BinaryData = 0\n", "LOCAL") + &"1 ".repeat(700),
+            "700 numbers",
+        ),
+        (header("MET_UCHAR", "", "a%03d.raw 0 4 1"), "a000.raw"),
+        (header("MET_UCHAR", "", "a%s 0 4 1"), "no pattern"),
+        (header("MET_UCHAR", "", "LIST"), "no names below"),
         (header("MET_UCHAR", "", "LOCAL"), "truncated"),
         ("NDims = 3\n".into(), "ElementDataFile"),
     ] {
@@ -260,22 +297,5 @@ fn a_stack_beyond_the_limits_is_refused() {
     assert!(
         sentence.contains("more than 100000 along an axis"),
         "{sentence}"
-    );
-}
-
-#[test]
-fn grey_values_become_phases_by_range() {
-    let (_folder, path) = stored("a.tif", &tiff(CLASSIC, &plain_pages()));
-    let grey = Phases::Grey("wood=1..1.5,adhesive=1.6..".parse().unwrap());
-    let found = segmented(&[path], &grey).unwrap();
-    let labels = |wanted| {
-        (0..DIMS[2])
-            .flat_map(|z| page(z, |l| l))
-            .filter(|l| *l == wanted)
-            .count() as u64
-    };
-    assert_eq!(
-        [found.wood.count(), found.adhesive.count()],
-        [labels(1), labels(2)]
     );
 }

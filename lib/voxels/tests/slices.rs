@@ -20,10 +20,10 @@ fn folder(ending: &str, bytes: impl Fn(usize) -> Vec<u8>) -> tempfile::TempDir {
     folder
 }
 
-/// A BMP of 1, 4, 8 (with a palette of no order) or 24 bits, rows from the bottom.
+/// A BMP of 1, 4, 8 (with a palette of no order), 24 or 32 bits, rows from the bottom.
 fn bmp(z: usize, bits: u16) -> Vec<u8> {
     let [nx, ny, _] = DIMS;
-    let colours = if bits == 24 { 0 } else { 1_u32 << bits };
+    let colours = if bits >= 24 { 0 } else { 1_u32 << bits };
     let row = (nx * usize::from(bits)).div_ceil(32) * 4;
     let start = 54 + 4 * colours;
     let mut file = b"BM".to_vec();
@@ -51,6 +51,7 @@ fn bmp(z: usize, bits: u16) -> Vec<u8> {
             let value = label(x, y, z);
             match bits {
                 24 => stored[3 * x..3 * x + 3].fill(value),
+                32 => stored[4 * x..4 * x + 4].copy_from_slice(&[value, 7, value, 255]),
                 _ => {
                     let at = x * usize::from(bits);
                     stored[at / 8] |= value << (8 - usize::from(bits) - at % 8);
@@ -100,6 +101,27 @@ fn folders_of_bmp_and_png_slices() {
     }
     let slices = folder("BMP", |z| bmp(z, 24));
     assert_test_volume("BMP 24", slices.path(), ["0:0:0", "1:1:1", "2:2:2"]);
+    let slices = folder("bmp", |z| bmp(z, 32));
+    assert_test_volume("BMP 32", slices.path(), ["0:7:0", "1:7:1", "2:7:2"]);
+    // The same with the bits of each colour behind the header, as many programs write it.
+    let masked = |masks: [u32; 3]| {
+        let mut file = bmp(0, 32);
+        (file[10], file[30]) = (66, 3);
+        file.splice(54..54, masks.into_iter().flat_map(u32::to_le_bytes));
+        file
+    };
+    let usual = [0xff_0000, 0xff00, 0xff];
+    let (_folder, path) = stored("a.bmp", &masked(usual));
+    let mut page = Vec::new();
+    Stack::open(&[path])
+        .unwrap()
+        .read_page(0, &mut page)
+        .unwrap();
+    assert_eq!(page[..3], [label(0, 0, 0), 7, label(0, 0, 0)]);
+    assert!(refusal("a.bmp", &masked([0xff, 0xff00, 0xff_0000])).contains("compression 3"));
+    let mut clear = bmp(0, 32);
+    clear[57] = 0;
+    assert!(refusal("a.bmp", &clear).contains("transparen"));
     use png::{BitDepth, ColorType};
     for (color, depth, labels) in [
         (ColorType::Grayscale, BitDepth::Eight, PLAIN),
@@ -157,10 +179,18 @@ fn slices_of_other_sizes_or_kinds_are_no_stack() {
         3 => bmp(z, 24),
         _ => png(z, png::ColorType::Grayscale, png::BitDepth::Eight),
     });
-    let said = Stack::open(&[mixed.path().to_owned()])
-        .unwrap_err()
-        .to_string();
-    assert!(said.contains("must be alike"), "{said}");
+    let said = |folder: &tempfile::TempDir| {
+        let opened = Stack::open(&[folder.path().to_owned()]);
+        opened.unwrap_err().to_string()
+    };
+    assert!(said(&mixed).contains("must be alike"), "{}", said(&mixed));
+    for (content, refused) in [
+        (&b""[..], "slice 8.png': it is empty"),
+        (b"text", "no slice of a stack"),
+    ] {
+        fs::write(mixed.path().join("slice 8.png"), content).unwrap();
+        assert!(said(&mixed).contains(refused), "{}", said(&mixed));
+    }
     let [nx, ny, _] = DIMS;
     let mut clear = Vec::new();
     let mut encoder = png::Encoder::new(&mut clear, nx as u32, ny as u32);

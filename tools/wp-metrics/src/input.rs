@@ -7,7 +7,7 @@ use std::path::Path;
 use bondline::{Placed, Specimen};
 use cli::{Failure, InputRecord};
 use metrics::State;
-use particle_file::{BitGrid, Mapped, ParticleFile};
+use particle_file::{BitGrid, Mapped, ParticleFile, temporary_file};
 use units::Axis;
 use voxels::{
     Crop, Dims, Grey, Histogram, Labels, Phases, RawType, Segmented, Source, Stack, VoxelEdge,
@@ -44,11 +44,13 @@ impl StackOptions {
                 let whole = Crop::whole(stack.dims());
                 let histogram = Histogram::of(stack, &whole).map_err(stack_failure)?;
                 let wrong = |why| Failure::usage(format!("{}: {why}", stack.name()));
-                let grey = histogram.otsu().map_err(wrong)?;
+                let proposal = histogram.otsu().map_err(wrong)?;
+                let grey = proposal.grey;
                 cli::note(format_args!(
                     "{}: grey values taken as {grey}",
                     stack.name()
                 ));
+                proposal.left_out.iter().for_each(cli::warn);
                 Phases::Grey(grey)
             }
             (None, None) => Phases::Guess,
@@ -201,7 +203,7 @@ fn begins_as_particles(path: &Path) -> bool {
 }
 
 fn copy(bytes: &[u8]) -> std::io::Result<File> {
-    let mut file = tempfile::tempfile()?;
+    let mut file = temporary_file(bytes.len() as u64)?;
     file.write_all(bytes)?;
     Ok(file)
 }
@@ -210,10 +212,12 @@ fn stack(opened: Result<Stack, voxels::Error>, options: &StackOptions) -> Result
     let stack = opened.map_err(stack_failure)?;
     let edge = VoxelEdge::resolve(options.voxel_m, stack.voxel_size(), stack.name())
         .map_err(stack_failure)?;
+    edge.doubt().into_iter().for_each(cli::warn);
     stack.gap().into_iter().for_each(cli::warn);
     let whole = Crop::whole(stack.dims());
     let phases = options.phases(&stack)?;
     let voxels = voxels::segment(&stack, &phases, &whole, || ()).map_err(stack_failure)?;
+    voxels.swapped().into_iter().for_each(cli::warn);
     if let Some([void, wood, adhesive]) = voxels.guessed {
         cli::note(format!(
             "{}: labels taken as void={void}, wood={wood}, adhesive={adhesive}",

@@ -1,103 +1,20 @@
 //! A label stack as a particle file of a specimen.
 
+mod arguments;
 mod report;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use clap::Parser;
+use arguments::{Arguments, GreyLevels};
 use cli::{Failure, Output, Progress};
-use particle_file::{Block, Draft, Header, Kind, Material, Provenance};
+use figures::{Cut, Position, Slices};
+use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
 use rayon::prelude::*;
-use units::{Axis, Length, Quantity};
-use voxels::{
-    Crop, Dims, Grey, Histogram, Labels, Phases, RawType, Segmented, Source, Stack, VoxelEdge,
-    segment,
-};
-
-/// Turn a stack of XCT label images into a particle file
-///
-/// Every voxel of wood or adhesive becomes one material point. The stored sample value is the
-/// label, whatever colour an image program shows for it, unless that differs between pages: then
-/// the colours are the labels. Pages are z, rows y, columns x.
-#[derive(Parser)]
-#[command(
-    version,
-    after_help = "Examples:
-  xct2particles bondline.tif --voxel '1.45 um' --labels void=0,wood=128,adhesive=255 -o specimen.mpts
-  xct2particles slices/ --voxel 1.45um --grey wood=90..170,adhesive=171.. -o grey.mpts
-  xct2particles undamaged.tif --voxel 1.45um --grey auto-wood -o wood.mpts
-  xct2particles scan.raw --dims 400x394x400 --type u16 --voxel 1.45um --histogram grey.csv
-  xct2particles stack.ome.tif --crop 0:200,50:250,0:100 -o - | wp-metrics -"
-)]
-struct Arguments {
-    /// A multi-page TIFF, .npy, .npz, .mhd, .nrrd or .nii file, a raw volume (--dims), a folder of
-    /// TIFF, BMP, PNG or JPEG slices, or several slices; `-` is standard input
-    #[arg(required = true, value_name = "STACK")]
-    stack: Vec<PathBuf>,
-    /// Voxel edge [default: what the stack's metadata state]
-    #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = length)]
-    voxel: Option<f64>,
-    /// Size of a raw volume, x fastest
-    #[arg(long, value_name = "XxYxZ", requires = "kind")]
-    dims: Option<Dims>,
-    /// Number type of a raw volume: u8, i16, f32 ..., little-endian; big-endian as u16be
-    #[arg(long = "type", id = "kind", value_name = "TYPE", requires = "dims")]
-    kind: Option<RawType>,
-    /// Labels of each phase; several as 1|2|7, colours as R:G:B; wood alone has no adhesive
-    /// [default: guessed if the stack holds exactly 0, 1, 2 or 0, 128, 255, or, for wood alone,
-    /// the first two of either]
-    #[arg(long, value_name = "void=L,wood=L,adhesive=L", conflicts_with = "grey")]
-    labels: Option<Labels>,
-    /// Grey values of wood and adhesive, both ends included, for a stack without labels; wood alone
-    /// has no adhesive. auto proposes them (Otsu's two thresholds), to be looked at: wood darker
-    /// than adhesive; auto-wood does for wood alone (one threshold)
-    #[arg(long, value_name = "auto|auto-wood|wood=A..B,adhesive=C..", value_parser = grey)]
-    grey: Option<GreyLevels>,
-    /// Write how many voxels hold each grey value (CSV: grey,voxels) and say what --grey auto
-    /// would take
-    #[arg(long, value_name = "CSV")]
-    histogram: Option<Output>,
-    /// Box of voxels to keep, the first of a range included and the last not
-    #[arg(long, value_name = "x0:x1,y0:y1,z0:z1")]
-    crop: Option<Crop>,
-    /// Particle file to write; `-` is standard output
-    #[arg(
-        short,
-        long,
-        value_name = "FILE",
-        required_unless_present = "histogram"
-    )]
-    output: Option<Output>,
-    #[command(flatten)]
-    common: cli::Common,
-}
-
-/// What `--grey` asks for.
-#[derive(Clone)]
-enum GreyLevels {
-    Auto,
-    AutoWood,
-    Given(Grey),
-}
-
-fn grey(text: &str) -> Result<GreyLevels, String> {
-    match text {
-        "auto" => Ok(GreyLevels::Auto),
-        "auto-wood" => Ok(GreyLevels::AutoWood),
-        ranges => ranges.parse().map(GreyLevels::Given),
-    }
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    let length = text
-        .parse::<Quantity<Length>>()
-        .and_then(Quantity::positive);
-    length.map(Quantity::si).map_err(|e| e.to_string())
-}
+use units::Axis;
+use voxels::{Crop, Histogram, Phases, Proposal, Segmented, Source, Stack, VoxelEdge, segment};
 
 fn main() -> ExitCode {
     cli::main(|a: &Arguments| &a.common, run)
@@ -106,51 +23,107 @@ fn main() -> ExitCode {
 fn run(arguments: Arguments) -> Result<(), Failure> {
     let stack = open(&arguments).map_err(failure)?;
     stack.gap().into_iter().for_each(cli::warn);
+    let Arguments {
+        output,
+        histogram,
+        preview,
+        ..
+    } = &arguments;
     cli::keep_apart(
         stack.sources().iter().map(Source::path),
-        arguments.output.iter().chain(&arguments.histogram),
+        output.iter().chain(histogram).chain(preview),
     )?;
-    let crop = arguments.crop.unwrap_or_else(|| Crop::whole(stack.dims()));
-    let bare = matches!(arguments.grey, Some(GreyLevels::AutoWood));
-    let auto = bare || matches!(arguments.grey, Some(GreyLevels::Auto));
-    let mut proposed = None;
-    if auto || arguments.histogram.is_some() {
-        let histogram = Histogram::of(&stack, &crop).map_err(failure)?;
-        if let Some(output) = &arguments.histogram {
-            output.write(|out| write_histogram(&histogram, out))?;
-        }
-        proposed = Some(if bare {
-            histogram.otsu_of_wood()
-        } else {
-            histogram.otsu()
-        });
-        report::proposal(&proposed);
-    }
-    let Some(output) = arguments.output else {
+    let crop = (arguments.crop.clone()).unwrap_or_else(|| Crop::whole(stack.dims()));
+    let proposed = proposal(&stack, &crop, &arguments)?;
+    if output.is_none() && preview.is_none() {
         return Ok(());
-    };
+    }
     let edge = VoxelEdge::resolve(arguments.voxel, stack.voxel_size(), stack.name());
     let edge = edge.map_err(failure)?;
     report::stack(&stack, &edge);
-
-    let phases = match (arguments.labels, arguments.grey, proposed) {
-        (Some(labels), _, _) => Phases::Labels(labels),
-        (None, Some(GreyLevels::Given(grey)), _) => Phases::Grey(grey),
+    let phases = match (&arguments.labels, &arguments.grey, proposed) {
+        (Some(labels), _, _) => Phases::Labels(labels.clone()),
+        (None, Some(GreyLevels::Given(grey)), _) => Phases::Grey(grey.clone()),
         (None, Some(GreyLevels::Auto | GreyLevels::AutoWood), Some(proposed)) => {
             let wrong = |why| Failure::usage(format!("{}: {why}", stack.name()));
-            Phases::Grey(proposed.map_err(wrong)?)
+            Phases::Grey(proposed.map_err(wrong)?.grey)
         }
         _ => Phases::Guess,
     };
     // Hashing a large file takes minutes: what cannot be read is refused before.
     voxels::check(&stack, &phases, &crop).map_err(failure)?;
-    let (segmented, inputs) = rayon::join(
-        || read_pages(&stack, &phases, &crop),
-        || hashes(stack.sources()),
-    );
-    let (segmented, inputs) = (segmented?, inputs?);
+    let hashed = if output.is_some() {
+        stack.sources()
+    } else {
+        &[]
+    };
+    let (segmented, inputs) = rayon::join(|| read_pages(&stack, &phases, &crop), || hashes(hashed));
+    let (mut segmented, inputs) = (segmented?, inputs?);
+    if let Some(most) = arguments.despeckle {
+        report::despeckled(&segmented.despeckle(most.into()), most);
+    }
     report::phases(&segmented, edge.metres);
-    write(&output, &segmented, &edge, &crop, inputs)
+    let draft = draft(&segmented, &edge, &crop, &arguments, inputs);
+    if let Some(preview) = preview {
+        let name = arguments.stack[0].file_name().unwrap_or_default();
+        draw(&draft, &name.to_string_lossy(), preview)?;
+    }
+    look_swapped(&segmented, arguments.yes_really)?;
+    match output {
+        Some(output) => output.write(|out| draft.write_to(out)),
+        None => Ok(()),
+    }
+}
+
+/// The grey values that are proposed, where that is asked for; the histogram is written.
+fn proposal(
+    stack: &Stack,
+    crop: &Crop,
+    arguments: &Arguments,
+) -> Result<Option<Result<Proposal, String>>, Failure> {
+    let bare = matches!(arguments.grey, Some(GreyLevels::AutoWood));
+    let auto = bare || matches!(arguments.grey, Some(GreyLevels::Auto));
+    if !auto && arguments.histogram.is_none() {
+        return Ok(None);
+    }
+    let histogram = Histogram::of(stack, crop).map_err(failure)?;
+    if let Some(output) = &arguments.histogram {
+        output.write(|out| write_histogram(&histogram, out))?;
+    }
+    let proposed = Some(match bare {
+        true => histogram.otsu_of_wood(),
+        false => histogram.otsu(),
+    });
+    report::proposal(&proposed);
+    Ok(proposed)
+}
+
+/// Refuses wood that looks like void, as labels that were exchanged make it.
+fn look_swapped(segmented: &Segmented, really: bool) -> Result<(), Failure> {
+    match segmented.swapped() {
+        None => Ok(()),
+        Some(said) if really => {
+            cli::warn(said);
+            Ok(())
+        }
+        Some(said) => Err(Failure::usage(format!(
+            "{said}; look by --preview, exchange the two in --labels or --grey, or go on all the same by --yes-really"
+        ))),
+    }
+}
+
+/// Draws the phases of a specimen in cuts through its middle, normal to z, y and x.
+fn draw(draft: &Draft, name: &str, preview: &Output) -> Result<(), Failure> {
+    let mut bytes = Vec::new();
+    draft.write_to(&mut bytes).map_err(Failure::failed)?;
+    let file = ParticleFile::from_bytes(&bytes).map_err(Failure::failed)?;
+    let cuts = [Axis::Z, Axis::Y, Axis::X].map(|axis| Cut {
+        axis,
+        position: Position::Share(0.5),
+    });
+    let slices = Slices::through(&file, name, &cuts).map_err(Failure::failed)?;
+    let png = slices.draw().to_png().map_err(Failure::failed)?;
+    preview.write(|out| out.write_all(&png))
 }
 
 fn open(arguments: &Arguments) -> Result<Stack, voxels::Error> {
@@ -169,12 +142,7 @@ fn open(arguments: &Arguments) -> Result<Stack, voxels::Error> {
 /// `grey,voxels` from the lowest to the highest value found.
 fn write_histogram(histogram: &Histogram, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "grey,voxels")?;
-    let found = |n: &u64| *n > 0;
-    let first = histogram.counts.iter().position(found).unwrap_or(0);
-    let last = histogram.counts.iter().rposition(found).unwrap_or(0);
-    let counts = &histogram.counts[first..=last];
-    (counts.iter().zip(histogram.lowest + first as i64..))
-        .try_for_each(|(count, grey)| writeln!(out, "{grey},{count}"))
+    (histogram.values()).try_for_each(|(grey, voxels)| writeln!(out, "{grey},{voxels}"))
 }
 
 /// Other arguments may help (exit 2) or the file is at fault (exit 3).
@@ -217,14 +185,14 @@ fn hashes(sources: &[Source]) -> Result<Vec<(String, u64)>, Failure> {
     sources.par_iter().map(hash).collect()
 }
 
-/// Writes the specimen with its low corner at the origin.
-fn write(
-    output: &Output,
-    specimen: &Segmented,
+/// The particle file of a specimen, with its low corner at the origin.
+fn draft<'a>(
+    specimen: &'a Segmented,
     edge: &VoxelEdge,
     crop: &Crop,
+    arguments: &Arguments,
     inputs: Vec<(String, u64)>,
-) -> Result<(), Failure> {
+) -> Draft<'a> {
     let high = specimen.wood.dims().map(|n| n as f64 * edge.metres);
     let normal = Axis::Y.index() as u8;
     let mut header = Header::new(Kind::Specimen, edge.metres, normal, [0.0; 3], high);
@@ -232,14 +200,16 @@ fn write(
     let crop = [x, y, z].map(|range| format!("{}:{}", range.start, range.end));
     header.set_attribute("crop", crop.join(","));
     header.set_attribute("voxel_from", edge.from);
+    if let Some(most) = arguments.despeckle {
+        header.set_attribute("despeckle", most.to_string());
+    }
     let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
     header.provenance = vec![Provenance::of_process(tool, version, inputs)];
 
     let block = |name, material, bits| Block::new(name, material, [0.0; 3], edge.metres, bits);
     let wood = block("wood", Material::Rigid, &specimen.wood);
     let adhesive = block("adhesive", Material::Adhesive, &specimen.adhesive);
-    let draft = Draft::new(header)
+    Draft::new(header)
         .block(wood, &specimen.wood)
-        .block(adhesive, &specimen.adhesive);
-    output.write(|out| draft.write_to(out))
+        .block(adhesive, &specimen.adhesive)
 }

@@ -1,6 +1,6 @@
 //! What the tool says on standard error.
 
-use voxels::{Grey, Segmented, Stack, VoxelEdge};
+use voxels::{Despeckled, Proposal, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
 const EDGE_TOLERANCE: f64 = 0.01;
@@ -15,6 +15,7 @@ pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
     ));
     let um = edge.metres * 1e6;
     cli::note(format_args!("voxel edge  {um:.6} um, from {}", edge.from));
+    edge.doubt().into_iter().for_each(cli::warn);
     let Some(stated) = stack.voxel_size() else {
         return;
     };
@@ -25,22 +26,35 @@ pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
         }
     } else if !stated.cube_edge().is_ok_and(near) {
         cli::warn(format_args!(
-            "{} says a voxel is {stated}; {} is taken instead",
+            "by {} a voxel is {stated}; {} is taken instead",
             stated.from(),
             edge.from
         ));
     }
 }
 
-/// What two thresholds would part, where that was asked for.
-pub(crate) fn proposal(proposed: &Option<Result<Grey, String>>) {
+/// What thresholds would part, where that was asked for.
+pub(crate) fn proposal(proposed: &Option<Result<Proposal, String>>) {
     match proposed {
-        Some(Ok(grey)) => cli::note(format_args!(
-            "grey        proposed by Otsu's thresholds: --grey {grey}"
-        )),
+        Some(Ok(proposal)) => {
+            let grey = &proposal.grey;
+            cli::note(format_args!(
+                "grey        proposed by Otsu's thresholds: --grey {grey}"
+            ));
+            proposal.left_out.iter().for_each(cli::warn);
+        }
         Some(Err(why)) => cli::warn(format_args!("no grey values are proposed: {why}")),
         None => {}
     }
+}
+
+/// What became of specks of at most so many voxels.
+pub(crate) fn despeckled(found: &Despeckled, most: u16) {
+    let [void, wood, adhesive] = found.voxels;
+    cli::note(format_args!(
+        "despeckled  {} pieces of at most {most} voxels took the phase around them: {adhesive} voxels of adhesive, {wood} of wood, {void} of void",
+        found.pieces
+    ));
 }
 
 /// Counts, fractions and bond area of a specimen with voxels of `edge` (m).
@@ -70,6 +84,9 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64) {
         if voxels == 0 && name == "wood" {
             cli::warn("no voxel is wood");
         }
+    }
+    if adhesive > wood {
+        cli::warn("more voxels are adhesive than wood: are their labels the right way round?");
     }
     let um = edge * 1e6;
     let area = (nx * nz) as f64 * um * um;

@@ -10,7 +10,7 @@ use super::ifd::tag;
 use super::layout::{Cut, PageLayout};
 use crate::sample::{Sample, swap_bytes, unpack_bits};
 
-/// Reads the page into `page`: rows without padding, channels interleaved, one sample per
+/// Reads the page into `page`, which is empty: rows without padding, channels interleaved, one sample per
 /// pixel and channel in native byte order.
 pub(crate) fn read(file: &File, layout: &PageLayout, page: &mut Vec<u8>) -> Result<(), String> {
     let (row_bytes, plane_bytes) = layout.plane_bytes().unwrap_or_default();
@@ -55,10 +55,13 @@ fn decode_plane(
     chunks: &[(u64, u64)],
     plane: &mut [u8],
 ) -> Result<(), String> {
-    let tiles = layout
-        .tile_bytes()
-        .map(|(row, tile)| (row, tile, chunks.len()));
-    let bytes = as_grey_tiff(file, layout, chunks)?;
+    let stored: Vec<(u64, u64)> = (chunks.iter().copied())
+        .filter(|&(_, bytes)| !layout.is_left_out(bytes))
+        .collect();
+    if stored.is_empty() {
+        return Ok(());
+    }
+    let bytes = as_grey_tiff(file, layout, &stored)?;
     // The sizes are checked; the crate's own limits would refuse large pages.
     let decoder = Decoder::new(Cursor::new(bytes)).map(|d| d.with_limits(Limits::unlimited()));
     let decode = |pixels: &mut [u8]| {
@@ -68,11 +71,21 @@ fn decode_plane(
                 format!("its pixels do not decode ({e}): the file is truncated or corrupt")
             })
     };
-    let Some((tile_row, tile, count)) = tiles else {
+    let Some((tile_row, tile)) = layout.tile_bytes() else {
         return decode(plane);
     };
-    let mut pixels = vec![0; tile * count];
-    decode(&mut pixels)?;
+    let mut pixels = vec![0; tile * chunks.len()];
+    let mut left = stored.len();
+    decode(&mut pixels[..tile * left])?;
+    // Each to its place, from the last.
+    for (i, &(_, bytes)) in chunks.iter().enumerate().rev() {
+        if layout.is_left_out(bytes) {
+            pixels[tile * i..tile * (i + 1)].fill(0);
+        } else {
+            left -= 1;
+            pixels.copy_within(tile * left..tile * (left + 1), tile * i);
+        }
+    }
     let row = plane.len() / layout.format.height;
     let across = row.div_ceil(tile_row);
     let rows_of_tiles = plane.chunks_mut(row * (tile / tile_row));

@@ -3,15 +3,29 @@
 
 use super::ifd::{Container, Directory, tag};
 use super::layout::PageLayout;
-use crate::voxel_size::{VoxelSize, metres_of_unit};
+use super::ome::{self, Block};
+use crate::source::Source;
+use crate::voxel_size::{VoxelSize, decimal, metres_of_unit};
 
 /// What the first page says about the whole file.
 #[derive(Debug, Default)]
 pub(crate) struct Description {
     /// Planes in the file, if stated.
     pub(crate) planes: Option<u64>,
+    /// Whether it gives a size of a voxel, be it no length, so that resolution tags do not.
+    pub(crate) states_size: bool,
     /// Size of a voxel, if stated.
     pub(crate) voxel_size: Option<VoxelSize>,
+    /// Which planes stand where, if that is told; else they stand in file order.
+    pub(crate) blocks: Vec<Block>,
+}
+
+impl Description {
+    /// The files that the planes of `source` are in; none where it holds them all.
+    pub(crate) fn files(&mut self, source: &Source) -> Vec<String> {
+        let own = source.path().file_name().unwrap_or_default();
+        ome::files(&mut self.blocks, &own.to_string_lossy())
+    }
 }
 
 /// Reads the description of the first page.
@@ -27,18 +41,21 @@ pub(crate) fn describe(
     } else if let Some(shape) = shape(&text)? {
         shaped(&shape, layout)?
     } else if text.contains("<OME") {
-        ome(&text, layout)?
+        ome::describe(&text, layout)?
     } else {
         Description::default()
     };
-    if let (None, [Some(x), Some(y)]) = (&description.voxel_size, resolution) {
+    // MetaMorph's STK has a value of this tag for each plane behind its only directory.
+    description.planes = description.planes.or(tiff.count(page, tag::UIC2));
+    if let (false, [Some(x), Some(y)]) = (description.states_size, resolution) {
         let unit = tiff.first_uint(page, tag::RESOLUTION_UNIT)?.unwrap_or(2);
         description.voxel_size = VoxelSize::from_resolution(x, y, unit);
     }
     Ok(description)
 }
 
-/// ImageJ: XResolution counts pixels per `unit`, `spacing` is the distance of planes in it.
+/// ImageJ: XResolution counts pixels per `unit`, YResolution per `yunit`; `spacing` is the distance
+/// of planes in `zunit`.
 fn imagej(text: &str, resolution: [Option<f64>; 2]) -> Result<Description, String> {
     let value = |key: &str| {
         text.lines()
@@ -47,21 +64,26 @@ fn imagej(text: &str, resolution: [Option<f64>; 2]) -> Result<Description, Strin
     };
     let count = |key| value(key).and_then(|n| n.parse::<u64>().ok());
     one_axis(["channels", "slices", "frames"].map(|key| count(key).unwrap_or(1)))?;
-    let voxel_size = match (value("unit").and_then(metres_of_unit), resolution) {
-        (Some(unit), [Some(x), Some(y)]) => {
-            let spacing = value("spacing").and_then(|s| s.parse::<f64>().ok());
-            VoxelSize::new(
-                unit / x,
-                unit / y,
-                spacing.map(|s| s * unit),
-                "ImageJ metadata",
-            )
-        }
-        _ => None,
+    let metres = |key| metres_of_unit(value(key).or(value("unit"))?);
+    let spacing = |text: &str| Some(decimal(text)?.abs() * metres("zunit")?);
+    let voxel_size = || {
+        let z = match value("spacing") {
+            None => None,
+            Some(text) => Some(spacing(text)?),
+        };
+        let [x, y] = resolution;
+        VoxelSize::new(
+            metres("unit")? / x?,
+            metres("yunit")? / y?,
+            z,
+            "ImageJ metadata",
+        )
     };
     Ok(Description {
         planes: count("images"),
-        voxel_size,
+        states_size: value("unit").is_some(),
+        voxel_size: voxel_size(),
+        blocks: Vec::new(),
     })
 }
 
@@ -94,7 +116,7 @@ fn shaped(axes: &[Option<u64>], layout: &PageLayout) -> Result<Description, Stri
     match (total, plane) {
         (Some(total), Some(plane)) if total > 0 && total % plane == 0 => Ok(Description {
             planes: Some(total / plane),
-            voxel_size: None,
+            ..Description::default()
         }),
         _ => Err(format!(
             "its description declares a shape that is no number of planes of {format}"
@@ -102,77 +124,8 @@ fn shaped(axes: &[Option<u64>], layout: &PageLayout) -> Result<Description, Stri
     }
 }
 
-/// OME-TIFF: <https://docs.openmicroscopy.org/ome-model/latest/ome-tiff/specification.html>.
-fn ome(text: &str, layout: &PageLayout) -> Result<Description, String> {
-    let xml = roxmltree::Document::parse(text)
-        .map_err(|e| format!("its OME description is not valid XML: {e}"))?;
-    let named = |name: &'static str| {
-        xml.descendants()
-            .filter(move |n| n.tag_name().name() == name)
-    };
-    let mut images = named("Pixels");
-    let pixels = images.next().ok_or("its OME description has no Pixels")?;
-    if images.next().is_some() {
-        return Err("its OME description holds several images; one is accepted".into());
-    }
-    let count = |key| pixels.attribute(key).and_then(|n| n.parse::<u64>().ok());
-    let format = layout.format;
-    if [count("SizeX"), count("SizeY")] != [Some(format.width as u64), Some(format.height as u64)] {
-        return Err(format!(
-            "its OME description declares another size than {format}"
-        ));
-    }
-    let channels = count("SizeC").unwrap_or(1);
-    let planes = [
-        if channels == format.channels as u64 {
-            1
-        } else {
-            channels
-        },
-        count("SizeZ").unwrap_or(1),
-        count("SizeT").unwrap_or(1),
-    ];
-    one_axis(planes)?;
-    for block in named("TiffData") {
-        let at = |key| {
-            block
-                .attribute(key)
-                .and_then(|n| n.parse::<u64>().ok())
-                .unwrap_or(0)
-        };
-        // Only one of the three axes is longer than 1, so their sum is the plane.
-        let plane = at("FirstZ")
-            .checked_add(at("FirstT"))
-            .and_then(|n| n.checked_add(at("FirstC")));
-        if plane != Some(at("IFD")) && block.has_attribute("IFD") {
-            return Err("its OME description puts the pages in another order than the file; accepted is file order".into());
-        }
-    }
-    let edge = |key: &str, unit_key: &str| {
-        let size: f64 = pixels.attribute(key)?.parse().ok()?;
-        Some(size * metres_of_unit(pixels.attribute(unit_key).unwrap_or("um"))?)
-    };
-    let edges = (
-        edge("PhysicalSizeX", "PhysicalSizeXUnit"),
-        edge("PhysicalSizeY", "PhysicalSizeYUnit"),
-    );
-    let voxel_size = match edges {
-        (Some(x), Some(y)) => VoxelSize::new(
-            x,
-            y,
-            edge("PhysicalSizeZ", "PhysicalSizeZUnit"),
-            "OME metadata",
-        ),
-        _ => None,
-    };
-    Ok(Description {
-        planes: planes.into_iter().max(),
-        voxel_size,
-    })
-}
-
 /// Refuses hyperstacks: of channels, slices and frames only one may be more than 1.
-fn one_axis(counts: [u64; 3]) -> Result<(), String> {
+pub(super) fn one_axis(counts: [u64; 3]) -> Result<(), String> {
     if counts.iter().filter(|n| **n > 1).count() > 1 {
         let [c, z, t] = counts;
         return Err(format!(

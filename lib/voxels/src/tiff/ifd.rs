@@ -35,6 +35,7 @@ pub(crate) mod tag {
     pub(crate) const TILE_BYTE_COUNTS: u16 = 325;
     pub(crate) const SAMPLE_FORMAT: u16 = 339;
     pub(crate) const IMAGE_DEPTH: u16 = 32997;
+    pub(crate) const UIC2: u16 = 33629;
 }
 
 /// Bytes read at a directory's offset at once: enough for the usual directory whole.
@@ -218,6 +219,11 @@ impl<'a> Container<'a> {
                 None => Err(format!("tag {tag} is empty")),
             },
         }
+    }
+
+    /// How many values a tag has; none if it is absent.
+    pub(crate) fn count(&self, directory: &Directory, tag: u16) -> Option<u64> {
+        Some(directory.entries.get(&tag)?.count)
     }
 
     /// The first rational of a tag; none if it is absent or no number.

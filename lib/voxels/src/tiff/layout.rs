@@ -250,6 +250,9 @@ impl PageLayout {
                     "its pixels at byte {offset}, {stored} long, reach beyond the end of the file at byte {file_len}: the file is truncated"
                 ));
             }
+            if self.is_left_out(stored) {
+                continue;
+            }
             let declared = self.chunk_bytes(i).ok_or(TOO_LARGE)?;
             if declared > stored.saturating_mul(self.compression.max_ratio()) {
                 return Err(format!(
@@ -296,6 +299,12 @@ impl PageLayout {
         Ok(())
     }
 
+    /// Whether a chunk with so many bytes is a tile that its writer left out: all 0. A strip without
+    /// bytes is what writers leave that were ended before.
+    pub(crate) fn is_left_out(&self, stored: u64) -> bool {
+        stored == 0 && matches!(self.cut, Cut::Tiles(..))
+    }
+
     /// Whether the pixels stand in the file as they are.
     pub(crate) fn is_plain(&self) -> bool {
         self.compression == Compression::None && matches!(self.cut, Cut::Strips(_))
@@ -312,9 +321,7 @@ impl PageLayout {
         if !self.is_plain() {
             return Err("planes that follow one another need uncompressed strips of pixels".into());
         }
-        let begin = bytes
-            .checked_mul(k as u64)
-            .and_then(|n| n.checked_add(offset));
+        let begin = offset.checked_add(bytes.saturating_mul(k as u64));
         let end = begin.and_then(|n| n.checked_add(bytes));
         match (begin, end) {
             (Some(begin), Some(end)) if end <= file_len => Ok(Self {

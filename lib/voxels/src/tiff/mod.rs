@@ -5,73 +5,133 @@ mod describe;
 mod encoding;
 mod ifd;
 mod layout;
+mod ome;
 mod write;
 
 pub(crate) use ifd::is_tiff;
 pub use write::TiffWriter;
 
+use std::path::Path;
 use std::sync::Arc;
 
 use particle_file::limits;
 
 use crate::Error;
+use crate::beside::data_file;
 use crate::colours::Shown;
 use crate::sample::PageFormat;
 use crate::source::Source;
 use crate::voxel_size::VoxelSize;
 use describe::Description;
-use ifd::Container;
+use ifd::{Container, Directory};
 use layout::PageLayout;
 
-/// The pages of one TIFF file, or of a file per page.
+/// The pages of one or several TIFF files.
 #[derive(Debug)]
 pub(crate) struct TiffPages {
-    /// One file, or as many as pages.
     sources: Vec<Source>,
-    /// At least one page; all have the format of the first.
-    pages: Vec<PageLayout>,
+    /// At least one page with the place of its file in `sources`; all have the format of the first.
+    pages: Vec<(usize, PageLayout)>,
 }
 
-/// Opens one file with all its pages.
+/// Opens one file with all its pages, or the files that it tells of.
 pub(crate) fn open(source: Source) -> Result<(TiffPages, Option<VoxelSize>), Error> {
-    let (mut pages, description) = read_directories(&source)?;
+    let (mut pages, mut description) = read_directories(&source, describe::describe)?;
+    let files = description.files(&source);
+    if !files.is_empty() {
+        return open_set(&source, &files, description);
+    }
     let stated = description.planes.filter(|n| *n > 0);
     if let Some(planes) = stated.filter(|n| *n != pages.len() as u64) {
         pages = following_planes(&source, &pages, planes)?;
     }
-    same_format(&pages, |_| &source)?;
-    let sources = vec![source];
-    Ok((TiffPages { sources, pages }, description.voxel_size))
+    in_order(vec![(source, pages)], &files, description)
 }
 
-/// Opens files of one page each, in this order.
+/// Opens files of one page each, in this order unless they tell of another.
 pub(crate) fn open_slices(sources: Vec<Source>) -> Result<(TiffPages, Option<VoxelSize>), Error> {
-    let mut pages = Vec::with_capacity(sources.len());
-    let mut voxel_size = None;
-    for (i, source) in sources.iter().enumerate() {
-        let (mut page, description) = read_directories(source)?;
-        if page.len() != 1
-            || description
-                .planes
-                .is_some_and(|n| n != 1 && n != sources.len() as u64)
-        {
+    let total = sources.len() as u64;
+    let mut slices = Vec::with_capacity(sources.len());
+    let mut sizes = Vec::new();
+    for source in sources {
+        let (pages, mut description) = read_directories(&source, describe::describe)?;
+        let files = description.files(&source);
+        if !files.is_empty() {
+            let planes = description.planes;
+            let set = open_set(&source, &files, description)?;
+            if planes != Some(total) || files.len() as u64 != total {
+                let what = format!(
+                    "its OME description tells of {} files, and {total} slices are given: name one of them",
+                    files.len()
+                );
+                return Err(Error::file(&source, what));
+            }
+            return Ok(set);
+        }
+        let one = |n: u64| n == 1 || n == total;
+        if pages.len() != 1 || !description.planes.is_none_or(one) {
             let what = format!(
                 "it holds {} pages; a stack of several files is made of files of one page",
-                description.planes.unwrap_or(page.len() as u64)
+                description.planes.unwrap_or(pages.len() as u64)
             );
             return Err(Error::file(source, what));
         }
-        pages.append(&mut page);
-        if i == 0 {
-            voxel_size = description.voxel_size;
-        }
+        slices.push((source, pages));
+        sizes.extend(description.voxel_size);
     }
-    same_format(&pages, |i| &sources[i])?;
-    Ok((TiffPages { sources, pages }, voxel_size))
+    // Slices that contradict one another state no size.
+    sizes.dedup();
+    let description = Description {
+        voxel_size: sizes.pop().filter(|_| sizes.is_empty()),
+        ..Description::default()
+    };
+    in_order(slices, &[], description)
+}
+
+/// Opens the files beside `first` that its description tells of.
+fn open_set(
+    first: &Source,
+    files: &[String],
+    description: Description,
+) -> Result<(TiffPages, Option<VoxelSize>), Error> {
+    let mut set = Vec::with_capacity(files.len());
+    for file in files {
+        let path = data_file(first.path(), Path::new(file), "OME FileName");
+        let source = Source::open_slice(&path.map_err(|what| Error::file(first, what))?)?;
+        let (pages, _) = read_directories(&source, |_, _, _| Ok(Description::default()))?;
+        set.push((source, pages));
+    }
+    in_order(set, files, description)
+}
+
+/// The pages of files, which are called `names` where their description places their pages.
+fn in_order(
+    files: Vec<(Source, Vec<PageLayout>)>,
+    names: &[String],
+    description: Description,
+) -> Result<(TiffPages, Option<VoxelSize>), Error> {
+    let (sources, layouts): (Vec<_>, Vec<_>) = files.into_iter().unzip();
+    let held: Vec<u64> = layouts.iter().map(|pages| pages.len() as u64).collect();
+    let pages = match description.blocks.as_slice() {
+        [] => (layouts.into_iter().enumerate())
+            .flat_map(|(file, pages)| pages.into_iter().map(move |page| (file, page)))
+            .collect(),
+        blocks => (ome::places(blocks, description.planes.unwrap_or(1), names, &held))
+            .map_err(|what| Error::file(&sources[0], what))?
+            .into_iter()
+            .map(|(file, page)| (file, layouts[file][page].clone()))
+            .collect(),
+    };
+    let pages = TiffPages { sources, pages };
+    pages.are_alike()?;
+    Ok((pages, description.voxel_size))
 }
 
 /// The layouts of a file's directories and what the first says about the file.
-fn read_directories(source: &Source) -> Result<(Vec<PageLayout>, Description), Error> {
+fn read_directories(
+    source: &Source,
+    describe: impl Fn(&Container, &Directory, &PageLayout) -> Result<Description, String>,
+) -> Result<(Vec<PageLayout>, Description), Error> {
     let file = source.file().map_err(|e| Error::io(source, e))?;
     let tiff = Container::open(source, &file).map_err(|what| Error::file(source, what))?;
     let directories = tiff
@@ -90,7 +150,7 @@ fn read_directories(source: &Source) -> Result<(Vec<PageLayout>, Description), E
         return Err(Error::file(source, "it holds no page"));
     };
     let description =
-        describe::describe(&tiff, directory, page).map_err(|what| Error::page(source, 0, what))?;
+        describe(&tiff, directory, page).map_err(|what| Error::page(source, 0, what))?;
     if directories.len() == 1 {
         let planes = description.planes.unwrap_or(1).max(1);
         let described = stored_bytes(&pages).saturating_mul(planes);
@@ -143,39 +203,37 @@ fn following_planes(
         .collect()
 }
 
-fn same_format<'a>(
-    pages: &[PageLayout],
-    source: impl Fn(usize) -> &'a Source,
-) -> Result<(), Error> {
-    let odd = |own: &dyn Fn(&PageLayout) -> String| {
-        let first = own(pages.first()?);
-        let odd = pages.iter().position(|page| own(page) != first)?;
-        let own = own(&pages[odd]);
-        let what = format!("it is {own} but page 1 is {first}; the pages of a stack must be alike");
-        Some(Error::page(source(odd), odd, what))
-    };
-    let format = odd(&|page| page.format.to_string());
-    let turned = || odd(&|page| format!("of orientation {}", page.orientation));
-    format.or_else(turned).map_or(Ok(()), Err)
-}
-
 impl TiffPages {
+    fn are_alike(&self) -> Result<(), Error> {
+        let odd = |own: &dyn Fn(&PageLayout) -> String| {
+            let first = own(&self.pages[0].1);
+            let odd = self.pages.iter().position(|(_, page)| own(page) != first)?;
+            let own = own(&self.pages[odd].1);
+            let what =
+                format!("it is {own} but page 1 is {first}; the pages of a stack must be alike");
+            Some(Error::page(self.source(odd), odd, what))
+        };
+        let format = odd(&|page| page.format.to_string());
+        let turned = || odd(&|page| format!("of orientation {}", page.orientation));
+        format.or_else(turned).map_or(Ok(()), Err)
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.pages.len()
     }
 
     /// Whether pages are read as they are stored, without a copy to decode.
     pub(crate) fn are_plain(&self) -> bool {
-        self.pages.iter().all(PageLayout::is_plain)
+        self.pages.iter().all(|(_, page)| page.is_plain())
     }
 
     pub(crate) fn format(&self) -> PageFormat {
-        self.pages[0].format
+        self.pages[0].1.format
     }
 
     pub(crate) fn shown(&self) -> Vec<Arc<Shown>> {
-        let shown = |page: &PageLayout| Arc::clone(&page.shown);
-        self.pages.iter().map(shown).collect()
+        let shown = self.pages.iter();
+        shown.map(|(_, page)| Arc::clone(&page.shown)).collect()
     }
 
     pub(crate) fn sources(&self) -> &[Source] {
@@ -183,7 +241,7 @@ impl TiffPages {
     }
 
     fn source(&self, z: usize) -> &Source {
-        self.sources.get(z).unwrap_or(&self.sources[0])
+        &self.sources[self.pages[z].0]
     }
 
     /// Page `z` as it stands in messages.
@@ -192,7 +250,7 @@ impl TiffPages {
     }
 
     pub(crate) fn read(&self, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
-        let Some(layout) = self.pages.get(z) else {
+        let Some((_, layout)) = self.pages.get(z) else {
             return Err(Error::Usage(format!("there is no page {}", z + 1)));
         };
         let source = self.source(z);

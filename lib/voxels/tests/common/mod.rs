@@ -292,3 +292,10 @@ pub fn damaged(files: &[Vec<u8>], name: &str) -> usize {
     }
     read
 }
+
+/// Bytes by zlib.
+pub fn zlib(bytes: &[u8]) -> Vec<u8> {
+    let mut packed = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
+    std::io::Write::write_all(&mut packed, bytes).unwrap();
+    packed.finish().unwrap()
+}

@@ -145,10 +145,70 @@ fn voxel_sizes_from_imagej_ome_and_resolution_tags() {
     assert_eq!(stated_edge(page("", (1, 1), 1)), None);
     assert_eq!(stated_edge(page("", (72, 1), 2)), None);
     assert_eq!(stated_edge(page("", (1, 0), 3)), None);
-    assert_eq!(
-        stated_edge(page("ImageJ=1.53t\nimages=4\n", (1, 2), 1)),
-        None
-    );
+    // 72.009 dpi; pixels per um called pixels per inch, which VoxelEdge::resolve does not believe.
+    assert_eq!(stated_edge(page("", (72_009, 1000), 2)), None);
+    let edge = stated_edge(page("", (20, 29), 2)).unwrap().unwrap();
+    assert!((edge - 0.03683).abs() < 1e-9, "{edge}");
+}
+
+/// ImageJ names a unit for each axis, some languages a comma, and pixels are no length.
+#[test]
+fn sizes_in_the_unit_of_each_axis_and_sizes_that_are_none() {
+    let stated = |text: &str, unit: u16| {
+        let page = (plain_pages()[0].clone())
+            .tag(270, Value::Ascii(text.into()))
+            .tag(282, Value::Rational(20, 29))
+            .tag(283, Value::Rational(20, 29))
+            .short(296, unit);
+        stated_edge(page)
+    };
+    let imagej = |rest: &str| stated(&format!("ImageJ=1.53t\nimages=4\n{rest}\n"), 1);
+    for same in [
+        "unit=um\nzunit=mm\nspacing=0.00145",
+        "unit=um\nyunit=micron\nzunit=nm\nspacing=1450",
+        "unit=\\u00B5m\nspacing=1,45",
+        "unit=\\u03BCm\nspacing=-1.45",
+        "unit=micron\nspacing=1.4500001",
+    ] {
+        let edge = imagej(same).unwrap().unwrap();
+        assert!((edge / 1.45e-6 - 1.0).abs() < 1e-6, "{same}: {edge}");
+    }
+    for (other, said) in [
+        ("unit=um\nyunit=mm", "1.45 x 1450"),
+        ("unit=um\nzunit=mm\nspacing=1.45", "1.45 x 1.45 x 1450"),
+        ("unit=um\nzunit=nm\nspacing=1.45", "0.00145"),
+    ] {
+        let refused = imagej(other).unwrap().unwrap_err();
+        assert!(refused.contains(said), "{other}: {refused}");
+        assert!(refused.contains("--voxel"), "{other}: {refused}");
+    }
+    for none in [
+        "unit=pixel",
+        "unit=um\nspacing=one",
+        "unit=um\nzunit=slice\nspacing=1.45",
+        "unit=um\nyunit=pixel",
+    ] {
+        // Resolution tags do not mend it.
+        for unit in [1, 2, 3] {
+            let text = format!("ImageJ=1.53t\nimages=4\n{none}\n");
+            assert_eq!(stated(&text, unit), None, "{none}");
+        }
+    }
+    assert_eq!(imagej(""), None);
+    let ome = |sizes: &str| {
+        stated(
+            &format!(
+                "<OME><Image><Pixels SizeX=\"21\" SizeY=\"13\" SizeC=\"1\" SizeZ=\"4\" SizeT=\"1\" {sizes}/></Image></OME>"
+            ),
+            1,
+        )
+    };
+    let in_pixels = "PhysicalSizeX=\"1\" PhysicalSizeXUnit=\"pixel\" PhysicalSizeY=\"1\"";
+    assert_eq!(ome(in_pixels), None);
+    let flat = "PhysicalSizeX=\"1.45\" PhysicalSizeY=\"1,45\"";
+    assert!((ome(flat).unwrap().unwrap() - 1.45e-6).abs() < 1e-12);
+    let layers = format!("{flat} PhysicalSizeZ=\"1\" PhysicalSizeZUnit=\"reference frame\"");
+    assert_eq!(ome(&layers), None);
 }
 
 #[test]
@@ -168,6 +228,35 @@ fn guesses_and_crops() {
     assert!(
         error.is_usage() && error.to_string().contains("along x"),
         "{error}"
+    );
+}
+
+#[test]
+fn a_mask_says_what_was_found_and_what_to_give() {
+    let said = |values: [u8; 3]| {
+        let pages: Vec<Page> = (pages(|l| [values[usize::from(l)]]).into_iter())
+            .map(|data| Page::new(DIMS[0], DIMS[1], 8, data))
+            .collect();
+        let (_folder, path) = stored("a.tif", &tiff(CLASSIC, &pages));
+        segmented(&[path], &Phases::Guess).unwrap_err().to_string()
+    };
+    let mask = said([0, 255, 255]);
+    for part in [
+        "it holds 0 and 255 alone",
+        "ImageJ",
+        "--labels void=0,wood=255",
+    ] {
+        assert!(mask.contains(part), "{mask}");
+    }
+    let pair = said([0, 2, 2]);
+    assert!(
+        pair.contains("0 and 2 alone; ") && pair.contains("void=0,wood=2"),
+        "{pair}"
+    );
+    assert!(
+        said([1, 1, 1]).contains("it holds 1 alone"),
+        "{}",
+        said([1, 1, 1])
     );
 }
 

@@ -5,6 +5,7 @@ mod common;
 mod descriptions;
 mod layouts;
 mod samples;
+mod sets;
 
 use common::*;
 

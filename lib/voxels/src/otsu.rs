@@ -1,0 +1,252 @@
+//! Thresholds that part the grey values of a stack into phases (Otsu 1979).
+
+use std::ops::Range;
+
+use crate::histogram::{FEW, Histogram, Padding};
+use crate::levels::Levels;
+use crate::{Grey, Phase};
+
+/// Distance of the means of neighbouring phases over the sum of their standard deviations, below
+/// which they are not two: one bell curve cut in half has 1.32.
+const PARTED: f64 = 1.4;
+/// Share of the voxels from which on the value at the corners of all pages is padding.
+const PADDING: f64 = 0.01;
+
+/// Grey values of wood and adhesive by Otsu's thresholds. They are to be looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Proposal {
+    /// What is proposed.
+    pub grey: Grey,
+    /// What was left out for it, as sentences.
+    pub left_out: Vec<String>,
+}
+
+impl Histogram {
+    /// Wood and adhesive by two thresholds that part void, wood and adhesive such that the
+    /// variance between the three is largest, each class taking in its upper threshold.
+    ///
+    /// The order void, wood, adhesive is that of X-ray absorption. Hot and dark pixels do not count,
+    /// nor does what is around a round field of view.
+    ///
+    /// # Errors
+    /// A sentence where three phases are not found.
+    pub fn otsu(&self) -> Result<Proposal, String> {
+        self.propose(3)
+    }
+
+    /// Undamaged wood by the threshold that parts void and wood, as [`Histogram::otsu`] for a stack
+    /// without adhesive.
+    ///
+    /// # Errors
+    /// A sentence where two phases are not found.
+    pub fn otsu_of_wood(&self) -> Result<Proposal, String> {
+        self.propose(2)
+    }
+
+    fn propose(&self, phases: usize) -> Result<Proposal, String> {
+        let total: u64 = self.counts.iter().sum();
+        if let Some(padding) = self.padding {
+            let mut counts = self.counts.clone();
+            counts[padding.place] -= padding.voxels;
+            // Void, too, may be one value and at all corners: there must be phases without it.
+            if padding.voxels as f64 >= PADDING * total as f64 && values(&counts) >= phases {
+                return self.parted(&counts, phases, Some(padding));
+            }
+        }
+        self.parted(&self.counts, phases, None)
+    }
+
+    /// The proposal by `counts`, which are without the `padding`.
+    fn parted(
+        &self,
+        counts: &[u64],
+        phases: usize,
+        padding: Option<Padding>,
+    ) -> Result<Proposal, String> {
+        let total: u64 = counts.iter().sum();
+        let few = (FEW * total as f64) as u64;
+        let mut range = shrunk(counts, 0..counts.len());
+        let (levels, edges) = loop {
+            let kept = &counts[range.clone()];
+            if values(kept) < phases {
+                return Err(too_few(phases, total - kept.iter().sum::<u64>()));
+            }
+            let levels = Levels::of(kept);
+            let edges = levels.edges(phases);
+            if levels.voxels(0, edges[1]) <= few {
+                range.start += edges[1] * levels.width;
+            } else if levels.voxels(edges[phases - 1], edges[phases]) <= few {
+                range.end = range.start + edges[phases - 1] * levels.width;
+            } else {
+                break (levels, edges);
+            }
+            range = shrunk(counts, range);
+        };
+        let threshold = |edge: usize| self.scale.value(range.start + levels.place(edge));
+        let bright = |p: &Padding| counts[p.place + 1..].iter().sum::<u64>() <= few;
+        let top = padding.filter(bright).map(|padding| padding.value);
+        let thresholds: Vec<f64> = edges[1..phases]
+            .iter()
+            .map(|&edge| threshold(edge))
+            .collect();
+        let grey = Grey::of_thresholds(&thresholds, top, self.scale.whole);
+        for (i, edges) in edges.windows(3).enumerate() {
+            let apart = levels.apart([edges[0], edges[1], edges[2]]);
+            if apart < PARTED || levels.voxels(edges[0], edges[1]) <= few {
+                return Err(hardly_parted(i, apart, &grey));
+            }
+        }
+        let outliers = total - counts[range.clone()].iter().sum::<u64>();
+        let hot = (outliers > 0).then(|| {
+            let [low, high] = [range.start, range.end - 1].map(|place| self.scale.value(place));
+            format!(
+                "{outliers} hot or dark voxels, below {low} or above {high}, do not count for it; --despeckle 1 gives single ones the phase around them"
+            )
+        });
+        let around = padding.map(|Padding { value, voxels, .. }| {
+            let phase = grey.phase(value).map_or("", Phase::name);
+            format!(
+                "{voxels} voxels of {value} reach in from the corners of all pages, as around a round field of view: they do not count for it and become {phase}; --crop keeps what is inside"
+            )
+        });
+        let left_out = hot.into_iter().chain(around).collect();
+        Ok(Proposal { grey, left_out })
+    }
+}
+
+/// Values that voxels have.
+fn values(counts: &[u64]) -> usize {
+    counts.iter().filter(|n| **n > 0).count()
+}
+
+/// The part of `range` between its first and last value that voxels have.
+fn shrunk(counts: &[u64], range: Range<usize>) -> Range<usize> {
+    let mut used = range.clone().filter(|&place| counts[place] > 0);
+    let first = used.next().unwrap_or(range.start);
+    first..used.next_back().unwrap_or(first) + 1
+}
+
+fn too_few(phases: usize, left_out: u64) -> String {
+    let number = ["two", "three"][phases - 2];
+    let besides = match left_out {
+        0 => String::new(),
+        n => format!(
+            " besides {n} hot or dark voxels, each kind fewer than {} %",
+            100.0 * FEW
+        ),
+    };
+    format!(
+        "it holds fewer than {number} grey values{besides}; {number} phases need {number}: name them with --labels"
+    )
+}
+
+/// The sentence about phases of which the `lower` and the next are not two.
+fn hardly_parted(lower: usize, apart: f64, grey: &Grey) -> String {
+    let [lower, upper] = [[Phase::Void, Phase::Wood], [Phase::Wood, Phase::Adhesive]][lower];
+    format!(
+        "its grey values do not part {} from {}: the means of the two are {apart:.2} times the sum of their deviations apart, and {PARTED} are needed; look at --histogram and give ranges, such as --grey {grey}, or take --grey auto-wood for wood without adhesive",
+        lower.name(),
+        upper.name()
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::histogram::Scale;
+
+    fn of_counts(counts: Vec<u64>) -> Histogram {
+        let scale = Scale {
+            first: 0,
+            values: counts.len(),
+            power: 0,
+            whole: true,
+        };
+        Histogram {
+            scale,
+            counts,
+            padding: None,
+        }
+    }
+
+    /// Bell curves of grey values with their means, deviations and numbers of voxels.
+    fn of_peaks(values: usize, peaks: &[(f64, f64, f64)]) -> Histogram {
+        let bell = |x: f64| {
+            let parts = peaks.iter().map(|(mean, s, n)| {
+                n / s * (-0.5 * ((x - mean) / s).powi(2)).exp()
+                    / (2.0 * std::f64::consts::PI).sqrt()
+            });
+            parts.sum::<f64>().round() as u64
+        };
+        of_counts((0..values).map(|i| bell(i as f64)).collect())
+    }
+
+    /// Three equal peaks: thresholds lie midway; closed form.
+    #[test]
+    fn thresholds_lie_between_three_peaks() {
+        let phase = |grey: &Grey, v: f64| grey.phase(v).unwrap();
+        use crate::Phase::{Adhesive, Void, Wood};
+        let narrow = of_peaks(
+            256,
+            &[(40.0, 6.0, 1e6), (120.0, 6.0, 1e6), (200.0, 6.0, 1e6)],
+        );
+        let grey = narrow.otsu().unwrap().grey;
+        let found = [70.0, 90.0, 150.0, 170.0].map(|v| phase(&grey, v));
+        assert_eq!(found, [Void, Wood, Wood, Adhesive]);
+        let wide = of_peaks(
+            65536,
+            &[
+                (8000.0, 900.0, 1e7),
+                (20_000.0, 900.0, 1e7),
+                (32_000.0, 900.0, 1e7),
+            ],
+        );
+        let grey = wide.otsu().unwrap().grey;
+        let found = [13_000.0, 15_000.0, 25_000.0, 27_000.0].map(|v| phase(&grey, v));
+        assert_eq!(found, [Void, Wood, Wood, Adhesive]);
+    }
+
+    /// Two equal peaks: the threshold lies midway; closed form.
+    #[test]
+    fn the_threshold_of_wood_alone_lies_between_two_peaks() {
+        let peaks = of_peaks(256, &[(60.0, 8.0, 1e6), (160.0, 8.0, 1e6)]);
+        let said = peaks.otsu_of_wood().unwrap().grey.to_string();
+        let from: f64 = said[5..said.len() - 2].parse().unwrap();
+        assert!((from - 110.5).abs() <= 1.0, "{said}");
+    }
+
+    #[test]
+    fn three_values_are_parted_and_two_are_not() {
+        let mut counts = vec![0; 256];
+        (counts[3], counts[90], counts[91]) = (5, 7, 2);
+        let grey = of_counts(counts).otsu().unwrap().grey;
+        let found = [3.0, 90.0, 91.0].map(|v| grey.phase(v).unwrap() as u8);
+        assert_eq!(found, [0, 1, 2]);
+        let mut two = of_counts(vec![1, 0, 4]);
+        assert!(two.otsu().unwrap_err().contains("three"));
+        two.scale.first = -128;
+        assert_eq!(two.otsu_of_wood().unwrap().grey.to_string(), "wood=-127..");
+        assert!(
+            of_counts(vec![0, 9])
+                .otsu_of_wood()
+                .unwrap_err()
+                .contains("two")
+        );
+    }
+
+    /// One bell curve has no two phases, and what is thinner than hot pixels is none.
+    #[test]
+    fn what_is_no_phase_is_not_proposed() {
+        let wood = [(60.0, 8.0, 1e6), (160.0, 8.0, 1e6)];
+        let said = of_peaks(256, &wood).otsu().unwrap_err();
+        for part in ["do not part", "auto-wood", "--grey wood="] {
+            assert!(said.contains(part), "{said}");
+        }
+        let said = of_peaks(256, &wood[..1]).otsu_of_wood().unwrap_err();
+        assert!(said.contains("void from wood"), "{said}");
+        let thin = [wood[0], wood[1], (240.0, 2.0, 3e4)];
+        assert!(of_peaks(256, &thin).otsu().is_err());
+        let enough = [wood[0], wood[1], (240.0, 2.0, 6e4)];
+        assert!(of_peaks(256, &enough).otsu().is_ok());
+    }
+}

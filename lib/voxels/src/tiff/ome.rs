@@ -1,0 +1,174 @@
+//! OME-TIFF: an XML document in the first page, which may tell of pages in other files too
+//! (<https://docs.openmicroscopy.org/ome-model/latest/ome-tiff/specification.html>).
+
+use std::collections::BTreeSet;
+
+use roxmltree::Node;
+
+use super::describe::{Description, one_axis};
+use super::layout::PageLayout;
+use crate::voxel_size::{VoxelSize, decimal, metres_of_unit};
+
+/// Planes that follow one another in a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Block {
+    /// The first of them.
+    plane: u64,
+    /// Their file in the folder of the description; none is the file that holds it.
+    file: Option<String>,
+    /// The directory of the first.
+    directory: u64,
+    /// How many they are; none for all that the file holds from there.
+    planes: Option<u64>,
+}
+
+/// Reads a description of a file whose first page is `layout`.
+pub(crate) fn describe(text: &str, layout: &PageLayout) -> Result<Description, String> {
+    let xml = roxmltree::Document::parse(text)
+        .map_err(|e| format!("its OME description is not valid XML: {e}"))?;
+    let named = |name: &'static str| {
+        xml.descendants()
+            .filter(move |n| n.tag_name().name() == name)
+    };
+    if let Some(elsewhere) = named("BinaryOnly").next() {
+        return Err(format!(
+            "its OME description stands in '{}'; name the file that holds it, or save the pages with descriptions of their own",
+            elsewhere
+                .attribute("MetadataFile")
+                .unwrap_or("another file")
+        ));
+    }
+    let mut images = named("Pixels");
+    let pixels = images.next().ok_or("its OME description has no Pixels")?;
+    if images.next().is_some() {
+        return Err("its OME description holds several images; one is accepted".into());
+    }
+    let format = layout.format;
+    let count = |key| number(pixels, key);
+    if [count("SizeX"), count("SizeY")] != [Some(format.width as u64), Some(format.height as u64)] {
+        return Err(format!(
+            "its OME description declares another size than {format}"
+        ));
+    }
+    let channels = count("SizeC").unwrap_or(1);
+    let planes = [
+        if channels == format.channels as u64 {
+            1
+        } else {
+            channels
+        },
+        count("SizeZ").unwrap_or(1),
+        count("SizeT").unwrap_or(1),
+    ];
+    one_axis(planes)?;
+    let mut blocks: Vec<Block> = named("TiffData").map(block).collect();
+    // Without directories they say no more than that there are pages.
+    let placed = |block: &Block| block.file.is_some() || block.directory > 0;
+    if !blocks.iter().any(placed) {
+        blocks.clear();
+    }
+    Ok(Description {
+        planes: planes.into_iter().max(),
+        states_size: pixels.has_attribute("PhysicalSizeX"),
+        voxel_size: voxel_size(pixels),
+        blocks,
+    })
+}
+
+fn number(node: Node, key: &str) -> Option<u64> {
+    node.attribute(key)?.parse().ok()
+}
+
+fn block(data: Node) -> Block {
+    let at = |key| number(data, key).unwrap_or(0);
+    let uuid = data.children().find(|n| n.tag_name().name() == "UUID");
+    let one = data.has_attribute("IFD").then_some(1);
+    Block {
+        // Only one of the three axes is longer than 1, so their sum is the plane.
+        plane: ["FirstZ", "FirstT", "FirstC"]
+            .map(at)
+            .into_iter()
+            .fold(0, u64::saturating_add),
+        file: uuid
+            .and_then(|n| n.attribute("FileName"))
+            .map(str::to_owned),
+        directory: at("IFD"),
+        planes: number(data, "PlaneCount").or(one),
+    }
+}
+
+fn voxel_size(pixels: Node) -> Option<VoxelSize> {
+    let size = |axis: &str| pixels.attribute(format!("PhysicalSize{axis}").as_str());
+    let edge = |axis: &str| {
+        let unit = pixels.attribute(format!("PhysicalSize{axis}Unit").as_str());
+        Some(decimal(size(axis)?)? * metres_of_unit(unit.unwrap_or("um"))?)
+    };
+    let z = match size("Z") {
+        None => None,
+        Some(_) => Some(edge("Z")?),
+    };
+    VoxelSize::new(edge("X")?, edge("Y")?, z, "OME metadata")
+}
+
+/// The files that the blocks name, `own` in place of none; there are none where they name one at
+/// most, which is the description's own, whatever it is called by now.
+pub(crate) fn files(blocks: &mut [Block], own: &str) -> Vec<String> {
+    let named = |blocks: &[Block]| -> BTreeSet<String> {
+        blocks
+            .iter()
+            .filter_map(|block| block.file.clone())
+            .collect()
+    };
+    if named(blocks).len() < 2 {
+        return Vec::new();
+    }
+    for block in blocks.iter_mut() {
+        block.file.get_or_insert_with(|| own.to_owned());
+    }
+    named(blocks).into_iter().collect()
+}
+
+/// The file, by its place in `files`, and the directory of each of `planes` planes; `pages` are how
+/// many pages each file holds. Files without a list of them are one.
+pub(crate) fn places(
+    blocks: &[Block],
+    planes: u64,
+    files: &[String],
+    pages: &[u64],
+) -> Result<Vec<(usize, usize)>, String> {
+    let held: u64 = pages.iter().sum();
+    if planes != held {
+        return Err(format!(
+            "its OME description declares {planes} planes, but its files hold {held} pages"
+        ));
+    }
+    let mut places = vec![None; planes as usize];
+    for block in blocks {
+        let named = |name: &String| files.binary_search(name).ok();
+        let file = block.file.as_ref().and_then(named).unwrap_or(0);
+        let left = pages[file].saturating_sub(block.directory);
+        for k in 0..block.planes.unwrap_or(left) {
+            let plane = usize::try_from(block.plane.saturating_add(k)).ok();
+            let place = plane.and_then(|plane| places.get_mut(plane));
+            match place {
+                Some(place @ None) if k < left => {
+                    *place = Some((file, (block.directory + k) as usize));
+                }
+                _ => {
+                    return Err(format!(
+                        "its OME description puts a page at plane {}, which is none or has one",
+                        block.plane.saturating_add(k)
+                    ));
+                }
+            }
+        }
+    }
+    let places = (places.into_iter().enumerate()).map(|(plane, place)| {
+        place.ok_or_else(|| format!("its OME description has no page for plane {plane}"))
+    });
+    let places: Vec<(usize, usize)> = places.collect::<Result<_, _>>()?;
+    match places.iter().collect::<BTreeSet<_>>().len() < places.len() {
+        true => Err("its OME description puts a page at two planes".into()),
+        false => Ok(places),
+    }
+}

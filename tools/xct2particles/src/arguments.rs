@@ -1,0 +1,108 @@
+//! What the tool is asked for.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::Parser;
+use cli::Output;
+use units::{Length, Quantity};
+use voxels::{Crop, Dims, Grey, Labels, RawType};
+
+/// Turn a stack of XCT label images into a particle file
+///
+/// Every voxel of wood or adhesive becomes one material point. The stored sample value is the
+/// label, whatever colour an image program shows for it, unless that differs between pages: then
+/// the colours are the labels. Pages are z, rows y, columns x.
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Examples:
+  xct2particles bondline.tif --voxel '1.45 um' --labels void=0,wood=128,adhesive=255 -o specimen.mpts
+  xct2particles slices/ --voxel 1.45um --grey wood=90..170,adhesive=171.. -o grey.mpts
+  xct2particles scan/ --voxel 1.45um --grey auto --despeckle 2 --preview look.png
+  xct2particles undamaged.tif --voxel 1.45um --grey auto-wood -o wood.mpts
+  xct2particles scan.raw --dims 400x394x400 --type u16 --voxel 1.45um --histogram grey.csv
+  xct2particles stack.ome.tif --crop 0:200,50:250,0:100 -o - | wp-metrics -"
+)]
+pub(crate) struct Arguments {
+    /// A multi-page TIFF, .npy, .npz, .mhd, .nrrd or .nii file, a raw volume (--dims), a folder of
+    /// TIFF, BMP, PNG or JPEG slices, or several slices; `-` is standard input
+    #[arg(required = true, value_name = "STACK")]
+    pub(crate) stack: Vec<PathBuf>,
+    /// Voxel edge [default: what the stack's metadata state]
+    #[arg(long, value_name = "LEN", allow_hyphen_values = true, value_parser = length)]
+    pub(crate) voxel: Option<f64>,
+    /// Size of a raw volume, x fastest
+    #[arg(long, value_name = "XxYxZ", requires = "kind")]
+    pub(crate) dims: Option<Dims>,
+    /// Number type of a raw volume: u8, i16, f32 ..., little-endian; big-endian as u16be
+    #[arg(long = "type", id = "kind", value_name = "TYPE", requires = "dims")]
+    pub(crate) kind: Option<RawType>,
+    /// Labels of each phase; several as 1|2|7, colours as R:G:B; wood alone has no adhesive
+    /// [default: guessed if the stack holds exactly 0, 1, 2 or 0, 128, 255, or, for wood alone,
+    /// the first two of either]
+    #[arg(long, value_name = "void=L,wood=L,adhesive=L", conflicts_with = "grey")]
+    pub(crate) labels: Option<Labels>,
+    /// Grey values of wood and adhesive, both ends included, for a stack without labels; wood alone
+    /// has no adhesive. auto proposes them (Otsu's two thresholds), to be looked at: wood darker
+    /// than adhesive; auto-wood does for wood alone (one threshold)
+    #[arg(long, value_name = "auto|auto-wood|wood=A..B,adhesive=C..", value_parser = grey)]
+    pub(crate) grey: Option<GreyLevels>,
+    /// Write how many voxels hold each grey value (CSV: grey,voxels) and say what --grey auto
+    /// would take
+    #[arg(long, value_name = "CSV")]
+    pub(crate) histogram: Option<Output>,
+    /// Give every piece of at most N voxels, which is noise, the phase that most faces around it have;
+    /// a piece hangs together by faces, edges or corners
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub(crate) despeckle: Option<u16>,
+    /// Draw the phases in three cuts through the middle, to be looked at before anything is run
+    #[arg(long, value_name = "PNG", value_parser = picture)]
+    pub(crate) preview: Option<Output>,
+    /// Box of voxels to keep, the first of a range included and the last not
+    #[arg(long, value_name = "x0:x1,y0:y1,z0:z1")]
+    pub(crate) crop: Option<Crop>,
+    /// Particle file to write; `-` is standard output
+    #[arg(
+        short,
+        long,
+        value_name = "FILE",
+        required_unless_present_any = ["histogram", "preview"]
+    )]
+    pub(crate) output: Option<Output>,
+    /// Go on where wood and void look exchanged
+    #[arg(long)]
+    pub(crate) yes_really: bool,
+    #[command(flatten)]
+    pub(crate) common: cli::Common,
+}
+
+/// What `--grey` asks for.
+#[derive(Clone)]
+pub(crate) enum GreyLevels {
+    Auto,
+    AutoWood,
+    Given(Grey),
+}
+
+fn grey(text: &str) -> Result<GreyLevels, String> {
+    match text {
+        "auto" => Ok(GreyLevels::Auto),
+        "auto-wood" => Ok(GreyLevels::AutoWood),
+        ranges => ranges.parse().map(GreyLevels::Given),
+    }
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    let length = text
+        .parse::<Quantity<Length>>()
+        .and_then(Quantity::positive);
+    length.map(Quantity::si).map_err(|e| e.to_string())
+}
+
+fn picture(text: &str) -> Result<Output, String> {
+    match text == "-" || text.to_lowercase().ends_with(".png") {
+        true => Ok(OsString::from(text).into()),
+        false => Err(format!("'{text}' is no name of a PNG: it must end in .png")),
+    }
+}
