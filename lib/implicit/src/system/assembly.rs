@@ -172,9 +172,9 @@ impl Problem<'_> {
         let mut force = [inertia * self.before[face] + weight, 0.0, weight, 0.0];
         let link = &self.links.0[face];
         let weights = self.wall_weights(face);
-        for half in 0..2 {
-            force[0] += weights[half] * link.sliding[half][0];
-            force[1] += weights[half] * link.sliding[half][1];
+        for (weight, [own, closing]) in weights.into_iter().zip(link.sliding) {
+            force[0] += weight * own;
+            force[1] += weight * closing;
         }
         if axis == 1 && self.lattice.moving.is_some() {
             let frame = self.mesh.frame(self.lattice, face);

@@ -137,8 +137,7 @@ impl View<'_> {
         let (Some(&first), Some(&last)) = (open.first(), open.last()) else {
             return;
         };
-        for half in 0..2 {
-            let cell = cells[half];
+        for (half, cell) in cells.into_iter().enumerate() {
             let edges = mesh.edges(cell);
             let ends = [(first, false), (last, true)].map(|(i, up)| {
                 mesh.next_voxel(cell, voxel(half, i), t, up)
