@@ -21,7 +21,6 @@ const SHAPE: f64 = -0.151;
 /// A quarter of a reservoir 2 H wide and 2 H deep below a duct `n` cells wide that is filled to `length` widths.
 fn scene(n: usize, length: usize) -> Scene {
     let h = H / n as f64;
-    let half = n.div_ceil(2);
     let cells = [n + 2, 2 + 2 * n + 5 * n, n + 2];
     let m = |cells: usize| cells as f64 * h;
     let block = |low: [usize; 3], high: [usize; 3]| VoxelBlock::solid_box(low.map(m), high.map(m));
@@ -37,12 +36,11 @@ fn scene(n: usize, length: usize) -> Scene {
         shaft([0.0, m(top), wide], [wide, m(y), m(n)]),
     ];
     let mut points = plain::fill([0.0, m(2), 0.0], [0.5 * h; 3], [2 * n, 4 * n, 2 * n]);
-    let sides = if n % 2 == 0 { 2 * half } else { n };
-    let edge = wide / sides as f64;
+    let edge = wide / n as f64;
     let more = plain::fill(
         [0.0, m(top), 0.0],
         [edge, 0.5 * h, edge],
-        [sides, 2 * n * length, sides],
+        [n, 2 * n * length, n],
     );
     points.position.extend(more.position);
     points.velocity.extend(more.velocity);
