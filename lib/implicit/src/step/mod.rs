@@ -31,10 +31,13 @@ const SETTLED: f64 = 2e-3;
 /// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
 const JETS: f64 = 1e-3;
 const JET_CFL: f64 = 1.5;
-/// Part of the travel that is left from which on a step that covers it is made to end it, and what of a step's length is
-/// rounding.
+/// Part of the travel that is left from which on a step that covers it is made to end it.
 const NEAR: f64 = 0.7;
-const ARRIVED: f64 = 1e-9;
+/// Part of it by which a step may miss the end and still is there, and solves that bring it nearer.
+const MISSED: f64 = 1e-3;
+const CLOSER: usize = 4;
+/// Height of a gap, cells, that is none.
+const CLOSED: f64 = 1e-9;
 
 /// The implicit scheme on a scene.
 pub struct Implicit {
@@ -78,6 +81,8 @@ struct Solved {
     forces: Vec<f64>,
     /// Whether the viscosity is that of the flow.
     settled: bool,
+    /// Whether the step ends the travel of the clamp.
+    arrives: bool,
 }
 
 impl Implicit {
@@ -132,10 +137,12 @@ impl Implicit {
         let mut longest = limit.time_s;
         for _ in 0..ATTEMPTS {
             let dt = self.length(limit).min(longest);
-            let solved = self.solve(dt, limit).map_err(|why| self.failure(&why))?;
+            let solved = self
+                .solve(dt, limit, longest)
+                .map_err(|why| self.failure(&why))?;
             let crossed = fastest(&solved.flow, self.setup.settings.cfl) * solved.dt;
             if crossed <= EXCESS * self.setup.settings.cfl {
-                return Ok(self.follow(solved));
+                return Ok(self.follow(solved, limit));
             }
             longest = 0.95 * solved.dt * self.setup.settings.cfl / crossed;
         }
@@ -210,36 +217,43 @@ impl Implicit {
         dt.min(limit.time_s).min(left)
     }
 
-    /// Solves the flow of a step of `dt` (s), shorter where the clamp arrives.
-    fn solve(&mut self, dt: f64, limit: StepLimit) -> Result<Solved, String> {
-        self.state.drive.aim(dt);
-        let mut solved = match self.state.drive.held() {
-            Some(asked) => self.solve_held(dt, asked)?,
-            None => {
-                let free = self.solve_driven(
-                    dt,
-                    Drive::Speed(self.state.drive.speed / self.setup.units.cell_m),
-                )?;
-                match self
-                    .state
-                    .drive
-                    .exceeded(self.setup.pressure(free.flow.force))
-                {
-                    Some(asked) => self.solve_held(dt, asked)?,
-                    None => free,
-                }
-            }
-        };
+    /// Solves the flow of a step of `dt` (s), of another length, `longest` at most, where the clamp comes to the end of its
+    /// travel.
+    fn solve(&mut self, dt: f64, limit: StepLimit, longest: f64) -> Result<Solved, String> {
         let left = limit.travel_m / self.setup.units.cell_m;
-        let speed = solved.flow.speed;
-        // A step that comes near the end of the travel ends there.
-        if speed * dt > NEAR * left
-            && left / speed <= limit.time_s
-            && (left / speed - dt).abs() > ARRIVED * dt
-        {
-            solved = self.solve_driven(left / speed, Drive::Speed(speed))?;
+        let mut solved = self.solve_controlled(dt)?;
+        // The clamp's speed under load is known only then: the step ends the travel when it is that of its own length.
+        for _ in 0..CLOSER {
+            let Solved { dt, flow, .. } = &solved;
+            let reach = flow.speed * dt;
+            let end = left / flow.speed;
+            if reach < NEAR * left || (reach / left - 1.0).abs() <= MISSED || end > longest {
+                break;
+            }
+            solved = self.solve_controlled(end)?;
         }
+        let reach = solved.flow.speed * solved.dt;
+        if reach > (1.0 + MISSED) * left {
+            let dt = solved.dt;
+            solved = self.solve_driven(dt, Drive::Speed(left / dt))?;
+        }
+        solved.arrives = (solved.flow.speed * solved.dt / left - 1.0).abs() <= MISSED;
         Ok(solved)
+    }
+
+    /// Solves the flow of a step of `dt` (s) with the clamp at full speed, or at the speed of its pressure limit.
+    fn solve_controlled(&mut self, dt: f64) -> Result<Solved, String> {
+        self.state.drive.aim(dt);
+        if let Some(asked) = self.state.drive.held() {
+            return self.solve_held(dt, asked);
+        }
+        let full = Drive::Speed(self.state.drive.speed / self.setup.units.cell_m);
+        let free = self.solve_driven(dt, full)?;
+        let pressure = self.setup.pressure(free.flow.force);
+        match self.state.drive.exceeded(pressure) {
+            Some(asked) => self.solve_held(dt, asked),
+            None => Ok(free),
+        }
     }
 
     /// The same under a pressure on the clamp, at the nearest speed that it can follow.
@@ -336,7 +350,15 @@ impl Implicit {
             false => Viscosities::constant(mesh, cured),
         };
         let mut flow = state.flow.clone();
-        let (mut iterations, mut settled) = (0, false);
+        let mut iterations = 0;
+        let mut solved = Solved {
+            dt,
+            full,
+            forces: Vec::new(),
+            settled: false,
+            arrives: false,
+            flow: Flow::default(),
+        };
         for _ in 0..PASSES {
             let problem = Problem {
                 lattice: &setup.lattice,
@@ -363,45 +385,38 @@ impl Implicit {
                 true => Viscosities::of(&next, &setup.liquid, factor),
                 false => Viscosities::default(),
             };
-            settled = !varies || viscosities.change(&changed, &next, mesh, &fractions) < SETTLED;
-            if settled {
-                let forces = forces(&problem, &flow, state.displacement.len());
-                flow.iterations = iterations;
-                return Ok(Solved {
-                    dt,
-                    forces,
-                    full,
-                    settled,
-                    flow,
-                });
+            solved.settled =
+                !varies || viscosities.change(&changed, &next, mesh, &fractions) < SETTLED;
+            solved.forces = forces(&problem, &flow, state.displacement.len());
+            if solved.settled {
+                break;
             }
             viscosities = changed;
         }
-        let forces = vec![0.0; state.displacement.len()];
         flow.iterations = iterations;
-        Ok(Solved {
-            dt,
-            forces,
-            full,
-            settled,
-            flow,
-        })
+        Ok(Solved { flow, ..solved })
     }
 
     /// Completes an accepted step.
-    fn follow(&mut self, solved: Solved) -> StepReport {
+    fn follow(&mut self, solved: Solved, limit: StepLimit) -> StepReport {
         let Solved {
             dt,
             flow,
             full,
             forces,
             settled,
+            arrives,
         } = solved;
         let cell_m = self.setup.units.cell_m;
+        let travel = match arrives {
+            true => limit.travel_m / cell_m,
+            false => flow.speed * dt,
+        };
         // Liquid moves through the faces of the middle of the step into the pores of its end.
         let middle = self.mesh.rows().height;
         if self.setup.lattice.moving.is_some() {
-            self.height = (self.height - flow.speed * dt).max(0.0);
+            let height = self.height - travel;
+            self.height = if height > CLOSED { height } else { 0.0 };
         }
         self.mesh.set_height(self.height);
         let capacities = self.capacities();
@@ -424,7 +439,7 @@ impl Implicit {
         state.power = flow.dissipation;
         state.time += dt;
         state.steps += 1;
-        state.travel += flow.speed * dt * cell_m;
+        state.travel += travel * cell_m;
         for (body, displacement) in state.displacement.iter_mut().enumerate() {
             let slide = self.setup.lattice.slide[body];
             for a in 0..3 {
@@ -432,7 +447,7 @@ impl Implicit {
             }
             if self.setup.lattice.mover == Some(body) {
                 displacement[1] +=
-                    self.setup.lattice.speed_of(body) * flow.speed * dt * cell_m - slide[1] * dt;
+                    self.setup.lattice.speed_of(body) * travel * cell_m - slide[1] * dt;
             }
         }
         let pressure = |body: Option<usize>, sign: f64| {
