@@ -108,7 +108,11 @@ fn a_stopped_implicit_run_goes_on_bit_by_bit() {
 fn every_warning_of_a_batch_system_stops_a_run_with_a_checkpoint() {
     let bench = Workbench::with_bond();
     for signal in ["USR1", "USR2", "HUP", "XCPU"] {
-        let mut child = started(&bench, signal, &SLOW, &[], 20);
+        let arguments = press_arguments(signal, &SLOW, &[]).join("' '");
+        // The tests themselves may have been begun by nohup.
+        let line = format!("exec env --default-signal={signal} mpm-run '{arguments}'");
+        let child = bench.shell_command(&line).spawn().unwrap();
+        let mut child = with_rows(&bench, signal, child, 20);
         send(&child, signal);
         assert_eq!(child.wait().unwrap().code(), Some(75), "{signal}");
         assert!(
