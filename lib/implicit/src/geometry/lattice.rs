@@ -1,6 +1,6 @@
 //! The voxels of a scene on one lattice: which body fills each, and how the parts move against each other.
 
-use physics::{Boundary, Dimensions, GridBox, Motion, RigidBody, Scene, Stop};
+use physics::{Boundary, Dimensions, GridBox, Motion, RigidBody, Scene, Stop, VoxelBlock};
 
 /// Code of a voxel that liquid can fill. A body `b` has `b + 1`.
 pub(crate) const OPEN: u8 = 0;
@@ -115,6 +115,7 @@ impl Lattice {
                 .collect(),
         };
         lattice.check(scene, &frames)?;
+        check_motions(scene, &lattice, &frames)?;
         Ok(lattice)
     }
 
@@ -166,6 +167,61 @@ impl Lattice {
         }
         Ok(())
     }
+}
+
+/// Refuses motions by which walls come elsewhere than where the grid has them.
+fn check_motions(scene: &Scene, lattice: &Lattice, frames: &Frames) -> Result<(), String> {
+    let (low, high) = (scene.grid.min_m, scene.grid.max_m());
+    let tight = ALIGNED * scene.grid.cell_m;
+    if lattice.moving.is_some() && scene.boundary[1] == Boundary::Periodic {
+        return Err(
+            "a body moves along y between periodic sides: give other sides normal to y".into(),
+        );
+    }
+    for (index, body) in scene.bodies.iter().enumerate() {
+        let through = |block: &VoxelBlock, a: usize| {
+            let spans = block.origin()[a] <= low[a] + tight && block.max()[a] >= high[a] - tight;
+            spans && block.dims()[a] == 1
+        };
+        if let Motion::Constant(v) = body.motion {
+            for a in [0, 2].into_iter().filter(|&a| v[a] != 0.0) {
+                if !body.blocks.iter().all(|block| through(block, a)) {
+                    return Err(format!(
+                        "body '{}' moves along {} and ends within the domain: scheme = \"volume-fraction\" takes walls that \
+                         move along themselves from side to side",
+                        body.name,
+                        ["x", "y", "z"][a]
+                    ));
+                }
+            }
+        }
+        let Some(moving) = lattice.moving.filter(|_| lattice.mover != Some(index)) else {
+            continue;
+        };
+        for block in &body.blocks {
+            let beside = match moving {
+                Moving::Above => block.max()[1] > frames.gap[0] + tight,
+                Moving::Below => block.origin()[1] < frames.gap[1] - tight,
+            };
+            let along = match moving {
+                Moving::Above => {
+                    block.origin()[1] <= frames.gap[0] + tight && block.max()[1] >= high[1] - tight
+                }
+                Moving::Below => {
+                    block.max()[1] >= frames.gap[1] - tight && block.origin()[1] <= low[1] + tight
+                }
+            };
+            if beside && !(along && block.dims()[1] == 1) {
+                return Err(format!(
+                    "body '{}' stands beside the way of '{}' and is not alike along it: scheme = \"volume-fraction\" takes \
+                     walls there that go on to the side of the domain",
+                    body.name,
+                    scene.bodies[lattice.mover.unwrap_or(index)].name
+                ));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The body that moves along y, if one does, and its speed against the others.
@@ -268,7 +324,7 @@ fn solid_extent(body: &RigidBody) -> (f64, f64) {
 }
 
 /// y of the first and the last layer of a block that holds solid voxels, its outer sides.
-fn sides(block: &physics::VoxelBlock) -> Vec<f64> {
+fn sides(block: &VoxelBlock) -> Vec<f64> {
     let [_, ny, nz] = block.dims();
     let holds = |j: usize| (0..nz).any(|k| block.row(j, k).iter().any(|&word| word != 0));
     let y = |j: usize| block.origin()[1] + j as f64 * block.voxel()[1];

@@ -5,6 +5,7 @@ mod lattice;
 mod mesh;
 mod rows;
 mod split;
+mod voxels;
 
 pub(crate) use chords::Chords;
 pub(crate) use chords::Place;

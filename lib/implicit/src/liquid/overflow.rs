@@ -17,8 +17,8 @@ struct Way {
     /// What came in on the opposite side and would go straight on.
     straight: f64,
     area: f64,
-    /// Whether the pore behind it has room.
-    room: bool,
+    /// Room in the pore behind it.
+    room: f64,
 }
 
 /// Passes what pores hold above their `capacities` on to their neighbours, all pores at once, so that their order does not
@@ -38,7 +38,7 @@ pub(super) fn overflow(
         let mut passed: Vec<(usize, bool, f64)> = Vec::new();
         for &pore in &over {
             let excess = volumes[pore] - capacities[pore];
-            let room = |other: usize| capacities[other] - volumes[other] > NOTHING;
+            let room = |other: usize| (capacities[other] - volumes[other]).max(0.0);
             passed.extend(shares(&ways(mesh, pore, room, swept, flux), excess));
         }
         if passed.is_empty() {
@@ -59,37 +59,55 @@ pub(super) fn overflow(
     }
 }
 
-/// How much of an excess goes by each of the ways.
+/// How much of an excess goes by each of the ways: as much as there is room for where it flows, then anywhere, and the rest
+/// where it flows. Little room takes little, so that room next to nothing does what none does.
 fn shares(ways: &[Way], excess: f64) -> Vec<(usize, bool, f64)> {
-    let weights: [fn(&Way) -> f64; 4] = [
-        |way| {
-            if way.room {
-                way.flow + way.straight
-            } else {
-                0.0
-            }
-        },
-        |way| if way.room { way.area } else { 0.0 },
-        |way| way.flow,
-        |way| way.area,
+    let kinds: [(fn(&Way) -> f64, bool); 4] = [
+        (|way| way.flow + way.straight, true),
+        (|way| way.area, true),
+        (|way| way.flow, false),
+        (|way| way.area, false),
     ];
-    for weight in weights {
-        let all: f64 = ways.iter().map(weight).sum();
-        if all > NOTHING {
-            return (ways.iter())
-                .filter(|way| weight(way) > 0.0)
-                .map(|way| (way.face, way.up, excess * weight(way) / all))
-                .collect();
+    let mut given = vec![0.0; ways.len()];
+    let mut left = excess;
+    for (weight, to_room) in kinds {
+        let roomy = |way: &Way, given: f64| !to_room || way.room > given;
+        let all: f64 = (ways.iter().zip(&given))
+            .filter(|(way, given)| roomy(way, **given))
+            .map(|(way, _)| weight(way))
+            .sum();
+        if all <= NOTHING {
+            continue;
+        }
+        let mut passed = 0.0;
+        for (way, given) in ways.iter().zip(&mut given) {
+            if roomy(way, *given) {
+                let share = left * weight(way) / all;
+                let share = if to_room {
+                    share.min(way.room - *given)
+                } else {
+                    share
+                };
+                *given += share;
+                passed += share;
+            }
+        }
+        left -= passed;
+        if left <= NOTHING {
+            break;
         }
     }
-    Vec::new()
+    (ways.iter().zip(given))
+        .filter(|(_, given)| *given > 0.0)
+        .map(|(way, given)| (way.face, way.up, given))
+        .collect()
 }
 
 /// The faces of a pore.
 fn ways(
     mesh: &Mesh,
     pore: usize,
-    room: impl Fn(usize) -> bool,
+    room: impl Fn(usize) -> f64,
     swept: &[f64],
     flux: &[f64],
 ) -> Vec<Way> {

@@ -86,6 +86,7 @@ fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[
         .for_each(|(pore, volume)| {
             *volume += net_inflow(mesh, &flux, pore);
         });
+    give_back(mesh, &mut volumes, &flux);
     // Full pores hold what their pressure makes of them.
     let capacities: Vec<f64> = pores
         .map(|pore| match full[pore] {
@@ -100,6 +101,35 @@ fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[
         }
     }
     Moved { volumes, lost }
+}
+
+/// Gives pores that passed on more than they had, by the tolerance of the solution, back what is missing: from the pores that
+/// they passed it to, in proportion to what they hold of it.
+fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &[f64]) {
+    let missing: Vec<usize> = (0..volumes.len())
+        .filter(|&pore| volumes[pore] < 0.0)
+        .collect();
+    for pore in missing {
+        let mut given: Vec<(usize, f64)> = Vec::new();
+        for axis in 0..3 {
+            for up in [false, true] {
+                for face in mesh.faces_at(pore, axis, up) {
+                    let f = mesh.faces[face];
+                    let passed = if up { flux[face] } else { -flux[face] };
+                    let to = if up { f.high } else { f.low } as usize;
+                    given.push((to, passed.max(0.0).min(volumes[to].max(0.0))));
+                }
+            }
+        }
+        let all: f64 = given.iter().map(|given| given.1).sum();
+        let part = (-volumes[pore] / all).min(1.0);
+        for (to, held) in given.into_iter().filter(|given| given.1 > 0.0) {
+            volumes[to] -= part * held;
+            volumes[pore] += part * held;
+        }
+        // What rounding leaves.
+        volumes[pore] = volumes[pore].max(0.0);
+    }
 }
 
 /// Change of the volume fraction across a pore along each axis, from neighbour to neighbour.

@@ -3,19 +3,18 @@
 mod drive;
 mod scheme;
 mod setup;
+mod solve;
 
 use physics::{Failure, Scene, StepLimit, StepReport};
-use rayon::prelude::*;
 use saddle_point::{SaddleOptions, SaddleSolver};
 
 use crate::geometry::{Mesh, Rows};
 use crate::liquid::{Moved, carried_velocities, carried_volumes, transport};
 use crate::settings::Settings;
-use crate::system::{
-    Drive, Edges, FULL, Flow, Links, Problem, Rates, Unknowns, Viscosities, forces, halves, solve,
-};
-use drive::{Asked, ClampDrive};
+use crate::system::{Edges, Flow, Links};
+use drive::ClampDrive;
 use setup::Setup;
+use solve::Solved;
 
 /// Attempts at a step of acceptable length.
 const ATTEMPTS: usize = 8;
@@ -25,17 +24,9 @@ const EXCESS: f64 = 1.1;
 const MARGIN: [usize; 2] = [8, 2];
 /// Most that cure changes ln(viscosity) by in a step.
 const CURED: f64 = 0.2;
-/// Passes in which the viscosity of the flow is sought, and its mean change, weighted by dissipation, that ends them.
-const PASSES: usize = 20;
-const SETTLED: f64 = 2e-3;
 /// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
 const JETS: f64 = 1e-3;
 const JET_CFL: f64 = 1.5;
-/// Part of the travel that is left from which on a step that covers it is made to end it.
-const NEAR: f64 = 0.7;
-/// Part of it by which a step may miss the end and still is there, and solves that bring it nearer.
-const MISSED: f64 = 1e-3;
-const CLOSER: usize = 4;
 /// Height of a gap, cells, that is none.
 const CLOSED: f64 = 1e-9;
 
@@ -71,18 +62,6 @@ struct State {
     power: f64,
     /// Steps whose viscosity did not settle.
     unsettled: u64,
-}
-
-/// A step that was solved.
-struct Solved {
-    dt: f64,
-    flow: Flow,
-    full: Vec<bool>,
-    forces: Vec<f64>,
-    /// Whether the viscosity is that of the flow.
-    settled: bool,
-    /// Whether the step ends the travel of the clamp.
-    arrives: bool,
 }
 
 impl Implicit {
@@ -133,6 +112,10 @@ impl Implicit {
     /// Takes one step: its length, which pores are full, the solution, the liquid that moves, the rows that close.
     fn step(&mut self, limit: StepLimit) -> Result<StepReport, Failure> {
         let limit = self.state.drive.within(limit, self.state.travel);
+        if self.setup.lattice.moving.is_some() && self.height == 0.0 && self.state.drive.speed > 0.0
+        {
+            return Err(self.failure("the bodies have met, and their way would go on"));
+        }
         self.fit_mesh();
         let mut longest = limit.time_s;
         for _ in 0..ATTEMPTS {
@@ -212,189 +195,8 @@ impl Implicit {
         } else {
             f64::INFINITY
         });
-        let left =
-            limit.travel_m / self.setup.units.cell_m / self.state.flow.speed.max(f64::MIN_POSITIVE);
+        let left = self.left(limit) / self.state.flow.speed.max(f64::MIN_POSITIVE);
         dt.min(limit.time_s).min(left)
-    }
-
-    /// Solves the flow of a step of `dt` (s), of another length, `longest` at most, where the clamp comes to the end of its
-    /// travel.
-    fn solve(&mut self, dt: f64, limit: StepLimit, longest: f64) -> Result<Solved, String> {
-        let left = limit.travel_m / self.setup.units.cell_m;
-        let mut solved = self.solve_controlled(dt)?;
-        // The clamp's speed under load is known only then: the step ends the travel when it is that of its own length.
-        for _ in 0..CLOSER {
-            let Solved { dt, flow, .. } = &solved;
-            let reach = flow.speed * dt;
-            let end = left / flow.speed;
-            if reach < NEAR * left || (reach / left - 1.0).abs() <= MISSED || end > longest {
-                break;
-            }
-            solved = self.solve_controlled(end)?;
-        }
-        let reach = solved.flow.speed * solved.dt;
-        if reach > (1.0 + MISSED) * left {
-            let dt = solved.dt;
-            solved = self.solve_driven(dt, Drive::Speed(left / dt))?;
-        }
-        solved.arrives = (solved.flow.speed * solved.dt / left - 1.0).abs() <= MISSED;
-        Ok(solved)
-    }
-
-    /// Solves the flow of a step of `dt` (s) with the clamp at full speed, or at the speed of its pressure limit.
-    fn solve_controlled(&mut self, dt: f64) -> Result<Solved, String> {
-        self.state.drive.aim(dt);
-        if let Some(asked) = self.state.drive.held() {
-            return self.solve_held(dt, asked);
-        }
-        let full = Drive::Speed(self.state.drive.speed / self.setup.units.cell_m);
-        let free = self.solve_driven(dt, full)?;
-        let pressure = self.setup.pressure(free.flow.force);
-        match self.state.drive.exceeded(pressure) {
-            Some(asked) => self.solve_held(dt, asked),
-            None => Ok(free),
-        }
-    }
-
-    /// The same under a pressure on the clamp, at the nearest speed that it can follow.
-    fn solve_held(&mut self, dt: f64, asked: Asked) -> Result<Solved, String> {
-        let cell_m = self.setup.units.cell_m;
-        let drive = Drive::Force {
-            force: self.setup.force(asked.limit),
-            scale: self.setup.force(asked.limit.max(asked.least)),
-            guess: self.state.drive.speed / cell_m,
-        };
-        let solved = self.solve_driven(dt, drive)?;
-        match self.state.drive.follow(solved.flow.speed * cell_m) {
-            true => Ok(solved),
-            false => self.solve_driven(dt, Drive::Speed(self.state.drive.speed / cell_m)),
-        }
-    }
-
-    /// Puts the rows where they are in the middle of a step of `dt` (s) by the last closing speed; which pores are full now,
-    /// and what they are filled to in the middle by the last flow.
-    fn middle(&mut self, dt: f64) -> (Vec<bool>, Vec<f64>) {
-        let height = self.height;
-        let state = &self.state;
-        let full: Vec<bool> = (0..self.mesh.pores.len())
-            .map(|pore| state.volumes[pore] >= FULL * self.mesh.volume_at(pore, height))
-            .collect();
-        if self.setup.lattice.moving.is_some() {
-            let middle = (height - 0.5 * dt * state.flow.speed).max(0.5 * height);
-            self.mesh.set_height(middle);
-            self.setup.measure(&mut self.links, &self.mesh);
-            self.edges.measure(&self.mesh, self.setup.lattice.flat);
-        }
-        let mesh = &self.mesh;
-        let moved = if state.steps == 0 {
-            state.volumes.clone()
-        } else {
-            transport(
-                mesh,
-                &state.volumes,
-                &full,
-                &self.capacities(),
-                &state.flow.velocity,
-                0.5 * dt,
-            )
-            .volumes
-        };
-        let fractions = (0..mesh.pores.len())
-            .map(|pore| match moved[pore] / mesh.volume(pore) {
-                _ if full[pore] => 1.0,
-                then if then >= FULL => 1.0,
-                then => then,
-            })
-            .collect();
-        (full, fractions)
-    }
-
-    /// What each pore can hold: without end beyond open sides.
-    fn capacities(&self) -> Vec<f64> {
-        let mesh = &self.mesh;
-        (0..mesh.pores.len())
-            .into_par_iter()
-            .map(
-                |pore| match mesh.is_beyond(mesh.pores[pore].cell as usize) {
-                    true => f64::INFINITY,
-                    false => mesh.volume(pore),
-                },
-            )
-            .collect()
-    }
-
-    /// Solves with the body that closes the gap driven so: in passes where the viscosity depends on the flow, until that
-    /// no longer changes.
-    fn solve_driven(&mut self, dt: f64, drive: Drive) -> Result<Solved, String> {
-        let (full, fractions) = self.middle(dt);
-        let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
-        let unknowns = Unknowns::new(mesh, &fractions);
-        let halves = halves(mesh, &fractions);
-        let carried = setup.carried(mesh, &unknowns, state, &full, self.height, dt);
-        let cured = setup.viscosity_at(state.time + 0.5 * dt);
-        let factor = cured / setup.units.viscosity;
-        let varies = setup.varies();
-        let rates = |flow: &Flow| {
-            let convention = setup.liquid.shear_rate;
-            Rates::of(
-                mesh,
-                &self.links,
-                &self.edges,
-                &flow.velocity,
-                flow.speed,
-                convention,
-            )
-        };
-        let mut viscosities = match varies && state.steps > 0 {
-            true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor),
-            false => Viscosities::constant(mesh, cured),
-        };
-        let mut flow = state.flow.clone();
-        let mut iterations = 0;
-        let mut solved = Solved {
-            dt,
-            full,
-            forces: Vec::new(),
-            settled: false,
-            arrives: false,
-            flow: Flow::default(),
-        };
-        for _ in 0..PASSES {
-            let problem = Problem {
-                lattice: &setup.lattice,
-                mesh,
-                links: &self.links,
-                edges: &self.edges,
-                unknowns: &unknowns,
-                fractions: &fractions,
-                halves: &halves,
-                viscosity: &viscosities.pores,
-                wall_viscosity: &viscosities.walls,
-                before: &state.flow.velocity,
-                speed_before: state.flow.speed,
-                scales: setup.scales(dt),
-            };
-            flow = solve(&problem, &carried, drive, &flow, &mut self.solver)
-                .map_err(|error| error.to_string())?;
-            iterations += flow.iterations;
-            let next = match varies {
-                true => rates(&flow),
-                false => Rates::default(),
-            };
-            let changed = match varies {
-                true => Viscosities::of(&next, &setup.liquid, factor),
-                false => Viscosities::default(),
-            };
-            solved.settled =
-                !varies || viscosities.change(&changed, &next, mesh, &fractions) < SETTLED;
-            solved.forces = forces(&problem, &flow, state.displacement.len());
-            if solved.settled {
-                break;
-            }
-            viscosities = changed;
-        }
-        flow.iterations = iterations;
-        Ok(Solved { flow, ..solved })
     }
 
     /// Completes an accepted step.
@@ -409,7 +211,7 @@ impl Implicit {
         } = solved;
         let cell_m = self.setup.units.cell_m;
         let travel = match arrives {
-            true => limit.travel_m / cell_m,
+            true => self.left(limit),
             false => flow.speed * dt,
         };
         // Liquid moves through the faces of the middle of the step into the pores of its end.
