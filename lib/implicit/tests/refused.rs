@@ -94,3 +94,20 @@ fn a_body_that_moves_along_y_has_no_periodic_sides_there() {
     let refused = Implicit::new(&scene, Settings::default()).err().unwrap();
     assert!(refused.contains("periodic sides"), "{refused}");
 }
+
+/// Layers without wood at the bond belong to the gap.
+#[test]
+fn a_block_whose_last_layers_are_empty_is_taken() {
+    let floor = VoxelBlock::from_fn([0.0; 3], [1.0; 3], [8, 3, 1], |_, j, _| j < 1);
+    let plate = VoxelBlock::solid_box([0.0, 6.0, 0.0], [8.0, 7.0, 1.0]);
+    let down = Motion::Constant([0.0, -1.0, 0.0]);
+    let scene = Scene {
+        bodies: vec![
+            plain::body("floor", vec![floor], Motion::Fixed),
+            plain::body("plate", vec![plate], down),
+        ],
+        points: plain::fill([2.0, 2.0, 0.0], [1.0; 3], [2, 2, 1]),
+        ..plain::scene(1.0, [8, 8, 1])
+    };
+    assert_eq!(Implicit::new(&scene, Settings::default()).err(), None);
+}

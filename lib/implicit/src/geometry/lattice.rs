@@ -199,17 +199,20 @@ fn check_motions(scene: &Scene, lattice: &Lattice, frames: &Frames) -> Result<()
             continue;
         };
         for block in &body.blocks {
-            let beside = match moving {
-                Moving::Above => block.max()[1] > frames.gap[0] + tight,
-                Moving::Below => block.origin()[1] < frames.gap[1] - tight,
+            let solid = sides(block);
+            let (Some(&from), Some(&to)) = (solid.first(), solid.last()) else {
+                continue;
             };
-            let along = match moving {
-                Moving::Above => {
-                    block.origin()[1] <= frames.gap[0] + tight && block.max()[1] >= high[1] - tight
-                }
-                Moving::Below => {
-                    block.max()[1] >= frames.gap[1] - tight && block.origin()[1] <= low[1] + tight
-                }
+            let [bottom, top] = frames.gap;
+            let (beside, along) = match moving {
+                Moving::Above => (
+                    to > bottom + tight,
+                    from <= bottom + tight && to >= high[1] - tight,
+                ),
+                Moving::Below => (
+                    from < top - tight,
+                    to >= top - tight && from <= low[1] + tight,
+                ),
             };
             if beside && !(along && block.dims()[1] == 1) {
                 return Err(format!(

@@ -62,7 +62,8 @@ pub(super) fn overflow(
 /// How much of an excess goes by each of the ways: as much as there is room for where it flows, then anywhere, and the rest
 /// where it flows. Little room takes little, so that room next to nothing does what none does.
 fn shares(ways: &[Way], excess: f64) -> Vec<(usize, bool, f64)> {
-    let kinds: [(fn(&Way) -> f64, bool); 4] = [
+    type Weight = fn(&Way) -> f64;
+    let kinds: [(Weight, bool); 4] = [
         (|way| way.flow + way.straight, true),
         (|way| way.area, true),
         (|way| way.flow, false),
