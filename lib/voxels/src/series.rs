@@ -46,9 +46,10 @@ impl Series {
         let odd = match [false, true].map(|points| Order::of(&names::read(&slices, points))) {
             [Ok(order), _] | [_, Ok(order)] if order.is_even() => return Ok(order.sort(&slices)),
             [Ok(plain), Ok(pointed)] if plain.slices != pointed.slices => plain.turned(&pointed),
-            [Ok(order), _] if order.alone && order.numbers[0] >= 0 => {
-                return Ok(order.sort(&slices));
-            }
+            [Ok(order), _] if order.alone && order.numbers[0] >= 0 => match order.parted() {
+                Some(odd) => odd,
+                None => return Ok(order.sort(&slices)),
+            },
             [Ok(order), _] | [Err(_), Ok(order)] => order.uneven(),
             [Err(plain), Err(pointed)] if pointed.texts < plain.texts => pointed,
             [Err(odd), Err(_)] => odd,
@@ -148,6 +149,20 @@ impl Order {
                     n => format!(", and at {} more places", n - 1),
                 }
             )
+        })
+    }
+
+    /// The slices about a gap in what is else counted evenly in which more would be missing than there are: those behind it are
+    /// another series, or a copy.
+    fn parted(&self) -> Option<Odd> {
+        let even = self.steps().min().filter(|even| *even > 0)?;
+        let gaps = self.steps().filter(|step| *step != even).count();
+        let (at, widest) = self.steps().enumerate().max_by_key(|step| step.1)?;
+        let missing = widest / even - 1;
+        (2 * gaps < self.slices.len() && missing > self.slices.len() as i128).then(|| Odd {
+            slices: [self.slices[at], self.slices[at + 1]],
+            why: "more would be missing between them than there are",
+            texts: 1,
         })
     }
 
@@ -276,6 +291,15 @@ mod tests {
             (
                 &["bottom.tif", "middle.tif", "top.tif"],
                 ["bottom.tif", "top.tif"],
+            ),
+            // Two series of one text, and a copy with a digit more.
+            (
+                &["s_001", "s_002", "s_003", "s_101", "s_102", "s_103"],
+                ["s_003", "s_101"],
+            ),
+            (
+                &["s000", "s001", "s002", "s003", "s004", "s0041"],
+                ["s004", "s0041"],
             ),
             // Two series whose numbers go on, or that a hyphen parts.
             (&["1.01", "1.02", "2.01", "2.02"], ["1.02", "2.01"]),

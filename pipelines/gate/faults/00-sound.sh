@@ -1,1 +1,1 @@
-fault "a sound stack" "exit 0" 'xct2particles $IN/files/make-stale-a.tif --voxel "1.45 um" --labels void=0,wood=1,adhesive=2 -o s.mpts'
+fault "a sound stack" "exit 0" 'xct2particles $IN/files/make-stale-a.tif --voxel "1.45 um" -o s.mpts'

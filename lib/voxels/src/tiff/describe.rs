@@ -113,7 +113,20 @@ fn shaped(axes: &[Option<u64>], layout: &PageLayout) -> Result<Description, Stri
     let plane = (format.width as u64)
         .checked_mul(format.height as u64)
         .and_then(|n| n.checked_mul(format.channels as u64));
+    // Axes before those of a plane: channels or frames beside slices are no series.
+    let series = (0..axes.len()).rev().find(|&at| {
+        let rest = (axes[at..].iter()).try_fold(1_u64, |n, axis| n.checked_mul((*axis)?));
+        rest == plane
+    });
+    let many = axes[..series.unwrap_or(0)]
+        .iter()
+        .filter(|axis| **axis != Some(1))
+        .count();
     match (total, plane) {
+        _ if many > 1 => Err(format!(
+            "its description declares a shape of {} axes beside those of a plane of {format}; one series of planes is accepted: save channels and frames apart",
+            many
+        )),
         (Some(total), Some(plane)) if total > 0 && total % plane == 0 => Ok(Description {
             planes: Some(total / plane),
             ..Description::default()

@@ -34,6 +34,20 @@ fn planes_behind_a_single_directory() {
     }
 }
 
+/// Channels and frames beside slices are no slices.
+#[test]
+fn shapes_of_more_than_one_series_are_refused() {
+    let [nx, ny, nz] = DIMS;
+    for description in [
+        format!("{{\"shape\": [{nz}, 2, {ny}, {nx}], \"axes\": \"ZCYX\"}}"),
+        format!("shape=(2, {nz}, {ny}, {nx})"),
+    ] {
+        let bytes = tiff(CLASSIC, &[single_directory(&description)]);
+        let said = refusal("a.tif", &bytes);
+        assert!(said.contains("2 axes beside those of a plane"), "{said}");
+    }
+}
+
 /// Only tags of their own tell of the planes in MetaMorph's and other programs' files.
 #[test]
 fn planes_that_nothing_tells_of_are_refused() {
