@@ -1,4 +1,4 @@
-//! What `make` starts and keeps: runs that are killed, twice at once, found not sound, or too long to be
+//! Runs that `make` starts and keeps: runs that are killed, twice at once, found not sound, or too long to be
 //! started unasked.
 
 use std::os::unix::process::CommandExt;

@@ -1,4 +1,4 @@
-//! What of the implicit scheme a case chooses.
+//! The choices that a case has.
 
 /// Settings of the implicit scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]

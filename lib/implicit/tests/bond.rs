@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
-#[path = "common/plain.rs"]
+#[path = "../../filling/tests/common/plain.rs"]
 mod plain;
 
 use implicit::{Implicit, Settings};
@@ -138,7 +138,7 @@ fn a_bond_is_pressed_the_same_however_it_lies() {
                 found(turn, &|x, z| [x, (z + 10) % N]),
             ),
         ] {
-            let last = |pressures: &[f64]| pressures[pressures.len() - 2];
+            let last = |pressures: &[f64]| pressures[pressures.len() - 1];
             let depth = other.1 / as_it_lies.1 - 1.0;
             let pressure = last(&other.0) / last(&as_it_lies.0) - 1.0;
             println!("k {k}, {name}: WP {depth:+.1e}, pressure {pressure:+.1e}");

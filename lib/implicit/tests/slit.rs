@@ -5,7 +5,7 @@
 
 #[path = "common/march.rs"]
 mod march;
-#[path = "common/plain.rs"]
+#[path = "../../filling/tests/common/plain.rs"]
 mod plain;
 
 use implicit::{Implicit, Settings};

@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
-#[path = "common/plain.rs"]
+#[path = "../../filling/tests/common/plain.rs"]
 mod plain;
 
 use implicit::{Implicit, Settings};

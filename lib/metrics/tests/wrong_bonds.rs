@@ -1,4 +1,4 @@
-//! What is no bond, or one across another axis, is not measured without a word.
+//! Specimens without a bond, or with one across another axis, are refused or warned of.
 
 mod specimens;
 

@@ -1,4 +1,4 @@
-//! What the tool is asked for.
+//! The arguments of the tool.
 
 use std::ffi::OsString;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! What is seen of a specimen before anything is run: previews, specks, wood and void exchanged.
+//! Looks at a specimen before anything is run: previews, specks, wood and void exchanged.
 
 use std::fs;
 use std::path::Path;

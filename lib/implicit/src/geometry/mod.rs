@@ -10,5 +10,5 @@ mod voxels;
 pub(crate) use chords::Chords;
 pub(crate) use chords::Place;
 pub(crate) use lattice::{Lattice, MIRROR, OPEN};
-pub(crate) use mesh::{Mesh, others};
+pub(crate) use mesh::{Face, Mesh, others};
 pub(crate) use rows::{Kind, Rows};

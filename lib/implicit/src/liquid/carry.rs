@@ -1,4 +1,4 @@
-//! What volumes and velocities become on a mesh of other rows.
+//! Volumes and velocities on a mesh of other rows.
 
 use crate::geometry::{Kind, Mesh};
 

@@ -18,8 +18,9 @@ use solve::Solved;
 
 /// Attempts at a step of acceptable length.
 const ATTEMPTS: usize = 8;
-/// Excess over the Courant number that a step may have.
+/// Excess over the Courant number that a step may have, and the part of it that the next attempt aims at.
 const EXCESS: f64 = 1.1;
+const AIM: f64 = 0.95;
 /// Rows of cells around the liquid that a mesh has, and the least that it may have before it is made anew.
 const MARGIN: [usize; 2] = [8, 2];
 /// Most that cure changes ln(viscosity) by in a step.
@@ -73,20 +74,19 @@ impl Implicit {
         settings.check()?;
         let (setup, mesh, volumes) = Setup::new(scene, settings)?;
         let links = setup.links(&mesh);
+        let drive = setup.drive(scene);
+        let closing = drive.speed / setup.units.cell_m;
         let flow = Flow {
-            velocity: setup.initial_velocity(scene, &mesh),
+            velocity: setup.initial_velocity(&scene.points, &mesh, closing)?,
             pressure: vec![0.0; mesh.pores.len()],
+            speed: closing,
             ..Flow::default()
         };
-        let drive = setup.drive(scene);
         let speed = scene.initial_speed() / setup.units.cell_m;
         Ok(Self {
             state: State {
                 volumes,
-                flow: Flow {
-                    speed: drive.speed / setup.units.cell_m,
-                    ..flow
-                },
+                flow,
                 drive,
                 displacement: vec![[0.0; 3]; scene.bodies.len()],
                 travel: 0.0,
@@ -114,7 +114,7 @@ impl Implicit {
         let limit = self.state.drive.within(limit, self.state.travel);
         if self.setup.lattice.moving.is_some() && self.height == 0.0 && self.state.drive.speed > 0.0
         {
-            return Err(self.failure("the bodies have met, and their way would go on"));
+            return Err(self.failure("the bodies have met and cannot go on"));
         }
         self.fit_mesh();
         let mut longest = limit.time_s;
@@ -127,7 +127,7 @@ impl Implicit {
             if crossed <= EXCESS * self.setup.settings.cfl {
                 return Ok(self.follow(solved, limit));
             }
-            longest = 0.95 * solved.dt * self.setup.settings.cfl / crossed;
+            longest = AIM * solved.dt * self.setup.settings.cfl / crossed;
         }
         Err(self.failure("the liquid is faster than any step that was tried allows for"))
     }
@@ -185,7 +185,7 @@ impl Implicit {
         let pull = self.setup.pull();
         let fastest = self.state.fastest.max(self.state.flow.speed.abs());
         let free = settings.cfl / fastest;
-        // From rest, weight sets the pace.
+        // From rest, weight sets the speed.
         let falls = (2.0 * settings.cfl / pull).sqrt();
         // The viscosity of a liquid that cures is that of the middle of the step.
         let cure = self.setup.liquid.cure.as_ref();

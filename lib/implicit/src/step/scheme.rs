@@ -200,16 +200,23 @@ impl Scheme for Implicit {
 
     fn objection(&self) -> Option<String> {
         /// Part of the steps that may be so.
-        const MOST_UNSETTLED: f64 = 0.1;
-        let (steps, unsettled) = (self.state.steps, self.state.unsettled);
-        let viscosity = (unsettled as f64 > MOST_UNSETTLED * steps as f64).then(|| {
-            format!(
-                "in {unsettled} of {steps} steps the passes did not find the viscosity of the flow"
-            )
-        });
-        let pressure = self.state.drive.broken.1;
+        const MOST: f64 = 0.1;
+        let steps = self.state.steps;
+        let often = |count: u64, what: &str| {
+            (count as f64 > MOST * steps as f64)
+                .then(|| format!("in {count} of {steps} steps {what}"))
+        };
+        let unsettled = often(
+            self.state.unsettled,
+            "the passes did not find the viscosity of the flow",
+        );
+        let (above, pressure) = self.state.drive.broken;
+        let above = often(
+            above,
+            "liquid that is closed in pressed the clamp's body with more than its max_pressure",
+        );
         let limit = (pressure > 0.0).then(|| physics::broken(pressure));
-        let said: Vec<String> = [viscosity, limit].into_iter().flatten().collect();
+        let said: Vec<String> = [unsettled, above, limit].into_iter().flatten().collect();
         (!said.is_empty()).then(|| said.join("; "))
     }
 }

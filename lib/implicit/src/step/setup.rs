@@ -1,10 +1,10 @@
-//! What never changes in a run, made of the scene.
+//! The parts of a run that never change, made of the scene.
 
-use physics::{Dimensions, Liquid, PressRun, Scene, Stop, Viscosity};
+use physics::{Dimensions, Liquid, Points, PressRun, Scene, Seed, Stop, Viscosity};
 
 use super::State;
 use super::drive::ClampDrive;
-use crate::geometry::{Chords, Lattice, Mesh, Rows};
+use crate::geometry::{Chords, Face, Lattice, Mesh, Rows};
 use crate::liquid::{Place, deposit};
 use crate::settings::Settings;
 use crate::system::{Links, Scales, Unknowns, Walls};
@@ -57,6 +57,9 @@ impl Setup {
         if scene.points.position.is_empty() {
             return Err("the scene holds no liquid: nothing would move".into());
         }
+        if scene.liquid.cavitation_pressure.is_some() {
+            return Err("scheme = \"volume-fraction\" has no cavitation_pressure yet: leave it out, or take scheme = \"implicit\"".into());
+        }
         let lattice = Lattice::new(scene)?;
         let cell_m = scene.grid.cell_m;
         let speed = scene
@@ -74,7 +77,9 @@ impl Setup {
         };
         let rows = lattice.rows();
         let mesh = Mesh::new(&lattice, rows, 0..rows.len());
-        let volumes = deposit(&mesh, &scene.points, place)?;
+        let volumes = deposit(&mesh, &scene.points, place, |point| {
+            point.volume / cell_m.powi(3)
+        })?;
         let setup = Self {
             settings,
             chords: Chords::new(&lattice),
@@ -107,9 +112,43 @@ impl Setup {
         Links::new(&self.lattice, &self.chords, mesh, self.walls)
     }
 
-    /// Velocity of each face at the start, cells/s, against the grid: that of the points around it.
-    pub(super) fn initial_velocity(&self, _scene: &Scene, mesh: &Mesh) -> Vec<f64> {
-        vec![0.0; mesh.faces.len()]
+    /// Velocity of each face at the start, cells/s, against the grid, which moves with the closing `speed`, cells/s: the mean
+    /// of the points in the pores on its two sides.
+    ///
+    /// # Errors
+    /// As [`deposit`].
+    pub(super) fn initial_velocity(
+        &self,
+        points: &Points,
+        mesh: &Mesh,
+        speed: f64,
+    ) -> Result<Vec<f64>, String> {
+        let cell_m = self.units.cell_m;
+        let mut moments = Vec::new();
+        if points.velocity.iter().any(|v| *v != [0.0; 3]) {
+            for axis in 0..3 {
+                let moment = |point: &Seed| point.volume * point.velocity[axis] / cell_m.powi(4);
+                moments.push(deposit(mesh, points, self.place, moment)?);
+            }
+        }
+        let volumes = deposit(mesh, points, self.place, |point| {
+            point.volume / cell_m.powi(3)
+        })?;
+        let velocity = |(index, face): (usize, &Face)| {
+            let axis = usize::from(face.axis);
+            let ends = [face.low as usize, face.high as usize];
+            let sum = |of: &[f64]| of[ends[0]] + of[ends[1]];
+            let volume = sum(&volumes);
+            let own = match moments.get(axis) {
+                Some(moments) if volume > 0.0 => sum(moments) / volume,
+                _ => 0.0,
+            };
+            match axis {
+                1 => own - mesh.frame(&self.lattice, index) * speed,
+                _ => own,
+            }
+        };
+        Ok(mesh.faces.iter().enumerate().map(velocity).collect())
     }
 
     /// Finds anew the friction that the gap's height is part of.

@@ -155,8 +155,8 @@ fn resistance(problem: &Problem, face: usize) -> f64 {
     (problem.carried(face) * (problem.scales.inertia + eta * narrow)).max(least)
 }
 
-/// Forces on the bodies along y, over the unit of viscosity: pressure on walls across y, friction along it, and
-/// stretching of the liquid before walls.
+/// Forces on the bodies along y, over the unit of viscosity: pressure on walls across y and friction along it. What liquid
+/// that is stretched before a wall adds is left out: 0.5 % of the force on a piston of 24 cells.
 pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> {
     let (mesh, lattice) = (problem.mesh, problem.lattice);
     let mut forces = vec![0.0; bodies];
