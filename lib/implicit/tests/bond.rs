@@ -155,6 +155,25 @@ fn at_rest(scene: &Scene, liquid: &LiquidState) -> f64 {
 }
 
 #[test]
+fn both_bodies_bear_the_same() {
+    for k in [1, 2] {
+        let mut scheme = new(&scene(k, Boundary::Symmetry, |x, z| [x, z]));
+        let limit = StepLimit {
+            time_s: 1e-3,
+            travel_m: VOXEL * SLAB as f64,
+        };
+        for _ in 0..4 {
+            let report = scheme.advance(limit).unwrap();
+            let ratio = report.pressure_bottom / report.pressure_top - 1.0;
+            println!(
+                "k {k}: {:.3} MPa, other side {ratio:+.1e}",
+                1e-6 * report.pressure_top
+            );
+        }
+    }
+}
+
+#[test]
 fn no_liquid_is_made_or_lost() {
     for k in [1, 2] {
         let scene = scene(k, Boundary::Symmetry, |x, z| [x, z]);

@@ -12,6 +12,8 @@ use super::split::connected;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Pore {
     pub(crate) cell: u32,
+    /// Row of the grid.
+    pub(crate) row: u32,
     /// Its voxels, a bit each, x fastest.
     pub(crate) voxels: u8,
 }
@@ -37,7 +39,7 @@ pub(crate) struct Mesh {
     rows: Rows,
     /// Rows of the grid that are here.
     pub(crate) range: Range<usize>,
-    pub(super) boundary: [Boundary; 3],
+    pub(crate) boundary: [Boundary; 3],
     pub(crate) pores: Vec<Pore>,
     pub(crate) faces: Vec<Face>,
     /// First pore of each cell, and one more.
@@ -47,9 +49,10 @@ pub(crate) struct Mesh {
     /// Faces of each pore on its low and its high side along x, y, z, and where those of each side begin.
     sides: Vec<u32>,
     side_start: Vec<u32>,
-    /// Volume of each pore and area of each face with the gap as high as it is, cells.
+    /// Volume of each pore, area of each face and of all faces of each side of a pore with the gap as high as it is, cells.
     volumes: Vec<f64>,
     areas: Vec<f64>,
+    side_areas: Vec<f32>,
 }
 
 impl Mesh {
@@ -75,13 +78,15 @@ impl Mesh {
             side_start: Vec::new(),
             volumes: Vec::new(),
             areas: Vec::new(),
+            side_areas: Vec::new(),
         };
         for cell in 0..cells {
             mesh.pore_start.push(mesh.pores.len() as u32);
-            let open = mesh.open_voxels(lattice, cell);
+            let (open, row) = (mesh.open_voxels(lattice, cell), mesh.row(cell) as u32);
             mesh.pores
                 .extend(connected(open, mesh.k).map(|voxels| Pore {
                     cell: cell as u32,
+                    row,
                     voxels,
                 }));
         }
@@ -145,15 +150,19 @@ impl Mesh {
         let part = |face: &Face| f64::from(face.open.count_ones()) / (self.k * self.k) as f64;
         let height = |face: &Face| match face.axis {
             1 => 1.0,
-            _ => self
-                .rows
-                .height_of(self.row(self.pores[face.low as usize].cell as usize)),
+            _ => self.height(face.low as usize),
         };
         self.areas = self
             .faces
             .iter()
             .map(|face| part(face) * height(face))
             .collect();
+        let sides = self.side_start.windows(2).map(|side| {
+            let faces = &self.sides[side[0] as usize..side[1] as usize];
+            let areas = faces.iter().map(|&face| self.areas[face as usize]);
+            areas.sum::<f64>() as f32
+        });
+        self.side_areas = sides.collect();
     }
 
     fn open_voxels(&self, lattice: &Lattice, cell: usize) -> u8 {
@@ -225,6 +234,16 @@ impl Mesh {
         self.place(cell)[1] + self.range.start
     }
 
+    /// Row of the grid of a pore.
+    pub(crate) fn row_of(&self, pore: usize) -> usize {
+        self.pores[pore].row as usize
+    }
+
+    /// Height of the cell of a pore, cells.
+    pub(crate) fn height(&self, pore: usize) -> f64 {
+        self.rows.height_of(self.row_of(pore))
+    }
+
     /// The next cell along an axis, over periodic sides too; `None` at other sides.
     pub(crate) fn neighbour(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
         let mut place = self.place(cell);
@@ -267,16 +286,22 @@ impl Mesh {
     /// Whether a face is in the gap or beside it.
     pub(crate) fn is_by_gap(&self, face: usize) -> bool {
         let f = self.faces[face];
-        let row = |pore: u32| self.row(self.pores[pore as usize].cell as usize);
+        let row = |pore: u32| self.row_of(pore as usize);
         let gap = self.rows.below..self.rows.below + self.rows.gap + 1;
         gap.contains(&row(f.high)) || gap.contains(&(row(f.low) + 1))
     }
 
+    /// Whether there is liquid on either side of a face.
+    pub(crate) fn is_wet(&self, face: usize, fractions: &[f64]) -> bool {
+        let f = self.faces[face];
+        [f.low, f.high]
+            .iter()
+            .any(|&pore| fractions[pore as usize] > 0.0)
+    }
+
     /// Area of all faces of a pore on one side, cells.
     pub(crate) fn side_area(&self, pore: usize, axis: usize, up: bool) -> f64 {
-        self.faces_at(pore, axis, up)
-            .map(|face| self.areas[face])
-            .sum()
+        f64::from(self.side_areas[6 * pore + 2 * axis + usize::from(up)])
     }
 
     /// The pore of a cell that holds a voxel.
@@ -317,13 +342,13 @@ impl Mesh {
 
     /// The same with a gap of another height.
     pub(crate) fn volume_at(&self, pore: usize, height: f64) -> f64 {
-        let Pore { cell, voxels } = self.pores[pore];
+        let Pore { row, voxels, .. } = self.pores[pore];
         let part = f64::from(voxels.count_ones()) / (self.k * self.k * self.k) as f64;
         let rows = Rows {
             height,
             ..self.rows
         };
-        part * rows.height_of(self.row(cell as usize))
+        part * rows.height_of(row as usize)
     }
 
     /// Area of a face, cells.
@@ -333,8 +358,8 @@ impl Mesh {
 
     /// Velocity of the grid along y at a face over the closing speed; of faces across y alone.
     pub(crate) fn frame(&self, lattice: &Lattice, face: usize) -> f64 {
-        let cell = self.pores[self.faces[face].high as usize].cell as usize;
-        lattice.speed_at(self.rows.share(self.row(cell)))
+        let row = self.row_of(self.faces[face].high as usize);
+        lattice.speed_at(self.rows.share(row))
     }
 }
 

@@ -1,4 +1,6 @@
-//! Volumes and velocities on a mesh of other rows.
+//! What is known of a mesh on one of other rows: volumes, velocities, and which faces are as they were.
+
+use physics::Boundary;
 
 use crate::geometry::{Kind, Mesh};
 
@@ -10,6 +12,34 @@ fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
         Kind::Above => row - new.rows().gap + old.rows().gap,
     };
     old.range.contains(&row).then(|| row - old.range.start)
+}
+
+/// The face of `old` that each face of `new` is, where neither the gap nor the end of a mesh is beside it.
+pub(crate) fn kept_faces(new: &Mesh, old: &Mesh) -> Vec<Option<u32>> {
+    // Whether rows beside one that are in the grid are in the mesh too.
+    let inner = |mesh: &Mesh, row: usize| {
+        let range = &mesh.range;
+        (row == 0 || row > range.start) && (row + 1 == mesh.rows().len() || row + 1 < range.end)
+    };
+    let kept = |face: usize| {
+        let f = new.faces[face];
+        if new.boundary[1] == Boundary::Periodic || new.is_by_gap(face) {
+            return None;
+        }
+        for row in [f.low, f.high].map(|pore| new.row_of(pore as usize)) {
+            let y = same_row(new, old, row)?;
+            if !(inner(new, row) && inner(old, y + old.range.start)) {
+                return None;
+            }
+        }
+        let (axis, cell) = (usize::from(f.axis), new.pores[f.low as usize].cell as usize);
+        let [x, _, z] = new.place(cell);
+        let y = same_row(new, old, new.row(cell))?;
+        let old_face = old.faces_of(old.cell_at([x, y, z]), axis).start + face
+            - new.faces_of(cell, axis).start;
+        (!old.is_by_gap(old_face)).then_some(old_face as u32)
+    };
+    (0..new.faces.len()).map(kept).collect()
 }
 
 /// Rows of `old` that overlap a row of the gap of `new`, with the part of each that does. Both gaps have the same height.

@@ -15,6 +15,20 @@ pub(crate) struct Place {
     pub(crate) depth: Option<f64>,
 }
 
+impl Place {
+    /// Half the edges of a point of so much liquid, a cube or as deep as the domain, cells.
+    pub(crate) fn half(&self, volume_m3: f64) -> [f64; 3] {
+        let volume = volume_m3 / self.cell_m.powi(3);
+        match self.depth {
+            Some(depth) => {
+                let half = 0.5 * (volume / depth).sqrt();
+                [half, half, 0.5 * depth]
+            }
+            None => [0.5 * volume.cbrt(); 3],
+        }
+    }
+}
+
 /// Sums over `points` in each pore of a mesh of what `value` says of a point, each a cube of its volume.
 ///
 /// # Errors
@@ -26,53 +40,69 @@ pub(crate) fn deposit(
     value: impl Fn(&Seed) -> f64,
 ) -> Result<Vec<f64>, String> {
     let mut sums = vec![0.0; mesh.pores.len()];
+    let sides = [0, 1, 2].map(|axis| sides(mesh, axis));
     for (index, point) in points.seeds().enumerate() {
-        let volume = point.volume / place.cell_m.powi(3);
         let at: [f64; 3] =
             std::array::from_fn(|a| (point.position[a] - place.origin_m[a]) / place.cell_m);
-        let half = match place.depth {
-            Some(depth) => {
-                let half = 0.5 * (volume / depth).sqrt();
-                [half, half, 0.5 * depth]
-            }
-            None => [0.5 * volume.cbrt(); 3],
-        };
-        spread(mesh, at, half, value(&point), &mut sums).ok_or_else(|| {
+        let half = place.half(point.volume);
+        spread(mesh, &sides, at, half, value(&point), &mut sums).ok_or_else(|| {
             format!("liquid point {index} lies in a rigid body or outside the domain")
         })?;
     }
     Ok(sums)
 }
 
-/// Spreads a value over the open voxels in a box around a place, cells from the origin; `None` where the place is in none.
-fn spread(mesh: &Mesh, at: [f64; 3], half: [f64; 3], value: f64, sums: &mut [f64]) -> Option<()> {
-    let overlap = |a: usize, low: f64, high: f64| {
-        (high.min(at[a] + half[a]) - low.max(at[a] - half[a])).max(0.0)
-    };
-    let near = |a: usize| -> Vec<(usize, f64, bool)> {
-        let voxels = |cell: usize| match a {
+/// Sides of the voxels of a mesh along an axis, cells from the origin.
+fn sides(mesh: &Mesh, axis: usize) -> Vec<f64> {
+    let k = mesh.k;
+    let side = |i: usize| {
+        let (cell, part) = (i / k, (i % k) as f64 / k as f64);
+        match axis {
+            1 if i == k * mesh.size[1] => {
+                let row = mesh.range.end - 1;
+                mesh.rows().low(row) + mesh.rows().height_of(row)
+            }
             1 => {
                 let row = cell + mesh.range.start;
-                (mesh.rows().low(row), mesh.rows().height_of(row))
+                mesh.rows().low(row) + part * mesh.rows().height_of(row)
             }
-            _ => (cell as f64 - mesh.beyond[a] as f64, 1.0),
-        };
-        (0..mesh.size[a] * mesh.k)
-            .filter_map(|i| {
-                let (low, height) = voxels(i / mesh.k);
-                let edge = height / mesh.k as f64;
-                let low = low + (i % mesh.k) as f64 * edge;
-                let part = overlap(a, low, low + edge);
-                (part > 0.0).then_some((i, part, (low..low + edge).contains(&at[a])))
+            _ => cell as f64 - mesh.beyond[axis] as f64 + part,
+        }
+    };
+    (0..=k * mesh.size[axis]).map(side).collect()
+}
+
+/// Spreads a value over the open voxels in a box around a place, cells from the origin; `None` where the place is in none.
+fn spread(
+    mesh: &Mesh,
+    sides: &[Vec<f64>; 3],
+    at: [f64; 3],
+    half: [f64; 3],
+    value: f64,
+    sums: &mut [f64],
+) -> Option<()> {
+    // Voxels, the part of the box along the axis in each, and whether the place is in it.
+    let near = |a: usize| -> Vec<(usize, f64, bool)> {
+        let [low, high] = [at[a] - half[a], at[a] + half[a]];
+        let first = sides[a]
+            .partition_point(|side| *side <= low)
+            .saturating_sub(1);
+        let voxels = sides[a][first..].windows(2).enumerate();
+        voxels
+            .take_while(|(_, side)| side[0] < high)
+            .filter(|(_, side)| side[1] > low)
+            .map(|(i, side)| {
+                let part = high.min(side[1]) - low.max(side[0]);
+                (first + i, part, (side[0]..side[1]).contains(&at[a]))
             })
             .collect()
     };
-    let sides = [near(0), near(1), near(2)];
+    let near = [near(0), near(1), near(2)];
     let mut parts = Vec::new();
     let mut inside = false;
-    for &(z, dz, at_z) in &sides[2] {
-        for &(y, dy, at_y) in &sides[1] {
-            for &(x, dx, at_x) in &sides[0] {
+    for &(z, dz, at_z) in &near[2] {
+        for &(y, dy, at_y) in &near[1] {
+            for &(x, dx, at_x) in &near[0] {
                 let cell = mesh.cell_at([x, y, z].map(|i| i / mesh.k));
                 if let Some(pore) = mesh.pore_with(cell, [x, y, z].map(|i| i % mesh.k)) {
                     parts.push((pore, dx * dy * dz));

@@ -9,7 +9,7 @@ use physics::{Failure, Scene, StepLimit, StepReport};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
 use crate::geometry::{Mesh, Rows};
-use crate::liquid::{Moved, carried_velocities, carried_volumes, transport};
+use crate::liquid::{Moved, carried_velocities, carried_volumes, kept_faces, transport};
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, Links};
 use drive::ClampDrive;
@@ -22,7 +22,8 @@ const ATTEMPTS: usize = 8;
 const EXCESS: f64 = 1.1;
 const AIM: f64 = 0.95;
 /// Rows of cells around the liquid that a mesh has, and the least that it may have before it is made anew.
-const MARGIN: [usize; 2] = [8, 2];
+const MARGIN: usize = 8;
+const LEAST_MARGIN: usize = 2;
 /// Most that cure changes ln(viscosity) by in a step.
 const CURED: f64 = 0.2;
 /// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
@@ -73,7 +74,7 @@ impl Implicit {
     pub fn new(scene: &Scene, settings: Settings) -> Result<Self, String> {
         settings.check()?;
         let (setup, mesh, volumes) = Setup::new(scene, settings)?;
-        let links = setup.links(&mesh);
+        let links = setup.links(&mesh, &[], &Links::default());
         let drive = setup.drive(scene);
         let closing = drive.speed / setup.units.cell_m;
         let flow = Flow {
@@ -102,7 +103,7 @@ impl Implicit {
                 ..SaddleOptions::default()
             }),
             height: mesh.rows().height,
-            edges: Edges::new(&mesh, setup.lattice.flat),
+            edges: Edges::new(&mesh, setup.lattice.flat, &[], &Edges::default()),
             setup,
             mesh,
             links,
@@ -146,7 +147,7 @@ impl Implicit {
         let rows = Rows::of_gap(self.mesh.rows().below, self.mesh.rows().above, self.height);
         let wet = self.wet_rows();
         let near =
-            |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < MARGIN[1];
+            |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < LEAST_MARGIN;
         let range = &self.mesh.range;
         if rows.gap == self.mesh.rows().gap
             && !near(wet.start, range.start, 0)
@@ -155,16 +156,17 @@ impl Implicit {
             return;
         }
         let removed = self.mesh.rows().gap - rows.gap;
-        let end = wet.end.saturating_sub(removed).max(wet.start) + MARGIN[0];
-        let range = wet.start.saturating_sub(MARGIN[0])..end.min(rows.len());
+        let end = wet.end.saturating_sub(removed).max(wet.start) + MARGIN;
+        let range = wet.start.saturating_sub(MARGIN)..end.min(rows.len());
         let mesh = Mesh::new(&self.setup.lattice, rows, range);
         let old = std::mem::replace(&mut self.mesh, mesh);
         let (state, mesh) = (&mut self.state, &self.mesh);
         state.volumes = carried_volumes(mesh, &old, &state.volumes);
         state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
         state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
-        self.links = self.setup.links(mesh);
-        self.edges = Edges::new(mesh, self.setup.lattice.flat);
+        let kept = kept_faces(mesh, &old);
+        self.links = self.setup.links(mesh, &kept, &self.links);
+        self.edges = Edges::new(mesh, self.setup.lattice.flat, &kept, &self.edges);
     }
 
     /// Rows of the grid that hold liquid, and those of the gap.
@@ -173,7 +175,7 @@ impl Implicit {
         let gap = mesh.rows().below..mesh.rows().below + mesh.rows().gap;
         (0..mesh.pores.len())
             .filter(|&pore| self.state.volumes[pore] > 0.0)
-            .map(|pore| mesh.row(mesh.pores[pore].cell as usize))
+            .map(|pore| mesh.row_of(pore))
             .fold(gap, |range, row| {
                 range.start.min(row)..range.end.max(row + 1)
             })

@@ -8,7 +8,7 @@ use physics::{
 use super::Implicit;
 use crate::geometry::{Mesh, Rows};
 use crate::liquid::{Shown, points};
-use crate::system::{Edges, Rates};
+use crate::system::{Edges, Links, Rates};
 
 /// Name of the array that holds where the press programme is.
 const PROGRAMME: &str = "programme";
@@ -169,8 +169,8 @@ impl Scheme for Implicit {
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
         (state.flow.speed, state.flow.force) = (speed, force);
         state.displacement = displacement.as_chunks::<3>().0.to_vec();
-        self.links = self.setup.links(&mesh);
-        self.edges = Edges::new(&mesh, self.setup.lattice.flat);
+        self.links = self.setup.links(&mesh, &[], &Links::default());
+        self.edges = Edges::new(&mesh, self.setup.lattice.flat, &[], &Edges::default());
         (self.mesh, self.height) = (mesh, height);
         Ok(())
     }

@@ -1,9 +1,11 @@
 //! The parts of a run that never change, made of the scene.
 
+use std::ops::Range;
+
 use physics::{Dimensions, Liquid, Points, PressRun, Scene, Seed, Stop, Viscosity};
 
-use super::State;
 use super::drive::ClampDrive;
+use super::{MARGIN, State};
 use crate::geometry::{Chords, Face, Lattice, Mesh, Rows};
 use crate::liquid::{Place, deposit};
 use crate::settings::Settings;
@@ -76,7 +78,7 @@ impl Setup {
             depth: flat.then_some(1.0),
         };
         let rows = lattice.rows();
-        let mesh = Mesh::new(&lattice, rows, 0..rows.len());
+        let mesh = Mesh::new(&lattice, rows, rows_of(&scene.points, rows, place));
         let volumes = deposit(&mesh, &scene.points, place, |point| {
             point.volume / cell_m.powi(3)
         })?;
@@ -107,9 +109,9 @@ impl Setup {
         self.lattice.rows().gap
     }
 
-    /// Friction of the walls of a mesh.
-    pub(super) fn links(&self, mesh: &Mesh) -> Links {
-        Links::new(&self.lattice, &self.chords, mesh, self.walls)
+    /// Friction of the walls of a mesh; of faces that are `kept` from another one, as `old` has it.
+    pub(super) fn links(&self, mesh: &Mesh, kept: &[Option<u32>], old: &Links) -> Links {
+        Links::new(&self.lattice, &self.chords, mesh, self.walls, kept, old)
     }
 
     /// Velocity of each face at the start, cells/s, against the grid, which moves with the closing `speed`, cells/s: the mean
@@ -151,9 +153,9 @@ impl Setup {
         Ok(mesh.faces.iter().enumerate().map(velocity).collect())
     }
 
-    /// Finds anew the friction that the gap's height is part of.
-    pub(super) fn measure(&self, links: &mut Links, mesh: &Mesh) {
-        links.measure(&self.lattice, &self.chords, mesh, self.walls);
+    /// Finds anew the friction that the gap's height is part of, of faces with liquid.
+    pub(super) fn measure(&self, links: &mut Links, mesh: &Mesh, fractions: &[f64]) {
+        links.measure(&self.lattice, &self.chords, mesh, self.walls, fractions);
     }
 
     /// The drive of the body that closes the gap.
@@ -239,6 +241,20 @@ impl Setup {
     pub(super) fn points_of(&self, volume: f64) -> u64 {
         (volume * (self.lattice.k.pow(3)) as f64).round() as u64
     }
+}
+
+/// Rows that hold points, those of the gap, and some around them.
+fn rows_of(points: &Points, rows: Rows, place: Place) -> Range<usize> {
+    let gap = [0.0, rows.height];
+    let [low, high] = points.seeds().fold(gap, |[low, high], point| {
+        let y = (point.position[1] - place.origin_m[1]) / place.cell_m;
+        let half = place.half(point.volume)[1];
+        [low.min(y - half), high.max(y + half)]
+    });
+    let sides: Vec<f64> = (0..rows.len()).map(|row| rows.low(row)).collect();
+    let start = sides.partition_point(|side| *side <= low).saturating_sub(1);
+    let end = sides.partition_point(|side| *side < high);
+    start.saturating_sub(MARGIN)..(end + MARGIN).min(rows.len())
 }
 
 impl Lattice {

@@ -7,7 +7,8 @@ use super::Implicit;
 use super::drive::Asked;
 use crate::liquid::transport;
 use crate::system::{
-    Drive, FULL, Flow, Problem, Rates, Unknowns, Viscosities, forces, halves, solve,
+    Drive, FULL, Flow, Problem, Rates, Unknowns, Viscosities, forces, halves, masses, solve,
+    stiffnesses,
 };
 
 /// Part of the travel that is left from which on a step that covers it is made to end it.
@@ -111,8 +112,6 @@ impl Implicit {
         if self.setup.lattice.moving.is_some() {
             let middle = (height - 0.5 * dt * state.flow.speed).max(0.5 * height);
             self.mesh.set_height(middle);
-            self.setup.measure(&mut self.links, &self.mesh);
-            self.edges.measure(&self.mesh, self.setup.lattice.flat);
         }
         let mesh = &self.mesh;
         let moved = if state.steps == 0 {
@@ -128,13 +127,17 @@ impl Implicit {
             )
             .volumes
         };
-        let fractions = (0..mesh.pores.len())
+        let fractions: Vec<f64> = (0..mesh.pores.len())
             .map(|pore| match moved[pore] / mesh.volume(pore) {
                 _ if full[pore] => 1.0,
                 then if then >= FULL => 1.0,
                 then => then,
             })
             .collect();
+        if self.setup.lattice.moving.is_some() {
+            (self.setup).measure(&mut self.links, &self.mesh, &fractions);
+            (self.edges).measure(&self.mesh, self.setup.lattice.flat, &fractions);
+        }
         (full, fractions)
     }
 
@@ -159,6 +162,7 @@ impl Implicit {
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
         let unknowns = Unknowns::new(mesh, &fractions);
         let halves = halves(mesh, &fractions);
+        let masses = masses(mesh, &halves);
         let carried = setup.carried(mesh, &unknowns, state, &full, self.height, dt);
         let cured = setup.viscosity_at(state.time + 0.5 * dt);
         let factor = cured / setup.units.viscosity;
@@ -189,6 +193,7 @@ impl Implicit {
             flow: Flow::default(),
         };
         for _ in 0..PASSES {
+            let stiffnesses = stiffnesses(mesh, &halves, &viscosities.pores);
             let problem = Problem {
                 lattice: &setup.lattice,
                 mesh,
@@ -197,6 +202,8 @@ impl Implicit {
                 unknowns: &unknowns,
                 fractions: &fractions,
                 halves: &halves,
+                masses: &masses,
+                stiffnesses: &stiffnesses,
                 viscosity: &viscosities.pores,
                 wall_viscosity: &viscosities.walls,
                 before: &state.flow.velocity,

@@ -7,7 +7,7 @@ use super::edges::Edges;
 use super::links::Links;
 use super::stretching::stretching;
 use super::unknowns::{FULL, Unknowns};
-use crate::geometry::{Kind, Lattice, Mesh};
+use crate::geometry::{Face, Kind, Lattice, Mesh};
 
 /// Friction over viscosity of liquid that touches nothing, so that it has a velocity.
 const FREE: f64 = 1e-7;
@@ -38,6 +38,10 @@ pub(crate) struct Problem<'a> {
     pub(crate) fractions: &'a [f64],
     /// Liquid in the low and the high half of each face, over the volume of that half.
     pub(crate) halves: &'a [[f64; 2]],
+    /// Liquid that moves with each face.
+    pub(crate) masses: &'a [f64],
+    /// Viscosity times liquid of the halves of each face.
+    pub(crate) stiffnesses: &'a [f64],
     /// Viscosity of each pore over the unit of viscosity.
     pub(crate) viscosity: &'a [f64],
     /// Viscosity at the walls of each face over the unit.
@@ -59,34 +63,19 @@ pub(crate) struct Sides {
 
 impl Problem<'_> {
     /// Viscosity times fraction of a pore.
-    fn stiffness(&self, pore: usize) -> f64 {
+    pub(super) fn stiffness(&self, pore: usize) -> f64 {
         self.fractions[pore] * self.viscosity[pore]
     }
 
     /// Viscosity times liquid of the halves of two faces that meet at an edge.
     fn edge_stiffness(&self, faces: [usize; 2]) -> f64 {
-        let of = |face: usize| {
-            let (parts, ends) = (self.halves[face], self.ends(face));
-            parts[0] * self.viscosity[ends[0]] + parts[1] * self.viscosity[ends[1]]
-        };
-        0.25 * (of(faces[0]) + of(faces[1]))
+        0.25 * (self.stiffnesses[faces[0]] + self.stiffnesses[faces[1]])
     }
 
     /// The two pores of a face.
     fn ends(&self, face: usize) -> [usize; 2] {
         let face = &self.mesh.faces[face];
         [face.low as usize, face.high as usize]
-    }
-
-    /// Liquid that moves with a face: its share of the half pores on both sides.
-    pub(crate) fn carried(&self, face: usize) -> f64 {
-        let axis = usize::from(self.mesh.faces[face].axis);
-        let share = |pore: usize, up: bool, part: f64| {
-            let all = self.mesh.side_area(pore, axis, up);
-            0.5 * part * self.mesh.volume(pore) * self.mesh.area(face) / all
-        };
-        let ([low, high], parts) = (self.ends(face), self.halves[face]);
-        share(low, true, parts[0]) + share(high, false, parts[1])
     }
 
     /// Friction of the walls at a face, in its low and its high half.
@@ -109,7 +98,7 @@ impl Problem<'_> {
         let friction = weights[0] * link.friction[0] + weights[1] * link.friction[1];
         entries.add(
             row,
-            friction + self.scales.inertia * self.carried(face) + FREE,
+            friction + self.scales.inertia * self.masses[face] + FREE,
         );
         let number = |face: usize| self.unknowns.face(face);
         let ends = self.ends(face);
@@ -166,7 +155,7 @@ impl Problem<'_> {
     fn force(&self, face: usize) -> [f64; 4] {
         let f = self.mesh.faces[face];
         let axis = usize::from(f.axis);
-        let carried = self.carried(face);
+        let carried = self.masses[face];
         let inertia = self.scales.inertia * carried;
         let weight = self.scales.gravity[axis] * carried;
         let mut force = [inertia * self.before[face] + weight, 0.0, weight, 0.0];
@@ -216,14 +205,13 @@ impl Problem<'_> {
             return walls;
         }
         let frame = self.mesh.frame(self.lattice, face);
-        walls + self.scales.inertia * self.carried(face) * frame * frame
+        walls + self.scales.inertia * self.masses[face] * frame * frame
     }
 
     /// Resistance of a pore of the gap to being squeezed with its faces at rest.
     fn squeezed(&self, pore: usize) -> f64 {
-        let cell = self.mesh.pores[pore].cell as usize;
         let stiffness = self.stiffness(pore);
-        if stiffness == 0.0 || self.mesh.rows().kind(self.mesh.row(cell)) != Kind::Gap {
+        if stiffness == 0.0 || self.mesh.rows().kind(self.mesh.row_of(pore)) != Kind::Gap {
             return 0.0;
         }
         let mut sum = 0.0;
@@ -273,7 +261,7 @@ impl Problem<'_> {
                     weights[half] * (own * own / link.friction[half] - 2.0 * own * u)
                 })
                 .sum();
-            walls - self.scales.inertia * self.carried(face) * (u + frame).powi(2)
+            walls - self.scales.inertia * self.masses[face] * (u + frame).powi(2)
         };
         self.unknowns.faces.iter().zip(u).map(part).sum()
     }
@@ -299,7 +287,7 @@ impl Problem<'_> {
     /// Volume that a pore loses per closing speed.
     pub(crate) fn closing(&self, pore: usize) -> f64 {
         let mesh = self.mesh;
-        match mesh.rows().kind(mesh.row(mesh.pores[pore].cell as usize)) {
+        match mesh.rows().kind(mesh.row_of(pore)) {
             Kind::Gap => mesh.volume(pore) / mesh.rows().height,
             _ => 0.0,
         }
@@ -333,4 +321,31 @@ pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
             })
         })
         .collect()
+}
+
+/// Liquid that moves with each face: its share of the half pores on both sides.
+pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
+    let mass = |(face, parts): (&Face, &[f64; 2])| {
+        let axis = usize::from(face.axis);
+        [(face.low, true), (face.high, false)]
+            .into_iter()
+            .zip(parts)
+            .map(|((pore, up), part)| {
+                let pore = pore as usize;
+                0.5 * part * mesh.volume(pore) / mesh.side_area(pore, axis, up)
+            })
+            .sum::<f64>()
+    };
+    let faces = mesh.faces.par_iter().zip(halves).enumerate();
+    faces
+        .map(|(index, face)| mesh.area(index) * mass(face))
+        .collect()
+}
+
+/// Viscosity times liquid of the halves of each face.
+pub(crate) fn stiffnesses(mesh: &Mesh, halves: &[[f64; 2]], viscosity: &[f64]) -> Vec<f64> {
+    let of = |(face, parts): (&Face, &[f64; 2])| {
+        parts[0] * viscosity[face.low as usize] + parts[1] * viscosity[face.high as usize]
+    };
+    mesh.faces.par_iter().zip(halves).map(of).collect()
 }

@@ -18,18 +18,36 @@ pub(crate) struct Edge {
 }
 
 /// The edges of all faces of a mesh.
+#[derive(Default)]
 pub(crate) struct Edges {
     start: Vec<u32>,
     edges: Vec<Edge>,
 }
 
 impl Edges {
-    pub(crate) fn new(mesh: &Mesh, flat: bool) -> Self {
-        let faces = 0..mesh.faces.len();
-        let lists: Vec<Vec<Edge>> = faces
-            .into_par_iter()
-            .map(|face| edges(mesh, face, flat))
-            .collect();
+    /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
+    pub(crate) fn new(mesh: &Mesh, flat: bool, kept: &[Option<u32>], old: &Self) -> Self {
+        let mut now = vec![None; old.start.len()];
+        for (face, old_face) in kept.iter().enumerate() {
+            if let Some(old_face) = old_face {
+                now[*old_face as usize] = Some(face as u32);
+            }
+        }
+        let renumbered = |edge: &Edge| {
+            let [low, high] = edge.across.map(|face| now[face as usize]);
+            Some(Edge {
+                next: now[edge.next as usize]?,
+                across: [low?, high?],
+                ..*edge
+            })
+        };
+        let list = |face: usize| -> Vec<Edge> {
+            let old_face = kept.get(face).copied().flatten();
+            let old =
+                old_face.and_then(|face| old.of(face as usize).iter().map(renumbered).collect());
+            old.unwrap_or_else(|| edges(mesh, face, flat))
+        };
+        let lists: Vec<Vec<Edge>> = (0..mesh.faces.len()).into_par_iter().map(list).collect();
         let mut start = vec![0];
         start.extend(lists.iter().scan(0, |end, list| {
             *end += list.len() as u32;
@@ -46,9 +64,10 @@ impl Edges {
         &self.edges[self.start[face] as usize..self.start[face + 1] as usize]
     }
 
-    /// Measures anew the edges of faces in or beside the gap, whose height has changed.
-    pub(crate) fn measure(&mut self, mesh: &Mesh, flat: bool) {
-        for face in (0..mesh.faces.len()).filter(|&face| mesh.is_by_gap(face)) {
+    /// Measures anew the edges of faces with liquid in or beside the gap, whose height has changed.
+    pub(crate) fn measure(&mut self, mesh: &Mesh, flat: bool, fractions: &[f64]) {
+        let by_gap = |face: &usize| mesh.is_by_gap(*face) && mesh.is_wet(*face, fractions);
+        for face in (0..mesh.faces.len()).filter(by_gap) {
             let range = self.start[face] as usize..self.start[face + 1] as usize;
             self.edges[range].copy_from_slice(&edges(mesh, face, flat));
         }

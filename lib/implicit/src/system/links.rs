@@ -30,6 +30,7 @@ pub(crate) struct Link {
 }
 
 /// The links of all faces of a mesh.
+#[derive(Default)]
 pub(crate) struct Links(pub(crate) Vec<Link>);
 
 /// What walls are like in a scene.
@@ -42,28 +43,41 @@ pub(crate) struct Walls {
 }
 
 impl Links {
-    pub(crate) fn new(lattice: &Lattice, chords: &Chords, mesh: &Mesh, walls: Walls) -> Self {
+    /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
+    pub(crate) fn new(
+        lattice: &Lattice,
+        chords: &Chords,
+        mesh: &Mesh,
+        walls: Walls,
+        kept: &[Option<u32>],
+        old: &Self,
+    ) -> Self {
         let view = View {
             lattice,
             chords,
             mesh,
             walls,
         };
-        Self(
-            (0..mesh.faces.len())
-                .into_par_iter()
-                .map(|face| view.link(face))
-                .collect(),
-        )
+        let link = |face: usize| {
+            let old = kept
+                .get(face)
+                .copied()
+                .flatten()
+                .map(|old_face| old.0[old_face as usize]);
+            old.filter(|link| !link.by_gap)
+                .unwrap_or_else(|| view.link(face))
+        };
+        Self((0..mesh.faces.len()).into_par_iter().map(link).collect())
     }
 
-    /// Finds anew the links of faces whose channels the gap's height is part of.
+    /// Finds anew the links of faces with liquid whose channels the gap's height is part of.
     pub(crate) fn measure(
         &mut self,
         lattice: &Lattice,
         chords: &Chords,
         mesh: &Mesh,
         walls: Walls,
+        fractions: &[f64],
     ) {
         let view = View {
             lattice,
@@ -72,7 +86,7 @@ impl Links {
             walls,
         };
         self.0.par_iter_mut().enumerate().for_each(|(face, link)| {
-            if link.by_gap {
+            if link.by_gap && mesh.is_wet(face, fractions) {
                 *link = view.link(face);
             }
         });

@@ -8,7 +8,7 @@ mod stretching;
 mod unknowns;
 mod viscosity;
 
-pub(crate) use assembly::{Problem, Scales, halves};
+pub(crate) use assembly::{Problem, Scales, halves, masses, stiffnesses};
 pub(crate) use edges::Edges;
 pub(crate) use links::{Links, Walls};
 pub(crate) use solution::{Drive, Flow, forces, solve};

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use saddle_point::{Load, SaddleSolver, SaddleSystem, SolveError};
 
 use super::assembly::{Problem, Sides};
+use super::stretching::stretching;
 use crate::geometry::{MIRROR, OPEN};
 
 /// How the body that closes the gap is driven.
@@ -152,11 +153,11 @@ fn resistance(problem: &Problem, face: usize) -> f64 {
     let f = problem.mesh.faces[face];
     let eta = problem.viscosity[f.low as usize].max(problem.viscosity[f.high as usize]);
     let least = 1e-6;
-    (problem.carried(face) * (problem.scales.inertia + eta * narrow)).max(least)
+    (problem.masses[face] * (problem.scales.inertia + eta * narrow)).max(least)
 }
 
-/// Forces on the bodies along y, over the unit of viscosity: pressure on walls across y and friction along it. What liquid
-/// that is stretched before a wall adds is left out: 0.5 % of the force on a piston of 24 cells.
+/// Forces on the bodies along y, over the unit of viscosity: pressure and viscous tension on walls across y, friction on
+/// those along it.
 pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> {
     let (mesh, lattice) = (problem.mesh, problem.lattice);
     let mut forces = vec![0.0; bodies];
@@ -189,7 +190,28 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
                 })
                 .sum();
             push(link.body, drag);
+            let f = mesh.faces[face];
+            for (pore, up) in [(f.low as usize, false), (f.high as usize, true)] {
+                stretching(mesh, face, up, |pull| {
+                    if pull.other.is_none() {
+                        let against = flow.velocity[face] - pull.closing * flow.speed;
+                        let tension = problem.stiffness(pore) * pull.weight * against;
+                        push(wall_ahead(problem, pore, up), tension);
+                    }
+                });
+            }
         }
     }
     forces
+}
+
+/// Code of the body whose wall bounds a pore on its high (`up`) or low side along y.
+fn wall_ahead(problem: &Problem, pore: usize, up: bool) -> u8 {
+    let (mesh, cell) = (problem.mesh, problem.mesh.pores[pore].cell as usize);
+    (0..8)
+        .filter(|bit| mesh.pores[pore].voxels >> bit & 1 == 1)
+        .filter_map(|bit| mesh.next_voxel(cell, mesh.voxel(bit), 1, up))
+        .map(|(cell, voxel)| mesh.code(problem.lattice, cell, voxel))
+        .find(|&code| code != OPEN)
+        .unwrap_or(OPEN)
 }

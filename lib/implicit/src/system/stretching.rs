@@ -20,16 +20,10 @@ pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
     let pore = if up { f.high } else { f.low } as usize;
-    let cell = mesh.pores[pore].cell as usize;
-    let edge = mesh.edges(cell)[axis];
+    let edge = if axis == 1 { mesh.height(pore) } else { 1.0 };
     let weight = 2.0 * mesh.volume(pore) / (edge * edge);
-    let area = |up: bool| {
-        mesh.faces_at(pore, axis, up)
-            .map(|face| mesh.area(face))
-            .sum::<f64>()
-    };
-    let own = mesh.area(face) / area(!up);
-    let closing = match (axis, mesh.rows().kind(mesh.row(cell))) {
+    let own = mesh.area(face) / mesh.side_area(pore, axis, !up);
+    let closing = match (axis, mesh.rows().kind(mesh.row_of(pore))) {
         (1, Kind::Gap) => 1.0 / mesh.rows().gap as f64,
         _ => 0.0,
     };
