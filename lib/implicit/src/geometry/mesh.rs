@@ -52,7 +52,7 @@ pub(crate) struct Mesh {
     /// Volume of each pore, area of each face and of all faces of each side of a pore with the gap as high as it is, cells.
     volumes: Vec<f64>,
     areas: Vec<f64>,
-    side_areas: Vec<f32>,
+    side_areas: Vec<f64>,
 }
 
 impl Mesh {
@@ -160,7 +160,7 @@ impl Mesh {
         let sides = self.side_start.windows(2).map(|side| {
             let faces = &self.sides[side[0] as usize..side[1] as usize];
             let areas = faces.iter().map(|&face| self.areas[face as usize]);
-            areas.sum::<f64>() as f32
+            areas.sum::<f64>()
         });
         self.side_areas = sides.collect();
     }
@@ -301,7 +301,7 @@ impl Mesh {
 
     /// Area of all faces of a pore on one side, cells.
     pub(crate) fn side_area(&self, pore: usize, axis: usize, up: bool) -> f64 {
-        f64::from(self.side_areas[6 * pore + 2 * axis + usize::from(up)])
+        self.side_areas[6 * pore + 2 * axis + usize::from(up)]
     }
 
     /// The pore of a cell that holds a voxel.

@@ -103,7 +103,7 @@ impl Implicit {
                 ..SaddleOptions::default()
             }),
             height: mesh.rows().height,
-            edges: Edges::new(&mesh, setup.lattice.flat, &[], &Edges::default()),
+            edges: Edges::new(&mesh, &setup.lattice, &[], &Edges::default()),
             setup,
             mesh,
             links,
@@ -166,7 +166,7 @@ impl Implicit {
         state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
         let kept = kept_faces(mesh, &old);
         self.links = self.setup.links(mesh, &kept, &self.links);
-        self.edges = Edges::new(mesh, self.setup.lattice.flat, &kept, &self.edges);
+        self.edges = Edges::new(mesh, &self.setup.lattice, &kept, &self.edges);
     }
 
     /// Rows of the grid that hold liquid, and those of the gap.

@@ -170,7 +170,7 @@ impl Scheme for Implicit {
         (state.flow.speed, state.flow.force) = (speed, force);
         state.displacement = displacement.as_chunks::<3>().0.to_vec();
         self.links = self.setup.links(&mesh, &[], &Links::default());
-        self.edges = Edges::new(&mesh, self.setup.lattice.flat, &[], &Edges::default());
+        self.edges = Edges::new(&mesh, &self.setup.lattice, &[], &Edges::default());
         (self.mesh, self.height) = (mesh, height);
         Ok(())
     }

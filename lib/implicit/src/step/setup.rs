@@ -197,14 +197,15 @@ impl Setup {
     }
 
     /// What each pore with a pressure holds more than its volume at no pressure, and what of that Tait's law at the
-    /// pressure before the step makes of the unit of compression, over `dt`.
+    /// pressure before the step makes of the unit of compression, over `dt`. Compression is that of the `end` volumes: the
+    /// film in a gap that closes is squeezed out before it is compressed.
     pub(super) fn carried(
         &self,
         mesh: &Mesh,
         unknowns: &Unknowns,
         state: &State,
         full: &[bool],
-        height: f64,
+        [start, end]: [f64; 2],
         dt: f64,
     ) -> Vec<f64> {
         let unit = self.units.viscosity / self.liquid.tait.bulk_modulus;
@@ -214,10 +215,11 @@ impl Setup {
                 if !full[pore] {
                     return 0.0;
                 }
-                let (volume, p) = (mesh.volume_at(pore, height), state.flow.pressure[pore]);
+                let p = state.flow.pressure[pore];
                 let change = self.liquid.tait.volume_change(p * self.units.viscosity);
-                let density = 1.0 / (1.0 + change);
-                (state.volumes[pore] - volume * (density - unit * p)) / dt
+                let denser = 1.0 / (1.0 + change) - 1.0 - unit * p;
+                let held = state.volumes[pore] - mesh.volume_at(pore, start);
+                (held - mesh.volume_at(pore, end) * denser) / dt
             })
             .collect()
     }

@@ -15,6 +15,8 @@ use crate::system::{
 const NEAR: f64 = 0.7;
 /// Part of it by which a step may miss the end and still is there, and solves that bring it nearer.
 const MISSED: f64 = 1e-3;
+/// Travel, cells, that counts as none: surfaces of voxels are known less well, and a film under a pressure never ends.
+const NOTHING: f64 = 1e-2;
 const CLOSER: usize = 4;
 /// Passes in which the viscosity of the flow is sought, and its mean change, weighted by dissipation, that ends them.
 const PASSES: usize = 20;
@@ -43,6 +45,9 @@ impl Implicit {
     ) -> Result<Solved, String> {
         let left = self.left(limit);
         let mut solved = self.solve_controlled(dt)?;
+        if left == f64::INFINITY {
+            return Ok(solved);
+        }
         // The clamp's speed under load is known only then: the step ends the travel when it is that of its own length.
         for _ in 0..CLOSER {
             let Solved { dt, flow, .. } = &solved;
@@ -54,11 +59,12 @@ impl Implicit {
             solved = self.solve_controlled(end)?;
         }
         let reach = solved.flow.speed * solved.dt;
-        if reach > (1.0 + MISSED) * left {
+        if reach > left + (MISSED * left).max(NOTHING) {
             let dt = solved.dt;
             solved = self.solve_driven(dt, Drive::Speed(left / dt))?;
         }
-        solved.arrives = (solved.flow.speed * solved.dt / left - 1.0).abs() <= MISSED;
+        let reach = solved.flow.speed * solved.dt;
+        solved.arrives = (reach - left).abs() <= (MISSED * left).max(NOTHING);
         Ok(solved)
     }
 
@@ -110,7 +116,7 @@ impl Implicit {
             .map(|pore| state.volumes[pore] >= FULL * self.mesh.volume_at(pore, height))
             .collect();
         if self.setup.lattice.moving.is_some() {
-            let middle = (height - 0.5 * dt * state.flow.speed).max(0.5 * height);
+            let middle = 0.5 * (height + self.end_height(dt));
             self.mesh.set_height(middle);
         }
         let mesh = &self.mesh;
@@ -136,9 +142,14 @@ impl Implicit {
             .collect();
         if self.setup.lattice.moving.is_some() {
             (self.setup).measure(&mut self.links, &self.mesh, &fractions);
-            (self.edges).measure(&self.mesh, self.setup.lattice.flat, &fractions);
+            (self.edges).measure(&self.mesh, &self.setup.lattice, &fractions);
         }
         (full, fractions)
+    }
+
+    /// Height of the gap after a step of `dt` (s) at the last closing speed, cells.
+    fn end_height(&self, dt: f64) -> f64 {
+        (self.height - dt * self.state.flow.speed).max(0.0)
     }
 
     /// What each pore can hold: without end beyond open sides.
@@ -163,7 +174,8 @@ impl Implicit {
         let unknowns = Unknowns::new(mesh, &fractions);
         let halves = halves(mesh, &fractions);
         let masses = masses(mesh, &halves);
-        let carried = setup.carried(mesh, &unknowns, state, &full, self.height, dt);
+        let end = self.end_height(dt);
+        let carried = setup.carried(mesh, &unknowns, state, &full, [self.height, end], dt);
         let cured = setup.viscosity_at(state.time + 0.5 * dt);
         let factor = cured / setup.units.viscosity;
         let varies = setup.varies();
@@ -208,6 +220,7 @@ impl Implicit {
                 wall_viscosity: &viscosities.walls,
                 before: &state.flow.velocity,
                 speed_before: state.flow.speed,
+                end_height: end,
                 scales: setup.scales(dt),
             };
             flow = solve(&problem, &carried, drive, &flow, &mut self.solver)

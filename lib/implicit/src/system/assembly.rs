@@ -49,6 +49,8 @@ pub(crate) struct Problem<'a> {
     /// Velocity of each face before the step, against the grid, cells/s, and the closing speed then.
     pub(crate) before: &'a [f64],
     pub(crate) speed_before: f64,
+    /// Height of the gap at the end of the step, cells.
+    pub(crate) end_height: f64,
     pub(crate) scales: Scales,
 }
 

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::geometry::{Mesh, others};
+use crate::geometry::{Lattice, Mesh, others};
 
 /// An edge that a face shares with the next face across.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ pub(crate) struct Edges {
 
 impl Edges {
     /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
-    pub(crate) fn new(mesh: &Mesh, flat: bool, kept: &[Option<u32>], old: &Self) -> Self {
+    pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, kept: &[Option<u32>], old: &Self) -> Self {
         let mut now = vec![None; old.start.len()];
         for (face, old_face) in kept.iter().enumerate() {
             if let Some(old_face) = old_face {
@@ -45,7 +45,7 @@ impl Edges {
             let old_face = kept.get(face).copied().flatten();
             let old =
                 old_face.and_then(|face| old.of(face as usize).iter().map(renumbered).collect());
-            old.unwrap_or_else(|| edges(mesh, face, flat))
+            old.unwrap_or_else(|| edges(mesh, lattice, face))
         };
         let lists: Vec<Vec<Edge>> = (0..mesh.faces.len()).into_par_iter().map(list).collect();
         let mut start = vec![0];
@@ -65,23 +65,26 @@ impl Edges {
     }
 
     /// Measures anew the edges of faces with liquid in or beside the gap, whose height has changed.
-    pub(crate) fn measure(&mut self, mesh: &Mesh, flat: bool, fractions: &[f64]) {
+    pub(crate) fn measure(&mut self, mesh: &Mesh, lattice: &Lattice, fractions: &[f64]) {
         let by_gap = |face: &usize| mesh.is_by_gap(*face) && mesh.is_wet(*face, fractions);
         for face in (0..mesh.faces.len()).filter(by_gap) {
             let range = self.start[face] as usize..self.start[face + 1] as usize;
-            self.edges[range].copy_from_slice(&edges(mesh, face, flat));
+            self.edges[range].copy_from_slice(&edges(mesh, lattice, face));
         }
     }
 }
 
 /// The edges of a face, in which voxels of the same faces are joined.
-fn edges(mesh: &Mesh, face: usize, flat: bool) -> Vec<Edge> {
+fn edges(mesh: &Mesh, lattice: &Lattice, face: usize) -> Vec<Edge> {
     let axis = usize::from(mesh.faces[face].axis);
     let mut found: Vec<Edge> = Vec::new();
-    for t in others(axis).into_iter().filter(|&t| !(flat && t == 2)) {
+    for t in others(axis)
+        .into_iter()
+        .filter(|&t| !(lattice.flat && t == 2))
+    {
         for up in [false, true] {
             for r in 0..mesh.k {
-                let Some(edge) = edge(mesh, face, t, up, r) else {
+                let Some(edge) = edge(mesh, lattice, face, t, up, r) else {
                     continue;
                 };
                 let same =
@@ -99,7 +102,7 @@ fn edges(mesh: &Mesh, face: usize, flat: bool) -> Vec<Edge> {
     found
 }
 
-fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> {
+fn edge(mesh: &Mesh, lattice: &Lattice, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> {
     let k = mesh.k;
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
@@ -144,6 +147,16 @@ fn edge(mesh: &Mesh, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> 
     let distance = 0.5 * (own * sizes[0][t] + height(next, far) * sizes[2][t]);
     let length = sizes[0][across] / k as f64;
     let shear = length * 0.5 * (sizes[0][axis] + sizes[1][axis]) / distance;
+    let own_voxel = |half: usize| {
+        let mut at = voxel(half);
+        at[t] = near;
+        at
+    };
+    let factor = 0.5
+        * (0..2)
+            .map(|half| mesh.reentrant(lattice, (cells[half], own_voxel(half)), [t, across], up))
+            .sum::<f64>();
+    let shear = shear * factor;
     Some(Edge {
         next: next as u32,
         across: [joined(ends[0], low)? as u32, joined(ends[1], high)? as u32],

@@ -169,9 +169,13 @@ impl View<'_> {
                 continue;
             }
             let between = ends.iter().all(|&code| is_wall(code));
-            let distance = edges[t] * self.distance(&column, between) + self.walls.influence_length;
-            for code in ends.into_iter().filter(|&code| is_wall(code)) {
-                let friction = part / distance;
+            let corner = [(first, false), (last, true)];
+            for (code, (i, up)) in ends.into_iter().zip(corner).filter(|end| is_wall(end.0)) {
+                let at = (cell, voxel(half, i));
+                let near = mesh.beside_steps(self.lattice, at, [t, across], up);
+                let distance = edges[t] * self.distance(&column, between, near);
+                let factor = mesh.reentrant(self.lattice, at, [t, across], up);
+                let friction = factor * part / (distance + self.walls.influence_length);
                 let [own, clamp] = self.sliding(code, face, axis);
                 link.friction[half] += friction;
                 link.sliding[half][0] += friction * own;
@@ -201,7 +205,7 @@ impl View<'_> {
 
     /// Distance over which the velocity of a column falls to that of its walls, in cells of it: that which makes the flux
     /// of plane Poiseuille flow exact at every height `h1` of the column in a channel of width `H` (docs/methods.md).
-    fn distance(&self, column: &Column, between: bool) -> f64 {
+    fn distance(&self, column: &Column, between: bool, near: f64) -> f64 {
         let h1 = column.height;
         let [along, across] = column.widths;
         if between {
@@ -210,14 +214,13 @@ impl View<'_> {
         let width = match self.mesh.k {
             1 => {
                 let least = along.min(across).min(2.0 * h1.max(0.5));
-                (along.powi(-2) + across.powi(-2))
-                    .powf(-0.5)
-                    .max(NARROWEST * least)
+                let duct = (along.powi(-2) + (1.0 - near) * across.powi(-2)).powf(-0.5);
+                duct.max(NARROWEST * least)
             }
             _ => along,
         };
-        let distance = 0.5 * h1 - h1 * h1 / (3.0 * width)
-            + (1.0 - 2.0 * h1 / width) * (h1 * h1 - 1.0) / (3.0 * width);
+        let defect = (1.0 - 2.0 * h1 / width) * (h1 * h1 - 1.0) / (3.0 * width);
+        let distance = 0.5 * h1 - h1 * h1 / (3.0 * width) + (1.0 - near) * defect;
         distance.max(LEAST * h1)
     }
 

@@ -57,7 +57,10 @@ pub(crate) fn solve(
         .map(|&pore| problem.closing(pore as usize))
         .collect();
     let c: Vec<f64> = (unknowns.pores.iter())
-        .map(|&pore| problem.mesh.volume(pore as usize) * scales.compressibility / scales.dt)
+        .map(|&pore| {
+            let end = problem.mesh.volume_at(pore as usize, problem.end_height);
+            end * scales.compressibility / scales.dt
+        })
         .collect();
     let friction: Vec<f64> = (unknowns.faces.par_iter())
         .map(|&face| resistance(problem, face as usize))
