@@ -4,7 +4,7 @@ use crate::geometry::Mesh;
 
 /// Excess, cells, that stays where it is.
 const NOTHING: f64 = 1e-13;
-/// Passes after which what is left stays: a pore over its volume is full in the next step, whose pressure drives it on.
+/// Passes after which what is left stays where it is.
 const PASSES: usize = 100;
 
 /// A face by which excess may leave a pore.
@@ -16,29 +16,38 @@ struct Way {
     flow: f64,
     /// What came in on the opposite side and would go straight on.
     straight: f64,
+    /// What came in there.
+    came: f64,
     area: f64,
     /// Room in the pore behind it.
     room: f64,
 }
 
 /// Passes what pores hold above their `capacities` on to their neighbours, all pores at once, so that their order does not
-/// count: in proportion to what flows there, to those with room before others, which pass it on. `flux` takes what
-/// crosses each face.
+/// count: in proportion to what flows there, to those with room before others, which pass it on. What finds no room where
+/// it flows goes back to where it came from. Pores that are `full` pass on nothing: their pressure does in the next step.
+/// `flux` takes what crosses each face.
 pub(super) fn overflow(
     mesh: &Mesh,
     volumes: &mut [f64],
     capacities: &[f64],
+    full: &[bool],
     swept: &[f64],
     flux: &mut [f64],
 ) {
+    let is_over =
+        |volumes: &[f64], pore: usize| !full[pore] && volumes[pore] - capacities[pore] > NOTHING;
     let mut over: Vec<usize> = (0..mesh.pores.len())
-        .filter(|&pore| volumes[pore] - capacities[pore] > NOTHING)
+        .filter(|&pore| is_over(volumes, pore))
         .collect();
     for _ in 0..PASSES {
         let mut passed: Vec<(usize, bool, f64)> = Vec::new();
         for &pore in &over {
             let excess = volumes[pore] - capacities[pore];
-            let room = |other: usize| (capacities[other] - volumes[other]).max(0.0);
+            let room = |other: usize| match full[other] {
+                true => 0.0,
+                false => (capacities[other] - volumes[other]).max(0.0),
+            };
             passed.extend(shares(&ways(mesh, pore, room, swept, flux), excess));
         }
         if passed.is_empty() {
@@ -55,18 +64,19 @@ pub(super) fn overflow(
         }
         over.sort_unstable();
         over.dedup();
-        over.retain(|&pore| volumes[pore] - capacities[pore] > NOTHING);
+        over.retain(|&pore| is_over(volumes, pore));
     }
 }
 
 /// How much of an excess goes by each of the ways: as much as there is room for where it flows, then anywhere, and the rest
-/// where it flows. Little room takes little, so that room next to nothing does what none does.
+/// where it flows, or back. Little room takes little, so that room next to nothing does what none does.
 fn shares(ways: &[Way], excess: f64) -> Vec<(usize, bool, f64)> {
     type Weight = fn(&Way) -> f64;
-    let kinds: [(Weight, bool); 4] = [
+    let kinds: [(Weight, bool); 5] = [
         (|way| way.flow + way.straight, true),
         (|way| way.area, true),
         (|way| way.flow, false),
+        (|way| way.came, false),
         (|way| way.area, false),
     ];
     let mut given = vec![0.0; ways.len()];
@@ -131,6 +141,7 @@ fn ways(
                     up,
                     flow: (sign * swept[face]).max(0.0),
                     straight: straight * area / all,
+                    came: (-sign * flux[face]).max(0.0),
                     area,
                     room: room(if up { f.high } else { f.low } as usize),
                 }

@@ -87,14 +87,7 @@ fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[
             *volume += net_inflow(mesh, &flux, pore);
         });
     give_back(mesh, &mut volumes, &flux);
-    // Full pores hold what their pressure makes of them.
-    let capacities: Vec<f64> = pores
-        .map(|pore| match full[pore] {
-            true => capacities[pore].max(volumes[pore]),
-            false => capacities[pore],
-        })
-        .collect();
-    overflow(mesh, &mut volumes, &capacities, swept, &mut flux);
+    overflow(mesh, &mut volumes, capacities, full, swept, &mut flux);
     for (pore, volume) in volumes.iter_mut().enumerate() {
         if mesh.is_beyond(mesh.pores[pore].cell as usize) {
             lost += std::mem::take(volume);
