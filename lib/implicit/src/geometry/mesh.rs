@@ -5,6 +5,7 @@ use std::ops::Range;
 use physics::Boundary;
 
 use super::lattice::{Lattice, OPEN};
+use super::region::Region;
 use super::rows::Rows;
 use super::split::connected;
 
@@ -39,6 +40,8 @@ pub(crate) struct Mesh {
     rows: Rows,
     /// Rows of the grid that are here.
     pub(crate) range: Range<usize>,
+    /// Cells that have their pores here.
+    pub(crate) region: Region,
     pub(crate) boundary: [Boundary; 3],
     pub(crate) pores: Vec<Pore>,
     pub(crate) faces: Vec<Face>,
@@ -56,12 +59,23 @@ pub(crate) struct Mesh {
 }
 
 impl Mesh {
-    /// The mesh of the rows in `range`.
-    pub(crate) fn new(lattice: &Lattice, rows: Rows, range: Range<usize>) -> Self {
-        let open_side = |a: usize| usize::from(lattice.boundary[a] == Boundary::Open);
-        let beyond = [open_side(0), 0, open_side(2)];
+    /// The box of cells of the rows in `range`.
+    pub(crate) fn size_of(lattice: &Lattice, range: &Range<usize>) -> [usize; 3] {
+        let beyond = Self::beyond_of(lattice);
         let [nx, nz] = lattice.cells;
-        let size = [nx + 2 * beyond[0], range.len(), nz + 2 * beyond[2]];
+        [nx + 2 * beyond[0], range.len(), nz + 2 * beyond[2]]
+    }
+
+    /// Cells beyond the low sides.
+    fn beyond_of(lattice: &Lattice) -> [usize; 3] {
+        let open_side = |a: usize| usize::from(lattice.boundary[a] == Boundary::Open);
+        [open_side(0), 0, open_side(2)]
+    }
+
+    /// The mesh of a region of the rows in `range`.
+    pub(crate) fn new(lattice: &Lattice, rows: Rows, range: Range<usize>, region: Region) -> Self {
+        let beyond = Self::beyond_of(lattice);
+        let size = Self::size_of(lattice, &range);
         let cells: usize = size.iter().product();
         let mut mesh = Self {
             k: lattice.k,
@@ -69,6 +83,7 @@ impl Mesh {
             beyond,
             rows,
             range,
+            region,
             boundary: lattice.boundary,
             pores: Vec::new(),
             faces: Vec::new(),
@@ -106,6 +121,17 @@ impl Mesh {
         mesh.list_sides();
         mesh.measure();
         mesh
+    }
+
+    /// Cells with a pore that `holds` liquid.
+    pub(crate) fn cells_with(&self, holds: impl Fn(usize) -> bool) -> Region {
+        let mut region = Region::new(self.size, false);
+        for (pore, of) in self.pores.iter().enumerate() {
+            if holds(pore) {
+                region.add(of.cell as usize);
+            }
+        }
+        region
     }
 
     /// Lists the faces of each pore.
@@ -168,6 +194,9 @@ impl Mesh {
     fn open_voxels(&self, lattice: &Lattice, cell: usize) -> u8 {
         let mut open = 0;
         let n = self.k;
+        if !self.region.holds(cell) {
+            return 0;
+        }
         for bit in 0..n * n * n {
             if self.code(lattice, cell, self.voxel(bit)) == OPEN {
                 open |= 1 << bit;
@@ -248,8 +277,7 @@ impl Mesh {
     pub(crate) fn neighbour(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
         let mut place = self.place(cell);
         let n = self.size[axis];
-        let periodic = self.boundary[axis] == Boundary::Periodic
-            && (axis != 1 || self.range.len() == self.rows.len());
+        let periodic = self.periodic()[axis];
         place[axis] = match (up, place[axis]) {
             (true, i) if i + 1 < n => i + 1,
             (false, i) if i > 0 => i - 1,
@@ -258,6 +286,13 @@ impl Mesh {
             _ => return None,
         };
         Some(self.cell_at(place))
+    }
+
+    /// Which axes have periodic sides within this mesh.
+    pub(crate) fn periodic(&self) -> [bool; 3] {
+        let whole = self.range.len() == self.rows.len();
+        let here = [true, whole, true];
+        std::array::from_fn(|axis| here[axis] && self.boundary[axis] == Boundary::Periodic)
     }
 
     /// Pores of a cell.

@@ -1,8 +1,10 @@
 //! What is known of a mesh on one of other rows: volumes, velocities, and which faces are as they were.
 
+use std::ops::Range;
+
 use physics::Boundary;
 
-use crate::geometry::{Kind, Mesh};
+use crate::geometry::{Kind, Mesh, Region, Rows};
 
 /// The row of `old` that a row of the body below or above of `new` is; `None` where it is not there.
 fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
@@ -14,29 +16,60 @@ fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
     old.range.contains(&row).then(|| row - old.range.start)
 }
 
+/// The cells of a box of `size` with other `rows`, those in `range`, that the `wet` cells of `old` come to lie in, and those
+/// around them up to `margin`.
+pub(crate) fn carried_region(
+    old: &Mesh,
+    wet: &Region,
+    (rows, range): (&Rows, &Range<usize>),
+    margin: usize,
+) -> Region {
+    let [nx, _, nz] = old.size;
+    let mut region = Region::new([nx, range.len(), nz], false);
+    for cell in (0..old.size.iter().product()).filter(|&cell| wet.holds(cell)) {
+        let [x, _, z] = old.place(cell);
+        let row = old.row(cell);
+        // Of a gap that is gone, the rows beside it.
+        let rows = match old.rows().kind(row) {
+            Kind::Below => row..row + 1,
+            Kind::Gap if rows.gap == 0 => rows.below.saturating_sub(1)..rows.below + 1,
+            Kind::Gap => rows.below..rows.below + rows.gap,
+            Kind::Above => {
+                let row = row - old.rows().gap + rows.gap;
+                row..row + 1
+            }
+        };
+        for row in rows.filter(|row| range.contains(row)) {
+            region.add(x + nx * (row - range.start + range.len() * z));
+        }
+    }
+    region.grown(margin, old.periodic())
+}
+
 /// The face of `old` that each face of `new` is, where neither the gap nor the end of a mesh is beside it.
 pub(crate) fn kept_faces(new: &Mesh, old: &Mesh) -> Vec<Option<u32>> {
     // Whether rows beside one that are in the grid are in the mesh too.
-    let inner = |mesh: &Mesh, row: usize| {
+    let in_rows = |mesh: &Mesh, row: usize| {
         let range = &mesh.range;
         (row == 0 || row > range.start) && (row + 1 == mesh.rows().len() || row + 1 < range.end)
     };
+    let inner = old.region.inner(old.periodic());
     let kept = |face: usize| {
         let f = new.faces[face];
         if new.boundary[1] == Boundary::Periodic || new.is_by_gap(face) {
             return None;
         }
-        for row in [f.low, f.high].map(|pore| new.row_of(pore as usize)) {
+        let old_cell = |pore: u32| {
+            let [x, _, z] = new.place(new.pores[pore as usize].cell as usize);
+            let row = new.row_of(pore as usize);
             let y = same_row(new, old, row)?;
-            if !(inner(new, row) && inner(old, y + old.range.start)) {
-                return None;
-            }
-        }
+            let cell = old.cell_at([x, y, z]);
+            let inner = inner.holds(cell) && in_rows(new, row) && in_rows(old, old.row(cell));
+            inner.then_some(cell)
+        };
+        let (low, _) = old_cell(f.low).zip(old_cell(f.high))?;
         let (axis, cell) = (usize::from(f.axis), new.pores[f.low as usize].cell as usize);
-        let [x, _, z] = new.place(cell);
-        let y = same_row(new, old, new.row(cell))?;
-        let old_face = old.faces_of(old.cell_at([x, y, z]), axis).start + face
-            - new.faces_of(cell, axis).start;
+        let old_face = old.faces_of(low, axis).start + face - new.faces_of(cell, axis).start;
         (!old.is_by_gap(old_face)).then_some(old_face as u32)
     };
     (0..new.faces.len()).map(kept).collect()
@@ -66,7 +99,10 @@ pub(crate) fn carried_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f6
         let index = pore - new.pores_of(cell).start;
         let [x, _, z] = new.place(cell);
         let row = new.row(cell);
-        let of = |y: usize| volumes[old.pores_of(old.cell_at([x, y, z])).start + index];
+        let of = |y: usize| {
+            let pores = old.pores_of(old.cell_at([x, y, z]));
+            pores.clone().nth(index).map_or(0.0, |pore| volumes[pore])
+        };
         *carried = match same_row(new, old, row) {
             Some(y) => of(y),
             None if new.rows().kind(row) == Kind::Gap => overlapping(new, old, row)

@@ -9,7 +9,9 @@ use physics::{Failure, Scene, StepLimit, StepReport};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
 use crate::geometry::{Mesh, Rows};
-use crate::liquid::{Moved, carried_velocities, carried_volumes, kept_faces, transport};
+use crate::liquid::{
+    Moved, carried_region, carried_velocities, carried_volumes, kept_faces, transport,
+};
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, Links};
 use drive::ClampDrive;
@@ -21,9 +23,10 @@ const ATTEMPTS: usize = 8;
 /// Excess over the Courant number that a step may have, and the part of it that the next attempt aims at.
 const EXCESS: f64 = 1.1;
 const AIM: f64 = 0.95;
-/// Rows of cells around the liquid that a mesh has, and the least that it may have before it is made anew.
-const MARGIN: usize = 8;
-const LEAST_MARGIN: usize = 2;
+/// Cells around the liquid that a mesh has, and the least that it may have before it is made anew: liquid crosses less than
+/// two in a step.
+const MARGIN: usize = 6;
+const LEAST_MARGIN: usize = 3;
 /// Most that cure changes ln(viscosity) by in a step.
 const CURED: f64 = 0.2;
 /// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
@@ -74,7 +77,6 @@ impl Implicit {
     pub fn new(scene: &Scene, settings: Settings) -> Result<Self, String> {
         settings.check()?;
         let (setup, mesh, volumes) = Setup::new(scene, settings)?;
-        let links = setup.links(&mesh, &[], &Links::default());
         let drive = setup.drive(scene);
         let closing = drive.speed / setup.units.cell_m;
         let flow = Flow {
@@ -84,7 +86,7 @@ impl Implicit {
             ..Flow::default()
         };
         let speed = scene.initial_speed() / setup.units.cell_m;
-        Ok(Self {
+        let mut scheme = Self {
             state: State {
                 volumes,
                 flow,
@@ -103,11 +105,13 @@ impl Implicit {
                 ..SaddleOptions::default()
             }),
             height: mesh.rows().height,
-            edges: Edges::new(&mesh, &setup.lattice, &[], &Edges::default()),
+            edges: Edges::default(),
             setup,
             mesh,
-            links,
-        })
+            links: Links::default(),
+        };
+        scheme.fit_mesh();
+        Ok(scheme)
     }
 
     /// Takes one step: its length, which pores are full, the solution, the liquid that moves, the rows that close.
@@ -144,27 +148,34 @@ impl Implicit {
     /// Makes the mesh anew where the gap has fewer rows now, or the liquid has come near its end.
     fn fit_mesh(&mut self) {
         self.mesh.set_height(self.height);
-        let rows = Rows::of_gap(self.mesh.rows().below, self.mesh.rows().above, self.height);
-        let wet = self.wet_rows();
+        let mesh = &self.mesh;
+        let rows = Rows::of_gap(mesh.rows().below, mesh.rows().above, self.height);
+        let wet = mesh.cells_with(|pore| self.state.volumes[pore] > 0.0);
+        let wet_rows = self.wet_rows();
         let near =
             |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < LEAST_MARGIN;
-        let range = &self.mesh.range;
-        if rows.gap == self.mesh.rows().gap
-            && !near(wet.start, range.start, 0)
-            && !near(wet.end, range.end, self.mesh.rows().len())
+        if !self.links.0.is_empty()
+            && rows.gap == mesh.rows().gap
+            && !near(wet_rows.start, mesh.range.start, 0)
+            && !near(wet_rows.end, mesh.range.end, mesh.rows().len())
+            && (mesh.region).covers(&wet.grown(LEAST_MARGIN, mesh.periodic()))
         {
             return;
         }
-        let removed = self.mesh.rows().gap - rows.gap;
-        let end = wet.end.saturating_sub(removed).max(wet.start) + MARGIN;
-        let range = wet.start.saturating_sub(MARGIN)..end.min(rows.len());
-        let mesh = Mesh::new(&self.setup.lattice, rows, range);
+        let removed = mesh.rows().gap - rows.gap;
+        let end = wet_rows.end.saturating_sub(removed).max(wet_rows.start) + MARGIN;
+        let range = wet_rows.start.saturating_sub(MARGIN)..end.min(rows.len());
+        let region = carried_region(mesh, &wet, (&rows, &range), MARGIN);
+        let mesh = Mesh::new(&self.setup.lattice, rows, range, region);
         let old = std::mem::replace(&mut self.mesh, mesh);
         let (state, mesh) = (&mut self.state, &self.mesh);
         state.volumes = carried_volumes(mesh, &old, &state.volumes);
         state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
         state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
-        let kept = kept_faces(mesh, &old);
+        let kept = match self.links.0.is_empty() {
+            true => Vec::new(),
+            false => kept_faces(mesh, &old),
+        };
         self.links = self.setup.links(mesh, &kept, &self.links);
         self.edges = Edges::new(mesh, &self.setup.lattice, &kept, &self.edges);
     }

@@ -6,7 +6,7 @@ use physics::{
 };
 
 use super::Implicit;
-use crate::geometry::{Mesh, Rows};
+use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::{Shown, points};
 use crate::system::{Edges, Links, Rates};
 
@@ -93,6 +93,7 @@ impl Scheme for Implicit {
         let mut arrays = vec![
             ("scalars", Array::F64(scalars)),
             ("rows", Array::U32(rows.map(|row| row as u32).to_vec())),
+            ("region", Array::U32(self.mesh.region.bits())),
             ("volumes", Array::F64(state.volumes.clone())),
             ("velocities", Array::F64(state.flow.velocity.clone())),
             ("pressures", Array::F64(state.flow.pressure.clone())),
@@ -243,7 +244,11 @@ impl Implicit {
                 "the checkpoint has rows {start} to {end} with {gap} in the gap, which this scene does not have"
             ));
         }
-        Ok(Mesh::new(&self.setup.lattice, rows, range))
+        let lattice = &self.setup.lattice;
+        let size = Mesh::size_of(lattice, &range);
+        let region = Region::of_bits(size, saved.u32s("region")?)
+            .ok_or("the checkpoint's region is not one of its rows")?;
+        Ok(Mesh::new(lattice, rows, range, region))
     }
 
     /// Volume of the liquid of a pore over that at no pressure, Tait's J.

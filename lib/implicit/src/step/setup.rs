@@ -6,7 +6,7 @@ use physics::{Dimensions, Liquid, Points, PressRun, Scene, Seed, Stop, Viscosity
 
 use super::drive::ClampDrive;
 use super::{MARGIN, State};
-use crate::geometry::{Chords, Face, Lattice, Mesh, Rows};
+use crate::geometry::{Chords, Face, Lattice, Mesh, Region, Rows};
 use crate::liquid::{Place, deposit};
 use crate::settings::Settings;
 use crate::system::{Links, Scales, Unknowns, Walls};
@@ -78,7 +78,9 @@ impl Setup {
             depth: flat.then_some(1.0),
         };
         let rows = lattice.rows();
-        let mesh = Mesh::new(&lattice, rows, rows_of(&scene.points, rows, place));
+        let range = rows_of(&scene.points, rows, place);
+        let region = Region::new(Mesh::size_of(&lattice, &range), true);
+        let mesh = Mesh::new(&lattice, rows, range, region);
         let volumes = deposit(&mesh, &scene.points, place, |point| {
             point.volume / cell_m.powi(3)
         })?;
