@@ -126,6 +126,15 @@ impl Mesh {
 
     /// Whether a voxel is solid; `None` beyond a mirror.
     fn is_wall(&self, lattice: &Lattice, (cell, voxel): At) -> Option<bool> {
+        if self.region.holds(cell) {
+            let row = self.row(cell);
+            if self.pore_with(cell, voxel).is_some() {
+                return Some(false);
+            }
+            if row > 0 && row + 1 < self.rows().len() {
+                return Some(true);
+            }
+        }
         let code = self.code(lattice, cell, voxel);
         (code != MIRROR).then_some(code != OPEN)
     }

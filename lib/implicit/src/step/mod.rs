@@ -23,6 +23,8 @@ const ATTEMPTS: usize = 8;
 /// Excess over the Courant number that a step may have, and the part of it that the next attempt aims at.
 const EXCESS: f64 = 1.1;
 const AIM: f64 = 0.95;
+/// Most by which flow is expected to go on growing: a flow that starts is no trend.
+const FORESEEN: f64 = 1.25;
 /// Cells around the liquid that a mesh has, and the least that it may have before it is made anew: liquid crosses less than
 /// two in a step.
 const MARGIN: usize = 6;
@@ -59,8 +61,9 @@ struct State {
     travel: f64,
     time: f64,
     steps: u64,
-    /// Fastest flow, cells/s.
+    /// Fastest flow, cells/s, and by what factor it is expected to be faster in the next step.
     fastest: f64,
+    growth: f64,
     /// Liquid that left the domain, cells.
     lost: f64,
     /// Viscous dissipation, over the unit of viscosity.
@@ -96,6 +99,7 @@ impl Implicit {
                 time: 0.0,
                 steps: 0,
                 fastest: speed,
+                growth: 1.0,
                 lost: 0.0,
                 power: 0.0,
                 unsettled: 0,
@@ -196,7 +200,7 @@ impl Implicit {
     fn length(&self, limit: StepLimit) -> f64 {
         let settings = &self.setup.settings;
         let pull = self.setup.pull();
-        let fastest = self.state.fastest.max(self.state.flow.speed.abs());
+        let fastest = self.state.growth * self.state.fastest.max(self.state.flow.speed.abs());
         let free = settings.cfl / fastest;
         // From rest, weight sets the speed.
         let falls = (2.0 * settings.cfl / pull).sqrt();
@@ -249,7 +253,9 @@ impl Implicit {
         let state = &mut self.state;
         state.volumes = volumes;
         state.lost += lost;
-        state.fastest = fastest(&flow, self.setup.settings.cfl);
+        let fastest = fastest(&flow, self.setup.settings.cfl);
+        state.growth = (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, FORESEEN);
+        state.fastest = fastest;
         state.unsettled += u64::from(!settled);
         state.power = flow.dissipation;
         state.time += dt;

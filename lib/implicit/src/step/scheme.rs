@@ -78,6 +78,7 @@ impl Scheme for Implicit {
             state.time,
             state.steps as f64,
             state.fastest,
+            state.growth,
             state.lost,
             state.power,
             state.unsettled as f64,
@@ -118,6 +119,7 @@ impl Scheme for Implicit {
             time,
             steps,
             fastest,
+            growth,
             lost,
             power,
             unsettled,
@@ -131,7 +133,7 @@ impl Scheme for Implicit {
         let Ok(drive) = <[f64; 7]>::try_from(drive) else {
             return Err("the checkpoint's clamp state is not that of this scheme".into());
         };
-        if [height, time, steps, fastest, lost, unsettled]
+        if [height, time, steps, fastest, growth, lost, unsettled]
             .iter()
             .any(|&x| x < 0.0)
         {
@@ -164,7 +166,8 @@ impl Scheme for Implicit {
         self.state.drive.set_state(drive);
         let state = &mut self.state;
         (state.travel, state.time, state.steps) = (travel, time, steps as u64);
-        (state.fastest, state.lost, state.power) = (fastest, lost, power);
+        (state.fastest, state.growth) = (fastest, growth);
+        (state.lost, state.power) = (lost, power);
         state.unsettled = unsettled as u64;
         state.volumes = volumes;
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);

@@ -142,7 +142,6 @@ impl Implicit {
             .collect();
         if self.setup.lattice.moving.is_some() {
             (self.setup).measure(&mut self.links, &self.mesh, &fractions);
-            (self.edges).measure(&self.mesh, &self.setup.lattice, &fractions);
         }
         (full, fractions)
     }

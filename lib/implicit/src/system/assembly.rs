@@ -126,12 +126,13 @@ impl Problem<'_> {
                 continue;
             };
             let eta = self.edge_stiffness([face, edge.next as usize]);
-            entries.add(row, eta * f64::from(edge.shear));
-            entries.add(next, -eta * f64::from(edge.shear));
+            let [shear, length] = edge.measured(self.mesh, face);
+            entries.add(row, eta * shear);
+            entries.add(next, -eta * shear);
             let across = edge.across.map(|face| face as usize);
             if let [Some(low), Some(high)] = across.map(number) {
                 // Where a surface crosses the edge, the faces across share less or more liquid.
-                let weight = eta.min(self.edge_stiffness(across)) * f64::from(edge.length);
+                let weight = eta.min(self.edge_stiffness(across)) * length;
                 entries.add(high, -weight);
                 entries.add(low, weight);
             }

@@ -11,10 +11,36 @@ pub(crate) struct Edge {
     pub(crate) next: u32,
     /// The faces across, between the low pores of both and between the high pores of both.
     pub(crate) across: [u32; 2],
-    /// Area over distance between the two faces, cells.
-    pub(crate) shear: f32,
-    /// Length of the edge, cells, negative where the next face lies on the low side.
-    pub(crate) length: f32,
+    /// Part of the edge of a cell that they share, negative where the next face lies on the low side.
+    part: f32,
+    /// The same, positive, times the factor by re-entrant edges.
+    weight: f32,
+    /// Open voxels beside the edge in the face and in the next one, and the axis across which they lie beside one another.
+    open: [u8; 2],
+    t: u8,
+}
+
+impl Edge {
+    /// Area over distance between a face and the next one, cells, and the length of the edge, negative where the next face
+    /// lies on the low side.
+    pub(crate) fn measured(&self, mesh: &Mesh, face: usize) -> [f64; 2] {
+        let f = mesh.faces[face];
+        let (axis, t) = (usize::from(f.axis), usize::from(self.t));
+        let edge = |pore: u32, a: usize| {
+            if a == 1 {
+                mesh.height(pore as usize)
+            } else {
+                1.0
+            }
+        };
+        let [own, other] = self.open.map(|voxels| f64::from(voxels) / mesh.k as f64);
+        let next = mesh.faces[self.next as usize].low;
+        let distance = 0.5 * (own * edge(f.low, t) + other * edge(next, t));
+        let height = 0.5 * (edge(f.low, axis) + edge(f.high, axis));
+        let across = edge(f.low, 3 - axis - t);
+        let shear = f64::from(self.weight) * across * height / distance;
+        [shear, f64::from(self.part) * across]
+    }
 }
 
 /// The edges of all faces of a mesh.
@@ -63,15 +89,6 @@ impl Edges {
     pub(crate) fn of(&self, face: usize) -> &[Edge] {
         &self.edges[self.start[face] as usize..self.start[face + 1] as usize]
     }
-
-    /// Measures anew the edges of faces with liquid in or beside the gap, whose height has changed.
-    pub(crate) fn measure(&mut self, mesh: &Mesh, lattice: &Lattice, fractions: &[f64]) {
-        let by_gap = |face: &usize| mesh.is_by_gap(*face) && mesh.is_wet(*face, fractions);
-        for face in (0..mesh.faces.len()).filter(by_gap) {
-            let range = self.start[face] as usize..self.start[face + 1] as usize;
-            self.edges[range].copy_from_slice(&edges(mesh, lattice, face));
-        }
-    }
 }
 
 /// The edges of a face, in which voxels of the same faces are joined.
@@ -87,14 +104,13 @@ fn edges(mesh: &Mesh, lattice: &Lattice, face: usize) -> Vec<Edge> {
                 let Some(edge) = edge(mesh, lattice, face, t, up, r) else {
                     continue;
                 };
-                let same =
-                    |other: &&mut Edge| other.next == edge.next && other.across == edge.across;
-                match found.iter_mut().find(same) {
-                    Some(other) if other.length.signum() == edge.length.signum() => {
-                        other.shear += edge.shear;
-                        other.length += edge.length;
+                let key = |edge: &Edge| (edge.next, edge.across, edge.open, edge.part < 0.0);
+                match found.iter_mut().find(|other| key(other) == key(&edge)) {
+                    Some(other) => {
+                        other.part += edge.part;
+                        other.weight += edge.weight;
                     }
-                    _ => found.push(edge),
+                    None => found.push(edge),
                 }
             }
         }
@@ -116,13 +132,13 @@ fn edge(mesh: &Mesh, lattice: &Lattice, face: usize, t: usize, up: bool, r: usiz
     let height = |face: usize, end: usize| {
         let open = mesh.faces[face].open;
         if open >> bit(end) & 1 == 0 {
-            return 0.0;
+            return 0;
         }
-        (0..k).filter(|&i| open >> bit(i) & 1 == 1).count() as f64 / k as f64
+        (0..k).filter(|&i| open >> bit(i) & 1 == 1).count() as u8
     };
     let (near, far) = if up { (k - 1, 0) } else { (0, k - 1) };
     let own = height(face, near);
-    if own == 0.0 {
+    if own == 0 {
         return None;
     }
     let ends = [f.low, f.high].map(|pore| pore as usize);
@@ -143,10 +159,6 @@ fn edge(mesh: &Mesh, lattice: &Lattice, face: usize, t: usize, up: bool, r: usiz
         true => mesh.face_between(near, far, t),
         false => mesh.face_between(far, near, t),
     };
-    let sizes = [cells[0], cells[1], beside[0]].map(|cell| mesh.edges(cell));
-    let distance = 0.5 * (own * sizes[0][t] + height(next, far) * sizes[2][t]);
-    let length = sizes[0][across] / k as f64;
-    let shear = length * 0.5 * (sizes[0][axis] + sizes[1][axis]) / distance;
     let own_voxel = |half: usize| {
         let mut at = voxel(half);
         at[t] = near;
@@ -156,11 +168,13 @@ fn edge(mesh: &Mesh, lattice: &Lattice, face: usize, t: usize, up: bool, r: usiz
         * (0..2)
             .map(|half| mesh.reentrant(lattice, (cells[half], own_voxel(half)), [t, across], up))
             .sum::<f64>();
-    let shear = shear * factor;
+    let part = 1.0 / k as f32;
     Some(Edge {
         next: next as u32,
         across: [joined(ends[0], low)? as u32, joined(ends[1], high)? as u32],
-        shear: shear as f32,
-        length: if up { length } else { -length } as f32,
+        part: if up { part } else { -part },
+        weight: part * factor as f32,
+        open: [own, height(next, far)],
+        t: t as u8,
     })
 }

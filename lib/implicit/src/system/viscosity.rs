@@ -117,8 +117,8 @@ impl View<'_> {
                     for edge in self.edges.of(face) {
                         let along = u[edge.next as usize] - u[face];
                         let across = u[edge.across[1] as usize] - u[edge.across[0] as usize];
-                        let sheared =
-                            f64::from(edge.shear) * along + f64::from(edge.length) * across;
+                        let [shear, length] = edge.measured(mesh, face);
+                        let sheared = shear * along + length * across;
                         power += 0.25 * along * sheared;
                     }
                     let link = &self.links.0[face];
