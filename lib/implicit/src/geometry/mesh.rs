@@ -198,7 +198,7 @@ impl Mesh {
             return 0;
         }
         for bit in 0..n * n * n {
-            if self.code(lattice, cell, self.voxel(bit)) == OPEN {
+            if self.lattice_code(lattice, cell, self.voxel(bit)) == OPEN {
                 open |= 1 << bit;
             }
         }
@@ -324,6 +324,16 @@ impl Mesh {
         let row = |pore: u32| self.row_of(pore as usize);
         let gap = self.rows.below..self.rows.below + self.rows.gap + 1;
         gap.contains(&row(f.high)) || gap.contains(&(row(f.low) + 1))
+    }
+
+    /// Which faces are beside a cell whose neighbours are all in the region: only these can have liquid.
+    pub(crate) fn inner_faces(&self) -> Vec<bool> {
+        let inner = self.region.inner(self.periodic());
+        let holds = |pore: u32| inner.holds(self.pores[pore as usize].cell as usize);
+        let faces = self.faces.iter();
+        faces
+            .map(|face| holds(face.low) || holds(face.high))
+            .collect()
     }
 
     /// Whether there is liquid on either side of a face.

@@ -48,6 +48,15 @@ impl Mesh {
 
     /// What fills a voxel of a cell.
     pub(crate) fn code(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> u8 {
+        // Pores say so sooner than the lattice.
+        match self.region.holds(cell) && self.pore_with(cell, voxel).is_some() {
+            true => OPEN,
+            false => self.lattice_code(lattice, cell, voxel),
+        }
+    }
+
+    /// The same by the lattice alone.
+    pub(super) fn lattice_code(&self, lattice: &Lattice, cell: usize, voxel: [usize; 3]) -> u8 {
         match self.lattice_place(lattice, cell, voxel) {
             Some(Place::Below(layer, at)) => lattice.below[layer][at],
             Some(Place::Gap(at)) => lattice.gap[at],
@@ -126,15 +135,6 @@ impl Mesh {
 
     /// Whether a voxel is solid; `None` beyond a mirror.
     fn is_wall(&self, lattice: &Lattice, (cell, voxel): At) -> Option<bool> {
-        if self.region.holds(cell) {
-            let row = self.row(cell);
-            if self.pore_with(cell, voxel).is_some() {
-                return Some(false);
-            }
-            if row > 0 && row + 1 < self.rows().len() {
-                return Some(true);
-            }
-        }
         let code = self.code(lattice, cell, voxel);
         (code != MIRROR).then_some(code != OPEN)
     }

@@ -46,33 +46,56 @@ pub(crate) fn carried_region(
     region.grown(margin, old.periodic())
 }
 
-/// The face of `old` that each face of `new` is, where neither the gap nor the end of a mesh is beside it.
-pub(crate) fn kept_faces(new: &Mesh, old: &Mesh) -> Vec<Option<u32>> {
-    // Whether rows beside one that are in the grid are in the mesh too.
-    let in_rows = |mesh: &Mesh, row: usize| {
-        let range = &mesh.range;
-        (row == 0 || row > range.start) && (row + 1 == mesh.rows().len() || row + 1 < range.end)
-    };
-    let inner = old.region.inner(old.periodic());
-    let kept = |face: usize| {
-        let f = new.faces[face];
-        if new.boundary[1] == Boundary::Periodic || new.is_by_gap(face) {
-            return None;
-        }
+/// What faces of a mesh are in another one.
+#[derive(Default)]
+pub(crate) struct Kept {
+    /// The face of the other mesh that each is.
+    pub(crate) same: Vec<Option<u32>>,
+    /// Whether it has the same surroundings there too.
+    whole: Vec<bool>,
+}
+
+impl Kept {
+    /// What faces of `new` are in `old`. Those beside the gap, the end of the rows or that of the region have other
+    /// surroundings.
+    pub(crate) fn new(new: &Mesh, old: &Mesh) -> Self {
+        let in_rows = |mesh: &Mesh, row: usize| {
+            let range = &mesh.range;
+            (row == 0 || row > range.start) && (row + 1 == mesh.rows().len() || row + 1 < range.end)
+        };
+        let inner = old.region.inner(old.periodic());
         let old_cell = |pore: u32| {
             let [x, _, z] = new.place(new.pores[pore as usize].cell as usize);
             let row = new.row_of(pore as usize);
-            let y = same_row(new, old, row)?;
-            let cell = old.cell_at([x, y, z]);
-            let inner = inner.holds(cell) && in_rows(new, row) && in_rows(old, old.row(cell));
-            inner.then_some(cell)
+            let cell = old.cell_at([x, same_row(new, old, row)?, z]);
+            let whole = inner.holds(cell) && in_rows(new, row) && in_rows(old, old.row(cell));
+            Some((cell, whole))
         };
-        let (low, _) = old_cell(f.low).zip(old_cell(f.high))?;
-        let (axis, cell) = (usize::from(f.axis), new.pores[f.low as usize].cell as usize);
-        let old_face = old.faces_of(low, axis).start + face - new.faces_of(cell, axis).start;
-        (!old.is_by_gap(old_face)).then_some(old_face as u32)
-    };
-    (0..new.faces.len()).map(kept).collect()
+        let found = |face: usize| {
+            let f = new.faces[face];
+            let (low, high) = old_cell(f.low).zip(old_cell(f.high))?;
+            let (axis, cell) = (usize::from(f.axis), new.pores[f.low as usize].cell as usize);
+            let index = face - new.faces_of(cell, axis).start;
+            let old_face = old.faces_of(low.0, axis).nth(index)?;
+            let by_gap = new.is_by_gap(face) || old.is_by_gap(old_face);
+            let periodic = new.boundary[1] == Boundary::Periodic;
+            Some((old_face as u32, low.1 && high.1 && !by_gap && !periodic))
+        };
+        let found: Vec<_> = (0..new.faces.len()).map(found).collect();
+        Self {
+            same: found.iter().map(|found| found.map(|f| f.0)).collect(),
+            whole: found
+                .iter()
+                .map(|found| found.is_some_and(|f| f.1))
+                .collect(),
+        }
+    }
+
+    /// The face of the other mesh that a face is, where it has the same surroundings.
+    pub(crate) fn whole(&self, face: usize) -> Option<usize> {
+        let same = self.same.get(face).copied().flatten()?;
+        self.whole[face].then_some(same as usize)
+    }
 }
 
 /// Rows of `old` that overlap a row of the gap of `new`, with the part of each that does. Both gaps have the same height.

@@ -6,7 +6,7 @@ mod output;
 mod overflow;
 mod transport;
 
-pub(crate) use carry::{carried_region, carried_velocities, carried_volumes, kept_faces};
+pub(crate) use carry::{Kept, carried_region, carried_velocities, carried_volumes};
 pub(crate) use deposit::{Place, deposit};
 pub(crate) use output::{Shown, points};
 pub(crate) use transport::{Moved, transport};

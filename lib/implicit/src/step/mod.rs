@@ -9,9 +9,7 @@ use physics::{Failure, Scene, StepLimit, StepReport};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
 use crate::geometry::{Mesh, Rows};
-use crate::liquid::{
-    Moved, carried_region, carried_velocities, carried_volumes, kept_faces, transport,
-};
+use crate::liquid::{Kept, Moved, carried_region, carried_velocities, carried_volumes, transport};
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, Links};
 use drive::ClampDrive;
@@ -27,8 +25,8 @@ const AIM: f64 = 0.95;
 const FORESEEN: f64 = 1.25;
 /// Cells around the liquid that a mesh has, and the least that it may have before it is made anew: liquid crosses less than
 /// two in a step.
-const MARGIN: usize = 6;
-const LEAST_MARGIN: usize = 3;
+const MARGIN: usize = 4;
+const LEAST_MARGIN: usize = 2;
 /// Most that cure changes ln(viscosity) by in a step.
 const CURED: f64 = 0.2;
 /// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
@@ -177,8 +175,8 @@ impl Implicit {
         state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
         state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
         let kept = match self.links.0.is_empty() {
-            true => Vec::new(),
-            false => kept_faces(mesh, &old),
+            true => Kept::default(),
+            false => Kept::new(mesh, &old),
         };
         self.links = self.setup.links(mesh, &kept, &self.links);
         self.edges = Edges::new(mesh, &self.setup.lattice, &kept, &self.edges);

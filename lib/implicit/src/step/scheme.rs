@@ -7,7 +7,7 @@ use physics::{
 
 use super::Implicit;
 use crate::geometry::{Mesh, Region, Rows};
-use crate::liquid::{Shown, points};
+use crate::liquid::{Kept, Shown, points};
 use crate::system::{Edges, Links, Rates};
 
 /// Name of the array that holds where the press programme is.
@@ -173,8 +173,13 @@ impl Scheme for Implicit {
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
         (state.flow.speed, state.flow.force) = (speed, force);
         state.displacement = displacement.as_chunks::<3>().0.to_vec();
-        self.links = self.setup.links(&mesh, &[], &Links::default());
-        self.edges = Edges::new(&mesh, &self.setup.lattice, &[], &Edges::default());
+        self.links = self.setup.links(&mesh, &Kept::default(), &Links::default());
+        self.edges = Edges::new(
+            &mesh,
+            &self.setup.lattice,
+            &Kept::default(),
+            &Edges::default(),
+        );
         (self.mesh, self.height) = (mesh, height);
         Ok(())
     }

@@ -7,7 +7,7 @@ use physics::{Dimensions, Liquid, Points, PressRun, Scene, Seed, Stop, Viscosity
 use super::drive::ClampDrive;
 use super::{MARGIN, State};
 use crate::geometry::{Chords, Face, Lattice, Mesh, Region, Rows};
-use crate::liquid::{Place, deposit};
+use crate::liquid::{Kept, Place, deposit};
 use crate::settings::Settings;
 use crate::system::{Links, Scales, Unknowns, Walls};
 
@@ -112,7 +112,7 @@ impl Setup {
     }
 
     /// Friction of the walls of a mesh; of faces that are `kept` from another one, as `old` has it.
-    pub(super) fn links(&self, mesh: &Mesh, kept: &[Option<u32>], old: &Links) -> Links {
+    pub(super) fn links(&self, mesh: &Mesh, kept: &Kept, old: &Links) -> Links {
         Links::new(&self.lattice, &self.chords, mesh, self.walls, kept, old)
     }
 

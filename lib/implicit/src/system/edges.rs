@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::geometry::{Lattice, Mesh, others};
+use crate::liquid::Kept;
 
 /// An edge that a face shares with the next face across.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +44,9 @@ impl Edge {
     }
 }
 
+/// Faces whose edges are found together.
+const CHUNK: usize = 4096;
+
 /// The edges of all faces of a mesh.
 #[derive(Default)]
 pub(crate) struct Edges {
@@ -52,9 +56,9 @@ pub(crate) struct Edges {
 
 impl Edges {
     /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
-    pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, kept: &[Option<u32>], old: &Self) -> Self {
+    pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, kept: &Kept, old: &Self) -> Self {
         let mut now = vec![None; old.start.len()];
-        for (face, old_face) in kept.iter().enumerate() {
+        for (face, old_face) in kept.same.iter().enumerate() {
             if let Some(old_face) = old_face {
                 now[*old_face as usize] = Some(face as u32);
             }
@@ -67,22 +71,39 @@ impl Edges {
                 ..*edge
             })
         };
+        let inner = mesh.inner_faces();
         let list = |face: usize| -> Vec<Edge> {
-            let old_face = kept.get(face).copied().flatten();
-            let old =
-                old_face.and_then(|face| old.of(face as usize).iter().map(renumbered).collect());
-            old.unwrap_or_else(|| edges(mesh, lattice, face))
+            let old = kept
+                .whole(face)
+                .and_then(|face| old.of(face).iter().map(renumbered).collect());
+            match old {
+                Some(edges) => edges,
+                None if inner[face] => edges(mesh, lattice, face),
+                None => Vec::new(),
+            }
         };
-        let lists: Vec<Vec<Edge>> = (0..mesh.faces.len()).into_par_iter().map(list).collect();
-        let mut start = vec![0];
-        start.extend(lists.iter().scan(0, |end, list| {
-            *end += list.len() as u32;
-            Some(*end)
-        }));
-        Self {
-            start,
-            edges: lists.concat(),
+        let faces: Vec<usize> = (0..mesh.faces.len()).collect();
+        let lists: Vec<(Vec<u32>, Vec<Edge>)> = (faces.par_chunks(CHUNK))
+            .map(|faces| {
+                let mut edges = Vec::new();
+                let count = |face: &usize| {
+                    let list = list(*face);
+                    edges.extend_from_slice(&list);
+                    list.len() as u32
+                };
+                (faces.iter().map(count).collect(), edges)
+            })
+            .collect();
+        let (mut start, mut edges) = (vec![0], Vec::new());
+        for (counts, part) in lists {
+            let mut end = edges.len() as u32;
+            start.extend(counts.into_iter().map(|count| {
+                end += count;
+                end
+            }));
+            edges.extend(part);
         }
+        Self { start, edges }
     }
 
     /// The edges of a face.

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, Place, others};
+use crate::liquid::Kept;
 
 /// Least effective distance over the open height of a column.
 const LEAST: f64 = 0.1;
@@ -49,7 +50,7 @@ impl Links {
         chords: &Chords,
         mesh: &Mesh,
         walls: Walls,
-        kept: &[Option<u32>],
+        kept: &Kept,
         old: &Self,
     ) -> Self {
         let view = View {
@@ -58,14 +59,14 @@ impl Links {
             mesh,
             walls,
         };
+        let inner = mesh.inner_faces();
         let link = |face: usize| {
-            let old = kept
-                .get(face)
-                .copied()
-                .flatten()
-                .map(|old_face| old.0[old_face as usize]);
-            old.filter(|link| !link.by_gap)
-                .unwrap_or_else(|| view.link(face))
+            let old = kept.whole(face).map(|face| old.0[face]);
+            match old.filter(|link| !link.by_gap) {
+                Some(link) => link,
+                None if inner[face] => view.link(face),
+                None => Link::default(),
+            }
         };
         Self((0..mesh.faces.len()).into_par_iter().map(link).collect())
     }
