@@ -249,7 +249,7 @@ fn a_bond_with_air_and_menisci_ends_and_goes_on_where_it_stopped() {
             ..Settings::default()
         };
         let mut whole = Implicit::new(&scene, settings).unwrap();
-        press(&mut whole, 4);
+        press(&mut whole, 2);
         let mut resumed = Implicit::new(&scene, settings).unwrap();
         resumed.restore(&whole.save()).unwrap();
         let (pressures, liquid) = press(&mut whole, 60);

@@ -29,5 +29,5 @@ pub(super) const DYNAMIC_ANGLE: Key = Key {
     name: "dynamic_angle",
     form: || "number, at least 0".into(),
     absent: Absent::Nothing("0: the angle does not depend on the speed"),
-    text: "k of cos(angle) = cos(`contact_angle`) - k Ca where a front goes by Ca = viscosity x speed/`surface_tension`, between 0 and 180 degrees: what moves its contact line. `scheme = \"volume-fraction\"` only. Glycerol in glass tubes has 86.",
+    text: "k of cos(angle) = cos(`contact_angle`) - k Ca where a front goes by Ca = viscosity x speed/`surface_tension`, between 0 and 180 degrees: what moves its contact line. `scheme = \"volume-fraction\"` only. Glycerol in glass tubes has 88.",
 };
