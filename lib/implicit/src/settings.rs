@@ -7,6 +7,12 @@ pub struct Settings {
     pub cfl: f64,
     /// Relative residual of the coupled solve.
     pub tolerance: f64,
+    /// Absolute pressure of the air around, Pa: air that liquid closes off has pressures. `None`: all is at that around.
+    pub air_pressure: Option<f64>,
+    /// Time in which what a pocket of fixed volume has above that falls to 1/e of it, s.
+    pub air_leak_time: f64,
+    /// What the cosine of the contact angle loses by each unit of the capillary number of a front that advances.
+    pub dynamic_angle: f64,
 }
 
 impl Default for Settings {
@@ -14,6 +20,9 @@ impl Default for Settings {
         Self {
             cfl: 1.0,
             tolerance: 1e-3,
+            air_pressure: None,
+            air_leak_time: f64::INFINITY,
+            dynamic_angle: 0.0,
         }
     }
 }
@@ -35,6 +44,16 @@ impl Settings {
                 "the solver tolerance is {:?}: it must lie between 1e-8 and 1e-2",
                 self.tolerance
             ));
+        }
+        if !(self.dynamic_angle >= 0.0 && self.dynamic_angle.is_finite()) {
+            return Err(format!(
+                "dynamic_angle is {:?}: it is zero or more",
+                self.dynamic_angle
+            ));
+        }
+        let positive = |x: f64| x > 0.0;
+        if !(self.air_pressure.is_none_or(positive) && positive(self.air_leak_time)) {
+            return Err("the pressure and the leak time of the air must be above zero".into());
         }
         Ok(())
     }

@@ -76,6 +76,7 @@ fn flat(n: usize, filled: usize) -> f64 {
     let settings = Settings {
         cfl: 1e-3,
         tolerance: 1e-6,
+        ..Settings::default()
     };
     let mut scheme = Implicit::new(&scene, settings).unwrap();
     let limit = StepLimit {

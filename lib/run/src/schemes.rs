@@ -61,8 +61,10 @@ pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFa
 pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailure> {
     match case.integrator.scheme {
         SchemeName::Explicit => explicit_forecast(&explicit(case, setup.scene.grid.cell_m)?, setup),
-        SchemeName::Implicit | SchemeName::VolumeFraction => {
-            Ok(implicit_forecast(&implicit(case)?, setup))
+        SchemeName::Implicit => Ok(implicit_forecast(&implicit(case)?, setup)),
+        SchemeName::VolumeFraction => {
+            volume_fraction(case)?;
+            Ok(implicit_forecast(&both_implicit(case)?, setup))
         }
     }
 }
@@ -90,6 +92,11 @@ fn explicit(case: &Case, cell: f64) -> Result<mpm::Settings, CaseError> {
         return Err(CaseError(
             "[adhesive] surface_tension is for scheme = \"implicit\" only: explicit steps are too short for liquid to be drawn anywhere"
                 .into(),
+        ));
+    }
+    if case.adhesive.dynamic_angle.is_some() {
+        return Err(CaseError(
+            "[adhesive] dynamic_angle is for scheme = \"volume-fraction\" only".into(),
         ));
     }
     if case.air.is_some() {
@@ -136,6 +143,16 @@ fn explicit(case: &Case, cell: f64) -> Result<mpm::Settings, CaseError> {
 }
 
 fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
+    if case.adhesive.dynamic_angle.is_some() {
+        return Err(CaseError(
+            "[adhesive] dynamic_angle is for scheme = \"volume-fraction\" only".into(),
+        ));
+    }
+    both_implicit(case)
+}
+
+/// Settings that both implicit schemes have.
+fn both_implicit(case: &Case) -> Result<filling::Settings, CaseError> {
     let table = &case.integrator;
     let stray = [
         (
@@ -176,24 +193,28 @@ fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
 
 /// Settings of the scheme of volume fractions.
 fn volume_fraction(case: &Case) -> Result<implicit::Settings, CaseError> {
-    let settings = implicit(case)?;
+    let settings = both_implicit(case)?;
     let not_yet = [
         (case.adhesive.water.is_some(), "[adhesive.water]"),
         (
-            case.adhesive.surface_tension.is_some(),
-            "[adhesive] surface_tension",
+            case.adhesive.receding_angle.is_some(),
+            "[adhesive] receding_angle",
         ),
-        (case.air.is_some(), "[air]"),
     ];
     if let Some((_, key)) = not_yet.iter().find(|(given, _)| *given) {
         return Err(CaseError(format!(
             "{key} is for scheme = \"implicit\" only: scheme = \"volume-fraction\" does not have it yet"
         )));
     }
-    Ok(implicit::Settings {
+    let settings = implicit::Settings {
         cfl: settings.cfl,
         tolerance: settings.tolerance,
-    })
+        air_pressure: settings.air_pressure,
+        air_leak_time: settings.air_leak_time,
+        dynamic_angle: case.adhesive.dynamic_angle.unwrap_or_default(),
+    };
+    settings.check().map_err(CaseError)?;
+    Ok(settings)
 }
 
 /// Liquid particle-steps per second and thread of FLIP in a scene with walls, as measured

@@ -6,7 +6,7 @@ use super::Lattice;
 use super::lattice::OPEN;
 
 /// Longest chord that is told from longer ones, voxels: walls farther apart do not feel each other's friction.
-const LONGEST: u16 = 1000;
+pub(super) const LONGEST: u16 = 1000;
 
 /// A chord along y in one part of the lattice: its voxels, whether it goes on through the gap, and whether it ends at
 /// the far side of the domain.

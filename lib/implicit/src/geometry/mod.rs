@@ -3,6 +3,7 @@
 mod chords;
 mod lattice;
 mod mesh;
+mod passages;
 mod region;
 mod rows;
 mod split;
@@ -12,5 +13,6 @@ pub(crate) use chords::Chords;
 pub(crate) use chords::Place;
 pub(crate) use lattice::{Lattice, MIRROR, OPEN};
 pub(crate) use mesh::{Face, Mesh, others};
+pub(crate) use passages::narrowness;
 pub(crate) use region::Region;
 pub(crate) use rows::{Kind, Rows};

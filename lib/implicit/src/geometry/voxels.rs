@@ -66,6 +66,18 @@ impl Mesh {
         }
     }
 
+    /// Pores beside one, with the axis along which and whether on its high side.
+    pub(crate) fn beside(&self, pore: usize) -> impl Iterator<Item = (usize, bool, usize)> {
+        (0..3)
+            .flat_map(|axis| [false, true].map(|up| (axis, up)))
+            .flat_map(move |(axis, up)| {
+                self.faces_at(pore, axis, up).map(move |face| {
+                    let face = &self.faces[face];
+                    (axis, up, if up { face.high } else { face.low } as usize)
+                })
+            })
+    }
+
     /// The voxel next to one along an axis: its cell and place; `None` beyond the mesh.
     pub(crate) fn next_voxel(
         &self,

@@ -1,5 +1,6 @@
 //! The scheme, and the order of one step.
 
+mod air;
 mod drive;
 mod scheme;
 mod setup;
@@ -8,10 +9,11 @@ mod solve;
 use physics::{Failure, Scene, StepLimit, StepReport};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
-use crate::geometry::{Mesh, Rows};
+use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::{Kept, Moved, carried_region, carried_velocities, carried_volumes, transport};
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, Links};
+use air::Held;
 use drive::ClampDrive;
 use setup::Setup;
 use solve::Solved;
@@ -32,6 +34,8 @@ const CURED: f64 = 0.2;
 /// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
 const JETS: f64 = 1e-3;
 const JET_CFL: f64 = 1.5;
+/// Most that a step grows by where menisci are held.
+const GROWTH: f64 = 2.0;
 /// Height of a gap, cells, that is none.
 const CLOSED: f64 = 1e-9;
 
@@ -53,12 +57,15 @@ struct State {
     volumes: Vec<f64>,
     flow: Flow,
     drive: ClampDrive,
+    air: Held,
     /// Displacement of each body, m.
     displacement: Vec<[f64; 3]>,
     /// Clamp travel, m.
     travel: f64,
     time: f64,
     steps: u64,
+    /// Length of the last step, s.
+    dt: f64,
     /// Fastest flow, cells/s, and by what factor it is expected to be faster in the next step.
     fastest: f64,
     growth: f64,
@@ -92,10 +99,12 @@ impl Implicit {
                 volumes,
                 flow,
                 drive,
+                air: Held::default(),
                 displacement: vec![[0.0; 3]; scene.bodies.len()],
                 travel: 0.0,
                 time: 0.0,
                 steps: 0,
+                dt: 0.0,
                 fastest: speed,
                 growth: 1.0,
                 lost: 0.0,
@@ -113,6 +122,7 @@ impl Implicit {
             links: Links::default(),
         };
         scheme.fit_mesh();
+        scheme.state.air = scheme.first_air();
         Ok(scheme)
     }
 
@@ -166,12 +176,26 @@ impl Implicit {
         }
         let removed = mesh.rows().gap - rows.gap;
         let end = wet_rows.end.saturating_sub(removed).max(wet_rows.start) + MARGIN;
-        let range = wet_rows.start.saturating_sub(MARGIN)..end.min(rows.len());
-        let region = carried_region(mesh, &wet, (&rows, &range), MARGIN);
+        let near = wet_rows.start.saturating_sub(MARGIN)..end.min(rows.len());
+        let (range, region) = match self.setup.gas {
+            None => {
+                let region = carried_region(mesh, &wet, (&rows, &near), MARGIN);
+                (near, region)
+            }
+            // Air may be closed off anywhere.
+            Some(_) => {
+                let range = 0..rows.len();
+                let size = Mesh::size_of(&self.setup.lattice, &range);
+                (range, Region::new(size, true))
+            }
+        };
         let mesh = Mesh::new(&self.setup.lattice, rows, range, region);
         let old = std::mem::replace(&mut self.mesh, mesh);
         let (state, mesh) = (&mut self.state, &self.mesh);
         state.volumes = carried_volumes(mesh, &old, &state.volumes);
+        if !state.air.of.is_empty() {
+            state.air.of = carried_volumes(mesh, &old, &state.air.of);
+        }
         state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
         state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
         let kept = match self.links.0.is_empty() {
@@ -210,6 +234,15 @@ impl Implicit {
         } else {
             f64::INFINITY
         });
+        // From rest, no meniscus outruns tension over viscosity; what holds one is known by the speed of the step before.
+        let wets = self.setup.liquid.wetting.map_or(f64::INFINITY, |wetting| {
+            let units = self.setup.units;
+            match self.state.steps {
+                0 => units.cell_m * units.viscosity / wetting.tension,
+                _ => GROWTH * self.state.dt,
+            }
+        });
+        let dt = dt.min(wets);
         let left = self.left(limit) / self.state.flow.speed.max(f64::MIN_POSITIVE);
         dt.min(limit.time_s).min(left)
     }
@@ -222,6 +255,7 @@ impl Implicit {
             full,
             forces,
             settled,
+            air,
             arrives,
         } = solved;
         let cell_m = self.setup.units.cell_m;
@@ -257,6 +291,7 @@ impl Implicit {
         state.unsettled += u64::from(!settled);
         state.power = flow.dissipation;
         state.time += dt;
+        state.dt = dt;
         state.steps += 1;
         state.travel += travel * cell_m;
         for (body, displacement) in state.displacement.iter_mut().enumerate() {
@@ -291,6 +326,9 @@ impl Implicit {
             iterations: flow.iterations,
         };
         state.flow = flow;
+        if let (Some(gas), Some((air, settled))) = (self.setup.gas, air) {
+            self.keep_air(gas, air, settled, dt);
+        }
         report
     }
 }

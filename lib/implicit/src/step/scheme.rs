@@ -84,6 +84,7 @@ impl Scheme for Implicit {
             state.unsettled as f64,
             state.flow.speed,
             state.flow.force,
+            state.dt,
         ];
         scalars.extend(state.drive.state());
         let rows = [
@@ -105,6 +106,7 @@ impl Scheme for Implicit {
         ];
         let programme = state.drive.programme().map(PressRun::state);
         arrays.extend(programme.map(|state| (PROGRAMME, Array::F64(state))));
+        arrays.extend(self.save_air());
         (arrays.into_iter())
             .map(|(name, array)| (name.to_owned(), Saving::Whole(array)))
             .collect()
@@ -125,6 +127,7 @@ impl Scheme for Implicit {
             unsettled,
             speed,
             force,
+            dt,
             ref drive @ ..,
         ] = scalars
         else {
@@ -133,7 +136,7 @@ impl Scheme for Implicit {
         let Ok(drive) = <[f64; 7]>::try_from(drive) else {
             return Err("the checkpoint's clamp state is not that of this scheme".into());
         };
-        if [height, time, steps, fastest, growth, lost, unsettled]
+        if [height, time, steps, fastest, growth, lost, unsettled, dt]
             .iter()
             .any(|&x| x < 0.0)
         {
@@ -157,6 +160,7 @@ impl Scheme for Implicit {
         }
         let velocity = array("velocities", mesh.faces.len())?;
         let pressure = array("pressures", mesh.pores.len())?;
+        let air = self.restored_air(saved, mesh.pores.len())?;
         let displacement = array("displacement", 3 * self.state.displacement.len())?;
         if self.state.drive.programme().is_some() {
             let state = saved.f64s(PROGRAMME)?;
@@ -169,9 +173,9 @@ impl Scheme for Implicit {
         (state.fastest, state.growth) = (fastest, growth);
         (state.lost, state.power) = (lost, power);
         state.unsettled = unsettled as u64;
-        state.volumes = volumes;
+        (state.volumes, state.air) = (volumes, air);
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
-        (state.flow.speed, state.flow.force) = (speed, force);
+        (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
         state.displacement = displacement.as_chunks::<3>().0.to_vec();
         self.links = self.setup.links(&mesh, &Kept::default(), &Links::default());
         self.edges = Edges::new(
@@ -189,7 +193,7 @@ impl Scheme for Implicit {
     }
 
     fn counts(&self) -> Vec<(&'static str, u64)> {
-        let mut counts = Vec::new();
+        let mut counts = self.air_counts();
         if self.setup.limited {
             counts.push(("steps above the pressure limit", self.state.drive.broken.0));
         }

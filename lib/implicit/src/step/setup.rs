@@ -6,6 +6,7 @@ use physics::{Dimensions, Liquid, Points, PressRun, Scene, Seed, Stop, Viscosity
 
 use super::drive::ClampDrive;
 use super::{MARGIN, State};
+use crate::air::Gas;
 use crate::geometry::{Chords, Face, Lattice, Mesh, Region, Rows};
 use crate::liquid::{Kept, Place, deposit};
 use crate::settings::Settings;
@@ -36,7 +37,7 @@ impl Units {
 pub(super) struct Setup {
     pub(super) settings: Settings,
     pub(super) lattice: Lattice,
-    chords: Chords,
+    pub(super) chords: Chords,
     pub(super) liquid: Liquid,
     pub(super) units: Units,
     pub(super) place: Place,
@@ -46,8 +47,11 @@ pub(super) struct Setup {
     pub(super) top: Option<usize>,
     /// Area that pressures refer to, m2.
     area: f64,
-    /// Whether a clamp has a pressure limit.
+    /// Whether there is a clamp, and whether it has a pressure limit.
+    pub(super) clamped: bool,
     pub(super) limited: bool,
+    /// Air that has pressures where it is closed off.
+    pub(super) gas: Option<Gas>,
 }
 
 impl Setup {
@@ -58,9 +62,6 @@ impl Setup {
     pub(super) fn new(scene: &Scene, settings: Settings) -> Result<(Self, Mesh, Vec<f64>), String> {
         if scene.points.position.is_empty() {
             return Err("the scene holds no liquid: nothing would move".into());
-        }
-        if scene.liquid.cavitation_pressure.is_some() {
-            return Err("scheme = \"volume-fraction\" has no cavitation_pressure yet: leave it out, or take scheme = \"implicit\"".into());
         }
         let lattice = Lattice::new(scene)?;
         let cell_m = scene.grid.cell_m;
@@ -99,6 +100,11 @@ impl Setup {
             bottom: scene.bottom,
             top: scene.top,
             area: scene.grid.area_m2(),
+            gas: settings.air_pressure.map(|pressure| {
+                let tait = scene.liquid.tait;
+                Gas::new(pressure, settings.air_leak_time, tait, units.viscosity)
+            }),
+            clamped: scene.clamp.is_some(),
             limited: scene
                 .clamp
                 .is_some_and(|clamp| clamp.max_pressure.is_some()),

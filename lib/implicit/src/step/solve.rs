@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::Implicit;
 use super::drive::Asked;
+use crate::air::Air;
 use crate::liquid::transport;
 use crate::system::{
     Drive, FULL, Flow, Problem, Rates, Unknowns, Viscosities, forces, halves, masses, solve,
@@ -30,6 +31,8 @@ pub(super) struct Solved {
     pub(super) forces: Vec<f64>,
     /// Whether the viscosity is that of the flow.
     pub(super) settled: bool,
+    /// The air that is closed off, and whether it has the pressures of its volumes.
+    pub(super) air: Option<(Air, bool)>,
     /// Whether the step ends the travel of the clamp.
     pub(super) arrives: bool,
 }
@@ -170,11 +173,12 @@ impl Implicit {
     fn solve_driven(&mut self, dt: f64, drive: Drive) -> Result<Solved, String> {
         let (full, fractions) = self.middle(dt);
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
-        let unknowns = Unknowns::new(mesh, &fractions);
+        let mut torn = vec![false; mesh.pores.len()];
+        let mut unknowns = Unknowns::new(mesh, &fractions, &torn);
+        let mut air = self.closed_off(&unknowns, &fractions, dt);
         let halves = halves(mesh, &fractions);
         let masses = masses(mesh, &halves);
         let end = self.end_height(dt);
-        let carried = setup.carried(mesh, &unknowns, state, &full, [self.height, end], dt);
         let cured = setup.viscosity_at(state.time + 0.5 * dt);
         let factor = cured / setup.units.viscosity;
         let varies = setup.varies();
@@ -193,18 +197,19 @@ impl Implicit {
             true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor),
             false => Viscosities::constant(mesh, cured),
         };
-        let mut flow = state.flow.clone();
-        let mut iterations = 0;
         let mut solved = Solved {
             dt,
             full,
             forces: Vec::new(),
             settled: false,
+            air: None,
             arrives: false,
-            flow: Flow::default(),
+            flow: state.flow.clone(),
         };
+        let (mut iterations, mut astray) = (0, false);
         for _ in 0..PASSES {
             let stiffnesses = stiffnesses(mesh, &halves, &viscosities.pores);
+            let fronts = self.fronts(&unknowns, &torn, air.as_ref(), cured, dt);
             let problem = Problem {
                 lattice: &setup.lattice,
                 mesh,
@@ -220,28 +225,38 @@ impl Implicit {
                 before: &state.flow.velocity,
                 speed_before: state.flow.speed,
                 end_height: end,
+                fronts: &fronts,
+                pockets: air.as_ref().map_or(&[], |air| &air.pockets),
                 scales: setup.scales(dt),
             };
-            flow = solve(&problem, &carried, drive, &flow, &mut self.solver)
+            let heights = [self.height, end];
+            let carried = setup.carried(mesh, &unknowns, state, &solved.full, heights, dt);
+            let flow = solve(&problem, &carried, drive, &solved.flow, &mut self.solver)
                 .map_err(|error| error.to_string())?;
             iterations += flow.iterations;
-            let next = match varies {
-                true => rates(&flow),
-                false => Rates::default(),
-            };
-            let changed = match varies {
-                true => Viscosities::of(&next, &setup.liquid, factor),
-                false => Viscosities::default(),
-            };
-            solved.settled =
-                !varies || viscosities.change(&changed, &next, mesh, &fractions) < SETTLED;
             solved.forces = forces(&problem, &flow, state.displacement.len());
-            if solved.settled {
+            solved.settled = true;
+            if varies {
+                let next = rates(&flow);
+                let changed = Viscosities::of(&next, &setup.liquid, factor);
+                solved.settled = viscosities.change(&changed, &next, mesh, &fractions) < SETTLED;
+                viscosities = changed;
+            }
+            let tears = self.tear(&unknowns, &flow, dt, &mut torn);
+            if tears {
+                unknowns = Unknowns::new(mesh, &fractions, &torn);
+            }
+            solved.flow = flow;
+            astray = match (&mut air, setup.gas) {
+                (Some(air), Some(gas)) => !air.settle(gas, &solved.flow.pressure, dt),
+                _ => false,
+            };
+            if solved.settled && !tears && !astray {
                 break;
             }
-            viscosities = changed;
         }
-        flow.iterations = iterations;
-        Ok(Solved { flow, ..solved })
+        solved.flow.iterations = iterations;
+        solved.air = air.map(|air| (air, !astray));
+        Ok(solved)
     }
 }

@@ -4,9 +4,11 @@ use rayon::prelude::*;
 use saddle_point::{Csr, RowEntries, SolveError, VelocityBlock};
 
 use super::edges::Edges;
+use super::fronts::Fronts;
 use super::links::Links;
 use super::stretching::stretching;
 use super::unknowns::{FULL, Unknowns};
+use crate::air::Pocket;
 use crate::geometry::{Face, Kind, Lattice, Mesh};
 
 /// Friction over viscosity of liquid that touches nothing, so that it has a velocity.
@@ -51,14 +53,17 @@ pub(crate) struct Problem<'a> {
     pub(crate) speed_before: f64,
     /// Height of the gap at the end of the step, cells.
     pub(crate) end_height: f64,
+    pub(crate) fronts: &'a Fronts,
+    /// Pockets of air with a pressure.
+    pub(crate) pockets: &'a [Pocket],
     pub(crate) scales: Scales,
 }
 
-/// Momenta on the right-hand side: known, per closing speed, and the weight's part of what is known.
+/// Momenta on the right-hand side: known, per closing speed, and the part of what is known that stands: weight, menisci, gas.
 pub(crate) struct Sides {
     pub(crate) known: Vec<f64>,
     pub(crate) closing: Vec<f64>,
-    pub(crate) weight: Vec<f64>,
+    pub(crate) standing: Vec<f64>,
     /// Known force on the body that closes the gap, by the inertia and the weight of the liquid that it carries along.
     pub(crate) carried: f64,
 }
@@ -75,7 +80,7 @@ impl Problem<'_> {
     }
 
     /// The two pores of a face.
-    fn ends(&self, face: usize) -> [usize; 2] {
+    pub(super) fn ends(&self, face: usize) -> [usize; 2] {
         let face = &self.mesh.faces[face];
         [face.low as usize, face.high as usize]
     }
@@ -98,9 +103,10 @@ impl Problem<'_> {
         let link = &self.links.0[face];
         let weights = self.wall_weights(face);
         let friction = weights[0] * link.friction[0] + weights[1] * link.friction[1];
+        let drag = self.fronts.drag.get(face).copied().unwrap_or_default();
         entries.add(
             row,
-            friction + self.scales.inertia * self.masses[face] + FREE,
+            friction + drag + self.scales.inertia * self.masses[face] + FREE,
         );
         let number = |face: usize| self.unknowns.face(face);
         let ends = self.ends(face);
@@ -149,7 +155,7 @@ impl Problem<'_> {
         Sides {
             known: column(0),
             closing: column(1),
-            weight: column(2),
+            standing: column(2),
             carried: column(3).iter().sum(),
         }
     }
@@ -160,8 +166,8 @@ impl Problem<'_> {
         let axis = usize::from(f.axis);
         let carried = self.masses[face];
         let inertia = self.scales.inertia * carried;
-        let weight = self.scales.gravity[axis] * carried;
-        let mut force = [inertia * self.before[face] + weight, 0.0, weight, 0.0];
+        let standing = self.scales.gravity[axis] * carried + self.push(face);
+        let mut force = [inertia * self.before[face] + standing, 0.0, standing, 0.0];
         let link = &self.links.0[face];
         let weights = self.wall_weights(face);
         for (weight, [own, closing]) in weights.into_iter().zip(link.sliding) {
@@ -172,7 +178,7 @@ impl Problem<'_> {
             let frame = self.mesh.frame(self.lattice, face);
             force[0] += inertia * frame * self.speed_before;
             force[1] -= inertia * frame;
-            force[3] = -frame * force[0];
+            force[3] = -frame * (force[0] - self.push(face));
             let ends = self.ends(face);
             for (pore, up) in [(ends[0], false), (ends[1], true)] {
                 let stiffness = self.stiffness(pore);
@@ -269,19 +275,17 @@ impl Problem<'_> {
         self.unknowns.faces.iter().zip(u).map(part).sum()
     }
 
-    /// Outflow of each pore with a pressure by the velocities of its faces.
+    /// Outflow of each pore with a pressure by the velocities of its faces, and behind these of each pocket by its front.
     pub(crate) fn outflow(&self) -> Result<Csr<f64>, SolveError> {
         let (pores, faces) = (&self.unknowns.pores, &self.unknowns.faces);
-        Csr::assemble(pores.len(), faces.len(), |row, entries| {
-            let pore = pores[row] as usize;
-            for axis in 0..3 {
-                for up in [false, true] {
-                    for face in self.mesh.faces_at(pore, axis, up) {
-                        if let Some(number) = self.unknowns.face(face) {
-                            let area = self.mesh.area(face);
-                            entries.add(number, if up { area } else { -area });
-                        }
-                    }
+        let rows = pores.len() + self.pockets.len();
+        Csr::assemble(rows, faces.len(), |row, entries| match pores.get(row) {
+            Some(&pore) => self.add_outflow(pore as usize, entries, |_| true),
+            None => {
+                for &pore in &self.pockets[row - pores.len()].pores {
+                    self.add_outflow(pore as usize, entries, |beside| {
+                        self.unknowns.has_pressure(beside)
+                    });
                 }
             }
         })

@@ -2,6 +2,7 @@
 
 mod assembly;
 mod edges;
+mod fronts;
 mod links;
 mod solution;
 mod stretching;
@@ -10,6 +11,7 @@ mod viscosity;
 
 pub(crate) use assembly::{Problem, Scales, halves, masses, stiffnesses};
 pub(crate) use edges::Edges;
+pub(crate) use fronts::{Fronts, Wetting};
 pub(crate) use links::{Links, Walls};
 pub(crate) use solution::{Drive, Flow, forces, solve};
 pub(crate) use unknowns::{FULL, Unknowns};

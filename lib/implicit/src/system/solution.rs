@@ -5,6 +5,7 @@ use saddle_point::{Load, SaddleSolver, SaddleSystem, SolveError};
 
 use super::assembly::{Problem, Sides};
 use super::stretching::stretching;
+use crate::air::Pocket;
 use crate::geometry::{MIRROR, OPEN};
 
 /// How the body that closes the gap is driven.
@@ -49,14 +50,14 @@ pub(crate) fn solve(
     let Sides {
         mut known,
         closing,
-        weight,
-        carried: carried_force,
+        standing,
+        carried: mut carried_force,
     } = problem.momenta();
     let scales = &problem.scales;
-    let source: Vec<f64> = (unknowns.pores.iter())
+    let mut source: Vec<f64> = (unknowns.pores.iter())
         .map(|&pore| problem.closing(pore as usize))
         .collect();
-    let c: Vec<f64> = (unknowns.pores.iter())
+    let mut c: Vec<f64> = (unknowns.pores.iter())
         .map(|&pore| {
             let end = problem.mesh.volume_at(pore as usize, problem.end_height);
             end * scales.compressibility / scales.dt
@@ -65,9 +66,30 @@ pub(crate) fn solve(
     let friction: Vec<f64> = (unknowns.faces.par_iter())
         .map(|&face| resistance(problem, face as usize))
         .collect();
-    let two_eta: Vec<f64> = (unknowns.pores.iter())
+    let mut two_eta: Vec<f64> = (unknowns.pores.iter())
         .map(|&pore| 2.0 * problem.viscosity[pore as usize])
         .collect();
+    let mut carried = carried.to_vec();
+    // The unknown of a pocket is its pressure less that of its tangent, by which fronts are pushed: what softens a pocket much
+    // would outweigh all else.
+    let thickest = two_eta.iter().copied().fold(1.0, f64::max);
+    for Pocket {
+        pores,
+        volume,
+        tangent,
+        ..
+    } in problem.pockets
+    {
+        let closing = pores
+            .iter()
+            .map(|&pore| problem.closing(pore as usize))
+            .sum();
+        source.push(closing);
+        carried_force += closing * tangent.pressure;
+        c.push(tangent.yielding / scales.dt);
+        carried.push((tangent.volume - volume) / scales.dt);
+        two_eta.push(thickest);
+    }
     let speed = match drive {
         Drive::Speed(speed) | Drive::Force { guess: speed, .. } => speed,
     };
@@ -83,26 +105,27 @@ pub(crate) fn solve(
     let system = SaddleSystem {
         a: &a,
         g: &g,
-        pockets: 0,
+        pockets: problem.pockets.len(),
         c: &c,
         friction: &friction,
         two_eta: &two_eta,
         b: &known,
-        standing: if scales.gravity == [0.0; 3] {
+        standing: if standing.iter().all(|&force| force == 0.0) {
             &[]
         } else {
-            &weight
+            &standing
         },
         holding: &[],
         slow: SLOW / scales.dt,
         volume_source: &volume_source,
-        carried,
+        carried: &carried,
     };
     let mut u: Vec<f64> = (unknowns.faces.iter())
         .map(|&face| guess.velocity[face as usize])
         .collect();
     let mut p: Vec<f64> = (unknowns.pores.iter())
         .map(|&pore| guess.pressure[pore as usize])
+        .chain(problem.pockets.iter().map(|_| 0.0))
         .collect();
     let mut flow = Flow {
         velocity: vec![0.0; problem.mesh.faces.len()],
@@ -142,6 +165,11 @@ pub(crate) fn solve(
     for (&pore, &p) in unknowns.pores.iter().zip(&p) {
         flow.pressure[pore as usize] = p;
     }
+    for (pocket, p) in problem.pockets.iter().zip(&p[unknowns.pores.len()..]) {
+        for &pore in &pocket.pores {
+            flow.pressure[pore as usize] = pocket.tangent.pressure + p;
+        }
+    }
     Ok(flow)
 }
 
@@ -170,7 +198,8 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
         }
     };
     let part = 1.0 / (mesh.k * mesh.k) as f64;
-    for &pore in &problem.unknowns.pores {
+    let closed_in = problem.pockets.iter().flat_map(|pocket| &pocket.pores);
+    for &pore in problem.unknowns.pores.iter().chain(closed_in) {
         let pore = pore as usize;
         let (p, cell) = (flow.pressure[pore], mesh.pores[pore].cell as usize);
         for bit in (0..8).filter(|bit| mesh.pores[pore].voxels >> bit & 1 == 1) {

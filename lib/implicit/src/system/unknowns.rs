@@ -16,18 +16,20 @@ pub(crate) struct Unknowns {
     /// Pores with a pressure.
     pub(crate) pores: Vec<u32>,
     face_number: Vec<u32>,
+    /// Whether each pore has one.
+    bounded: Vec<bool>,
 }
 
 impl Unknowns {
-    /// Those of pores filled to `fractions`.
-    pub(crate) fn new(mesh: &Mesh, fractions: &[f64]) -> Self {
-        let full = |pore: u32| fractions[pore as usize] >= FULL;
+    /// Those of pores filled to `fractions`, where those that are `torn` have no pressure.
+    pub(crate) fn new(mesh: &Mesh, fractions: &[f64], torn: &[bool]) -> Self {
+        let full = |pore: u32| fractions[pore as usize] >= FULL && !torn[pore as usize];
         let mut unknowns = Self {
             faces: Vec::new(),
             pores: Vec::new(),
             face_number: vec![ABSENT; mesh.faces.len()],
+            bounded: vec![false; mesh.pores.len()],
         };
-        let mut bounded = vec![false; mesh.pores.len()];
         for (index, face) in mesh.faces.iter().enumerate() {
             let ends = [face.low, face.high];
             let liquid = |pore: u32| fractions[pore as usize] * mesh.volume(pore as usize);
@@ -38,12 +40,24 @@ impl Unknowns {
             unknowns.face_number[index] = unknowns.faces.len() as u32;
             unknowns.faces.push(index as u32);
             for pore in ends.into_iter().filter(|&pore| full(pore)) {
-                bounded[pore as usize] = true;
+                unknowns.bounded[pore as usize] = true;
             }
         }
-        let pores = (0..mesh.pores.len() as u32).filter(|&pore| bounded[pore as usize]);
-        unknowns.pores.extend(pores);
+        let pores = 0..mesh.pores.len() as u32;
+        unknowns.pores = (pores.filter(|&pore| unknowns.bounded[pore as usize])).collect();
         unknowns
+    }
+
+    /// Whether a pore has a pressure.
+    pub(crate) fn has_pressure(&self, pore: usize) -> bool {
+        self.bounded[pore]
+    }
+
+    /// Whether a pore has none and is beside one that has, in the domain.
+    pub(crate) fn is_front(&self, mesh: &Mesh, pore: usize) -> bool {
+        !self.bounded[pore]
+            && !mesh.is_beyond(mesh.pores[pore].cell as usize)
+            && mesh.beside(pore).any(|(_, _, beside)| self.bounded[beside])
     }
 
     /// Number of the velocity of a face.

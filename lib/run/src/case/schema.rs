@@ -105,6 +105,8 @@ pub struct Adhesive {
     pub contact_angle: Option<units::Quantity<units::Angle>>,
     /// The same where the contact line recedes.
     pub receding_angle: Option<units::Quantity<units::Angle>>,
+    /// What the cosine of the contact angle loses per capillary number of the front.
+    pub dynamic_angle: Option<f64>,
 }
 
 /// `[contact]`

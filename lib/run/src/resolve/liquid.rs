@@ -48,6 +48,9 @@ fn wetting(adhesive: &Adhesive) -> Result<Option<Wetting>, CaseError> {
                 receding,
             }))
         }
+        (None, None) if adhesive.dynamic_angle.is_some() => {
+            refused("dynamic_angle goes with surface_tension and contact_angle")
+        }
         (None, None) if receding.is_some() => {
             refused("receding_angle goes with surface_tension and contact_angle")
         }

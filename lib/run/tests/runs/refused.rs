@@ -106,6 +106,43 @@ fn what_contradicts_itself_is_refused() {
             "receding_angle goes with surface_tension",
         ),
         (
+            &[IMPLICIT[0], IMPLICIT[1]],
+            &[
+                "adhesive.surface_tension=50 mN/m",
+                "adhesive.contact_angle=60 deg",
+                "adhesive.dynamic_angle=5",
+            ],
+            "dynamic_angle is for scheme = \"volume-fraction\" only",
+        ),
+        (
+            &[IMPLICIT[0], IMPLICIT[1]],
+            &[
+                "integrator.scheme=volume-fraction",
+                "adhesive.surface_tension=50 mN/m",
+                "adhesive.contact_angle=60 deg",
+                "adhesive.receding_angle=20 deg",
+            ],
+            "[adhesive] receding_angle is for scheme = \"implicit\" only",
+        ),
+        (
+            &[IMPLICIT[0], IMPLICIT[1]],
+            &[
+                "integrator.scheme=volume-fraction",
+                "adhesive.dynamic_angle=5",
+            ],
+            "dynamic_angle goes with surface_tension",
+        ),
+        (
+            &[IMPLICIT[0], IMPLICIT[1]],
+            &[
+                "integrator.scheme=volume-fraction",
+                "adhesive.surface_tension=50 mN/m",
+                "adhesive.contact_angle=60 deg",
+                "adhesive.dynamic_angle=-1",
+            ],
+            "dynamic_angle is -1.0: it is zero or more",
+        ),
+        (
             &[("[contact]", WATER)],
             &[],
             "[adhesive.water] is for scheme",

@@ -51,6 +51,7 @@ pub(super) const ADHESIVE: Table = Table {
         wetting::SURFACE_TENSION,
         wetting::CONTACT_ANGLE,
         wetting::RECEDING_ANGLE,
+        wetting::DYNAMIC_ANGLE,
     ],
 };
 

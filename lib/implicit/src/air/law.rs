@@ -1,0 +1,132 @@
+//! Pressure of a pocket by its air and its volume, and the tangent that a step is solved with.
+
+use physics::{TAIT_C, Tait};
+
+/// Least absolute pressure of a void, over that outside: one that liquid opens without air has no tangent in a vacuum.
+const THINNEST: f64 = 1e-3;
+/// Largest ratio of the volumes that one tangent and the next are taken at: Newton's steps of V = m/p end from either side.
+const STEEPEST: f64 = 4.0;
+/// Part of its volume that a pocket may be off its pressure by.
+const ASTRAY: f64 = 1e-3;
+
+/// The air of a run. Pressures are over a unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Gas {
+    /// Absolute pressure outside.
+    pub(crate) outside: f64,
+    /// Largest absolute pressure: that at which the liquid has lost the part C of its volume.
+    pub(crate) most: f64,
+    /// Time in which what a pocket of fixed volume has above that outside falls to 1/e of it, s; infinite where walls are tight.
+    pub(crate) leak_time: f64,
+}
+
+/// A pocket's law near one volume: V_end = `volume` - `yielding` (p - `pressure`).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Tangent {
+    /// Volume, cells.
+    pub(crate) volume: f64,
+    /// Pressure above that outside.
+    pub(crate) pressure: f64,
+    /// Cells per unit of pressure.
+    pub(crate) yielding: f64,
+}
+
+impl Tangent {
+    /// The volume at a pressure above that outside.
+    pub(crate) fn volume_at(&self, pressure: f64) -> f64 {
+        let volume = self.volume - self.yielding * (pressure - self.pressure);
+        volume.clamp(self.volume / STEEPEST, self.volume * STEEPEST)
+    }
+}
+
+impl Gas {
+    /// Air that is at `outside` (Pa, absolute) where nothing closes it off, beside a liquid of the law `tait`, in a unit of
+    /// pressure (Pa).
+    pub(crate) fn new(outside: f64, leak_time: f64, tait: Tait, unit: f64) -> Self {
+        Self {
+            outside: outside / unit,
+            most: tait.pressure(-TAIT_C) / unit,
+            leak_time,
+        }
+    }
+
+    /// The law of `mass`, pressure times volume at the start of a step of `dt` (s), about a volume (cells) at its end:
+    /// p V = m - dt/t_leak (p - p_0) V.
+    pub(crate) fn tangent(&self, mass: f64, volume: f64, dt: f64) -> Tangent {
+        let leak = dt / self.leak_time;
+        let thinnest = THINNEST * self.outside;
+        let absolute = (mass / volume + leak * self.outside) / (1.0 + leak);
+        Tangent {
+            volume,
+            pressure: absolute.clamp(thinnest, self.most) - self.outside,
+            yielding: volume * (1.0 + leak) / (mass / volume).max(thinnest),
+        }
+    }
+
+    /// Whether a pressure above that outside is that of the volume which its tangent gives it.
+    pub(crate) fn agrees(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
+        let right = self.tangent(mass, tangent.volume_at(pressure), dt);
+        let off = right.yielding * (pressure - right.pressure).abs();
+        off <= ASTRAY * right.volume
+    }
+
+    /// What of `mass` leaks out in a step in which it comes to a volume and to a pressure above that outside.
+    pub(crate) fn leaked(&self, mass: f64, volume: f64, pressure: f64, dt: f64) -> f64 {
+        (dt / self.leak_time * pressure * volume).min(mass)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A front that a pressure pushes against friction: tangents lead from one volume to the pressure of the volume that it
+    /// comes to, from far to both sides, with a leak and without.
+    #[test]
+    fn tangents_lead_to_the_pressure_of_the_volume() {
+        let pushes = [(1e3, 1e2), (-99.0, 1e2), (5e4, 1e-3), (0.0, 1.0)];
+        for (leak_time, (push, resistance)) in [f64::INFINITY, 0.03]
+            .into_iter()
+            .flat_map(|time| pushes.map(|push| (time, push)))
+        {
+            let gas = Gas {
+                outside: 1e2,
+                most: 1e6,
+                leak_time,
+            };
+            let (mass, first, dt) = (1e3, 10.0, 0.1);
+            let mut tangent = gas.tangent(mass, first, dt);
+            let mut passes = 0;
+            let p = loop {
+                // V_end = V + dt (p - push)/resistance.
+                let Tangent {
+                    volume,
+                    pressure,
+                    yielding,
+                } = tangent;
+                let known = volume + yielding * pressure - first + dt * push / resistance;
+                let p = known / (yielding + dt / resistance);
+                if gas.agrees(mass, &tangent, p, dt) {
+                    break p;
+                }
+                tangent = gas.tangent(mass, tangent.volume_at(p), dt);
+                passes += 1;
+                assert!(passes < 20, "{push} {resistance}");
+            };
+            let (volume, absolute) = (tangent.volume_at(p), p + gas.outside);
+            let leaked = gas.leaked(mass, volume, p, dt);
+            assert!((absolute * volume + leaked - mass).abs() < 2e-3 * mass);
+        }
+    }
+
+    #[test]
+    fn a_void_without_air_pulls_as_a_vacuum_does_and_a_crushed_one_stays_below_the_liquids_law() {
+        let gas = Gas {
+            outside: 1e2,
+            most: 1e6,
+            leak_time: f64::INFINITY,
+        };
+        assert!((gas.tangent(0.0, 3.0, 1.0).pressure + 99.9).abs() < 1e-9);
+        assert!((gas.tangent(1e9, 1e-9, 1.0).pressure + 1e2 - 1e6).abs() < 1e-3);
+    }
+}

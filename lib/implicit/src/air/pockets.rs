@@ -1,0 +1,170 @@
+//! Which pores that are not full make a pocket, and the air in them.
+
+use physics::Boundary;
+
+use super::law::{Gas, Tangent};
+use crate::geometry::Mesh;
+
+/// Sides of the domain that air passes: open ones, and with a clamp those normal to y, where its body leaves room.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outside {
+    along_y: bool,
+}
+
+impl Outside {
+    pub(crate) fn new(boundary: [Boundary; 3], clamped: bool) -> Self {
+        Self {
+            along_y: clamped || boundary[1] == Boundary::Open,
+        }
+    }
+
+    fn reaches(self, mesh: &Mesh, pore: usize) -> bool {
+        let cell = mesh.pores[pore].cell as usize;
+        let row = mesh.row(cell);
+        mesh.is_beyond(cell) || self.along_y && (row == 0 || row + 1 == mesh.rows().len())
+    }
+}
+
+/// Connected pores that are not full and that nothing connects with the outside.
+#[derive(Clone, Debug)]
+pub(crate) struct Pocket {
+    pub(crate) pores: Vec<u32>,
+    /// Absolute pressure times volume at the start of the step.
+    pub(crate) mass: f64,
+    /// Volume then, cells.
+    pub(crate) volume: f64,
+    pub(crate) tangent: Tangent,
+}
+
+/// Air of a step.
+#[derive(Clone, Debug)]
+pub(crate) struct Air {
+    /// Pockets beside liquid, which have a pressure in the step, and the others.
+    pub(crate) pockets: Vec<Pocket>,
+    pub(crate) dry: Vec<Pocket>,
+    /// Absolute pressure times volume in each pore; in those of pockets at the start of the step.
+    pub(crate) held: Vec<f64>,
+    /// Pores whose air nothing closes off.
+    outside: Vec<u32>,
+    /// Air that full pores have closed in, with none beside.
+    pub(crate) covered: f64,
+}
+
+impl Air {
+    /// The air `held` by pores of the empty volume `void`, as pockets where those that are `full` part it.
+    pub(crate) fn new(
+        mesh: &Mesh,
+        has_pressure: impl Fn(usize) -> bool,
+        full: impl Fn(usize) -> bool,
+        void: &[f64],
+        held: &[f64],
+        sides: Outside,
+    ) -> Self {
+        let mut air = Self {
+            pockets: Vec::new(),
+            dry: Vec::new(),
+            held: held.to_vec(),
+            outside: Vec::new(),
+            covered: 0.0,
+        };
+        air.uncover(mesh, &full, void);
+        let mut found = vec![false; mesh.pores.len()];
+        for first in 0..mesh.pores.len() {
+            if found[first] || full(first) {
+                continue;
+            }
+            let (mut pores, mut next) = (vec![first as u32], 0);
+            let (mut open, mut wet) = (false, false);
+            found[first] = true;
+            while let Some(&pore) = pores.get(next) {
+                next += 1;
+                open |= sides.reaches(mesh, pore as usize);
+                for (_, _, beside) in mesh.beside(pore as usize) {
+                    wet |= has_pressure(beside);
+                    if !full(beside) && !std::mem::replace(&mut found[beside], true) {
+                        pores.push(beside as u32);
+                    }
+                }
+            }
+            air.add(pores, open, wet, void);
+        }
+        air
+    }
+
+    fn add(&mut self, mut pores: Vec<u32>, open: bool, wet: bool, void: &[f64]) {
+        if open {
+            self.outside.append(&mut pores);
+            return;
+        }
+        pores.sort_unstable();
+        let sum = |of: &[f64]| pores.iter().map(|&pore| of[pore as usize]).sum::<f64>();
+        let pocket = Pocket {
+            mass: sum(&self.held),
+            volume: sum(void),
+            tangent: Tangent::default(),
+            pores,
+        };
+        match wet {
+            true => self.pockets.push(pocket),
+            false => self.dry.push(pocket),
+        }
+    }
+
+    /// Gives what full pores hold to those beside them that are not, by their empty volume.
+    fn uncover(&mut self, mesh: &Mesh, full: &impl Fn(usize) -> bool, void: &[f64]) {
+        for pore in (0..mesh.pores.len()).filter(|&pore| full(pore)) {
+            if self.held[pore] == 0.0 {
+                continue;
+            }
+            let open: Vec<usize> = mesh
+                .beside(pore)
+                .map(|beside| beside.2)
+                .filter(|&beside| !full(beside))
+                .collect();
+            let all: f64 = open.iter().map(|&beside| void[beside]).sum();
+            if all == 0.0 {
+                self.covered += self.held[pore];
+                continue;
+            }
+            let held = std::mem::take(&mut self.held[pore]);
+            for beside in open {
+                self.held[beside] += held * void[beside] / all;
+            }
+        }
+    }
+
+    /// Whether the pressures of pores are those of the volumes that pockets come to in a step of `dt` (s); where one is not,
+    /// pockets have tangents at these volumes.
+    pub(crate) fn settle(&mut self, gas: Gas, pressures: &[f64], dt: f64) -> bool {
+        let pressure = |pocket: &Pocket| pressures[pocket.pores[0] as usize];
+        let agrees =
+            |pocket: &Pocket| gas.agrees(pocket.mass, &pocket.tangent, pressure(pocket), dt);
+        if self.pockets.iter().all(agrees) {
+            return true;
+        }
+        for pocket in &mut self.pockets {
+            let volume = pocket.tangent.volume_at(pressure(pocket));
+            pocket.tangent = gas.tangent(pocket.mass, volume, dt);
+        }
+        false
+    }
+
+    /// The air in each pore after the step, in which the empty volumes came to `void`: that of a pocket is alike
+    /// in all of it, that outside has the pressure `outside`.
+    pub(crate) fn after(mut self, void: &[f64], outside: f64) -> Vec<f64> {
+        for pocket in self.pockets.iter().chain(&self.dry) {
+            let all: f64 = pocket.pores.iter().map(|&pore| void[pore as usize]).sum();
+            for &pore in &pocket.pores {
+                let share = match all > 0.0 {
+                    true => void[pore as usize] / all,
+                    false => 1.0 / pocket.pores.len() as f64,
+                };
+                self.held[pore as usize] = pocket.mass * share;
+            }
+        }
+        for &pore in &self.outside {
+            self.held[pore as usize] = outside * void[pore as usize];
+        }
+        self.held
+    }
+}

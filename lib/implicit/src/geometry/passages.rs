@@ -1,0 +1,202 @@
+//! How narrow the passage is that a pore lies in: perimeter over area of the section that a meniscus spans.
+
+use super::chords::{Chords, LONGEST, Place};
+use super::lattice::{Lattice, OPEN};
+use super::mesh::{Mesh, others};
+
+/// Most that a chord grows by from one voxel to the next within a passage: those of a disc grow by less, where a lumen
+/// opens into the bond line they grow by more.
+const WIDENS: f64 = 3.0;
+
+/// Narrowest width that counts, voxels: no image shows less, and a gap that closes would pull without limit.
+const NARROWEST: f64 = 1.0;
+
+/// Perimeter over area, 1/cells, of the passage at a pore by the two narrowest of its widths that liquid spans, 2/d each:
+/// 4/d in a tube, 2/d in a slit. Walls too far apart have none, nor has liquid that lies on one wall alone. `wet` says which
+/// pores are full.
+pub(crate) fn narrowness(
+    lattice: &Lattice,
+    chords: &Chords,
+    mesh: &Mesh,
+    pore: usize,
+    wet: &impl Fn(usize) -> bool,
+) -> f64 {
+    let view = View {
+        lattice,
+        chords,
+        mesh,
+        gap: mesh.rows().height * mesh.k as f64,
+    };
+    let (cell, voxels) = (mesh.pores[pore].cell as usize, mesh.pores[pore].voxels);
+    let sum: f64 = (0..8)
+        .filter(|bit| voxels >> bit & 1 == 1)
+        .map(|bit| view.at(cell, mesh.voxel(bit), wet))
+        .sum();
+    mesh.k as f64 * sum / f64::from(voxels.count_ones())
+}
+
+/// Voxels and chords with a gap of so many voxels.
+struct View<'a> {
+    lattice: &'a Lattice,
+    chords: &'a Chords,
+    mesh: &'a Mesh,
+    gap: f64,
+}
+
+/// A voxel of a cell.
+type Voxel = (usize, [usize; 3]);
+
+impl View<'_> {
+    /// At a voxel, 1/voxels. In plane strain the passage is as deep as can be.
+    fn at(&self, cell: usize, voxel: [usize; 3], wet: &impl Fn(usize) -> bool) -> f64 {
+        let Some(place) = self.mesh.lattice_place(self.lattice, cell, voxel) else {
+            return 0.0;
+        };
+        let axes = if self.lattice.flat { 2 } else { 3 };
+        let far = f64::from(LONGEST);
+        let lengths = [0, 1, 2].map(|axis| match axis < axes {
+            true => self.chords.length(place, axis, self.gap),
+            false => far,
+        });
+        let mut widths: Vec<(f64, usize)> = (0..axes)
+            .map(|axis| match self.lattice.flat {
+                true => (lengths[axis], axis),
+                false => (self.width(place, axis, &lengths), axis),
+            })
+            .filter(|width| width.0 < far)
+            .collect();
+        widths.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        (widths.iter())
+            .filter(|&&(width, axis)| self.spanned((cell, voxel), axis, axes, width, wet))
+            .take(axes - 1)
+            .map(|width| 2.0 / width.0.max(NARROWEST))
+            .sum()
+    }
+
+    /// Whether liquid spans the chord along an axis through a voxel, wet at both ends and in its middle, or the same chord no
+    /// farther off along another axis than it is long: no meniscus is deeper.
+    fn spanned(
+        &self,
+        voxel: Voxel,
+        axis: usize,
+        axes: usize,
+        length: f64,
+        wet: &impl Fn(usize) -> bool,
+    ) -> bool {
+        let step = |(cell, voxel): Voxel, axis: usize, up: bool| {
+            let (cell, voxel) = self.mesh.next_voxel(cell, voxel, axis, up)?;
+            self.mesh.pore_with(cell, voxel).map(|_| (cell, voxel))
+        };
+        let line = |up: bool| {
+            let most = length as usize;
+            let beyond = std::iter::successors(step(voxel, axis, up), |&at| step(at, axis, up));
+            beyond.take(most).collect::<Vec<Voxel>>()
+        };
+        let (below, above) = (line(false), line(true));
+        let chord: Vec<Voxel> = (below.into_iter().rev())
+            .chain([voxel])
+            .chain(above)
+            .collect();
+        let last = chord.len() - 1;
+        let places = [0, last / 2, last.div_ceil(2), last].map(|at| chord[at]);
+        let is_wet = |&(cell, voxel): &Voxel| self.mesh.pore_with(cell, voxel).is_some_and(wet);
+        (0..axes).filter(|&a| a != axis).any(|a| {
+            [false, true].into_iter().any(|up| {
+                let mut places = Some(places);
+                for _ in 0..=length as usize {
+                    let Some(at) = places else { break };
+                    if at.iter().all(is_wet) {
+                        return true;
+                    }
+                    let next = at.map(|at| step(at, a, up));
+                    places = match next {
+                        [Some(a), Some(b), Some(c), Some(d)] => Some([a, b, c, d]),
+                        _ => None,
+                    };
+                }
+                false
+            })
+        })
+    }
+
+    /// Width of the passage along an axis: the longest chord beside the one through a voxel that reaches as far to both sides as
+    /// the voxel lies off it, which is that through the middle of a round section. What lies along the passage does not
+    /// count.
+    fn width(&self, place: Place, axis: usize, lengths: &[f64; 3]) -> f64 {
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        let mut widest = lengths[axis];
+        for beside in others(axis).into_iter().filter(|&b| lengths[b] < longest) {
+            for up in [false, true] {
+                let (mut at, mut before) = (place, lengths[axis]);
+                let mut way = 0.5 * self.thickness(at, beside);
+                while let Some(next) = self.next(at, beside, up) {
+                    let length = self.chords.length(next, axis, self.gap);
+                    if length > WIDENS * before {
+                        break;
+                    }
+                    if way <= 0.5 * length {
+                        widest = widest.max(length);
+                    }
+                    way += self.thickness(next, beside);
+                    (at, before) = (next, length);
+                }
+            }
+        }
+        widest
+    }
+
+    /// Voxels that a place is thick along an axis: the gap is one place at each x and z.
+    fn thickness(&self, place: Place, axis: usize) -> f64 {
+        match place {
+            Place::Gap(_) if axis == 1 => self.gap,
+            _ => 1.0,
+        }
+    }
+
+    /// The open place beside one along an axis.
+    fn next(&self, place: Place, axis: usize, up: bool) -> Option<Place> {
+        let [nx, nz] = self.lattice.across();
+        let shifted = |at: usize| {
+            let (i, n, stride) = match axis {
+                0 => (at % nx, nx, 1),
+                _ => (at / nx, nz, nx),
+            };
+            let turns = self.lattice.boundary[axis] == physics::Boundary::Periodic;
+            match (up, i) {
+                (true, i) if i + 1 < n => Some(at + stride),
+                (false, i) if i > 0 => Some(at - stride),
+                (true, _) if turns => Some(at - (n - 1) * stride),
+                (false, _) if turns => Some(at + (n - 1) * stride),
+                _ => None,
+            }
+        };
+        let next = match (place, axis, up) {
+            (Place::Gap(at), 1, true) => Place::Above(0, at),
+            (Place::Gap(at), 1, false) => Place::Below(0, at),
+            (Place::Below(0, at), 1, true) | (Place::Above(0, at), 1, false)
+                if self.lattice.moving.is_some() =>
+            {
+                Place::Gap(at)
+            }
+            (Place::Below(layer, at), 1, up) => Place::Below(beyond(layer, !up)?, at),
+            (Place::Above(layer, at), 1, up) => Place::Above(beyond(layer, up)?, at),
+            (Place::Gap(at), ..) => Place::Gap(shifted(at)?),
+            (Place::Below(layer, at), ..) => Place::Below(layer, shifted(at)?),
+            (Place::Above(layer, at), ..) => Place::Above(layer, shifted(at)?),
+        };
+        let code = match next {
+            Place::Gap(at) => self.lattice.gap.get(at),
+            Place::Below(layer, at) => self.lattice.below.get(layer).and_then(|l| l.get(at)),
+            Place::Above(layer, at) => self.lattice.above.get(layer).and_then(|l| l.get(at)),
+        };
+        (code == Some(&OPEN)).then_some(next)
+    }
+}
+
+/// The layer after or before one.
+fn beyond(layer: usize, away: bool) -> Option<usize> {
+    match away {
+        true => Some(layer + 1),
+        false => layer.checked_sub(1),
+    }
+}

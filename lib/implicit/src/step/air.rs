@@ -1,0 +1,225 @@
+//! What liquid meets in a step where it ends: menisci, pockets of air, and where it is torn.
+
+use physics::{Array, Saved, restored};
+
+use super::Implicit;
+use crate::air::{Air, Gas, Outside};
+use crate::system::{FULL, Flow, Fronts, Unknowns, Wetting};
+
+/// Names of the arrays of a checkpoint that hold the air of each pore, and what is counted of it.
+const HELD: &str = "air";
+const COUNTS: &str = "air counts";
+
+/// What a pore loses at least in a step, cells, where its liquid comes apart: more than rounding.
+const APART: f64 = 1e-6;
+
+/// The air of a run, from step to step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Held {
+    /// Absolute pressure over its unit times volume in each pore; empty where air has no pressure.
+    pub(super) of: Vec<f64>,
+    /// Pockets of the last step, and millionths of their air that lie under liquid, without a pressure.
+    pockets: u64,
+    covered: u64,
+    /// Steps whose air did not come to its pressure.
+    astray: u64,
+}
+
+impl Implicit {
+    /// Empty volume of each pore with a gap of `height`, cells.
+    fn void(&self, height: f64) -> Vec<f64> {
+        let pores = self.state.volumes.iter().enumerate();
+        pores
+            .map(|(pore, volume)| (self.mesh.volume_at(pore, height) - volume).max(0.0))
+            .collect()
+    }
+
+    /// The air at the start: all is outside.
+    pub(super) fn first_air(&self) -> Held {
+        let of = self.setup.gas.map_or(Vec::new(), |gas| {
+            let void = self.void(self.height);
+            void.iter().map(|void| gas.outside * void).collect()
+        });
+        Held {
+            of,
+            ..Held::default()
+        }
+    }
+
+    /// The pockets of a step of `dt` (s), about their volumes at its start, where air has pressures.
+    pub(super) fn closed_off(
+        &self,
+        unknowns: &Unknowns,
+        fractions: &[f64],
+        dt: f64,
+    ) -> Option<Air> {
+        let gas = self.setup.gas?;
+        let mut air = Air::new(
+            &self.mesh,
+            |pore| unknowns.has_pressure(pore),
+            |pore| fractions[pore] >= FULL,
+            &self.void(self.height),
+            &self.state.air.of,
+            Outside::new(self.setup.lattice.boundary, self.setup.clamped),
+        );
+        for pocket in air.pockets.iter_mut().chain(&mut air.dry) {
+            pocket.tangent = gas.tangent(pocket.mass, pocket.volume, dt);
+        }
+        Some(air)
+    }
+
+    /// What the liquid of a step meets where it ends; its `viscosity` is over the unit.
+    pub(super) fn fronts(
+        &self,
+        unknowns: &Unknowns,
+        torn: &[bool],
+        air: Option<&Air>,
+        viscosity: f64,
+        dt: f64,
+    ) -> Fronts {
+        let setup = &self.setup;
+        let tension = setup.liquid.cavitation_pressure.unwrap_or_default();
+        let mut around: Vec<f64> = (torn.iter())
+            .map(|&torn| {
+                if torn {
+                    -tension / setup.units.viscosity
+                } else {
+                    0.0
+                }
+            })
+            .collect();
+        for pocket in air.iter().flat_map(|air| &air.pockets) {
+            for &pore in &pocket.pores {
+                around[pore as usize] = pocket.tangent.pressure;
+            }
+        }
+        let wetting = setup.liquid.wetting.map(|wetting| Wetting {
+            tension: wetting.tension / (setup.units.viscosity * setup.units.cell_m),
+            cosine: wetting.advancing.cos(),
+            slowing: setup.settings.dynamic_angle,
+            viscosity,
+            dt,
+        });
+        let geometry = (&setup.lattice, &setup.chords, &self.mesh);
+        Fronts::new(
+            geometry,
+            (unknowns, torn),
+            around,
+            wetting,
+            &self.state.flow.velocity,
+        )
+    }
+
+    /// Finds anew which pores are torn, those whose liquid would carry more tension than it can and comes apart; whether they
+    /// are others than before.
+    pub(super) fn tear(
+        &self,
+        unknowns: &Unknowns,
+        flow: &Flow,
+        dt: f64,
+        torn: &mut [bool],
+    ) -> bool {
+        let Some(tension) = self.setup.liquid.cavitation_pressure else {
+            return false;
+        };
+        let lowest = -tension / self.setup.units.viscosity;
+        let mut others = false;
+        for (pore, torn) in torn.iter_mut().enumerate() {
+            let now = match *torn {
+                true => self.outflow(pore, &flow.velocity) * dt > APART,
+                false => unknowns.has_pressure(pore) && flow.pressure[pore] < lowest,
+            };
+            others |= now != *torn;
+            *torn = now;
+        }
+        others
+    }
+
+    /// What flows out of a pore, cells/s.
+    fn outflow(&self, pore: usize, velocity: &[f64]) -> f64 {
+        let mesh = &self.mesh;
+        let mut sum = 0.0;
+        for axis in 0..3 {
+            for (up, sign) in [(false, -1.0), (true, 1.0)] {
+                for face in mesh.faces_at(pore, axis, up) {
+                    sum += sign * mesh.area(face) * velocity[face];
+                }
+            }
+        }
+        sum
+    }
+
+    /// Takes in the air of a step of `dt` (s) that is over.
+    pub(super) fn keep_air(&mut self, gas: Gas, mut air: Air, settled: bool, dt: f64) {
+        let flow = &self.state.flow;
+        for pocket in air.pockets.iter_mut() {
+            let pressure = flow.pressure[pocket.pores[0] as usize];
+            let volume = pocket.tangent.volume_at(pressure);
+            pocket.mass -= gas.leaked(pocket.mass, volume, pressure, dt);
+        }
+        for pocket in &mut air.dry {
+            let tangent = &pocket.tangent;
+            pocket.mass -= gas.leaked(pocket.mass, tangent.volume, tangent.pressure, dt);
+        }
+        let all = air.pockets.iter().chain(&air.dry);
+        let all: f64 = all.map(|pocket| pocket.mass).sum::<f64>() + air.covered;
+        self.state.air = Held {
+            pockets: (air.pockets.len() + air.dry.len()) as u64,
+            covered: (1e6 * air.covered / all.max(f64::MIN_POSITIVE)).round() as u64,
+            astray: self.state.air.astray + u64::from(!settled),
+            of: air.after(&self.void(self.height), gas.outside),
+        };
+    }
+
+    /// What a summary counts of the air, where it has pressures.
+    pub(super) fn air_counts(&self) -> Vec<(&'static str, u64)> {
+        let air = &self.state.air;
+        match self.setup.gas {
+            None => Vec::new(),
+            Some(_) => vec![
+                ("pockets of air", air.pockets),
+                (
+                    "millionths of the air closed off that lie under liquid",
+                    air.covered,
+                ),
+                ("steps whose air did not come to its pressure", air.astray),
+            ],
+        }
+    }
+
+    /// The air as arrays of a checkpoint.
+    pub(super) fn save_air(&self) -> Vec<(&'static str, Array)> {
+        let air = &self.state.air;
+        let counts = [air.pockets, air.covered, air.astray].map(|count| count as f64);
+        match self.setup.gas {
+            None => Vec::new(),
+            Some(_) => vec![
+                (HELD, Array::F64(air.of.clone())),
+                (COUNTS, Array::F64(counts.to_vec())),
+            ],
+        }
+    }
+
+    /// The air of a checkpoint of so many pores.
+    ///
+    /// # Errors
+    /// Where it is absent, or of no run of this scene.
+    pub(super) fn restored_air(&self, saved: &Saved, pores: usize) -> Result<Held, String> {
+        if self.setup.gas.is_none() {
+            return Ok(Held::default());
+        }
+        let (of, counts) = (saved.f64s(HELD)?, saved.f64s(COUNTS)?);
+        restored::check_finite(of, HELD)?;
+        restored::check_finite(counts, COUNTS)?;
+        let least = of.iter().chain(counts).copied().fold(0.0, f64::min);
+        match counts {
+            &[pockets, covered, astray] if of.len() == pores && least >= 0.0 => Ok(Held {
+                of: of.to_vec(),
+                pockets: pockets as u64,
+                covered: covered as u64,
+                astray: astray as u64,
+            }),
+            _ => Err("the checkpoint's air is not that of this scene".into()),
+        }
+    }
+}

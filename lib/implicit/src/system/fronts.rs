@@ -1,0 +1,191 @@
+//! What liquid meets where it ends: the pressure beyond its surface, lower or higher by that of a meniscus, and the friction
+//! of contact lines.
+
+use rayon::prelude::*;
+use saddle_point::RowEntries;
+
+use super::assembly::Problem;
+use super::unknowns::Unknowns;
+use crate::geometry::{Chords, Lattice, Mesh, narrowness};
+
+/// Way of a meniscus in a step, cells, at which one at rest is held by half of all that holds it (docs/methods.md): far
+/// less than a step moves, far more than solutions are off by.
+const CAUGHT: f64 = 0.01;
+
+/// How liquid meets the walls, in the units of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wetting {
+    /// Surface tension.
+    pub(crate) tension: f64,
+    /// Cosine of the contact angle at rest.
+    pub(crate) cosine: f64,
+    /// What it loses per capillary number of a front that advances.
+    pub(crate) slowing: f64,
+    /// Viscosity in that number.
+    pub(crate) viscosity: f64,
+    /// Length of the step, s.
+    pub(crate) dt: f64,
+}
+
+impl Wetting {
+    /// Loss of the jump over the speed of a front that advanced at `speed`, no further than to an angle of 180 or 0 degrees,
+    /// and dry friction where the passage holds it by the jump of `uneven`.
+    fn drag(&self, narrow: f64, uneven: f64, speed: f64) -> f64 {
+        let left = match speed > 0.0 {
+            true => 1.0 + self.cosine,
+            false => 1.0 - self.cosine,
+        };
+        let slowing = self.slowing * self.viscosity;
+        let slowing = slowing.min(left * self.tension / speed.abs().max(f64::MIN_POSITIVE));
+        let held = self.tension * self.cosine.abs() * uneven;
+        narrow * slowing + held / (speed.abs() + CAUGHT / self.dt)
+    }
+}
+
+/// What liquid meets where it ends.
+pub(crate) struct Fronts {
+    /// Pressure on liquid that ends in each pore without a pressure of its own, over the unit of viscosity.
+    pub(crate) pressure: Vec<f64>,
+    /// Force against the velocity of each face over that; empty where contact lines resist nothing.
+    pub(crate) drag: Vec<f64>,
+}
+
+impl Fronts {
+    /// Those of pores at the pressures `around` them. Where a full pore meets one that is neither full nor `torn`, the meniscus is that of the passage
+    /// there: a jump of tension times cosine times perimeter over area. `velocity` is that of the faces before the step.
+    pub(crate) fn new(
+        (lattice, chords, mesh): (&Lattice, &Chords, &Mesh),
+        (unknowns, torn): (&Unknowns, &[bool]),
+        around: Vec<f64>,
+        wetting: Option<Wetting>,
+        velocity: &[f64],
+    ) -> Self {
+        let mut fronts = Self {
+            pressure: around,
+            drag: Vec::new(),
+        };
+        let Some(wetting) = wetting else {
+            return fronts;
+        };
+        let dry: Vec<bool> = (0..mesh.pores.len())
+            .into_par_iter()
+            .map(|pore| !torn[pore] && unknowns.is_front(mesh, pore))
+            .collect();
+        let narrow: Vec<f64> = (0..mesh.pores.len())
+            .into_par_iter()
+            .map(|pore| {
+                let near = dry[pore] || mesh.beside(pore).any(|(_, _, beside)| dry[beside]);
+                match near && !mesh.is_beyond(mesh.pores[pore].cell as usize) {
+                    true => narrowness(lattice, chords, mesh, pore, &|pore| {
+                        unknowns.has_pressure(pore)
+                    }),
+                    false => 0.0,
+                }
+            })
+            .collect();
+        for (pore, pressure) in fronts
+            .pressure
+            .iter_mut()
+            .enumerate()
+            .filter(|at| dry[at.0])
+        {
+            *pressure -= wetting.tension * wetting.cosine * narrow[pore];
+        }
+        let view = View {
+            mesh,
+            dry: &dry,
+            narrow: &narrow,
+            wetting,
+        };
+        let drag = |(face, velocity): (usize, &f64)| view.drag(face, *velocity);
+        fronts.drag = velocity.par_iter().enumerate().map(drag).collect();
+        fronts
+    }
+}
+
+/// The dry side of the front.
+struct View<'a> {
+    mesh: &'a Mesh,
+    /// Whether each pore is of it.
+    dry: &'a [bool],
+    /// Perimeter over area of passages on both sides.
+    narrow: &'a [f64],
+    wetting: Wetting,
+}
+
+impl View<'_> {
+    /// What contact lines at a face resist with over its velocity.
+    fn drag(&self, face: usize, velocity: f64) -> f64 {
+        let f = &self.mesh.faces[face];
+        let [low, high] = [f.low as usize, f.high as usize];
+        let (wet, dry, up) = match [low, high].map(|pore| self.dry[pore]) {
+            [false, true] => (low, high, true),
+            [true, false] => (high, low, false),
+            _ => return 0.0,
+        };
+        let speed = if up { velocity } else { -velocity };
+        let uneven = self.uneven(usize::from(f.axis), up, wet, dry);
+        self.mesh.area(face) * self.wetting.drag(self.narrow[dry], uneven, speed)
+    }
+
+    /// Half of what the narrowness varies by where a meniscus that leaves `wet` for `dry` along an axis may rest: where
+    /// its pull falls ahead, and along it.
+    fn uneven(&self, axis: usize, up: bool, wet: usize, dry: usize) -> f64 {
+        let here = self.narrow[dry];
+        let (mut behind, mut ahead) = (
+            [here.min(self.narrow[wet]), here.max(self.narrow[wet])],
+            [here; 2],
+        );
+        for (along, on, beside) in self.mesh.beside(dry) {
+            let narrow = self.narrow[beside];
+            let widen =
+                |range: &mut [f64; 2]| *range = [range[0].min(narrow), range[1].max(narrow)];
+            if along == axis && on == up {
+                widen(&mut ahead);
+            } else if along != axis && self.dry[beside] {
+                widen(&mut behind);
+                widen(&mut ahead);
+            }
+        }
+        // A liquid that does not wet is pressed back by narrower places.
+        let fall = match self.wetting.cosine > 0.0 {
+            true => behind[1] - ahead[0],
+            false => ahead[1] - behind[0],
+        };
+        0.5 * fall.max(0.0)
+    }
+}
+
+impl Problem<'_> {
+    /// Force on a face by what is beyond the surface of liquid that ends there.
+    pub(super) fn push(&self, face: usize) -> f64 {
+        let ends = self.ends(face);
+        let pressure = |pore: usize| self.fronts.pressure[pore];
+        let pressure = match ends.map(|pore| self.unknowns.has_pressure(pore)) {
+            [true, false] => -pressure(ends[1]),
+            [false, true] => pressure(ends[0]),
+            _ => return 0.0,
+        };
+        pressure * self.mesh.area(face)
+    }
+
+    /// Adds the outflow of a pore to those beside it that count.
+    pub(super) fn add_outflow(
+        &self,
+        pore: usize,
+        entries: &mut RowEntries,
+        counts: impl Fn(usize) -> bool,
+    ) {
+        for axis in 0..3 {
+            for up in [false, true] {
+                for face in self.mesh.faces_at(pore, axis, up) {
+                    let beside = self.ends(face)[usize::from(up)];
+                    if let Some(number) = self.unknowns.face(face).filter(|_| counts(beside)) {
+                        let area = self.mesh.area(face);
+                        entries.add(number, if up { area } else { -area });
+                    }
+                }
+            }
+        }
+    }
+}

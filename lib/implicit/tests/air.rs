@@ -1,0 +1,156 @@
+//! Air that liquid closes off: Boyle's law, pockets that part and meet, a bond with air.
+
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
+#[path = "../../filling/tests/common/plain.rs"]
+mod plain;
+
+use implicit::{Implicit, Settings};
+use physics::{Array, Motion, Saved, Scene, Scheme, StepLimit, VoxelBlock};
+
+/// Width of the slit, m.
+const H: f64 = 17.4e-6;
+/// Absolute pressure outside, Pa.
+const OUTSIDE: f64 = 1e5;
+
+fn settings(leak_time: f64) -> Settings {
+    Settings {
+        air_pressure: Some(OUTSIDE),
+        air_leak_time: leak_time,
+        ..Settings::default()
+    }
+}
+
+fn advance(scheme: &mut Implicit, time_s: f64) -> f64 {
+    let limit = StepLimit {
+        time_s,
+        travel_m: f64::INFINITY,
+    };
+    scheme.advance(limit).unwrap().dt_s
+}
+
+/// A slit of `n` cells that is closed below, four widths of air in it under one and a half of liquid, which a piston presses down
+/// at `speed` (m/s).
+fn slit(n: usize, speed: f64) -> Scene {
+    let h = H / n as f64;
+    let m = |cells: usize| cells as f64 * h;
+    let block = |low: [usize; 2], high: [usize; 2]| {
+        VoxelBlock::solid_box([m(low[0]), m(low[1]), 0.0], [m(high[0]), m(high[1]), h])
+    };
+    let [floor, surface, top] = [2, 4 * n + 2, 4 * n + 2 + 3 * n / 2];
+    let cells = [n / 2 + 2, top + 2, 1];
+    let mut scene = plain::scene(h, cells);
+    let liquid = [n, 3 * n, 1];
+    scene.points = plain::fill([0.0, m(surface), 0.0], [0.5 * h, 0.5 * h, h], liquid);
+    let walls = vec![
+        block([0, 0], [n / 2 + 2, floor]),
+        block([n / 2, floor], [n / 2 + 2, 99 * n]),
+    ];
+    let piston = vec![block([0, top], [n / 2, 99 * n])];
+    scene.bodies = vec![
+        plain::body("wall", walls, Motion::Fixed),
+        plain::body("piston", piston, Motion::Constant([0.0, -speed, 0.0])),
+    ];
+    (scene.bottom, scene.top) = (Some(0), Some(1));
+    scene
+}
+
+/// Air of all pores by the arrays of a checkpoint, in its unit.
+fn air(saved: &Saved) -> f64 {
+    saved.f64s("air").unwrap().iter().sum()
+}
+
+/// Presses the air to a quarter; largest and mean error of its pressure, over what it is then by Boyle, and the last report.
+fn pressed(n: usize, speed: f64, leak_time: f64) -> [f64; 3] {
+    let scene = slit(n, speed);
+    let part = scene.grid.area_m2() / (0.5 * H * H / n as f64);
+    let mut scheme = Implicit::new(&scene, settings(leak_time)).unwrap();
+    let first = air(&scheme.save());
+    let (mut time, mut errors, mut last) = (0.0, Vec::new(), 0.0);
+    let end = 3.0 * H / speed;
+    while time < end * (1.0 - 1e-9) {
+        let limit = StepLimit {
+            time_s: end - time,
+            travel_m: f64::INFINITY,
+        };
+        let report = scheme.advance(limit).unwrap();
+        time += report.dt_s;
+        let boyle = OUTSIDE * (4.0 / (4.0 - time * speed / H) - 1.0);
+        // Developed flow behind the front.
+        let viscous = 12.0 * 1.3 * speed * 1.5 / H;
+        last = report.pressure_top * part - viscous;
+        errors.push((last - boyle) / (boyle + OUTSIDE));
+    }
+    let worst = errors.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+    let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+    let kept = air(&scheme.save()) / first - 1.0;
+    println!(
+        "{n} cells, {speed} m/s, leak {leak_time} s: absolute pressure {:+.2} % in the mean, {:.2} % at worst, in {} steps, air {kept:+.1e}, {:?}",
+        100.0 * mean,
+        100.0 * worst,
+        errors.len(),
+        scheme.counts()
+    );
+    [worst, kept, last]
+}
+
+#[test]
+fn air_under_a_piston_has_the_pressure_that_boyle_says() {
+    for (n, most) in [(6, 0.03), (12, 0.02)] {
+        let [worst, kept, _] = pressed(n, 1e-3, f64::INFINITY);
+        assert!(worst < most && kept.abs() < 1e-12);
+    }
+}
+
+/// Far slower than it leaks, air has an excess of p_0 t_leak dV/dt / V.
+#[test]
+fn air_that_leaks_gives_way() {
+    let (speed, leak) = (1e-3, 1e-3);
+    let [_, _, last] = pressed(6, speed, leak);
+    let rate = leak * speed / H;
+    let exact = OUTSIDE * rate / (1.0 - rate);
+    println!("leaking: {last:.0} Pa of {exact:.0}");
+    assert!((last / exact - 1.0).abs() < 0.1);
+}
+
+/// Liquid that falls through air in a closed box parts and joins pockets; their air stays, also over a stop.
+#[test]
+fn pockets_that_part_and_meet_keep_their_air() {
+    let h = 1e-6;
+    let mut scene = plain::scene(h, [12, 24, 1]);
+    let posts = [[2.0, 8.0], [7.0, 6.0], [4.0, 12.0]].map(|[x, y]| {
+        VoxelBlock::solid_box([x * h, y * h, 0.0], [(x + 3.0) * h, (y + 2.0) * h, h])
+    });
+    scene.bodies = vec![plain::body("posts", posts.to_vec(), Motion::Fixed)];
+    scene.points = plain::fill([0.0, 16.0 * h, 0.0], [0.5 * h, 0.5 * h, h], [24, 12, 1]);
+    scene.gravity[1] = -1e6;
+    let mut whole = Implicit::new(&scene, settings(f64::INFINITY)).unwrap();
+    let first = air(&whole.save());
+    let mut most = 0;
+    for _ in 0..40 {
+        advance(&mut whole, 1e-3);
+        most = most.max(whole.counts()[0].1);
+    }
+    let mut resumed = Implicit::new(&scene, settings(f64::INFINITY)).unwrap();
+    resumed.restore(&whole.save()).unwrap();
+    for _ in 0..60 {
+        advance(&mut whole, 1e-3);
+        advance(&mut resumed, 1e-3);
+        most = most.max(whole.counts()[0].1);
+    }
+    assert!(whole.save() == resumed.save());
+    let kept = air(&whole.save()) / first - 1.0;
+    println!(
+        "up to {most} pockets, air {kept:+.1e}, {:?}",
+        whole.counts()
+    );
+    assert!(most > 1 && kept.abs() < 1e-12);
+    let mut forged = whole.save();
+    for (name, array) in &mut forged.0 {
+        if name == "air" {
+            *array = Array::F64(vec![-1.0; 12 * 24]);
+        }
+    }
+    let said = resumed.restore(&forged).unwrap_err();
+    assert!(said.contains("air"), "{said}");
+}
