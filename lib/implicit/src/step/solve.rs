@@ -23,6 +23,15 @@ const CLOSER: usize = 4;
 const PASSES: usize = 20;
 const SETTLED: f64 = 2e-3;
 
+/// The liquid in the middle of a step.
+struct Middle {
+    dt: f64,
+    /// Which pores are full at its start.
+    full: Vec<bool>,
+    /// What pores are filled to.
+    fractions: Vec<f64>,
+}
+
 /// A step that was solved.
 pub(super) struct Solved {
     pub(super) dt: f64,
@@ -64,7 +73,8 @@ impl Implicit {
         let reach = solved.flow.speed * solved.dt;
         if reach > left + (MISSED * left).max(NOTHING) {
             let dt = solved.dt;
-            solved = self.solve_driven(dt, Drive::Speed(left / dt))?;
+            let middle = self.middle(dt);
+            solved = self.solve_driven(&middle, Drive::Speed(left / dt))?;
         }
         let reach = solved.flow.speed * solved.dt;
         solved.arrives = (reach - left).abs() <= (MISSED * left).max(NOTHING);
@@ -83,36 +93,37 @@ impl Implicit {
     /// Solves the flow of a step of `dt` (s) with the clamp at full speed, or at the speed of its pressure limit.
     fn solve_controlled(&mut self, dt: f64) -> Result<Solved, String> {
         self.state.drive.aim(dt);
+        let middle = self.middle(dt);
         if let Some(asked) = self.state.drive.held() {
-            return self.solve_held(dt, asked);
+            return self.solve_held(&middle, asked);
         }
         let full = Drive::Speed(self.state.drive.speed / self.setup.units.cell_m);
-        let free = self.solve_driven(dt, full)?;
+        let free = self.solve_driven(&middle, full)?;
         let pressure = self.setup.pressure(free.flow.force);
         match self.state.drive.exceeded(pressure) {
-            Some(asked) => self.solve_held(dt, asked),
+            Some(asked) => self.solve_held(&middle, asked),
             None => Ok(free),
         }
     }
 
     /// The same under a pressure on the clamp, at the nearest speed that it can follow.
-    fn solve_held(&mut self, dt: f64, asked: Asked) -> Result<Solved, String> {
+    fn solve_held(&mut self, middle: &Middle, asked: Asked) -> Result<Solved, String> {
         let cell_m = self.setup.units.cell_m;
         let drive = Drive::Force {
             force: self.setup.force(asked.limit),
             scale: self.setup.force(asked.limit.max(asked.least)),
             guess: self.state.drive.speed / cell_m,
         };
-        let solved = self.solve_driven(dt, drive)?;
+        let solved = self.solve_driven(middle, drive)?;
         match self.state.drive.follow(solved.flow.speed * cell_m) {
             true => Ok(solved),
-            false => self.solve_driven(dt, Drive::Speed(self.state.drive.speed / cell_m)),
+            false => self.solve_driven(middle, Drive::Speed(self.state.drive.speed / cell_m)),
         }
     }
 
     /// Puts the rows where they are in the middle of a step of `dt` (s) by the last closing speed; which pores are full now,
     /// and what they are filled to in the middle by the last flow.
-    fn middle(&mut self, dt: f64) -> (Vec<bool>, Vec<f64>) {
+    fn middle(&mut self, dt: f64) -> Middle {
         let height = self.height;
         let state = &self.state;
         let full: Vec<bool> = (0..self.mesh.pores.len())
@@ -146,7 +157,11 @@ impl Implicit {
         if self.setup.lattice.moving.is_some() {
             (self.setup).measure(&mut self.links, &self.mesh, &fractions);
         }
-        (full, fractions)
+        Middle {
+            dt,
+            full,
+            fractions,
+        }
     }
 
     /// Height of the gap after a step of `dt` (s) at the last closing speed, cells.
@@ -170,13 +185,14 @@ impl Implicit {
 
     /// Solves with the body that closes the gap driven so: in passes where the viscosity depends on the flow, until that
     /// no longer changes.
-    fn solve_driven(&mut self, dt: f64, drive: Drive) -> Result<Solved, String> {
-        let (full, fractions) = self.middle(dt);
+    fn solve_driven(&mut self, middle: &Middle, drive: Drive) -> Result<Solved, String> {
+        let Middle { dt, fractions, .. } = middle;
+        let dt = *dt;
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
         let mut torn = vec![false; mesh.pores.len()];
-        let mut unknowns = Unknowns::new(mesh, &fractions, &torn);
-        let mut air = self.closed_off(&unknowns, &fractions, dt);
-        let halves = halves(mesh, &fractions);
+        let mut unknowns = Unknowns::new(mesh, fractions, &torn);
+        let mut air = self.closed_off(&unknowns, fractions, dt);
+        let halves = halves(mesh, fractions);
         let masses = masses(mesh, &halves);
         let end = self.end_height(dt);
         let cured = setup.viscosity_at(state.time + 0.5 * dt);
@@ -199,7 +215,7 @@ impl Implicit {
         };
         let mut solved = Solved {
             dt,
-            full,
+            full: middle.full.clone(),
             forces: Vec::new(),
             settled: false,
             air: None,
@@ -216,7 +232,7 @@ impl Implicit {
                 links: &self.links,
                 edges: &self.edges,
                 unknowns: &unknowns,
-                fractions: &fractions,
+                fractions,
                 halves: &halves,
                 masses: &masses,
                 stiffnesses: &stiffnesses,
@@ -239,12 +255,12 @@ impl Implicit {
             if varies {
                 let next = rates(&flow);
                 let changed = Viscosities::of(&next, &setup.liquid, factor);
-                solved.settled = viscosities.change(&changed, &next, mesh, &fractions) < SETTLED;
+                solved.settled = viscosities.change(&changed, &next, mesh, fractions) < SETTLED;
                 viscosities = changed;
             }
             let tears = self.tear(&unknowns, &flow, dt, &mut torn);
             if tears {
-                unknowns = Unknowns::new(mesh, &fractions, &torn);
+                unknowns = Unknowns::new(mesh, fractions, &torn);
             }
             solved.flow = flow;
             astray = match (&mut air, setup.gas) {
