@@ -1,20 +1,31 @@
 //! The scheme, and the order of one step.
 
 mod drive;
+mod failure;
 mod scheme;
 mod setup;
 mod solve;
+mod water;
+
+use std::time::Instant;
 
 use physics::{Failure, Scene, StepLimit, StepReport};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
+use crate::clock::{Clock, Part};
 use crate::geometry::{Mesh, Rows};
-use crate::liquid::{Kept, Moved, carried_region, carried_velocities, carried_volumes, transport};
+use crate::liquid::{
+    Held, Kept, Moved, carried_region, carried_velocities, carried_volumes, transport,
+};
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, Links};
+use crate::water::Walls;
 use drive::ClampDrive;
 use setup::Setup;
 use solve::Solved;
+use water::Wet;
+
+pub(crate) use water::DRIED;
 
 /// Attempts at a step of acceptable length.
 const ATTEMPTS: usize = 8;
@@ -28,7 +39,7 @@ const FORESEEN: f64 = 1.25;
 const MARGIN: usize = 4;
 const LEAST_MARGIN: usize = 2;
 /// Most that cure changes ln(viscosity) by in a step.
-const CURED: f64 = 0.2;
+pub(crate) const CURED: f64 = 0.2;
 /// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
 const JETS: f64 = 1e-3;
 const JET_CFL: f64 = 1.5;
@@ -42,9 +53,12 @@ pub struct Implicit {
     mesh: Mesh,
     links: Links,
     edges: Edges,
+    /// Walls of the mesh that take water.
+    walls: Option<Walls>,
     /// Height of the gap between steps, cells; in a step, the mesh has that in its middle.
     height: f64,
     solver: SaddleSolver,
+    clock: Clock,
 }
 
 /// What changes from step to step.
@@ -68,6 +82,8 @@ struct State {
     power: f64,
     /// Steps whose viscosity did not settle.
     unsettled: u64,
+    /// Of a liquid that loses water.
+    wet: Option<Wet>,
 }
 
 impl Implicit {
@@ -78,6 +94,7 @@ impl Implicit {
     pub fn new(scene: &Scene, settings: Settings) -> Result<Self, String> {
         settings.check()?;
         let (setup, mesh, volumes) = Setup::new(scene, settings)?;
+        let wet = setup.wet(&volumes);
         let drive = setup.drive(scene);
         let closing = drive.speed / setup.units.cell_m;
         let flow = Flow {
@@ -101,13 +118,16 @@ impl Implicit {
                 lost: 0.0,
                 power: 0.0,
                 unsettled: 0,
+                wet,
             },
             solver: SaddleSolver::new(SaddleOptions {
                 tolerance: settings.tolerance,
                 ..SaddleOptions::default()
             }),
+            clock: Clock::default(),
             height: mesh.rows().height,
             edges: Edges::default(),
+            walls: None,
             setup,
             mesh,
             links: Links::default(),
@@ -123,28 +143,28 @@ impl Implicit {
         {
             return Err(self.failure("the bodies have met and cannot go on"));
         }
+        let begun = Instant::now();
         self.fit_mesh();
-        let mut longest = limit.time_s;
+        self.clock.add(Part::Geometry, begun);
+        let (mut longest, mut dries) = (limit.time_s, false);
         for _ in 0..ATTEMPTS {
             let dt = self.length(limit).min(longest);
             let solved = self
                 .solve(dt, limit, longest)
                 .map_err(|why| self.failure(&why))?;
+            let shorter = solved.dries_too_fast();
+            dries = shorter.is_some();
+            if let Some(shorter) = shorter {
+                longest = shorter;
+                continue;
+            }
             let crossed = fastest(&solved.flow, self.setup.settings.cfl) * solved.dt;
             if crossed <= EXCESS * self.setup.settings.cfl {
                 return Ok(self.follow(solved, limit));
             }
             longest = AIM * solved.dt * self.setup.settings.cfl / crossed;
         }
-        Err(self.failure("the liquid is faster than any step that was tried allows for"))
-    }
-
-    fn failure(&self, why: &str) -> Failure {
-        Failure(format!(
-            "step {} at {:.6e} s: {why}",
-            self.state.steps + 1,
-            self.state.time
-        ))
+        Err(self.no_step(dries))
     }
 
     /// Makes the mesh anew where the gap has fewer rows now, or the liquid has come near its end.
@@ -174,6 +194,11 @@ impl Implicit {
         state.volumes = carried_volumes(mesh, &old, &state.volumes);
         state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
         state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
+        if let Some(wet) = &mut state.wet {
+            wet.water = carried_volumes(mesh, &old, &wet.water);
+            wet.soaked = carried_volumes(mesh, &old, &wet.soaked);
+        }
+        self.walls = self.setup.taking_walls(mesh);
         let kept = match self.links.0.is_empty() {
             true => Kept::default(),
             false => Kept::new(mesh, &old),
@@ -205,7 +230,8 @@ impl Implicit {
         // The viscosity of a liquid that cures is that of the middle of the step.
         let cure = self.setup.liquid.cure.as_ref();
         let free = cure.map_or(free, |cure| cure.steady(self.state.time, CURED).min(free));
-        let dt = free.min(if self.state.steps == 0 {
+        let moist = self.state.wet.as_ref().map_or(f64::INFINITY, Wet::steady);
+        let dt = free.min(moist).min(if self.state.steps == 0 {
             falls
         } else {
             f64::INFINITY
@@ -223,12 +249,14 @@ impl Implicit {
             forces,
             settled,
             arrives,
+            exchange,
         } = solved;
         let cell_m = self.setup.units.cell_m;
         let travel = match arrives {
             true => self.left(limit),
             false => flow.speed * dt,
         };
+        let begun = Instant::now();
         // Liquid moves through the faces of the middle of the step into the pores of its end.
         let middle = self.mesh.rows().height;
         if self.setup.lattice.moving.is_some() {
@@ -238,18 +266,33 @@ impl Implicit {
         self.mesh.set_height(self.height);
         let capacities = self.capacities();
         self.mesh.set_height(middle);
+        let state = &mut self.state;
+        if let (Some(wet), Some(exchange)) = (&mut state.wet, exchange) {
+            wet.give_off(&exchange, dt, &mut state.volumes);
+        }
         let mesh = &mut self.mesh;
-        let Moved { volumes, lost } = transport(
+        let Moved {
+            volumes,
+            water,
+            lost: [lost, water_lost],
+        } = transport(
             mesh,
-            &self.state.volumes,
+            Held {
+                volumes: &state.volumes,
+                water: state.wet.as_ref().map_or(&[], |wet| &wet.water),
+            },
             &full,
             &capacities,
             &flow.velocity,
             dt,
         );
         mesh.set_height(self.height);
-        let state = &mut self.state;
+        self.clock.add(Part::Transport, begun);
         state.volumes = volumes;
+        if let Some(wet) = &mut state.wet {
+            wet.water = water;
+            wet.account.left += water_lost;
+        }
         state.lost += lost;
         let fastest = fastest(&flow, self.setup.settings.cfl);
         state.growth = (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, FORESEEN);

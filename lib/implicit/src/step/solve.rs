@@ -1,15 +1,20 @@
 //! Solution of a step: which pores are full, the flow, the clamp's speed, and the length that ends its travel.
 
+use std::time::Instant;
+
 use physics::StepLimit;
 use rayon::prelude::*;
 
 use super::Implicit;
 use super::drive::Asked;
-use crate::liquid::transport;
+use super::failure::unsolved;
+use crate::clock::Part;
+use crate::liquid::{Held, transport};
 use crate::system::{
     Drive, FULL, Flow, Problem, Rates, Unknowns, Viscosities, forces, halves, masses, solve,
     stiffnesses,
 };
+use crate::water::Exchange;
 
 /// Part of the travel that is left from which on a step that covers it is made to end it.
 const NEAR: f64 = 0.7;
@@ -32,6 +37,8 @@ pub(super) struct Solved {
     pub(super) settled: bool,
     /// Whether the step ends the travel of the clamp.
     pub(super) arrives: bool,
+    /// Of a liquid that loses water: what it loses.
+    pub(super) exchange: Option<Exchange>,
 }
 
 impl Implicit {
@@ -119,13 +126,17 @@ impl Implicit {
             let middle = 0.5 * (height + self.end_height(dt));
             self.mesh.set_height(middle);
         }
+        let begun = Instant::now();
         let mesh = &self.mesh;
         let moved = if state.steps == 0 {
             state.volumes.clone()
         } else {
             transport(
                 mesh,
-                &state.volumes,
+                Held {
+                    volumes: &state.volumes,
+                    water: &[],
+                },
                 &full,
                 &self.capacities(),
                 &state.flow.velocity,
@@ -133,6 +144,7 @@ impl Implicit {
             )
             .volumes
         };
+        self.clock.add(Part::Transport, begun);
         let fractions: Vec<f64> = (0..mesh.pores.len())
             .map(|pore| match moved[pore] / mesh.volume(pore) {
                 _ if full[pore] => 1.0,
@@ -140,9 +152,11 @@ impl Implicit {
                 then => then,
             })
             .collect();
+        let begun = Instant::now();
         if self.setup.lattice.moving.is_some() {
             (self.setup).measure(&mut self.links, &self.mesh, &fractions);
         }
+        self.clock.add(Part::Geometry, begun);
         (full, fractions)
     }
 
@@ -169,12 +183,27 @@ impl Implicit {
     /// no longer changes.
     fn solve_driven(&mut self, dt: f64, drive: Drive) -> Result<Solved, String> {
         let (full, fractions) = self.middle(dt);
+        let begun = Instant::now();
+        let lost = self.exchange(dt, &fractions)?;
+        if lost.is_some() {
+            self.clock.add(Part::Water, begun);
+        }
+        let begun = Instant::now();
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
         let unknowns = Unknowns::new(mesh, &fractions);
         let halves = halves(mesh, &fractions);
         let masses = masses(mesh, &halves);
         let end = self.end_height(dt);
-        let carried = setup.carried(mesh, &unknowns, state, &full, [self.height, end], dt);
+        let mut carried = setup.carried(mesh, &unknowns, state, &full, [self.height, end], dt);
+        if let Some(exchange) = &lost {
+            exchange.add_to(&unknowns.pores, &full, dt, &mut carried);
+        }
+        let thickened = |viscosities: Viscosities| match &lost {
+            Some(exchange) => viscosities.thickened(mesh, &exchange.factor),
+            None => viscosities,
+        };
+        self.clock.add(Part::Assembly, begun);
+        let begun = Instant::now();
         let cured = setup.viscosity_at(state.time + 0.5 * dt);
         let factor = cured / setup.units.viscosity;
         let varies = setup.varies();
@@ -193,6 +222,8 @@ impl Implicit {
             true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor),
             false => Viscosities::constant(mesh, cured),
         };
+        viscosities = thickened(viscosities);
+        self.clock.add(Part::Viscosity, begun);
         let mut flow = state.flow.clone();
         let mut iterations = 0;
         let mut solved = Solved {
@@ -201,6 +232,7 @@ impl Implicit {
             forces: Vec::new(),
             settled: false,
             arrives: false,
+            exchange: None,
             flow: Flow::default(),
         };
         for _ in 0..PASSES {
@@ -222,26 +254,41 @@ impl Implicit {
                 end_height: end,
                 scales: setup.scales(dt),
             };
-            flow = solve(&problem, &carried, drive, &flow, &mut self.solver)
-                .map_err(|error| error.to_string())?;
+            flow = solve(
+                &problem,
+                &carried,
+                drive,
+                &flow,
+                &mut self.solver,
+                &mut self.clock,
+            )
+            .map_err(|error| unsolved(&error))?;
             iterations += flow.iterations;
+            let begun = Instant::now();
             let next = match varies {
                 true => rates(&flow),
                 false => Rates::default(),
             };
             let changed = match varies {
-                true => Viscosities::of(&next, &setup.liquid, factor),
+                true => thickened(Viscosities::of(&next, &setup.liquid, factor)),
                 false => Viscosities::default(),
             };
             solved.settled =
                 !varies || viscosities.change(&changed, &next, mesh, &fractions) < SETTLED;
+            self.clock.add(Part::Viscosity, begun);
+            let begun = Instant::now();
             solved.forces = forces(&problem, &flow, state.displacement.len());
+            self.clock.add(Part::Forces, begun);
             if solved.settled {
                 break;
             }
             viscosities = changed;
         }
         flow.iterations = iterations;
-        Ok(Solved { flow, ..solved })
+        Ok(Solved {
+            flow,
+            exchange: lost,
+            ..solved
+        })
     }
 }
