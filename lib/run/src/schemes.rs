@@ -61,9 +61,8 @@ pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFa
 pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailure> {
     match case.integrator.scheme {
         SchemeName::Explicit => explicit_forecast(&explicit(case, setup.scene.grid.cell_m)?, setup),
-        SchemeName::Implicit | SchemeName::VolumeFraction => {
-            Ok(implicit_forecast(&implicit(case)?, setup))
-        }
+        SchemeName::Implicit => Ok(implicit_forecast(&implicit(case)?, setup)),
+        SchemeName::VolumeFraction => Ok(volume_forecast(&volume_fraction(case)?, setup)),
     }
 }
 
@@ -178,7 +177,6 @@ fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
 fn volume_fraction(case: &Case) -> Result<implicit::Settings, CaseError> {
     let settings = implicit(case)?;
     let not_yet = [
-        (case.adhesive.water.is_some(), "[adhesive.water]"),
         (
             case.adhesive.surface_tension.is_some(),
             "[adhesive] surface_tension",
@@ -291,6 +289,24 @@ fn implicit_forecast(settings: &filling::Settings, setup: &Setup) -> Forecast {
         memory_bytes: plan.memory_bytes + POINT_BYTES * setup.liquid.points as f64,
         step_s: plan.cpu_s / plan.steps / rayon::current_num_threads() as f64,
         notes,
+        stages: plan.stages,
+    }
+}
+
+fn volume_forecast(settings: &implicit::Settings, setup: &Setup) -> Forecast {
+    let plan = implicit::Plan::new(&setup.scene, &setup.liquid, settings);
+    Forecast {
+        dt_s: plan.dt_s,
+        limit: "advective, cfl cell/|v|, shorter as the liquid gets faster".into(),
+        steps: plan.steps,
+        // Its step grows as the clamp slows down: what counts is the way.
+        most_steps: plan.steps,
+        memory_bytes: plan.memory_bytes + POINT_BYTES * setup.liquid.points as f64,
+        step_s: plan.cpu_s / plan.steps / rayon::current_num_threads() as f64,
+        notes: vec![format!(
+            "unknowns           {:.2e} velocities and pressures in {:.2e} liquid cells",
+            plan.unknowns, plan.liquid_cells
+        )],
         stages: plan.stages,
     }
 }
