@@ -41,7 +41,7 @@ fn what_the_grid_cannot_hold_is_refused() {
         None
     );
     for (plate, low, high, motion, said) in [
-        (down, [7.0, 5.0], [8.0, 7.5], still, "not alike along it"),
+        (down, [7.0, 5.0], [8.0, 6.5], still, "not alike along it"),
         (
             still,
             [6.0, 2.0],

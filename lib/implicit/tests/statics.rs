@@ -13,24 +13,21 @@ const CELL: f64 = 2.9e-6;
 const ETA: f64 = 1.3;
 const PULL: f64 = 1e5;
 
-/// Mean velocity over the open cross-section after one long step.
-fn mean_velocity(scene: &Scene) -> f64 {
+/// The scheme after two long steps, which leave nothing of the start.
+fn flowing(scene: &Scene) -> Implicit {
     let settings = Settings {
         tolerance: 1e-6,
         ..Settings::default()
     };
     let mut scheme = Implicit::new(scene, settings).unwrap();
-    let limit = StepLimit {
-        time_s: 1e-5,
-        travel_m: f64::INFINITY,
-    };
-    scheme.advance(limit).unwrap();
-    let liquid = scheme.liquid();
-    let volume: f64 = liquid.volume.iter().map(|&v| f64::from(v)).sum();
-    let flux: f64 = (liquid.velocity.iter().zip(&liquid.volume))
-        .map(|(v, &volume)| f64::from(v[0]) * f64::from(volume))
-        .sum();
-    flux / volume
+    for _ in 0..2 {
+        let limit = StepLimit {
+            time_s: 1e-5,
+            travel_m: f64::INFINITY,
+        };
+        scheme.advance(limit).unwrap();
+    }
+    scheme
 }
 
 /// A channel or duct along x of `width` half-cells, its low walls `offset` half-cells off the faces of cells.
@@ -69,29 +66,50 @@ fn channel(width: usize, offset: usize, square: bool) -> Scene {
     scene
 }
 
-/// One step from rest with inertia: the flow of backward Euler, close to that of no inertia in long steps.
-fn error(width: usize, offset: usize, square: bool) -> f64 {
+/// Error of the mean velocity, by the power that the weight gives off, and the largest of velocities at points in a channel
+/// over the fastest.
+fn errors(width: usize, offset: usize, square: bool) -> [f64; 2] {
     let scene = channel(width, offset, square);
-    let h = 0.5 * CELL * width as f64;
+    let scheme = flowing(&scene);
+    let (h, pull) = (0.5 * CELL * width as f64, 1200.0 * PULL);
     let factor = if square { 0.035_144_3 } else { 1.0 / 12.0 };
-    let expected = factor * h * h * 1200.0 * PULL / ETA;
-    let error = mean_velocity(&scene) / expected - 1.0;
+    let found = scheme.diagnostics();
+    let mean = found.viscous_power / (pull * found.volume);
+    let error = mean / (factor * h * h * pull / ETA) - 1.0;
+    let low = 0.5 * CELL * (2 + offset) as f64;
+    let exact = |y: f64| 4.0 * (y - low) * (low + h - y) / (h * h);
+    let fastest = h * h * pull / (8.0 * ETA);
+    let liquid = scheme.liquid();
+    let points = liquid.velocity.iter().zip(&liquid.position);
+    let worst = points
+        .map(|(v, x)| (f64::from(v[0]) / fastest - exact(f64::from(x[1]))).abs())
+        .fold(0.0, f64::max);
+    let (cells, off) = (width as f64 / 2.0, offset as f64 / 2.0);
     println!(
-        "width {} cells, offset {}, square {square}: {:+.3} %",
-        width as f64 / 2.0,
-        offset as f64 / 2.0,
-        100.0 * error
+        "width {cells} cells, offset {off}, square {square}: mean velocity {:+.3} %{}",
+        100.0 * error,
+        match square {
+            true => String::new(),
+            false => format!(", points {:.3} % at most", 100.0 * worst),
+        }
     );
-    error
+    [error.abs(), worst]
 }
 
 #[test]
 fn flow_along_channels_and_ducts_is_that_of_the_closed_forms() {
     for width in [4, 6, 8, 12] {
         for offset in [0, 1] {
-            assert!(error(width, offset, false).abs() < 4e-3);
+            let [mean, points] = errors(width, offset, false);
+            // Where walls stand half way in cells, the flux of faces is right and not what each has of it.
+            let most = if offset == 0 {
+                2e-3
+            } else {
+                0.6 / width as f64
+            };
+            assert!(mean < 4e-3 && points < most);
             // Ducts of three cells and more.
-            assert!(width < 6 || error(width, offset, true).abs() < 0.013);
+            assert!(width < 6 || errors(width, offset, true)[0] < 0.013);
         }
     }
 }

@@ -78,6 +78,10 @@ fn implicit(scene: &Scene) -> Stages {
     filling::Plan::new(scene, &Amount::default(), &filling::Settings::default()).stages
 }
 
+fn volume_fraction(scene: &Scene) -> Stages {
+    implicit::Plan::new(scene, &Amount::default(), &implicit::Settings::default()).stages
+}
+
 #[test]
 fn a_free_drop_needs_next_to_nothing() {
     let plain = explicit(&drop(), &mpm::Settings::default());
@@ -107,6 +111,7 @@ fn a_free_drop_needs_next_to_nothing() {
         implicit(&drop()).present(),
         ["third dimension", "density projection"]
     );
+    assert_eq!(volume_fraction(&drop()).present(), ["third dimension"]);
     let flat = Scene {
         dimensions: Dimensions::Two,
         ..drop()
@@ -132,4 +137,8 @@ fn a_bond_line_has_every_stage_that_is_asked_for() {
     assert_eq!(all.present(), [&COMMON[..], &own].concat());
     let own = ["PID", "density projection"];
     assert_eq!(implicit(&bond()).present(), [&COMMON[..], &own].concat());
+    assert_eq!(
+        volume_fraction(&bond()).present(),
+        [&COMMON[..], &["PID"]].concat()
+    );
 }

@@ -204,10 +204,11 @@ fn check_motions(scene: &Scene, lattice: &Lattice, frames: &Frames) -> Result<()
                 continue;
             };
             let [bottom, top] = frames.gap;
+            // A domain may end within its last row of cells.
             let (beside, along) = match moving {
                 Moving::Above => (
                     to > bottom + tight,
-                    from <= bottom + tight && to >= high[1] - tight,
+                    from <= bottom + tight && to > high[1] - scene.grid.cell_m,
                 ),
                 Moving::Below => (
                     from < top - tight,

@@ -4,9 +4,12 @@ mod carry;
 mod deposit;
 mod output;
 mod overflow;
+mod profile;
 mod transport;
+mod water;
 
 pub(crate) use carry::{Kept, carried_region, carried_velocities, carried_volumes};
 pub(crate) use deposit::{Place, deposit};
 pub(crate) use output::{Shown, points};
-pub(crate) use transport::{Moved, transport};
+pub(crate) use profile::Profile;
+pub(crate) use transport::{Held, Moved, transport};

@@ -1,8 +1,10 @@
 //! The liquid as points, as states and metrics take it: one in each voxel of a pore with liquid.
 
 use physics::LiquidState;
+use rayon::prelude::*;
 
 use super::deposit::Place;
+use super::profile::Profile;
 use crate::geometry::Mesh;
 
 /// Least volume of a point, cells.
@@ -11,17 +13,19 @@ const LEAST: f64 = 1e-9;
 /// What is shown of the liquid, in cells and the scheme's units.
 pub(crate) struct Shown<'a> {
     pub(crate) volumes: &'a [f64],
-    /// Velocity of each pore against the lattice at rest, cells/s.
-    pub(crate) velocity: &'a dyn Fn(usize) -> [f64; 3],
+    pub(crate) profile: Profile<'a>,
     /// Pressure of each pore, Pa.
     pub(crate) pressure: &'a dyn Fn(usize) -> f64,
     /// Shear rate of each pore, 1/s.
     pub(crate) rate: &'a dyn Fn(usize) -> f64,
+    /// Solids content of each pore by mass, of a liquid that loses water.
+    pub(crate) solids: &'a dyn Fn(usize) -> Option<f64>,
 }
 
 /// The points of the liquid.
 pub(crate) fn points(mesh: &Mesh, place: Place, shown: &Shown) -> LiquidState {
     let mut state = LiquidState::default();
+    let mut places = Vec::new();
     let k = mesh.k;
     for pore in 0..mesh.pores.len() {
         let voxels = mesh.pores[pore].voxels;
@@ -37,18 +41,24 @@ pub(crate) fn points(mesh: &Mesh, place: Place, shown: &Shown) -> LiquidState {
             mesh.rows().low(mesh.row(cell)),
             at[2] as f64 - mesh.beyond[2] as f64,
         ];
-        let velocity = (shown.velocity)(pore).map(|v| (v * place.cell_m) as f32);
         for bit in (0..k * k * k).filter(|bit| voxels >> bit & 1 == 1) {
             let voxel = mesh.voxel(bit);
             state.position.push(std::array::from_fn(|a| {
                 let cells = low[a] + edges[a] * (voxel[a] as f64 + 0.5) / k as f64;
                 (place.origin_m[a] + place.cell_m * cells) as f32
             }));
-            state.velocity.push(velocity);
+            places.push((pore, voxel));
             state.volume.push((volume * place.cell_m.powi(3)) as f32);
             state.pressure.push((shown.pressure)(pore) as f32);
             state.shear_rate.push((shown.rate)(pore) as f32);
+            (state.solids).extend((shown.solids)(pore).map(|solids| solids as f32));
         }
     }
+    let profile = &shown.profile;
+    let velocity = |&(pore, voxel): &(usize, [usize; 3])| {
+        let velocity = profile.at(pore, voxel);
+        velocity.map(|v| (v * place.cell_m) as f32)
+    };
+    state.velocity = places.par_iter().map(velocity).collect();
     state
 }

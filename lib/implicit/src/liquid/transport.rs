@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::overflow::overflow;
+use super::water::carry;
 use crate::geometry::Mesh;
 
 /// Least part of the surface's normal along a face's axis for which the face passes on what lies ahead.
@@ -11,21 +12,30 @@ const NORMAL: f64 = 0.7;
 /// looks cost next to nothing beside a solution.
 const CROSSED: f64 = 0.25;
 
+/// Liquid before a step: the volume at no pressure in each pore, and the water in it, or nothing.
+#[derive(Clone, Copy)]
+pub(crate) struct Held<'a> {
+    pub(crate) volumes: &'a [f64],
+    pub(crate) water: &'a [f64],
+}
+
 /// Liquid after a step.
 pub(crate) struct Moved {
     /// Volume at no pressure in each pore, cells.
     pub(crate) volumes: Vec<f64>,
-    /// Volume that left the domain.
-    pub(crate) lost: f64,
+    /// Water in it, where that is kept.
+    pub(crate) water: Vec<f64>,
+    /// Volume that left the domain, and the water in it.
+    pub(crate) lost: [f64; 2],
 }
 
-/// Moves the liquid `volumes` by the velocities of the faces, over `dt`, into pores of capacity `capacities`. A pore that
+/// Moves the liquid by the velocities of the faces, over `dt`, into pores of capacity `capacities`. A pore that
 /// is `full` passes on what its velocities say. One that is partly filled passes on its share, or, where the surface is
 /// across the flow, what lies ahead until its own air is gone (donor and acceptor, Hirt & Nichols 1981,
 /// 10.1016/0021-9991(81)90145-5), and never more than it holds.
 pub(crate) fn transport(
     mesh: &Mesh,
-    volumes: &[f64],
+    held: Held,
     full: &[bool],
     capacities: &[f64],
     velocity: &[f64],
@@ -38,8 +48,9 @@ pub(crate) fn transport(
         .map(|face| velocity[face] * mesh.area(face) * dt / parts)
         .collect();
     let mut moved = Moved {
-        volumes: volumes.to_vec(),
-        lost: 0.0,
+        volumes: held.volumes.to_vec(),
+        water: held.water.to_vec(),
+        lost: [0.0; 2],
     };
     for _ in 0..parts as usize {
         moved = look(mesh, moved, full, capacities, &swept);
@@ -51,8 +62,10 @@ pub(crate) fn transport(
 fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[f64]) -> Moved {
     let Moved {
         mut volumes,
+        mut water,
         mut lost,
     } = before;
+    let held = volumes.clone();
     let pores = 0..mesh.pores.len();
     let fractions: Vec<f64> = (pores.clone().into_par_iter())
         .map(|pore| match full[pore] {
@@ -86,39 +99,48 @@ fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[
         .for_each(|(pore, volume)| {
             *volume += net_inflow(mesh, &flux, pore);
         });
-    give_back(mesh, &mut volumes, &flux);
+    give_back(mesh, &mut volumes, &mut flux);
     overflow(mesh, &mut volumes, capacities, full, swept, &mut flux);
+    if !water.is_empty() {
+        carry(mesh, &held, &mut water, &flux);
+    }
     for (pore, volume) in volumes.iter_mut().enumerate() {
         if mesh.is_beyond(mesh.pores[pore].cell as usize) {
-            lost += std::mem::take(volume);
+            lost[0] += std::mem::take(volume);
+            lost[1] += water.get_mut(pore).map_or(0.0, std::mem::take);
         }
     }
-    Moved { volumes, lost }
+    Moved {
+        volumes,
+        water,
+        lost,
+    }
 }
 
 /// Gives pores that passed on more than they had, by the tolerance of the solution, back what is missing: from the pores that
 /// they passed it to, in proportion to what they hold of it.
-fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &[f64]) {
+fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
     let missing: Vec<usize> = (0..volumes.len())
         .filter(|&pore| volumes[pore] < 0.0)
         .collect();
     for pore in missing {
-        let mut given: Vec<(usize, f64)> = Vec::new();
+        let mut given: Vec<(usize, usize, f64)> = Vec::new();
         for axis in 0..3 {
             for up in [false, true] {
                 for face in mesh.faces_at(pore, axis, up) {
                     let f = mesh.faces[face];
                     let passed = if up { flux[face] } else { -flux[face] };
                     let to = if up { f.high } else { f.low } as usize;
-                    given.push((to, passed.max(0.0).min(volumes[to].max(0.0))));
+                    given.push((face, to, passed.max(0.0).min(volumes[to].max(0.0))));
                 }
             }
         }
-        let all: f64 = given.iter().map(|given| given.1).sum();
+        let all: f64 = given.iter().map(|given| given.2).sum();
         let part = (-volumes[pore] / all).min(1.0);
-        for (to, held) in given.into_iter().filter(|given| given.1 > 0.0) {
+        for (face, to, held) in given.into_iter().filter(|given| given.2 > 0.0) {
             volumes[to] -= part * held;
             volumes[pore] += part * held;
+            flux[face] -= part * held * flux[face].signum();
         }
         // What rounding leaves.
         volumes[pore] = volumes[pore].max(0.0);

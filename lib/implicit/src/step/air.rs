@@ -15,7 +15,7 @@ const APART: f64 = 1e-6;
 
 /// The air of a run, from step to step.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Held {
+pub(super) struct HeldAir {
     /// Absolute pressure over its unit times volume in each pore; empty where air has no pressure.
     pub(super) of: Vec<f64>,
     /// Pockets of the last step, and millionths of their air that lie under liquid, without a pressure.
@@ -35,14 +35,14 @@ impl Implicit {
     }
 
     /// The air at the start: all is outside.
-    pub(super) fn first_air(&self) -> Held {
+    pub(super) fn first_air(&self) -> HeldAir {
         let of = self.setup.gas.map_or(Vec::new(), |gas| {
             let void = self.void(self.height);
             void.iter().map(|void| gas.outside * void).collect()
         });
-        Held {
+        HeldAir {
             of,
-            ..Held::default()
+            ..HeldAir::default()
         }
     }
 
@@ -163,7 +163,7 @@ impl Implicit {
         }
         let all = air.pockets.iter().chain(&air.dry);
         let all: f64 = all.map(|pocket| pocket.mass).sum::<f64>() + air.covered;
-        self.state.air = Held {
+        self.state.air = HeldAir {
             pockets: (air.pockets.len() + air.dry.len()) as u64,
             covered: (1e6 * air.covered / all.max(f64::MIN_POSITIVE)).round() as u64,
             astray: self.state.air.astray + u64::from(!settled),
@@ -204,16 +204,16 @@ impl Implicit {
     ///
     /// # Errors
     /// Where it is absent, or of no run of this scene.
-    pub(super) fn restored_air(&self, saved: &Saved, pores: usize) -> Result<Held, String> {
+    pub(super) fn restored_air(&self, saved: &Saved, pores: usize) -> Result<HeldAir, String> {
         if self.setup.gas.is_none() {
-            return Ok(Held::default());
+            return Ok(HeldAir::default());
         }
         let (of, counts) = (saved.f64s(HELD)?, saved.f64s(COUNTS)?);
         restored::check_finite(of, HELD)?;
         restored::check_finite(counts, COUNTS)?;
         let least = of.iter().chain(counts).copied().fold(0.0, f64::min);
         match counts {
-            &[pockets, covered, astray] if of.len() == pores && least >= 0.0 => Ok(Held {
+            &[pockets, covered, astray] if of.len() == pores && least >= 0.0 => Ok(HeldAir {
                 of: of.to_vec(),
                 pockets: pockets as u64,
                 covered: covered as u64,

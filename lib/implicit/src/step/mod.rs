@@ -2,21 +2,32 @@
 
 mod air;
 mod drive;
+mod failure;
 mod scheme;
 mod setup;
 mod solve;
+mod water;
+
+use std::time::Instant;
 
 use physics::{Failure, Scene, StepLimit, StepReport};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
+use crate::clock::{Clock, Part};
 use crate::geometry::{Mesh, Region, Rows};
-use crate::liquid::{Kept, Moved, carried_region, carried_velocities, carried_volumes, transport};
+use crate::liquid::{
+    Held, Kept, Moved, carried_region, carried_velocities, carried_volumes, transport,
+};
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, Links};
-use air::Held;
+use crate::water::Walls;
+use air::HeldAir;
 use drive::ClampDrive;
 use setup::Setup;
 use solve::Solved;
+use water::Wet;
+
+pub(crate) use water::DRIED;
 
 /// Attempts at a step of acceptable length.
 const ATTEMPTS: usize = 8;
@@ -30,7 +41,7 @@ const FORESEEN: f64 = 1.25;
 const MARGIN: usize = 4;
 const LEAST_MARGIN: usize = 2;
 /// Most that cure changes ln(viscosity) by in a step.
-const CURED: f64 = 0.2;
+pub(crate) const CURED: f64 = 0.2;
 /// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
 const JETS: f64 = 1e-3;
 const JET_CFL: f64 = 1.5;
@@ -46,9 +57,12 @@ pub struct Implicit {
     mesh: Mesh,
     links: Links,
     edges: Edges,
+    /// Walls of the mesh that take water.
+    walls: Option<Walls>,
     /// Height of the gap between steps, cells; in a step, the mesh has that in its middle.
     height: f64,
     solver: SaddleSolver,
+    clock: Clock,
 }
 
 /// What changes from step to step.
@@ -57,7 +71,7 @@ struct State {
     volumes: Vec<f64>,
     flow: Flow,
     drive: ClampDrive,
-    air: Held,
+    air: HeldAir,
     /// Displacement of each body, m.
     displacement: Vec<[f64; 3]>,
     /// Clamp travel, m.
@@ -75,6 +89,8 @@ struct State {
     power: f64,
     /// Steps whose viscosity did not settle.
     unsettled: u64,
+    /// Of a liquid that loses water.
+    wet: Option<Wet>,
 }
 
 impl Implicit {
@@ -85,6 +101,7 @@ impl Implicit {
     pub fn new(scene: &Scene, settings: Settings) -> Result<Self, String> {
         settings.check()?;
         let (setup, mesh, volumes) = Setup::new(scene, settings)?;
+        let wet = setup.wet(&volumes);
         let drive = setup.drive(scene);
         let closing = drive.speed / setup.units.cell_m;
         let flow = Flow {
@@ -99,7 +116,7 @@ impl Implicit {
                 volumes,
                 flow,
                 drive,
-                air: Held::default(),
+                air: HeldAir::default(),
                 displacement: vec![[0.0; 3]; scene.bodies.len()],
                 travel: 0.0,
                 time: 0.0,
@@ -110,13 +127,16 @@ impl Implicit {
                 lost: 0.0,
                 power: 0.0,
                 unsettled: 0,
+                wet,
             },
             solver: SaddleSolver::new(SaddleOptions {
                 tolerance: settings.tolerance,
                 ..SaddleOptions::default()
             }),
+            clock: Clock::default(),
             height: mesh.rows().height,
             edges: Edges::default(),
+            walls: None,
             setup,
             mesh,
             links: Links::default(),
@@ -133,28 +153,28 @@ impl Implicit {
         {
             return Err(self.failure("the bodies have met and cannot go on"));
         }
+        let begun = Instant::now();
         self.fit_mesh();
-        let mut longest = limit.time_s;
+        self.clock.add(Part::Geometry, begun);
+        let (mut longest, mut dries) = (limit.time_s, false);
         for _ in 0..ATTEMPTS {
             let dt = self.length(limit).min(longest);
             let solved = self
                 .solve(dt, limit, longest)
                 .map_err(|why| self.failure(&why))?;
+            let shorter = solved.dries_too_fast();
+            dries = shorter.is_some();
+            if let Some(shorter) = shorter {
+                longest = shorter;
+                continue;
+            }
             let crossed = fastest(&solved.flow, self.setup.settings.cfl) * solved.dt;
             if crossed <= EXCESS * self.setup.settings.cfl {
                 return Ok(self.follow(solved, limit));
             }
             longest = AIM * solved.dt * self.setup.settings.cfl / crossed;
         }
-        Err(self.failure("the liquid is faster than any step that was tried allows for"))
-    }
-
-    fn failure(&self, why: &str) -> Failure {
-        Failure(format!(
-            "step {} at {:.6e} s: {why}",
-            self.state.steps + 1,
-            self.state.time
-        ))
+        Err(self.no_step(dries))
     }
 
     /// Makes the mesh anew where the gap has fewer rows now, or the liquid has come near its end.
@@ -198,6 +218,11 @@ impl Implicit {
         }
         state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
         state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
+        if let Some(wet) = &mut state.wet {
+            wet.water = carried_volumes(mesh, &old, &wet.water);
+            wet.soaked = carried_volumes(mesh, &old, &wet.soaked);
+        }
+        self.walls = self.setup.taking_walls(mesh);
         let kept = match self.links.0.is_empty() {
             true => Kept::default(),
             false => Kept::new(mesh, &old),
@@ -229,7 +254,8 @@ impl Implicit {
         // The viscosity of a liquid that cures is that of the middle of the step.
         let cure = self.setup.liquid.cure.as_ref();
         let free = cure.map_or(free, |cure| cure.steady(self.state.time, CURED).min(free));
-        let dt = free.min(if self.state.steps == 0 {
+        let moist = self.state.wet.as_ref().map_or(f64::INFINITY, Wet::steady);
+        let dt = free.min(moist).min(if self.state.steps == 0 {
             falls
         } else {
             f64::INFINITY
@@ -257,12 +283,14 @@ impl Implicit {
             settled,
             air,
             arrives,
+            exchange,
         } = solved;
         let cell_m = self.setup.units.cell_m;
         let travel = match arrives {
             true => self.left(limit),
             false => flow.speed * dt,
         };
+        let begun = Instant::now();
         // Liquid moves through the faces of the middle of the step into the pores of its end.
         let middle = self.mesh.rows().height;
         if self.setup.lattice.moving.is_some() {
@@ -272,18 +300,33 @@ impl Implicit {
         self.mesh.set_height(self.height);
         let capacities = self.capacities();
         self.mesh.set_height(middle);
+        let state = &mut self.state;
+        if let (Some(wet), Some(exchange)) = (&mut state.wet, exchange) {
+            wet.give_off(&exchange, dt, &mut state.volumes);
+        }
         let mesh = &mut self.mesh;
-        let Moved { volumes, lost } = transport(
+        let Moved {
+            volumes,
+            water,
+            lost: [lost, water_lost],
+        } = transport(
             mesh,
-            &self.state.volumes,
+            Held {
+                volumes: &state.volumes,
+                water: state.wet.as_ref().map_or(&[], |wet| &wet.water),
+            },
             &full,
             &capacities,
             &flow.velocity,
             dt,
         );
         mesh.set_height(self.height);
-        let state = &mut self.state;
+        self.clock.add(Part::Transport, begun);
         state.volumes = volumes;
+        if let Some(wet) = &mut state.wet {
+            wet.water = water;
+            wet.account.left += water_lost;
+        }
         state.lost += lost;
         let fastest = fastest(&flow, self.setup.settings.cfl);
         state.growth = (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, FORESEEN);

@@ -7,7 +7,7 @@ use physics::{
 
 use super::Implicit;
 use crate::geometry::{Mesh, Region, Rows};
-use crate::liquid::{Kept, Shown, points};
+use crate::liquid::{Kept, Profile, Shown, points};
 use crate::system::{Edges, Links, Rates};
 
 /// Name of the array that holds where the press programme is.
@@ -21,10 +21,11 @@ impl Scheme for Implicit {
     fn diagnostics(&self) -> Diagnostics {
         let (mesh, units) = (&self.mesh, self.setup.units);
         let (mut volume, mut energy) = (0.0, 0.0);
+        let profile = self.profile();
         for pore in 0..mesh.pores.len() {
             let held = self.state.volumes[pore];
             if held > 0.0 {
-                let speed = self.pore_velocity(pore).iter().map(|v| v * v).sum::<f64>();
+                let speed = profile.mean(pore).iter().map(|v| v * v).sum::<f64>();
                 volume += held * self.compressed(pore);
                 energy += 0.5 * held * speed;
             }
@@ -38,7 +39,7 @@ impl Scheme for Implicit {
             volume: volume * units.volume(),
             max_speed: self.state.fastest * units.cell_m,
             capped_fraction: 0.0,
-            water: None,
+            water: self.water_state(),
         }
     }
 
@@ -59,9 +60,10 @@ impl Scheme for Implicit {
             .collect();
         let shown = Shown {
             volumes: &volumes,
-            velocity: &|pore| self.pore_velocity(pore),
+            profile: self.profile(),
             pressure: &|pore| flow.pressure[pore] * setup.units.viscosity,
             rate: &|pore| rates.pores[pore],
+            solids: &|pore| self.solids_of(pore),
         };
         points(&self.mesh, setup.place, &shown)
     }
@@ -109,6 +111,7 @@ impl Scheme for Implicit {
         arrays.extend(self.save_air());
         (arrays.into_iter())
             .map(|(name, array)| (name.to_owned(), Saving::Whole(array)))
+            .chain(self.save_water())
             .collect()
     }
 
@@ -158,10 +161,14 @@ impl Scheme for Implicit {
         if volumes.iter().any(|&volume| volume < 0.0) {
             return Err("a volume of the checkpoint is negative".into());
         }
+        let wet = self.restored_water(saved, &volumes)?;
         let velocity = array("velocities", mesh.faces.len())?;
         let pressure = array("pressures", mesh.pores.len())?;
         let air = self.restored_air(saved, mesh.pores.len())?;
         let displacement = array("displacement", 3 * self.state.displacement.len())?;
+        let displacement = displacement.as_chunks::<3>().0.to_vec();
+        let (motions, cell_m) = (&self.setup.motions, self.setup.units.cell_m);
+        restored::check_bodies(motions, &displacement, travel, cell_m)?;
         if self.state.drive.programme().is_some() {
             let state = saved.f64s(PROGRAMME)?;
             restored::check_finite(state, PROGRAMME)?;
@@ -173,10 +180,11 @@ impl Scheme for Implicit {
         (state.fastest, state.growth) = (fastest, growth);
         (state.lost, state.power) = (lost, power);
         state.unsettled = unsettled as u64;
-        (state.volumes, state.air) = (volumes, air);
+        (state.volumes, state.air, state.wet) = (volumes, air, wet);
         (state.flow.velocity, state.flow.pressure) = (velocity, pressure);
         (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
-        state.displacement = displacement.as_chunks::<3>().0.to_vec();
+        state.displacement = displacement;
+        self.walls = self.setup.taking_walls(&mesh);
         self.links = self.setup.links(&mesh, &Kept::default(), &Links::default());
         self.edges = Edges::new(
             &mesh,
@@ -188,8 +196,12 @@ impl Scheme for Implicit {
         Ok(())
     }
 
+    fn has_set(&self) -> bool {
+        self.has_dried()
+    }
+
     fn stage_times(&self) -> Vec<StageTime> {
-        Vec::new()
+        self.clock.report()
     }
 
     fn counts(&self) -> Vec<(&'static str, u64)> {
@@ -269,23 +281,15 @@ impl Implicit {
         1.0 + self.setup.liquid.tait.volume_change(pressure)
     }
 
-    /// Mean velocity of a pore, cells/s.
-    fn pore_velocity(&self, pore: usize) -> [f64; 3] {
-        let mesh = &self.mesh;
-        std::array::from_fn(|axis| {
-            let mut sum = 0.0;
-            for up in [false, true] {
-                let faces: Vec<usize> = mesh.faces_at(pore, axis, up).collect();
-                let area: f64 = faces.iter().map(|&face| mesh.area(face)).sum();
-                for face in faces {
-                    let frame = match axis {
-                        1 => mesh.frame(&self.setup.lattice, face) * self.state.flow.speed,
-                        _ => 0.0,
-                    };
-                    sum += 0.5 * (self.state.flow.velocity[face] + frame) * mesh.area(face) / area;
-                }
-            }
-            sum
-        })
+    /// The flow within pores.
+    fn profile(&self) -> Profile<'_> {
+        Profile {
+            lattice: &self.setup.lattice,
+            mesh: &self.mesh,
+            velocity: &self.state.flow.velocity,
+            speed: self.state.flow.speed,
+            influence_length: self.setup.walls.influence_length,
+            per_metre: self.setup.walls.per_metre,
+        }
     }
 }

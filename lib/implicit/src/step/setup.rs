@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use physics::{Dimensions, Liquid, Points, PressRun, Scene, Seed, Stop, Viscosity};
+use physics::{Dimensions, Liquid, Motion, Points, PressRun, Scene, Seed, Stop, Viscosity};
 
 use super::drive::ClampDrive;
 use super::{MARGIN, State};
@@ -11,6 +11,7 @@ use crate::geometry::{Chords, Face, Lattice, Mesh, Region, Rows};
 use crate::liquid::{Kept, Place, deposit};
 use crate::settings::Settings;
 use crate::system::{Links, Scales, Unknowns, Walls};
+use crate::water;
 
 /// Units of the scheme.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +43,7 @@ pub(super) struct Setup {
     pub(super) units: Units,
     pub(super) place: Place,
     gravity: [f64; 3],
-    walls: Walls,
+    pub(super) walls: Walls,
     pub(super) bottom: Option<usize>,
     pub(super) top: Option<usize>,
     /// Area that pressures refer to, m2.
@@ -52,6 +53,10 @@ pub(super) struct Setup {
     pub(super) limited: bool,
     /// Air that has pressures where it is closed off.
     pub(super) gas: Option<Gas>,
+    /// Bodies that take water.
+    take: Vec<bool>,
+    /// How each body moves.
+    pub(super) motions: Vec<Motion>,
 }
 
 impl Setup {
@@ -108,6 +113,13 @@ impl Setup {
             limited: scene
                 .clamp
                 .is_some_and(|clamp| clamp.max_pressure.is_some()),
+            motions: scene.bodies.iter().map(|body| body.motion).collect(),
+            take: (scene.bodies.iter())
+                .map(|body| {
+                    let water = scene.liquid.water.as_ref();
+                    water.is_some_and(|water| water.enters(&body.name))
+                })
+                .collect(),
         };
         Ok((setup, mesh, volumes))
     }
@@ -120,6 +132,12 @@ impl Setup {
     /// Friction of the walls of a mesh; of faces that are `kept` from another one, as `old` has it.
     pub(super) fn links(&self, mesh: &Mesh, kept: &Kept, old: &Links) -> Links {
         Links::new(&self.lattice, &self.chords, mesh, self.walls, kept, old)
+    }
+
+    /// Walls of a mesh that take water, of a liquid that loses it.
+    pub(super) fn taking_walls(&self, mesh: &Mesh) -> Option<water::Walls> {
+        let walls = || water::Walls::new(&self.lattice, mesh, &self.take);
+        self.liquid.water.as_ref().map(|_| walls())
     }
 
     /// Velocity of each face at the start, cells/s, against the grid, which moves with the closing `speed`, cells/s: the mean

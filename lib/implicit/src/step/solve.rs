@@ -1,16 +1,21 @@
 //! Solution of a step: which pores are full, the flow, the clamp's speed, and the length that ends its travel.
 
+use std::time::Instant;
+
 use physics::StepLimit;
 use rayon::prelude::*;
 
 use super::Implicit;
 use super::drive::Asked;
+use super::failure::unsolved;
 use crate::air::Air;
-use crate::liquid::transport;
+use crate::clock::Part;
+use crate::liquid::{Held, transport};
 use crate::system::{
     Drive, FULL, Flow, Problem, Rates, Unknowns, Viscosities, forces, halves, masses, solve,
     stiffnesses,
 };
+use crate::water::Exchange;
 
 /// Part of the travel that is left from which on a step that covers it is made to end it.
 const NEAR: f64 = 0.7;
@@ -44,6 +49,8 @@ pub(super) struct Solved {
     pub(super) air: Option<(Air, bool)>,
     /// Whether the step ends the travel of the clamp.
     pub(super) arrives: bool,
+    /// Of a liquid that loses water: what it loses.
+    pub(super) exchange: Option<Exchange>,
 }
 
 impl Implicit {
@@ -133,13 +140,17 @@ impl Implicit {
             let middle = 0.5 * (height + self.end_height(dt));
             self.mesh.set_height(middle);
         }
+        let begun = Instant::now();
         let mesh = &self.mesh;
         let moved = if state.steps == 0 {
             state.volumes.clone()
         } else {
             transport(
                 mesh,
-                &state.volumes,
+                Held {
+                    volumes: &state.volumes,
+                    water: &[],
+                },
                 &full,
                 &self.capacities(),
                 &state.flow.velocity,
@@ -147,6 +158,7 @@ impl Implicit {
             )
             .volumes
         };
+        self.clock.add(Part::Transport, begun);
         let fractions: Vec<f64> = (0..mesh.pores.len())
             .map(|pore| match moved[pore] / mesh.volume(pore) {
                 _ if full[pore] => 1.0,
@@ -154,9 +166,11 @@ impl Implicit {
                 then => then,
             })
             .collect();
+        let begun = Instant::now();
         if self.setup.lattice.moving.is_some() {
             (self.setup).measure(&mut self.links, &self.mesh, &fractions);
         }
+        self.clock.add(Part::Geometry, begun);
         Middle {
             dt,
             full,
@@ -188,6 +202,12 @@ impl Implicit {
     fn solve_driven(&mut self, middle: &Middle, drive: Drive) -> Result<Solved, String> {
         let Middle { dt, fractions, .. } = middle;
         let dt = *dt;
+        let begun = Instant::now();
+        let lost = self.exchange(dt, fractions)?;
+        if lost.is_some() {
+            self.clock.add(Part::Water, begun);
+        }
+        let begun = Instant::now();
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
         let mut torn = vec![false; mesh.pores.len()];
         let mut unknowns = Unknowns::new(mesh, fractions, &torn);
@@ -195,6 +215,12 @@ impl Implicit {
         let halves = halves(mesh, fractions);
         let masses = masses(mesh, &halves);
         let end = self.end_height(dt);
+        let thickened = |viscosities: Viscosities| match &lost {
+            Some(exchange) => viscosities.thickened(mesh, &exchange.factor),
+            None => viscosities,
+        };
+        self.clock.add(Part::Assembly, begun);
+        let begun = Instant::now();
         let cured = setup.viscosity_at(state.time + 0.5 * dt);
         let factor = cured / setup.units.viscosity;
         let varies = setup.varies();
@@ -213,6 +239,8 @@ impl Implicit {
             true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor),
             false => Viscosities::constant(mesh, cured),
         };
+        viscosities = thickened(viscosities);
+        self.clock.add(Part::Viscosity, begun);
         let mut solved = Solved {
             dt,
             full: middle.full.clone(),
@@ -220,6 +248,7 @@ impl Implicit {
             settled: false,
             air: None,
             arrives: false,
+            exchange: None,
             flow: state.flow.clone(),
         };
         let (mut iterations, mut astray) = (0, false);
@@ -246,18 +275,32 @@ impl Implicit {
                 scales: setup.scales(dt),
             };
             let heights = [self.height, end];
-            let carried = setup.carried(mesh, &unknowns, state, &solved.full, heights, dt);
-            let flow = solve(&problem, &carried, drive, &solved.flow, &mut self.solver)
-                .map_err(|error| error.to_string())?;
+            let mut carried = setup.carried(mesh, &unknowns, state, &solved.full, heights, dt);
+            if let Some(exchange) = &lost {
+                exchange.add_to(&unknowns.pores, &solved.full, dt, &mut carried);
+            }
+            let flow = solve(
+                &problem,
+                &carried,
+                drive,
+                &solved.flow,
+                &mut self.solver,
+                &mut self.clock,
+            )
+            .map_err(|error| unsolved(&error))?;
             iterations += flow.iterations;
+            let begun = Instant::now();
             solved.forces = forces(&problem, &flow, state.displacement.len());
+            self.clock.add(Part::Forces, begun);
+            let begun = Instant::now();
             solved.settled = true;
             if varies {
                 let next = rates(&flow);
-                let changed = Viscosities::of(&next, &setup.liquid, factor);
+                let changed = thickened(Viscosities::of(&next, &setup.liquid, factor));
                 solved.settled = viscosities.change(&changed, &next, mesh, fractions) < SETTLED;
                 viscosities = changed;
             }
+            self.clock.add(Part::Viscosity, begun);
             let tears = self.tear(&unknowns, &flow, dt, &mut torn);
             if tears {
                 unknowns = Unknowns::new(mesh, fractions, &torn);
@@ -273,6 +316,7 @@ impl Implicit {
         }
         solved.flow.iterations = iterations;
         solved.air = air.map(|air| (air, !astray));
+        solved.exchange = lost;
         Ok(solved)
     }
 }

@@ -1,11 +1,14 @@
 //! Solution of the equations of a step, and the forces on the bodies.
 
+use std::time::Instant;
+
 use rayon::prelude::*;
 use saddle_point::{Load, SaddleSolver, SaddleSystem, SolveError};
 
 use super::assembly::{Problem, Sides};
 use super::stretching::stretching;
 use crate::air::Pocket;
+use crate::clock::{Clock, Part};
 use crate::geometry::{MIRROR, OPEN};
 
 /// How the body that closes the gap is driven.
@@ -44,7 +47,9 @@ pub(crate) fn solve(
     drive: Drive,
     guess: &Flow,
     solver: &mut SaddleSolver,
+    clock: &mut Clock,
 ) -> Result<Flow, SolveError> {
+    let begun = Instant::now();
     let unknowns = problem.unknowns;
     let (a, g) = (problem.velocity_block()?, problem.outflow()?);
     let Sides {
@@ -134,6 +139,8 @@ pub(crate) fn solve(
         ..Flow::default()
     };
     let drag = problem.resistance();
+    clock.add(Part::Assembly, begun);
+    let begun = Instant::now();
     let solved = match drive {
         Drive::Speed(_) => solver.solve(&system, &mut u, &mut p),
         Drive::Force { force, scale, .. } => {
@@ -147,6 +154,7 @@ pub(crate) fn solve(
             solver.solve_loaded(&system, &load, &mut u, &mut p, &mut flow.speed)
         }
     };
+    clock.add(Part::Solve, begun);
     flow.iterations = match solved {
         Ok(report) => report.iterations() as u32,
         Err(SolveError::NotConverged { iterations, .. }) => iterations as u32,

@@ -33,6 +33,18 @@ impl Viscosities {
         }
     }
 
+    /// These times a factor of each pore.
+    pub(crate) fn thickened(mut self, mesh: &Mesh, factor: &[f64]) -> Self {
+        let pores = self.pores.par_iter_mut().zip(factor);
+        pores.for_each(|(viscosity, factor)| *viscosity *= factor);
+        let walls = self.walls.par_iter_mut().zip(&mesh.faces);
+        walls.for_each(|(viscosity, face)| {
+            viscosity[0] *= factor[face.low as usize];
+            viscosity[1] *= factor[face.high as usize];
+        });
+        self
+    }
+
     /// Mean change of ln(viscosity) from `self` to `next`, weighted by the dissipation of each pore.
     pub(crate) fn change(&self, next: &Self, rates: &Rates, mesh: &Mesh, fractions: &[f64]) -> f64 {
         let mut sums = [0.0; 2];

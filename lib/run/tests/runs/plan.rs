@@ -118,6 +118,19 @@ fn the_same_by_the_implicit_scheme_and_by_plain_flip() {
     );
     // A cell at the speed of the plate.
     assert_says(&said, &["time step 1.0000e-6 s, set by advective"]);
+    let anew = [("\"explicit\"", "\"volume-fraction\""), IMPLICIT[1]];
+    assert_says(
+        &plan(&anew, &[]).unwrap(),
+        &[
+            "time step 1.0000e-6 s, set by advective",
+            // One and a half cells of travel, 1.8 times.
+            "steps about 3",
+            // 310 unknowns, 600 cells, 576 points and the process.
+            "memory 8 MB",
+            "unknowns 3.10e2 velocities and pressures in 7.20e1 liquid cells",
+            "shear rate between snapshots known where a state is written",
+        ],
+    );
     let flip = [("velocity_update = \"xpic\"\norder = 5\n", "")];
     assert_says(
         &plan(&flip, &[]).unwrap(),

@@ -47,7 +47,7 @@ pub fn scene(section: Section, n: u32, until: f64) -> Scene {
         case,
         against: "White 2006; Hagen-Poiseuille",
         measure: Box::new(move |run| {
-            let mean = mean_velocity(run)?;
+            let mean = mean_velocity(run, PF[0] * G)?;
             let exact = |resistance: f64| PF[0] * G * LUMEN.powi(2) / (resistance * PF[2]);
             let smooth = exact(section.resistance(n));
             let mut list = vec![Measured::relative("mean velocity", mean, smooth)];

@@ -49,7 +49,7 @@ pub fn scene(n: u32) -> Scene {
         },
         against: "lattice Boltzmann",
         measure: Box::new(move |run| {
-            let found = porosity * mean_velocity(run)? * eta / (rho * g);
+            let found = porosity * mean_velocity(run, rho * g)? * eta / (rho * g);
             Ok(vec![Measured::relative("permeability", found, darcy)])
         }),
     }

@@ -59,7 +59,7 @@ pub fn scene(n: u32, which: usize) -> Scene {
         case,
         against: "Sangani & Acrivos 1982; lattice Boltzmann",
         measure: Box::new(move |run| {
-            let found = porosity * mean_velocity(run)? * eta / (rho * g);
+            let found = porosity * mean_velocity(run, rho * g)? * eta / (rho * g);
             let same = converged(n, fraction)?;
             Ok(vec![
                 Measured::relative("permeability", found, darcy),

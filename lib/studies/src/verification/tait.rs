@@ -46,19 +46,22 @@ pub fn scene() -> Scene {
             }
             Ok(vec![
                 Measured::relative("piston pressure", sum / rows, exact / rows),
-                Measured::absolute("rms pressure of points of their volume", law_error(run)?),
+                Measured::absolute(
+                    "rms pressure of points of their volume",
+                    law_error(run, width * height * CELL)?,
+                ),
             ])
         }),
     }
 }
 
 /// Root mean square over the points of their pressure over that of Eq. 1 at their own volume,
-/// minus one: the law itself, without the walls.
-fn law_error(run: &Run) -> Result<f64, String> {
+/// minus one: the law itself, without the walls. They had a volume of `begun` (m3) in all.
+fn law_error(run: &Run, begun: f64) -> Result<f64, String> {
     let file = run.last()?;
     let read = |name| file.column::<f32>(name).map_err(|e| e.to_string());
     let (volume, pressure) = (read("volume")?, read("pressure")?);
-    let whole = 0.25 * CELL.powi(3);
+    let whole = begun / volume.len() as f64;
     let square =
         |(v, p): (&f32, &f32)| (f64::from(*p) / tait(f64::from(*v) / whole, PF[1]) - 1.0).powi(2);
     let sum: f64 = volume.iter().zip(pressure).map(square).sum();

@@ -18,7 +18,7 @@ pub(super) const INTEGRATOR: Table = Table {
             name: "scheme",
             form: choice::<SchemeName>,
             absent: Absent::Needed("always"),
-            text: "`\"explicit\"`: the paper's material point method. `\"implicit\"`: pressure and viscosity solved for, walls at the voxel faces: for results, and for anything slower than 1 m/s. `\"volume-fraction\"`: the implicit scheme with the liquid as volume fractions on a grid that closes with the press, which is to take its place; without loss of water and angles that differ as a front recedes as yet, and for walls on the faces of cells or half way between them.",
+            text: "`\"explicit\"`: the paper's material point method. `\"implicit\"`: pressure and viscosity solved for, walls at the voxel faces: for results, and for anything slower than 1 m/s. `\"volume-fraction\"`: the implicit scheme with the liquid as volume fractions on a grid that closes with the press, which is to take its place; without angles that differ as a front recedes, and for walls on the faces of cells or half way between them.",
         },
         Key {
             name: "velocity_update",

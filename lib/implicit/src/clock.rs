@@ -1,0 +1,50 @@
+//! Wall time of each part of a step.
+
+use std::time::{Duration, Instant};
+
+use physics::StageTime;
+
+/// Parts of a step whose time is reported, in its order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    Geometry,
+    Water,
+    Viscosity,
+    Assembly,
+    Solve,
+    Forces,
+    Transport,
+}
+
+const NAMES: [&str; 7] = [
+    "geometry",
+    "loss of water",
+    "viscosity",
+    "assembly",
+    "linear solve",
+    "forces",
+    "transport",
+];
+
+/// Time spent so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Clock([Duration; 7]);
+
+impl Clock {
+    /// Counts what a part took that began at an instant.
+    pub(crate) fn add(&mut self, part: Part, begun: Instant) {
+        self.0[part as usize] += begun.elapsed();
+    }
+
+    /// Times of the parts that a run has.
+    pub(crate) fn report(&self) -> Vec<StageTime> {
+        let times = NAMES.iter().zip(&self.0);
+        times
+            .filter(|(_, time)| !time.is_zero())
+            .map(|(&name, time)| StageTime {
+                name,
+                wall_s: time.as_secs_f64(),
+            })
+            .collect()
+    }
+}

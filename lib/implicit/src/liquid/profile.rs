@@ -1,0 +1,294 @@
+//! Velocity at a place in a pore, from those of its faces.
+
+use crate::geometry::{Lattice, MIRROR, Mesh, OPEN, others};
+
+/// A flow, to find velocities within pores. Along its own axis a velocity is linear from face to face. Across it is a
+/// parabola whose means are the velocities of the face and of the faces beside it; at a wall it has the slope that the
+/// influence length asks for, and none where the liquid ends: the profile of Poiseuille flow where faces have its fluxes.
+pub(crate) struct Profile<'a> {
+    pub(crate) lattice: &'a Lattice,
+    pub(crate) mesh: &'a Mesh,
+    /// Velocity of each face against the grid, and the closing speed, cells/s.
+    pub(crate) velocity: &'a [f64],
+    pub(crate) speed: f64,
+    /// Influence length of the walls, cells; infinite without friction.
+    pub(crate) influence_length: f64,
+    /// Cells a metre.
+    pub(crate) per_metre: f64,
+}
+
+/// What one side of a column asks of u(y) - mean = a y + c (y^2 - h^2/12): that `slope` times a, away from the column's
+/// middle, and `curvature` times c add up to `difference`.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    slope: f64,
+    curvature: f64,
+    difference: f64,
+}
+
+impl Side {
+    /// The end of the liquid, or a wall without friction, of a column of height `h`.
+    fn free(h: f64) -> Self {
+        Self {
+            slope: 1.0,
+            curvature: h,
+            difference: 0.0,
+        }
+    }
+
+    /// A wall that goes faster by `difference` and is slipped along by `length` times the slope.
+    fn wall(h: f64, length: f64, difference: f64) -> Self {
+        Self {
+            slope: 0.5 * h + length,
+            curvature: h * h / 6.0 + length * h,
+            difference,
+        }
+    }
+
+    /// A column of height `beside` that is faster by `difference`.
+    fn column(h: f64, beside: f64, difference: f64) -> Self {
+        Self {
+            slope: 0.5 * (h + beside),
+            curvature: h * h / 6.0 + 0.5 * h * beside + beside * beside / 3.0,
+            difference,
+        }
+    }
+}
+
+/// a and c by what the low and the high side ask for.
+fn parabola([low, high]: [Side; 2]) -> [f64; 2] {
+    let determinant = low.slope * high.curvature + high.slope * low.curvature;
+    [
+        (high.difference * low.curvature - low.difference * high.curvature) / determinant,
+        (high.difference * low.slope + low.difference * high.slope) / determinant,
+    ]
+}
+
+/// One end of a voxel's column along an axis.
+struct End {
+    /// Where it is, voxels from the low side of the cell.
+    place: f64,
+    /// Velocity of the grid there.
+    frame: f64,
+    /// Velocity against the grid; none where the liquid ends.
+    own: Option<f64>,
+}
+
+impl Profile<'_> {
+    /// Velocity at the middle of a voxel of a pore, cells/s.
+    pub(crate) fn at(&self, pore: usize, voxel: [usize; 3]) -> [f64; 3] {
+        std::array::from_fn(|axis| {
+            if self.lattice.flat && axis == 2 {
+                return 0.0;
+            }
+            let [low, high] = [false, true].map(|up| self.end(pore, voxel, axis, up));
+            let part = (voxel[axis] as f64 + 0.5 - low.place) / (high.place - low.place);
+            let between = |a: f64, b: f64| a + part * (b - a);
+            let own = match (low.own, high.own) {
+                (Some(low), Some(high)) => between(low, high),
+                (one, other) => one.or(other).unwrap_or(0.0),
+            };
+            own + between(low.frame, high.frame)
+        })
+    }
+
+    /// Velocity of a pore by the means of its faces on the two sides along each axis, cells/s.
+    pub(crate) fn mean(&self, pore: usize) -> [f64; 3] {
+        let mesh = self.mesh;
+        std::array::from_fn(|axis| {
+            let side = |up: bool| {
+                let faces = mesh.faces_at(pore, axis, up);
+                let (flux, area) = faces.fold((0.0, 0.0), |(flux, area), face| {
+                    let own = mesh.area(face);
+                    (flux + own * self.velocity[face], area + own)
+                });
+                self.frame(pore, axis, up) + if area > 0.0 { flux / area } else { 0.0 }
+            };
+            0.5 * (side(false) + side(true))
+        })
+    }
+
+    /// Velocity of the grid along an axis at one side of a pore's cell.
+    fn frame(&self, pore: usize, axis: usize, up: bool) -> f64 {
+        if axis != 1 {
+            return 0.0;
+        }
+        let row = self.mesh.row(self.mesh.pores[pore].cell as usize);
+        let share = self.mesh.rows().share(row + usize::from(up));
+        self.lattice.speed_at(share) * self.speed
+    }
+
+    fn end(&self, pore: usize, voxel: [usize; 3], axis: usize, up: bool) -> End {
+        let mesh = self.mesh;
+        let cell = mesh.pores[pore].cell as usize;
+        let mut last = voxel;
+        let side = if up { mesh.k - 1 } else { 0 };
+        while last[axis] != side {
+            let mut next = last;
+            next[axis] = if up { last[axis] + 1 } else { last[axis] - 1 };
+            if mesh.pore_with(cell, next) != Some(pore) {
+                break;
+            }
+            last = next;
+        }
+        let own = match self.face(pore, last, axis, up) {
+            Some(face) => self.moves(face).then(|| self.in_column(face, pore, last)),
+            None => Some(0.0),
+        };
+        End {
+            place: (last[axis] + usize::from(up)) as f64,
+            frame: self.frame(pore, axis, up),
+            own,
+        }
+    }
+
+    /// Whether a face had a velocity in the step: others have none at all.
+    fn moves(&self, face: usize) -> bool {
+        self.velocity[face] != 0.0
+    }
+
+    /// The face by which a voxel at the side of a pore is open to the next cell.
+    fn face(&self, pore: usize, voxel: [usize; 3], axis: usize, up: bool) -> Option<usize> {
+        let [s, t] = others(axis);
+        let bit = voxel[s] + self.mesh.k * voxel[t];
+        let at_side = voxel[axis] == if up { self.mesh.k - 1 } else { 0 };
+        let mut faces = self.mesh.faces_at(pore, axis, up);
+        faces.find(|&face| at_side && self.mesh.faces[face].open >> bit & 1 == 1)
+    }
+
+    /// Velocity of a face against the grid in the middle of a voxel of the pore beside it.
+    fn in_column(&self, face: usize, pore: usize, voxel: [usize; 3]) -> f64 {
+        let axis = usize::from(self.mesh.faces[face].axis);
+        let across = others(axis).into_iter();
+        let own = self.velocity[face];
+        across
+            .filter(|&t| !(self.lattice.flat && t == 2))
+            .map(|t| self.departure(face, pore, voxel, t))
+            .sum::<f64>()
+            + own
+    }
+
+    /// What the velocity in the middle of a voxel differs by from the mean of its column along `t`.
+    fn departure(&self, face: usize, pore: usize, voxel: [usize; 3], t: usize) -> f64 {
+        let mesh = self.mesh;
+        let edge = mesh.edges(mesh.pores[pore].cell as usize)[t] / mesh.k as f64;
+        let [first, last] = self.column(face, voxel, t);
+        let height = edge * (last + 1 - first) as f64;
+        let sides = [(first, false), (last, true)].map(|(i, up)| {
+            let mut end = voxel;
+            end[t] = i;
+            self.side(face, pore, end, t, up, height)
+        });
+        let middle = 0.5 * (first + last + 1) as f64;
+        let y = edge * (voxel[t] as f64 + 0.5 - middle);
+        let [slope, curvature] = parabola(sides);
+        slope * y + curvature * (y * y - height * height / 12.0)
+    }
+
+    /// The first and the last of the voxels along `t` through `voxel` that a face is open to.
+    fn column(&self, face: usize, voxel: [usize; 3], t: usize) -> [usize; 2] {
+        let [s, q] = others(usize::from(self.mesh.faces[face].axis));
+        let is_open = |&i: &usize| {
+            let mut at = voxel;
+            at[t] = i;
+            self.mesh.faces[face].open >> (at[s] + self.mesh.k * at[q]) & 1 == 1
+        };
+        let mut open = (0..self.mesh.k).filter(is_open);
+        let first = open.next().unwrap_or(voxel[t]);
+        [first, open.next_back().unwrap_or(first)]
+    }
+
+    /// What a column of a face ends at beyond a voxel, which is its last.
+    fn side(
+        &self,
+        face: usize,
+        pore: usize,
+        voxel: [usize; 3],
+        t: usize,
+        up: bool,
+        height: f64,
+    ) -> Side {
+        let mesh = self.mesh;
+        let (f, cell) = (mesh.faces[face], mesh.pores[pore].cell as usize);
+        let axis = usize::from(f.axis);
+        let own = self.velocity[face];
+        let Some((beside, next)) = mesh.next_voxel(cell, voxel, t, up) else {
+            return Side::free(height);
+        };
+        let code = mesh.code(self.lattice, beside, next);
+        if code == MIRROR {
+            return Side::free(height);
+        }
+        if code != OPEN {
+            let length = self.influence_length;
+            return match length.is_finite() {
+                true => Side::wall(height, length, self.wall(code, face, axis) - own),
+                false => Side::free(height),
+            };
+        }
+        let ahead = f.low as usize == pore;
+        let other = mesh
+            .pore_with(beside, next)
+            .and_then(|pore| self.face(pore, next, axis, ahead));
+        let Some(other) = other.filter(|&other| other != face && self.moves(other)) else {
+            return Side::free(height);
+        };
+        let edge = mesh.edges(beside)[t] / mesh.k as f64;
+        let [first, last] = self.column(other, next, t);
+        let beyond = edge * (last + 1 - first) as f64;
+        Side::column(height, beyond, self.velocity[other] - own)
+    }
+
+    /// Velocity of a wall along an axis against the grid at a face.
+    fn wall(&self, code: u8, face: usize, axis: usize) -> f64 {
+        let body = usize::from(code - 1);
+        match axis {
+            1 => {
+                let frame = self.mesh.frame(self.lattice, face);
+                (self.lattice.speed_of(body) - frame) * self.speed
+            }
+            _ => self.lattice.slide[body][axis] * self.per_metre,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// u = 3 + 2 y + 5 y^2 over a height of 0.5, beside columns of 0.25, and walls that are slipped along by 0.1 times the
+    /// slope.
+    #[test]
+    fn a_parabola_is_found_again_from_its_sides() {
+        let (h, beside, length) = (0.5, 0.25, 0.1);
+        let sum = |y: f64| 3.0 * y + y * y + 5.0 * y.powi(3) / 3.0;
+        let mean = |from: f64, to: f64| (sum(to) - sum(from)) / (to - from);
+        let own = mean(-0.25, 0.25);
+        let slope = |y: f64| 2.0 + 10.0 * y;
+        let wall = |y: f64| 3.0 + 2.0 * y + 5.0 * y * y + 4.0 * y * length * slope(y) - own;
+        let walls = [-0.25, 0.25].map(|y| Side::wall(h, length, wall(y)));
+        let columns = [mean(-0.5, -0.25), mean(0.25, 0.5)];
+        let columns = columns.map(|mean| Side::column(h, beside, mean - own));
+        for sides in [
+            columns,
+            walls,
+            [walls[0], columns[1]],
+            [columns[0], walls[1]],
+        ] {
+            let [a, c] = parabola(sides);
+            assert!(
+                (a - 2.0).abs() < 1e-12 && (c - 5.0).abs() < 1e-12,
+                "{a} {c}"
+            );
+        }
+        // u = 5 (y + 0.25)^2, without slope at -0.25: means 5/12 and 95/48.
+        let [a, c] = parabola([
+            Side::free(h),
+            Side::column(h, beside, 95.0 / 48.0 - 5.0 / 12.0),
+        ]);
+        assert!(
+            (a - 2.5).abs() < 1e-12 && (c - 5.0).abs() < 1e-12,
+            "{a} {c}"
+        );
+    }
+}

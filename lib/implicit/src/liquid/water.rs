@@ -1,0 +1,60 @@
+//! Water that goes with the liquid.
+
+use crate::geometry::Mesh;
+
+/// Passes after which what goes through pores that pass on more than they hold counts as it is.
+const PASSES: usize = 50;
+/// Change of a part of water that is rounding.
+const ROUNDING: f64 = 1e-15;
+
+/// Moves the `water` in liquid `volumes` by the liquid that crossed each face. A pore passes on the part of water that it
+/// had, or, where it passes on more than it held, that with what came in.
+pub(super) fn carry(mesh: &Mesh, volumes: &[f64], water: &mut [f64], flux: &[f64]) {
+    let ends = |face: usize| {
+        let f = mesh.faces[face];
+        let (from, to) = if flux[face] > 0.0 {
+            (f.low, f.high)
+        } else {
+            (f.high, f.low)
+        };
+        (from as usize, to as usize)
+    };
+    let moving: Vec<usize> = (0..flux.len()).filter(|&face| flux[face] != 0.0).collect();
+    let mut parts: Vec<f64> = (volumes.iter().zip(&*water))
+        .map(|(&volume, &water)| {
+            if volume > 0.0 {
+                (water / volume).clamp(0.0, 1.0)
+            } else {
+                0.0
+            }
+        })
+        .collect();
+    let mut out = vec![0.0; volumes.len()];
+    for &face in &moving {
+        out[ends(face).0] += flux[face].abs();
+    }
+    let through = |pore: usize| out[pore] > volumes[pore];
+    for _ in 0..PASSES {
+        let mut sums: Vec<[f64; 2]> = (0..volumes.len())
+            .map(|pore| [volumes[pore], water[pore]])
+            .collect();
+        for &face in &moving {
+            let ((from, to), passed) = (ends(face), flux[face].abs());
+            sums[to] = [sums[to][0] + passed, sums[to][1] + passed * parts[from]];
+        }
+        let mut change = 0.0_f64;
+        for pore in (0..volumes.len()).filter(|&pore| through(pore) && sums[pore][0] > 0.0) {
+            let part = (sums[pore][1] / sums[pore][0]).clamp(0.0, 1.0);
+            change = change.max((part - parts[pore]).abs());
+            parts[pore] = part;
+        }
+        if change <= ROUNDING {
+            break;
+        }
+    }
+    for face in moving {
+        let ((from, to), passed) = (ends(face), flux[face].abs() * parts[ends(face).0]);
+        water[from] -= passed;
+        water[to] += passed;
+    }
+}

@@ -1,0 +1,103 @@
+//! What a run of a scene will take.
+
+use physics::{Amount, Cure, Dimensions, Scene, Stages, Stop};
+
+use crate::settings::Settings;
+use crate::step::{CURED, DRIED};
+
+/// Speed of the liquid that sets the step over that of the body that drives it, averaged over a run: 1.6 to 1.8 where wood
+/// closes on a slab.
+const SPEED_RATIO: f64 = 1.8;
+/// Processor seconds per unknown and step, as measured with 7 to 70 thousand unknowns.
+const SECONDS: f64 = 9e-6;
+/// Bytes per unknown (matrices, Krylov basis, multigrid), per cell of the domain (pores, faces, friction of walls), per voxel
+/// (chords, what measures the bond), and of the process, as measured with 9, 33 and 69 thousand unknowns.
+const BYTES: [f64; 4] = [400.0, 220.0, 40.0, 8e6];
+
+/// Size and cost of a run; cheap, nothing is allocated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Cells that the liquid fills.
+    pub liquid_cells: f64,
+    /// Velocity and pressure unknowns of a step.
+    pub unknowns: f64,
+    /// First time step, s.
+    pub dt_s: f64,
+    /// Steps to the end if the clamp keeps its full speed.
+    pub steps: f64,
+    /// Memory, bytes.
+    pub memory_bytes: f64,
+    /// Processor seconds: wall time is that over the number of cores.
+    pub cpu_s: f64,
+    /// What a step consists of.
+    pub stages: Stages,
+}
+
+impl Plan {
+    /// The plan for `scene` with `amount` of liquid.
+    pub fn new(scene: &Scene, amount: &Amount, settings: &Settings) -> Self {
+        let h = scene.grid.cell_m;
+        let axes = match scene.dimensions {
+            Dimensions::Two => 2.0,
+            Dimensions::Three => 3.0,
+        };
+        let cells: f64 = scene.grid.cells.iter().map(|&n| n as f64).product();
+        let liquid_cells = amount.volume_m3 / h.powi(3);
+        // Surfaces add faces to the d per cell inside.
+        let unknowns = liquid_cells * (1.0 + 1.1 * axes);
+        let speed = scene.speed_with(amount);
+        let dt_s = if speed > 0.0 {
+            settings.cfl * h / speed
+        } else {
+            let pull = scene.gravity.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
+            (2.0 * settings.cfl * h / pull).sqrt()
+        };
+        let duration = match scene.stop {
+            // A clamp cannot go further than through the whole domain, however long it is held.
+            Stop::Time(time) if scene.clamp.is_some() => {
+                time.min(scene.grid.cells[1] as f64 * h / speed)
+            }
+            Stop::Time(time) => time,
+            Stop::Closed { travel_m } => travel_m / speed,
+        };
+        let cure = scene.liquid.cure.as_ref();
+        let duration = cure
+            .and_then(Cure::set_at)
+            .map_or(duration, |set| set.min(duration));
+        // A programme waits in its stages long after the clamp has gone its way, while the liquid sets.
+        let waits: f64 = scene.programme.iter().map(|stage| stage.time_s).sum();
+        let cured = cure.map_or(0.0, |cure| cure.change(duration.max(waits)) / CURED);
+        let dried = (scene.liquid.water.as_ref())
+            .map_or(0.0, |water| water.factor(water.least()).ln() / DRIED);
+        let blocks = scene.bodies.iter().flat_map(|body| &body.blocks);
+        let voxels: f64 = blocks
+            .map(|block| block.dims().iter().map(|&n| n as f64).product::<f64>())
+            .sum();
+        let driven = SPEED_RATIO * duration / dt_s;
+        let steps = (driven + cured + dried).ceil().max(1.0);
+        Self {
+            liquid_cells,
+            unknowns,
+            dt_s,
+            steps,
+            memory_bytes: BYTES[0] * unknowns + BYTES[1] * cells + BYTES[2] * voxels + BYTES[3],
+            cpu_s: steps * SECONDS * unknowns,
+            stages: stages(scene),
+        }
+    }
+}
+
+/// The stages of a run of `scene`.
+fn stages(scene: &Scene) -> Stages {
+    let list = Stages::of(scene);
+    let gains = scene.clamp.and_then(|clamp| clamp.pid);
+    let no_pid = match (list.has(Stages::LOAD), gains) {
+        (true, Some(_)) => None,
+        (true, None) => Some("no pid: the limit is an equation of the solve"),
+        (false, _) => Some("no pressure limit"),
+    };
+    list.and("PID", no_pid.map(str::to_owned)).and(
+        "shear rate between snapshots",
+        Some("known where a state is written or the viscosity depends on it".into()),
+    )
+}

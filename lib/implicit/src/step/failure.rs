@@ -1,0 +1,65 @@
+//! What a failed step says of the case, and what of it to change.
+
+use physics::Failure;
+use saddle_point::{Cause, SolveError};
+
+use super::Implicit;
+
+impl Implicit {
+    pub(super) fn failure(&self, why: &str) -> Failure {
+        Failure(format!(
+            "step {} at {:.6e} s: {why}",
+            self.state.steps + 1,
+            self.state.time
+        ))
+    }
+
+    /// Attempts at a step of which none was short enough; the last one because the liquid `dries`.
+    pub(super) fn no_step(&self, dries: bool) -> Failure {
+        let why = match dries {
+            true => "the liquid dries too fast for any: a smaller uptake, a larger diffusivity or a flatter \
+                     viscosity_by_solids is needed"
+                .to_owned(),
+            false => format!(
+                "the liquid is the faster the shorter the step, {:.3e} m/s at last: a wall may push liquid that is \
+                 enclosed on all sides",
+                self.state.fastest * self.setup.units.cell_m
+            ),
+        };
+        self.failure(&format!("no acceptable time step was found: {why}"))
+    }
+}
+
+/// A system of the step that was not solved.
+pub(super) fn unsolved(error: &SolveError) -> String {
+    match error {
+        SolveError::NotFinite { .. } => format!(
+            "{error}; speeds, gravity or pressures of the case or of the step before are beyond all bounds, and a \
+             smaller integrator.cfl may help where the case is not to blame"
+        ),
+        SolveError::Unsolved { error, cause } => format!("{error}: {}", advice(*cause)),
+        _ => error.to_string(),
+    }
+}
+
+fn advice(cause: Cause) -> String {
+    match cause {
+        Cause::Unbalanced { cells } => format!(
+            "walls move into {cells} cells of liquid that is enclosed and has no way out but to be compressed; a \
+             max_pressure, a way out, less travel, a lower bulk_modulus or an earlier end is needed"
+        ),
+        Cause::Stiff { ratio } => format!(
+            "viscous stress is {ratio:.0e} times what compresses the liquid in a step, eta/(K dt): a lower viscosity, a \
+             higher bulk_modulus or a slower motion is needed"
+        ),
+        Cause::Inertial { ratio } => format!(
+            "inertia, rho h^2/(eta dt), is {ratio:.0e} times the viscous stress in a cell: a higher viscosity, an earlier \
+             end where nothing flows any more or scheme = \"explicit\" is needed"
+        ),
+        Cause::Unknown => {
+            "a smaller integrator.cfl makes the steps and their systems easier, a larger \
+                           integrator.tolerance asks for less"
+                .into()
+        }
+    }
+}
