@@ -45,7 +45,7 @@ impl Scheme for Implicit {
 
     fn liquid(&self) -> LiquidState {
         let (setup, state) = (&self.setup, &self.state);
-        let convention = setup.liquid.shear_rate;
+        let convention = (setup.liquid.shear_rate, setup.influence_length());
         let flow = &state.flow;
         let rates = Rates::of(
             &self.mesh,

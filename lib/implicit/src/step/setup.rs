@@ -199,6 +199,11 @@ impl Setup {
         ClampDrive::new(scene.clamp, programme, acoustic, full)
     }
 
+    /// Influence length of the walls, cells; infinite without friction.
+    pub(super) fn influence_length(&self) -> f64 {
+        self.walls.influence_length
+    }
+
     /// Factor of the viscosity by cure.
     pub(super) fn viscosity_at(&self, time: f64) -> f64 {
         (self.liquid.cure.as_ref()).map_or(1.0, |cure| cure.factor(time))

@@ -216,7 +216,7 @@ impl Implicit {
         let masses = masses(mesh, &halves);
         let end = self.end_height(dt);
         let thickened = |viscosities: Viscosities| match &lost {
-            Some(exchange) => viscosities.thickened(mesh, &exchange.factor),
+            Some(exchange) => viscosities.thickened(mesh, &self.edges, &exchange.factor),
             None => viscosities,
         };
         self.clock.add(Part::Assembly, begun);
@@ -224,8 +224,9 @@ impl Implicit {
         let cured = setup.viscosity_at(state.time + 0.5 * dt);
         let factor = cured / setup.units.viscosity;
         let varies = setup.varies();
+        let slip = setup.influence_length();
         let rates = |flow: &Flow| {
-            let convention = setup.liquid.shear_rate;
+            let convention = (setup.liquid.shear_rate, slip);
             Rates::of(
                 mesh,
                 &self.links,
@@ -236,7 +237,7 @@ impl Implicit {
             )
         };
         let mut viscosities = match varies && state.steps > 0 {
-            true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor),
+            true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor, slip),
             false => Viscosities::constant(mesh, cured),
         };
         viscosities = thickened(viscosities);
@@ -253,7 +254,7 @@ impl Implicit {
         };
         let (mut iterations, mut astray) = (0, false);
         for _ in 0..PASSES {
-            let stiffnesses = stiffnesses(mesh, &halves, &viscosities.pores);
+            let stiffnesses = stiffnesses(mesh, &halves, &viscosities);
             let fronts = self.fronts(&unknowns, &torn, air.as_ref(), cured, dt);
             let problem = Problem {
                 lattice: &setup.lattice,
@@ -265,6 +266,7 @@ impl Implicit {
                 halves: &halves,
                 masses: &masses,
                 stiffnesses: &stiffnesses,
+                edge_viscosity: &viscosities.edges,
                 viscosity: &viscosities.pores,
                 wall_viscosity: &viscosities.walls,
                 before: &state.flow.velocity,
@@ -296,7 +298,7 @@ impl Implicit {
             solved.settled = true;
             if varies {
                 let next = rates(&flow);
-                let changed = thickened(Viscosities::of(&next, &setup.liquid, factor));
+                let changed = thickened(Viscosities::of(&next, &setup.liquid, factor, slip));
                 solved.settled = viscosities.change(&changed, &next, mesh, fractions) < SETTLED;
                 viscosities = changed;
             }

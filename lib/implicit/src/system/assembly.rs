@@ -8,6 +8,7 @@ use super::fronts::Fronts;
 use super::links::Links;
 use super::stretching::stretching;
 use super::unknowns::{FULL, Unknowns};
+use super::viscosity::Viscosities;
 use crate::air::Pocket;
 use crate::geometry::{Face, Kind, Lattice, Mesh};
 
@@ -42,8 +43,10 @@ pub(crate) struct Problem<'a> {
     pub(crate) halves: &'a [[f64; 2]],
     /// Liquid that moves with each face.
     pub(crate) masses: &'a [f64],
-    /// Viscosity times liquid of the halves of each face.
+    /// Liquid of the halves of each face, times their viscosity where edges have none of their own.
     pub(crate) stiffnesses: &'a [f64],
+    /// Viscosity of each edge over the unit; empty where it is that of the faces.
+    pub(crate) edge_viscosity: &'a [f64],
     /// Viscosity of each pore over the unit of viscosity.
     pub(crate) viscosity: &'a [f64],
     /// Viscosity at the walls of each face over the unit.
@@ -74,7 +77,7 @@ impl Problem<'_> {
         self.fractions[pore] * self.viscosity[pore]
     }
 
-    /// Viscosity times liquid of the halves of two faces that meet at an edge.
+    /// Liquid of the halves of two faces that meet at an edge, times its viscosity as the faces know it.
     fn edge_stiffness(&self, faces: [usize; 2]) -> f64 {
         0.25 * (self.stiffnesses[faces[0]] + self.stiffnesses[faces[1]])
     }
@@ -127,18 +130,22 @@ impl Problem<'_> {
                 }
             });
         }
-        for edge in self.edges.of(face) {
+        for (index, edge) in self.edges.of(face).iter().enumerate() {
             let Some(next) = number(edge.next as usize) else {
                 continue;
             };
-            let eta = self.edge_stiffness([face, edge.next as usize]);
+            let own = (self.edge_viscosity)
+                .get(self.edges.first(face) + index)
+                .copied()
+                .unwrap_or(1.0);
+            let eta = own * self.edge_stiffness([face, edge.next as usize]);
             let [shear, length] = edge.measured(self.mesh, face);
             entries.add(row, eta * shear);
             entries.add(next, -eta * shear);
             let across = edge.across.map(|face| face as usize);
             if let [Some(low), Some(high)] = across.map(number) {
                 // Where a surface crosses the edge, the faces across share less or more liquid.
-                let weight = eta.min(self.edge_stiffness(across)) * length;
+                let weight = eta.min(own * self.edge_stiffness(across)) * length;
                 entries.add(high, -weight);
                 entries.add(low, weight);
             }
@@ -349,10 +356,18 @@ pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
         .collect()
 }
 
-/// Viscosity times liquid of the halves of each face.
-pub(crate) fn stiffnesses(mesh: &Mesh, halves: &[[f64; 2]], viscosity: &[f64]) -> Vec<f64> {
+/// Liquid of the halves of each face, times the viscosity of their pores where that of edges is none of its own.
+pub(crate) fn stiffnesses(mesh: &Mesh, halves: &[[f64; 2]], viscosities: &Viscosities) -> Vec<f64> {
+    let own = viscosities.edges.is_empty();
+    let viscosity = |pore: u32| {
+        if own {
+            viscosities.pores[pore as usize]
+        } else {
+            1.0
+        }
+    };
     let of = |(face, parts): (&Face, &[f64; 2])| {
-        parts[0] * viscosity[face.low as usize] + parts[1] * viscosity[face.high as usize]
+        parts[0] * viscosity(face.low) + parts[1] * viscosity(face.high)
     };
     mesh.faces.par_iter().zip(halves).map(of).collect()
 }

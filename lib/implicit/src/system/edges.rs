@@ -18,10 +18,38 @@ pub(crate) struct Edge {
     weight: f32,
     /// Open voxels beside the edge in the face and in the next one, and the axis across which they lie beside one another.
     open: [u8; 2],
+    /// The same of the faces across, along the axis of the face.
+    aside: [u8; 2],
     t: u8,
 }
 
 impl Edge {
+    /// Rate of shear across it by the velocities `u` around it.
+    fn rate(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
+        let f = mesh.faces[face];
+        let apart = |open: [u8; 2], pores: [u32; 2], a: u8| {
+            let height = |pore: u32| {
+                if a == 1 {
+                    mesh.height(pore as usize)
+                } else {
+                    1.0
+                }
+            };
+            let [low, high] = [0, 1].map(|i| f64::from(open[i]) * height(pores[i]));
+            0.5 * (low + high) / mesh.k as f64
+        };
+        let next = mesh.faces[self.next as usize];
+        let along = (u[self.next as usize] - u[face]) / apart(self.open, [f.low, next.low], self.t);
+        let [low, high] = self.across.map(|face| u[face as usize]);
+        let across = (high - low) / apart(self.aside, [f.low, f.high], f.axis);
+        (along * f64::from(self.part.signum()) + across).abs()
+    }
+
+    /// The axis that it lies along.
+    pub(crate) fn axis(&self, mesh: &Mesh, face: usize) -> usize {
+        3 - usize::from(mesh.faces[face].axis) - usize::from(self.t)
+    }
+
     /// Area over distance between a face and the next one, cells, and the length of the edge, negative where the next face
     /// lies on the low side.
     pub(crate) fn measured(&self, mesh: &Mesh, face: usize) -> [f64; 2] {
@@ -106,6 +134,32 @@ impl Edges {
         Self { start, edges }
     }
 
+    /// Number of the first edge of a face.
+    pub(crate) fn first(&self, face: usize) -> usize {
+        self.start[face] as usize
+    }
+
+    /// Square of the rate of shear at each edge by the velocities `u`: its own, and what else of the rates there is in the
+    /// pores around it, by the parts of their squares: stretching, and shear around each axis.
+    pub(crate) fn rates(&self, mesh: &Mesh, u: &[f64], parts: &[[f64; 4]]) -> Vec<f64> {
+        let rates = |face: usize| {
+            self.of(face).iter().map(move |edge| {
+                let (own, next) = (mesh.faces[face], mesh.faces[edge.next as usize]);
+                let around = edge.axis(mesh, face);
+                let other = |pore: u32| {
+                    let [stretching, shear @ ..] = parts[pore as usize];
+                    stretching + shear.iter().sum::<f64>() - shear[around]
+                };
+                let others = other(own.low) + other(own.high) + other(next.low) + other(next.high);
+                edge.rate(mesh, face, u).powi(2) + 0.25 * others
+            })
+        };
+        (0..mesh.faces.len())
+            .into_par_iter()
+            .flat_map_iter(rates)
+            .collect()
+    }
+
     /// The edges of a face.
     pub(crate) fn of(&self, face: usize) -> &[Edge] {
         &self.edges[self.start[face] as usize..self.start[face + 1] as usize]
@@ -125,7 +179,15 @@ fn edges(mesh: &Mesh, lattice: &Lattice, face: usize) -> Vec<Edge> {
                 let Some(edge) = edge(mesh, lattice, face, t, up, r) else {
                     continue;
                 };
-                let key = |edge: &Edge| (edge.next, edge.across, edge.open, edge.part < 0.0);
+                let key = |edge: &Edge| {
+                    (
+                        edge.next,
+                        edge.across,
+                        edge.open,
+                        edge.aside,
+                        edge.part < 0.0,
+                    )
+                };
                 match found.iter_mut().find(|other| key(other) == key(&edge)) {
                     Some(other) => {
                         other.part += edge.part;
@@ -144,21 +206,21 @@ fn edge(mesh: &Mesh, lattice: &Lattice, face: usize, t: usize, up: bool, r: usiz
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
     let across = 3 - axis - t;
-    let [s, q] = others(axis);
-    let bit = |i: usize| {
-        let mut at = [0; 3];
-        (at[t], at[across]) = (i, r);
-        at[s] + k * at[q]
-    };
-    let height = |face: usize, end: usize| {
-        let open = mesh.faces[face].open;
-        if open >> bit(end) & 1 == 0 {
-            return 0;
+    let height = |face: usize, along: usize, end: usize| {
+        let face = mesh.faces[face];
+        let [s, q] = others(usize::from(face.axis));
+        let open = |i: usize| {
+            let mut at = [0; 3];
+            (at[along], at[across]) = (i, r);
+            face.open >> (at[s] + k * at[q]) & 1 == 1
+        };
+        match open(end) {
+            true => (0..k).filter(|&i| open(i)).count() as u8,
+            false => 0,
         }
-        (0..k).filter(|&i| open >> bit(i) & 1 == 1).count() as u8
     };
     let (near, far) = if up { (k - 1, 0) } else { (0, k - 1) };
-    let own = height(face, near);
+    let own = height(face, t, near);
     if own == 0 {
         return None;
     }
@@ -180,6 +242,7 @@ fn edge(mesh: &Mesh, lattice: &Lattice, face: usize, t: usize, up: bool, r: usiz
         true => mesh.face_between(near, far, t),
         false => mesh.face_between(far, near, t),
     };
+    let (beside_low, beside_high) = (joined(ends[0], low)?, joined(ends[1], high)?);
     let own_voxel = |half: usize| {
         let mut at = voxel(half);
         at[t] = near;
@@ -192,10 +255,14 @@ fn edge(mesh: &Mesh, lattice: &Lattice, face: usize, t: usize, up: bool, r: usiz
     let part = 1.0 / k as f32;
     Some(Edge {
         next: next as u32,
-        across: [joined(ends[0], low)? as u32, joined(ends[1], high)? as u32],
+        across: [beside_low as u32, beside_high as u32],
         part: if up { part } else { -part },
         weight: part * factor as f32,
-        open: [own, height(next, far)],
+        open: [own, height(next, t, far)],
+        aside: [
+            height(beside_low, axis, k - 1),
+            height(beside_high, axis, 0),
+        ],
         t: t as u8,
     })
 }

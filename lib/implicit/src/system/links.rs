@@ -20,8 +20,9 @@ pub(crate) struct Link {
     pub(crate) sliding: [[f64; 2]; 2],
     /// The same times the square of the latter.
     pub(crate) resistance: [f64; 2],
-    /// Area of walls, of both halves.
+    /// Area of walls, of both halves, and that times the open height beside them.
     pub(crate) area: f64,
+    pub(crate) height: f64,
     /// Whether the height of the gap is part of it.
     pub(crate) by_gap: bool,
     /// Code of the body that most recently was found beside it.
@@ -183,6 +184,8 @@ impl View<'_> {
                 link.sliding[half][1] += friction * clamp;
                 link.resistance[half] += friction * clamp * clamp;
                 link.area += part;
+                let shared = if between { 0.5 } else { 1.0 };
+                link.height += part * shared * column.height * edges[t];
                 link.body = code;
             }
         }

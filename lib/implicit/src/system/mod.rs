@@ -6,6 +6,7 @@ mod fronts;
 mod links;
 mod solution;
 mod stretching;
+mod thinning;
 mod unknowns;
 mod viscosity;
 

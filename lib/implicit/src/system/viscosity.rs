@@ -5,14 +5,17 @@ use rayon::prelude::*;
 
 use super::edges::Edges;
 use super::stretching::stretching;
+use super::thinning::{steepness, thinning_distance};
 use crate::geometry::Mesh;
 use crate::system::Links;
 
-/// Viscosities over their unit: of each pore, and at the walls of the halves of each face.
+/// Viscosities over their unit: of each pore, at the walls of the halves of each face, and at each edge, none where those of
+/// pores are one.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Viscosities {
     pub(crate) pores: Vec<f64>,
     pub(crate) walls: Vec<[f64; 2]>,
+    pub(crate) edges: Vec<f64>,
 }
 
 impl Viscosities {
@@ -21,20 +24,44 @@ impl Viscosities {
         Self {
             pores: vec![viscosity; mesh.pores.len()],
             walls: vec![[viscosity; 2]; mesh.faces.len()],
+            edges: Vec::new(),
         }
     }
 
-    /// Those of a flow: `factor` times the law of the liquid, in Pa s.
-    pub(crate) fn of(rates: &Rates, liquid: &Liquid, factor: f64) -> Self {
-        let at = |rate: f64| factor * liquid.viscosity.at(rate);
+    /// Those of a flow: `factor` times the law of the liquid, in Pa s. Walls have the rate of the law of walls over the
+    /// distance that suits the liquid, for which their viscosity makes up; `slip` is the influence length, cells.
+    pub(crate) fn of(rates: &Rates, liquid: &Liquid, factor: f64, slip: f64) -> Self {
+        let law = &liquid.viscosity;
+        let at = |rate: f64| factor * law.at(rate);
+        let wall = |wall: &Wall| {
+            let run = wall.distance + slip;
+            let power = steepness(law, wall.rate);
+            let distance = thinning_distance(wall.distance, wall.width, wall.first, power);
+            let share = match wall.rate > 0.0 {
+                true => run / (distance + slip),
+                false => 1.0,
+            };
+            [share * at(share * wall.rate); 2]
+        };
         Self {
             pores: rates.pores.par_iter().map(|&rate| at(rate)).collect(),
-            walls: rates.walls.par_iter().map(|&rate| [at(rate); 2]).collect(),
+            walls: rates.walls.par_iter().map(wall).collect(),
+            edges: rates.edges.par_iter().map(|&rate| at(rate)).collect(),
         }
     }
 
     /// These times a factor of each pore.
-    pub(crate) fn thickened(mut self, mesh: &Mesh, factor: &[f64]) -> Self {
+    pub(crate) fn thickened(mut self, mesh: &Mesh, edges: &Edges, factor: &[f64]) -> Self {
+        if !self.edges.is_empty() {
+            for face in 0..mesh.faces.len() {
+                for (index, edge) in edges.of(face).iter().enumerate() {
+                    let (own, next) = (mesh.faces[face], mesh.faces[edge.next as usize]);
+                    let around = [own.low, own.high, next.low, next.high];
+                    let sum: f64 = around.iter().map(|&pore| factor[pore as usize]).sum();
+                    self.edges[edges.first(face) + index] *= 0.25 * sum;
+                }
+            }
+        }
         let pores = self.pores.par_iter_mut().zip(factor);
         pores.for_each(|(viscosity, factor)| *viscosity *= factor);
         let walls = self.walls.par_iter_mut().zip(&mesh.faces);
@@ -62,11 +89,22 @@ impl Viscosities {
     }
 }
 
-/// Shear rates, 1/s, by the convention of the scene: of each pore, and at the walls of each face.
+/// Rate of simple shear at walls, 1/s, the distance to them, the width between them, and where the first edge lies off them,
+/// cells.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Wall {
+    rate: f64,
+    distance: f64,
+    width: f64,
+    first: f64,
+}
+
+/// Shear rates, 1/s, by the convention of the scene: of each pore and edge; and at the walls of each face.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rates {
     pub(crate) pores: Vec<f64>,
-    pub(crate) walls: Vec<f64>,
+    edges: Vec<f64>,
+    walls: Vec<Wall>,
 }
 
 impl Rates {
@@ -77,7 +115,7 @@ impl Rates {
         edges: &Edges,
         velocity: &[f64],
         speed: f64,
-        convention: ShearRate,
+        (convention, slip): (ShearRate, f64),
     ) -> Self {
         // The factor is of |dev D|; the rate of simple shear, sqrt(2 D:D), is sqrt(2) of it.
         let factor = convention.factor() / std::f64::consts::SQRT_2;
@@ -88,14 +126,21 @@ impl Rates {
             velocity,
             speed,
         };
+        let (parts, walls): (Vec<[f64; 4]>, Vec<f64>) = (0..mesh.pores.len())
+            .into_par_iter()
+            .map(|pore| view.parts(pore))
+            .unzip();
+        let rate = |square: f64| factor * square.max(0.0).sqrt();
         Self {
-            pores: (0..mesh.pores.len())
-                .into_par_iter()
-                .map(|pore| factor * (view.power(pore) / mesh.volume(pore)).max(0.0).sqrt())
+            pores: (parts.iter().zip(walls))
+                .map(|(parts, walls)| rate(parts.iter().sum::<f64>() + walls))
+                .collect(),
+            edges: (edges.rates(mesh, velocity, &parts).into_iter())
+                .map(rate)
                 .collect(),
             walls: (0..mesh.faces.len())
                 .into_par_iter()
-                .map(|face| factor * view.wall_rate(face))
+                .map(|face| view.wall_rate(face, slip))
                 .collect(),
         }
     }
@@ -111,10 +156,11 @@ struct View<'a> {
 }
 
 impl View<'_> {
-    /// Dissipation in a full pore over its viscosity.
-    fn power(&self, pore: usize) -> f64 {
+    /// Squares of the rates in a full pore, whose dissipation is the mean over it: by stretching, by shear around each axis,
+    /// and by walls.
+    fn parts(&self, pore: usize) -> ([f64; 4], f64) {
         let (mesh, u) = (self.mesh, self.velocity);
-        let mut power = 0.0;
+        let (mut parts, mut walls) = ([0.0; 4], 0.0);
         for axis in 0..3 {
             for up in [false, true] {
                 for face in mesh.faces_at(pore, axis, up) {
@@ -122,7 +168,7 @@ impl View<'_> {
                         // The pore is on the high side of its low faces.
                         stretching(mesh, face, true, |pull| {
                             let other = pull.other.map_or(0.0, |other| u[other]);
-                            power +=
+                            parts[0] +=
                                 pull.weight * (other - u[face] + pull.closing * self.speed).powi(2);
                         });
                     }
@@ -131,18 +177,19 @@ impl View<'_> {
                         let across = u[edge.across[1] as usize] - u[edge.across[0] as usize];
                         let [shear, length] = edge.measured(mesh, face);
                         let sheared = shear * along + length * across;
-                        power += 0.25 * along * sheared;
+                        parts[1 + edge.axis(mesh, face)] += 0.25 * along * sheared;
                     }
                     let link = &self.links.0[face];
                     let half = usize::from(!up);
                     if link.friction[half] > 0.0 {
                         let wall = self.wall(face, half);
-                        power += link.friction[half] * (u[face] - wall).powi(2);
+                        walls += link.friction[half] * (u[face] - wall).powi(2);
                     }
                 }
             }
         }
-        power
+        let volume = mesh.volume(pore);
+        (parts.map(|part| part / volume), walls / volume)
     }
 
     /// Mean velocity of the walls beside the half of a face.
@@ -152,16 +199,21 @@ impl View<'_> {
         (own + closing * self.speed) / link.friction[half]
     }
 
-    /// Rate of simple shear at the walls of a face.
-    fn wall_rate(&self, face: usize) -> f64 {
+    /// What the walls of a face do.
+    fn wall_rate(&self, face: usize, slip: f64) -> Wall {
         let link = &self.links.0[face];
         let friction: f64 = link.friction.iter().sum();
         if friction == 0.0 {
-            return 0.0;
+            return Wall::default();
         }
         let wall: f64 = (0..2)
             .map(|half| link.sliding[half][0] + link.sliding[half][1] * self.speed)
             .sum();
-        (friction * self.velocity[face] - wall).abs() / link.area
+        Wall {
+            rate: (friction * self.velocity[face] - wall).abs() / link.area,
+            distance: (link.area / friction - slip).max(0.0),
+            width: link.narrowness.powf(-0.5),
+            first: link.height / link.area,
+        }
     }
 }
