@@ -31,6 +31,16 @@ pub(crate) struct Link {
     pub(crate) narrowness: f64,
 }
 
+impl Link {
+    /// Adds friction in a half, with a wall that moves so: by itself, and per closing speed.
+    fn add(&mut self, half: usize, friction: f64, [own, clamp]: [f64; 2]) {
+        self.friction[half] += friction;
+        self.sliding[half][0] += friction * own;
+        self.sliding[half][1] += friction * clamp;
+        self.resistance[half] += friction * clamp * clamp;
+    }
+}
+
 /// The links of all faces of a mesh.
 #[derive(Default)]
 pub(crate) struct Links(pub(crate) Vec<Link>);
@@ -153,13 +163,17 @@ impl View<'_> {
         let (Some(&first), Some(&last)) = (open.first(), open.last()) else {
             return;
         };
+        let is_wall = |code: u8| code != OPEN && code != MIRROR;
+        let corner = [(first, false), (last, true)];
+        let both = [0, 1].map(|half| {
+            corner.map(|(i, up)| {
+                mesh.next_voxel(cells[half], voxel(half, i), t, up)
+                    .map_or(MIRROR, |(cell, at)| mesh.code(self.lattice, cell, at))
+            })
+        });
         for (half, cell) in cells.into_iter().enumerate() {
             let edges = mesh.edges(cell);
-            let ends = [(first, false), (last, true)].map(|(i, up)| {
-                mesh.next_voxel(cell, voxel(half, i), t, up)
-                    .map_or(MIRROR, |(cell, at)| mesh.code(self.lattice, cell, at))
-            });
-            let is_wall = |code: u8| code != OPEN && code != MIRROR;
+            let ends = both[half];
             let column = Column {
                 height: open.len() as f64 / k as f64,
                 widths: [t, across].map(|a| self.width(cell, voxel(half, first), a) / edges[t]),
@@ -167,22 +181,28 @@ impl View<'_> {
             link.by_gap |= self.reaches_gap(cell, voxel(half, first));
             let part = 0.5 * edges[axis] * edges[across] / k as f64;
             link.narrowness += column.widths[0].powi(-2) * part / (edges[t] * edges[t]);
+            // Beyond the corner of a wall that the flow passes, the wall ahead of liquid at rest beside it.
+            for (code, (_, up)) in both[1 - half].into_iter().zip(corner) {
+                let open = ends[usize::from(up)] == OPEN;
+                if let Some(next) = mesh
+                    .neighbour(cell, t, up)
+                    .filter(|_| open && is_wall(code))
+                {
+                    let apart = 0.5 * (column.height * edges[t] + mesh.edges(next)[t]);
+                    link.add(half, part / apart, self.sliding(code, face, axis));
+                }
+            }
             if !ends.iter().any(|&code| is_wall(code)) {
                 continue;
             }
             let between = ends.iter().all(|&code| is_wall(code));
-            let corner = [(first, false), (last, true)];
             for (code, (i, up)) in ends.into_iter().zip(corner).filter(|end| is_wall(end.0)) {
                 let at = (cell, voxel(half, i));
                 let near = mesh.beside_steps(self.lattice, at, [t, across], up);
                 let distance = edges[t] * self.distance(&column, between, near);
                 let factor = mesh.reentrant(self.lattice, at, [t, across], up);
                 let friction = factor * part / (distance + self.walls.influence_length);
-                let [own, clamp] = self.sliding(code, face, axis);
-                link.friction[half] += friction;
-                link.sliding[half][0] += friction * own;
-                link.sliding[half][1] += friction * clamp;
-                link.resistance[half] += friction * clamp * clamp;
+                link.add(half, friction, self.sliding(code, face, axis));
                 link.area += part;
                 let shared = if between { 0.5 } else { 1.0 };
                 link.height += part * shared * column.height * edges[t];

@@ -209,6 +209,15 @@ impl View<'_> {
         let wall: f64 = (0..2)
             .map(|half| link.sliding[half][0] + link.sliding[half][1] * self.speed)
             .sum();
+        if link.area == 0.0 {
+            // Past a corner alone, a cell off.
+            return Wall {
+                rate: (self.velocity[face] - wall / friction).abs(),
+                distance: 1.0,
+                width: f64::INFINITY,
+                first: 1.0,
+            };
+        }
         Wall {
             rate: (friction * self.velocity[face] - wall).abs() / link.area,
             distance: (link.area / friction - slip).max(0.0),
