@@ -14,9 +14,11 @@
 STUDY = @$(BIN)/study $@ $(if $(ONLY),out/results,docs/results) $(ONLY)
 # bench         what both schemes cost per liquid cell, point and step, at several sizes and numbers of threads;
 #               beside an older build: make bench BASE=/path/to/its/target/release
-.PHONY: verify stability options load-control leave-out crash bench
+# experiments   squeeze flows that others measured predicted blind, permeabilities beside published ones, cells of species beside
+#               measured ones; what needs ../shared is left out without it
+.PHONY: verify stability options load-control leave-out crash bench experiments
 export BASE
-verify stability options load-control leave-out crash bench: $(BINARIES)
+verify stability options load-control leave-out crash bench experiments: $(BINARIES)
 	$(STUDY)
 
 # Error against CPU time over schemes, settings and precision. Also writes the errors that `mpm-run --explain`

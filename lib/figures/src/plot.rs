@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::axes::{Axis, NORMAL};
-use crate::colour::DISTINCT;
+use crate::colour::{DISTINCT, faded, series};
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::{Frame, room_below, room_beside};
 use crate::legend::{Legend, Stroke};
@@ -34,6 +34,10 @@ struct Series {
     label: String,
     mark: Mark,
     points: Vec<Point>,
+    /// Deviation up and down of each point; empty without.
+    deviations: Vec<f64>,
+    /// Which of the labels it has.
+    entry: usize,
 }
 
 /// How a series is drawn.
@@ -47,6 +51,8 @@ pub enum Mark {
     LineAndDots,
 }
 
+/// Opacity of the band of a line.
+const BAND_SHADE: f64 = 0.2;
 const WIDTH: f64 = 800.0;
 const RIGHT: f64 = 24.0;
 
@@ -83,14 +89,35 @@ impl Plot {
         self
     }
 
-    /// The same with another series.
+    /// The same with another series; those of one label are drawn alike.
     pub fn with(mut self, label: &str, mark: Mark, points: Vec<[f64; 2]>) -> Self {
+        let entry = self.entries().position(|other| other.label == label);
         self.series.push(Series {
             label: label.into(),
             mark,
             points,
+            deviations: Vec::new(),
+            entry: entry.unwrap_or(self.entries().count()),
         });
         self
+    }
+
+    /// The same with another series, of points x and y that are known to a deviation of y: dots with bars, lines with a band.
+    pub fn with_deviations(self, label: &str, mark: Mark, points: &[[f64; 3]]) -> Self {
+        let places = points.iter().map(|&[x, y, _]| [x, y]).collect();
+        let mut plot = self.with(label, mark, places);
+        if let Some(series) = plot.series.last_mut() {
+            series.deviations = points.iter().map(|p| p[2]).collect();
+        }
+        plot
+    }
+
+    /// The first series of each label.
+    fn entries(&self) -> impl Iterator<Item = &Series> {
+        let first = |(i, series): &(usize, &Series)| {
+            !(self.series[..*i].iter()).any(|other| other.label == series.label)
+        };
+        (self.series.iter().enumerate().filter(first)).map(|(_, series)| series)
     }
 
     /// The figure.
@@ -99,13 +126,14 @@ impl Plot {
     /// [`Error::Data`] when no series has a finite point; [`Error::Request`] for more series
     /// than can be told apart.
     pub fn draw(&self) -> Result<Drawing, Error> {
-        if self.series.len() > DISTINCT {
+        let entries: Vec<&Series> = self.entries().collect();
+        if entries.len() > DISTINCT {
             return Err(Error::Request(format!(
                 "{} series are too many for one plot: {DISTINCT} can be told apart",
-                self.series.len()
+                entries.len()
             )));
         }
-        let all = || self.series.iter().flat_map(|s| s.points.iter());
+        let all = || self.series.iter().flat_map(Series::extent);
         if !all().any(|p| p[0].is_finite() && p[1].is_finite()) {
             return Err(Error::Data(format!("'{}' has no data", self.title)));
         }
@@ -123,7 +151,7 @@ impl Plot {
         let height = (0.525 * page).max(200.0);
         let left = room_beside(&y, height) + 4.0;
         let width = page - left - RIGHT;
-        let labels = self.series.iter().map(|s| s.label.as_str());
+        let labels = entries.iter().map(|s| s.label.as_str());
         let legend = Legend::new(labels, Legend::LINE, width);
         let title = measure::lines(&self.title, NORMAL + 2.0, page - 2.0 * RIGHT, 3);
         let title_height = 12.0 + 1.4 * NORMAL * title.len() as f64;
@@ -139,33 +167,85 @@ impl Plot {
         drawing.lines(&title, middle, Anchor::Centre, NORMAL + 2.0);
         legend.draw(&mut drawing, [left, title_height], |drawing, i, [a, b]| {
             let middle = [0.5 * (a[0] + b[0]), a[1]];
-            self.series[i].draw_line(drawing, i, &[a, b]);
-            self.series[i].draw_dots(drawing, i, &[middle]);
+            entries[i].draw_line(drawing, &[a, b]);
+            entries[i].draw_dots(drawing, &[middle]);
         });
         frame.draw(&mut drawing, &x, &y, true);
-        for (i, series) in self.series.iter().enumerate() {
-            let places = series.points.iter().map(|&p| frame.place(&x, &y, p));
-            let places: Vec<Point> = places.collect();
-            series.draw_line(&mut drawing, i, &places);
-            series.draw_dots(&mut drawing, i, &places);
+        for series in &self.series {
+            let places = |points: Vec<Point>| -> Vec<Point> {
+                (points.into_iter().map(|p| frame.place(&x, &y, p))).collect()
+            };
+            series.draw_deviations(&mut drawing, series.ends().map(places));
+            let places = places(series.points.clone());
+            series.draw_line(&mut drawing, &places);
+            series.draw_dots(&mut drawing, &places);
         }
         Ok(drawing)
     }
 }
 
 impl Series {
-    fn draw_line(&self, drawing: &mut Drawing, index: usize, places: &[Point]) {
-        if self.mark != Mark::Dots {
-            Stroke::of_series(index).draw(drawing, places);
+    /// Points, and what they reach to by their deviations.
+    fn extent(&self) -> impl Iterator<Item = Point> {
+        let ends = self.ends().into_iter().flatten();
+        self.points.iter().copied().chain(ends)
+    }
+
+    /// Low and high ends of what points reach to by their deviations.
+    fn ends(&self) -> [Vec<Point>; 2] {
+        [-1.0, 1.0].map(|sign| {
+            let points = self.points.iter().zip(&self.deviations);
+            points.map(|([x, y], by)| [*x, y + sign * by]).collect()
+        })
+    }
+
+    fn draw_deviations(&self, drawing: &mut Drawing, [low, high]: [Vec<Point>; 2]) {
+        if self.mark == Mark::Dots {
+            for (low, high) in low.into_iter().zip(high) {
+                drawing.line(vec![low, high], series(self.entry), 1.4);
+            }
+        } else {
+            let outline = low.into_iter().chain(high.into_iter().rev());
+            drawing.area(outline.collect(), faded(series(self.entry), BAND_SHADE));
         }
     }
 
-    fn draw_dots(&self, drawing: &mut Drawing, index: usize, places: &[Point]) {
+    fn draw_line(&self, drawing: &mut Drawing, places: &[Point]) {
+        if self.mark != Mark::Dots {
+            Stroke::of_series(self.entry).draw(drawing, places);
+        }
+    }
+
+    fn draw_dots(&self, drawing: &mut Drawing, places: &[Point]) {
         if self.mark != Mark::Line {
             for place in places {
                 // A run of one point is a dot.
-                Stroke::of_series(index).draw(drawing, &[*place]);
+                Stroke::of_series(self.entry).draw(drawing, &[*place]);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points with bars and a line with a band share one entry of the key; the axis takes in what they reach to.
+    #[test]
+    fn series_of_one_label_are_one_entry_and_deviations_are_drawn() {
+        let mut plot = Plot::new("", "x", "y");
+        for i in 0..DISTINCT {
+            let label = i.to_string();
+            let points = [[1.0, 10.0, 2.0], [2.0, 11.0, 4.0]];
+            plot = plot
+                .with_deviations(&label, Mark::Line, &points)
+                .with_deviations(&label, Mark::Dots, &points);
+        }
+        assert_eq!(plot.entries().count(), DISTINCT);
+        let highest = plot.series[0].extent().map(|p| p[1]).fold(0.0, f64::max);
+        assert_eq!(highest, 15.0);
+        assert!(plot.draw().is_ok());
+        let one_more = plot.with("another", Mark::Line, vec![[0.0, 0.0]]);
+        assert!(one_more.draw().is_err());
     }
 }

@@ -105,6 +105,14 @@ impl Datum {
         bondline::doubt(severed, area as u64)
     }
 
+    /// Area of the bond over its projection along the normal.
+    pub fn slant(&self) -> f64 {
+        match self {
+            Datum::Level { .. } => 1.0,
+            Datum::Tilted(plane) => plane.slant(),
+        }
+    }
+
     /// On which side of the bond `point` is, and its distance (m) from the zero of that side.
     pub fn depth(&self, point: [f64; 3]) -> (Side, f64) {
         match self {

@@ -30,11 +30,16 @@ impl Plane {
         self.slope
     }
 
+    /// Area of the plane over its projection along the normal.
+    pub fn slant(&self) -> f64 {
+        let [a, b] = self.slope;
+        (1.0 + a * a + b * b).sqrt()
+    }
+
     /// Signed distance (m) of a point, measured perpendicular to the plane.
     pub fn distance(&self, point: [f64; 3]) -> f64 {
         let uv = self.axes.map(|a| point[a.index()]);
-        let [a, b] = self.slope;
-        (point[self.normal.index()] - self.coordinate(uv)) / (1.0 + a * a + b * b).sqrt()
+        (point[self.normal.index()] - self.coordinate(uv)) / self.slant()
     }
 
     fn coordinate(&self, uv: [f64; 2]) -> f64 {

@@ -57,7 +57,7 @@ pub struct Penetration {
     pub wp_m: f64,
     /// WP of a slab of the same total volume that has not penetrated, t / sqrt(12), m.
     pub slab_wp_m: f64,
-    /// Effective penetration EP: volume over bond area, m.
+    /// Effective penetration EP: volume over the area of the bond, that of the tilted plane where depths are counted from one, m.
     pub ep_m: f64,
     /// Depth of the deepest voxel or material point, m.
     pub max_depth_m: f64,
@@ -92,7 +92,7 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
             }
         }
     });
-    let area = state.area_m2();
+    let area = state.area_m2() * datum.slant();
     let [.., total] = sums;
     std::array::from_fn(|i| {
         let (side, sum) = (Side::ALL[i], sums[i]);

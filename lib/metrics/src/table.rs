@@ -48,6 +48,43 @@ pub struct PenetrationRows {
     pub cell_error: Option<([CellError; 3], Extrapolated)>,
 }
 
+/// A permeability, and what it was found from.
+pub struct PermeabilityRow {
+    /// The file as the user named it.
+    pub file: String,
+    /// Axis of the flow.
+    pub axis: Axis,
+    /// Permeability and its error, m2.
+    pub permeability_m2: [f64; 2],
+    /// Share of the volume that is open, and share of that through which liquid flows from side to side.
+    pub porosity: f64,
+    /// See `porosity`.
+    pub through: f64,
+}
+
+/// `file,axis,permeability_m2,error_m2,porosity,through`.
+///
+/// # Errors
+/// What `out` says.
+pub fn write_permeabilities(out: &mut dyn Write, rows: &[PermeabilityRow]) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    let header = "file,axis,permeability_m2,error_m2,porosity,through";
+    table.write_record(header.split(',')).map_err(unwrapped)?;
+    for row in rows {
+        let [m2, error] = row.permeability_m2;
+        let cells = [
+            row.file.clone(),
+            row.axis.to_string(),
+            format!("{m2:.6e}"),
+            format!("{error:.2e}"),
+            format!("{:.6}", row.porosity),
+            format!("{:.6}", row.through),
+        ];
+        table.write_record(cells).map_err(unwrapped)?;
+    }
+    table.flush()
+}
+
 /// `file,side,reference,plane_m,wp_um,slab_wp_um,ep_um,max_depth_um,p99_depth_um,volume_um3,voxels`,
 /// then `dice,map_correlation` when the files were compared, `pressure_pa` when asked for,
 /// `time_s,gap_um,p95_depth_um,wetted_area_um2,bond_line_filled,bond_line,surfaces_um,half_filled_depth_um` of a

@@ -174,6 +174,10 @@ fn a_tilted_bond_line_is_found_by_the_fit() {
     );
     assert!(close(found[2].wp_m, exact, 0.02));
     assert!(close(found[2].plane_m, 60.0 * VOXEL, 0.005));
+    // The same volume over the larger area of the plane.
+    let thickness = 8.0 * cosine * VOXEL;
+    assert!(close(found[2].ep_m, thickness, 0.005));
+    assert!(close(found[2].slab_wp_m, exact, 0.005));
     assert!(
         level > 1.5 * exact,
         "a level reference takes the tilt for penetration"

@@ -108,6 +108,8 @@ pub struct CaseText {
     pub dimensions: u8,
     /// Box computed in, m.
     pub domain: [[f64; 3]; 2],
+    /// Density, kg/m3.
+    pub density: f64,
     /// Bulk modulus, Pa.
     pub bulk_modulus: f64,
     /// Viscosity.
@@ -162,6 +164,7 @@ impl CaseText {
             cell,
             dimensions,
             domain: [[0.0; 3], size],
+            density: PF[0],
             bulk_modulus: PF[1],
             viscosity: Viscosity::Newtonian(PF[2]),
             wetting: None,
@@ -219,7 +222,7 @@ impl CaseText {
         writeln!(
             out,
             "\n[adhesive]\ndensity = \"{} kg/m3\"\nbulk_modulus = \"{} Pa\"",
-            PF[0], self.bulk_modulus
+            self.density, self.bulk_modulus
         )?;
         match &self.viscosity {
             Viscosity::Newtonian(eta) => writeln!(out, "viscosity = \"{} Pa s\"", number(*eta))?,

@@ -12,6 +12,7 @@ pub mod bench;
 pub mod case_text;
 pub mod closed_forms;
 pub mod crash;
+pub mod experiments;
 pub mod job;
 pub mod leave_out;
 pub mod load_control;

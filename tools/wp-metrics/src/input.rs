@@ -6,7 +6,7 @@ use std::path::Path;
 
 use bondline::{Placed, Specimen};
 use cli::{Failure, InputRecord};
-use metrics::State;
+use metrics::{Adhesive, State};
 use particle_file::{BitGrid, Mapped, ParticleFile, temporary_file};
 use units::Axis;
 use voxels::{
@@ -100,6 +100,17 @@ impl Input {
                 let specimen = Specimen::new(wood, adhesive).map_err(Failure::data)?;
                 Ok(State::of_specimen(&specimen, normal.unwrap_or(Axis::Y)))
             }
+        }
+    }
+
+    /// The adhesive of its state without islands of fewer than `least` pixels.
+    pub fn without_islands(&self, state: &State, least: usize) -> Result<BitGrid, Failure> {
+        match state.adhesive {
+            Adhesive::Voxels(adhesive) => Ok(metrics::without_islands(adhesive, least)),
+            Adhesive::Points { .. } => Err(Failure::usage(format!(
+                "'{}' holds material points, which have no slices: --ignore-islands takes stacks, specimens and bonds (particles export makes a stack of it)",
+                self.name
+            ))),
         }
     }
 

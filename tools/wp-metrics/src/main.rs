@@ -2,6 +2,7 @@
 
 mod finer;
 mod input;
+mod permeability;
 mod series;
 
 use std::path::PathBuf;
@@ -13,7 +14,7 @@ use cli::{Failure, InputRecord, Output, Record};
 use input::{GreyLevels, Input, StackOptions};
 use metrics::table::{self, PenetrationRows};
 use metrics::{
-    Datum, Map, Reference, Sealed, Side, bond_line, compare, depth_profile, penetration,
+    Adhesive, Datum, Map, Reference, Sealed, Side, bond_line, compare, depth_profile, penetration,
 };
 use units::{Axis, Length, Quantity};
 use voxels::{Dims, Labels, RawType};
@@ -31,7 +32,9 @@ use voxels::{Dims, Labels, RawType};
   wp-metrics stack.tif --voxel 1.45um --reference plane=226.2um --map map.csv --profile depth.csv
   wp-metrics run/final.mpts --compare specimen.mpts
   wp-metrics --series run -o series.csv
-  wp-metrics run/final.mpts --finer run-in-half-cells/final.mpts"
+  wp-metrics run/final.mpts --finer run-in-half-cells/final.mpts
+  wp-metrics specimen.mpts --reference fit --ignore-islands 100
+  wp-metrics wood.tif --voxel 1.45um --permeability z"
 )]
 struct Arguments {
     /// Particle files, stacks of every kind that xct2particles reads (raw ones: --dims), or folders
@@ -72,6 +75,23 @@ struct Arguments {
     /// Add the pressure on the body that the clamp drives (states of runs; with --finer always)
     #[arg(long)]
     pressure: bool,
+    /// Leave out adhesive that hangs together to fewer than N pixels of a slice normal to z, by edges and corners (stacks,
+    /// specimens and bonds)
+    #[arg(long, value_name = "N", conflicts_with_all = ["compare", "finer", "series"])]
+    ignore_islands: Option<usize>,
+    /// Tell the permeability along this axis instead, x, y or z, of all that is not wood full of liquid that sticks to it:
+    /// steady flow through the voxels in cells of one, and as its error the distance from that in cells of two
+    #[arg(
+        long,
+        value_name = "AXIS",
+        conflicts_with_all = [
+            "reference", "normal", "map", "profile", "compare", "finer", "series", "pressure", "ignore_islands"
+        ]
+    )]
+    permeability: Option<Axis>,
+    /// The sides along the flow are periodic, not mirrors
+    #[arg(long, requires = "permeability")]
+    periodic: bool,
     /// Voxel edge of stacks [default: from their metadata]
     #[arg(long, value_name = "LEN", help_heading = "Image stacks")]
     voxel: Option<Quantity<Length>>,
@@ -169,6 +189,9 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     for beside in experiment.iter().chain(&finer) {
         record.add(beside)?;
     }
+    if let Some(axis) = arguments.permeability {
+        return permeability::tell(&paths, axis, &arguments, open, record);
+    }
     let mut files = Vec::new();
     let mut profiles = Vec::new();
     for path in &paths {
@@ -232,7 +255,13 @@ fn measure(
     record: &Recorder,
 ) -> Result<PenetrationRows, Failure> {
     let fail = |error| input.failure(&error);
-    let state = input.state(arguments.normal)?;
+    let mut state = input.state(arguments.normal)?;
+    let kept = (arguments.ignore_islands)
+        .map(|least| input.without_islands(&state, least))
+        .transpose()?;
+    if let (Some(kept), Adhesive::Voxels(adhesive)) = (&kept, &mut state.adhesive) {
+        adhesive.bits = kept.view();
+    }
     let datum = Datum::find(arguments.reference, &state).map_err(fail)?;
     if let Some(doubt) = datum.doubt(&state) {
         cli::warn(format!("'{}': {doubt}", input.name));

@@ -7,6 +7,7 @@ mod passages;
 mod region;
 mod rows;
 mod split;
+mod still;
 mod voxels;
 
 pub(crate) use chords::Chords;

@@ -292,7 +292,7 @@ fn rows_of(points: &Points, rows: Rows, place: Place) -> Range<usize> {
 
 impl Lattice {
     /// Rows at the start.
-    fn rows(&self) -> Rows {
+    pub(crate) fn rows(&self) -> Rows {
         let open = usize::from(self.boundary[1] == physics::Boundary::Open);
         let cells = |layers: usize| layers.div_ceil(self.k);
         let below = match self.moving {

@@ -30,6 +30,19 @@ pub(crate) struct Scales {
     pub(crate) influence_length: f64,
 }
 
+impl Scales {
+    /// Those of steady flow of liquid that sticks to walls and has no weight.
+    pub(crate) fn steady() -> Self {
+        Self {
+            dt: f64::INFINITY,
+            inertia: 0.0,
+            gravity: [0.0; 3],
+            compressibility: 0.0,
+            influence_length: 0.0,
+        }
+    }
+}
+
 /// What the equations are made of.
 pub(crate) struct Problem<'a> {
     pub(crate) lattice: &'a Lattice,

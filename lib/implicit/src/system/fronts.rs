@@ -43,6 +43,7 @@ impl Wetting {
 }
 
 /// What liquid meets where it ends.
+#[derive(Default)]
 pub(crate) struct Fronts {
     /// Pressure on liquid that ends in each pore without a pressure of its own, over the unit of viscosity.
     pub(crate) pressure: Vec<f64>,

@@ -14,6 +14,6 @@ pub(crate) use assembly::{Problem, Scales, halves, masses, stiffnesses};
 pub(crate) use edges::Edges;
 pub(crate) use fronts::{Fronts, Wetting};
 pub(crate) use links::{Links, Walls};
-pub(crate) use solution::{Drive, Flow, forces, solve};
+pub(crate) use solution::{Drive, Flow, forces, resistance, solve};
 pub(crate) use unknowns::{FULL, Unknowns};
 pub(crate) use viscosity::{Rates, Viscosities};

@@ -182,7 +182,7 @@ pub(crate) fn solve(
 }
 
 /// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md).
-fn resistance(problem: &Problem, face: usize) -> f64 {
+pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
     let link = &problem.links.0[face];
     let slip = problem.scales.influence_length;
     let narrow = match slip.is_finite() {

@@ -1,4 +1,4 @@
-//! `make verify tradeoff stability options load-control leave-out crash bench`: one study, named as its make target.
+//! `make verify tradeoff stability options load-control leave-out crash bench experiments`: one study, named as its make target.
 
 #![allow(clippy::print_stderr, reason = "prints for developers")]
 
@@ -6,7 +6,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use studies::study::Study;
-use studies::{bench, crash, leave_out, load_control, options, stability, tradeoff, verification};
+use studies::{
+    bench, crash, experiments, leave_out, load_control, options, stability, tradeoff, verification,
+};
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -19,9 +21,10 @@ fn main() -> ExitCode {
         Some("leave-out") => leave_out::run,
         Some("crash") => crash::run,
         Some("bench") => bench::run,
+        Some("experiments") => experiments::run,
         _ => {
             eprintln!(
-                "usage: study verify|tradeoff|stability|options|load-control|leave-out|crash|bench RESULT_FOLDER [PART_OF_NAME...]"
+                "usage: study verify|tradeoff|stability|options|load-control|leave-out|crash|bench|experiments RESULT_FOLDER [PART_OF_NAME...]"
             );
             return ExitCode::from(2);
         }

@@ -32,6 +32,7 @@ mod vessels;
 use rayon::prelude::*;
 
 pub use anatomy::{Anatomy, Target};
+pub use lumens::lumen_diameters;
 pub use recipe::{AdhesiveSystem, Recipe, RecipeError};
 pub use species::Species;
 

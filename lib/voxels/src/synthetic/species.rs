@@ -267,10 +267,10 @@ static SPRUCE: Timber = Timber {
     },
     grain: Grain::Tracheids(TracheidTraits {
         ring: 800.0,
-        transition: [0.70, 0.90],
-        radial: [37.0, 14.0],
-        tangential: 32.0,
-        half_wall: [1.75, 3.4],
+        transition: [0.52, 0.95],
+        radial: [40.5, 12.0],
+        tangential: 30.0,
+        half_wall: [1.7, 3.4],
         length: 3000.0,
     }),
 };

@@ -17,6 +17,8 @@ const END_HALF_WALL: f32 = 2.0;
 /// How far, in shares of a ring, the cells of a file are shifted against their mean place, so
 /// that the rows of neighbouring files do not line up.
 const SHIFT: f32 = 0.02;
+/// Narrowest and widest file over the mean.
+const WIDTHS: [f32; 2] = [0.7, 1.3];
 
 /// The tracheids of one piece of wood. Bordered pits have no opening here: their membranes are
 /// finer than a voxel, and in dried spruce they are mostly closed (docs/wood.md).
@@ -28,12 +30,14 @@ pub(super) struct Tracheids {
 }
 
 struct Strip {
-    spacing: f32,
     files: Vec<File>,
 }
 
 #[derive(Clone, Copy)]
 struct File {
+    /// Where in its strip it begins, and its width, um.
+    low: f32,
+    width: f32,
     /// Cells in a ring.
     cells: f32,
     shift: f32,
@@ -47,17 +51,23 @@ impl Tracheids {
         let origin = random.random_range(0.0..traits.ring);
         let usual = traits.ring / mean_pitch(&traits);
         let mut file = || File {
+            low: 0.0,
+            width: random.random_range(WIDTHS[0]..WIDTHS[1]),
             cells: (usual + random.random_range(-1.5..1.5)).round(),
             shift: random.random_range(-SHIFT..SHIFT),
             seed: random.random(),
         };
         let mut strip = |[low, high]: [f32; 2]| {
             let width = high - low;
-            let files = (width / traits.tangential).round().max(1.0);
-            Strip {
-                spacing: width / files,
-                files: (0..files as usize).map(|_| file()).collect(),
+            let count = (width / traits.tangential).round().max(1.0) as usize;
+            let mut files: Vec<File> = (0..count).map(|_| file()).collect();
+            let scale = width / files.iter().map(|file| file.width).sum::<f32>();
+            let mut low = 0.0;
+            for file in &mut files {
+                (file.low, file.width) = (low, scale * file.width);
+                low += file.width;
             }
+            Strip { files }
         };
         Self {
             traits,
@@ -69,9 +79,9 @@ impl Tracheids {
     /// Half of the lesser width (um) of the lumen a point is in, or `None` in a wall.
     pub(super) fn lumen(&self, point: WoodPoint, place: &Place) -> Option<f32> {
         let strip = &self.strips[place.strip];
-        let index = (place.across / strip.spacing) as usize;
-        let file = strip.files.get(index.min(strip.files.len() - 1))?;
-        let across = place.across - (index as f32 + 0.5) * strip.spacing;
+        let begun = strip.files.iter().rfind(|file| file.low <= place.across);
+        let file = begun.or(strip.files.first())?;
+        let across = place.across - file.low - 0.5 * file.width;
 
         let rings = (point.r - self.origin) / self.traits.ring;
         let ring = rings.floor();
@@ -82,7 +92,7 @@ impl Tracheids {
         let cell = count.floor().min(file.cells - 1.0);
         let along_file = (count - cell - 0.5) * pitch;
 
-        let half = [0.5 * pitch - half_wall, 0.5 * strip.spacing - half_wall];
+        let half = [0.5 * pitch - half_wall, 0.5 * file.width - half_wall];
         let radius = half[0].min(half[1]);
         let to_end = file.distance_to_end(ring, cell, point.l, self.traits.length);
         let taper = radius * (1.0 - to_end / TAPER).max(0.0);

@@ -1,6 +1,7 @@
 //! The command line of wp-metrics.
 
 mod stacks;
+mod wood;
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};

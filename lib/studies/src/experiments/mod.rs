@@ -1,0 +1,26 @@
+//! `make experiments`: predictions held against experiments that others made and published.
+
+pub mod predictions;
+pub mod squeeze;
+pub mod squeeze_report;
+pub mod wood;
+
+use crate::study::Study;
+
+/// The study.
+///
+/// # Errors
+/// What a run or the system said.
+pub fn run(study: &Study) -> Result<bool, String> {
+    let predictions = predictions::run(study)?;
+    let wood = wood::run(study)?;
+    let mut page = String::from("# Evidence from outside\n\n");
+    page += &study.head(predictions.iter().map(|p| p.cpu_s));
+    page.push('\n');
+    if !predictions.is_empty() {
+        page += &squeeze_report::write(study, &predictions)?;
+    }
+    page += &wood;
+    study.write("experiments.md", page)?;
+    Ok(squeeze_report::sound(&predictions))
+}

@@ -1,0 +1,238 @@
+//! Squeeze flow under a constant force: a drop of liquid between a plate at rest and one that a force brings down,
+//! against the radii that others measured (lib/studies/reference/squeeze).
+
+use std::f64::consts::PI;
+
+use crate::case_text::{Body, CaseText, Viscosity};
+use crate::outputs::Run;
+
+/// An experiment of the table.
+#[derive(Clone, Debug)]
+pub struct Experiment {
+    /// Its name there.
+    pub name: String,
+    /// The liquid.
+    pub liquid: &'static Liquid,
+    /// Force on the upper plate (N), volume (m3) and first radius (m) of the liquid, each with its deviation
+    /// among the repeats.
+    pub force: [f64; 2],
+    /// See `force`.
+    pub volume: [f64; 2],
+    /// See `force`.
+    pub radius: [f64; 2],
+    /// Time (s), radius (m) and its deviation among the repeats.
+    pub measured: Vec<[f64; 3]>,
+}
+
+/// A liquid of the experiments.
+#[derive(Debug)]
+pub struct Liquid {
+    /// Its name.
+    pub name: &'static str,
+    /// Viscosity at rest, Pa s; beyond the rate `thins_from` (1/s) it falls by the power law `index`.
+    pub viscosity: f64,
+    index: f64,
+    thins_from: f64,
+    /// Relative deviation of the viscosity between runs of the rheometer.
+    deviation: f64,
+}
+
+/// Glycerol: ten runs of a rheometer, 0.868 Pa s with a deviation of 0.058.
+const GLYCEROL: Liquid = Liquid {
+    name: "glycerol",
+    viscosity: 0.868,
+    index: 1.0,
+    thins_from: f64::INFINITY,
+    deviation: 0.067,
+};
+
+/// Polyvinylpyrrolidone in water: the authors' fit to the rheometer. Its deviation between runs is not told; that of
+/// the fit, 0.4 % at rest and 4.7 % in the time that thinning begins at, is 1.1 %.
+const PVP: Liquid = Liquid {
+    name: "PVP",
+    viscosity: 32.05,
+    index: 0.7714,
+    thins_from: 1.0 / 0.711,
+    deviation: 0.011,
+};
+
+/// Largest rate of the power law, 1/s.
+const FASTEST: f64 = 1e5;
+/// Density of both liquids, kg/m3.
+pub const DENSITY: f64 = 1260.0;
+/// Speed of a plate that nothing holds, m/s: more than the force makes of any.
+const FREE: f64 = 2.0;
+
+/// The table of experiments.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn experiments() -> Result<Vec<Experiment>, String> {
+    let cases = rows(include_str!("../../reference/squeeze/cases.csv"))?;
+    let radii = rows(include_str!("../../reference/squeeze/radii.csv"))?;
+    let number = |text: &str| text.parse::<f64>().map_err(|e| format!("'{text}': {e}"));
+    let experiment = |row: &csv::StringRecord| {
+        let pair = |i: usize| Ok::<_, String>([number(&row[i])?, number(&row[i + 1])?]);
+        let own = radii.iter().filter(|radius| radius[0] == row[0]);
+        let measured = own.map(|r| Ok([number(&r[1])?, number(&r[2])?, number(&r[3])?]));
+        Ok(Experiment {
+            name: row[0].to_owned(),
+            liquid: if row[1] == *GLYCEROL.name {
+                &GLYCEROL
+            } else {
+                &PVP
+            },
+            force: pair(2)?,
+            volume: pair(4)?,
+            radius: pair(6)?,
+            measured: measured.collect::<Result<_, String>>()?,
+        })
+    };
+    cases.iter().map(experiment).collect()
+}
+
+fn rows(text: &str) -> Result<Vec<csv::StringRecord>, String> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let rows = reader.records().collect::<Result<_, _>>();
+    rows.map_err(|e| e.to_string())
+}
+
+impl Experiment {
+    /// Height of the liquid at the start, m.
+    pub fn height(&self) -> f64 {
+        self.volume[0] / (PI * self.radius[0].powi(2))
+    }
+
+    /// The case: a quarter of the disc between plates, `n` cells high at first.
+    pub fn case(&self, n: u32) -> CaseText {
+        let cell = self.height() / f64::from(n);
+        let m = |cells: f64| cells * cell;
+        let (low, high) = (m(2.0), m(f64::from(n) + 2.0));
+        let farthest = self.measured.iter().map(|m| m[1]).fold(0.0, f64::max);
+        let side = m((1.12 * farthest / cell).ceil() + 3.0);
+        let far = [side, high + m(3.0), side];
+        let half = 0.5 * cell;
+        let mut bodies = vec![
+            Body::wall([0.0; 3], [side, low, side]).named("bottom"),
+            Body::wall([0.0, high, 0.0], far).clamped().named("top"),
+        ];
+        // Rows of half cells, those of equal width as one.
+        let mut row = 0;
+        while let Some(width) = self.width(row, half) {
+            let from = row;
+            while self.width(row, half) == Some(width) {
+                row += 1;
+            }
+            bodies.push(Body::liquid(
+                [0.0, low, f64::from(from) * half],
+                [width, high, f64::from(row) * half],
+            ));
+        }
+        let last = self.measured.last().map_or(0.0, |m| m[0]);
+        let travel = 1e6 * (1.0 - 0.2 / f64::from(n)) * self.height();
+        CaseText {
+            density: DENSITY,
+            viscosity: self.liquid.law(),
+            clamp: Some(format!(
+                "travel = \"{travel} um\"\n[[clamp.stage]]\nkind = \"hold\"\nspeed = \"{FREE} m/s\"\n\
+                 pressure = \"{} Pa\"\ntravel = \"{travel} um\"\ntime = \"{} s\"",
+                0.25 * self.force[0] / side.powi(2),
+                1.02 * last,
+            )),
+            bodies,
+            ..CaseText::new(
+                format!(
+                    "{}: {} N on {:.4e} m3 of {}, a quarter of the disc.",
+                    self.name, self.force[0], self.volume[0], self.liquid.name
+                ),
+                cell,
+                3,
+                far,
+            )
+        }
+    }
+
+    /// Width of a row of the quarter disc of squares of an edge, m; none beyond it.
+    fn width(&self, row: u32, edge: f64) -> Option<f64> {
+        let middle = (f64::from(row) + 0.5) * edge;
+        let half = (self.radius[0].powi(2) - middle.powi(2)).max(0.0).sqrt();
+        let squares = (half / edge).round();
+        (squares > 0.0).then_some(squares * edge)
+    }
+
+    /// Radii (m) of a run at the measured times; none where the run ended before.
+    ///
+    /// # Errors
+    /// What its history lacks.
+    pub fn radii(&self, run: &Run) -> Result<Vec<Option<f64>>, String> {
+        let (times, ways) = (run.history("time_s")?, run.history("displacement_m")?);
+        let radius = |time: f64| {
+            let after = times.partition_point(|&t| t < time);
+            let (&t, &s) = (times.get(after)?, ways.get(after)?);
+            let [before, from] = match after.checked_sub(1) {
+                Some(i) => [times[i], ways[i]],
+                None => [0.0; 2],
+            };
+            let way = from + (s - from) * (time - before) / (t - before);
+            Some((self.volume[0] / (PI * (self.height() - way))).sqrt())
+        };
+        Ok(self.measured.iter().map(|m| radius(m[0])).collect())
+    }
+
+    /// Relative deviation of a predicted radius by those of force, volume, first radius and viscosity, where its
+    /// logarithm grows by `slope` with that of time. By lubrication R/R0 is a function of
+    /// t (F V^(n+1)/(K R0^(3n+5)))^(1/n), n the index of the power law.
+    pub fn input_deviation(&self, slope: f64) -> f64 {
+        let n = self.liquid.index;
+        let s = slope / n;
+        let relative = |[mean, deviation]: [f64; 2]| deviation / mean;
+        [
+            s * relative(self.force),
+            s * (n + 1.0) * relative(self.volume),
+            (1.0 - s * (3.0 * n + 5.0)) * relative(self.radius),
+            s * self.liquid.deviation,
+        ]
+        .into_iter()
+        .fold(0.0, f64::hypot)
+    }
+}
+
+impl Liquid {
+    fn law(&self) -> Viscosity {
+        if self.index == 1.0 {
+            return Viscosity::Newtonian(self.viscosity);
+        }
+        let consistency = self.viscosity * self.thins_from.powf(1.0 - self.index);
+        Viscosity::Law(format!(
+            "power_law.consistency = \"{consistency} Pa s^n\"\npower_law.index = {}\npower_law.rates = [\"{} 1/s\", \"{FASTEST} 1/s\"]",
+            self.index, self.thins_from
+        ))
+    }
+
+    /// Whether its viscosity depends on the rate.
+    pub fn thins(&self) -> bool {
+        self.index < 1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_has_eight_cases_and_75_radii() {
+        let all = experiments().unwrap();
+        assert_eq!(all.len(), 8);
+        assert_eq!(all.iter().map(|e| e.measured.len()).sum::<usize>(), 75);
+        assert_eq!(all.iter().filter(|e| e.liquid.thins()).count(), 4);
+    }
+
+    /// Long after the start R^8 goes with F V^2/eta, whatever the first radius was.
+    #[test]
+    fn inputs_count_by_their_powers() {
+        let by = experiments().unwrap()[0].input_deviation(0.125);
+        let parts: [f64; 3] = [0.125 * 0.099 / 2.819, 0.25 * 2.22 / 20.41, 0.125 * 0.067];
+        let expected = parts.into_iter().fold(0.0, f64::hypot);
+        assert!((by / expected - 1.0).abs() < 1e-9);
+    }
+}
