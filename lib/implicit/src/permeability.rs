@@ -6,7 +6,8 @@ use saddle_point::{SaddleOptions, SaddleSolver, SaddleSystem};
 use crate::geometry::{Chords, Lattice, Mesh, Region};
 use crate::liquid::Kept;
 use crate::system::{
-    Edges, Fronts, Links, Problem, Scales, Unknowns, Walls, masses, resistance, stiffnesses,
+    Edges, Fronts, Links, Problem, Scales, Unknowns, Viscosities, Walls, masses, resistance,
+    stiffnesses,
 };
 
 /// Relative residual of the solve: the flux is within a tenth of it.
@@ -141,7 +142,7 @@ impl Through {
         let halves: Vec<[f64; 2]> = (mesh.faces.iter())
             .map(|face| [face.low, face.high].map(|pore| fractions[pore as usize]))
             .collect();
-        let viscosity = vec![1.0; mesh.pores.len()];
+        let viscosities = Viscosities::constant(mesh, 1.0);
         let problem = Problem {
             lattice,
             mesh,
@@ -151,9 +152,8 @@ impl Through {
             fractions,
             halves: &halves,
             masses: &masses(mesh, &halves),
-            stiffnesses: &stiffnesses(mesh, &halves, &viscosity),
-            viscosity: &viscosity,
-            wall_viscosity: &vec![[1.0; 2]; mesh.faces.len()],
+            stiffnesses: &stiffnesses(mesh, &halves, &viscosities),
+            viscosities: &viscosities,
             before: &[],
             speed_before: 0.0,
             end_height: 0.0,

@@ -58,12 +58,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) masses: &'a [f64],
     /// Liquid of the halves of each face, times their viscosity where edges have none of their own.
     pub(crate) stiffnesses: &'a [f64],
-    /// Viscosity of each edge over the unit; empty where it is that of the faces.
-    pub(crate) edge_viscosity: &'a [f64],
-    /// Viscosity of each pore over the unit of viscosity.
-    pub(crate) viscosity: &'a [f64],
-    /// Viscosity at the walls of each face over the unit.
-    pub(crate) wall_viscosity: &'a [[f64; 2]],
+    pub(crate) viscosities: &'a Viscosities,
     /// Velocity of each face before the step, against the grid, cells/s, and the closing speed then.
     pub(crate) before: &'a [f64],
     pub(crate) speed_before: f64,
@@ -87,7 +82,7 @@ pub(crate) struct Sides {
 impl Problem<'_> {
     /// Viscosity times fraction of a pore.
     pub(super) fn stiffness(&self, pore: usize) -> f64 {
-        self.fractions[pore] * self.viscosity[pore]
+        self.fractions[pore] * self.viscosities.pores[pore]
     }
 
     /// Liquid of the halves of two faces that meet at an edge, times its viscosity as the faces know it.
@@ -103,7 +98,7 @@ impl Problem<'_> {
 
     /// Friction of the walls at a face, in its low and its high half.
     pub(crate) fn wall_weights(&self, face: usize) -> [f64; 2] {
-        let (parts, eta) = (self.halves[face], self.wall_viscosity[face]);
+        let (parts, eta) = (self.halves[face], self.viscosities.walls[face]);
         [parts[0] * eta[0], parts[1] * eta[1]]
     }
 
@@ -147,7 +142,7 @@ impl Problem<'_> {
             let Some(next) = number(edge.next as usize) else {
                 continue;
             };
-            let own = (self.edge_viscosity)
+            let own = (self.viscosities.edges)
                 .get(self.edges.first(face) + index)
                 .copied()
                 .unwrap_or(1.0);

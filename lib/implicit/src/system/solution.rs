@@ -72,7 +72,7 @@ pub(crate) fn solve(
         .map(|&face| resistance(problem, face as usize))
         .collect();
     let mut two_eta: Vec<f64> = (unknowns.pores.iter())
-        .map(|&pore| 2.0 * problem.viscosity[pore as usize])
+        .map(|&pore| 2.0 * problem.viscosities.pores[pore as usize])
         .collect();
     let mut carried = carried.to_vec();
     // The unknown of a pocket is its pressure less that of its tangent, by which fronts are pushed: what softens a pocket much
@@ -190,7 +190,8 @@ pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
         false => 0.0,
     };
     let f = problem.mesh.faces[face];
-    let eta = problem.viscosity[f.low as usize].max(problem.viscosity[f.high as usize]);
+    let eta =
+        problem.viscosities.pores[f.low as usize].max(problem.viscosities.pores[f.high as usize]);
     let least = 1e-6;
     (problem.masses[face] * (problem.scales.inertia + eta * narrow)).max(least)
 }
