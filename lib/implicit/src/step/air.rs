@@ -8,7 +8,7 @@ use crate::system::{FULL, Flow, Fronts, Unknowns, Wetting};
 
 /// Names of the arrays of a checkpoint that hold the air of each pore, and what is counted of it.
 const HELD: &str = "air";
-const COUNTS: &str = "air counts";
+const COUNTS: &str = "air_counts";
 
 /// What a pore loses at least in a step, cells, where its liquid comes apart: more than rounding.
 const APART: f64 = 1e-6;

@@ -65,13 +65,10 @@ displacement F64 6, scalars F64 15, trend F64 3, time F64 1, solids_and_water F6
 air_pocket U32, air_mass F64 1, air_volume F64 1, air_sums F64 4";
     assert_eq!(names, format!("{RUN}, {arrays}"));
 
-    // It has no air yet.
-    let volume_fraction = IMPLICIT
-        .replace("\"implicit\"", "\"volume-fraction\"")
-        .replace("[air]\npressure = \"100 kPa\"\n", "");
+    let volume_fraction = IMPLICIT.replace("\"implicit\"", "\"volume-fraction\"");
     let (format, names) = layout(&Bench::new(&volume_fraction, "1.45 us", "0.1 us"), &[]);
     assert_eq!(format, "volume-fraction 1, run 1");
-    let arrays = "scalars F64 18, rows U32 3, region U32 6, volumes F64, velocities F64, pressures F64, displacement F64 6, \
-water F64, water_in_walls F64, water_account F64 5";
+    let arrays = "scalars F64 19, rows U32 3, region U32 6, volumes F64, velocities F64, pressures F64, displacement F64 6, \
+air F64, air_counts F64 3, water F64, water_in_walls F64, water_account F64 5";
     assert_eq!(names, format!("{RUN}, {arrays}"));
 }
