@@ -174,9 +174,10 @@ fn air_behind_liquid_is_compressed_and_leaks() {
 fn flow_through_lumens_in_three_dimensions() {
     let what = "mean velocity";
     let square = || duct::scene(Section::Square, 6, 2e-6);
-    assert_within(0.01, &square(), Method::implicit(), what);
-    assert_caught(0.01, &thicker(square()), Method::implicit(), what);
-    assert_caught(0.01, &lifted(square(), 0), Method::implicit(), what);
+    // By the power that the weight gives.
+    assert_within(0.015, &square(), Method::implicit(), what);
+    assert_caught(0.015, &thicker(square()), Method::implicit(), what);
+    assert_caught(0.015, &lifted(square(), 0), Method::implicit(), what);
     let tube = duct::scene(Section::Round(1), 6, 2e-6);
     let same = "mean velocity, same staircase";
     assert_within(0.015, &tube, Method::implicit(), same);
