@@ -273,6 +273,14 @@ impl Mesh {
         self.rows.height_of(self.row_of(pore))
     }
 
+    /// Height of the lowest row at a pore or beside it, a cell at most: the film in a gap that closes knows of edges no farther
+    /// than it is high.
+    pub(crate) fn lowest(&self, pore: usize) -> f64 {
+        let row = self.row_of(pore);
+        let near = row.saturating_sub(1)..(row + 2).min(self.rows.len());
+        near.map(|row| self.rows.height_of(row)).fold(1.0, f64::min)
+    }
+
     /// The next cell along an axis, over periodic sides too; `None` at other sides.
     pub(crate) fn neighbour(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
         let mut place = self.place(cell);

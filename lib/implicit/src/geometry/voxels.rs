@@ -96,8 +96,8 @@ impl Mesh {
         self.neighbour(cell, axis, up).map(|cell| (cell, voxel))
     }
 
-    /// Factor of friction and exchange between an open voxel and the one next to it along the first of two axes, by
-    /// re-entrant edges of walls at either side of them along the second.
+    /// Logarithm of the factor of friction and exchange between an open voxel and the one next to it along the first of two
+    /// axes, by re-entrant edges of walls at either side of them along the second, in cells as high as wide.
     pub(crate) fn reentrant(
         &self,
         lattice: &Lattice,
@@ -105,7 +105,7 @@ impl Mesh {
         [t, across]: [usize; 2],
         up: bool,
     ) -> f64 {
-        let mut factor = 1.0;
+        let mut sum = 0.0;
         for side in [false, true] {
             let step = |at: At, axis: usize, up: bool| self.next_voxel(at.0, at.1, axis, up);
             let wall = |at: At| self.is_wall(lattice, at);
@@ -135,14 +135,14 @@ impl Mesh {
                 let last = self.k - 1;
                 usize::from(at.1[axis] != if up { last } else { 0 })
             };
-            let full = REENTRANT[self.k - 1][within(t, up) + within(across, side)];
-            factor *= if self.k == 1 || whole {
+            let full = REENTRANT[self.k - 1][within(t, up) + within(across, side)].ln();
+            sum += if self.k == 1 || whole {
                 full
             } else {
-                full.sqrt()
+                0.5 * full
             };
         }
-        factor
+        sum
     }
 
     /// Whether a voxel is solid; `None` beyond a mirror.

@@ -14,8 +14,8 @@ pub(crate) struct Edge {
     pub(crate) across: [u32; 2],
     /// Part of the edge of a cell that they share, negative where the next face lies on the low side.
     part: f32,
-    /// The same, positive, times the factor by re-entrant edges.
-    weight: f32,
+    /// Logarithm of the factor by re-entrant edges, in cells as high as wide.
+    factor: f32,
     /// Open voxels beside the edge in the face and in the next one, and the axis across which they lie beside one another.
     open: [u8; 2],
     /// The same of the faces across, along the axis of the face.
@@ -67,7 +67,16 @@ impl Edge {
         let distance = 0.5 * (own * edge(f.low, t) + other * edge(next, t));
         let height = 0.5 * (edge(f.low, axis) + edge(f.high, axis));
         let across = edge(f.low, 3 - axis - t);
-        let shear = f64::from(self.weight) * across * height / distance;
+        let lowest = match self.axis(mesh, face) {
+            1 => 1.0,
+            _ => mesh.lowest(f.low as usize).min(mesh.lowest(next as usize)),
+        };
+        let factor = match self.factor {
+            0.0 => 1.0,
+            factor => (lowest * f64::from(factor)).exp(),
+        };
+        let part = f64::from(self.part.abs());
+        let shear = factor * part * across * height / distance;
         [shear, f64::from(self.part) * across]
     }
 }
@@ -189,10 +198,7 @@ fn edges(mesh: &Mesh, lattice: &Lattice, face: usize) -> Vec<Edge> {
                     )
                 };
                 match found.iter_mut().find(|other| key(other) == key(&edge)) {
-                    Some(other) => {
-                        other.part += edge.part;
-                        other.weight += edge.weight;
-                    }
+                    Some(other) => other.part += edge.part,
                     None => found.push(edge),
                 }
             }
@@ -257,7 +263,7 @@ fn edge(mesh: &Mesh, lattice: &Lattice, face: usize, t: usize, up: bool, r: usiz
         next: next as u32,
         across: [beside_low as u32, beside_high as u32],
         part: if up { part } else { -part },
-        weight: part * factor as f32,
+        factor: factor as f32,
         open: [own, height(next, t, far)],
         aside: [
             height(beside_low, axis, k - 1),

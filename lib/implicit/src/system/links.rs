@@ -200,7 +200,12 @@ impl View<'_> {
                 let at = (cell, voxel(half, i));
                 let near = mesh.beside_steps(self.lattice, at, [t, across], up);
                 let distance = edges[t] * self.distance(&column, between, near);
-                let factor = mesh.reentrant(self.lattice, at, [t, across], up);
+                let height = if axis == 1 {
+                    1.0
+                } else {
+                    mesh.lowest(f.low as usize)
+                };
+                let factor = (height * mesh.reentrant(self.lattice, at, [t, across], up)).exp();
                 let friction = factor * part / (distance + self.walls.influence_length);
                 link.add(half, friction, self.sliding(code, face, axis));
                 link.area += part;
