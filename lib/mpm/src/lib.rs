@@ -15,7 +15,7 @@
 //! `tiles`, `nodes`, `topology`, `halo` | `material`, `transfer`, `cell_mean`, `collide`, `density` |
 //! `plan`, `explicit`, `start`, `checks`, `step`, `saved`, `scheme`. Beside them stands `minimal`, the
 //! scheme at its least, on `real`, `lanes`, `simd`, `lattice`, `runs`, `shape` and `window` alone but for the
-//! steps between checks.
+//! name of its shape function and the steps between checks.
 
 // Loops over axes and lanes index several short arrays at once.
 #![allow(clippy::needless_range_loop)]

@@ -77,7 +77,7 @@ pub(crate) enum Mode {
     /// The increment (FLIP): points keep their own velocity, and contact before the forces
     /// does not reach them.
     Increment,
-    /// Nothing: points take v+.
+    /// v+, which points take.
     Replace,
     /// Nothing: points take v+ and an affine field of it (APIC).
     Affine,

@@ -6,20 +6,7 @@
 
 use crate::lanes::Lanes8;
 use crate::real::Real;
-
-/// A shape function; kernels are generic over it.
-pub(crate) trait Shape: Send + Sync + 'static {
-    /// Along one axis, at the offsets `d` (cells) of eight points: their weights on the lower and the upper
-    /// node, and the slopes (per cell) of these.
-    fn sides<const FMA: bool>(d: &Lanes8) -> [[Lanes8; 2]; 2];
-}
-
-/// Uniform GIMP: the hat averaged over a box of half a cell.
-pub(crate) struct Gimp;
-/// Quadratic B-spline.
-pub(crate) struct Bspline2;
-/// Hat.
-pub(crate) struct Linear;
+use crate::settings::ShapeFunction;
 
 /// Of every lane what `of` gives; a loop of its own for each, so that it becomes one instruction or two.
 #[inline(always)]
@@ -37,43 +24,68 @@ fn above(x: Real) -> Real {
     if x > 0.0 { x } else { 0.0 }
 }
 
-impl Shape for Gimp {
+/// Along one axis, of eight points: weights on the lower and the upper node, and slopes of these (per cell).
+type Axis = [[Lanes8; 2]; 2];
+
+impl ShapeFunction {
+    /// Along each axis, at the offsets `d` (cells) of eight points. Which function is asked once for all of
+    /// them: kernels are not compiled for each.
     #[inline(always)]
-    fn sides<const FMA: bool>(d: &Lanes8) -> [[Lanes8; 2]; 2] {
-        // Part of the box beyond the node, at most all of it.
-        let s = each(d, |d| {
-            let s = above(d + 0.25);
-            if s < 0.5 { s } else { 0.5 }
-        });
-        let t = each(&s, |s| 0.5 - s);
-        let upper = s.times::<FMA>(s).plus::<FMA>(each(d, |d| above(d - 0.25)));
-        let lower = t.times::<FMA>(t).plus::<FMA>(each(d, |d| above(-d - 0.25)));
-        [
-            [lower, upper],
-            [t.scaled::<FMA>(-2.0), s.scaled::<FMA>(2.0)],
-        ]
+    pub(crate) fn sides<const D: usize, const FMA: bool>(self, d: &[Lanes8; 3]) -> [Axis; 3] {
+        let mut axes = [[[Lanes8::ZERO; 2]; 2]; 3];
+        match self {
+            Self::Gimp => {
+                for a in 0..D {
+                    axes[a] = gimp::<FMA>(&d[a]);
+                }
+            }
+            Self::Bspline2 => {
+                for a in 0..D {
+                    axes[a] = bspline2::<FMA>(&d[a]);
+                }
+            }
+            Self::Linear => {
+                for a in 0..D {
+                    axes[a] = linear(&d[a]);
+                }
+            }
+        }
+        axes
     }
 }
 
-impl Shape for Bspline2 {
-    #[inline(always)]
-    fn sides<const FMA: bool>(d: &Lanes8) -> [[Lanes8; 2]; 2] {
-        let (s, t) = (each(d, |d| 0.5 + d), each(d, |d| 0.5 - d));
-        let half = |x: Lanes8| x.times::<FMA>(x).scaled::<FMA>(0.5);
-        [[half(t), half(s)], [t.scaled::<FMA>(-1.0), s]]
-    }
+/// The hat averaged over a box of half a cell.
+#[inline(always)]
+fn gimp<const FMA: bool>(d: &Lanes8) -> Axis {
+    // Part of the box beyond the node, at most all of it.
+    let s = each(d, |d| {
+        let s = above(d + 0.25);
+        if s < 0.5 { s } else { 0.5 }
+    });
+    let t = each(&s, |s| 0.5 - s);
+    let upper = s.times::<FMA>(s).plus::<FMA>(each(d, |d| above(d - 0.25)));
+    let lower = t.times::<FMA>(t).plus::<FMA>(each(d, |d| above(-d - 0.25)));
+    [
+        [lower, upper],
+        [t.scaled::<FMA>(-2.0), s.scaled::<FMA>(2.0)],
+    ]
 }
 
-impl Shape for Linear {
-    #[inline(always)]
-    fn sides<const FMA: bool>(d: &Lanes8) -> [[Lanes8; 2]; 2] {
-        let (lower, upper) = (each(d, |d| above(-d)), each(d, above));
-        let slopes = [
-            each(d, |d| if d < 0.0 { -1.0 } else { 0.0 }),
-            each(d, |d| if d < 0.0 { 0.0 } else { 1.0 }),
-        ];
-        [[lower, upper], slopes]
-    }
+#[inline(always)]
+fn bspline2<const FMA: bool>(d: &Lanes8) -> Axis {
+    let (s, t) = (each(d, |d| 0.5 + d), each(d, |d| 0.5 - d));
+    let half = |x: Lanes8| x.times::<FMA>(x).scaled::<FMA>(0.5);
+    [[half(t), half(s)], [t.scaled::<FMA>(-1.0), s]]
+}
+
+#[inline(always)]
+fn linear(d: &Lanes8) -> Axis {
+    let (lower, upper) = (each(d, |d| above(-d)), each(d, above));
+    let slopes = [
+        each(d, |d| if d < 0.0 { -1.0 } else { 0.0 }),
+        each(d, |d| if d < 0.0 { 0.0 } else { 1.0 }),
+    ];
+    [[lower, upper], slopes]
 }
 
 #[cfg(test)]
@@ -101,12 +113,12 @@ mod tests {
         }
     }
 
-    fn compare<S: Shape>(reference: impl Fn(f64) -> f64) -> f64 {
+    fn compare(shape: ShapeFunction, reference: impl Fn(f64) -> f64) -> f64 {
         let mut worst = 0.0_f64;
         for i in 0..=100 {
             let d = -0.5 + f64::from(i) / 100.0;
-            let [w, g] =
-                S::sides::<false>(&Lanes8([d as Real; 8])).map(|x| x.map(|x| f64::from(x.0[1])));
+            let [_, along_y, _] = shape.sides::<3, false>(&[Lanes8([d as Real; 8]); 3]);
+            let [w, g] = along_y.map(|x| x.map(|x| f64::from(x.0[1])));
             let weights = [w[0], 1.0 - w[0] - w[1], w[1]];
             let slopes = [g[0], -(g[0] + g[1]), g[1]];
             for (node, offset) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
@@ -127,9 +139,9 @@ mod tests {
     #[test]
     fn weights_are_those_of_the_definitions() {
         let errors = [
-            compare::<Gimp>(averaged_hat),
-            compare::<Bspline2>(bspline),
-            compare::<Linear>(hat),
+            compare(ShapeFunction::Gimp, averaged_hat),
+            compare(ShapeFunction::Bspline2, bspline),
+            compare(ShapeFunction::Linear, hat),
         ];
         println!("largest deviation gimp, bspline2, linear: {errors:?}");
         assert!(errors.iter().all(|&e| e < 2e-5));

@@ -84,10 +84,10 @@ impl Explicit {
 
     fn points_to_nodes(&mut self, dt: f64) {
         let scale = (dt / self.scene.grid.cell_m) as Real;
-        let p2g = self.kernels.p2g;
+        let kernels = self.kernels;
         self.grid.tiles.par_iter_mut().for_each(|tile| {
             tile.points.gather_runs();
-            p2g(tile, scale);
+            kernels.p2g(tile, scale);
         });
     }
 
@@ -120,14 +120,14 @@ impl Explicit {
             .for_each(|block| block.advance(tiles, &step));
         self.clock.lap(Part::Nodes);
         if self.present.filter {
-            let filter = self.kernels.filter;
+            let kernels = self.kernels;
             for round in 2..=self.settings.velocity_update.order() {
                 let blocks = &self.grid.blocks;
                 let keep = round == 2 && mode == Mode::FilterBefore;
                 let tiles = self.grid.tiles.par_iter_mut();
                 tiles.for_each_init(Vec::new, |field, tile| {
                     gather_filtered(tile, blocks, field);
-                    filter(tile, field, keep);
+                    kernels.filter(tile, field, keep);
                 });
                 let tiles = &self.grid.tiles;
                 self.grid
@@ -155,7 +155,7 @@ impl Explicit {
             .par_iter_mut()
             .map_init(Scratch::default, |scratch, tile| {
                 gather_velocity(tile, blocks, &mut scratch.field);
-                (self.kernels.g2p)(tile, scratch, scale);
+                self.kernels.g2p(tile, scratch, scale);
                 if shared {
                     share_rate(tile, scratch, lattice.axes());
                 }

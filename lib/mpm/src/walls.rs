@@ -217,7 +217,6 @@ mod tests {
     /// Sums over the material points of the voxels, half a cell each, with GIMP weights: volume, its
     /// gradient, its first moment about the node.
     fn rigid_points(block: &BlockShape, shift: [f64; 3], node: [i32; 3]) -> [f64; 7] {
-        use crate::shape::{Gimp, Shape};
         let mut sum = [0.0; 7];
         let dims = block.solid.dims();
         for k in 0..dims[2] {
@@ -231,7 +230,8 @@ mod tests {
                     });
                     let nearest = x.map(f64::round);
                     let d: [f64; 3] = std::array::from_fn(|a| x[a] - nearest[a]);
-                    let sides = d.map(|d| Gimp::sides::<false>(&Lanes8([d as Real; 8])));
+                    let d = d.map(|d| Lanes8([d as Real; 8]));
+                    let sides = ShapeFunction::Gimp.sides::<3, false>(&d);
                     let offset: [f64; 3] =
                         std::array::from_fn(|a| f64::from(node[a]) - nearest[a] + 1.0);
                     if offset.iter().any(|o| !(0.0..=2.0).contains(o)) {

@@ -14,7 +14,7 @@ mod spread;
 
 use crate::lanes::{Lanes4, Lanes8, first_eight, transposed};
 use crate::lattice::{HALO, layers};
-use crate::shape::Shape;
+use crate::settings::ShapeFunction;
 pub(crate) use gather::{gather, gather_lane, gather_value};
 pub(crate) use spread::{spread, spread_value};
 
@@ -42,14 +42,11 @@ pub(crate) struct Sides {
 impl Sides {
     /// Of points at the offsets `d` along x, y, z from their nearest node.
     #[inline(always)]
-    pub(crate) fn new<S: Shape, const D: usize, const FMA: bool>(d: &[Lanes8; 3]) -> Self {
-        let [wx, gx] = S::sides::<FMA>(&d[0]);
-        let [wy, gy] = S::sides::<FMA>(&d[1]);
-        let [wz, gz] = if D == 3 {
-            S::sides::<FMA>(&d[2])
-        } else {
-            [[Lanes8::ZERO; 2]; 2]
-        };
+    pub(crate) fn new<const D: usize, const FMA: bool>(
+        shape: ShapeFunction,
+        d: &[Lanes8; 3],
+    ) -> Self {
+        let [[wx, gx], [wy, gy], [wz, gz]] = shape.sides::<D, FMA>(d);
         Self {
             w: [wx, wy, wz],
             g: [gx, gy, gz],

@@ -9,7 +9,7 @@ use crate::lanes::{Lanes4, Lanes8, first_eight, transposed, transposed_eight};
 use crate::lattice::{EDGE, HALO, nearest, window};
 use crate::real::{Real, exp_m1, exp_m1_of_eight};
 use crate::runs::{reorder, run_end, run_order};
-use crate::shape::Gimp;
+use crate::settings::ShapeFunction;
 use crate::simd::Kernel;
 use crate::tiles::base_of;
 use crate::window::{
@@ -123,7 +123,7 @@ impl Kernel for PointsToNodes<'_> {
             while start < end {
                 let batch = start..end.min(start + BATCH);
                 let d = offsets::<FMA>(&places[start..]);
-                let sides = Sides::new::<Gimp, 3, FMA>(&d);
+                let sides = Sides::new::<3, FMA>(ShapeFunction::Gimp, &d);
                 for (i, p) in batch.enumerate() {
                     let ([.., mass], [vx, vy, vz, j]) = (places[p].0, motions[p].0);
                     let volume = mass * (1.0 + j);
@@ -172,7 +172,8 @@ impl Kernel for NodesToPoints<'_> {
             let field = differences::<3, FMA>(&halo[first..first + window(3)]);
             while start < end {
                 let batch = start..end.min(start + BATCH);
-                let sides = Sides::new::<Gimp, 3, FMA>(&offsets::<FMA>(&places[start..]));
+                let sides =
+                    Sides::new::<3, FMA>(ShapeFunction::Gimp, &offsets::<FMA>(&places[start..]));
                 let old = transposed::<FMA>(&first_eight(&motion[start..]));
                 // New velocity and j, displacement.
                 let mut fields = [Lanes8::ZERO; 8];

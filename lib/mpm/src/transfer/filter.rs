@@ -1,12 +1,10 @@
 //! One round of the velocity filter of XPIC and FMPM: nodes to points and back.
 
-use std::marker::PhantomData;
-
 use crate::fields::point::VOLUME;
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{HALO, layers, window};
 use crate::runs::run_end;
-use crate::shape::Shape;
+use crate::settings::ShapeFunction;
 use crate::simd::Kernel;
 use crate::tiles::Tile;
 use crate::window::{
@@ -16,17 +14,17 @@ use crate::window::{
 /// One application of S+ S before division by the nodal mass: gathers `field` to the
 /// points and sums it, weighted by mass, into `tile.filtered`. Two points at a time, one in the lower
 /// and one in the upper four lanes.
-pub(crate) struct Filter<'a, S, const D: usize> {
+pub(crate) struct Filter<'a, const D: usize> {
     pub(crate) tile: &'a mut Tile,
     /// Nodal values, each twice.
     pub(crate) field: &'a [Lanes8],
     /// Keep the gathered value, which is S w1 in the first round, in place of the points' stress: the nodes
     /// have that already, and it is new after nodes to points.
     pub(crate) keep: bool,
-    pub(crate) shape: PhantomData<S>,
+    pub(crate) shape: ShapeFunction,
 }
 
-impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
+impl<const D: usize> Kernel for Filter<'_, D> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Tile {
@@ -43,7 +41,7 @@ impl<S: Shape, const D: usize> Kernel for Filter<'_, S, D> {
             let mut sums = NOTHING;
             while start < end {
                 let places = &place[start..end.min(start + BATCH)];
-                let sides = Sides::new::<S, D, FMA>(&offsets::<FMA>(&place[start..]));
+                let sides = Sides::new::<D, FMA>(self.shape, &offsets::<FMA>(&place[start..]));
                 for p in (0..places.len()).step_by(2) {
                     let pair = pair(&sides.w, p);
                     let value = gather_value::<D, FMA>(&field, &pair);

@@ -7,7 +7,7 @@ use crate::lanes::{Lanes4, Lanes8, first_eight, transposed, transposed_eight};
 use crate::lattice::window;
 use crate::real::Real;
 use crate::runs::run_end;
-use crate::shape::Shape;
+use crate::settings::ShapeFunction;
 use crate::simd::Kernel;
 use crate::tiles::{Scratch, Tile};
 use crate::window::{BATCH, Sides, Window, differences, gather, gather_lane, offsets};
@@ -15,12 +15,13 @@ use crate::window::{BATCH, Sides, Window, differences, gather, gather_lane, offs
 /// Nodes to points: new velocity, velocity gradient and displacement.
 ///
 /// The scratch holds the nodal velocities of [`node`](crate::fields::node).
-pub(crate) struct G2p<'a, S, U, const D: usize> {
+pub(crate) struct G2p<'a, U, const D: usize> {
     pub(crate) tile: &'a mut Tile,
     pub(crate) scratch: &'a mut Scratch,
     /// dt over cell, s/m.
     pub(crate) dt_over_cell: Real,
-    pub(crate) of: PhantomData<(S, U)>,
+    pub(crate) shape: ShapeFunction,
+    pub(crate) update: PhantomData<U>,
 }
 
 /// A velocity update: the table of docs/methods.md, section 2.3. Kernels are generic over it.
@@ -44,13 +45,11 @@ pub(crate) trait Update {
 
 /// FLIP.
 pub(crate) struct Increment;
-/// PIC, and the filters of order 1.
-pub(crate) struct Replace;
 /// APIC.
 pub(crate) struct Affine;
 /// XPIC of order 2 and more.
 pub(crate) struct FilterBefore;
-/// FMPM of order 2 and more.
+/// FMPM, and what else has v* = v+: PIC and XPIC(1).
 pub(crate) struct FilterAfter;
 
 impl Update for Increment {
@@ -58,14 +57,6 @@ impl Update for Increment {
     fn apply<const FMA: bool>(old: Lanes8, plus: Lanes8, second: Lanes8, _: Lanes8) -> [Lanes8; 2] {
         let new = old.plus::<FMA>(second);
         [new, plus.add_product::<FMA>(Lanes8([-0.5; 8]), second)]
-    }
-}
-
-impl Update for Replace {
-    const SECOND: bool = false;
-    #[inline(always)]
-    fn apply<const FMA: bool>(_: Lanes8, plus: Lanes8, _: Lanes8, _: Lanes8) -> [Lanes8; 2] {
-        [plus, plus]
     }
 }
 
@@ -149,7 +140,7 @@ fn drift<const FMA: bool>(stress: &[Lanes8]) -> [Lanes8; 3] {
     [x, y, z]
 }
 
-impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
+impl<U: Update, const D: usize> Kernel for G2p<'_, U, D> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Tile { points, .. } = self.tile;
@@ -172,7 +163,7 @@ impl<S: Shape, U: Update, const D: usize> Kernel for G2p<'_, S, U, D> {
             while start < end {
                 let batch = start..end.min(start + BATCH);
                 let d = offsets::<FMA>(&place[start..]);
-                let sides = Sides::new::<S, D, FMA>(&d);
+                let sides = Sides::new::<D, FMA>(self.shape, &d);
                 if U::AFFINE {
                     let fields = affine::<D, FMA>(&window, &moments::<D>(&d, &sides));
                     for p in batch.clone() {

@@ -1,13 +1,11 @@
 //! Points to nodes: mass, momentum, impulse of the stress, and what contact needs.
 
-use std::marker::PhantomData;
-
 use crate::fields::point::{J, VOLUME};
 use crate::lanes::{Lanes4, Lanes8};
 use crate::lattice::{HALO, layers, window};
 use crate::real::Real;
 use crate::runs::run_end;
-use crate::shape::Shape;
+use crate::settings::ShapeFunction;
 use crate::simd::Kernel;
 use crate::tiles::{Points, Tile};
 use crate::window::{
@@ -17,14 +15,14 @@ use crate::window::{
 
 /// Points to nodes: mass, momentum, internal impulse and volume into `tile.local`, and first
 /// moment of mass and volume gradient near bodies into `tile.wall_local`.
-pub(crate) struct P2g<'a, S, const D: usize, const AFFINE: bool> {
+pub(crate) struct P2g<'a, const D: usize, const AFFINE: bool> {
     pub(crate) tile: &'a mut Tile,
     /// dt over cell, s/m.
     pub(crate) dt_over_cell: Real,
-    pub(crate) shape: PhantomData<S>,
+    pub(crate) shape: ShapeFunction,
 }
 
-impl<S: Shape, const D: usize, const AFFINE: bool> Kernel for P2g<'_, S, D, AFFINE> {
+impl<const D: usize, const AFFINE: bool> Kernel for P2g<'_, D, AFFINE> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Tile {
@@ -50,16 +48,17 @@ impl<S: Shape, const D: usize, const AFFINE: bool> Kernel for P2g<'_, S, D, AFFI
                 start,
                 end,
                 dt_over_cell: self.dt_over_cell,
+                shape: self.shape,
             };
             let reach = base..base + window(D);
             if *bodies != 0 && near_wall[base] {
                 let parts = (
-                    &run.fluxes::<S, D, FMA, AFFINE, true>(),
-                    &run.values::<S, D, FMA, AFFINE>(),
+                    &run.fluxes::<D, FMA, AFFINE, true>(),
+                    &run.values::<D, FMA, AFFINE>(),
                 );
                 add_near::<D, FMA>(&mut local[reach.clone()], &mut wall_local[reach], parts);
             } else {
-                let sums = run.fluxes::<S, D, FMA, AFFINE, false>();
+                let sums = run.fluxes::<D, FMA, AFFINE, false>();
                 add::<D, FMA>(&mut local[reach], &sums);
             }
             start = end;
@@ -73,13 +72,14 @@ struct Run<'a> {
     start: usize,
     end: usize,
     dt_over_cell: Real,
+    shape: ShapeFunction,
 }
 
 impl Run<'_> {
     /// Sums at the nodes of [`sum`](crate::fields::sum). With `NEAR` only its impulse and volume, and in the
     /// upper four lanes the gradient of volume: the rest is in [`Run::values`].
     #[inline(always)]
-    fn fluxes<S: Shape, const D: usize, const FMA: bool, const AFFINE: bool, const NEAR: bool>(
+    fn fluxes<const D: usize, const FMA: bool, const AFFINE: bool, const NEAR: bool>(
         &self,
     ) -> Window {
         let mut sums = NOTHING;
@@ -87,7 +87,7 @@ impl Run<'_> {
         while start < self.end {
             let places = &self.points.place[start..self.end.min(start + BATCH)];
             let d = offsets::<FMA>(&self.points.place[start..]);
-            let sides = Sides::new::<S, D, FMA>(&d);
+            let sides = Sides::new::<D, FMA>(self.shape, &d);
             let arms = if AFFINE { arms(&d, &sides) } else { sides.g };
             let motion = &self.points.motion[start..start + places.len()];
             let stress = &self.points.stress[start..start + places.len()];
@@ -132,13 +132,13 @@ impl Run<'_> {
 
     /// Near bodies, at the nodes: momentum and mass, and the first moment of mass about the nearest node.
     #[inline(always)]
-    fn values<S: Shape, const D: usize, const FMA: bool, const AFFINE: bool>(&self) -> Window {
+    fn values<const D: usize, const FMA: bool, const AFFINE: bool>(&self) -> Window {
         let mut sums = NOTHING;
         let mut start = self.start;
         while start < self.end {
             let places = &self.points.place[start..self.end.min(start + BATCH)];
             let d = offsets::<FMA>(&self.points.place[start..]);
-            let sides = Sides::new::<S, D, FMA>(&d);
+            let sides = Sides::new::<D, FMA>(self.shape, &d);
             let motion = &self.points.motion[start..start + places.len()];
             for p in 0..places.len() {
                 let mass = places[p].0[VOLUME];
