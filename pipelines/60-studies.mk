@@ -15,7 +15,7 @@ STUDY = @$(BIN)/study $@ $(if $(ONLY),out/results,docs/results) $(ONLY)
 # bench         what both schemes cost per liquid cell, point and step, at several sizes and numbers of threads;
 #               beside an older build: make bench BASE=/path/to/its/target/release
 # experiments   squeeze flows that others measured predicted blind, permeabilities beside published ones, cells of species beside
-#               measured ones; what needs ../shared is left out without it
+#               measured ones, presses of a measured section of spruce; what needs ../shared is left out without it
 .PHONY: verify stability options load-control leave-out crash bench experiments
 export BASE
 verify stability options load-control leave-out crash bench experiments: $(BINARIES)

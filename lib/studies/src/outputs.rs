@@ -2,8 +2,11 @@
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use particle_file::ParticleFile;
+
+use crate::study::{ended, said};
 
 /// A finished run.
 pub struct Run {
@@ -16,6 +19,18 @@ pub fn bin_folder() -> PathBuf {
     let here = std::env::current_exe().unwrap_or_default();
     let folder = here.ancestors().find(|p| p.join("mpm-run").is_file());
     folder.map_or_else(|| PathBuf::from("target/release"), Path::to_path_buf)
+}
+
+/// What a built tool prints.
+///
+/// # Errors
+/// What it said where it failed, or that it could not be started.
+pub fn tool(name: &str, arguments: &[&str]) -> Result<String, String> {
+    let output = ended(Command::new(bin_folder().join(name)).args(arguments))?;
+    match output.status.success() {
+        true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
+        false => Err(said(&output)),
+    }
 }
 
 impl Run {
@@ -89,5 +104,25 @@ impl Run {
             .trim()
             .parse()
             .ok()
+    }
+
+    /// WP of the last state about the bond plane: bottom, top and total, um.
+    ///
+    /// # Errors
+    /// What `wp-metrics` said, or what its table lacks.
+    pub fn weighted_penetration(&self) -> Result<[f64; 3], String> {
+        let state = self.folder.join("final.mpts").display().to_string();
+        let table = tool("wp-metrics", &["--quiet", &state])?;
+        let mut rows = csv::Reader::from_reader(table.as_bytes());
+        let header = rows.headers().map_err(|e| e.to_string())?.clone();
+        let column = |name: &str| header.iter().position(|n| n == name);
+        let (side, wp) = (column("side").unwrap_or(0), column("wp_um").unwrap_or(0));
+        let rows: Vec<csv::StringRecord> = rows.records().filter_map(Result::ok).collect();
+        let of = |name: &str| {
+            let row = rows.iter().find(|row| row.get(side) == Some(name));
+            let number = row.and_then(|row| row.get(wp)?.parse().ok());
+            number.ok_or_else(|| format!("wp-metrics printed no {name}"))
+        };
+        Ok([of("bottom")?, of("top")?, of("total")?])
     }
 }

@@ -1,6 +1,8 @@
 //! `make experiments`: predictions held against experiments that others made and published.
 
 pub mod predictions;
+pub mod press;
+pub mod section;
 pub mod squeeze;
 pub mod squeeze_report;
 pub mod wood;
@@ -14,6 +16,7 @@ use crate::study::Study;
 pub fn run(study: &Study) -> Result<bool, String> {
     let predictions = predictions::run(study)?;
     let wood = wood::run(study)?;
+    let press = press::run(study)?;
     let mut page = String::from("# Evidence from outside\n\n");
     page += &study.head(predictions.iter().map(|p| p.cpu_s));
     page.push('\n');
@@ -21,6 +24,7 @@ pub fn run(study: &Study) -> Result<bool, String> {
         page += &squeeze_report::write(study, &predictions)?;
     }
     page += &wood;
+    page += &press;
     study.write("experiments.md", page)?;
     Ok(squeeze_report::sound(&predictions))
 }

@@ -2,13 +2,12 @@
 //! against the implicit scheme with the finest cells.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use super::settings::Setting;
 use super::{Flow, Row};
 use crate::method::{Method, Scheme};
-use crate::outputs::{Run, bin_folder};
-use crate::study::{ended, said, side_by_side};
+use crate::outputs::{Run, tool};
+use crate::study::side_by_side;
 
 /// Size in voxels, and the slab.
 const SPECIMEN: [&str; 6] = ["--size", "24x72x24", "--slab", "11.6 um", "--seed", "1"];
@@ -105,15 +104,6 @@ fn specimen(folder: &Path) -> Result<PathBuf, String> {
     Ok(bond.into())
 }
 
-fn tool(name: &str, arguments: &[&str]) -> Result<String, String> {
-    let output = ended(Command::new(bin_folder().join(name)).args(arguments))?;
-    if output.status.success() {
-        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
-    } else {
-        Err(said(&output))
-    }
-}
-
 /// Closes the bond line at 1 m/s, whatever the pressure.
 fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Closed, String> {
     let case = match method.scheme {
@@ -137,7 +127,7 @@ fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Cl
     let run = method.run(Path::new(case), folder, &arguments)?;
     Ok(Closed {
         pressure: late_pressure(&run)?,
-        wp: weighted_penetration(&run)?,
+        wp: run.weighted_penetration()?[2],
         cpu_s: run.summary("cpu_s").unwrap_or(f64::NAN),
     })
 }
@@ -154,20 +144,4 @@ fn late_pressure(run: &Run) -> Result<f64, String> {
         0.5 * (bottom[i] + top[i]) * way.max(0.0)
     });
     Ok(work.sum::<f64>() / (0.5 * end))
-}
-
-/// WP of all adhesive about the bond plane, um.
-fn weighted_penetration(run: &Run) -> Result<f64, String> {
-    let state = run.folder.join("final.mpts").display().to_string();
-    let table = tool("wp-metrics", &["--quiet", &state])?;
-    let mut lines = table.lines();
-    let header = lines.next().unwrap_or_default();
-    let column = header.split(',').position(|name| name == "wp_um");
-    let total = lines.find(|line| line.split(',').nth(1) == Some("total"));
-    let value = total
-        .zip(column)
-        .and_then(|(line, i)| line.split(',').nth(i));
-    value
-        .and_then(|v| v.parse().ok())
-        .ok_or_else(|| "wp-metrics printed no total".to_owned())
 }
