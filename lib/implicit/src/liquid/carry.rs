@@ -1,5 +1,6 @@
 //! What is known of a mesh on one of other rows: volumes, velocities, and which faces are as they were.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use physics::Boundary;
@@ -143,34 +144,67 @@ pub(crate) fn carried_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f6
     carried
 }
 
-/// Gives what a row of `old` that is gone held to the pores above and below it, half each where both are.
+/// Gives what a row of `old` that is gone held to the pores above and below it, half each where both are; where there are
+/// none, to those of the nearest pores of the gap that have some.
 fn squeeze_out(new: &Mesh, old: &Mesh, y: usize, volumes: &[f64], carried: &mut [f64]) {
     for z in 0..old.size[2] {
         for x in 0..old.size[0] {
             for pore in old.pores_of(old.cell_at([x, y, z])) {
-                let mut beside = Vec::new();
-                for (row, voxel_row) in [
-                    (new.rows().below.wrapping_sub(1), new.k - 1),
-                    (new.rows().below, 0),
-                ] {
-                    if !new.range.contains(&row) {
-                        continue;
-                    }
-                    let cell = new.cell_at([x, row - new.range.start, z]);
-                    for bit in (0..8).filter(|bit| old.pores[pore].voxels >> bit & 1 == 1) {
-                        let [a, b, c] = old.voxel(bit);
-                        if b == 0 {
-                            beside.extend(new.pore_with(cell, [a, voxel_row, c]));
-                        }
-                    }
+                if volumes[pore] == 0.0 {
+                    continue;
                 }
-                let part = volumes[pore] / beside.len().max(1) as f64;
-                for pore in beside {
+                let outlets = outlets(new, old, pore);
+                let part = volumes[pore] / outlets.len().max(1) as f64;
+                for pore in outlets {
                     carried[pore] += part;
                 }
             }
         }
     }
+}
+
+/// The pores above and below a pore of a gap that is gone, or those of the nearest in the gap that have some.
+fn outlets(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
+    let in_gap = |pore: usize| old.rows().kind(old.row_of(pore)) == Kind::Gap;
+    let mut seen = HashSet::from([pore]);
+    let mut front = vec![pore];
+    while !front.is_empty() {
+        let found: Vec<usize> = (front.iter())
+            .flat_map(|&pore| above_and_below(new, old, pore))
+            .collect();
+        if !found.is_empty() {
+            return found;
+        }
+        let beside = front.iter().flat_map(|&pore| old.beside(pore));
+        let next: Vec<usize> = beside
+            .map(|(_, _, pore)| pore)
+            .filter(|&pore| in_gap(pore))
+            .collect();
+        front = next.into_iter().filter(|&pore| seen.insert(pore)).collect();
+    }
+    Vec::new()
+}
+
+/// The pores of the bodies above and below a pore of a gap that is gone.
+fn above_and_below(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
+    let [x, _, z] = old.place(old.pores[pore].cell as usize);
+    let mut found = Vec::new();
+    for (row, voxel_row) in [
+        (new.rows().below.wrapping_sub(1), new.k - 1),
+        (new.rows().below, 0),
+    ] {
+        if !new.range.contains(&row) {
+            continue;
+        }
+        let cell = new.cell_at([x, row - new.range.start, z]);
+        for bit in (0..8).filter(|bit| old.pores[pore].voxels >> bit & 1 == 1) {
+            let [a, b, c] = old.voxel(bit);
+            if b == 0 {
+                found.extend(new.pore_with(cell, [a, voxel_row, c]));
+            }
+        }
+    }
+    found
 }
 
 /// Values of the faces of `old`, velocities, on `new`.

@@ -19,8 +19,9 @@ struct Way {
     /// What came in there.
     came: f64,
     area: f64,
-    /// Room in the pore behind it.
+    /// Room in the pore behind it, and whether that is full.
     room: f64,
+    full: bool,
 }
 
 /// Passes what pores hold above their `capacities` on to their neighbours, all pores at once, so that their order does not
@@ -48,7 +49,7 @@ pub(super) fn overflow(
                 true => 0.0,
                 false => (capacities[other] - volumes[other]).max(0.0),
             };
-            passed.extend(shares(&ways(mesh, pore, room, swept, flux), excess));
+            passed.extend(shares(&ways(mesh, pore, room, full, swept, flux), excess));
         }
         if passed.is_empty() {
             return;
@@ -69,13 +70,13 @@ pub(super) fn overflow(
 }
 
 /// How much of an excess goes by each of the ways: as much as there is room for where it flows, then anywhere, and the rest
-/// where it flows, or back. Little room takes little, so that room next to nothing does what none does.
+/// to full pores where it flows, or back. What is sent on to others without room would only come to and fro. Little room takes little, so that room next to nothing does what none does.
 fn shares(ways: &[Way], excess: f64) -> Vec<(usize, bool, f64)> {
     type Weight = fn(&Way) -> f64;
     let kinds: [(Weight, bool); 5] = [
         (|way| way.flow + way.straight, true),
         (|way| way.area, true),
-        (|way| way.flow, false),
+        (|way| if way.full { way.flow } else { 0.0 }, false),
         (|way| way.came, false),
         (|way| way.area, false),
     ];
@@ -119,6 +120,7 @@ fn ways(
     mesh: &Mesh,
     pore: usize,
     room: impl Fn(usize) -> f64,
+    full: &[bool],
     swept: &[f64],
     flux: &[f64],
 ) -> Vec<Way> {
@@ -136,6 +138,7 @@ fn ways(
             ways.extend(mesh.faces_at(pore, axis, up).map(|face| {
                 let f = mesh.faces[face];
                 let area = mesh.area(face);
+                let behind = if up { f.high } else { f.low } as usize;
                 Way {
                     face,
                     up,
@@ -143,7 +146,8 @@ fn ways(
                     straight: straight * area / all,
                     came: (-sign * flux[face]).max(0.0),
                     area,
-                    room: room(if up { f.high } else { f.low } as usize),
+                    room: room(behind),
+                    full: full[behind],
                 }
             }));
         }

@@ -19,6 +19,10 @@ pub(crate) struct Held<'a> {
     pub(crate) water: &'a [f64],
 }
 
+/// Volume that is rounding, cells, and passes in which what is missing is given back.
+const ROUNDING: f64 = 1e-14;
+const PASSES: usize = 100;
+
 /// Liquid after a step.
 pub(crate) struct Moved {
     /// Volume at no pressure in each pore, cells.
@@ -118,32 +122,37 @@ fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[
 }
 
 /// Gives pores that passed on more than they had, by the tolerance of the solution, back what is missing: from the pores that
-/// they passed it to, in proportion to what they hold of it.
+/// they passed it to, in proportion, which may lack it then in their turn.
 fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
-    let missing: Vec<usize> = (0..volumes.len())
-        .filter(|&pore| volumes[pore] < 0.0)
-        .collect();
-    for pore in missing {
-        let mut given: Vec<(usize, usize, f64)> = Vec::new();
-        for axis in 0..3 {
-            for up in [false, true] {
-                for face in mesh.faces_at(pore, axis, up) {
-                    let f = mesh.faces[face];
-                    let passed = if up { flux[face] } else { -flux[face] };
-                    let to = if up { f.high } else { f.low } as usize;
-                    given.push((face, to, passed.max(0.0).min(volumes[to].max(0.0))));
-                }
-            }
+    for _ in 0..PASSES {
+        let mut returned: Vec<(usize, bool, f64)> = Vec::new();
+        for pore in (0..volumes.len()).filter(|&pore| volumes[pore] < -ROUNDING) {
+            let ways = || {
+                (0..3)
+                    .flat_map(|axis| [false, true].map(|up| (axis, up)))
+                    .flat_map(|(axis, up)| {
+                        mesh.faces_at(pore, axis, up).map(move |face| (face, up))
+                    })
+            };
+            let passed =
+                |(face, up): (usize, bool)| if up { flux[face] } else { -flux[face] }.max(0.0);
+            let all: f64 = ways().map(passed).sum();
+            let part = (-volumes[pore] / all.max(f64::MIN_POSITIVE)).min(1.0);
+            returned.extend(ways().map(|way| (way.0, way.1, part * passed(way))));
         }
-        let all: f64 = given.iter().map(|given| given.2).sum();
-        let part = (-volumes[pore] / all).min(1.0);
-        for (face, to, held) in given.into_iter().filter(|given| given.2 > 0.0) {
-            volumes[to] -= part * held;
-            volumes[pore] += part * held;
-            flux[face] -= part * held * flux[face].signum();
+        if returned.is_empty() {
+            break;
         }
-        // What rounding leaves.
-        volumes[pore] = volumes[pore].max(0.0);
+        for (face, up, volume) in returned.into_iter().filter(|way| way.2 > 0.0) {
+            let f = mesh.faces[face];
+            let (to, from) = if up { (f.low, f.high) } else { (f.high, f.low) };
+            volumes[from as usize] -= volume;
+            volumes[to as usize] += volume;
+            flux[face] -= if up { volume } else { -volume };
+        }
+    }
+    for volume in volumes.iter_mut() {
+        *volume = volume.max(0.0);
     }
 }
 
