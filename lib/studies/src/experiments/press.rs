@@ -258,7 +258,7 @@ fn section(pieces: &[Piece], done: &[Result<Pressed, String>], real: bool) -> St
         );
     }
     out.push_str(
-        "Pieces that are cut where little is opened do not end: at the pressure limit the scheme finds no step (`scheme = \"implicit\"` crept on to the time limit in one of them), and says so.\n",
+        "Pieces that are cut where little is opened come to the pressure limit at once and close slowly; where liquid is closed in, it may press the clamp above its limit, and the run says so.\n",
     );
     if !real {
         out.push_str("Real spruce is left out: ../shared is not here.\n");
