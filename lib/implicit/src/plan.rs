@@ -1,4 +1,4 @@
-//! What a run of a scene will take.
+//! Steps, time and memory that a run of a scene will take.
 
 use physics::{Amount, Cure, Dimensions, Scene, Stages, Stop};
 

@@ -1,4 +1,4 @@
-//! What is known of a mesh on one of other rows: volumes, velocities, and which faces are as they were.
+//! Volumes and velocities on a mesh of other rows, and the faces that are the same in both.
 
 use std::collections::HashSet;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! What liquid meets in a step where it ends: menisci, pockets of air, and where it is torn.
+//! Conditions where liquid ends in a step: menisci, pockets of air, liquid torn by tension.
 
 use physics::{Array, Saved, restored};
 

@@ -1,4 +1,4 @@
-//! What a failed step says of the case, and what of it to change.
+//! Messages of failed steps, with the key of the case to change.
 
 use physics::Failure;
 use saddle_point::{Cause, SolveError};

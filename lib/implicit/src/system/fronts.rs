@@ -1,4 +1,4 @@
-//! What liquid meets where it ends: the pressure beyond its surface, lower or higher by that of a meniscus, and the friction
+//! Boundary conditions where liquid ends: the pressure beyond its surface, lower or higher by that of a meniscus, and the friction
 //! of contact lines.
 
 use rayon::prelude::*;

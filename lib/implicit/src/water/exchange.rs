@@ -1,4 +1,4 @@
-//! What a step moves of the water: by diffusion between pores and at a given rate into their walls, until a pore holds no
+//! Water that moves in a step: by diffusion between pores and at a given rate into their walls, until a pore holds no
 //! more than walls leave.
 //!
 //! X, water over solids by volume, obeys in each pore V_s (X - X_0) = sum K (X_n - X) - q, X >= X_min, where V_s is the

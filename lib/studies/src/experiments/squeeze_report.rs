@@ -1,4 +1,4 @@
-//! What the page says of the squeeze flows, with their table and figures.
+//! Squeeze flows in the page: text, table and figures.
 
 use std::fmt::Write as _;
 

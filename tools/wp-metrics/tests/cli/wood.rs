@@ -1,4 +1,4 @@
-//! What is told of wood and of slices: permeability, islands.
+//! Permeability of wood, and islands left out of slices.
 
 use tempfile::TempDir;
 
