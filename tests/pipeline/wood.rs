@@ -97,21 +97,6 @@ fn adhesive_gets_as_deep_in_cells_of_two_sizes() {
     assert!(error.abs() < 0.04);
 }
 
-/// Contact lines that turn around in the solves of a step hold and go as its flow asks for.
-#[test]
-fn contact_lines_settle_in_wood() {
-    let case = include_str!("../../pipelines/examples/wicking-pf.toml");
-    assert!(case.contains("time = \"4 ms\""));
-    let bench = wood(
-        "24x64x24",
-        case.replace("time = \"4 ms\"", "time = \"2 ms\""),
-    );
-    bench.pressed("run", &["adhesive.receding_angle=20 deg"], &[]);
-    let summary = String::from_utf8(bench.read("run/summary.json")).unwrap();
-    let settled = "\"steps whose contact lines did not settle\": 0,";
-    assert!(summary.contains(settled), "{summary}");
-}
-
 /// Liquid that menisci alone move comes to rest, though their pressures jump from voxel to voxel: else steps stay at a millisecond.
 #[test]
 fn menisci_come_to_rest_in_wood() {

@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
-#[path = "../../filling/tests/common/plain.rs"]
+#[path = "common/plain.rs"]
 mod plain;
 
 use implicit::{Implicit, Settings};
@@ -146,8 +146,7 @@ fn a_bond_that_drinks_is_pressed_the_same_however_it_lies() {
             let mut scene = scene(k, boundary, place);
             scene.liquid.wetting = Some(Wetting {
                 tension: 0.5,
-                advancing: angle,
-                receding: angle,
+                contact_angle: angle,
             });
             scene
         };
@@ -279,8 +278,7 @@ fn a_bond_with_air_and_menisci_ends_and_goes_on_where_it_stopped() {
         let mut scene = scene(k, Boundary::Symmetry, |x, z| [x, z]);
         scene.liquid.wetting = Some(Wetting {
             tension: 0.05,
-            advancing: 0.7,
-            receding: 0.7,
+            contact_angle: 0.7,
         });
         let settings = Settings {
             air_pressure: Some(1e5),

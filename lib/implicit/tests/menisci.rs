@@ -3,7 +3,7 @@
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
-#[path = "../../filling/tests/common/plain.rs"]
+#[path = "common/plain.rs"]
 mod plain;
 
 use implicit::{Implicit, Settings};
@@ -18,8 +18,7 @@ const SIGMA: f64 = 0.05;
 fn wetting(degrees: f64) -> Wetting {
     Wetting {
         tension: SIGMA,
-        advancing: degrees.to_radians(),
-        receding: degrees.to_radians(),
+        contact_angle: degrees.to_radians(),
     }
 }
 
@@ -153,7 +152,7 @@ fn length_error(kind: Passage, n: usize, degrees: f64, settings: Settings, e: f6
         Passage::Slit => 0.5 * H * H * H / n as f64,
         _ => 0.25 * H.powi(3) * kind.area(n),
     };
-    let pull = wetting(degrees).adhesion()[0] * kind.narrowness() / H;
+    let pull = wetting(degrees).adhesion() * kind.narrowness() / H;
     let unit = 0.5 * kind.resistance(n) * ETA / pull;
     let mut scheme = Implicit::new(&scene, settings).unwrap();
     let (mut time, mut steps) = (0.0, 0);

@@ -1,6 +1,6 @@
 //! Scenes that the grid cannot hold are refused.
 
-#[path = "../../filling/tests/common/plain.rs"]
+#[path = "common/plain.rs"]
 mod plain;
 
 use implicit::{Implicit, Settings};

@@ -3,7 +3,7 @@
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
-#[path = "../../filling/tests/common/plain.rs"]
+#[path = "common/plain.rs"]
 mod plain;
 
 use implicit::{Implicit, Settings};
@@ -89,8 +89,7 @@ fn error((radius, course): Course) -> f64 {
     let angle = std::f64::consts::PI - 3.043317;
     scene.liquid.wetting = Some(Wetting {
         tension: 0.06347,
-        advancing: angle,
-        receding: angle,
+        contact_angle: angle,
     });
     scene.gravity[1] = -9.81;
     let settings = Settings {

@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
-#[path = "../../filling/tests/common/plain.rs"]
+#[path = "common/plain.rs"]
 mod plain;
 
 use implicit::{Implicit, Settings};

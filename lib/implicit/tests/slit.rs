@@ -5,7 +5,7 @@
 
 #[path = "common/march.rs"]
 mod march;
-#[path = "../../filling/tests/common/plain.rs"]
+#[path = "common/plain.rs"]
 mod plain;
 
 use implicit::{Implicit, Settings};

@@ -43,7 +43,7 @@ impl Regime {
             Viscosity::Newtonian(law) => law.0,
             table => table.at(rate),
         };
-        let adhesion = (liquid.wetting).map_or(SURFACE_TENSION, |wetting| wetting.adhesion()[0]);
+        let adhesion = (liquid.wetting).map_or(SURFACE_TENSION, |wetting| wetting.adhesion());
         let max_pressure = scene.clamp.and_then(|c| c.max_pressure);
         Self {
             sound_speed: liquid.sound_speed(),

@@ -11,15 +11,6 @@ use crate::schemes;
 /// Written by `make tradeoff`; not to be edited.
 const TABLE: &str = include_str!("expected_error.csv");
 
-/// The same of the scheme of volume fractions, whose slits and channels its tests measure (lib/implicit/tests/slit.rs, statics.rs:
-/// root of the mean square over four lengths, walls on the faces of cells and half way between them) and whose bond line is that
-/// of the table, against its own run in half voxels (docs/methods.md section 3.14).
-const VOLUME_FRACTION: &str = "\
-volume-fraction,,,,,,3,0.0260,0.0000,,
-volume-fraction,,,,,,6,0.0282,0.0000,0.1235,0.0021
-volume-fraction,,,,,,12,0.0197,0.0000,0.0179,0.0006
-";
-
 /// Width of the lumens that the study measured and the paper's wood has (section 2.3), m.
 const LUMEN_M: f64 = 17.4e-6;
 
@@ -94,11 +85,7 @@ pub(crate) fn of(case: &Case, cell_m: f64) -> ExpectedError {
 
 /// The lines of `--explain` about a case in cells of `cell_m`.
 pub(crate) fn text(case: &Case, cell_m: f64) -> String {
-    let page = match case.integrator.scheme {
-        SchemeName::VolumeFraction => "docs/methods.md section 3.14",
-        _ => "docs/results/tradeoff.md",
-    };
-    let mut out = format!("\nerror to expect (measured, {page})\n");
+    let mut out = "\nerror to expect (measured, docs/results/tradeoff.md)\n".to_owned();
     // Writing to a string cannot fail.
     let _ = quote(&mut out, &of(case, cell_m));
     out
@@ -174,8 +161,7 @@ fn nearest(key: &[String; 6], cells: f64) -> Option<Measured> {
 }
 
 fn rows() -> impl Iterator<Item = Measured> {
-    let lines = TABLE.lines().skip(1).chain(VOLUME_FRACTION.lines());
-    lines.filter_map(|line| {
+    TABLE.lines().skip(1).filter_map(|line| {
         let words: Vec<&str> = line.split(',').collect();
         let key: [&str; 6] = words.get(..6)?.try_into().ok()?;
         let error = |i: usize| words.get(i)?.parse::<f64>().ok();
@@ -199,8 +185,7 @@ mod tests {
 
     #[test]
     fn every_line_of_the_table_is_a_row_with_the_slit_measured_or_failed() {
-        let lines = TABLE.lines().count() - 1 + VOLUME_FRACTION.lines().count();
-        assert_eq!(rows().count(), lines);
+        assert_eq!(rows().count(), TABLE.lines().count() - 1);
         assert!(rows().any(|row| row.errors[0].is_some()));
         for Measured { key, .. } in rows().filter(|row| row.key[0] == SchemeName::Explicit.name()) {
             VelocityUpdate::named(&key[1]).unwrap();
@@ -215,7 +200,6 @@ mod tests {
             ["explicit", "flip", "", "gimp", "point", "no"],
             ["explicit", "xpic", "5", "gimp", "point", "no"],
             ["implicit", "", "", "", "", ""],
-            ["volume-fraction", "", "", "", "", ""],
         ] {
             let row = nearest(&key(words), 6.4).unwrap();
             assert_eq!(row.cells, 6.0, "{words:?}");

@@ -152,16 +152,15 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
     if let Some(wetting) = &liquid.wetting {
         writeln!(
             out,
-            "  wetting            {:.4} N/m at {:.1} degrees, receding at {:.1}: it is {} with {:.3e} Pa in a slit of six cells",
+            "  wetting            {:.4} N/m at {:.1} degrees: it is {} with {:.3e} Pa in a slit of six cells",
             wetting.tension,
-            wetting.advancing.to_degrees(),
-            wetting.receding.to_degrees(),
-            if wetting.adhesion()[0] >= 0.0 {
+            wetting.contact_angle.to_degrees(),
+            if wetting.adhesion() >= 0.0 {
                 "drawn in"
             } else {
                 "held back"
             },
-            (2.0 * wetting.adhesion()[0] / (6.0 * scene.grid.cell_m)).abs()
+            (2.0 * wetting.adhesion() / (6.0 * scene.grid.cell_m)).abs()
         )?;
     }
     if let Some(water) = &liquid.water {
@@ -231,8 +230,7 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
     writeln!(out, "  end                {end}")?;
     let scheme = match case.integrator.scheme {
         SchemeName::Explicit => "explicit material point method",
-        SchemeName::Implicit => "implicit staggered filling solver",
-        SchemeName::VolumeFraction => "implicit, liquid as volume fractions",
+        SchemeName::Implicit => "implicit, liquid as volume fractions",
     };
     writeln!(out, "  scheme             {scheme}")
 }

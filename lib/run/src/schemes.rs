@@ -1,6 +1,6 @@
 //! The scheme a case asks for, with its settings and its forecast.
 
-use filling::Implicit;
+use implicit::Implicit;
 use mpm::{Explicit, PressureFrom, VelocityUpdate};
 use physics::{Choice, Scene, Scheme};
 
@@ -18,8 +18,7 @@ pub(crate) fn cfl(case: &Case) -> f64 {
 pub(crate) fn default_cfl(case: &Case) -> f64 {
     match case.integrator.scheme {
         SchemeName::Explicit => mpm::Settings::default().cfl,
-        SchemeName::Implicit => filling::Settings::default().cfl,
-        SchemeName::VolumeFraction => implicit::Settings::default().cfl,
+        SchemeName::Implicit => implicit::Settings::default().cfl,
     }
 }
 
@@ -44,15 +43,7 @@ pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFa
                 points: setup.points().collect(),
                 ..scene.clone()
             };
-            Box::new(Implicit::new(scene, implicit(case)?).map_err(RunFailure::Usage)?)
-        }
-        SchemeName::VolumeFraction => {
-            let scene = Scene {
-                points: setup.points().collect(),
-                ..scene.clone()
-            };
-            let scheme = implicit::Implicit::new(&scene, volume_fraction(case)?);
-            Box::new(scheme.map_err(RunFailure::Usage)?)
+            Box::new(Implicit::new(&scene, implicit(case)?).map_err(RunFailure::Usage)?)
         }
     })
 }
@@ -62,7 +53,6 @@ pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailur
     match case.integrator.scheme {
         SchemeName::Explicit => explicit_forecast(&explicit(case, setup.scene.grid.cell_m)?, setup),
         SchemeName::Implicit => Ok(implicit_forecast(&implicit(case)?, setup)),
-        SchemeName::VolumeFraction => Ok(volume_forecast(&volume_fraction(case)?, setup)),
     }
 }
 
@@ -93,7 +83,7 @@ fn explicit(case: &Case, cell: f64) -> Result<mpm::Settings, CaseError> {
     }
     if case.adhesive.dynamic_angle.is_some() {
         return Err(CaseError(
-            "[adhesive] dynamic_angle is for scheme = \"volume-fraction\" only".into(),
+            "[adhesive] dynamic_angle is for scheme = \"implicit\" only".into(),
         ));
     }
     if case.air.is_some() {
@@ -139,17 +129,7 @@ fn explicit(case: &Case, cell: f64) -> Result<mpm::Settings, CaseError> {
     Ok(settings)
 }
 
-fn implicit(case: &Case) -> Result<filling::Settings, CaseError> {
-    if case.adhesive.dynamic_angle.is_some() {
-        return Err(CaseError(
-            "[adhesive] dynamic_angle is for scheme = \"volume-fraction\" only".into(),
-        ));
-    }
-    both_implicit(case)
-}
-
-/// Settings that both implicit schemes have.
-fn both_implicit(case: &Case) -> Result<filling::Settings, CaseError> {
+fn implicit(case: &Case) -> Result<implicit::Settings, CaseError> {
     let table = &case.integrator;
     let stray = [
         (
@@ -175,36 +155,14 @@ fn both_implicit(case: &Case) -> Result<filling::Settings, CaseError> {
             "{key} is for scheme = \"explicit\" only"
         )));
     }
-    let default = filling::Settings::default();
-    let settings = filling::Settings {
+    let default = implicit::Settings::default();
+    let settings = implicit::Settings {
         cfl: cfl(case),
         tolerance: table.tolerance.unwrap_or(default.tolerance),
         air_pressure: case.air.as_ref().map(|air| air.pressure.si()),
         air_leak_time: (case.air.as_ref())
             .and_then(|air| air.leak_time)
             .map_or(default.air_leak_time, |time| time.si()),
-    };
-    settings.check().map_err(CaseError)?;
-    Ok(settings)
-}
-
-/// Settings of the scheme of volume fractions.
-fn volume_fraction(case: &Case) -> Result<implicit::Settings, CaseError> {
-    let settings = both_implicit(case)?;
-    let not_yet = [(
-        case.adhesive.receding_angle.is_some(),
-        "[adhesive] receding_angle",
-    )];
-    if let Some((_, key)) = not_yet.iter().find(|(given, _)| *given) {
-        return Err(CaseError(format!(
-            "{key} is for scheme = \"implicit\" only: scheme = \"volume-fraction\" does not have it yet"
-        )));
-    }
-    let settings = implicit::Settings {
-        cfl: settings.cfl,
-        tolerance: settings.tolerance,
-        air_pressure: settings.air_pressure,
-        air_leak_time: settings.air_leak_time,
         dynamic_angle: case.adhesive.dynamic_angle.unwrap_or_default(),
     };
     settings.check().map_err(CaseError)?;
@@ -283,8 +241,8 @@ fn departures(settings: &mpm::Settings) -> Vec<String> {
     list
 }
 
-fn implicit_forecast(settings: &filling::Settings, setup: &Setup) -> Forecast {
-    let plan = filling::Plan::new(&setup.scene, &setup.liquid, settings);
+fn implicit_forecast(settings: &implicit::Settings, setup: &Setup) -> Forecast {
+    let plan = implicit::Plan::new(&setup.scene, &setup.liquid, settings);
     let mut notes = vec![format!(
         "unknowns           {:.2e} velocities and pressures in {:.2e} liquid cells",
         plan.unknowns, plan.liquid_cells
@@ -310,24 +268,6 @@ fn implicit_forecast(settings: &filling::Settings, setup: &Setup) -> Forecast {
     }
 }
 
-fn volume_forecast(settings: &implicit::Settings, setup: &Setup) -> Forecast {
-    let plan = implicit::Plan::new(&setup.scene, &setup.liquid, settings);
-    Forecast {
-        dt_s: plan.dt_s,
-        limit: "advective, cfl cell/|v|, shorter as the liquid gets faster".into(),
-        steps: plan.steps,
-        // Its step grows as the clamp slows down: what counts is the way.
-        most_steps: plan.steps,
-        memory_bytes: plan.memory_bytes + POINT_BYTES * setup.liquid.points as f64,
-        step_s: plan.cpu_s / plan.steps / rayon::current_num_threads() as f64,
-        notes: vec![format!(
-            "unknowns           {:.2e} velocities and pressures in {:.2e} liquid cells",
-            plan.unknowns, plan.liquid_cells
-        )],
-        stages: plan.stages,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -335,10 +275,10 @@ mod tests {
 
     #[test]
     fn threads_share_the_time_of_an_implicit_run() {
-        let (mut setup, settings) = (setup(), filling::Settings::default());
+        let (mut setup, settings) = (setup(), implicit::Settings::default());
         // Half a cell of 1 um in 50 ns: 20 steps.
         setup.liquid.speed = 10.0;
-        let plan = filling::Plan::new(&setup.scene, &setup.liquid, &settings);
+        let plan = implicit::Plan::new(&setup.scene, &setup.liquid, &settings);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
         let forecast = (pool.unwrap()).install(|| implicit_forecast(&settings, &setup));
         assert!(forecast.steps > 2.0, "{}", forecast.steps);

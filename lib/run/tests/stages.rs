@@ -75,10 +75,6 @@ fn explicit(scene: &Scene, settings: &mpm::Settings) -> Stages {
 }
 
 fn implicit(scene: &Scene) -> Stages {
-    filling::Plan::new(scene, &Amount::default(), &filling::Settings::default()).stages
-}
-
-fn volume_fraction(scene: &Scene) -> Stages {
     implicit::Plan::new(scene, &Amount::default(), &implicit::Settings::default()).stages
 }
 
@@ -107,11 +103,7 @@ fn a_free_drop_needs_next_to_nothing() {
         names,
         [&COMMON[..], &more, &["shear rate of points"]].concat()
     );
-    assert_eq!(
-        implicit(&drop()).present(),
-        ["third dimension", "density projection"]
-    );
-    assert_eq!(volume_fraction(&drop()).present(), ["third dimension"]);
+    assert_eq!(implicit(&drop()).present(), ["third dimension"]);
     let flat = Scene {
         dimensions: Dimensions::Two,
         ..drop()
@@ -135,10 +127,8 @@ fn a_bond_line_has_every_stage_that_is_asked_for() {
     ];
     let all = explicit(&bond(), &settings);
     assert_eq!(all.present(), [&COMMON[..], &own].concat());
-    let own = ["PID", "density projection"];
-    assert_eq!(implicit(&bond()).present(), [&COMMON[..], &own].concat());
     assert_eq!(
-        volume_fraction(&bond()).present(),
+        implicit(&bond()).present(),
         [&COMMON[..], &["PID"]].concat()
     );
 }

@@ -95,7 +95,7 @@ impl Implicit {
         }
         let wetting = setup.liquid.wetting.map(|wetting| Wetting {
             tension: wetting.tension / (setup.units.viscosity * setup.units.cell_m),
-            cosine: wetting.advancing.cos(),
+            cosine: wetting.contact_angle.cos(),
             slowing: setup.settings.dynamic_angle,
             viscosity,
             dt,

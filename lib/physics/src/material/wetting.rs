@@ -1,22 +1,20 @@
-//! Surface tension and contact angle: what draws a liquid into a passage, or keeps it out.
+//! Surface tension and contact angle: what draws a liquid into a pore throat, or keeps it out.
 
 /// How the liquid wets the walls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wetting {
     /// Surface tension sigma, N/m.
     pub tension: f64,
-    /// Contact angle theta of a line that advances, measured in the liquid: below a right angle it wets. Rad, 0 to pi.
-    pub advancing: f64,
-    /// The same of one that recedes, not above it; between both a line rests.
-    pub receding: f64,
+    /// Contact angle theta, measured in the liquid: below a right angle it wets. Rad, 0 to pi.
+    pub contact_angle: f64,
 }
 
 impl Wetting {
-    /// Adhesion tensions sigma cos(theta), N/m, advancing and receding: the force along a wall of a unit of contact line. Times
-    /// the perimeter over the area of a passage it is the pressure jump of a meniscus that spans it
+    /// Adhesion tension sigma cos(theta), N/m: the force along a wall of a unit of contact line. Times
+    /// the perimeter over the area of a throat it is the pressure jump of a meniscus that spans it
     /// (Young 1805, Laplace 1806): 2/r in a tube, 2/H in a slit.
-    pub fn adhesion(&self) -> [f64; 2] {
-        [self.advancing, self.receding].map(|angle| self.tension * angle.cos())
+    pub fn adhesion(&self) -> f64 {
+        self.tension * self.contact_angle.cos()
     }
 }
 
@@ -29,11 +27,9 @@ mod tests {
         let adhesion = |degrees: f64| {
             let wetting = Wetting {
                 tension: 0.05,
-                advancing: degrees.to_radians(),
-                receding: 0.0,
+                contact_angle: degrees.to_radians(),
             };
-            assert_eq!(wetting.adhesion()[1], 0.05);
-            wetting.adhesion()[0]
+            wetting.adhesion()
         };
         assert_eq!(adhesion(0.0), 0.05);
         assert!((adhesion(60.0) - 0.025).abs() < 1e-15 && adhesion(90.0).abs() < 1e-17);

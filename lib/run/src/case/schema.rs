@@ -103,8 +103,6 @@ pub struct Adhesive {
     pub surface_tension: Option<Positive<units::SurfaceTension>>,
     /// Contact angle, measured in the liquid.
     pub contact_angle: Option<units::Quantity<units::Angle>>,
-    /// The same where the contact line recedes.
-    pub receding_angle: Option<units::Quantity<units::Angle>>,
     /// What the cosine of the contact angle loses per capillary number of the front.
     pub dynamic_angle: Option<f64>,
 }
@@ -185,18 +183,13 @@ pub struct Integrator {
 pub enum SchemeName {
     /// The paper's material point method.
     Explicit,
-    /// The staggered filling solver.
+    /// Liquid as volume fractions on a staggered grid that closes with the press.
     Implicit,
-    /// Liquid as volume fractions on a grid that closes with the press: what `Implicit` will be.
-    VolumeFraction,
 }
 
 impl Choice for SchemeName {
-    const NAMED: &'static [(&'static str, Self)] = &[
-        ("explicit", Self::Explicit),
-        ("implicit", Self::Implicit),
-        ("volume-fraction", Self::VolumeFraction),
-    ];
+    const NAMED: &'static [(&'static str, Self)] =
+        &[("explicit", Self::Explicit), ("implicit", Self::Implicit)];
 }
 
 /// `[output]`

@@ -28,31 +28,19 @@ pub(super) fn liquid(adhesive: &Adhesive) -> Result<Liquid, CaseError> {
 
 fn wetting(adhesive: &Adhesive) -> Result<Option<Wetting>, CaseError> {
     let refused = |said: &str| Err(CaseError(format!("[adhesive] {said}")));
-    let receding = adhesive.receding_angle;
     match (adhesive.surface_tension, adhesive.contact_angle) {
         (Some(tension), Some(angle)) => {
-            let (advancing, receding) = (angle.si(), receding.unwrap_or(angle).si());
-            if !(0.0..=std::f64::consts::PI).contains(&advancing) {
+            let contact_angle = angle.si();
+            if !(0.0..=std::f64::consts::PI).contains(&contact_angle) {
                 return refused("contact_angle lies between \"0 deg\" and \"180 deg\"");
-            }
-            if !(0.0..=advancing).contains(&receding) {
-                let degrees = [receding, advancing].map(f64::to_degrees);
-                return refused(&format!(
-                    "receding_angle is {:.1} deg; it lies between \"0 deg\" and contact_angle, {:.1} deg",
-                    degrees[0], degrees[1]
-                ));
             }
             Ok(Some(Wetting {
                 tension: tension.si(),
-                advancing,
-                receding,
+                contact_angle,
             }))
         }
         (None, None) if adhesive.dynamic_angle.is_some() => {
             refused("dynamic_angle goes with surface_tension and contact_angle")
-        }
-        (None, None) if receding.is_some() => {
-            refused("receding_angle goes with surface_tension and contact_angle")
         }
         (None, None) => Ok(None),
         _ => refused("surface_tension and contact_angle go together"),

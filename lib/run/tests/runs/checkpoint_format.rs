@@ -54,20 +54,8 @@ fn a_format_has_one_layout() {
 affine F32, projection F64 3";
     assert_eq!(names, format!("{RUN}, {arrays}"));
 
-    let wetting = [
-        "adhesive.surface_tension=40 mN/m",
-        "adhesive.contact_angle=60 deg",
-    ];
-    let (format, names) = layout(&Bench::new(IMPLICIT, "1.45 us", "0.1 us"), &wetting);
-    assert_eq!(format, "implicit 1, run 1");
-    let arrays = "position F64, velocity F32, volume F32, volume_change F32, shear_rate F32, point U32, \
-displacement F64 6, scalars F64 15, trend F64 3, time F64 1, solids_and_water F64, water F64 5, water_in_walls F32 0, \
-air_pocket U32, air_mass F64 1, air_volume F64 1, air_sums F64 4";
-    assert_eq!(names, format!("{RUN}, {arrays}"));
-
-    let volume_fraction = IMPLICIT.replace("\"implicit\"", "\"volume-fraction\"");
-    let (format, names) = layout(&Bench::new(&volume_fraction, "1.45 us", "0.1 us"), &[]);
-    assert_eq!(format, "volume-fraction 1, run 1");
+    let (format, names) = layout(&Bench::new(IMPLICIT, "1.45 us", "0.1 us"), &[]);
+    assert_eq!(format, "implicit 2, run 1");
     let arrays = "scalars F64 19, rows U32 3, region U32 6, volumes F64, velocities F64, pressures F64, displacement F64 6, \
 air F64, air_counts F64 3, water F64, water_in_walls F64, water_account F64 5";
     assert_eq!(names, format!("{RUN}, {arrays}"));

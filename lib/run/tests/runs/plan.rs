@@ -107,21 +107,12 @@ fn a_pressed_slab_by_the_explicit_scheme() {
 
 #[test]
 fn the_same_by_the_implicit_scheme_and_by_plain_flip() {
-    let said = plan(&IMPLICIT, &[]).unwrap();
-    // sqrt(K / rho) = 912.9 m/s.
     assert_says(
-        &said,
+        &plan(&IMPLICIT, &[]).unwrap(),
         &[
+            // sqrt(K / rho) = 912.9 m/s.
             "sound waves Mach 2.2e-3",
-            "shear rate of points between snapshots known where a state is written",
-        ],
-    );
-    // A cell at the speed of the plate.
-    assert_says(&said, &["time step 1.0000e-6 s, set by advective"]);
-    let anew = [("\"explicit\"", "\"volume-fraction\""), IMPLICIT[1]];
-    assert_says(
-        &plan(&anew, &[]).unwrap(),
-        &[
+            // A cell at the speed of the plate.
             "time step 1.0000e-6 s, set by advective",
             // One and a half cells of travel, 1.8 times.
             "steps about 3",

@@ -93,49 +93,12 @@ fn what_contradicts_itself_is_refused() {
         ),
         (
             &[IMPLICIT[0], IMPLICIT[1]],
-            &[
-                "adhesive.surface_tension=50 mN/m",
-                "adhesive.contact_angle=60 deg",
-                "adhesive.receding_angle=61 deg",
-            ],
-            "receding_angle is 61.0 deg; it lies between \"0 deg\" and contact_angle, 60.0 deg",
-        ),
-        (
-            &[IMPLICIT[0], IMPLICIT[1]],
-            &["adhesive.receding_angle=20 deg"],
-            "receding_angle goes with surface_tension",
-        ),
-        (
-            &[IMPLICIT[0], IMPLICIT[1]],
-            &[
-                "adhesive.surface_tension=50 mN/m",
-                "adhesive.contact_angle=60 deg",
-                "adhesive.dynamic_angle=5",
-            ],
-            "dynamic_angle is for scheme = \"volume-fraction\" only",
-        ),
-        (
-            &[IMPLICIT[0], IMPLICIT[1]],
-            &[
-                "integrator.scheme=volume-fraction",
-                "adhesive.surface_tension=50 mN/m",
-                "adhesive.contact_angle=60 deg",
-                "adhesive.receding_angle=20 deg",
-            ],
-            "[adhesive] receding_angle is for scheme = \"implicit\" only",
-        ),
-        (
-            &[IMPLICIT[0], IMPLICIT[1]],
-            &[
-                "integrator.scheme=volume-fraction",
-                "adhesive.dynamic_angle=5",
-            ],
+            &["adhesive.dynamic_angle=5"],
             "dynamic_angle goes with surface_tension",
         ),
         (
             &[IMPLICIT[0], IMPLICIT[1]],
             &[
-                "integrator.scheme=volume-fraction",
                 "adhesive.surface_tension=50 mN/m",
                 "adhesive.contact_angle=60 deg",
                 "adhesive.dynamic_angle=-1",

@@ -50,7 +50,6 @@ pub(super) const ADHESIVE: Table = Table {
         },
         wetting::SURFACE_TENSION,
         wetting::CONTACT_ANGLE,
-        wetting::RECEDING_ANGLE,
         wetting::DYNAMIC_ANGLE,
     ],
 };

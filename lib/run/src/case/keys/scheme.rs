@@ -18,7 +18,7 @@ pub(super) const INTEGRATOR: Table = Table {
             name: "scheme",
             form: choice::<SchemeName>,
             absent: Absent::Needed("always"),
-            text: "`\"explicit\"`: the paper's material point method. `\"implicit\"`: pressure and viscosity solved for, walls at the voxel faces: for results, and for anything slower than 1 m/s. `\"volume-fraction\"`: the implicit scheme with the liquid as volume fractions on a grid that closes with the press, which is to take its place; without angles that differ as a front recedes, and for walls on the faces of cells or half way between them.",
+            text: "`\"explicit\"`: the paper's material point method. `\"implicit\"`: pressure and viscosity solved for, the liquid as volume fractions on a grid that closes with the press, walls at the voxel faces, on faces of cells or half way between them: for results, and for anything slower than 1 m/s.",
         },
         Key {
             name: "velocity_update",
@@ -61,7 +61,7 @@ pub(super) const INTEGRATOR: Table = Table {
             form: || "1e-8 to 1e-2".into(),
             absent: Absent::Of("1e-3", |case, _| {
                 let used = case.integrator.scheme != SchemeName::Explicit;
-                used.then(|| format!("{:?}", filling::Settings::default().tolerance))
+                used.then(|| format!("{:?}", implicit::Settings::default().tolerance))
             }),
             text: "Implicit scheme: relative residual at which a step's linear solve ends. 1e-3 keeps forces to 0.1 to 0.3 %; 1e-4 is for verification.",
         },

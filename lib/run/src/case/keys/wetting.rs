@@ -8,7 +8,7 @@ pub(super) const SURFACE_TENSION: Key = Key {
     name: "surface_tension",
     form: quantity::<SurfaceTension>,
     absent: Absent::Nothing("not used: the liquid's surface pulls nowhere"),
-    text: "Surface tension: with `contact_angle` it draws the liquid into lumens, also after the press is released; implicit schemes. 0.03 to 0.07 N/m for wood adhesives.",
+    text: "Surface tension: with `contact_angle` it draws the liquid into lumens, also after the press is released; implicit scheme. 0.03 to 0.07 N/m for wood adhesives.",
 };
 
 pub(super) const CONTACT_ANGLE: Key = Key {
@@ -18,16 +18,9 @@ pub(super) const CONTACT_ANGLE: Key = Key {
     text: "Contact angle on the cell wall, measured in the liquid: `\"0 deg\"` wets fully, above `\"90 deg\"` lumens keep the liquid out until it is pressed in. Goes with `surface_tension`.",
 };
 
-pub(super) const RECEDING_ANGLE: Key = Key {
-    name: "receding_angle",
-    form: quantity::<Angle>,
-    absent: Absent::Nothing("that of `contact_angle`"),
-    text: "Contact angle of a front that recedes, not above `contact_angle`, which is then that of one that advances: between both it rests; not for `scheme = \"volume-fraction\"`. Steps cost three to four times as much.",
-};
-
 pub(super) const DYNAMIC_ANGLE: Key = Key {
     name: "dynamic_angle",
     form: || "number, at least 0".into(),
     absent: Absent::Nothing("0: the angle does not depend on the speed"),
-    text: "k of cos(angle) = cos(`contact_angle`) - k Ca where a front goes by Ca = viscosity x speed/`surface_tension`, between 0 and 180 degrees: what moves its contact line. `scheme = \"volume-fraction\"` only. As much as k/8 of its diameter more length of a tube, k/6 of its width of a slit: without it lumens fill too fast until they are filled many times deeper. Glycerol in glass tubes has 88; of adhesives on wood none is measured.",
+    text: "k of cos(angle) = cos(`contact_angle`) - k Ca where a front goes by Ca = viscosity x speed/`surface_tension`, between 0 and 180 degrees: what moves its contact line. As much as k/8 of its diameter more length of a tube, k/6 of its width of a slit: without it lumens fill too fast until they are filled many times deeper. Glycerol in glass tubes has 88; of adhesives on wood none is measured.",
 };
