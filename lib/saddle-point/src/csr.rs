@@ -170,16 +170,6 @@ impl<T: Real> Csr<T> {
         diagonal
     }
 
-    /// Its first `n` rows, at most all.
-    #[must_use]
-    pub fn first_rows(mut self, n: usize) -> Self {
-        self.row_start.truncate(n + 1);
-        let entries = self.row_start.last().map_or(0, |&end| end as usize);
-        self.columns.truncate(entries);
-        self.values.truncate(entries);
-        self
-    }
-
     /// The transposed matrix.
     pub fn transpose(&self) -> Self {
         let mut row_start = vec![0u32; self.n_columns + 1];

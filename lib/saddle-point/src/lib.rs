@@ -1,8 +1,7 @@
 //! Linear solver of the saddle-point systems of viscous flow on staggered grids.
 //!
 //! It solves `[A, -G^T; -G, -C] [u; p] = [b; -g]` for face velocities and cell pressures
-//! ([`SaddleSolver`]), the same with one more unknown, the speed of a body under a known force
-//! ([`Load`]), and the scalar Poisson problem `G W G^T + C` alone ([`Poisson`]).
+//! ([`SaddleSolver`]), and the same with one more unknown, the speed of a body under a known force ([`Load`]).
 //! Matrices are assembled row by row with [`Csr::assemble`]. Every result is bit-identical for any
 //! number of threads: work is split into fixed ranges of rows, and sums are added in their order.
 
@@ -16,9 +15,7 @@ mod measure;
 mod options;
 mod orthogonal;
 mod packed;
-mod pcg;
 mod pockets;
-mod poisson;
 mod preconditioner;
 mod saddle;
 mod schur;
@@ -33,7 +30,6 @@ pub use cause::Cause;
 pub use csr::{Csr, RowEntries};
 pub use load::Load;
 pub use options::{SaddleOptions, SaddleReport};
-pub use poisson::Poisson;
 pub use saddle::SaddleSolver;
 pub use system::SaddleSystem;
 pub use vector::Real;

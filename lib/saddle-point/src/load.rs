@@ -50,7 +50,7 @@ impl Load {
     }
 
     /// Whether the body's motion meets any resistance: a body that no liquid touches does not.
-    pub fn is_felt(&self) -> bool {
+    pub(crate) fn is_felt(&self) -> bool {
         let acts = |values: &[f64]| values.iter().any(|v| *v != 0.0);
         self.resistance != 0.0 || acts(&self.momentum) || acts(&self.source)
     }

@@ -3,9 +3,6 @@
 use crate::csr::Csr;
 use crate::vector::Real;
 
-/// A row sum below this fraction of the diagonal counts as zero.
-const ROUNDING: f64 = 1e-12;
-
 /// The connected components of the rows of a matrix on which the entries sum to nothing, or next to it, so
 /// that a constant is in the null space, or nearly.
 pub(crate) struct ClosedPockets {
@@ -13,16 +10,6 @@ pub(crate) struct ClosedPockets {
 }
 
 impl ClosedPockets {
-    /// Those in all of whose rows the sum is zero.
-    pub(crate) fn find(matrix: &Csr<f64>) -> Self {
-        Self::of(matrix, |pocket| {
-            (pocket.iter()).all(|&row| {
-                let (sum, diagonal) = sum_and_diagonal(matrix, row);
-                sum.abs() <= ROUNDING * diagonal
-            })
-        })
-    }
-
     /// The components that `closed` finds so.
     pub(crate) fn of(matrix: &Csr<f64>, closed: impl Fn(&[u32]) -> bool) -> Self {
         let n = matrix.n_rows();
@@ -95,22 +82,4 @@ fn flood(matrix: &Csr<f64>, reached: &mut [bool], first: u32) -> Vec<u32> {
         }
     }
     found
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Two cells, and the part of the diagonal by which the sum of the second row is not zero.
-    #[test]
-    fn a_row_sum_of_rounding_closes_a_pocket() {
-        let pockets = |part: f64| {
-            let matrix = Csr::assemble(2, 2, |row, entries| {
-                entries.add(row, if row == 0 { 1.0 } else { 1.0 + part });
-                entries.add(1 - row, -1.0);
-            });
-            ClosedPockets::find(&matrix.unwrap()).members.len()
-        };
-        assert_eq!([0.0, 0.75e-12, 1.5e-12].map(pockets), [1, 1, 0]);
-    }
 }

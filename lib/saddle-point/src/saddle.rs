@@ -29,11 +29,6 @@ impl SaddleSolver {
         }
     }
 
-    /// Asks for another tolerance from now on.
-    pub fn set_tolerance(&mut self, tolerance: f64) {
-        self.options.tolerance = tolerance;
-    }
-
     /// Solves `system` by flexible GMRES from the guess in `u` (one per face) and `p` (one per
     /// cell), which take the solution. The preconditioner is block lower triangular: a Chebyshev
     /// polynomial in `A` for the velocities, then a friction Poisson cycle plus local viscosity for

@@ -3,7 +3,6 @@
 use crate::SolveError;
 use crate::amg::{Amg, Workspace};
 use crate::csr::Csr;
-use crate::poisson::operator;
 use crate::sealed::Sealed;
 use crate::system::SaddleSystem;
 use crate::vector::{Real, Work, for_chunks};
@@ -101,4 +100,24 @@ fn viscous_part(system: &SaddleSystem) -> Vec<Work> {
         Work::nearest(whole - 1.0 / (c + friction))
     };
     system.two_eta.iter().enumerate().map(part).collect()
+}
+
+/// `G W G^T + C`.
+fn operator(
+    g: &Csr<f64>,
+    g_transposed: &Csr<f64>,
+    weight: &[f64],
+    c: &[f64],
+) -> Result<Csr<f64>, SolveError> {
+    Csr::assemble(g.n_rows(), g.n_rows(), |cell, entries| {
+        entries.add(cell, c[cell]);
+        let (faces, fluxes) = g.row(cell);
+        for (&face, &flux) in faces.iter().zip(fluxes) {
+            let along = flux * weight[face as usize];
+            let (cells, values) = g_transposed.row(face as usize);
+            for (&other, &value) in cells.iter().zip(values) {
+                entries.add(other as usize, along * value);
+            }
+        }
+    })
 }

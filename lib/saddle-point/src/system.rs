@@ -97,7 +97,7 @@ impl SaddleSystem<'_> {
 
     /// Force of slow flow at a face by its friction, without what holds it to walls and at most by that of a cell of liquid of
     /// viscosity `eta_0`: thicker liquid would outweigh the rest.
-    pub fn slow_force(&self, face: usize) -> f64 {
+    pub(crate) fn slow_force(&self, face: usize) -> f64 {
         let holding = self.holding.get(face).copied().unwrap_or_default();
         self.slow * (self.friction[face] - holding).clamp(0.0, 1.0)
     }

@@ -24,7 +24,7 @@ pub struct Method {
 pub enum Scheme {
     /// The paper's material point method.
     Explicit,
-    /// The staggered filling solver.
+    /// Liquid as volume fractions on a staggered grid.
     Implicit,
 }
 

@@ -3,7 +3,6 @@
 
 mod dense;
 mod failures;
-mod poisson;
 #[path = "../pseudo_wood/mod.rs"]
 mod pseudo_wood;
 mod sizes;

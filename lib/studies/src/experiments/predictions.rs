@@ -5,17 +5,13 @@ use crate::job::write_text;
 use crate::method::{Method, Scheme};
 use crate::study::{Study, side_by_side};
 
-/// Schemes that predict, by their names in case files: one that is gone is taken out here.
-pub const SCHEMES: [&str; 2] = ["volume-fraction", "implicit"];
 /// Cells of the height of the liquid at the start: as predicted, and for the error by the size of the cells.
 pub const CELLS: [u32; 2] = [4, 6];
 
-/// An experiment as a scheme predicts it.
+/// An experiment as the implicit scheme predicts it.
 pub struct Prediction {
     /// The experiment.
     pub experiment: Experiment,
-    /// The scheme.
-    pub scheme: &'static str,
     /// Cells of the height at the start.
     pub cells: u32,
     /// The measured radii and their predictions.
@@ -58,36 +54,28 @@ pub fn run(study: &Study) -> Result<Vec<Prediction>, String> {
     let mut wanted = Vec::new();
     for experiment in experiments()? {
         if study.wants(&experiment.name) {
-            wanted.extend(SCHEMES.map(|scheme| (experiment.clone(), scheme, CELLS[0])));
-            wanted.push((experiment, SCHEMES[0], CELLS[1]));
+            wanted.extend(CELLS.map(|cells| (experiment.clone(), cells)));
         }
     }
-    let done = side_by_side(&wanted, |(experiment, scheme, cells)| {
-        predicted(study, experiment, scheme, *cells)
+    let done = side_by_side(&wanted, |(experiment, cells)| {
+        predicted(study, experiment, *cells)
     });
     done.into_iter().collect()
 }
 
-fn predicted(
-    study: &Study,
-    experiment: &Experiment,
-    scheme: &'static str,
-    cells: u32,
-) -> Result<Prediction, String> {
-    let name = format!("{}-{scheme}-{cells}", experiment.name);
+fn predicted(study: &Study, experiment: &Experiment, cells: u32) -> Result<Prediction, String> {
+    let name = format!("{}-{cells}", experiment.name);
     let case = study.folder().join(format!("{name}.toml"));
     write_text(
         &case,
         &experiment.case(cells).text(Scheme::Implicit.integrator()),
     )?;
-    let method = Method::implicit().setting(format!("integrator.scheme=\"{scheme}\""));
-    let run = method.run(&case, &study.folder().join(&name), &[])?;
+    let run = Method::implicit().run(&case, &study.folder().join(&name), &[])?;
     let cpu_s = run.summary("cpu_s").unwrap_or(f64::NAN);
     println!("{name:<32} {cpu_s:6.1} s");
     Ok(Prediction {
         points: points(experiment, &experiment.radii(&run)?),
         experiment: experiment.clone(),
-        scheme,
         cells,
         cpu_s,
     })

@@ -167,9 +167,7 @@ fn pressed(folder: &Path, piece: &Piece) -> Result<Pressed, String> {
             "--quiet", &wood, "--plane", &plane, "--slab", &slab, "-o", &bond,
         ],
     )?;
-    let method = Method::implicit()
-        .setting("integrator.scheme=\"volume-fraction\"")
-        .setting(format!("clamp.travel=\"{TRAVEL} um\""));
+    let method = Method::implicit().setting(format!("clamp.travel=\"{TRAVEL} um\""));
     let case = Path::new("pipelines/cases/pf-implicit.toml");
     let run = method.run(case, Path::new(&path("")), &["--particles", &bond])?;
     let (bottom, top) = (
@@ -202,7 +200,7 @@ fn section(pieces: &[Piece], done: &[Result<Pressed, String>], real: bool) -> St
     let mut out = format!(
         "\n## A press of real spruce beside synthetic spruce\n\n\
          `synth-xct --adhesive none --species spruce --size {nx}x{ny}x{nz} --grain-angle \"{GRAIN} deg\"`, cut in the middle and bonded again with {SLAB} um of PF (`pipelines/cases/pf-implicit.toml`,\n\
-         `scheme = \"volume-fraction\"`, closed by {TRAVEL} um or as far as 2.5 MPa do), seeds 1 to {PIECES}; and pieces of the measured section by their distance along the rays, spread over its six rings: measured cells\n\
+         closed by {TRAVEL} um or as far as 2.5 MPa do), seeds 1 to {PIECES}; and pieces of the measured section by their distance along the rays, spread over its six rings: measured cells\n\
          at their places, borders by the power diagram of their circles, lumens of the measured areas, extruded along the same grain. Opened: how deep the cut opens lumens, the mean of each side.\n\n\
          | wood | lumens below, above | opened (um) | WP bottom / top / total (um) | most pressure (MPa) | closed (um) | CPU s |\n|---|---|---|---|---|---|---|\n"
     );

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use figures::{Mark, Plot};
 
-use super::predictions::{CELLS, Point, Prediction, SCHEMES};
+use super::predictions::{CELLS, Point, Prediction};
 use crate::study::{Study, distinct};
 
 /// From this time on (s) points of thinning liquid are to be within [`NEAR`].
@@ -51,17 +51,14 @@ impl Errors {
     }
 }
 
-/// Predictions of a scheme in cells of a number.
-fn of<'a>(all: &'a [Prediction], scheme: &str, cells: u32) -> Vec<&'a Prediction> {
-    let own = all
-        .iter()
-        .filter(|p| p.scheme == scheme && p.cells == cells);
-    own.collect()
+/// Predictions with a number of cells over the first height.
+fn of(all: &[Prediction], cells: u32) -> Vec<&Prediction> {
+    all.iter().filter(|p| p.cells == cells).collect()
 }
 
-/// Whether the scheme that comes first meets the goals.
+/// Whether the predictions in the larger cells meet the goals.
 pub fn sound(all: &[Prediction]) -> bool {
-    let first = of(all, SCHEMES[0], CELLS[0]);
+    let first = of(all, CELLS[0]);
     let thinning = Errors::of(&first, |p, q| p.experiment.liquid.thins() && q.time > FROM);
     let trusted = first.iter().filter(|p| p.experiment.name != DOUBTED);
     let mut deviations = trusted.flat_map(|p| &p.points).map(Point::deviations);
@@ -74,21 +71,18 @@ pub fn sound(all: &[Prediction]) -> bool {
 /// The system's reason, or what a figure lacks.
 pub fn write(study: &Study, all: &[Prediction]) -> Result<String, String> {
     let row = |p: &Prediction, q: &Point| {
-        let mut row = vec![
-            p.experiment.name.clone(),
-            p.scheme.into(),
-            p.cells.to_string(),
-        ];
+        let mut row = vec![p.experiment.name.clone(), p.cells.to_string()];
         row.extend([q.time, q.measured[0], q.measured[1], q.predicted].map(|x| format!("{x:.5e}")));
         row.extend([q.error(), q.by_inputs, q.deviations()].map(|x| format!("{x:.4}")));
         row
     };
     study.write_csv(
         "experiments-squeeze.csv",
-        "case,scheme,cells,time_s,measured_m,deviation_m,predicted_m,error,deviation_by_inputs,deviations",
-        all.iter().flat_map(|p| p.points.iter().map(move |q| row(p, q))),
+        "case,cells,time_s,measured_m,deviation_m,predicted_m,error,deviation_by_inputs,deviations",
+        all.iter()
+            .flat_map(|p| p.points.iter().map(move |q| row(p, q))),
     )?;
-    let first = of(all, SCHEMES[0], CELLS[0]);
+    let first = of(all, CELLS[0]);
     for liquid in distinct(first.iter().map(|p| p.experiment.liquid.name)) {
         let file = format!("experiments-squeeze-{}.png", liquid.to_lowercase());
         let drawing = plot(&first, liquid).draw().and_then(|d| d.to_png());
@@ -124,14 +118,13 @@ fn section(all: &[Prediction]) -> String {
          Discs of liquid between a plate at rest and one that a constant force brings down, eight cases with ten repeats each;\n\
          radii, volumes, forces and viscosities by rheometer from s152754/PhDproject\n\
          ([which version](../../lib/studies/reference/README.md#squeeze-flow-and-lumens-that-others-measured); no licence file: numbers only). Blind: nothing is fitted. The radius is that of the volume over the gap.\n\n\
-         | scheme, cells of the first height | points | radii | rms | range |\n|---|---|---|---|---|\n",
+         | cells of the first height | points | radii | rms | range |\n|---|---|---|---|---|\n",
     );
-    let runs = SCHEMES.map(|scheme| (scheme, CELLS[0]));
-    for (scheme, cells) in runs.into_iter().chain([(SCHEMES[0], CELLS[1])]) {
-        let own = of(all, scheme, cells);
+    for cells in CELLS {
+        let own = of(all, cells);
         let mut line = |what: &str, wanted: &dyn Fn(&Prediction, &Point) -> bool| {
             let errors = Errors::of(&own, wanted);
-            let _ = writeln!(out, "| {scheme}, {cells} | {what} | {} |", errors.text());
+            let _ = writeln!(out, "| {cells} | {what} | {} |", errors.text());
         };
         line("all", &|_, _| true);
         line("from 0.1 s", &|_, q| q.time > FROM);
@@ -140,12 +133,12 @@ fn section(all: &[Prediction]) -> String {
             p.experiment.liquid.thins() && q.time > FROM
         });
     }
-    let first = of(all, SCHEMES[0], CELLS[0]);
+    let first = of(all, CELLS[0]);
     let _ = write!(
         out,
-        "\nBy case, {}, {} cells; deviations: most of the error over the deviation of repeats and inputs.\n\n\
+        "\nBy case, {} cells; deviations: most of the error over the deviation of repeats and inputs.\n\n\
          | case | radii | rms | range | deviations |\n|---|---|---|---|---|\n",
-        SCHEMES[0], CELLS[0]
+        CELLS[0]
     );
     for p in &first {
         let errors = Errors::of(&[p], |_, _| true);

@@ -8,7 +8,7 @@ use super::{
     washburn, water, wicking,
 };
 use crate::case_text::PF;
-use crate::method::Method;
+use crate::method::{Method, Scheme};
 
 /// A scene with its methods.
 pub type Entry = (Scene, Vec<Method>);
@@ -18,6 +18,15 @@ const DEVELOPED: f64 = 0.001;
 
 /// Offsets of walls from the nodes, cells.
 const OFFSETS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+
+/// Those that the implicit scheme takes: walls on faces of cells and half way between.
+const HALVES: [f64; 2] = [0.0, 0.5];
+
+/// The methods that take walls at `offset` cells from the nodes.
+fn that_take(offset: f64, methods: Vec<Method>) -> Vec<Method> {
+    let takes = |method: &Method| method.scheme != Scheme::Implicit || HALVES.contains(&offset);
+    methods.into_iter().filter(takes).collect()
+}
 
 /// The implicit scheme with steps short enough for what happens between rest and steady flow:
 /// at the usual Courant number the first step is as long as the whole run, and its backward Euler
@@ -70,11 +79,12 @@ fn films() -> Vec<Entry> {
         } else {
             0.1 * incline::PAPER_TIME
         };
-        (incline::scene(6, offset, until), main_methods(FILM))
+        let methods = that_take(offset, main_methods(FILM));
+        (incline::scene(6, offset, until), methods)
     };
     let mut list: Vec<Entry> = OFFSETS.into_iter().map(film).collect();
     for n in [3, 12] {
-        for offset in [0.0, 0.5] {
+        for offset in HALVES {
             let scene = incline::scene(n, offset, 0.1 * incline::PAPER_TIME);
             list.push((scene, vec![short_steps(FILM)]));
         }
@@ -91,12 +101,13 @@ fn channels() -> Vec<Entry> {
             } else {
                 vec![Method::xpic(5), short_steps(DEVELOPED)]
             };
-            list.push((channel::scene(n, offset, None, 3e-6), methods));
+            let scene = channel::scene(n, offset, None, 3e-6);
+            list.push((scene, that_take(offset, methods)));
         }
     }
     for offset in [0.0, 0.25, 0.5] {
         let scene = channel::scene(6, offset, Some(0.1), 3e-6);
-        list.push((scene, main_methods(DEVELOPED)));
+        list.push((scene, that_take(offset, main_methods(DEVELOPED))));
     }
     for n in [3, 6, 12, 24] {
         let mut methods = vec![short_steps(DEVELOPED)];
@@ -114,7 +125,8 @@ fn channels() -> Vec<Entry> {
         list.push((scene, vec![short_steps(DEVELOPED)]));
     }
     for offset in OFFSETS {
-        list.push((couette::scene(6, offset, 0.1, 3e-6), main_methods(0.01)));
+        let methods = that_take(offset, main_methods(0.01));
+        list.push((couette::scene(6, offset, 0.1, 3e-6), methods));
     }
     for n in [3, 12] {
         list.push((couette::scene(n, 0.0, 0.1, 3e-6), vec![short_steps(0.01)]));
@@ -149,20 +161,14 @@ fn filling() -> Vec<Entry> {
     let mut list = Vec::new();
     for n in [3, 6, 12] {
         for offset in [[0.0, 0.0], [0.25, 0.0], [0.5, 0.0], [0.0, 0.5]] {
-            let explicit = n == 6 && offset[1] == 0.0 && offset[0] < 0.4;
-            let methods = if explicit {
-                vec![
-                    Method::flip(),
-                    Method::xpic(5),
-                    Method::apic(),
-                    Method::implicit(),
-                ]
-            } else {
-                implicit()
-            };
+            let mut methods = that_take(offset[0], implicit());
+            if n == 6 && offset[1] == 0.0 && offset[0] < 0.4 {
+                methods.extend([Method::flip(), Method::xpic(5), Method::apic()]);
+            }
             list.push((slit::scene(n, offset), methods));
         }
     }
+    list.retain(|(_, methods)| !methods.is_empty());
     for section in [Section::Square, Section::Round(2)] {
         for n in [3, 6, 12] {
             let mut methods = implicit();
@@ -174,7 +180,7 @@ fn filling() -> Vec<Entry> {
         }
     }
     for n in [3, 6, 12] {
-        for offset in [0.0, 0.25, 0.5] {
+        for offset in HALVES {
             list.push((washburn::scene(n, offset), implicit()));
         }
     }
@@ -204,7 +210,7 @@ fn filling() -> Vec<Entry> {
 fn menisci() -> Vec<Entry> {
     let mut list = Vec::new();
     for n in [3, 6, 12] {
-        for offset in [[0.0, 0.0], [0.25, 0.0], [0.5, 0.0], [0.0, 0.5]] {
+        for offset in [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]] {
             list.push((wicking::slit_scene(n, offset, 60.0), implicit()));
         }
     }
@@ -215,7 +221,7 @@ fn menisci() -> Vec<Entry> {
         list.push((wicking::tube_scene(6, degrees), implicit()));
     }
     for n in [6, 12] {
-        for (offset, degrees) in [(0.0, 0.0), (0.25, 60.0), (0.5, 120.0)] {
+        for (offset, degrees) in [(0.0, 0.0), (0.0, 60.0), (0.5, 120.0)] {
             list.push((jurin::scene(n, offset, degrees), implicit()));
         }
     }
@@ -252,11 +258,11 @@ fn squeezing() -> Vec<Entry> {
     let mut list = Vec::new();
     for n in [2, 3, 6] {
         for offset in OFFSETS {
-            list.push((squeeze::scene(n, offset), with(n == 6)));
+            list.push((squeeze::scene(n, offset), that_take(offset, with(n == 6))));
         }
     }
     for n in [2, 3, 6] {
-        for offset in [0.0, 0.5] {
+        for offset in HALVES {
             list.push((disc::scene(8, n, offset), with(n == 3 && offset == 0.0)));
         }
     }
@@ -294,7 +300,7 @@ fn invariants() -> Vec<Entry> {
     for voxels in [1, 2] {
         for offset in OFFSETS {
             let methods = vec![Method::flip(), Method::xpic(2), Method::implicit()];
-            list.push((sealed::scene(voxels, offset), methods));
+            list.push((sealed::scene(voxels, offset), that_take(offset, methods)));
         }
     }
     list.push((
