@@ -217,6 +217,15 @@ fn however_it_lies(
     }
 }
 
+/// Both show the same, to the last bit.
+fn assert_same(one: &LiquidState, other: &LiquidState) {
+    assert_eq!(one.position, other.position);
+    assert_eq!(one.volume, other.volume);
+    assert_eq!(one.pressure, other.pressure);
+    assert_eq!(one.velocity, other.velocity);
+    assert_eq!(one.shear_rate, other.shear_rate);
+}
+
 /// Volume of the liquid without its pressure.
 fn at_rest(scene: &Scene, liquid: &LiquidState) -> f64 {
     (liquid.volume.iter().zip(&liquid.pressure))
@@ -266,6 +275,7 @@ fn a_run_that_was_stopped_goes_on_to_the_same_end_on_any_number_of_threads() {
     on(1, &mut || drop(press(&mut whole, 2)));
     let mut resumed = new(&scene);
     resumed.restore(&whole.save()).unwrap();
+    assert_same(&resumed.liquid(), &whole.liquid());
     on(1, &mut || drop(press(&mut whole, usize::MAX)));
     on(2, &mut || drop(press(&mut resumed, usize::MAX)));
     assert!(whole.save() == resumed.save());

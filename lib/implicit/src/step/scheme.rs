@@ -47,9 +47,15 @@ impl Scheme for Implicit {
         let (setup, state) = (&self.setup, &self.state);
         let convention = (setup.liquid.shear_rate, setup.influence_length());
         let flow = &state.flow;
+        // Those of the last step are of the gap at its middle.
+        let mut links = self.links.clone();
+        let fractions: Vec<f64> = (state.volumes.iter().enumerate())
+            .map(|(pore, volume)| volume / self.mesh.volume(pore))
+            .collect();
+        setup.measure(&mut links, &self.mesh, &fractions);
         let rates = Rates::of(
             &self.mesh,
-            &self.links,
+            &links,
             &self.edges,
             &flow.velocity,
             flow.speed,

@@ -42,7 +42,7 @@ impl Link {
 }
 
 /// The links of all faces of a mesh.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Links(pub(crate) Vec<Link>);
 
 /// What walls are like in a scene.
