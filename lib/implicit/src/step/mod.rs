@@ -29,9 +29,10 @@ use water::Wet;
 
 pub(crate) use water::DRIED;
 
-/// Attempts at a step of acceptable length.
+/// Attempts at a step of acceptable length; the second nearly always is.
 const ATTEMPTS: usize = 8;
-/// Excess over the Courant number that a step may have, and the part of it that the next attempt aims at.
+/// Excess over the Courant number that a step may have, and the part of it that the next attempt aims at: so few steps are
+/// solved twice.
 const EXCESS: f64 = 1.1;
 const AIM: f64 = 0.95;
 /// Most by which flow is expected to go on growing: a flow that starts is no trend.
@@ -40,9 +41,10 @@ const FORESEEN: f64 = 1.25;
 /// two in a step.
 const MARGIN: usize = 4;
 const LEAST_MARGIN: usize = 2;
-/// Most that cure changes ln(viscosity) by in a step.
+/// Most that cure changes ln(viscosity) by in a step: its middle then differs from the mean of 1/viscosity by 0.17 %.
 pub(crate) const CURED: f64 = 0.2;
-/// Fraction of the faces, the fastest, that the Courant number ignores, and the cells that they cross at most.
+/// Fraction of the faces, the fastest, that the Courant number ignores, jets through holes of a voxel, and the cells that
+/// they cross at most.
 const JETS: f64 = 1e-3;
 const JET_CFL: f64 = 1.5;
 /// Most that a step grows by where menisci are held.

@@ -19,7 +19,8 @@ use crate::water::Exchange;
 
 /// Part of the travel that is left from which on a step that covers it is made to end it.
 const NEAR: f64 = 0.7;
-/// Part of it by which a step may miss the end and still is there, and solves that bring it nearer.
+/// Part of it by which a step may miss the end and still is there, or the rest would be taken in ever smaller steps, and
+/// solves that bring it nearer: a held speed settles in one or two where it settles at all.
 const MISSED: f64 = 1e-3;
 /// Travel, cells, that counts as none: surfaces of voxels are known less well, and a film under a pressure never ends.
 const NOTHING: f64 = 1e-2;
