@@ -179,7 +179,7 @@ impl Implicit {
         Err(self.no_step(dries))
     }
 
-    /// Makes the mesh anew where the gap has fewer rows now, or the liquid has come near its end.
+    /// Makes the mesh anew where the gap has other rows now, or the liquid has come near its end.
     fn fit_mesh(&mut self) {
         self.mesh.set_height(self.height);
         let mesh = &self.mesh;
@@ -196,8 +196,7 @@ impl Implicit {
         {
             return;
         }
-        let removed = mesh.rows().gap - rows.gap;
-        let end = wet_rows.end.saturating_sub(removed).max(wet_rows.start) + MARGIN;
+        let end = (wet_rows.end + rows.gap - mesh.rows().gap).max(wet_rows.start) + MARGIN;
         let near = wet_rows.start.saturating_sub(MARGIN)..end.min(rows.len());
         let (range, region) = match self.setup.gas {
             None => {
@@ -271,7 +270,11 @@ impl Implicit {
             }
         });
         let dt = dt.min(wets);
-        let left = self.left(limit) / self.state.flow.speed.max(f64::MIN_POSITIVE);
+        let left = match self.left(limit) {
+            left if left > 0.0 => left / self.state.flow.speed.max(f64::MIN_POSITIVE),
+            // The clamp is where it was to go.
+            _ => f64::INFINITY,
+        };
         dt.min(limit.time_s).min(left)
     }
 
@@ -297,7 +300,7 @@ impl Implicit {
         let middle = self.mesh.rows().height;
         if self.setup.lattice.moving.is_some() {
             let height = self.height - travel;
-            self.height = if height > CLOSED { height } else { 0.0 };
+            self.height = if height > CLOSED { height } else { 0.0 }.max(self.least_height());
         }
         self.mesh.set_height(self.height);
         let capacities = self.capacities();
