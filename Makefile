@@ -29,7 +29,6 @@
 #   make faults                   inputs that were once read wrongly; BASE=folder: beside an older build
 #   make fuzz                     coverage-guided attack on every reader, FUZZ_SECONDS (600) each
 #   make mutants                  changes of the code that no test notices, MUTANTS (100) a crate
-#   make constants                half and twice each numerical constant: tests, small runs
 #   make deny                     advisories, licences and sources of the dependencies
 #   make pins                     fingerprints of thirty small runs, to compare builds by
 #   make bench                    cost per cell and step, memory; BASE=folder: beside an older build

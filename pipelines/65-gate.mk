@@ -30,10 +30,3 @@ mutants:
 .PHONY: pins
 pins: $(BINARIES)
 	@pipelines/gate/pins.sh $(BIN) out/pins
-
-# What half and twice each numerical constant of docs/methods.md changes: tests that fail, and
-# differences of small runs; adds to docs/results/constants.csv. Three hours. ONLY="density step.rs"
-# takes those whose crate/file/NAME holds a word.
-.PHONY: constants
-constants: $(BINARIES)
-	@pipelines/gate/constants.sh $(ONLY)

@@ -14,7 +14,7 @@ use crate::settings::Mode;
 use crate::stages::Part;
 use crate::tiles::Scratch;
 
-/// Steps between checks of the whole state, which also renew the time step.
+/// Steps between checks of the whole state, which also renew the time step: they then cost next to nothing.
 pub(crate) const CHECK_EVERY: u64 = 64;
 
 impl Explicit {

@@ -17,7 +17,7 @@ pub(crate) use block::BlockShape;
 pub(crate) use integrals::Integrator;
 use integrals::Slice;
 
-/// How far (cells) a body may move along y before lateral sums are looked for again.
+/// How far (cells) a body may move along y before lateral sums are looked for again: tuned for speed, part of no result.
 const MARGIN: f64 = 0.5;
 
 /// Lateral sums of one voxel block for the nodes of one block of nodes.

@@ -30,7 +30,8 @@ pub enum Cause {
     Unknown,
 }
 
-/// Weight of inertia and friction over viscosity beyond which they are named as the cause.
+/// Weight of inertia and friction over viscosity beyond which they are named as the cause; as the next two, words of a message
+/// alone.
 const FAST: f64 = 1e6;
 /// Viscosity times compressibility beyond which it is named.
 const STIFF: f64 = 1e8;

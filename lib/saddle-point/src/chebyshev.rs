@@ -6,9 +6,10 @@ use crate::packed::{Absolute, Finish, LANES, PackedMatrix};
 use crate::vector::{CHUNK, Real, Work, for_chunks, for_chunks_pair, reset};
 use crate::velocity_block::VelocityBlock;
 
-/// Sweeps that tighten the bound of the largest eigenvalue.
+/// Sweeps that tighten the bound of the largest eigenvalue, to within 25 %.
 const BOUND_SWEEPS: usize = 6;
-/// Largest over smallest eigenvalue of a widened interval.
+/// Largest over smallest eigenvalue of a widened interval: with 400, 1600, 6400 and 25,600 the hardest step of a wide bond of
+/// PVA-PF takes 10.8, 7.8, 5.9 and 9.4 s.
 const WIDEST: f64 = 6400.0;
 
 /// `p(A) ~ A^-1` for a symmetric positive definite `A` with diagonal `D`: `S q(S A S) S` with

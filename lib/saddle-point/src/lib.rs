@@ -103,7 +103,7 @@ impl SolveError {
     }
 }
 
-/// A residual this many times the tolerance is near enough to be used.
+/// A residual this many times the tolerance is near enough to be used: the next step goes on from it.
 pub const NEARLY: f64 = 10.0;
 
 /// Refuses a length that does not fit.

@@ -11,7 +11,8 @@ pub struct SaddleOptions {
     pub max_iterations: usize,
     /// Krylov vectors before a restart; memory is 8 bytes x unknowns x this.
     pub restart: usize,
-    /// Degree of the Chebyshev polynomial that stands for `A^-1`.
+    /// Degree of the Chebyshev polynomial that stands for `A^-1`. Lower ones cost more iterations than they save: a hard step
+    /// of a bond of 100 x 394 x 100 voxels takes 69 with 14 and 25 with 24.
     pub chebyshev_degree: usize,
     /// Its interval: largest over smallest eigenvalue of `D^-1 A` treated.
     pub chebyshev_ratio: f64,

@@ -5,7 +5,8 @@ use rayon::prelude::*;
 use crate::simd::{Kernel, dispatch};
 use crate::vector::{CHUNK, Work, dot_each, for_chunks_sum};
 
-/// A vector is orthogonalised again when less than this fraction of its norm remains.
+/// A vector is orthogonalised again when less than this fraction of its norm remains; half or twice of it changes rounding
+/// alone.
 const CANCELLED: f64 = 0.1;
 
 /// Removes from `vector` its components along `basis` by classical Gram-Schmidt, twice where
@@ -58,7 +59,7 @@ fn subtract(basis: &[Vec<Work>], column: &[f64], vector: &mut [f64]) -> f64 {
     square.sqrt()
 }
 
-/// Basis vectors that one pass over a chunk takes at once.
+/// Basis vectors that one pass over a chunk takes at once; part of no result.
 const TOGETHER: usize = 4;
 
 /// Products of one chunk, that begins at row `start`, with basis vectors.

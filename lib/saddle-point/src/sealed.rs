@@ -3,7 +3,8 @@
 use crate::csr::Csr;
 use crate::pockets::{ClosedPockets, sum_and_diagonal};
 
-/// Row sums of a component below this fraction of its diagonals are lost in the cycle's single precision.
+/// Row sums of a component below this fraction of its diagonals are lost in the cycle's single precision; by 2e-9 presses with
+/// air were not solved.
 const SEALED: f64 = 1e-6;
 /// Row sums below this fraction are rounding in double precision.
 const ROUNDING: f64 = 1e-13;

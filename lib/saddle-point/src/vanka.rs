@@ -10,7 +10,8 @@ use crate::vector::{CHUNK, Real, Work, for_chunks};
 
 /// Faces of a cell that are solved for with its pressure; further ones keep their velocity.
 const FACES: usize = 6;
-/// Part of the corrections that is taken; with the whole the sweep diverges.
+/// Part of the corrections that is taken: 0.4 to 0.6 do alike, 0.8 takes 85 % more iterations, and with the whole the sweep
+/// diverges.
 const DAMPING: Work = 0.6;
 
 /// Entries of a symmetric matrix over the faces of a cell.

@@ -6,7 +6,7 @@ use physics::{Boundary, Dimensions, GridBox, Motion, RigidBody, Scene, Stop, Vox
 pub(crate) const OPEN: u8 = 0;
 /// Code beyond a side of symmetry: neither open nor a wall.
 pub(crate) const MIRROR: u8 = u8::MAX;
-/// Most bodies of a scene.
+/// Most bodies of a scene: codes have 8 bits.
 pub(crate) const MAX_BODIES: usize = 200;
 /// Part of a voxel that a face of a body may be off the lattice, as rounding.
 const ALIGNED: f64 = 1e-3;

@@ -7,7 +7,7 @@ use super::deposit::Place;
 use super::profile::Profile;
 use crate::geometry::Mesh;
 
-/// Least volume of a point, cells.
+/// Least volume of a point, cells: less is rounding that a front left behind.
 const LEAST: f64 = 1e-9;
 
 /// What is shown of the liquid, in cells and the scheme's units.

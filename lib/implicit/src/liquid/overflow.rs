@@ -2,7 +2,7 @@
 
 use crate::geometry::Mesh;
 
-/// Excess, cells, that stays where it is.
+/// Excess, cells, that stays where it is, as rounding.
 const NOTHING: f64 = 1e-13;
 /// Passes after which what is left stays where it is.
 const PASSES: usize = 100;

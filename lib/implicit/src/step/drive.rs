@@ -2,10 +2,11 @@
 
 use physics::{Clamp, PidControl, Press, PressRun, PressStep, StepLimit, breaks};
 
-/// Relative excess over the pressure limit that is tolerated.
+/// Relative excess over the pressure limit that is tolerated: half of the 1 % aimed at.
 const TOLERANCE: f64 = 5e-3;
 
-/// Part of a programme's largest pressure that excess over a pressure next to nothing is measured by.
+/// Part of a programme's largest pressure that excess over a pressure next to nothing is measured by: a release holds
+/// nothing, by which no residual can be measured.
 const FAINT: f64 = 1e-3;
 
 /// Speed of the clamp.

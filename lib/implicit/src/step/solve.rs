@@ -19,7 +19,8 @@ use crate::water::Exchange;
 
 /// Part of the travel that is left from which on a step that covers it is made to end it.
 const NEAR: f64 = 0.7;
-/// Part of it by which a step may miss the end and still is there, and solves that bring it nearer.
+/// Part of it by which a step may miss the end and still is there, or the rest would be taken in ever smaller steps, and
+/// solves that bring it nearer: a held speed settles in one or two where it settles at all.
 const MISSED: f64 = 1e-3;
 /// Travel, cells, that counts as none: surfaces of voxels are known less well, and a film under a pressure never ends.
 const NOTHING: f64 = 1e-2;
@@ -64,7 +65,7 @@ impl Implicit {
     ) -> Result<Solved, String> {
         let left = self.left(limit);
         let mut solved = self.solve_controlled(dt)?;
-        if left == f64::INFINITY {
+        if left == f64::INFINITY || left == 0.0 {
             return Ok(solved);
         }
         // The clamp's speed under load is known only then: the step ends the travel when it is that of its own length.
@@ -180,7 +181,16 @@ impl Implicit {
 
     /// Height of the gap after a step of `dt` (s) at the last closing speed, cells.
     fn end_height(&self, dt: f64) -> f64 {
-        (self.height - dt * self.state.flow.speed).max(0.0)
+        (self.height - dt * self.state.flow.speed).max(self.least_height())
+    }
+
+    /// Least height of the gap, cells: in a programme a film stays, by which liquid pushes the bodies apart where a stage
+    /// lets it.
+    pub(super) fn least_height(&self) -> f64 {
+        match self.state.drive.programme() {
+            Some(_) => NOTHING,
+            None => 0.0,
+        }
     }
 
     /// What each pore can hold: without end beyond open sides.

@@ -7,9 +7,9 @@ use super::setup::Setup;
 use super::solve::Solved;
 use crate::water::{Account, Exchange, Medium};
 
-/// Change of ln(viscosity), where the liquid dries, that a step aims at: its viscosity is that of its middle.
+/// Change of ln(viscosity), where the liquid dries, that a step aims at, as for cure: its viscosity is that of its middle.
 pub(crate) const DRIED: f64 = 0.2;
-/// The same from which a step is taken again, shorter.
+/// The same from which a step is taken again, shorter: few are.
 const MOST_DRIED: f64 = 0.3;
 /// Names of the arrays that hold the water in the liquid, in the walls of each pore, and the account.
 const WATER: &str = "water";

@@ -8,7 +8,7 @@ use super::assembly::Problem;
 use super::unknowns::Unknowns;
 use crate::geometry::{Chords, Lattice, Mesh, narrowness};
 
-/// Way of a meniscus in a step, cells, at which one at rest is held by half of all that holds it (docs/methods.md): far
+/// Way of a meniscus in a step, cells, at which one at rest is held by half of all that holds it (docs/methods.md section 3.12): far
 /// less than a step moves, far more than solutions are off by.
 const CAUGHT: f64 = 0.01;
 

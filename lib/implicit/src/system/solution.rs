@@ -181,7 +181,7 @@ pub(crate) fn solve(
     Ok(flow)
 }
 
-/// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md).
+/// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md section 3.6).
 pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
     let link = &problem.links.0[face];
     let slip = problem.scales.influence_length;

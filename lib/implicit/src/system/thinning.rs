@@ -4,7 +4,7 @@ use physics::Viscosity;
 
 /// Lumens this wide (cells) are as wide as any.
 const WIDEST: f64 = 60.0;
-/// Least part of a Newtonian liquid's distance.
+/// Least part of a Newtonian liquid's distance, so that friction stays finite.
 const LEAST: f64 = 0.02;
 
 /// Distance (cells) over which the difference between a face velocity and its wall acts for a liquid whose

@@ -1,11 +1,11 @@
 //! The balance of water in all pores: X of each, not below what walls leave.
 
-/// Relative residual of the solution, and iterations to reach it.
+/// Relative residual of the solution, far below what a step moves, and iterations to reach it.
 const TOLERANCE: f64 = 1e-10;
 const MAX_ITERATIONS: usize = 2000;
 /// Times that pores change sides between those that still give all that is asked for and those at the limit, at most.
 const MAX_TURNS: usize = 30;
-/// Part of the limit by which X may fall short of it.
+/// Part of the limit by which X may fall short of it: above what the solution is off by.
 const HAIR: f64 = 1e-9;
 
 /// A pore with liquid.

@@ -10,20 +10,21 @@ use crate::lattice::{EDGE, Lattice};
 use crate::real::Real;
 use crate::tiles::Tile;
 
-/// Fraction of the density error that one projection removes.
+/// Fraction of the density error that one projection removes; this and the next four are by trial. Half or twice of it
+/// changes the pressure in a slit by 8 and 5 %.
 const KAPPA: f64 = 0.5;
 /// Largest relative error that counts.
 const CLIP: f64 = 0.3;
-/// Liquid over room from which a cell resists; below, it is air with spray.
+/// Liquid over room from which a cell resists; below, it is air with spray. Half or twice of it: 1 and 8 %.
 const FULL: f64 = 0.5;
-/// Open part of a cell below which it counts as wall.
+/// Open part of a cell below which it counts as wall. Half or twice of it: 1 and 7 %.
 const SLIVER: f64 = 0.1;
 /// Longest displacement, cells.
 const LONGEST: f64 = 0.25;
 
 /// No cell.
 pub(super) const NONE: u32 = u32::MAX;
-/// Thickness (cells) of the layers whose open part is a face's.
+/// Thickness (cells) of the layers whose open part is a face's: thin against a voxel, thick against rounding.
 const SKIN: f64 = 1e-6;
 
 /// One cell that liquid touches.

@@ -8,7 +8,7 @@ use crate::vector::{CHUNK, Work, for_chunks};
 
 /// Marks a row that belongs to no aggregate: it has no neighbours and the smoother solves it.
 const NONE: u32 = u32::MAX;
-/// Passes of pairwise matching per level.
+/// Passes of pairwise matching per level: aggregates of eight (Notay 2010, as the next).
 const PASSES: usize = 3;
 /// A pair is formed only along a coupling at least this fraction of the row's strongest.
 const STRONG: f64 = 0.25;

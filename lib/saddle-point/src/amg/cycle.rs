@@ -8,9 +8,9 @@ use crate::vector::{Work, add_scaled, dot, for_chunks, norm, reset};
 /// non-positive off-diagonal entries.
 const WEIGHTS: [Work; 2] = [0.5735, 1.975];
 /// Aggregates of piecewise constants make the coarse operator too stiff; the correction is
-/// lengthened (Braess 1995, Computing 55, 379-393).
+/// lengthened (Braess 1995, Computing 55, 379-393); by how much is by trial.
 const OVERCORRECTION: Work = 1.3;
-/// The second Krylov step is left out when the first reduces the residual by this.
+/// The second Krylov step is left out when the first reduces the residual by this (Notay 2010, ETNA 37, 123-146).
 const ENOUGH: f64 = 0.25;
 
 /// Vectors of one level.

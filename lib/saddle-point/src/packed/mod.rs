@@ -29,9 +29,9 @@ pub(crate) const LANES: usize = 8;
 const PIECE: usize = 1 << 11;
 /// Reach of an offset; vectors carry this many zeros behind their last value.
 const WINDOW: usize = 1 << 11;
-/// Fixed-point unit.
+/// Fixed-point unit, of 16 bits.
 const UNIT: f64 = 32767.0;
-/// Parts of a unit that the second number counts.
+/// Parts of a unit that the second number counts, of 32 bits.
 const FINE: f64 = 4_294_967_296.0;
 
 /// Eight fixed-point values, and what they lack.

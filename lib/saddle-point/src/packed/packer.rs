@@ -4,7 +4,7 @@ use super::{FINE, LANES, PackedRows, UNIT, WINDOW};
 use crate::SolveError;
 use crate::csr::Rows;
 
-/// Couplings at one distance among eight rows from which a common base pays.
+/// Couplings at one distance among eight rows from which a common base pays, in time.
 const MIN_RUN: usize = 4;
 
 /// A fixed-point entry: `high + rest / FINE` units.
