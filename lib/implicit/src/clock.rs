@@ -36,11 +36,12 @@ impl Clock {
         self.0[part as usize] += begun.elapsed();
     }
 
-    /// Times of the parts that a run has.
-    pub(crate) fn report(&self) -> Vec<StageTime> {
-        let times = NAMES.iter().zip(&self.0);
+    /// Times of the parts, but for those that a run is `without`.
+    pub(crate) fn report(&self, without: &[Part]) -> Vec<StageTime> {
+        let times = NAMES.iter().zip(&self.0).enumerate();
         times
-            .filter(|(_, time)| !time.is_zero())
+            .filter(|(part, _)| !without.iter().any(|without| *without as usize == *part))
+            .map(|(_, time)| time)
             .map(|(&name, time)| StageTime {
                 name,
                 wall_s: time.as_secs_f64(),

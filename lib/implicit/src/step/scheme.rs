@@ -6,6 +6,7 @@ use physics::{
 };
 
 use super::Implicit;
+use crate::clock::Part;
 use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::{Kept, Profile, Shown, points};
 use crate::system::{Edges, Links, Rates};
@@ -207,7 +208,10 @@ impl Scheme for Implicit {
     }
 
     fn stage_times(&self) -> Vec<StageTime> {
-        self.clock.report()
+        match self.setup.liquid.water {
+            Some(_) => self.clock.report(&[]),
+            None => self.clock.report(&[Part::Water]),
+        }
     }
 
     fn counts(&self) -> Vec<(&'static str, u64)> {

@@ -229,7 +229,9 @@ impl Setup {
 
     /// What each pore with a pressure holds more than its volume at no pressure, and what of that Tait's law at the
     /// pressure before the step makes of the unit of compression, over `dt`. Compression is that of the `end` volumes: the
-    /// film in a gap that closes is squeezed out before it is compressed.
+    /// film in a gap that closes is squeezed out before it is compressed. What the pressure does not explain, above all
+    /// what full pores lack, moves in `asked`, the time of a step by the last flow: in a step that an event or an attempt
+    /// made shorter it would move as far in less time.
     pub(super) fn carried(
         &self,
         mesh: &Mesh,
@@ -237,7 +239,7 @@ impl Setup {
         state: &State,
         full: &[bool],
         [start, end]: [f64; 2],
-        dt: f64,
+        [dt, asked]: [f64; 2],
     ) -> Vec<f64> {
         let unit = self.units.viscosity / self.liquid.tait.bulk_modulus;
         (unknowns.pores.iter())
@@ -248,9 +250,11 @@ impl Setup {
                 }
                 let p = state.flow.pressure[pore];
                 let change = self.liquid.tait.volume_change(p * self.units.viscosity);
-                let denser = 1.0 / (1.0 + change) - 1.0 - unit * p;
-                let held = state.volumes[pore] - mesh.volume_at(pore, start);
-                (held - mesh.volume_at(pore, end) * denser) / dt
+                let denser = 1.0 / (1.0 + change) - 1.0;
+                let [before, after] = [start, end].map(|height| mesh.volume_at(pore, height));
+                let unexplained = state.volumes[pore] - before * (1.0 + denser);
+                let explained = before * denser - after * (denser - unit * p);
+                explained / dt + unexplained / asked.max(dt)
             })
             .collect()
     }

@@ -25,6 +25,8 @@ const MISSED: f64 = 1e-3;
 /// Travel, cells, that counts as none: surfaces of voxels are known less well, and a film under a pressure never ends.
 const NOTHING: f64 = 1e-2;
 const CLOSER: usize = 4;
+/// Solves of a step in which a clamp under a pressure comes to the speed at which it meets liquid.
+const MEETINGS: usize = 4;
 /// Passes in which the viscosity of the flow is sought, and its mean change, weighted by dissipation, that ends them.
 const PASSES: usize = 20;
 const SETTLED: f64 = 2e-3;
@@ -32,10 +34,21 @@ const SETTLED: f64 = 2e-3;
 /// The liquid in the middle of a step.
 struct Middle {
     dt: f64,
+    /// Closing speed that puts the rows there, cells/s.
+    closing: f64,
     /// Which pores are full at its start.
     full: Vec<bool>,
     /// What pores are filled to.
     fractions: Vec<f64>,
+}
+
+impl Middle {
+    /// Whether more pores have a pressure than in `other`.
+    fn meets_more(&self, other: &Self) -> bool {
+        let both = self.fractions.iter().zip(&other.fractions);
+        both.into_iter()
+            .any(|(&here, &there)| here == 1.0 && there < 1.0)
+    }
 }
 
 /// A step that was solved.
@@ -81,7 +94,7 @@ impl Implicit {
         let reach = solved.flow.speed * solved.dt;
         if reach > left + (MISSED * left).max(NOTHING) {
             let dt = solved.dt;
-            let middle = self.middle(dt);
+            let middle = self.middle(dt, Some(&solved.flow));
             solved = self.solve_driven(&middle, Drive::Speed(left / dt))?;
         }
         let reach = solved.flow.speed * solved.dt;
@@ -101,15 +114,33 @@ impl Implicit {
     /// Solves the flow of a step of `dt` (s) with the clamp at full speed, or at the speed of its pressure limit.
     fn solve_controlled(&mut self, dt: f64) -> Result<Solved, String> {
         self.state.drive.aim(dt);
-        let middle = self.middle(dt);
+        let mut middle = self.middle(dt, None);
+        // A clamp that goes faster than in the last step may meet liquid that it would not have met.
+        for _ in 1..MEETINGS {
+            let solved = self.solve_middle(&middle)?;
+            if solved.flow.speed <= middle.closing {
+                return Ok(solved);
+            }
+            let faster = self.middle(dt, Some(&solved.flow));
+            if !faster.meets_more(&middle) {
+                self.mesh.set_height(self.middle_height(dt, middle.closing));
+                return Ok(solved);
+            }
+            middle = faster;
+        }
+        self.solve_middle(&middle)
+    }
+
+    /// The same with the liquid in the `middle` of the step as it is.
+    fn solve_middle(&mut self, middle: &Middle) -> Result<Solved, String> {
         if let Some(asked) = self.state.drive.held() {
-            return self.solve_held(&middle, asked);
+            return self.solve_held(middle, asked);
         }
         let full = Drive::Speed(self.state.drive.speed / self.setup.units.cell_m);
-        let free = self.solve_driven(&middle, full)?;
+        let free = self.solve_driven(middle, full)?;
         let pressure = self.setup.pressure(free.flow.force);
         match self.state.drive.exceeded(pressure) {
-            Some(asked) => self.solve_held(&middle, asked),
+            Some(asked) => self.solve_held(middle, asked),
             None => Ok(free),
         }
     }
@@ -129,17 +160,17 @@ impl Implicit {
         }
     }
 
-    /// Puts the rows where they are in the middle of a step of `dt` (s) by the last closing speed; which pores are full now,
-    /// and what they are filled to in the middle by the last flow.
-    fn middle(&mut self, dt: f64) -> Middle {
+    /// Puts the rows where they are in the middle of a step of `dt` (s); which pores are full now, and what they are filled
+    /// to in the middle, by a `flow`, or the last.
+    fn middle(&mut self, dt: f64, flow: Option<&Flow>) -> Middle {
         let height = self.height;
         let state = &self.state;
+        let closing = flow.unwrap_or(&state.flow).speed;
         let full: Vec<bool> = (0..self.mesh.pores.len())
             .map(|pore| state.volumes[pore] >= FULL * self.mesh.volume_at(pore, height))
             .collect();
         if self.setup.lattice.moving.is_some() {
-            let middle = 0.5 * (height + self.end_height(dt));
-            self.mesh.set_height(middle);
+            self.mesh.set_height(self.middle_height(dt, closing));
         }
         let begun = Instant::now();
         let mesh = &self.mesh;
@@ -154,7 +185,7 @@ impl Implicit {
                 },
                 &full,
                 &self.capacities(),
-                &state.flow.velocity,
+                &flow.unwrap_or(&state.flow).velocity,
                 0.5 * dt,
             )
             .volumes
@@ -174,14 +205,20 @@ impl Implicit {
         self.clock.add(Part::Geometry, begun);
         Middle {
             dt,
+            closing,
             full,
             fractions,
         }
     }
 
-    /// Height of the gap after a step of `dt` (s) at the last closing speed, cells.
-    fn end_height(&self, dt: f64) -> f64 {
-        (self.height - dt * self.state.flow.speed).max(self.least_height())
+    /// Height of the gap in the middle of a step of `dt` (s) at a `closing` speed (cells/s), cells.
+    fn middle_height(&self, dt: f64, closing: f64) -> f64 {
+        0.5 * (self.height + self.end_height(dt, closing))
+    }
+
+    /// The same at its end.
+    fn end_height(&self, dt: f64, closing: f64) -> f64 {
+        (self.height - dt * closing).max(self.least_height())
     }
 
     /// Least height of the gap, cells: in a programme a film stays, by which liquid pushes the bodies apart where a stage
@@ -210,8 +247,8 @@ impl Implicit {
     /// Solves with the body that closes the gap driven so: in passes where the viscosity depends on the flow, until that
     /// no longer changes.
     fn solve_driven(&mut self, middle: &Middle, drive: Drive) -> Result<Solved, String> {
-        let Middle { dt, fractions, .. } = middle;
-        let dt = *dt;
+        let Middle { fractions, .. } = middle;
+        let dt = middle.dt;
         let begun = Instant::now();
         let lost = self.exchange(dt, fractions)?;
         if lost.is_some() {
@@ -224,7 +261,7 @@ impl Implicit {
         let mut air = self.closed_off(&unknowns, fractions, dt);
         let halves = halves(mesh, fractions);
         let masses = masses(mesh, &halves);
-        let end = self.end_height(dt);
+        let end = self.end_height(dt, middle.closing);
         let thickened = |viscosities: Viscosities| match &lost {
             Some(exchange) => viscosities.thickened(mesh, &self.edges, &exchange.factor),
             None => viscosities,
@@ -285,7 +322,14 @@ impl Implicit {
                 scales: setup.scales(dt),
             };
             let heights = [self.height, end];
-            let mut carried = setup.carried(mesh, &unknowns, state, &solved.full, heights, dt);
+            let mut carried = setup.carried(
+                mesh,
+                &unknowns,
+                state,
+                &solved.full,
+                heights,
+                [dt, self.asked()],
+            );
             if let Some(exchange) = &lost {
                 exchange.add_to(&unknowns.pores, &solved.full, dt, &mut carried);
             }

@@ -86,7 +86,7 @@ pub const SHAPES: [Shape; 8] = [
         liquid: [0.0, 12.0],
         air: 0.5,
         offset: 0.25,
-        lumen: Some([4.25, 7.25]),
+        lumen: Some([4.5, 7.5]),
         travel: 1.3,
         ..FILM
     },

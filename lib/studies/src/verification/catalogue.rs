@@ -295,7 +295,7 @@ fn liquids() -> Vec<Entry> {
 fn invariants() -> Vec<Entry> {
     let mut list = vec![(drop::scene(0.5e-6), Method::updates())];
     for law in ["stick", "partial-slip", "frictionless"] {
-        list.push((galilean::scene(law, 0.3), all_methods(0.01)));
+        list.push((galilean::scene(law, 0.5), all_methods(0.01)));
     }
     for voxels in [1, 2] {
         for offset in OFFSETS {
