@@ -39,7 +39,7 @@ fn finest(section: Section) -> f64 {
 
 /// Pressure over eta U/r at r from the corner of a piston that liquid sticks to, as it does to the wall: Taylor's scraper. The
 /// narrower cells are, the more of it is seen.
-pub(super) const SCRAPER: f64 = PI / (0.25 * PI * PI - 1.0);
+const SCRAPER: f64 = PI / (0.25 * PI * PI - 1.0);
 
 /// The same equivalent length in `n` cells.
 pub(super) fn entrance(section: Section, n: u32) -> f64 {
