@@ -110,3 +110,20 @@ fn flow_along_tubes_of_voxels_is_that_of_finer_cells() {
         }
     }
 }
+
+/// Cells of two voxels join what is alike in them, on whichever side it lies.
+#[test]
+fn mirror_images_of_tubes_have_one_flow() {
+    for diameter in [6.0, 8.0, 12.0] {
+        let of = |x: f64| {
+            let tube = Tube {
+                diameter,
+                shift: [x, 0.1],
+                finer: 0,
+            };
+            tube.mean_velocity()
+        };
+        let (own, image) = (of(0.3), of(-0.3));
+        assert!((image / own - 1.0).abs() < 1e-5, "{own} {image}");
+    }
+}

@@ -63,10 +63,11 @@ def factor(matrix):
     return solver
 
 
-def flow(x, cells, fixed, values, shapes=None):
+def flow(x, cells, fixed, values, shapes=None, round=False):
     """Velocity (node, axis), the forces that hold the fixed unknowns (node, axis), volume, and div u at its worst.
 
-    x: nodes; cells: nodes of each element; fixed: mask (node, axis); values: velocities there."""
+    x: nodes; cells: nodes of each element; fixed: mask (node, axis); values: velocities there; round: around the first axis, whose distance
+    is the second one, and what is summed is that of a radian."""
     nodes, d = x.shape
     n, dn, w = shapes or tables(d)
     nv = n.shape[1]
@@ -76,21 +77,27 @@ def flow(x, cells, fixed, values, shapes=None):
     if det.min() <= 0:
         raise ValueError(f"an element is turned inside out: {det.min()}")
     grad = np.einsum("qib,eqba->eqia", dn, np.linalg.inv(jac))
-    wd = w * det
+    at = np.einsum("qi,eia->eqa", n, xe)
+    wd = w * det * (at[..., 1] if round else 1)
     weighted = grad * wd[..., None, None]
     # pressure functions: 1 and the coordinates off the element's middle
-    at = np.einsum("qi,eia->eqa", n, xe)
     volume = wd.sum(1)
     off = at - (np.einsum("eq,eqa->ea", wd, at) / volume[:, None])[:, None]
     off /= (np.ptp(xe, axis=1))[:, None]
     m = np.concatenate([np.ones(off.shape[:2] + (1,)), off], axis=2)
     mass = np.linalg.inv(np.einsum("eq,eqk,eql->ekl", wd, m, m))
-    b = np.einsum("eqk,eqia->ekia", m, weighted).reshape(len(cells), d + 1, nv * d)
+    b = np.einsum("eqk,eqia->ekia", m, weighted)
+    if round:
+        hoop = n / at[..., 1:] * wd[..., None]
+        b[..., 1] += np.einsum("eqk,eqi->eki", m, hoop)
+    b = b.reshape(len(cells), d + 1, nv * d)
     lap = np.einsum("eqia,eqja->eij", weighted, grad, optimize=True)
     local = np.einsum("eqjb,eqia->eibja", weighted, grad, optimize=True)
     # row (i, b), column (j, a): d_b(phi_j) d_a(phi_i)
     for a in range(d):
         local[:, :, a, :, a] += lap
+    if round:
+        local[:, :, 1, :, 1] += 2 * np.einsum("eqi,qj,eq->eij", hoop, n, 1 / at[..., 1])
     local = local.reshape(len(cells), nv * d, nv * d)
     mb = mass @ b
     dofs = (cells[:, :, None] * d + np.arange(d)).reshape(len(cells), -1)

@@ -12,9 +12,11 @@ import scipy.sparse.linalg as sla
 import stokes
 
 
-def developed(points):
-    """Velocity of mean 1 in a slit (2-D) or square duct (3-D) of width 1 about the axis, and its pressure gradient."""
+def developed(points, round=False):
+    """Velocity of mean 1 in a slit, round tube (2-D) or square duct (3-D) of width 1 about the axis, and its pressure gradient."""
     y = points[:, 1]
+    if round:
+        return 2 * (1 - 4 * y * y), 32.0
     if points.shape[1] == 2:
         return 1.5 * (1 - 4 * y * y), 12.0
     z = points[:, 2]
@@ -93,7 +95,7 @@ class Surface:
         return new.reshape(f.shape)
 
 
-def channel_flow(shape, x, lattice, places):
+def channel_flow(shape, x, lattice, places, round=False):
     """Flow of a block of nodes: developed inflow at its first layer, mirrors at 0, walls at 0.5 of the lattice, free elsewhere.
 
     Returns velocity on the last layer, pressure at the inlet over the developed gradient, volume over the cross-section."""
@@ -104,9 +106,9 @@ def channel_flow(shape, x, lattice, places):
         fixed[lattice[:, a - 1] == places[-1]] = True
     inlet = np.arange(len(x)) < np.prod(shape[1:])
     fixed[inlet] = True
-    values[inlet, 0], gradient = developed(x[inlet])
-    u, held, volume, _ = stokes.flow(x, stokes.cells_of(shape), fixed, values)
-    area = 0.5 ** (d - 1)
+    values[inlet, 0], gradient = developed(x[inlet], round)
+    u, held, volume, _ = stokes.flow(x, stokes.cells_of(shape), fixed, values, round=round)
+    area = 1 / 8 if round else 0.5 ** (d - 1)
     # the power put in, by the forces that hold the inflow: converges as energy does
     power = (held[inlet, 0] * u[inlet, 0]).sum()
     return u.reshape(tuple(shape) + (d,))[-1], power / area / gradient, volume / area

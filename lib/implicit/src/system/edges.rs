@@ -175,7 +175,7 @@ impl Edges {
     }
 }
 
-/// The edges of a face, in which voxels of the same faces are joined.
+/// The edges of a face, in which voxels of the same faces are joined where re-entrant edges are alike.
 fn edges(mesh: &Mesh, lattice: &Lattice, face: usize) -> Vec<Edge> {
     let axis = usize::from(mesh.faces[face].axis);
     let mut found: Vec<Edge> = Vec::new();
@@ -195,6 +195,7 @@ fn edges(mesh: &Mesh, lattice: &Lattice, face: usize) -> Vec<Edge> {
                         edge.open,
                         edge.aside,
                         edge.part < 0.0,
+                        edge.factor.to_bits(),
                     )
                 };
                 match found.iter_mut().find(|other| key(other) == key(&edge)) {

@@ -86,7 +86,7 @@ pub fn tube_scene(n: u32, growth: Growth) -> Scene {
         growth,
         limit: PRESSURE * (LUMEN / right).powi(2),
         unit: section.staircase_resistance(n) * PF[2] / PRESSURE,
-        entrance: piston::ENTRANCE,
+        entrance: piston::entrance(section, n),
         goal: 2.5,
         travel: section.area(n) / 4.0,
     };
