@@ -170,7 +170,9 @@ impl Implicit {
                 longest = shorter;
                 continue;
             }
-            let crossed = fastest(&solved.flow, self.setup.settings.cfl) * solved.dt;
+            let flow = &solved.flow;
+            let speed = fastest(flow, self.setup.settings.cfl).max(flow.speed.abs());
+            let crossed = speed * solved.dt;
             if crossed <= EXCESS * self.setup.settings.cfl {
                 return Ok(self.follow(solved, limit));
             }
