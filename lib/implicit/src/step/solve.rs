@@ -31,6 +31,8 @@ const SETTLED: f64 = 2e-3;
 /// The liquid in the middle of a step.
 struct Middle {
     dt: f64,
+    /// Height of the gap at its end by the speed that the clamp is asked for, cells.
+    end: f64,
     /// Which pores are full at its start.
     full: Vec<bool>,
     /// What pores are filled to.
@@ -88,8 +90,11 @@ impl Implicit {
         Ok(solved)
     }
 
-    /// Travel that is left, cells: the gap at most.
+    /// Travel that is left, cells: the gap at most; without end where the clamp has gone all its way, and stands or goes back.
     pub(super) fn left(&self, limit: StepLimit) -> f64 {
+        if self.state.drive.is_closed() {
+            return f64::INFINITY;
+        }
         let travel = limit.travel_m / self.setup.units.cell_m;
         match self.setup.lattice.moving {
             Some(_) => travel.min(self.height),
@@ -128,17 +133,18 @@ impl Implicit {
         }
     }
 
-    /// Puts the rows where they are in the middle of a step of `dt` (s) by the last closing speed; which pores are full now,
-    /// and what they are filled to in the middle by the last flow.
+    /// Puts the rows where they are in the middle of a step of `dt` (s) by the speed that the clamp is asked for; which pores are
+    /// full now, and what they are filled to in the middle by the last flow.
     fn middle(&mut self, dt: f64) -> Middle {
         let height = self.height;
         let state = &self.state;
         let full: Vec<bool> = (0..self.mesh.pores.len())
             .map(|pore| state.volumes[pore] >= FULL * self.mesh.volume_at(pore, height))
             .collect();
+        let asked = self.state.drive.speed / self.setup.units.cell_m;
+        let end = (height - dt * asked).max(0.0);
         if self.setup.lattice.moving.is_some() {
-            let middle = 0.5 * (height + self.end_height(dt));
-            self.mesh.set_height(middle);
+            self.mesh.set_height(0.5 * (height + end));
         }
         let begun = Instant::now();
         let mesh = &self.mesh;
@@ -173,14 +179,10 @@ impl Implicit {
         self.clock.add(Part::Geometry, begun);
         Middle {
             dt,
+            end,
             full,
             fractions,
         }
-    }
-
-    /// Height of the gap after a step of `dt` (s) at the last closing speed, cells.
-    fn end_height(&self, dt: f64) -> f64 {
-        (self.height - dt * self.state.flow.speed).max(0.0)
     }
 
     /// What each pore can hold: without end beyond open sides.
@@ -200,8 +202,12 @@ impl Implicit {
     /// Solves with the body that closes the gap driven so: in passes where the viscosity depends on the flow, until that
     /// no longer changes.
     fn solve_driven(&mut self, middle: &Middle, drive: Drive) -> Result<Solved, String> {
-        let Middle { dt, fractions, .. } = middle;
-        let dt = *dt;
+        let &Middle {
+            dt,
+            end,
+            ref fractions,
+            ..
+        } = middle;
         let begun = Instant::now();
         let lost = self.exchange(dt, fractions)?;
         if lost.is_some() {
@@ -214,7 +220,6 @@ impl Implicit {
         let mut air = self.closed_off(&unknowns, fractions, dt);
         let halves = halves(mesh, fractions);
         let masses = masses(mesh, &halves);
-        let end = self.end_height(dt);
         let thickened = |viscosities: Viscosities| match &lost {
             Some(exchange) => viscosities.thickened(mesh, &self.edges, &exchange.factor),
             None => viscosities,
