@@ -12,7 +12,7 @@ use crate::air::Air;
 use crate::clock::Part;
 use crate::liquid::{Held, transport};
 use crate::system::{
-    Drive, FULL, Flow, Problem, Rates, Unknowns, Viscosities, forces, halves, masses, solve,
+    Drive, FULL, Flow, Pass, Problem, Rates, Unknowns, Viscosities, forces, halves, masses, solve,
     stiffnesses,
 };
 use crate::water::Exchange;
@@ -25,7 +25,7 @@ const MISSED: f64 = 1e-3;
 const NOTHING: f64 = 1e-2;
 const CLOSER: usize = 4;
 /// Passes in which the viscosity of the flow is sought, and its mean change, weighted by dissipation, that ends them.
-const PASSES: usize = 20;
+const PASSES: usize = 30;
 const SETTLED: f64 = 2e-3;
 
 /// The liquid in the middle of a step.
@@ -220,10 +220,6 @@ impl Implicit {
         let mut air = self.closed_off(&unknowns, fractions, dt);
         let halves = halves(mesh, fractions);
         let masses = masses(mesh, &halves);
-        let thickened = |viscosities: Viscosities| match &lost {
-            Some(exchange) => viscosities.thickened(mesh, &self.edges, &exchange.factor),
-            None => viscosities,
-        };
         self.clock.add(Part::Assembly, begun);
         let begun = Instant::now();
         let cured = setup.viscosity_at(state.time + 0.5 * dt);
@@ -241,11 +237,11 @@ impl Implicit {
                 convention,
             )
         };
-        let mut viscosities = match varies && state.steps > 0 {
+        let mut used = match varies && state.steps > 0 {
             true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor, slip),
             false => Viscosities::constant(mesh, cured),
         };
-        viscosities = thickened(viscosities);
+        let (mut last, mut response): (Option<Pass>, f64) = (None, 0.0);
         self.clock.add(Part::Viscosity, begun);
         let mut solved = Solved {
             dt,
@@ -259,7 +255,12 @@ impl Implicit {
         };
         let (mut iterations, mut astray) = (0, false);
         for _ in 0..PASSES {
-            let stiffnesses = stiffnesses(mesh, &halves, &viscosities);
+            let begun = Instant::now();
+            let thick =
+                (lost.as_ref()).map(|exchange| used.thickened(mesh, &self.edges, &exchange.factor));
+            let viscosities = thick.as_ref().unwrap_or(&used);
+            self.clock.add(Part::Viscosity, begun);
+            let stiffnesses = stiffnesses(mesh, &halves, viscosities);
             let fronts = self.fronts(&unknowns, &torn, air.as_ref(), cured, dt);
             let problem = Problem {
                 lattice: &setup.lattice,
@@ -271,7 +272,7 @@ impl Implicit {
                 halves: &halves,
                 masses: &masses,
                 stiffnesses: &stiffnesses,
-                viscosities: &viscosities,
+                viscosities,
                 before: &state.flow.velocity,
                 speed_before: state.flow.speed,
                 end_height: end,
@@ -301,9 +302,18 @@ impl Implicit {
             solved.settled = true;
             if varies {
                 let next = rates(&flow);
-                let changed = thickened(Viscosities::of(&next, &setup.liquid, factor, slip));
-                solved.settled = viscosities.change(&changed, &next, mesh, fractions) < SETTLED;
-                viscosities = changed;
+                let by_law = Viscosities::of(&next, &setup.liquid, factor, slip);
+                let power = next.power(viscosities, mesh, fractions);
+                let pass = Pass::new(used, next, power);
+                solved.settled = pass.change(&by_law) < SETTLED;
+                used = match &last {
+                    Some(before) => {
+                        response = pass.response(before, response);
+                        pass.ahead(&setup.liquid, factor, slip, response)
+                    }
+                    None => by_law,
+                };
+                last = Some(pass);
             }
             self.clock.add(Part::Viscosity, begun);
             let tears = self.tear(&unknowns, &flow, dt, &mut torn);
