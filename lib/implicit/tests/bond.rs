@@ -7,8 +7,8 @@ mod plain;
 
 use implicit::{Implicit, Settings};
 use physics::{
-    Boundary, Clamp, LiquidState, Motion, Scene, Scheme, StepLimit, Stop, VoxelBlock, WallLaw,
-    Water, WaterLaw, Wetting,
+    Boundary, Clamp, LiquidState, Motion, Press, PressRun, PressStage, Scene, Scheme, StepLimit,
+    Stop, VoxelBlock, WallLaw, Water, WaterLaw, Wetting,
 };
 
 /// Steps in which an adhesive that dries is pressed: before lumens of one voxel a cell are full and the clamp waits for its
@@ -308,4 +308,39 @@ fn a_bond_with_air_and_menisci_ends_and_goes_on_where_it_stopped() {
         );
         assert!(pressures.len() < 60 && whole.save() == resumed.save());
     }
+}
+
+/// A clamp that has gone all its way stands for what is left of its programme.
+#[test]
+fn a_closed_clamp_stands_until_its_programme_ends() {
+    let mut scene = scene(2, Boundary::Periodic, |x, z| [x, z]);
+    let stage = |kind, pressure, time_s| PressStage {
+        kind,
+        speed: 1.0,
+        pressure,
+        time_s,
+        travel_m: None,
+        contact: false,
+        slower: None,
+    };
+    scene.programme = vec![
+        stage(Press::Approach, None, 1e-3),
+        stage(Press::Hold, Some(1e9), 2e-6),
+    ];
+    let mut scheme = Implicit::new(&scene, Settings::default()).unwrap();
+    let limit = StepLimit {
+        time_s: f64::INFINITY,
+        travel_m: f64::INFINITY,
+    };
+    let mut held = 0;
+    while !scheme.programme().is_some_and(PressRun::is_over) {
+        let closed = scheme.programme().is_some_and(PressRun::is_closed);
+        let report = scheme.advance(limit).unwrap();
+        held += u32::from(closed);
+        assert!(!closed || report.closing_speed == 0.0);
+        assert!(report.pressure_top.is_finite() && held < 100);
+    }
+    assert!(held > 0);
+    let way = SLAB as f64 * VOXEL;
+    assert!((scheme.displacements()[1][1] / way + 1.0).abs() < 1e-9);
 }

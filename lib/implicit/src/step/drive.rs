@@ -118,6 +118,11 @@ impl ClampDrive {
         self.programme.as_ref()
     }
 
+    /// Whether the clamp has gone all its way in a programme that goes on.
+    pub(super) fn is_closed(&self) -> bool {
+        self.programme.as_ref().is_some_and(PressRun::is_closed)
+    }
+
     /// A limit of a step within the stage that is on, for a clamp that has travelled `travel` (m).
     pub(super) fn within(&self, limit: StepLimit, travel: f64) -> StepLimit {
         let programme = self.programme.as_ref();

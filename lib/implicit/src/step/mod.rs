@@ -161,6 +161,10 @@ impl Implicit {
         let (mut longest, mut dries) = (limit.time_s, false);
         for _ in 0..ATTEMPTS {
             let dt = self.length(limit).min(longest);
+            if !(dt > 0.0 && dt.is_finite()) {
+                return Err(self
+                    .failure("nothing moves and no time is left: there is no time step to take"));
+            }
             let solved = self
                 .solve(dt, limit, longest)
                 .map_err(|why| self.failure(&why))?;

@@ -12,7 +12,7 @@ use crate::air::Air;
 use crate::clock::Part;
 use crate::liquid::{Held, transport};
 use crate::system::{
-    Drive, FULL, Flow, Problem, Rates, Unknowns, Viscosities, forces, halves, masses, solve,
+    Drive, FULL, Flow, Pass, Problem, Rates, Unknowns, Viscosities, forces, halves, masses, solve,
     stiffnesses,
 };
 use crate::water::Exchange;
@@ -28,7 +28,7 @@ const CLOSER: usize = 4;
 /// Solves of a step in which a clamp under a pressure comes to the speed at which it meets liquid.
 const MEETINGS: usize = 4;
 /// Passes in which the viscosity of the flow is sought, and its mean change, weighted by dissipation, that ends them.
-const PASSES: usize = 20;
+const PASSES: usize = 30;
 const SETTLED: f64 = 2e-3;
 
 /// The liquid in the middle of a step.
@@ -102,8 +102,11 @@ impl Implicit {
         Ok(solved)
     }
 
-    /// Travel that is left, cells: the gap at most.
+    /// Travel that is left, cells: the gap at most; without end where the clamp has gone all its way, and stands or goes back.
     pub(super) fn left(&self, limit: StepLimit) -> f64 {
+        if self.state.drive.is_closed() {
+            return f64::INFINITY;
+        }
         let travel = limit.travel_m / self.setup.units.cell_m;
         match self.setup.lattice.moving {
             Some(_) => travel.min(self.height),
@@ -161,11 +164,12 @@ impl Implicit {
     }
 
     /// Puts the rows where they are in the middle of a step of `dt` (s); which pores are full now, and what they are filled
-    /// to in the middle, by a `flow`, or the last.
+    /// to in the middle: by a `flow`, or by the last and the speed that the clamp is asked for.
     fn middle(&mut self, dt: f64, flow: Option<&Flow>) -> Middle {
         let height = self.height;
         let state = &self.state;
-        let closing = flow.unwrap_or(&state.flow).speed;
+        let asked = state.drive.speed / self.setup.units.cell_m;
+        let closing = flow.map_or(asked, |flow| flow.speed);
         let full: Vec<bool> = (0..self.mesh.pores.len())
             .map(|pore| state.volumes[pore] >= FULL * self.mesh.volume_at(pore, height))
             .collect();
@@ -262,10 +266,6 @@ impl Implicit {
         let halves = halves(mesh, fractions);
         let masses = masses(mesh, &halves);
         let end = self.end_height(dt, middle.closing);
-        let thickened = |viscosities: Viscosities| match &lost {
-            Some(exchange) => viscosities.thickened(mesh, &self.edges, &exchange.factor),
-            None => viscosities,
-        };
         self.clock.add(Part::Assembly, begun);
         let begun = Instant::now();
         let cured = setup.viscosity_at(state.time + 0.5 * dt);
@@ -283,11 +283,11 @@ impl Implicit {
                 convention,
             )
         };
-        let mut viscosities = match varies && state.steps > 0 {
+        let mut used = match varies && state.steps > 0 {
             true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor, slip),
             false => Viscosities::constant(mesh, cured),
         };
-        viscosities = thickened(viscosities);
+        let (mut last, mut response): (Option<Pass>, f64) = (None, 0.0);
         self.clock.add(Part::Viscosity, begun);
         let mut solved = Solved {
             dt,
@@ -301,7 +301,12 @@ impl Implicit {
         };
         let (mut iterations, mut astray) = (0, false);
         for _ in 0..PASSES {
-            let stiffnesses = stiffnesses(mesh, &halves, &viscosities);
+            let begun = Instant::now();
+            let thick =
+                (lost.as_ref()).map(|exchange| used.thickened(mesh, &self.edges, &exchange.factor));
+            let viscosities = thick.as_ref().unwrap_or(&used);
+            self.clock.add(Part::Viscosity, begun);
+            let stiffnesses = stiffnesses(mesh, &halves, viscosities);
             let fronts = self.fronts(&unknowns, &torn, air.as_ref(), cured, dt);
             let problem = Problem {
                 lattice: &setup.lattice,
@@ -313,7 +318,7 @@ impl Implicit {
                 halves: &halves,
                 masses: &masses,
                 stiffnesses: &stiffnesses,
-                viscosities: &viscosities,
+                viscosities,
                 before: &state.flow.velocity,
                 speed_before: state.flow.speed,
                 end_height: end,
@@ -350,9 +355,18 @@ impl Implicit {
             solved.settled = true;
             if varies {
                 let next = rates(&flow);
-                let changed = thickened(Viscosities::of(&next, &setup.liquid, factor, slip));
-                solved.settled = viscosities.change(&changed, &next, mesh, fractions) < SETTLED;
-                viscosities = changed;
+                let by_law = Viscosities::of(&next, &setup.liquid, factor, slip);
+                let power = next.power(viscosities, mesh, fractions);
+                let pass = Pass::new(used, next, power);
+                solved.settled = pass.change(&by_law) < SETTLED;
+                used = match &last {
+                    Some(before) => {
+                        response = pass.response(before, response);
+                        pass.ahead(&setup.liquid, factor, slip, response)
+                    }
+                    None => by_law,
+                };
+                last = Some(pass);
             }
             self.clock.add(Part::Viscosity, begun);
             let tears = self.tear(&unknowns, &flow, dt, &mut torn);

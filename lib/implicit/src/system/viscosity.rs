@@ -1,6 +1,6 @@
 //! Shear rates of a flow, and the viscosities that follow from them.
 
-use physics::{Liquid, ShearRate};
+use physics::{Liquid, ShearRate, Viscosity};
 use rayon::prelude::*;
 
 use super::edges::Edges;
@@ -28,19 +28,13 @@ impl Viscosities {
         }
     }
 
-    /// Those of a flow: `factor` times the law of the liquid, in Pa s. Walls have the rate of the law of walls over the
-    /// distance that suits the liquid, for which their viscosity makes up; `slip` is the influence length, cells.
+    /// Those of a flow: `factor` times the law of the liquid, in Pa s. Walls have their rate times their share, and the viscosity
+    /// there times it; `slip` is the influence length, cells.
     pub(crate) fn of(rates: &Rates, liquid: &Liquid, factor: f64, slip: f64) -> Self {
         let law = &liquid.viscosity;
         let at = |rate: f64| factor * law.at(rate);
         let wall = |wall: &Wall| {
-            let run = wall.distance + slip;
-            let power = steepness(law, wall.rate);
-            let distance = thinning_distance(wall.distance, wall.width, wall.first, power);
-            let share = match wall.rate > 0.0 {
-                true => run / (distance + slip),
-                false => 1.0,
-            };
+            let share = wall.share(law, slip);
             [share * at(share * wall.rate); 2]
         };
         Self {
@@ -51,41 +45,26 @@ impl Viscosities {
     }
 
     /// These times a factor of each pore.
-    pub(crate) fn thickened(mut self, mesh: &Mesh, edges: &Edges, factor: &[f64]) -> Self {
-        if !self.edges.is_empty() {
+    pub(crate) fn thickened(&self, mesh: &Mesh, edges: &Edges, factor: &[f64]) -> Self {
+        let mut thick = self.clone();
+        if !thick.edges.is_empty() {
             for face in 0..mesh.faces.len() {
                 for (index, edge) in edges.of(face).iter().enumerate() {
                     let (own, next) = (mesh.faces[face], mesh.faces[edge.next as usize]);
                     let around = [own.low, own.high, next.low, next.high];
                     let sum: f64 = around.iter().map(|&pore| factor[pore as usize]).sum();
-                    self.edges[edges.first(face) + index] *= 0.25 * sum;
+                    thick.edges[edges.first(face) + index] *= 0.25 * sum;
                 }
             }
         }
-        let pores = self.pores.par_iter_mut().zip(factor);
+        let pores = thick.pores.par_iter_mut().zip(factor);
         pores.for_each(|(viscosity, factor)| *viscosity *= factor);
-        let walls = self.walls.par_iter_mut().zip(&mesh.faces);
+        let walls = thick.walls.par_iter_mut().zip(&mesh.faces);
         walls.for_each(|(viscosity, face)| {
             viscosity[0] *= factor[face.low as usize];
             viscosity[1] *= factor[face.high as usize];
         });
-        self
-    }
-
-    /// Mean change of ln(viscosity) from `self` to `next`, weighted by the dissipation of each pore.
-    pub(crate) fn change(&self, next: &Self, rates: &Rates, mesh: &Mesh, fractions: &[f64]) -> f64 {
-        let mut sums = [0.0; 2];
-        for pore in (0..mesh.pores.len()).filter(|&pore| fractions[pore] > 0.0) {
-            let power =
-                next.pores[pore] * rates.pores[pore].powi(2) * mesh.volume(pore) * fractions[pore];
-            sums[0] += power * (next.pores[pore] / self.pores[pore]).ln().abs();
-            sums[1] += power;
-        }
-        if sums[1] > 0.0 {
-            sums[0] / sums[1]
-        } else {
-            0.0
-        }
+        thick
     }
 }
 
@@ -93,18 +72,30 @@ impl Viscosities {
 /// cells.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Wall {
-    rate: f64,
+    pub(super) rate: f64,
     distance: f64,
     width: f64,
     first: f64,
+}
+
+impl Wall {
+    /// What the rate there is multiplied by, and the viscosity, for the distance that suits a liquid of this `law`.
+    pub(super) fn share(&self, law: &Viscosity, slip: f64) -> f64 {
+        if self.rate <= 0.0 {
+            return 1.0;
+        }
+        let power = steepness(law, self.rate);
+        let distance = thinning_distance(self.distance, self.width, self.first, power);
+        (self.distance + slip) / (distance + slip)
+    }
 }
 
 /// Shear rates, 1/s, by the convention of the scene: of each pore and edge; and at the walls of each face.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rates {
     pub(crate) pores: Vec<f64>,
-    edges: Vec<f64>,
-    walls: Vec<Wall>,
+    pub(super) edges: Vec<f64>,
+    pub(super) walls: Vec<Wall>,
 }
 
 impl Rates {
@@ -143,6 +134,20 @@ impl Rates {
                 .map(|face| view.wall_rate(face, slip))
                 .collect(),
         }
+    }
+
+    /// Dissipation of each pore where liquid has these viscosities.
+    pub(crate) fn power(
+        &self,
+        viscosities: &Viscosities,
+        mesh: &Mesh,
+        fractions: &[f64],
+    ) -> Vec<f64> {
+        let power = |pore: usize| {
+            let stress = viscosities.pores[pore] * self.pores[pore];
+            stress * self.pores[pore] * mesh.volume(pore) * fractions[pore]
+        };
+        (0..mesh.pores.len()).into_par_iter().map(power).collect()
     }
 }
 

@@ -1,0 +1,160 @@
+//! Passes in which the viscosity of a flow is sought: how far one is off, and where the next one goes on from, by how the flow
+//! answered the last change of the viscosity.
+
+use physics::Liquid;
+use rayon::prelude::*;
+
+use super::viscosity::{Rates, Viscosities, Wall};
+
+/// Largest exponent of a rate that is anticipated, and how near it is found.
+const FARTHEST: f64 = 30.0;
+const NEAR: f64 = 1e-4;
+/// Mean square of the changes of ln(viscosity) below which they tell nothing of the answer.
+const UNMOVED: f64 = 1e-6;
+
+/// A flow, and the viscosities by the law of the liquid that it was solved with.
+pub(crate) struct Pass {
+    used: Viscosities,
+    rates: Rates,
+    /// Dissipation of each pore.
+    power: Vec<f64>,
+}
+
+impl Pass {
+    /// That of a flow of these `rates` and this dissipation of each pore, solved with the viscosities `used`.
+    pub(crate) fn new(used: Viscosities, rates: Rates, power: Vec<f64>) -> Self {
+        Self { used, rates, power }
+    }
+
+    /// Mean change of ln(viscosity) to that of the `law` at the rates, weighted by dissipation.
+    pub(crate) fn change(&self, law: &Viscosities) -> f64 {
+        let mut sums = [0.0; 2];
+        for (pore, &power) in self.power.iter().enumerate().filter(|at| *at.1 > 0.0) {
+            sums[0] += power * (law.pores[pore] / self.used.pores[pore]).ln().abs();
+            sums[1] += power;
+        }
+        match sums[1] > 0.0 {
+            true => sums[0] / sums[1],
+            false => 0.0,
+        }
+    }
+
+    /// How ln(rate) answers ln(viscosity) from the pass `before` to this one, weighted by dissipation: -1 where the load is
+    /// given, 0 where the speed is. Some parts of a flow have the one and some the other, and what one pass tells is of those that
+    /// it changed most: half of it counts, and half of what was known `last`.
+    pub(crate) fn response(&self, before: &Self, last: f64) -> f64 {
+        let (mut answer, mut cause, mut weight) = (0.0, 0.0, 0.0);
+        for (pore, &power) in self.power.iter().enumerate().filter(|at| *at.1 > 0.0) {
+            let [old, new] =
+                [before, self].map(|pass| [pass.used.pores[pore], pass.rates.pores[pore]]);
+            if old[1] > 0.0 {
+                let [eta, rate] = [0, 1].map(|i| (new[i] / old[i]).ln());
+                answer += power * eta * rate;
+                cause += power * eta * eta;
+                weight += power;
+            }
+        }
+        match cause > UNMOVED * weight {
+            true => 0.5 * (last + (answer / cause).clamp(-1.0, 0.0)),
+            false => last,
+        }
+    }
+
+    /// The viscosities that the law of `liquid`, times `factor`, has at the rates which follow from them, if rates go with the
+    /// power `response` of the viscosity from here. Exact in a channel under a given load, where passes that take the
+    /// viscosity of the rates (a response of 0) come nearer by a part only, and hardly so where a liquid yields.
+    pub(crate) fn ahead(
+        &self,
+        liquid: &Liquid,
+        factor: f64,
+        slip: f64,
+        response: f64,
+    ) -> Viscosities {
+        let law = &liquid.viscosity;
+        let of = |rate: f64, used: f64| {
+            let at = |rate: f64| (factor * law.at(rate)).ln();
+            match rate > 0.0 {
+                true => consistent(at, used.ln(), rate, response).exp(),
+                false => factor * law.at(rate),
+            }
+        };
+        let each = |rates: &[f64], used: &[f64]| -> Vec<f64> {
+            let each = rates.par_iter().zip(used);
+            each.map(|(&rate, &used)| of(rate, used)).collect()
+        };
+        let walls = self.rates.walls.par_iter().zip(&self.used.walls);
+        let wall = |(wall, used): (&Wall, &[f64; 2])| {
+            let share = wall.share(law, slip);
+            [share * of(share * wall.rate, used[0] / share); 2]
+        };
+        Viscosities {
+            pores: each(&self.rates.pores, &self.used.pores),
+            edges: each(&self.rates.edges, &self.used.edges),
+            walls: walls.map(wall).collect(),
+        }
+    }
+}
+
+/// ln(viscosity) x with x = ln eta(rate exp(response (x - used))), for a stress that does not fall with
+/// the rate: by the Illinois variant of false position in the exponent.
+fn consistent(ln_eta: impl Fn(f64) -> f64, used: f64, rate: f64, response: f64) -> f64 {
+    let at = |exponent: f64| ln_eta(rate * exponent.exp());
+    let excess = |exponent: f64| exponent - response * (at(exponent) - used);
+    let (mut low, mut at_low) = (0.0, excess(0.0));
+    if at_low.abs() <= NEAR {
+        return at(-at_low);
+    }
+    // The excess grows with the exponent: the root lies on the side it points away from.
+    let mut high = -at_low;
+    let mut at_high = excess(high);
+    while at_high * at_low > 0.0 && high.abs() < FARTHEST {
+        (low, at_low) = (high, at_high);
+        high *= 2.0;
+        at_high = excess(high);
+    }
+    if at_high * at_low > 0.0 {
+        return at(high);
+    }
+    while (high - low).abs() > NEAR {
+        let next = (low * at_high - high * at_low) / (at_high - at_low);
+        let found = excess(next);
+        if found.abs() <= NEAR * NEAR {
+            return at(next);
+        }
+        if found * at_high < 0.0 {
+            (low, at_low) = (high, at_high);
+        } else {
+            at_low *= 0.5;
+        }
+        (high, at_high) = (next, found);
+    }
+    at(high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// eta = rate^-0.7: under a given stress eta rate = 2, from a viscosity of 1 and so a rate of 2.
+    #[test]
+    fn a_given_stress_has_its_viscosity_at_once() {
+        let ln_eta = |rate: f64| -0.7 * rate.ln();
+        let eta = consistent(ln_eta, 0.0, 2.0, -1.0).exp();
+        // rate^0.3 = 2
+        let rate = 2_f64.powf(1.0 / 0.3);
+        assert!((eta / rate.powf(-0.7) - 1.0).abs() < 1e-3, "{eta}");
+        let of_the_rate = consistent(ln_eta, 0.0, 2.0, 0.0).exp();
+        assert!((of_the_rate / 2_f64.powf(-0.7) - 1.0).abs() < 1e-12);
+    }
+
+    /// A liquid that hardly resists at any rate: its rate of e^999 is looked for up to e^30 in doublings.
+    #[test]
+    fn no_rate_is_sought_beyond_thirteen_decades() {
+        let ln_eta = |rate: f64| -0.999 * rate.ln();
+        let found = consistent(ln_eta, 0.0, std::f64::consts::E, -1.0);
+        assert!(
+            (found + 0.999 * (1.0 + 0.999 * 32.0)).abs() < 1e-9,
+            "{found}"
+        );
+    }
+}
