@@ -2,6 +2,7 @@
 
 mod chords;
 mod lattice;
+mod measures;
 mod mesh;
 mod passages;
 mod region;
@@ -12,6 +13,8 @@ mod voxels;
 
 pub(crate) use chords::Chords;
 pub(crate) use chords::Place;
+#[cfg(test)]
+pub(crate) use lattice::Moving;
 pub(crate) use lattice::{Lattice, MIRROR, OPEN};
 pub(crate) use mesh::{Face, Mesh, others};
 pub(crate) use passages::narrowness;
