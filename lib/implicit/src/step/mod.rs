@@ -16,7 +16,8 @@ use saddle_point::{SaddleOptions, SaddleSolver};
 use crate::clock::{Clock, Part};
 use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::{
-    Held, Kept, Moved, carried_region, carried_velocities, carried_volumes, transport,
+    Held, Kept, Moved, carried_pressures, carried_region, carried_velocities, carried_volumes,
+    transport,
 };
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, Links};
@@ -159,10 +160,11 @@ impl Implicit {
         self.fit_mesh();
         self.clock.add(Part::Geometry, begun);
         let (mut longest, mut dries) = (limit.time_s, false);
+        let mut guess = self.state.flow.clone();
         for _ in 0..ATTEMPTS {
             let dt = self.length(limit).min(longest);
             let solved = self
-                .solve(dt, limit, longest)
+                .solve(dt, limit, longest, &mut guess)
                 .map_err(|why| self.failure(&why))?;
             let shorter = solved.dries_too_fast();
             dries = shorter.is_some();
@@ -218,7 +220,7 @@ impl Implicit {
             state.air.of = carried_volumes(mesh, &old, &state.air.of);
         }
         state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
-        state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
+        state.flow.pressure = carried_pressures(mesh, &old, &state.flow.pressure);
         if let Some(wet) = &mut state.wet {
             wet.water = carried_volumes(mesh, &old, &wet.water);
             wet.soaked = carried_volumes(mesh, &old, &wet.soaked);

@@ -69,15 +69,16 @@ pub(super) struct Solved {
 
 impl Implicit {
     /// Solves the flow of a step of `dt` (s), of another length, `longest` at most, where the clamp comes to the end of its
-    /// travel.
+    /// travel. Each solution begins from `guess`, and leaves its flow there.
     pub(super) fn solve(
         &mut self,
         dt: f64,
         limit: StepLimit,
         longest: f64,
+        guess: &mut Flow,
     ) -> Result<Solved, String> {
         let left = self.left(limit);
-        let mut solved = self.solve_controlled(dt)?;
+        let mut solved = self.solve_controlled(dt, guess)?;
         if left == f64::INFINITY || left == 0.0 {
             return Ok(solved);
         }
@@ -89,13 +90,13 @@ impl Implicit {
             if reach < NEAR * left || (reach / left - 1.0).abs() <= MISSED || end > longest {
                 break;
             }
-            solved = self.solve_controlled(end)?;
+            solved = self.solve_controlled(end, guess)?;
         }
         let reach = solved.flow.speed * solved.dt;
         if reach > left + (MISSED * left).max(NOTHING) {
             let dt = solved.dt;
             let middle = self.middle(dt, Some(&solved.flow));
-            solved = self.solve_driven(&middle, Drive::Speed(left / dt))?;
+            solved = self.solve_driven(&middle, Drive::Speed(left / dt), guess)?;
         }
         let reach = solved.flow.speed * solved.dt;
         solved.arrives = (reach - left).abs() <= (MISSED * left).max(NOTHING);
@@ -112,12 +113,12 @@ impl Implicit {
     }
 
     /// Solves the flow of a step of `dt` (s) with the clamp at full speed, or at the speed of its pressure limit.
-    fn solve_controlled(&mut self, dt: f64) -> Result<Solved, String> {
+    fn solve_controlled(&mut self, dt: f64, guess: &mut Flow) -> Result<Solved, String> {
         self.state.drive.aim(dt);
         let mut middle = self.middle(dt, None);
         // A clamp that goes faster than in the last step may meet liquid that it would not have met.
         for _ in 1..MEETINGS {
-            let solved = self.solve_middle(&middle)?;
+            let solved = self.solve_middle(&middle, guess)?;
             if solved.flow.speed <= middle.closing {
                 return Ok(solved);
             }
@@ -128,35 +129,45 @@ impl Implicit {
             }
             middle = faster;
         }
-        self.solve_middle(&middle)
+        self.solve_middle(&middle, guess)
     }
 
     /// The same with the liquid in the `middle` of the step as it is.
-    fn solve_middle(&mut self, middle: &Middle) -> Result<Solved, String> {
+    fn solve_middle(&mut self, middle: &Middle, guess: &mut Flow) -> Result<Solved, String> {
         if let Some(asked) = self.state.drive.held() {
-            return self.solve_held(middle, asked);
+            return self.solve_held(middle, asked, guess);
         }
         let full = Drive::Speed(self.state.drive.speed / self.setup.units.cell_m);
-        let free = self.solve_driven(middle, full)?;
+        let free = self.solve_driven(middle, full, guess)?;
         let pressure = self.setup.pressure(free.flow.force);
         match self.state.drive.exceeded(pressure) {
-            Some(asked) => self.solve_held(middle, asked),
+            Some(asked) => self.solve_held(middle, asked, guess),
             None => Ok(free),
         }
     }
 
     /// The same under a pressure on the clamp, at the nearest speed that it can follow.
-    fn solve_held(&mut self, middle: &Middle, asked: Asked) -> Result<Solved, String> {
+    fn solve_held(
+        &mut self,
+        middle: &Middle,
+        asked: Asked,
+        guess: &mut Flow,
+    ) -> Result<Solved, String> {
         let cell_m = self.setup.units.cell_m;
+        // Viscous flow is in proportion to the speed that drives it.
+        guess.speed_up(self.state.drive.speed / cell_m);
         let drive = Drive::Force {
             force: self.setup.force(asked.limit),
             scale: self.setup.force(asked.limit.max(asked.least)),
             guess: self.state.drive.speed / cell_m,
         };
-        let solved = self.solve_driven(middle, drive)?;
+        let solved = self.solve_driven(middle, drive, guess)?;
         match self.state.drive.follow(solved.flow.speed * cell_m) {
             true => Ok(solved),
-            false => self.solve_driven(middle, Drive::Speed(self.state.drive.speed / cell_m)),
+            false => {
+                let drive = Drive::Speed(self.state.drive.speed / cell_m);
+                self.solve_driven(middle, drive, guess)
+            }
         }
     }
 
@@ -246,7 +257,12 @@ impl Implicit {
 
     /// Solves with the body that closes the gap driven so: in passes where the viscosity depends on the flow, until that
     /// no longer changes.
-    fn solve_driven(&mut self, middle: &Middle, drive: Drive) -> Result<Solved, String> {
+    fn solve_driven(
+        &mut self,
+        middle: &Middle,
+        drive: Drive,
+        guess: &mut Flow,
+    ) -> Result<Solved, String> {
         let Middle { fractions, .. } = middle;
         let dt = middle.dt;
         let begun = Instant::now();
@@ -284,7 +300,7 @@ impl Implicit {
             )
         };
         let mut viscosities = match varies && state.steps > 0 {
-            true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor, slip),
+            true => Viscosities::of(&rates(guess), &setup.liquid, factor, slip),
             false => Viscosities::constant(mesh, cured),
         };
         viscosities = thickened(viscosities);
@@ -297,7 +313,7 @@ impl Implicit {
             air: None,
             arrives: false,
             exchange: None,
-            flow: state.flow.clone(),
+            flow: std::mem::take(guess),
         };
         let (mut iterations, mut astray) = (0, false);
         for _ in 0..PASSES {
@@ -371,6 +387,7 @@ impl Implicit {
         solved.flow.iterations = iterations;
         solved.air = air.map(|air| (air, !astray));
         solved.exchange = lost;
+        guess.clone_from(&solved.flow);
         Ok(solved)
     }
 }
