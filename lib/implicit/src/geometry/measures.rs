@@ -86,11 +86,13 @@ impl Mesh {
         }
     }
 
-    /// Area of all faces of a pore on one side, cells.
-    pub(crate) fn side_area(&self, pore: usize, axis: usize, up: bool) -> f64 {
-        self.faces_at(pore, axis, up)
-            .map(|face| self.area(face))
-            .sum()
+    /// Part of the area of all faces of a pore on one side that one of them has.
+    pub(crate) fn share(&self, face: usize, pore: usize, axis: usize, up: bool) -> f64 {
+        let side = self.faces_at(pore, axis, up);
+        match side.len() {
+            1 => 1.0,
+            _ => self.area(face) / side.map(|face| self.area(face)).sum::<f64>(),
+        }
     }
 
     /// Velocity of the grid along y at a face over the closing speed; of faces across y alone.

@@ -266,7 +266,7 @@ impl Mesh {
         pore: usize,
         axis: usize,
         up: bool,
-    ) -> impl Iterator<Item = usize> + Clone {
+    ) -> impl ExactSizeIterator<Item = usize> + Clone {
         let at = 6 * pore + 2 * axis + usize::from(up);
         let range = self.side_start[at] as usize..self.side_start[at + 1] as usize;
         self.sides[range].iter().map(|&face| face as usize)

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, Place, others};
-use crate::liquid::Kept;
+use crate::liquid;
 
 /// Least effective distance over the open height of a column, so that friction stays finite.
 const LEAST: f64 = 0.1;
@@ -43,9 +43,40 @@ impl Link {
     }
 }
 
+/// A link as it is kept, in single precision.
+#[derive(Clone, Copy, Debug, Default)]
+struct Kept {
+    friction: [f32; 2],
+    sliding: [[f32; 2]; 2],
+    resistance: [f32; 2],
+    area: f32,
+    height: f32,
+    narrowness: f32,
+    by_gap: bool,
+    walled: bool,
+    body: u8,
+}
+
+impl From<Link> for Kept {
+    fn from(link: Link) -> Self {
+        let single = |pair: [f64; 2]| pair.map(|value| value as f32);
+        Self {
+            friction: single(link.friction),
+            sliding: link.sliding.map(single),
+            resistance: single(link.resistance),
+            area: link.area as f32,
+            height: link.height as f32,
+            narrowness: link.narrowness as f32,
+            by_gap: link.by_gap,
+            walled: link.walled,
+            body: link.body,
+        }
+    }
+}
+
 /// The links of all faces of a mesh.
 #[derive(Clone, Default)]
-pub(crate) struct Links(pub(crate) Vec<Link>);
+pub(crate) struct Links(Vec<Kept>);
 
 /// What walls are like in a scene.
 #[derive(Clone, Copy, Debug)]
@@ -57,13 +88,35 @@ pub(crate) struct Walls {
 }
 
 impl Links {
+    /// Whether there are none yet.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The link of a face.
+    pub(crate) fn of(&self, face: usize) -> Link {
+        let kept = &self.0[face];
+        let double = |pair: [f32; 2]| pair.map(f64::from);
+        Link {
+            friction: double(kept.friction),
+            sliding: kept.sliding.map(double),
+            resistance: double(kept.resistance),
+            area: f64::from(kept.area),
+            height: f64::from(kept.height),
+            narrowness: f64::from(kept.narrowness),
+            by_gap: kept.by_gap,
+            walled: kept.walled,
+            body: kept.body,
+        }
+    }
+
     /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
     pub(crate) fn new(
         lattice: &Lattice,
         chords: &Chords,
         mesh: &Mesh,
         walls: Walls,
-        kept: &Kept,
+        kept: &liquid::Kept,
         old: &Self,
     ) -> Self {
         let view = View {
@@ -77,8 +130,8 @@ impl Links {
             let old = kept.whole(face).map(|face| old.0[face]);
             match old.filter(|link| !link.by_gap) {
                 Some(link) => link,
-                None if inner[face] => view.link(face, mesh.is_clear(face, &clear)),
-                None => Link::default(),
+                None if inner[face] => view.link(face, mesh.is_clear(face, &clear)).into(),
+                None => Kept::default(),
             }
         };
         Self((0..mesh.faces.len()).into_par_iter().map(link).collect())
@@ -101,7 +154,7 @@ impl Links {
         };
         self.0.par_iter_mut().enumerate().for_each(|(face, link)| {
             if link.by_gap && mesh.is_wet(face, fractions) {
-                *link = view.link(face, !link.walled);
+                *link = view.link(face, !link.walled).into();
             }
         });
     }
@@ -135,23 +188,35 @@ impl View<'_> {
         if self.walls.influence_length.is_infinite() {
             return link;
         }
+        let places = [f.low, f.high].map(|pore| {
+            self.mesh
+                .place(self.mesh.pores[pore as usize].cell as usize)
+        });
         for t in others(axis) {
             if self.lattice.flat && t == 2 {
                 continue;
             }
             for r in 0..self.mesh.k {
-                self.column((face, clear), t, r, &mut link);
+                self.column((face, clear), places, t, r, &mut link);
             }
         }
         link
     }
 
     /// Adds the walls at both ends along `t` of column `r` of a face.
-    fn column(&self, (face, clear): (usize, bool), t: usize, r: usize, link: &mut Link) {
+    fn column(
+        &self,
+        (face, clear): (usize, bool),
+        places: [[usize; 3]; 2],
+        t: usize,
+        r: usize,
+        link: &mut Link,
+    ) {
         let (mesh, k) = (self.mesh, self.mesh.k);
         let f = mesh.faces[face];
         let axis = usize::from(f.axis);
-        let cells = [f.low, f.high].map(|pore| mesh.pores[pore as usize].cell as usize);
+        let pores = [f.low, f.high].map(|pore| pore as usize);
+        let cells = pores.map(|pore| mesh.pores[pore].cell as usize);
         let across = 3 - axis - t;
         let voxel = |half: usize, i: usize| {
             let mut at = [0; 3];
@@ -182,9 +247,9 @@ impl View<'_> {
         let walled = both.as_flattened().iter().any(|&code| is_wall(code));
         link.walled |= walled;
         for (half, cell) in cells.into_iter().enumerate() {
-            let edges = mesh.edges(cell);
+            let edges = [1.0, mesh.height(pores[half]), 1.0];
             let ends = both[half];
-            let place = mesh.lattice_place(self.lattice, cell, voxel(half, first));
+            let place = mesh.place_in_lattice(self.lattice, places[half], voxel(half, first));
             let width = |a: usize| self.width(place, a) / edges[t];
             link.by_gap |= place.is_some_and(|place| self.chords.through_gap(place));
             let part = 0.5 * edges[axis] * edges[across] / k as f64;

@@ -3,6 +3,7 @@
 mod assembly;
 mod edges;
 mod fronts;
+mod halves;
 mod links;
 mod solution;
 mod stretching;
@@ -10,9 +11,10 @@ mod thinning;
 mod unknowns;
 mod viscosity;
 
-pub(crate) use assembly::{Problem, Scales, halves, masses, stiffnesses};
+pub(crate) use assembly::{Problem, Scales};
 pub(crate) use edges::Edges;
 pub(crate) use fronts::{Fronts, Wetting};
+pub(crate) use halves::{halves, masses, stiffnesses};
 pub(crate) use links::{Links, Walls};
 pub(crate) use solution::{Drive, Flow, forces, resistance, solve};
 pub(crate) use unknowns::{FULL, Unknowns};

@@ -196,7 +196,7 @@ pub(crate) fn solve(
 
 /// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md section 3.6).
 pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
-    let link = &problem.links.0[face];
+    let link = problem.links.of(face);
     let slip = problem.scales.influence_length;
     let narrow = match slip.is_finite() {
         true => 12.0 * link.narrowness / (1.0 + 6.0 * slip * link.narrowness.sqrt()),
@@ -234,7 +234,7 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
     }
     for &face in &problem.unknowns.faces {
         let face = face as usize;
-        let link = &problem.links.0[face];
+        let link = problem.links.of(face);
         if mesh.faces[face].axis == 1 {
             let weights = problem.wall_weights(face);
             let drag: f64 = (0..2)

@@ -233,7 +233,7 @@ impl View<'_> {
                     for (around, sheared) in others(axis).into_iter().zip(sheared[face]) {
                         parts[1 + around] += sheared;
                     }
-                    let link = &self.links.0[face];
+                    let link = self.links.of(face);
                     let half = usize::from(!up);
                     if link.friction[half] > 0.0 {
                         let wall = self.wall(face, half);
@@ -248,14 +248,14 @@ impl View<'_> {
 
     /// Mean velocity of the walls beside the half of a face.
     fn wall(&self, face: usize, half: usize) -> f64 {
-        let link = &self.links.0[face];
+        let link = self.links.of(face);
         let [own, closing] = link.sliding[half];
         (own + closing * self.speed) / link.friction[half]
     }
 
     /// What the walls of a face do.
     fn wall_rate(&self, face: usize, slip: f64) -> Wall {
-        let link = &self.links.0[face];
+        let link = self.links.of(face);
         let friction: f64 = link.friction.iter().sum();
         if friction == 0.0 {
             return Wall::default();
