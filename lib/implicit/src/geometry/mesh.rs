@@ -113,22 +113,15 @@ impl Mesh {
         }
         mesh.face_start.push(mesh.faces.len() as u32);
         mesh.list_sides();
+        mesh.pores.shrink_to_fit();
+        mesh.faces.shrink_to_fit();
         mesh
-    }
-
-    /// Cells with a pore that `holds` liquid.
-    pub(crate) fn cells_with(&self, holds: impl Fn(usize) -> bool) -> Region {
-        let mut region = Region::new(self.size, false);
-        for (pore, of) in self.pores.iter().enumerate() {
-            if holds(pore) {
-                region.add(of.cell as usize);
-            }
-        }
-        region
     }
 
     /// Lists the faces of each pore.
     fn list_sides(&mut self) {
+        self.sides.reserve_exact(2 * self.faces.len());
+        self.side_start.reserve_exact(6 * self.pores.len() + 1);
         for pore in 0..self.pores.len() {
             let cell = self.pores[pore].cell as usize;
             for axis in 0..3 {
@@ -279,36 +272,6 @@ impl Mesh {
         let rows = self.rows();
         let gap = rows.below..rows.below + rows.gap + 1;
         gap.contains(&row(f.high)) || gap.contains(&(row(f.low) + 1))
-    }
-
-    /// Which faces are beside a cell whose neighbours are all in the region: only these can have liquid.
-    pub(crate) fn inner_faces(&self) -> Vec<bool> {
-        let inner = self.region.inner(self.periodic());
-        let holds = |pore: u32| inner.holds(self.pores[pore as usize].cell as usize);
-        let faces = self.faces.iter();
-        faces
-            .map(|face| holds(face.low) || holds(face.high))
-            .collect()
-    }
-
-    /// Cells that are open, as are all of their neighbours: no wall is near.
-    pub(crate) fn clear_cells(&self) -> Region {
-        let mut open = Region::new(self.size, false);
-        let whole = (1_u32 << self.k.pow(3)) - 1;
-        for pore in &self.pores {
-            if u32::from(pore.voxels) == whole {
-                open.add(pore.cell as usize);
-            }
-        }
-        open.inner(self.periodic())
-    }
-
-    /// Whether both cells of a face are among those.
-    pub(crate) fn is_clear(&self, face: usize, clear: &Region) -> bool {
-        let face = &self.faces[face];
-        [face.low, face.high]
-            .iter()
-            .all(|&pore| clear.holds(self.pores[pore as usize].cell as usize))
     }
 
     /// Whether there is liquid on either side of a face.

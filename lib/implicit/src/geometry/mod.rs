@@ -1,6 +1,7 @@
 //! Where liquid can be: voxels of the bodies, rows of cells between them, pores and faces.
 
 mod chords;
+mod frames;
 mod lattice;
 mod measures;
 mod mesh;

@@ -67,6 +67,19 @@ pub(super) struct Solved {
     pub(super) exchange: Option<Exchange>,
 }
 
+/// Length of the step that goes as far as `left`, of lengths and speeds of the last one and the one `before`: speeds are linear
+/// in the length.
+fn arrival(left: f64, [dt, speed]: [f64; 2], before: Option<[f64; 2]>) -> f64 {
+    let slope = before.map_or(0.0, |[other, slower]| (speed - slower) / (dt - other));
+    let first = speed - slope * dt;
+    let end = 2.0 * left / (first + (first * first + 4.0 * slope * left).sqrt());
+    if end > 0.0 && end.is_finite() {
+        end
+    } else {
+        left / speed
+    }
+}
+
 impl Implicit {
     /// Solves the flow of a step of `dt` (s), of another length, `longest` at most, where the clamp comes to the end of its
     /// travel. Each solution begins from `guess`, and leaves its flow there.
@@ -83,10 +96,11 @@ impl Implicit {
             return Ok(solved);
         }
         // The clamp's speed under load is known only then: the step ends the travel when it is that of its own length.
+        let mut before = None;
         for _ in 0..CLOSER {
-            let Solved { dt, flow, .. } = &solved;
-            let reach = flow.speed * dt;
-            let end = left / flow.speed;
+            let now = [solved.dt, solved.flow.speed];
+            let reach = now[0] * now[1];
+            let end = arrival(left, now, before.replace(now));
             if reach < NEAR * left || (reach / left - 1.0).abs() <= MISSED || end > longest {
                 break;
             }
@@ -272,7 +286,7 @@ impl Implicit {
         }
         let begun = Instant::now();
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
-        let mut torn = vec![false; mesh.pores.len()];
+        let mut torn = self.untorn();
         let mut unknowns = Unknowns::new(mesh, fractions, &torn);
         let mut air = self.closed_off(&unknowns, fractions, dt);
         let halves = halves(mesh, fractions);

@@ -132,7 +132,9 @@ impl Edges {
                 (counts.collect(), edges)
             })
             .collect();
-        let (mut start, mut edges) = (vec![0], Vec::new());
+        let mut start = Vec::with_capacity(mesh.faces.len() + 1);
+        let mut edges = Vec::with_capacity(lists.iter().map(|list| list.1.len()).sum());
+        start.push(0);
         for (counts, part) in lists {
             let mut end = edges.len() as u32;
             start.extend(counts.into_iter().map(|count| {

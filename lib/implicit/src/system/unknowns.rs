@@ -22,9 +22,10 @@ pub(crate) struct Unknowns {
 }
 
 impl Unknowns {
-    /// Those of pores filled to `fractions`, where those that are `torn` have no pressure.
+    /// Those of pores filled to `fractions`, where those that are `torn`, if any can be, have no pressure.
     pub(crate) fn new(mesh: &Mesh, fractions: &[f64], torn: &[bool]) -> Self {
-        let full = |pore: u32| fractions[pore as usize] >= FULL && !torn[pore as usize];
+        let full =
+            |pore: u32| fractions[pore as usize] >= FULL && torn.get(pore as usize) != Some(&true);
         let mut unknowns = Self {
             faces: Vec::new(),
             pores: Vec::new(),
