@@ -1,6 +1,7 @@
 //! The scheme, and the order of one step.
 
 mod air;
+mod clamp;
 mod drive;
 mod failure;
 mod fit;

@@ -3,80 +3,18 @@
 use rayon::prelude::*;
 
 use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, Place, others};
-use crate::liquid;
+use crate::liquid::Kept;
+
+use super::link::{Link, Single};
 
 /// Least effective distance over the open height of a column, so that friction stays finite.
 const LEAST: f64 = 0.1;
 /// Least part of the narrowest width that counts where walls stand on both axes: that of a square duct two cells wide.
 const NARROWEST: f64 = 0.85;
 
-/// Friction that holds a face to the walls beside it, per viscosity: in its low and its high half.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Link {
-    /// Area of walls over the distance to them, of the halves in the low and the high pore.
-    pub(crate) friction: [f64; 2],
-    /// The same times the velocity of the walls along the face: what moves by itself, cells/s, and what moves with the
-    /// closing speed, per unit of that.
-    pub(crate) sliding: [[f64; 2]; 2],
-    /// The same times the square of the latter.
-    pub(crate) resistance: [f64; 2],
-    /// Area of walls, of both halves, and that times the open height beside them.
-    pub(crate) area: f64,
-    pub(crate) height: f64,
-    /// Whether the height of the gap is part of it.
-    pub(crate) by_gap: bool,
-    /// Whether there are walls beside it.
-    walled: bool,
-    /// Code of the body that most recently was found beside it.
-    pub(crate) body: u8,
-    /// Sum of 1/H^2 over the axes across the face.
-    pub(crate) narrowness: f64,
-}
-
-impl Link {
-    /// Adds friction in a half, with a wall that moves so: by itself, and per closing speed.
-    fn add(&mut self, half: usize, friction: f64, [own, clamp]: [f64; 2]) {
-        self.friction[half] += friction;
-        self.sliding[half][0] += friction * own;
-        self.sliding[half][1] += friction * clamp;
-        self.resistance[half] += friction * clamp * clamp;
-    }
-}
-
-/// A link as it is kept, in single precision.
-#[derive(Clone, Copy, Debug, Default)]
-struct Kept {
-    friction: [f32; 2],
-    sliding: [[f32; 2]; 2],
-    resistance: [f32; 2],
-    area: f32,
-    height: f32,
-    narrowness: f32,
-    by_gap: bool,
-    walled: bool,
-    body: u8,
-}
-
-impl From<Link> for Kept {
-    fn from(link: Link) -> Self {
-        let single = |pair: [f64; 2]| pair.map(|value| value as f32);
-        Self {
-            friction: single(link.friction),
-            sliding: link.sliding.map(single),
-            resistance: single(link.resistance),
-            area: link.area as f32,
-            height: link.height as f32,
-            narrowness: link.narrowness as f32,
-            by_gap: link.by_gap,
-            walled: link.walled,
-            body: link.body,
-        }
-    }
-}
-
 /// The links of all faces of a mesh.
 #[derive(Clone, Default)]
-pub(crate) struct Links(Vec<Kept>);
+pub(crate) struct Links(Vec<Single>);
 
 /// What walls are like in a scene.
 #[derive(Clone, Copy, Debug)]
@@ -95,19 +33,7 @@ impl Links {
 
     /// The link of a face.
     pub(crate) fn of(&self, face: usize) -> Link {
-        let kept = &self.0[face];
-        let double = |pair: [f32; 2]| pair.map(f64::from);
-        Link {
-            friction: double(kept.friction),
-            sliding: kept.sliding.map(double),
-            resistance: double(kept.resistance),
-            area: f64::from(kept.area),
-            height: f64::from(kept.height),
-            narrowness: f64::from(kept.narrowness),
-            by_gap: kept.by_gap,
-            walled: kept.walled,
-            body: kept.body,
-        }
+        self.0[face].into()
     }
 
     /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
@@ -116,7 +42,7 @@ impl Links {
         chords: &Chords,
         mesh: &Mesh,
         walls: Walls,
-        kept: &liquid::Kept,
+        kept: &Kept,
         old: &Self,
     ) -> Self {
         let view = View {
@@ -131,7 +57,7 @@ impl Links {
             match old.filter(|link| !link.by_gap) {
                 Some(link) => link,
                 None if inner[face] => view.link(face, mesh.is_clear(face, &clear)).into(),
-                None => Kept::default(),
+                None => Single::default(),
             }
         };
         Self((0..mesh.faces.len()).into_par_iter().map(link).collect())

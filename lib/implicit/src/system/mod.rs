@@ -4,6 +4,7 @@ mod assembly;
 mod edges;
 mod fronts;
 mod halves;
+mod link;
 mod links;
 mod solution;
 mod stretching;
