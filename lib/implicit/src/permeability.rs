@@ -138,7 +138,7 @@ impl Through {
             &Kept::default(),
             &Links::default(),
         );
-        let unknowns = Unknowns::new(mesh, fractions, &vec![false; fractions.len()]);
+        let unknowns = Unknowns::new(mesh, fractions, &[]);
         let halves: Vec<[f64; 2]> = (mesh.faces.iter())
             .map(|face| [face.low, face.high].map(|pore| fractions[pore as usize]))
             .collect();

@@ -8,8 +8,8 @@ use crate::step::{CURED, DRIED};
 /// Speed of the liquid that sets the step over that of the body that drives it, averaged over a run: 1.6 to 1.8 where wood
 /// closes on a slab.
 const SPEED_RATIO: f64 = 1.8;
-/// Processor seconds per unknown and step, as measured with 7 to 70 thousand unknowns.
-const SECONDS: f64 = 9e-6;
+/// Processor seconds per unknown and step, as measured with 70 to 700 thousand unknowns.
+const SECONDS: f64 = 4e-6;
 /// Bytes per unknown (matrices, Krylov basis, multigrid), per cell of the domain (pores, faces, friction of walls), per voxel
 /// (chords, what measures the bond), and of the process, as measured with 9, 33 and 69 thousand unknowns.
 const BYTES: [f64; 4] = [400.0, 220.0, 40.0, 8e6];

@@ -1,6 +1,8 @@
 //! The voxels of a scene on one lattice: which body fills each, and how the parts move against each other.
 
-use physics::{Boundary, Dimensions, GridBox, Motion, RigidBody, Scene, Stop, VoxelBlock};
+use physics::{Boundary, Dimensions, GridBox, Motion, RigidBody, Scene};
+
+use super::frames::{Frames, check_motions, mover};
 
 /// Code of a voxel that liquid can fill. A body `b` has `b + 1`.
 pub(crate) const OPEN: u8 = 0;
@@ -9,7 +11,7 @@ pub(crate) const MIRROR: u8 = u8::MAX;
 /// Most bodies of a scene: codes have 8 bits.
 pub(crate) const MAX_BODIES: usize = 200;
 /// Part of a voxel that a face of a body may be off the lattice, as rounding.
-const ALIGNED: f64 = 1e-3;
+pub(super) const ALIGNED: f64 = 1e-3;
 
 /// A layer of voxels at constant y: codes, x fastest.
 type Layer = Vec<u8>;
@@ -167,178 +169,6 @@ impl Lattice {
         }
         Ok(())
     }
-}
-
-/// Refuses motions by which walls come elsewhere than where the grid has them.
-fn check_motions(scene: &Scene, lattice: &Lattice, frames: &Frames) -> Result<(), String> {
-    let (low, high) = (scene.grid.min_m, scene.grid.max_m());
-    let tight = ALIGNED * scene.grid.cell_m;
-    if lattice.moving.is_some() && scene.boundary[1] == Boundary::Periodic {
-        return Err(
-            "a body moves along y between periodic sides: give other sides normal to y".into(),
-        );
-    }
-    for (index, body) in scene.bodies.iter().enumerate() {
-        let through = |block: &VoxelBlock, a: usize| {
-            let spans = block.origin()[a] <= low[a] + tight && block.max()[a] >= high[a] - tight;
-            spans && block.dims()[a] == 1
-        };
-        if let Motion::Constant(v) = body.motion {
-            for a in [0, 2].into_iter().filter(|&a| v[a] != 0.0) {
-                if !body.blocks.iter().all(|block| through(block, a)) {
-                    return Err(format!(
-                        "body '{}' moves along {} and ends within the domain: scheme = \"volume-fraction\" takes walls that \
-                         move along themselves from side to side",
-                        body.name,
-                        ["x", "y", "z"][a]
-                    ));
-                }
-            }
-        }
-        let Some(moving) = lattice.moving.filter(|_| lattice.mover != Some(index)) else {
-            continue;
-        };
-        for block in &body.blocks {
-            let solid = sides(block);
-            let (Some(&from), Some(&to)) = (solid.first(), solid.last()) else {
-                continue;
-            };
-            let [bottom, top] = frames.gap;
-            // A domain may end within its last row of cells.
-            let (beside, along) = match moving {
-                Moving::Above => (
-                    to > bottom + tight,
-                    from <= bottom + tight && to > high[1] - scene.grid.cell_m,
-                ),
-                Moving::Below => (
-                    from < top - tight,
-                    to >= top - tight && from <= low[1] + tight,
-                ),
-            };
-            if beside && !(along && block.dims()[1] == 1) {
-                return Err(format!(
-                    "body '{}' stands beside the way of '{}' and is not alike along it: scheme = \"volume-fraction\" takes \
-                     walls there that go on to the side of the domain",
-                    body.name,
-                    scene.bodies[lattice.mover.unwrap_or(index)].name
-                ));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The body that moves along y, if one does, and its speed against the others.
-fn mover(scene: &Scene) -> Result<Option<usize>, String> {
-    let mut found = None;
-    for (index, body) in scene.bodies.iter().enumerate() {
-        let along_y = match body.motion {
-            Motion::Fixed => false,
-            Motion::Clamped => true,
-            Motion::Constant(v) => v[1] != 0.0,
-        };
-        if !along_y {
-            continue;
-        }
-        if let Motion::Constant([x, _, z]) = body.motion
-            && (x != 0.0 || z != 0.0)
-        {
-            return Err(format!(
-                "body '{}' moves along y and aside: the implicit scheme moves bodies along y, or walls along themselves",
-                body.name
-            ));
-        }
-        if found.replace(index).is_some() {
-            return Err(format!(
-                "two bodies move along y, '{}' the second of them: the implicit scheme takes one",
-                body.name
-            ));
-        }
-    }
-    Ok(found)
-}
-
-/// Where the gap lies and what moves.
-struct Frames {
-    gap: [f64; 2],
-    moving: Option<Moving>,
-}
-
-impl Frames {
-    /// The gap lies between the body that moves and the nearest voxels of others that end towards it; without such a body it
-    /// is none, at the low side of the domain.
-    fn new(scene: &Scene, mover: Option<usize>) -> Result<Self, String> {
-        let low = scene.grid.min_m[1];
-        let Some(mover) = mover else {
-            return Ok(Self {
-                gap: [low; 2],
-                moving: None,
-            });
-        };
-        let body = &scene.bodies[mover];
-        let down = match body.motion {
-            Motion::Constant(v) => v[1] < 0.0,
-            _ => true,
-        };
-        let (bottom, top) = solid_extent(body);
-        let high = scene.grid.max_m()[1];
-        let tight = ALIGNED * scene.grid.cell_m;
-        // Sides of other bodies that cross the mover's path: where one ends, the gap ends.
-        let mut stop = if down { low } else { high };
-        for other in scene.bodies.iter().enumerate().filter(|(i, _)| *i != mover) {
-            for block in &other.1.blocks {
-                for y in sides(block) {
-                    if down && y <= bottom + tight {
-                        stop = stop.max(y);
-                    } else if !down && y >= top - tight {
-                        stop = stop.min(y);
-                    }
-                }
-            }
-        }
-        let (gap, moving) = match down {
-            true => ([stop, bottom], Moving::Above),
-            false => ([top, stop], Moving::Below),
-        };
-        if let Stop::Closed { travel_m } = scene.stop
-            && travel_m > gap[1] - gap[0] + tight
-        {
-            return Err(format!(
-                "the clamp is to travel {:.4} um, but the bodies meet after {:.4} um: the implicit scheme closes one gap",
-                1e6 * travel_m,
-                1e6 * (gap[1] - gap[0])
-            ));
-        }
-        Ok(Self {
-            gap,
-            moving: Some(moving),
-        })
-    }
-}
-
-/// Lowest and highest y of the solid voxels of a body.
-fn solid_extent(body: &RigidBody) -> (f64, f64) {
-    let mut extent = (f64::INFINITY, f64::NEG_INFINITY);
-    for block in &body.blocks {
-        for y in sides(block) {
-            extent = (extent.0.min(y), extent.1.max(y));
-        }
-    }
-    extent
-}
-
-/// y of the first and the last layer of a block that holds solid voxels, its outer sides.
-fn sides(block: &VoxelBlock) -> Vec<f64> {
-    let [_, ny, nz] = block.dims();
-    let holds = |j: usize| (0..nz).any(|k| block.row(j, k).iter().any(|&word| word != 0));
-    let y = |j: usize| block.origin()[1] + j as f64 * block.voxel()[1];
-    let first = (0..ny).find(|&j| holds(j));
-    let last = (0..ny).rfind(|&j| holds(j));
-    first
-        .map(y)
-        .into_iter()
-        .chain(last.map(|j| y(j + 1)))
-        .collect()
 }
 
 /// Voxels along the edge of a cell: one where every face lies on those of cells, else two.

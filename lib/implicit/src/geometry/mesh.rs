@@ -5,6 +5,7 @@ use std::ops::Range;
 use physics::Boundary;
 
 use super::lattice::{Lattice, OPEN};
+use super::measures::Measures;
 use super::region::Region;
 use super::rows::Rows;
 use super::split::connected;
@@ -37,7 +38,7 @@ pub(crate) struct Mesh {
     pub(crate) size: [usize; 3],
     /// Cells beyond the low sides.
     pub(crate) beyond: [usize; 3],
-    rows: Rows,
+    pub(super) measures: Measures,
     /// Rows of the grid that are here.
     pub(crate) range: Range<usize>,
     /// Cells that have their pores here.
@@ -52,10 +53,6 @@ pub(crate) struct Mesh {
     /// Faces of each pore on its low and its high side along x, y, z, and where those of each side begin.
     sides: Vec<u32>,
     side_start: Vec<u32>,
-    /// Volume of each pore, area of each face and of all faces of each side of a pore with the gap as high as it is, cells.
-    volumes: Vec<f64>,
-    areas: Vec<f64>,
-    side_areas: Vec<f64>,
 }
 
 impl Mesh {
@@ -81,7 +78,7 @@ impl Mesh {
             k: lattice.k,
             size,
             beyond,
-            rows,
+            measures: Measures::new(rows),
             range,
             region,
             boundary: lattice.boundary,
@@ -91,9 +88,6 @@ impl Mesh {
             face_start: Vec::with_capacity(3 * cells + 1),
             sides: Vec::new(),
             side_start: Vec::new(),
-            volumes: Vec::new(),
-            areas: Vec::new(),
-            side_areas: Vec::new(),
         };
         for cell in 0..cells {
             mesh.pore_start.push(mesh.pores.len() as u32);
@@ -119,23 +113,15 @@ impl Mesh {
         }
         mesh.face_start.push(mesh.faces.len() as u32);
         mesh.list_sides();
-        mesh.measure();
+        mesh.pores.shrink_to_fit();
+        mesh.faces.shrink_to_fit();
         mesh
-    }
-
-    /// Cells with a pore that `holds` liquid.
-    pub(crate) fn cells_with(&self, holds: impl Fn(usize) -> bool) -> Region {
-        let mut region = Region::new(self.size, false);
-        for (pore, of) in self.pores.iter().enumerate() {
-            if holds(pore) {
-                region.add(of.cell as usize);
-            }
-        }
-        region
     }
 
     /// Lists the faces of each pore.
     fn list_sides(&mut self) {
+        self.sides.reserve_exact(2 * self.faces.len());
+        self.side_start.reserve_exact(6 * self.pores.len() + 1);
         for pore in 0..self.pores.len() {
             let cell = self.pores[pore].cell as usize;
             for axis in 0..3 {
@@ -156,39 +142,6 @@ impl Mesh {
             }
         }
         self.side_start.push(self.sides.len() as u32);
-    }
-
-    /// Numbers of rows, and the height of the gap.
-    pub(crate) fn rows(&self) -> &Rows {
-        &self.rows
-    }
-
-    /// Makes the gap as high as this, cells.
-    pub(crate) fn set_height(&mut self, height: f64) {
-        self.rows.height = height;
-        self.measure();
-    }
-
-    /// Measures pores and faces.
-    fn measure(&mut self) {
-        let volumes = (0..self.pores.len()).map(|pore| self.volume_at(pore, self.rows.height));
-        self.volumes = volumes.collect();
-        let part = |face: &Face| f64::from(face.open.count_ones()) / (self.k * self.k) as f64;
-        let height = |face: &Face| match face.axis {
-            1 => 1.0,
-            _ => self.height(face.low as usize),
-        };
-        self.areas = self
-            .faces
-            .iter()
-            .map(|face| part(face) * height(face))
-            .collect();
-        let sides = self.side_start.windows(2).map(|side| {
-            let faces = &self.sides[side[0] as usize..side[1] as usize];
-            let areas = faces.iter().map(|&face| self.areas[face as usize]);
-            areas.sum::<f64>()
-        });
-        self.side_areas = sides.collect();
     }
 
     fn open_voxels(&self, lattice: &Lattice, cell: usize) -> u8 {
@@ -268,37 +221,23 @@ impl Mesh {
         self.pores[pore].row as usize
     }
 
-    /// Height of the cell of a pore, cells.
-    pub(crate) fn height(&self, pore: usize) -> f64 {
-        self.rows.height_of(self.row_of(pore))
-    }
-
-    /// Height of the lowest row at a pore or beside it, a cell at most: the film in a gap that closes knows of edges no farther
-    /// than it is high.
-    pub(crate) fn lowest(&self, pore: usize) -> f64 {
-        let row = self.row_of(pore);
-        let near = row.saturating_sub(1)..(row + 2).min(self.rows.len());
-        near.map(|row| self.rows.height_of(row)).fold(1.0, f64::min)
-    }
-
     /// The next cell along an axis, over periodic sides too; `None` at other sides.
     pub(crate) fn neighbour(&self, cell: usize, axis: usize, up: bool) -> Option<usize> {
-        let mut place = self.place(cell);
-        let n = self.size[axis];
-        let periodic = self.periodic()[axis];
-        place[axis] = match (up, place[axis]) {
-            (true, i) if i + 1 < n => i + 1,
-            (false, i) if i > 0 => i - 1,
-            (true, _) if periodic => 0,
-            (false, _) if periodic => n - 1,
-            _ => return None,
-        };
-        Some(self.cell_at(place))
+        let [nx, ny, _] = self.size;
+        let (n, stride) = (self.size[axis], [1, nx, nx * ny][axis]);
+        let at = cell / stride % n;
+        match up {
+            true if at + 1 < n => Some(cell + stride),
+            false if at > 0 => Some(cell - stride),
+            _ if !self.periodic()[axis] => None,
+            true => Some(cell - (n - 1) * stride),
+            false => Some(cell + (n - 1) * stride),
+        }
     }
 
     /// Which axes have periodic sides within this mesh.
     pub(crate) fn periodic(&self) -> [bool; 3] {
-        let whole = self.range.len() == self.rows.len();
+        let whole = self.range.len() == self.rows().len();
         let here = [true, whole, true];
         std::array::from_fn(|axis| here[axis] && self.boundary[axis] == Boundary::Periodic)
     }
@@ -320,7 +259,7 @@ impl Mesh {
         pore: usize,
         axis: usize,
         up: bool,
-    ) -> impl Iterator<Item = usize> + Clone {
+    ) -> impl ExactSizeIterator<Item = usize> + Clone {
         let at = 6 * pore + 2 * axis + usize::from(up);
         let range = self.side_start[at] as usize..self.side_start[at + 1] as usize;
         self.sides[range].iter().map(|&face| face as usize)
@@ -330,18 +269,9 @@ impl Mesh {
     pub(crate) fn is_by_gap(&self, face: usize) -> bool {
         let f = self.faces[face];
         let row = |pore: u32| self.row_of(pore as usize);
-        let gap = self.rows.below..self.rows.below + self.rows.gap + 1;
+        let rows = self.rows();
+        let gap = rows.below..rows.below + rows.gap + 1;
         gap.contains(&row(f.high)) || gap.contains(&(row(f.low) + 1))
-    }
-
-    /// Which faces are beside a cell whose neighbours are all in the region: only these can have liquid.
-    pub(crate) fn inner_faces(&self) -> Vec<bool> {
-        let inner = self.region.inner(self.periodic());
-        let holds = |pore: u32| inner.holds(self.pores[pore as usize].cell as usize);
-        let faces = self.faces.iter();
-        faces
-            .map(|face| holds(face.low) || holds(face.high))
-            .collect()
     }
 
     /// Whether there is liquid on either side of a face.
@@ -350,11 +280,6 @@ impl Mesh {
         [f.low, f.high]
             .iter()
             .any(|&pore| fractions[pore as usize] > 0.0)
-    }
-
-    /// Area of all faces of a pore on one side, cells.
-    pub(crate) fn side_area(&self, pore: usize, axis: usize, up: bool) -> f64 {
-        self.side_areas[6 * pore + 2 * axis + usize::from(up)]
     }
 
     /// The pore of a cell that holds a voxel.
@@ -379,40 +304,9 @@ impl Mesh {
         let across =
             |a: usize| self.beyond[a] == 1 && (place[a] == 0 || place[a] + 1 == self.size[a]);
         let row = place[1] + self.range.start;
-        let along = self.boundary[1] == Boundary::Open && (row == 0 || row + 1 == self.rows.len());
+        let along =
+            self.boundary[1] == Boundary::Open && (row == 0 || row + 1 == self.rows().len());
         along || across(0) || across(2)
-    }
-
-    /// Edges of a cell along x, y, z, cells.
-    pub(crate) fn edges(&self, cell: usize) -> [f64; 3] {
-        [1.0, self.rows.height_of(self.row(cell)), 1.0]
-    }
-
-    /// Volume of a pore, cells.
-    pub(crate) fn volume(&self, pore: usize) -> f64 {
-        self.volumes[pore]
-    }
-
-    /// The same with a gap of another height.
-    pub(crate) fn volume_at(&self, pore: usize, height: f64) -> f64 {
-        let Pore { row, voxels, .. } = self.pores[pore];
-        let part = f64::from(voxels.count_ones()) / (self.k * self.k * self.k) as f64;
-        let rows = Rows {
-            height,
-            ..self.rows
-        };
-        part * rows.height_of(row as usize)
-    }
-
-    /// Area of a face, cells.
-    pub(crate) fn area(&self, face: usize) -> f64 {
-        self.areas[face]
-    }
-
-    /// Velocity of the grid along y at a face over the closing speed; of faces across y alone.
-    pub(crate) fn frame(&self, lattice: &Lattice, face: usize) -> f64 {
-        let row = self.row_of(self.faces[face].high as usize);
-        lattice.speed_at(self.rows.share(row))
     }
 }
 

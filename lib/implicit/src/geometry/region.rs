@@ -1,4 +1,6 @@
-//! The cells of a box that a mesh has pores in: those near liquid.
+//! Some of the cells of a box: those that a mesh has pores in, near liquid, and those of a mesh with something in common.
+
+use super::mesh::Mesh;
 
 /// Some of the cells of a box, x first, then y, then z.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,6 +85,49 @@ impl Region {
             *held = fits && bits[cell / 32] >> (cell % 32) & 1 == 1;
         }
         fits.then_some(region)
+    }
+}
+
+impl Mesh {
+    /// Cells with a pore that `holds` liquid.
+    pub(crate) fn cells_with(&self, holds: impl Fn(usize) -> bool) -> Region {
+        let mut region = Region::new(self.size, false);
+        for (pore, of) in self.pores.iter().enumerate() {
+            if holds(pore) {
+                region.add(of.cell as usize);
+            }
+        }
+        region
+    }
+
+    /// Which faces are beside a cell whose neighbours are all in the region: only these can have liquid.
+    pub(crate) fn inner_faces(&self) -> Vec<bool> {
+        let inner = self.region.inner(self.periodic());
+        let holds = |pore: u32| inner.holds(self.pores[pore as usize].cell as usize);
+        let faces = self.faces.iter();
+        faces
+            .map(|face| holds(face.low) || holds(face.high))
+            .collect()
+    }
+
+    /// Cells that are open, as are all of their neighbours: no wall is near.
+    pub(crate) fn clear_cells(&self) -> Region {
+        let mut open = Region::new(self.size, false);
+        let whole = (1_u32 << self.k.pow(3)) - 1;
+        for pore in &self.pores {
+            if u32::from(pore.voxels) == whole {
+                open.add(pore.cell as usize);
+            }
+        }
+        open.inner(self.periodic())
+    }
+
+    /// Whether both cells of a face are among those.
+    pub(crate) fn is_clear(&self, face: usize, clear: &Region) -> bool {
+        let face = &self.faces[face];
+        [face.low, face.high]
+            .iter()
+            .all(|&pore| clear.holds(self.pores[pore as usize].cell as usize))
     }
 }
 

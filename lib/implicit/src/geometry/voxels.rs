@@ -23,7 +23,16 @@ impl Mesh {
         cell: usize,
         voxel: [usize; 3],
     ) -> Option<Place> {
-        let [x, y, z] = self.place(cell);
+        self.place_in_lattice(lattice, self.place(cell), voxel)
+    }
+
+    /// The same of a cell by its place.
+    pub(crate) fn place_in_lattice(
+        &self,
+        lattice: &Lattice,
+        [x, y, z]: [usize; 3],
+        voxel: [usize; 3],
+    ) -> Option<Place> {
         let across = lattice.across();
         let sub = |i: usize, a: usize| (i * self.k + voxel[a]).checked_sub(self.beyond[a] * self.k);
         let (x, z) = (sub(x, 0)?, sub(z, 2)?);

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use physics::Boundary;
+use rayon::prelude::*;
 
 use crate::geometry::{Kind, Mesh, Region, Rows};
 
@@ -117,31 +118,66 @@ fn overlapping(new: &Mesh, old: &Mesh, row: usize) -> Vec<(usize, f64)> {
 
 /// Volumes of `old` on `new`; what the last row of a gap held that is gone goes to the pores beside it.
 pub(crate) fn carried_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f64> {
-    let mut carried = vec![0.0; new.pores.len()];
-    for (pore, carried) in carried.iter_mut().enumerate() {
-        let cell = new.pores[pore].cell as usize;
-        let index = pore - new.pores_of(cell).start;
-        let [x, _, z] = new.place(cell);
-        let row = new.row(cell);
-        let of = |y: usize| {
-            let pores = old.pores_of(old.cell_at([x, y, z]));
-            pores.clone().nth(index).map_or(0.0, |pore| volumes[pore])
-        };
-        *carried = match same_row(new, old, row) {
-            Some(y) => of(y),
-            None if new.rows().kind(row) == Kind::Gap => overlapping(new, old, row)
-                .iter()
-                .map(|&(y, part)| part * of(y))
-                .sum(),
-            None => 0.0,
-        };
-    }
+    let sum = |parts: &[(f64, f64)]| parts.iter().map(|&(part, volume)| part * volume).sum();
+    let mut carried = of_pores(new, old, volumes, sum);
     if new.rows().gap == 0 && old.rows().gap > 0 {
         for y in old.rows().below..old.rows().below + old.rows().gap {
             squeeze_out(new, old, y - old.range.start, volumes, &mut carried);
         }
     }
     carried
+}
+
+/// Pressures of `old` on `new`; that of a gap that is gone is gone with it.
+pub(crate) fn carried_pressures(new: &Mesh, old: &Mesh, pressure: &[f64]) -> Vec<f64> {
+    of_pores(new, old, pressure, mean)
+}
+
+/// Mean of values by their parts.
+fn mean(parts: &[(f64, f64)]) -> f64 {
+    let all: f64 = parts.iter().map(|of| of.0).sum();
+    let sum: f64 = parts.iter().map(|&(part, value)| part * value).sum();
+    if all > 0.0 { sum / all } else { 0.0 }
+}
+
+/// Values of the pores of `old` on `new`: in the gap, what `join` makes of those of the rows that overlap one, each with
+/// the part of its row that does.
+fn of_pores(
+    new: &Mesh,
+    old: &Mesh,
+    values: &[f64],
+    join: impl Fn(&[(f64, f64)]) -> f64 + Sync,
+) -> Vec<f64> {
+    let value = |pore: usize| {
+        let cell = new.pores[pore].cell as usize;
+        let index = pore - new.pores_of(cell).start;
+        let [x, _, z] = new.place(cell);
+        let row = new.row(cell);
+        let of = |y: usize| {
+            let pores = old.pores_of(old.cell_at([x, y, z]));
+            pores.clone().nth(index).map_or(0.0, |pore| values[pore])
+        };
+        joined(new, old, row, of, &join)
+    };
+    (0..new.pores.len()).into_par_iter().map(value).collect()
+}
+
+/// A value in a row of `new` from those `of` rows of `old`.
+fn joined(
+    new: &Mesh,
+    old: &Mesh,
+    row: usize,
+    of: impl Fn(usize) -> f64,
+    join: impl Fn(&[(f64, f64)]) -> f64,
+) -> f64 {
+    match same_row(new, old, row) {
+        Some(y) => of(y),
+        None if new.rows().kind(row) == Kind::Gap => {
+            let rows = overlapping(new, old, row).into_iter();
+            join(&rows.map(|(y, part)| (part, of(y))).collect::<Vec<_>>())
+        }
+        None => 0.0,
+    }
 }
 
 /// Gives what a row of `old` that is gone held to the pores above and below it, half each where both are; where there are
@@ -220,18 +256,54 @@ pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Ve
             let faces = old.faces_of(old.cell_at([x, y, z]), axis);
             faces.clone().nth(index).map_or(0.0, |face| velocity[face])
         };
-        let touches_gap = axis == 1 && row + 1 == new.rows().below;
-        *carried = match same_row(new, old, row) {
-            Some(y) if !touches_gap || new.rows().gap > 0 => of(y),
-            None if new.rows().kind(row) == Kind::Gap => {
-                overlapping(new, old, row)
-                    .iter()
-                    .map(|&(y, part)| part * of(y))
-                    .sum::<f64>()
-                    / overlapping(new, old, row).iter().map(|o| o.1).sum::<f64>()
-            }
-            _ => 0.0,
-        };
+        // Where the bodies meet, nothing crosses.
+        let shut = axis == 1 && row + 1 == new.rows().below && new.rows().gap == 0;
+        if !shut {
+            *carried = joined(new, old, row, of, mean);
+        }
     }
     carried
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Lattice, Moving, OPEN};
+
+    /// A cell of a gap with open cells below and above it, and `gap` rows high.
+    fn mesh(gap: usize) -> Mesh {
+        let layers = || vec![vec![OPEN]];
+        let lattice = Lattice {
+            k: 1,
+            cells: [1, 1],
+            boundary: [Boundary::Symmetry; 3],
+            flat: false,
+            below: layers(),
+            gap: vec![OPEN],
+            above: layers(),
+            gap_low_m: 0.0,
+            gap_height: gap as f64,
+            moving: Some(Moving::Above),
+            mover: Some(0),
+            slide: vec![[0.0; 3]],
+        };
+        let rows = lattice.rows();
+        let range = 0..rows.len();
+        let size = Mesh::size_of(&lattice, &range);
+        Mesh::new(&lattice, rows, range, Region::new(size, true))
+    }
+
+    #[test]
+    fn volumes_add_up_and_pressures_do_not() {
+        let values = [7.0, 1.0, 3.0, 5.0, 9.0];
+        let (three, two, none) = (mesh(3), mesh(2), mesh(0));
+        assert_eq!(carried_volumes(&two, &three, &values), [7.0, 2.5, 6.5, 9.0]);
+        let pressures = carried_pressures(&two, &three, &values);
+        let expected = [7.0, 5.0 / 3.0, 13.0 / 3.0, 9.0];
+        for (pressure, expected) in pressures.iter().zip(expected) {
+            assert!((pressure - expected).abs() < 1e-14, "{pressures:?}");
+        }
+        assert_eq!(carried_volumes(&none, &three, &values), [11.5, 13.5]);
+        assert_eq!(carried_pressures(&none, &three, &values), [7.0, 9.0]);
+    }
 }

@@ -8,7 +8,9 @@ mod profile;
 mod transport;
 mod water;
 
-pub(crate) use carry::{Kept, carried_region, carried_velocities, carried_volumes};
+pub(crate) use carry::{
+    Kept, carried_pressures, carried_region, carried_velocities, carried_volumes,
+};
 pub(crate) use deposit::{Place, deposit};
 pub(crate) use output::{Shown, points};
 pub(crate) use profile::Profile;

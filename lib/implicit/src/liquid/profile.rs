@@ -215,21 +215,23 @@ impl Profile<'_> {
         let Some((beside, next)) = mesh.next_voxel(cell, voxel, t, up) else {
             return Side::free(height);
         };
-        let code = mesh.code(self.lattice, beside, next);
-        if code == MIRROR {
-            return Side::free(height);
-        }
-        if code != OPEN {
+        let open = match beside == cell {
+            true => mesh.pore_with(cell, next),
+            false => self.face(pore, voxel, t, up).map(|face| {
+                let face = &mesh.faces[face];
+                (if up { face.high } else { face.low }) as usize
+            }),
+        };
+        let Some(open) = open else {
+            let code = mesh.code(self.lattice, beside, next);
             let length = self.influence_length;
-            return match length.is_finite() {
+            let is_wall = code != OPEN && code != MIRROR && length.is_finite();
+            return match is_wall {
                 true => Side::wall(height, length, self.wall(code, face, axis) - own),
                 false => Side::free(height),
             };
-        }
-        let ahead = f.low as usize == pore;
-        let other = mesh
-            .pore_with(beside, next)
-            .and_then(|pore| self.face(pore, next, axis, ahead));
+        };
+        let other = self.face(open, next, axis, f.low as usize == pore);
         let Some(other) = other.filter(|&other| other != face && self.moves(other)) else {
             return Side::free(height);
         };

@@ -77,17 +77,14 @@ fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[
             false => (volumes[pore] / mesh.volume(pore)).min(1.0),
         })
         .collect();
-    let gradients: Vec<[f64; 3]> = (pores.clone().into_par_iter())
-        .map(|pore| gradient(mesh, &fractions, pore))
-        .collect();
     let mut flux: Vec<f64> = (swept.par_iter().enumerate())
         .map(|(face, &swept)| {
             let crossing = Crossing::new(mesh, &fractions, face, swept);
-            swept.signum() * crossing.passed(&gradients, swept.abs(), mesh)
+            swept.signum() * crossing.passed(&fractions, swept.abs(), mesh)
         })
         .collect();
     let shares: Vec<f64> = (pores.clone().into_par_iter())
-        .map(|pore| match full[pore] {
+        .map(|pore| match full[pore] || volumes[pore] == 0.0 {
             true => 1.0,
             false => (volumes[pore] / outflow(mesh, &flux, pore)).min(1.0),
         })
@@ -194,12 +191,12 @@ impl Crossing {
     }
 
     /// Liquid in a swept volume.
-    fn passed(&self, gradients: &[[f64; 3]], swept: f64, mesh: &Mesh) -> f64 {
+    fn passed(&self, fractions: &[f64], swept: f64, mesh: &Mesh) -> f64 {
         let [own, ahead] = self.fractions;
-        if own == 1.0 {
-            return swept;
+        if own == 1.0 || own == 0.0 {
+            return own * swept;
         }
-        let gradient = gradients[self.donor];
+        let gradient = gradient(mesh, fractions, self.donor);
         // Change of the fraction along the flow, from the pore behind to the pore ahead.
         let change = if self.up {
             gradient[self.axis]

@@ -1,6 +1,6 @@
 //! Conditions where liquid ends in a step: menisci, pockets of air, liquid torn by tension.
 
-use physics::{Array, Saved, restored};
+use physics::{Array, Liquid, Saved, restored};
 
 use super::Implicit;
 use crate::air::{Air, Gas, Outside};
@@ -78,22 +78,25 @@ impl Implicit {
         dt: f64,
     ) -> Fronts {
         let setup = &self.setup;
-        let tension = setup.liquid.cavitation_pressure.unwrap_or_default();
-        let mut around: Vec<f64> = (torn.iter())
-            .map(|&torn| {
-                if torn {
-                    -tension / setup.units.viscosity
-                } else {
-                    0.0
-                }
-            })
-            .collect();
+        let Liquid {
+            cavitation_pressure: tension,
+            wetting,
+            ..
+        } = &setup.liquid;
+        if air.is_none() && tension.is_none() && wetting.is_none() {
+            return Fronts::default();
+        }
+        let lowest = -tension.unwrap_or_default() / setup.units.viscosity;
+        let mut around = vec![0.0; self.mesh.pores.len()];
+        for (around, _) in around.iter_mut().zip(torn).filter(|of| *of.1) {
+            *around = lowest;
+        }
         for pocket in air.iter().flat_map(|air| &air.pockets) {
             for &pore in &pocket.pores {
                 around[pore as usize] = pocket.tangent.pressure;
             }
         }
-        let wetting = setup.liquid.wetting.map(|wetting| Wetting {
+        let wetting = wetting.map(|wetting| Wetting {
             tension: wetting.tension / (setup.units.viscosity * setup.units.cell_m),
             cosine: wetting.contact_angle.cos(),
             slowing: setup.settings.dynamic_angle,
@@ -108,6 +111,14 @@ impl Implicit {
             wetting,
             &self.state.flow.velocity,
         )
+    }
+
+    /// Whether each pore is torn, of a liquid that can be: none is yet.
+    pub(super) fn untorn(&self) -> Vec<bool> {
+        match self.setup.liquid.cavitation_pressure {
+            Some(_) => vec![false; self.mesh.pores.len()],
+            None => Vec::new(),
+        }
     }
 
     /// Finds anew which pores are torn, those whose liquid would carry more tension than it can and comes apart; whether they

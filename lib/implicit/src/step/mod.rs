@@ -1,8 +1,11 @@
 //! The scheme, and the order of one step.
 
 mod air;
+mod clamp;
 mod drive;
 mod failure;
+mod fit;
+mod follow;
 mod scheme;
 mod setup;
 mod solve;
@@ -14,17 +17,14 @@ use physics::{Failure, Scene, StepLimit, StepReport};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
 use crate::clock::{Clock, Part};
-use crate::geometry::{Mesh, Region, Rows};
-use crate::liquid::{
-    Held, Kept, Moved, carried_region, carried_velocities, carried_volumes, transport,
-};
+use crate::geometry::Mesh;
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, Links};
 use crate::water::Walls;
 use air::HeldAir;
 use drive::ClampDrive;
+use follow::fastest;
 use setup::Setup;
-use solve::Solved;
 use water::Wet;
 
 pub(crate) use water::DRIED;
@@ -35,22 +35,10 @@ const ATTEMPTS: usize = 8;
 /// solved twice.
 const EXCESS: f64 = 1.1;
 const AIM: f64 = 0.95;
-/// Most by which flow is expected to go on growing: a flow that starts is no trend.
-const FORESEEN: f64 = 1.25;
-/// Cells around the liquid that a mesh has, and the least that it may have before it is made anew: liquid crosses less than
-/// two in a step.
-const MARGIN: usize = 4;
-const LEAST_MARGIN: usize = 2;
 /// Most that cure changes ln(viscosity) by in a step: its middle then differs from the mean of 1/viscosity by 0.17 %.
 pub(crate) const CURED: f64 = 0.2;
-/// Fraction of the faces, the fastest, that the Courant number ignores, jets through holes of a voxel, and the cells that
-/// they cross at most.
-const JETS: f64 = 1e-3;
-const JET_CFL: f64 = 1.5;
 /// Most that a step grows by where menisci are held.
 const GROWTH: f64 = 2.0;
-/// Height of a gap, cells, that is none.
-const CLOSED: f64 = 1e-9;
 
 /// The implicit scheme on a scene.
 pub struct Implicit {
@@ -159,6 +147,7 @@ impl Implicit {
         self.fit_mesh();
         self.clock.add(Part::Geometry, begun);
         let (mut longest, mut dries) = (limit.time_s, false);
+        let mut guess = self.state.flow.clone();
         for _ in 0..ATTEMPTS {
             let dt = self.length(limit).min(longest);
             if !(dt > 0.0 && dt.is_finite()) {
@@ -166,7 +155,7 @@ impl Implicit {
                     .failure("nothing moves and no time is left: there is no time step to take"));
             }
             let solved = self
-                .solve(dt, limit, longest)
+                .solve(dt, limit, longest, &mut guess)
                 .map_err(|why| self.failure(&why))?;
             let shorter = solved.dries_too_fast();
             dries = shorter.is_some();
@@ -183,71 +172,6 @@ impl Implicit {
             longest = AIM * solved.dt * self.setup.settings.cfl / crossed;
         }
         Err(self.no_step(dries))
-    }
-
-    /// Makes the mesh anew where the gap has other rows now, or the liquid has come near its end.
-    fn fit_mesh(&mut self) {
-        self.mesh.set_height(self.height);
-        let mesh = &self.mesh;
-        let rows = Rows::of_gap(mesh.rows().below, mesh.rows().above, self.height);
-        let wet = mesh.cells_with(|pore| self.state.volumes[pore] > 0.0);
-        let wet_rows = self.wet_rows();
-        let near =
-            |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < LEAST_MARGIN;
-        if !self.links.0.is_empty()
-            && rows.gap == mesh.rows().gap
-            && !near(wet_rows.start, mesh.range.start, 0)
-            && !near(wet_rows.end, mesh.range.end, mesh.rows().len())
-            && (mesh.region).covers(&wet.grown(LEAST_MARGIN, mesh.periodic()))
-        {
-            return;
-        }
-        let end = (wet_rows.end + rows.gap - mesh.rows().gap).max(wet_rows.start) + MARGIN;
-        let near = wet_rows.start.saturating_sub(MARGIN)..end.min(rows.len());
-        let (range, region) = match self.setup.gas {
-            None => {
-                let region = carried_region(mesh, &wet, (&rows, &near), MARGIN);
-                (near, region)
-            }
-            // Air may be closed off anywhere.
-            Some(_) => {
-                let range = 0..rows.len();
-                let size = Mesh::size_of(&self.setup.lattice, &range);
-                (range, Region::new(size, true))
-            }
-        };
-        let mesh = Mesh::new(&self.setup.lattice, rows, range, region);
-        let old = std::mem::replace(&mut self.mesh, mesh);
-        let (state, mesh) = (&mut self.state, &self.mesh);
-        state.volumes = carried_volumes(mesh, &old, &state.volumes);
-        if !state.air.of.is_empty() {
-            state.air.of = carried_volumes(mesh, &old, &state.air.of);
-        }
-        state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
-        state.flow.pressure = carried_volumes(mesh, &old, &state.flow.pressure);
-        if let Some(wet) = &mut state.wet {
-            wet.water = carried_volumes(mesh, &old, &wet.water);
-            wet.soaked = carried_volumes(mesh, &old, &wet.soaked);
-        }
-        self.walls = self.setup.taking_walls(mesh);
-        let kept = match self.links.0.is_empty() {
-            true => Kept::default(),
-            false => Kept::new(mesh, &old),
-        };
-        self.links = self.setup.links(mesh, &kept, &self.links);
-        self.edges = Edges::new(mesh, &self.setup.lattice, &kept, &self.edges);
-    }
-
-    /// Rows of the grid that hold liquid, and those of the gap.
-    fn wet_rows(&self) -> std::ops::Range<usize> {
-        let mesh = &self.mesh;
-        let gap = mesh.rows().below..mesh.rows().below + mesh.rows().gap;
-        (0..mesh.pores.len())
-            .filter(|&pore| self.state.volumes[pore] > 0.0)
-            .map(|pore| mesh.row_of(pore))
-            .fold(gap, |range, row| {
-                range.start.min(row)..range.end.max(row + 1)
-            })
     }
 
     /// Time in which the flow of the last step, as it grows, crosses what the Courant number allows, s.
@@ -288,121 +212,4 @@ impl Implicit {
         };
         dt.min(limit.time_s).min(left)
     }
-
-    /// Completes an accepted step.
-    fn follow(&mut self, solved: Solved, limit: StepLimit) -> StepReport {
-        let Solved {
-            dt,
-            flow,
-            full,
-            forces,
-            settled,
-            air,
-            arrives,
-            exchange,
-        } = solved;
-        let cell_m = self.setup.units.cell_m;
-        let travel = match arrives {
-            true => self.left(limit),
-            false => flow.speed * dt,
-        };
-        let begun = Instant::now();
-        // Liquid moves through the faces of the middle of the step into the pores of its end.
-        let middle = self.mesh.rows().height;
-        if self.setup.lattice.moving.is_some() {
-            let height = self.height - travel;
-            self.height = if height > CLOSED { height } else { 0.0 }.max(self.least_height());
-        }
-        self.mesh.set_height(self.height);
-        let capacities = self.capacities();
-        self.mesh.set_height(middle);
-        let state = &mut self.state;
-        if let (Some(wet), Some(exchange)) = (&mut state.wet, exchange) {
-            wet.give_off(&exchange, dt, &mut state.volumes);
-        }
-        let mesh = &mut self.mesh;
-        let Moved {
-            volumes,
-            water,
-            lost: [lost, water_lost],
-        } = transport(
-            mesh,
-            Held {
-                volumes: &state.volumes,
-                water: state.wet.as_ref().map_or(&[], |wet| &wet.water),
-            },
-            &full,
-            &capacities,
-            &flow.velocity,
-            dt,
-        );
-        mesh.set_height(self.height);
-        self.clock.add(Part::Transport, begun);
-        state.volumes = volumes;
-        if let Some(wet) = &mut state.wet {
-            wet.water = water;
-            wet.account.left += water_lost;
-        }
-        state.lost += lost;
-        let fastest = fastest(&flow, self.setup.settings.cfl);
-        state.growth = (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, FORESEEN);
-        state.fastest = fastest;
-        state.unsettled += u64::from(!settled);
-        state.power = flow.dissipation;
-        state.time += dt;
-        state.dt = dt;
-        state.steps += 1;
-        state.travel += travel * cell_m;
-        for (body, displacement) in state.displacement.iter_mut().enumerate() {
-            let slide = self.setup.lattice.slide[body];
-            for a in 0..3 {
-                displacement[a] += slide[a] * dt;
-            }
-            if self.setup.lattice.mover == Some(body) {
-                displacement[1] +=
-                    self.setup.lattice.speed_of(body) * travel * cell_m - slide[1] * dt;
-            }
-        }
-        let pressure = |body: Option<usize>, sign: f64| {
-            body.map_or(0.0, |body| {
-                let force = match self.setup.lattice.mover == Some(body) {
-                    true => -sign * self.setup.lattice.speed_of(body) * flow.force,
-                    false => sign * forces[body],
-                };
-                self.setup.pressure(force)
-            })
-        };
-        state
-            .drive
-            .observe(self.setup.pressure(flow.force), dt, state.travel);
-        let report = StepReport {
-            dt_s: dt,
-            closing_speed: flow.speed * cell_m,
-            travel_m: state.travel,
-            pressure_bottom: pressure(self.setup.bottom, -1.0),
-            pressure_top: pressure(self.setup.top, 1.0),
-            lost: self.setup.points_of(state.lost),
-            iterations: flow.iterations,
-        };
-        state.flow = flow;
-        if let (Some(gas), Some((air, settled))) = (self.setup.gas, air) {
-            self.keep_air(gas, air, settled, dt);
-        }
-        report
-    }
-}
-
-/// Cells a second that count: those of the fastest faces but for jets through single voxels, which may cross more.
-fn fastest(flow: &Flow, cfl: f64) -> f64 {
-    let mut speeds: Vec<f64> = (flow.velocity.iter())
-        .filter(|v| **v != 0.0)
-        .map(|v| v.abs())
-        .collect();
-    if speeds.is_empty() {
-        return 0.0;
-    }
-    let at = ((1.0 - JETS) * (speeds.len() - 1) as f64) as usize;
-    let most = speeds.iter().fold(0.0, |most: f64, &v| v.max(most));
-    let (_, &mut counted, _) = speeds.select_nth_unstable_by(at, f64::total_cmp);
-    counted.max(most * cfl / JET_CFL)
 }

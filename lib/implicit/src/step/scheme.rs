@@ -46,7 +46,6 @@ impl Scheme for Implicit {
 
     fn liquid(&self) -> LiquidState {
         let (setup, state) = (&self.setup, &self.state);
-        let convention = (setup.liquid.shear_rate, setup.influence_length());
         let flow = &state.flow;
         // Those of the last step are of the gap at its middle.
         let mut links = self.links.clone();
@@ -54,13 +53,13 @@ impl Scheme for Implicit {
             .map(|(pore, volume)| volume / self.mesh.volume(pore))
             .collect();
         setup.measure(&mut links, &self.mesh, &fractions);
-        let rates = Rates::of(
+        let rates = Rates::of_pores(
             &self.mesh,
             &links,
             &self.edges,
             &flow.velocity,
             flow.speed,
-            convention,
+            setup.liquid.shear_rate,
         );
         let volumes: Vec<f64> = (0..self.mesh.pores.len())
             .map(|pore| state.volumes[pore] * self.compressed(pore))
@@ -69,7 +68,7 @@ impl Scheme for Implicit {
             volumes: &volumes,
             profile: self.profile(),
             pressure: &|pore| flow.pressure[pore] * setup.units.viscosity,
-            rate: &|pore| rates.pores[pore],
+            rate: &|pore| rates[pore],
             solids: &|pore| self.solids_of(pore),
         };
         points(&self.mesh, setup.place, &shown)

@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use physics::{Dimensions, Liquid, Motion, Points, PressRun, Scene, Seed, Stop, Viscosity};
 
+use super::State;
 use super::drive::ClampDrive;
-use super::{MARGIN, State};
+use super::fit::MARGIN;
 use crate::air::Gas;
 use crate::geometry::{Chords, Face, Lattice, Mesh, Region, Rows};
 use crate::liquid::{Kept, Place, deposit};

@@ -1,12 +1,10 @@
-//! Solution of a step: which pores are full, the flow, the clamp's speed, and the length that ends its travel.
+//! Solution of a step: which pores are full, and the flow.
 
 use std::time::Instant;
 
-use physics::StepLimit;
 use rayon::prelude::*;
 
 use super::Implicit;
-use super::drive::Asked;
 use super::failure::unsolved;
 use crate::air::Air;
 use crate::clock::Part;
@@ -17,25 +15,15 @@ use crate::system::{
 };
 use crate::water::Exchange;
 
-/// Part of the travel that is left from which on a step that covers it is made to end it.
-const NEAR: f64 = 0.7;
-/// Part of it by which a step may miss the end and still is there, or the rest would be taken in ever smaller steps, and
-/// solves that bring it nearer: a held speed settles in one or two where it settles at all.
-const MISSED: f64 = 1e-3;
-/// Travel, cells, that counts as none: surfaces of voxels are known less well, and a film under a pressure never ends.
-const NOTHING: f64 = 1e-2;
-const CLOSER: usize = 4;
-/// Solves of a step in which a clamp under a pressure comes to the speed at which it meets liquid.
-const MEETINGS: usize = 4;
 /// Passes in which the viscosity of the flow is sought, and its mean change, weighted by dissipation, that ends them.
 const PASSES: usize = 30;
 const SETTLED: f64 = 2e-3;
 
 /// The liquid in the middle of a step.
-struct Middle {
+pub(super) struct Middle {
     dt: f64,
     /// Closing speed that puts the rows there, cells/s.
-    closing: f64,
+    pub(super) closing: f64,
     /// Which pores are full at its start.
     full: Vec<bool>,
     /// What pores are filled to.
@@ -44,7 +32,7 @@ struct Middle {
 
 impl Middle {
     /// Whether more pores have a pressure than in `other`.
-    fn meets_more(&self, other: &Self) -> bool {
+    pub(super) fn meets_more(&self, other: &Self) -> bool {
         let both = self.fractions.iter().zip(&other.fractions);
         both.into_iter()
             .any(|(&here, &there)| here == 1.0 && there < 1.0)
@@ -68,104 +56,9 @@ pub(super) struct Solved {
 }
 
 impl Implicit {
-    /// Solves the flow of a step of `dt` (s), of another length, `longest` at most, where the clamp comes to the end of its
-    /// travel.
-    pub(super) fn solve(
-        &mut self,
-        dt: f64,
-        limit: StepLimit,
-        longest: f64,
-    ) -> Result<Solved, String> {
-        let left = self.left(limit);
-        let mut solved = self.solve_controlled(dt)?;
-        if left == f64::INFINITY || left == 0.0 {
-            return Ok(solved);
-        }
-        // The clamp's speed under load is known only then: the step ends the travel when it is that of its own length.
-        for _ in 0..CLOSER {
-            let Solved { dt, flow, .. } = &solved;
-            let reach = flow.speed * dt;
-            let end = left / flow.speed;
-            if reach < NEAR * left || (reach / left - 1.0).abs() <= MISSED || end > longest {
-                break;
-            }
-            solved = self.solve_controlled(end)?;
-        }
-        let reach = solved.flow.speed * solved.dt;
-        if reach > left + (MISSED * left).max(NOTHING) {
-            let dt = solved.dt;
-            let middle = self.middle(dt, Some(&solved.flow));
-            solved = self.solve_driven(&middle, Drive::Speed(left / dt))?;
-        }
-        let reach = solved.flow.speed * solved.dt;
-        solved.arrives = (reach - left).abs() <= (MISSED * left).max(NOTHING);
-        Ok(solved)
-    }
-
-    /// Travel that is left, cells: the gap at most; without end where the clamp has gone all its way, and stands or goes back.
-    pub(super) fn left(&self, limit: StepLimit) -> f64 {
-        if self.state.drive.is_closed() {
-            return f64::INFINITY;
-        }
-        let travel = limit.travel_m / self.setup.units.cell_m;
-        match self.setup.lattice.moving {
-            Some(_) => travel.min(self.height),
-            None => travel,
-        }
-    }
-
-    /// Solves the flow of a step of `dt` (s) with the clamp at full speed, or at the speed of its pressure limit.
-    fn solve_controlled(&mut self, dt: f64) -> Result<Solved, String> {
-        self.state.drive.aim(dt);
-        let mut middle = self.middle(dt, None);
-        // A clamp that goes faster than in the last step may meet liquid that it would not have met.
-        for _ in 1..MEETINGS {
-            let solved = self.solve_middle(&middle)?;
-            if solved.flow.speed <= middle.closing {
-                return Ok(solved);
-            }
-            let faster = self.middle(dt, Some(&solved.flow));
-            if !faster.meets_more(&middle) {
-                self.mesh.set_height(self.middle_height(dt, middle.closing));
-                return Ok(solved);
-            }
-            middle = faster;
-        }
-        self.solve_middle(&middle)
-    }
-
-    /// The same with the liquid in the `middle` of the step as it is.
-    fn solve_middle(&mut self, middle: &Middle) -> Result<Solved, String> {
-        if let Some(asked) = self.state.drive.held() {
-            return self.solve_held(middle, asked);
-        }
-        let full = Drive::Speed(self.state.drive.speed / self.setup.units.cell_m);
-        let free = self.solve_driven(middle, full)?;
-        let pressure = self.setup.pressure(free.flow.force);
-        match self.state.drive.exceeded(pressure) {
-            Some(asked) => self.solve_held(middle, asked),
-            None => Ok(free),
-        }
-    }
-
-    /// The same under a pressure on the clamp, at the nearest speed that it can follow.
-    fn solve_held(&mut self, middle: &Middle, asked: Asked) -> Result<Solved, String> {
-        let cell_m = self.setup.units.cell_m;
-        let drive = Drive::Force {
-            force: self.setup.force(asked.limit),
-            scale: self.setup.force(asked.limit.max(asked.least)),
-            guess: self.state.drive.speed / cell_m,
-        };
-        let solved = self.solve_driven(middle, drive)?;
-        match self.state.drive.follow(solved.flow.speed * cell_m) {
-            true => Ok(solved),
-            false => self.solve_driven(middle, Drive::Speed(self.state.drive.speed / cell_m)),
-        }
-    }
-
     /// Puts the rows where they are in the middle of a step of `dt` (s); which pores are full now, and what they are filled
     /// to in the middle: by a `flow`, or by the last and the speed that the clamp is asked for.
-    fn middle(&mut self, dt: f64, flow: Option<&Flow>) -> Middle {
+    pub(super) fn middle(&mut self, dt: f64, flow: Option<&Flow>) -> Middle {
         let height = self.height;
         let state = &self.state;
         let asked = state.drive.speed / self.setup.units.cell_m;
@@ -216,22 +109,13 @@ impl Implicit {
     }
 
     /// Height of the gap in the middle of a step of `dt` (s) at a `closing` speed (cells/s), cells.
-    fn middle_height(&self, dt: f64, closing: f64) -> f64 {
+    pub(super) fn middle_height(&self, dt: f64, closing: f64) -> f64 {
         0.5 * (self.height + self.end_height(dt, closing))
     }
 
     /// The same at its end.
     fn end_height(&self, dt: f64, closing: f64) -> f64 {
         (self.height - dt * closing).max(self.least_height())
-    }
-
-    /// Least height of the gap, cells: in a programme a film stays, by which liquid pushes the bodies apart where a stage
-    /// lets it.
-    pub(super) fn least_height(&self) -> f64 {
-        match self.state.drive.programme() {
-            Some(_) => NOTHING,
-            None => 0.0,
-        }
     }
 
     /// What each pore can hold: without end beyond open sides.
@@ -250,7 +134,12 @@ impl Implicit {
 
     /// Solves with the body that closes the gap driven so: in passes where the viscosity depends on the flow, until that
     /// no longer changes.
-    fn solve_driven(&mut self, middle: &Middle, drive: Drive) -> Result<Solved, String> {
+    pub(super) fn solve_driven(
+        &mut self,
+        middle: &Middle,
+        drive: Drive,
+        guess: &mut Flow,
+    ) -> Result<Solved, String> {
         let Middle { fractions, .. } = middle;
         let dt = middle.dt;
         let begun = Instant::now();
@@ -260,7 +149,7 @@ impl Implicit {
         }
         let begun = Instant::now();
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
-        let mut torn = vec![false; mesh.pores.len()];
+        let mut torn = self.untorn();
         let mut unknowns = Unknowns::new(mesh, fractions, &torn);
         let mut air = self.closed_off(&unknowns, fractions, dt);
         let halves = halves(mesh, fractions);
@@ -284,7 +173,7 @@ impl Implicit {
             )
         };
         let mut used = match varies && state.steps > 0 {
-            true => Viscosities::of(&rates(&state.flow), &setup.liquid, factor, slip),
+            true => Viscosities::of(&rates(guess), &setup.liquid, factor, slip),
             false => Viscosities::constant(mesh, cured),
         };
         let (mut last, mut response): (Option<Pass>, f64) = (None, 0.0);
@@ -297,7 +186,7 @@ impl Implicit {
             air: None,
             arrives: false,
             exchange: None,
-            flow: state.flow.clone(),
+            flow: std::mem::take(guess),
         };
         let (mut iterations, mut astray) = (0, false);
         for _ in 0..PASSES {
@@ -385,6 +274,7 @@ impl Implicit {
         solved.flow.iterations = iterations;
         solved.air = air.map(|air| (air, !astray));
         solved.exchange = lost;
+        guess.clone_from(&solved.flow);
         Ok(solved)
     }
 }

@@ -7,10 +7,10 @@ use super::edges::Edges;
 use super::fronts::Fronts;
 use super::links::Links;
 use super::stretching::stretching;
-use super::unknowns::{FULL, Unknowns};
+use super::unknowns::Unknowns;
 use super::viscosity::Viscosities;
 use crate::air::Pocket;
-use crate::geometry::{Face, Kind, Lattice, Mesh};
+use crate::geometry::{Kind, Lattice, Mesh};
 
 /// Friction over viscosity of liquid that touches nothing, so that it has a velocity.
 const FREE: f64 = 1e-7;
@@ -111,7 +111,7 @@ impl Problem<'_> {
     }
 
     fn momentum(&self, face: usize, row: usize, entries: &mut RowEntries) {
-        let link = &self.links.0[face];
+        let link = self.links.of(face);
         let weights = self.wall_weights(face);
         let friction = weights[0] * link.friction[0] + weights[1] * link.friction[1];
         let drag = self.fronts.drag.get(face).copied().unwrap_or_default();
@@ -183,7 +183,7 @@ impl Problem<'_> {
         let inertia = self.scales.inertia * carried;
         let standing = self.scales.gravity[axis] * carried + self.push(face);
         let mut force = [inertia * self.before[face] + standing, 0.0, standing, 0.0];
-        let link = &self.links.0[face];
+        let link = self.links.of(face);
         let weights = self.wall_weights(face);
         for (weight, [own, closing]) in weights.into_iter().zip(link.sliding) {
             force[0] += weight * own;
@@ -222,7 +222,7 @@ impl Problem<'_> {
     }
 
     fn resistance_of(&self, face: usize) -> f64 {
-        let link = &self.links.0[face];
+        let link = self.links.of(face);
         let weights = self.wall_weights(face);
         let walls = weights[0] * link.resistance[0] + weights[1] * link.resistance[1];
         if self.mesh.faces[face].axis != 1 {
@@ -272,7 +272,7 @@ impl Problem<'_> {
     pub(crate) fn viscous_parts(&self, u: &[f64], speed: f64) -> f64 {
         let part = |(&face, u): (&u32, &f64)| {
             let face = face as usize;
-            let link = &self.links.0[face];
+            let link = self.links.of(face);
             let weights = self.wall_weights(face);
             let frame = match self.mesh.faces[face].axis {
                 1 => self.mesh.frame(self.lattice, face) * speed,
@@ -314,68 +314,4 @@ impl Problem<'_> {
             _ => 0.0,
         }
     }
-}
-
-/// Liquid in the halves of each face, over their volumes. A pore that a full one beside it fills has all of its liquid in
-/// that half: what the pressure of the full pore moves reaches to the surface.
-pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
-    let full = |pore: u32| fractions[pore as usize] >= FULL;
-    (mesh.faces.par_iter())
-        .map(|face| {
-            let ends = [face.low, face.high];
-            [0, 1].map(|half| {
-                let (pore, other) = (ends[half], ends[1 - half]);
-                let fraction = fractions[pore as usize];
-                if full(pore) || fraction == 0.0 {
-                    return fraction;
-                }
-                let up = half == 1;
-                let mut opposite = mesh.faces_at(pore as usize, usize::from(face.axis), up);
-                let behind = opposite.any(|opposite| {
-                    let opposite = &mesh.faces[opposite];
-                    full(if up { opposite.high } else { opposite.low })
-                });
-                match (full(other), behind) {
-                    (true, false) => 2.0 * fraction,
-                    (false, true) => 0.0,
-                    _ => fraction,
-                }
-            })
-        })
-        .collect()
-}
-
-/// Liquid that moves with each face: its share of the half pores on both sides.
-pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
-    let mass = |(face, parts): (&Face, &[f64; 2])| {
-        let axis = usize::from(face.axis);
-        [(face.low, true), (face.high, false)]
-            .into_iter()
-            .zip(parts)
-            .map(|((pore, up), part)| {
-                let pore = pore as usize;
-                0.5 * part * mesh.volume(pore) / mesh.side_area(pore, axis, up)
-            })
-            .sum::<f64>()
-    };
-    let faces = mesh.faces.par_iter().zip(halves).enumerate();
-    faces
-        .map(|(index, face)| mesh.area(index) * mass(face))
-        .collect()
-}
-
-/// Liquid of the halves of each face, times the viscosity of their pores where that of edges is none of its own.
-pub(crate) fn stiffnesses(mesh: &Mesh, halves: &[[f64; 2]], viscosities: &Viscosities) -> Vec<f64> {
-    let own = viscosities.edges.is_empty();
-    let viscosity = |pore: u32| {
-        if own {
-            viscosities.pores[pore as usize]
-        } else {
-            1.0
-        }
-    };
-    let of = |(face, parts): (&Face, &[f64; 2])| {
-        parts[0] * viscosity(face.low) + parts[1] * viscosity(face.high)
-    };
-    mesh.faces.par_iter().zip(halves).map(of).collect()
 }

@@ -14,7 +14,7 @@ pub(crate) struct Edge {
     pub(crate) across: [u32; 2],
     /// Part of the edge of a cell that they share, negative where the next face lies on the low side.
     part: f32,
-    /// Logarithm of the factor by re-entrant edges, in cells as high as wide.
+    /// Factor by re-entrant edges, in cells as high as wide.
     factor: f32,
     /// Open voxels beside the edge in the face and in the next one, and the axis across which they lie beside one another.
     open: [u8; 2],
@@ -71,9 +71,9 @@ impl Edge {
             1 => 1.0,
             _ => mesh.lowest(f.low as usize).min(mesh.lowest(next as usize)),
         };
-        let factor = match self.factor {
-            0.0 => 1.0,
-            factor => (lowest * f64::from(factor)).exp(),
+        let factor = match lowest {
+            1.0 => f64::from(self.factor),
+            lowest => f64::from(self.factor).powf(lowest),
         };
         let part = f64::from(self.part.abs());
         let shear = factor * part * across * height / distance;
@@ -109,29 +109,32 @@ impl Edges {
             })
         };
         let inner = mesh.inner_faces();
-        let list = |face: usize| -> Vec<Edge> {
-            let old = kept
-                .whole(face)
-                .and_then(|face| old.of(face).iter().map(renumbered).collect());
-            match old {
-                Some(edges) => edges,
-                None if inner[face] => edges(mesh, lattice, face),
-                None => Vec::new(),
+        let clear = mesh.clear_cells();
+        let add = |face: usize, edges: &mut Vec<Edge>| {
+            let first = edges.len();
+            let known = kept.whole(face).is_some_and(|face| {
+                let mut old = old.of(face).iter().map(renumbered);
+                old.all(|edge| edge.map(|edge| edges.push(edge)).is_some())
+            });
+            if !known {
+                edges.truncate(first);
+                if inner[face] {
+                    add_edges(edges, mesh, lattice, face, mesh.is_clear(face, &clear));
+                }
             }
+            (edges.len() - first) as u32
         };
-        let faces: Vec<usize> = (0..mesh.faces.len()).collect();
+        let faces: Vec<u32> = (0..mesh.faces.len() as u32).collect();
         let lists: Vec<(Vec<u32>, Vec<Edge>)> = (faces.par_chunks(CHUNK))
             .map(|faces| {
                 let mut edges = Vec::new();
-                let count = |face: &usize| {
-                    let list = list(*face);
-                    edges.extend_from_slice(&list);
-                    list.len() as u32
-                };
-                (faces.iter().map(count).collect(), edges)
+                let counts = faces.iter().map(|&face| add(face as usize, &mut edges));
+                (counts.collect(), edges)
             })
             .collect();
-        let (mut start, mut edges) = (vec![0], Vec::new());
+        let mut start = Vec::with_capacity(mesh.faces.len() + 1);
+        let mut edges = Vec::with_capacity(lists.iter().map(|list| list.1.len()).sum());
+        start.push(0);
         for (counts, part) in lists {
             let mut end = edges.len() as u32;
             start.extend(counts.into_iter().map(|count| {
@@ -175,40 +178,50 @@ impl Edges {
     }
 }
 
-/// The edges of a face, in which voxels of the same faces are joined where re-entrant edges are alike.
-fn edges(mesh: &Mesh, lattice: &Lattice, face: usize) -> Vec<Edge> {
+/// Adds the edges of a face, in which voxels of the same faces are joined where re-entrant edges are alike.
+fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize, clear: bool) {
     let axis = usize::from(mesh.faces[face].axis);
-    let mut found: Vec<Edge> = Vec::new();
+    let key = |edge: &Edge| {
+        let Edge {
+            next,
+            across,
+            open,
+            aside,
+            factor,
+            ..
+        } = edge;
+        (*next, *across, *open, *aside, factor.to_bits())
+    };
     for t in others(axis)
         .into_iter()
         .filter(|&t| !(lattice.flat && t == 2))
     {
         for up in [false, true] {
+            let first = found.len();
             for r in 0..mesh.k {
-                let Some(edge) = edge(mesh, lattice, face, t, up, r) else {
+                let Some(edge) = edge((mesh, lattice), (face, clear), t, up, r) else {
                     continue;
                 };
-                let key = |edge: &Edge| {
-                    (
-                        edge.next,
-                        edge.across,
-                        edge.open,
-                        edge.aside,
-                        edge.part < 0.0,
-                        edge.factor.to_bits(),
-                    )
-                };
-                match found.iter_mut().find(|other| key(other) == key(&edge)) {
+                match found[first..]
+                    .iter_mut()
+                    .find(|other| key(other) == key(&edge))
+                {
                     Some(other) => other.part += edge.part,
                     None => found.push(edge),
                 }
             }
         }
     }
-    found
 }
 
-fn edge(mesh: &Mesh, lattice: &Lattice, face: usize, t: usize, up: bool, r: usize) -> Option<Edge> {
+/// The edge at one side of column `r` of a face along `t`, of a face that is `clear` of walls or not.
+fn edge(
+    (mesh, lattice): (&Mesh, &Lattice),
+    (face, clear): (usize, bool),
+    t: usize,
+    up: bool,
+    r: usize,
+) -> Option<Edge> {
     let k = mesh.k;
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
@@ -255,10 +268,12 @@ fn edge(mesh: &Mesh, lattice: &Lattice, face: usize, t: usize, up: bool, r: usiz
         at[t] = near;
         at
     };
-    let factor = 0.5
-        * (0..2)
-            .map(|half| mesh.reentrant(lattice, (cells[half], own_voxel(half)), [t, across], up))
-            .sum::<f64>();
+    let reentrant =
+        |half: usize| mesh.reentrant(lattice, (cells[half], own_voxel(half)), [t, across], up);
+    let factor = match clear {
+        true => 1.0,
+        false => (0.5 * (0..2).map(reentrant).sum::<f64>()).exp(),
+    };
     let part = 1.0 / k as f32;
     Some(Edge {
         next: next as u32,

@@ -45,7 +45,8 @@ impl Wetting {
 /// What liquid meets where it ends.
 #[derive(Default)]
 pub(crate) struct Fronts {
-    /// Pressure on liquid that ends in each pore without a pressure of its own, over the unit of viscosity.
+    /// Pressure on liquid that ends in each pore without a pressure of its own, over the unit of viscosity; empty where
+    /// nothing pushes.
     pub(crate) pressure: Vec<f64>,
     /// Force against the velocity of each face over that; empty where contact lines resist nothing.
     pub(crate) drag: Vec<f64>,
@@ -70,7 +71,7 @@ impl Fronts {
         };
         let dry: Vec<bool> = (0..mesh.pores.len())
             .into_par_iter()
-            .map(|pore| !torn[pore] && unknowns.is_front(mesh, pore))
+            .map(|pore| torn.get(pore) != Some(&true) && unknowns.is_front(mesh, pore))
             .collect();
         let narrow: Vec<f64> = (0..mesh.pores.len())
             .into_par_iter()
@@ -161,7 +162,7 @@ impl Problem<'_> {
     /// Force on a face by what is beyond the surface of liquid that ends there.
     pub(super) fn push(&self, face: usize) -> f64 {
         let ends = self.ends(face);
-        let pressure = |pore: usize| self.fronts.pressure[pore];
+        let pressure = |pore: usize| self.fronts.pressure.get(pore).copied().unwrap_or_default();
         let pressure = match ends.map(|pore| self.unknowns.has_pressure(pore)) {
             [true, false] => -pressure(ends[1]),
             [false, true] => pressure(ends[0]),

@@ -5,45 +5,16 @@ use rayon::prelude::*;
 use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, Place, others};
 use crate::liquid::Kept;
 
+use super::link::{Link, Single};
+
 /// Least effective distance over the open height of a column, so that friction stays finite.
 const LEAST: f64 = 0.1;
 /// Least part of the narrowest width that counts where walls stand on both axes: that of a square duct two cells wide.
 const NARROWEST: f64 = 0.85;
 
-/// Friction that holds a face to the walls beside it, per viscosity: in its low and its high half.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Link {
-    /// Area of walls over the distance to them, of the halves in the low and the high pore.
-    pub(crate) friction: [f64; 2],
-    /// The same times the velocity of the walls along the face: what moves by itself, cells/s, and what moves with the
-    /// closing speed, per unit of that.
-    pub(crate) sliding: [[f64; 2]; 2],
-    /// The same times the square of the latter.
-    pub(crate) resistance: [f64; 2],
-    /// Area of walls, of both halves, and that times the open height beside them.
-    pub(crate) area: f64,
-    pub(crate) height: f64,
-    /// Whether the height of the gap is part of it.
-    pub(crate) by_gap: bool,
-    /// Code of the body that most recently was found beside it.
-    pub(crate) body: u8,
-    /// Sum of 1/H^2 over the axes across the face.
-    pub(crate) narrowness: f64,
-}
-
-impl Link {
-    /// Adds friction in a half, with a wall that moves so: by itself, and per closing speed.
-    fn add(&mut self, half: usize, friction: f64, [own, clamp]: [f64; 2]) {
-        self.friction[half] += friction;
-        self.sliding[half][0] += friction * own;
-        self.sliding[half][1] += friction * clamp;
-        self.resistance[half] += friction * clamp * clamp;
-    }
-}
-
 /// The links of all faces of a mesh.
 #[derive(Clone, Default)]
-pub(crate) struct Links(pub(crate) Vec<Link>);
+pub(crate) struct Links(Vec<Single>);
 
 /// What walls are like in a scene.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +26,16 @@ pub(crate) struct Walls {
 }
 
 impl Links {
+    /// Whether there are none yet.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The link of a face.
+    pub(crate) fn of(&self, face: usize) -> Link {
+        self.0[face].into()
+    }
+
     /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
     pub(crate) fn new(
         lattice: &Lattice,
@@ -70,13 +51,13 @@ impl Links {
             mesh,
             walls,
         };
-        let inner = mesh.inner_faces();
+        let (inner, clear) = (mesh.inner_faces(), mesh.clear_cells());
         let link = |face: usize| {
             let old = kept.whole(face).map(|face| old.0[face]);
             match old.filter(|link| !link.by_gap) {
                 Some(link) => link,
-                None if inner[face] => view.link(face),
-                None => Link::default(),
+                None if inner[face] => view.link(face, mesh.is_clear(face, &clear)).into(),
+                None => Single::default(),
             }
         };
         Self((0..mesh.faces.len()).into_par_iter().map(link).collect())
@@ -99,7 +80,7 @@ impl Links {
         };
         self.0.par_iter_mut().enumerate().for_each(|(face, link)| {
             if link.by_gap && mesh.is_wet(face, fractions) {
-                *link = view.link(face);
+                *link = view.link(face, !link.walled).into();
             }
         });
     }
@@ -122,7 +103,8 @@ struct Column {
 }
 
 impl View<'_> {
-    fn link(&self, face: usize) -> Link {
+    /// The link of a face that is `clear` of walls or not.
+    fn link(&self, face: usize, clear: bool) -> Link {
         let mut link = Link {
             by_gap: self.mesh.is_by_gap(face),
             ..Link::default()
@@ -132,22 +114,35 @@ impl View<'_> {
         if self.walls.influence_length.is_infinite() {
             return link;
         }
+        let places = [f.low, f.high].map(|pore| {
+            self.mesh
+                .place(self.mesh.pores[pore as usize].cell as usize)
+        });
         for t in others(axis) {
             if self.lattice.flat && t == 2 {
                 continue;
             }
             for r in 0..self.mesh.k {
-                self.column(face, axis, t, r, &mut link);
+                self.column((face, clear), places, t, r, &mut link);
             }
         }
         link
     }
 
     /// Adds the walls at both ends along `t` of column `r` of a face.
-    fn column(&self, face: usize, axis: usize, t: usize, r: usize, link: &mut Link) {
+    fn column(
+        &self,
+        (face, clear): (usize, bool),
+        places: [[usize; 3]; 2],
+        t: usize,
+        r: usize,
+        link: &mut Link,
+    ) {
         let (mesh, k) = (self.mesh, self.mesh.k);
         let f = mesh.faces[face];
-        let cells = [f.low, f.high].map(|pore| mesh.pores[pore as usize].cell as usize);
+        let axis = usize::from(f.axis);
+        let pores = [f.low, f.high].map(|pore| pore as usize);
+        let cells = pores.map(|pore| mesh.pores[pore].cell as usize);
         let across = 3 - axis - t;
         let voxel = |half: usize, i: usize| {
             let mut at = [0; 3];
@@ -159,28 +154,40 @@ impl View<'_> {
             let [s, q] = others(axis);
             at[s] + k * at[q]
         };
-        let open: Vec<usize> = (0..k).filter(|&i| f.open >> bit(i) & 1 == 1).collect();
-        let (Some(&first), Some(&last)) = (open.first(), open.last()) else {
+        let mut open = (0..k).filter(|&i| f.open >> bit(i) & 1 == 1);
+        let Some(first) = open.next() else {
             return;
         };
+        let last = open.next_back().unwrap_or(first);
+        let height = (last + 1 - first) as f64 / k as f64;
         let is_wall = |code: u8| code != OPEN && code != MIRROR;
         let corner = [(first, false), (last, true)];
         let both = [0, 1].map(|half| {
-            corner.map(|(i, up)| {
-                mesh.next_voxel(cells[half], voxel(half, i), t, up)
-                    .map_or(MIRROR, |(cell, at)| mesh.code(self.lattice, cell, at))
+            corner.map(|(i, up)| match clear {
+                true => OPEN,
+                false => mesh
+                    .next_voxel(cells[half], voxel(half, i), t, up)
+                    .map_or(MIRROR, |(cell, at)| mesh.code(self.lattice, cell, at)),
             })
         });
+        let walled = both.as_flattened().iter().any(|&code| is_wall(code));
+        link.walled |= walled;
         for (half, cell) in cells.into_iter().enumerate() {
-            let edges = mesh.edges(cell);
+            let edges = [1.0, mesh.height(pores[half]), 1.0];
             let ends = both[half];
-            let column = Column {
-                height: open.len() as f64 / k as f64,
-                widths: [t, across].map(|a| self.width(cell, voxel(half, first), a) / edges[t]),
-            };
-            link.by_gap |= self.reaches_gap(cell, voxel(half, first));
+            let place = mesh.place_in_lattice(self.lattice, places[half], voxel(half, first));
+            let width = |a: usize| self.width(place, a) / edges[t];
+            link.by_gap |= place.is_some_and(|place| self.chords.through_gap(place));
             let part = 0.5 * edges[axis] * edges[across] / k as f64;
-            link.narrowness += column.widths[0].powi(-2) * part / (edges[t] * edges[t]);
+            let along = width(t);
+            link.narrowness += part / (along * along * edges[t] * edges[t]);
+            if !walled {
+                continue;
+            }
+            let column = Column {
+                height,
+                widths: [along, width(across)],
+            };
             // Beyond the corner of a wall that the flow passes, the wall ahead of liquid at rest beside it.
             for (code, (_, up)) in both[1 - half].into_iter().zip(corner) {
                 let open = ends[usize::from(up)] == OPEN;
@@ -200,12 +207,12 @@ impl View<'_> {
                 let at = (cell, voxel(half, i));
                 let near = mesh.beside_steps(self.lattice, at, [t, across], up);
                 let distance = edges[t] * self.distance(&column, between, near);
-                let height = if axis == 1 {
+                let lowest = if axis == 1 {
                     1.0
                 } else {
                     mesh.lowest(f.low as usize)
                 };
-                let factor = (height * mesh.reentrant(self.lattice, at, [t, across], up)).exp();
+                let factor = (lowest * mesh.reentrant(self.lattice, at, [t, across], up)).exp();
                 let friction = factor * part / (distance + self.walls.influence_length);
                 link.add(half, friction, self.sliding(code, face, axis));
                 link.area += part;
@@ -216,20 +223,12 @@ impl View<'_> {
         }
     }
 
-    /// Whether the chord along y through a voxel goes through the gap.
-    fn reaches_gap(&self, cell: usize, voxel: [usize; 3]) -> bool {
-        let place = self.mesh.lattice_place(self.lattice, cell, voxel);
-        place.is_some_and(|place| self.chords.through_gap(place))
-    }
-
     /// Width of the channel along an axis at a voxel, cells.
-    fn width(&self, cell: usize, voxel: [usize; 3], axis: usize) -> f64 {
-        let (mesh, k) = (self.mesh, self.mesh.k as f64);
-        let place = mesh.lattice_place(self.lattice, cell, voxel);
-        let voxels = place.map_or(f64::INFINITY, |place: Place| {
-            self.chords.length(place, axis, mesh.rows().height * k)
-        });
-        (voxels / k).max(0.25)
+    fn width(&self, place: Option<Place>, axis: usize) -> f64 {
+        let k = self.mesh.k as f64;
+        let gap = self.mesh.rows().height * k;
+        let length = |place: Place| self.chords.length(place, axis, gap);
+        (place.map_or(f64::INFINITY, length) / k).max(0.25)
     }
 
     /// Distance over which the velocity of a column falls to that of its walls, in cells of it: that which makes the flux

@@ -3,6 +3,8 @@
 mod assembly;
 mod edges;
 mod fronts;
+mod halves;
+mod link;
 mod links;
 mod passes;
 mod solution;
@@ -11,9 +13,10 @@ mod thinning;
 mod unknowns;
 mod viscosity;
 
-pub(crate) use assembly::{Problem, Scales, halves, masses, stiffnesses};
+pub(crate) use assembly::{Problem, Scales};
 pub(crate) use edges::Edges;
 pub(crate) use fronts::{Fronts, Wetting};
+pub(crate) use halves::{halves, masses, stiffnesses};
 pub(crate) use links::{Links, Walls};
 pub(crate) use passes::Pass;
 pub(crate) use solution::{Drive, Flow, forces, resistance, solve};

@@ -36,6 +36,19 @@ pub(crate) struct Flow {
     pub(crate) iterations: u32,
 }
 
+impl Flow {
+    /// The same flow at another closing speed, if there is one.
+    pub(crate) fn speed_up(&mut self, speed: f64) {
+        let factor = speed / self.speed;
+        if !(factor > 0.0 && factor.is_finite()) || factor == 1.0 {
+            return;
+        }
+        let values = self.velocity.iter_mut().chain(&mut self.pressure);
+        values.for_each(|value| *value *= factor);
+        self.speed = speed;
+    }
+}
+
 /// Share of the cells that liquid may cross in a step below which flow counts as none.
 const SLOW: f64 = 0.01;
 
@@ -183,7 +196,7 @@ pub(crate) fn solve(
 
 /// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md section 3.6).
 pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
-    let link = &problem.links.0[face];
+    let link = problem.links.of(face);
     let slip = problem.scales.influence_length;
     let narrow = match slip.is_finite() {
         true => 12.0 * link.narrowness / (1.0 + 6.0 * slip * link.narrowness.sqrt()),
@@ -221,7 +234,7 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
     }
     for &face in &problem.unknowns.faces {
         let face = face as usize;
-        let link = &problem.links.0[face];
+        let link = problem.links.of(face);
         if mesh.faces[face].axis == 1 {
             let weights = problem.wall_weights(face);
             let drag: f64 = (0..2)

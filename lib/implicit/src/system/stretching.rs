@@ -22,15 +22,15 @@ pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut
     let pore = if up { f.high } else { f.low } as usize;
     let edge = if axis == 1 { mesh.height(pore) } else { 1.0 };
     let weight = 2.0 * mesh.volume(pore) / (edge * edge);
-    let own = mesh.area(face) / mesh.side_area(pore, axis, !up);
+    let own = mesh.share(face, pore, axis, !up);
     let closing = match (axis, mesh.rows().kind(mesh.row_of(pore))) {
         (1, Kind::Gap) => 1.0 / mesh.rows().gap as f64,
         _ => 0.0,
     };
     // The high side moves against the low one by the closing.
     let closing = if up { -closing } else { closing };
-    let ahead = mesh.side_area(pore, axis, up);
-    if ahead == 0.0 {
+    let ahead = mesh.faces_at(pore, axis, up);
+    if ahead.len() == 0 {
         let distance = (mesh.volume(pore) / mesh.area(face) / edge).clamp(NEAREST, 1.0);
         add(Pull {
             other: None,
@@ -39,10 +39,10 @@ pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut
         });
         return;
     }
-    for other in mesh.faces_at(pore, axis, up) {
+    for other in ahead {
         add(Pull {
             other: Some(other),
-            weight: weight * own * mesh.area(other) / ahead,
+            weight: weight * own * mesh.share(other, pore, axis, up),
             closing,
         });
     }

@@ -9,7 +9,8 @@ const WET: f64 = 0.005;
 /// No unknown.
 const ABSENT: u32 = u32::MAX;
 
-/// Numbers of the unknowns of a step.
+/// Numbers of the unknowns of a step: of velocities along rows of cells, one component after the other, so that neighbours
+/// are near in memory and consecutive rows of the velocity block couple to equal distances, which the solver packs.
 pub(crate) struct Unknowns {
     /// Faces with a velocity.
     pub(crate) faces: Vec<u32>,
@@ -21,24 +22,25 @@ pub(crate) struct Unknowns {
 }
 
 impl Unknowns {
-    /// Those of pores filled to `fractions`, where those that are `torn` have no pressure.
+    /// Those of pores filled to `fractions`, where those that are `torn`, if any can be, have no pressure.
     pub(crate) fn new(mesh: &Mesh, fractions: &[f64], torn: &[bool]) -> Self {
-        let full = |pore: u32| fractions[pore as usize] >= FULL && !torn[pore as usize];
+        let full =
+            |pore: u32| fractions[pore as usize] >= FULL && torn.get(pore as usize) != Some(&true);
         let mut unknowns = Self {
             faces: Vec::new(),
             pores: Vec::new(),
             face_number: vec![ABSENT; mesh.faces.len()],
             bounded: vec![false; mesh.pores.len()],
         };
-        for (index, face) in mesh.faces.iter().enumerate() {
-            let ends = [face.low, face.high];
+        for face in by_rows(mesh) {
+            let ends = [mesh.faces[face].low, mesh.faces[face].high];
             let liquid = |pore: u32| fractions[pore as usize] * mesh.volume(pore as usize);
             let wet = || ends.iter().map(|&pore| 0.5 * liquid(pore)).sum::<f64>() > WET;
             if !(ends.iter().any(|&pore| full(pore)) || wet()) {
                 continue;
             }
-            unknowns.face_number[index] = unknowns.faces.len() as u32;
-            unknowns.faces.push(index as u32);
+            unknowns.face_number[face] = unknowns.faces.len() as u32;
+            unknowns.faces.push(face as u32);
             for pore in ends.into_iter().filter(|&pore| full(pore)) {
                 unknowns.bounded[pore as usize] = true;
             }
@@ -65,4 +67,15 @@ impl Unknowns {
         let number = self.face_number[face];
         (number != ABSENT).then_some(number as usize)
     }
+}
+
+/// The faces of a mesh along rows of cells, one axis after the other.
+fn by_rows(mesh: &Mesh) -> impl Iterator<Item = usize> {
+    let cells: usize = mesh.size.iter().product();
+    let row = mesh.size[0];
+    (0..cells).step_by(row).flat_map(move |first| {
+        (0..3).flat_map(move |axis| {
+            (first..first + row).flat_map(move |cell| mesh.faces_of(cell, axis))
+        })
+    })
 }

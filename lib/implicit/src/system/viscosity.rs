@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::edges::Edges;
 use super::stretching::stretching;
 use super::thinning::{steepness, thinning_distance};
-use crate::geometry::Mesh;
+use crate::geometry::{Mesh, others};
 use crate::system::Links;
 
 /// Viscosities over their unit: of each pore, at the walls of the halves of each face, and at each edge, none where those of
@@ -108,8 +108,6 @@ impl Rates {
         speed: f64,
         (convention, slip): (ShearRate, f64),
     ) -> Self {
-        // The factor is of |dev D|; the rate of simple shear, sqrt(2 D:D), is sqrt(2) of it.
-        let factor = convention.factor() / std::f64::consts::SQRT_2;
         let view = View {
             mesh,
             links,
@@ -117,15 +115,10 @@ impl Rates {
             velocity,
             speed,
         };
-        let (parts, walls): (Vec<[f64; 4]>, Vec<f64>) = (0..mesh.pores.len())
-            .into_par_iter()
-            .map(|pore| view.parts(pore))
-            .unzip();
-        let rate = |square: f64| factor * square.max(0.0).sqrt();
+        let (parts, walls) = view.squares();
+        let rate = |square: f64| of_shear(square, convention);
         Self {
-            pores: (parts.iter().zip(walls))
-                .map(|(parts, walls)| rate(parts.iter().sum::<f64>() + walls))
-                .collect(),
+            pores: pores(&parts, &walls, convention),
             edges: (edges.rates(mesh, velocity, &parts).into_iter())
                 .map(rate)
                 .collect(),
@@ -149,6 +142,40 @@ impl Rates {
         };
         (0..mesh.pores.len()).into_par_iter().map(power).collect()
     }
+
+    /// Those of pores alone.
+    pub(crate) fn of_pores(
+        mesh: &Mesh,
+        links: &Links,
+        edges: &Edges,
+        velocity: &[f64],
+        speed: f64,
+        convention: ShearRate,
+    ) -> Vec<f64> {
+        let view = View {
+            mesh,
+            links,
+            edges,
+            velocity,
+            speed,
+        };
+        let (parts, walls) = view.squares();
+        pores(&parts, &walls, convention)
+    }
+}
+
+/// The rate of a square of that of simple shear.
+fn of_shear(square: f64, convention: ShearRate) -> f64 {
+    // The factor is of |dev D|; the rate of simple shear, sqrt(2 D:D), is sqrt(2) of it.
+    convention.factor() / std::f64::consts::SQRT_2 * square.max(0.0).sqrt()
+}
+
+/// Rates of pores by the parts of their squares, and that of walls.
+fn pores(parts: &[[f64; 4]], walls: &[f64], convention: ShearRate) -> Vec<f64> {
+    let square = |(parts, walls): (&[f64; 4], &f64)| parts.iter().sum::<f64>() + walls;
+    (parts.iter().zip(walls))
+        .map(|parts| of_shear(square(parts), convention))
+        .collect()
 }
 
 /// A flow, to take rates of.
@@ -161,9 +188,40 @@ struct View<'a> {
 }
 
 impl View<'_> {
-    /// Squares of the rates in a full pore, whose dissipation is the mean over it: by stretching, by shear around each axis,
+    /// Squares of the rates in full pores, whose dissipation is the mean over each: by stretching, by shear around each axis,
     /// and by walls.
-    fn parts(&self, pore: usize) -> ([f64; 4], f64) {
+    fn squares(&self) -> (Vec<[f64; 4]>, Vec<f64>) {
+        let mesh = self.mesh;
+        let sheared: Vec<[f64; 2]> = (0..mesh.faces.len())
+            .into_par_iter()
+            .map(|face| self.sheared(face))
+            .collect();
+        (0..mesh.pores.len())
+            .into_par_iter()
+            .map(|pore| self.parts(pore, &sheared))
+            .unzip()
+    }
+
+    /// Dissipation at the edges of a face, a quarter of each, by the axis that they lie along, the lower first.
+    fn sheared(&self, face: usize) -> [f64; 2] {
+        let (mesh, u) = (self.mesh, self.velocity);
+        let [first, _] = others(usize::from(mesh.faces[face].axis));
+        let mut sums = [0.0; 2];
+        for edge in self.edges.of(face) {
+            let along = u[edge.next as usize] - u[face];
+            let across = u[edge.across[1] as usize] - u[edge.across[0] as usize];
+            if along == 0.0 {
+                continue;
+            }
+            let [shear, length] = edge.measured(mesh, face);
+            let sheared = shear * along + length * across;
+            sums[usize::from(edge.axis(mesh, face) != first)] += 0.25 * along * sheared;
+        }
+        sums
+    }
+
+    /// The squares of one pore, by the shear of faces.
+    fn parts(&self, pore: usize, sheared: &[[f64; 2]]) -> ([f64; 4], f64) {
         let (mesh, u) = (self.mesh, self.velocity);
         let (mut parts, mut walls) = ([0.0; 4], 0.0);
         for axis in 0..3 {
@@ -177,14 +235,10 @@ impl View<'_> {
                                 pull.weight * (other - u[face] + pull.closing * self.speed).powi(2);
                         });
                     }
-                    for edge in self.edges.of(face) {
-                        let along = u[edge.next as usize] - u[face];
-                        let across = u[edge.across[1] as usize] - u[edge.across[0] as usize];
-                        let [shear, length] = edge.measured(mesh, face);
-                        let sheared = shear * along + length * across;
-                        parts[1 + edge.axis(mesh, face)] += 0.25 * along * sheared;
+                    for (around, sheared) in others(axis).into_iter().zip(sheared[face]) {
+                        parts[1 + around] += sheared;
                     }
-                    let link = &self.links.0[face];
+                    let link = self.links.of(face);
                     let half = usize::from(!up);
                     if link.friction[half] > 0.0 {
                         let wall = self.wall(face, half);
@@ -199,14 +253,14 @@ impl View<'_> {
 
     /// Mean velocity of the walls beside the half of a face.
     fn wall(&self, face: usize, half: usize) -> f64 {
-        let link = &self.links.0[face];
+        let link = self.links.of(face);
         let [own, closing] = link.sliding[half];
         (own + closing * self.speed) / link.friction[half]
     }
 
     /// What the walls of a face do.
     fn wall_rate(&self, face: usize, slip: f64) -> Wall {
-        let link = &self.links.0[face];
+        let link = self.links.of(face);
         let friction: f64 = link.friction.iter().sum();
         if friction == 0.0 {
             return Wall::default();

@@ -126,11 +126,13 @@ impl Medium<'_> {
             }
             let wet = self.fractions[ends[0]].min(self.fractions[ends[1]]);
             let axis = usize::from(face.axis);
-            let length = |pore: usize, up: bool| mesh.volume(pore) / mesh.side_area(pore, axis, up);
+            let area = mesh.area(index);
+            let length = |pore: usize, up: bool| {
+                mesh.share(index, pore, axis, up) * mesh.volume(pore) / area
+            };
             let distance = 0.5 * (length(ends[0], true) + length(ends[1], false));
             let dry = |n: u32| 1.0 / (1.0 + nodes[n as usize].ratio);
-            let k =
-                self.diffusion * wet * mesh.area(index) / distance * 0.5 * (dry(low) + dry(high));
+            let k = self.diffusion * wet * area / distance * 0.5 * (dry(low) + dry(high));
             if k > 0.0 {
                 nodes[low as usize].beside.push((high, k));
                 nodes[high as usize].beside.push((low, k));

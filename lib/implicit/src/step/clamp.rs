@@ -1,0 +1,150 @@
+//! The clamp in a step: its speed under a pressure limit, and the length that ends its travel.
+
+use physics::StepLimit;
+
+use super::Implicit;
+use super::drive::Asked;
+use super::solve::{Middle, Solved};
+use crate::system::{Drive, Flow};
+
+/// Part of the travel that is left from which on a step that covers it is made to end it.
+const NEAR: f64 = 0.7;
+/// Part of it by which a step may miss the end and still is there, or the rest would be taken in ever smaller steps, and
+/// solves that bring it nearer: a held speed settles in one or two where it settles at all.
+const MISSED: f64 = 1e-3;
+/// Travel, cells, that counts as none: surfaces of voxels are known less well, and a film under a pressure never ends.
+const NOTHING: f64 = 1e-2;
+const CLOSER: usize = 4;
+/// Solves of a step in which a clamp under a pressure comes to the speed at which it meets liquid.
+const MEETINGS: usize = 4;
+
+/// Length of the step that goes as far as `left`, of lengths and speeds of the last one and the one `before`: speeds are linear
+/// in the length.
+fn arrival(left: f64, [dt, speed]: [f64; 2], before: Option<[f64; 2]>) -> f64 {
+    let slope = before.map_or(0.0, |[other, slower]| (speed - slower) / (dt - other));
+    let first = speed - slope * dt;
+    let end = 2.0 * left / (first + (first * first + 4.0 * slope * left).sqrt());
+    if end > 0.0 && end.is_finite() {
+        end
+    } else {
+        left / speed
+    }
+}
+
+impl Implicit {
+    /// Solves the flow of a step of `dt` (s), of another length, `longest` at most, where the clamp comes to the end of its
+    /// travel. Each solution begins from `guess`, and leaves its flow there.
+    pub(super) fn solve(
+        &mut self,
+        dt: f64,
+        limit: StepLimit,
+        longest: f64,
+        guess: &mut Flow,
+    ) -> Result<Solved, String> {
+        let left = self.left(limit);
+        let mut solved = self.solve_controlled(dt, guess)?;
+        if left == f64::INFINITY || left == 0.0 {
+            return Ok(solved);
+        }
+        // The clamp's speed under load is known only then: the step ends the travel when it is that of its own length.
+        let mut before = None;
+        for _ in 0..CLOSER {
+            let now = [solved.dt, solved.flow.speed];
+            let reach = now[0] * now[1];
+            let end = arrival(left, now, before.replace(now));
+            if reach < NEAR * left || (reach / left - 1.0).abs() <= MISSED || end > longest {
+                break;
+            }
+            solved = self.solve_controlled(end, guess)?;
+        }
+        let reach = solved.flow.speed * solved.dt;
+        if reach > left + (MISSED * left).max(NOTHING) {
+            let dt = solved.dt;
+            let middle = self.middle(dt, Some(&solved.flow));
+            solved = self.solve_driven(&middle, Drive::Speed(left / dt), guess)?;
+        }
+        let reach = solved.flow.speed * solved.dt;
+        solved.arrives = (reach - left).abs() <= (MISSED * left).max(NOTHING);
+        Ok(solved)
+    }
+
+    /// Travel that is left, cells: the gap at most; without end where the clamp has gone all its way, and stands or goes back.
+    pub(super) fn left(&self, limit: StepLimit) -> f64 {
+        if self.state.drive.is_closed() {
+            return f64::INFINITY;
+        }
+        let travel = limit.travel_m / self.setup.units.cell_m;
+        match self.setup.lattice.moving {
+            Some(_) => travel.min(self.height),
+            None => travel,
+        }
+    }
+
+    /// Solves the flow of a step of `dt` (s) with the clamp at full speed, or at the speed of its pressure limit.
+    fn solve_controlled(&mut self, dt: f64, guess: &mut Flow) -> Result<Solved, String> {
+        self.state.drive.aim(dt);
+        let mut middle = self.middle(dt, None);
+        // A clamp that goes faster than in the last step may meet liquid that it would not have met.
+        for _ in 1..MEETINGS {
+            let solved = self.solve_middle(&middle, guess)?;
+            if solved.flow.speed <= middle.closing {
+                return Ok(solved);
+            }
+            let faster = self.middle(dt, Some(&solved.flow));
+            if !faster.meets_more(&middle) {
+                self.mesh.set_height(self.middle_height(dt, middle.closing));
+                return Ok(solved);
+            }
+            middle = faster;
+        }
+        self.solve_middle(&middle, guess)
+    }
+
+    /// The same with the liquid in the `middle` of the step as it is.
+    fn solve_middle(&mut self, middle: &Middle, guess: &mut Flow) -> Result<Solved, String> {
+        if let Some(asked) = self.state.drive.held() {
+            return self.solve_held(middle, asked, guess);
+        }
+        let full = Drive::Speed(self.state.drive.speed / self.setup.units.cell_m);
+        let free = self.solve_driven(middle, full, guess)?;
+        let pressure = self.setup.pressure(free.flow.force);
+        match self.state.drive.exceeded(pressure) {
+            Some(asked) => self.solve_held(middle, asked, guess),
+            None => Ok(free),
+        }
+    }
+
+    /// The same under a pressure on the clamp, at the nearest speed that it can follow.
+    fn solve_held(
+        &mut self,
+        middle: &Middle,
+        asked: Asked,
+        guess: &mut Flow,
+    ) -> Result<Solved, String> {
+        let cell_m = self.setup.units.cell_m;
+        // Viscous flow is in proportion to the speed that drives it.
+        guess.speed_up(self.state.drive.speed / cell_m);
+        let drive = Drive::Force {
+            force: self.setup.force(asked.limit),
+            scale: self.setup.force(asked.limit.max(asked.least)),
+            guess: self.state.drive.speed / cell_m,
+        };
+        let solved = self.solve_driven(middle, drive, guess)?;
+        match self.state.drive.follow(solved.flow.speed * cell_m) {
+            true => Ok(solved),
+            false => {
+                let drive = Drive::Speed(self.state.drive.speed / cell_m);
+                self.solve_driven(middle, drive, guess)
+            }
+        }
+    }
+
+    /// Least height of the gap, cells: in a programme a film stays, by which liquid pushes the bodies apart where a stage
+    /// lets it.
+    pub(super) fn least_height(&self) -> f64 {
+        match self.state.drive.programme() {
+            Some(_) => NOTHING,
+            None => 0.0,
+        }
+    }
+}

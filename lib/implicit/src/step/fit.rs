@@ -1,0 +1,78 @@
+//! The mesh follows the liquid and the gap.
+
+use super::Implicit;
+use crate::geometry::{Mesh, Region, Rows};
+use crate::liquid::{Kept, carried_pressures, carried_region, carried_velocities, carried_volumes};
+use crate::system::Edges;
+
+/// Cells around the liquid that a mesh has, and the least that it may have before it is made anew: liquid crosses less than
+/// two in a step.
+pub(super) const MARGIN: usize = 4;
+const LEAST_MARGIN: usize = 2;
+
+impl Implicit {
+    /// Makes the mesh anew where the gap has other rows now, or the liquid has come near its end.
+    pub(super) fn fit_mesh(&mut self) {
+        self.mesh.set_height(self.height);
+        let mesh = &self.mesh;
+        let rows = Rows::of_gap(mesh.rows().below, mesh.rows().above, self.height);
+        let wet = mesh.cells_with(|pore| self.state.volumes[pore] > 0.0);
+        let wet_rows = self.wet_rows();
+        let near =
+            |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < LEAST_MARGIN;
+        if !self.links.is_empty()
+            && rows.gap == mesh.rows().gap
+            && !near(wet_rows.start, mesh.range.start, 0)
+            && !near(wet_rows.end, mesh.range.end, mesh.rows().len())
+            && (mesh.region).covers(&wet.grown(LEAST_MARGIN, mesh.periodic()))
+        {
+            return;
+        }
+        let end = (wet_rows.end + rows.gap - mesh.rows().gap).max(wet_rows.start) + MARGIN;
+        let near = wet_rows.start.saturating_sub(MARGIN)..end.min(rows.len());
+        let (range, region) = match self.setup.gas {
+            None => {
+                let region = carried_region(mesh, &wet, (&rows, &near), MARGIN);
+                (near, region)
+            }
+            // Air may be closed off anywhere.
+            Some(_) => {
+                let range = 0..rows.len();
+                let size = Mesh::size_of(&self.setup.lattice, &range);
+                (range, Region::new(size, true))
+            }
+        };
+        let mesh = Mesh::new(&self.setup.lattice, rows, range, region);
+        let old = std::mem::replace(&mut self.mesh, mesh);
+        let (state, mesh) = (&mut self.state, &self.mesh);
+        state.volumes = carried_volumes(mesh, &old, &state.volumes);
+        if !state.air.of.is_empty() {
+            state.air.of = carried_volumes(mesh, &old, &state.air.of);
+        }
+        state.flow.velocity = carried_velocities(mesh, &old, &state.flow.velocity);
+        state.flow.pressure = carried_pressures(mesh, &old, &state.flow.pressure);
+        if let Some(wet) = &mut state.wet {
+            wet.water = carried_volumes(mesh, &old, &wet.water);
+            wet.soaked = carried_volumes(mesh, &old, &wet.soaked);
+        }
+        self.walls = self.setup.taking_walls(mesh);
+        let kept = match self.links.is_empty() {
+            true => Kept::default(),
+            false => Kept::new(mesh, &old),
+        };
+        self.links = self.setup.links(mesh, &kept, &self.links);
+        self.edges = Edges::new(mesh, &self.setup.lattice, &kept, &self.edges);
+    }
+
+    /// Rows of the grid that hold liquid, and those of the gap.
+    fn wet_rows(&self) -> std::ops::Range<usize> {
+        let mesh = &self.mesh;
+        let gap = mesh.rows().below..mesh.rows().below + mesh.rows().gap;
+        (0..mesh.pores.len())
+            .filter(|&pore| self.state.volumes[pore] > 0.0)
+            .map(|pore| mesh.row_of(pore))
+            .fold(gap, |range, row| {
+                range.start.min(row)..range.end.max(row + 1)
+            })
+    }
+}

@@ -1,0 +1,139 @@
+//! What follows from an accepted step: liquid that has moved, a gap that has closed, the step's report.
+
+use std::time::Instant;
+
+use physics::{StepLimit, StepReport};
+
+use super::Implicit;
+use super::solve::Solved;
+use crate::clock::Part;
+use crate::liquid::{Held, Moved, transport};
+use crate::system::Flow;
+
+/// Most by which flow is expected to go on growing: a flow that starts is no trend.
+const FORESEEN: f64 = 1.25;
+/// Fraction of the faces, the fastest, that the Courant number ignores, jets through holes of a voxel, and the cells that
+/// they cross at most.
+const JETS: f64 = 1e-3;
+const JET_CFL: f64 = 1.5;
+/// Height of a gap, cells, that is none.
+const CLOSED: f64 = 1e-9;
+
+impl Implicit {
+    /// Completes an accepted step.
+    pub(super) fn follow(&mut self, solved: Solved, limit: StepLimit) -> StepReport {
+        let Solved {
+            dt,
+            flow,
+            full,
+            forces,
+            settled,
+            air,
+            arrives,
+            exchange,
+        } = solved;
+        let cell_m = self.setup.units.cell_m;
+        let travel = match arrives {
+            true => self.left(limit),
+            false => flow.speed * dt,
+        };
+        let begun = Instant::now();
+        // Liquid moves through the faces of the middle of the step into the pores of its end.
+        let middle = self.mesh.rows().height;
+        if self.setup.lattice.moving.is_some() {
+            let height = self.height - travel;
+            self.height = if height > CLOSED { height } else { 0.0 }.max(self.least_height());
+        }
+        self.mesh.set_height(self.height);
+        let capacities = self.capacities();
+        self.mesh.set_height(middle);
+        let state = &mut self.state;
+        if let (Some(wet), Some(exchange)) = (&mut state.wet, exchange) {
+            wet.give_off(&exchange, dt, &mut state.volumes);
+        }
+        let mesh = &mut self.mesh;
+        let Moved {
+            volumes,
+            water,
+            lost: [lost, water_lost],
+        } = transport(
+            mesh,
+            Held {
+                volumes: &state.volumes,
+                water: state.wet.as_ref().map_or(&[], |wet| &wet.water),
+            },
+            &full,
+            &capacities,
+            &flow.velocity,
+            dt,
+        );
+        mesh.set_height(self.height);
+        self.clock.add(Part::Transport, begun);
+        state.volumes = volumes;
+        if let Some(wet) = &mut state.wet {
+            wet.water = water;
+            wet.account.left += water_lost;
+        }
+        state.lost += lost;
+        let fastest = fastest(&flow, self.setup.settings.cfl);
+        state.growth = (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, FORESEEN);
+        state.fastest = fastest;
+        state.unsettled += u64::from(!settled);
+        state.power = flow.dissipation;
+        state.time += dt;
+        state.dt = dt;
+        state.steps += 1;
+        state.travel += travel * cell_m;
+        for (body, displacement) in state.displacement.iter_mut().enumerate() {
+            let slide = self.setup.lattice.slide[body];
+            for a in 0..3 {
+                displacement[a] += slide[a] * dt;
+            }
+            if self.setup.lattice.mover == Some(body) {
+                displacement[1] +=
+                    self.setup.lattice.speed_of(body) * travel * cell_m - slide[1] * dt;
+            }
+        }
+        let pressure = |body: Option<usize>, sign: f64| {
+            body.map_or(0.0, |body| {
+                let force = match self.setup.lattice.mover == Some(body) {
+                    true => -sign * self.setup.lattice.speed_of(body) * flow.force,
+                    false => sign * forces[body],
+                };
+                self.setup.pressure(force)
+            })
+        };
+        state
+            .drive
+            .observe(self.setup.pressure(flow.force), dt, state.travel);
+        let report = StepReport {
+            dt_s: dt,
+            closing_speed: flow.speed * cell_m,
+            travel_m: state.travel,
+            pressure_bottom: pressure(self.setup.bottom, -1.0),
+            pressure_top: pressure(self.setup.top, 1.0),
+            lost: self.setup.points_of(state.lost),
+            iterations: flow.iterations,
+        };
+        state.flow = flow;
+        if let (Some(gas), Some((air, settled))) = (self.setup.gas, air) {
+            self.keep_air(gas, air, settled, dt);
+        }
+        report
+    }
+}
+
+/// Cells a second that count: those of the fastest faces but for jets through single voxels, which may cross more.
+pub(super) fn fastest(flow: &Flow, cfl: f64) -> f64 {
+    let mut speeds: Vec<f64> = (flow.velocity.iter())
+        .filter(|v| **v != 0.0)
+        .map(|v| v.abs())
+        .collect();
+    if speeds.is_empty() {
+        return 0.0;
+    }
+    let at = ((1.0 - JETS) * (speeds.len() - 1) as f64) as usize;
+    let most = speeds.iter().fold(0.0, |most: f64, &v| v.max(most));
+    let (_, &mut counted, _) = speeds.select_nth_unstable_by(at, f64::total_cmp);
+    counted.max(most * cfl / JET_CFL)
+}
