@@ -35,7 +35,7 @@ pub const CASE: &str = include_str!("../press.toml");
 pub const METHODS: [&[&str]; 3] = [
     &["integrator.velocity_update=flip"],
     &["integrator.velocity_update=xpic", "integrator.order=5"],
-    &["integrator.scheme=implicit"],
+    &["integrator.scheme=implicit", "integrator.cfl=0.25"],
 ];
 
 /// A built tool.

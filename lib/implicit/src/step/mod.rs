@@ -2,6 +2,7 @@
 
 mod air;
 mod clamp;
+mod compression;
 mod drive;
 mod failure;
 mod fit;

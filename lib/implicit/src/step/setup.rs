@@ -4,14 +4,13 @@ use std::ops::Range;
 
 use physics::{Dimensions, Liquid, Motion, Points, PressRun, Scene, Seed, Stop, Viscosity};
 
-use super::State;
 use super::drive::ClampDrive;
 use super::fit::MARGIN;
 use crate::air::Gas;
 use crate::geometry::{Chords, Face, Lattice, Mesh, Region, Rows};
 use crate::liquid::{Kept, Place, deposit};
 use crate::settings::Settings;
-use crate::system::{Links, Scales, Unknowns, Walls};
+use crate::system::{Links, Scales, Walls};
 use crate::water;
 
 /// Units of the scheme.
@@ -226,38 +225,6 @@ impl Setup {
             compressibility: eta / self.liquid.tait.bulk_modulus,
             influence_length: self.walls.influence_length,
         }
-    }
-
-    /// What each pore with a pressure holds more than its volume at no pressure, and what of that Tait's law at the
-    /// pressure before the step makes of the unit of compression, over `dt`. Compression is that of the `end` volumes: the
-    /// film in a gap that closes is squeezed out before it is compressed. What the pressure does not explain, above all
-    /// what full pores lack, moves in `asked`, the time of a step by the last flow: in a step that an event or an attempt
-    /// made shorter it would move as far in less time.
-    pub(super) fn carried(
-        &self,
-        mesh: &Mesh,
-        unknowns: &Unknowns,
-        state: &State,
-        full: &[bool],
-        [start, end]: [f64; 2],
-        [dt, asked]: [f64; 2],
-    ) -> Vec<f64> {
-        let unit = self.units.viscosity / self.liquid.tait.bulk_modulus;
-        (unknowns.pores.iter())
-            .map(|&pore| {
-                let pore = pore as usize;
-                if !full[pore] {
-                    return 0.0;
-                }
-                let p = state.flow.pressure[pore];
-                let change = self.liquid.tait.volume_change(p * self.units.viscosity);
-                let denser = 1.0 / (1.0 + change) - 1.0;
-                let [before, after] = [start, end].map(|height| mesh.volume_at(pore, height));
-                let unexplained = state.volumes[pore] - before * (1.0 + denser);
-                let explained = before * denser - after * (denser - unit * p);
-                explained / dt + unexplained / asked.max(dt)
-            })
-            .collect()
     }
 
     /// Acceleration by weight, cells/s2.

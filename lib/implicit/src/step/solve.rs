@@ -5,6 +5,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::Implicit;
+use super::compression::Compression;
 use super::failure::unsolved;
 use crate::air::Air;
 use crate::clock::Part;
@@ -215,15 +216,17 @@ impl Implicit {
                 pockets: air.as_ref().map_or(&[], |air| &air.pockets),
                 scales: setup.scales(dt),
             };
-            let heights = [self.height, end];
-            let mut carried = setup.carried(
+            let compression = Compression {
+                tait: setup.liquid.tait,
+                unit: setup.units.viscosity,
                 mesh,
-                &unknowns,
                 state,
-                &solved.full,
-                heights,
-                [dt, self.asked()],
-            );
+                full: &middle.full,
+                heights: [self.height, end],
+                times: [dt, self.asked()],
+            };
+            let around = &solved.flow.pressure;
+            let mut carried = compression.released(&unknowns.pores, around);
             if let Some(exchange) = &lost {
                 exchange.add_to(&unknowns.pores, &solved.full, dt, &mut carried);
             }
@@ -239,6 +242,7 @@ impl Implicit {
             iterations += flow.iterations;
             let begun = Instant::now();
             solved.forces = forces(&problem, &flow, state.displacement.len());
+            let holds = compression.holds(&unknowns.pores, around, &flow.pressure);
             self.clock.add(Part::Forces, begun);
             let begun = Instant::now();
             solved.settled = true;
@@ -267,7 +271,7 @@ impl Implicit {
                 (Some(air), Some(gas)) => !air.settle(gas, &solved.flow.pressure, dt),
                 _ => false,
             };
-            if solved.settled && !tears && !astray {
+            if solved.settled && holds && !tears && !astray {
                 break;
             }
         }

@@ -1,0 +1,78 @@
+//! Compression of full pores by Tait's law, linear around a pressure.
+
+use physics::Tait;
+
+use super::State;
+use crate::geometry::Mesh;
+
+/// Volume by which compression may be off its law, over all that changes: beyond it the step is solved again around the
+/// pressures found. Liquid that flows away is never so compressed that it counts.
+const OFF_LAW: f64 = 1e-3;
+
+/// The volumes of full pores in a step.
+pub(super) struct Compression<'a> {
+    pub(super) tait: Tait,
+    /// Unit of pressures, Pa.
+    pub(super) unit: f64,
+    pub(super) mesh: &'a Mesh,
+    pub(super) state: &'a State,
+    /// Which pores are full at the start.
+    pub(super) full: &'a [bool],
+    /// Heights of the gap at the start and at the end. Compression is that of volumes at the end: the film in a gap that
+    /// closes is squeezed out before it is compressed.
+    pub(super) heights: [f64; 2],
+    /// Length of the step, and that of a step by the last flow, s.
+    pub(super) times: [f64; 2],
+}
+
+impl Compression<'_> {
+    /// What a pore holds more than its volume at no pressure, over that.
+    fn denser(&self, pressure: f64) -> f64 {
+        1.0 / (1.0 + self.tait.volume_change(pressure * self.unit)) - 1.0
+    }
+
+    /// The same by the law that is linear around another pressure.
+    fn linear(&self, pressure: f64, around: f64) -> f64 {
+        let slope = self.unit / self.tait.bulk_modulus;
+        self.denser(around) + slope * (pressure - around)
+    }
+
+    fn volumes(&self, pore: usize) -> [f64; 2] {
+        self.heights.map(|height| self.mesh.volume_at(pore, height))
+    }
+
+    /// Volumes that `pores` give off by themselves, over the time of the step: compression at the start less that at no
+    /// pressure by the law around the pressures `around`; and what the pressure does not explain, above all what full pores
+    /// lack. This moves in the time of a step by the last flow: in a step that an event or an attempt made shorter it would
+    /// move as far in less time.
+    pub(super) fn released(&self, pores: &[u32], around: &[f64]) -> Vec<f64> {
+        let [dt, asked] = self.times;
+        let released = |&pore: &u32| {
+            let pore = pore as usize;
+            if !self.full[pore] {
+                return 0.0;
+            }
+            let [before, after] = self.volumes(pore);
+            let denser = self.denser(self.state.flow.pressure[pore]);
+            let unexplained = self.state.volumes[pore] - before * (1.0 + denser);
+            let explained = before * denser - after * self.linear(0.0, around[pore]);
+            explained / dt + unexplained / asked.max(dt)
+        };
+        pores.iter().map(released).collect()
+    }
+
+    /// Whether the pressures `found` by the law around others obey it.
+    pub(super) fn holds(&self, pores: &[u32], around: &[f64], found: &[f64]) -> bool {
+        let (mut off, mut all) = (0.0, 0.0);
+        for pore in pores.iter().map(|&pore| pore as usize) {
+            if self.full[pore] {
+                let [before, after] = self.volumes(pore);
+                let denser = self.denser(found[pore]);
+                off += after * (denser - self.linear(found[pore], around[pore])).abs();
+                let changed = after * (denser - self.denser(self.state.flow.pressure[pore])).abs();
+                all += changed + (before - after).abs();
+            }
+        }
+        off <= OFF_LAW * all
+    }
+}
