@@ -184,7 +184,7 @@ impl Through {
             two_eta: &vec![2.0; p.len()],
             b: &push,
             standing: &[],
-            holding: &[],
+            clinging: &[],
             slow: 0.0,
             volume_source: &none,
             carried: &none,

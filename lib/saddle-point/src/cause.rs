@@ -143,7 +143,7 @@ mod tests {
             g: &pair(),
             pockets: 0,
             standing: &[],
-            holding: &[],
+            clinging: &[],
             slow: 0.0,
             c: &[c; 2],
             friction: &[friction],

@@ -239,7 +239,7 @@ mod tests {
                 g: &g,
                 pockets: 0,
                 standing: &[],
-                holding: &[],
+                clinging: &[],
                 slow: 0.0,
                 c: &[0.0],
                 friction: &[0.0; 2],

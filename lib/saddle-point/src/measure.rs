@@ -23,7 +23,7 @@ pub(crate) struct Measure<'a> {
 impl<'a> Measure<'a> {
     pub(crate) fn new(system: &'a SaddleSystem, options: &SaddleOptions, still: f64) -> Self {
         // Liquid that rests without a face to air asks for as much less once more.
-        let closed = options.tolerance.powi(2) * norm(system.b);
+        let closed = options.tolerance.powi(2) * system.known_forces();
         Self {
             system,
             least: match system.standing {

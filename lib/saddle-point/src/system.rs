@@ -32,9 +32,8 @@ pub struct SaddleSystem<'a> {
     /// Part of it by which weight, air and menisci push, which pressures of the liquid balance but for little; empty where
     /// there is none. The tolerance is not measured by it, but by the forces `A u` of the flow that comes of it.
     pub standing: &'a [f64],
-    /// Friction of every face that is no such force: of what holds liquid to walls, that goes along with them; empty where
-    /// nothing does.
-    pub holding: &'a [f64],
+    /// Part of these that walls only drag thick liquid along with, which is no force of a flow either; empty where they drag none.
+    pub clinging: &'a [f64],
     /// Velocity at faces to air that counts at least: slower flow is as good as none.
     pub slow: f64,
     /// Volume that walls displace, one per cell: `G u + C p = g` is this and what is carried over.
@@ -96,19 +95,26 @@ impl SaddleSystem<'_> {
         norm(&forces)
     }
 
-    /// Force of slow flow at a face by its friction, without what holds it to walls and at most by that of a cell of liquid of
-    /// viscosity `eta_0`: thicker liquid would outweigh the rest.
+    /// Force of slow flow at a face by its friction, at most by that of a cell of liquid of viscosity `eta_0`: thicker liquid
+    /// would outweigh the rest.
     pub(crate) fn slow_force(&self, face: usize) -> f64 {
-        let holding = self.holding.get(face).copied().unwrap_or_default();
-        self.slow * (self.friction[face] - holding).clamp(0.0, 1.0)
+        self.slow * self.friction[face].min(1.0)
+    }
+
+    /// Norm of what moves the liquid and of what stands, but for what only drags it along.
+    pub(crate) fn known_forces(&self) -> f64 {
+        match self.clinging {
+            [] => norm(self.b),
+            clinging => apart(self.b, clinging),
+        }
     }
 
     /// Norm of the forces of a flow `u`.
     pub(crate) fn forces(&self, u: &[f64]) -> f64 {
         let mut forces = vec![0.0; u.len()];
         self.a.multiply(u, &mut forces);
-        for ((force, holding), u) in forces.iter_mut().zip(self.holding).zip(u) {
-            *force -= holding * u;
+        for (force, clinging) in forces.iter_mut().zip(self.clinging) {
+            *force -= clinging;
         }
         norm(&forces)
     }
@@ -128,9 +134,9 @@ impl SaddleSystem<'_> {
                 if self.standing.is_empty() { 0 } else { faces },
             ),
             (
-                "frictions that hold",
-                self.holding.len(),
-                if self.holding.is_empty() { 0 } else { faces },
+                "forces of what clings",
+                self.clinging.len(),
+                if self.clinging.is_empty() { 0 } else { faces },
             ),
             ("volume sources", self.volume_source.len(), cells),
             ("carried volumes", self.carried.len(), cells),
@@ -142,7 +148,7 @@ impl SaddleSystem<'_> {
         for values in [
             self.b,
             self.standing,
-            self.holding,
+            self.clinging,
             self.volume_source,
             self.carried,
             u,

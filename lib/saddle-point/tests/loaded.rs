@@ -57,10 +57,9 @@ fn drives(times: f64) {
         ..SaddleOptions::default()
     });
     let (mut u, mut p) = (vec![0.0; faces], vec![0.0; cells]);
-    let holding: Vec<f64> = bound.iter().map(|drag| -drag).collect();
     let moving = SaddleSystem {
         standing: &bound,
-        holding: &holding,
+        clinging: &bound,
         ..problem.system()
     };
     let known = solver.solve(&moving, &mut u, &mut p).unwrap();

@@ -75,6 +75,8 @@ pub(crate) struct Sides {
     pub(crate) known: Vec<f64>,
     pub(crate) closing: Vec<f64>,
     pub(crate) standing: Vec<f64>,
+    /// What of those known and of those per closing speed only makes thick liquid go along with what moves.
+    pub(crate) clinging: [Vec<f64>; 2],
     /// Known force on the body that closes the gap, by the inertia and the weight of the liquid that it carries along.
     pub(crate) carried: f64,
 }
@@ -163,7 +165,7 @@ impl Problem<'_> {
     /// Right-hand side of the momenta.
     pub(crate) fn momenta(&self) -> Sides {
         let faces = &self.unknowns.faces;
-        let sides: Vec<[f64; 4]> = (faces.par_iter())
+        let sides: Vec<[f64; 6]> = (faces.par_iter())
             .map(|&face| self.force(face as usize))
             .collect();
         let column = |i: usize| sides.iter().map(|side| side[i]).collect::<Vec<f64>>();
@@ -172,22 +174,27 @@ impl Problem<'_> {
             closing: column(1),
             standing: column(2),
             carried: column(3).iter().sum(),
+            clinging: [column(4), column(5)],
         }
     }
 
     /// What pushes a face, as in [`Sides`].
-    fn force(&self, face: usize) -> [f64; 4] {
+    fn force(&self, face: usize) -> [f64; 6] {
         let f = self.mesh.faces[face];
         let axis = usize::from(f.axis);
         let carried = self.masses[face];
         let inertia = self.scales.inertia * carried;
         let standing = self.scales.gravity[axis] * carried + self.push(face);
-        let mut force = [inertia * self.before[face] + standing, 0.0, standing, 0.0];
+        let known = inertia * self.before[face] + standing;
+        let mut force = [known, 0.0, standing, 0.0, 0.0, 0.0];
         let link = self.links.of(face);
         let weights = self.wall_weights(face);
-        for (weight, [own, closing]) in weights.into_iter().zip(link.sliding) {
+        let etas = self.viscosities.walls[face];
+        for ((weight, eta), [own, closing]) in weights.into_iter().zip(etas).zip(link.sliding) {
             force[0] += weight * own;
             force[1] += weight * closing;
+            force[4] += clinging(eta) * weight * own;
+            force[5] += clinging(eta) * weight * closing;
         }
         if axis == 1 && self.lattice.moving.is_some() {
             let frame = self.mesh.frame(self.lattice, face);
@@ -202,7 +209,9 @@ impl Problem<'_> {
                         .other
                         .is_none_or(|other| self.unknowns.face(other).is_some())
                     {
-                        force[1] += stiffness * pull.weight * pull.closing;
+                        let squeezed = stiffness * pull.weight * pull.closing;
+                        force[1] += squeezed;
+                        force[5] += clinging(self.viscosities.pores[pore]) * squeezed;
                     }
                 });
             }
@@ -314,4 +323,9 @@ impl Problem<'_> {
             _ => 0.0,
         }
     }
+}
+
+/// Part of a force on liquid of this viscosity over its unit that only makes it go along: what is left is that of the unit.
+fn clinging(viscosity: f64) -> f64 {
+    1.0 - 1.0 / viscosity.max(1.0)
 }

@@ -68,7 +68,8 @@ pub(crate) fn solve(
     let Sides {
         mut known,
         closing,
-        standing,
+        mut standing,
+        clinging,
         carried: mut carried_force,
     } = problem.momenta();
     let scales = &problem.scales;
@@ -120,6 +121,17 @@ pub(crate) fn solve(
             *moved = speed * source;
         }
     }
+    let mut clinging: Vec<f64> = (clinging[0].iter().zip(&clinging[1]))
+        .map(|(known, closing)| known + speed * closing)
+        .collect();
+    for (standing, clinging) in standing.iter_mut().zip(&clinging) {
+        *standing += clinging;
+    }
+    for forces in [&mut standing, &mut clinging] {
+        if forces.iter().all(|&force| force == 0.0) {
+            forces.clear();
+        }
+    }
     let system = SaddleSystem {
         a: &a,
         g: &g,
@@ -128,12 +140,8 @@ pub(crate) fn solve(
         friction: &friction,
         two_eta: &two_eta,
         b: &known,
-        standing: if standing.iter().all(|&force| force == 0.0) {
-            &[]
-        } else {
-            &standing
-        },
-        holding: &[],
+        standing: &standing,
+        clinging: &clinging,
         slow: SLOW / scales.dt,
         volume_source: &volume_source,
         carried: &carried,

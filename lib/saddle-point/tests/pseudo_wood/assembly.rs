@@ -40,7 +40,7 @@ impl Problem {
             g: &self.g,
             pockets: 0,
             standing: &[],
-            holding: &[],
+            clinging: &[],
             slow: 0.0,
             c: &self.c,
             friction: &self.friction,

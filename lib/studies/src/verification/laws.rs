@@ -92,12 +92,13 @@ pub fn scene(law: Law, n: u32, offset: f64, until: f64) -> Scene {
     scene
 }
 
-/// How far velocities differ in the plug, `half` (m) about the middle of the channel less a `cell` (m) that
-/// shares a cell with what yields, over the velocity there.
+/// How far velocities differ in the plug, `half` (m) about the middle of the channel, in those of its `cell`s (m) that share
+/// nothing with what yields, over the velocity there.
 fn plug(run: &Run, low: f64, half: f64, cell: f64) -> Result<Measured, String> {
     let (mut slowest, mut fastest) = (f64::INFINITY, 0.0_f64);
     for (x, v) in final_points(run)? {
-        if (x[1] - low - 0.5 * LUMEN).abs() < half - cell {
+        let middle = ((x[1] / cell).floor() + 0.5) * cell;
+        if (middle - low - 0.5 * LUMEN).abs() + 0.5 * cell <= half {
             (slowest, fastest) = (slowest.min(v[0]), fastest.max(v[0]));
         }
     }
