@@ -202,7 +202,7 @@ scheme's stays near 0 and the implicit one's does not, the liquid has locked (ex
 const INTRODUCTION: &str = "# Stability on stiff and extreme cases
 
 `make stability` runs small scenes (lib/studies/src/stability) through the real `mpm-run`: a slab of PF 16
-cells wide and 4 thick, walls a quarter cell off the nodes, pressed at 1 m/s and at most 2.5 MPa into
+cells wide and 4 thick, walls a quarter and half a cell off the nodes, pressed at 1 m/s and at most 2.5 MPa into
 a lumen of 6 cells by 1.5 cells of travel, and variations of it; sealed chambers; liquid torn apart;
 drops. One value is varied at a time; sticking walls and CFL 0.5 unless said. A run ends `stable`;
 `noisy`, when its kinetic energy was at some time more than ten times that of the scene's own motion; `refused`

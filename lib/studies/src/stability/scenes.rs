@@ -107,17 +107,17 @@ impl Default for Press {
     }
 }
 
-/// An upper body presses a slab of liquid into a lumen of the lower one; walls a quarter cell off
-/// the nodes.
+/// An upper body presses a slab of liquid into a lumen of the lower one; floors a quarter cell off
+/// the nodes, the walls of the lumen half a cell.
 pub fn press(shape: Press) -> Scene {
-    let (width, off) = (16.0, 0.25);
+    let (width, off, aside) = (16.0, 0.25, 0.5);
     let floor = 8.0 + off;
     let plate = floor + shape.slab;
     let top = (plate + 2.0).ceil();
     let depth = f64::from(shape.depth);
     let (left, right) = (
-        0.5 * (width - shape.lumen) + off,
-        0.5 * (width + shape.lumen) + off,
+        0.5 * (width - shape.lumen) + aside,
+        0.5 * (width + shape.lumen) + aside,
     );
     let mut bodies = Vec::new();
     if shape.lumen > 0.0 {
@@ -245,7 +245,7 @@ pub fn splash(size: f64, speed: f64) -> Scene {
     let low = 4.1;
     let case = CaseText {
         bodies: vec![
-            wall([0.0; 3], [12.0, 2.25, 1.0]),
+            wall([0.0; 3], [12.0, 2.5, 1.0]),
             Body::liquid(scale([low, low, 0.0]), scale([low + size, low + size, 1.0]))
                 .moving([0.0, -speed, 0.0]),
         ],

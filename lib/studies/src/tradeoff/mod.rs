@@ -38,9 +38,9 @@ pub fn run(study: &Study) -> Result<bool, String> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
     /// Piston into slit: piston force at one and two filled widths, walls on the nodes and a
-    /// quarter cell off.
+    /// quarter cell off, of the implicit scheme half a cell.
     Slit,
-    /// Channel: mean velocity, walls on the nodes, a quarter and half a cell off.
+    /// Channel: mean velocity, walls on the nodes, a quarter (explicit) and half a cell off.
     Channel,
     /// Film on an incline: profile, floor on the nodes.
     Incline,
@@ -79,8 +79,13 @@ impl Flow {
             Scheme::Explicit => explicit,
             Scheme::Implicit => factor * explicit,
         };
+        // The implicit scheme takes walls half way between the faces of cells, not a quarter off.
+        let off = match scheme {
+            Scheme::Explicit => 0.25,
+            Scheme::Implicit => 0.5,
+        };
         match self {
-            Flow::Slit => [0.0, 0.25]
+            Flow::Slit => [0.0, off]
                 .map(|offset| {
                     let mut scene = slit::scene(n, [offset, 0.0]);
                     // To two and a quarter of its four and a half widths.
@@ -88,7 +93,7 @@ impl Flow {
                     scene
                 })
                 .into(),
-            Flow::Channel => [0.0, 0.25, 0.5]
+            Flow::Channel => [0.0, off, 0.5]
                 .map(|offset| channel::scene(n, offset, None, until(3e-6, 10.0)))
                 .into(),
             Flow::Incline => vec![incline::scene(n, 0.0, until(5e-6, 100.0))],

@@ -84,9 +84,9 @@ fn plot(rows: &[Row], flow: Flow) -> Plot {
 }
 
 const HEAD: &str = "Error is the root mean square of the relative errors of a flow: **piston \
-into slit** piston force at one and two filled widths, walls on the nodes and a quarter cell off, \
+into slit** piston force at one and two filled widths, walls on the nodes and a quarter cell off, half a cell of the implicit scheme, \
 against finite elements behind a tracked front (lib/studies/reference); **channel** mean \
-velocity, walls on the nodes, a quarter and half a cell off, against plane Poiseuille; **incline** profile over v_max, floor on the nodes, against \
+velocity, walls on the nodes, a quarter (explicit) and half a cell off, against plane Poiseuille; **incline** profile over v_max, floor on the nodes, against \
 paper Eq. 5 (both by the implicit scheme for ten and a hundred times as long, since its step is as long as those runs); **bond line** a synthetic specimen of 24x72x24 voxels closed at 1 m/s: mean clamp \
 pressure over the second half and WP when closed, against the implicit scheme with cells of half a \
 voxel. Cells are those across a lumen of 17.4 um (6 are two voxels each, 12 one). CPU time is that \
