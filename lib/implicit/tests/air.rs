@@ -154,3 +154,26 @@ fn pockets_that_part_and_meet_keep_their_air() {
     let said = resumed.restore(&forged).unwrap_err();
     assert!(said.contains("air"), "{said}");
 }
+
+/// A run is objected to where the air is astray in more than a tenth of its steps.
+#[test]
+fn air_that_is_often_astray_is_objected_to() {
+    let mut scheme = Implicit::new(&slit(6, 1e-3), settings(f64::INFINITY)).unwrap();
+    for _ in 0..10 {
+        advance(&mut scheme, 1e-4);
+    }
+    let saved = scheme.save();
+    let mut objection = |astray: f64| {
+        let mut saved = saved.clone();
+        for (name, array) in &mut saved.0 {
+            if name == "air_counts" {
+                *array = Array::F64(vec![1.0, 0.0, astray]);
+            }
+        }
+        scheme.restore(&saved).unwrap();
+        scheme.objection()
+    };
+    assert_eq!(objection(1.0), None);
+    let said = objection(2.0).unwrap_or_default();
+    assert!(said.starts_with("in 2 of 10 steps"), "{said}");
+}

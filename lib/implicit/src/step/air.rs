@@ -22,7 +22,7 @@ pub(super) struct HeldAir {
     pockets: u64,
     covered: u64,
     /// Steps whose air did not come to its pressure.
-    astray: u64,
+    pub(super) astray: u64,
 }
 
 impl Implicit {

@@ -244,13 +244,20 @@ impl Scheme for Implicit {
             self.state.unsettled,
             "the passes did not find the viscosity of the flow",
         );
+        let astray = often(
+            self.state.air.astray,
+            "the passes did not find the pressure of the air that is closed off",
+        );
         let (above, pressure) = self.state.drive.broken;
         let above = often(
             above,
             "liquid that is closed in pressed the clamp's body with more than its max_pressure",
         );
         let limit = (pressure > 0.0).then(|| physics::broken(pressure));
-        let said: Vec<String> = [unsettled, above, limit].into_iter().flatten().collect();
+        let said: Vec<String> = [unsettled, astray, above, limit]
+            .into_iter()
+            .flatten()
+            .collect();
         (!said.is_empty()).then(|| said.join("; "))
     }
 }
