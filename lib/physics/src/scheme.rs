@@ -26,7 +26,7 @@ pub struct StepReport {
     pub pressure_bottom: f64,
     /// The same on the upper body.
     pub pressure_top: f64,
-    /// Material points that left through an open side so far.
+    /// Material points, or voxels of liquid where no points are followed, that left through an open side so far.
     pub lost: u64,
     /// Iterations of the linear solver; 0 for an explicit step.
     pub iterations: u32,

@@ -26,8 +26,8 @@ pub(super) fn check_motions(
             for a in [0, 2].into_iter().filter(|&a| v[a] != 0.0) {
                 if !body.blocks.iter().all(|block| through(block, a)) {
                     return Err(format!(
-                        "body '{}' moves along {} and ends within the domain: scheme = \"volume-fraction\" takes walls that \
-                         move along themselves from side to side",
+                        "body '{}' moves along {} and ends within the domain: the implicit scheme takes walls that move \
+                         along themselves from side to side",
                         body.name,
                         ["x", "y", "z"][a]
                     ));
@@ -56,8 +56,8 @@ pub(super) fn check_motions(
             };
             if beside && !(along && block.dims()[1] == 1) {
                 return Err(format!(
-                    "body '{}' stands beside the way of '{}' and is not alike along it: scheme = \"volume-fraction\" takes \
-                     walls there that go on to the side of the domain",
+                    "body '{}' stands beside the way of '{}' and is not alike along it: the implicit scheme takes walls \
+                     there that go on to the side of the domain",
                     body.name,
                     scene.bodies[lattice.mover.unwrap_or(index)].name
                 ));

@@ -17,7 +17,7 @@ pub(super) const GRID: Table = Table {
             name: "cell",
             form: || format!("{}, voxels", quantity::<Length>()),
             absent: Absent::Needed("always"),
-            text: "Edge of a cubic cell, a length or a multiple of the bond file's voxel: `\"2 voxels\"`. Two voxels of the stack are the paper's and usual. Take one voxel where `--explain` says that half of the lumens' volume has fewer than 5 cells across, and for errors (`make` does so by itself): some ten times the cost, five times the memory.",
+            text: "Edge of a cubic cell, a length or a multiple of the bond file's voxel: `\"2 voxels\"`. Two voxels of the stack are the paper's and usual. Take one voxel where `--explain` says that half of the lumens' volume has fewer than 5 cells across, and for errors (`make` does so by itself): some ten times the cost, five times the memory. Implicit scheme: one or two voxels a cell, or a whole number of cells a voxel.",
         },
         Key {
             name: "dimensions",
@@ -38,7 +38,7 @@ pub(super) const GRID: Table = Table {
             name: "points_per_direction",
             form: || "1 to 4".into(),
             absent: Absent::Value("2"),
-            text: "Material points along a cell's edge at the start; 2 makes 8 a cell, as in the paper. The points of a voxel must be a whole number: 1 where a cell is one voxel and memory is short.",
+            text: "Material points along a cell's edge at the start; 2 makes 8 a cell, as in the paper. The points of a voxel must be a whole number: 1 where a cell is one voxel and memory is short. To the implicit scheme they say where liquid is at the start, no more.",
         },
         Key {
             name: "domain.min",
@@ -68,7 +68,7 @@ pub(super) const BODY: Table = Table {
     path: "body",
     repeated: true,
     always: false,
-    about: "A box of liquid or wall. Together they describe the scene of a run without `--particles`; with it they are refused. In plane strain z is ignored.",
+    about: "A box of liquid or wall. Together they describe the scene of a run without `--particles`; with it they are refused. In plane strain z is ignored. Implicit scheme: walls lie on faces of cells or half way between them.",
     keys: &[
         Key {
             name: "material",
@@ -92,7 +92,7 @@ pub(super) const BODY: Table = Table {
             name: "velocity",
             form: || "three speeds, `\"clamp\"`".into(),
             absent: Absent::Value("[\"0 m/s\", \"0 m/s\", \"0 m/s\"]"),
-            text: "Of liquid at the start, of a wall for good. `\"clamp\"`: a wall that `[clamp]` drives along -y.",
+            text: "Of liquid at the start, of a wall for good. `\"clamp\"`: a wall that `[clamp]` drives along -y. Implicit scheme: one wall moves along y; others only along themselves, from side to side of the domain.",
         },
         Key {
             name: "name",

@@ -18,7 +18,7 @@ pub(super) const INTEGRATOR: Table = Table {
             name: "scheme",
             form: choice::<SchemeName>,
             absent: Absent::Needed("always"),
-            text: "`\"explicit\"`: the paper's material point method. `\"implicit\"`: pressure and viscosity solved for, the liquid as volume fractions on a grid that closes with the press, walls at the voxel faces, on faces of cells or half way between them: for results, and for anything slower than 1 m/s.",
+            text: "`\"explicit\"`: the paper's material point method. `\"implicit\"`: pressure and viscosity solved for, the liquid as volume fractions on a grid that closes with the press, walls at the voxel faces: for results, and for anything slower than 1 m/s.",
         },
         Key {
             name: "velocity_update",
