@@ -1,4 +1,16 @@
 //! The run folder: marked as one, held by one run at a time, written file by file.
+//!
+//! The order of writing, by which `--resume` comes to the same end after a kill anywhere:
+//!
+//! 1. New run: `final.mpts`, `checkpoint.mpts`, `summary.json`, `history.csv` and snapshots of the run that is replaced go, in
+//!    this order; then `resolved.toml` and `history.csv` with its header are written.
+//! 2. A row is one `write` to the end of `history.csv`. Every other file is written beside its name, synced and renamed, and its
+//!    folder is synced.
+//! 3. Checkpoint: `history.csv` is synced, then `checkpoint.mpts` takes the place of the one before.
+//! 4. Continued run: `history.csv` begins as the checkpoint says (length and hash), else the run ends with 3. It is cut there;
+//!    later snapshots and `summary.json` go.
+//! 5. End: last row, sync, `summary.json`, `final.mpts`, and the checkpoint goes. A checkpoint beside `final.mpts` only waits to be
+//!    removed.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
