@@ -1,7 +1,7 @@
 //! Whether a run's results can be relied on: what is looked at while it runs, and the judgement of
 //! its last state. Exit status 0 is a claim that all of it holds.
 //!
-//! The bounds and the sound runs they were set by are in docs/verdicts.md.
+//! The bounds, and why they lie there, are in docs/verdicts.md.
 
 mod course;
 mod end;
