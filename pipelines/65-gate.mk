@@ -23,7 +23,7 @@ faults: $(BINARIES)
 MUTANTS ?= 100
 .PHONY: mutants
 mutants:
-	@pipelines/gate/mutants.sh $(MUTANTS) $(or $(ONLY),metrics physics particle-file voxels run mpm saddle-point filling)
+	@pipelines/gate/mutants.sh $(MUTANTS) $(or $(ONLY),metrics physics particle-file voxels run mpm saddle-point implicit)
 
 # Fingerprints of thirty small runs of both schemes with every option, to hold beside those of
 # another build: make pins >before; ...; make pins | diff before -
