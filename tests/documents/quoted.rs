@@ -16,7 +16,7 @@ fn channels(root: &Path) -> Vec<(String, f64)> {
         .collect()
 }
 
-/// What is wrong with the sentence "In one sentence" of the README.
+/// What is wrong with the sentence of the README about a lumen six cells wide.
 pub fn differences(root: &Path) -> Vec<String> {
     let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
     let words: Vec<&str> = readme.split_whitespace().collect();

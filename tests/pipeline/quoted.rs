@@ -88,7 +88,7 @@ fn rows<'a>(page: &'a str, name: &str) -> Vec<Vec<&'a str>> {
         .collect()
 }
 
-/// The implicit rows of the two tables of quick runs in docs/results; the explicit ones take
+/// The implicit rows of the table of quick runs in docs/results; the explicit ones take
 /// minutes and are `make`'s.
 #[test]
 fn the_results_quote_the_quick_implicit_runs() {

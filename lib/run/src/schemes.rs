@@ -170,7 +170,7 @@ fn implicit(case: &Case) -> Result<implicit::Settings, CaseError> {
 }
 
 /// Liquid particle-steps per second and thread of FLIP in a scene with walls, as measured
-/// (docs/results/README.md#speed-and-memory-of-the-explicit-scheme).
+/// (docs/results/full-size.md).
 const EXPLICIT_SPEED: f64 = 11e6;
 /// What each further order of a velocity filter costs, in FLIP steps, by the same measurement.
 const FILTER_ORDER: f64 = 0.32;

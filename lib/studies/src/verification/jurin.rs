@@ -12,7 +12,7 @@ const UNTIL: f64 = 40.0;
 /// A slit of `n` cells (even), walls `offset` cells off the nodes.
 pub fn scene(n: u32, offset: f64, degrees: f64) -> Scene {
     let h = LUMEN / f64::from(n);
-    let (left, low) = (2.0 * LUMEN + offset * h, LUMEN + 0.25 * h);
+    let (left, low) = (2.0 * LUMEN + offset * h, LUMEN);
     let (side, level) = (5.0 * LUMEN, 2.0 * LUMEN);
     let plate = |x: f64| [x, x + 0.5 * LUMEN];
     let plates = [plate(left - 0.5 * LUMEN), plate(left + LUMEN)];
