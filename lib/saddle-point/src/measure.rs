@@ -9,6 +9,9 @@ use crate::vector::norm;
 /// Part of a solution's size below which a residual is rounding.
 const ROUNDING: f64 = 1e-14;
 
+/// Part of slow flow that is none: liquid that has come to rest is not solved to a part of ever smaller numbers.
+const REST: f64 = 1e-6;
+
 /// What residuals are measured by.
 pub(crate) struct Measure<'a> {
     system: &'a SaddleSystem<'a>,
@@ -16,6 +19,8 @@ pub(crate) struct Measure<'a> {
     least: f64,
     /// What residuals are measured by where nothing moves.
     still: f64,
+    /// Forces of flow that is none.
+    rest: f64,
     /// Part of a solution below which they are rounding, over the tolerance.
     rounding: f64,
 }
@@ -31,6 +36,7 @@ impl<'a> Measure<'a> {
                 _ => system.slow_forces().max(closed),
             },
             still,
+            rest: REST * system.slow * (system.a.n_rows() as f64).sqrt(),
             rounding: ROUNDING / options.tolerance,
         }
     }
@@ -46,7 +52,7 @@ impl<'a> Measure<'a> {
             0.0 => self.still,
             size => size,
         };
-        size.max(self.rounding * norm(x))
+        size.max(self.rounding * norm(x)).max(self.rest)
     }
 
     /// Residuals of `solve`, which where forces stand is asked again with the measure of what it found: one of a

@@ -34,7 +34,7 @@ pub struct SaddleSystem<'a> {
     pub standing: &'a [f64],
     /// Part of these that walls only drag thick liquid along with, which is no force of a flow either; empty where they drag none.
     pub clinging: &'a [f64],
-    /// Velocity at faces to air that counts at least: slower flow is as good as none.
+    /// Velocity at faces to air that counts at least: slower flow is as good as none, a millionth of it anywhere is none.
     pub slow: f64,
     /// Volume that walls displace, one per cell: `G u + C p = g` is this and what is carried over.
     pub volume_source: &'a [f64],
