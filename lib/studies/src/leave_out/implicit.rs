@@ -12,21 +12,24 @@ use crate::stability::plan::PVA_PF;
 use crate::study::side_by_side;
 use crate::verification::slit;
 
-/// Stages in the order of a step, and their functions as type and method, or module and function.
+/// Stages in the order of a step, and their functions as module and function, or type and method.
 pub(super) const STAGES: &[(&str, &[&str])] = &[
-    ("geometry", &["Lattice::new"]),
-    ("liquid fractions", &["Fractions::update"]),
-    ("assembly", &["Operator::new", "Operator::assemble"]),
-    (TABLE, &["Operator::set_viscosity"]),
+    ("mesh of the gap", &["Implicit::fit_mesh"]),
+    (TABLE, &["Viscosities::of"]),
+    (
+        "assembly",
+        &[
+            "halves::stiffnesses",
+            "Problem::velocity_block",
+            "Problem::outflow",
+        ],
+    ),
     ("linear solve", &["SaddleSolver::solve"]),
     (LOAD, &["SaddleSolver::solve_loaded"]),
-    ("points follow the flow", &["Path::follow"]),
-    (BODIES, &["Solids::deflect"]),
-    ("density projection", &["density::displacement"]),
+    ("transport", &["transport::transport"]),
 ];
 const TABLE: &str = "viscosity of the shear rate";
 const LOAD: &str = "solve at the pressure limit";
-const BODIES: &str = "points off walls";
 
 /// Simulated time of a run, s: some steps of each scene.
 const END: f64 = 2e-6;
@@ -98,7 +101,7 @@ fn scenes() -> Vec<Scene> {
             with([0.0; 3], Viscosity::Table(PVA_PF.to_vec())),
         ),
         scene("pressure limit", &[TABLE], held),
-        scene("free drop", &[TABLE, LOAD, BODIES], drop),
+        scene("free drop", &[TABLE, LOAD], drop),
     ]
 }
 

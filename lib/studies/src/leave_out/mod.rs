@@ -29,8 +29,7 @@ const IMPLICIT: &str = "\
 ## The stages of the implicit scheme
 
 Its options are passes. Millions of instructions per step in the functions of a stage, with all that they call, \
-by callgrind; 0 where the scene has no such stage. `density projection` belongs to every step, `body force` is a \
-term of `assembly` and no stage. CPU: ms per step of the same run without callgrind.
+by callgrind; 0 where the scene has no such stage. Body force is a term of `assembly` and no stage. CPU: ms per step of the same run without callgrind.
 ";
 
 /// Measures both schemes and writes `leave-out.md` and `leave-out.csv`; says whether all goals are met.
