@@ -1,4 +1,4 @@
-//! What documents, comments and help texts name exists: documents, links, sections, paths of the
+//! Names in documents, comments and help texts: each exists: documents, links, sections, paths of the
 //! repository, commits named in results; and the book has every document.
 
 mod commits;

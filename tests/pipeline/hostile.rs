@@ -1,4 +1,4 @@
-//! What the system or somebody else does to the tools: an error stream that fails, names that are
+//! Harm that the system or somebody else does to the tools: an error stream that fails, names that are
 //! no text or steer a terminal, devices without an end, files that change under a run.
 
 use std::ffi::OsStr;

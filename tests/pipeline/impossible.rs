@@ -1,4 +1,4 @@
-//! What cannot be right is refused before it starts, and a sentence says what to change.
+//! Refusal before it starts of what cannot be right, in a sentence that says what to change.
 
 use crate::verdicts::{EXPLICIT, NO_LIMIT, SMALL, changed, run};
 use crate::workbench::{Workbench, said};

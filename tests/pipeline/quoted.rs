@@ -1,4 +1,4 @@
-//! What documents quote of the tools' output is what the tools print.
+//! Quotes of the tools' output in documents: they are what the tools print.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! What a run folder may replace, and what it may not.
+//! Run folders: what one may replace, and what it may not.
 
 mod layouts;
 

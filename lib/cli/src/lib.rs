@@ -1,4 +1,4 @@
-//! What every tool of the pipeline shares: arguments, exit status, messages, output that is
+//! Parts that every tool of the pipeline shares: arguments, exit status, messages, output that is
 //! never half written, provenance, progress and signals.
 //!
 //! A tool is a `clap` parser that flattens [`Common`] and one function:

@@ -1,4 +1,4 @@
-//! What is too large for the memory of this machine is refused before it is begun.
+//! Refusal of work that is too large for the memory of this machine, before it is begun.
 
 use std::fmt::Display;
 

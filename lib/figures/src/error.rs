@@ -1,4 +1,4 @@
-//! What can be wrong with a figure.
+//! Errors of figures.
 
 /// Why there is no figure.
 #[derive(Debug, thiserror::Error)]

@@ -1,4 +1,4 @@
-//! What the control groups of this process leave it: batch systems and containers limit memory so.
+//! Memory limits of the control groups of this process: batch systems and containers set them.
 
 use std::fs;
 use std::path::{Path, PathBuf};

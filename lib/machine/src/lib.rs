@@ -1,4 +1,4 @@
-//! What the operating system knows of this process, how much memory it will still give it, and which files it may
+//! Facts of the operating system on this process: how much memory it will still give it, and which files it may
 //! replace.
 //!
 //! Nothing is known on systems without `/proc`: there every size is tried.

@@ -1,4 +1,4 @@
-//! What a press has come to at one moment, beside penetration: wood wetted, lumens filled, and whether
+//! State of a press at one moment, beside penetration: wood wetted, lumens filled, and whether
 //! the bond line is filled.
 
 use std::fmt;

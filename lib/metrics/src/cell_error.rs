@@ -1,4 +1,4 @@
-//! What a result owes to the size of the cells, from the same run in smaller ones.
+//! Error by the size of the cells, from the same run in smaller ones.
 
 use crate::Penetration;
 

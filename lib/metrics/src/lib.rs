@@ -1,4 +1,4 @@
-//! What is measured on a bond line: weighted and effective penetration, maps, depth
+//! Metrics of a bond line: weighted and effective penetration, maps, depth
 //! profiles, agreement with an experiment, and the shear rates of a run.
 //!
 //! A [`State`] is the common view of a specimen, of a bond before pressing and of a state of

@@ -1,4 +1,4 @@
-//! What an explicit run of a scene will take: time step, its limits, steps, memory.
+//! Cost of an explicit run of a scene: time step, its limits, steps, memory.
 
 use std::fmt;
 

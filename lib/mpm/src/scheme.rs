@@ -1,4 +1,4 @@
-//! What a run asks of the scheme: `physics::Scheme`.
+//! The explicit scheme as a run sees it: `physics::Scheme`.
 
 use physics::{
     Diagnostics, Failure, LiquidState, Saved, Saving, Scheme, StageTime, StepLimit, StepReport,

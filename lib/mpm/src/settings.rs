@@ -1,4 +1,4 @@
-//! What of the explicit scheme a case chooses.
+//! Settings of the explicit scheme.
 
 use physics::Choice;
 

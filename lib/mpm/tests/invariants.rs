@@ -1,4 +1,4 @@
-//! What must hold to rounding for every update: Galilean invariance, conservation,
+//! Invariants of every update, to rounding: Galilean invariance, conservation,
 //! independence of threads, and exact continuation from a saved state.
 
 mod scenes;

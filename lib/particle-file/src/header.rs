@@ -1,4 +1,4 @@
-//! What a file says about itself.
+//! The header of a file.
 
 use bincode::config::{Configuration, Fixint, Limit, LittleEndian};
 use bincode::{Decode, Encode};

@@ -1,4 +1,4 @@
-//! What both schemes share, free of any grid: the scene resolved to SI, the two kinds of
+//! Types that both schemes share, free of any grid: the scene resolved to SI, the two kinds of
 //! matter in it (a Tait liquid and rigid voxel bodies), the wall law between them, clamp
 //! control, and the regime numbers that justify what is left out.
 

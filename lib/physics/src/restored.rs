@@ -1,4 +1,4 @@
-//! What every scheme checks of a saved state before it goes on from it: a checkpoint is a file,
+//! Checks of a saved state that every scheme makes before it goes on from it: a checkpoint is a file,
 //! and a sound checksum says nothing about who wrote it.
 
 use crate::{Motion, Scene, Stop};

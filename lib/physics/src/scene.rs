@@ -1,4 +1,4 @@
-//! What a scheme is given to compute.
+//! The scene that a scheme computes.
 
 use crate::{Choice, Clamp, Liquid, Motion, PressStage, RigidBody, WallLaw};
 

@@ -1,4 +1,4 @@
-//! What a scheme does and answers.
+//! The interface of a scheme.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! What a run says of itself: `summary.json` and `resolved.toml` of its folder.
+//! A run's own account: `summary.json` and `resolved.toml` of its folder.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! What a press has come to, as `metrics` measures it: columns of the history and a part of the summary.
+//! State of a press over time, as `metrics` measures it: columns of the history and a part of the summary.
 
 use metrics::{
     Adhesive, BondLine, Datum, DepthLayer, Penetration, Reference, Sealed, State, Wood, bond_line,

@@ -1,4 +1,4 @@
-//! What a run does not compute, and why: the stages that its scheme does without, and the physics
+//! Parts that a run does not compute, and why: the stages that its scheme does without, and the physics
 //! that both schemes, or the implicit one, leave out.
 
 use physics::{Regime, Stages};

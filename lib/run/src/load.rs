@@ -1,4 +1,4 @@
-//! What a run reads: the text of its case, and a bond file as plain data with the bond normal
+//! Input of a run: the text of its case, and a bond file as plain data with the bond normal
 //! turned to y.
 
 use std::fs::File;

@@ -1,4 +1,4 @@
-//! What the residuals of a solve are measured by.
+//! The measure of residuals.
 
 use crate::SolveError;
 use crate::fgmres::Limits;

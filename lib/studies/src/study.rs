@@ -1,4 +1,4 @@
-//! What all studies share: provenance, pieces of work side by side, the time limit, result files.
+//! Parts that all studies share: provenance, pieces of work side by side, the time limit, result files.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

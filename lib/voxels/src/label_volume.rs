@@ -1,4 +1,4 @@
-//! What a particle file holds, as labels on one lattice of voxels.
+//! Labels of the content of a particle file on one lattice of voxels.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,4 @@
-//! What is done with a forged particle file: read, measured, built into a bond, pressed.
+//! Uses of a forged particle file: read, measured, built into a bond, pressed.
 
 use std::fs;
 

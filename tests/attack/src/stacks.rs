@@ -1,4 +1,4 @@
-//! What is done with a forged stack.
+//! Uses of a forged stack.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! What the arguments are made of.
+//! Values of arguments.
 
 use std::ffi::OsStr;
 use std::os::unix::ffi::OsStrExt;

@@ -1,4 +1,4 @@
-//! What a run came to, as cells of a row.
+//! Results of a run, as cells of a row.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What the tool says on standard error.
+//! Messages of the tool on standard error.
 
 use bondline::{Bond, Face};
 use units::Axis;

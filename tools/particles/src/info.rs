@@ -1,4 +1,4 @@
-//! What a file holds, in words.
+//! The content of a file, in words.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! What the tool says, refuses and passes on.
+//! Messages, refusals and output of the tool.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! What the same run in smaller cells says of the error of a state's numbers.
+//! Error of a state's numbers by the same run in smaller cells.
 
 use cli::Failure;
 use metrics::table::PenetrationRows;

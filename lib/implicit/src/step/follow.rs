@@ -1,4 +1,4 @@
-//! What follows from an accepted step: liquid that has moved, a gap that has closed, the step's report.
+//! Completion of an accepted step: liquid that has moved, a gap that has closed, the step's report.
 
 use std::time::Instant;
 

@@ -1,4 +1,4 @@
-//! What holds one face to the walls beside it.
+//! The hold of walls on one face beside them.
 
 /// Friction that holds a face to the walls beside it, per viscosity: in its low and its high half.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,4 +1,4 @@
-//! What becomes of a point that comes to a wall.
+//! Tests of points that come to a wall.
 
 use physics::VoxelBlock;
 

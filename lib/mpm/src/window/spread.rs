@@ -1,4 +1,4 @@
-//! What points add to the nodes of a window, in the form of differences.
+//! Sums of points on the nodes of a window, in the form of differences.
 
 use super::{Line, Pairs, Plane, Window};
 use crate::lanes::Lanes8;

@@ -1,4 +1,4 @@
-//! What a density projection does to cells of which the answer is known.
+//! The density projection on cells of which the answer is known.
 
 use mpm::{Explicit, Settings, ShapeFunction, VelocityUpdate};
 use physics::{Boundary, Motion, Scheme};

@@ -1,4 +1,4 @@
-//! What is looked at while a run goes on: reports of steps, and diagnostics of states.
+//! Checks while a run goes on: of reports of steps, and of diagnostics of states.
 
 use physics::{Diagnostics, Failure, Scene, StepReport};
 

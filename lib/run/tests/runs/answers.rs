@@ -1,4 +1,4 @@
-//! What a run tells of penetration while it goes on, against straight grooves filled by a volume known
+//! Penetration as a run tells it while it goes on, against straight grooves filled by a volume known
 //! beforehand, and against the same measured of its states afterwards.
 
 use std::cell::Cell;

@@ -1,4 +1,4 @@
-//! What a case means: the plan of a run against numbers worked out by hand.
+//! The plan of a run against numbers worked out by hand.
 
 use crate::bench::Bench;
 

@@ -1,4 +1,4 @@
-//! What of a case is refused, in which words.
+//! Cases that are refused, and in which words.
 
 use crate::plan::{CASE, IMPLICIT, plan};
 

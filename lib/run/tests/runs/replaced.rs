@@ -1,4 +1,4 @@
-//! What of an earlier run is kept, continued or replaced, and what is not the run's own.
+//! Earlier runs in a folder: kept, continued or replaced, and what is not the run's own.
 
 use std::fs;
 use std::os::unix::fs::symlink;

@@ -1,4 +1,4 @@
-//! What the machine's memory gives.
+//! Bandwidth of the machine's memory.
 
 use std::time::Instant;
 

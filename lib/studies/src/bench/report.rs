@@ -1,4 +1,4 @@
-//! What the bench writes: a page and a table.
+//! Results of the bench: a page and a table.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! What a run that becomes unstable leaves, and whether it goes on from its last checkpoint.
+//! Remains of a run that becomes unstable, and whether it goes on from its last checkpoint.
 
 use std::fmt::Write;
 use std::fs;

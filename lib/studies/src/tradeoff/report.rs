@@ -1,4 +1,4 @@
-//! What the trade-off study writes: a CSV, a figure, a page, and the table that `mpm-run
+//! Results of the trade-off study: a CSV, a figure, a page, and the table that `mpm-run
 //! --explain` quotes from.
 
 use std::fmt::Write as _;

@@ -1,4 +1,4 @@
-//! What the verification page says about each family of scenes.
+//! Texts of the verification page on each family of scenes.
 
 /// Heading and text of each family, in the order of the page.
 pub(super) const FAMILIES: &[(&str, &str)] = &[

@@ -1,4 +1,4 @@
-//! What the verification should reach, for the page to say whether it does.
+//! Goals of the verification, for the page to say whether it reaches them.
 
 /// A largest error for some of the runs.
 pub struct Goal {

@@ -1,4 +1,4 @@
-//! What reading a stack takes, held against what there is.
+//! Memory that reading a stack takes, held against what there is.
 
 use super::{Pages, Stack};
 use crate::Error;

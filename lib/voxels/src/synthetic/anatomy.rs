@@ -1,4 +1,4 @@
-//! What was grown, beside what the literature says.
+//! Anatomy of a grown specimen beside that of the literature.
 
 use super::adherend::{Adherend, Counts, Tissue};
 use super::lumens::Lumens;

@@ -1,4 +1,4 @@
-//! What every voxel of a specimen is, in a quarter of a byte each.
+//! The material of every voxel of a specimen, in a quarter of a byte each.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! What to grow.
+//! The recipe of a specimen.
 
 use super::cells::Cells;
 use super::species::{Species, Timber};

@@ -1,4 +1,4 @@
-//! What programs write into a TIFF's image description: the number of planes and the size
+//! The image description of a TIFF as programs write it: the number of planes and the size
 //! of a voxel. ImageJ writes `key=value` lines, tifffile the shape, OME an XML document.
 
 use super::ifd::{Container, Directory, tag};

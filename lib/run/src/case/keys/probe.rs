@@ -1,4 +1,4 @@
-//! What keys the schema has, as serde sees it: the check that none is without an entry.
+//! Keys of the schema, as serde sees it: the check that none is without an entry.
 
 use serde::Deserialize;
 use serde::de::value::StrDeserializer;
