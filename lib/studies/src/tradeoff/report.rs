@@ -141,9 +141,8 @@ fn advice(out: &mut String, rows: &[Row]) {
 /// What the tables say, in words.
 const ADVICE: &str = "\
 - **Clamp pressure and filling**: the implicit scheme as it is by default, two voxels a cell (6 cells in a 17.4 um lumen), Courant
-  number 1 and tolerance 1e-3: 4 % in the slit, at a quarter of the Courant number too; in the small bond line here, whose passages
-  have fewer cells, 21 % of the pressure, 19 % in short steps, and 4 % of WP (in the crop of the acer volume 6 and 0.4 %, README.md).
-  One voxel a cell (12) brings 2 % and less for ten times the time. A smaller tolerance gains nothing.
+  number 1 and tolerance 1e-3. One voxel a cell (12) takes ten times the time, and is for narrow lumens: the small bond line here
+  has pore throats of few cells. A smaller tolerance gains nothing.
 - **The explicit scheme as in the paper** gives WP and the course of a flow, not pressures: each point's own J locks the
   liquid, and the walls lie where the nodes are. Finer cells help slowly. PIC damps viscous flow away; the other updates
   differ less from each other than from the truth.
