@@ -117,7 +117,7 @@ fn the_same_by_the_implicit_scheme_and_by_plain_flip() {
             // One and a half cells of travel, 1.8 times.
             "steps about 3",
             // 310 unknowns, 600 cells, 576 points and the process.
-            "memory 8 MB",
+            "memory 10 MB",
             "unknowns 3.10e2 velocities and pressures in 7.20e1 liquid cells",
             "shear rate between snapshots known where a state is written",
         ],
