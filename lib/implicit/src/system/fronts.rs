@@ -96,6 +96,9 @@ impl Fronts {
         let view = View {
             mesh,
             dry: &dry,
+            empty: &|pore| {
+                !unknowns.has_pressure(pore) && !mesh.is_beyond(mesh.pores[pore].cell as usize)
+            },
             narrow: &narrow,
             wetting,
         };
@@ -110,6 +113,8 @@ struct View<'a> {
     mesh: &'a Mesh,
     /// Whether each pore is of it.
     dry: &'a [bool],
+    /// Whether a meniscus that has filled a pore of it may go on to a pore.
+    empty: &'a (dyn Fn(usize) -> bool + Sync),
     /// Perimeter over area of passages on both sides.
     narrow: &'a [f64],
     wetting: Wetting,
@@ -144,7 +149,7 @@ impl View<'_> {
                 |range: &mut [f64; 2]| *range = [range[0].min(narrow), range[1].max(narrow)];
             if along == axis && on == up {
                 widen(&mut ahead);
-            } else if along != axis && self.dry[beside] {
+            } else if along != axis && (self.empty)(beside) {
                 widen(&mut behind);
                 widen(&mut ahead);
             }
