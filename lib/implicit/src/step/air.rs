@@ -102,6 +102,10 @@ impl Implicit {
             slowing: setup.settings.dynamic_angle,
             viscosity,
             dt,
+            shorter: match self.state.steps {
+                0 => 1.0,
+                _ => (self.state.dt / dt).min(1.0),
+            },
         });
         let geometry = (&setup.lattice, &setup.chords, &self.mesh);
         Fronts::new(

@@ -25,11 +25,14 @@ pub(crate) struct Wetting {
     pub(crate) viscosity: f64,
     /// Length of the step, s.
     pub(crate) dt: f64,
+    /// Length of the step before over that, at most 1.
+    pub(crate) shorter: f64,
 }
 
 impl Wetting {
     /// Loss of the jump over the speed of a front that advanced at `speed`, no further than to an angle of 180 or 0 degrees,
-    /// and dry friction where the passage holds it by the jump of `uneven`.
+    /// and dry friction where the passage holds it by the jump of `uneven`. That knows ways, not times: in a longer step the way of the
+    /// last one counts, or fronts that come to rest would go on as far as steps grow.
     fn drag(&self, narrow: f64, uneven: f64, speed: f64) -> f64 {
         let left = match speed > 0.0 {
             true => 1.0 + self.cosine,
@@ -38,7 +41,7 @@ impl Wetting {
         let slowing = self.slowing * self.viscosity;
         let slowing = slowing.min(left * self.tension / speed.abs().max(f64::MIN_POSITIVE));
         let held = self.tension * self.cosine.abs() * uneven;
-        narrow * slowing + held / (speed.abs() + CAUGHT / self.dt)
+        narrow * slowing + held / (self.shorter * speed.abs() + CAUGHT / self.dt)
     }
 }
 
