@@ -80,9 +80,9 @@ impl Flow {
             Scheme::Implicit => factor * explicit,
         };
         // The implicit scheme takes walls half way between the faces of cells, not a quarter off.
-        let off = match scheme {
-            Scheme::Explicit => 0.25,
-            Scheme::Implicit => 0.5,
+        let (off, offsets): (f64, &[f64]) = match scheme {
+            Scheme::Explicit => (0.25, &[0.0, 0.25, 0.5]),
+            Scheme::Implicit => (0.5, &[0.0, 0.5]),
         };
         match self {
             Flow::Slit => [0.0, off]
@@ -93,9 +93,9 @@ impl Flow {
                     scene
                 })
                 .into(),
-            Flow::Channel => [0.0, off, 0.5]
-                .map(|offset| channel::scene(n, offset, None, until(3e-6, 10.0)))
-                .into(),
+            Flow::Channel => (offsets.iter())
+                .map(|&offset| channel::scene(n, offset, None, until(3e-6, 10.0)))
+                .collect(),
             Flow::Incline => vec![incline::scene(n, 0.0, until(5e-6, 100.0))],
             Flow::BondPressure | Flow::BondWp => Vec::new(),
         }
