@@ -21,7 +21,7 @@ pub(super) struct Compression<'a> {
     /// Heights of the gap at the start and at the end. Compression is that of volumes at the end: the film in a gap that
     /// closes is squeezed out before it is compressed.
     pub(super) heights: [f64; 2],
-    /// Length of the step, and that of a step by the last flow, s.
+    /// Length of the step, and the time in which the last flow crosses a cell, s.
     pub(super) times: [f64; 2],
 }
 
@@ -43,10 +43,9 @@ impl Compression<'_> {
 
     /// Volumes that `pores` give off by themselves, over the time of the step: compression at the start less that at no
     /// pressure by the law around the pressures `around`; and what the pressure does not explain, above all what full pores
-    /// lack. This moves in the time of a step by the last flow: in a step that an event or an attempt made shorter it would
-    /// move as far in less time.
+    /// lack. This moves in the time in which the last flow crosses a cell: in a shorter step it would move as far in less time.
     pub(super) fn released(&self, pores: &[u32], around: &[f64]) -> Vec<f64> {
-        let [dt, asked] = self.times;
+        let [dt, crossing] = self.times;
         let released = |&pore: &u32| {
             let pore = pore as usize;
             if !self.full[pore] {
@@ -56,7 +55,7 @@ impl Compression<'_> {
             let denser = self.denser(self.state.flow.pressure[pore]);
             let unexplained = self.state.volumes[pore] - before * (1.0 + denser);
             let explained = before * denser - after * self.linear(0.0, around[pore]);
-            explained / dt + unexplained / asked.max(dt)
+            explained / dt + unexplained / crossing.max(dt)
         };
         pores.iter().map(released).collect()
     }

@@ -175,17 +175,17 @@ impl Implicit {
         Err(self.no_step(dries))
     }
 
-    /// Time in which the flow of the last step, as it grows, crosses what the Courant number allows, s.
-    fn asked(&self) -> f64 {
+    /// Time in which the flow of the last step, as it grows, crosses a cell, s.
+    fn crossing(&self) -> f64 {
         let fastest = self.state.fastest.max(self.state.flow.speed.abs());
-        self.setup.settings.cfl / (self.state.growth * fastest)
+        1.0 / (self.state.growth * fastest)
     }
 
     /// Length of the next step by the flow of the last, s.
     fn length(&self, limit: StepLimit) -> f64 {
         let settings = &self.setup.settings;
         let pull = self.setup.pull();
-        let free = self.asked();
+        let free = settings.cfl * self.crossing();
         // From rest, weight sets the speed.
         let falls = (2.0 * settings.cfl / pull).sqrt();
         // The viscosity of a liquid that cures is that of the middle of the step.

@@ -223,7 +223,7 @@ impl Implicit {
                 state,
                 full: &middle.full,
                 heights: [self.height, end],
-                times: [dt, self.asked()],
+                times: [dt, self.crossing()],
             };
             let around = &solved.flow.pressure;
             let mut carried = compression.released(&unknowns.pores, around);
