@@ -160,14 +160,14 @@ fn assert_falls(state: &ParticleFile, error: f64, longest: f64) {
         let sum: f64 = weighed.map(|(x, &v)| f64::from(x[a]) * f64::from(v)).sum();
         sum / whole
     };
-    let mean = |a: usize| mean_of(&places, a);
+    let mean = |a: usize| mean_of(places, a);
     let fallen = 0.5 * G * time * time;
     let off = (mean(1) - (14e-6 - fallen)).abs();
     let (rounded, most) = (error * G * TIME * TIME, 0.5 * G * time * longest);
     assert!(off < rounded + most, "{off} at {time}");
     assert!((mean(0) - 10e-6).abs() < 1e-9 && (mean(2) - 2e-6).abs() < 1e-9);
     let speeds = state.vectors("velocity").unwrap();
-    let mean = mean_of(&speeds, 1);
+    let mean = mean_of(speeds, 1);
     assert!(
         (mean + G * time).abs() < error * G * TIME,
         "{mean} at {time}"
