@@ -42,8 +42,8 @@ impl Compression<'_> {
     }
 
     /// Volumes that `pores` give off by themselves, over the time of the step: compression at the start less that at no
-    /// pressure by the law around the pressures `around`; and what the pressure does not explain, above all what full pores
-    /// lack. This moves in the time in which the last flow crosses a cell: in a shorter step it would move as far in less time.
+    /// pressure by the law around the pressures `around`; and what full pores lack, more than tension explains. It is
+    /// filled in the time in which the last flow crosses a cell, not the sooner the shorter the step is.
     pub(super) fn released(&self, pores: &[u32], around: &[f64]) -> Vec<f64> {
         let [dt, crossing] = self.times;
         let released = |&pore: &u32| {
@@ -53,9 +53,9 @@ impl Compression<'_> {
             }
             let [before, after] = self.volumes(pore);
             let denser = self.denser(self.state.flow.pressure[pore]);
-            let unexplained = self.state.volumes[pore] - before * (1.0 + denser);
-            let explained = before * denser - after * self.linear(0.0, around[pore]);
-            explained / dt + unexplained / crossing.max(dt)
+            let held = self.state.volumes[pore] - before;
+            let lack = (held - before * denser.min(0.0)).min(0.0);
+            (held - lack - after * self.linear(0.0, around[pore])) / dt + lack / crossing.max(dt)
         };
         pores.iter().map(released).collect()
     }
