@@ -13,7 +13,7 @@ use physics::{
 
 /// Steps in which an adhesive that dries is pressed: before lumens of one voxel a cell are full and the clamp waits for its
 /// water to go.
-const DRYING: usize = 7;
+const DRYING: usize = 4;
 /// Edge of a voxel, m.
 const VOXEL: f64 = 1.45e-6;
 /// Voxels along x and z, of each body along y, and of the slab.
