@@ -78,7 +78,7 @@ struct State {
     lost: f64,
     /// Viscous dissipation, over the unit of viscosity.
     power: f64,
-    /// Steps whose viscosity did not settle.
+    /// Steps whose passes did not settle.
     unsettled: u64,
     /// Of a liquid that loses water.
     wet: Option<Wet>,

@@ -9,7 +9,7 @@ use super::Implicit;
 use crate::clock::Part;
 use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::{Kept, Profile, Shown, points};
-use crate::system::{Edges, Links, Rates};
+use crate::system::{Edges, FlowField, Links};
 
 /// Name of the array that holds where the press programme is.
 const PROGRAMME: &str = "programme";
@@ -53,14 +53,14 @@ impl Scheme for Implicit {
             .map(|(pore, volume)| volume / self.mesh.volume(pore))
             .collect();
         setup.measure(&mut links, &self.mesh, &fractions);
-        let rates = Rates::of_pores(
-            &self.mesh,
-            &links,
-            &self.edges,
-            &flow.velocity,
-            flow.speed,
-            setup.liquid.shear_rate,
-        );
+        let field = FlowField {
+            mesh: &self.mesh,
+            links: &links,
+            edges: &self.edges,
+            velocity: &flow.velocity,
+            speed: flow.speed,
+        };
+        let rates = field.pore_rates(setup.liquid.shear_rate);
         let volumes: Vec<f64> = (0..self.mesh.pores.len())
             .map(|pore| state.volumes[pore] * self.compressed(pore))
             .collect();
@@ -218,9 +218,7 @@ impl Scheme for Implicit {
         if self.setup.limited {
             counts.push(("steps above the pressure limit", self.state.drive.broken.0));
         }
-        if self.setup.varies() {
-            counts.push(("steps whose viscosity did not settle", self.state.unsettled));
-        }
+        counts.push(("steps that did not settle", self.state.unsettled));
         counts
     }
 
@@ -242,7 +240,7 @@ impl Scheme for Implicit {
         };
         let unsettled = often(
             self.state.unsettled,
-            "the passes did not find the viscosity of the flow",
+            "the passes did not settle (viscosity, compression or torn liquid)",
         );
         let astray = often(
             self.state.air.astray,

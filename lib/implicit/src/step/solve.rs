@@ -1,24 +1,25 @@
 //! Solution of a step: which pores are full, and the flow.
 
+use std::mem::take;
 use std::time::Instant;
 
 use rayon::prelude::*;
+use saddle_point::SaddleSolver;
 
 use super::Implicit;
 use super::compression::Compression;
 use super::failure::unsolved;
 use crate::air::Air;
-use crate::clock::Part;
+use crate::clock::{Clock, Part};
 use crate::liquid::{Held, transport};
 use crate::system::{
-    Drive, FULL, Flow, Pass, Problem, Rates, Unknowns, Viscosities, forces, halves, masses, solve,
-    stiffnesses,
+    Drive, FULL, Flow, FlowField, Problem, Search, Unknowns, Viscosities, forces, halves, masses,
+    solve, stiffnesses,
 };
 use crate::water::Exchange;
 
-/// Passes in which the viscosity of the flow is sought, and its mean change, weighted by dissipation, that ends them.
+/// Passes at most.
 const PASSES: usize = 30;
-const SETTLED: f64 = 2e-3;
 
 /// The liquid in the middle of a step.
 pub(super) struct Middle {
@@ -46,7 +47,7 @@ pub(super) struct Solved {
     pub(super) flow: Flow,
     pub(super) full: Vec<bool>,
     pub(super) forces: Vec<f64>,
-    /// Whether the viscosity is that of the flow.
+    /// Whether viscosity, compression and torn pores are those of the flow.
     pub(super) settled: bool,
     /// The air that is closed off, and whether it has the pressures of its volumes.
     pub(super) air: Option<(Air, bool)>,
@@ -54,6 +55,21 @@ pub(super) struct Solved {
     pub(super) arrives: bool,
     /// Of a liquid that loses water: what it loses.
     pub(super) exchange: Option<Exchange>,
+}
+
+/// What all passes of a step have in common.
+struct Given<'a> {
+    middle: &'a Middle,
+    drive: Drive,
+    /// Height of the gap at the end of the step, cells.
+    end: f64,
+    /// Liquid in the halves of each face, and its volume.
+    halves: Vec<[f64; 2]>,
+    masses: Vec<f64>,
+    /// Viscosity without flow, Pa s.
+    viscosity: f64,
+    /// Of a liquid that loses water: what it loses.
+    lost: Option<Exchange>,
 }
 
 impl Implicit {
@@ -133,152 +149,199 @@ impl Implicit {
             .collect()
     }
 
-    /// Solves with the body that closes the gap driven so: in passes where the viscosity depends on the flow, until that
-    /// no longer changes.
+    /// Solves with the body that closes the gap driven so, in passes: until viscosity, compression, air and torn pores are
+    /// those of the flow.
     pub(super) fn solve_driven(
         &mut self,
         middle: &Middle,
         drive: Drive,
         guess: &mut Flow,
     ) -> Result<Solved, String> {
-        let Middle { fractions, .. } = middle;
-        let dt = middle.dt;
-        let begun = Instant::now();
-        let lost = self.exchange(dt, fractions)?;
-        if lost.is_some() {
-            self.clock.add(Part::Water, begun);
-        }
-        let begun = Instant::now();
-        let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
+        let (mut solver, mut clock) = (take(&mut self.solver), take(&mut self.clock));
+        let solved = self.in_passes(middle, drive, guess, &mut solver, &mut clock);
+        (self.solver, self.clock) = (solver, clock);
+        solved
+    }
+
+    fn in_passes(
+        &self,
+        middle: &Middle,
+        drive: Drive,
+        guess: &mut Flow,
+        solver: &mut SaddleSolver,
+        clock: &mut Clock,
+    ) -> Result<Solved, String> {
+        let (setup, mesh, dt) = (&self.setup, &self.mesh, middle.dt);
+        let fractions = &middle.fractions;
+        let given = self.given(middle, drive, clock)?;
         let mut torn = self.untorn();
         let mut unknowns = Unknowns::new(mesh, fractions, &torn);
         let mut air = self.closed_off(&unknowns, fractions, dt);
-        let halves = halves(mesh, fractions);
-        let masses = masses(mesh, &halves);
-        let end = self.end_height(dt, middle.closing);
-        self.clock.add(Part::Assembly, begun);
-        let begun = Instant::now();
-        let cured = setup.viscosity_at(state.time + 0.5 * dt);
-        let factor = cured / setup.units.viscosity;
-        let varies = setup.varies();
-        let slip = setup.influence_length();
-        let rates = |flow: &Flow| {
-            let convention = (setup.liquid.shear_rate, slip);
-            Rates::of(
-                mesh,
-                &self.links,
-                &self.edges,
-                &flow.velocity,
-                flow.speed,
-                convention,
-            )
-        };
-        let mut used = match varies && state.steps > 0 {
-            true => Viscosities::of(&rates(guess), &setup.liquid, factor, slip),
-            false => Viscosities::constant(mesh, cured),
-        };
-        let (mut last, mut response): (Option<Pass>, f64) = (None, 0.0);
-        self.clock.add(Part::Viscosity, begun);
-        let mut solved = Solved {
-            dt,
-            full: middle.full.clone(),
-            forces: Vec::new(),
-            settled: false,
-            air: None,
-            arrives: false,
-            exchange: None,
-            flow: std::mem::take(guess),
-        };
-        let (mut iterations, mut astray) = (0, false);
+        let mut search = self.search(given.viscosity, guess);
+        let mut flow = take(guess);
+        let (mut forces, mut iterations) = (Vec::new(), 0);
+        let (mut settled, mut astray) = (false, false);
         for _ in 0..PASSES {
             let begun = Instant::now();
-            let thick =
-                (lost.as_ref()).map(|exchange| used.thickened(mesh, &self.edges, &exchange.factor));
-            let viscosities = thick.as_ref().unwrap_or(&used);
-            self.clock.add(Part::Viscosity, begun);
-            let stiffnesses = stiffnesses(mesh, &halves, viscosities);
-            let fronts = self.fronts(&unknowns, &torn, air.as_ref(), cured, dt);
-            let problem = Problem {
-                lattice: &setup.lattice,
-                mesh,
-                links: &self.links,
-                edges: &self.edges,
-                unknowns: &unknowns,
-                fractions,
-                halves: &halves,
-                masses: &masses,
-                stiffnesses: &stiffnesses,
-                viscosities,
-                before: &state.flow.velocity,
-                speed_before: state.flow.speed,
-                end_height: end,
-                fronts: &fronts,
-                pockets: air.as_ref().map_or(&[], |air| &air.pockets),
-                scales: setup.scales(dt),
-            };
-            let compression = Compression {
-                tait: setup.liquid.tait,
-                unit: setup.units.viscosity,
-                mesh,
-                state,
-                full: &middle.full,
-                heights: [self.height, end],
-                times: [dt, self.crossing()],
-            };
-            let around = &solved.flow.pressure;
-            let mut carried = compression.released(&unknowns.pores, around);
-            if let Some(exchange) = &lost {
-                exchange.add_to(&unknowns.pores, &solved.full, dt, &mut carried);
-            }
-            let flow = solve(
-                &problem,
-                &carried,
-                drive,
-                &solved.flow,
-                &mut self.solver,
-                &mut self.clock,
-            )
-            .map_err(|error| unsolved(&error))?;
+            let thick = given
+                .lost
+                .as_ref()
+                .map(|exchange| (search.used).thickened(mesh, &self.edges, &exchange.factor));
+            let viscosities = thick.as_ref().unwrap_or(&search.used);
+            clock.add(Part::Viscosity, begun);
+            let last = take(&mut flow);
+            let ends = (&torn[..], air.as_ref());
+            let holds;
+            (flow, forces, holds) =
+                self.solve_pass(&given, &unknowns, viscosities, ends, &last, (solver, clock))?;
             iterations += flow.iterations;
             let begun = Instant::now();
-            solved.forces = forces(&problem, &flow, state.displacement.len());
-            let holds = compression.holds(&unknowns.pores, around, &flow.pressure);
-            self.clock.add(Part::Forces, begun);
-            let begun = Instant::now();
-            solved.settled = true;
-            if varies {
-                let next = rates(&flow);
-                let by_law = Viscosities::of(&next, &setup.liquid, factor, slip);
-                let power = next.power(viscosities, mesh, fractions);
-                let pass = Pass::new(used, next, power);
-                solved.settled = pass.change(&by_law) < SETTLED;
-                used = match &last {
-                    Some(before) => {
-                        response = pass.response(before, response);
-                        pass.ahead(&setup.liquid, factor, slip, response)
-                    }
-                    None => by_law,
-                };
-                last = Some(pass);
+            settled = holds;
+            if setup.varies() {
+                let rates = self
+                    .field(&flow)
+                    .rates(setup.liquid.shear_rate, search.slip);
+                let power = rates.power(viscosities, mesh, fractions);
+                settled &= search.go_on(rates, power);
             }
-            self.clock.add(Part::Viscosity, begun);
-            let tears = self.tear(&unknowns, &flow, dt, &mut torn);
-            if tears {
+            clock.add(Part::Viscosity, begun);
+            if self.tear(&unknowns, &flow, dt, &mut torn) {
                 unknowns = Unknowns::new(mesh, fractions, &torn);
+                settled = false;
             }
-            solved.flow = flow;
             astray = match (&mut air, setup.gas) {
-                (Some(air), Some(gas)) => !air.settle(gas, &solved.flow.pressure, dt),
+                (Some(air), Some(gas)) => !air.settle(gas, &flow.pressure, dt),
                 _ => false,
             };
-            if solved.settled && holds && !tears && !astray {
+            if settled && !astray {
                 break;
             }
         }
-        solved.flow.iterations = iterations;
-        solved.air = air.map(|air| (air, !astray));
-        solved.exchange = lost;
-        guess.clone_from(&solved.flow);
-        Ok(solved)
+        flow.iterations = iterations;
+        guess.clone_from(&flow);
+        Ok(Solved {
+            dt,
+            flow,
+            full: middle.full.clone(),
+            forces,
+            settled,
+            air: air.map(|air| (air, !astray)),
+            arrives: false,
+            exchange: given.lost,
+        })
+    }
+
+    /// What all passes of a step have in common.
+    fn given<'a>(
+        &self,
+        middle: &'a Middle,
+        drive: Drive,
+        clock: &mut Clock,
+    ) -> Result<Given<'a>, String> {
+        let (dt, fractions) = (middle.dt, &middle.fractions);
+        let begun = Instant::now();
+        let lost = self.exchange(dt, fractions)?;
+        if lost.is_some() {
+            clock.add(Part::Water, begun);
+        }
+        let begun = Instant::now();
+        let halves = halves(&self.mesh, fractions);
+        let masses = masses(&self.mesh, &halves);
+        clock.add(Part::Assembly, begun);
+        Ok(Given {
+            middle,
+            drive,
+            end: self.end_height(dt, middle.closing),
+            halves,
+            masses,
+            viscosity: self.setup.viscosity_at(self.state.time + 0.5 * dt),
+            lost,
+        })
+    }
+
+    /// The search for the viscosity of the flow of a step, which begins with that of the flow `guess`; `viscosity` is that of
+    /// no flow.
+    fn search(&self, viscosity: f64, guess: &Flow) -> Search<'_> {
+        let (liquid, slip) = (&self.setup.liquid, self.setup.influence_length());
+        let factor = viscosity / self.setup.units.viscosity;
+        let used = match self.setup.varies() && self.state.steps > 0 {
+            true => {
+                let rates = self.field(guess).rates(liquid.shear_rate, slip);
+                Viscosities::of(&rates, liquid, factor, slip)
+            }
+            false => Viscosities::constant(&self.mesh, viscosity),
+        };
+        Search::new(liquid, factor, slip, used)
+    }
+
+    fn field<'a>(&'a self, flow: &'a Flow) -> FlowField<'a> {
+        FlowField {
+            mesh: &self.mesh,
+            links: &self.links,
+            edges: &self.edges,
+            velocity: &flow.velocity,
+            speed: flow.speed,
+        }
+    }
+
+    /// Solves once with these viscosities, from the flow `guess`: the flow, the forces on bodies, and whether compression obeys
+    /// its law.
+    fn solve_pass(
+        &self,
+        given: &Given,
+        unknowns: &Unknowns,
+        viscosities: &Viscosities,
+        (torn, air): (&[bool], Option<&Air>),
+        guess: &Flow,
+        (solver, clock): (&mut SaddleSolver, &mut Clock),
+    ) -> Result<(Flow, Vec<f64>, bool), String> {
+        let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
+        let Middle {
+            dt,
+            full,
+            fractions,
+            ..
+        } = given.middle;
+        let dt = *dt;
+        let stiffnesses = stiffnesses(mesh, &given.halves, viscosities);
+        let fronts = self.fronts(unknowns, torn, air, given.viscosity, dt);
+        let problem = Problem {
+            lattice: &setup.lattice,
+            mesh,
+            links: &self.links,
+            edges: &self.edges,
+            unknowns,
+            fractions,
+            halves: &given.halves,
+            masses: &given.masses,
+            stiffnesses: &stiffnesses,
+            viscosities,
+            before: &state.flow.velocity,
+            speed_before: state.flow.speed,
+            end_height: given.end,
+            fronts: &fronts,
+            pockets: air.map_or(&[], |air| &air.pockets),
+            scales: setup.scales(dt),
+        };
+        let compression = Compression {
+            tait: setup.liquid.tait,
+            unit: setup.units.viscosity,
+            mesh,
+            state,
+            full,
+            heights: [self.height, given.end],
+            times: [dt, self.crossing()],
+        };
+        let mut carried = compression.released(&unknowns.pores, &guess.pressure);
+        if let Some(exchange) = &given.lost {
+            exchange.add_to(&unknowns.pores, full, dt, &mut carried);
+        }
+        let flow = solve(&problem, &carried, given.drive, guess, solver, clock)
+            .map_err(|error| unsolved(&error))?;
+        let begun = Instant::now();
+        let forces = forces(&problem, &flow, state.displacement.len());
+        let holds = compression.holds(&unknowns.pores, &guess.pressure, &flow.pressure);
+        clock.add(Part::Forces, begun);
+        Ok((flow, forces, holds))
     }
 }

@@ -12,8 +12,56 @@ const NEAR: f64 = 1e-4;
 /// Mean square of the changes of ln(viscosity) below which they tell nothing of the answer.
 const UNMOVED: f64 = 1e-6;
 
+/// Mean change of ln(viscosity), weighted by dissipation, that ends the passes.
+const SETTLED: f64 = 2e-3;
+
+/// The viscosities that the flow of a step is sought with, pass by pass, for a liquid whose viscosity depends on the rate.
+pub(crate) struct Search<'a> {
+    pub(crate) liquid: &'a Liquid,
+    /// What the law is multiplied by.
+    pub(crate) factor: f64,
+    /// Influence length, cells.
+    pub(crate) slip: f64,
+    /// Those of the next pass.
+    pub(crate) used: Viscosities,
+    last: Option<Pass>,
+    response: f64,
+}
+
+impl<'a> Search<'a> {
+    /// One that begins with the viscosities `used`.
+    pub(crate) fn new(liquid: &'a Liquid, factor: f64, slip: f64, used: Viscosities) -> Self {
+        Self {
+            liquid,
+            factor,
+            slip,
+            used,
+            last: None,
+            response: 0.0,
+        }
+    }
+
+    /// Takes in the `rates` and the dissipation of each pore of the flow that came of the viscosities used, and says whether
+    /// that flow has them.
+    pub(crate) fn go_on(&mut self, rates: Rates, power: Vec<f64>) -> bool {
+        let by_law = Viscosities::of(&rates, self.liquid, self.factor, self.slip);
+        let used = std::mem::take(&mut self.used);
+        let pass = Pass { used, rates, power };
+        let settled = pass.change(&by_law) < SETTLED;
+        self.used = match &self.last {
+            Some(before) => {
+                self.response = pass.response(before, self.response);
+                pass.ahead(self.liquid, self.factor, self.slip, self.response)
+            }
+            None => by_law,
+        };
+        self.last = Some(pass);
+        settled
+    }
+}
+
 /// A flow, and the viscosities by the law of the liquid that it was solved with.
-pub(crate) struct Pass {
+struct Pass {
     used: Viscosities,
     rates: Rates,
     /// Dissipation of each pore.
@@ -21,13 +69,8 @@ pub(crate) struct Pass {
 }
 
 impl Pass {
-    /// That of a flow of these `rates` and this dissipation of each pore, solved with the viscosities `used`.
-    pub(crate) fn new(used: Viscosities, rates: Rates, power: Vec<f64>) -> Self {
-        Self { used, rates, power }
-    }
-
     /// Mean change of ln(viscosity) to that of the `law` at the rates, weighted by dissipation.
-    pub(crate) fn change(&self, law: &Viscosities) -> f64 {
+    fn change(&self, law: &Viscosities) -> f64 {
         let mut sums = [0.0; 2];
         for (pore, &power) in self.power.iter().enumerate().filter(|at| *at.1 > 0.0) {
             sums[0] += power * (law.pores[pore] / self.used.pores[pore]).ln().abs();
@@ -42,7 +85,7 @@ impl Pass {
     /// How ln(rate) answers ln(viscosity) from the pass `before` to this one, weighted by dissipation: -1 where the load is
     /// given, 0 where the speed is. Some parts of a flow have the one and some the other, and what one pass tells is of those that
     /// it changed most: half of it counts, and half of what was known `last`.
-    pub(crate) fn response(&self, before: &Self, last: f64) -> f64 {
+    fn response(&self, before: &Self, last: f64) -> f64 {
         let (mut answer, mut cause, mut weight) = (0.0, 0.0, 0.0);
         for (pore, &power) in self.power.iter().enumerate().filter(|at| *at.1 > 0.0) {
             let [old, new] =
@@ -63,13 +106,7 @@ impl Pass {
     /// The viscosities that the law of `liquid`, times `factor`, has at the rates which follow from them, if rates go with the
     /// power `response` of the viscosity from here. Exact in a channel under a given load, where passes that take the
     /// viscosity of the rates (a response of 0) come nearer by a part only, and hardly so where a liquid yields.
-    pub(crate) fn ahead(
-        &self,
-        liquid: &Liquid,
-        factor: f64,
-        slip: f64,
-        response: f64,
-    ) -> Viscosities {
+    fn ahead(&self, liquid: &Liquid, factor: f64, slip: f64, response: f64) -> Viscosities {
         let law = &liquid.viscosity;
         let of = |rate: f64, used: f64| {
             let at = |rate: f64| (factor * law.at(rate)).ln();

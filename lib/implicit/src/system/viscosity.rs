@@ -99,36 +99,6 @@ pub(crate) struct Rates {
 }
 
 impl Rates {
-    /// Those of a flow. The rate of a pore is that whose dissipation is the mean over it.
-    pub(crate) fn of(
-        mesh: &Mesh,
-        links: &Links,
-        edges: &Edges,
-        velocity: &[f64],
-        speed: f64,
-        (convention, slip): (ShearRate, f64),
-    ) -> Self {
-        let view = View {
-            mesh,
-            links,
-            edges,
-            velocity,
-            speed,
-        };
-        let (parts, walls) = view.squares();
-        let rate = |square: f64| of_shear(square, convention);
-        Self {
-            pores: pores(&parts, &walls, convention),
-            edges: (edges.rates(mesh, velocity, &parts).into_iter())
-                .map(rate)
-                .collect(),
-            walls: (0..mesh.faces.len())
-                .into_par_iter()
-                .map(|face| view.wall_rate(face, slip))
-                .collect(),
-        }
-    }
-
     /// Dissipation of each pore where liquid has these viscosities.
     pub(crate) fn power(
         &self,
@@ -141,26 +111,6 @@ impl Rates {
             stress * self.pores[pore] * mesh.volume(pore) * fractions[pore]
         };
         (0..mesh.pores.len()).into_par_iter().map(power).collect()
-    }
-
-    /// Those of pores alone.
-    pub(crate) fn of_pores(
-        mesh: &Mesh,
-        links: &Links,
-        edges: &Edges,
-        velocity: &[f64],
-        speed: f64,
-        convention: ShearRate,
-    ) -> Vec<f64> {
-        let view = View {
-            mesh,
-            links,
-            edges,
-            velocity,
-            speed,
-        };
-        let (parts, walls) = view.squares();
-        pores(&parts, &walls, convention)
     }
 }
 
@@ -178,16 +128,39 @@ fn pores(parts: &[[f64; 4]], walls: &[f64], convention: ShearRate) -> Vec<f64> {
         .collect()
 }
 
-/// A flow, to take rates of.
-struct View<'a> {
-    mesh: &'a Mesh,
-    links: &'a Links,
-    edges: &'a Edges,
-    velocity: &'a [f64],
-    speed: f64,
+/// A flow with the friction of walls, to take rates of.
+pub(crate) struct FlowField<'a> {
+    pub(crate) mesh: &'a Mesh,
+    pub(crate) links: &'a Links,
+    pub(crate) edges: &'a Edges,
+    /// Velocity of each face, cells/s.
+    pub(crate) velocity: &'a [f64],
+    /// Closing speed, cells/s.
+    pub(crate) speed: f64,
 }
 
-impl View<'_> {
+impl FlowField<'_> {
+    /// Rates of pores, edges and walls. That of a pore has the mean dissipation over it.
+    pub(crate) fn rates(&self, convention: ShearRate, slip: f64) -> Rates {
+        let (parts, walls) = self.squares();
+        let rate = |square: f64| of_shear(square, convention);
+        let edges = self.edges.rates(self.mesh, self.velocity, &parts);
+        Rates {
+            pores: pores(&parts, &walls, convention),
+            edges: edges.into_iter().map(rate).collect(),
+            walls: (0..self.mesh.faces.len())
+                .into_par_iter()
+                .map(|face| self.wall_rate(face, slip))
+                .collect(),
+        }
+    }
+
+    /// Those of pores alone.
+    pub(crate) fn pore_rates(&self, convention: ShearRate) -> Vec<f64> {
+        let (parts, walls) = self.squares();
+        pores(&parts, &walls, convention)
+    }
+
     /// Squares of the rates in full pores, whose dissipation is the mean over each: by stretching, by shear around each axis,
     /// and by walls.
     fn squares(&self) -> (Vec<[f64; 4]>, Vec<f64>) {
