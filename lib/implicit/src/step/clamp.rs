@@ -138,13 +138,4 @@ impl Implicit {
             }
         }
     }
-
-    /// Least height of the gap, cells: in a programme a film stays, by which liquid pushes the bodies apart where a stage
-    /// lets it.
-    pub(super) fn least_height(&self) -> f64 {
-        match self.state.drive.programme() {
-            Some(_) => NOTHING,
-            None => 0.0,
-        }
-    }
 }

@@ -42,7 +42,7 @@ impl Implicit {
         let middle = self.mesh.rows().height;
         if self.setup.lattice.moving.is_some() {
             let height = self.height - travel;
-            self.height = if height > CLOSED { height } else { 0.0 }.max(self.least_height());
+            self.height = if height > CLOSED { height } else { 0.0 };
         }
         self.mesh.set_height(self.height);
         let capacities = self.capacities();

@@ -132,7 +132,7 @@ impl Implicit {
 
     /// The same at its end.
     fn end_height(&self, dt: f64, closing: f64) -> f64 {
-        (self.height - dt * closing).max(self.least_height())
+        (self.height - dt * closing).max(0.0)
     }
 
     /// What each pore can hold: without end beyond open sides.
