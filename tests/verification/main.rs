@@ -210,18 +210,18 @@ fn squeeze_films() {
     }
 }
 
-/// 0.5 to 1.3 % of the gap with three cells, from a microsecond to minutes; a viscosity a quarter off is 3 % and more.
+/// 0.5 to 1 % of the gap with three cells, from a microsecond to minutes; a viscosity a tenth off is 1.8 % and more.
 #[test]
 fn a_film_closed_by_a_press_programme() {
     use stefan::Load::{Hold, Programme};
     for (load, time) in [(Hold, 1e-6), (Hold, 1e3), (Programme, 300.0)] {
         let scene = || stefan::scene(3, load, time);
-        assert_within(0.015, &scene(), Method::implicit(), "gap over time");
+        assert_within(0.01, &scene(), Method::implicit(), "gap over time");
         let mut thick = scene();
         if let Viscosity::Newtonian(eta) = &mut thick.case.viscosity {
-            *eta *= 1.25;
+            *eta *= 1.1;
         }
-        assert_caught(0.015, &thick, Method::implicit(), "gap over time");
+        assert_caught(0.01, &thick, Method::implicit(), "gap over time");
     }
 }
 
