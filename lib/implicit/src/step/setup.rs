@@ -13,6 +13,9 @@ use crate::settings::Settings;
 use crate::system::{Links, Scales, Walls};
 use crate::water;
 
+/// Part of the cells that the Courant number lets liquid cross in a step: slower flow counts as none.
+const SLOW: f64 = 0.01;
+
 /// Units of the scheme.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units {
@@ -220,6 +223,7 @@ impl Setup {
         let density = self.liquid.density;
         Scales {
             dt,
+            slow: SLOW * self.settings.cfl / dt,
             inertia: density * h * h / (eta * dt),
             gravity: self.gravity.map(|g| density * h * g / eta),
             compressibility: eta / self.liquid.tait.bulk_modulus,

@@ -20,6 +20,8 @@ const FREE: f64 = 1e-7;
 pub(crate) struct Scales {
     /// Length of the step, s.
     pub(crate) dt: f64,
+    /// Speed of flow that counts as none, cells/s.
+    pub(crate) slow: f64,
     /// rho h^2/(eta dt).
     pub(crate) inertia: f64,
     /// rho h g/eta along each axis.
@@ -35,6 +37,7 @@ impl Scales {
     pub(crate) fn steady() -> Self {
         Self {
             dt: f64::INFINITY,
+            slow: 0.0,
             inertia: 0.0,
             gravity: [0.0; 3],
             compressibility: 0.0,

@@ -49,9 +49,6 @@ impl Flow {
     }
 }
 
-/// Share of the cells that liquid may cross in a step below which flow counts as none.
-const SLOW: f64 = 0.01;
-
 /// Solves a problem. `carried` is the volume, over the time step, that each pore with a pressure holds more than its
 /// volume at no pressure, and `guess` a flow to start from.
 pub(crate) fn solve(
@@ -142,7 +139,7 @@ pub(crate) fn solve(
         b: &known,
         standing: &standing,
         clinging: &clinging,
-        slow: SLOW / scales.dt,
+        slow: scales.slow,
         volume_source: &volume_source,
         carried: &carried,
     };
