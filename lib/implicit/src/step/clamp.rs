@@ -15,8 +15,10 @@ const MISSED: f64 = 1e-3;
 /// Travel, cells, that counts as none: surfaces of voxels are known less well, and a film under a pressure never ends.
 const NOTHING: f64 = 1e-2;
 const CLOSER: usize = 4;
-/// Solves of a step in which a clamp under a pressure comes to the speed at which it meets liquid.
-const MEETINGS: usize = 4;
+/// Solves of a step in which a clamp under a pressure comes to its speed.
+const SPEEDS: usize = 4;
+/// Part of the gap's height by which the middle of a step may be off that of its speed: flow goes with the cube of the height.
+const OFF: f64 = 0.01;
 
 /// Length of the step that goes as far as `left`, of lengths and speeds of the last one and the one `before`: speeds are linear
 /// in the length.
@@ -84,18 +86,26 @@ impl Implicit {
     fn solve_controlled(&mut self, dt: f64, guess: &mut Flow) -> Result<Solved, String> {
         self.state.drive.aim(dt);
         let mut middle = self.middle(dt, None);
-        // A clamp that goes faster than in the last step may meet liquid that it would not have met.
-        for _ in 1..MEETINGS {
+        for _ in 1..SPEEDS {
             let solved = self.solve_middle(&middle, guess)?;
-            if solved.flow.speed <= middle.closing {
+            let assumed = self.middle_height(dt, middle.closing);
+            let height = self.middle_height(dt, solved.flow.speed);
+            let is_off = (height - assumed).abs() > OFF * assumed;
+            if !is_off && height >= (1.0 - MISSED) * assumed {
                 return Ok(solved);
             }
-            let faster = self.middle(dt, Some(&solved.flow));
-            if !faster.meets_more(&middle) {
-                self.mesh.set_height(self.middle_height(dt, middle.closing));
+            // A clamp that goes faster may meet liquid that it would not have met; one that goes slower leaves none that
+            // it met, or it would go to and fro.
+            let other = self.middle(dt, Some(&solved.flow));
+            let stays = match height < assumed {
+                true => !is_off && !other.meets_more(&middle),
+                false => middle.meets_more(&other),
+            };
+            if stays {
+                self.mesh.set_height(assumed);
                 return Ok(solved);
             }
-            middle = faster;
+            middle = other;
         }
         self.solve_middle(&middle, guess)
     }

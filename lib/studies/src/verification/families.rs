@@ -32,7 +32,7 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
     ),
     (
         "piston",
-        "A piston presses liquid into a square lumen and a tube\n\nPressure against developed flow (finite differences in the same staircase) plus the equivalent length of entrance and front.",
+        "A piston presses liquid into a square lumen and a tube\n\nPressure against developed flow (finite differences in the same staircase) plus the equivalent length of front and entrance: the front's by finite elements behind a tracked front (lib/studies/reference), the flat entrance's by the implicit scheme in finer cells.",
     ),
     (
         "washburn",
@@ -60,7 +60,7 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
     ),
     (
         "air",
-        "Filling a slit with a closed end\n\nAt constant pressure, 4 p_0 above p_0, eight widths long: filled length by the piston's travel against (L + e) dL/dt = (H^2/12 eta) (P - p_0 (m/(L_0 - L) - 1)), m = L_0, to L_0 P/(P + p_0) in the end (Boyle); e is the equivalent length of entrance and front as for washburn. With a leak dm/dt = -(m/(L_0 - L) - 1) (L_0 - L)/t_leak beside it. The liquid in a slit of 6 cells takes up 1.5 % more of the lattice than its volume, with air or without; the air's volume is that of the travel.",
+        "Filling a slit with a closed end\n\nAt constant pressure, 4 p_0 above p_0, eight widths long: filled length by the piston's travel against (L + e) dL/dt = (H^2/12 eta) (P - p_0 (m/(L_0 - L) - 1)), m = L_0, to L_0 P/(P + p_0) in the end (Boyle); e is the equivalent length of entrance and front as for washburn. With a leak dm/dt = -(m/(L_0 - L) - 1) (L_0 - L)/t_leak beside it.",
     ),
     (
         "spheres",
@@ -68,7 +68,7 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
     ),
     (
         "grain",
-        "Flow along the grain of maple\n\nThrough 48 x 48 x 48 voxels of the acer stack (pipelines/examples/acer), n cells along an edge, joined to itself on all sides and full of liquid: permeability along the grain against the same voxels by lattice Boltzmann, refined (lib/studies/reference/README.md). Lattice Boltzmann with one node a voxel is 6.6 % too open, with 2 x 2 x 2 nodes 2.8 %: flow past the edges of voxels goes as r^0.54, which differences over one cell carry as r. One cell a voxel (n = 48) is as far off for the same reason, one and a half (n = 72) by 2.4 %; cells of two voxels (n = 24) see less of the staircase, which hides a part of it.",
+        "Flow along the grain of maple\n\nThrough 48 x 48 x 48 voxels of the acer stack (pipelines/examples/acer), n cells along an edge, joined to itself on all sides and full of liquid: permeability along the grain against the same voxels by lattice Boltzmann, refined (lib/studies/reference/README.md). Lattice Boltzmann with one node a voxel is 6.6 % too open, with 2 x 2 x 2 nodes 2.8 %: flow past the edges of voxels goes as r^0.54, which differences over one cell carry as r. The implicit scheme has factors for such edges (docs/methods.md section 3).",
     ),
     (
         "squeeze",
@@ -104,7 +104,7 @@ pub(super) const FAMILIES: &[(&str, &str)] = &[
     ),
     (
         "galilean",
-        "Galilean invariance\n\nLiquid and walls all at 0.5 m/s, walls 0.3 cell off the nodes, until all has moved by three cells.",
+        "Galilean invariance\n\nLiquid and walls all at 0.5 m/s, walls half a cell off the nodes, until all has moved by three cells. The speed is a power of two, which weights multiply without rounding: only a step that takes the velocity itself for a difference drifts.",
     ),
     (
         "sealed",
