@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 /// What a voxel is, while the adhesive goes in and after.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum State {
+pub(crate) enum State {
     Wood,
     Open,
     /// Open, and next to a voxel that the adhesive has passed: it has its turn.
@@ -15,7 +15,7 @@ pub(super) enum State {
 /// States of all voxels. A page begins on a byte of its own, so that pages are written side by
 /// side; an *index* counts the voxels that this leaves unused, too.
 #[derive(Clone, Debug)]
-pub(super) struct Cells {
+pub(crate) struct Cells {
     size: [usize; 3],
     bytes: Vec<u8>,
 }
@@ -25,7 +25,7 @@ const BITS: usize = 2;
 
 impl Cells {
     /// Wood everywhere.
-    pub(super) fn new(size: [usize; 3]) -> Self {
+    pub(crate) fn new(size: [usize; 3]) -> Self {
         Self {
             size,
             bytes: vec![0; Self::bytes(size)],
@@ -33,7 +33,7 @@ impl Cells {
     }
 
     /// Memory that the states of so many voxels take.
-    pub(super) fn bytes(size: [usize; 3]) -> usize {
+    pub(crate) fn bytes(size: [usize; 3]) -> usize {
         (size[0] * size[1]).div_ceil(PER_BYTE) * size[2]
     }
 
@@ -43,30 +43,30 @@ impl Cells {
     }
 
     /// The bytes of each page, for [`put`] by its own indices.
-    pub(super) fn pages_mut(&mut self) -> impl IndexedParallelIterator<Item = &mut [u8]> {
+    pub(crate) fn pages_mut(&mut self) -> impl IndexedParallelIterator<Item = &mut [u8]> {
         let page = self.page() / PER_BYTE;
         self.bytes.par_chunks_mut(page)
     }
 
     /// The indices of all voxels, page by page.
-    pub(super) fn indices(&self) -> impl Iterator<Item = usize> + use<> {
+    pub(crate) fn indices(&self) -> impl Iterator<Item = usize> + use<> {
         let (page, voxels) = (self.page(), self.size[0] * self.size[1]);
         (0..self.size[2]).flat_map(move |z| z * page..z * page + voxels)
     }
 
     /// Column, row and page of an index.
-    pub(super) fn place(&self, index: usize) -> [usize; 3] {
+    pub(crate) fn place(&self, index: usize) -> [usize; 3] {
         let (page, nx) = (self.page(), self.size[0]);
         [index % page % nx, index % page / nx, index / page]
     }
 
     /// The index of a column, row and page.
     #[cfg(test)]
-    pub(super) fn index(&self, [column, row, page]: [usize; 3]) -> usize {
+    pub(crate) fn index(&self, [column, row, page]: [usize; 3]) -> usize {
         page * self.page() + row * self.size[0] + column
     }
 
-    pub(super) fn get(&self, index: usize) -> State {
+    pub(crate) fn get(&self, index: usize) -> State {
         match self.bytes[index / PER_BYTE] >> (BITS * (index % PER_BYTE)) & 3 {
             0 => State::Wood,
             1 => State::Open,
@@ -75,18 +75,18 @@ impl Cells {
         }
     }
 
-    pub(super) fn set(&mut self, index: usize, state: State) {
+    pub(crate) fn set(&mut self, index: usize, state: State) {
         put(&mut self.bytes, index, state);
     }
 
     /// The states of one page, x fastest.
-    pub(super) fn page_states(&self, page: usize) -> impl Iterator<Item = State> {
+    pub(crate) fn page_states(&self, page: usize) -> impl Iterator<Item = State> {
         let first = page * self.page();
         (first..first + self.size[0] * self.size[1]).map(|index| self.get(index))
     }
 
     /// The indices of all voxels over the faces of this one.
-    pub(super) fn neighbours(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
+    pub(crate) fn neighbours(&self, index: usize) -> impl Iterator<Item = usize> + use<> {
         let ([nx, ny, nz], page) = (self.size, self.page());
         let [x, y, z] = self.place(index);
         [
@@ -103,7 +103,7 @@ impl Cells {
 }
 
 /// Sets the voxel `index` of what `bytes` begins with.
-pub(super) fn put(bytes: &mut [u8], index: usize, state: State) {
+pub(crate) fn put(bytes: &mut [u8], index: usize, state: State) {
     let shift = BITS * (index % PER_BYTE);
     let byte = &mut bytes[index / PER_BYTE];
     *byte = *byte & !(3 << shift) | (state as u8) << shift;

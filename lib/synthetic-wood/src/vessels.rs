@@ -10,15 +10,15 @@ use super::recipe::{AdhesiveSystem, Plan};
 use super::species::VesselTraits;
 
 /// By how much the vessels' share of the cross-section may exceed that of their species.
-pub(super) const TOLERANCE: f32 = 0.02;
+pub(crate) const TOLERANCE: f32 = 0.02;
 /// Wall of a vessel, um; fibres add their half wall outside it.
-pub(super) const WALL: f32 = 2.5;
+pub(crate) const WALL: f32 = 2.5;
 /// Half of the wall that the vessels of a radial multiple share, um.
 const SHARED_HALF_WALL: f32 = 2.0;
 /// Least wood between two groups, um.
 const BETWEEN: f32 = 5.0;
 /// How far outside a vessel its distance is still needed (fibre walls), um.
-pub(super) const REACH: f32 = 8.0;
+pub(crate) const REACH: f32 = 8.0;
 /// Spacing of the members of a multiple over the sum of their radii: below one, so that the
 /// shared wall is flat as in real radial multiples.
 const FLATTENED: f32 = 0.88;
@@ -31,20 +31,20 @@ const TUBE: f32 = 96.0;
 
 /// One vessel: a tube along l.
 #[derive(Clone, Debug)]
-pub(super) struct Vessel {
-    pub(super) r: f32,
-    pub(super) t: f32,
+pub(crate) struct Vessel {
+    pub(crate) r: f32,
+    pub(crate) t: f32,
     /// Radius of the lumen, um.
-    pub(super) radius: f32,
+    pub(crate) radius: f32,
     element: f32,
     phase: f32,
     pit_radius: f32,
     /// Without pits: the isolated tube.
-    pub(super) sealed: bool,
+    pub(crate) sealed: bool,
 }
 
 /// What a point is with respect to the vessels.
-pub(super) enum Part<'a> {
+pub(crate) enum Part<'a> {
     /// In the lumen of a vessel.
     Lumen(&'a Vessel),
     /// In a pit between two vessels.
@@ -56,7 +56,7 @@ pub(super) enum Part<'a> {
 }
 
 /// The vessels of one adherend.
-pub(super) struct Vessels {
+pub(crate) struct Vessels {
     members: Vec<Vessel>,
     bins: Bins,
 }
@@ -65,7 +65,7 @@ impl Vessels {
     /// Places vessels over the rectangle `bounds` (r and t, um): in a bonded specimen first one
     /// that the bond face opens along the box, then (PF, bottom) the isolated tube; then random
     /// groups until the share is reached.
-    pub(super) fn place(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
+    pub(crate) fn place(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
         let mut members = Vec::new();
         let Some(traits) = &plan.timber.vessels else {
             let bins = Bins::new(&members, bounds);
@@ -99,7 +99,7 @@ impl Vessels {
         Self { members, bins }
     }
 
-    pub(super) fn at(&self, point: WoodPoint) -> Part<'_> {
+    pub(crate) fn at(&self, point: WoodPoint) -> Part<'_> {
         let mut nearest = (f32::INFINITY, None);
         let mut second = f32::INFINITY;
         for &index in self.bins.near(point.r, point.t) {
@@ -143,7 +143,7 @@ impl Vessel {
         self.outside(other.r, other.t) - other.radius > 2.0 * WALL + BETWEEN
     }
 
-    pub(super) fn covers(&self, point: &Point) -> bool {
+    pub(crate) fn covers(&self, point: &Point) -> bool {
         self.outside(point.r, point.t) < WALL
     }
 

@@ -8,15 +8,15 @@ use super::recipe::Plan;
 /// A position in the wood, um: along the fibres (l), along the rays (r) and along the growth
 /// ring (t), from the middle of the bond plane.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct WoodPoint {
-    pub(super) l: f32,
-    pub(super) r: f32,
-    pub(super) t: f32,
+pub(crate) struct WoodPoint {
+    pub(crate) l: f32,
+    pub(crate) r: f32,
+    pub(crate) t: f32,
 }
 
 /// How an adherend was cut from the tree: unit vectors of l, r and t in box coordinates.
 #[derive(Clone, Debug)]
-pub(super) struct Cut {
+pub(crate) struct Cut {
     axes: [[f32; 3]; 3],
 }
 
@@ -29,7 +29,7 @@ const DRIFT: f32 = 3.0;
 const RAY_ANGLE: [[f32; 2]; 2] = [[-12.0, 12.0], [62.0, 84.0]];
 
 impl Cut {
-    pub(super) fn new(plan: &Plan, side: usize) -> Self {
+    pub(crate) fn new(plan: &Plan, side: usize) -> Self {
         let mut random = stream(plan, side, Feature::Cut);
         let [lowest, highest] = RAY_ANGLE[side];
         let rays = random.random_range(lowest..highest).to_radians();
@@ -50,20 +50,20 @@ impl Cut {
     }
 
     /// Wood coordinates of a box position (um from the middle of the bond plane).
-    pub(super) fn locate(&self, position: [f32; 3]) -> WoodPoint {
+    pub(crate) fn locate(&self, position: [f32; 3]) -> WoodPoint {
         let [l, r, t] = self.axes.map(|axis| dot(axis, position));
         WoodPoint { l, r, t }
     }
 
     /// Where the fibre at (r, t) crosses the middle page (z = 0): x and y, um.
-    pub(super) fn crossing(&self, r: f32, t: f32) -> [f32; 2] {
+    pub(crate) fn crossing(&self, r: f32, t: f32) -> [f32; 2] {
         let [el, er, et] = &self.axes;
         let l = -(r * er[2] + t * et[2]) / el[2];
         [0, 1].map(|i| l * el[i] + r * er[i] + t * et[i])
     }
 
     /// Smallest and largest l, r and t in a box given by its two corners.
-    pub(super) fn bounds(&self, corners: [[f32; 3]; 2]) -> [[f32; 2]; 3] {
+    pub(crate) fn bounds(&self, corners: [[f32; 3]; 2]) -> [[f32; 2]; 3] {
         self.axes.map(|axis| {
             let reach = [0, 1, 2].map(|i| {
                 let ends = corners.map(|corner| axis[i] * corner[i]);
@@ -74,12 +74,12 @@ impl Cut {
     }
 
     /// Slope of the fibres against the bond plane, dy/dz.
-    pub(super) fn slope(&self) -> f32 {
+    pub(crate) fn slope(&self) -> f32 {
         self.axes[0][1] / self.axes[0][2]
     }
 
     /// Component of the ring direction t along box axis `axis` (0 x, 1 y).
-    pub(super) fn ring_along(&self, axis: usize) -> f32 {
+    pub(crate) fn ring_along(&self, axis: usize) -> f32 {
         self.axes[2][axis]
     }
 }

@@ -16,7 +16,7 @@ const END_HALF_WALL: f32 = 2.0;
 
 /// Fibres: the Voronoi cells of jittered radial files in the strips between ray columns,
 /// closed at staggered ends.
-pub(super) struct Fibres {
+pub(crate) struct Fibres {
     traits: FibreTraits,
     strips: Vec<Strip>,
 }
@@ -42,7 +42,7 @@ struct Fibre {
 }
 
 impl Fibres {
-    pub(super) fn place(
+    pub(crate) fn place(
         plan: &Plan,
         side: usize,
         traits: FibreTraits,
@@ -93,7 +93,7 @@ impl Fibres {
 
     /// Radius (um) of the lumen a point is in, or `None` in a wall; `from_vessel` is the
     /// distance from the nearest vessel's outer wall.
-    pub(super) fn lumen(&self, point: WoodPoint, place: &Place, from_vessel: f32) -> Option<f32> {
+    pub(crate) fn lumen(&self, point: WoodPoint, place: &Place, from_vessel: f32) -> Option<f32> {
         let strip = &self.strips[place.strip];
         let (fibre, to_border) = strip.nearest(self.traits.pitch, point.r, place.across)?;
         let to_wall = to_border.min(place.clearance).min(from_vessel);

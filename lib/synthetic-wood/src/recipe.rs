@@ -131,21 +131,21 @@ pub enum RecipeError {
 
 /// A recipe in micrometres with its defaults filled in and its limits checked.
 #[derive(Clone)]
-pub(super) struct Plan {
-    pub(super) size: [usize; 3],
-    pub(super) voxel: f32,
-    pub(super) species: Species,
-    pub(super) timber: &'static Timber,
-    pub(super) adhesive: Option<AdhesiveSystem>,
+pub(crate) struct Plan {
+    pub(crate) size: [usize; 3],
+    pub(crate) voxel: f32,
+    pub(crate) species: Species,
+    pub(crate) timber: &'static Timber,
+    pub(crate) adhesive: Option<AdhesiveSystem>,
     /// Adhesive volume per bond area, um; 0 of undamaged wood.
-    pub(super) slab: f64,
+    pub(crate) slab: f64,
     /// Angle of the fibres against the bond plane, rad, where it is given.
-    pub(super) grain_angle: Option<f32>,
-    pub(super) seed: u64,
+    pub(crate) grain_angle: Option<f32>,
+    pub(crate) seed: u64,
 }
 
 impl Plan {
-    pub(super) fn new(recipe: &Recipe) -> Result<Self, RecipeError> {
+    pub(crate) fn new(recipe: &Recipe) -> Result<Self, RecipeError> {
         let [nx, ny, nz] = recipe.size;
         let least = if recipe.adhesive.is_some() { 48 } else { 24 };
         let accepted =
@@ -186,19 +186,19 @@ impl Plan {
     }
 
     /// Edges of the box along x, y and z, um.
-    pub(super) fn edges(&self) -> [f32; 3] {
+    pub(crate) fn edges(&self) -> [f32; 3] {
         self.size.map(|n| n as f32 * self.voxel)
     }
 
     /// Centre of the voxel of a column, row and page, um from the middle of the bond plane.
-    pub(super) fn centre(&self, place: [usize; 3]) -> [f32; 3] {
+    pub(crate) fn centre(&self, place: [usize; 3]) -> [f32; 3] {
         let half = self.edges().map(|edge| 0.5 * edge);
         [0, 1, 2].map(|i| (place[i] as f32 + 0.5) * self.voxel - half[i])
     }
 
     /// Corners of the half of the box that belongs to adherend `side` (0 bottom, 1 top);
     /// undamaged wood has all of it.
-    pub(super) fn half_box(&self, side: usize) -> [[f32; 3]; 2] {
+    pub(crate) fn half_box(&self, side: usize) -> [[f32; 3]; 2] {
         let [x, y, z] = self.edges().map(|edge| 0.5 * edge);
         match side {
             _ if self.adhesive.is_none() => [[-x, -y, -z], [x, y, z]],
@@ -208,13 +208,13 @@ impl Plan {
     }
 
     /// Mean distance of a face from the bond plane, um.
-    pub(super) fn mean_recess(&self) -> f32 {
+    pub(crate) fn mean_recess(&self) -> f32 {
         let gap_share = self.adhesive.map_or(0.0, AdhesiveSystem::gap_share);
         0.5 * gap_share * self.slab as f32
     }
 
     /// Voxels of adhesive that make the slab.
-    pub(super) fn adhesive_voxels(&self) -> usize {
+    pub(crate) fn adhesive_voxels(&self) -> usize {
         let area = self.size[0] * self.size[2];
         (self.slab / f64::from(self.voxel) * area as f64).round() as usize
     }

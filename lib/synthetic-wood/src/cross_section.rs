@@ -5,13 +5,13 @@ use super::recipe::Plan;
 use super::vessels::{REACH, TOLERANCE, Vessel, WALL};
 
 /// Sample points over the cross-section: which share do vessels cover, in all and in the box.
-pub(super) struct Cover {
+pub(crate) struct Cover {
     points: Vec<Point>,
 }
 
-pub(super) struct Point {
-    pub(super) r: f32,
-    pub(super) t: f32,
+pub(crate) struct Point {
+    pub(crate) r: f32,
+    pub(crate) t: f32,
     in_box: bool,
     covered: bool,
 }
@@ -19,7 +19,7 @@ pub(super) struct Point {
 const POINT_SPACING: f32 = 8.0;
 
 impl Cover {
-    pub(super) fn new(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
+    pub(crate) fn new(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
         let [low, high] = plan.half_box(side);
         let along = |[low, high]: [f32; 2]| {
             let count = ((high - low) / POINT_SPACING) as usize;
@@ -41,21 +41,21 @@ impl Cover {
         }
     }
 
-    pub(super) fn add(&mut self, vessel: &Vessel) {
+    pub(crate) fn add(&mut self, vessel: &Vessel) {
         for point in &mut self.points {
             point.covered |= vessel.covers(point);
         }
     }
 
     /// Covered share of the box.
-    pub(super) fn in_box(&self) -> f32 {
+    pub(crate) fn in_box(&self) -> f32 {
         let (all, covered, _) = self.count(true, &[]);
         covered as f32 / all.max(1) as f32
     }
 
     /// Whether the shares in and around the box stay below `share` with one more group: a
     /// small box is as much vessel as the opened ones make it, not more.
-    pub(super) fn has_room(&self, group: &[Vessel], share: f32) -> bool {
+    pub(crate) fn has_room(&self, group: &[Vessel], share: f32) -> bool {
         [true, false].into_iter().all(|in_box| {
             let (all, covered, newly) = self.count(in_box, group);
             newly == 0 || (covered + newly) as f32 <= (share + TOLERANCE) * all as f32
@@ -77,7 +77,7 @@ impl Cover {
 }
 
 /// Vessels near a place, from square bins over the cross-section.
-pub(super) struct Bins {
+pub(crate) struct Bins {
     origin: [f32; 2],
     columns: usize,
     bins: Vec<Vec<u16>>,
@@ -86,7 +86,7 @@ pub(super) struct Bins {
 const BIN: f32 = 40.0;
 
 impl Bins {
-    pub(super) fn new(members: &[Vessel], bounds: [[f32; 2]; 2]) -> Self {
+    pub(crate) fn new(members: &[Vessel], bounds: [[f32; 2]; 2]) -> Self {
         let count = bounds.map(|[low, high]| ((high - low) / BIN).ceil().max(1.0) as usize);
         let origin = bounds.map(|[low, _]| low);
         let mut bins = vec![Vec::new(); count[0] * count[1]];
@@ -109,7 +109,7 @@ impl Bins {
         }
     }
 
-    pub(super) fn near(&self, r: f32, t: f32) -> &[u16] {
+    pub(crate) fn near(&self, r: f32, t: f32) -> &[u16] {
         let i = ((r - self.origin[0]) / BIN).max(0.0) as usize;
         let j = ((t - self.origin[1]) / BIN).max(0.0) as usize;
         match self.bins.get(i * self.columns + j.min(self.columns - 1)) {

@@ -16,7 +16,7 @@ const HALF_WALL: f32 = 1.3;
 const PIT_RADIUS: [f32; 2] = [2.6, 4.0];
 
 /// Rays: sheets normal to t, one or more cells wide, of limited height along l.
-pub(super) struct Rays {
+pub(crate) struct Rays {
     traits: &'static RayTraits,
     columns: Vec<Column>,
 }
@@ -34,14 +34,14 @@ struct Column {
 
 /// Where a point is with respect to the ray columns.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(crate) struct Place {
     /// Which strip between two columns (for the fibres).
-    pub(super) strip: usize,
+    pub(crate) strip: usize,
     /// Position across the strip, um: rays push the fibres aside, so that this runs from 0 to
     /// the strip's width whether rays are there or not.
-    pub(super) across: f32,
+    pub(crate) across: f32,
     /// Distance from the nearer ray or strip border; negative inside a ray.
-    pub(super) clearance: f32,
+    pub(crate) clearance: f32,
     /// The nearer column.
     column: usize,
     /// Distance from the middle of that column, signed.
@@ -52,7 +52,7 @@ pub(super) struct Place {
 
 impl Rays {
     /// Ray columns over the given ranges of l and t, um.
-    pub(super) fn place(plan: &Plan, side: usize, l: [f32; 2], t: [f32; 2]) -> Self {
+    pub(crate) fn place(plan: &Plan, side: usize, l: [f32; 2], t: [f32; 2]) -> Self {
         let mut random = stream(plan, side, Feature::Rays);
         let traits = &plan.timber.rays;
         let (spacing, width) = (traits.spacing, traits.width);
@@ -84,13 +84,13 @@ impl Rays {
     }
 
     /// Borders along t of each strip between two columns.
-    pub(super) fn strips(&self) -> impl Iterator<Item = [f32; 2]> {
+    pub(crate) fn strips(&self) -> impl Iterator<Item = [f32; 2]> {
         self.columns
             .windows(2)
             .map(|pair| strip(&pair[0], &pair[1]))
     }
 
-    pub(super) fn locate(&self, point: WoodPoint) -> Place {
+    pub(crate) fn locate(&self, point: WoodPoint) -> Place {
         let after = self.columns.partition_point(|column| column.t <= point.t);
         let strip = after.clamp(1, self.columns.len() - 1) - 1;
         let (below, above) = (&self.columns[strip], &self.columns[strip + 1]);
@@ -111,7 +111,7 @@ impl Rays {
     }
 
     /// Whether a point inside a ray is in the lumen of a ray cell or in a pit between two.
-    pub(super) fn is_lumen(&self, point: WoodPoint, place: &Place) -> bool {
+    pub(crate) fn is_lumen(&self, point: WoodPoint, place: &Place) -> bool {
         if place.half_width - place.offset.abs() < SIDE_WALL {
             return false;
         }
@@ -128,7 +128,7 @@ impl Rays {
     }
 
     /// Whether a point in a vessel's wall is in a vessel-ray pit.
-    pub(super) fn pits_vessel(&self, point: WoodPoint, place: &Place) -> bool {
+    pub(crate) fn pits_vessel(&self, point: WoodPoint, place: &Place) -> bool {
         let in_pit = |[row, across]: [f32; 2]| in_circle(row, across, PIT_RADIUS[1]);
         place.half_width > SIDE_WALL && self.in_cell(point.l, place).is_some_and(in_pit)
     }

@@ -9,7 +9,7 @@
 //!
 //! All randomness comes from ChaCha8 streams keyed by seed, adherend and feature, and every
 //! voxel is a function of its position, so a recipe gives the same bytes for any number of
-//! threads. Lengths inside this module are micrometres.
+//! threads. Lengths inside this crate are micrometres.
 
 mod adherend;
 mod anatomy;

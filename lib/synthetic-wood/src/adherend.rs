@@ -10,7 +10,7 @@ use super::vessels::{Part, Vessels};
 
 /// The tissues of the wood, in the order of their counts; tracheids count as fibres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Tissue {
+pub(crate) enum Tissue {
     Vessel,
     Fibre,
     Ray,
@@ -18,7 +18,7 @@ pub(super) enum Tissue {
 
 /// What the wood is at a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Sample {
+pub(crate) enum Sample {
     /// Cell wall.
     Wall(Tissue),
     /// Lumen or pit of this radius, um.
@@ -28,7 +28,7 @@ pub(super) enum Sample {
 }
 
 impl Sample {
-    pub(super) fn tissue(&self) -> Tissue {
+    pub(crate) fn tissue(&self) -> Tissue {
         match self {
             Self::Wall(tissue) | Self::Lumen(tissue, _) => *tissue,
             Self::Tube => Tissue::Vessel,
@@ -38,13 +38,13 @@ impl Sample {
 
 /// Voxels of one adherend by tissue: all, and open ones.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Counts {
-    pub(super) all: [u64; 3],
-    pub(super) open: [u64; 3],
+pub(crate) struct Counts {
+    pub(crate) all: [u64; 3],
+    pub(crate) open: [u64; 3],
 }
 
 impl Counts {
-    pub(super) fn add(&mut self, sample: &Sample) {
+    pub(crate) fn add(&mut self, sample: &Sample) {
         let tissue = sample.tissue() as usize;
         self.all[tissue] += 1;
         self.open[tissue] += u64::from(!matches!(sample, Sample::Wall(_)));
@@ -69,9 +69,9 @@ const PIT_RADIUS: f32 = 1.0;
 const MARGIN: f32 = 110.0;
 
 /// One piece of wood, defined everywhere in and around its half of the box.
-pub(super) struct Adherend {
-    pub(super) cut: Cut,
-    pub(super) vessels: Vessels,
+pub(crate) struct Adherend {
+    pub(crate) cut: Cut,
+    pub(crate) vessels: Vessels,
     rays: Rays,
     axial: Axial,
 }
@@ -84,7 +84,7 @@ enum Axial {
 
 impl Adherend {
     /// The bottom and the top adherend of a plan, or its one piece of undamaged wood.
-    pub(super) fn all(plan: &Plan) -> Vec<Self> {
+    pub(crate) fn all(plan: &Plan) -> Vec<Self> {
         let sides = if plan.adhesive.is_some() { 2 } else { 1 };
         (0..sides).map(|side| Self::grow(plan, side)).collect()
     }
@@ -112,7 +112,7 @@ impl Adherend {
     }
 
     /// What the wood is at a box position (um from the middle of the bond plane).
-    pub(super) fn at(&self, position: [f32; 3]) -> Sample {
+    pub(crate) fn at(&self, position: [f32; 3]) -> Sample {
         let point = self.cut.locate(position);
         let place = self.rays.locate(point);
         match self.vessels.at(point) {

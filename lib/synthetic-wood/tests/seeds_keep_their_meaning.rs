@@ -1,6 +1,6 @@
 //! Synthetic specimens are referred to by their seeds: a seed must go on giving the same wood.
 
-use voxels::synthetic::{ADHESIVE, AdhesiveSystem, Recipe, Species, Specimen, VOID};
+use synthetic_wood::{ADHESIVE, AdhesiveSystem, Recipe, Species, Specimen, VOID};
 
 /// How many voxels have a label, and their mean x, y and z.
 fn census(specimen: &Specimen, label: u8) -> [f64; 4] {

@@ -29,7 +29,7 @@ const CLEAR: f64 = 8.0;
 
 impl Lumens {
     /// Measures one page of labels, x fastest.
-    pub(super) fn measure(page: &[u8], plan: &Plan) -> Self {
+    pub(crate) fn measure(page: &[u8], plan: &Plan) -> Self {
         let [nx, ny, _] = plan.size;
         let um = f64::from(plan.voxel);
         let open: Vec<bool> = page.iter().map(|&label| label != WOOD).collect();

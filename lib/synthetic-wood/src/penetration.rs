@@ -16,14 +16,14 @@ const RADII: [f32; 2] = [1.0, 250.0];
 
 /// How much adhesive went where, voxels.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Filled {
-    pub(super) gap: usize,
-    pub(super) wood: usize,
-    pub(super) tube: usize,
+pub(crate) struct Filled {
+    pub(crate) gap: usize,
+    pub(crate) wood: usize,
+    pub(crate) tube: usize,
 }
 
 /// What the front asks of a specimen, by column, row and page.
-pub(super) trait Passages: Sync {
+pub(crate) trait Passages: Sync {
     /// Whether the voxel lies between the faces.
     fn is_gap(&self, place: [usize; 3]) -> bool;
 
@@ -33,7 +33,7 @@ pub(super) trait Passages: Sync {
 
 /// Turns open cells into adhesive until the plan's volume of it is reached exactly. On entry the
 /// `gap` and the isolated `tube` of so many voxels are adhesive, and nothing else is.
-pub(super) fn fill(
+pub(crate) fn fill(
     cells: &mut Cells,
     plan: &Plan,
     passages: &impl Passages,

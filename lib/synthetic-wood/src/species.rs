@@ -81,7 +81,7 @@ impl Species {
         }
     }
 
-    pub(super) fn timber(self) -> &'static Timber {
+    pub(crate) fn timber(self) -> &'static Timber {
         match self {
             Self::HybridPoplar => &HYBRID_POPLAR,
             Self::Beech => &BEECH,
@@ -92,73 +92,73 @@ impl Species {
 }
 
 /// The tissues of a species. Lengths are micrometres.
-pub(super) struct Timber {
-    pub(super) vessels: Option<VesselTraits>,
-    pub(super) rays: RayTraits,
-    pub(super) grain: Grain,
+pub(crate) struct Timber {
+    pub(crate) vessels: Option<VesselTraits>,
+    pub(crate) rays: RayTraits,
+    pub(crate) grain: Grain,
 }
 
-pub(super) struct VesselTraits {
+pub(crate) struct VesselTraits {
     /// Share of the cross-section that vessels with their walls take.
-    pub(super) share: f32,
+    pub(crate) share: f32,
     /// Lumen diameter.
-    pub(super) diameter: [f32; 2],
+    pub(crate) diameter: [f32; 2],
     /// Chances that a group has 1, 2, 3 or 4 vessels, cumulated.
-    pub(super) groups: [f32; 4],
+    pub(crate) groups: [f32; 4],
     /// Diameter of inter-vessel pits.
-    pub(super) pit: [f32; 2],
+    pub(crate) pit: [f32; 2],
 }
 
-pub(super) struct RayTraits {
+pub(crate) struct RayTraits {
     /// Mean distance of ray columns along the ring, beside what is wider than one cell.
-    pub(super) spacing: f32,
+    pub(crate) spacing: f32,
     /// Width of a ray of one cell with its walls, and of each cell more.
-    pub(super) width: [f32; 2],
-    pub(super) more: f32,
+    pub(crate) width: [f32; 2],
+    pub(crate) more: f32,
     /// Height of a row of ray cells along l and length of a cell along r.
-    pub(super) cell: [f32; 2],
+    pub(crate) cell: [f32; 2],
     /// The columns there are, with the cumulated chance of each.
-    pub(super) kinds: &'static [RayKind],
+    pub(crate) kinds: &'static [RayKind],
 }
 
-pub(super) struct RayKind {
-    pub(super) chance: f32,
+pub(crate) struct RayKind {
+    pub(crate) chance: f32,
     /// Least and most cells across.
-    pub(super) cells: [u32; 2],
+    pub(crate) cells: [u32; 2],
     /// Height of a ray along the fibres.
-    pub(super) height: [f32; 2],
+    pub(crate) height: [f32; 2],
     /// Distance along the fibres between a ray and the next of its column.
-    pub(super) between: [f32; 2],
+    pub(crate) between: [f32; 2],
 }
 
 /// What runs along the grain between vessels and rays.
-pub(super) enum Grain {
+pub(crate) enum Grain {
     Fibres(FibreTraits),
     Tracheids(TracheidTraits),
 }
 
 #[derive(Clone, Copy)]
-pub(super) struct FibreTraits {
+pub(crate) struct FibreTraits {
     /// Distance of fibre axes.
-    pub(super) pitch: f32,
+    pub(crate) pitch: f32,
     /// Half of the wall between two fibres.
-    pub(super) half_wall: [f32; 2],
-    pub(super) length: [f32; 2],
+    pub(crate) half_wall: [f32; 2],
+    pub(crate) length: [f32; 2],
 }
 
 #[derive(Clone, Copy)]
-pub(super) struct TracheidTraits {
+pub(crate) struct TracheidTraits {
     /// Width of a growth ring.
-    pub(super) ring: f32,
+    pub(crate) ring: f32,
     /// Where in the ring earlywood ends and latewood begins, shares.
-    pub(super) transition: [f32; 2],
+    pub(crate) transition: [f32; 2],
     /// Radial distance of cells in early and late wood, walls included.
-    pub(super) radial: [f32; 2],
+    pub(crate) radial: [f32; 2],
     /// Tangential distance of cells.
-    pub(super) tangential: f32,
+    pub(crate) tangential: f32,
     /// Half of the wall between two cells in early and late wood.
-    pub(super) half_wall: [f32; 2],
-    pub(super) length: f32,
+    pub(crate) half_wall: [f32; 2],
+    pub(crate) length: f32,
 }
 
 /// Grown since the first version: its numbers are part of what a seed means.

@@ -22,7 +22,7 @@ const WIDTHS: [f32; 2] = [0.7, 1.3];
 
 /// The tracheids of one piece of wood. Bordered pits have no opening here: their membranes are
 /// finer than a voxel, and in dried spruce they are mostly closed (docs/wood.md).
-pub(super) struct Tracheids {
+pub(crate) struct Tracheids {
     traits: TracheidTraits,
     /// Where a ring begins, r.
     origin: f32,
@@ -46,7 +46,7 @@ struct File {
 }
 
 impl Tracheids {
-    pub(super) fn place(plan: &Plan, side: usize, traits: TracheidTraits, rays: &Rays) -> Self {
+    pub(crate) fn place(plan: &Plan, side: usize, traits: TracheidTraits, rays: &Rays) -> Self {
         let mut random = stream(plan, side, Feature::Fibres);
         let origin = random.random_range(0.0..traits.ring);
         let usual = traits.ring / mean_pitch(&traits);
@@ -77,7 +77,7 @@ impl Tracheids {
     }
 
     /// Half of the lesser width (um) of the lumen a point is in, or `None` in a wall.
-    pub(super) fn lumen(&self, point: WoodPoint, place: &Place) -> Option<f32> {
+    pub(crate) fn lumen(&self, point: WoodPoint, place: &Place) -> Option<f32> {
         let strip = &self.strips[place.strip];
         let begun = strip.files.iter().rfind(|file| file.low <= place.across);
         let file = begun.or(strip.files.first())?;

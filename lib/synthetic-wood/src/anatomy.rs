@@ -33,7 +33,7 @@ pub struct Target {
     pub range: [f64; 2],
 }
 
-pub(super) const fn target(value: f64, low: f64, high: f64) -> Target {
+pub(crate) const fn target(value: f64, low: f64, high: f64) -> Target {
     Target {
         value,
         range: [low, high],
@@ -82,7 +82,7 @@ impl Anatomy {
         ]
     }
 
-    pub(super) fn measure(
+    pub(crate) fn measure(
         plan: &Plan,
         adherends: &[Adherend],
         pages: impl Iterator<Item = Counts>,

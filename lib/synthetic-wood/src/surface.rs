@@ -11,7 +11,7 @@ use super::recipe::Plan;
 /// direction and phase whose amplitude grows with wavelength, scaled so that the highest
 /// asperity comes within one voxel of the bond plane and the mean recess is the plan's.
 /// Both faces stay on their side of the plane, so the adherends can be drawn apart.
-pub(super) struct Face {
+pub(crate) struct Face {
     columns: usize,
     recess: Vec<f32>,
 }
@@ -21,7 +21,7 @@ const WAVES: usize = 24;
 const WAVELENGTHS: [f32; 2] = [25.0, 160.0];
 
 impl Face {
-    pub(super) fn new(plan: &Plan, side: usize) -> Self {
+    pub(crate) fn new(plan: &Plan, side: usize) -> Self {
         let mut random = stream(plan, side, Feature::Face);
         let waves: Vec<[f32; 4]> = (0..WAVES)
             .map(|_| {
@@ -53,7 +53,7 @@ impl Face {
     }
 
     /// Distance of the wood from the bond plane above or below this place, um.
-    pub(super) fn recess(&self, column: usize, page: usize) -> f32 {
+    pub(crate) fn recess(&self, column: usize, page: usize) -> f32 {
         self.recess[page * self.columns + column]
     }
 }
