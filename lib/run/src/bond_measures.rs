@@ -10,8 +10,7 @@ use serde::Serialize;
 use units::Axis;
 
 use crate::case::Case;
-use crate::drive::RunError;
-use crate::request::RunFailure;
+use crate::failure::{RunError, RunFailure};
 use crate::resolve::Setup;
 use crate::snapshot::{in_file_axes, wood_now};
 

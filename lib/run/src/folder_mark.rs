@@ -7,8 +7,8 @@ use std::path::Path;
 use particle_file::Provenance;
 use serde::Deserialize;
 
-use crate::drive::RunError;
-use crate::request::RunFailure;
+use crate::failure::RunError;
+use crate::failure::RunFailure;
 
 /// Its name. A run holds the lock of this file.
 pub(crate) const MARKER: &str = "bondline-run.toml";

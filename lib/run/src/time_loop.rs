@@ -1,15 +1,15 @@
 //! The time loop: steps until the end, and what is written on the way.
 
-use std::io;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
-use physics::{Diagnostics, Failure, Scheme, StepReport, Stop};
+use physics::{Diagnostics, Scheme, StepReport, Stop};
 
-use crate::answers::Watch;
-use crate::checkpoint::{self, Checkpoint, Clock, Origin};
+use crate::bond_measures::Watch;
+use crate::checkpoint::{self, Checkpoint, Origin};
+use crate::clock::Clock;
 use crate::courant::Courant;
 use crate::ends::{Ahead, End, Ends};
+use crate::failure::RunError;
 use crate::folder::RunFolder;
 use crate::history::{History, RowMore};
 use crate::resolve::Setup;
@@ -18,46 +18,6 @@ use crate::verdict;
 
 /// Wall time between checkpoints.
 const CHECKPOINT_EVERY: Duration = Duration::from_secs(60);
-
-/// Why a run stopped without an end.
-#[derive(Debug, thiserror::Error)]
-pub enum RunError {
-    /// The state is no longer sound.
-    #[error("{failure}; the run stopped after step {step} at {time_s:.4e} s{checkpoint}")]
-    Unstable {
-        /// What the scheme found.
-        failure: Failure,
-        /// Last step taken.
-        step: u64,
-        /// Its time, s.
-        time_s: f64,
-        /// Where the last good checkpoint is, as the end of the sentence.
-        checkpoint: String,
-    },
-    /// An output could not be written.
-    #[error("cannot write {path}: {error}")]
-    Write {
-        /// File or folder.
-        path: String,
-        /// The system's reason.
-        error: io::Error,
-    },
-    /// A checkpoint cannot be used.
-    #[error("{0}")]
-    Checkpoint(String),
-    /// A checkpoint is of another case or particle file.
-    #[error("{0}")]
-    AnotherCase(String),
-}
-
-impl RunError {
-    pub(crate) fn write(path: &Path) -> impl Fn(io::Error) -> Self + '_ {
-        move |error| RunError::Write {
-            path: path.display().to_string(),
-            error,
-        }
-    }
-}
 
 /// What the loop needs beside setup and scheme.
 pub(crate) struct Controls<'a> {
@@ -98,7 +58,7 @@ pub(crate) struct Outcome {
 ///
 /// # Errors
 /// An unstable state or an output that cannot be written.
-pub(crate) fn drive(
+pub(crate) fn run_to_its_end(
     setup: &Setup,
     scheme: &mut dyn Scheme,
     clock: Clock,

@@ -2,17 +2,17 @@
 
 use physics::{Cure, LiquidState, Scheme};
 
-use crate::answers::Watch;
+use crate::bond_measures::Watch;
 use crate::case::Case;
 use crate::courant::Courant;
-use crate::drive::Outcome;
 use crate::expected_error;
+use crate::failure::RunFailure;
 use crate::invariants;
 use crate::left_out::LeftOut;
-use crate::request::RunFailure;
 use crate::resolve::Setup;
 use crate::snapshot::in_file_axes;
 use crate::summary::{self, Facts, Summary};
+use crate::time_loop::Outcome;
 use crate::verdict;
 
 /// What a summary repeats of the run as it was asked for.
