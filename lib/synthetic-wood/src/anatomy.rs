@@ -24,22 +24,6 @@ pub struct Anatomy {
     pub lumens: Lumens,
 }
 
-/// What the literature says of an anatomical number (docs/wood.md has the sources).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Target {
-    /// The usual value.
-    pub value: f64,
-    /// Lowest and highest value met.
-    pub range: [f64; 2],
-}
-
-pub(crate) const fn target(value: f64, low: f64, high: f64) -> Target {
-    Target {
-        value,
-        range: [low, high],
-    }
-}
-
 impl Anatomy {
     /// The numbers of [`Anatomy::values`], with their units. A box of a few cells cannot
     /// average them: they mean something in boxes of some tenths of a millimetre.

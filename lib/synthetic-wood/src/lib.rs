@@ -31,10 +31,10 @@ mod vessels;
 
 use rayon::prelude::*;
 
-pub use anatomy::{Anatomy, Target};
+pub use anatomy::Anatomy;
 pub use lumens::lumen_diameters;
 pub use recipe::{AdhesiveSystem, Recipe, RecipeError};
-pub use species::Species;
+pub use species::{Species, Target};
 
 use adherend::{Adherend, Counts, Sample};
 use cells::{Cells, State};

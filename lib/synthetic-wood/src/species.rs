@@ -1,6 +1,20 @@
 //! The species that can be grown: what their tissues are made of. Sources: docs/wood.md.
 
-use super::anatomy::{Target, target};
+/// What the literature says of an anatomical number (docs/wood.md has the sources).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// The usual value.
+    pub value: f64,
+    /// Lowest and highest value met.
+    pub range: [f64; 2],
+}
+
+const fn target(value: f64, low: f64, high: f64) -> Target {
+    Target {
+        value,
+        range: [low, high],
+    }
+}
 
 /// A species of wood.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
