@@ -7,8 +7,8 @@
 #               Courant numbers; fails where a step breaks its Courant number or the closing is out of order
 # crash         runs killed, or denied the disk, at every call by which they change their folder, and two runs
 #               into one: all end as the run in one piece, or are refused. Needs `strace` and `prlimit`
-# leave-out     what a scene pays for what it does not use: the explicit scheme against its minimal twin, the
-#               stages of the implicit one; fails beyond 2 %. Instructions need `valgrind`
+# leave-out     what a scene pays for what it does not use: instructions of the stages of both schemes; fails where a stage
+#               that a scene does without has some. Needs `valgrind`
 #
 # ONLY="slit channel" takes what has one of the words in its name and writes to out/results.
 STUDY = @$(BIN)/study $@ $(if $(ONLY),out/results,docs/results) $(ONLY)

@@ -1,9 +1,7 @@
 //! Names in documents, comments and help texts: each exists: documents, links, sections, paths of the
-//! repository, commits named in results; and the book has every document.
+//! repository; and the book has every document.
 
-mod commits;
 mod names;
-mod quoted;
 
 use std::path::{Path, PathBuf};
 
@@ -66,20 +64,6 @@ fn broken_names_are_found() {
 #[test]
 fn every_source_opens_with_what_it_holds() {
     assert_eq!(Finder::new(root()).unsaid(), Vec::<&str>::new());
-}
-
-#[test]
-fn the_readme_quotes_the_tables_of_results() {
-    let differences = quoted::differences(&root());
-    assert!(differences.is_empty(), "\n{}", differences.join("\n"));
-}
-
-#[test]
-fn commits_named_in_results_exist() {
-    match commits::missing(&root()) {
-        Ok(missing) => assert!(missing.is_empty(), "\n{}", missing.join("\n")),
-        Err(why) => eprintln!("commits of results not looked up: {why}"),
-    }
 }
 
 #[test]

@@ -7,20 +7,12 @@ use std::time::{Duration, Instant};
 
 use studies::stability::instability;
 
-use crate::workbench::{Workbench, press_arguments, said};
+use crate::workbench::{Workbench, press_arguments};
 
 /// Long enough that a signal arrives in the middle: several thousand steps.
 const SLOW: [&str; 3] = [
     "clamp.stop=0.6 us",
     "integrator.cfl=0.05",
-    "output.history_every=1 ns",
-];
-
-/// The same by the other scheme, some hundred steps.
-const SLOW_IMPLICIT: [&str; 4] = [
-    "integrator.scheme=implicit",
-    "clamp.stop=0.5 us",
-    "integrator.cfl=0.02",
     "output.history_every=1 ns",
 ];
 
@@ -59,48 +51,6 @@ fn terminate(child: &mut Child) -> Option<i32> {
         send(child, "TERM");
     }
     child.wait().unwrap().code()
-}
-
-/// Stops a run after `rows` of its history, again later, kills it, and lets it end.
-fn goes_on_bit_by_bit(changes: &[&str], rows: [usize; 3]) {
-    let bench = Workbench::with_bond();
-    bench.pressed("whole", changes, &[]);
-
-    let code = terminate(&mut started(&bench, "parts", changes, &[], rows[0]));
-    assert_eq!(code, Some(75), "stopped early and resumable");
-    assert!(bench.path("parts/checkpoint.mpts").is_file());
-    assert!(!bench.path("parts/final.mpts").exists());
-    let resume = ["--resume"];
-    let code = terminate(&mut started(&bench, "parts", changes, &resume, rows[1]));
-    assert_eq!(code, Some(75));
-    // A kill leaves no time for a checkpoint: the run goes back to the last.
-    let mut killed = started(&bench, "parts", changes, &resume, rows[2]);
-    killed.kill().unwrap();
-    killed.wait().unwrap();
-    assert!(!bench.path("parts/final.mpts").exists());
-    bench.pressed("parts", changes, &resume);
-
-    let same_sum = |file: &str| {
-        let [parts, whole] = ["parts", "whole"].map(|f| bench.sum(&format!("{f}/{file}")));
-        assert_eq!(parts, whole, "{file}");
-    };
-    same_sum("final.mpts");
-    for name in ["0000", "0001", "0002"] {
-        same_sum(&format!("snapshots/{name}.mpts"));
-    }
-    let history = |folder: &str| bench.read(&format!("{folder}/history.csv"));
-    assert_eq!(history("parts"), history("whole"));
-    assert!(!bench.path("parts/checkpoint.mpts").exists());
-}
-
-#[test]
-fn a_stopped_explicit_run_goes_on_bit_by_bit() {
-    goes_on_bit_by_bit(&SLOW, [50, 150, 250]);
-}
-
-#[test]
-fn a_stopped_implicit_run_goes_on_bit_by_bit() {
-    goes_on_bit_by_bit(&SLOW_IMPLICIT, [8, 20, 32]);
 }
 
 /// What clusters send before the end ended a run without a checkpoint.
@@ -162,55 +112,6 @@ fn a_killed_run_leaves_nothing_half_written_and_runs_again() {
         bench.read("killed/history.csv"),
         bench.read("whole/history.csv")
     );
-}
-
-#[test]
-fn a_run_folder_is_not_reused_by_accident() {
-    let bench = Workbench::with_bond();
-    bench.pressed("run", &[], &[]);
-    let state = bench.read("run/final.mpts");
-    let again = |changes: &[&str], more: &[&str]| bench.press("run", changes, more);
-
-    let refused = again(&[], &[]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(
-        said(&refused).contains("already holds a run"),
-        "{}",
-        said(&refused)
-    );
-    // The very same run has ended; another one may not take its place.
-    assert_eq!(again(&[], &["--resume"]).status.code(), Some(0));
-    let other = again(&["adhesive.viscosity=400 cP"], &["--resume"]);
-    assert_eq!(other.status.code(), Some(2));
-    assert!(said(&other).contains("another run"), "{}", said(&other));
-    let kept = again(&[], &["--resume", "--overwrite"]);
-    assert!(kept.status.success(), "{}", said(&kept));
-    assert!(bench.read("run/final.mpts") == state, "the run was touched");
-
-    let replaced = again(&["adhesive.viscosity=400 cP"], &["--resume", "--overwrite"]);
-    assert!(replaced.status.success(), "{}", said(&replaced));
-    assert!(bench.read("run/final.mpts") != state);
-}
-
-/// A checkpoint of one case is refused by another, which would continue with wrong physics.
-#[test]
-fn a_checkpoint_belongs_to_its_case() {
-    let bench = Workbench::with_bond();
-    assert_eq!(
-        terminate(&mut started(&bench, "run", &SLOW, &[], 20)),
-        Some(75)
-    );
-    let other = bench.press("run", &["clamp.stop=0.5 us"], &["--resume"]);
-    assert_eq!(other.status.code(), Some(3));
-    let told = said(&other);
-    assert!(told.contains("another case"), "{told}");
-    assert!(told.contains("(clamp.stop is \"0.5 us\", was "), "{told}");
-
-    let mut bytes = bench.read("run/checkpoint.mpts");
-    bytes.truncate(bytes.len() / 2);
-    bench.write("run/checkpoint.mpts", &bytes);
-    let damaged = bench.press("run", &SLOW, &["--resume"]);
-    assert_eq!(damaged.status.code(), Some(3), "{}", said(&damaged));
 }
 
 /// A run that becomes unstable leaves its last checkpoint and results, and goes on from there at

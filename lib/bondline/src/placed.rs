@@ -3,10 +3,8 @@
 use std::ops::Range;
 
 use particle_file::{BitGrid, BitsRef, Block};
-use units::Axis;
 
 use crate::Error;
-use crate::plane::Profile;
 
 /// Voxels of one material in place: voxel (i, j, k) fills `origin + [i, j, k] * voxel` to
 /// `origin + [i+1, j+1, k+1] * voxel`.
@@ -80,19 +78,6 @@ impl<'a> Specimen<'a> {
     /// The adhesive.
     pub fn adhesive(&self) -> Placed<'a> {
         self.adhesive
-    }
-
-    /// Wood and adhesive of each layer normal to `normal`.
-    pub(crate) fn profile(&self, normal: Axis) -> Profile {
-        let dims = self.wood.bits.dims();
-        let volume: u64 = dims.iter().map(|&n| n as u64).product();
-        let layers = dims[normal.index()].max(1) as u64;
-        Profile {
-            normal,
-            area: volume / layers,
-            wood: self.wood.bits.counts_along(normal.index()),
-            adhesive: self.adhesive.bits.counts_along(normal.index()),
-        }
     }
 }
 

@@ -22,18 +22,31 @@ const PLAIN: f64 = 0.2;
 
 /// How much of each layer normal to the bond is wood and adhesive.
 #[derive(Clone, Debug)]
-pub(crate) struct Profile {
+struct Profile {
     /// The axis the layers are normal to.
-    pub(crate) normal: Axis,
+    normal: Axis,
     /// Voxels in a layer.
-    pub(crate) area: u64,
+    area: u64,
     /// Wood voxels in each layer.
-    pub(crate) wood: Vec<u64>,
+    wood: Vec<u64>,
     /// Adhesive voxels in each layer.
-    pub(crate) adhesive: Vec<u64>,
+    adhesive: Vec<u64>,
 }
 
 impl Profile {
+    /// Wood and adhesive of each layer normal to `normal`.
+    fn of(specimen: &Specimen, normal: Axis) -> Self {
+        let (wood, adhesive) = (specimen.wood().bits, specimen.adhesive().bits);
+        let volume: u64 = wood.dims().iter().map(|&n| n as u64).product();
+        let layers = wood.dims()[normal.index()].max(1) as u64;
+        Self {
+            normal,
+            area: volume / layers,
+            wood: wood.counts_along(normal.index()),
+            adhesive: adhesive.counts_along(normal.index()),
+        }
+    }
+
     /// Adhesive less wood area fraction in a layer.
     fn contrast(&self, layer: usize) -> f64 {
         (self.adhesive[layer] as f64 - self.wood[layer] as f64) / self.area as f64
@@ -78,14 +91,14 @@ impl BondLine {
 /// No adhesive; no wood on a side; no layer in which adhesive covers more than wood; a bond that plainly lies across
 /// another axis.
 pub fn find(specimen: &Specimen, normal: Axis) -> Result<BondLine, Error> {
-    let profile = specimen.profile(normal);
+    let profile = Profile::of(specimen, normal);
     let found = along(&profile);
     let contrast = profile.contrast(profile.seed());
     let others = Axis::ALL.into_iter().filter(|axis| *axis != normal);
     let fits = others
         // No contrast is twice as much as a half.
         .filter(|_| PLAINER * contrast < 1.0)
-        .filter_map(|axis| Some((axis, along(&specimen.profile(axis)).ok()?.contrast)))
+        .filter_map(|axis| Some((axis, along(&Profile::of(specimen, axis)).ok()?.contrast)))
         .max_by(|a, b| a.1.total_cmp(&b.1));
     match fits {
         Some((fits, best)) if best > PLAIN && best > PLAINER * contrast => {

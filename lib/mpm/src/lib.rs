@@ -13,9 +13,7 @@
 //! Modules use one another in one direction, each only those named before it:
 //! `real`, `fields`, `lanes`, `simd`, `settings`, `stages` | `lattice`, `runs`, `shape`, `window`, `contact`, `walls` |
 //! `tiles`, `nodes`, `topology`, `halo` | `material`, `transfer`, `cell_mean`, `collide`, `density` |
-//! `plan`, `explicit`, `start`, `checks`, `step`, `saved`, `scheme`. Beside them stands `minimal`, the
-//! scheme at its least, on `real`, `lanes`, `simd`, `lattice`, `runs`, `shape` and `window` alone but for the
-//! name of its shape function and the steps between checks.
+//! `plan`, `explicit`, `start`, `checks`, `step`, `saved`, `scheme`.
 
 // Loops over axes and lanes index several short arrays at once.
 #![allow(clippy::needless_range_loop)]
@@ -34,7 +32,6 @@ mod halo;
 mod lanes;
 mod lattice;
 mod material;
-mod minimal;
 mod nodes;
 mod plan;
 mod real;
@@ -55,6 +52,5 @@ mod walls;
 mod window;
 
 pub use explicit::Explicit;
-pub use minimal::Minimal;
 pub use plan::{Limit, Plan};
 pub use settings::{PressureFrom, Settings, ShapeFunction, VelocityUpdate};

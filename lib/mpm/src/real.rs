@@ -4,8 +4,6 @@
 
 use physics::{Pieces, Saved, Saving};
 
-use crate::lanes::Lanes8;
-
 /// A number of a point or node.
 #[cfg(not(feature = "double"))]
 pub(crate) type Real = f32;
@@ -33,9 +31,9 @@ pub(crate) fn saved<'a>(saved: &'a Saved, name: &str) -> Result<&'a [Real], Stri
 }
 
 /// Terms after which the series of exp(x) - 1 for |x| < 1/4 is exact to rounding.
-const TERMS: usize = if BYTES == 4 { 7 } else { 13 };
+pub(crate) const TERMS: usize = if BYTES == 4 { 7 } else { 13 };
 /// 1/k!.
-const RECIPROCALS: [Real; TERMS + 1] = {
+pub(crate) const RECIPROCALS: [Real; TERMS + 1] = {
     let (mut list, mut factorial, mut k) = ([1.0; TERMS + 1], 1.0, 1);
     while k <= TERMS {
         factorial *= k as Real;
@@ -57,21 +55,4 @@ pub(crate) fn exp_m1(x: Real) -> Real {
     } else {
         x.exp() - 1.0
     }
-}
-
-/// [`exp_m1`] of eight numbers.
-#[inline(always)]
-pub(crate) fn exp_m1_of_eight<const FMA: bool>(x: Lanes8) -> Lanes8 {
-    if !x.is_within(Lanes8([0.25; 8])) {
-        let mut each = x;
-        for x in &mut each.0 {
-            *x = exp_m1(*x);
-        }
-        return each;
-    }
-    let mut tail = Lanes8([RECIPROCALS[TERMS]; 8]);
-    for k in (2..TERMS).rev() {
-        tail = Lanes8([RECIPROCALS[k]; 8]).plus::<FMA>(x.times::<FMA>(tail));
-    }
-    x.plus::<FMA>(x.times::<FMA>(x).times::<FMA>(tail))
 }

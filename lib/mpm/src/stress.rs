@@ -6,7 +6,7 @@ use crate::fields::point::J;
 use crate::gradient::Gradient;
 use crate::lanes::{Lanes8, transposed_eight};
 use crate::material::Flow;
-use crate::real::{Real, exp_m1, exp_m1_of_eight};
+use crate::real::{RECIPROCALS, Real, TERMS, exp_m1};
 use crate::tiles::Points;
 use crate::window::BATCH;
 
@@ -140,6 +140,23 @@ fn squares<const FMA: bool>(list: &[Lanes8]) -> Lanes8 {
         .times::<FMA>(list[0])
         .plus::<FMA>(list[1].times::<FMA>(list[1]));
     xy.plus::<FMA>(list[2].times::<FMA>(list[2]))
+}
+
+/// [`exp_m1`] of eight numbers.
+#[inline(always)]
+fn exp_m1_of_eight<const FMA: bool>(x: Lanes8) -> Lanes8 {
+    if !x.is_within(Lanes8([0.25; 8])) {
+        let mut each = x;
+        for x in &mut each.0 {
+            *x = exp_m1(*x);
+        }
+        return each;
+    }
+    let mut tail = Lanes8([RECIPROCALS[TERMS]; 8]);
+    for k in (2..TERMS).rev() {
+        tail = Lanes8([RECIPROCALS[k]; 8]).plus::<FMA>(x.times::<FMA>(tail));
+    }
+    x.plus::<FMA>(x.times::<FMA>(x).times::<FMA>(tail))
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::header::Kind;
-use crate::layout::{ALIGN, Element, Section};
+use crate::layout::ALIGN;
 use crate::read::{ParticleFile, Value};
+use crate::section::{Element, Section};
 
 impl ParticleFile {
     /// Reads everything: every array agrees with its checksum, the voxels of every block

@@ -4,8 +4,8 @@ use bincode::config::{Configuration, Fixint, Limit, LittleEndian};
 use bincode::{Decode, Encode};
 
 use crate::bits::BitsRef;
-use crate::layout::Section;
 use crate::limits;
+use crate::section::Section;
 
 /// Largest header accepted, also the decoder's limit, so that a forged length cannot make it
 /// allocate more. Long lists of input files are some 100 bytes per file.

@@ -9,8 +9,9 @@ use bytemuck::Pod;
 use crate::bits::BitsRef;
 use crate::error::Error;
 use crate::header::{Block, Header, Stored};
-use crate::layout::{self, END_LEN, Element, PREAMBLE, Preamble, Section};
+use crate::layout::{self, END_LEN, PREAMBLE, Preamble};
 use crate::map::Mapped;
+use crate::section::{Element, Section};
 
 /// A type that columns are made of.
 pub trait Value: Pod + Send + Sync {

@@ -6,8 +6,8 @@ use xxhash_rust::xxh3::{xxh3_64, xxh3_64_with_seed};
 use crate::bits::{BitsRef, WORD};
 use crate::error::Error;
 use crate::header::Block;
-use crate::layout::{Element, Section};
 use crate::read::ParticleFile;
+use crate::section::{Element, Section};
 
 impl ParticleFile {
     /// Checksum of the material points, independent of their order, of the order of blocks

@@ -6,8 +6,9 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::bits::BitsRef;
 use crate::header::{Block, Header, MAX_HEADER, Stored};
-use crate::layout::{self, ALIGN, Element, PREAMBLE, Preamble, Section};
+use crate::layout::{self, ALIGN, PREAMBLE, Preamble};
 use crate::read::Value;
+use crate::section::{Element, Section};
 
 /// A particle file to be written: a header and borrowed arrays.
 ///

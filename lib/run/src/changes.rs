@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::case::Case;
+use crate::failure::RunFailure;
 use crate::load;
-use crate::request::RunFailure;
 
 /// The text of the case file at `path` with `changes` (`key=value`), which parses as a case.
 ///

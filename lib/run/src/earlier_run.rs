@@ -7,11 +7,14 @@ use std::path::{Path, PathBuf};
 use particle_file::{Kind, ParticleFile, Provenance};
 use same_file::is_same_file;
 
-use crate::checkpoint::{self, Checkpoint, Clock, Origin};
-use crate::drive::RunError;
+use crate::checkpoint::{self, Checkpoint, Origin};
+use crate::clock::Clock;
+use crate::failure::RunError;
+use crate::failure::RunFailure;
 use crate::files::is_there;
-use crate::folder::{ASIDE, CHECKPOINT, FINAL, HISTORY, RESOLVED, RunFolder, SNAPSHOTS, SUMMARY};
-use crate::request::RunFailure;
+use crate::folder::{
+    ASIDE, CHECKPOINT, FINAL, HISTORY, RESOLVED, RunFolder, SNAPSHOTS, SUMMARY, snapshot_name,
+};
 use crate::resolved;
 
 /// How an existing run folder is treated.
@@ -216,11 +219,6 @@ fn snapshots(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunError> {
     }
     found.sort_unstable();
     Ok(found)
-}
-
-/// Name of a snapshot in the run folder.
-pub(crate) fn snapshot_name(number: u32) -> String {
-    format!("{SNAPSHOTS}/{number:04}.mpts")
 }
 
 /// Fails unless the snapshots from number `first` on, which go, are states that this tool wrote.

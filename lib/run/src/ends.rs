@@ -2,7 +2,7 @@
 
 use physics::{Cure, Scheme, StepLimit, Stop};
 
-use crate::checkpoint::Clock;
+use crate::clock::Clock;
 use crate::resolve::Setup;
 
 /// How a run ended.

@@ -3,11 +3,12 @@
 use std::fmt::Write;
 
 use physics::{
-    Choice, Cure, Dimensions, Motion, Press, PressStage, Regime, SET, Stages, Stop, Viscosity,
+    Choice, Cure, Dimensions, Motion, Press, PressStage, Regime, SET, Scene, Stop, Viscosity,
     WallLaw, Water,
 };
 
 use crate::case::{Case, SchemeName};
+use crate::forecast::{Forecast, duration};
 use crate::left_out::left_out;
 use crate::resolve::Setup;
 use crate::{chords, expected_error};
@@ -25,58 +26,6 @@ fn dried(water: &Water, cell_m: f64) -> String {
         0.5 * radius * leaves / water.uptake(),
         radius * radius / water.diffusivity()
     )
-}
-
-/// What a scheme expects of a run.
-#[derive(Clone, Debug)]
-pub struct Forecast {
-    /// First time step, s.
-    pub dt_s: f64,
-    /// Which limit sets it, in words.
-    pub limit: String,
-    /// Steps to the nominal end: the clamp keeps its full speed.
-    pub steps: f64,
-    /// The same to the latest end, where a pressure limit holds the clamp back.
-    pub most_steps: f64,
-    /// Largest resident memory, bytes.
-    pub memory_bytes: f64,
-    /// Wall time of a step on the threads at hand, s.
-    pub step_s: f64,
-    /// Further lines: unknowns, caps.
-    pub notes: Vec<String>,
-    /// What a step consists of.
-    pub stages: Stages,
-}
-
-/// Steps from which a run will not end: at a microsecond each they take weeks.
-const ENDLESS: f64 = 1e9;
-/// Wall time that nobody waits for unasked, s: a week.
-const PATIENCE: f64 = 7.0 * 86_400.0;
-
-impl Forecast {
-    /// A sentence where the run will not end in time or not fit into memory.
-    pub fn excess(&self) -> Option<String> {
-        let seconds = self.most_steps * self.step_s;
-        // A forecast that is not a number is beyond all bounds too.
-        let fits = |value: f64, most: f64| value <= most;
-        if !(fits(self.most_steps, ENDLESS) && fits(seconds, PATIENCE)) {
-            return Some(format!(
-                "the run would take up to {:.1e} steps of {:.2e} s, {}, where {ENDLESS:e} steps or a week are the most; the limit that binds is {}; an earlier end (stop, time_limit), a coarser cell or another scheme is needed",
-                self.most_steps,
-                self.dt_s,
-                duration(seconds),
-                self.limit
-            ));
-        }
-        let need = match self.memory_bytes.is_nan() {
-            true => u64::MAX,
-            false => self.memory_bytes as u64,
-        };
-        let short = machine::shortage(need)?;
-        Some(format!(
-            "the run would need {short}; a coarser cell, fewer points_per_direction or a smaller specimen is needed"
-        ))
-    }
 }
 
 /// The plan of a run.
@@ -119,6 +68,34 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
         out,
         "  grid               {nx} x {ny} x {nz} cells of {um:.4} um, {dimensions}"
     )?;
+    liquid_lines(out, setup)?;
+    wall_lines(out, scene)?;
+    let [x, y, z] = scene.boundary.map(Choice::name);
+    writeln!(out, "  sides              x {x}, y {y}, z {z}")?;
+    for (index, stage) in scene.programme.iter().enumerate() {
+        writeln!(out, "  stage {:<12} {}", index + 1, told(stage))?;
+    }
+    if let Some(clamp) = scene.clamp.filter(|_| scene.programme.is_empty()) {
+        let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
+            format!("at most {:.4} MPa", p / 1e6)
+        });
+        writeln!(
+            out,
+            "  clamp              {} m/s, {limit}",
+            clamp.closing_speed
+        )?;
+    }
+    writeln!(out, "  end                {}", end(setup))?;
+    let scheme = match case.integrator.scheme {
+        SchemeName::Explicit => "explicit material point method",
+        SchemeName::Implicit => "implicit, liquid as volume fractions",
+    };
+    writeln!(out, "  scheme             {scheme}")
+}
+
+/// What the liquid is and does.
+fn liquid_lines(out: &mut String, setup: &Setup) -> std::fmt::Result {
+    let scene = &setup.scene;
     writeln!(
         out,
         "  liquid             {} material points, {:.4e} m3",
@@ -170,6 +147,11 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
             dried(water, scene.grid.cell_m)
         )?;
     }
+    Ok(())
+}
+
+/// What is rigid.
+fn wall_lines(out: &mut String, scene: &Scene) -> std::fmt::Result {
     for body in &scene.bodies {
         let solid: u64 = body.blocks.iter().map(physics::VoxelBlock::count).sum();
         let motion = match body.motion {
@@ -196,22 +178,13 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
         };
         writeln!(out, "  walls              {law}")?;
     }
-    let [x, y, z] = scene.boundary.map(Choice::name);
-    writeln!(out, "  sides              x {x}, y {y}, z {z}")?;
-    for (index, stage) in scene.programme.iter().enumerate() {
-        writeln!(out, "  stage {:<12} {}", index + 1, told(stage))?;
-    }
-    if let Some(clamp) = scene.clamp.filter(|_| scene.programme.is_empty()) {
-        let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
-            format!("at most {:.4} MPa", p / 1e6)
-        });
-        writeln!(
-            out,
-            "  clamp              {} m/s, {limit}",
-            clamp.closing_speed
-        )?;
-    }
-    let end = match scene.stop {
+    Ok(())
+}
+
+/// When the run ends.
+fn end(setup: &Setup) -> String {
+    let scene = &setup.scene;
+    match scene.stop {
         Stop::Closed { travel_m } if !scene.programme.is_empty() => format!(
             "with the last stage, at the latest at {:.4e} s; the clamp stands after {:.2} um of travel",
             (scene.liquid.cure.as_ref().and_then(|cure| cure.set_at()))
@@ -226,13 +199,7 @@ fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
                 setup.time_limit_s
             )
         }
-    };
-    writeln!(out, "  end                {end}")?;
-    let scheme = match case.integrator.scheme {
-        SchemeName::Explicit => "explicit material point method",
-        SchemeName::Implicit => "implicit, liquid as volume fractions",
-    };
-    writeln!(out, "  scheme             {scheme}")
+    }
 }
 
 /// A stage of a press programme.
@@ -308,64 +275,5 @@ fn count(steps: f64) -> String {
         format!("{steps:.0}")
     } else {
         format!("{steps:.2e}")
-    }
-}
-
-fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 120.0 => format!("{s:.1} s"),
-        s if s < 7200.0 => format!("{:.1} min", s / 60.0),
-        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
-        s => format!("{:.1} days", s / 86_400.0),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_run_that_will_not_end_or_fit_is_named_with_its_limit() {
-        let forecast = |most_steps, memory_bytes| Forecast {
-            dt_s: 6e-19,
-            limit: "viscous".into(),
-            steps: 1.0,
-            most_steps,
-            memory_bytes,
-            step_s: 1e-6,
-            notes: Vec::new(),
-            stages: Stages::default(),
-        };
-        let said = forecast(6e13, 0.0).excess().expect("a refusal");
-        assert!(
-            said.contains("6.0e13 steps") && said.contains("viscous"),
-            "{said}"
-        );
-        // The paper's own runs take some 50,000 steps, a full-size one some 1e5.
-        assert_eq!(forecast(1e6, 1e6).excess(), None);
-        assert!(forecast(f64::NAN, 0.0).excess().is_some());
-        let slow = Forecast {
-            step_s: 1.0,
-            ..forecast(1e6, 0.0)
-        };
-        assert!(slow.excess().is_some_and(|said| said.contains("11.6 days")));
-        if cfg!(target_os = "linux") {
-            for bytes in [1e18, f64::NAN] {
-                let said = forecast(1.0, bytes).excess().expect("a refusal");
-                assert!(said.contains("GB of memory, and this process"), "{said}");
-            }
-        }
-    }
-
-    #[test]
-    fn durations_are_told_in_the_unit_that_suits_them() {
-        for (seconds, said) in [
-            (90.0, "90.0 s"),
-            (600.0, "10.0 min"),
-            (9000.0, "2.5 h"),
-            (216_000.0, "2.5 days"),
-        ] {
-            assert_eq!(duration(seconds), said);
-        }
     }
 }

@@ -20,10 +20,10 @@ use std::path::{Path, PathBuf};
 
 use particle_file::Provenance;
 
-use crate::drive::RunError;
+use crate::failure::RunError;
+use crate::failure::RunFailure;
 use crate::files::{is_still, is_there, sync_folder};
-use crate::mark::{self, MARKER};
-use crate::request::RunFailure;
+use crate::folder_mark::{self, MARKER};
 
 /// The state a run ended with; once it is there, the run has ended.
 pub(crate) const FINAL: &str = "final.mpts";
@@ -39,6 +39,11 @@ pub(crate) const RESOLVED: &str = "resolved.toml";
 pub(crate) const SNAPSHOTS: &str = "snapshots";
 /// A file on its way to one of the names above, in the same folder as that.
 pub(crate) const ASIDE: &str = ".mpm-run.tmp";
+
+/// Name of a snapshot in the run folder.
+pub(crate) fn snapshot_name(number: u32) -> String {
+    format!("{SNAPSHOTS}/{number:04}.mpts")
+}
 
 /// A run folder held by this process, which no other run can hold at the same time.
 #[derive(Debug)]
@@ -110,7 +115,7 @@ impl RunFolder {
     fn hold(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
         let place = path.join(MARKER);
         if fs::symlink_metadata(&place).is_ok_and(|found| !found.is_file()) {
-            return Err(mark::unknown(&place));
+            return Err(folder_mark::unknown(&place));
         }
         let open = File::options()
             .read(true)
@@ -129,7 +134,7 @@ impl RunFolder {
             }
             Err(TryLockError::Error(error)) => Some(error),
         };
-        mark::complete(&mut marker, by, &place)?;
+        folder_mark::complete(&mut marker, by, &place)?;
         sync_folder(path).map_err(RunError::write(path))?;
         Ok(Self {
             path: path.to_owned(),

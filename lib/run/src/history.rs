@@ -7,11 +7,11 @@ use std::path::PathBuf;
 use physics::{Diagnostics, StepReport, WaterState};
 use xxhash_rust::xxh3::Xxh3Default;
 
-use crate::answers::{self, Moment};
-use crate::drive::RunError;
+use crate::bond_measures::{self, Moment};
+use crate::failure::RunError;
+use crate::failure::RunFailure;
 use crate::files::is_still;
 use crate::folder::{HISTORY, RunFolder};
-use crate::request::RunFailure;
 
 /// The columns, contract first, then what the two schemes add.
 const HEADER: &str = "step,time_s,dt_s,closing_speed_m_s,displacement_m,gap_m,pressure_bottom_Pa,\
@@ -73,7 +73,7 @@ impl History {
             (cures, CURED),
             (dries, WET),
             (staged, STAGE),
-            (watched, answers::COLUMNS),
+            (watched, bond_measures::COLUMNS),
         ];
         let more = more
             .into_iter()

@@ -6,7 +6,7 @@ use particle_file::{BitGrid, BitsRef};
 use physics::{LiquidState, Motion, RigidBody, Scene, VoxelBlock, Water, WaterState};
 use units::Axis;
 
-use crate::crowding::crowded;
+use crate::crowded_liquid::crowded;
 use crate::depth::Placed;
 
 /// What was found in a state; counts of material points.

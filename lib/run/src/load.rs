@@ -9,7 +9,7 @@ use particle_file::{BitsRef, Block, Header, Kind, ParticleFile, limits};
 use physics::VoxelBlock;
 use units::Axis;
 
-use crate::request::RunFailure;
+use crate::failure::RunFailure;
 use crate::resolve::Bond;
 
 /// Bytes that the scene takes for each byte of a bond file, before a scheme asks for more: its blocks

@@ -3,93 +3,31 @@
 use std::path::{Path, PathBuf};
 
 use particle_file::{ParticleFile, Provenance};
-use physics::{Regime, StepReport};
+use physics::{Regime, Scheme, StepReport};
 use xxhash_rust::xxh3::xxh3_64;
 
-use crate::answers;
-use crate::case::{Case, CaseError};
+use crate::bond_measures;
+use crate::case::Case;
 use crate::changes::changed;
-use crate::checkpoint::{self, Checkpoint, Clock, Origin};
-use crate::conclude::{Asked, conclude};
-use crate::courant::{continued, without_cfl};
-use crate::drive::{self, Controls, RunError};
+use crate::checkpoint::{self, Checkpoint, Origin};
+use crate::clock::Clock;
+use crate::courant::{Courant, continued, without_cfl};
 use crate::earlier_run::{self, Mode};
 use crate::ends::{Ahead, End};
 use crate::expected_error;
+use crate::failure::{RunError, RunFailure};
 use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
 use crate::history::History;
-use crate::left_out::left_out;
+use crate::last_state::{Asked, conclude};
+use crate::left_out::{LeftOut, left_out};
 use crate::load;
 use crate::resolve::{self, Setup};
 use crate::resolved;
 use crate::schemes;
 use crate::snapshot::{SnapshotWriter, is_final_of};
 use crate::summary::{self, Summary};
+use crate::time_loop::{self, Controls};
 use crate::verdict;
-
-/// Why a run could not be made ready or did not end well; tools map it to exit status.
-#[derive(Debug, thiserror::Error)]
-pub enum RunFailure {
-    /// Usage or case file (exit 2).
-    #[error("{0}")]
-    Usage(String),
-    /// Unreadable or corrupt data (exit 3).
-    #[error("{0}")]
-    Data(String),
-    /// The run failed (exit 1).
-    #[error("{0}")]
-    Run(String),
-    /// The state is no longer sound (exit 1): the same run fails again.
-    #[error("{said}{checkpoint}")]
-    Unstable {
-        /// What went wrong, the same however often the run was continued.
-        said: String,
-        /// Where the last good checkpoint is, as the end of the sentence.
-        checkpoint: String,
-    },
-}
-
-impl RunFailure {
-    /// The sentence, the same however often a run was continued.
-    fn said(&self) -> String {
-        match self {
-            RunFailure::Unstable { said, .. } => said.clone(),
-            other => other.to_string(),
-        }
-    }
-}
-
-impl From<CaseError> for RunFailure {
-    fn from(error: CaseError) -> Self {
-        RunFailure::Usage(error.0)
-    }
-}
-
-impl From<RunError> for RunFailure {
-    fn from(error: RunError) -> Self {
-        match error {
-            RunError::Checkpoint(said) | RunError::AnotherCase(said) => RunFailure::Data(said),
-            RunError::Unstable {
-                failure,
-                step,
-                time_s,
-                checkpoint,
-            } => {
-                let without = RunError::Unstable {
-                    failure,
-                    step,
-                    time_s,
-                    checkpoint: String::new(),
-                };
-                RunFailure::Unstable {
-                    said: without.to_string(),
-                    checkpoint,
-                }
-            }
-            RunError::Write { .. } => RunFailure::Run(error.to_string()),
-        }
-    }
-}
 
 /// A run ready to be explained or executed.
 #[derive(Debug)]
@@ -102,6 +40,13 @@ pub struct Request {
     inputs: Vec<(String, u64)>,
     /// Where they are: no output may stand there.
     places: Vec<PathBuf>,
+}
+
+/// Where a run begins to take steps.
+struct Begun {
+    clock: Clock,
+    courant: Vec<Courant>,
+    history: History,
 }
 
 impl Request {
@@ -131,7 +76,7 @@ impl Request {
         let plain = bond.as_ref().map(load::bond).transpose()?;
         let bonded = plain.is_some();
         let setup = resolve::resolve(&parsed, plain)?;
-        answers::check(&parsed, bonded, &setup)?;
+        bond_measures::check(&parsed, bonded, &setup)?;
         Ok(Self {
             case: parsed,
             text,
@@ -204,16 +149,8 @@ impl Request {
             return Ok(None);
         }
         // What is refused must not cost a run folder.
-        let watch = answers::watch(&self.case, self.bond.as_ref(), &self.setup)?;
-        match self.excess()? {
-            Some(excess) if mode.however_long => warn(excess),
-            Some(excess) => {
-                return Err(RunFailure::Usage(format!(
-                    "{excess}; --yes-really runs it all the same"
-                )));
-            }
-            None => {}
-        }
+        let watch = bond_measures::watch(&self.case, self.bond.as_ref(), &self.setup)?;
+        self.check_patience(mode, warn)?;
         let stages = schemes::forecast(&self.case, &self.setup)?.stages;
         let resolved = resolved::text(&self.text, &self.case, &self.setup);
         // Read before there is a scheme, beside which its file need not be in memory, too.
@@ -222,39 +159,18 @@ impl Request {
             None => None,
         };
         let mut scheme = schemes::build(&self.case, &self.setup)?;
-        let cfl = schemes::cfl(&self.case);
         let folder = &match found {
             Some(found) => found,
             None => RunFolder::make(folder, &by)?,
         };
         folder.warning().into_iter().for_each(warn);
-        let (clock, courant, mut history) = match checkpoint {
-            Some(Checkpoint {
-                clock,
-                courant,
-                history,
-                saved,
-            }) => {
-                let restored = scheme.restore(&saved);
-                restored.map_err(|said| {
-                    let path = folder.place(CHECKPOINT);
-                    RunFailure::Data(format!("{}: {said}", path.display()))
-                })?;
-                let history = History::resume(folder, history)?;
-                earlier_run::forget_what_came_after(folder, &clock, &resolved)?;
-                (clock, continued(courant, clock.step, cfl), history)
-            }
-            None => {
-                earlier_run::anew(folder, mode, &resolved, &by)?;
-                let history = History::create(
-                    folder,
-                    self.setup.scene.liquid.cure.is_some(),
-                    self.setup.scene.liquid.water.is_some(),
-                    !self.setup.scene.programme.is_empty(),
-                    self.case.output.penetration,
-                )?;
-                (Clock::default(), continued(Vec::new(), 0, cfl), history)
-            }
+        let Begun {
+            clock,
+            courant,
+            mut history,
+        } = match checkpoint {
+            Some(checkpoint) => self.continued(folder, checkpoint, scheme.as_mut(), &resolved)?,
+            None => self.anew(folder, mode, &resolved, &by)?,
         };
         let watch = watch.as_ref();
         let mut controls = Controls {
@@ -273,7 +189,7 @@ impl Request {
         };
         let provenance = provenance_json(&by);
         let writer = SnapshotWriter::new(folder, &self.setup, self.bond.as_ref(), by, &identity);
-        let ended = drive::drive(
+        let ended = time_loop::run_to_its_end(
             &self.setup,
             scheme.as_mut(),
             clock,
@@ -285,19 +201,8 @@ impl Request {
         let left_out = left_out(&self.case, &self.setup, &stages);
         let outcome = match ended {
             Err(error @ RunError::Unstable { step, time_s, .. }) => {
-                let failure = RunFailure::from(error);
-                let failed = summary::Failed {
-                    end: "failed",
-                    verdict: verdict::Verdict::because(vec![failure.said()]),
-                    steps: step,
-                    time_s,
-                    expected_error: expected_error::of(&self.case, self.setup.scene.grid.cell_m),
-                    left_out,
-                    provenance,
-                };
-                // That the run failed is worse than that its folder does not say why.
-                let _ = folder.write_text(SUMMARY, &summary::text(&failed));
-                return Err(failure);
+                let at = (step, time_s);
+                return Err(self.failed(folder, error.into(), at, left_out, provenance));
             }
             ended => ended?,
         };
@@ -314,6 +219,91 @@ impl Request {
             folder.remove(CHECKPOINT)?;
         }
         Ok(Some(summary))
+    }
+
+    /// Refuses a run beyond all patience or memory unless `mode` takes it however long, and then warns.
+    fn check_patience(&self, mode: Mode, warn: &dyn Fn(String)) -> Result<(), RunFailure> {
+        match self.excess()? {
+            Some(excess) if mode.however_long => warn(excess),
+            Some(excess) => {
+                return Err(RunFailure::Usage(format!(
+                    "{excess}; --yes-really runs it all the same"
+                )));
+            }
+            None => {}
+        }
+        Ok(())
+    }
+
+    /// Brings `scheme` and `folder` to where `checkpoint` was written.
+    fn continued(
+        &self,
+        folder: &RunFolder,
+        checkpoint: Checkpoint,
+        scheme: &mut dyn Scheme,
+        resolved: &str,
+    ) -> Result<Begun, RunFailure> {
+        let restored = scheme.restore(&checkpoint.saved);
+        restored.map_err(|said| {
+            let path = folder.place(CHECKPOINT);
+            RunFailure::Data(format!("{}: {said}", path.display()))
+        })?;
+        let history = History::resume(folder, checkpoint.history)?;
+        let clock = checkpoint.clock;
+        earlier_run::forget_what_came_after(folder, &clock, resolved)?;
+        let cfl = schemes::cfl(&self.case);
+        Ok(Begun {
+            clock,
+            courant: continued(checkpoint.courant, clock.step, cfl),
+            history,
+        })
+    }
+
+    /// Makes `folder` that of a run at its start.
+    fn anew(
+        &self,
+        folder: &RunFolder,
+        mode: Mode,
+        resolved: &str,
+        by: &Provenance,
+    ) -> Result<Begun, RunFailure> {
+        earlier_run::anew(folder, mode, resolved, by)?;
+        let scene = &self.setup.scene;
+        let history = History::create(
+            folder,
+            scene.liquid.cure.is_some(),
+            scene.liquid.water.is_some(),
+            !scene.programme.is_empty(),
+            self.case.output.penetration,
+        )?;
+        Ok(Begun {
+            clock: Clock::default(),
+            courant: continued(Vec::new(), 0, schemes::cfl(&self.case)),
+            history,
+        })
+    }
+
+    /// Leaves the summary of a run that failed at this step and time (s).
+    fn failed(
+        &self,
+        folder: &RunFolder,
+        failure: RunFailure,
+        (steps, time_s): (u64, f64),
+        left_out: Vec<LeftOut>,
+        provenance: serde_json::Value,
+    ) -> RunFailure {
+        let failed = summary::Failed {
+            end: "failed",
+            verdict: verdict::Verdict::because(vec![failure.said()]),
+            steps,
+            time_s,
+            expected_error: expected_error::of(&self.case, self.setup.scene.grid.cell_m),
+            left_out,
+            provenance,
+        };
+        // That the run failed is worse than that its folder does not say why.
+        let _ = folder.write_text(SUMMARY, &summary::text(&failed));
+        failure
     }
 
     /// What makes two runs the same: the case as run, the inputs and the version.

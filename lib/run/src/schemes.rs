@@ -5,8 +5,8 @@ use mpm::{Explicit, PressureFrom, VelocityUpdate};
 use physics::{Choice, Scene, Scheme};
 
 use crate::case::{Case, CaseError, SchemeName};
-use crate::explain::Forecast;
-use crate::request::RunFailure;
+use crate::failure::RunFailure;
+use crate::forecast::Forecast;
 use crate::resolve::Setup;
 
 /// The Courant number of a case, or its scheme's own.

@@ -6,12 +6,12 @@ use particle_file::{BitsRef, Block, Draft, Header, Kind, ParticleFile, Provenanc
 use physics::{LiquidState, Scheme, ShearRate};
 use units::Axis;
 
-use crate::checkpoint::Clock;
-use crate::drive::RunError;
-use crate::earlier_run::snapshot_name;
+use crate::clock::Clock;
+use crate::failure::RunError;
+use crate::failure::RunFailure;
+use crate::folder::snapshot_name;
 use crate::folder::{FINAL, RunFolder};
 use crate::load::swap;
-use crate::request::RunFailure;
 use crate::resolve::Setup;
 
 const IDENTITY: &str = "identity";

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use physics::{Choice, Diagnostics, PressRun, StageTime};
 use serde::Serialize;
 
-use crate::answers::Answers;
+use crate::bond_measures::Answers;
 use crate::courant::Courant;
-use crate::drive::Outcome;
 use crate::ends::End;
 use crate::expected_error::ExpectedError;
 use crate::invariants::Invariants;
 use crate::left_out::LeftOut;
+use crate::time_loop::Outcome;
 use crate::verdict::Verdict;
 
 /// Content of `summary.json`.

@@ -1,6 +1,7 @@
 //! Flexible GMRES (Saad 1993, SIAM J. Sci. Comput. 14, 461-469) with restarts.
 
 use crate::SolveError;
+use crate::least_squares::LeastSquares;
 use crate::orthogonal::orthogonalise;
 use crate::vector::{Real, Work, add_scaled, dot_chunk, fit, for_chunks, for_chunks_sum};
 
@@ -74,10 +75,7 @@ pub(crate) fn fgmres<K: Operator>(
         return Ok(vec![0.0]);
     }
     if !size.is_finite() {
-        return Err(SolveError::Overflow {
-            iteration: 1,
-            residual: size,
-        });
+        return Err(overflow(0, size));
     }
     fit(&mut space.vector, b.len());
     let mut history = Vec::new();
@@ -97,12 +95,8 @@ pub(crate) fn fgmres<K: Operator>(
         if residual <= wanted {
             return Ok(history);
         }
-        let overflow = |after: usize, residual: f64| SolveError::Overflow {
-            iteration: after + 1,
-            residual: residual / size,
-        };
         if !residual.is_finite() {
-            return Err(overflow(iterations, residual));
+            return Err(overflow(iterations, residual / size));
         }
         if iterations >= limits.max_iterations {
             return Err(SolveError::NotConverged {
@@ -111,26 +105,64 @@ pub(crate) fn fgmres<K: Operator>(
                 tolerance: limits.tolerance,
             });
         }
-        let steps = limits.restart.min(limits.max_iterations - iterations);
-        let target = MARGIN * wanted;
-        let mut least_squares = LeastSquares::new(residual);
-        normalise(&space.vector, residual, slot(&mut space.basis, 0));
-        for k in 0..steps {
+        let cycle = Cycle {
+            residual,
+            target: MARGIN * wanted,
+            size,
+            steps: limits.restart.min(limits.max_iterations - iterations),
+        };
+        cycle.run(operator, preconditioner, x, space, &mut history)?;
+    }
+}
+
+fn overflow(after: usize, residual: f64) -> SolveError {
+    SolveError::Overflow {
+        iteration: after + 1,
+        residual,
+    }
+}
+
+/// The iterations between two restarts.
+struct Cycle {
+    /// Norm of the residual at the start, which is the first vector of the space.
+    residual: f64,
+    /// And that at which the cycle ends.
+    target: f64,
+    /// What residuals of the history are relative to.
+    size: f64,
+    /// Most iterations.
+    steps: usize,
+}
+
+impl Cycle {
+    /// Improves `x` and adds the residuals to `history`.
+    fn run<K: Operator>(
+        &self,
+        operator: &mut K,
+        preconditioner: &mut impl Precondition,
+        x: &mut [f64],
+        space: &mut KrylovSpace,
+        history: &mut Vec<f64>,
+    ) -> Result<(), SolveError> {
+        let mut least_squares = LeastSquares::new(self.residual);
+        normalise(&space.vector, self.residual, slot(&mut space.basis, 0));
+        for k in 0..self.steps {
             let z = slot(&mut space.preconditioned, k);
-            fit(z, b.len());
+            fit(z, x.len());
             preconditioner.apply(&space.basis[k], z);
             operator.apply(z, &mut space.vector);
             let (column, remaining) = orthogonalise(&space.basis[..=k], &mut space.vector);
             if !remaining.is_finite() {
-                return Err(overflow(iterations + k, least_squares.residual()));
+                let residual = least_squares.residual() / self.size;
+                return Err(overflow(history.len() - 1, residual));
             }
             least_squares.push(column, remaining);
-            history.push(least_squares.residual() / size);
-            if least_squares.residual() <= target || remaining == 0.0 {
+            history.push(least_squares.residual() / self.size);
+            if least_squares.residual() <= self.target || remaining == 0.0 {
                 break;
             }
             let before = history.iter().rev().nth(PATIENCE);
-            let left = before.map(|before| least_squares.residual() / (before * size));
+            let left = before.map(|before| least_squares.residual() / (before * self.size));
             let ends = match left {
                 Some(left) if left > STALLED => preconditioner.strengthen(),
                 Some(left) => left < PROMPT && k + 1 >= PATIENCE,
@@ -144,6 +176,7 @@ pub(crate) fn fgmres<K: Operator>(
         for (z, y) in space.preconditioned.iter().zip(least_squares.solve()) {
             add_scaled(x, y, z);
         }
+        Ok(())
     }
 }
 
@@ -175,65 +208,6 @@ fn normalise(vector: &[f64], length: f64, out: &mut Vec<Work>) {
             *out = Work::nearest(factor * v);
         }
     });
-}
-
-/// The small least-squares problem `min |beta e_1 - H y|`, kept triangular by Givens rotations.
-struct LeastSquares {
-    /// Columns of the triangular factor.
-    columns: Vec<Vec<f64>>,
-    rotations: Vec<(f64, f64)>,
-    rhs: Vec<f64>,
-}
-
-impl LeastSquares {
-    fn new(beta: f64) -> Self {
-        Self {
-            columns: Vec::new(),
-            rotations: Vec::new(),
-            rhs: vec![beta],
-        }
-    }
-
-    /// Appends column `(h_0..h_k, below)` of the Hessenberg matrix.
-    fn push(&mut self, mut column: Vec<f64>, below: f64) {
-        for (i, &(cosine, sine)) in self.rotations.iter().enumerate() {
-            let (upper, lower) = (column[i], column[i + 1]);
-            column[i] = cosine * upper + sine * lower;
-            column[i + 1] = cosine * lower - sine * upper;
-        }
-        let k = self.rotations.len();
-        let length = column[k].hypot(below);
-        let (cosine, sine) = if length > 0.0 {
-            (column[k] / length, below / length)
-        } else {
-            (1.0, 0.0)
-        };
-        column[k] = length;
-        let last = self.rhs[k];
-        self.rhs[k] = cosine * last;
-        self.rhs.push(-sine * last);
-        self.rotations.push((cosine, sine));
-        self.columns.push(column);
-    }
-
-    /// Norm of the residual.
-    fn residual(&self) -> f64 {
-        self.rhs.last().map_or(0.0, |r| r.abs())
-    }
-
-    /// Coefficients of the minimiser; a direction without effect gets none.
-    fn solve(&self) -> Vec<f64> {
-        let n = self.columns.len();
-        let mut y = self.rhs[..n].to_vec();
-        for i in (0..n).rev() {
-            let pivot = self.columns[i][i];
-            y[i] = if pivot > 0.0 { y[i] / pivot } else { 0.0 };
-            for j in 0..i {
-                y[j] -= self.columns[i][j] * y[i];
-            }
-        }
-        y
-    }
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ mod cause;
 mod chebyshev;
 mod csr;
 mod fgmres;
+mod least_squares;
 mod load;
 mod measure;
 mod options;

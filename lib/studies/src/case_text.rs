@@ -219,37 +219,7 @@ impl CaseText {
         if self.voxels.is_none() {
             writeln!(out, "domain = {}", corners(self.domain[0], self.domain[1]))?;
         }
-        writeln!(
-            out,
-            "\n[adhesive]\ndensity = \"{} kg/m3\"\nbulk_modulus = \"{} Pa\"",
-            self.density, self.bulk_modulus
-        )?;
-        match &self.viscosity {
-            Viscosity::Newtonian(eta) => writeln!(out, "viscosity = \"{} Pa s\"", number(*eta))?,
-            Viscosity::Table(rows) => {
-                writeln!(out, "shear_rate = \"rheometer\"\nviscosity_table = [")?;
-                for [rate, eta] in rows {
-                    writeln!(out, "  [\"{rate} 1/s\", \"{eta} Pa s\"],")?;
-                }
-                writeln!(out, "]")?;
-            }
-            Viscosity::Law(key) => writeln!(out, "shear_rate = \"rheometer\"\n{key}")?,
-        }
-        if let Some([tension, degrees]) = self.wetting {
-            writeln!(
-                out,
-                "surface_tension = \"{tension} N/m\"\ncontact_angle = \"{degrees} deg\""
-            )?;
-        }
-        if let Some(cure) = &self.cure {
-            writeln!(out, "\n[adhesive.cure]\n{}", cure.trim_end())?;
-        }
-        if let Some(water) = &self.water {
-            writeln!(out, "\n[adhesive.water]\n{}", water.trim_end())?;
-        }
-        if let Some(air) = &self.air {
-            writeln!(out, "\n[air]\n{}", air.trim_end())?;
-        }
+        self.write_adhesive(out)?;
         writeln!(out, "\n[contact]\n{}", self.contact.trim_end())?;
         if let Some(clamp) = &self.clamp {
             writeln!(out, "\n[clamp]\n{}", clamp.trim_end())?;
@@ -287,6 +257,41 @@ impl CaseText {
             if let Some(name) = body.name {
                 writeln!(out, "name = \"{name}\"")?;
             }
+        }
+        Ok(())
+    }
+
+    fn write_adhesive(&self, out: &mut String) -> std::fmt::Result {
+        writeln!(
+            out,
+            "\n[adhesive]\ndensity = \"{} kg/m3\"\nbulk_modulus = \"{} Pa\"",
+            self.density, self.bulk_modulus
+        )?;
+        match &self.viscosity {
+            Viscosity::Newtonian(eta) => writeln!(out, "viscosity = \"{} Pa s\"", number(*eta))?,
+            Viscosity::Table(rows) => {
+                writeln!(out, "shear_rate = \"rheometer\"\nviscosity_table = [")?;
+                for [rate, eta] in rows {
+                    writeln!(out, "  [\"{rate} 1/s\", \"{eta} Pa s\"],")?;
+                }
+                writeln!(out, "]")?;
+            }
+            Viscosity::Law(key) => writeln!(out, "shear_rate = \"rheometer\"\n{key}")?,
+        }
+        if let Some([tension, degrees]) = self.wetting {
+            writeln!(
+                out,
+                "surface_tension = \"{tension} N/m\"\ncontact_angle = \"{degrees} deg\""
+            )?;
+        }
+        if let Some(cure) = &self.cure {
+            writeln!(out, "\n[adhesive.cure]\n{}", cure.trim_end())?;
+        }
+        if let Some(water) = &self.water {
+            writeln!(out, "\n[adhesive.water]\n{}", water.trim_end())?;
+        }
+        if let Some(air) = &self.air {
+            writeln!(out, "\n[air]\n{}", air.trim_end())?;
         }
         Ok(())
     }

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::method::{Method, Scheme};
+use crate::scene::{Measured, Scene};
 use crate::study::side_by_side;
-use crate::verification::{Measured, Scene};
 
 /// One scene by one method.
 pub struct Job<'a> {

@@ -19,6 +19,7 @@ pub mod load_control;
 pub mod method;
 pub mod options;
 pub mod outputs;
+pub mod scene;
 pub mod stability;
 pub mod study;
 pub mod tradeoff;

@@ -129,15 +129,19 @@ impl Method {
     /// # Errors
     /// `mpm-run` could not be started, or took too long.
     pub fn attempt(&self, case: &Path, folder: &Path, more: &[&str]) -> Result<Output, String> {
+        ended(self.command(case, folder).args(more))
+    }
+
+    /// The command of a run of `case` into `folder` with one thread.
+    pub(crate) fn command(&self, case: &Path, folder: &Path) -> Command {
         let own = || outputs::bin_folder().join("mpm-run");
         let mut command = Command::new(self.program.clone().unwrap_or_else(own));
         command.arg(case).arg("-o").arg(folder);
         command.args(["--overwrite", "--quiet", "--threads", "1"]);
-        command.args(more);
         for change in &self.set {
             command.args(["--set", change]);
         }
-        ended(&mut command)
+        command
     }
 
     /// The same, which must end well.

@@ -39,7 +39,6 @@ mod source;
 mod stack;
 mod surface;
 mod swapped;
-pub mod synthetic;
 mod tiff;
 mod volume_fractions;
 mod voxel_size;

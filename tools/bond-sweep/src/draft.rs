@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use cli::Failure;
 use particle_file::{Kind as FileKind, ParticleFile};
 use run::{Request, RunFailure, changed_case};
+use serde::{Deserialize, Serialize};
 
-use crate::plan::Job;
 use crate::specimen::{self, Recipe};
 use crate::table::{Kind, Table};
 use crate::{blame, failure};
@@ -23,6 +23,16 @@ pub enum Bond {
         /// Hash of its content.
         content: String,
     },
+}
+
+/// What a run needs beside its case.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Job {
+    /// The bond file, seen from the folder of the sweep.
+    pub bond: PathBuf,
+    /// Hash of its content, where it is the user's own.
+    pub content: Option<String>,
 }
 
 /// A row of which every cell is accepted for itself.

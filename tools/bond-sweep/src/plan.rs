@@ -9,7 +9,7 @@ use cli::{Failure, Output};
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
-use crate::draft::{Bond, Draft};
+use crate::draft::{Bond, Draft, Job};
 use crate::inputs;
 use crate::table::Table;
 
@@ -43,16 +43,6 @@ pub struct Row {
     pub run: String,
     /// Its cells below [`Plan::inputs`].
     pub inputs: Vec<String>,
-}
-
-/// What a run needs beside its case.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Job {
-    /// The bond file, seen from the folder of the sweep.
-    pub bond: PathBuf,
-    /// Hash of its content, where it is the user's own.
-    pub content: Option<String>,
 }
 
 impl Plan {

@@ -1,13 +1,13 @@
-//! A synthetic specimen as a label stack: see `voxels::synthetic`.
+//! A synthetic specimen as a label stack: see `synthetic-wood`.
 
 use std::process::ExitCode;
 use std::str::FromStr;
 
 use clap::{Parser, ValueEnum};
 use cli::{Failure, Output, Record};
+use synthetic_wood::{AdhesiveSystem, Anatomy, Recipe, RecipeError, Species, Specimen};
 use units::{Angle, Length, Quantity};
 use voxels::TiffWriter;
-use voxels::synthetic::{AdhesiveSystem, Anatomy, Recipe, RecipeError, Species, Specimen};
 
 /// Grow a synthetic hybrid poplar specimen with a bond line, or undamaged wood of one of four species, as an 8-bit label stack
 ///

@@ -4,9 +4,10 @@ mod read;
 mod write;
 
 use particle_file::Provenance;
-use physics::{Choice, Saved, StepReport};
+use physics::{Choice, Saved};
 
 use crate::case::SchemeName;
+use crate::clock::Clock;
 use crate::courant::Courant;
 use crate::folder::{CHECKPOINT, RunFolder};
 use crate::history::Extent;
@@ -48,45 +49,6 @@ const HISTORY_HASH: &str = "history_hash";
 const LOST: &str = "lost";
 const ITERATIONS: &str = "iterations";
 
-/// Where a run is in time, and what it has written.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Clock {
-    /// Steps taken.
-    pub step: u64,
-    /// Time, s.
-    pub time_s: f64,
-    /// Clamp travel, m.
-    pub travel_m: f64,
-    /// When the next row of the history is due, s.
-    pub next_history_s: f64,
-    /// When the next snapshot is due, s.
-    pub next_snapshot_s: f64,
-    /// Snapshots written.
-    pub snapshots: u32,
-    /// Report of the last step, which the end of a run quotes.
-    pub last: StepReport,
-    /// Whether that step has no row in the history.
-    pub row_missing: bool,
-}
-
-impl Clock {
-    /// Refuses what is no place in time; `header_s` is the time that the file's header says.
-    fn check(&self, header_s: f64) -> Result<(), String> {
-        /// Steps that a double counts one by one.
-        const MOST_STEPS: u64 = 1 << 53;
-        let due = |t: f64| t >= 0.0; // infinite where nothing is due
-        let sound = self.time_s == header_s
-            && self.travel_m.is_finite()
-            && due(self.next_history_s)
-            && due(self.next_snapshot_s)
-            && self.step <= MOST_STEPS;
-        match sound {
-            true => Ok(()),
-            false => Err(format!("its clock is not that of a run: {self:?}")),
-        }
-    }
-}
-
 /// A run as its checkpoint holds it; `S` is what is read of the scheme's state, or what writes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint<S = Saved> {
@@ -118,7 +80,7 @@ mod tests {
     use std::fs;
 
     use particle_file::{Draft, Header, Kind};
-    use physics::{Array, Pieces, Saving};
+    use physics::{Array, Pieces, Saving, StepReport};
 
     use super::*;
     use crate::folder::tests::{by, held};

@@ -6,7 +6,7 @@ use particle_file::{Header, Kind, ParticleFile};
 use physics::{Array, Saved, StepReport};
 
 use super::*;
-use crate::drive::RunError;
+use crate::failure::RunError;
 
 /// Reads the run folder's checkpoint, if there is one.
 ///

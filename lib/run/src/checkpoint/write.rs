@@ -4,7 +4,7 @@ use particle_file::{Draft, Header, Kind};
 use physics::{Array, Saving};
 
 use super::*;
-use crate::drive::RunError;
+use crate::failure::RunError;
 
 /// Writes the run folder's checkpoint, replacing the one before. What it counts on, history and
 /// snapshots, must be on the disk by then.

@@ -75,6 +75,53 @@ fn links_and_folders_at_names_of_the_runs_are_refused() {
     refused(&bench, OVERWRITE, "not a folder of the run's own");
 }
 
+/// Nothing in a folder that is not marked is known to be a run's.
+#[test]
+fn names_of_the_runs_in_a_folder_without_a_mark_are_refused() {
+    for name in NAMES.into_iter().chain(["snapshots/photo.jpg"]) {
+        let bench = Bench::explicit();
+        fs::create_dir_all(bench.path("run/snapshots")).unwrap();
+        fs::write(bench.path("run").join(name), "theirs").unwrap();
+        for mode in [PLAIN, RESUME, OVERWRITE] {
+            refused(&bench, mode, "not marked as a run folder");
+        }
+    }
+    let bench = Bench::explicit();
+    fs::create_dir(bench.path("run")).unwrap();
+    for name in ["notes.txt", "final.tmp", "history.csv.tmp"] {
+        fs::write(bench.path("run").join(name), name).unwrap();
+    }
+    bench.ran("run", PLAIN, END);
+    assert_eq!(fs::read(bench.path("run/notes.txt")).unwrap(), b"notes.txt");
+}
+
+#[test]
+fn what_cannot_be_a_run_folder_or_its_mark_is_refused() {
+    let bench = Bench::explicit();
+    fs::write(bench.path("file"), "theirs").unwrap();
+    fs::create_dir(bench.path("linked")).unwrap();
+    fs::write(bench.path("elsewhere"), "").unwrap();
+    symlink("../elsewhere", bench.path("linked/bondline-run.toml")).unwrap();
+    fs::create_dir(bench.path("case")).unwrap();
+    fs::copy(
+        bench.path("case.toml"),
+        bench.path("case/bondline-run.toml"),
+    )
+    .unwrap();
+    for (folder, sentence) in [
+        ("file", "is a file"),
+        ("linked", "not the mark"),
+        ("case", "not the mark"),
+    ] {
+        for mode in [PLAIN, RESUME, OVERWRITE] {
+            let said = bench.run(folder, mode, END).unwrap_err().to_string();
+            assert!(said.contains(sentence), "{folder}: {said}");
+        }
+    }
+    assert_eq!(fs::read(bench.path("file")).unwrap(), b"theirs");
+    assert_eq!(fs::read(bench.path("elsewhere")).unwrap(), b"");
+}
+
 #[test]
 fn only_states_and_checkpoints_of_a_run_are_replaced() {
     let file = |kind, tool: &str| {
@@ -244,7 +291,7 @@ fn a_folder_takes_one_run_at_a_time() {
 }
 
 #[test]
-fn a_checkpoint_of_another_case_is_refused_or_replaced() {
+fn a_checkpoint_of_another_case_or_damaged_is_refused_or_replaced() {
     let bench = Bench::explicit();
     bench.ran("run", RESUME, 9);
     let before = everything(&bench.path("run"));
@@ -260,6 +307,12 @@ fn a_checkpoint_of_another_case_is_refused_or_replaced() {
         ended => panic!("{ended:?}"),
     }
     assert!(everything(&bench.path("run")) == before);
+    let checkpoint = bench.path("run/checkpoint.mpts");
+    let whole = fs::read(&checkpoint).unwrap();
+    fs::write(&checkpoint, &whole[..whole.len() / 2]).unwrap();
+    let damaged = bench.run("run", RESUME, END);
+    assert!(matches!(damaged, Err(RunFailure::Data(_))), "{damaged:?}");
+    fs::write(&checkpoint, whole).unwrap();
     let both = Mode {
         resume: true,
         ..OVERWRITE

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use synthetic_wood::lumen_diameters;
 use voxels::Stack;
-use voxels::synthetic::lumen_diameters;
 
 use crate::outputs::bin_folder;
 use crate::study::{Study, ended, said, side_by_side};

@@ -3,23 +3,26 @@
 use std::collections::HashMap;
 use std::process::Command;
 
-/// Instructions of a run of `command`; `None` without valgrind, or where the run fails.
-pub(super) fn total(command: &Command) -> Option<f64> {
-    Some(profile(command)?.0)
-}
+use crate::study::{ended, said};
 
-/// Instructions of a run, and of each of its functions with all that it calls.
-pub(super) fn profile(command: &Command) -> Option<(f64, HashMap<String, f64>)> {
-    let file = tempfile::NamedTempFile::new().ok()?;
-    let output = Command::new("valgrind")
+/// Instructions of a run of `command`, and of each of its functions with all that it calls.
+///
+/// # Errors
+/// What valgrind or the run said.
+pub(super) fn profile(command: &Command) -> Result<(f64, HashMap<String, f64>), String> {
+    let file = tempfile::NamedTempFile::new().map_err(|e| e.to_string())?;
+    let mut counted = Command::new("valgrind");
+    counted
         .arg("--tool=callgrind")
         .arg(format!("--callgrind-out-file={}", file.path().display()))
         .arg(command.get_program())
-        .args(command.get_args())
-        .output()
-        .ok()?;
-    let text = std::fs::read_to_string(file.path()).ok()?;
-    output.status.success().then(|| read(&text))
+        .args(command.get_args());
+    let output = ended(&mut counted)?;
+    if !output.status.success() {
+        return Err(said(&output));
+    }
+    let text = std::fs::read_to_string(file.path()).map_err(|e| e.to_string())?;
+    Ok(read(&text))
 }
 
 /// Reads callgrind's format: the costs of lines of the function `fn=`, and after `calls=` one line with

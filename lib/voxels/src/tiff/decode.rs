@@ -99,44 +99,43 @@ fn decode_plane(
     Ok(())
 }
 
+const SHORT: u16 = 3;
+const LONG: u16 = 4;
+const LONG8: u16 = 16;
+
+/// The tags of a page of so many `chunks` as strips but for their places: number, type and value.
+fn tags(layout: &PageLayout, chunks: usize) -> Vec<(u16, u16, u64)> {
+    let sample_format = match layout.format.sample {
+        Sample::U8 | Sample::U16 | Sample::U32 | Sample::U64 => 1,
+        Sample::I8 | Sample::I16 | Sample::I32 | Sample::I64 => 2,
+        Sample::F32 | Sample::F64 => 3,
+    };
+    let format = &layout.format;
+    let (width, height, rows) = match layout.cut {
+        Cut::Strips(rows) => (format.width as u64, format.height as u64, rows),
+        Cut::Tiles(w, h) => (w.into(), u64::from(h) * chunks as u64, h),
+    };
+    let samples = layout.samples_side_by_side() as u64;
+    vec![
+        (tag::IMAGE_WIDTH, LONG, width),
+        (tag::IMAGE_LENGTH, LONG, height),
+        (tag::BITS_PER_SAMPLE, SHORT, layout.bits.into()),
+        (tag::COMPRESSION, SHORT, layout.compression.code().into()),
+        (tag::PHOTOMETRIC, SHORT, 1), // black is zero
+        (tag::SAMPLES_PER_PIXEL, SHORT, samples),
+        (tag::ROWS_PER_STRIP, LONG, rows.into()),
+        (tag::PREDICTOR, SHORT, layout.predictor.into()),
+        (tag::SAMPLE_FORMAT, SHORT, sample_format),
+    ]
+}
+
 /// A BigTIFF of one page with these chunks as strips.
 fn as_grey_tiff(
     file: &File,
     layout: &PageLayout,
     chunks: &[(u64, u64)],
 ) -> Result<Vec<u8>, String> {
-    const SHORT: u16 = 3;
-    const LONG: u16 = 4;
-    const LONG8: u16 = 16;
-    let sample_format = match layout.format.sample {
-        Sample::U8 | Sample::U16 | Sample::U32 | Sample::U64 => 1,
-        Sample::I8 | Sample::I16 | Sample::I32 | Sample::I64 => 2,
-        Sample::F32 | Sample::F64 => 3,
-    };
-    let (width, height, rows) = match layout.cut {
-        Cut::Strips(rows) => (
-            layout.format.width as u64,
-            layout.format.height as u64,
-            rows,
-        ),
-        Cut::Tiles(w, h) => (w.into(), u64::from(h) * chunks.len() as u64, h),
-    };
-    let mut tags: Vec<(u16, u16, u64)> = vec![
-        (tag::IMAGE_WIDTH, LONG, width),
-        (tag::IMAGE_LENGTH, LONG, height),
-        (tag::BITS_PER_SAMPLE, SHORT, layout.bits.into()),
-        (tag::COMPRESSION, SHORT, layout.compression.code().into()),
-        (tag::PHOTOMETRIC, SHORT, 1), // black is zero
-        (
-            tag::SAMPLES_PER_PIXEL,
-            SHORT,
-            layout.samples_side_by_side() as u64,
-        ),
-        (tag::ROWS_PER_STRIP, LONG, rows.into()),
-        (tag::PREDICTOR, SHORT, layout.predictor.into()),
-        (tag::SAMPLE_FORMAT, SHORT, sample_format),
-    ];
-
+    let mut tags = tags(layout, chunks.len());
     // Header (16), count (8), entries (20 each), next (8), offsets, lengths, chunks.
     let entries = tags.len() + 2;
     let arrays = 16 + 8 + 20 * entries as u64 + 8;

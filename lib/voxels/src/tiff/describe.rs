@@ -1,32 +1,11 @@
 //! The image description of a TIFF as programs write it: the number of planes and the size
 //! of a voxel. ImageJ writes `key=value` lines, tifffile the shape, OME an XML document.
 
+use super::description::{Description, one_axis};
 use super::ifd::{Container, Directory, tag};
 use super::layout::PageLayout;
-use super::ome::{self, Block};
-use crate::source::Source;
+use super::ome;
 use crate::voxel_size::{VoxelSize, decimal, metres_of_unit};
-
-/// What the first page says about the whole file.
-#[derive(Debug, Default)]
-pub(crate) struct Description {
-    /// Planes in the file, if stated.
-    pub(crate) planes: Option<u64>,
-    /// Whether it gives a size of a voxel, be it no length, so that resolution tags do not.
-    pub(crate) states_size: bool,
-    /// Size of a voxel, if stated.
-    pub(crate) voxel_size: Option<VoxelSize>,
-    /// Which planes stand where, if that is told; else they stand in file order.
-    pub(crate) blocks: Vec<Block>,
-}
-
-impl Description {
-    /// The files that the planes of `source` are in; none where it holds them all.
-    pub(crate) fn files(&mut self, source: &Source) -> Vec<String> {
-        let own = source.path().file_name().unwrap_or_default();
-        ome::files(&mut self.blocks, &own.to_string_lossy())
-    }
-}
 
 /// Reads the description of the first page.
 pub(crate) fn describe(
@@ -135,15 +114,4 @@ fn shaped(axes: &[Option<u64>], layout: &PageLayout) -> Result<Description, Stri
             "its description declares a shape that is no number of planes of {format}"
         )),
     }
-}
-
-/// Refuses hyperstacks: of channels, slices and frames only one may be more than 1.
-pub(super) fn one_axis(counts: [u64; 3]) -> Result<(), String> {
-    if counts.iter().filter(|n| **n > 1).count() > 1 {
-        let [c, z, t] = counts;
-        return Err(format!(
-            "it declares {c} channels, {z} slices and {t} frames; one series of planes is accepted"
-        ));
-    }
-    Ok(())
 }

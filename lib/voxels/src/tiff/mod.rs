@@ -2,6 +2,7 @@
 
 mod decode;
 mod describe;
+mod description;
 mod encoding;
 mod ifd;
 mod layout;
@@ -22,7 +23,7 @@ use crate::colours::Shown;
 use crate::sample::PageFormat;
 use crate::source::Source;
 use crate::voxel_size::VoxelSize;
-use describe::Description;
+use description::Description;
 use ifd::{Container, Directory};
 use layout::PageLayout;
 

@@ -5,22 +5,9 @@ use std::collections::BTreeSet;
 
 use roxmltree::Node;
 
-use super::describe::{Description, one_axis};
+use super::description::{Block, Description, one_axis};
 use super::layout::PageLayout;
 use crate::voxel_size::{VoxelSize, decimal, metres_of_unit};
-
-/// Planes that follow one another in a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Block {
-    /// The first of them.
-    plane: u64,
-    /// Their file in the folder of the description; none is the file that holds it.
-    file: Option<String>,
-    /// The directory of the first.
-    directory: u64,
-    /// How many they are; none for all that the file holds from there.
-    planes: Option<u64>,
-}
 
 /// Reads a description of a file whose first page is `layout`.
 pub(crate) fn describe(text: &str, layout: &PageLayout) -> Result<Description, String> {
@@ -108,24 +95,6 @@ fn voxel_size(pixels: Node) -> Option<VoxelSize> {
         Some(_) => Some(edge("Z")?),
     };
     VoxelSize::new(edge("X")?, edge("Y")?, z, "OME metadata")
-}
-
-/// The files that the blocks name, `own` in place of none; there are none where they name one at
-/// most, which is the description's own, whatever it is called by now.
-pub(crate) fn files(blocks: &mut [Block], own: &str) -> Vec<String> {
-    let named = |blocks: &[Block]| -> BTreeSet<String> {
-        blocks
-            .iter()
-            .filter_map(|block| block.file.clone())
-            .collect()
-    };
-    if named(blocks).len() < 2 {
-        return Vec::new();
-    }
-    for block in blocks.iter_mut() {
-        block.file.get_or_insert_with(|| own.to_owned());
-    }
-    named(blocks).into_iter().collect()
 }
 
 /// The file, by its place in `files`, and the directory of each of `planes` planes; `pages` are how

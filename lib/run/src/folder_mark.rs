@@ -1,0 +1,92 @@
+//! The mark of a run folder: a file that says what the folder is.
+
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::Path;
+
+use particle_file::Provenance;
+use serde::Deserialize;
+
+use crate::failure::RunError;
+use crate::failure::RunFailure;
+
+/// Its name. A run holds the lock of this file.
+pub(crate) const MARKER: &str = "bondline-run.toml";
+
+/// Layout of a run folder.
+const FORMAT: u32 = 1;
+
+/// What is read of it.
+#[derive(Deserialize)]
+struct Mark {
+    format: u32,
+    tool: String,
+}
+
+fn text(by: &Provenance) -> String {
+    format!(
+        "# A run folder: {} replaces its own files here and leaves all others alone.\n\
+         format = {FORMAT}\ntool = \"{}\"\nversion = \"{}\"\n",
+        by.tool, by.tool, by.version
+    )
+}
+
+/// Reads the mark; one that is empty or cut off, which a kill or a user may leave, is filled in.
+///
+/// # Errors
+/// A file that is none of this tool's marks (exit 2); a failed write.
+pub(crate) fn complete(marker: &mut File, by: &Provenance, place: &Path) -> Result<(), RunFailure> {
+    let mut found = Vec::new();
+    let read = (&*marker).take(1 << 12).read_to_end(&mut found);
+    read.map_err(RunError::write(place))?;
+    if let Some(rest) = text(by).as_bytes().strip_prefix(found.as_slice()) {
+        if !rest.is_empty() {
+            let write = marker.write_all(rest).and_then(|()| marker.sync_all());
+            write.map_err(RunError::write(place))?;
+        }
+        return Ok(());
+    }
+    let known = (str::from_utf8(&found).ok())
+        .and_then(|text| toml::from_str::<Mark>(text).ok())
+        .is_some_and(|mark| mark.tool == by.tool && mark.format == FORMAT);
+    if known { Ok(()) } else { Err(unknown(place)) }
+}
+
+/// What stands at the mark's name is none.
+pub(crate) fn unknown(place: &Path) -> RunFailure {
+    RunFailure::Usage(format!(
+        "'{}' is not the mark of a run folder that this version knows: name another folder",
+        place.display()
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::folder::tests::by;
+
+    #[test]
+    fn a_mark_cut_off_is_filled_in_and_another_file_is_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().join(MARKER);
+        let opened = |content: &str, version: &str| {
+            fs::write(&place, content).unwrap();
+            let mut file = File::options().read(true).write(true).open(&place).unwrap();
+            complete(&mut file, &by(version), &place)
+        };
+        let whole = text(&by("1"));
+        for cut in [0, 10, whole.len() - 1, whole.len()] {
+            opened(&whole[..cut], "1").unwrap();
+            assert_eq!(fs::read_to_string(&place).unwrap(), whole);
+        }
+        opened(&whole, "2").unwrap();
+        assert_eq!(fs::read_to_string(&place).unwrap(), whole);
+        for other in ["[grid]\n", &whole.replace("= 1", "= 2"), "\u{0}"] {
+            let said = opened(other, "1").unwrap_err().to_string();
+            assert!(said.contains("not the mark"), "{said}");
+            assert_eq!(fs::read_to_string(&place).unwrap(), other);
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! What a run will take, and the bounds beyond which it is not started unasked.
+
+use physics::Stages;
+
+/// What a scheme expects of a run.
+#[derive(Clone, Debug)]
+pub struct Forecast {
+    /// First time step, s.
+    pub dt_s: f64,
+    /// Which limit sets it, in words.
+    pub limit: String,
+    /// Steps to the nominal end: the clamp keeps its full speed.
+    pub steps: f64,
+    /// The same to the latest end, where a pressure limit holds the clamp back.
+    pub most_steps: f64,
+    /// Largest resident memory, bytes.
+    pub memory_bytes: f64,
+    /// Wall time of a step on the threads at hand, s.
+    pub step_s: f64,
+    /// Further lines: unknowns, caps.
+    pub notes: Vec<String>,
+    /// What a step consists of.
+    pub stages: Stages,
+}
+
+/// Steps from which a run will not end: at a microsecond each they take weeks.
+const ENDLESS: f64 = 1e9;
+/// Wall time that nobody waits for unasked, s: a week.
+const PATIENCE: f64 = 7.0 * 86_400.0;
+
+impl Forecast {
+    /// A sentence where the run will not end in time or not fit into memory.
+    pub fn excess(&self) -> Option<String> {
+        let seconds = self.most_steps * self.step_s;
+        // A forecast that is not a number is beyond all bounds too.
+        let fits = |value: f64, most: f64| value <= most;
+        if !(fits(self.most_steps, ENDLESS) && fits(seconds, PATIENCE)) {
+            return Some(format!(
+                "the run would take up to {:.1e} steps of {:.2e} s, {}, where {ENDLESS:e} steps or a week are the most; the limit that binds is {}; an earlier end (stop, time_limit), a coarser cell or another scheme is needed",
+                self.most_steps,
+                self.dt_s,
+                duration(seconds),
+                self.limit
+            ));
+        }
+        let need = match self.memory_bytes.is_nan() {
+            true => u64::MAX,
+            false => self.memory_bytes as u64,
+        };
+        let short = machine::shortage(need)?;
+        Some(format!(
+            "the run would need {short}; a coarser cell, fewer points_per_direction or a smaller specimen is needed"
+        ))
+    }
+}
+
+/// A wall time in the unit that suits it.
+pub(crate) fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.1} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.1} days", s / 86_400.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_will_not_end_or_fit_is_named_with_its_limit() {
+        let forecast = |most_steps, memory_bytes| Forecast {
+            dt_s: 6e-19,
+            limit: "viscous".into(),
+            steps: 1.0,
+            most_steps,
+            memory_bytes,
+            step_s: 1e-6,
+            notes: Vec::new(),
+            stages: Stages::default(),
+        };
+        let said = forecast(6e13, 0.0).excess().expect("a refusal");
+        assert!(
+            said.contains("6.0e13 steps") && said.contains("viscous"),
+            "{said}"
+        );
+        // The paper's own runs take some 50,000 steps, a full-size one some 1e5.
+        assert_eq!(forecast(1e6, 1e6).excess(), None);
+        assert!(forecast(f64::NAN, 0.0).excess().is_some());
+        let slow = Forecast {
+            step_s: 1.0,
+            ..forecast(1e6, 0.0)
+        };
+        assert!(slow.excess().is_some_and(|said| said.contains("11.6 days")));
+        if cfg!(target_os = "linux") {
+            for bytes in [1e18, f64::NAN] {
+                let said = forecast(1.0, bytes).excess().expect("a refusal");
+                assert!(said.contains("GB of memory, and this process"), "{said}");
+            }
+        }
+    }
+
+    #[test]
+    fn durations_are_told_in_the_unit_that_suits_them() {
+        for (seconds, said) in [
+            (90.0, "90.0 s"),
+            (600.0, "10.0 min"),
+            (9000.0, "2.5 h"),
+            (216_000.0, "2.5 days"),
+        ] {
+            assert_eq!(duration(seconds), said);
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Instructions of a run by stage.
+
+use std::path::Path;
+
+use super::callgrind;
+use crate::case_text::CaseText;
+use crate::job::write_text;
+use crate::method::{Method, Scheme};
+use crate::outputs::Run;
+use crate::study::side_by_side;
+
+/// A stage and its functions, as module and function, or type and method.
+type Stage = (&'static str, &'static [&'static str]);
+
+/// Stages in the order of a step.
+fn stages(scheme: Scheme) -> &'static [Stage] {
+    match scheme {
+        Scheme::Explicit => &[
+            (CONTACT, &["Grid::see_bodies", "contact::meeting"]),
+            ("nodes", &["Block::advance"]),
+            (FILTER, &["halo::gather_filtered", "Block::refine"]),
+            ("stress", &["AnyFlow::update"]),
+            (CELL_MEAN, &["cell_mean::share_rate"]),
+            ("points move", &["collide::move_points"]),
+            (PROJECTION, &["density::project"]),
+        ],
+        Scheme::Implicit => &[
+            ("mesh of the gap", &["Implicit::fit_mesh"]),
+            (TABLE, &["Viscosities::of"]),
+            (
+                "assembly",
+                &[
+                    "halves::stiffnesses",
+                    "Problem::velocity_block",
+                    "Problem::outflow",
+                ],
+            ),
+            ("linear solve", &["SaddleSolver::solve"]),
+            (LOAD, &["SaddleSolver::solve_loaded"]),
+            ("transport", &["transport::transport"]),
+        ],
+    }
+}
+pub(super) const CONTACT: &str = "bodies at nodes";
+pub(super) const FILTER: &str = "velocity filter";
+pub(super) const CELL_MEAN: &str = "cell-mean pressure";
+pub(super) const PROJECTION: &str = "density projection";
+pub(super) const TABLE: &str = "viscosity of the shear rate";
+pub(super) const LOAD: &str = "solve at the pressure limit";
+
+/// A scene, by one scheme.
+pub(super) struct Scene {
+    pub(super) name: &'static str,
+    /// Stages that it does without.
+    pub(super) without: &'static [&'static str],
+    pub(super) method: Method,
+    pub(super) case: CaseText,
+}
+
+/// Instructions of scenes of one scheme.
+pub(super) struct Table {
+    scheme: Scheme,
+    scenes: Vec<Scene>,
+    /// Of each scene: millions per step of each stage, and of the whole run.
+    counts: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// Runs `scenes` of `scheme` in `folder`.
+    ///
+    /// # Errors
+    /// What a run said; that there is no valgrind; that no scene has a stage, because its functions are gone or were inlined.
+    pub(super) fn measure(
+        scheme: Scheme,
+        scenes: Vec<Scene>,
+        folder: &Path,
+    ) -> Result<Self, String> {
+        let counts: Result<Vec<_>, _> = side_by_side(&scenes, |scene| count(scheme, scene, folder))
+            .into_iter()
+            .collect();
+        let counts = counts?;
+        for (i, (stage, functions)) in stages(scheme).iter().enumerate() {
+            if counts.iter().all(|of_stage| of_stage[i] == 0.0) {
+                return Err(format!(
+                    "stage '{stage}': no run has a function {functions:?}"
+                ));
+            }
+        }
+        Ok(Self {
+            scheme,
+            scenes,
+            counts,
+        })
+    }
+
+    /// Whether no scene has instructions in a stage that it does without.
+    pub(super) fn absent_are_zero(&self) -> bool {
+        self.scenes.iter().zip(&self.counts).all(|(scene, counts)| {
+            (stages(self.scheme).iter().zip(counts))
+                .all(|((stage, _), count)| !scene.without.contains(stage) || *count == 0.0)
+        })
+    }
+
+    /// Stages and the whole run as rows, scenes as columns: the page's table.
+    pub(super) fn text(&self) -> String {
+        let names: Vec<&str> = self.scenes.iter().map(|scene| scene.name).collect();
+        let mut text = format!(
+            "| stage | {} |\n|---|{}\n",
+            names.join(" | "),
+            "---|".repeat(names.len())
+        );
+        for (i, name) in self.names().enumerate() {
+            let cells: Vec<String> = self.counts.iter().map(|counts| cell(counts[i])).collect();
+            text += &format!("| {name} | {} |\n", cells.join(" | "));
+        }
+        text
+    }
+
+    /// Rows of the CSV file.
+    pub(super) fn rows(&self) -> impl Iterator<Item = Vec<String>> {
+        self.scenes
+            .iter()
+            .zip(&self.counts)
+            .flat_map(|(scene, counts)| {
+                (self.names().zip(counts)).map(|(name, count)| {
+                    vec![
+                        self.scheme.name().into(),
+                        scene.name.into(),
+                        name.into(),
+                        cell(*count),
+                    ]
+                })
+            })
+    }
+
+    fn names(&self) -> impl Iterator<Item = &'static str> {
+        let stages = stages(self.scheme).iter().map(|(name, _)| *name);
+        stages.chain(["whole run"])
+    }
+}
+
+fn cell(count: f64) -> String {
+    if count == 0.0 {
+        "0".into()
+    } else {
+        format!("{count:.3}")
+    }
+}
+
+/// Millions of instructions per step of each stage of a scene, and of the whole run.
+fn count(scheme: Scheme, scene: &Scene, folder: &Path) -> Result<Vec<f64>, String> {
+    let named = |ending: &str| {
+        folder.join(format!(
+            "{}-{}{ending}",
+            scheme.name(),
+            scene.name.replace(' ', "-")
+        ))
+    };
+    let (case, run) = (named(".toml"), named(""));
+    write_text(&case, &scene.case.text(scheme.integrator()))?;
+    let (total, functions) = callgrind::profile(&scene.method.command(&case, &run))?;
+    let steps = Run { folder: run }.summary("steps");
+    let steps = steps.ok_or("the run's summary has no steps")?;
+    let of_stage = |(_, names): &Stage| {
+        let is_its = |function: &str| {
+            names
+                .iter()
+                .any(|name| function.ends_with(&format!("::{name}")))
+        };
+        functions
+            .iter()
+            .filter(|(function, _)| is_its(function))
+            .map(|(_, cost)| cost)
+            .sum()
+    };
+    let counts = stages(scheme).iter().map(of_stage).chain([total]);
+    Ok(counts.map(|count: f64| count / steps / 1e6).collect())
+}
