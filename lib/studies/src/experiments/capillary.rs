@@ -22,8 +22,8 @@ pub const GRAVITY: f64 = 9.81;
 pub const SLOWING: f64 = 88.0;
 /// What mouth and dip of the tubes run resist, as a part of k.
 const ENDS: f64 = 4.0;
-/// Mouth and front as a length of tube, diameters (`lib/implicit/tests/menisci.rs`).
-const MOUTH: f64 = 0.2;
+/// Mouth as a length of tube, diameters: half of an orifice's resistance (Sampson 1891).
+const MOUTH: f64 = 0.27;
 
 /// Radius of the tube that is run in smaller cells and with a constant angle too, m.
 const WIDEST: f64 = 1e-3;

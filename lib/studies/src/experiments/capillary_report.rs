@@ -55,7 +55,7 @@ fn plot(all: &[Rise]) -> Plot {
         "time (s)",
         "height (mm)",
     )
-    .decades();
+    .logarithmic([true, true]);
     let first = |rise: &&Rise| rise.cells == 4 && rise.slowing > 0.0;
     for rise in all.iter().filter(first) {
         let mm = 1e3 * rise.tube.radius;
@@ -78,7 +78,7 @@ fn plot(all: &[Rise]) -> Plot {
         plot = plot
             .with(&label, Mark::Line, line)
             .with_deviations(&label, Mark::Dots, &dots)
-            .with(&format!("{mm} mm, constant angle"), Mark::Line, constant);
+            .with("constant angle", Mark::Line, constant);
     }
     plot
 }

@@ -6,12 +6,11 @@ use crate::outputs::Run;
 
 /// Cells that the pool is long and wide.
 pub const POOL: [f64; 2] = [160.0, 8.0];
-/// Cells that it is deep under the tube.
-const UNDER: f64 = 3.0;
 /// Cells that the tube dips.
 pub const DIP: f64 = 1.0;
 /// States written on the way.
 const STATES: u32 = 200;
+
 /// A quarter of a tube of voxels of half a cell in a block that dips into a pool; the pool goes on along x, between mirrors, so that
 /// its surface meets the wall of the block alone.
 pub struct Voxels {
@@ -50,6 +49,11 @@ impl Voxels {
         self.area() / (POOL[0] * POOL[1])
     }
 
+    /// How deep the pool is under the tube, cells: two radii, or it would hold the liquid up on its way to the mouth.
+    fn under(&self) -> f64 {
+        f64::from(self.cells)
+    }
+
     /// Where the block ends along x, cells.
     fn wall(&self) -> f64 {
         0.5 * f64::from(self.cells) + 1.0
@@ -58,19 +62,20 @@ impl Voxels {
     /// The case.
     pub fn case(&self) -> CaseText {
         let m = |at: [f64; 3]| at.map(|x| x * self.cell);
-        let (wall, level) = (self.wall(), UNDER + DIP);
+        let (wall, under) = (self.wall(), self.under());
+        let level = under + DIP;
         let top = level + (self.tube.jurin() / self.cell).ceil() + 4.0;
         let far = [wall + POOL[0], top, POOL[1]];
         let mut bodies = vec![
-            Body::liquid([0.0; 3], m([far[0], UNDER, far[2]])),
-            Body::liquid(m([wall, UNDER, 0.0]), m([far[0], level, far[2]])),
+            Body::liquid([0.0; 3], m([far[0], under, far[2]])),
+            Body::liquid(m([wall, under, 0.0]), m([far[0], level, far[2]])),
         ];
         let beside = 0.5 * f64::from(self.cells);
-        bodies.push(Body::wall(m([0.0, UNDER, beside]), m([wall, top, far[2]])));
+        bodies.push(Body::wall(m([0.0, under, beside]), m([wall, top, far[2]])));
         for (row, &width) in self.bore.iter().enumerate() {
             let [from, to] = [row, row + 1].map(|edge| 0.5 * edge as f64);
-            bodies.push(Body::wall(m([width, UNDER, from]), m([wall, top, to])));
-            bodies.push(Body::liquid(m([0.0, UNDER, from]), m([width, level, to])));
+            bodies.push(Body::wall(m([width, under, from]), m([wall, top, to])));
+            bodies.push(Body::liquid(m([0.0, under, from]), m([width, level, to])));
         }
         let end = self.tube.end();
         CaseText {
@@ -101,7 +106,7 @@ impl Voxels {
     /// What is wrong with a state.
     pub fn heights(&self, run: &Run) -> Result<Vec<[f64; 2]>, String> {
         let (h, area) = (self.cell, self.area());
-        let within = [self.wall() * h, UNDER * h];
+        let within = [self.wall() * h, self.under() * h];
         let height = |state: &particle_file::ParticleFile| {
             let place = state.vectors("position").map_err(|e| e.to_string())?;
             let volume = (state.column::<f32>("volume")).map_err(|e| e.to_string())?;
