@@ -115,16 +115,10 @@ impl Fronts {
         let drag = |(face, velocity): (usize, &f64)| view.drag(face, *velocity);
         fronts.drag = velocity.par_iter().enumerate().map(drag).collect();
         if wetting.slowing > 0.0 {
-            let slowing = |pore: usize| match dry[pore] && narrow[pore] > 0.0 {
-                true => {
-                    let into = into(mesh, unknowns, pore).map(|(face, area)| area * velocity[face]);
-                    let section = mesh.volume(pore);
-                    narrow[pore] * wetting.slowing(into.sum::<f64>() / section) / section
-                }
-                false => 0.0,
-            };
             let pores = (0..mesh.pores.len()).into_par_iter();
-            fronts.slowing = pores.map(slowing).collect();
+            fronts.slowing = pores
+                .map(|pore| view.slowing(unknowns, pore, velocity))
+                .collect();
         }
         fronts
     }
@@ -155,6 +149,17 @@ impl View<'_> {
         let speed = if up { velocity } else { -velocity };
         let uneven = self.uneven(usize::from(f.axis), up, wet, dry);
         self.mesh.area(face) * self.wetting.held(uneven, speed)
+    }
+
+    /// Loss of the jump in a pore over what comes into it, by the velocities before the step. Its section is its volume over an
+    /// edge.
+    fn slowing(&self, unknowns: &Unknowns, pore: usize, velocity: &[f64]) -> f64 {
+        let (narrow, section) = (self.narrow[pore], self.mesh.volume(pore));
+        if !(self.dry[pore] && narrow > 0.0 && section > 0.0) {
+            return 0.0;
+        }
+        let into = into(self.mesh, unknowns, pore).map(|(face, area)| area * velocity[face]);
+        narrow * self.wetting.slowing(into.sum::<f64>() / section) / section
     }
 
     /// Half of what the narrowness varies by where a meniscus that leaves `wet` for `dry` along an axis may rest: where
