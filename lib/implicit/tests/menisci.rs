@@ -229,7 +229,13 @@ fn lucas_and_washburn_in_other_passages() {
 /// A contact line that resists by k Ca adds k narrowness/resistance widths to the length of developed flow.
 #[test]
 fn an_angle_that_depends_on_the_speed_adds_a_length() {
-    for (kind, k) in [(Passage::Slit, 5.0), (Passage::Round, 20.0)] {
+    for (kind, k) in [
+        (Passage::Slit, 5.0),
+        (Passage::Slit, 90.0),
+        (Passage::Square, 90.0),
+        (Passage::Round, 20.0),
+        (Passage::Round, 90.0),
+    ] {
         let settings = Settings {
             dynamic_angle: k,
             ..Settings::default()

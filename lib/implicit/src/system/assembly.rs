@@ -124,6 +124,7 @@ impl Problem<'_> {
             row,
             friction + drag + self.scales.inertia * self.masses[face] + FREE,
         );
+        self.add_slowing(face, entries);
         let number = |face: usize| self.unknowns.face(face);
         let ends = self.ends(face);
         for (pore, up) in [(ends[0], false), (ends[1], true)] {

@@ -30,18 +30,23 @@ pub(crate) struct Wetting {
 }
 
 impl Wetting {
-    /// Loss of the jump over the speed of a front that advanced at `speed`, no further than to an angle of 180 or 0 degrees,
-    /// and dry friction where the passage holds it by the jump of `uneven`. That knows ways, not times: in a longer step the way of the
-    /// last one counts, or fronts that come to rest would go on as far as steps grow.
-    fn drag(&self, narrow: f64, uneven: f64, speed: f64) -> f64 {
+    /// What the jump of a passage of unit narrowness loses over the speed of a meniscus that advanced at `speed`, no further than
+    /// to an angle of 180 or 0 degrees.
+    fn slowing(&self, speed: f64) -> f64 {
         let left = match speed > 0.0 {
             true => 1.0 + self.cosine,
             false => 1.0 - self.cosine,
         };
-        let slowing = self.slowing * self.viscosity;
-        let slowing = slowing.min(left * self.tension / speed.abs().max(f64::MIN_POSITIVE));
+        let most = left * self.tension / speed.abs().max(f64::MIN_POSITIVE);
+        (self.slowing * self.viscosity).min(most)
+    }
+
+    /// Dry friction over the speed of a front that advanced at `speed` where the passage holds it by the jump of `uneven`. It
+    /// knows ways, not times: in a longer step the way of the last one counts, or fronts that come to rest would go on as far
+    /// as steps grow.
+    fn held(&self, uneven: f64, speed: f64) -> f64 {
         let held = self.tension * self.cosine.abs() * uneven;
-        narrow * slowing + held / (self.shorter * speed.abs() + CAUGHT / self.dt)
+        held / (self.shorter * speed.abs() + CAUGHT / self.dt)
     }
 }
 
@@ -53,6 +58,8 @@ pub(crate) struct Fronts {
     pub(crate) pressure: Vec<f64>,
     /// Force against the velocity of each face over that; empty where contact lines resist nothing.
     pub(crate) drag: Vec<f64>,
+    /// Loss of the jump in each pore over the flow that comes into it; empty where angles do not depend on the speed.
+    pub(crate) slowing: Vec<f64>,
 }
 
 impl Fronts {
@@ -67,7 +74,7 @@ impl Fronts {
     ) -> Self {
         let mut fronts = Self {
             pressure: around,
-            drag: Vec::new(),
+            ..Self::default()
         };
         let Some(wetting) = wetting else {
             return fronts;
@@ -107,6 +114,12 @@ impl Fronts {
         };
         let drag = |(face, velocity): (usize, &f64)| view.drag(face, *velocity);
         fronts.drag = velocity.par_iter().enumerate().map(drag).collect();
+        if wetting.slowing > 0.0 {
+            let pores = (0..mesh.pores.len()).into_par_iter();
+            fronts.slowing = pores
+                .map(|pore| view.slowing(unknowns, pore, velocity))
+                .collect();
+        }
         fronts
     }
 }
@@ -124,7 +137,7 @@ struct View<'a> {
 }
 
 impl View<'_> {
-    /// What contact lines at a face resist with over its velocity.
+    /// What holds menisci at a face over its velocity.
     fn drag(&self, face: usize, velocity: f64) -> f64 {
         let f = &self.mesh.faces[face];
         let [low, high] = [f.low as usize, f.high as usize];
@@ -135,7 +148,18 @@ impl View<'_> {
         };
         let speed = if up { velocity } else { -velocity };
         let uneven = self.uneven(usize::from(f.axis), up, wet, dry);
-        self.mesh.area(face) * self.wetting.drag(self.narrow[dry], uneven, speed)
+        self.mesh.area(face) * self.wetting.held(uneven, speed)
+    }
+
+    /// Loss of the jump in a pore over what comes into it, by the velocities before the step. Its section is its volume over an
+    /// edge.
+    fn slowing(&self, unknowns: &Unknowns, pore: usize, velocity: &[f64]) -> f64 {
+        let (narrow, section) = (self.narrow[pore], self.mesh.volume(pore));
+        if !(self.dry[pore] && narrow > 0.0 && section > 0.0) {
+            return 0.0;
+        }
+        let into = into(self.mesh, unknowns, pore).map(|(face, area)| area * velocity[face]);
+        narrow * self.wetting.slowing(into.sum::<f64>() / section) / section
     }
 
     /// Half of what the narrowness varies by where a meniscus that leaves `wet` for `dry` along an axis may rest: where
@@ -166,7 +190,45 @@ impl View<'_> {
     }
 }
 
+/// Faces by which a pore without a pressure is filled by those that have one, and their areas, negative where a positive
+/// velocity leaves it.
+fn into<'a>(
+    mesh: &'a Mesh,
+    unknowns: &'a Unknowns,
+    pore: usize,
+) -> impl Iterator<Item = (usize, f64)> + 'a {
+    let ways = (0..3).flat_map(|axis| [false, true].map(|up| (axis, up)));
+    ways.flat_map(move |(axis, up)| {
+        let faces = mesh.faces_at(pore, axis, up);
+        faces.filter_map(move |face| {
+            let f = &mesh.faces[face];
+            let beside = if up { f.high } else { f.low };
+            let area = mesh.area(face);
+            let wet = unknowns.has_pressure(beside as usize);
+            wet.then_some((face, if up { -area } else { area }))
+        })
+    })
+}
+
 impl Problem<'_> {
+    /// Adds what a dynamic angle resists the velocity of a face with: what a meniscus moves by is all that comes into its pore,
+    /// or steps of a front between pores would be ways around it.
+    pub(super) fn add_slowing(&self, face: usize, entries: &mut RowEntries) {
+        let ends = self.ends(face);
+        for (dry, wet, sign) in [(ends[0], ends[1], -1.0), (ends[1], ends[0], 1.0)] {
+            let slowing = self.fronts.slowing.get(dry).copied().unwrap_or_default();
+            if slowing == 0.0 || !self.unknowns.has_pressure(wet) {
+                continue;
+            }
+            let own = sign * slowing * self.mesh.area(face);
+            for (other, area) in into(self.mesh, self.unknowns, dry) {
+                if let Some(number) = self.unknowns.face(other) {
+                    entries.add(number, own * area);
+                }
+            }
+        }
+    }
+
     /// Force on a face by what is beyond the surface of liquid that ends there.
     pub(super) fn push(&self, face: usize) -> f64 {
         let ends = self.ends(face);

@@ -91,7 +91,11 @@ pub fn experiments() -> Result<Vec<Experiment>, String> {
     cases.iter().map(experiment).collect()
 }
 
-fn rows(text: &str) -> Result<Vec<csv::StringRecord>, String> {
+/// The rows of a table of the references.
+///
+/// # Errors
+/// What is wrong with it.
+pub(super) fn rows(text: &str) -> Result<Vec<csv::StringRecord>, String> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let rows = reader.records().collect::<Result<_, _>>();
     rows.map_err(|e| e.to_string())

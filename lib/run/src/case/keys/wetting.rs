@@ -22,5 +22,5 @@ pub(super) const DYNAMIC_ANGLE: Key = Key {
     name: "dynamic_angle",
     form: || "number, at least 0".into(),
     absent: Absent::Nothing("0: the angle does not depend on the speed"),
-    text: "k of cos(angle) = cos(`contact_angle`) - k Ca where a front goes by Ca = viscosity x speed/`surface_tension`, between 0 and 180 degrees: what moves its contact line. As much as k/8 of its diameter more length of a tube, k/6 of its width of a slit: without it lumens fill too fast until they are filled many times deeper. Glycerol in glass tubes has 88; of adhesives on wood none is measured.",
+    text: "k of cos(angle) = cos(`contact_angle`) - k Ca where a front goes by Ca = viscosity x speed/`surface_tension`, between 0 and 180 degrees: what moves its contact line. As much as k/8 of its diameter more length of a tube, k/6 of its width of a slit: without it lumens fill too fast until they are filled many times deeper. Fits to glycerol in glass tubes have 61 to 103; of adhesives on wood none is measured.",
 };

@@ -1,0 +1,138 @@
+//! The case of a tube of voxels that dips into a pool.
+
+use super::capillary::{ANGLE, DENSITY, GRAVITY, TENSION, Tube, VISCOSITY};
+use crate::case_text::{Body, CaseText, Viscosity};
+use crate::outputs::Run;
+
+/// Cells that the pool is long and wide.
+pub const POOL: [f64; 2] = [160.0, 8.0];
+/// Cells that the tube dips.
+pub const DIP: f64 = 1.0;
+/// States written on the way.
+const STATES: u32 = 200;
+
+/// A quarter of a tube of voxels of half a cell in a block that dips into a pool; the pool goes on along x, between mirrors, so that
+/// its surface meets the wall of the block alone.
+pub struct Voxels {
+    tube: Tube,
+    cells: u32,
+    /// Edge of a cell, m.
+    pub cell: f64,
+    /// Width of each row of half a cell of the bore, cells.
+    bore: Vec<f64>,
+}
+
+impl Voxels {
+    /// Those of a tube with so many cells across.
+    pub fn new(tube: Tube, cells: u32) -> Self {
+        let half = 0.5 * f64::from(cells);
+        let width = |row: u32| {
+            let z = 0.5 * (f64::from(row) + 0.5);
+            let inside = |at: &u32| (0.5 * (f64::from(*at) + 0.5)).hypot(z) < half;
+            0.5 * (0..cells).filter(inside).count() as f64
+        };
+        Self {
+            tube,
+            cells,
+            cell: 2.0 * tube.radius / f64::from(cells),
+            bore: (0..cells).map(width).collect(),
+        }
+    }
+
+    /// Area of the quarter of the bore, square cells.
+    fn area(&self) -> f64 {
+        0.5 * self.bore.iter().sum::<f64>()
+    }
+
+    /// What the pool falls by while the tube fills by a length, over that.
+    pub fn falls(&self) -> f64 {
+        self.area() / (POOL[0] * POOL[1])
+    }
+
+    /// How deep the pool is under the tube, cells: two radii, or it would hold the liquid up on its way to the mouth.
+    fn under(&self) -> f64 {
+        f64::from(self.cells)
+    }
+
+    /// Where the block ends along x, cells.
+    fn wall(&self) -> f64 {
+        0.5 * f64::from(self.cells) + 1.0
+    }
+
+    /// The case.
+    pub fn case(&self) -> CaseText {
+        let m = |at: [f64; 3]| at.map(|x| x * self.cell);
+        let (wall, under) = (self.wall(), self.under());
+        let level = under + DIP;
+        let top = level + (self.tube.jurin() / self.cell).ceil() + 4.0;
+        let far = [wall + POOL[0], top, POOL[1]];
+        let mut bodies = vec![
+            Body::liquid([0.0; 3], m([far[0], under, far[2]])),
+            Body::liquid(m([wall, under, 0.0]), m([far[0], level, far[2]])),
+        ];
+        let beside = 0.5 * f64::from(self.cells);
+        bodies.push(Body::wall(m([0.0, under, beside]), m([wall, top, far[2]])));
+        for (row, &width) in self.bore.iter().enumerate() {
+            let [from, to] = [row, row + 1].map(|edge| 0.5 * edge as f64);
+            bodies.push(Body::wall(m([width, under, from]), m([wall, top, to])));
+            bodies.push(Body::liquid(m([0.0, under, from]), m([width, level, to])));
+        }
+        let end = self.tube.end();
+        CaseText {
+            density: DENSITY,
+            viscosity: Viscosity::Newtonian(VISCOSITY),
+            wetting: Some([TENSION, ANGLE]),
+            gravity: [0.0, -GRAVITY, 0.0],
+            stop: Some(end),
+            history_every: end / 100.0,
+            snapshots: STATES,
+            bodies,
+            ..CaseText::new(
+                format!(
+                    "Glycerol in a glass tube of {} mm radius, a quarter of it, {} cells across.",
+                    1e3 * self.tube.radius,
+                    self.cells
+                ),
+                self.cell,
+                3,
+                m(far),
+            )
+        }
+    }
+
+    /// Times (s) and heights over the pool (m) of the states of a run.
+    ///
+    /// # Errors
+    /// What is wrong with a state.
+    pub fn heights(&self, run: &Run) -> Result<Vec<[f64; 2]>, String> {
+        let (h, area) = (self.cell, self.area());
+        let within = [self.wall() * h, self.under() * h];
+        let height = |state: &particle_file::ParticleFile| {
+            let place = state.vectors("position").map_err(|e| e.to_string())?;
+            let volume = (state.column::<f32>("volume")).map_err(|e| e.to_string())?;
+            let inside = place
+                .iter()
+                .zip(volume)
+                .filter(|(x, _)| f64::from(x[0]) < within[0] && f64::from(x[1]) > within[1]);
+            let held: f64 = inside.map(|(_, &v)| f64::from(v)).sum();
+            let risen = held / (area * h.powi(2)) - DIP * h;
+            Ok::<_, String>([state.header().time_s, risen * (1.0 + self.falls())])
+        };
+        run.states()?.iter().map(height).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::capillary::tubes;
+    use super::*;
+
+    #[test]
+    fn a_bore_has_nearly_the_area_of_its_circle() {
+        for cells in [4, 6] {
+            let area = Voxels::new(tubes().unwrap()[2], cells).area();
+            let circle = std::f64::consts::PI * f64::from(cells).powi(2) / 16.0;
+            assert!((area / circle - 1.0).abs() < 0.04);
+        }
+    }
+}
