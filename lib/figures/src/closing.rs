@@ -89,6 +89,9 @@ impl Closing {
             }
             run.band = run.band(&Run::read(fine)?, [&travel(source)?, &travel(fine)?]);
         }
+        for (run, source) in runs.iter_mut().zip(sources) {
+            run.label = source.clone().marked()?.label;
+        }
         Ok(Self {
             runs,
             limit,

@@ -93,7 +93,7 @@ pub(crate) enum Figure {
   bond-figures view experiment=exp.mpts FLIP=flip/final.mpts --wood hidden -o fig7.pdf
   bond-figures view final.mpts --turn -60 --tilt 40 --width \"84 mm\" --dpi 600 -o view.png")]
     View(ViewArgs),
-    /// Weighted penetration of experiment and runs beside the paper's (Table 2)
+    /// Weighted penetration of experiment and runs, with errors (Table 2)
     #[command(after_help = "Examples:
   bond-figures table2 --experiment pf=experiment.csv --run pf:xpic=xpic.csv -o table2.csv
   bond-figures table2 --run pf:flip=flip.csv --run pva-pf:flip=pva-flip.csv -o -
@@ -274,6 +274,9 @@ pub(crate) struct Table2Args {
     /// pressure carried on to cells of no size, and how far the other runs are from them
     #[arg(long, value_name = "CSV")]
     pub(crate) errors: Option<Output>,
+    /// Show the paper's numbers, which are of another specimen, below ours
+    #[arg(long)]
+    pub(crate) paper: bool,
     /// The table as a picture, .svg, .png or .pdf; may be repeated
     #[arg(long, value_name = "FILE", value_parser = given(Target::file))]
     pub(crate) picture: Vec<Target>,
