@@ -8,6 +8,7 @@
 mod axes;
 mod bitmap;
 mod camera;
+mod cell_band;
 mod cell_error;
 mod closing;
 mod clouds;
