@@ -4,7 +4,8 @@ use crate::Error;
 use crate::axes::{Axis, extent};
 use crate::colour::{opaque, viridis};
 use crate::colour_bar;
-use crate::drawing::{Drawing, Point};
+use crate::drawing::Drawing;
+use crate::legend::disc;
 use crate::page::Page;
 use crate::panels::{Layout, Panels, Sheet};
 
@@ -97,13 +98,4 @@ impl Clouds {
         colour_bar::draw(&mut drawing, panels.right, top, height, &shades);
         Ok(drawing)
     }
-}
-
-fn disc([x, y]: Point, radius: f64) -> Vec<Point> {
-    (0..12)
-        .map(|i| {
-            let (sin, cos) = (f64::from(i) / 12.0 * std::f64::consts::TAU).sin_cos();
-            [x + radius * cos, y + radius * sin]
-        })
-        .collect()
 }

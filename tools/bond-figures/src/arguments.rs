@@ -7,7 +7,7 @@ use units::Axis;
 
 use crate::values::{
     Colour, Extent, Limit, Part, Shown, Target, Wood, cell, degrees, dpi, experiment, given,
-    labelled, name, part, position, run, width,
+    labelled, name, part, position, run, share, width,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -75,10 +75,10 @@ pub(crate) enum Figure {
   bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg
   bond-figures slice bond.mpts --part \"0 um:40 um,20 um:60 um\" --grid \"2 voxels\" -o fig3.svg")]
     Slice(SliceArgs),
-    /// A result of a sweep against each of its parameters
+    /// A result of a sweep with its error, pressure and time against each of its parameters
     #[command(after_help = "Examples:
   bond-figures response out/sweep/table.csv -o response.svg
-  bond-figures response sweep.csv --result ep_um -o ep.png
+  bond-figures response sweep.csv --result ep_um --error 8% -o ep.png
   bond-sweep collect sweep -o - | bond-figures response - -o response.svg")]
     Response(ResponseArgs),
     /// How a run is set up: stack, slice, adherends parted, slab put in (Fig. 2)
@@ -257,6 +257,10 @@ pub(crate) struct ResponseArgs {
     /// Column of the result to draw
     #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
     pub(crate) result: String,
+    /// Its error by the size of the cells, as a percentage; without it 4 for WP, 6 for WP of a side and 10 for
+    /// pressures, which is what small specimens show at worst
+    #[arg(long, value_name = "PERCENT", value_parser = share)]
+    pub(crate) error: Option<f64>,
     #[command(flatten)]
     pub(crate) picture: Picture,
 }

@@ -50,7 +50,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         Figure::Response(a) => {
             let inputs = Inputs::new(vec![a.sweep])?;
-            let figure = Response::read(&inputs.files()[0], &a.result).map_err(failure)?;
+            let figure = Response::read(&inputs.files()[0], &a.result, a.error).map_err(failure)?;
             write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Slice(a) => slice(a),
