@@ -66,7 +66,7 @@ fn the_page_holds_all_that_was_given_and_asks_no_network() {
         "<h2>Summary</h2>",
         "specimen",
         "voxels of ",
-        "not closed, ",
+        "<td>closed</td>",
         "Weighted penetration (um)",
     ] {
         assert!(head.contains(told), "{told}");
