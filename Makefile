@@ -4,6 +4,7 @@
 #                                 small synthetic specimens; ends with Table 2, figures and a report
 #   make SCALE=small|medium|full  the same on larger specimens
 #   make ERROR=no                 without the errors of Table 2, which take finer implicit runs
+#   make PAPER=yes                the paper's values, of another specimen, below ours in Table 2
 #   make RUNS="implicit flip"     only these of xpic, flip, frictionless, implicit, implicit-frictionless
 #   make JOBS=2 RUN_THREADS=1     so many runs side by side, on so many threads each
 #   make SET="adhesive.viscosity=500 cP clamp.max_pressure=1 MPa"   with keys of the cases changed

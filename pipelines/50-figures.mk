@@ -63,7 +63,7 @@ $(OUT)/figures/$(1)-grid.$(FIRST): $(OUT)/$(1)/bond.mpts $(BIN)/bond-figures FOR
 	$$(call made,$(BIN)/bond-figures slice "$$(NAME_$(1))=$$<" --normal $$(FRONT_$(NORMAL)) \
 	    --grid $$(call q,$$(or $$(CELL),2 voxels)) --part "0 voxels:30 voxels$$(COMMA)0 voxels:30 voxels" $$(PICTURES))
 
-$(OUT)/figures/$(1)-pressure.$(FIRST): private READS = $$(patsubst %/final.mpts,%/history.csv,$$(filter %/final.mpts,$$^))
+$(OUT)/figures/$(1)-pressure.$(FIRST): private READS = $$(foreach f,history.csv summary.json,$$(patsubst %/final.mpts,%/$$(f),$$(filter %/final.mpts,$$^)))
 $(OUT)/figures/$(1)-pressure.$(FIRST): $(RUNS:%=$(OUT)/$(1)/%/final.mpts) $(FINER:%=$(OUT)/$(1)/%-finer/final.mpts) $(BIN)/bond-figures FORCE
 	$$(call made,$(BIN)/bond-figures pressure --title "$$(NAME_$(1))" $$(call named,$(1),$$(RUNS),--run ) \
 	    $$(call named,$(1),$$(FINER),--finer ,-finer) --limit "2.5 MPa" $$(PICTURES))
@@ -95,8 +95,9 @@ FRONT_y := z
 FRONT_z := x
 $(foreach a,$(ADHESIVES),$(eval $(call figure_rules,$(a))))
 
+$(OUT)/figures/table2.$(FIRST): private READS = $(SUMMARIES)
 $(OUT)/figures/table2.$(FIRST): $(METRICS) $(EXPERIMENT_TABLES) $(BIN)/bond-figures FORCE
-	$(call made,$(BIN)/bond-figures table2 $(call table2_rows,$(RUNS)) \
+	$(call made,$(TABLE2) $(call table2_rows,$(RUNS)) \
 	    $(foreach n,$(ADHESIVES) $(RUNS) experiment,--name "$(n)=$(call name,$(n))") \
 	    $(subst -o ,--picture ,$(PICTURES)) -o $(OUT)/figures/table2.csv >/dev/null)
 

@@ -16,18 +16,19 @@ CAPTION_film := Film on an incline, points and profiles
 picture_caption = $(CAPTION_$(1)) $(foreach a,$(ADHESIVES),$(if $(filter $(a)-%,$(1)),$(NAME_$(a)): $(or $(CAPTION_$(1:$(a)-%=%)),$(1:$(a)-%=%))))
 # The run that is shown in 3D: the implicit one, whose walls are the wood's.
 SEEN := $(firstword $(filter implicit,$(RUNS)) $(RUNS))
-SHOWN_PICTURES = $(filter %.svg %.png,$(FIGURES))
+# The first two stand in the summary.
+DRAWN = $(filter %.svg %.png,$(FIGURES))
+FOREMOST = $(foreach a,$(firstword $(ADHESIVES)),$(filter %/$(a)-press.$(FIRST) %/$(a)-pressure.$(FIRST),$(DRAWN)))
+SHOWN_PICTURES = $(FOREMOST) $(filter-out $(FOREMOST),$(DRAWN))
 
 .PHONY: report
 report: $(REPORT)
 	@echo "report: $(REPORT)"
 
-$(REPORT): private READS = $(foreach file,history.csv summary.json resolved.toml,$(FINALS:final.mpts=$(file))) $(if $(FINER),$(OUT)/errors.csv)
-$(REPORT): $(OUT)/table2.csv $(FIGURES) $(FINALS) $(BIN)/bond-report FORCE
+$(REPORT): private READS = $(foreach file,summary.json resolved.toml,$(FINALS:final.mpts=$(file)))
+$(REPORT): $(METRICS) $(FIGURES) $(FINALS) $(BIN)/bond-report FORCE
 	$(call made,$(BIN)/bond-report --title "Adhesive pressed into wood: $(notdir $(OUT))" \
 	    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run "$(NAME_$(a)) $(r)=$(OUT)/$(a)/$(r)")) \
-	    --table "Table 2: weighted penetration (WP)=$(OUT)/table2.csv" \
-	    $(if $(FINER),--table "Error by the size of the cells=$(OUT)/errors.csv") \
 	    $(foreach p,$(SHOWN_PICTURES),--picture "$(strip $(call picture_caption,$(basename $(notdir $(p)))))=$(p)") \
 	    $(foreach a,$(ADHESIVES),--state "$(NAME_$(a)) $(SEEN) at the end=$(OUT)/$(a)/$(SEEN)/final.mpts") -o $@)
 

@@ -87,14 +87,14 @@ fn table_2_and_the_pressure_figure_take_the_errors() {
     assert!(made.status.success(), "{}", said(&made));
     let text = String::from_utf8(made.stdout).unwrap();
     let line = |name: &str| text.lines().rfind(|l| l.contains(name)).unwrap().to_owned();
-    assert_eq!(line(" implicit ").matches("+-").count(), 6, "{text}");
-    assert_eq!(line(" flip ").matches(['+', '-']).count(), 6, "{text}");
+    assert_eq!(line(" implicit ").matches("+-").count(), 3, "{text}");
+    assert_eq!(line(" flip ").matches(['+', '-']).count(), 3, "{text}");
     // Six numbers of each of the two runs.
     let errors = String::from_utf8(bench.read("errors.csv")).unwrap();
     assert_eq!(errors.lines().count(), 13, "{errors}");
     let table2 = String::from_utf8(bench.read("table2.csv")).unwrap();
     assert!(
-        table2.lines().next().unwrap().ends_with(",note"),
+        table2.lines().next().unwrap().contains(",note,"),
         "{table2}"
     );
 }

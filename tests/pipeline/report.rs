@@ -12,6 +12,7 @@ fn reported() -> Workbench {
         "wp-metrics -q run/final.mpts -o wp.csv
          bond-figures table2 -q --run 'pf:<i>implicit=wp.csv' -o table2.csv
          bond-figures pressure -q --run run -o pressure.svg
+         cp wp.csv run
          bond-figures slice -q run/final.mpts -o slice.png
          bond-report -q --title 'A <script>alert(1)</script> & \"b\"' --run '<b>implicit=run' \
              --table 'Table 2=table2.csv' --picture Pressure=pressure.svg --picture Slice=slice.png \
@@ -52,17 +53,29 @@ fn the_page_holds_all_that_was_given_and_asks_no_network() {
             .replace('>', "&gt;");
         text.replace('"', "&quot;").replace('\'', "&#39;")
     };
-    for file in ["run/resolved.toml", "run/summary.json"] {
-        assert!(page.contains(&escaped(&text(file))), "{file} is not whole");
-    }
-    // Every cell of the table, as it stands in the file.
+    assert!(page.contains(&escaped(&text("run/resolved.toml"))));
+    // WP of the table, rounded; the summary has it once more.
     let table = text("table2.csv");
     let row = table.lines().nth(1).unwrap();
-    for number in row.split(',').filter(|cell| cell.parse::<f64>().is_ok()) {
-        assert!(page.contains(&format!(">{number}</td>")), "{number}");
+    let wp: f64 = row.split(',').nth(5).unwrap().parse().unwrap();
+    for number in [format!(">{wp:.2}</td>"), format!(">{wp:.3}</td>")] {
+        assert!(page.contains(&number), "{number}");
     }
+    let (head, rest) = page.split_at(page.find("What to doubt").unwrap());
+    for told in [
+        "<h2>Summary</h2>",
+        "specimen",
+        "voxels of ",
+        "<td>closed</td>",
+        "Weighted penetration (um)",
+    ] {
+        assert!(head.contains(told), "{told}");
+    }
+    assert!(rest.contains("The error by the size of the cells is not known"));
+    // No JSON: neither of runs nor of the page.
+    assert!(!page.contains("&quot;verdict&quot;") && !page.contains("&quot;xxh3&quot;"));
     assert_eq!(page.matches("<h1>").count(), 1);
-    assert_eq!(page.matches("<h2>").count(), 6);
+    assert_eq!(page.matches("<h2>").count(), 5);
     assert_eq!(
         page.matches("<img alt=\"").count(),
         page.matches("<img ").count()
@@ -94,9 +107,9 @@ fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
     );
     let page = String::from_utf8(bench.read("page.html")).unwrap();
     for told in [
-        "failed: not sound.</strong> step 7: too &lt;fast&gt;",
-        "killed: not sound.</strong> there is no summary.json",
-        "not ended",
+        "failed: failed: step 7: too &lt;fast&gt;",
+        "killed: not ended: mpm-run with --resume goes on",
+        "<td>not ended</td>",
     ] {
         assert!(page.contains(told), "{told}");
     }
@@ -161,7 +174,7 @@ fn a_browser_shows_the_page_and_turns_its_pictures_into_views() {
     let plain = opened(&bench, browser, &["--dump-dom"]);
     let page = String::from_utf8_lossy(&plain.stdout);
     assert!(
-        page.contains("<h2>Runs</h2>") && !page.contains("<canvas"),
+        page.contains("<h2>Summary</h2>") && !page.contains("<canvas"),
         "{}",
         said(&plain)
     );

@@ -243,7 +243,8 @@ fn a_sweep_of_one_row_has_a_figure_and_rows_of_commas_are_none() {
     assert!(figure.status.success(), "{}", said(&figure));
     let drawn = String::from_utf8(bench.read("one.svg")).unwrap();
     assert!(
-        drawn.contains("\n1 run\n") && drawn.contains("\nrow\n"),
+        drawn.contains("\n1 run; bars: error by the size of the cells\n")
+            && drawn.contains("\nrow\n"),
         "{drawn}"
     );
 }

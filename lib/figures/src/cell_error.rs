@@ -76,6 +76,9 @@ const QUANTITIES: [Quantity; 6] = [
     },
 ];
 
+/// The first that Table 2 does not have.
+const BESIDE_TABLE2: usize = 3;
+
 impl CellErrors {
     /// Reads the runs among `cases`; `None` where none has an error.
     ///
@@ -170,7 +173,7 @@ impl CellErrors {
         writer.flush()
     }
 
-    /// The table for reading, with a heading.
+    /// EP and pressure for reading, with a heading; WP stands in Table 2.
     pub fn to_text(&self) -> String {
         let longest = self.rows.iter().map(|row| row.case.chars().count());
         let wide = longest.max().unwrap_or(0).max(16) + 1;
@@ -179,7 +182,7 @@ impl CellErrors {
              other runs: difference from those.\n",
         );
         text += &format!("{:<9} {:<wide$}", "adhesive", "case");
-        for q in &QUANTITIES {
+        for q in &QUANTITIES[BESIDE_TABLE2..] {
             let side = if q.unit == "um" { q.side } else { "end" };
             text += &format!("{:>19}", format!("{} {side} ({})", q.name, q.unit));
         }
@@ -188,7 +191,7 @@ impl CellErrors {
             .chunk_by(|a, b| (&a.adhesive, &a.case) == (&b.adhesive, &b.case))
         {
             text += &format!("\n{:<9} {:<wide$}", of_run[0].adhesive, of_run[0].case);
-            for row in of_run {
+            for row in of_run.iter().filter(|row| row.quantity >= BESIDE_TABLE2) {
                 text += &format!("{:>19}", self.cell(row));
             }
         }

@@ -1,6 +1,9 @@
 //! The figure of pressure and closing speed against time.
 
 use crate::axes::{Axis, NORMAL, SMALL, extent};
+use crate::cell_band::{Reach, band, parts};
+use plotters::style::RGBAColor;
+
 use crate::colour::{BLACK, DISTINCT, faded, opaque, series};
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::{Frame, room_below, room_beside};
@@ -27,8 +30,8 @@ struct Run {
     time: Vec<f64>,
     /// Pa; on the upper body, which the clamp drives
     pressure: Vec<f64>,
-    /// Time and the ends of what the pressure may be in cells of no size, where a finer run was given.
-    band: Vec<[f64; 3]>,
+    /// What a finer run says of the pressure, where one was given.
+    band: Vec<Reach>,
     /// m/s
     speed: Vec<f64>,
 }
@@ -48,6 +51,8 @@ const WIDTH: f64 = 800.0;
 const RIGHT: f64 = 24.0;
 /// What the bands show.
 const BAND: &str = "error of the cells' size";
+const UNSETTLED: &str = "not converged: error above the value";
+const GREY: [u8; 3] = [150; 3];
 const BAND_SHADE: f64 = 0.25;
 
 impl Closing {
@@ -87,7 +92,13 @@ impl Closing {
                     fine.label
                 )));
             }
-            run.band = run.band(&Run::read(fine)?, [&travel(source)?, &travel(fine)?]);
+            let (ways, finer) = ([travel(source)?, travel(fine)?], Run::read(fine)?);
+            let pressures = [&run.pressure[..], &finer.pressure];
+            let limit = limit.unwrap_or(f64::INFINITY);
+            run.band = band([&ways[0], &ways[1]], &run.time, pressures, limit);
+        }
+        for (run, source) in runs.iter_mut().zip(sources) {
+            run.label = source.clone().marked()?.label;
         }
         Ok(Self {
             runs,
@@ -113,9 +124,9 @@ impl Closing {
         let width = page - left - RIGHT;
         let title = measure::lines(&self.title, NORMAL + 2.0, page - 2.0 * RIGHT, 3);
         let title_height = 10.0 + 1.4 * NORMAL * title.len() as f64;
-        let banded = self.runs.iter().position(|run| !run.band.is_empty());
         let labels = self.runs.iter().map(|run| run.label.as_str());
-        let labels = labels.chain(banded.map(|_| BAND));
+        let bands = self.bands();
+        let labels = labels.chain(bands.iter().map(|(label, _)| *label));
         let legend = Legend::new(labels, Legend::LINE, width);
         let frame = |top, height| Frame {
             left,
@@ -131,13 +142,24 @@ impl Closing {
         legend.draw(
             &mut drawing,
             [left, title_height],
-            |drawing, i, ends| match banded.filter(|_| i == self.runs.len()) {
-                Some(run) => drawing.area(patch(ends), faded(series(run), BAND_SHADE)),
+            |drawing, i, ends| match i.checked_sub(self.runs.len()) {
+                Some(band) => drawing.area(patch(ends), bands[band].1),
                 None => Stroke::of_series(i).draw(drawing, &ends),
             },
         );
         self.plot(&mut drawing, &axes, &upper, &lower);
         drawing
+    }
+
+    /// Kinds of bands that there are, and how they look in the key.
+    fn bands(&self) -> Vec<(&'static str, RGBAColor)> {
+        let kind = |converged: bool| {
+            let has = |run: &Run| run.band.iter().any(|at| at.converged == converged);
+            let run = self.runs.iter().position(has)?;
+            let label = if converged { BAND } else { UNSETTLED };
+            Some((label, shade(run, converged)))
+        };
+        [true, false].into_iter().filter_map(kind).collect()
     }
 
     fn axes(&self) -> Axes {
@@ -147,7 +169,7 @@ impl Closing {
         let time = |title: String| Axis::over(title, first.min(0.0) / unit, last / unit);
         let pressures = self.runs.iter().flat_map(|run| run.pressure.iter());
         let bands = self.runs.iter().flat_map(|run| &run.band);
-        let bands = bands.flat_map(|[_, low, high]| [*low, *high]);
+        let bands = bands.flat_map(|at| [at.low, at.high]);
         let pressures = pressures
             .copied()
             .chain(bands)
@@ -171,12 +193,12 @@ impl Closing {
         let end =
             |t: f64, p: f64| upper.place(&axes.above, &axes.pressure, [t / axes.unit, p * 1e-6]);
         for (i, run) in self.runs.iter().enumerate() {
-            let lower_ends = run.band.iter().map(|&[t, low, _]| end(t, low));
-            let upper_ends = run.band.iter().rev().map(|&[t, _, high]| end(t, high));
-            drawing.area(
-                lower_ends.chain(upper_ends).collect(),
-                faded(series(i), BAND_SHADE),
-            );
+            for part in parts(&run.band) {
+                let low = part.iter().map(|at| end(at.time, at.low));
+                let high = part.iter().rev().map(|at| end(at.time, at.high));
+                let shade = shade(i, part.iter().all(|at| at.converged));
+                drawing.area(low.chain(high).collect(), shade);
+            }
         }
         for (i, run) in self.runs.iter().enumerate() {
             let stroke = Stroke::of_series(i);
@@ -231,37 +253,18 @@ impl Run {
             speed: table.data("closing_speed_m_s")?,
         })
     }
-
-    /// What a run in cells half as large says of the pressure in cells of no size: first order +- the
-    /// difference, as in `wp-metrics --finer`. Both are taken at equal `travel` of their clamps, while that
-    /// goes on, and drawn at the times of this run.
-    fn band(&self, fine: &Self, travel: [&[f64]; 2]) -> Vec<[f64; 3]> {
-        let mut farthest = f64::NEG_INFINITY;
-        let mut onwards = |&(&s, _): &(&f64, &f64)| {
-            let goes_on = s > farthest;
-            farthest = farthest.max(s);
-            goes_on
-        };
-        let rows = (travel[1].iter().zip(&fine.pressure)).filter(|row| onwards(row));
-        let band = rows.filter_map(|(&s, &fine)| {
-            let time = at(s, travel[0], &self.time)?;
-            let carried_on = 3.0 * fine - 2.0 * at(s, travel[0], &self.pressure)?;
-            Some([time, fine.min(carried_on), fine.max(carried_on)])
-        });
-        band.filter(|row| row.iter().all(|x| x.is_finite()))
-            .collect()
-    }
 }
 
-/// `y` where `x` first comes to a value between its first row and its last.
-fn at(value: f64, x: &[f64], y: &[f64]) -> Option<f64> {
-    let after = x.iter().position(|&x| x >= value)?;
-    if x[after] == value {
-        return Some(y[after]);
-    }
-    let before = after.checked_sub(1)?;
-    let part = (value - x[before]) / (x[after] - x[before]);
-    Some(y[before] + part * (y[after] - y[before]))
+fn shade(run: usize, converged: bool) -> RGBAColor {
+    let colour = if converged { series(run) } else { opaque(GREY) };
+    faded(
+        colour,
+        if converged {
+            BAND_SHADE
+        } else {
+            2.0 * BAND_SHADE
+        },
+    )
 }
 
 /// How far the clamp of a run had gone in the middles of its steps, m.

@@ -4,7 +4,9 @@ use crate::Error;
 use crate::axes::{Axis, extent};
 use crate::colour::{opaque, viridis};
 use crate::colour_bar;
-use crate::drawing::{Drawing, Point};
+use crate::drawing::Drawing;
+use crate::frame::{most_beside, room_below};
+use crate::legend::disc;
 use crate::page::Page;
 use crate::panels::{Layout, Panels, Sheet};
 
@@ -12,6 +14,7 @@ use crate::panels::{Layout, Panels, Sheet};
 #[derive(Clone, Debug)]
 pub struct Clouds {
     value: String,
+    axes: [String; 2],
     range: [f64; 2],
     radius: f64,
     clouds: Vec<(String, Vec<Spot>)>,
@@ -22,12 +25,15 @@ pub struct Clouds {
 pub type Spot = ([f64; 2], f64);
 
 const LONGEST: f64 = 360.0;
+/// About the least edge of a panel, logical pixels.
+const LEAST: f64 = 100.0;
 
 impl Clouds {
-    /// No clouds yet; `value` names what colours them over `range`, `radius` is that of a point
+    /// No clouds yet; `axes` name the places, `value` what colours them over `range`, `radius` is that of a point
     /// in the unit of the places.
-    pub fn new(value: &str, range: [f64; 2], radius: f64) -> Self {
+    pub fn new(axes: [&str; 2], value: &str, range: [f64; 2], radius: f64) -> Self {
         Self {
+            axes: axes.map(String::from),
             value: value.into(),
             range,
             radius,
@@ -69,11 +75,13 @@ impl Clouds {
             })
             .collect();
         let shades = Axis::exact(self.value.as_str(), self.range[0], self.range[1]);
+        let across = Axis::exact(self.axes[0].as_str(), x.0, x.1);
+        let up = Axis::exact(self.axes[1].as_str(), y.0, y.1);
         let layout = Layout {
             top: 10.0,
             longest: LONGEST,
-            left: 24.0,
-            below: 24.0,
+            left: most_beside(&up, LEAST) + 4.0,
+            below: room_below(&across, LEAST) + 8.0,
             right: colour_bar::width(&shades),
         };
         let panels = Panels::place(&sheets, layout, &self.page);
@@ -85,9 +93,8 @@ impl Clouds {
         let bottom = panels.bottom.max(top + height + layout.below);
         let mut drawing = Drawing::new(self.page, page, bottom);
         panels.draw_captions(&mut drawing);
-        let (across, up) = (Axis::exact("", x.0, x.1), Axis::exact("", y.0, y.1));
         for ((_, points), frame) in self.clouds.iter().zip(&panels.frames) {
-            frame.outline(&mut drawing);
+            frame.draw(&mut drawing, &across, &up, false);
             let radius = self.radius / (x.1 - x.0) * frame.width;
             for (place, value) in points {
                 let disc = disc(frame.place(&across, &up, *place), radius);
@@ -97,13 +104,4 @@ impl Clouds {
         colour_bar::draw(&mut drawing, panels.right, top, height, &shades);
         Ok(drawing)
     }
-}
-
-fn disc([x, y]: Point, radius: f64) -> Vec<Point> {
-    (0..12)
-        .map(|i| {
-            let (sin, cos) = (f64::from(i) / 12.0 * std::f64::consts::TAU).sin_cos();
-            [x + radius * cos, y + radius * sin]
-        })
-        .collect()
 }

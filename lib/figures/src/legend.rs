@@ -16,7 +16,12 @@ pub(crate) struct Stroke {
     pub(crate) colour: RGBAColor,
     dashes: Option<[f64; 2]>,
     width: f64,
+    /// Radius of a point.
+    dot: f64,
 }
+
+/// Radii of points of the i-th series: those of later ones leave a rim of those that they cover.
+const DOTS: [f64; 4] = [5.2, 4.0, 2.8, 1.8];
 
 impl Stroke {
     pub(crate) fn of_series(i: usize) -> Self {
@@ -24,6 +29,7 @@ impl Stroke {
             colour: crate::colour::series(i),
             dashes: DASHES[i % DASHES.len()],
             width: if i == 0 { 2.6 } else { 2.0 },
+            dot: DOTS[i % DOTS.len()],
         }
     }
 
@@ -32,7 +38,7 @@ impl Stroke {
         for run in points.split(|p| !(p[0].is_finite() && p[1].is_finite())) {
             match (run, self.dashes) {
                 ([], _) => {}
-                ([point], _) => drawing.area(dot(*point), self.colour),
+                ([point], _) => drawing.area(disc(*point, self.dot), self.colour),
                 (_, Some(dashes)) => drawing.dashes(run, self.colour, self.width, dashes),
                 (_, None) => drawing.line(run.to_vec(), self.colour, self.width),
             }
@@ -40,12 +46,12 @@ impl Stroke {
     }
 }
 
-fn dot([x, y]: Point) -> Vec<Point> {
-    const RADIUS: f64 = 4.0;
+/// A disc about a place.
+pub(crate) fn disc([x, y]: Point, radius: f64) -> Vec<Point> {
     (0..16)
         .map(|i| {
             let (sin, cos) = (f64::from(i) / 16.0 * std::f64::consts::TAU).sin_cos();
-            [x + RADIUS * cos, y + RADIUS * sin]
+            [x + radius * cos, y + radius * sin]
         })
         .collect()
 }

@@ -1,23 +1,26 @@
 //! The response of a sweep to each of its parameters.
 
 use crate::axes::{Axis, NORMAL};
-use crate::colour::DISTINCT;
+use crate::colour::{DISTINCT, opaque};
+use crate::column_name::worded;
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::{Frame, room_below, room_beside};
-use crate::legend::{Legend, Stroke};
+use crate::legend::{Legend, Stroke, disc};
 use crate::measure::{self, LINE};
+use crate::outcome::{Outcome, axis};
 use crate::page::Page;
 use crate::panels::{Layout, Panels, Sheet};
 use crate::table::Table;
 use crate::{Error, Labelled};
 
-/// A result of a sweep against each of its parameters, a panel each, from the CSV of
+/// A result of a sweep with its error, pressure and time against each of its parameters, a panel each, from the CSV of
 /// `bond-sweep collect`. Runs that differ in that parameter alone are joined by a line.
 #[derive(Clone, Debug)]
 pub struct Response {
-    result: String,
-    /// Values of the result; NaN where a run has none.
-    values: Vec<f64>,
+    /// The one asked for, then those that stand beside it.
+    results: Vec<Outcome>,
+    /// Runs that ended at their time limit before closing.
+    open: Vec<bool>,
     parameters: Vec<Parameter>,
     /// The cells of each row but the numbers of `parameters`.
     words: Vec<String>,
@@ -32,8 +35,10 @@ struct Parameter {
 
 /// The column from which on a row holds results.
 const FIRST_RESULT: &str = "status";
-/// Parameters whose largest value is more than so many times the smallest get a logarithmic axis.
-const LOGARITHMIC: f64 = 20.0;
+/// Results that stand beside the one asked for.
+const BESIDE: [&str; 2] = ["pressure_pa", "time_s"];
+/// Half the width of the ends of a bar, logical pixels.
+const CAP: f64 = 5.0;
 
 /// Longest and about the least edge of a panel, logical pixels, and height over width.
 const LONGEST: f64 = 380.0;
@@ -42,17 +47,33 @@ const HEIGHT: f64 = 0.74;
 const MARGIN: f64 = 24.0;
 
 impl Response {
-    /// Reads `result`, a column of numbers, and every parameter with more than one number; where
+    /// Reads `result`, a column of numbers, known to a relative `error` (by default what small specimens show), pressure
+    /// and time where there are any, and every parameter with more than one number; where
     /// there is none, the row.
     ///
     /// # Errors
     /// [`Error::Data`] for a table that is not of a sweep or a result without a number.
-    pub fn read(sweep: &Labelled, result: &str) -> Result<Self, Error> {
+    pub fn read(sweep: &Labelled, result: &str, error: Option<f64>) -> Result<Self, Error> {
         let table = Table::read(&sweep.path)?;
         let values = table.data(result)?;
+        let rows = values.len();
+        let mut results = vec![Outcome::new(result, values, error)];
+        for name in BESIDE.into_iter().filter(|name| *name != result) {
+            if table.has(name) {
+                results.push(Outcome::new(name, table.data(name)?, None));
+            }
+        }
+        let open = match table.has("end") {
+            true => table
+                .texts("end")?
+                .iter()
+                .map(|end| *end == "time-limit")
+                .collect(),
+            false => vec![false; rows],
+        };
         let inputs = table.before(FIRST_RESULT)?;
         let mut parameters = Vec::new();
-        let mut words = vec![Vec::new(); values.len()];
+        let mut words = vec![Vec::new(); rows];
         for name in inputs.into_iter().filter(|name| *name != "row") {
             match table.numbers(name) {
                 Ok(numbers) if varies(&numbers) => parameters.push(Parameter {
@@ -69,12 +90,12 @@ impl Response {
         if parameters.is_empty() {
             parameters.push(Parameter {
                 name: "row".into(),
-                values: (1..=values.len()).map(|row| row as f64).collect(),
+                values: (1..=rows).map(|row| row as f64).collect(),
             });
         }
         Ok(Self {
-            result: result.to_owned(),
-            values,
+            results,
+            open,
             parameters,
             words: words.into_iter().map(|row| distinct(&row)).collect(),
             page: Page::default(),
@@ -93,22 +114,26 @@ impl Response {
             2..=DISTINCT => &kinds[..],
             _ => &[],
         };
-        let room = self.page.width().unwrap_or(LONGEST) - 2.0 * MARGIN;
+        let panels = self.panels().count().min(3) as f64;
+        let room = self.page.width().unwrap_or(panels * LONGEST) - 2.0 * MARGIN;
         let key = Legend::new(labels.iter().copied(), Legend::LINE, room);
         let title = measure::lines(&self.title(), NORMAL, room, 3);
-        let response = Axis::linear(worded(&self.result), self.values.iter().copied());
+        let responses: Vec<Axis> = self.results.iter().map(Outcome::axis).collect();
         let across: Vec<Axis> = self.parameters.iter().map(Parameter::axis).collect();
         let sheet = |_| Sheet {
             edges: [1.0, HEIGHT],
             name: "",
             detail: "",
         };
-        let sheets: Vec<Sheet> = self.parameters.iter().map(sheet).collect();
+        let sheets: Vec<Sheet> = self.panels().map(sheet).collect();
+        let beside = responses
+            .iter()
+            .map(|axis| room_beside(axis, HEIGHT * LEAST));
         let below = across.iter().map(|axis| room_below(axis, LEAST));
         let layout = Layout {
             top: 12.0 + LINE * NORMAL * title.len() as f64 + key.height(),
             longest: LONGEST,
-            left: room_beside(&response, HEIGHT * LEAST) + 6.0,
+            left: beside.fold(0.0, f64::max) + 6.0,
             below: below.fold(0.0, f64::max) + 6.0,
             right: MARGIN,
         };
@@ -122,43 +147,70 @@ impl Response {
         key.draw(&mut drawing, [MARGIN, under], |drawing, kind, ends| {
             Stroke::of_series(kind).draw(drawing, &ends);
         });
-        for (i, (frame, across)) in panels.frames.iter().zip(&across).enumerate() {
-            frame.draw(&mut drawing, across, &response, true);
-            for (kind, path) in self.paths(i) {
+        for (frame, panel) in panels.frames.iter().zip(self.panels()) {
+            let axes = [&across[panel[0]], &responses[panel[1]]];
+            frame.draw(&mut drawing, axes[0], axes[1], true);
+            for (kind, path) in self.paths(panel) {
                 let kind = if labels.is_empty() { 0 } else { kind };
-                self.draw_path(&mut drawing, frame, [across, &response], i, (kind, &path));
+                self.draw_path(&mut drawing, frame, axes, panel, (kind, &path));
             }
         }
         drawing
     }
 
-    fn title(&self) -> String {
-        let runs = self.values.len();
-        match self.values.iter().filter(|v| !v.is_finite()).count() {
-            0 if runs == 1 => "1 run".to_owned(),
-            0 => format!("{runs} runs"),
-            n => format!("{runs} runs, of which {n} have no result"),
-        }
+    /// Parameter and result of each panel.
+    fn panels(&self) -> impl Iterator<Item = [usize; 2]> {
+        let results = 0..self.results.len();
+        (0..self.parameters.len()).flat_map(move |i| results.clone().map(move |k| [i, k]))
     }
 
-    /// A line through the runs of a path, a dot on each.
+    /// How many runs there are, and what bars and rings are.
+    fn title(&self) -> String {
+        let runs = self.open.len();
+        let mut title = format!("{runs} run{}", if runs == 1 { "" } else { "s" });
+        let values = &self.results[0].values;
+        match values.iter().filter(|v| !v.is_finite()).count() {
+            0 => {}
+            n => title += &format!(", of which {n} have no result"),
+        }
+        match self.open.iter().filter(|open| **open).count() {
+            0 => {}
+            n => title += &format!("; rings: {n} did not close"),
+        }
+        if self.results.iter().any(|result| result.error > 0.0) {
+            title += "; bars: error by the size of the cells";
+        }
+        title
+    }
+
+    /// A line through the runs of a path, a dot on each with its error; a ring where the press did not close.
     fn draw_path(
         &self,
         drawing: &mut Drawing,
         frame: &Frame,
         [across, response]: [&Axis; 2],
-        parameter: usize,
+        [parameter, result]: [usize; 2],
         (kind, path): (usize, &[usize]),
     ) {
-        let values = &self.parameters[parameter].values;
-        let places = (path.iter()).map(|&row| [values[row], self.values[row]]);
-        let places: Vec<Point> = places
-            .map(|value| frame.place(across, response, value))
-            .collect();
+        let own = &self.parameters[parameter].values;
+        let Outcome { values, error, .. } = &self.results[result];
+        let place =
+            |row: usize, value: f64| -> Point { frame.place(across, response, [own[row], value]) };
         let stroke = Stroke::of_series(kind);
+        let places: Vec<Point> = path.iter().map(|&row| place(row, values[row])).collect();
         stroke.draw(drawing, &places);
-        for place in places {
-            stroke.draw(drawing, &[place]);
+        for (&row, &dot) in path.iter().zip(&places) {
+            if *error > 0.0 {
+                let ends = [1.0 - error, 1.0 + error].map(|part| place(row, part * values[row]));
+                drawing.line(ends.to_vec(), stroke.colour, 1.4);
+                for [x, y] in ends {
+                    drawing.line(vec![[x - CAP, y], [x + CAP, y]], stroke.colour, 1.4);
+                }
+            }
+            stroke.draw(drawing, &[dot]);
+            if self.open[row] {
+                drawing.area(disc(dot, 2.2), opaque([255; 3]));
+            }
         }
     }
 
@@ -173,9 +225,9 @@ impl Response {
         kinds
     }
 
-    /// Rows with a result that differ in parameter `i` alone, by its values; and which of the kinds
+    /// Rows with result `result` that differ in parameter `i` alone, by its values; and which of the kinds
     /// they are.
-    fn paths(&self, i: usize) -> Vec<(usize, Vec<usize>)> {
+    fn paths(&self, [i, result]: [usize; 2]) -> Vec<(usize, Vec<usize>)> {
         let kinds = self.kinds();
         let others = |row: usize| -> (&str, Vec<u64>) {
             let rest = self.parameters.iter().enumerate().filter(|(k, _)| *k != i);
@@ -184,8 +236,9 @@ impl Response {
         };
         let mut paths: Vec<(usize, Vec<usize>)> = Vec::new();
         let own = &self.parameters[i].values;
-        let shown = |row: &usize| own[*row].is_finite() && self.values[*row].is_finite();
-        for row in (0..self.values.len()).filter(shown) {
+        let values = &self.results[result].values;
+        let shown = |row: &usize| own[*row].is_finite() && values[*row].is_finite();
+        for row in (0..values.len()).filter(shown) {
             match paths
                 .iter_mut()
                 .find(|(_, path)| others(path[0]) == others(row))
@@ -206,13 +259,7 @@ impl Response {
 
 impl Parameter {
     fn axis(&self) -> Axis {
-        let finite = || self.values.iter().copied().filter(|v| v.is_finite());
-        let [low, high] = [f64::min, f64::max].map(|pick| finite().fold(f64::NAN, pick));
-        let name = worded(&self.name);
-        match low > 0.0 && high > LOGARITHMIC * low {
-            true => Axis::logarithmic(name, finite()),
-            false => Axis::linear(name, finite()),
-        }
+        axis(&worded(&self.name), self.values.iter().copied())
     }
 }
 
@@ -230,49 +277,4 @@ fn distinct(row: &[String]) -> String {
         .filter(|w| !w.is_empty())
         .collect();
     words.join(", ")
-}
-
-/// A column's name as it stands on an axis: `adhesive.viscosity_Pa_s` as `adhesive.viscosity (Pa s)`.
-fn worded(column: &str) -> String {
-    let known = |unit: &str| match unit {
-        "um3" => Some("µm³".to_owned()),
-        "pa" => Some("Pa".to_owned()),
-        "cell" => Some("cells".to_owned()),
-        "voxel" | "voxels" => Some("voxels".to_owned()),
-        unit => units::unit(unit).map(|_| unit.replace("um", "µm")),
-    };
-    // The longest unit: some hold a blank, which is an underscore here.
-    let found = column.match_indices('_').find_map(|(at, _)| {
-        let unit = known(&column[at + 1..].replace('_', " "))?;
-        Some(format!("{} ({unit})", spaced(&column[..at])))
-    });
-    found.unwrap_or_else(|| spaced(column))
-}
-
-/// The name of a result in words; keys of the case stay as they are written there.
-fn spaced(name: &str) -> String {
-    match name.contains('.') {
-        true => name.to_owned(),
-        false => name.replace('_', " "),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn columns_are_worded_with_their_units() {
-        for (column, words) in [
-            ("ep_um", "ep (µm)"),
-            ("slab_wp_um", "slab wp (µm)"),
-            ("adhesive.viscosity_Pa_s", "adhesive.viscosity (Pa s)"),
-            ("volume_um3", "volume (µm³)"),
-            ("clamp.max_pressure_MPa", "clamp.max_pressure (MPa)"),
-            ("integrator.cfl", "integrator.cfl"),
-            ("steps", "steps"),
-        ] {
-            assert_eq!(worded(column), words);
-        }
-    }
 }

@@ -132,7 +132,7 @@ impl Slices {
     /// The figure.
     pub fn draw(&self) -> Drawing {
         let shades = self.shades();
-        let phases = if shades.is_some() { &KEY[..2] } else { &KEY };
+        let phases = self.phases();
         let grid = self
             .cell
             .map(|cell| format!("cells of {} µm", (cell * 1e6) as f32));
@@ -177,6 +177,22 @@ impl Slices {
             colour_bar::draw(&mut drawing, panels.right, top, height, shades);
         }
         drawing
+    }
+
+    /// Entries of the key for the phases that are in the picture; the colour bar stands for adhesive by its pressure.
+    fn phases(&self) -> Vec<(&'static str, [u8; 3])> {
+        let pixels = || self.sections.iter().flat_map(|section| &section.pixels);
+        let seen = [
+            pixels().any(|pixel| matches!(pixel, Pixel::Wood)),
+            pixels().any(|pixel| matches!(pixel, Pixel::Void)),
+            self.colouring == Colouring::Plain
+                && pixels().any(|pixel| matches!(pixel, Pixel::Adhesive(_))),
+        ];
+        let phases = KEY.into_iter().zip(seen);
+        phases
+            .filter(|(_, seen)| *seen)
+            .map(|(phase, _)| phase)
+            .collect()
     }
 
     /// The scale of the pressures shown, if they are.

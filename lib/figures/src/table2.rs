@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use crate::Error;
 use crate::table::Table;
+use crate::{Error, RunEnd};
 
 /// One state for [`Table2`]: the CSV that `wp-metrics` wrote for it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,11 +18,13 @@ pub struct Case {
     pub path: PathBuf,
 }
 
-/// Weighted penetration of the experiment and the runs, as Table 2 of the paper, with the
-/// slab that has not penetrated and the paper's own numbers, which are another specimen's.
+/// Weighted penetration of the experiment and the runs, as Table 2 of the paper, with its error, the slab that has
+/// not penetrated and what is to be said against a run.
 #[derive(Clone, Debug)]
 pub struct Table2 {
     pub(crate) rows: Vec<Row>,
+    /// Whether the paper's numbers, which are another specimen's, stand below ours.
+    pub(crate) paper: bool,
 }
 
 /// One line of [`Table2`]; all penetrations in um.
@@ -33,10 +35,16 @@ pub(crate) struct Row {
     /// Reference plane as `wp-metrics` states it.
     reference: String,
     /// Bottom, top, total.
-    pub(crate) wp: [f64; 3],
+    wp: [f64; 3],
+    /// The same carried on to cells of no size; NaN where no finer run was given.
+    extrapolated: [f64; 3],
+    /// Of that.
+    pub(crate) error: [f64; 3],
     /// Weighted penetration t / sqrt(12) of the unpenetrated slab of the same volume.
     pub(crate) slab: f64,
     pub(crate) paper: Option<&'static Paper>,
+    /// How the run ended.
+    pub(crate) end: Option<RunEnd>,
 }
 
 /// A line of the paper's Table 2, um.
@@ -86,6 +94,10 @@ static PAPER: [Paper; 8] = [
 ];
 
 const NOTE: &str = "paper: the paper's specimen, not this one";
+/// The state that a run ends with.
+const FINAL: &str = "final.mpts";
+/// What the numbers are, in the table for reading.
+pub(crate) const ERRORS: &str = "with \u{b1}: extrapolated to infinitely small cells (first order); the error is the difference of two sizes of cells";
 
 impl Table2 {
     /// Reads the cases, sorted by adhesive in the order of first mention. A case named as in
@@ -101,7 +113,12 @@ impl Table2 {
             .into_iter()
             .map(Row::read)
             .collect::<Result<_, _>>()?;
-        Ok(Self { rows })
+        Ok(Self { rows, paper: false })
+    }
+
+    /// The same with the paper's numbers below ours.
+    pub fn with_paper(self, paper: bool) -> Self {
+        Self { paper, ..self }
     }
 
     /// The table as CSV.
@@ -123,15 +140,22 @@ impl Table2 {
             "paper_top_wp_um",
             "paper_total_wp_um",
             "note",
+            "bottom_wp_extrapolated_um",
+            "top_wp_extrapolated_um",
+            "total_wp_extrapolated_um",
+            "bottom_wp_error_um",
+            "top_wp_error_um",
+            "total_wp_error_um",
+            "end",
+            "sound",
+            "gap_um",
+            "mark",
         ])?;
+        let number = |value: f64| match value.is_finite() {
+            true => format!("{value:.4}"),
+            false => String::new(),
+        };
         for row in &self.rows {
-            let number = |wp: f64| {
-                if wp.is_finite() {
-                    format!("{wp:.4}")
-                } else {
-                    String::new()
-                }
-            };
             let mut record = vec![
                 row.adhesive.clone(),
                 row.case.clone(),
@@ -142,35 +166,63 @@ impl Table2 {
             record.push(row.paper.map_or("", |paper| paper.case).into());
             record.extend(row.paper_wp().map(number));
             record.push(row.paper.map_or("", |_| NOTE).into());
+            record.extend(row.extrapolated.into_iter().chain(row.error).map(number));
+            let end = row.end.as_ref();
+            record.push(end.map_or(String::new(), |e| e.end.clone()));
+            record.push(end.map_or(String::new(), |e| e.sound.to_string()));
+            record.push(end.map_or(String::new(), |e| number(1e6 * e.gap_m)));
+            record.push(row.mark());
             writer.write_record(record)?;
         }
         writer.flush()
     }
 
-    /// The table for reading, with a heading.
+    /// The table for reading, with a heading, and what is to be said against runs.
     pub fn to_text(&self) -> String {
         let longest = self.rows.iter().map(|row| row.case.chars().count());
         let wide = longest.max().unwrap_or(0).max(16) + 1;
+        let heads = SIDES.map(|side| format!("{side:>15}")).concat();
         let mut text = format!(
-            "{:<w$}this specimen                   paper (another specimen)\n\
-             adhesive  {:<wide$}  bottom     top   total    slab   bottom     top   total\n",
-            "Weighted penetration (um)",
-            "case",
-            w = wide + 16
+            "Weighted penetration (um)\n{:<9} {:<wide$}{heads}{:>8}\n",
+            "adhesive", "case", "slab"
         );
         for row in &self.rows {
-            let number = |wp: f64| {
-                if wp.is_finite() {
-                    format!("{wp:8.2}")
-                } else {
-                    format!("{:>8}", "-")
-                }
-            };
-            let ours: String = row.wp.into_iter().chain([row.slab]).map(number).collect();
-            let paper: String = row.paper_wp().map(number).concat();
-            text += &format!("{:<9} {:<wide$}{ours} {paper}\n", row.adhesive, row.case);
+            let numbers = row
+                .numbers()
+                .map(|n| format!("{:>15}", n.join(" +- ")))
+                .concat();
+            let (adhesive, case, slab, mark) = (&row.adhesive, &row.case, row.slab, row.mark());
+            text += &format!("{adhesive:<9} {case:<wide$}{numbers}{slab:>8.2}  {mark}");
+            text.truncate(text.trim_end().len());
+            text.push('\n');
+            if let Some(paper) = self.paper_of(row) {
+                let numbers = paper.map(|wp| format!("{wp:>15.2}")).concat();
+                text += &format!("{:<9} {:<wide$}{numbers}\n", "", "  paper");
+            }
         }
-        text + "slab: the unpenetrated slab of the same volume, t/sqrt(12)\n"
+        text += "slab: the unpenetrated slab of the same volume, t/sqrt(12)\n";
+        if self.has_errors() {
+            text += &format!("{}\n", ERRORS.replace('\u{b1}', "+-"));
+        }
+        if self.paper {
+            text += "paper: Hammerquist and Nairn, Table 2; another specimen\n";
+        }
+        for row in &self.rows {
+            if let Some(advice) = row.end.as_ref().and_then(RunEnd::advice) {
+                text += &format!("{} {}: {advice}\n", row.adhesive, row.case);
+            }
+        }
+        text
+    }
+
+    /// Whether a row has an error.
+    pub(crate) fn has_errors(&self) -> bool {
+        self.rows.iter().any(|row| row.error[2].is_finite())
+    }
+
+    /// The paper's numbers of a row, where they are to be shown.
+    pub(crate) fn paper_of(&self, row: &Row) -> Option<[f64; 3]> {
+        row.paper.filter(|_| self.paper).map(|paper| paper.wp)
     }
 }
 
@@ -191,11 +243,12 @@ impl Row {
                 Error::Data(format!("'{}' has no row with side {side}", table.name()))
             })
         };
-        let mut wp = [f64::NAN; 3];
-        for (value, side) in wp.iter_mut().zip(SIDES) {
-            *value = wps[row_of(side)?];
-        }
-        let total = row_of("total")?;
+        let rows = [row_of(SIDES[0])?, row_of(SIDES[1])?, row_of(SIDES[2])?];
+        let optional = |column: &str| match table.has(column) {
+            true => table.numbers(column).map(|n| rows.map(|row| n[row])),
+            false => Ok([f64::NAN; 3]),
+        };
+        let total = rows[2];
         // It goes into our own table, which people open in a spreadsheet.
         if !REFERENCES.contains(&references[total]) {
             return Err(Error::Data(format!(
@@ -214,13 +267,45 @@ impl Row {
             adhesive: source.adhesive.clone(),
             case: source.name.clone(),
             reference: references[total].into(),
-            wp,
+            wp: rows.map(|row| wps[row]),
+            extrapolated: optional("wp_extrapolated_um")?,
+            error: optional("wp_error_um")?,
             slab: slabs[total],
             paper: PAPER.iter().find(same),
+            end: end(&source.path, Path::new(files[0]))?,
         })
     }
 
-    pub(crate) fn paper_wp(&self) -> [f64; 3] {
+    /// WP of each side and, where it is known, its error, as texts.
+    pub(crate) fn numbers(&self) -> [Vec<String>; 3] {
+        std::array::from_fn(|side| {
+            let (best, error) = (self.extrapolated[side], self.error[side]);
+            match best.is_finite() && error.is_finite() {
+                true => vec![format!("{best:.2}"), format!("{error:.2}")],
+                false if self.wp[side].is_finite() => vec![format!("{:.2}", self.wp[side])],
+                false => vec!["-".into()],
+            }
+        })
+    }
+
+    /// What is to be said against its run, in a few words.
+    pub(crate) fn mark(&self) -> String {
+        let mark = self.end.as_ref().and_then(RunEnd::mark);
+        mark.unwrap_or_default()
+    }
+
+    fn paper_wp(&self) -> [f64; 3] {
         self.paper.map_or([f64::NAN; 3], |paper| paper.wp)
+    }
+}
+
+/// How the run ended whose last state is `state`, measured in `table`: either lies in its folder.
+fn end(table: &Path, state: &Path) -> Result<Option<RunEnd>, Error> {
+    if state.file_name() != Some(FINAL.as_ref()) {
+        return Ok(None);
+    }
+    match RunEnd::beside(table)? {
+        None => RunEnd::beside(state),
+        found => Ok(found),
     }
 }

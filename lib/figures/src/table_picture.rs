@@ -7,7 +7,7 @@ use crate::colour::BLACK;
 use crate::drawing::{Anchor, Drawing};
 use crate::measure::{self, LINE};
 use crate::page::Page;
-use crate::table2::{Row, SIDES, Table2};
+use crate::table2::{ERRORS, Row, SIDES, Table2};
 
 const WIDTH: f64 = 520.0;
 const MARGIN: f64 = 12.0;
@@ -16,11 +16,6 @@ const COLUMN: f64 = 58.0;
 const COLUMNS: f64 = 4.0;
 const INDENT: f64 = 14.0;
 const ROW: f64 = 1.45 * NORMAL;
-/// What stands below the table.
-const NOTES: [&str; 2] = [
-    "slab: the unpenetrated slab of the same volume, t/√12.",
-    "paper: Hammerquist and Nairn, Table 2; another specimen.",
-];
 
 /// A table on its way down the page.
 struct Sheet {
@@ -36,17 +31,8 @@ impl Sheet {
         self.y += 0.35 * ROW;
     }
 
-    /// A row: its name in as many lines as it needs, and numbers of 2 decimals.
-    fn row(&mut self, name: &str, indent: f64, size: f64, numbers: &[f64]) {
-        let numbers = numbers.iter().map(|n| match n.is_finite() {
-            true => format!("{n:.2}"),
-            false => "–".into(),
-        });
-        let numbers: Vec<String> = numbers.collect();
-        self.texts(name, indent, size, &numbers);
-    }
-
-    fn texts(&mut self, name: &str, indent: f64, size: f64, cells: &[String]) {
+    /// A row: its name in as many lines as it needs, and texts.
+    fn row(&mut self, name: &str, indent: f64, size: f64, cells: &[String]) {
         let left = MARGIN + indent;
         let first = self.drawing.width - MARGIN - COLUMNS * COLUMN;
         let free = if cells.is_empty() {
@@ -66,11 +52,24 @@ impl Sheet {
         self.y += 0.5 * ROW + (lines.len().max(1) - 1) as f64 * LINE * size;
     }
 
-    fn case(&mut self, row: &Row, name: &str) {
-        let [bottom, top, total] = row.wp;
-        self.row(name, INDENT, NORMAL, &[bottom, top, total, row.slab]);
-        if row.paper.is_some() {
-            self.row("paper", 2.0 * INDENT, SMALL, &row.paper_wp());
+    fn case(&mut self, row: &Row, name: &str, paper: Option<[f64; 3]>) {
+        let numbers = row.numbers();
+        let values = numbers.iter().map(|n| n[0].clone());
+        let values: Vec<String> = values.chain([format!("{:.2}", row.slab)]).collect();
+        self.row(name, INDENT, NORMAL, &values);
+        let below = 2.0 * INDENT;
+        if row.error[2].is_finite() {
+            let errors = numbers
+                .iter()
+                .map(|n| n.get(1).map_or(String::new(), |e| format!("± {e}")));
+            self.row("error", below, SMALL, &errors.collect::<Vec<_>>());
+        }
+        if let Some(paper) = paper {
+            self.row("paper", below, SMALL, &paper.map(|wp| format!("{wp:.2}")));
+        }
+        match row.mark() {
+            none if none.is_empty() => {}
+            mark => self.row(&mark, below, SMALL, &[]),
         }
     }
 }
@@ -87,18 +86,23 @@ impl Table2 {
         sheet.rule(1.8);
         let heads = SIDES.into_iter().chain(["slab"]).map(String::from);
         let heads: Vec<String> = heads.collect();
-        sheet.texts("Weighted penetration (µm)", 0.0, NORMAL, &heads);
+        sheet.row("Weighted penetration (µm)", 0.0, NORMAL, &heads);
         sheet.y += 0.2 * ROW;
         sheet.rule(1.0);
         for group in self.rows.chunk_by(|a, b| a.adhesive == b.adhesive) {
             sheet.row(&named(&group[0].adhesive), 0.0, NORMAL, &[]);
             for row in group {
-                sheet.case(row, &named(&row.case));
+                sheet.case(row, &named(&row.case), self.paper_of(row));
             }
             sheet.y += 0.25 * ROW;
         }
         sheet.rule(1.8);
-        for note in NOTES {
+        let notes = [
+            Some("slab: the unpenetrated slab of the same volume, t/√12"),
+            self.has_errors().then_some(ERRORS),
+            (self.paper).then_some("paper: Hammerquist and Nairn, Table 2; another specimen"),
+        ];
+        for note in notes.into_iter().flatten() {
             sheet.row(note, 0.0, SMALL, &[]);
         }
         let Sheet { mut drawing, y } = sheet;

@@ -68,7 +68,7 @@ const MARGIN: f64 = 12.0;
 /// Most pixels of a panel's view, however fine the page: each takes 200 bytes on the way.
 const MOST_PIXELS: f64 = 2e6;
 /// Height of the strip with the axes.
-const STRIP: f64 = 92.0;
+const STRIP: f64 = 66.0;
 
 impl Views {
     /// Reads one panel per particle file.
@@ -168,7 +168,7 @@ impl Views {
     /// The three axes as arrows of a round length, which are the scale too.
     fn draw_axes(&self, drawing: &mut Drawing, top: f64, scale: f64) {
         let steps = (0..9).flat_map(|power| [1.0, 2.0, 5.0].map(|f| f * 10_f64.powi(power)));
-        let fits = |length: &f64| length * scale <= 46.0;
+        let fits = |length: &f64| length * scale <= 30.0;
         let length = steps.take_while(fits).last().unwrap_or(1.0);
         let vector = |axis: usize| std::array::from_fn(|a| f64::from(u8::from(a == axis)));
         let tips = [0, 1, 2].map(|axis| {
@@ -180,11 +180,8 @@ impl Views {
         });
         let low = |a: usize| tips.iter().map(|tip| tip[a]).fold(0.0, f64::min);
         let high = |a: usize| tips.iter().map(|tip| tip[a]).fold(0.0, f64::max);
-        let room = 16.0;
-        let origin = [
-            MARGIN + room - low(0),
-            top + STRIP - MARGIN - room - high(1),
-        ];
+        let room = 12.0;
+        let origin = [MARGIN + room - low(0), top + STRIP - room - 4.0 - high(1)];
         for (axis, tip) in tips.iter().enumerate() {
             let end = [origin[0] + tip[0], origin[1] + tip[1]];
             arrow(drawing, origin, end);

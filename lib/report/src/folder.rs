@@ -1,7 +1,12 @@
 //! A run's own account: `summary.json` and `resolved.toml` of its folder.
 
+use std::path::Path;
+
+use figures::RunEnd;
 use serde_json::Value;
 
+use crate::penetration::Penetration;
+use crate::setup::Setup;
 use crate::{Error, Labelled, html, read_text};
 
 const MOST_BYTES: u64 = 1 << 20;
@@ -11,12 +16,11 @@ pub struct RunFolder {
     /// What it is called.
     pub(crate) label: String,
     summary: Value,
-    summary_text: String,
     resolved: String,
+    pub(crate) end: RunEnd,
+    pub(crate) setup: Setup,
+    pub(crate) penetration: Penetration,
 }
-
-/// What stands for the summary of a folder that has none.
-const UNFINISHED: &str = "there is no summary.json: the run is still on or was killed";
 
 impl RunFolder {
     /// Reads a run folder; one without a summary is of a run that has not ended, which it then says.
@@ -25,18 +29,32 @@ impl RunFolder {
     /// A folder without `resolved.toml`, or files that are not a run's.
     pub fn read(folder: &Labelled) -> Result<Self, Error> {
         let path = folder.path.join("summary.json");
-        let summary_text = match path.try_exists() {
-            Ok(false) => unfinished(),
-            _ => read_text(&path, MOST_BYTES)?,
+        let summary: Value = match path.try_exists() {
+            Ok(false) => Value::Null,
+            _ => serde_json::from_str(&read_text(&path, MOST_BYTES)?)
+                .map_err(|e| Error(format!("'{}' is not JSON: {e}", path.display())))?,
         };
-        let summary = serde_json::from_str(&summary_text)
-            .map_err(|e| Error(format!("'{}' is not JSON: {e}", path.display())))?;
+        let resolved = read_text(&folder.path.join("resolved.toml"), MOST_BYTES)?;
+        let inputs = summary.pointer("/provenance/inputs/0/path");
+        let case = Path::new(inputs.and_then(Value::as_str).unwrap_or("case"));
+        let case = case.file_name().unwrap_or_default().to_string_lossy();
         Ok(Self {
             label: folder.label.clone(),
+            end: RunEnd::of(&summary),
+            setup: Setup::read(&folder.path, &case, &resolved),
+            penetration: Penetration::read(&folder.path, &summary)?,
             summary,
-            summary_text,
-            resolved: read_text(&folder.path.join("resolved.toml"), MOST_BYTES)?,
+            resolved,
         })
+    }
+
+    /// Files of a run's folder that a page is made of, as far as they are there.
+    pub const FILES: [&str; 4] = ["summary.json", "resolved.toml", "wp.csv", "final.mpts"];
+
+    /// Whether adhesive came to the end of the specimen.
+    pub(crate) fn outer_face_reached(&self) -> bool {
+        let reached = self.summary.pointer("/penetration/outer_face_reached");
+        reached.and_then(Value::as_bool).unwrap_or(false)
     }
 
     /// A number of the summary by its path, times `unit`, with so many decimals.
@@ -78,13 +96,10 @@ impl RunFolder {
 
     /// Its row.
     pub(crate) fn row(&self) -> Vec<String> {
-        let sound = match self.summary.pointer("/verdict/sound") {
-            Some(Value::Bool(true)) => "sound",
-            _ => "not sound",
-        };
+        let sound = if self.end.sound { "sound" } else { "not sound" };
         vec![
             self.label.clone(),
-            self.text("/end").replace('_', " "),
+            self.end.end.replace('-', " "),
             sound.into(),
             self.text("/steps"),
             self.time(),
@@ -95,12 +110,6 @@ impl RunFolder {
             self.number("/cpu_s", 1.0, 1),
             self.number("/peak_memory_bytes", 1e-6, 0),
         ]
-    }
-
-    /// Why its results are not sound.
-    pub(crate) fn objections(&self) -> Vec<String> {
-        let reasons = self.list("/verdict/reasons");
-        reasons.iter().map(plain).collect()
     }
 
     fn list(&self, pointer: &str) -> &[Value] {
@@ -123,13 +132,12 @@ impl RunFolder {
         let checks = html::table("Last state and counts", &["what", "value"], &checks);
         out += &html::details("Invariants", &checks);
         out += &html::details("Cost", &self.cost());
-        out += &html::details("Provenance", &self.provenance());
-        out + &html::details("summary.json, whole", &html::verbatim(&self.summary_text))
+        out + &html::details("Provenance", &self.provenance())
     }
 
     fn object(&self, pointer: &str) -> Vec<Vec<String>> {
         let found = self.summary.pointer(pointer).and_then(Value::as_object);
-        let row = |(name, value): (&String, &Value)| vec![name.replace('_', " "), plain(value)];
+        let row = |(name, value): (&String, &Value)| vec![name.replace('_', " "), rounded(value)];
         found.into_iter().flatten().map(row).collect()
     }
 
@@ -206,20 +214,19 @@ impl RunFolder {
     }
 }
 
-/// The summary of a run that has not ended.
-fn unfinished() -> String {
-    serde_json::json!({
-        "end": "not_ended",
-        "verdict": { "sound": false, "reasons": [UNFINISHED] }
-    })
-    .to_string()
-}
-
 /// Two members of each object.
 fn rows(list: &[Value], keys: [&str; 2]) -> Vec<Vec<String>> {
     let member = |value: &Value, key: &str| value.get(key).map_or("-".into(), plain);
     let row = |value: &Value| keys.map(|key| member(value, key)).to_vec();
     list.iter().map(row).collect()
+}
+
+/// A number to three digits, else as [`plain`].
+fn rounded(value: &Value) -> String {
+    match value.as_f64().filter(|_| value.is_f64()) {
+        Some(number) => html::rounded(number),
+        None => plain(value),
+    }
 }
 
 /// A text without its quotes, else JSON.

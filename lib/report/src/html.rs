@@ -43,12 +43,29 @@ pub(crate) fn table(caption: &str, headers: &[&str], rows: &[Vec<String>]) -> St
     out + "</tbody></table></div>\n"
 }
 
+/// `7.8`, `7.8 um`, `7.8 ± 0.2`.
 fn is_number(text: &str) -> bool {
-    let first = text.split_whitespace().next().unwrap_or_default();
-    first.parse::<f64>().is_ok()
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let first = words
+        .first()
+        .is_some_and(|word| word.parse::<f64>().is_ok());
+    first && (words.len() <= 2 || words[1] == "\u{b1}")
 }
 
-/// What opens at a click, or in print.
+/// A number to four digits; a whole one whole.
+pub(crate) fn rounded(number: f64) -> String {
+    let size = number.abs();
+    match () {
+        () if number.fract() == 0.0 && size < 1e9 => format!("{number:.0}"),
+        () if (1e-3..1e6).contains(&size) => {
+            let decimals = (3.0 - size.log10().floor()).max(0.0) as usize;
+            format!("{number:.decimals$}")
+        }
+        () => format!("{number:.3e}"),
+    }
+}
+
+/// What opens at a click.
 pub(crate) fn details(summary: &str, inside: &str) -> String {
     format!(
         "<details><summary>{}</summary>\n{inside}</details>\n",
@@ -91,6 +108,20 @@ mod tests {
         );
         let table = table(hostile, &[hostile], &[vec![hostile.into()]]);
         assert!(!table.contains("<script") && table.matches("&lt;script").count() == 4);
+    }
+
+    #[test]
+    fn numbers_stand_right_and_are_rounded() {
+        assert!(is_number("14.57 us") && is_number("5.78 ± 0.35"));
+        assert!(!is_number("1 m/s, at most 2.5 MPa") && !is_number(""));
+        for (number, text) in [
+            (7.801234, "7.801"),
+            (-0.012345, "-0.01235"),
+            (12288.0, "12288"),
+            (9.2154e-5, "9.215e-5"),
+        ] {
+            assert_eq!(rounded(number), text);
+        }
     }
 
     /// RFC 4648, section 10.

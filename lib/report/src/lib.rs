@@ -5,8 +5,11 @@ mod folder;
 mod html;
 mod mesh;
 mod page;
+mod penetration;
 mod picture;
 mod scene;
+mod setup;
+mod summary;
 mod table;
 
 use std::path::{Path, PathBuf};
@@ -43,8 +46,10 @@ pub struct Report {
     pub pictures: Vec<Picture>,
     /// States in 3D.
     pub scenes: Vec<Scene>,
-    /// What made it of what: a JSON record.
-    pub provenance: String,
+    /// The command that made it.
+    pub command: String,
+    /// The files that it is made of, with their hashes.
+    pub inputs: Vec<[String; 2]>,
 }
 
 impl Report {

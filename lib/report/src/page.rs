@@ -1,7 +1,7 @@
 //! The page: its sections in order.
 
-use crate::html::{escape, table, verbatim};
-use crate::{Report, RunFolder};
+use crate::html::{details, escape, table, verbatim};
+use crate::{Report, RunFolder, summary};
 
 const STYLE: &str = include_str!("../assets/style.css");
 const VIEWER: &str = include_str!("../assets/viewer.js");
@@ -45,8 +45,9 @@ pub(crate) fn write(report: &Report) -> String {
 
 fn sections(report: &Report) -> Vec<Section> {
     let section = |id, title, body| Section { id, title, body };
+    let pictures = &report.pictures;
     let all = [
-        section("runs", "Runs", runs(&report.runs)),
+        section("summary", "Summary", summary::write(report)),
         section(
             "tables",
             "Tables",
@@ -55,23 +56,18 @@ fn sections(report: &Report) -> Vec<Section> {
         section(
             "pictures",
             "Pictures",
-            concat(&report.pictures, crate::Picture::to_html),
+            concat(
+                pictures.get(summary::PICTURES..).unwrap_or_default(),
+                crate::Picture::to_html,
+            ),
         ),
         section(
             "views",
             "In 3D",
             concat(&report.scenes, crate::Scene::to_html),
         ),
-        section(
-            "details",
-            "What each run says of itself",
-            details(&report.runs),
-        ),
-        section(
-            "provenance",
-            "What made this page of what",
-            verbatim(&report.provenance),
-        ),
+        section("runs", "Runs", runs(&report.runs)),
+        section("provenance", "How this page was made", provenance(report)),
     ];
     all.into_iter()
         .filter(|section| !section.body.is_empty())
@@ -87,20 +83,13 @@ fn runs(runs: &[RunFolder]) -> String {
         return String::new();
     }
     let rows: Vec<Vec<String>> = runs.iter().map(RunFolder::row).collect();
-    let mut out = table("How the runs ended", &RunFolder::COLUMNS, &rows);
-    for run in runs {
-        for objection in run.objections() {
-            out += &format!(
-                "<p class=\"objection\"><strong>{}: not sound.</strong> {}</p>\n",
-                escape(&run.label),
-                escape(&objection)
-            );
-        }
-    }
-    out
+    let one = |run: &RunFolder| format!("<h3>{}</h3>\n{}", escape(&run.label), run.to_html());
+    let details: String = runs.iter().map(one).collect();
+    table("How the runs ended", &RunFolder::COLUMNS, &rows) + &details
 }
 
-fn details(runs: &[RunFolder]) -> String {
-    let one = |run: &RunFolder| format!("<h3>{}</h3>\n{}", escape(&run.label), run.to_html());
-    runs.iter().map(one).collect()
+fn provenance(report: &Report) -> String {
+    let rows: Vec<Vec<String>> = report.inputs.iter().map(|file| file.to_vec()).collect();
+    let files = table("Files read", &["file", "XXH3-64"], &rows);
+    details("Command and files", &(verbatim(&report.command) + &files))
 }

@@ -1,4 +1,4 @@
-//! Tables of the tools, as they wrote them.
+//! Tables of the tools, for reading.
 
 use crate::{Error, Labelled, html, read};
 
@@ -44,11 +44,29 @@ impl Table {
         })
     }
 
-    /// The table as HTML, its numbers as they stand in the file.
+    /// The number in `column` of the first row with `key` in its column; NaN where there is none.
+    pub(crate) fn number(&self, (key_column, key): (&str, &str), column: &str) -> f64 {
+        let find = |name: &str| self.headers.iter().position(|header| header == name);
+        let found = find(key_column).zip(find(column)).and_then(|(by, of)| {
+            let row = self.rows.iter().find(|row| row[by] == key)?;
+            row[of].parse().ok()
+        });
+        found.unwrap_or(f64::NAN)
+    }
+
+    /// The table as HTML: columns that hold something, numbers to four digits.
     pub(crate) fn to_html(&self) -> String {
-        let headers: Vec<String> = self.headers.iter().map(|name| words(name)).collect();
+        let holds = |column: &usize| self.rows.iter().any(|row| !row[*column].is_empty());
+        let columns: Vec<usize> = (0..self.headers.len()).filter(holds).collect();
+        let headers: Vec<String> = columns.iter().map(|&c| words(&self.headers[c])).collect();
         let headers: Vec<&str> = headers.iter().map(String::as_str).collect();
-        html::table(&self.caption, &headers, &self.rows)
+        let cell = |text: &String| match text.parse() {
+            Ok(number) if text.contains(['.', 'e']) => html::rounded(number),
+            _ => text.clone(),
+        };
+        let row = |row: &Vec<String>| columns.iter().map(|&c| cell(&row[c])).collect();
+        let rows: Vec<Vec<String>> = self.rows.iter().map(row).collect();
+        html::table(&self.caption, &headers, &rows)
     }
 }
 
@@ -82,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_stand_as_in_the_file_and_what_is_no_table_is_refused() {
+    fn numbers_are_rounded_empty_columns_left_out_and_what_is_no_table_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");
         let read = |text: &str| {
@@ -93,8 +111,9 @@ mod tests {
                 path: path.clone(),
             })
         };
-        let page = read("case,wp_um\nflip,7.80\n").unwrap().to_html();
-        assert!(page.contains("<td class=\"number\">7.80</td>"), "{page}");
+        let page = read("case,wp_um,note\nflip,7.801234,\n").unwrap().to_html();
+        assert!(page.contains("<td class=\"number\">7.801</td>"), "{page}");
+        assert!(!page.contains("note"), "{page}");
         assert!(page.contains("<th scope=\"row\">flip</th>"), "{page}");
         for bad in ["", "a,b\n", "a,b\n1\n", &"a\n1\n".repeat(1001)] {
             assert!(read(bad).is_err(), "{bad}");

@@ -7,7 +7,7 @@ use units::Axis;
 
 use crate::values::{
     Colour, Extent, Limit, Part, Shown, Target, Wood, cell, degrees, dpi, experiment, given,
-    labelled, name, part, position, run, width,
+    labelled, name, part, position, run, share, width,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -75,10 +75,10 @@ pub(crate) enum Figure {
   bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg
   bond-figures slice bond.mpts --part \"0 um:40 um,20 um:60 um\" --grid \"2 voxels\" -o fig3.svg")]
     Slice(SliceArgs),
-    /// A result of a sweep against each of its parameters
+    /// A result of a sweep with its error, pressure and time against each of its parameters
     #[command(after_help = "Examples:
   bond-figures response out/sweep/table.csv -o response.svg
-  bond-figures response sweep.csv --result ep_um -o ep.png
+  bond-figures response sweep.csv --result ep_um --error 8% -o ep.png
   bond-sweep collect sweep -o - | bond-figures response - -o response.svg")]
     Response(ResponseArgs),
     /// How a run is set up: stack, slice, adherends parted, slab put in (Fig. 2)
@@ -93,7 +93,7 @@ pub(crate) enum Figure {
   bond-figures view experiment=exp.mpts FLIP=flip/final.mpts --wood hidden -o fig7.pdf
   bond-figures view final.mpts --turn -60 --tilt 40 --width \"84 mm\" --dpi 600 -o view.png")]
     View(ViewArgs),
-    /// Weighted penetration of experiment and runs beside the paper's (Table 2)
+    /// Weighted penetration of experiment and runs, with errors (Table 2)
     #[command(after_help = "Examples:
   bond-figures table2 --experiment pf=experiment.csv --run pf:xpic=xpic.csv -o table2.csv
   bond-figures table2 --run pf:flip=flip.csv --run pva-pf:flip=pva-flip.csv -o -
@@ -257,6 +257,10 @@ pub(crate) struct ResponseArgs {
     /// Column of the result to draw
     #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
     pub(crate) result: String,
+    /// Its error by the size of the cells, as a percentage; without it 4 for WP, 6 for WP of a side and 10 for
+    /// pressures, which is what small specimens show at worst
+    #[arg(long, value_name = "PERCENT", value_parser = share)]
+    pub(crate) error: Option<f64>,
     #[command(flatten)]
     pub(crate) picture: Picture,
 }
@@ -274,6 +278,9 @@ pub(crate) struct Table2Args {
     /// pressure carried on to cells of no size, and how far the other runs are from them
     #[arg(long, value_name = "CSV")]
     pub(crate) errors: Option<Output>,
+    /// Show the paper's numbers, which are of another specimen, below ours
+    #[arg(long)]
+    pub(crate) paper: bool,
     /// The table as a picture, .svg, .png or .pdf; may be repeated
     #[arg(long, value_name = "FILE", value_parser = given(Target::file))]
     pub(crate) picture: Vec<Target>,

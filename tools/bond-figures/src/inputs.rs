@@ -6,7 +6,7 @@ use std::os::fd::AsRawFd;
 use std::path::{Path, PathBuf};
 
 use cli::{Failure, InputRecord, Output, Record};
-use figures::{Case, Labelled};
+use figures::{Case, Labelled, summary_beside};
 use particle_file::ParticleFile;
 
 /// The files of a figure; standard input is among them as a temporary file.
@@ -14,6 +14,8 @@ pub(crate) struct Inputs {
     files: Vec<Labelled>,
     /// The files as the user named them.
     given: Vec<PathBuf>,
+    /// Summaries of the runs in whose folders the files lie.
+    summaries: Vec<PathBuf>,
     /// Keeps the copy of standard input, which has no name, until the figure is written.
     _spooled: Option<File>,
 }
@@ -38,9 +40,14 @@ impl Inputs {
             }
             file
         });
+        let beside = given.iter().filter_map(|path| summary_beside(path));
+        let mut summaries: Vec<PathBuf> = beside.filter(|path| path.is_file()).collect();
+        summaries.sort();
+        summaries.dedup();
         Ok(Self {
             files: placed.collect(),
             given,
+            summaries,
             _spooled: spooled,
         })
     }
@@ -71,6 +78,13 @@ impl Inputs {
         Ok((inputs, cases))
     }
 
+    /// The same with a mark on labels of files of runs that have not closed or are not sound.
+    pub(crate) fn marked(mut self) -> Result<Self, Failure> {
+        let marked = self.files.into_iter().map(Labelled::marked);
+        self.files = marked.collect::<Result<_, _>>().map_err(Failure::data)?;
+        Ok(self)
+    }
+
     pub(crate) fn files(&self) -> &[Labelled] {
         &self.files
     }
@@ -80,17 +94,22 @@ impl Inputs {
         &'a self,
         outputs: impl IntoIterator<Item = &'a Output>,
     ) -> Result<(), Failure> {
-        cli::keep_apart_with_records(self.given.iter().map(PathBuf::as_path), outputs)
+        let read = self.given.iter().chain(&self.summaries);
+        cli::keep_apart_with_records(read.map(PathBuf::as_path), outputs)
     }
 
     /// The provenance of an output made of these files.
     pub(crate) fn record(&self) -> Result<Record, Failure> {
-        let hashed = self.files.iter().zip(&self.given).map(|(file, given)| {
-            let name = given.display().to_string();
-            cli::hash_file(&file.path)
-                .map(|hash| InputRecord::new(name.clone(), hash))
-                .map_err(|e| Failure::data(format!("cannot read '{name}': {e}")))
-        });
+        let files = self.files.iter().map(|file| &file.path).zip(&self.given);
+        let hashed =
+            files
+                .chain(self.summaries.iter().zip(&self.summaries))
+                .map(|(file, given)| {
+                    let name = given.display().to_string();
+                    cli::hash_file(file)
+                        .map(|hash| InputRecord::new(name.clone(), hash))
+                        .map_err(|e| Failure::data(format!("cannot read '{name}': {e}")))
+                });
         let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
         Ok(Record::new(
             tool,

@@ -32,17 +32,17 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Map(a) => {
-            let inputs = Inputs::new(a.map)?;
+            let inputs = Inputs::new(a.map)?.marked()?;
             let figure = WpMap::read(inputs.files()).map_err(failure)?;
             write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Shear(a) => {
-            let inputs = Inputs::new(a.files)?;
+            let inputs = Inputs::new(a.files)?.marked()?;
             let figure = ShearRates::read(inputs.files()).map_err(failure)?;
             write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Penetration(a) => {
-            let inputs = Inputs::of_runs(a.files)?;
+            let inputs = Inputs::of_runs(a.files)?.marked()?;
             let plot = penetrations(inputs.files(), a.show.into())
                 .map_err(failure)?
                 .on(a.picture.page());
@@ -50,7 +50,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         Figure::Response(a) => {
             let inputs = Inputs::new(vec![a.sweep])?;
-            let figure = Response::read(&inputs.files()[0], &a.result).map_err(failure)?;
+            let figure = Response::read(&inputs.files()[0], &a.result, a.error).map_err(failure)?;
             write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::Slice(a) => slice(a),
@@ -61,7 +61,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
         Figure::View(a) => {
-            let inputs = Inputs::new(a.files)?;
+            let inputs = Inputs::new(a.files)?.marked()?;
             let from = Direction {
                 turn: a.turn,
                 tilt: a.tilt,
@@ -74,7 +74,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
 }
 
 fn slice(a: SliceArgs) -> Result<(), Failure> {
-    let inputs = Inputs::new(a.files)?;
+    let inputs = Inputs::new(a.files)?.marked()?;
     let cut = Cut {
         axis: a.normal,
         position: a.at,
@@ -95,7 +95,7 @@ fn table2(a: Table2Args) -> Result<(), Failure> {
     let (inputs, cases) = Inputs::of_cases(a.cases())?;
     let pictures = a.picture.iter().map(|target| &target.output);
     inputs.keep_from([&a.output].into_iter().chain(&a.errors).chain(pictures))?;
-    let table = Table2::read(&cases).map_err(failure)?;
+    let table = Table2::read(&cases).map_err(failure)?.with_paper(a.paper);
     let errors = errors(&a, &cases[a.experiments()..])?;
     let mut text = table.to_text();
     text.extend(errors.iter().map(CellErrors::to_text));

@@ -297,12 +297,17 @@ pub(crate) fn part(text: &str) -> Result<Part, String> {
     Ok([range(across)?, range(up)?])
 }
 
+/// A percentage, as a share.
+pub(crate) fn share(text: &str) -> Result<f64, String> {
+    match text.strip_suffix('%').unwrap_or(text).trim().parse::<f64>() {
+        Ok(percent) if (0.0..=100.0).contains(&percent) => Ok(percent / 100.0),
+        _ => Err(format!("'{text}' is not a percentage from 0% to 100%")),
+    }
+}
+
 pub(crate) fn position(text: &str) -> Result<Position, String> {
-    if let Some(number) = text.strip_suffix('%') {
-        return match number.trim().parse::<f64>() {
-            Ok(percent) if (0.0..=100.0).contains(&percent) => Ok(Position::Share(percent / 100.0)),
-            _ => Err(format!("'{text}' is not a percentage from 0% to 100%")),
-        };
+    if text.ends_with('%') {
+        return share(text).map(Position::Share);
     }
     let length = text.parse::<Quantity<Length>>();
     length

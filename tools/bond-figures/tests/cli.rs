@@ -138,6 +138,7 @@ fn table_2_prints_for_reading_and_writes_csv() {
         "pf=wp.csv",
         "--run",
         "pf:flip=wp.csv",
+        "--paper",
         "-o",
     ];
     let output = figures(folder.path(), &[&cases[..], &["t.csv"]].concat());

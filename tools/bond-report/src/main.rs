@@ -19,9 +19,10 @@ use report::{Error, Labelled, Picture, Report, RunFolder, Scene, Table};
   bond-report --run PF=runs/pf --picture \"Pressure=pressure.svg\" --table \"Table 2=table2.csv\" -o pf.html
   bond-report --title \"PF, 2.5 MPa\" --run PF=runs/pf --state PF=runs/pf/final.mpts -o pf.html
 
-The page holds what is given, as it is: of each run the end, the verdict (a failed run's sentence), all parameters, the error \
-to expect, what was left out, cost and provenance (resolved.toml and summary.json); tables and \
-pictures; states as surfaces that can be turned, of more than 700 000 voxels the middle.
+The page begins with a summary: what was pressed, WP with its error by side (of the wp.csv in a run's folder, where wp-metrics \
+--finer wrote one), whether the press closed, the first two pictures, and what to doubt. Then tables with rounded numbers, the other \
+pictures, states as surfaces that can be turned (of more than 700 000 voxels the middle), and of each run its parameters, the error to \
+expect, what was left out, cost and provenance.
 
 Exit status: 0 ok; 1 cannot write; 2 usage; 3 unreadable or corrupt data."
 )]
@@ -70,7 +71,7 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
         tables: all(&arguments.table, Table::read)?,
         pictures: all(&arguments.picture, Picture::read)?,
         scenes: all(&arguments.state, Scene::read)?,
-        provenance: String::new(),
+        ..Report::default()
     };
     // What was read has an end.
     let there = inputs.iter().filter(|path| path.exists());
@@ -80,7 +81,11 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     });
     let hashed = hashed.collect::<Result<_, _>>()?;
     let record = Record::new(env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"), hashed);
-    report.provenance = record.to_json();
+    report.command = record.command.join(" ");
+    let files = record.inputs.iter();
+    report.inputs = files
+        .map(|file| [file.path.clone(), file.xxh3.clone()])
+        .collect();
     let page = report.to_html();
     let write = |out: &mut dyn std::io::Write| out.write_all(page.as_bytes());
     arguments.output.write_with_record(&record, write)?;
@@ -102,7 +107,7 @@ fn inputs(arguments: &Arguments) -> Vec<PathBuf> {
     let of_runs = arguments
         .run
         .iter()
-        .flat_map(|run| ["summary.json", "resolved.toml"].map(|name| run.path.join(name)));
+        .flat_map(|run| RunFolder::FILES.map(|name| run.path.join(name)));
     let others = [&arguments.table, &arguments.picture, &arguments.state];
     let others = others.into_iter().flatten().map(|file| file.path.clone());
     of_runs.chain(others).collect()

@@ -239,7 +239,7 @@ fn of_plots_and_clouds() {
         names.iter().fold(plot.on(page), with).draw().unwrap()
     });
     check("clouds", |names, page| {
-        let clouds = Clouds::new(LONG, [0.0, 1.0], 0.1).on(page);
+        let clouds = Clouds::new([LONG, LONG], LONG, [0.0, 1.0], 0.1).on(page);
         let spots = vec![([0.0, 0.0], 0.0), ([1.0, 2.0], 1.0)];
         let with = |clouds: Clouds, name: &String| clouds.with(name, spots.clone());
         names.iter().fold(clouds, with).draw().unwrap()

@@ -66,13 +66,21 @@ fn maps_off_any_grid_are_refused() {
 #[test]
 fn clouds_have_labels_and_colours_of_their_values() {
     let points = vec![([0.0, 0.0], 0.0), ([1.0, 2.0], 1.0)];
-    let clouds = Clouds::new("v", [0.0, 1.0], 0.1).with("FLIP", points);
+    let clouds = Clouds::new(["x", "y"], "v", [0.0, 1.0], 0.1).with("FLIP", points);
     let drawing = clouds.draw().unwrap();
-    assert!(texts(&drawing).iter().any(|t| t == "FLIP"));
+    assert!(
+        ["FLIP", "x", "y"]
+            .iter()
+            .all(|name| texts(&drawing).iter().any(|t| t == name))
+    );
     let (_, pixels) = pixels(&drawing);
     // Both ends of the scale are there beside the colour bar's one line of each.
     for end in [[68, 1, 84], [253, 231, 37]] {
         assert!(share(&pixels, end) > 1e-4);
     }
-    assert!(Clouds::new("v", [0.0, 1.0], 0.1).draw().is_err());
+    assert!(
+        Clouds::new(["x", "y"], "v", [0.0, 1.0], 0.1)
+            .draw()
+            .is_err()
+    );
 }

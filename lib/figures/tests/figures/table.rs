@@ -59,6 +59,8 @@ fn table_2_has_ours_the_slab_and_the_papers_numbers_labelled() {
     assert_eq!(rows[3][7..11], ["XPIC(5)", "25.2100", "23.3200", "24.3500"]);
     assert!(csv.contains("the paper's specimen, not this one"));
     let text = table.to_text();
+    assert!(!text.contains("56.41") && !text.contains("paper"), "{text}");
+    let text = table.with_paper(true).to_text();
     assert!(
         text.contains("another specimen") && text.contains("56.41"),
         "{text}"
@@ -119,15 +121,60 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
             "{row} is not in\n{csv}"
         );
     }
+    let table = Table2::read(&runs).unwrap();
+    let shown = table.to_text();
+    assert!(shown.contains("7.15 +- 0.25"), "{shown}");
+    let picture =
+        crate::texts(&table.draw(&std::collections::BTreeMap::new(), figures::Page::default()));
+    assert!(picture.iter().any(|text| text == "± 0.25"), "{picture:?}");
     let text = errors.to_text();
     let line = |name: &str| text.lines().rfind(|l| l.contains(name)).unwrap().to_owned();
-    assert!(line(" flip").contains("+1.35"), "{text}");
+    assert!(line(" flip").contains("+0.300"), "{text}");
     assert!(
-        line(" implicit ").contains("7.15 +- 0.25")
+        line(" implicit ").contains("4.50 +- 0.50")
             && line(" implicit ").contains("2.100 +- 0.300"),
         "{text}"
     );
     // A pressure that the table does not have is not made up.
     assert!(line(" frictionless").trim_end().ends_with('-'), "{text}");
     assert!(CellErrors::read(&[case("alone", plain)]).unwrap().is_none());
+}
+
+/// A press with 42 % of its gap left once stood in Table 2 as a result.
+#[test]
+fn a_press_that_did_not_close_is_marked() {
+    let folder = Folder::new();
+    folder.file("bondline-run.toml", "");
+    folder.file(
+        "summary.json",
+        r#"{"end": "time-limit", "verdict": {"sound": true, "reasons": []}, "gap_m": 4.2e-6, "travel_m": 5.8e-6, "time_s": 1e-5}"#,
+    );
+    let path = folder.file(
+        "wp.csv",
+        wp(1.0, 2.0, 1.5).replace("a.mpts", "run/final.mpts"),
+    );
+    let (adhesive, name) = ("pf".into(), "flip".into());
+    let table = Table2::read(&[Case {
+        adhesive,
+        name,
+        path,
+    }])
+    .unwrap();
+    let text = table.to_text();
+    assert!(
+        text.contains("  not closed, 42 % of the gap left\n"),
+        "{text}"
+    );
+    assert!(text.contains("--set \"clamp.time_limit=30 us\""), "{text}");
+    let mut csv = Vec::new();
+    table.write_csv(&mut csv).unwrap();
+    let csv = String::from_utf8(csv).unwrap();
+    let cells = ",time-limit,true,4.2000,\"not closed, 42 % of the gap left\"\n";
+    assert!(csv.ends_with(cells), "{csv}");
+    let picture = table.draw(&std::collections::BTreeMap::new(), figures::Page::default());
+    assert!(
+        crate::texts(&picture)
+            .iter()
+            .any(|t| t.starts_with("not closed"))
+    );
 }

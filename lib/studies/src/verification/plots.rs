@@ -53,8 +53,8 @@ pub fn write(study: &Study, outcomes: &[Outcome]) -> Result<(), String> {
 fn profiles(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
     let mut plot = Plot::new(
         "Film at 0.5 ms, floor on the nodes",
-        "height over thickness",
-        "velocity over v_max of Eq. 5",
+        "height / thickness",
+        "velocity / largest by Eq. 5",
     );
     for (label, run) in labels.iter().zip(runs) {
         let spots = incline::profile(run, 6, 0.0).map_err(figures::Error::Data)?;
@@ -71,7 +71,12 @@ fn profiles(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
 }
 
 fn points(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
-    let mut clouds = Clouds::new("velocity over v_max", [0.0, 1.0], 0.03);
+    let mut clouds = Clouds::new(
+        ["place along the floor / thickness", "height / thickness"],
+        "velocity / largest by Eq. 5",
+        [0.0, 1.0],
+        0.03,
+    );
     for (label, run) in labels.iter().zip(runs) {
         let spots = incline::profile(run, 6, 0.0).map_err(figures::Error::Data)?;
         clouds = clouds.with(label, spots);

@@ -1,0 +1,52 @@
+//! Names of columns as they stand on axes.
+
+/// A column's name as it stands on an axis: `adhesive.viscosity_Pa_s` as `adhesive.viscosity (Pa s)`.
+pub(crate) fn worded(column: &str) -> String {
+    let known = |unit: &str| match unit {
+        "um3" => Some("µm³".to_owned()),
+        "pa" => Some("Pa".to_owned()),
+        "cell" => Some("cells".to_owned()),
+        "voxel" | "voxels" => Some("voxels".to_owned()),
+        unit => units::unit(unit).map(|_| unit.replace("um", "µm")),
+    };
+    // The longest unit: some hold a blank, which is an underscore here.
+    let found = column.match_indices('_').find_map(|(at, _)| {
+        let unit = known(&column[at + 1..].replace('_', " "))?;
+        Some(format!("{} ({unit})", spaced(&column[..at])))
+    });
+    found.unwrap_or_else(|| spaced(column))
+}
+
+/// The name of a result in words; keys of the case stay as they are written there.
+fn spaced(name: &str) -> String {
+    match name.contains('.') {
+        true => name.to_owned(),
+        false => (name.split('_'))
+            .map(|word| match word {
+                "wp" | "ep" => word.to_uppercase(),
+                other => other.to_owned(),
+            })
+            .collect::<Vec<_>>()
+            .join(" "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_worded_with_their_units() {
+        for (column, words) in [
+            ("ep_um", "EP (µm)"),
+            ("slab_wp_um", "slab WP (µm)"),
+            ("adhesive.viscosity_Pa_s", "adhesive.viscosity (Pa s)"),
+            ("volume_um3", "volume (µm³)"),
+            ("clamp.max_pressure_MPa", "clamp.max_pressure (MPa)"),
+            ("integrator.cfl", "integrator.cfl"),
+            ("steps", "steps"),
+        ] {
+            assert_eq!(worded(column), words);
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! A result of a sweep: its values, error and axis.
+
+use crate::axes::{Axis, extent};
+use crate::closing::time_unit;
+use crate::column_name::worded;
+
+/// Relative errors of results by the size of the cells, in the cells of the cases: the worst that small specimens show.
+const ERRORS: [(&str, f64); 4] = [
+    ("wp_um", 0.04),
+    ("wp_bottom_um", 0.06),
+    ("wp_top_um", 0.06),
+    ("pressure_pa", 0.1),
+];
+/// Errors that an axis has room for at least: differences far below one are no fall.
+const ROOM: f64 = 8.0;
+/// Parameters whose largest value is more than so many times the smallest get a logarithmic axis.
+const LOGARITHMIC: f64 = 20.0;
+
+/// A result of a sweep.
+#[derive(Clone, Debug)]
+pub(crate) struct Outcome {
+    /// Of its axis.
+    pub(crate) title: String,
+    /// In the unit of the title; NaN where a run has none.
+    pub(crate) values: Vec<f64>,
+    /// Relative error by the size of the cells; zero where none is known.
+    pub(crate) error: f64,
+}
+
+impl Outcome {
+    pub(crate) fn new(name: &str, values: Vec<f64>, error: Option<f64>) -> Self {
+        let known = ERRORS.iter().find(|(other, _)| *other == name);
+        let (unit, title) = match name {
+            "pressure_pa" => (1e6, "pressure (MPa)".to_owned()),
+            "time_s" => {
+                let (unit, name) = time_unit(extent(values.iter().copied()).1);
+                (unit, format!("time ({name})"))
+            }
+            other => (1.0, worded(other)),
+        };
+        Self {
+            title,
+            values: values.into_iter().map(|value| value / unit).collect(),
+            error: error.or(known.map(|(_, error)| *error)).unwrap_or(0.0),
+        }
+    }
+
+    /// An axis over the values and their errors, no finer than these.
+    pub(crate) fn axis(&self) -> Axis {
+        let ends = self
+            .values
+            .iter()
+            .flat_map(|v| [-self.error, self.error].map(|e| v * (1.0 + e)));
+        let (low, high) = extent(ends.clone());
+        let least = ROOM * self.error * low.abs().max(high.abs());
+        let pad = (0.5 * (least - (high - low))).max(0.0);
+        axis(&self.title, ends.chain([low - pad, high + pad]))
+    }
+}
+
+/// A logarithmic axis where values are far apart.
+pub(crate) fn axis(name: &str, values: impl Iterator<Item = f64> + Clone) -> Axis {
+    let finite = values.filter(|v| v.is_finite());
+    let [low, high] = [f64::min, f64::max].map(|pick| finite.clone().fold(f64::NAN, pick));
+    match low > 0.0 && high > LOGARITHMIC * low {
+        true => Axis::logarithmic(name, finite),
+        false => Axis::linear(name, finite),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 7.49 and 7.40 um, known to 0.17, were once the whole of an axis.
+    #[test]
+    fn no_axis_is_finer_than_its_errors() {
+        let outcome = |error| Outcome::new("wp_um", vec![7.49, 7.4, f64::NAN], Some(error));
+        let fall = |error| {
+            let axis = outcome(error).axis();
+            axis.share(7.49) - axis.share(7.4)
+        };
+        assert!(fall(0.0) > 0.5 && fall(0.023) < 0.09, "{}", fall(0.023));
+        let axis = outcome(0.023).axis();
+        assert!(axis.share(7.4 * 0.977) > 0.2 && axis.share(7.49 * 1.023) < 0.8);
+        assert_eq!(Outcome::new("wp_um", vec![1.0], None).error, 0.04);
+        assert_eq!(Outcome::new("steps", vec![1.0], None).error, 0.0);
+    }
+}

@@ -1,0 +1,251 @@
+//! How the run of a file ended, as the summary of its folder has it.
+
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::{Error, Labelled};
+
+/// Marks a folder as a run's.
+const MARK: &str = "bondline-run.toml";
+const SUMMARY: &str = "summary.json";
+const MOST_BYTES: u64 = 1 << 20;
+/// Share of the gap below which a press is closed.
+const CLOSED: f64 = 1e-3;
+/// How many times as long a press may take that did not close.
+const LONGER: f64 = 3.0;
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunEnd {
+    /// `closed`, `time-limit` and others, as `summary.json` has them; `not-ended` where there is none.
+    pub end: String,
+    /// Whether the run found nothing against its results.
+    pub sound: bool,
+    /// What it found.
+    pub reasons: Vec<String>,
+    /// Way left until the bond is closed, m; NaN where that is not known.
+    pub gap_m: f64,
+    /// The same over the whole way.
+    pub gap_share: f64,
+    time_s: f64,
+    command: Vec<String>,
+}
+
+impl RunEnd {
+    /// The end of the run whose folder `file` lies in; none for a file elsewhere.
+    ///
+    /// # Errors
+    /// [`Error::Data`] for a summary that cannot be read.
+    pub fn beside(file: &Path) -> Result<Option<Self>, Error> {
+        let Some(path) = summary_beside(file) else {
+            return Ok(None);
+        };
+        let broken = |e: &dyn std::fmt::Display| {
+            Error::Data(format!("cannot read '{}': {e}", path.display()))
+        };
+        let mut text = Vec::new();
+        match File::open(&path).and_then(|f| f.take(MOST_BYTES).read_to_end(&mut text)) {
+            Err(e) if e.kind() == ErrorKind::NotFound => Ok(Some(Self::of(&Value::Null))),
+            Err(e) => Err(broken(&e)),
+            Ok(_) => (serde_json::from_slice(&text))
+                .map(|summary| Some(Self::of(&summary)))
+                .map_err(|e| broken(&e)),
+        }
+    }
+
+    /// The end that a summary tells of; of no summary, that there is none yet.
+    pub fn of(summary: &Value) -> Self {
+        let number = |key| summary.get(key).and_then(Value::as_f64).unwrap_or(f64::NAN);
+        let texts = |pointer: &str| -> Vec<String> {
+            let found = summary.pointer(pointer).and_then(Value::as_array);
+            let texts = found.into_iter().flatten().filter_map(Value::as_str);
+            texts.map(str::to_owned).collect()
+        };
+        let sound = summary.pointer("/verdict/sound").and_then(Value::as_bool);
+        let end = summary.get("end").and_then(Value::as_str);
+        // It goes into tables that people open in spreadsheets.
+        let plain = |c: char| c.is_ascii_lowercase() || c == '-' || c == '_';
+        let end = end.filter(|end| {
+            end.starts_with(|c: char| c.is_ascii_lowercase()) && end.chars().all(plain)
+        });
+        let gap_m = number("gap_m");
+        Self {
+            end: end.unwrap_or("not-ended").replace('_', "-"),
+            sound: sound.unwrap_or(false),
+            reasons: texts("/verdict/reasons"),
+            gap_m,
+            gap_share: gap_m / (gap_m + number("travel_m")),
+            time_s: number("time_s"),
+            command: texts("/provenance/command"),
+        }
+    }
+
+    /// What keeps its results from being those of a closed bond, in a few words.
+    pub fn mark(&self) -> Option<String> {
+        let open = self.gap_share > CLOSED;
+        match self.end.as_str() {
+            "not-ended" | "interrupted" => Some("not ended".into()),
+            "failed" => Some("failed".into()),
+            _ if !self.sound => Some("not sound".into()),
+            _ if open => Some(format!(
+                "not closed, {:.0} % of the gap left",
+                100.0 * self.gap_share
+            )),
+            "time-limit" => Some("not closed".into()),
+            _ => None,
+        }
+    }
+
+    /// What to do about the mark, in sentences; none where there is nothing to do.
+    pub fn advice(&self) -> Option<String> {
+        let mark = self.mark()?;
+        let open = format!("{mark} ({:.2} um)", 1e6 * self.gap_m);
+        Some(match self.end.as_str() {
+            "not-ended" | "interrupted" => {
+                format!(
+                    "{mark}: mpm-run with --resume goes on{}",
+                    self.with("--resume", None)
+                )
+            }
+            "failed" => format!("{mark}: {}", self.reasons.join("; ")),
+            _ if !self.sound => format!("{mark}: {}", self.reasons.join("; ")),
+            "time-limit" => {
+                let limit = format!("clamp.time_limit={}", time(LONGER * self.time_s));
+                format!(
+                    "{open}: penetration of a press on its way. It goes on longer with --set \"{limit}\" (make: SET=\"{limit}\"){}",
+                    self.with("--overwrite", Some(&limit))
+                )
+            }
+            end => format!("{open} when the run ended ({end})"),
+        })
+    }
+
+    /// The command of the run again, with an option and a key.
+    fn with(&self, option: &str, key: Option<&str>) -> String {
+        let tool = self.command.first().map(|tool| Path::new(tool).file_name());
+        if tool != Some(Some("mpm-run".as_ref())) {
+            return String::new();
+        }
+        let kept = self.command.iter().map(String::as_str);
+        let kept = kept.filter(|word| !matches!(*word, "--resume" | "--overwrite"));
+        let set = key.into_iter().flat_map(|key| ["--set", key]);
+        let words: Vec<String> = kept.chain([option]).chain(set).map(quoted).collect();
+        format!(":\n    {}", words.join(" "))
+    }
+}
+
+/// Where the summary of the run is whose folder `file` lies in.
+pub fn summary_beside(file: &Path) -> Option<PathBuf> {
+    let folder = file.parent()?;
+    folder.join(MARK).is_file().then(|| folder.join(SUMMARY))
+}
+
+impl Labelled {
+    /// The same with what there is to say against the run of its folder behind its label.
+    ///
+    /// # Errors
+    /// As of [`RunEnd::beside`].
+    pub fn marked(mut self) -> Result<Self, Error> {
+        if let Some(mark) = RunEnd::beside(&self.path)?.and_then(|end| end.mark()) {
+            self.label += &format!(" ({mark})");
+        }
+        Ok(self)
+    }
+}
+
+/// A time as a case takes it, rounded up to one digit.
+fn time(seconds: f64) -> String {
+    let (unit, name) = match seconds {
+        s if s < 1e-3 => (1e-6, "us"),
+        s if s < 1.0 => (1e-3, "ms"),
+        _ => (1.0, "s"),
+    };
+    let count = seconds / unit;
+    let digit = 10_f64.powf(count.log10().floor());
+    format!("{} {name}", ((count / digit - 1e-9).ceil() * digit).round())
+}
+
+/// A word for a shell.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:@%".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn summary(end: &str, gap_m: f64) -> Value {
+        serde_json::json!({
+            "end": end, "verdict": { "sound": true, "reasons": [] }, "gap_m": gap_m,
+            "travel_m": 1e-5 - gap_m, "time_s": 7.5e-5,
+            "provenance": { "command": ["bin/mpm-run", "a case.toml", "--resume", "-o", "run"] },
+        })
+    }
+
+    #[test]
+    fn a_press_that_did_not_close_is_marked_with_what_goes_on() {
+        let end = RunEnd::of(&summary("time-limit", 4.2e-6));
+        assert_eq!(end.mark().unwrap(), "not closed, 42 % of the gap left");
+        let advice = end.advice().unwrap();
+        let command =
+            "\n    bin/mpm-run 'a case.toml' -o run --overwrite --set 'clamp.time_limit=300 us'";
+        assert!(advice.ends_with(command), "{advice}");
+        assert!(advice.contains("(4.20 um)"), "{advice}");
+        assert_eq!(RunEnd::of(&summary("closed", 0.0)).mark(), None);
+        assert_eq!(RunEnd::of(&summary("time", 0.0)).mark(), None);
+        let set = RunEnd::of(&summary("set", 1e-6));
+        assert_eq!(set.mark().unwrap(), "not closed, 10 % of the gap left");
+        assert!(!set.advice().unwrap().contains("--set"));
+    }
+
+    #[test]
+    fn runs_that_failed_are_not_sound_or_have_not_ended_are_marked() {
+        let mut unsound = summary("closed", 0.0);
+        unsound["verdict"] = serde_json::json!({ "sound": false, "reasons": ["lost points"] });
+        let unsound = RunEnd::of(&unsound);
+        assert_eq!(unsound.advice().unwrap(), "not sound: lost points");
+        let failed = serde_json::json!({ "end": "failed", "verdict": { "sound": false, "reasons": ["step 7"] } });
+        assert_eq!(RunEnd::of(&failed).advice().unwrap(), "failed: step 7");
+        assert_eq!(RunEnd::of(&Value::Null).mark().unwrap(), "not ended");
+    }
+
+    #[test]
+    fn times_are_rounded_up_to_a_digit() {
+        for (seconds, text) in [
+            (2.26e-4, "300 us"),
+            (9.1e-4, "1000 us"),
+            (0.03, "30 ms"),
+            (900.1, "1000 s"),
+        ] {
+            assert_eq!(time(seconds), text);
+        }
+    }
+
+    #[test]
+    fn only_files_in_run_folders_are_marked() {
+        let folder = tempfile::tempdir().unwrap();
+        let write =
+            |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+        let file = folder.path().join("wp.csv");
+        write(SUMMARY, &summary("time-limit", 4.2e-6).to_string());
+        assert_eq!(RunEnd::beside(&file).unwrap(), None);
+        write(MARK, "");
+        let label = "FLIP".to_owned();
+        let marked = Labelled {
+            label,
+            path: file.clone(),
+        }
+        .marked()
+        .unwrap();
+        assert_eq!(marked.label, "FLIP (not closed, 42 % of the gap left)");
+        write(SUMMARY, "{");
+        assert!(RunEnd::beside(&file).is_err());
+    }
+}
