@@ -62,6 +62,11 @@ fn check_file(slice: &Path) -> Result<(), Error> {
     Err(Error::file(quoted(slice), what))
 }
 
+/// Whether a file in a folder is named as a slice of a stack.
+pub fn is_slice(path: &Path) -> bool {
+    kind_of(path).is_some()
+}
+
 /// Which of [`KINDS`] a file is by its ending.
 fn kind_of(path: &Path) -> Option<usize> {
     let hidden = path

@@ -1,4 +1,4 @@
-//! The states of a series, in order of time.
+//! The files to measure: specimens of folders, and the states of a series in order of time.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,12 +6,17 @@ use std::path::{Path, PathBuf};
 use cli::Failure;
 use particle_file::ParticleFile;
 
-use crate::Arguments;
+use crate::arguments::Arguments;
 
-/// The files to measure: as given or, of a series, the states of runs' folders and other files by time.
+/// The files to measure: as given, a folder of particle files by name; of a series, the states of runs' folders and other
+/// files by time.
 pub fn of(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
     if !arguments.series {
-        return Ok(arguments.files.clone());
+        let found = arguments.files.iter().map(|path| match in_folder(path) {
+            files if files.is_empty() => vec![path.clone()],
+            files => files,
+        });
+        return Ok(found.flatten().collect());
     }
     let mut states = Vec::new();
     for path in &arguments.files {
@@ -38,12 +43,7 @@ pub fn of(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
 
 /// The states in a run's folder.
 fn of_run(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let mut states = Vec::new();
-    if let Ok(list) = fs::read_dir(folder.join("snapshots")) {
-        let paths = list.filter_map(|entry| Some(entry.ok()?.path()));
-        states.extend(paths.filter(|path| path.extension().is_some_and(|e| e == "mpts")));
-    }
-    states.sort();
+    let mut states = in_folder(&folder.join("snapshots"));
     states.extend(Some(folder.join("final.mpts")).filter(|path| path.is_file()));
     if states.is_empty() {
         return Err(Failure::data(format!(
@@ -52,4 +52,19 @@ fn of_run(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         )));
     }
     Ok(states)
+}
+
+/// The particle files in a folder, by name; none where it holds slices of a stack, or is no folder.
+fn in_folder(folder: &Path) -> Vec<PathBuf> {
+    let list = fs::read_dir(folder).into_iter().flatten();
+    let paths: Vec<PathBuf> = list.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    if paths.iter().any(|path| voxels::is_slice(path)) {
+        return Vec::new();
+    }
+    let hidden = |path: &Path| (path.file_name()).is_some_and(|n| n.as_encoded_bytes()[0] == b'.');
+    let mut found: Vec<_> = (paths.into_iter())
+        .filter(|path| path.extension().is_some_and(|e| e == "mpts") && !hidden(path))
+        .collect();
+    found.sort();
+    found
 }
