@@ -25,6 +25,7 @@ mod adhesive;
 mod bits;
 mod check;
 mod error;
+mod folder;
 mod header;
 mod layout;
 pub mod limits;
@@ -38,6 +39,7 @@ mod write;
 
 pub use bits::{BitGrid, BitsRef};
 pub use error::Error;
+pub use folder::{by_time, in_folder, states_of_run};
 pub use header::{Block, Header, Kind, Material, Provenance};
 pub use layout::{Element, Section};
 pub use map::Mapped;

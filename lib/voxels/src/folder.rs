@@ -62,9 +62,10 @@ fn check_file(slice: &Path) -> Result<(), Error> {
     Err(Error::file(quoted(slice), what))
 }
 
-/// Whether a file in a folder is named as a slice of a stack.
-pub fn is_slice(path: &Path) -> bool {
-    kind_of(path).is_some()
+/// Whether a folder has a file that is named as a slice of a stack.
+pub fn holds_slices(folder: &Path) -> bool {
+    let mut entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.any(|entry| kind_of(&entry.path()).is_some())
 }
 
 /// Which of [`KINDS`] a file is by its ending.

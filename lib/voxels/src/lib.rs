@@ -47,7 +47,7 @@ mod voxel_size;
 pub use crop::Crop;
 pub use despeckle::Despeckled;
 pub use error::Error;
-pub use folder::is_slice;
+pub use folder::holds_slices;
 pub use histogram::Histogram;
 pub use label::Label;
 pub use label_volume::{ADHESIVE, LabelVolume, VOID, WOOD};
