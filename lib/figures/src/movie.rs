@@ -27,22 +27,20 @@ impl<'a> Movie<'a> {
     /// # Errors
     /// [`Error::Data`] for an unreadable file.
     pub fn read(states: &'a [Labelled], wood: Wood, from: Direction) -> Result<Self, Error> {
-        let mut corners_m = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        let [mut low, mut high] = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         for state in states {
             let file = ParticleFile::open(&state.path).map_err(data)?;
             let header = file.header();
-            for i in 0..3 {
-                // Voxels of a state lie on a lattice of their own, off the box by less than one.
-                let [low, high] = [header.box_min_m[i], header.box_max_m[i]];
-                corners_m[0][i] = corners_m[0][i].min(low - header.voxel_m);
-                corners_m[1][i] = corners_m[1][i].max(high + header.voxel_m);
-            }
+            // Voxels of a state lie on a lattice of their own, off the box by less than one.
+            let voxel_m = header.voxel_m;
+            low = std::array::from_fn(|i| low[i].min(header.box_min_m[i] - voxel_m));
+            high = std::array::from_fn(|i| high[i].max(header.box_max_m[i] + voxel_m));
         }
         Ok(Self {
             states,
             wood,
             from,
-            corners_m,
+            corners_m: [low, high],
             page: Page::default(),
         })
     }
