@@ -37,6 +37,7 @@
 #   make report                   one page for a browser with tables, figures, runs and the bond in 3D
 #   make book                     the documents as one book to browse and search; needs mdbook
 #   make figures                  every figure of the paper; FORMATS="svg png pdf" FIGURE_WIDTH="84 mm" FIGURE_DPI=300
+#   make dist                     an archive of the tools for machines without a toolchain
 #   make man install clean help
 
 # Specimens and bond files on the way are kept: they are looked at and used again.
@@ -82,6 +83,7 @@ include pipelines/65-gate.mk
 include pipelines/70-sweep.mk
 include pipelines/75-interop.mk
 include pipelines/80-book.mk
+include pipelines/85-dist.mk
 
 .PHONY: help
 help:

@@ -22,6 +22,12 @@ impl Drawing {
     /// [`Error::Request`] for a picture of too many pixels, [`Error::Draw`] with the backend's
     /// reason.
     pub fn to_png(&self) -> Result<Vec<u8>, Error> {
+        let (pixels, size) = self.pixels()?;
+        encode(&pixels, size, Some(self.page.dpi))
+    }
+
+    /// The drawing in the dots per inch of its page, row by row from the top, three bytes a pixel; pixels along x and y.
+    pub(crate) fn pixels(&self) -> Result<(Vec<u8>, [usize; 2]), Error> {
         let size = [self.width, self.height].map(|edge| (edge * self.page.scale()).round());
         if size[0] * size[1] > MOST_PIXELS {
             return Err(Error::Request(format!(
@@ -43,7 +49,7 @@ impl Drawing {
             let mut backend = BitMapBackend::with_buffer(&mut pixels, edges);
             replay(self, &mut backend, scale, text::draw)?;
         }
-        encode(&average(&pixels, width), size, Some(self.page.dpi))
+        Ok((average(&pixels, width), size))
     }
 }
 
@@ -100,8 +106,22 @@ fn average(pixels: &[u8], width: usize) -> Vec<u8> {
 /// Pixels as a PNG file, with its dots per inch if they mean something.
 pub(crate) fn encode(rgb: &[u8], size: [usize; 2], dpi: Option<f64>) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
+    let mut writer = encoder(&mut bytes, size, dpi)
+        .write_header()
+        .map_err(failed)?;
+    writer.write_image_data(rgb).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+/// Of a PNG file of so many pixels along x and y.
+pub(crate) fn encoder(
+    bytes: &mut Vec<u8>,
+    size: [usize; 2],
+    dpi: Option<f64>,
+) -> png::Encoder<'static, &mut Vec<u8>> {
     let [width, height] = size.map(|edge| edge as u32);
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    let mut encoder = png::Encoder::new(bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     if let Some(dpi) = dpi {
@@ -112,10 +132,7 @@ pub(crate) fn encode(rgb: &[u8], size: [usize; 2], dpi: Option<f64>) -> Result<V
             unit: png::Unit::Meter,
         }));
     }
-    let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(rgb).map_err(failed)?;
-    writer.finish().map_err(failed)?;
-    Ok(bytes)
+    encoder
 }
 
 #[cfg(test)]

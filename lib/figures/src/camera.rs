@@ -70,29 +70,29 @@ impl Camera {
         [dot(vector, self.right), dot(vector, self.up)]
     }
 
-    /// Low and high corner of a box of these edges in the view.
-    pub(crate) fn extent(&self, edges: Vector) -> [[f64; 2]; 2] {
-        let places = corners(edges).map(|corner| self.place(corner));
-        let ends = |a: usize| {
+    /// Low and high corner in the view of a box between these corners.
+    pub(crate) fn extent(&self, ends: [Vector; 2]) -> [[f64; 2]; 2] {
+        let places = corners(ends).map(|corner| self.place(corner));
+        let range = |a: usize| {
             let along = places.map(|place| place[a]);
             [
                 along.into_iter().fold(f64::INFINITY, f64::min),
                 along.into_iter().fold(f64::NEG_INFINITY, f64::max),
             ]
         };
-        let [x, y] = [ends(0), ends(1)];
+        let [x, y] = [range(0), range(1)];
         [[x[0], y[0]], [x[1], y[1]]]
     }
 
-    /// The solids in a box of `edges` voxels, so many pixels across.
-    pub(crate) fn view(&self, solids: &Solids, edges: Vector, across: usize) -> View {
-        let [low, high] = self.extent(edges);
+    /// The solids in a box between corners (voxels, from their own), so many pixels across.
+    pub(crate) fn view(&self, solids: &Solids, ends: [Vector; 2], across: usize) -> View {
+        let [low, high] = self.extent(ends);
         let width = across.max(1) * RAYS;
         let voxel = (high[0] - low[0]) / width as f64;
         let height = (((high[1] - low[1]) / voxel).ceil() as usize)
             .max(1)
             .next_multiple_of(RAYS);
-        let far = corners(edges).map(|c| dot(c, self.towards));
+        let far = corners(ends).map(|c| dot(c, self.towards));
         let far = far.into_iter().fold(f64::NEG_INFINITY, f64::max) + 2.0;
         let mut hits = Vec::with_capacity(width * height);
         for row in 0..height {
@@ -110,7 +110,7 @@ impl Camera {
         self.edges(
             &mut pixels,
             &hits,
-            edges,
+            ends,
             [low[0], high[1], far, voxel],
             width,
         );
@@ -154,12 +154,12 @@ impl Camera {
         &self,
         pixels: &mut [[u8; 3]],
         hits: &[Option<Hit>],
-        edges: Vector,
+        ends: [Vector; 2],
         [left, top, far, voxel]: [f64; 4],
         width: usize,
     ) {
         let height = pixels.len() / width;
-        let corners = corners(edges);
+        let corners = corners(ends);
         let pairs = (0..8_usize).flat_map(|c| [1, 2, 4].map(|axis| (c, c | axis)));
         for (from, to) in pairs.filter(|(from, to)| from != to) {
             let [a, b] = [corners[from], corners[to]];
@@ -181,8 +181,9 @@ impl Camera {
     }
 }
 
-fn corners(edges: Vector) -> [Vector; 8] {
-    std::array::from_fn(|c| std::array::from_fn(|a| if c >> a & 1 == 1 { edges[a] } else { 0.0 }))
+/// All corners of a box between two.
+fn corners(ends: [Vector; 2]) -> [Vector; 8] {
+    std::array::from_fn(|c| std::array::from_fn(|a| ends[c >> a & 1][a]))
 }
 
 /// Mean of each square of rays.
@@ -222,7 +223,7 @@ mod tests {
 
     /// Area that is not white nor an edge of the box, in voxel faces, and its mean place.
     fn shown(solids: &Solids, camera: &Camera) -> (f64, [f64; 2]) {
-        let edges = [EDGE as f64; 3];
+        let edges = [[0.0; 3], [EDGE as f64; 3]];
         let view = camera.view(solids, edges, 200);
         let [low, high] = camera.extent(edges);
         let pixel = (high[0] - low[0]) / view.size[0] as f64;

@@ -22,6 +22,8 @@ pub struct Views {
     camera: Camera,
     /// x, y or z: across the bond, and up.
     normal: usize,
+    /// Low and high corner of what all panels show, m; without, each shows its own voxels.
+    within: Option<[[f64; 3]; 2]>,
     page: Page,
 }
 
@@ -57,6 +59,8 @@ impl Default for Direction {
 struct Panel {
     label: String,
     detail: String,
+    /// Low corner, m.
+    origin_m: [f64; 3],
     /// Edges in voxels.
     edges: [f64; 3],
     /// Voxel edge, um.
@@ -97,6 +101,7 @@ impl Views {
             panels,
             camera: Camera::new(normal, from.turn, from.tilt),
             normal,
+            within: None,
             page: Page::default(),
         })
     }
@@ -104,6 +109,12 @@ impl Views {
     /// The same for a page.
     pub fn on(self, page: Page) -> Self {
         Self { page, ..self }
+    }
+
+    /// The same with all panels of a box between these corners (m), which holds their voxels.
+    pub(crate) fn within(self, corners_m: [[f64; 3]; 2]) -> Self {
+        let within = Some(corners_m);
+        Self { within, ..self }
     }
 
     /// The figure.
@@ -137,8 +148,17 @@ impl Views {
     /// Width and height of a panel's view, um.
     pub(crate) fn extent(&self, panel: usize) -> [f64; 2] {
         let panel = &self.panels[panel];
-        let [low, high] = self.camera.extent(panel.edges);
+        let [low, high] = self.camera.extent(self.ends(panel));
         [high[0] - low[0], high[1] - low[1]].map(|edge| edge * panel.voxel)
+    }
+
+    /// Low and high corner of what a panel shows, voxels from its own low corner.
+    fn ends(&self, panel: &Panel) -> [[f64; 3]; 2] {
+        let own = [[0.0; 3], panel.edges];
+        self.within.map_or(own, |corners_m| {
+            let voxels = |metres, origin_m| 1e6 * (metres - origin_m) / panel.voxel;
+            corners_m.map(|corner| std::array::from_fn(|i| voxels(corner[i], panel.origin_m[i])))
+        })
     }
 
     /// The axis that comes nearest to the viewer.
@@ -157,7 +177,7 @@ impl Views {
         let panel = &self.panels[panel];
         let most = (MOST_PIXELS * frame.width / frame.height).sqrt();
         let across = (frame.width * self.page.scale()).round().min(most) as usize;
-        let View { size, rgb } = self.camera.view(&panel.solids, panel.edges, across);
+        let View { size, rgb } = self.camera.view(&panel.solids, self.ends(panel), across);
         drawing.images.push(Image {
             place: [frame.left, frame.top, frame.width, frame.height],
             size,
@@ -220,7 +240,7 @@ fn arrow(drawing: &mut Drawing, from: Point, to: Point) {
     }
 }
 
-fn data(error: particle_file::Error) -> Error {
+pub(crate) fn data(error: particle_file::Error) -> Error {
     Error::Data(error.to_string())
 }
 
@@ -251,6 +271,7 @@ impl Panel {
         Ok(Self {
             label: named.label.clone(),
             detail,
+            origin_m: labels.origin_m,
             edges: labels.dims.map(|n| n as f64),
             voxel: labels.voxel_m * 1e6,
             solids,

@@ -84,7 +84,11 @@ impl Datum {
         let middle = 0.5 * (bottom + top);
         match reference {
             Reference::Adherend => Ok(level(bottom, top)),
-            Reference::Fit => fit::plane(state, middle).map(Datum::Tilted),
+            Reference::Fit => fit::plane(state, middle).map(Datum::Tilted).ok_or_else(|| {
+                Error::Usage(
+                    "no column is open between the adherends, so no plane can be fitted; use --reference mid".into(),
+                )
+            }),
             _ => Ok(level(middle, middle)),
         }
     }
@@ -103,6 +107,14 @@ impl Datum {
             .map(|a| wood.bits.dims()[a])
             .product();
         bondline::doubt(severed, area as u64)
+    }
+
+    /// How a fitted plane is turned about x, y and z, degrees.
+    pub fn tilt_deg(&self) -> Option<[f64; 3]> {
+        match self {
+            Datum::Level { .. } => None,
+            Datum::Tilted(plane) => Some(plane.tilt_deg()),
+        }
     }
 
     /// Area of the bond over its projection along the normal.

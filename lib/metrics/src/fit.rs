@@ -2,8 +2,8 @@
 
 use units::Axis;
 
+use crate::State;
 use crate::state::Across;
-use crate::{Error, State};
 
 /// Fits are repeated because the first split of wood into below and above is level; tilts that
 /// a box can hold settle in a few rounds.
@@ -25,9 +25,27 @@ impl Plane {
         self.level
     }
 
-    /// Rise along the two axes across the bond, in their order.
-    pub fn slope(&self) -> [f64; 2] {
-        self.slope
+    /// The unit vector normal to it that points up.
+    pub(crate) fn up(&self) -> [f64; 3] {
+        let mut up = [0.0; 3];
+        up[self.normal.index()] = self.slant().recip();
+        for (axis, slope) in self.axes.iter().zip(self.slope) {
+            up[axis.index()] = -slope / self.slant();
+        }
+        up
+    }
+
+    /// By how many degrees a level plane is turned, right-handed, about x, y and z to rise as this one.
+    pub fn tilt_deg(&self) -> [f64; 3] {
+        let n = self.normal.index();
+        let mut tilt = [0.0; 3];
+        for (axis, slope) in self.axes.iter().zip(self.slope) {
+            let along = axis.index();
+            let sign = if (along + 1) % 3 == n { 1.0 } else { -1.0 };
+            // Plus zero: no rise has no sign.
+            tilt[3 - along - n] = sign * slope.atan().to_degrees() + 0.0;
+        }
+        tilt
     }
 
     /// Area of the plane over its projection along the normal.
@@ -57,8 +75,8 @@ impl Plane {
 /// bondline-acer-240 is 0.0002 voxels off the true one; that of the narrower half 0.2).
 /// Starts from the level `start` and repeats with the fitted plane as long as the plane cuts no
 /// more wood than before: in small specimens with few surface columns a fit can otherwise walk
-/// off into the lumens.
-pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, Error> {
+/// off into the lumens. `None` where no column is open between the adherends.
+pub(crate) fn plane(state: &State, start: f64) -> Option<Plane> {
     let across = state.across();
     let extent = across.columns.map(|n| n as f64 * across.width_m);
     let mut plane = Plane {
@@ -72,9 +90,7 @@ pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, Error> {
     for _ in 0..ROUNDS {
         let middles = openings.narrowest_middles(&across);
         if middles.is_empty() {
-            return Err(Error::Usage(
-                "no column is open between the adherends, so no plane can be fitted; use --reference mid".into(),
-            ));
+            return None;
         }
         let (level, slope) = least_squares(&middles, plane.centre);
         let next = Plane {
@@ -88,7 +104,7 @@ pub(crate) fn plane(state: &State, start: f64) -> Result<Plane, Error> {
         }
         (plane, openings) = (next, next_openings);
     }
-    Ok(plane)
+    Some(plane)
 }
 
 /// The openings between the adherends along a plane.

@@ -2,8 +2,9 @@
 
 mod specimens;
 
+use bondline::Specimen;
 use metrics::{Datum, Map, Penetration, Reference, Sealed, Side, depth_profile, penetration};
-use specimens::{Run, Stack, VOXEL, close};
+use specimens::{Run, Stack, VOXEL, close, placed};
 use units::Axis;
 
 fn measured(state: &metrics::State, reference: Reference) -> [Penetration; 3] {
@@ -142,15 +143,13 @@ fn the_middle_of_a_run_moves_with_half_the_gap() {
     }
 }
 
-#[test]
-fn a_tilted_bond_line_is_found_by_the_fit() {
-    // A gap of 8 voxels that rises 12 voxels over 96 along x and falls 6 over 64 along z, in
-    // wood with lumens; adhesive fills the gap only.
-    let slope = [0.125, -0.09375];
-    let middle = |x: usize, z: usize| {
+/// A gap of 8 voxels that rises 12 voxels over 96 along x and falls 6 over 64 along z at the slopes of the test, in wood
+/// with lumens; adhesive fills the gap only.
+fn tilted(slope: [f64; 2]) -> Stack {
+    let middle = move |x: usize, z: usize| {
         60.0 + slope[0] * (x as f64 + 0.5 - 48.0) + slope[1] * (z as f64 + 0.5 - 32.0)
     };
-    let stack = Stack::new([96, 120, 64], |x, y, z| {
+    Stack::new([96, 120, 64], move |x, y, z| {
         let height = y as f64 + 0.5 - middle(x, z);
         let lumen = (x % 16) < 6 && (y % 14) < 9;
         match height.abs() {
@@ -158,9 +157,23 @@ fn a_tilted_bond_line_is_found_by_the_fit() {
             _ if lumen => ' ',
             _ => 'w',
         }
-    });
+    })
+}
+
+#[test]
+fn a_tilted_bond_line_is_found_by_the_fit() {
+    let slope = [0.125, -0.09375];
+    let stack = tilted(slope);
     let state = stack.state(Axis::Y);
     let found = measured(&state, Reference::Fit);
+    let tilt = Datum::find(Reference::Fit, &state)
+        .unwrap()
+        .tilt_deg()
+        .unwrap();
+    // A rise along x is a turn about z, a fall along z one about x.
+    for (tilt, exact) in tilt.into_iter().zip([-slope[1], 0.0, slope[0]]) {
+        assert!((tilt - exact.atan().to_degrees()).abs() < 0.1, "{tilt}");
+    }
     let cosine = (1.0 + slope[0] * slope[0] + slope[1] * slope[1])
         .sqrt()
         .recip();
@@ -182,6 +195,53 @@ fn a_tilted_bond_line_is_found_by_the_fit() {
         level > 1.5 * exact,
         "a level reference takes the tilt for penetration"
     );
+}
+
+/// Turned, it has the thickness and depths that the fit tells, and no tilt; so for any bond normal.
+#[test]
+fn a_tilted_specimen_is_turned_level() {
+    let exact = tilted([0.125, -0.09375]);
+    for normal in Axis::ALL {
+        // y of the specimen along the normal, the order of the axes kept.
+        let turn = (4 - normal.index()) % 3;
+        let old = [96, 120, 64];
+        let dims = std::array::from_fn(|i| old[(i + turn) % 3]);
+        let stack = Stack::new(dims, |x, y, z| {
+            let index: [usize; 3] = std::array::from_fn(|i| [x, y, z][(i + 3 - turn) % 3]);
+            match index {
+                [x, y, z] if exact.wood.get(x, y, z) => 'w',
+                [x, y, z] if exact.adhesive.get(x, y, z) => 'a',
+                _ => ' ',
+            }
+        });
+        let specimen = Specimen::new(placed(&stack.wood), placed(&stack.adhesive)).unwrap();
+        let level = metrics::level(&specimen, normal).unwrap();
+        let turned = Stack {
+            wood: level.wood,
+            adhesive: level.adhesive,
+        };
+        let state = turned.state(normal);
+        let tilt = Datum::find(Reference::Fit, &state)
+            .unwrap()
+            .tilt_deg()
+            .unwrap();
+        assert!(
+            tilt.iter().all(|tilt| tilt.abs() < 0.2),
+            "{normal}: {tilt:?}"
+        );
+        let found = measured(&state, Reference::Mid)[2];
+        let thickness = 8.0 / (1.0_f64 + 0.125 * 0.125 + 0.09375 * 0.09375).sqrt();
+        assert!(
+            close(found.ep_m, thickness * VOXEL, 0.01),
+            "{normal}: {}",
+            found.ep_m
+        );
+        // Voxels whose centres are in and out by rounding stand out of a slab.
+        assert!(close(found.wp_m, thickness / 12_f64.sqrt() * VOXEL, 0.03));
+        let again = Specimen::new(placed(&turned.wood), placed(&turned.adhesive)).unwrap();
+        let dims = metrics::level(&again, normal).unwrap().wood.dims();
+        assert!(dims.iter().zip(turned.wood.dims()).all(|(a, b)| a + 1 >= b));
+    }
 }
 
 #[test]

@@ -25,6 +25,7 @@ mod adhesive;
 mod bits;
 mod check;
 mod error;
+mod folder;
 mod header;
 mod layout;
 pub mod limits;
@@ -39,6 +40,7 @@ mod write;
 
 pub use bits::{BitGrid, BitsRef};
 pub use error::Error;
+pub use folder::{by_time, in_folder, states_of_run};
 pub use header::{Block, Header, Kind, Material, Provenance};
 pub use map::Mapped;
 pub use read::{ParticleFile, Value};

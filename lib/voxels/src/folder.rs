@@ -62,6 +62,12 @@ fn check_file(slice: &Path) -> Result<(), Error> {
     Err(Error::file(quoted(slice), what))
 }
 
+/// Whether a folder has a file that is named as a slice of a stack.
+pub fn holds_slices(folder: &Path) -> bool {
+    let mut entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.any(|entry| kind_of(&entry.path()).is_some())
+}
+
 /// Which of [`KINDS`] a file is by its ending.
 fn kind_of(path: &Path) -> Option<usize> {
     let hidden = path

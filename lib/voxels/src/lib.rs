@@ -46,6 +46,7 @@ mod voxel_size;
 pub use crop::Crop;
 pub use despeckle::Despeckled;
 pub use error::Error;
+pub use folder::holds_slices;
 pub use histogram::Histogram;
 pub use label::Label;
 pub use label_volume::{ADHESIVE, LabelVolume, VOID, WOOD};

@@ -2,12 +2,13 @@
 
 use clap::{Args, Parser, Subcommand};
 use cli::Output;
-use figures::{Case, Direction, Labelled, Page, Position};
+use figures::{Case, Labelled, Position};
 use units::Axis;
 
+use crate::picture::{Look, Picture, Print};
 use crate::values::{
-    Colour, Extent, Limit, Part, Shown, Target, Wood, cell, degrees, dpi, experiment, given,
-    labelled, name, part, position, run, share, width,
+    Colour, Extent, Limit, Part, Shown, Target, cell, experiment, given, labelled, name, part, png,
+    position, rate, run, share,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -35,7 +36,9 @@ impl Arguments {
             Figure::Penetration(a) => &a.picture.common,
             Figure::Slice(a) => &a.picture.common,
             Figure::Response(a) => &a.picture.common,
+            Figure::Pores(a) => &a.picture.common,
             Figure::View(a) => &a.picture.common,
+            Figure::Movie(a) => &a.common,
             Figure::Setup(a) => &a.picture.common,
             Figure::Table2(a) => &a.common,
         }
@@ -68,6 +71,12 @@ pub(crate) enum Figure {
   bond-figures penetration PF=pf-series.csv PVAc=pvac-series.csv -o depth.png
   bond-figures penetration --show filled depth-profile.csv -o filled.svg")]
     Penetration(PenetrationArgs),
+    /// Sizes of pores and lumens: the share of the open volume up to each diameter
+    #[command(after_help = "Examples:
+  wp-metrics birch.tif --pores -o pores.csv && bond-figures pores birch=pores.csv -o pores.svg
+  bond-figures pores beech=beech.csv birch=birch.csv -o species.png
+  wp-metrics wood/ --pores | bond-figures pores - -o pores.pdf")]
+    Pores(PoresArgs),
     /// Slices through specimens, bonds and states of a run
     #[command(after_help = "Examples:
   bond-figures slice bond.mpts -o bond.png
@@ -93,6 +102,12 @@ pub(crate) enum Figure {
   bond-figures view experiment=exp.mpts FLIP=flip/final.mpts --wood hidden -o fig7.pdf
   bond-figures view final.mpts --turn -60 --tilt 40 --width \"84 mm\" --dpi 600 -o view.png")]
     View(ViewArgs),
+    /// The states of a run in three dimensions as an animated PNG, which browsers play
+    #[command(after_help = "Examples:
+  bond-figures movie out/pf-implicit -o press.png
+  bond-figures movie PF=out/pf-implicit --wood hidden --rate 10 -o press.png
+  bond-figures movie out/pf-implicit --turn -60 --width \"84 mm\" --dpi 150 -o small.png")]
+    Movie(MovieArgs),
     /// Weighted penetration of experiment and runs, with errors (Table 2)
     #[command(after_help = "Examples:
   bond-figures table2 --experiment pf=experiment.csv --run pf:xpic=xpic.csv -o table2.csv
@@ -101,44 +116,6 @@ pub(crate) enum Figure {
   bond-figures table2 --run pf:implicit=wp.csv --errors errors.csv -o table2.csv
   bond-figures table2 --run pf:flip=wp.csv --name pf=PF --picture t.pdf --width \"84 mm\" -o t.csv")]
     Table2(Table2Args),
-}
-
-#[derive(Args)]
-pub(crate) struct Picture {
-    /// Picture to write, .svg, .png or .pdf; `-` is SVG on standard output; may be repeated
-    #[arg(short, long, value_name = "FILE", required = true, value_parser = given(Target::new))]
-    pub(crate) output: Vec<Target>,
-    #[command(flatten)]
-    print: Print,
-    #[command(flatten)]
-    common: cli::Common,
-}
-
-/// What a picture is printed on.
-#[derive(Args)]
-pub(crate) struct Print {
-    /// Printed width, e.g. "84 mm": the figure fits itself to it with text of 7 and 8 points;
-    /// without it, as wide as it likes
-    #[arg(long, value_name = "LEN", value_parser = width)]
-    width: Option<f64>,
-    /// Pixels per inch of a PNG, 30 to 1200
-    #[arg(long, value_name = "NUMBER", default_value = "240", value_parser = dpi)]
-    dpi: f64,
-}
-
-impl Print {
-    pub(crate) fn page(&self) -> Page {
-        Page {
-            width_mm: self.width,
-            dpi: self.dpi,
-        }
-    }
-}
-
-impl Picture {
-    pub(crate) fn page(&self) -> Page {
-        self.print.page()
-    }
 }
 
 #[derive(Args)]
@@ -192,6 +169,15 @@ pub(crate) struct PenetrationArgs {
 }
 
 #[derive(Args)]
+pub(crate) struct PoresArgs {
+    /// Tables of `wp-metrics --pores`
+    #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
+    pub(crate) files: Vec<Labelled>,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
 pub(crate) struct SliceArgs {
     /// Particle files, one panel each
     #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
@@ -234,19 +220,29 @@ pub(crate) struct ViewArgs {
     /// Particle files, one panel each
     #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
     pub(crate) files: Vec<Labelled>,
-    /// How much of the wood is shown: none, the half away from the viewer, or all
-    #[arg(long, value_enum, default_value = "cut")]
-    pub(crate) wood: Wood,
-    /// Degrees to look from beside the front, about the axis across the bond
-    #[arg(long, value_name = "DEGREES", default_value_t = Direction::default().turn, allow_hyphen_values = true,
-          value_parser = |text: &str| degrees(text, [-360.0, 360.0]))]
-    pub(crate) turn: f64,
-    /// Degrees to look from above the bond plane
-    #[arg(long, value_name = "DEGREES", default_value_t = Direction::default().tilt, allow_hyphen_values = true,
-          value_parser = |text: &str| degrees(text, [-90.0, 90.0]))]
-    pub(crate) tilt: f64,
+    #[command(flatten)]
+    pub(crate) look: Look,
     #[command(flatten)]
     pub(crate) picture: Picture,
+}
+
+#[derive(Args)]
+pub(crate) struct MovieArgs {
+    /// The folder of a run: its snapshots, and its last state
+    #[arg(value_name = "[LABEL=]RUNDIR", value_parser = given(labelled))]
+    pub(crate) run: Labelled,
+    /// Animated PNG to write; `-` is standard output
+    #[arg(short, long, value_name = "PNG", value_parser = given(png))]
+    pub(crate) output: Output,
+    /// Frames a second, 0.1 to 60; the last stands for two seconds
+    #[arg(long, value_name = "NUMBER", default_value = "5", value_parser = rate)]
+    pub(crate) rate: f64,
+    #[command(flatten)]
+    pub(crate) look: Look,
+    #[command(flatten)]
+    pub(crate) print: Print,
+    #[command(flatten)]
+    common: cli::Common,
 }
 
 #[derive(Args)]

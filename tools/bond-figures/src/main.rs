@@ -2,18 +2,21 @@
 
 mod arguments;
 mod inputs;
+mod picture;
 mod values;
 
 use std::process::ExitCode;
 
 use cli::{Failure, Output, Record};
 use figures::{
-    Case, CellErrors, Closing, Cut, Direction, Drawing, Error, Response, Setup, ShearRates, Slices,
-    Table2, Views, WpMap, penetrations,
+    Case, CellErrors, Closing, Cut, Drawing, Error, Labelled, Movie, Response, Setup, ShearRates,
+    Slices, Table2, Views, WpMap, penetrations, pores,
 };
+use particle_file::{by_time, states_of_run};
 
-use arguments::{Arguments, Figure, Picture, SliceArgs, Table2Args};
+use arguments::{Arguments, Figure, MovieArgs, SliceArgs, Table2Args};
 use inputs::Inputs;
+use picture::Picture;
 use values::{Format, Target};
 
 fn main() -> ExitCode {
@@ -48,6 +51,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
                 .on(a.picture.page());
             write(&plot.draw().map_err(failure)?, &a.picture, &inputs)
         }
+        Figure::Pores(a) => {
+            let inputs = Inputs::new(a.files)?;
+            let plot = pores(inputs.files()).map_err(failure)?.on(a.picture.page());
+            write(&plot.draw().map_err(failure)?, &a.picture, &inputs)
+        }
         Figure::Response(a) => {
             let inputs = Inputs::new(vec![a.sweep])?;
             let figure = Response::read(&inputs.files()[0], &a.result, a.error).map_err(failure)?;
@@ -62,13 +70,11 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         Figure::View(a) => {
             let inputs = Inputs::new(a.files)?.marked()?;
-            let from = Direction {
-                turn: a.turn,
-                tilt: a.tilt,
-            };
-            let figure = Views::read(inputs.files(), a.wood.into(), from).map_err(failure)?;
+            let (wood, from) = (a.look.wood.into(), a.look.from());
+            let figure = Views::read(inputs.files(), wood, from).map_err(failure)?;
             write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
         }
+        Figure::Movie(a) => movie(&a),
         Figure::Table2(a) => table2(a),
     }
 }
@@ -89,6 +95,21 @@ fn slice(a: SliceArgs) -> Result<(), Failure> {
         figure = figure.grid(cell.si(voxel)).map_err(failure)?;
     }
     write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
+}
+
+fn movie(a: &MovieArgs) -> Result<(), Failure> {
+    let states = states_of_run(&a.run.path)
+        .and_then(by_time)
+        .map_err(Failure::data)?;
+    let named = states.into_iter().map(|path| Labelled {
+        label: a.run.label.clone(),
+        path,
+    });
+    let inputs = Inputs::new(named.collect())?;
+    inputs.keep_from([&a.output])?;
+    let movie = Movie::read(inputs.files(), a.look.wood.into(), a.look.from()).map_err(failure)?;
+    let png = movie.on(a.print.page()).to_png(a.rate).map_err(failure)?;
+    (a.output).write_with_record(&inputs.record()?, |out| out.write_all(&png))
 }
 
 fn table2(a: Table2Args) -> Result<(), Failure> {

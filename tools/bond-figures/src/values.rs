@@ -125,6 +125,20 @@ impl Target {
     }
 }
 
+/// Where a PNG goes.
+pub(crate) fn png(text: &OsStr) -> Result<Output, String> {
+    let png = Path::new(text)
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("png"));
+    match png || text == "-" {
+        true => Ok(text.to_owned().into()),
+        false => Err(format!(
+            "{} is no name of a PNG: it must end in .png",
+            text.display()
+        )),
+    }
+}
+
 pub(crate) fn name(text: &str) -> Result<(String, String), String> {
     let pair = text
         .split_once('=')
@@ -238,6 +252,14 @@ pub(crate) fn dpi(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(dpi) if (least..=most).contains(&dpi) => Ok(dpi),
         _ => Err(format!("'{text}' is not a number from {least} to {most}")),
+    }
+}
+
+/// Frames a second.
+pub(crate) fn rate(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(rate) if (0.1..=60.0).contains(&rate) => Ok(rate),
+        _ => Err(format!("'{text}' is not a number from 0.1 to 60")),
     }
 }
 

@@ -264,6 +264,34 @@ p95_depth_total_um,wetted_area_bottom_um2,wetted_area_top_um2,bond_line";
     );
 }
 
+/// A line for each specimen of a table of several, by its name; of a table of one, by the label.
+#[test]
+fn pores_are_drawn_of_each_specimen() {
+    let folder = folder();
+    let header = "file,diameter_um,volume_fraction,up_to_fraction";
+    let two = [
+        "a/beech.mpts,10,0.4,0.4",
+        "a/beech.mpts,60,0.6,1",
+        "birch.mpts,80,1,1",
+    ];
+    table(folder.path(), "two.csv", header, &two);
+    table(folder.path(), "one.csv", header, &two[..2]);
+    let output = figures(
+        folder.path(),
+        &["pores", "two.csv", "own=one.csv", "-o", "-"],
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let svg = String::from_utf8_lossy(&output.stdout).into_owned();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let texts: Vec<&str> = document.descendants().filter_map(|n| n.text()).collect();
+    for label in ["beech", "birch", "own"] {
+        assert!(texts.iter().any(|text| text.trim() == label), "{label}");
+    }
+    let other = figures(folder.path(), &["pores", "wp.csv", "-o", "a.svg"]);
+    assert_eq!(other.status.code(), Some(3), "{}", said(&other));
+    assert!(said(&other).contains("diameter_um"), "{}", said(&other));
+}
+
 #[test]
 fn penetration_is_drawn_over_times_of_any_length() {
     let folder = folder();

@@ -107,9 +107,12 @@ fn bonded(file: &ParticleFile, arguments: &Arguments, normal: Axis) -> Result<Bo
         gap_m: arguments.gap.0,
         tolerance: arguments.tolerance,
     };
-    Specimen::new(placed(file, "wood")?, placed(file, "adhesive")?)
-        .and_then(|specimen| bondline::build(&specimen, &options))
-        .map_err(|error| refusal(std::slice::from_ref(file), &error))
+    let refused = |error| refusal(std::slice::from_ref(file), &error);
+    let specimen =
+        Specimen::new(placed(file, "wood")?, placed(file, "adhesive")?).map_err(refused)?;
+    let bond = bondline::build(&specimen, &options).map_err(refused)?;
+    report::tilt(&specimen, &bond, normal);
+    Ok(bond)
 }
 
 fn wood(

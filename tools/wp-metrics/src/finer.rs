@@ -4,7 +4,7 @@ use cli::Failure;
 use metrics::table::PenetrationRows;
 use metrics::{Datum, LEAST_RATIO, State, cell_error, extrapolated, penetration};
 
-use crate::Arguments;
+use crate::arguments::Arguments;
 use crate::input::Input;
 
 /// What `mpm-run` calls the pressure on the body that the clamp drives, Pa.

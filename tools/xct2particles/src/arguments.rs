@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Parser;
 use cli::Output;
-use units::{Length, Quantity};
+use units::{Axis, Length, Quantity};
 use voxels::{Crop, Dims, Grey, Labels, RawType};
 
 /// Turn a stack of XCT label images into a particle file
@@ -20,6 +20,7 @@ use voxels::{Crop, Dims, Grey, Labels, RawType};
   xct2particles bondline.tif --voxel '1.45 um' --labels void=0,wood=128,adhesive=255 -o specimen.mpts
   xct2particles slices/ --voxel 1.45um --grey wood=90..170,adhesive=171.. -o grey.mpts
   xct2particles scan/ --voxel 1.45um --grey auto --despeckle 2 --preview look.png
+  xct2particles tilted.tif --voxel 1.45um --level y -o level.mpts
   xct2particles undamaged.tif --voxel 1.45um --grey auto-wood -o wood.mpts
   xct2particles scan.raw --dims 400x394x400 --type u16 --voxel 1.45um --histogram grey.csv
   xct2particles stack.ome.tif --crop 0:200,50:250,0:100 -o - | wp-metrics -"
@@ -56,6 +57,10 @@ pub(crate) struct Arguments {
     /// a piece hangs together by faces, edges or corners
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) despeckle: Option<u16>,
+    /// Turn the specimen until its bond plane, fitted across this axis, is level: each voxel takes the phase at its centre, and
+    /// the box is as much smaller as it has to be to lie within the stack
+    #[arg(long, value_name = "AXIS")]
+    pub(crate) level: Option<Axis>,
     /// Draw the phases in three cuts through the middle, to be looked at before anything is run
     #[arg(long, value_name = "PNG", value_parser = picture)]
     pub(crate) preview: Option<Output>,

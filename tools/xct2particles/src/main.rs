@@ -9,6 +9,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use arguments::{Arguments, GreyLevels};
+use bondline::{Placed, Specimen};
 use cli::{Failure, Output, Progress};
 use figures::{Cut, Position, Slices};
 use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
@@ -62,6 +63,9 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     if let Some(most) = arguments.despeckle {
         report::despeckled(&segmented.despeckle(most.into()), most);
     }
+    if let Some(normal) = arguments.level {
+        level(&mut segmented, normal, &edge, stack.name())?;
+    }
     report::phases(&segmented, edge.metres);
     let draft = draft(&segmented, &edge, &crop, &arguments, inputs);
     if let Some(preview) = preview {
@@ -96,6 +100,27 @@ fn proposal(
     });
     report::proposal(&proposed);
     Ok(proposed)
+}
+
+/// Turns a specimen until its bond plane is level across `normal`.
+fn level(
+    segmented: &mut Segmented,
+    normal: Axis,
+    edge: &VoxelEdge,
+    name: &str,
+) -> Result<(), Failure> {
+    let placed = |bits| Placed {
+        origin_m: [0.0; 3],
+        voxel_m: edge.metres,
+        bits,
+    };
+    let [wood, adhesive] = [&segmented.wood, &segmented.adhesive].map(|bits| placed(bits.view()));
+    let refused = |why: String| Failure::usage(format!("{name}: --level {normal}: {why}"));
+    let specimen = Specimen::new(wood, adhesive).map_err(|why| refused(why.to_string()))?;
+    let turned = metrics::level(&specimen, normal).map_err(refused)?;
+    report::level(&turned);
+    (segmented.wood, segmented.adhesive) = (turned.wood, turned.adhesive);
+    Ok(())
 }
 
 /// Refuses wood that looks like void, as labels that were exchanged make it.
@@ -202,6 +227,9 @@ fn draft<'a>(
     header.set_attribute("voxel_from", edge.from);
     if let Some(most) = arguments.despeckle {
         header.set_attribute("despeckle", most.to_string());
+    }
+    if let Some(normal) = arguments.level {
+        header.set_attribute("level", normal.to_string());
     }
     let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
     header.provenance = vec![Provenance::of_process(tool, version, inputs)];

@@ -1,5 +1,6 @@
 //! Messages of the tool on standard error.
 
+use metrics::Level;
 use voxels::{Despeckled, Proposal, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
@@ -54,6 +55,15 @@ pub(crate) fn despeckled(found: &Despeckled, most: u16) {
     cli::note(format_args!(
         "despeckled  {} pieces of at most {most} voxels took the phase around them: {adhesive} voxels of adhesive, {wood} of wood, {void} of void",
         found.pieces
+    ));
+}
+
+/// How a specimen was turned.
+pub(crate) fn level(turned: &Level) {
+    let [tilt_x, tilt_y, tilt_z] = turned.tilt_deg;
+    let [x, y, z] = turned.wood.dims();
+    cli::note(format_args!(
+        "level       the bond plane was turned by {tilt_x:.2}, {tilt_y:.2} and {tilt_z:.2} degrees about x, y and z; turned back, {x} x {y} x {z} voxels are left"
     ));
 }
 

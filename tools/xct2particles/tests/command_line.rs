@@ -271,3 +271,31 @@ fn a_stack_without_adhesive_is_a_specimen_of_wood() {
     assert_eq!(refused.status.code(), Some(2), "{said}");
     assert!(said.contains("--labels"), "{said}");
 }
+
+#[test]
+fn a_tilted_specimen_is_turned_level_and_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let stack = folder.path().join("tilted.tif");
+    // The bands rise by 0.05 along x: 2.86 degrees about z.
+    let up = |x: usize| (0.05 * (x as f64 - 34.5)).round() as isize;
+    let tilted = |x: usize, y: usize, _| label((y as isize - up(x)).clamp(0, 19) as usize);
+    fs::write(&stack, stack_bytes(tilted)).unwrap();
+    let target = folder.path().join("level.mpts");
+    let output = run(&[text(&stack), "--level", "y", "-o", text(&target)]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert!(
+        said.contains("turned by 0.00, 0.00 and 2.8")
+            && said.contains("69 x 16 x 10 voxels are left"),
+        "{said}"
+    );
+    let file = ParticleFile::open(&target).unwrap();
+    assert_eq!(file.header().attribute("level"), Some("y"));
+    let (block, bits) = file.block_named("adhesive").unwrap();
+    assert_eq!(block.dims, [69, 16, 10]);
+    // Five layers, but for the steps of the bands that turning does not make smooth.
+    let layers = bits.counts_along(1);
+    let full = layers.iter().filter(|count| **count > 600).count();
+    let some = layers.iter().filter(|count| **count > 90).count();
+    assert!(full >= 4 && some <= 6, "{layers:?}");
+}

@@ -53,6 +53,30 @@ fn said(output: &Output) -> String {
 }
 
 #[test]
+fn a_tilted_bond_plane_is_told_and_warned_of() {
+    let folder = TempDir::new().unwrap();
+    let max = DIMS.map(|n| n as f64 * VOXEL);
+    for (rise, warned) in [(2, false), (4, true)] {
+        // A gap of six voxels in wood that rises along x.
+        let inside = |x: usize, y: usize| (24..30).contains(&(y - x * rise / DIMS[0]));
+        let wood = BitGrid::from_fn(DIMS, |x, y, _| y < 6 || !inside(x, y));
+        let adhesive = BitGrid::from_fn(DIMS, |x, y, _| y >= 6 && inside(x, y));
+        let header = Header::new(Kind::Specimen, VOXEL, 1, [0.0; 3], max);
+        write(folder.path(), "tilted.mpts", header, &wood, &adhesive);
+        let run = tool(folder.path(), Stdio::null(), "tilted.mpts -o bond.mpts");
+        assert!(run.status.success(), "{}", said(&run));
+        let angle = if warned { " and 4." } else { " and 2." };
+        assert!(
+            said(&run).contains("bond plane is turned by 0.00, 0.00"),
+            "{}",
+            said(&run)
+        );
+        assert!(said(&run).contains(angle), "{}", said(&run));
+        assert_eq!(said(&run).contains("xct2particles --level y"), warned);
+    }
+}
+
+#[test]
 fn a_bond_keeps_the_wood_and_the_adhesive_volume() {
     let folder = TempDir::new().unwrap();
     specimen(folder.path());

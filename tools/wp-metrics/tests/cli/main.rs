@@ -1,5 +1,6 @@
 //! The command line of wp-metrics.
 
+mod several;
 mod stacks;
 mod wood;
 
@@ -25,10 +26,15 @@ fn letter(x: usize, y: usize) -> char {
 }
 
 fn specimen(folder: &Path) -> PathBuf {
-    let grid = |wanted| BitGrid::from_fn(DIMS, |x, y, _| letter(x, y) == wanted);
+    specimen_of(folder, "specimen.mpts", DIMS)
+}
+
+/// The low corner of it, under a name.
+fn specimen_of(folder: &Path, name: &str, dims: [usize; 3]) -> PathBuf {
+    let grid = |wanted| BitGrid::from_fn(dims, |x, y, _| letter(x, y) == wanted);
     let (wood, adhesive) = (grid('w'), grid('a'));
-    let max = DIMS.map(|n| n as f64 * VOXEL);
-    let path = folder.join("specimen.mpts");
+    let max = dims.map(|n| n as f64 * VOXEL);
+    let path = folder.join(name);
     let block = |name, material, bits| Block::new(name, material, [0.0; 3], VOXEL, bits);
     Draft::new(Header::new(Kind::Specimen, VOXEL, 1, [0.0; 3], max))
         .block(block("wood", Material::Rigid, &wood), &wood)

@@ -1,4 +1,4 @@
-//! Permeability of wood, and islands left out of slices.
+//! Permeability and pores of wood, and islands left out of slices.
 
 use tempfile::TempDir;
 
@@ -33,6 +33,33 @@ fn permeability_is_that_of_the_gap_and_the_grooves() {
     let along = number(&rows(&text(&across.stdout))[0][2]);
     let expected = 10.0 / 12.0 / 40.0 * 60.0 / 54.0;
     assert!((along / squares / expected - 1.0).abs() < 0.02, "{along}");
+}
+
+/// The gap is a slit of six voxels; grooves of one open into it.
+#[test]
+fn pores_are_those_of_the_gap_and_the_grooves() {
+    let folder = TempDir::new().unwrap();
+    let path = specimen(folder.path());
+    let path = path.to_str().unwrap();
+    let run = tool(&[path, path, "--pores"]);
+    assert!(run.status.success(), "{}", text(&run.stderr));
+    let table = text(&run.stdout);
+    assert!(table.starts_with("file,diameter_um,volume_fraction,up_to_fraction\n"));
+    let found = rows(&table);
+    let (one, other) = found.split_at(found.len() / 2);
+    assert_eq!(one, other);
+    assert_eq!(one[0][0], path);
+    let share = |row: &Vec<String>| number(&row[2]);
+    let all: f64 = one.iter().map(share).sum();
+    assert!((all - 1.0).abs() < 1e-5, "{all}");
+    let [gap, grooves] = [6.0, 54.0 / 4.0];
+    let wide = share(one.last().unwrap());
+    assert!((wide - gap / (gap + grooves)).abs() < 1e-5, "{wide}");
+    assert_eq!(number(&one.last().unwrap()[1]), 6.5 * 1.45);
+    let state = state(folder.path(), 2, |_| ());
+    let refused = tool(&[state.to_str().unwrap(), "--pores"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("adherends are parted"));
 }
 
 #[test]

@@ -1,13 +1,14 @@
 //! The tables as CSV; the columns are a contract with other people's scripts.
 
+mod penetration;
+
+pub use penetration::{PenetrationRows, write_penetration, write_summary};
+
 use std::io::{self, Write};
 
 use units::Axis;
 
-use crate::{
-    Agreement, BondLine, CellError, DepthLayer, Extrapolated, Map, Penetration, Reference,
-    ShearRates,
-};
+use crate::{DepthLayer, Map, PoreSize, ShearRates};
 
 /// Micrometres with six digits behind the point.
 fn um(metres: f64) -> String {
@@ -28,24 +29,6 @@ fn um3(cubic_metres: f64) -> String {
 
 fn pascal(pressure: f64) -> String {
     format!("{pressure:.6e}")
-}
-
-/// One file's rows of the table of `wp-metrics`.
-pub struct PenetrationRows {
-    /// The file as the user named it.
-    pub file: String,
-    /// What depths are measured from.
-    pub reference: Reference,
-    /// Bottom, top and total.
-    pub sides: [Penetration; 3],
-    /// Agreement with an experiment, when asked for.
-    pub agreement: Option<[Agreement; 3]>,
-    /// Pressure on the body that the clamp drives, Pa, when asked for.
-    pub pressure_pa: Option<f64>,
-    /// Time (s), gap (m; NaN where there is none) and bond line of a state in a series.
-    pub course: Option<(f64, f64, BondLine)>,
-    /// Each side and the pressure carried on to cells of no size, when a finer run was given.
-    pub cell_error: Option<([CellError; 3], Extrapolated)>,
 }
 
 /// A permeability, and what it was found from.
@@ -85,96 +68,18 @@ pub fn write_permeabilities(out: &mut dyn Write, rows: &[PermeabilityRow]) -> io
     table.flush()
 }
 
-/// `file,side,reference,plane_m,wp_um,slab_wp_um,ep_um,max_depth_um,p99_depth_um,volume_um3,voxels`,
-/// then `dice,map_correlation` when the files were compared, `pressure_pa` when asked for,
-/// `time_s,gap_um,p95_depth_um,wetted_area_um2,bond_line_filled,bond_line,surfaces_um,half_filled_depth_um` of a
-/// series, and
-/// `wp_extrapolated_um,wp_error_um,ep_extrapolated_um,ep_error_um,pressure_extrapolated_pa,pressure_error_pa`
-/// when a finer run was given.
+/// `file,diameter_um,volume_fraction,up_to_fraction`, a row for each size of pores in each file.
 ///
 /// # Errors
 /// What `out` says.
-pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::Result<()> {
+pub fn write_pores(out: &mut dyn Write, files: &[(String, Vec<PoreSize>)]) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    let mut header = vec![
-        "file",
-        "side",
-        "reference",
-        "plane_m",
-        "wp_um",
-        "slab_wp_um",
-        "ep_um",
-        "max_depth_um",
-        "p99_depth_um",
-        "volume_um3",
-        "voxels",
-    ];
-    if files.iter().any(|f| f.agreement.is_some()) {
-        header.extend(["dice", "map_correlation"]);
-    }
-    if files.iter().any(|f| f.pressure_pa.is_some()) {
-        header.push("pressure_pa");
-    }
-    if files.iter().any(|f| f.course.is_some()) {
-        header.extend([
-            "time_s",
-            "gap_um",
-            "p95_depth_um",
-            "wetted_area_um2",
-            "bond_line_filled",
-            "bond_line",
-            "surfaces_um",
-            "half_filled_depth_um",
-        ]);
-    }
-    if files.iter().any(|f| f.cell_error.is_some()) {
-        header.extend([
-            "wp_extrapolated_um",
-            "wp_error_um",
-            "ep_extrapolated_um",
-            "ep_error_um",
-            "pressure_extrapolated_pa",
-            "pressure_error_pa",
-        ]);
-    }
-    table.write_record(header).map_err(unwrapped)?;
-    for file in files {
-        for (i, p) in file.sides.iter().enumerate() {
-            let mut row = vec![
-                file.file.clone(),
-                p.side.to_string(),
-                file.reference.to_string(),
-                format!("{:.9e}", p.plane_m),
-                um(p.wp_m),
-                um(p.slab_wp_m),
-                um(p.ep_m),
-                um(p.max_depth_m),
-                um(p.p99_depth_m),
-                um3(p.volume_m3),
-                p.voxels.to_string(),
-            ];
-            if let Some(agreement) = file.agreement {
-                row.push(format!("{:.6}", agreement[i].dice));
-                row.push(format!("{:.6}", agreement[i].map_correlation));
-            }
-            row.extend(file.pressure_pa.map(pascal));
-            if let Some((time_s, gap_m, line)) = &file.course {
-                row.extend([
-                    format!("{time_s:.9e}"),
-                    um(*gap_m),
-                    um(p.p95_depth_m),
-                    format!("{:.4}", 1e12 * line.wetted_m2[i]),
-                    format!("{:.6}", line.filled),
-                    line.filling.to_string(),
-                    um(line.surfaces_m),
-                    um(line.half_filled_m[i]),
-                ]);
-            }
-            if let Some((sides, pressure)) = &file.cell_error {
-                let CellError { wp_m, ep_m } = sides[i];
-                row.extend([wp_m.value, wp_m.error, ep_m.value, ep_m.error].map(um));
-                row.extend([pressure.value, pressure.error].map(pascal));
-            }
+    let header = "file,diameter_um,volume_fraction,up_to_fraction";
+    table.write_record(header.split(',')).map_err(unwrapped)?;
+    for (file, sizes) in files {
+        for size in sizes {
+            let [share, up_to] = [size.share, size.up_to].map(|share| format!("{share:.6}"));
+            let row = [file.clone(), um(size.diameter_m), share, up_to];
             table.write_record(row).map_err(unwrapped)?;
         }
     }

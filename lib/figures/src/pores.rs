@@ -1,0 +1,32 @@
+//! Sizes of pores and lumens, from the tables of `wp-metrics --pores`.
+
+use std::path::Path;
+
+use crate::table::Table;
+use crate::{Error, Labelled, Mark, Plot};
+
+/// The share of the open volume that is at most so wide, a line for each specimen of each table.
+///
+/// # Errors
+/// [`Error::Data`] for an unreadable file, a missing column, or one without numbers.
+pub fn pores(tables: &[Labelled]) -> Result<Plot, Error> {
+    let (x, y) = ("diameter (µm)", "share of the open volume up to it");
+    let mut plot = Plot::new("Sizes of pores and lumens", x, y).logarithmic([true, false]);
+    for named in tables {
+        let table = Table::read(&named.path)?;
+        let files = table.texts("file")?;
+        let (diameters, up_to) = (table.data("diameter_um")?, table.data("up_to_fraction")?);
+        let mut specimens = files.clone();
+        specimens.dedup();
+        for specimen in &specimens {
+            let label = match (specimens.len(), Path::new(specimen).file_stem()) {
+                (2.., Some(stem)) => stem.to_string_lossy(),
+                _ => named.label.as_str().into(),
+            };
+            let rows = (0..files.len()).filter(|&row| files[row] == *specimen);
+            let points = rows.map(|row| [diameters[row], up_to[row]]).collect();
+            plot = plot.with(&label, Mark::Line, points);
+        }
+    }
+    Ok(plot)
+}

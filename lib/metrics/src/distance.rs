@@ -1,0 +1,163 @@
+//! Exact Euclidean distances between voxels, squared.
+
+use rayon::prelude::*;
+
+/// The square of a distance when there is nothing to be near to.
+pub(crate) const FAR: u32 = u32::MAX;
+
+/// Points of a grid of voxels: their centres, or the corners between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lattice {
+    /// Points along x, y, z.
+    pub(crate) dims: [usize; 3],
+    /// How far the first is beyond the first centre, half voxels.
+    shift: [usize; 3],
+}
+
+impl Lattice {
+    /// The centres of the voxels.
+    pub(crate) fn centres(dims: [usize; 3]) -> Self {
+        let shift = [0; 3];
+        Self { dims, shift }
+    }
+
+    /// The corners within the box; along an axis of one voxel there is no between.
+    pub(crate) fn corners(dims: [usize; 3]) -> Self {
+        let shift = dims.map(|n| usize::from(n > 1));
+        let dims = std::array::from_fn(|i| dims[i] - shift[i]);
+        Self { dims, shift }
+    }
+}
+
+/// Squares of the distances (half voxels) from every point of a lattice, x fastest, to the nearest of the points of
+/// another that `near` names.
+///
+/// Axis by axis, by lower envelopes of parabolas (Felzenszwalb and Huttenlocher 2012, Theory of Computing 8, 415-428).
+/// Squares beyond what fits, of grids longer than 30 000 voxels, are told as the largest that does.
+pub(crate) fn squared_distances(
+    to: Lattice,
+    near: impl Fn(usize) -> bool + Sync,
+    from: Lattice,
+) -> Vec<u32> {
+    let points = 0..to.dims.iter().product::<usize>();
+    let of = |index| if near(index) { 0 } else { FAR };
+    let mut squares: Vec<u32> = points.into_par_iter().map(of).collect();
+    let mut dims = to.dims;
+    // Three passes, each of which brings the last axis to the front, restore their order.
+    for axis in [2, 1, 0] {
+        let line = Line {
+            foot: to.shift[axis],
+            place: from.shift[axis],
+            places: from.dims[axis],
+        };
+        squares = along_last(&squares, dims, line);
+        dims = [line.places, dims[0], dims[1]];
+    }
+    squares
+}
+
+/// Where distances of a line are from and to: the first places, half voxels, and their number.
+#[derive(Clone, Copy)]
+struct Line {
+    foot: usize,
+    place: usize,
+    places: usize,
+}
+
+/// Carries squares on along the slowest axis, which becomes the fastest.
+fn along_last(squares: &[u32], [nx, ny, nz]: [usize; 3], along: Line) -> Vec<u32> {
+    let lines = nx * ny;
+    let mut carried = vec![FAR; lines * along.places];
+    let rows = carried.par_chunks_mut(along.places.max(1)).enumerate();
+    rows.for_each_init(Envelope::default, |envelope, (line, out)| {
+        envelope.clear();
+        for z in 0..nz {
+            envelope.add(2 * z + along.foot, squares[z * lines + line]);
+        }
+        envelope.read(along.place, out);
+    });
+    carried
+}
+
+/// The lower envelope of parabolas that stand at places along a line.
+#[derive(Default)]
+struct Envelope {
+    /// Place and height of the foot of each.
+    feet: Vec<(i64, i64)>,
+    /// From where each is the lowest.
+    from: Vec<f64>,
+}
+
+impl Envelope {
+    fn clear(&mut self) {
+        self.feet.clear();
+        self.from.clear();
+    }
+
+    /// Adds the parabola at a place beyond all others.
+    fn add(&mut self, place: usize, height: u32) {
+        if height == FAR {
+            return;
+        }
+        let (place, height) = (place as i64, i64::from(height));
+        let mut from = f64::NEG_INFINITY;
+        while let (Some(&(p, h)), Some(&lowest)) = (self.feet.last(), self.from.last()) {
+            let meet = (height + place * place - h - p * p) as f64 / (2 * (place - p)) as f64;
+            if meet > lowest {
+                from = meet;
+                break;
+            }
+            self.feet.pop();
+            self.from.pop();
+        }
+        self.feet.push((place, height));
+        self.from.push(from);
+    }
+
+    /// The envelope at every other place from `first` on.
+    fn read(&self, first: usize, out: &mut [u32]) {
+        let mut at = 0;
+        for (i, square) in out.iter_mut().enumerate() {
+            let place = (2 * i + first) as i64;
+            while (self.from.get(at + 1)).is_some_and(|&from| from < place as f64) {
+                at += 1;
+            }
+            let Some((foot, height)) = self.feet.get(at) else {
+                return;
+            };
+            let found = (place - foot).pow(2) + height;
+            *square = found.min(i64::from(FAR - 1)) as u32;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_are_those_to_the_nearest_of_all() {
+        let [centres, corners] = [Lattice::centres([7, 12, 9]), Lattice::corners([7, 12, 9])];
+        let place = |of: Lattice, i: usize| {
+            let [nx, ny, _] = of.dims;
+            let index = [i % nx, i / nx % ny, i / (nx * ny)];
+            [0, 1, 2].map(|a| 2 * index[a] + of.shift[a])
+        };
+        for (to, from) in [(centres, centres), (centres, corners), (corners, centres)] {
+            // Scattered points, by a multiplicative hash.
+            let points = 0..to.dims.iter().product::<usize>();
+            let near: Vec<usize> = points.filter(|i| i * 2_654_435_761 % 97 < 3).collect();
+            let found = squared_distances(to, |i| near.contains(&i), from);
+            assert_eq!(found.len(), from.dims.iter().product::<usize>());
+            for (i, square) in found.into_iter().enumerate() {
+                let way = |&other: &usize| -> usize {
+                    let pairs = place(from, i).into_iter().zip(place(to, other));
+                    pairs.map(|(a, b)| a.abs_diff(b).pow(2)).sum()
+                };
+                assert_eq!(Some(square as usize), near.iter().map(way).min());
+            }
+            let none = squared_distances(to, |_| false, from);
+            assert!(none.into_iter().all(|square| square == FAR));
+        }
+    }
+}

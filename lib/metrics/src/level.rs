@@ -1,0 +1,80 @@
+//! A tilted specimen, turned.
+
+use bondline::Specimen;
+use particle_file::{BitGrid, BitsRef};
+use units::Axis;
+
+use crate::{State, fit};
+
+/// A specimen turned so that its bond plane is level.
+pub struct Level {
+    /// How its bond plane was turned about x, y and z, degrees, right-handed.
+    pub tilt_deg: [f64; 3],
+    /// The wood in the new box.
+    pub wood: BitGrid,
+    /// The adhesive there.
+    pub adhesive: BitGrid,
+}
+
+/// Turns `specimen` about its middle until the plane of [`crate::Reference::Fit`] is level across `normal`. Each voxel takes what
+/// is at its centre; the box is as much smaller as it has to be to lie within the specimen.
+///
+/// # Errors
+/// A sentence: no bond line, or a box too thin to be turned so far.
+pub fn level(specimen: &Specimen, normal: Axis) -> Result<Level, String> {
+    let wood = specimen.wood();
+    let line = bondline::find(specimen, normal).map_err(|error| error.to_string())?;
+    let middle = wood.origin_m[normal.index()] + line.middle() * wood.voxel_m;
+    let plane = fit::plane(&State::of_specimen(specimen, normal), middle)
+        .ok_or("no column is open between the adherends, so no plane can be fitted")?;
+    let turn = turn_to(normal, plane.up());
+    let tilt_deg = plane.tilt_deg();
+    let old = wood.bits.dims();
+    let new = std::array::from_fn(|i| {
+        let cut: f64 = (0..3)
+            .filter(|&j| j != i)
+            .map(|j| turn[i][j].abs() * old[j] as f64)
+            .sum();
+        // A hair for the rounding of a plane that is level.
+        (old[i] as f64 - cut + 1e-6).max(0.0) as usize
+    });
+    if new.contains(&0) {
+        let [x, y, z] = tilt_deg;
+        return Err(format!(
+            "its bond plane is turned by {x:.2}, {y:.2} and {z:.2} degrees about x, y and z, and nothing of its {} x {} x {} voxels is left when it is turned back",
+            old[0], old[1], old[2]
+        ));
+    }
+    let turned = |bits: BitsRef| {
+        BitGrid::from_fn(new, |x, y, z| {
+            let index = [x, y, z];
+            let from: [f64; 3] =
+                std::array::from_fn(|j| index[j] as f64 + 0.5 - 0.5 * new[j] as f64);
+            let [x, y, z] = std::array::from_fn(|i| {
+                let place: f64 = (0..3).map(|j| turn[i][j] * from[j]).sum();
+                ((place + 0.5 * old[i] as f64) as usize).min(old[i] - 1)
+            });
+            bits.get(x, y, z)
+        })
+    };
+    Ok(Level {
+        tilt_deg,
+        wood: turned(wood.bits),
+        adhesive: turned(specimen.adhesive().bits),
+    })
+}
+
+/// The rotation about a line in the level plane that takes the unit vector n of `normal` to `up` = u:
+/// 1 - (n + u)(n + u)'/(1 + n.u) + 2 u n'.
+fn turn_to(normal: Axis, up: [f64; 3]) -> [[f64; 3]; 3] {
+    let n = normal.index();
+    let unit = |i: usize| f64::from(u8::from(i == n));
+    let along = 1.0 + up[n];
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let same = f64::from(u8::from(i == j));
+            let sum = [i, j].map(|a| unit(a) + up[a]);
+            same - sum[0] * sum[1] / along + 2.0 * up[i] * unit(j)
+        })
+    })
+}

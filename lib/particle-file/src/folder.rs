@@ -1,0 +1,50 @@
+//! Particle files in folders.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::{Error, ParticleFile};
+
+/// The particle files in a folder, by name; none where there is no such folder. Hidden ones are passed over.
+pub fn in_folder(folder: &Path) -> Vec<PathBuf> {
+    let list = fs::read_dir(folder).into_iter().flatten();
+    let shown = |path: &Path| {
+        let name = path.file_name().unwrap_or_default();
+        !name.as_encoded_bytes().starts_with(b".") && path.extension().is_some_and(|e| e == "mpts")
+    };
+    let paths = list.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut found: Vec<PathBuf> = paths.filter(|path| shown(path)).collect();
+    found.sort();
+    found
+}
+
+/// The states in the folder of a run: its snapshots and the last.
+///
+/// # Errors
+/// A folder without.
+pub fn states_of_run(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut states = in_folder(&folder.join("snapshots"));
+    states.extend(Some(folder.join("final.mpts")).filter(|path| path.is_file()));
+    match states.is_empty() {
+        false => Ok(states),
+        true => Err(Error::Corrupt {
+            file: folder.display().to_string(),
+            what: "holds no state of a run: snapshots/*.mpts or final.mpts is needed".into(),
+        }),
+    }
+}
+
+/// Particle files in order of their times, one of each: the last snapshot may be the final state.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn by_time(files: Vec<PathBuf>) -> Result<Vec<PathBuf>, Error> {
+    let timed = files.into_iter().map(|path| {
+        let time_s = ParticleFile::open(&path)?.header().time_s;
+        Ok((time_s, path))
+    });
+    let mut timed = timed.collect::<Result<Vec<_>, Error>>()?;
+    timed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    timed.dedup_by(|a, b| a.0 == b.0);
+    Ok(timed.into_iter().map(|(_, path)| path).collect())
+}

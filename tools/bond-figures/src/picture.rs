@@ -1,0 +1,69 @@
+//! What the command lines of several figures share: where a picture goes, its page, and how a state is looked at.
+
+use clap::Args;
+use figures::{Direction, Page};
+
+use crate::values::{Target, Wood, degrees, dpi, given, width};
+
+#[derive(Args)]
+pub(crate) struct Picture {
+    /// Picture to write, .svg, .png or .pdf; `-` is SVG on standard output; may be repeated
+    #[arg(short, long, value_name = "FILE", required = true, value_parser = given(Target::new))]
+    pub(crate) output: Vec<Target>,
+    #[command(flatten)]
+    pub(crate) print: Print,
+    #[command(flatten)]
+    pub(crate) common: cli::Common,
+}
+
+/// What a picture is printed on.
+#[derive(Args)]
+pub(crate) struct Print {
+    /// Printed width, e.g. "84 mm": the figure fits itself to it with text of 7 and 8 points;
+    /// without it, as wide as it likes
+    #[arg(long, value_name = "LEN", value_parser = width)]
+    width: Option<f64>,
+    /// Pixels per inch of a PNG, 30 to 1200
+    #[arg(long, value_name = "NUMBER", default_value = "240", value_parser = dpi)]
+    dpi: f64,
+}
+
+impl Print {
+    pub(crate) fn page(&self) -> Page {
+        Page {
+            width_mm: self.width,
+            dpi: self.dpi,
+        }
+    }
+}
+
+impl Picture {
+    pub(crate) fn page(&self) -> Page {
+        self.print.page()
+    }
+}
+
+/// What is seen of a state, and from where.
+#[derive(Args)]
+pub(crate) struct Look {
+    /// How much of the wood is shown: none, the half away from the viewer, or all
+    #[arg(long, value_enum, default_value = "cut")]
+    pub(crate) wood: Wood,
+    /// Degrees to look from beside the front, about the axis across the bond
+    #[arg(long, value_name = "DEGREES", default_value_t = Direction::default().turn, allow_hyphen_values = true,
+          value_parser = |text: &str| degrees(text, [-360.0, 360.0]))]
+    pub(crate) turn: f64,
+    /// Degrees to look from above the bond plane
+    #[arg(long, value_name = "DEGREES", default_value_t = Direction::default().tilt, allow_hyphen_values = true,
+          value_parser = |text: &str| degrees(text, [-90.0, 90.0]))]
+    pub(crate) tilt: f64,
+}
+
+impl Look {
+    pub(crate) fn from(&self) -> Direction {
+        Direction {
+            turn: self.turn,
+            tilt: self.tilt,
+        }
+    }
+}

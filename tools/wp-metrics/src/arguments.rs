@@ -1,0 +1,159 @@
+//! The command line of wp-metrics.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Parser;
+use cli::Output;
+use metrics::Reference;
+use units::{Axis, Length, Quantity};
+use voxels::{Dims, Labels, RawType};
+
+use crate::input::GreyLevels;
+
+/// Measure weighted and effective penetration of adhesive
+///
+/// Of a state of a run, a bond, a specimen (particle files) or straight of an image stack.
+/// WP is Eq. 6 of Hammerquist & Nairn; slab_wp_um is that of a slab of the same volume that
+/// has not penetrated.
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Examples:
+  wp-metrics run/final.mpts run/snapshots/*.mpts -o wp.csv
+  wp-metrics stack.tif --voxel 1.45um --reference plane=226.2um --map map.csv --profile depth.csv
+  wp-metrics scans/ -o specimens.csv --summary mean.csv
+  wp-metrics run/final.mpts --compare specimen.mpts
+  wp-metrics --series run -o series.csv
+  wp-metrics run/final.mpts --finer run-in-half-cells/final.mpts
+  wp-metrics specimen.mpts --reference fit --ignore-islands 100
+  wp-metrics wood.tif --voxel 1.45um --permeability z
+  wp-metrics birch.mpts beech.mpts --pores -o pores.csv"
+)]
+pub(crate) struct Arguments {
+    /// Particle files, stacks of every kind that xct2particles reads (raw ones: --dims), folders
+    /// of slices, or folders of particle files, one specimen each; `-` is standard input
+    #[arg(required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    /// What to measure from: mid (midway between the bond surfaces), adherend (the bond
+    /// surface of each side), fit (a tilted plane midway; adds by how many degrees it is turned about x, y
+    /// and z, right-handed) or plane=LEN
+    #[arg(long, value_name = "WHAT", default_value = "mid", value_parser = reference)]
+    pub(crate) reference: Reference,
+    /// Axis across the bond: x, y or z [default: the file's, y of a stack]
+    #[arg(long, value_name = "AXIS")]
+    pub(crate) normal: Option<Axis>,
+    /// Where the table goes; `-` is standard output
+    #[arg(short, long, value_name = "CSV", default_value = "-")]
+    pub(crate) output: Output,
+    /// Write mean and standard deviation over the files (two or more), each of which counts as one
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["series", "finer"])]
+    pub(crate) summary: Option<Output>,
+    /// Write WP and volume of every column of voxels across the bond (one FILE only)
+    #[arg(long, value_name = "CSV")]
+    pub(crate) map: Option<Output>,
+    /// Write adhesive and filled void against depth (one FILE only, or of each time of a series)
+    #[arg(long, value_name = "CSV")]
+    pub(crate) profile: Option<Output>,
+    /// Add agreement with this specimen: Dice coefficient of the voxels and correlation of
+    /// the maps
+    #[arg(long, value_name = "EXPERIMENT")]
+    pub(crate) compare: Option<PathBuf>,
+    /// Add WP, EP and pressure carried on to cells of no size, and their errors, from the end of
+    /// the same run in cells at most half as large: first order, error the difference (one FILE only)
+    #[arg(long, value_name = "STATE")]
+    pub(crate) finer: Option<PathBuf>,
+    /// Add time, gap (way of the clamp left until the bond is closed), depth of 95 % of the adhesive, wetted
+    /// area, distance of the bond surfaces, depth to which the open lumens are half full, and state of the bond line (filled;
+    /// starved where less than half of the room within two voxels of the adherends' surfaces is filled;
+    /// squeezed-out where a twentieth of the adhesive has left), in order of time; FILE may be the
+    /// folder of a run
+    #[arg(long)]
+    pub(crate) series: bool,
+    /// Add the pressure on the body that the clamp drives (states of runs; with --finer always)
+    #[arg(long)]
+    pub(crate) pressure: bool,
+    /// Leave out adhesive that hangs together to fewer than N pixels of a slice normal to z, by edges and corners (stacks,
+    /// specimens and bonds)
+    #[arg(long, value_name = "N", conflicts_with_all = ["compare", "finer", "series"])]
+    pub(crate) ignore_islands: Option<usize>,
+    /// Tell the permeability along this axis instead, x, y or z, of all that is not wood full of liquid that sticks to it:
+    /// steady flow through the voxels in cells of one, and as its error the distance from that in cells of two
+    #[arg(
+        long,
+        value_name = "AXIS",
+        conflicts_with_all = [
+            "reference", "normal", "summary", "map", "profile", "compare", "finer", "series", "pressure", "ignore_islands"
+        ]
+    )]
+    pub(crate) permeability: Option<Axis>,
+    /// Tell the sizes of pores and lumens instead: the share of what is not wood by the diameter of the largest ball that fits between the
+    /// wood and holds the place (for bond-figures pores)
+    #[arg(
+        long,
+        conflicts_with_all = [
+            "reference", "normal", "summary", "map", "profile", "compare", "finer", "series", "pressure", "ignore_islands",
+            "permeability"
+        ]
+    )]
+    pub(crate) pores: bool,
+    /// The sides along the flow are periodic, not mirrors
+    #[arg(long, requires = "permeability")]
+    pub(crate) periodic: bool,
+    /// Voxel edge of stacks [default: from their metadata]
+    #[arg(long, value_name = "LEN", help_heading = "Image stacks")]
+    pub(crate) voxel: Option<Quantity<Length>>,
+    /// Labels of stacks, as in void=0,wood=1|2,adhesive=255 [default: guessed]
+    #[arg(long, value_name = "LABELS", help_heading = "Image stacks")]
+    pub(crate) labels: Option<Labels>,
+    /// Grey values of stacks, as in wood=90..170,adhesive=171..; auto takes those that
+    /// xct2particles --grey auto proposes, and says them
+    #[arg(
+        long,
+        value_name = "auto|RANGES",
+        conflicts_with = "labels",
+        help_heading = "Image stacks",
+        value_parser = grey
+    )]
+    pub(crate) grey: Option<GreyLevels>,
+    /// Size of stacks that are raw volumes, x fastest
+    #[arg(
+        long,
+        value_name = "XxYxZ",
+        requires = "kind",
+        help_heading = "Image stacks"
+    )]
+    pub(crate) dims: Option<Dims>,
+    /// Number type of raw volumes: u8, i16, f32 ..., little-endian; big-endian as u16be
+    #[arg(
+        long = "type",
+        id = "kind",
+        value_name = "TYPE",
+        requires = "dims",
+        help_heading = "Image stacks"
+    )]
+    pub(crate) kind: Option<RawType>,
+    #[command(flatten)]
+    pub(crate) common: cli::Common,
+}
+
+fn grey(text: &str) -> Result<GreyLevels, String> {
+    match text {
+        "auto" => Ok(GreyLevels::Auto),
+        ranges => ranges.parse().map(GreyLevels::Given),
+    }
+}
+
+fn reference(text: &str) -> Result<Reference, String> {
+    match (text, text.strip_prefix("plane=")) {
+        ("mid", _) => Ok(Reference::Mid),
+        ("adherend", _) => Ok(Reference::Adherend),
+        ("fit", _) => Ok(Reference::Fit),
+        (_, Some(length)) => Quantity::<Length>::from_str(length)
+            .map(|length| Reference::Plane(length.si()))
+            .map_err(|e| e.to_string()),
+        _ => Err(format!(
+            "'{text}' is not a reference; accepted are mid, adherend, fit and plane=LEN"
+        )),
+    }
+}

@@ -1,0 +1,42 @@
+//! The files to measure: specimens of folders, and the states of a series in order of time.
+
+use std::path::{Path, PathBuf};
+
+use cli::Failure;
+use particle_file::{by_time, in_folder, states_of_run};
+
+use crate::arguments::Arguments;
+
+/// The files to measure: as given, a folder of particle files by name; of a series, the states of runs' folders and other
+/// files by time.
+pub fn of(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
+    if !arguments.series {
+        return Ok(arguments
+            .files
+            .iter()
+            .flat_map(|path| specimens(path))
+            .collect());
+    }
+    let mut states = Vec::new();
+    for path in &arguments.files {
+        match path.is_dir() {
+            true => states.extend(states_of_run(path).map_err(Failure::data)?),
+            false if path.as_os_str() == "-" => {
+                return Err(Failure::usage(
+                    "--series takes files, whose times are read first, and not standard input",
+                ));
+            }
+            false => states.push(path.clone()),
+        }
+    }
+    by_time(states).map_err(Failure::data)
+}
+
+/// A file or a folder of slices itself, or the particle files of a folder of those.
+fn specimens(path: &Path) -> Vec<PathBuf> {
+    let files = in_folder(path);
+    match files.is_empty() || voxels::holds_slices(path) {
+        true => vec![path.to_owned()],
+        false => files,
+    }
+}
