@@ -21,10 +21,10 @@ pub enum Status {
 
 /// Why a tool ends without success: one sentence and an exit status.
 #[derive(Debug)]
-pub struct Failure(Kind);
+pub struct Failure(Reason);
 
 #[derive(Debug)]
-enum Kind {
+enum Reason {
     Said(Status, String),
     /// The reader of our standard output went away: not an error, the tool ends quietly.
     ClosedPipe,
@@ -33,7 +33,7 @@ enum Kind {
 impl Failure {
     /// A failure with `status`; `message` is one sentence without the tool's name.
     pub fn new(status: Status, message: impl fmt::Display) -> Self {
-        Self(Kind::Said(status, message.to_string()))
+        Self(Reason::Said(status, message.to_string()))
     }
 
     /// The run failed (exit 1).
@@ -54,7 +54,7 @@ impl Failure {
     /// A failed write to `target`: a closed pipe is a quiet end, all else exit 1.
     pub fn write(target: impl fmt::Display, error: &io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
-            Self(Kind::ClosedPipe)
+            Self(Reason::ClosedPipe)
         } else {
             Self::failed(format!("cannot write {target}: {error}"))
         }
@@ -63,8 +63,8 @@ impl Failure {
     /// Prints the sentence to standard error and gives the exit code.
     pub(crate) fn report(self, tool: &str) -> ExitCode {
         match self.0 {
-            Kind::ClosedPipe => ExitCode::SUCCESS,
-            Kind::Said(status, sentence) => {
+            Reason::ClosedPipe => ExitCode::SUCCESS,
+            Reason::Said(status, sentence) => {
                 message::say(format_args!("{tool}: {sentence}"));
                 ExitCode::from(status as u8)
             }

@@ -17,14 +17,14 @@ use crate::{Error, Labelled};
 /// paper), from the `history.csv` of each run.
 #[derive(Clone, Debug)]
 pub struct Closing {
-    runs: Vec<Run>,
+    runs: Vec<Course>,
     limit: Option<f64>,
     title: String,
     page: Page,
 }
 
 #[derive(Clone, Debug)]
-struct Run {
+struct Course {
     label: String,
     /// s; the middles of the steps, of which pressure and speed are
     time: Vec<f64>,
@@ -76,7 +76,7 @@ impl Closing {
             )));
         }
         let sources = runs;
-        let mut runs: Vec<Run> = runs.iter().map(Run::read).collect::<Result<_, _>>()?;
+        let mut runs: Vec<Course> = runs.iter().map(Course::read).collect::<Result<_, _>>()?;
         for (place, fine) in finer.iter().enumerate() {
             let named = runs.iter_mut().zip(sources);
             let mut named = named.filter(|(run, _)| run.label == fine.label);
@@ -92,7 +92,7 @@ impl Closing {
                     fine.label
                 )));
             }
-            let (ways, finer) = ([travel(source)?, travel(fine)?], Run::read(fine)?);
+            let (ways, finer) = ([travel(source)?, travel(fine)?], Course::read(fine)?);
             let pressures = [&run.pressure[..], &finer.pressure];
             let limit = limit.unwrap_or(f64::INFINITY);
             run.band = band([&ways[0], &ways[1]], &run.time, pressures, limit);
@@ -154,7 +154,7 @@ impl Closing {
     /// Kinds of bands that there are, and how they look in the key.
     fn bands(&self) -> Vec<(&'static str, RGBAColor)> {
         let kind = |converged: bool| {
-            let has = |run: &Run| run.band.iter().any(|at| at.converged == converged);
+            let has = |run: &Course| run.band.iter().any(|at| at.converged == converged);
             let run = self.runs.iter().position(has)?;
             let label = if converged { BAND } else { UNSETTLED };
             Some((label, shade(run, converged)))
@@ -236,7 +236,7 @@ fn name_limit(drawing: &mut Drawing, frame: &Frame, y: f64, limit: f64) {
     drawing.text(text, [right, y], Anchor::Right, SMALL);
 }
 
-impl Run {
+impl Course {
     fn read(source: &Labelled) -> Result<Self, Error> {
         let table = Table::read(&source.path)?;
         let mut time = table.data("time_s")?;

@@ -6,7 +6,7 @@ use physics::StageTime;
 
 /// Parts of a step whose time is reported, in its order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
+pub(crate) enum Stage {
     Geometry,
     Water,
     Viscosity,
@@ -32,12 +32,12 @@ pub(crate) struct Clock([Duration; 7]);
 
 impl Clock {
     /// Counts what a part took that began at an instant.
-    pub(crate) fn add(&mut self, part: Part, begun: Instant) {
+    pub(crate) fn add(&mut self, part: Stage, begun: Instant) {
         self.0[part as usize] += begun.elapsed();
     }
 
     /// Times of the parts, but for those that a run is `without`.
-    pub(crate) fn report(&self, without: &[Part]) -> Vec<StageTime> {
+    pub(crate) fn report(&self, without: &[Stage]) -> Vec<StageTime> {
         let times = NAMES.iter().zip(&self.0).enumerate();
         times
             .filter(|(part, _)| !without.iter().any(|without| *without as usize == *part))

@@ -82,7 +82,7 @@ impl From<&Stages> for Present {
 
 /// Parts of a step whose time is reported.
 #[derive(Clone, Copy)]
-pub(crate) enum Part {
+pub(crate) enum Stage {
     Bodies,
     PointsToNodes,
     Nodes,
@@ -120,7 +120,7 @@ impl Clock {
     }
 
     /// `part` is done.
-    pub(crate) fn lap(&mut self, part: Part) {
+    pub(crate) fn lap(&mut self, part: Stage) {
         let now = Instant::now();
         self.seconds[part as usize] += (now - self.last).as_secs_f64();
         self.last = now;

@@ -11,7 +11,7 @@ use crate::halo::{gather_filtered, gather_velocity};
 use crate::nodes::NodeStep;
 use crate::real::Real;
 use crate::settings::Mode;
-use crate::stages::Part;
+use crate::stages::Stage;
 use crate::tiles::Scratch;
 
 /// Steps between checks of the whole state, which also renew the time step: they then cost next to nothing.
@@ -34,9 +34,9 @@ impl Explicit {
         if self.present.contact {
             self.see_bodies();
         }
-        self.clock.lap(Part::Bodies);
+        self.clock.lap(Stage::Bodies);
         self.points_to_nodes(dt);
-        self.clock.lap(Part::PointsToNodes);
+        self.clock.lap(Stage::PointsToNodes);
         match self.scene.liquid.viscosity.clone() {
             Viscosity::Newtonian(law) => self.nodes(dt, &slow, &law),
             Viscosity::Table(law) => self.nodes(dt, &slow, &law),
@@ -49,7 +49,7 @@ impl Explicit {
             }
         }
         self.nodes_to_points(dt, &from, &slow)?;
-        self.clock.lap(Part::NodesToPoints);
+        self.clock.lap(Stage::NodesToPoints);
         self.grid.deliver();
         if self.present.cell_mean {
             equalise(&mut self.grid, &self.stress);
@@ -67,7 +67,7 @@ impl Explicit {
         if self.state.step.is_multiple_of(CHECK_EVERY) {
             self.check()?;
         }
-        self.clock.lap(Part::Sort);
+        self.clock.lap(Stage::Sort);
         Ok(report)
     }
 
@@ -118,7 +118,7 @@ impl Explicit {
             .blocks
             .par_iter_mut()
             .for_each(|block| block.advance(tiles, &step));
-        self.clock.lap(Part::Nodes);
+        self.clock.lap(Stage::Nodes);
         if self.present.filter {
             let kernels = self.kernels;
             for round in 2..=self.settings.velocity_update.order() {
@@ -135,7 +135,7 @@ impl Explicit {
                     .par_iter_mut()
                     .for_each(|block| block.refine(tiles, &step));
             }
-            self.clock.lap(Part::Filter);
+            self.clock.lap(Stage::Filter);
         }
     }
 

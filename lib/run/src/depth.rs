@@ -3,12 +3,12 @@
 use physics::Scene;
 
 /// The bodies of a scene where they are now.
-pub(crate) struct Placed<'a> {
+pub(crate) struct MovedBodies<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) displacements: &'a [[f64; 3]],
 }
 
-impl Placed<'_> {
+impl MovedBodies<'_> {
     /// Low and high corner of a solid voxel that holds `point`.
     pub(crate) fn voxel(&self, point: [f64; 3]) -> Option<[[f64; 3]; 2]> {
         (self.scene.bodies.iter().zip(self.displacements)).find_map(|(body, shift)| {
@@ -68,7 +68,7 @@ mod tests {
     use crate::invariants::tests::{block, scene};
 
     fn depth(scene: &Scene, point: [f64; 3]) -> f64 {
-        let placed = Placed {
+        let placed = MovedBodies {
             scene,
             displacements: &vec![[0.0; 3]; scene.bodies.len()],
         };

@@ -7,7 +7,7 @@ use physics::{LiquidState, Motion, RigidBody, Scene, VoxelBlock, Water, WaterSta
 use units::Axis;
 
 use crate::crowded_liquid::crowded;
-use crate::depth::Placed;
+use crate::depth::MovedBodies;
 
 /// What was found in a state; counts of material points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
@@ -73,7 +73,7 @@ pub fn check(
         .iter()
         .map(|b| Reachable::of(b, scene))
         .collect();
-    let placed = Placed {
+    let placed = MovedBodies {
         scene,
         displacements,
     };

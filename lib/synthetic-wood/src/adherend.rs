@@ -6,7 +6,7 @@ use super::rays::Rays;
 use super::recipe::Plan;
 use super::species::Grain;
 use super::tracheids::Tracheids;
-use super::vessels::{Part, Vessels};
+use super::vessels::{VesselPart, Vessels};
 
 /// The tissues of the wood, in the order of their counts; tracheids count as fibres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,24 +116,24 @@ impl Adherend {
         let point = self.cut.locate(position);
         let place = self.rays.locate(point);
         match self.vessels.at(point) {
-            Part::Lumen(vessel) if vessel.sealed => Sample::Tube,
-            Part::Lumen(vessel) => Sample::Lumen(Tissue::Vessel, vessel.radius),
-            Part::Pit => Sample::Lumen(Tissue::Vessel, PIT_RADIUS),
-            Part::Wall(vessel) => {
+            VesselPart::Lumen(vessel) if vessel.sealed => Sample::Tube,
+            VesselPart::Lumen(vessel) => Sample::Lumen(Tissue::Vessel, vessel.radius),
+            VesselPart::Pit => Sample::Lumen(Tissue::Vessel, PIT_RADIUS),
+            VesselPart::Wall(vessel) => {
                 if !vessel.sealed && self.rays.pits_vessel(point, &place) {
                     Sample::Lumen(Tissue::Vessel, PIT_RADIUS)
                 } else {
                     Sample::Wall(Tissue::Vessel)
                 }
             }
-            Part::Outside(_) if place.clearance < 0.0 => {
+            VesselPart::Outside(_) if place.clearance < 0.0 => {
                 if self.rays.is_lumen(point, &place) {
                     Sample::Lumen(Tissue::Ray, RAY_RADIUS)
                 } else {
                     Sample::Wall(Tissue::Ray)
                 }
             }
-            Part::Outside(distance) => {
+            VesselPart::Outside(distance) => {
                 let radius = match &self.axial {
                     Axial::Fibres(fibres) => fibres.lumen(point, &place, distance),
                     Axial::Tracheids(tracheids) => tracheids.lumen(point, &place),

@@ -44,7 +44,7 @@ pub(crate) struct Vessel {
 }
 
 /// What a point is with respect to the vessels.
-pub(crate) enum Part<'a> {
+pub(crate) enum VesselPart<'a> {
     /// In the lumen of a vessel.
     Lumen(&'a Vessel),
     /// In a pit between two vessels.
@@ -99,7 +99,7 @@ impl Vessels {
         Self { members, bins }
     }
 
-    pub(crate) fn at(&self, point: WoodPoint) -> Part<'_> {
+    pub(crate) fn at(&self, point: WoodPoint) -> VesselPart<'_> {
         let mut nearest = (f32::INFINITY, None);
         let mut second = f32::INFINITY;
         for &index in self.bins.near(point.r, point.t) {
@@ -114,7 +114,7 @@ impl Vessels {
         }
         match nearest {
             (outside, Some(vessel)) if outside < WALL => vessel.part(point, outside, second),
-            (outside, _) => Part::Outside((outside - WALL).min(REACH)),
+            (outside, _) => VesselPart::Outside((outside - WALL).min(REACH)),
         }
     }
 }
@@ -149,16 +149,16 @@ impl Vessel {
 
     /// Which part of this vessel a point is in that is nearer to it than to any other;
     /// `outside` and `second` are the distances from its lumen and from the next vessel's.
-    fn part(&self, point: WoodPoint, outside: f32, second: f32) -> Part<'_> {
+    fn part(&self, point: WoodPoint, outside: f32, second: f32) -> VesselPart<'_> {
         let to_shared_wall = 0.5 * (second - outside);
         if outside >= 0.0 || self.in_rim(point.l, outside) {
-            Part::Wall(self)
+            VesselPart::Wall(self)
         } else if to_shared_wall >= SHARED_HALF_WALL {
-            Part::Lumen(self)
+            VesselPart::Lumen(self)
         } else if self.in_pit(point) {
-            Part::Pit
+            VesselPart::Pit
         } else {
-            Part::Wall(self)
+            VesselPart::Wall(self)
         }
     }
 

@@ -14,25 +14,25 @@ use crate::{Error, bmp, colours};
 
 /// What a file of one page is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum ImageFormat {
     Bmp,
     Png,
     Jpeg,
 }
 
-impl Kind {
+impl ImageFormat {
     fn of(head: &[u8]) -> Option<Self> {
         match head {
-            [b'B', b'M', _, _, _, _, 0, 0, 0, 0, ..] => Some(Kind::Bmp),
-            [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => Some(Kind::Png),
-            [0xff, 0xd8, 0xff, ..] => Some(Kind::Jpeg),
+            [b'B', b'M', _, _, _, _, 0, 0, 0, 0, ..] => Some(ImageFormat::Bmp),
+            [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => Some(ImageFormat::Png),
+            [0xff, 0xd8, 0xff, ..] => Some(ImageFormat::Jpeg),
             _ => None,
         }
     }
 }
 
 pub(crate) fn is_image(head: &[u8]) -> bool {
-    Kind::of(head).is_some()
+    ImageFormat::of(head).is_some()
 }
 
 /// Images that make the pages of a stack.
@@ -56,7 +56,7 @@ pub(crate) fn open(sources: Vec<Source>) -> Result<ImagePages, Error> {
     for (i, source) in sources.iter().enumerate() {
         let (own, colours) = read(source, None).map_err(|what| Error::file(source, what))?;
         let head = source.window(0, 16).map_err(|e| Error::io(source, e))?;
-        lossy |= Kind::of(&head) == Some(Kind::Jpeg);
+        lossy |= ImageFormat::of(&head) == Some(ImageFormat::Jpeg);
         let first = *format.get_or_insert(own);
         if own != first {
             let what =
@@ -120,17 +120,17 @@ impl ImagePages {
 /// The format of an image and what its values show; its pixels are read where there is a `page` for them.
 fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Result<(PageFormat, Shown), String> {
     let head = source.window(0, 16).map_err(|e| e.to_string())?;
-    let kind = Kind::of(&head).ok_or("it is no BMP, PNG or JPEG as the other slices are")?;
+    let kind = ImageFormat::of(&head).ok_or("it is no BMP, PNG or JPEG as the other slices are")?;
     let content = source.reader_from(0).map_err(|e| e.to_string())?;
     let content = BufReader::new(content);
     let said = |e: image::ImageError| e.to_string();
     match kind {
-        Kind::Bmp => bmp::read(source, page),
-        Kind::Jpeg if page.is_some() && !ends_as_jpeg(source)? => {
+        ImageFormat::Bmp => bmp::read(source, page),
+        ImageFormat::Jpeg if page.is_some() && !ends_as_jpeg(source)? => {
             Err("its last scan has no end: it is truncated".into())
         }
-        Kind::Jpeg => decoded(JpegDecoder::new(content).map_err(said)?, page),
-        Kind::Png => png(content, page),
+        ImageFormat::Jpeg => decoded(JpegDecoder::new(content).map_err(said)?, page),
+        ImageFormat::Png => png(content, page),
     }
 }
 

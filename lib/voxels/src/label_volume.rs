@@ -29,12 +29,12 @@ pub struct LabelVolume<'a> {
     pub origin_m: [f64; 3],
     /// Voxel edge, m.
     pub voxel_m: f64,
-    blocks: Vec<Placed<'a>>,
+    blocks: Vec<PlacedBlock<'a>>,
     liquid: Option<Liquid<'a>>,
 }
 
 /// A block on the lattice.
-struct Placed<'a> {
+struct PlacedBlock<'a> {
     label: u8,
     /// Lattice voxel of its voxel (0, 0, 0).
     at: [usize; 3],
@@ -65,7 +65,7 @@ impl<'a> LabelVolume<'a> {
         for (index, at) in places.into_iter().enumerate() {
             let (block, bits) = file.block(index)?;
             let label = label_of(block);
-            blocks.push(Placed { label, at, bits });
+            blocks.push(PlacedBlock { label, at, bits });
         }
         let dims = dims(file, &blocks)?;
         // Wood is written last, over adhesive.
@@ -85,7 +85,7 @@ impl<'a> LabelVolume<'a> {
 
     /// The labels of one block, exactly where it is.
     pub fn of_block(block: &Block, bits: BitsRef<'a>) -> Self {
-        let placed = Placed {
+        let placed = PlacedBlock {
             label: label_of(block),
             at: [0; 3],
             bits,
@@ -295,7 +295,7 @@ fn lattice(header: &Header) -> ([f64; 3], Vec<[usize; 3]>) {
 }
 
 /// Voxels of the lattice that holds all blocks or, without any, the file's box.
-fn dims(file: &ParticleFile, blocks: &[Placed]) -> Result<[usize; 3], Error> {
+fn dims(file: &ParticleFile, blocks: &[PlacedBlock]) -> Result<[usize; 3], Error> {
     /// Bytes of a voxel: a label, and where there are points the volume fraction.
     const LABEL: u64 = 1;
     const FRACTION: u64 = 4;
@@ -304,7 +304,7 @@ fn dims(file: &ParticleFile, blocks: &[Placed]) -> Result<[usize; 3], Error> {
     /// Bytes of the voxels that a liquid point reaches while the fullest are found.
     const RANKS: u64 = 32;
     let header = file.header();
-    let end = |placed: &Placed, a: usize| placed.at[a].saturating_add(placed.bits.dims()[a]);
+    let end = |placed: &PlacedBlock, a: usize| placed.at[a].saturating_add(placed.bits.dims()[a]);
     let dims: [usize; 3] = std::array::from_fn(|a| match blocks {
         [] => {
             let edge = header.box_max_m[a] - header.box_min_m[a];

@@ -8,7 +8,7 @@ use run::{Request, RunFailure, changed_case};
 use serde::{Deserialize, Serialize};
 
 use crate::specimen::{self, Recipe};
-use crate::table::{Kind, Table};
+use crate::table::{ColumnKind, Table};
 use crate::{blame, failure};
 
 /// What is pressed.
@@ -57,7 +57,7 @@ impl Draft {
         let case = case_of(table, row, case);
         let bond = bond_of(table, row)?;
         let changes: Vec<(usize, String)> = (table.given(row))
-            .filter(|(_, kind, _)| **kind == Kind::Key)
+            .filter(|(_, kind, _)| **kind == ColumnKind::Key)
             .map(|(i, _, cell)| (i, format!("{}={cell}", table.columns[i].0)))
             .collect();
         let parsed = |changes: &[&(usize, String)]| changed_case(&case, &texts(changes));
@@ -150,7 +150,7 @@ fn blamed<T>(
 
 /// The case file of a row: a name without an ending stands beside that of the other rows.
 fn case_of(table: &Table, row: usize, default: &Path) -> PathBuf {
-    match table.cell(row, &Kind::Case) {
+    match table.cell(row, &ColumnKind::Case) {
         None => default.to_owned(),
         Some((_, name)) if name.ends_with(".toml") => table.beside(name),
         Some((_, name)) => default.with_file_name(format!("{name}.toml")),
@@ -160,11 +160,11 @@ fn case_of(table: &Table, row: usize, default: &Path) -> PathBuf {
 fn bond_of(table: &Table, row: usize) -> Result<Bond, Failure> {
     let specimen: Vec<(usize, &'static str, &str)> = (table.given(row))
         .filter_map(|(i, kind, cell)| match kind {
-            Kind::Specimen(option) => Some((i, *option, cell)),
+            ColumnKind::Specimen(option) => Some((i, *option, cell)),
             _ => None,
         })
         .collect();
-    if let Some((column, cell)) = table.cell(row, &Kind::Particles) {
+    if let Some((column, cell)) = table.cell(row, &ColumnKind::Particles) {
         if let Some((i, ..)) = specimen.first() {
             let what = "the row names a bond file in column particles, which is no synthetic specimen; leave one of them empty";
             return Err(table.wrong_cell(row, *i, what));

@@ -4,7 +4,7 @@ use units::unit;
 
 use crate::draft::{Bond, Draft};
 use crate::specimen::QUICK;
-use crate::table::{Kind, Table};
+use crate::table::{ColumnKind, Table};
 
 /// Significant digits of a number that was converted: what rounding adds lies behind them.
 const DIGITS: usize = 12;
@@ -18,12 +18,12 @@ pub fn columns(table: &Table, drafts: &[Draft]) -> (Vec<String>, Vec<Vec<String>
     let mut rows = vec![Vec::new(); drafts.len()];
     for (i, (name, kind)) in table.columns.iter().enumerate() {
         let taken = |row: usize, draft: &Draft| match (table.rows[row][i].as_str(), kind) {
-            ("", Kind::Case) => {
+            ("", ColumnKind::Case) => {
                 let stem = draft.case.file_stem().unwrap_or_default();
                 stem.to_string_lossy().into_owned()
             }
-            (_, Kind::Specimen(option)) => of_specimen(&draft.bond, option),
-            (_, Kind::Key) => (cases[row].as_ref())
+            (_, ColumnKind::Specimen(option)) => of_specimen(&draft.bond, option),
+            (_, ColumnKind::Key) => (cases[row].as_ref())
                 .and_then(|case| of_case(case, name))
                 .unwrap_or_default(),
             (given, _) => given.to_owned(),

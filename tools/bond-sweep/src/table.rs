@@ -10,7 +10,7 @@ use crate::specimen;
 
 /// What the cells of a column say.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ColumnKind {
     /// A case file.
     Case,
     /// A bond file.
@@ -31,7 +31,7 @@ const MOST_COLUMNS: usize = 1000;
 pub struct Table {
     path: PathBuf,
     /// Name and kind of each column.
-    pub columns: Vec<(String, Kind)>,
+    pub columns: Vec<(String, ColumnKind)>,
     /// Trimmed cells; an empty one is the default.
     pub rows: Vec<Vec<String>>,
 }
@@ -121,7 +121,7 @@ impl Table {
     }
 
     /// The column of a kind and its cell in a row, where it is not empty.
-    pub fn cell(&self, row: usize, kind: &Kind) -> Option<(usize, &str)> {
+    pub fn cell(&self, row: usize, kind: &ColumnKind) -> Option<(usize, &str)> {
         let mut given = self.given(row);
         given
             .find(|(_, own, _)| *own == kind)
@@ -129,7 +129,7 @@ impl Table {
     }
 
     /// The cells of a row that are not empty, by column.
-    pub fn given(&self, row: usize) -> impl Iterator<Item = (usize, &Kind, &str)> {
+    pub fn given(&self, row: usize) -> impl Iterator<Item = (usize, &ColumnKind, &str)> {
         let cells = self.rows[row].iter().map(String::as_str).enumerate();
         cells
             .filter(|(_, cell)| !cell.is_empty())
@@ -137,21 +137,23 @@ impl Table {
     }
 }
 
-fn kind_of(name: &str) -> Result<Kind, String> {
+fn kind_of(name: &str) -> Result<ColumnKind, String> {
     match (name, name.strip_prefix("specimen.")) {
-        ("case", _) => return Ok(Kind::Case),
-        ("particles", _) => return Ok(Kind::Particles),
+        ("case", _) => return Ok(ColumnKind::Case),
+        ("particles", _) => return Ok(ColumnKind::Particles),
         (_, Some(option)) => {
             let known = specimen::QUICK.iter().find(|(known, _)| *known == option);
-            return known.map(|(known, _)| Kind::Specimen(known)).ok_or(format!(
-                "'{name}' is no column of a sweep; of the specimen there are {}",
-                specimen::QUICK.map(|(known, _)| known).join(", ")
-            ));
+            return known
+                .map(|(known, _)| ColumnKind::Specimen(known))
+                .ok_or(format!(
+                    "'{name}' is no column of a sweep; of the specimen there are {}",
+                    specimen::QUICK.map(|(known, _)| known).join(", ")
+                ));
         }
         _ => {}
     }
     let key = name.contains('.') && !name.contains(|c: char| c.is_whitespace() || "=;".contains(c));
-    key.then_some(Kind::Key).ok_or_else(|| {
+    key.then_some(ColumnKind::Key).ok_or_else(|| {
         let hint = match name.contains([';', '\t']) {
             true => " (columns are separated by commas)",
             false => "",
@@ -175,7 +177,11 @@ mod tests {
     fn columns_are_told_and_cells_trimmed() {
         let text = "\u{feff}# mine\ncase, specimen.seed ,adhesive.viscosity\npf,1, 1300 cP\n,2,\n";
         let table = Table::parse(Path::new("f/t.csv"), text.as_bytes()).unwrap();
-        let kinds = [Kind::Case, Kind::Specimen("seed"), Kind::Key];
+        let kinds = [
+            ColumnKind::Case,
+            ColumnKind::Specimen("seed"),
+            ColumnKind::Key,
+        ];
         assert!(table.columns.iter().map(|c| &c.1).eq(&kinds));
         assert_eq!(table.rows[0][2], "1300 cP");
         assert_eq!(table.given(1).count(), 1);

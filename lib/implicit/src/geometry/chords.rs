@@ -11,24 +11,24 @@ pub(super) const LONGEST: u16 = 1000;
 /// A chord along y in one part of the lattice: its voxels, whether it goes on through the gap, and whether it ends at
 /// the far side of the domain.
 #[derive(Clone, Copy, Default)]
-struct Run {
+struct UprightChord {
     voxels: u16,
     through_gap: bool,
     to_side: bool,
 }
 
 /// Chords of one part of the lattice, by layer and place in it: along x and z, and along y.
-struct Part {
+struct PartChords {
     across: [Vec<Vec<u16>>; 2],
-    along: Vec<Vec<Run>>,
+    along: Vec<Vec<UprightChord>>,
     /// Chords along y from the gap on.
-    from_gap: Vec<Run>,
+    from_gap: Vec<UprightChord>,
 }
 
 /// Chord lengths of all voxels.
 pub(crate) struct Chords {
-    below: Part,
-    above: Part,
+    below: PartChords,
+    above: PartChords,
     gap: [Vec<u16>; 2],
     /// Kind of the sides normal to y.
     side: Boundary,
@@ -45,7 +45,7 @@ pub(crate) enum Place {
 impl Chords {
     pub(crate) fn new(lattice: &Lattice) -> Self {
         let size = lattice.across();
-        let part = |layers: &[Vec<u8>]| Part {
+        let part = |layers: &[Vec<u8>]| PartChords {
             across: [0, 1].map(|a| {
                 let layers = layers.iter();
                 layers.map(|layer| runs(layer, size, a, lattice)).collect()
@@ -173,9 +173,9 @@ fn chords(
 }
 
 /// Chords along y of the layers of a part, counted from the gap. Where nothing moves there is no gap, and one part.
-fn columns(layers: &[Vec<u8>], lattice: &Lattice) -> Vec<Vec<Run>> {
+fn columns(layers: &[Vec<u8>], lattice: &Lattice) -> Vec<Vec<UprightChord>> {
     let (n, size) = (layers.len(), lattice.across());
-    let mut all = vec![vec![Run::default(); size[0] * size[1]]; n];
+    let mut all = vec![vec![UprightChord::default(); size[0] * size[1]]; n];
     for at in 0..size[0] * size[1] {
         let open = |i: usize| layers[i][at] == OPEN;
         if lattice.moving.is_none() {
@@ -189,7 +189,7 @@ fn columns(layers: &[Vec<u8>], lattice: &Lattice) -> Vec<Vec<Run>> {
             if i < n && open(i) {
                 continue;
             }
-            let run = Run {
+            let run = UprightChord {
                 voxels: (i - start).min(usize::from(LONGEST)) as u16,
                 through_gap: start == 0,
                 to_side: i == n,
@@ -202,9 +202,9 @@ fn columns(layers: &[Vec<u8>], lattice: &Lattice) -> Vec<Vec<Run>> {
 }
 
 /// The chord of a column from the gap on.
-fn first_run(layers: &[Vec<u8>], at: usize) -> Run {
+fn first_run(layers: &[Vec<u8>], at: usize) -> UprightChord {
     let run = layers.iter().take_while(|layer| layer[at] == OPEN).count();
-    Run {
+    UprightChord {
         voxels: run.min(usize::from(LONGEST)) as u16,
         through_gap: true,
         to_side: run == layers.len(),

@@ -20,4 +20,4 @@ pub(crate) use lattice::{Lattice, MIRROR, OPEN};
 pub(crate) use mesh::{Face, Mesh, others};
 pub(crate) use passages::narrowness;
 pub(crate) use region::Region;
-pub(crate) use rows::{Kind, Rows};
+pub(crate) use rows::{RowKind, Rows};

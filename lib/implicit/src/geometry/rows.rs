@@ -2,7 +2,7 @@
 
 /// Which part of the grid a row is in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum RowKind {
     Below,
     Gap,
     Above,
@@ -38,20 +38,20 @@ impl Rows {
         self.below + self.gap + self.above
     }
 
-    pub(crate) fn kind(&self, row: usize) -> Kind {
+    pub(crate) fn kind(&self, row: usize) -> RowKind {
         if row < self.below {
-            Kind::Below
+            RowKind::Below
         } else if row < self.below + self.gap {
-            Kind::Gap
+            RowKind::Gap
         } else {
-            Kind::Above
+            RowKind::Above
         }
     }
 
     /// Height of a row, cells.
     pub(crate) fn height_of(&self, row: usize) -> f64 {
         match self.kind(row) {
-            Kind::Gap => self.height / self.gap as f64,
+            RowKind::Gap => self.height / self.gap as f64,
             _ => 1.0,
         }
     }
@@ -60,18 +60,18 @@ impl Rows {
     pub(crate) fn low(&self, row: usize) -> f64 {
         let from_gap = row as f64 - self.below as f64;
         match self.kind(row) {
-            Kind::Below => from_gap,
-            Kind::Gap => from_gap * self.height / self.gap as f64,
-            Kind::Above => from_gap - self.gap as f64 + self.height,
+            RowKind::Below => from_gap,
+            RowKind::Gap => from_gap * self.height / self.gap as f64,
+            RowKind::Above => from_gap - self.gap as f64 + self.height,
         }
     }
 
     /// Part of the closing speed by which the low side of a row moves against the body below: 0 there, 1 at the body above.
     pub(crate) fn share(&self, row: usize) -> f64 {
         match self.kind(row) {
-            Kind::Below => 0.0,
-            Kind::Gap => (row - self.below) as f64 / self.gap as f64,
-            Kind::Above => 1.0,
+            RowKind::Below => 0.0,
+            RowKind::Gap => (row - self.below) as f64 / self.gap as f64,
+            RowKind::Above => 1.0,
         }
     }
 }

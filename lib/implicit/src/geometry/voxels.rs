@@ -5,7 +5,7 @@ use physics::Boundary;
 use super::chords::Place;
 use super::lattice::{Lattice, MIRROR, OPEN};
 use super::mesh::Mesh;
-use super::rows::Kind;
+use super::rows::RowKind;
 
 /// Friction and exchange at half a voxel from a re-entrant edge over those of flow that is linear there, by how many voxels
 /// there are in the edge of a cell and along how many of the two axes the edge lies within a cell. Along such an edge flow is
@@ -43,12 +43,12 @@ impl Mesh {
         let row = y + self.range.start;
         let (b, rows) = (voxel[1], self.rows());
         match rows.kind(row) {
-            Kind::Below => {
+            RowKind::Below => {
                 let layer = (rows.below - 1 - row) * self.k + (self.k - 1 - b);
                 (layer < lattice.below.len()).then_some(Place::Below(layer, at))
             }
-            Kind::Gap => Some(Place::Gap(at)),
-            Kind::Above => {
+            RowKind::Gap => Some(Place::Gap(at)),
+            RowKind::Above => {
                 let layer = (row - rows.below - rows.gap) * self.k + b;
                 (layer < lattice.above.len()).then_some(Place::Above(layer, at))
             }

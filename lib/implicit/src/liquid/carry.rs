@@ -6,14 +6,14 @@ use std::ops::Range;
 use physics::Boundary;
 use rayon::prelude::*;
 
-use crate::geometry::{Kind, Mesh, Region, Rows};
+use crate::geometry::{Mesh, Region, RowKind, Rows};
 
 /// The row of `old` that a row of the body below or above of `new` is; `None` where it is not there.
 fn same_row(new: &Mesh, old: &Mesh, row: usize) -> Option<usize> {
     let row = match new.rows().kind(row) {
-        Kind::Below => row,
-        Kind::Gap => return None,
-        Kind::Above => row - new.rows().gap + old.rows().gap,
+        RowKind::Below => row,
+        RowKind::Gap => return None,
+        RowKind::Above => row - new.rows().gap + old.rows().gap,
     };
     old.range.contains(&row).then(|| row - old.range.start)
 }
@@ -33,10 +33,10 @@ pub(crate) fn carried_region(
         let row = old.row(cell);
         // Of a gap that is gone, the rows beside it.
         let rows = match old.rows().kind(row) {
-            Kind::Below => row..row + 1,
-            Kind::Gap if rows.gap == 0 => rows.below.saturating_sub(1)..rows.below + 1,
-            Kind::Gap => rows.below..rows.below + rows.gap,
-            Kind::Above => {
+            RowKind::Below => row..row + 1,
+            RowKind::Gap if rows.gap == 0 => rows.below.saturating_sub(1)..rows.below + 1,
+            RowKind::Gap => rows.below..rows.below + rows.gap,
+            RowKind::Above => {
                 let row = row - old.rows().gap + rows.gap;
                 row..row + 1
             }
@@ -172,7 +172,7 @@ fn joined(
 ) -> f64 {
     match same_row(new, old, row) {
         Some(y) => of(y),
-        None if new.rows().kind(row) == Kind::Gap => {
+        None if new.rows().kind(row) == RowKind::Gap => {
             let rows = overlapping(new, old, row).into_iter();
             join(&rows.map(|(y, part)| (part, of(y))).collect::<Vec<_>>())
         }
@@ -201,7 +201,7 @@ fn squeeze_out(new: &Mesh, old: &Mesh, y: usize, volumes: &[f64], carried: &mut 
 
 /// The pores above and below a pore of a gap that is gone, or those of the nearest in the gap that have some.
 fn outlets(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
-    let in_gap = |pore: usize| old.rows().kind(old.row_of(pore)) == Kind::Gap;
+    let in_gap = |pore: usize| old.rows().kind(old.row_of(pore)) == RowKind::Gap;
     let mut seen = HashSet::from([pore]);
     let mut front = vec![pore];
     while !front.is_empty() {

@@ -6,7 +6,7 @@ use physics::{StepLimit, StepReport};
 
 use super::Implicit;
 use super::solve::Solved;
-use crate::clock::Part;
+use crate::clock::Stage;
 use crate::liquid::{Held, Moved, transport};
 use crate::system::Flow;
 
@@ -68,7 +68,7 @@ impl Implicit {
             dt,
         );
         mesh.set_height(self.height);
-        self.clock.add(Part::Transport, begun);
+        self.clock.add(Stage::Transport, begun);
         state.volumes = volumes;
         if let Some(wet) = &mut state.wet {
             wet.water = water;

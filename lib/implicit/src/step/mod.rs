@@ -17,7 +17,7 @@ use std::time::Instant;
 use physics::{Failure, Scene, StepLimit, StepReport};
 use saddle_point::{SaddleOptions, SaddleSolver};
 
-use crate::clock::{Clock, Part};
+use crate::clock::{Clock, Stage};
 use crate::geometry::Mesh;
 use crate::settings::Settings;
 use crate::system::{Edges, Flow, Links};
@@ -146,7 +146,7 @@ impl Implicit {
         }
         let begun = Instant::now();
         self.fit_mesh();
-        self.clock.add(Part::Geometry, begun);
+        self.clock.add(Stage::Geometry, begun);
         let (mut longest, mut dries) = (limit.time_s, false);
         let mut guess = self.state.flow.clone();
         for _ in 0..ATTEMPTS {

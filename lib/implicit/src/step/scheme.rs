@@ -6,7 +6,7 @@ use physics::{
 };
 
 use super::Implicit;
-use crate::clock::Part;
+use crate::clock::Stage;
 use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::{Kept, Profile, Shown, points};
 use crate::system::{Edges, FlowField, Links};
@@ -209,7 +209,7 @@ impl Scheme for Implicit {
     fn stage_times(&self) -> Vec<StageTime> {
         match self.setup.liquid.water {
             Some(_) => self.clock.report(&[]),
-            None => self.clock.report(&[Part::Water]),
+            None => self.clock.report(&[Stage::Water]),
         }
     }
 

@@ -10,7 +10,7 @@ use super::Implicit;
 use super::compression::Compression;
 use super::failure::unsolved;
 use crate::air::Air;
-use crate::clock::{Clock, Part};
+use crate::clock::{Clock, Stage};
 use crate::liquid::{Held, transport};
 use crate::system::{
     Drive, FULL, Flow, FlowField, Problem, Search, Unknowns, Viscosities, forces, halves, masses,
@@ -104,7 +104,7 @@ impl Implicit {
             )
             .volumes
         };
-        self.clock.add(Part::Transport, begun);
+        self.clock.add(Stage::Transport, begun);
         let fractions: Vec<f64> = (0..mesh.pores.len())
             .map(|pore| match moved[pore] / mesh.volume(pore) {
                 _ if full[pore] => 1.0,
@@ -116,7 +116,7 @@ impl Implicit {
         if self.setup.lattice.moving.is_some() {
             (self.setup).measure(&mut self.links, &self.mesh, &fractions);
         }
-        self.clock.add(Part::Geometry, begun);
+        self.clock.add(Stage::Geometry, begun);
         Middle {
             dt,
             closing,
@@ -188,7 +188,7 @@ impl Implicit {
                 .as_ref()
                 .map(|exchange| (search.used).thickened(mesh, &self.edges, &exchange.factor));
             let viscosities = thick.as_ref().unwrap_or(&search.used);
-            clock.add(Part::Viscosity, begun);
+            clock.add(Stage::Viscosity, begun);
             let last = take(&mut flow);
             let ends = (&torn[..], air.as_ref());
             let holds;
@@ -204,7 +204,7 @@ impl Implicit {
                 let power = rates.power(viscosities, mesh, fractions);
                 settled &= search.go_on(rates, power);
             }
-            clock.add(Part::Viscosity, begun);
+            clock.add(Stage::Viscosity, begun);
             if self.tear(&unknowns, &flow, dt, &mut torn) {
                 unknowns = Unknowns::new(mesh, fractions, &torn);
                 settled = false;
@@ -242,12 +242,12 @@ impl Implicit {
         let begun = Instant::now();
         let lost = self.exchange(dt, fractions)?;
         if lost.is_some() {
-            clock.add(Part::Water, begun);
+            clock.add(Stage::Water, begun);
         }
         let begun = Instant::now();
         let halves = halves(&self.mesh, fractions);
         let masses = masses(&self.mesh, &halves);
-        clock.add(Part::Assembly, begun);
+        clock.add(Stage::Assembly, begun);
         Ok(Given {
             middle,
             drive,
@@ -342,7 +342,7 @@ impl Implicit {
         let begun = Instant::now();
         let forces = forces(&problem, &flow, state.displacement.len());
         let holds = compression.holds(&unknowns.pores, &guess.pressure, &flow.pressure);
-        clock.add(Part::Forces, begun);
+        clock.add(Stage::Forces, begun);
         Ok((flow, forces, holds))
     }
 }

@@ -10,7 +10,7 @@ use super::stretching::stretching;
 use super::unknowns::Unknowns;
 use super::viscosity::Viscosities;
 use crate::air::Pocket;
-use crate::geometry::{Kind, Lattice, Mesh};
+use crate::geometry::{Lattice, Mesh, RowKind};
 
 /// Friction over viscosity of liquid that touches nothing, so that it has a velocity.
 const FREE: f64 = 1e-7;
@@ -248,7 +248,7 @@ impl Problem<'_> {
     /// Resistance of a pore of the gap to being squeezed with its faces at rest.
     fn squeezed(&self, pore: usize) -> f64 {
         let stiffness = self.stiffness(pore);
-        if stiffness == 0.0 || self.mesh.rows().kind(self.mesh.row_of(pore)) != Kind::Gap {
+        if stiffness == 0.0 || self.mesh.rows().kind(self.mesh.row_of(pore)) != RowKind::Gap {
             return 0.0;
         }
         let mut sum = 0.0;
@@ -323,7 +323,7 @@ impl Problem<'_> {
     pub(crate) fn closing(&self, pore: usize) -> f64 {
         let mesh = self.mesh;
         match mesh.rows().kind(mesh.row_of(pore)) {
-            Kind::Gap => mesh.volume(pore) / mesh.rows().height,
+            RowKind::Gap => mesh.volume(pore) / mesh.rows().height,
             _ => 0.0,
         }
     }

@@ -8,7 +8,7 @@ use saddle_point::{Load, SaddleSolver, SaddleSystem, SolveError};
 use super::assembly::{Problem, Sides};
 use super::stretching::stretching;
 use crate::air::Pocket;
-use crate::clock::{Clock, Part};
+use crate::clock::{Clock, Stage};
 use crate::geometry::{MIRROR, OPEN};
 
 /// How the body that closes the gap is driven.
@@ -157,7 +157,7 @@ pub(crate) fn solve(
         ..Flow::default()
     };
     let drag = problem.resistance();
-    clock.add(Part::Assembly, begun);
+    clock.add(Stage::Assembly, begun);
     let begun = Instant::now();
     let solved = match drive {
         Drive::Speed(_) => solver.solve(&system, &mut u, &mut p),
@@ -172,7 +172,7 @@ pub(crate) fn solve(
             solver.solve_loaded(&system, &load, &mut u, &mut p, &mut flow.speed)
         }
     };
-    clock.add(Part::Solve, begun);
+    clock.add(Stage::Solve, begun);
     flow.iterations = match solved {
         Ok(report) => report.iterations() as u32,
         Err(SolveError::NotConverged { iterations, .. }) => iterations as u32,

@@ -1,6 +1,6 @@
 //! Stretching of the pores on the two sides of a face.
 
-use crate::geometry::{Kind, Mesh};
+use crate::geometry::{Mesh, RowKind};
 
 /// Nearest that a wall ahead counts, in edges of the cell: bounds the slope where little is open.
 const NEAREST: f64 = 0.3;
@@ -24,7 +24,7 @@ pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut
     let weight = 2.0 * mesh.volume(pore) / (edge * edge);
     let own = mesh.share(face, pore, axis, !up);
     let closing = match (axis, mesh.rows().kind(mesh.row_of(pore))) {
-        (1, Kind::Gap) => 1.0 / mesh.rows().gap as f64,
+        (1, RowKind::Gap) => 1.0 / mesh.rows().gap as f64,
         _ => 0.0,
     };
     // The high side moves against the low one by the closing.

@@ -43,7 +43,7 @@ impl<const D: usize, const AFFINE: bool> Kernel for P2g<'_, D, AFFINE> {
                 usize::from(points.base[start]),
                 run_end(&points.base, start),
             );
-            let run = Run {
+            let run = NodePoints {
                 points,
                 start,
                 end,
@@ -67,7 +67,7 @@ impl<const D: usize, const AFFINE: bool> Kernel for P2g<'_, D, AFFINE> {
 }
 
 /// Points of one node, which share its window.
-struct Run<'a> {
+struct NodePoints<'a> {
     points: &'a Points,
     start: usize,
     end: usize,
@@ -75,7 +75,7 @@ struct Run<'a> {
     shape: ShapeFunction,
 }
 
-impl Run<'_> {
+impl NodePoints<'_> {
     /// Sums at the nodes of [`sum`](crate::fields::sum). With `NEAR` only its impulse and volume, and in the
     /// upper four lanes the gradient of volume: the rest is in [`Run::values`].
     #[inline(always)]
