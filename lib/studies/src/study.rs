@@ -10,6 +10,12 @@ use std::time::Duration;
 /// seconds, and the machine may be shared.
 const LIMIT: Duration = Duration::from_secs(3600);
 
+/// What pictures of results are made for: sharp on a screen, small in the repository.
+pub const PAGE: figures::Page = figures::Page {
+    width_mm: None,
+    dpi: 180.0,
+};
+
 /// What numbers depend on: the commit named by a page is the last that changed any of these.
 const SOURCES: [&str; 6] = [
     "lib",

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use figures::{Mark, Plot};
 
 use super::capillary::{Rise, SLOWING};
-use crate::study::Study;
+use crate::study::{PAGE, Study};
 
 /// Goal for a run against the equation of motion of the same tube.
 const NEAR: f64 = 0.03;
@@ -43,7 +43,7 @@ pub fn sound(all: &[Rise]) -> bool {
 /// The system's reason, or what the figure lacks.
 pub fn write(study: &Study, all: &[Rise]) -> Result<String, String> {
     let file = "experiments-capillary.png";
-    let drawing = plot(all).draw().and_then(|d| d.to_png());
+    let drawing = plot(all).on(PAGE).draw().and_then(|d| d.to_png());
     study.write(file, drawing.map_err(|e| format!("{file}: {e}"))?)?;
     Ok(section(all))
 }

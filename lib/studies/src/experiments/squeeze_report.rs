@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use figures::{Mark, Plot};
 
 use super::predictions::{CELLS, Point, Prediction};
-use crate::study::{Study, distinct};
+use crate::study::{PAGE, Study, distinct};
 
 /// From this time on (s) points of thinning liquid are to be within [`NEAR`].
 const FROM: f64 = 0.1;
@@ -85,7 +85,10 @@ pub fn write(study: &Study, all: &[Prediction]) -> Result<String, String> {
     let first = of(all, CELLS[0]);
     for liquid in distinct(first.iter().map(|p| p.experiment.liquid.name)) {
         let file = format!("experiments-squeeze-{}.png", liquid.to_lowercase());
-        let drawing = plot(&first, liquid).draw().and_then(|d| d.to_png());
+        let drawing = plot(&first, liquid)
+            .on(PAGE)
+            .draw()
+            .and_then(|d| d.to_png());
         study.write(&file, drawing.map_err(|e| format!("{file}: {e}"))?)?;
     }
     Ok(section(all))

@@ -7,7 +7,7 @@ use figures::{Mark, Plot};
 
 use super::{Flow, Row};
 use crate::method::{Method, Scheme};
-use crate::study::Study;
+use crate::study::{PAGE, Study};
 use crate::verification::report::percent;
 
 /// Where `mpm-run --explain` finds what it quotes.
@@ -22,7 +22,7 @@ pub fn write(study: &Study, rows: &[Row], head: &str) -> Result<(), String> {
     let columns = "flow,scheme,method,varied,cells,set,error,cpu_s,pareto,failed";
     study.write_csv("tradeoff.csv", columns, rows.iter().map(fields))?;
     for (flow, name) in [(Flow::Slit, "slit"), (Flow::BondPressure, "bond")] {
-        let drawing = plot(rows, flow).draw().and_then(|d| d.to_png());
+        let drawing = plot(rows, flow).on(PAGE).draw().and_then(|d| d.to_png());
         study.write(
             &format!("tradeoff-{name}.png"),
             drawing.map_err(|e| e.to_string())?,

@@ -5,7 +5,7 @@ use figures::{Clouds, Drawing, Mark, Plot};
 use super::{LUMEN, incline, slit};
 use crate::job::Outcome;
 use crate::outputs::Run;
-use crate::study::Study;
+use crate::study::{PAGE, Study};
 
 /// Writes the figures whose runs are among `outcomes`.
 ///
@@ -37,14 +37,14 @@ pub fn write(study: &Study, outcomes: &[Outcome]) -> Result<(), String> {
     }
     let channel = channel(outcomes);
     if let Some(plot) = channel {
-        save("channel", plot.draw())?;
+        save("channel", plot.on(PAGE).draw())?;
     }
     let slits: Vec<(&str, Run)> = ["FLIP", "XPIC(5)", "APIC", "implicit"]
         .into_iter()
         .filter_map(|label| Some((label, done("slit-n6-off0-0", label)?)))
         .collect();
     if !slits.is_empty() {
-        save("slit", slit_forces(&slits)?.draw())?;
+        save("slit", slit_forces(&slits)?.on(PAGE).draw())?;
     }
     Ok(())
 }
@@ -67,7 +67,7 @@ fn profiles(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
             [y, incline::velocity(y * LUMEN) / incline::fastest()]
         })
         .collect();
-    plot.with("Eq. 5", Mark::Line, exact).draw()
+    plot.with("Eq. 5", Mark::Line, exact).on(PAGE).draw()
 }
 
 fn points(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
@@ -81,7 +81,7 @@ fn points(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
         let spots = incline::profile(run, 6, 0.0).map_err(figures::Error::Data)?;
         clouds = clouds.with(label, spots);
     }
-    clouds.draw()
+    clouds.on(PAGE).draw()
 }
 
 /// Error of the channel's mean velocity over the offset of its walls, six cells.
