@@ -9,6 +9,7 @@ use super::solve::Solved;
 use crate::clock::Stage;
 use crate::liquid::{Held, Moved, transport};
 use crate::system::Flow;
+use crate::water::Exchange;
 
 /// Most by which flow is expected to go on growing: a flow that starts is no trend.
 const FORESEEN: f64 = 1.25;
@@ -37,6 +38,55 @@ impl Implicit {
             true => self.left(limit),
             false => flow.speed * dt,
         };
+        self.move_liquid(travel, &flow.velocity, &full, exchange, dt);
+        let state = &mut self.state;
+        let fastest = fastest(&flow, self.setup.settings.cfl);
+        state.growth = (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, FORESEEN);
+        state.fastest = fastest;
+        state.unsettled += u64::from(!settled);
+        state.power = flow.dissipation;
+        state.time += dt;
+        state.dt = dt;
+        state.steps += 1;
+        state.travel += travel * cell_m;
+        self.move_bodies(travel, dt);
+        let pressure = |body: Option<usize>, sign: f64| {
+            body.map_or(0.0, |body| {
+                let force = match self.setup.lattice.mover == Some(body) {
+                    true => -sign * self.setup.lattice.speed_of(body) * flow.force,
+                    false => sign * forces[body],
+                };
+                self.setup.pressure(force)
+            })
+        };
+        let (force, travel) = (self.setup.pressure(flow.force), self.state.travel);
+        self.state.drive.observe(force, dt, travel);
+        let report = StepReport {
+            dt_s: dt,
+            closing_speed: flow.speed * cell_m,
+            travel_m: travel,
+            pressure_bottom: pressure(self.setup.bottom, -1.0),
+            pressure_top: pressure(self.setup.top, 1.0),
+            lost: self.setup.points_of(self.state.lost),
+            iterations: flow.iterations,
+        };
+        self.state.flow = flow;
+        if let (Some(gas), Some((air, settled))) = (self.setup.gas, air) {
+            self.keep_air(gas, air, settled, dt);
+        }
+        report
+    }
+
+    /// Closes the gap by a `travel` (cells) and moves the liquid by the `velocity` of each face in a step of `dt` (s): from pores
+    /// that were `full` or not, less what it loses.
+    fn move_liquid(
+        &mut self,
+        travel: f64,
+        velocity: &[f64],
+        full: &[bool],
+        exchange: Option<Exchange>,
+        dt: f64,
+    ) {
         let begun = Instant::now();
         // Liquid moves through the faces of the middle of the step into the pores of its end.
         let middle = self.mesh.rows().height;
@@ -62,9 +112,9 @@ impl Implicit {
                 volumes: &state.volumes,
                 water: state.wet.as_ref().map_or(&[], |wet| &wet.water),
             },
-            &full,
+            full,
             &capacities,
-            &flow.velocity,
+            velocity,
             dt,
         );
         mesh.set_height(self.height);
@@ -75,51 +125,20 @@ impl Implicit {
             wet.account.left += water_lost;
         }
         state.lost += lost;
-        let fastest = fastest(&flow, self.setup.settings.cfl);
-        state.growth = (fastest / state.fastest.max(f64::MIN_POSITIVE)).clamp(1.0, FORESEEN);
-        state.fastest = fastest;
-        state.unsettled += u64::from(!settled);
-        state.power = flow.dissipation;
-        state.time += dt;
-        state.dt = dt;
-        state.steps += 1;
-        state.travel += travel * cell_m;
-        for (body, displacement) in state.displacement.iter_mut().enumerate() {
-            let slide = self.setup.lattice.slide[body];
+    }
+
+    /// Moves the bodies by a `travel` of the clamp (cells) and by what slides in a step of `dt` (s).
+    fn move_bodies(&mut self, travel: f64, dt: f64) {
+        let (lattice, cell_m) = (&self.setup.lattice, self.setup.units.cell_m);
+        for (body, displacement) in self.state.displacement.iter_mut().enumerate() {
+            let slide = lattice.slide[body];
             for a in 0..3 {
                 displacement[a] += slide[a] * dt;
             }
-            if self.setup.lattice.mover == Some(body) {
-                displacement[1] +=
-                    self.setup.lattice.speed_of(body) * travel * cell_m - slide[1] * dt;
+            if lattice.mover == Some(body) {
+                displacement[1] += lattice.speed_of(body) * travel * cell_m - slide[1] * dt;
             }
         }
-        let pressure = |body: Option<usize>, sign: f64| {
-            body.map_or(0.0, |body| {
-                let force = match self.setup.lattice.mover == Some(body) {
-                    true => -sign * self.setup.lattice.speed_of(body) * flow.force,
-                    false => sign * forces[body],
-                };
-                self.setup.pressure(force)
-            })
-        };
-        state
-            .drive
-            .observe(self.setup.pressure(flow.force), dt, state.travel);
-        let report = StepReport {
-            dt_s: dt,
-            closing_speed: flow.speed * cell_m,
-            travel_m: state.travel,
-            pressure_bottom: pressure(self.setup.bottom, -1.0),
-            pressure_top: pressure(self.setup.top, 1.0),
-            lost: self.setup.points_of(state.lost),
-            iterations: flow.iterations,
-        };
-        state.flow = flow;
-        if let (Some(gas), Some((air, settled))) = (self.setup.gas, air) {
-            self.keep_air(gas, air, settled, dt);
-        }
-        report
     }
 }
 

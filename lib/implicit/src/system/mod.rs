@@ -2,6 +2,7 @@
 
 mod assembly;
 mod edges;
+mod equations;
 mod fronts;
 mod halves;
 mod link;
@@ -15,10 +16,11 @@ mod viscosity;
 
 pub(crate) use assembly::{Problem, Scales};
 pub(crate) use edges::Edges;
+pub(crate) use equations::resistance;
 pub(crate) use fronts::{Fronts, Wetting};
 pub(crate) use halves::{halves, masses, stiffnesses};
 pub(crate) use links::{Links, Walls};
 pub(crate) use passes::Search;
-pub(crate) use solution::{Drive, Flow, forces, resistance, solve};
+pub(crate) use solution::{Drive, Flow, forces, solve};
 pub(crate) use unknowns::{FULL, Unknowns};
 pub(crate) use viscosity::{FlowField, Viscosities};

@@ -2,12 +2,11 @@
 
 use std::time::Instant;
 
-use rayon::prelude::*;
-use saddle_point::{Load, SaddleSolver, SaddleSystem, SolveError};
+use saddle_point::{Load, SaddleSolver, SolveError};
 
-use super::assembly::{Problem, Sides};
+use super::assembly::Problem;
+use super::equations::Equations;
 use super::stretching::stretching;
-use crate::air::Pocket;
 use crate::clock::{Clock, Stage};
 use crate::geometry::{MIRROR, OPEN};
 
@@ -18,6 +17,15 @@ pub(crate) enum Drive {
     Speed(f64),
     /// By a force over the unit of viscosity, of which errors are measured by `scale`, at a speed near `guess`.
     Force { force: f64, scale: f64, guess: f64 },
+}
+
+impl Drive {
+    /// The closing speed, or the guess at it.
+    pub(super) fn speed(self) -> f64 {
+        match self {
+            Self::Speed(speed) | Self::Force { guess: speed, .. } => speed,
+        }
+    }
 }
 
 /// What flows in a step.
@@ -61,88 +69,8 @@ pub(crate) fn solve(
 ) -> Result<Flow, SolveError> {
     let begun = Instant::now();
     let unknowns = problem.unknowns;
-    let (a, g) = (problem.velocity_block()?, problem.outflow()?);
-    let Sides {
-        mut known,
-        closing,
-        mut standing,
-        clinging,
-        carried: mut carried_force,
-    } = problem.momenta();
-    let scales = &problem.scales;
-    let mut source: Vec<f64> = (unknowns.pores.iter())
-        .map(|&pore| problem.closing(pore as usize))
-        .collect();
-    let mut c: Vec<f64> = (unknowns.pores.iter())
-        .map(|&pore| {
-            let end = problem.mesh.volume_at(pore as usize, problem.end_height);
-            end * scales.compressibility / scales.dt
-        })
-        .collect();
-    let friction: Vec<f64> = (unknowns.faces.par_iter())
-        .map(|&face| resistance(problem, face as usize))
-        .collect();
-    let mut two_eta: Vec<f64> = (unknowns.pores.iter())
-        .map(|&pore| 2.0 * problem.viscosities.pores[pore as usize])
-        .collect();
-    let mut carried = carried.to_vec();
-    // The unknown of a pocket is its pressure less that of its tangent, by which fronts are pushed: what softens a pocket much
-    // would outweigh all else.
-    let thickest = two_eta.iter().copied().fold(1.0, f64::max);
-    for Pocket {
-        pores,
-        volume,
-        tangent,
-        ..
-    } in problem.pockets
-    {
-        let closing = pores
-            .iter()
-            .map(|&pore| problem.closing(pore as usize))
-            .sum();
-        source.push(closing);
-        carried_force += closing * tangent.pressure;
-        c.push(tangent.yielding / scales.dt);
-        carried.push((tangent.volume - volume) / scales.dt);
-        two_eta.push(thickest);
-    }
-    let speed = match drive {
-        Drive::Speed(speed) | Drive::Force { guess: speed, .. } => speed,
-    };
-    let mut volume_source = vec![0.0; source.len()];
-    if let Drive::Speed(speed) = drive {
-        for (known, closing) in known.iter_mut().zip(&closing) {
-            *known += speed * closing;
-        }
-        for (moved, source) in volume_source.iter_mut().zip(&source) {
-            *moved = speed * source;
-        }
-    }
-    let mut clinging: Vec<f64> = (clinging[0].iter().zip(&clinging[1]))
-        .map(|(known, closing)| known + speed * closing)
-        .collect();
-    for (standing, clinging) in standing.iter_mut().zip(&clinging) {
-        *standing += clinging;
-    }
-    for forces in [&mut standing, &mut clinging] {
-        if forces.iter().all(|&force| force == 0.0) {
-            forces.clear();
-        }
-    }
-    let system = SaddleSystem {
-        a: &a,
-        g: &g,
-        pockets: problem.pockets.len(),
-        c: &c,
-        friction: &friction,
-        two_eta: &two_eta,
-        b: &known,
-        standing: &standing,
-        clinging: &clinging,
-        slow: scales.slow,
-        volume_source: &volume_source,
-        carried: &carried,
-    };
+    let equations = Equations::new(problem, carried, drive)?;
+    let system = equations.system(problem);
     let mut u: Vec<f64> = (unknowns.faces.iter())
         .map(|&face| guess.velocity[face as usize])
         .collect();
@@ -150,68 +78,32 @@ pub(crate) fn solve(
         .map(|&pore| guess.pressure[pore as usize])
         .chain(problem.pockets.iter().map(|_| 0.0))
         .collect();
-    let mut flow = Flow {
-        velocity: vec![0.0; problem.mesh.faces.len()],
-        pressure: vec![0.0; problem.mesh.pores.len()],
-        speed,
-        ..Flow::default()
-    };
-    let drag = problem.resistance();
+    let mut speed = drive.speed();
     clock.add(Stage::Assembly, begun);
     let begun = Instant::now();
     let solved = match drive {
         Drive::Speed(_) => solver.solve(&system, &mut u, &mut p),
         Drive::Force { force, scale, .. } => {
             let load = Load {
-                momentum: closing.clone(),
-                source: source.clone(),
-                resistance: drag,
-                force: force - carried_force,
+                momentum: equations.closing.clone(),
+                source: equations.source.clone(),
+                resistance: problem.resistance(),
+                force: force - equations.carried_force,
                 scale: scale.max(f64::MIN_POSITIVE),
             };
-            solver.solve_loaded(&system, &load, &mut u, &mut p, &mut flow.speed)
+            solver.solve_loaded(&system, &load, &mut u, &mut p, &mut speed)
         }
     };
     clock.add(Stage::Solve, begun);
-    flow.iterations = match solved {
+    let iterations = match solved {
         Ok(report) => report.iterations() as u32,
         Err(SolveError::NotConverged { iterations, .. }) => iterations as u32,
         Err(error) => return Err(error),
     };
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    flow.force = dot(&source, &p) - dot(&closing, &u) + drag * flow.speed + carried_force;
-    let mut au = vec![0.0; u.len()];
-    a.multiply(&u, &mut au);
-    let viscous = problem.viscous_parts(&u, flow.speed);
-    flow.dissipation =
-        dot(&u, &au) - 2.0 * flow.speed * dot(&closing, &u) + drag * flow.speed.powi(2) + viscous;
-    for (&face, &u) in unknowns.faces.iter().zip(&u) {
-        flow.velocity[face as usize] = u;
-    }
-    for (&pore, &p) in unknowns.pores.iter().zip(&p) {
-        flow.pressure[pore as usize] = p;
-    }
-    for (pocket, p) in problem.pockets.iter().zip(&p[unknowns.pores.len()..]) {
-        for &pore in &pocket.pores {
-            flow.pressure[pore as usize] = pocket.tangent.pressure + p;
-        }
-    }
-    Ok(flow)
-}
-
-/// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md section 3.6).
-pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
-    let link = problem.links.of(face);
-    let slip = problem.scales.influence_length;
-    let narrow = match slip.is_finite() {
-        true => 12.0 * link.narrowness / (1.0 + 6.0 * slip * link.narrowness.sqrt()),
-        false => 0.0,
-    };
-    let f = problem.mesh.faces[face];
-    let eta =
-        problem.viscosities.pores[f.low as usize].max(problem.viscosities.pores[f.high as usize]);
-    let least = 1e-6;
-    (problem.masses[face] * (problem.scales.inertia + eta * narrow)).max(least)
+    Ok(Flow {
+        iterations,
+        ..equations.flow(problem, [&u, &p], speed)
+    })
 }
 
 /// Forces on the bodies along y, over the unit of viscosity: pressure and viscous tension on walls across y, friction on
