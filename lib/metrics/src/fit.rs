@@ -8,6 +8,8 @@ use crate::state::Across;
 /// Fits are repeated because the first split of wood into below and above is level; tilts that
 /// a box can hold settle in a few rounds.
 const ROUNDS: usize = 8;
+/// Voxels by which the widths of openings differ where they are the same: they are whole voxels apart, but for rounding.
+const SAME: f64 = 1e-3;
 
 /// A plane across the bond: coordinate along the normal = `level` + `slope` . (u - centre).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,9 +152,10 @@ impl Openings {
         let Some(&quarter) = self.open.get(self.open.len() / 4) else {
             return Vec::new();
         };
+        let widest = width(quarter) + SAME * across.width_m;
         self.open
             .iter()
-            .take_while(|&&c| width(c) <= width(quarter))
+            .take_while(|&&c| width(c) <= widest)
             .map(|&c| (across.centre_m(c), 0.5 * (self.below[c] + self.above[c])))
             .collect()
     }
