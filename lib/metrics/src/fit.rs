@@ -44,8 +44,9 @@ impl Plane {
         for (axis, slope) in self.axes.iter().zip(self.slope) {
             let along = axis.index();
             let sign = if (along + 1) % 3 == n { 1.0 } else { -1.0 };
-            // Plus zero: no rise has no sign.
-            tilt[3 - along - n] = sign * slope.atan().to_degrees() + 0.0;
+            let degrees = sign * slope.atan().to_degrees();
+            // No rise has no sign, neither as zero nor as rounding.
+            tilt[3 - along - n] = (1e6 * degrees).round() / 1e6 + 0.0;
         }
         tilt
     }
