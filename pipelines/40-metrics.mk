@@ -25,7 +25,8 @@ table2_rows = $(if $(EXPERIMENTS),$(foreach a,$(ADHESIVES),--experiment $(a)=$(O
     $(foreach a,$(ADHESIVES),$(foreach r,$(1),--run $(a):$(r)=$(OUT)/$(a)/$(r)/wp.csv))
 # The paper's numbers, which are of another specimen, below ours.
 PAPER ?= no
-TABLE2 = $(BIN)/bond-figures table2 $(if $(filter no,$(PAPER)),,--paper)
+$(if $(filter-out yes no,$(PAPER)),$(error PAPER=$(PAPER): yes and no are accepted))
+TABLE2 = $(BIN)/bond-figures table2 $(if $(filter yes,$(PAPER)),--paper)
 SUMMARIES = $(patsubst %/wp.csv,%/summary.json,$(filter %/wp.csv,$^))
 $(OUT)/table2.csv: private READS = $(SUMMARIES)
 $(OUT)/table2.csv: private OUTPUTS = $(OUT)/table2.txt $(if $(FINER),$(OUT)/errors.csv)

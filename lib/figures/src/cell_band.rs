@@ -1,5 +1,42 @@
 //! The band of a pressure: what two sizes of cells say of it.
 
+use std::path::Path;
+
+use particle_file::{ParticleFile, states_of_run};
+
+use crate::{Error, Labelled};
+
+/// By what factor the cells of the finer run are smaller, and a hair for the rounding of lengths written as text.
+const RATIO: f64 = 2.0;
+const HAIR: f64 = 1e-6;
+
+/// Refuses a finer run whose cells are not half as large; of histories outside the folders of runs that is not known.
+///
+/// # Errors
+/// [`Error::Request`] for other cells.
+pub(crate) fn check(run: &Labelled, finer: &Labelled) -> Result<(), Error> {
+    let (Some(cell), Some(half)) = (cell_m(&run.path), cell_m(&finer.path)) else {
+        return Ok(());
+    };
+    if (cell / half / RATIO - 1.0).abs() <= HAIR {
+        return Ok(());
+    }
+    Err(Error::Request(format!(
+        "'{}' has cells of {:.4} um and '{}' of {:.4} um: a finer run is the same in cells half as large",
+        run.path.display(),
+        1e6 * cell,
+        finer.path.display(),
+        1e6 * half
+    )))
+}
+
+/// Edge of the cells of the run whose folder a history lies in, m.
+fn cell_m(history: &Path) -> Option<f64> {
+    let states = states_of_run(history.parent()?).ok()?;
+    let state = ParticleFile::open(states.first()?).ok()?;
+    state.header().attribute("cell_m")?.parse().ok()
+}
+
 /// What two sizes of cells say of the pressure at a time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reach {
@@ -82,7 +119,35 @@ fn at(value: f64, x: &[f64], y: &[f64]) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use particle_file::{Draft, Header, Kind};
+
     use super::*;
+
+    /// The run itself as its own finer one was once a band of no width.
+    #[test]
+    fn a_finer_run_has_cells_half_as_large() {
+        let folder = tempfile::tempdir().unwrap();
+        let run = |name: &str, cell: &str| {
+            let path = folder.path().join(name);
+            std::fs::create_dir(&path).unwrap();
+            let mut header = Header::new(Kind::State, 1.0, 1, [0.0; 3], [1.0; 3]);
+            header.set_attribute("cell_m", cell);
+            let mut bytes = Vec::new();
+            Draft::new(header).write_to(&mut bytes).unwrap();
+            std::fs::write(path.join("final.mpts"), bytes).unwrap();
+            let (label, path) = (name.to_owned(), path.join("history.csv"));
+            Labelled { label, path }
+        };
+        let [coarse, fine] = [run("coarse", "2.9e-6"), run("fine", "1.4500000001e-6")];
+        assert!(check(&coarse, &fine).is_ok());
+        for other in [&coarse, &run("other", "2e-6")] {
+            let said = check(&coarse, other).unwrap_err().to_string();
+            assert!(said.contains("cells half as large"), "{said}");
+        }
+        let path = folder.path().join("history.csv");
+        let elsewhere = Labelled { path, ..fine };
+        assert!(check(&coarse, &elsewhere).is_ok());
+    }
 
     /// Frictionless presses were once drawn as 0.63 beside a band of 1.78 +- 0.57, at the start below zero.
     #[test]

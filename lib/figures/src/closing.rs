@@ -1,7 +1,7 @@
 //! The figure of pressure and closing speed against time.
 
 use crate::axes::{Axis, NORMAL, SMALL, extent};
-use crate::cell_band::{Reach, band, parts};
+use crate::cell_band::{self, Reach, band, parts};
 use plotters::style::RGBAColor;
 
 use crate::colour::{BLACK, DISTINCT, faded, opaque, series};
@@ -62,7 +62,7 @@ impl Closing {
     /// # Errors
     /// [`Error::Data`] for an unreadable history, a missing column, or one without numbers;
     /// [`Error::Request`] for more runs than can be told apart, or a finer run of none of them, of
-    /// several, or given twice.
+    /// several, given twice, or not in cells half as large.
     pub fn read(
         runs: &[Labelled],
         finer: &[Labelled],
@@ -92,6 +92,7 @@ impl Closing {
                     fine.label
                 )));
             }
+            cell_band::check(source, fine)?;
             let (ways, finer) = ([travel(source)?, travel(fine)?], Course::read(fine)?);
             let pressures = [&run.pressure[..], &finer.pressure];
             let limit = limit.unwrap_or(f64::INFINITY);

@@ -20,6 +20,7 @@ mod error;
 mod frame;
 mod legend;
 mod measure;
+mod measured;
 mod movie;
 mod outcome;
 mod page;

@@ -59,8 +59,12 @@ impl Response {
         let rows = values.len();
         let mut results = vec![Outcome::new(result, values, error)];
         for name in BESIDE.into_iter().filter(|name| *name != result) {
-            if table.has(name) {
-                results.push(Outcome::new(name, table.data(name)?, None));
+            let values = match table.has(name) {
+                true => table.numbers(name)?,
+                false => Vec::new(),
+            };
+            if values.iter().any(|value| value.is_finite()) {
+                results.push(Outcome::new(name, values, None));
             }
         }
         let open = match table.has("end") {

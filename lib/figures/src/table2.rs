@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::table::Table;
-use crate::{Error, RunEnd};
+use crate::{Error, RunEnd, measured};
 
 /// One state for [`Table2`]: the CSV that `wp-metrics` wrote for it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -104,8 +104,8 @@ impl Table2 {
     /// the paper gets the paper's numbers beside it.
     ///
     /// # Errors
-    /// [`Error::Data`] for an unreadable file, a missing column or side, or several states in
-    /// one file.
+    /// [`Error::Data`] for an unreadable file, a missing column or side, several states in
+    /// one file, or a state of a run that was made again since.
     pub fn read(cases: &[Case]) -> Result<Self, Error> {
         let mut sorted: Vec<&Case> = cases.iter().collect();
         sorted.sort_by_key(|case| cases.iter().position(|c| c.adhesive == case.adhesive));
@@ -272,7 +272,7 @@ impl Row {
             error: optional("wp_error_um")?,
             slab: slabs[total],
             paper: PAPER.iter().find(same),
-            end: end(&source.path, Path::new(files[0]))?,
+            end: end(&source.path, files[0])?,
         })
     }
 
@@ -300,12 +300,16 @@ impl Row {
 }
 
 /// How the run ended whose last state is `state`, measured in `table`: either lies in its folder.
-fn end(table: &Path, state: &Path) -> Result<Option<RunEnd>, Error> {
+fn end(table: &Path, named: &str) -> Result<Option<RunEnd>, Error> {
+    let state = Path::new(named);
     if state.file_name() != Some(FINAL.as_ref()) {
         return Ok(None);
     }
-    match RunEnd::beside(table)? {
-        None => RunEnd::beside(state),
-        found => Ok(found),
+    for place in [table, state] {
+        if let Some(end) = RunEnd::beside(place)? {
+            measured::check(table, named, &place.with_file_name(FINAL))?;
+            return Ok(Some(end));
+        }
     }
+    Ok(None)
 }

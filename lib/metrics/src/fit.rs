@@ -8,6 +8,8 @@ use crate::state::Across;
 /// Fits are repeated because the first split of wood into below and above is level; tilts that
 /// a box can hold settle in a few rounds.
 const ROUNDS: usize = 8;
+/// Voxels by which the widths of openings differ where they are the same: they are whole voxels apart, but for rounding.
+const SAME: f64 = 1e-3;
 
 /// A plane across the bond: coordinate along the normal = `level` + `slope` . (u - centre).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,8 +44,9 @@ impl Plane {
         for (axis, slope) in self.axes.iter().zip(self.slope) {
             let along = axis.index();
             let sign = if (along + 1) % 3 == n { 1.0 } else { -1.0 };
-            // Plus zero: no rise has no sign.
-            tilt[3 - along - n] = sign * slope.atan().to_degrees() + 0.0;
+            let degrees = sign * slope.atan().to_degrees();
+            // No rise has no sign, neither as zero nor as rounding.
+            tilt[3 - along - n] = (1e6 * degrees).round() / 1e6 + 0.0;
         }
         tilt
     }
@@ -150,9 +153,10 @@ impl Openings {
         let Some(&quarter) = self.open.get(self.open.len() / 4) else {
             return Vec::new();
         };
+        let widest = width(quarter) + SAME * across.width_m;
         self.open
             .iter()
-            .take_while(|&&c| width(c) <= width(quarter))
+            .take_while(|&&c| width(c) <= widest)
             .map(|&c| (across.centre_m(c), 0.5 * (self.below[c] + self.above[c])))
             .collect()
     }

@@ -46,7 +46,7 @@ pub(crate) struct Arguments {
     /// Where the table goes; `-` is standard output
     #[arg(short, long, value_name = "CSV", default_value = "-")]
     pub(crate) output: Output,
-    /// Write mean and standard deviation over the files (two or more), each of which counts as one
+    /// Write mean and standard deviation over the files (two or more, no copies), each of which counts as one
     #[arg(long, value_name = "CSV", conflicts_with_all = ["series", "finer"])]
     pub(crate) summary: Option<Output>,
     /// Write WP and volume of every column of voxels across the bond (one FILE only)

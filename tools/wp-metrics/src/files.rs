@@ -11,11 +11,9 @@ use crate::arguments::Arguments;
 /// files by time.
 pub fn of(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
     if !arguments.series {
-        return Ok(arguments
-            .files
-            .iter()
-            .flat_map(|path| specimens(path))
-            .collect());
+        let found = arguments.files.iter().map(|path| specimens(path));
+        let found = found.collect::<Result<Vec<_>, _>>()?;
+        return Ok(found.into_iter().flatten().collect());
     }
     let mut states = Vec::new();
     for path in &arguments.files {
@@ -33,10 +31,17 @@ pub fn of(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// A file or a folder of slices itself, or the particle files of a folder of those.
-fn specimens(path: &Path) -> Vec<PathBuf> {
+fn specimens(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     let files = in_folder(path);
-    match files.is_empty() || voxels::holds_slices(path) {
-        true => vec![path.to_owned()],
-        false => files,
+    if files.is_empty() {
+        return Ok(vec![path.to_owned()]);
+    }
+    match voxels::holds_slices(path) {
+        // Slices may be pictures of the specimens, particle files what was made of the slices.
+        true => Err(Failure::usage(format!(
+            "'{0}' holds particle files and slices: name the particle files, as in '{0}'/*.mpts, or move them away from the slices",
+            path.display()
+        ))),
+        false => Ok(files),
     }
 }

@@ -73,7 +73,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     for path in &paths {
         // A row of numbers is all that stays of a file.
         let input = open(path)?;
-        record.add(&input)?;
+        record.add_specimen(&input)?;
         let mut rows = measure(&input, &arguments, experiment.as_ref(), &record)?;
         if arguments.pressure || finer.is_some() {
             rows.pressure_pa = Some(input.noted(finer::PRESSURE)?);
@@ -181,6 +181,9 @@ fn measure(
 struct Recorder {
     wanted: bool,
     inputs: Vec<InputRecord>,
+    /// Whether each specimen counts once, and what those are that were added.
+    once: bool,
+    specimens: Vec<(String, Vec<String>)>,
 }
 
 impl Recorder {
@@ -188,7 +191,28 @@ impl Recorder {
         Self {
             wanted: outputs(arguments).any(|o| *o != Output::Stdout),
             inputs: Vec::new(),
+            once: arguments.summary.is_some(),
+            specimens: Vec::new(),
         }
+    }
+
+    /// Adds one of the files to measure; a copy of another would count twice in their mean.
+    fn add_specimen(&mut self, input: &Input) -> Result<(), Failure> {
+        if !self.once {
+            return self.add(input);
+        }
+        let records = input.records()?;
+        let content = records.iter().map(|record| record.xxh3.clone()).collect();
+        let copied = self.specimens.iter().find(|(_, other)| *other == content);
+        if let Some((other, _)) = copied {
+            return Err(Failure::usage(format!(
+                "'{}' holds the same as '{other}': --summary takes each specimen once",
+                input.name
+            )));
+        }
+        self.specimens.push((input.name.clone(), content));
+        self.inputs.extend(records);
+        Ok(())
     }
 
     fn add(&mut self, input: &Input) -> Result<(), Failure> {

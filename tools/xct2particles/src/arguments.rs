@@ -58,7 +58,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) despeckle: Option<u16>,
     /// Turn the specimen until its bond plane, fitted across this axis, is level: each voxel takes the phase at its centre, and
-    /// the box is as much smaller as it has to be to lie within the stack
+    /// the box is as much smaller as it has to be to lie within the stack; that axis is the file's across the bond
     #[arg(long, value_name = "AXIS")]
     pub(crate) level: Option<Axis>,
     /// Draw the phases in three cuts through the middle, to be looked at before anything is run

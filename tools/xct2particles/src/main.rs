@@ -66,7 +66,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     if let Some(normal) = arguments.level {
         level(&mut segmented, normal, &edge, stack.name())?;
     }
-    report::phases(&segmented, edge.metres);
+    report::phases(&segmented, edge.metres, across(&arguments));
     let draft = draft(&segmented, &edge, &crop, &arguments, inputs);
     if let Some(preview) = preview {
         let name = arguments.stack[0].file_name().unwrap_or_default();
@@ -100,6 +100,11 @@ fn proposal(
     });
     report::proposal(&proposed);
     Ok(proposed)
+}
+
+/// The axis across the bond.
+fn across(arguments: &Arguments) -> Axis {
+    arguments.level.unwrap_or(Axis::Y)
 }
 
 /// Turns a specimen until its bond plane is level across `normal`.
@@ -219,7 +224,7 @@ fn draft<'a>(
     inputs: Vec<(String, u64)>,
 ) -> Draft<'a> {
     let high = specimen.wood.dims().map(|n| n as f64 * edge.metres);
-    let normal = Axis::Y.index() as u8;
+    let normal = across(arguments).index() as u8;
     let mut header = Header::new(Kind::Specimen, edge.metres, normal, [0.0; 3], high);
     let [x, y, z] = crop.ranges();
     let crop = [x, y, z].map(|range| format!("{}:{}", range.start, range.end));

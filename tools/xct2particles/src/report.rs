@@ -1,6 +1,7 @@
 //! Messages of the tool on standard error.
 
 use metrics::Level;
+use units::Axis;
 use voxels::{Despeckled, Proposal, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
@@ -67,8 +68,8 @@ pub(crate) fn level(turned: &Level) {
     ));
 }
 
-/// Counts, fractions and bond area of a specimen with voxels of `edge` (m).
-pub(crate) fn phases(specimen: &Segmented, edge: f64) {
+/// Counts, fractions and bond area, across `normal`, of a specimen with voxels of `edge` (m).
+pub(crate) fn phases(specimen: &Segmented, edge: f64, normal: Axis) {
     match specimen.guessed {
         Some([void, wood, adhesive]) => cli::note(format_args!(
             "labels      guessed: void={void},wood={wood},adhesive={adhesive}"
@@ -99,14 +100,19 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64) {
         cli::warn("more voxels are adhesive than wood: are their labels the right way round?");
     }
     let um = edge * 1e6;
-    let area = (nx * nz) as f64 * um * um;
+    let columns = total / [nx, ny, nz][normal.index()];
+    let area = columns as f64 * um * um;
+    let along: Vec<String> = (Axis::ALL.into_iter().filter(|axis| *axis != normal))
+        .map(|axis| axis.to_string())
+        .collect();
+    let along = along.join(" times ");
     if adhesive == 0 {
         return cli::note(format_args!(
-            "bond area   {area:.1} um2 (x times z); undamaged wood, to be bonded by build-bondline --slab or --spread"
+            "bond area   {area:.1} um2 ({along}); undamaged wood, to be bonded by build-bondline --slab or --spread"
         ));
     }
-    let thickness = adhesive as f64 * um / (nx * nz) as f64;
+    let thickness = adhesive as f64 * um / columns as f64;
     cli::note(format_args!(
-        "bond area   {area:.1} um2 (x times z), adhesive volume over it {thickness:.4} um"
+        "bond area   {area:.1} um2 ({along}), adhesive volume over it {thickness:.4} um"
     ));
 }

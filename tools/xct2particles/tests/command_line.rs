@@ -276,7 +276,7 @@ fn a_stack_without_adhesive_is_a_specimen_of_wood() {
 fn a_tilted_specimen_is_turned_level_and_told() {
     let folder = tempfile::tempdir().unwrap();
     let stack = folder.path().join("tilted.tif");
-    // The bands rise by 0.05 along x: 2.86 degrees about z.
+    // The bands rise by 0.05 along x, 0.0507 by the steps of their voxels: 2.90 degrees about z.
     let up = |x: usize| (0.05 * (x as f64 - 34.5)).round() as isize;
     let tilted = |x: usize, y: usize, _| label((y as isize - up(x)).clamp(0, 19) as usize);
     fs::write(&stack, stack_bytes(tilted)).unwrap();
@@ -285,17 +285,42 @@ fn a_tilted_specimen_is_turned_level_and_told() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}");
     assert!(
-        said.contains("turned by 0.00, 0.00 and 2.8")
-            && said.contains("69 x 16 x 10 voxels are left"),
+        said.contains("turned by 0.00, 0.00 and 2.90 ")
+            && said.contains("68 x 16 x 10 voxels are left"),
         "{said}"
     );
     let file = ParticleFile::open(&target).unwrap();
     assert_eq!(file.header().attribute("level"), Some("y"));
     let (block, bits) = file.block_named("adhesive").unwrap();
-    assert_eq!(block.dims, [69, 16, 10]);
+    assert_eq!(block.dims, [68, 16, 10]);
     // Five layers, but for the steps of the bands that turning does not make smooth.
     let layers = bits.counts_along(1);
     let full = layers.iter().filter(|count| **count > 600).count();
     let some = layers.iter().filter(|count| **count > 90).count();
     assert!(full >= 4 && some <= 6, "{layers:?}");
+}
+
+/// A slab of five layers was said to be 2.5 layers thick, and its file to have its bond across y.
+#[test]
+fn a_specimen_that_is_levelled_across_x_has_its_bond_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let stack = folder.path().join("across.tif");
+    let across = |x: usize, _, _| {
+        [128, 255, 128, 0][(x >= 30) as usize + (x >= 35) as usize + (x == 69) as usize]
+    };
+    fs::write(&stack, stack_bytes(across)).unwrap();
+    let target = folder.path().join("level.mpts");
+    let output = run(&[text(&stack), "--level", "x", "-o", text(&target)]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let area = "bond area   420.5 um2 (y times z), adhesive volume over it 7.2500 um";
+    assert!(said.contains(area), "{said}");
+    assert!(said.contains("turned by 0.00, 0.00 and 0.00"), "{said}");
+    assert_eq!(ParticleFile::open(&target).unwrap().header().normal, 0);
+    let other = [text(&stack), "--level", "y", "-o", "-"];
+    refused(
+        &other,
+        2,
+        &["--level y: the bond lies across x, not across y"],
+    );
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::slice::from_ref;
 
-use figures::{Closing, Error, Mark, Plot, ShearRates};
+use figures::{Closing, Error, Mark, Plot, Response, ShearRates};
 
 use crate::{BLUE, Folder, VERMILION, pixels, share, texts};
 
@@ -215,4 +215,19 @@ fn a_plot_has_titles_labels_and_marks() {
     assert!(colours[0] > colours[1] && colours[1] > 1e-5, "{colours:?}");
     let empty = Plot::new("none", "", "").with("a", Mark::Line, vec![[f64::NAN, 0.0]]);
     assert!(matches!(empty.draw(), Err(Error::Data(_))));
+}
+
+/// What stands beside the result asked for is left out where no run has it.
+#[test]
+fn a_sweep_without_pressures_has_a_response() {
+    let folder = Folder::new();
+    let rows = |pressure: &str| {
+        format!("row,mu,status,wp_um,pressure_pa\n1,1,sound,10,{pressure}\n2,2,sound,12,\n")
+    };
+    let panels = |pressure| {
+        let sweep = folder.labelled("sweep", rows(pressure));
+        let drawing = Response::read(&sweep, "wp_um", None).unwrap().draw();
+        drawing.to_svg().unwrap().matches("(MPa)").count()
+    };
+    assert_eq!((panels(""), panels("1e5")), (0, 1));
 }

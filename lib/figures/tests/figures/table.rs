@@ -140,6 +140,45 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
     assert!(CellErrors::read(&[case("alone", plain)]).unwrap().is_none());
 }
 
+/// A press that was made again, and closed, once stood in Table 2 with the WP of the one that had not.
+#[test]
+fn a_table_of_a_run_that_was_made_again_is_refused() {
+    use particle_file::{Draft, Header, Kind, ParticleFile};
+    let folder = Folder::new();
+    folder.file("bondline-run.toml", "");
+    folder.file(
+        "summary.json",
+        r#"{"end": "closed", "verdict": {"sound": true}}"#,
+    );
+    let state = folder.file("final.mpts", "");
+    let header = Header::new(Kind::State, 1.0, 1, [0.0; 3], [1.0; 3]);
+    let mut bytes = Vec::new();
+    Draft::new(header).write_to(&mut bytes).unwrap();
+    std::fs::write(&state, bytes).unwrap();
+    let hash = ParticleFile::open(&state).unwrap().content_hash();
+    let table = wp(1.0, 2.0, 1.5).replace("a.mpts", "run/final.mpts");
+    let path = folder.file("wp.csv", table);
+    let read = |hash: u64| {
+        let inputs = format!(r#"[{{"path": "run/final.mpts", "xxh3": "{hash:016x}"}}]"#);
+        folder.file(
+            "wp.csv.provenance.json",
+            format!(r#"{{"inputs": {inputs}}}"#),
+        );
+        let (adhesive, name, path) = ("pf".into(), "flip".into(), path.clone());
+        Table2::read(&[Case {
+            adhesive,
+            name,
+            path,
+        }])
+    };
+    assert!(read(hash).is_ok());
+    let said = read(hash ^ 1).unwrap_err().to_string();
+    assert!(
+        said.contains("as it is now: run wp-metrics again"),
+        "{said}"
+    );
+}
+
 /// A press with 42 % of its gap left once stood in Table 2 as a result.
 #[test]
 fn a_press_that_did_not_close_is_marked() {

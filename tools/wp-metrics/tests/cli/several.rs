@@ -51,6 +51,32 @@ fn a_folder_of_specimens_has_rows_of_each_and_a_summary() {
 }
 
 #[test]
+fn a_copy_of_a_specimen_does_not_count_in_a_mean() {
+    let folder = folder();
+    let path = folder.path();
+    fs::copy(path.join("specimen.mpts"), path.join("the same.mpts")).unwrap();
+    let arguments = [path.to_str().unwrap(), "-o", "/dev/null", "--summary", "-"];
+    let refused = tool(&arguments);
+    let said = text(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("the same.mpts' holds the same as"), "{said}");
+    assert!(refused.stdout.is_empty());
+    // Without a mean, two rows tell so.
+    assert!(tool(&arguments[..3]).status.success());
+}
+
+/// Pictures beside specimens were read as slices of a stack, and the specimens were left out.
+#[test]
+fn a_folder_of_specimens_and_slices_is_refused() {
+    let folder = folder();
+    fs::write(folder.path().join("look.png"), "a picture").unwrap();
+    let refused = tool(&[folder.path().to_str().unwrap()]);
+    let said = text(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("holds particle files and slices"), "{said}");
+}
+
+#[test]
 fn a_fit_tells_its_tilt_behind_all_columns() {
     let folder = TempDir::new().unwrap();
     let path = specimen(folder.path());
