@@ -1,0 +1,192 @@
+//! The equations of a step as the linear solver takes them, and the flow of its solution.
+
+use rayon::prelude::*;
+use saddle_point::{Csr, SaddleSystem, SolveError, VelocityBlock};
+
+use super::assembly::{Problem, Sides};
+use super::solution::{Drive, Flow};
+use crate::air::Pocket;
+
+/// The equations of a step, for the linear solver.
+pub(super) struct Equations {
+    a: VelocityBlock,
+    g: Csr<f64>,
+    /// Compressibility of each pore and pocket, and twice its viscosity.
+    c: Vec<f64>,
+    two_eta: Vec<f64>,
+    /// `D_B` of each face.
+    friction: Vec<f64>,
+    /// Momenta at the closing speed, per closing speed, of them those that stand, and those of thick liquid that goes along.
+    known: Vec<f64>,
+    pub(super) closing: Vec<f64>,
+    standing: Vec<f64>,
+    clinging: Vec<f64>,
+    /// Volumes that pores lose per closing speed, and at the speed that is given.
+    pub(super) source: Vec<f64>,
+    volume_source: Vec<f64>,
+    carried: Vec<f64>,
+    /// Known force on the body that closes the gap.
+    pub(super) carried_force: f64,
+}
+
+impl Equations {
+    /// Those of a problem at a closing `speed`; `carried` is the volume, over the time step, that each pore with a pressure holds
+    /// more than its volume at no pressure.
+    pub(super) fn new(
+        problem: &Problem,
+        carried: &[f64],
+        drive: Drive,
+    ) -> Result<Self, SolveError> {
+        let (unknowns, scales) = (problem.unknowns, &problem.scales);
+        let (a, g) = (problem.velocity_block()?, problem.outflow()?);
+        let Sides {
+            known,
+            closing,
+            mut standing,
+            clinging,
+            carried: carried_force,
+        } = problem.momenta();
+        let speed = drive.speed();
+        let mut clinging: Vec<f64> = (clinging[0].iter().zip(&clinging[1]))
+            .map(|(known, closing)| known + speed * closing)
+            .collect();
+        for (standing, clinging) in standing.iter_mut().zip(&clinging) {
+            *standing += clinging;
+        }
+        for forces in [&mut standing, &mut clinging] {
+            if forces.iter().all(|&force| force == 0.0) {
+                forces.clear();
+            }
+        }
+        let of_pores = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            unknowns
+                .pores
+                .iter()
+                .map(|&pore| of(pore as usize))
+                .collect()
+        };
+        let mut equations = Self {
+            a,
+            g,
+            c: of_pores(&|pore| {
+                let end = problem.mesh.volume_at(pore, problem.end_height);
+                end * scales.compressibility / scales.dt
+            }),
+            two_eta: of_pores(&|pore| 2.0 * problem.viscosities.pores[pore]),
+            friction: (unknowns.faces.par_iter())
+                .map(|&face| resistance(problem, face as usize))
+                .collect(),
+            known,
+            closing,
+            standing,
+            clinging,
+            source: of_pores(&|pore| problem.closing(pore)),
+            volume_source: Vec::new(),
+            carried: carried.to_vec(),
+            carried_force,
+        };
+        equations.add_pockets(problem);
+        equations.drive(drive);
+        Ok(equations)
+    }
+
+    /// Adds pockets of air. The unknown of one is its pressure less that of its tangent, by which fronts are pushed: what softens
+    /// a pocket much would outweigh all else.
+    fn add_pockets(&mut self, problem: &Problem) {
+        let thickest = self.two_eta.iter().copied().fold(1.0, f64::max);
+        let dt = problem.scales.dt;
+        for Pocket {
+            pores,
+            volume,
+            tangent,
+            ..
+        } in problem.pockets
+        {
+            let closing = pores
+                .iter()
+                .map(|&pore| problem.closing(pore as usize))
+                .sum();
+            self.source.push(closing);
+            self.carried_force += closing * tangent.pressure;
+            self.c.push(tangent.yielding / dt);
+            self.carried.push((tangent.volume - volume) / dt);
+            self.two_eta.push(thickest);
+        }
+    }
+
+    /// Adds what a body at a given speed moves.
+    fn drive(&mut self, drive: Drive) {
+        self.volume_source = vec![0.0; self.source.len()];
+        if let Drive::Speed(speed) = drive {
+            for (known, closing) in self.known.iter_mut().zip(&self.closing) {
+                *known += speed * closing;
+            }
+            for (moved, source) in self.volume_source.iter_mut().zip(&self.source) {
+                *moved = speed * source;
+            }
+        }
+    }
+
+    pub(super) fn system(&self, problem: &Problem) -> SaddleSystem<'_> {
+        SaddleSystem {
+            a: &self.a,
+            g: &self.g,
+            pockets: problem.pockets.len(),
+            c: &self.c,
+            friction: &self.friction,
+            two_eta: &self.two_eta,
+            b: &self.known,
+            standing: &self.standing,
+            clinging: &self.clinging,
+            slow: problem.scales.slow,
+            volume_source: &self.volume_source,
+            carried: &self.carried,
+        }
+    }
+
+    /// The flow of velocities and pressures at a closing speed.
+    pub(super) fn flow(&self, problem: &Problem, [u, p]: [&[f64]; 2], speed: f64) -> Flow {
+        let unknowns = problem.unknowns;
+        let mut flow = Flow {
+            velocity: vec![0.0; problem.mesh.faces.len()],
+            pressure: vec![0.0; problem.mesh.pores.len()],
+            speed,
+            ..Flow::default()
+        };
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let (drag, moved) = (problem.resistance(), dot(&self.closing, u));
+        flow.force = dot(&self.source, p) - moved + drag * speed + self.carried_force;
+        let mut au = vec![0.0; u.len()];
+        self.a.multiply(u, &mut au);
+        flow.dissipation = dot(u, &au) - 2.0 * speed * moved
+            + drag * speed.powi(2)
+            + problem.viscous_parts(u, speed);
+        for (&face, &u) in unknowns.faces.iter().zip(u) {
+            flow.velocity[face as usize] = u;
+        }
+        for (&pore, &p) in unknowns.pores.iter().zip(p) {
+            flow.pressure[pore as usize] = p;
+        }
+        for (pocket, p) in problem.pockets.iter().zip(&p[unknowns.pores.len()..]) {
+            for &pore in &pocket.pores {
+                flow.pressure[pore as usize] = pocket.tangent.pressure + p;
+            }
+        }
+        flow
+    }
+}
+
+/// `D_B` of the preconditioner: inertia and the friction of the channel that a face lies in (docs/methods.md section 3.6).
+pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
+    let link = problem.links.of(face);
+    let slip = problem.scales.influence_length;
+    let narrow = match slip.is_finite() {
+        true => 12.0 * link.narrowness / (1.0 + 6.0 * slip * link.narrowness.sqrt()),
+        false => 0.0,
+    };
+    let f = problem.mesh.faces[face];
+    let eta =
+        problem.viscosities.pores[f.low as usize].max(problem.viscosities.pores[f.high as usize]);
+    let least = 1e-6;
+    (problem.masses[face] * (problem.scales.inertia + eta * narrow)).max(least)
+}
