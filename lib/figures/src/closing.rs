@@ -52,7 +52,8 @@ const RIGHT: f64 = 24.0;
 /// What the bands show.
 const BAND: &str = "error of the cells' size";
 const UNSETTLED: &str = "not converged: error above the value";
-const GREY: [u8; 3] = [150; 3];
+/// Yellow, which no series has.
+const UNSETTLED_COLOUR: [u8; 3] = [240, 200, 60];
 const BAND_SHADE: f64 = 0.25;
 
 impl Closing {
@@ -257,7 +258,7 @@ impl Course {
 }
 
 fn shade(run: usize, converged: bool) -> RGBAColor {
-    let colour = if converged { series(run) } else { opaque(GREY) };
+    let colour = if converged { series(run) } else { opaque(UNSETTLED_COLOUR) };
     faded(
         colour,
         if converged {
