@@ -258,7 +258,11 @@ impl Course {
 }
 
 fn shade(run: usize, converged: bool) -> RGBAColor {
-    let colour = if converged { series(run) } else { opaque(UNSETTLED_COLOUR) };
+    let colour = if converged {
+        series(run)
+    } else {
+        opaque(UNSETTLED_COLOUR)
+    };
     faded(
         colour,
         if converged {
