@@ -1,4 +1,4 @@
-//! What a run pressed, in words: specimen, adhesive, press and date.
+//! Specimen, adhesive, press and date of a run, in words.
 
 use std::path::Path;
 use std::time::SystemTime;

@@ -1,4 +1,4 @@
-//! What a run will take, and the bounds beyond which it is not started unasked.
+//! Time and memory that a run will take, and the bounds beyond which it is not started unasked.
 
 use physics::Stages;
 

@@ -1,4 +1,4 @@
-//! What the command lines of several figures share: where a picture goes, its page, and how a state is looked at.
+//! Options that several figures share: where a picture goes, its page, and how a state is looked at.
 
 use clap::Args;
 use figures::{Direction, Page};

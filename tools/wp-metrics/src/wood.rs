@@ -1,4 +1,4 @@
-//! What is told of wood and what is open in it: permeabilities and sizes of pores.
+//! Tables of wood without adhesive: permeabilities and sizes of pores.
 
 use std::path::PathBuf;
 

@@ -33,6 +33,11 @@ fn arrival(left: f64, [dt, speed]: [f64; 2], before: Option<[f64; 2]>) -> f64 {
     }
 }
 
+/// Whether a height of the gap by the speed found is not that `assumed`.
+fn is_off(assumed: f64, height: f64) -> bool {
+    (height - assumed).abs() > OFF * assumed
+}
+
 impl Implicit {
     /// Solves the flow of a step of `dt` (s), of another length, `longest` at most, where the clamp comes to the end of its
     /// travel. Each solution begins from `guess`, and leaves its flow there.
@@ -88,9 +93,8 @@ impl Implicit {
         let mut middle = self.middle(dt, None);
         for _ in 1..SPEEDS {
             let solved = self.solve_middle(&middle, guess)?;
-            let assumed = self.middle_height(dt, middle.closing);
-            let height = self.middle_height(dt, solved.flow.speed);
-            let is_off = (height - assumed).abs() > OFF * assumed;
+            let [assumed, height] = self.heights(&middle, &solved, dt);
+            let is_off = is_off(assumed, height);
             if !is_off && height >= (1.0 - MISSED) * assumed {
                 return Ok(solved);
             }
@@ -107,7 +111,15 @@ impl Implicit {
             }
             middle = other;
         }
-        self.solve_middle(&middle, guess)
+        let mut solved = self.solve_middle(&middle, guess)?;
+        let [assumed, height] = self.heights(&middle, &solved, dt);
+        solved.settled &= !is_off(assumed, height);
+        Ok(solved)
+    }
+
+    /// Height of the gap in the middle of a step of `dt` (s) as it was assumed, and by the speed found, cells.
+    fn heights(&self, middle: &Middle, solved: &Solved, dt: f64) -> [f64; 2] {
+        [middle.closing, solved.flow.speed].map(|closing| self.middle_height(dt, closing))
     }
 
     /// The same with the liquid in the `middle` of the step as it is.

@@ -1,4 +1,4 @@
-//! What the description of a TIFF says, however it is written.
+//! The description of a TIFF, in each of the ways in which it is written.
 
 use std::collections::BTreeSet;
 
