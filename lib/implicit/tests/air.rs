@@ -6,7 +6,9 @@
 mod plain;
 
 use implicit::{Implicit, Settings};
-use physics::{Array, Motion, Saved, Scene, Scheme, StepLimit, VoxelBlock};
+use physics::{
+    Array, Clamp, Motion, Press, PressStage, Saved, Scene, Scheme, StepLimit, Stop, VoxelBlock,
+};
 
 /// Width of the slit, m.
 const H: f64 = 17.4e-6;
@@ -153,6 +155,55 @@ fn pockets_that_part_and_meet_keep_their_air() {
     }
     let said = resumed.restore(&forged).unwrap_err();
     assert!(said.contains("air"), "{said}");
+}
+
+/// A ramp of pressure against air under liquid that hardly resists: each step ends at the pressure that is set then,
+/// and a short step has no rise of the long one before it to catch up.
+#[test]
+fn a_clamp_keeps_up_with_air_in_steps_of_any_length() {
+    let (rise, stage_s) = (1e5, 10.0);
+    let mut scene = slit(6, 1e-2);
+    let part = scene.grid.area_m2() / (0.5 * H * H / 6.0);
+    scene.bodies[1].motion = Motion::Clamped;
+    scene.clamp = Some(Clamp {
+        closing_speed: 1e-2,
+        max_pressure: Some(rise / part),
+        pid: None,
+    });
+    scene.stop = Stop::Closed { travel_m: 4.0 * H };
+    scene.programme = vec![PressStage {
+        kind: Press::Ramp,
+        speed: 1e-2,
+        pressure: Some(rise / part),
+        time_s: stage_s,
+        travel_m: None,
+        contact: false,
+        slower: None,
+    }];
+    let mut scheme = Implicit::new(&scene, settings(f64::INFINITY)).unwrap();
+    let (mut travel, mut moved, mut times, mut off) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0_f64);
+    let mut before = 0.0;
+    for step in 0..20 {
+        let limit = StepLimit {
+            time_s: [0.4, 0.04][step % 2],
+            travel_m: f64::INFINITY,
+        };
+        let report = scheme.advance(limit).unwrap();
+        times[step % 2] += report.dt_s;
+        if step > 5 {
+            travel[step % 2] += report.travel_m - before;
+            moved[step % 2] += report.dt_s;
+        }
+        before = report.travel_m;
+        let set = rise * times.iter().sum::<f64>() / stage_s;
+        off = off.max((report.pressure_top * part / set - 1.0).abs());
+    }
+    let [long, short] = [0, 1].map(|kind| travel[kind] / moved[kind]);
+    let ratio = short / long;
+    println!(
+        "air under a ramp: short steps {ratio:.2} times as fast as long ones, pressure off by {off:.1e}"
+    );
+    assert!(ratio < 3.0 && off < 1e-2, "{ratio} {off}");
 }
 
 /// A run is objected to where the air is astray in more than a tenth of its steps.

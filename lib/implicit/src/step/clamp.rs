@@ -89,7 +89,11 @@ impl Implicit {
 
     /// Solves the flow of a step of `dt` (s) with the clamp at full speed, or at the speed of its pressure limit.
     fn solve_controlled(&mut self, dt: f64, guess: &mut Flow) -> Result<Solved, String> {
-        self.state.drive.aim(dt);
+        // Flow has the pressure of the middle of a step, air that of its volume at the end.
+        self.state.drive.aim(match self.setup.gas {
+            Some(_) => dt,
+            None => 0.5 * dt,
+        });
         let mut middle = self.middle(dt, None);
         for _ in 1..SPEEDS {
             let solved = self.solve_middle(&middle, guess)?;

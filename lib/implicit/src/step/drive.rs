@@ -30,6 +30,8 @@ struct Hold {
     limit: f64,
     least: f64,
     held: bool,
+    /// Whether it is to press no more.
+    releases: bool,
 }
 
 /// What a clamp is held at.
@@ -49,11 +51,13 @@ impl Hold {
             true => 0.0,
             false => stage.speed,
         };
+        let releases = stage.kind == Press::Release;
         Self {
             speeds: [full, -stage.speed],
             limit: programme.set_pressure(0.0),
             least: FAINT * programme.largest(),
-            held: stage.kind == Press::Release,
+            held: releases,
+            releases,
         }
     }
 
@@ -101,6 +105,7 @@ impl ClampDrive {
                 limit,
                 least: 0.0,
                 held: false,
+                releases: false,
             }),
             _ => Control::Free,
         };
@@ -129,20 +134,18 @@ impl ClampDrive {
         programme.map_or(limit, |programme| programme.within(limit, travel))
     }
 
-    /// Sets the pressure limit to that in the middle of a step of `dt` (s), as is its geometry; by what
-    /// factor that is expected to change the flow: viscous liquid answers a force in proportion.
-    pub(super) fn aim(&mut self, dt: f64) -> f64 {
+    /// Sets the pressure limit to that `ahead` (s) of now. The speed of a held clamp is expected to change with it: viscous
+    /// liquid answers a force in proportion.
+    pub(super) fn aim(&mut self, ahead: f64) {
         let (Some(programme), Control::Limit(hold)) = (&self.programme, &mut self.control) else {
-            return 1.0;
+            return;
         };
-        let limit = programme.set_pressure(0.5 * dt);
+        let limit = programme.set_pressure(ahead);
         let factor = limit / hold.limit;
         hold.limit = limit;
-        if !(hold.held && factor > 0.0 && factor.is_finite()) {
-            return 1.0;
+        if hold.held && factor > 0.0 && factor.is_finite() {
+            self.speed = (self.speed * factor).min(hold.speeds[0]);
         }
-        self.speed = (self.speed * factor).min(hold.speeds[0]);
-        factor
     }
 
     /// What the clamp is held at, its speed being unknown.
@@ -184,6 +187,8 @@ impl ClampDrive {
     /// `travel` (m).
     pub(super) fn observe(&mut self, pressure: f64, dt: f64, travel: f64) {
         let bounds = match &self.control {
+            // A release has no limit: air that expands presses the body on as fast as it gives way.
+            Control::Limit(hold) if hold.releases => None,
             Control::Limit(hold) => Some((hold.limit, hold.scale())),
             Control::Pid(pid) => pid.limit().map(|limit| (limit, limit)),
             Control::Free => None,
@@ -263,6 +268,8 @@ impl ClampDrive {
 
 #[cfg(test)]
 mod tests {
+    use physics::PressStage;
+
     use super::*;
 
     #[test]
@@ -286,5 +293,28 @@ mod tests {
             drive.broken
         });
         assert_eq!(broken, [(0, 0.0), (1, 1.021e6), (2, 1.03e6), (2, 0.0)]);
+    }
+
+    /// Air presses on a body that gives way as fast as it can; in a hold the same breaks the limit.
+    #[test]
+    fn a_release_has_no_limit_to_break() {
+        let broken = [Press::Hold, Press::Release].map(|kind| {
+            let stage = PressStage {
+                kind,
+                speed: 1e-3,
+                pressure: (kind == Press::Hold).then_some(1e6),
+                time_s: 10.0,
+                travel_m: None,
+                contact: false,
+                slower: None,
+            };
+            let programme = PressRun::new(vec![stage], 1e-5);
+            let mut drive = ClampDrive::new(None, Some(programme), 1e-9, 1e-3);
+            drive.aim(1.0);
+            drive.follow(-2e-3);
+            drive.observe(2e6, 1.0, 0.0);
+            drive.broken.0
+        });
+        assert_eq!(broken, [1, 0]);
     }
 }

@@ -149,7 +149,7 @@ impl Implicit {
         self.clock.add(Stage::Geometry, begun);
         let (mut longest, mut dries) = (limit.time_s, false);
         let mut guess = self.state.flow.clone();
-        for _ in 0..ATTEMPTS {
+        for attempt in 0..ATTEMPTS {
             let dt = self.length(limit).min(longest);
             if !(dt > 0.0 && dt.is_finite()) {
                 return Err(self
@@ -171,6 +171,10 @@ impl Implicit {
                 return Ok(self.follow(solved, limit));
             }
             longest = AIM * solved.dt * self.setup.settings.cfl / crossed;
+            // A pocket without air collapses by the same volume in a step of any length.
+            if attempt > 0 {
+                longest = longest.min(0.5 * solved.dt);
+            }
         }
         Err(self.no_step(dries))
     }
