@@ -18,6 +18,7 @@ mod folder;
 mod foreign;
 mod histogram;
 mod images;
+mod kind;
 mod label;
 mod label_volume;
 mod levels;
@@ -40,6 +41,7 @@ mod stack;
 mod surface;
 mod swapped;
 mod tiff;
+mod volume;
 mod volume_fractions;
 mod voxel_size;
 

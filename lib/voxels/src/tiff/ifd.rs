@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, HashSet};
 use std::fs::File;
 use std::os::unix::fs::FileExt;
 
+use crate::kind::Kind;
 use crate::source::Source;
 
 pub(crate) mod tag {
@@ -65,18 +66,10 @@ struct Entry {
     at: u64,
 }
 
-/// Whether a file with this beginning is a TIFF or BigTIFF.
-pub(crate) fn is_tiff(head: &[u8]) -> bool {
-    matches!(
-        head,
-        [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..]
-    )
-}
-
 impl<'a> Container<'a> {
     pub(crate) fn open(source: &'a Source, file: &'a File) -> Result<Self, String> {
         let head = source.window(0, 16).map_err(|e| e.to_string())?;
-        if !is_tiff(&head) {
+        if Kind::of(&head) != Some(Kind::Tiff) {
             return Err("it is not a TIFF file".into());
         }
         let big_endian = head[0] == b'M';
@@ -103,10 +96,8 @@ impl<'a> Container<'a> {
         while at != 0 {
             let page = directories.len();
             if !seen.insert(at) {
-                return Err((
-                    page,
-                    "its directory was read before: the chain of pages is a loop".into(),
-                ));
+                let what = "its directory was read before: the chain of pages is a loop";
+                return Err((page, what.into()));
             }
             let (directory, next) = self.directory(at).map_err(|what| (page, what))?;
             directories.push(directory);
@@ -116,10 +107,9 @@ impl<'a> Container<'a> {
     }
 
     fn directory(&self, at: u64) -> Result<(Directory, u64), String> {
-        let (count_bytes, entry_bytes, offset_bytes) = if self.big_tiff {
-            (8, 20, 8)
-        } else {
-            (2, 12, 4)
+        let (count_bytes, entry_bytes, offset_bytes, header) = match self.big_tiff {
+            true => (8, 20, 8, 16),
+            false => (2, 12, 4, 8),
         };
         let truncated = || {
             format!(
@@ -127,22 +117,21 @@ impl<'a> Container<'a> {
                 self.source.len()
             )
         };
-        let mut bytes = self.source.window(at, WINDOW).map_err(|e| e.to_string())?;
+        let window = |len| self.source.window(at, len).map_err(|e| e.to_string());
+        let mut bytes = window(WINDOW)?;
         let count = self.uint(bytes.get(..count_bytes).ok_or_else(truncated)?);
-        let size = usize::try_from(count)
-            .ok()
+        let size = (usize::try_from(count).ok())
             .and_then(|n| {
                 n.checked_mul(entry_bytes)?
                     .checked_add(count_bytes + offset_bytes)
             })
             .ok_or_else(truncated)?;
         if size > bytes.len() {
-            bytes = self.source.window(at, size).map_err(|e| e.to_string())?;
+            bytes = window(size)?;
         }
         let list = bytes.get(count_bytes..size).ok_or_else(truncated)?;
         let (list, next) = list.split_at(size - count_bytes - offset_bytes);
         let mut entries = BTreeMap::new();
-        let header = if self.big_tiff { 16 } else { 8 };
         let mut filled = header + size as u64;
         for (i, entry) in list.chunks_exact(entry_bytes).enumerate() {
             let (head, value) = entry.split_at(entry_bytes - offset_bytes);
@@ -193,17 +182,12 @@ impl<'a> Container<'a> {
         let Some(&entry) = directory.entries.get(&tag) else {
             return Ok(None);
         };
-        let size = match entry.kind {
-            1 => 1,
-            3 => 2,
-            4 | 13 => 4,
-            16 | 18 => 8,
-            _ => return Err(format!("tag {tag} does not hold unsigned integers")),
+        let (1 | 3 | 4 | 13 | 16 | 18, Some(size)) = (entry.kind, type_bytes(entry.kind)) else {
+            return Err(format!("tag {tag} does not hold unsigned integers"));
         };
         let bytes = self.bytes(tag, entry)?;
-        Ok(Some(
-            bytes.chunks_exact(size).map(|b| self.uint(b)).collect(),
-        ))
+        let values = bytes.chunks_exact(size as usize).map(|b| self.uint(b));
+        Ok(Some(values.collect()))
     }
 
     /// The first unsigned integer of a tag; none if the tag is absent.
@@ -212,13 +196,11 @@ impl<'a> Container<'a> {
         directory: &Directory,
         tag: u16,
     ) -> Result<Option<u64>, String> {
-        match self.uints(directory, tag)? {
-            None => Ok(None),
-            Some(values) => match values.first() {
-                Some(&value) => Ok(Some(value)),
-                None => Err(format!("tag {tag} is empty")),
-            },
-        }
+        let first = |values: Vec<u64>| values.first().copied();
+        let values = self.uints(directory, tag)?.map(first);
+        values
+            .map(|n| n.ok_or_else(|| format!("tag {tag} is empty")))
+            .transpose()
     }
 
     /// How many values a tag has; none if it is absent.
