@@ -113,7 +113,7 @@ impl Histogram {
     /// A page that cannot be read, pixels that are not one number, or a crop that reaches out of the
     /// stack.
     pub fn of(stack: &Stack, crop: &Crop) -> Result<Self, Error> {
-        crop.check(stack.dims()).map_err(Error::Usage)?;
+        crop.check(stack.dims())?;
         stack.check_numbers()?;
         stack.fits(stack.reading_bytes())?;
         let format = stack.format();

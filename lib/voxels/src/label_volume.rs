@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use particle_file::{BitGrid, BitsRef, Block, Error, Header, Material, ParticleFile, limits};
 
+use crate::lattice::set_voxels;
 use crate::tiff::TiffWriter;
 use crate::volume_fractions::VolumeFractions;
 
@@ -132,13 +133,8 @@ impl<'a> LabelVolume<'a> {
         let mut void = BitGrid::from_fn(self.dims, |_, _, _| true);
         for placed in &self.blocks {
             let [i, j, k] = placed.at;
-            let [_, ny, nz] = placed.bits.dims();
-            for z in 0..nz {
-                for y in 0..ny {
-                    (placed.bits.set_in_row(y, z))
-                        .for_each(|x| void.set(i + x, j + y, k + z, false));
-                }
-            }
+            let filled = set_voxels(placed.bits);
+            filled.for_each(|[x, y, z]| void.set(i + x, j + y, k + z, false));
         }
         void
     }
@@ -162,11 +158,9 @@ impl<'a> LabelVolume<'a> {
         let wet = (self.liquid.as_ref()).is_some_and(|liquid| liquid.voxels.get(x, y, z));
         // Wood comes last and counts first.
         let block = self.blocks.iter().rev().find(|placed| {
-            let [i, j, k] = placed.at;
-            let [nx, ny, nz] = placed.bits.dims();
-            let inside = (i..i + nx).contains(&x) && (j..j + ny).contains(&y);
-            let inside = inside && (k..k + nz).contains(&z);
-            inside && placed.bits.get(x - i, y - j, z - k)
+            let dims = placed.bits.dims();
+            let own = [0, 1, 2].map(|a| [x, y, z][a].wrapping_sub(placed.at[a]));
+            (0..3).all(|a| own[a] < dims[a]) && placed.bits.get(own[0], own[1], own[2])
         });
         match block {
             Some(placed) => placed.label,

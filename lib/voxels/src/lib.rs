@@ -21,6 +21,7 @@ mod images;
 mod kind;
 mod label;
 mod label_volume;
+mod lattice;
 mod levels;
 mod mhd;
 mod names;

@@ -47,11 +47,9 @@ fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     };
     let (value, line) = needed("ElementDataFile")?;
     let local = value == "LOCAL";
-    let files = match value {
-        "" => return Err(wrong(line, "a file name, LOCAL or LIST")),
-        "LOCAL" => Vec::new(),
-        _ => data_files(path, value, &head[end..], "ElementDataFile")?,
-    };
+    if value.is_empty() {
+        return Err(wrong(line, "a file name, LOCAL or LIST"));
+    }
     let skip = field("HeaderSize").filter(|_| !local);
     let at_end = skip.is_some_and(|(n, _)| n == "-1");
     let offset = match skip {
@@ -60,6 +58,10 @@ fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
             .parse()
             .map_err(|_| wrong(line, "a number from 0, or -1"))?,
         _ => 0,
+    };
+    let files = match local {
+        true => Vec::new(),
+        false => data_files(path, value, &head[end..], "ElementDataFile")?,
     };
     Ok(Described {
         raw: Raw {
