@@ -161,7 +161,7 @@ fn tags(layout: &PageLayout, chunks: u64) -> Vec<(u16, u64, u64)> {
         (tag::IMAGE_WIDTH, width),
         (tag::IMAGE_LENGTH, height),
         (tag::BITS_PER_SAMPLE, layout.bits.into()),
-        (tag::COMPRESSION, layout.compression.code().into()),
+        (tag::COMPRESSION, layout.compression as u64),
         (tag::PHOTOMETRIC, 1), // black is zero
         (tag::SAMPLES_PER_PIXEL, layout.samples_side_by_side() as u64),
         (tag::ROWS_PER_STRIP, rows.into()),

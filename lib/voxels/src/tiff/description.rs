@@ -38,10 +38,8 @@ impl Description {
         let own = source.path().file_name().unwrap_or_default();
         let own = own.to_string_lossy().into_owned();
         let named = |blocks: &[Block]| -> BTreeSet<String> {
-            blocks
-                .iter()
-                .filter_map(|block| block.file.clone())
-                .collect()
+            let files = blocks.iter().filter_map(|block| block.file.clone());
+            files.collect()
         };
         if named(&self.blocks).len() < 2 {
             return Vec::new();

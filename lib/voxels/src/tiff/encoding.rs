@@ -4,47 +4,31 @@ use super::ifd::{Container, Directory, tag};
 use crate::colours::Shown;
 use crate::sample::Sample;
 
-/// How pixels are packed into chunks.
+/// How pixels are packed into chunks, by its code in TIFF tag 259.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Compression {
-    None,
-    Lzw,
-    Deflate,
-    PackBits,
-    Zstd,
+    None = 1,
+    Lzw = 5,
+    Deflate = 8,
+    PackBits = 32773,
+    Zstd = 50000,
 }
 
 impl Compression {
-    /// From the code of TIFF tag 259.
     pub(crate) fn parse(code: u64) -> Result<Self, String> {
-        Ok(match code {
-            1 => Self::None,
-            5 => Self::Lzw,
-            8 | 32946 => Self::Deflate,
-            32773 => Self::PackBits,
-            50000 => Self::Zstd,
-            _ => {
-                let name = match code {
-                    2..=4 => " (CCITT fax)",
-                    6 | 7 => " (JPEG, which does not keep labels)",
-                    _ => "",
-                };
-                return Err(format!(
-                    "compression {code}{name} is not accepted; accepted are none, LZW, Deflate, PackBits and zstd"
-                ));
-            }
-        })
-    }
-
-    /// Code of TIFF tag 259.
-    pub(crate) fn code(self) -> u16 {
-        match self {
-            Self::None => 1,
-            Self::Lzw => 5,
-            Self::Deflate => 8,
-            Self::PackBits => 32773,
-            Self::Zstd => 50000,
-        }
+        let name = match code {
+            1 => return Ok(Self::None),
+            5 => return Ok(Self::Lzw),
+            8 | 32946 => return Ok(Self::Deflate),
+            32773 => return Ok(Self::PackBits),
+            50000 => return Ok(Self::Zstd),
+            2..=4 => " (CCITT fax)",
+            6 | 7 => " (JPEG, which does not keep labels)",
+            _ => "",
+        };
+        Err(format!(
+            "compression {code}{name} is not accepted; accepted are none, LZW, Deflate, PackBits and zstd"
+        ))
     }
 
     /// The predictor (tag 317) that is undone, if it makes sense for the samples: 2 is the
@@ -102,15 +86,12 @@ pub(crate) fn sample_of(
     tiff: &Container,
     page: &Directory,
 ) -> Result<(Sample, u16, usize), String> {
-    let channels = match tiff.first_uint(page, tag::SAMPLES_PER_PIXEL)?.unwrap_or(1) {
-        1 => 1,
-        3 => 3,
-        n => {
-            return Err(format!(
-                "it has {n} samples per pixel; accepted are 1 and 3 (R:G:B)"
-            ));
-        }
-    };
+    let channels = tiff.first_uint(page, tag::SAMPLES_PER_PIXEL)?.unwrap_or(1) as usize;
+    if ![1, 3].contains(&channels) {
+        return Err(format!(
+            "it has {channels} samples per pixel; accepted are 1 and 3 (R:G:B)"
+        ));
+    }
     let uniform = |tag, default| match tiff.uints(page, tag)? {
         None => Ok(default),
         Some(values) => match values.first() {
@@ -119,30 +100,21 @@ pub(crate) fn sample_of(
         },
     };
     let bits = uniform(tag::BITS_PER_SAMPLE, 1)?;
-    let number = uniform(tag::SAMPLE_FORMAT, 1)?;
-    let sample = match (number, bits) {
-        (1 | 4, 1 | 2 | 4) if channels == 1 => Sample::U8,
-        (1 | 4, 8) => Sample::U8,
-        (1 | 4, 16) => Sample::U16,
-        (1 | 4, 32) => Sample::U32,
-        (1 | 4, 64) => Sample::U64,
-        (2, 8) => Sample::I8,
-        (2, 16) => Sample::I16,
-        (2, 32) => Sample::I32,
-        (2, 64) => Sample::I64,
-        (3, 32) => Sample::F32,
-        (3, 64) => Sample::F64,
-        _ => {
-            let kind = match number {
-                2 => "signed",
-                3 => "floating-point",
-                _ => "unsigned",
-            };
-            return Err(format!(
-                "its samples are {kind} of {bits} bits; accepted are unsigned of 1, 2, 4, 8, 16, 32 and 64, signed of 8 to 64, floats of 32 and 64 bits"
-            ));
-        }
+    let (letter, kind) = match uniform(tag::SAMPLE_FORMAT, 1)? {
+        1 | 4 => ("u", "unsigned"),
+        2 => ("i", "signed"),
+        3 => ("f", "floating-point"),
+        _ => ("", "unsigned"),
     };
+    let sample = match (letter, bits) {
+        ("u", 1 | 2 | 4) if channels == 1 => Some(Sample::U8),
+        _ => Sample::named(&format!("{letter}{bits}")),
+    };
+    let sample = sample.ok_or_else(|| {
+        format!(
+            "its samples are {kind} of {bits} bits; accepted are unsigned of 1, 2, 4, 8, 16, 32 and 64, signed of 8 to 64, floats of 32 and 64 bits"
+        )
+    })?;
     if channels == 3 && tiff.first_uint(page, tag::PHOTOMETRIC)? == Some(6) {
         return Err("its colours are YCbCr, which does not keep labels; accepted is RGB".into());
     }
