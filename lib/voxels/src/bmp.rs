@@ -18,7 +18,6 @@ const BGRX: [u8; 12] = [0, 0, 0xff, 0, 0, 0xff, 0, 0, 0xff, 0, 0, 0];
 /// Where the pixels of a file are and how they are stored.
 struct Header {
     format: PageFormat,
-    /// Bits of a pixel.
     bits: usize,
     /// The first row stored is the highest, not the lowest.
     from_top: bool,
@@ -57,13 +56,9 @@ impl Header {
         if width <= 0 || height == 0 {
             return Err(format!("it is {width} x {height}, which is no page").into());
         }
+        let size = [width, height].map(|n| n.unsigned_abs() as usize);
         Ok(Self {
-            format: PageFormat {
-                width: width as usize,
-                height: height.unsigned_abs() as usize,
-                sample: Sample::U8,
-                channels: if bits >= 24 { 3 } else { 1 },
-            },
+            format: PageFormat::new(size, Sample::U8, if bits >= 24 { 3 } else { 1 }),
             bits: bits.into(),
             from_top: height < 0,
             offset: long(10).into(),

@@ -17,7 +17,6 @@ const GUESSES: [(&[f64], [u8; 3]); 2] = [
     (&[0.0, 128.0, 255.0], [0x04, 0x20, 0x40]),
 ];
 
-/// Codes pixels of one format.
 pub(crate) struct Coder<'a> {
     phases: &'a Phases,
     format: PageFormat,
@@ -47,7 +46,6 @@ impl<'a> Coder<'a> {
         Label::of_pixel(pixel, self.format.sample, self.format.channels)
     }
 
-    /// The code of the pixel stored in `pixel`.
     fn code(&self, pixel: &[u8]) -> u8 {
         let label = self.label(pixel);
         match (self.phases, label) {
@@ -84,7 +82,6 @@ impl<'a> Coder<'a> {
         }
     }
 
-    /// The first pixel of a row that has no phase.
     pub(crate) fn first_unknown(&self, pixels: &[u8]) -> Option<(usize, Label)> {
         let mut pixels = pixels.chunks_exact(self.format.pixel_bytes());
         let x = pixels

@@ -29,10 +29,8 @@ pub(crate) enum Shown {
 impl Shown {
     /// Greys of more than 8 bits, from black.
     pub(crate) const GREY: Self = Self::Other(1);
-    /// Red, green and blue.
     pub(crate) const RGB: Self = Self::Other(2);
 
-    /// A palette of the colours of 0, 1, ..., as red, green and blue.
     pub(crate) fn opaque(colours: impl Iterator<Item = [u8; 3]>) -> Self {
         Self::Palette(colours.map(|[r, g, b]| [r, g, b, OPAQUE]).collect())
     }
@@ -129,66 +127,35 @@ pub(crate) fn unlike(
 mod tests {
     use super::*;
 
-    fn palette(greys: &[u8]) -> Arc<Shown> {
-        Arc::new(Shown::opaque(greys.iter().map(|&g| [g; 3])))
-    }
-
     #[test]
     fn palettes_without_their_unused_ends_agree() {
+        let p = |greys: &[u8]| Arc::new(Shown::opaque(greys.iter().map(|&g| [g; 3])));
         let grey = |bits, inverted| Arc::new(Shown::Grey { bits, inverted });
         let other = |code| Arc::new(Shown::Other(code));
-        for (shown, sample, right) in [
-            (
-                vec![palette(&[0, 9]), palette(&[0, 9, 7]), palette(&[0])],
-                Sample::U8,
-                Ok(None),
-            ),
-            (
-                vec![palette(&[0, 1, 2]), grey(8, false)],
-                Sample::U8,
-                Ok(None),
-            ),
-            (
-                vec![palette(&[255, 0]), grey(1, true)],
-                Sample::U8,
-                Ok(None),
-            ),
+        for (shown, right) in [
+            (vec![p(&[0, 9]), p(&[0, 9, 7]), p(&[0])], None),
+            (vec![p(&[0, 1, 2]), grey(8, false)], None),
+            (vec![p(&[255, 0]), grey(1, true)], None),
             // The first two pages do not tell which of the others is odd.
-            (
-                [&[0][..], &[0, 9], &[0], &[0, 7]].map(palette).to_vec(),
-                Sample::U8,
-                Ok(Some([1, 3])),
-            ),
-            (
-                vec![grey(1, false), grey(8, false)],
-                Sample::U8,
-                Ok(Some([0, 1])),
-            ),
-            (
-                vec![grey(8, false), grey(8, false), grey(8, true)],
-                Sample::U8,
-                Ok(Some([0, 2])),
-            ),
-            // What has no colours cannot be told by them.
-            (vec![other(0), other(0)], Sample::U16, Ok(None)),
-            (vec![other(1), other(0)], Sample::F32, Err([0, 1])),
-            (
-                vec![palette(&[0, 1]), palette(&[1, 0])],
-                Sample::U16,
-                Err([0, 1]),
-            ),
+            (vec![p(&[0]), p(&[0, 9]), p(&[0]), p(&[0, 7])], Some([1, 3])),
+            (vec![grey(1, false), grey(8, false)], Some([0, 1])),
+            (vec![grey(8, false), grey(8, true)], Some([0, 1])),
         ] {
-            assert_eq!(unlike(&shown, sample), right, "{shown:?}");
+            assert_eq!(unlike(&shown, Sample::U8), Ok(right), "{shown:?}");
         }
+        // What has no colours cannot be told by them.
+        assert_eq!(unlike(&[other(0), other(0)], Sample::U16), Ok(None));
+        assert_eq!(unlike(&[other(1), other(0)], Sample::F32), Err([0, 1]));
+        let turned = [p(&[0, 1]), p(&[1, 0])];
+        assert_eq!(unlike(&turned, Sample::U16), Err([0, 1]));
     }
 
     #[test]
     fn colours_stand_for_values() {
-        let shown = palette(&[0, 9]);
-        assert_eq!(shown.first(), "0:0:0, 9:9:9");
-        assert_eq!(shown.in_place_of(&[1, 0]), Ok(vec![9, 9, 9, 0, 0, 0]));
-        let clear = Shown::Palette(vec![[9, 9, 9, 255], [1, 2, 3, 0]]);
-        for (shown, value, said) in [(&*shown, 2, "2 colours"), (&clear, 1, "transparent")] {
+        let shown = Shown::Palette(vec![[9, 9, 9, OPAQUE], [0, 0, 0, OPAQUE], [1, 2, 3, 0]]);
+        assert_eq!(shown.first(), "9:9:9, 0:0:0, 1:2:3");
+        assert_eq!(shown.in_place_of(&[1, 0]), Ok(vec![0, 0, 0, 9, 9, 9]));
+        for (value, said) in [(3, "3 colours"), (2, "transparent")] {
             assert!(shown.in_place_of(&[value]).unwrap_err().contains(said));
         }
     }

@@ -53,7 +53,6 @@ impl Segmented {
         Some(Phase::ALL[phase])
     }
 
-    /// The specks, and all their voxels.
     fn specks(&self, most: usize) -> (Vec<Vec<Voxel>>, BitGrid) {
         let dims = self.wood.dims();
         let mut specks = Vec::new();
@@ -102,7 +101,6 @@ impl Segmented {
 mod tests {
     use super::*;
 
-    /// Void with the voxels of `wood` and `adhesive`.
     fn specimen(wood: &[Voxel], adhesive: &[Voxel]) -> Segmented {
         let grid =
             |voxels: &[Voxel]| BitGrid::from_fn([9, 8, 7], |x, y, z| voxels.contains(&[x, y, z]));

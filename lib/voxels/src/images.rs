@@ -103,7 +103,7 @@ fn jpeg(decoder: impl ImageDecoder, page: Option<&mut Vec<u8>>) -> Read {
         ColorType::Rgb8 => (3, Shown::RGB),
         other => return pixels_refused(other),
     };
-    let format = format_of(width, height, Sample::U8, channels)?;
+    let format = format_of([width, height], Sample::U8, channels)?;
     if let Some(page) = page {
         page.resize(format.page_bytes().unwrap_or(0), 0);
         decoder.read_image(page)?;
@@ -132,7 +132,7 @@ fn png(content: impl BufRead + Seek, page: Option<&mut Vec<u8>>) -> Read {
     };
     let bits = info.bit_depth as usize;
     let sample = if bits == 16 { Sample::U16 } else { Sample::U8 };
-    let format = format_of(width, height, sample, channels)?;
+    let format = format_of([width, height], sample, channels)?;
     let shown = png_shown(info);
     let Some(page) = page else {
         return Ok((format, shown));
@@ -167,18 +167,8 @@ fn png_shown(info: &png::Info) -> Shown {
     }
 }
 
-fn format_of(
-    width: u32,
-    height: u32,
-    sample: Sample,
-    channels: usize,
-) -> Result<PageFormat, String> {
-    let format = PageFormat {
-        width: width as usize,
-        height: height as usize,
-        sample,
-        channels,
-    };
+fn format_of(size: [u32; 2], sample: Sample, channels: usize) -> Result<PageFormat, String> {
+    let format = PageFormat::new(size.map(|n| n as usize), sample, channels);
     match format.page_bytes() {
         Some(1..) => Ok(format),
         _ => Err(format!("it is {format}, which is no page")),

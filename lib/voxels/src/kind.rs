@@ -5,7 +5,6 @@ pub(crate) const HEAD: usize = 512;
 /// Lengths of the headers of NIfTI-1 and -2, which are also their first fields.
 pub(crate) const NIFTI_HEADERS: [usize; 2] = [348, 540];
 
-/// Formats of stacks and slices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Tiff,

@@ -34,12 +34,21 @@ pub struct LabelVolume<'a> {
     liquid: Option<Liquid<'a>>,
 }
 
-/// A block on the lattice.
 struct PlacedBlock<'a> {
     label: u8,
     /// Lattice voxel of its voxel (0, 0, 0).
     at: [usize; 3],
     bits: BitsRef<'a>,
+}
+
+impl<'a> PlacedBlock<'a> {
+    fn new(block: &Block, at: [usize; 3], bits: BitsRef<'a>) -> Self {
+        let label = match block.material {
+            Material::Rigid => WOOD,
+            Material::Adhesive => ADHESIVE,
+        };
+        Self { label, at, bits }
+    }
 }
 
 struct Liquid<'a> {
@@ -65,8 +74,7 @@ impl<'a> LabelVolume<'a> {
         let mut blocks = Vec::new();
         for (index, at) in places.into_iter().enumerate() {
             let (block, bits) = file.block(index)?;
-            let label = label_of(block);
-            blocks.push(PlacedBlock { label, at, bits });
+            blocks.push(PlacedBlock::new(block, at, bits));
         }
         let dims = dims(file, &blocks)?;
         // Wood is written last, over adhesive.
@@ -86,16 +94,11 @@ impl<'a> LabelVolume<'a> {
 
     /// The labels of one block, exactly where it is.
     pub fn of_block(block: &Block, bits: BitsRef<'a>) -> Self {
-        let placed = PlacedBlock {
-            label: label_of(block),
-            at: [0; 3],
-            bits,
-        };
         Self {
             dims: bits.dims(),
             origin_m: block.origin_m,
             voxel_m: block.voxel_m,
-            blocks: vec![placed],
+            blocks: vec![PlacedBlock::new(block, [0; 3], bits)],
             liquid: None,
         }
     }
@@ -110,13 +113,10 @@ impl<'a> LabelVolume<'a> {
             return Err(corrupt(file, what));
         }
         let mut fractions = VolumeFractions::new(self.void());
-        // Half a voxel: bodies were put on the nearest voxels.
-        let inside = |place: [f64; 3]| {
-            (0..3).all(|a| (-0.5..=self.dims[a] as f64 + 0.5).contains(&place[a]))
-        };
         for (position, &volume) in position.iter().zip(volume) {
             let place = self.place(*position);
-            if inside(place) {
+            // Half a voxel: bodies were put on the nearest voxels.
+            if (0..3).all(|a| (-0.5..=self.dims[a] as f64 + 0.5).contains(&place[a])) {
                 fractions.add(place, f64::from(volume) / voxel);
             }
         }
@@ -250,13 +250,6 @@ impl<'a> LabelVolume<'a> {
     }
 }
 
-fn label_of(block: &Block) -> u8 {
-    match block.material {
-        Material::Rigid => WOOD,
-        Material::Adhesive => ADHESIVE,
-    }
-}
-
 fn corrupt(file: &ParticleFile, what: String) -> Error {
     Error::Corrupt {
         file: file.name().to_owned(),
@@ -298,29 +291,25 @@ fn dims(file: &ParticleFile, blocks: &[PlacedBlock]) -> Result<[usize; 3], Error
     /// Bytes of the voxels that a liquid point reaches while the fullest are found.
     const RANKS: u64 = 32;
     let header = file.header();
-    let end = |placed: &PlacedBlock, a: usize| placed.at[a].saturating_add(placed.bits.dims()[a]);
-    let dims: [usize; 3] = std::array::from_fn(|a| match blocks {
-        [] => {
+    let dims: [usize; 3] = std::array::from_fn(|a| {
+        let ends = blocks
+            .iter()
+            .map(|b| b.at[a].saturating_add(b.bits.dims()[a]));
+        ends.max().unwrap_or_else(|| {
             let edge = header.box_max_m[a] - header.box_min_m[a];
             (edge / header.voxel_m).round().max(1.0) as usize
-        }
-        _ => blocks.iter().map(|b| end(b, a)).max().unwrap_or(1),
+        })
     });
     let voxels = limits::volume(dims.map(|n| n as u64));
-    let bytes = if header.particles > 0 {
-        LABEL + FRACTION
-    } else {
-        LABEL
-    };
     let what = "labels of its voxels";
-    file.is_worth(voxels.saturating_mul(bytes), what)?;
-    if header.particles > 0 {
-        // Labels are made page by page; fractions and ranks are not.
-        let ranks = header.particles.saturating_mul(RANKS);
-        file.fits(
-            voxels.saturating_mul(FRACTION + BITS).saturating_add(ranks),
-            what,
-        )?;
+    if header.particles == 0 {
+        file.is_worth(voxels.saturating_mul(LABEL), what)?;
+        return Ok(dims);
     }
+    file.is_worth(voxels.saturating_mul(LABEL + FRACTION), what)?;
+    // Labels are made page by page; fractions and ranks are not.
+    let ranks = header.particles.saturating_mul(RANKS);
+    let fractions = voxels.saturating_mul(FRACTION + BITS);
+    file.fits(fractions.saturating_add(ranks), what)?;
     Ok(dims)
 }

@@ -65,12 +65,7 @@ fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     };
     Ok(Described {
         raw: Raw {
-            format: PageFormat {
-                width,
-                height,
-                sample,
-                channels,
-            },
+            format: PageFormat::new([width, height], sample, channels),
             pages,
             offset,
             big_endian: flag("ElementByteOrderMSB") || flag("BinaryDataByteOrderMSB"),

@@ -96,12 +96,7 @@ impl Fields<'_> {
         let offset = u64::try_from(offset).ok().filter(|n| *n >= 348);
         Ok(Described {
             raw: Raw {
-                format: PageFormat {
-                    width,
-                    height,
-                    sample,
-                    channels,
-                },
+                format: PageFormat::new([width, height], sample, channels),
                 pages,
                 offset: 0,
                 big_endian: self.big_endian,

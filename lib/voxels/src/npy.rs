@@ -26,12 +26,7 @@ pub(crate) fn open(source: Source, unpacked: Option<Source>) -> Result<Volume, E
     let header = Header::parse(&text).map_err(|what| Error::file(array, what))?;
     let [nz, ny, nx] = header.shape;
     let raw = Raw {
-        format: PageFormat {
-            width: nx,
-            height: ny,
-            sample: header.sample,
-            channels: 1,
-        },
+        format: PageFormat::new([nx, ny], header.sample, 1),
         pages: nz,
         offset,
         big_endian: header.big_endian,
@@ -186,31 +181,4 @@ fn in_c_order(source: &Source, data: u64, shape: [usize; 3], size: usize) -> io:
     let mut file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
     file.seek(SeekFrom::Start(0))?;
     Ok(file)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn headers_as_numpy_writes_them() {
-        let good = "{'descr': '>u2', 'fortran_order': True, 'shape': (40, 64, 96), }  \n";
-        let header = Header::parse(good).unwrap();
-        assert_eq!(header.sample, Sample::U16);
-        assert!(header.big_endian && header.fortran);
-        assert_eq!(header.shape, [40, 64, 96]);
-        let of_python_2 = "{'descr': '|u1', 'fortran_order': False, 'shape': (6L, 10L, 14L), }";
-        assert_eq!(Header::parse(of_python_2).unwrap().shape, [6, 10, 14]);
-        for bad in [
-            "{'descr': '<c8', 'fortran_order': False, 'shape': (1, 1, 1), }",
-            "{'descr': [('a', '<u2')], 'fortran_order': False, 'shape': (1, 1, 1), }",
-            "{'descr': '<u2', 'fortran_order': False, 'shape': (64, 96), }",
-            "{'descr': '<u2', 'fortran_order': False, 'shape': (), }",
-            "{'descr': '<u2', 'fortran_order': False, 'shape': (-1, 2, 3), }",
-            "{'descr': '<u2', 'shape': (1, 2, 3)}",
-            "",
-        ] {
-            assert!(Header::parse(bad).is_err(), "{bad}");
-        }
-    }
 }

@@ -70,12 +70,7 @@ fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     };
     Ok(Described {
         raw: Raw {
-            format: PageFormat {
-                width,
-                height,
-                sample,
-                channels,
-            },
+            format: PageFormat::new([width, height], sample, channels),
             pages,
             offset: if files.is_empty() { end as u64 } else { 0 },
             big_endian,

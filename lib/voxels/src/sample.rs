@@ -106,6 +106,15 @@ pub struct PageFormat {
 }
 
 impl PageFormat {
+    pub(crate) fn new([width, height]: [usize; 2], sample: Sample, channels: usize) -> Self {
+        Self {
+            width,
+            height,
+            sample,
+            channels,
+        }
+    }
+
     pub(crate) fn pixel_bytes(&self) -> usize {
         self.sample.bytes() * self.channels
     }

@@ -22,16 +22,10 @@ pub struct Source {
     /// The path as given; `-` is standard input.
     path: PathBuf,
     name: String,
-    handle: Handle,
+    /// None where it is opened for each page, so that a folder of thousands of slices does not exhaust
+    /// the file descriptors.
+    file: Option<Arc<File>>,
     len: u64,
-}
-
-#[derive(Debug)]
-enum Handle {
-    Held(Arc<File>),
-    /// Opened for each page, so that a folder of thousands of slices does not exhaust the
-    /// file descriptors.
-    Reopened(PathBuf),
 }
 
 impl Source {
@@ -50,11 +44,10 @@ impl Source {
     /// Wraps a regular file that is open already; `name` stands for it in messages.
     pub(crate) fn of_file(path: PathBuf, name: String, file: File) -> Result<Self, Error> {
         let len = file.metadata().map_err(|e| Error::io(&name, e))?.len();
-        let handle = Handle::Held(Arc::new(file));
         Ok(Self {
             path,
             name,
-            handle,
+            file: Some(Arc::new(file)),
             len,
         })
     }
@@ -68,7 +61,7 @@ impl Source {
     pub(crate) fn open_slice(path: &Path) -> Result<Self, Error> {
         let mut source = Self::open(path)?;
         if path.is_file() {
-            source.handle = Handle::Reopened(path.to_owned());
+            source.file = None;
         }
         Ok(source)
     }
@@ -90,9 +83,9 @@ impl Source {
 
     /// A handle for a few reads.
     pub(crate) fn file(&self) -> io::Result<Arc<File>> {
-        match &self.handle {
-            Handle::Held(file) => Ok(Arc::clone(file)),
-            Handle::Reopened(path) => File::open(path).map(Arc::new),
+        match &self.file {
+            Some(file) => Ok(Arc::clone(file)),
+            None => File::open(&self.path).map(Arc::new),
         }
     }
 

@@ -80,12 +80,7 @@ impl Stack {
         let source = Source::open(path)?;
         let (name, len) = (source.to_string(), source.len());
         let [width, height, pages] = dims.0;
-        let format = PageFormat {
-            width,
-            height,
-            sample: kind.sample,
-            channels: 1,
-        };
+        let format = PageFormat::new([width, height], kind.sample, 1);
         let declared = format.volume_bytes(pages);
         if declared != Some(len) {
             return Err(Error::Usage(format!(
@@ -125,7 +120,8 @@ impl Stack {
             Some(Kind::Bmp | Kind::Png | Kind::Jpeg) => images::open(vec![source])?,
             None => {
                 let known = foreign::conversion(&head);
-                return Err(Error::file(name, known.unwrap_or(NO_STACK)));
+                let what = known.map_or(NO_STACK.into(), |known| format!("it is {known}"));
+                return Err(Error::file(name, what));
             }
         };
         Self::new(name, volume, None)
@@ -183,14 +179,11 @@ impl Stack {
 
     /// What every page shares.
     pub fn format(&self) -> PageFormat {
-        let stored = self.volume.format;
-        match self.unlike {
-            Some(_) => PageFormat {
-                channels: 3,
-                ..stored
-            },
-            None => stored,
+        let mut format = self.volume.format;
+        if self.unlike.is_some() {
+            format.channels = 3;
         }
+        format
     }
 
     /// Refuses numbers as labels where a number shows another colour on another page.

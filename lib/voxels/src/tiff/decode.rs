@@ -5,8 +5,8 @@ use std::io::Cursor;
 use std::os::unix::fs::FileExt;
 
 use ::tiff::decoder::{Decoder, Limits};
+use ::tiff::tags::Tag;
 
-use super::ifd::tag;
 use super::layout::{Cut, PageLayout};
 use crate::sample::{Sample, to_native, unpack_bits};
 
@@ -116,8 +116,12 @@ fn as_grey_tiff(
     let mut at = arrays + 16 * n;
     // One chunk's offset and length stand in the entry itself, as the format demands.
     let one = |value, place| if n == 1 { value } else { place };
-    tags.push((tag::STRIP_OFFSETS, n, one(at, arrays)));
-    tags.push((tag::STRIP_BYTE_COUNTS, n, one(chunks[0].1, arrays + 8 * n)));
+    tags.push((Tag::StripOffsets.to_u16(), n, one(at, arrays)));
+    tags.push((
+        Tag::StripByteCounts.to_u16(),
+        n,
+        one(chunks[0].1, arrays + 8 * n),
+    ));
     tags.sort_unstable();
     let mut bytes = if layout.big_endian { b"MM" } else { b"II" }.to_vec();
     for (value, width) in [(43, 2), (8, 2), (0, 2), (16, 8), (entries, 8)] {
@@ -158,17 +162,17 @@ fn tags(layout: &PageLayout, chunks: u64) -> Vec<(u16, u64, u64)> {
         Cut::Tiles(w, h) => (w.into(), u64::from(h) * chunks, h),
     };
     let tags = [
-        (tag::IMAGE_WIDTH, width),
-        (tag::IMAGE_LENGTH, height),
-        (tag::BITS_PER_SAMPLE, layout.bits.into()),
-        (tag::COMPRESSION, layout.compression as u64),
-        (tag::PHOTOMETRIC, 1), // black is zero
-        (tag::SAMPLES_PER_PIXEL, layout.samples_side_by_side() as u64),
-        (tag::ROWS_PER_STRIP, rows.into()),
-        (tag::PREDICTOR, layout.predictor.into()),
-        (tag::SAMPLE_FORMAT, sample_format),
+        (Tag::ImageWidth, width),
+        (Tag::ImageLength, height),
+        (Tag::BitsPerSample, layout.bits.into()),
+        (Tag::Compression, layout.compression as u64),
+        (Tag::PhotometricInterpretation, 1), // black is zero
+        (Tag::SamplesPerPixel, layout.samples_side_by_side() as u64),
+        (Tag::RowsPerStrip, rows.into()),
+        (Tag::Predictor, layout.predictor.into()),
+        (Tag::SampleFormat, sample_format),
     ];
-    tags.map(|(tag, value)| (tag, 1, value)).to_vec()
+    tags.map(|(tag, value)| (tag.to_u16(), 1, value)).to_vec()
 }
 
 /// Pixels from planes.

@@ -1,20 +1,18 @@
 //! The image description of a TIFF as programs write it: the number of planes and the size
 //! of a voxel. ImageJ writes `key=value` lines, tifffile the shape, OME an XML document.
 
+use ::tiff::tags::Tag;
+
 use super::description::{Description, one_axis};
-use super::ifd::{Container, Directory, tag};
+use super::ifd::{Directory, UIC2};
 use super::layout::PageLayout;
 use super::ome;
 use crate::voxel_size::{VoxelSize, decimal, metres_of_unit};
 
 /// Reads the description of the first page.
-pub(crate) fn describe(
-    tiff: &Container,
-    page: &Directory,
-    layout: &PageLayout,
-) -> Result<Description, String> {
-    let text = tiff.text(page, tag::IMAGE_DESCRIPTION)?.unwrap_or_default();
-    let resolution = [tag::X_RESOLUTION, tag::Y_RESOLUTION].map(|t| tiff.rational(page, t));
+pub(crate) fn describe(page: &Directory, layout: &PageLayout) -> Result<Description, String> {
+    let text = page.text(Tag::ImageDescription)?;
+    let resolution = [Tag::XResolution, Tag::YResolution].map(|t| page.rational(t));
     let mut description = if text.starts_with("ImageJ=") {
         imagej(&text, resolution)?
     } else if let Some(shape) = shape(&text)? {
@@ -25,9 +23,9 @@ pub(crate) fn describe(
         Description::default()
     };
     // MetaMorph's STK has a value of this tag for each plane behind its only directory.
-    description.planes = description.planes.or(tiff.count(page, tag::UIC2));
+    description.planes = description.planes.or(page.count(UIC2));
     if let (false, [Some(x), Some(y)]) = (description.states_size, resolution) {
-        let unit = tiff.first_uint(page, tag::RESOLUTION_UNIT)?.unwrap_or(2);
+        let unit = page.uint(Tag::ResolutionUnit)?.unwrap_or(2);
         description.voxel_size = VoxelSize::from_resolution(x, y, unit);
     }
     Ok(description)

@@ -1,6 +1,8 @@
 //! How samples are encoded: number type, compression, predictor.
 
-use super::ifd::{Container, Directory, tag};
+use ::tiff::tags::Tag;
+
+use super::ifd::Directory;
 use crate::colours::Shown;
 use crate::sample::Sample;
 
@@ -60,15 +62,10 @@ impl Compression {
 }
 
 /// What the values of a page of one channel or of colours show.
-pub(crate) fn shown(
-    tiff: &Container,
-    page: &Directory,
-    sample: Sample,
-    bits: u16,
-) -> Result<Shown, String> {
-    let code = tiff.first_uint(page, tag::PHOTOMETRIC)?.unwrap_or(1);
+pub(crate) fn shown(page: &Directory, sample: Sample, bits: u16) -> Result<Shown, String> {
+    let code = page.uint(Tag::PhotometricInterpretation)?.unwrap_or(1);
     let inverted = code == 0;
-    Ok(match (code, tiff.uints(page, tag::COLOR_MAP)?) {
+    Ok(match (code, page.uints(Tag::ColorMap)?) {
         (3, Some(map)) => {
             // Some programs write 8 bits of each colour instead of 16.
             let shift = if map.iter().all(|n| *n < 256) { 0 } else { 8 };
@@ -82,25 +79,22 @@ pub(crate) fn shown(
 }
 
 /// Sample type after unpacking, stored bits, channels.
-pub(crate) fn sample_of(
-    tiff: &Container,
-    page: &Directory,
-) -> Result<(Sample, u16, usize), String> {
-    let channels = tiff.first_uint(page, tag::SAMPLES_PER_PIXEL)?.unwrap_or(1) as usize;
+pub(crate) fn sample_of(page: &Directory) -> Result<(Sample, u16, usize), String> {
+    let channels = page.uint(Tag::SamplesPerPixel)?.unwrap_or(1) as usize;
     if ![1, 3].contains(&channels) {
         return Err(format!(
             "it has {channels} samples per pixel; accepted are 1 and 3 (R:G:B)"
         ));
     }
-    let uniform = |tag, default| match tiff.uints(page, tag)? {
+    let uniform = |tag: Tag, default| match page.uints(tag)? {
         None => Ok(default),
         Some(values) => match values.first() {
             Some(&first) if values.iter().all(|v| *v == first) => Ok(first),
-            _ => Err(format!("tag {tag} differs between its channels")),
+            _ => Err(format!("tag {} differs between its channels", tag.to_u16())),
         },
     };
-    let bits = uniform(tag::BITS_PER_SAMPLE, 1)?;
-    let (letter, kind) = match uniform(tag::SAMPLE_FORMAT, 1)? {
+    let bits = uniform(Tag::BitsPerSample, 1)?;
+    let (letter, kind) = match uniform(Tag::SampleFormat, 1)? {
         1 | 4 => ("u", "unsigned"),
         2 => ("i", "signed"),
         3 => ("f", "floating-point"),
@@ -115,7 +109,7 @@ pub(crate) fn sample_of(
             "its samples are {kind} of {bits} bits; accepted are unsigned of 1, 2, 4, 8, 16, 32 and 64, signed of 8 to 64, floats of 32 and 64 bits"
         )
     })?;
-    if channels == 3 && tiff.first_uint(page, tag::PHOTOMETRIC)? == Some(6) {
+    if channels == 3 && page.uint(Tag::PhotometricInterpretation)? == Some(6) {
         return Err("its colours are YCbCr, which does not keep labels; accepted is RGB".into());
     }
     Ok((sample, bits as u16, channels))

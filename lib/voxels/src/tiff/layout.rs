@@ -3,10 +3,11 @@
 
 use std::sync::Arc;
 
+use ::tiff::tags::Tag;
 use particle_file::limits;
 
 use super::encoding::{Compression, sample_of, shown};
-use super::ifd::{Container, Directory, tag};
+use super::ifd::{Directory, IMAGE_DEPTH};
 use crate::colours::Shown;
 use crate::sample::PageFormat;
 
@@ -24,9 +25,7 @@ pub(crate) enum Cut {
 /// A page as it is stored.
 #[derive(Clone, Debug)]
 pub(crate) struct PageLayout {
-    /// What reading the page yields.
     pub(crate) format: PageFormat,
-    /// What its values show.
     pub(crate) shown: Arc<Shown>,
     /// Value of tag 274; rows are read as they are stored, whatever it is.
     pub(crate) orientation: u64,
@@ -47,50 +46,45 @@ impl PageLayout {
     /// Reads and checks the layouts of the planes of a directory in a file of `file_len` bytes: one,
     /// or as many as its tag ImageDepth says (SGI's: the strips of plane after plane, or all planes
     /// in one strip).
-    pub(crate) fn read_planes(
-        tiff: &Container,
-        page: &Directory,
-        file_len: u64,
-    ) -> Result<Vec<Self>, String> {
-        let first = |tag, default| Ok::<_, String>(tiff.first_uint(page, tag)?.unwrap_or(default));
-        if first(tag::NEW_SUBFILE_TYPE, 0)? & 1 != 0 {
+    pub(crate) fn read_planes(page: &Directory, file_len: u64) -> Result<Vec<Self>, String> {
+        let first = |tag, default| Ok::<_, String>(page.uint(tag)?.unwrap_or(default));
+        if first(Tag::NewSubfileType, 0)? & 1 != 0 {
             let what = "it is a reduced copy (thumbnail) of another page; remove it from the stack";
             return Err(what.into());
         }
-        if first(tag::FILL_ORDER, 1)? != 1 {
+        if first(Tag::FillOrder, 1)? != 1 {
             let what = "its bits are stored in reverse (FillOrder 2); accepted is FillOrder 1";
             return Err(what.into());
         }
-        let (sample, bits, channels) = sample_of(tiff, page)?;
-        let side = |tag, name| match tiff.first_uint(page, tag)? {
+        let (sample, bits, channels) = sample_of(page)?;
+        let side = |tag, name| match page.uint(tag)? {
             Some(n) if n > 0 && n <= u64::from(u32::MAX) => Ok(n as usize),
             Some(n) => Err(format!("its {name} is {n}, which is no size")),
             None => Err(format!("its {name} is not given")),
         };
-        let format = PageFormat {
-            width: side(tag::IMAGE_WIDTH, "width")?,
-            height: side(tag::IMAGE_LENGTH, "height")?,
-            sample,
-            channels,
-        };
-        let compression = Compression::parse(first(tag::COMPRESSION, 1)?)?;
+        let size = [
+            side(Tag::ImageWidth, "width")?,
+            side(Tag::ImageLength, "height")?,
+        ];
+        let format = PageFormat::new(size, sample, channels);
+        let compression = Compression::parse(first(Tag::Compression, 1)?)?;
         let mut layout = Self {
-            orientation: first(tag::ORIENTATION, 1)?,
-            shown: Arc::new(shown(tiff, page, sample, bits)?),
+            orientation: first(Tag::Orientation, 1)?,
+            shown: Arc::new(shown(page, sample, bits)?),
             bits,
-            predictor: compression.predictor(first(tag::PREDICTOR, 1)?, sample, bits)?,
+            predictor: compression.predictor(first(Tag::Predictor, 1)?, sample, bits)?,
             compression,
-            planar: channels > 1 && first(tag::PLANAR_CONFIGURATION, 1)? == 2,
+            planar: channels > 1 && first(Tag::PlanarConfiguration, 1)? == 2,
             cut: Cut::Strips(format.height as u32),
             format,
-            big_endian: tiff.big_endian,
+            big_endian: page.is_big_endian(),
             chunks: Vec::new(),
         };
-        let depth = first(tag::IMAGE_DEPTH, 1)?;
+        let depth = first(IMAGE_DEPTH, 1)?;
         if depth == 0 || depth > limits::PER_AXIS {
             return Err(format!("its tag ImageDepth declares {depth} planes"));
         }
-        layout.read_chunks(tiff, page, depth)?;
+        layout.read_chunks(page, depth)?;
         if depth == 1 {
             layout.check_chunks(file_len)?;
             return Ok(vec![layout]);
@@ -98,32 +92,25 @@ impl PageLayout {
         layout.cut_into_planes(depth as usize, file_len)
     }
 
-    fn read_chunks(
-        &mut self,
-        tiff: &Container,
-        page: &Directory,
-        depth: u64,
-    ) -> Result<(), String> {
+    fn read_chunks(&mut self, page: &Directory, depth: u64) -> Result<(), String> {
         let side = |tag| {
-            let side = tiff
-                .first_uint(page, tag)?
-                .filter(|n| *n > 0 && *n <= 1 << 24);
+            let side = page.uint(tag)?.filter(|n| *n > 0 && *n <= 1 << 24);
             side.map(|n| n as u32)
                 .ok_or("its tiles have no size".to_owned())
         };
-        let (offsets, counts) = match tiff.uints(page, tag::TILE_OFFSETS)? {
+        let (offsets, counts) = match page.uints(Tag::TileOffsets)? {
             Some(offsets) => {
-                self.cut = Cut::Tiles(side(tag::TILE_WIDTH)?, side(tag::TILE_LENGTH)?);
-                (offsets, tag::TILE_BYTE_COUNTS)
+                self.cut = Cut::Tiles(side(Tag::TileWidth)?, side(Tag::TileLength)?);
+                (offsets, Tag::TileByteCounts)
             }
             None => {
-                let rows = tiff.first_uint(page, tag::ROWS_PER_STRIP)?;
+                let rows = page.uint(Tag::RowsPerStrip)?;
                 // At most the page's height, which fits 32 bits.
                 let rows = rows.unwrap_or(u64::MAX).clamp(1, self.format.height as u64);
                 self.cut = Cut::Strips(rows as u32);
-                let offsets = tiff.uints(page, tag::STRIP_OFFSETS)?;
+                let offsets = page.uints(Tag::StripOffsets)?;
                 let offsets = offsets.ok_or("it has neither strips nor tiles of pixels")?;
-                (offsets, tag::STRIP_BYTE_COUNTS)
+                (offsets, Tag::StripByteCounts)
             }
         };
         let expected = self.chunks_per_plane() * self.planes() as u64;
@@ -135,7 +122,7 @@ impl PageLayout {
                 offsets.len()
             ));
         }
-        self.chunks = match tiff.uints(page, counts)? {
+        self.chunks = match page.uints(counts)? {
             Some(counts) if counts.len() == offsets.len() => {
                 offsets.into_iter().zip(counts).collect()
             }
@@ -149,7 +136,6 @@ impl PageLayout {
         Ok(())
     }
 
-    /// The planes of a directory that holds more than one.
     fn cut_into_planes(mut self, depth: usize, file_len: u64) -> Result<Vec<Self>, String> {
         if self.planes() > 1 || !matches!(self.cut, Cut::Strips(_)) {
             return Err("it holds several planes by the tag ImageDepth, in tiles or by colour; accepted are strips of whole pixels: save it with a page for each plane".into());

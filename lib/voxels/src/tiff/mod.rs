@@ -21,12 +21,12 @@ use crate::beside::data_file;
 use crate::source::Source;
 use crate::volume::{Pixels, Volume};
 use description::Description;
-use ifd::{Container, Directory};
+use ifd::Container;
 use layout::PageLayout;
 
 /// Opens one file with all its pages, or the files that it tells of.
 pub(crate) fn open(source: Source) -> Result<Volume, Error> {
-    let (mut pages, mut description) = read_directories(&source, describe::describe)?;
+    let (mut pages, mut description) = read_directories(&source, true)?;
     let files = description.files(&source);
     if !files.is_empty() {
         return open_set(&source, &files, description);
@@ -44,7 +44,7 @@ pub(crate) fn open_slices(sources: Vec<Source>) -> Result<Volume, Error> {
     let mut slices = Vec::with_capacity(sources.len());
     let mut sizes = Vec::new();
     for source in sources {
-        let (pages, mut description) = read_directories(&source, describe::describe)?;
+        let (pages, mut description) = read_directories(&source, true)?;
         let files = description.files(&source);
         if !files.is_empty() {
             let planes = description.planes;
@@ -84,7 +84,7 @@ fn open_set(first: &Source, files: &[String], description: Description) -> Resul
     for file in files {
         let path = data_file(first.path(), Path::new(file), "OME FileName");
         let source = Source::open_slice(&path.map_err(|what| Error::file(first, what))?)?;
-        let (pages, _) = read_directories(&source, |_, _, _| Ok(Description::default()))?;
+        let (pages, _) = read_directories(&source, false)?;
         set.push((source, pages));
     }
     in_order(set, files, description)
@@ -117,11 +117,7 @@ fn in_order(
         shown: pages.iter().map(|page| Arc::clone(&page.shown)).collect(),
         lossy: false,
         // Pages that are stored as they are read need no copy to decode.
-        copies: if pages.iter().all(PageLayout::is_plain) {
-            1
-        } else {
-            3
-        },
+        copies: [3, 1][usize::from(pages.iter().all(PageLayout::is_plain))],
         pixels: Box::new(TiffPages {
             source_of: source_of.clone(),
             pages,
@@ -131,34 +127,33 @@ fn in_order(
     })
 }
 
-/// The layouts of a file's directories and what the first says about the file.
+/// The layouts of a file's directories and, where it is `described`, what the first says about the file.
 fn read_directories(
     source: &Source,
-    describe: impl Fn(&Container, &Directory, &PageLayout) -> Result<Description, String>,
+    described: bool,
 ) -> Result<(Vec<PageLayout>, Description), Error> {
     let file = source.file().map_err(|e| Error::io(source, e))?;
     let tiff = Container::open(source, &file).map_err(|what| Error::file(source, what))?;
-    let directories = tiff
-        .directories()
-        .map_err(|(page, what)| Error::page(source, page, what))?;
+    let wrong = |(page, what)| Error::page(source, page, what);
+    let directories = tiff.directories().map_err(wrong)?;
     let mut pages = Vec::new();
     for (i, directory) in directories.iter().enumerate() {
-        let planes = PageLayout::read_planes(&tiff, directory, source.len());
-        pages.extend(planes.map_err(|what| Error::page(source, i, what))?);
+        let planes = PageLayout::read_planes(directory, source.len());
+        pages.extend(planes.map_err(|what| wrong((i, what)))?);
     }
     let (Some(directory), Some(page)) = (directories.first(), pages.first()) else {
         return Err(Error::file(source, "it holds no page"));
     };
-    let description =
-        describe(&tiff, directory, page).map_err(|what| Error::page(source, 0, what))?;
+    let description = match described {
+        true => describe::describe(directory, page).map_err(|what| wrong((0, what)))?,
+        false => Description::default(),
+    };
     if directories.len() == 1 {
         let planes = description.planes.unwrap_or(1).max(1);
         let chunks = pages.iter().flat_map(|page| &page.chunks);
         let stored = chunks.fold(0_u64, |sum, (_, bytes)| sum.saturating_add(*bytes));
-        let described = stored
-            .saturating_mul(planes)
-            .saturating_add(directory.bytes);
-        nothing_behind(source, page, described)?;
+        let stored = stored.saturating_mul(planes);
+        nothing_behind(source, page, stored.saturating_add(directory.bytes))?;
     }
     Ok((pages, description))
 }
@@ -178,7 +173,6 @@ fn nothing_behind(source: &Source, page: &PageLayout, described: u64) -> Result<
     Err(Error::file(source, what))
 }
 
-/// The layouts of planes that stand one after another behind a single directory.
 fn following_planes(
     source: &Source,
     pages: &[PageLayout],
@@ -192,24 +186,20 @@ fn following_planes(
         return Err(Error::file(source, what));
     };
     // One more than a stack may have, which is refused as a whole.
-    (0..planes.min(limits::PER_AXIS + 1))
-        .map(|k| {
-            let k = k as usize;
-            page.following_plane(k, source.len())
-                .map_err(|what| Error::page(source, k, what))
-        })
-        .collect()
+    let planes = 0..planes.min(limits::PER_AXIS + 1) as usize;
+    let plane = |k| {
+        page.following_plane(k, source.len())
+            .map_err(|what| Error::page(source, k, what))
+    };
+    planes.map(plane).collect()
 }
 
 /// The first page that is unlike the first, and a sentence.
 fn are_alike(pages: &[PageLayout]) -> Result<(), (usize, String)> {
     let alike = |own: &dyn Fn(&PageLayout) -> String| {
         let first = own(&pages[0]);
-        let odd = pages
-            .iter()
-            .map(own)
-            .enumerate()
-            .find(|(_, own)| *own != first);
+        let mut owns = pages.iter().map(own).enumerate();
+        let odd = owns.find(|(_, own)| *own != first);
         odd.map_or(Ok(()), |(odd, own)| {
             let what =
                 format!("it is {own} but page 1 is {first}; the pages of a stack must be alike");

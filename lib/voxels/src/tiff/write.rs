@@ -2,7 +2,8 @@
 
 use std::io::{self, ErrorKind, Write};
 
-use super::ifd::tag;
+use ::tiff::tags::Tag;
+
 use crate::voxel_size::micrometres;
 
 const ASCII: u16 = 2;
@@ -101,7 +102,6 @@ struct Layout {
     big: bool,
     /// Pixels per micrometre as a fraction, then the description: what all directories point to.
     values: Vec<u8>,
-    /// Bytes of the description.
     description: u64,
     /// Byte at which the values begin, behind the directories.
     values_at: u64,
@@ -165,31 +165,31 @@ impl Layout {
             .first_chunk()
             .map_or(0, |n| u64::from_le_bytes(*n));
         let resolution = if self.big { fraction } else { self.values_at };
-        let tags: [(u16, u16, u64, u64); ENTRIES as usize] = [
-            (tag::NEW_SUBFILE_TYPE, LONG, 1, 0),
-            (tag::IMAGE_WIDTH, LONG, 1, self.width.into()),
-            (tag::IMAGE_LENGTH, LONG, 1, self.height.into()),
-            (tag::BITS_PER_SAMPLE, SHORT, 1, 8),
-            (tag::COMPRESSION, SHORT, 1, 1),
-            (tag::PHOTOMETRIC, SHORT, 1, 1),
+        let tags: [(Tag, u16, u64, u64); ENTRIES as usize] = [
+            (Tag::NewSubfileType, LONG, 1, 0),
+            (Tag::ImageWidth, LONG, 1, self.width.into()),
+            (Tag::ImageLength, LONG, 1, self.height.into()),
+            (Tag::BitsPerSample, SHORT, 1, 8),
+            (Tag::Compression, SHORT, 1, 1),
+            (Tag::PhotometricInterpretation, SHORT, 1, 1),
             (
-                tag::IMAGE_DESCRIPTION,
+                Tag::ImageDescription,
                 ASCII,
                 self.description,
                 self.values_at + 8,
             ),
-            (tag::STRIP_OFFSETS, offset, 1, strip),
-            (tag::SAMPLES_PER_PIXEL, SHORT, 1, 1),
-            (tag::ROWS_PER_STRIP, LONG, 1, self.height.into()),
-            (tag::STRIP_BYTE_COUNTS, offset, 1, self.page_bytes),
-            (tag::X_RESOLUTION, RATIONAL, 1, resolution),
-            (tag::Y_RESOLUTION, RATIONAL, 1, resolution),
-            (tag::RESOLUTION_UNIT, SHORT, 1, 1), // the unit stands in the description
+            (Tag::StripOffsets, offset, 1, strip),
+            (Tag::SamplesPerPixel, SHORT, 1, 1),
+            (Tag::RowsPerStrip, LONG, 1, self.height.into()),
+            (Tag::StripByteCounts, offset, 1, self.page_bytes),
+            (Tag::XResolution, RATIONAL, 1, resolution),
+            (Tag::YResolution, RATIONAL, 1, resolution),
+            (Tag::ResolutionUnit, SHORT, 1, 1), // the unit stands in the description
         ];
         let count_width = if self.big { 8 } else { 2 };
         let mut bytes = ENTRIES.to_le_bytes()[..count_width].to_vec();
         for (tag, kind, count, value) in tags {
-            bytes.extend([tag.to_le_bytes(), kind.to_le_bytes()].concat());
+            bytes.extend([tag.to_u16(), kind].map(u16::to_le_bytes).concat());
             bytes.extend(self.offset(&count.to_le_bytes()));
             bytes.extend(self.offset(&value.to_le_bytes()));
         }

@@ -70,23 +70,38 @@ fn arrays_of_every_type_and_order() {
             }
         }
     }
-    for (version, descr) in [(1, "|u1"), (1, "|b1"), (2, "|u1"), (3, "=u1")] {
-        let file = npy(version, descr, false, &shape(), &volume());
+    // Python 2 wrote an L behind numbers.
+    let old = "4L, 13L, 21L";
+    for (version, descr, shape) in [
+        (1, "|u1", &*shape()),
+        (1, "|b1", old),
+        (2, "|u1", old),
+        (3, "=u1", "4,13,21,"),
+    ] {
+        let file = npy(version, descr, false, shape, &volume());
         assert_file("a.npy", &file, PLAIN);
     }
 }
 
 #[test]
 fn arrays_of_other_sizes_are_refused() {
-    for shape in [
-        "99999999999, 99999999999, 99999999999",
-        "5, 13, 21",
-        "0, 13, 21",
+    for (descr, shape, said) in [
+        ("|u1", "99999999999, 99999999999, 99999999999", "no volume"),
+        ("|u1", "5, 13, 21", "truncated"),
+        ("|u1", "0, 13, 21", "no volume"),
+        ("|u1", "64, 96", "three axes"),
+        ("|u1", "", "three axes"),
+        ("|u1", "-1, 2, 3", "three axes"),
+        ("<c8", "4, 13, 21", "the type '<c8'"),
+        ("!u1", "4, 13, 21", "unknown byte order"),
     ] {
         for fortran in [false, true] {
-            assert_refused("a.npy", &npy(1, "|u1", fortran, shape, &volume()), &[]);
+            assert_refused("a.npy", &npy(1, descr, fortran, shape, &volume()), &[said]);
         }
     }
+    let keys =
+        String::from_utf8_lossy(&npy(1, "|u1", false, &shape(), &[])).replace("fortran", "c");
+    assert_refused("a.npy", keys.as_bytes(), &[]);
     let long = npy(1, "|u1", false, "100001, 1, 1", &[0; 100_001]);
     assert_refused("a.npy", &long, &["more than 100000 along an axis"]);
 }

@@ -179,19 +179,9 @@ fn pages_that_make_no_stack_are_refused() {
     }
 }
 
+/// A chain of directories that bites its tail.
 #[test]
-fn foreign_files_are_refused() {
-    for bytes in [
-        &b""[..],
-        b"II",
-        b"II*\0",
-        b"MM\0*\0\0\0\0",
-        b"\x89PNG\r\n\x1a\n",
-        b"II+\0\x08\0\0\0",
-    ] {
-        assert_refused("a.tif", bytes, &["/a.tif"]);
-    }
-    // A chain of directories that bites its tail.
+fn a_loop_of_directories_is_refused() {
     let mut bytes = tiff(&plain_pages()[..1]);
     let link = bytes.len() - 4;
     bytes.copy_within(4..8, link);
