@@ -47,21 +47,19 @@ pub(crate) fn open(sources: Vec<Source>) -> Result<Volume, Error> {
         source_of: (0..sources.len()).collect(),
         lossy,
         copies: 3,
-        pixels: Box::new(Images { format }),
+        pixels: Box::new(Images),
         sources,
     })
 }
 
 #[derive(Debug)]
-struct Images {
-    format: PageFormat,
-}
+struct Images;
 
 impl Pixels for Images {
-    fn read(&self, sources: &[Source], z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
-        let wrong = |what| Error::page(&sources[z], z, what);
-        match read(&sources[z], Some(page)).map_err(wrong)? {
-            (_, format, _) if format == self.format => Ok(()),
+    fn read(&self, volume: &Volume, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
+        let wrong = |what| Error::page(&volume.sources[z], z, what);
+        match read(&volume.sources[z], Some(page)).map_err(wrong)? {
+            (_, format, _) if format == volume.format => Ok(()),
             _ => Err(wrong("it has changed since the stack was opened".into())),
         }
     }

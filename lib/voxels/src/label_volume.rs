@@ -34,6 +34,7 @@ pub struct LabelVolume<'a> {
     liquid: Option<Liquid<'a>>,
 }
 
+#[derive(Clone, Copy)]
 struct PlacedBlock<'a> {
     label: u8,
     /// Lattice voxel of its voxel (0, 0, 0).
@@ -151,34 +152,31 @@ impl<'a> LabelVolume<'a> {
     }
 
     /// The label of one voxel.
-    ///
-    /// # Panics
-    /// Outside the lattice.
-    pub fn label(&self, [x, y, z]: [usize; 3]) -> u8 {
-        let wet = (self.liquid.as_ref()).is_some_and(|liquid| liquid.voxels.get(x, y, z));
-        // Wood comes last and counts first.
-        let block = self.blocks.iter().rev().find(|placed| {
+    pub fn label(&self, voxel: [usize; 3]) -> u8 {
+        let mut layers = self.layers().rev();
+        let holder = layers.find(|placed| {
             let dims = placed.bits.dims();
-            let own = [0, 1, 2].map(|a| [x, y, z][a].wrapping_sub(placed.at[a]));
-            (0..3).all(|a| own[a] < dims[a]) && placed.bits.get(own[0], own[1], own[2])
+            let [x, y, z] = [0, 1, 2].map(|a| voxel[a].wrapping_sub(placed.at[a]));
+            x < dims[0] && y < dims[1] && z < dims[2] && placed.bits.get(x, y, z)
         });
-        match block {
-            Some(placed) => placed.label,
-            None if wet => ADHESIVE,
-            None => VOID,
-        }
+        holder.map_or(VOID, |placed| placed.label)
+    }
+
+    /// What fills voxels; of two at one the later counts.
+    fn layers(&self) -> impl DoubleEndedIterator<Item = PlacedBlock<'_>> {
+        let liquid = self.liquid.as_ref().map(|liquid| PlacedBlock {
+            label: ADHESIVE,
+            at: [0; 3],
+            bits: liquid.voxels.view(),
+        });
+        liquid.into_iter().chain(self.blocks.iter().copied())
     }
 
     /// Writes the labels of page `z` into `page`, x fastest.
     fn page(&self, z: usize, page: &mut [u8]) {
         page.fill(VOID);
         let nx = self.dims[0];
-        if let Some(liquid) = &self.liquid {
-            for y in 0..self.dims[1] {
-                (liquid.voxels.view().set_in_row(y, z)).for_each(|x| page[y * nx + x] = ADHESIVE);
-            }
-        }
-        for placed in &self.blocks {
+        for placed in self.layers() {
             let [_, ny, nz] = placed.bits.dims();
             let Some(k) = z.checked_sub(placed.at[2]).filter(|&k| k < nz) else {
                 continue;

@@ -23,8 +23,8 @@ pub(crate) fn open(source: Source) -> Result<Volume, Error> {
 fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     let (fields, end) = fields(head)?;
     let field = |key: &str| {
-        let found = fields.iter().find(|f| f.key == key);
-        found.map(|f| (f.value.as_str(), f.line))
+        let found = fields.iter().find(|(own, ..)| own == key);
+        found.map(|(_, value, line)| (value.as_str(), *line))
     };
     let wrong = |line, accepted: &str| format!("line {line} of its header: accepted is {accepted}");
     let needed = |key: &str| field(key).ok_or_else(|| format!("its header has no {key}"));
@@ -82,11 +82,8 @@ fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     })
 }
 
-struct Field {
-    key: String,
-    value: String,
-    line: usize,
-}
+/// Key, value and number of a line.
+type Field = (String, String, usize);
 
 /// `key = value` lines with their line numbers up to ElementDataFile, which is the last one
 /// by definition, and the byte behind it.
@@ -104,7 +101,7 @@ fn fields(head: &[u8]) -> Result<(Vec<Field>, usize), String> {
             .ok_or_else(|| format!("line {line} of its header is not KEY = VALUE"))?;
         let [key, value] = [key, value].map(|text| text.trim().to_owned());
         let last = key == "ElementDataFile";
-        fields.push(Field { key, value, line });
+        fields.push((key, value, line));
         if last {
             return Ok((fields, end));
         }

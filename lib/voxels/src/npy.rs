@@ -23,30 +23,25 @@ pub(crate) const LONGEST_HEAD: u64 = 4096;
 pub(crate) fn open(source: Source, unpacked: Option<Source>) -> Result<Volume, Error> {
     let array = unpacked.as_ref().unwrap_or(&source);
     let (text, offset) = header(array)?;
-    let header = Header::parse(&text).map_err(|what| Error::file(array, what))?;
-    let [nz, ny, nx] = header.shape;
-    let raw = Raw {
-        format: PageFormat::new([nx, ny], header.sample, 1),
-        pages: nz,
-        offset,
-        big_endian: header.big_endian,
-    };
-    if !header.fortran {
+    let (raw, fortran) = parse(&text, offset).map_err(|what| Error::file(array, what))?;
+    if !fortran {
         return raw.volume(vec![source], unpacked);
     }
+    let Raw { format, pages, .. } = raw;
+    let shape = [pages, format.height, format.width];
     // The same bytes read as C order are an array of shape (x, y, z): checked as such before
     // they are put in order.
     let mut transposed = raw;
-    (transposed.format.width, transposed.pages) = (nz, nx);
+    (transposed.format.width, transposed.pages) = (pages, format.width);
     transposed.check(array)?;
-    let size = header.sample.bytes();
-    if let Some(short) = machine::shortage(bytes_in_order(header.shape, size)) {
+    let size = format.sample.bytes();
+    if let Some(short) = machine::shortage(bytes_in_order(shape, size)) {
         let what = format!(
             "it is stored with z fastest (fortran_order), and to put it in order needs {short}: save it by numpy.ascontiguousarray"
         );
         return Err(Error::file(array, what));
     }
-    let ordered = in_c_order(array, offset, header.shape, size);
+    let ordered = in_c_order(array, offset, shape, size);
     let ordered = array.with_content(ordered.map_err(|e| Error::io(array, e))?)?;
     Raw { offset: 0, ..raw }.volume(vec![source], Some(ordered))
 }
@@ -54,11 +49,8 @@ pub(crate) fn open(source: Source, unpacked: Option<Source>) -> Result<Volume, E
 /// Whether a file that begins with `head`, of at least [`LONGEST_HEAD`] bytes where it has as many,
 /// is an array of three axes.
 pub(crate) fn is_volume(head: &[u8]) -> bool {
-    let shape = String::from_utf8_lossy(head);
-    Kind::of(head) == Some(Kind::Npy)
-        && (shape.split_once("'shape':"))
-            .and_then(|(_, rest)| rest.split_once('(')?.1.split_once(')'))
-            .is_some_and(|(axes, _)| axes.split(',').filter(|n| !n.trim().is_empty()).count() == 3)
+    let axes = shape(&String::from_utf8_lossy(head)).map(|axes| axes.len());
+    Kind::of(head) == Some(Kind::Npy) && axes == Some(3)
 }
 
 /// The header's text and where the data begin.
@@ -78,44 +70,39 @@ fn header(source: &Source) -> Result<(String, u64), Error> {
     Ok((text, begin + length as u64))
 }
 
-struct Header {
-    sample: Sample,
-    big_endian: bool,
-    fortran: bool,
-    /// (pages, rows, columns).
-    shape: [usize; 3],
+/// The pixels behind byte `offset`, and whether they are in Fortran order, by the Python dictionary
+/// `{'descr': '<u2', 'fortran_order': False, 'shape': (..)}`.
+fn parse(text: &str, offset: u64) -> Result<(Raw, bool), String> {
+    let after = |key: &str| {
+        let found = text.split_once(key).map(|(_, rest)| rest.trim_start());
+        found.ok_or_else(|| format!("its .npy header has no {key}"))
+    };
+    let descr = after("'descr':")?.split(['\'', '"']).nth(1);
+    let (sample, big_endian) = sample_of(descr.unwrap_or_default())?;
+    let fortran = after("'fortran_order':")?.starts_with("True");
+    let axes = shape(text).and_then(|axes| axes.try_into().ok());
+    let [pages, height, width] =
+        axes.ok_or("its array has not three axes; accepted is the shape (pages, rows, columns)")?;
+    let raw = Raw {
+        format: PageFormat::new([width, height], sample, 1),
+        pages,
+        offset,
+        big_endian,
+    };
+    Ok((raw, fortran))
 }
 
-impl Header {
-    /// Parses the Python dictionary `{'descr': '<u2', 'fortran_order': False, 'shape': (..)}`.
-    fn parse(text: &str) -> Result<Self, String> {
-        let after = |key: &str| {
-            text.split_once(key)
-                .map(|(_, rest)| rest.trim_start())
-                .ok_or_else(|| format!("its .npy header has no {key}"))
-        };
-        let descr = after("'descr':")?;
-        let descr = descr.split(['\'', '"']).nth(1).unwrap_or_default();
-        let (sample, big_endian) = sample_of(descr)?;
-        let fortran = after("'fortran_order':")?.starts_with("True");
-        let shape = after("'shape':")?;
-        let axes = (shape.strip_prefix('(')).and_then(|rest| rest.split_once(')'));
-        let axes: Option<Vec<usize>> = axes.and_then(|(inside, _)| {
-            let inside = inside.trim().trim_end_matches(',');
-            // Python 2 wrote an L behind a number.
-            let axis = |n: &str| n.trim().trim_end_matches('L').parse().ok();
-            inside.split(',').map(axis).collect()
-        });
-        let shape = axes
-            .and_then(|axes| axes.try_into().ok())
-            .ok_or("its array has not three axes; accepted is the shape (pages, rows, columns)")?;
-        Ok(Self {
-            sample,
-            big_endian,
-            fortran,
-            shape,
-        })
-    }
+/// The axes of a header's shape.
+fn shape(text: &str) -> Option<Vec<usize>> {
+    let (_, rest) = text.split_once("'shape':")?;
+    let (axes, _) = rest.trim_start().strip_prefix('(')?.split_once(')')?;
+    // Python 2 wrote an L behind a number.
+    let axis = |n: &str| n.trim().trim_end_matches('L').parse().ok();
+    axes.trim()
+        .trim_end_matches(',')
+        .split(',')
+        .map(axis)
+        .collect()
 }
 
 /// The type of `<u2` and the like, and whether it is big-endian.

@@ -101,7 +101,7 @@ impl Histogram {
             )
         });
         let around = padding.map(|Padding { value, voxels, .. }| {
-            let phase = grey.phase(value).map_or("", Phase::name);
+            let phase = grey.phase(value).unwrap_or(Phase::Void);
             format!(
                 "{voxels} voxels of {value} reach in from the corners of all pages, as around a round field of view: they do not count for it and become {phase}; --crop keeps what is inside"
             )
@@ -139,7 +139,7 @@ fn too_few(phases: usize, left_out: u64) -> String {
 
 /// The sentence about phases of which the `lower` and the next are not two.
 fn hardly_parted(lower: usize, apart: f64, grey: &Grey) -> String {
-    let [lower, upper] = [lower, lower + 1].map(|phase| Phase::ALL[phase].name());
+    let [lower, upper] = [lower, lower + 1].map(|phase| Phase::ALL[phase]);
     format!(
         "its grey values do not part {lower} from {upper}: the means of the two are {apart:.2} times the sum of their deviations apart, and {PARTED} are needed; look at --histogram and give ranges, such as --grey {grey}, or take --grey auto-wood for wood without adhesive"
     )

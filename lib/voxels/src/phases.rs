@@ -19,20 +19,22 @@ pub enum Phase {
 impl Phase {
     pub(crate) const ALL: [Phase; 3] = [Phase::Void, Phase::Wood, Phase::Adhesive];
 
-    pub(crate) fn name(self) -> &'static str {
-        ["void", "wood", "adhesive"][self as usize]
-    }
-
     /// The phase and the rest of `PHASE=...`, of which there is an `example`.
     fn split<'a>(part: &'a str, example: &str) -> Result<(Self, &'a str), String> {
         let (name, rest) =
             (part.split_once('=')).ok_or_else(|| format!("'{part}' is not PHASE={example}"))?;
         let name = name.trim();
-        let known = Self::ALL.into_iter().find(|p| p.name() == name);
+        let known = Self::ALL.into_iter().find(|p| p.to_string() == name);
         let phase = known.ok_or_else(|| {
             format!("'{name}' is not a phase; accepted are void, wood and adhesive")
         })?;
         Ok((phase, rest))
+    }
+}
+
+impl fmt::Display for Phase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(["void", "wood", "adhesive"][*self as usize])
     }
 }
 
@@ -74,34 +76,28 @@ impl FromStr for Labels {
             let (phase, values) = Phase::split(part, example)?;
             if labels.0.iter().any(|(_, p)| *p == phase) {
                 return Err(format!(
-                    "{} is named twice; its labels stand together, as in {0}=1|2",
-                    phase.name()
+                    "{phase} is named twice; its labels stand together, as in {phase}=1|2"
                 ));
             }
             for value in values.split('|') {
                 let label = value.parse()?;
                 if let Some(other) = labels.phase(label) {
                     return Err(format!(
-                        "label {label} is given to {} and to {}; a label has one phase",
-                        other.name(),
-                        phase.name()
+                        "label {label} is given to {other} and to {phase}; a label has one phase"
                     ));
                 }
                 labels.0.push((label, phase));
             }
         }
         // Wood alone, before it is bonded, has no adhesive.
-        let named = |phase: &Phase| labels.0.iter().any(|(_, p)| p == phase);
-        match [Phase::Void, Phase::Wood]
-            .into_iter()
-            .find(|phase| !named(phase))
-        {
-            Some(phase) => Err(format!(
-                "no label is given for {}; void and wood are needed, and adhesive where there is some, as in void=0,wood=128,adhesive=255",
-                phase.name()
-            )),
-            None => Ok(labels),
+        for phase in [Phase::Void, Phase::Wood] {
+            if labels.0.iter().all(|(_, p)| *p != phase) {
+                return Err(format!(
+                    "no label is given for {phase}; void and wood are needed, and adhesive where there is some, as in void=0,wood=128,adhesive=255"
+                ));
+            }
         }
+        Ok(labels)
     }
 }
 
@@ -171,7 +167,7 @@ impl FromStr for Grey {
                 Phase::Adhesive => &mut adhesive,
             };
             if slot.replace(parse_range(range)?).is_some() {
-                return Err(format!("{} has two ranges; give one", phase.name()));
+                return Err(format!("{phase} has two ranges; give one"));
             }
         }
         let wood = wood.ok_or_else(|| {

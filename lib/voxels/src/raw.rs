@@ -62,34 +62,24 @@ impl Raw {
             source_of: Vec::new(),
             lossy: false,
             copies: 1,
-            pixels: Box::new(RawPixels {
-                layout: self,
-                unpacked,
-            }),
+            pixels: Box::new((self, unpacked)),
         })
     }
 }
 
-#[derive(Debug)]
-struct RawPixels {
-    layout: Raw,
-    /// Where the pixels are instead of the last source, once unpacked or put in order.
-    unpacked: Option<Source>,
-}
-
-impl Pixels for RawPixels {
-    fn read(&self, sources: &[Source], z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
-        let Raw { format, offset, .. } = self.layout;
-        let source = self
-            .unpacked
-            .as_ref()
-            .unwrap_or(&sources[sources.len() - 1]);
-        page.resize(format.page_bytes().unwrap_or(0), 0);
-        let at = offset + z as u64 * page.len() as u64;
+/// Where there is a source, the pixels are in it instead of the last of the volume.
+impl Pixels for (Raw, Option<Source>) {
+    fn read(&self, volume: &Volume, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
+        let (raw, unpacked) = self;
+        let Some(source) = unpacked.as_ref().or(volume.sources.last()) else {
+            return Ok(());
+        };
+        page.resize(raw.format.page_bytes().unwrap_or(0), 0);
+        let at = raw.offset + z as u64 * page.len() as u64;
         (source.file())
             .and_then(|file| file.read_exact_at(page, at))
             .map_err(|e| Error::page(source, z, e))?;
-        to_native(page, format.sample, self.layout.big_endian);
+        to_native(page, raw.format.sample, raw.big_endian);
         Ok(())
     }
 }

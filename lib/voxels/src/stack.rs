@@ -231,7 +231,7 @@ impl Stack {
         if z >= volume.pages {
             return Err(Error::Usage(format!("there is no page {}", z + 1)));
         }
-        volume.pixels.read(&volume.sources, z, page)?;
+        volume.pixels.read(volume, z, page)?;
         if self.unlike.is_some() {
             let shown = volume.shown[z].in_place_of(page);
             *page = shown.map_err(|what| Error::file(self.page_name(z), what))?;

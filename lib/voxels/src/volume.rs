@@ -29,7 +29,7 @@ pub(crate) struct Volume {
 
 /// Reads the pixels of pages.
 pub(crate) trait Pixels: fmt::Debug + Send + Sync {
-    /// Reads page `z`, from 0, into `page`, which is empty: rows from y = 0, pixels from x = 0, channels
+    /// Reads page `z` of its volume, from 0, into `page`, which is empty: rows from y = 0, pixels from x = 0, channels
     /// interleaved, samples in native byte order.
-    fn read(&self, sources: &[Source], z: usize, page: &mut Vec<u8>) -> Result<(), Error>;
+    fn read(&self, volume: &Volume, z: usize, page: &mut Vec<u8>) -> Result<(), Error>;
 }

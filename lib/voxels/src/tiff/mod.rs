@@ -118,10 +118,7 @@ fn in_order(
         lossy: false,
         // Pages that are stored as they are read need no copy to decode.
         copies: [3, 1][usize::from(pages.iter().all(PageLayout::is_plain))],
-        pixels: Box::new(TiffPages {
-            source_of: source_of.clone(),
-            pages,
-        }),
+        pixels: Box::new(pages),
         source_of,
         sources,
     })
@@ -210,17 +207,10 @@ fn are_alike(pages: &[PageLayout]) -> Result<(), (usize, String)> {
     alike(&|page| format!("of orientation {}", page.orientation))
 }
 
-/// Pages with the place of the file of each; all have the format of the first.
-#[derive(Debug)]
-struct TiffPages {
-    source_of: Vec<usize>,
-    pages: Vec<PageLayout>,
-}
-
-impl Pixels for TiffPages {
-    fn read(&self, sources: &[Source], z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
-        let source = &sources[self.source_of[z]];
+impl Pixels for Vec<PageLayout> {
+    fn read(&self, volume: &Volume, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
+        let source = &volume.sources[volume.source_of[z]];
         let file = source.file().map_err(|e| Error::io(source, e))?;
-        decode::read(&file, &self.pages[z], page).map_err(|what| Error::page(source, z, what))
+        decode::read(&file, &self[z], page).map_err(|what| Error::page(source, z, what))
     }
 }

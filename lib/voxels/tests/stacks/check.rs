@@ -71,6 +71,12 @@ pub fn open(path: &Path) -> Stack {
     Stack::open(&[path.to_owned()]).unwrap()
 }
 
+pub fn read_page(stack: &Stack, z: usize) -> Vec<u8> {
+    let mut page = Vec::new();
+    stack.read_page(z, &mut page).unwrap();
+    page
+}
+
 /// The sentence with which a file or folder is refused when it is opened.
 pub fn refusal(path: &Path) -> String {
     Stack::open(&[path.to_owned()]).unwrap_err().to_string()

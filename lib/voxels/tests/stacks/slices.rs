@@ -36,29 +36,18 @@ fn rgb_bmp(z: usize, bits: usize) -> Vec<u8> {
 
 #[test]
 fn slices_are_taken_in_natural_order() {
-    let slices: Vec<Vec<u8>> = plain_pages()
-        .into_iter()
-        .map(|page| tiff(&[page]))
-        .collect();
     let folder = tempfile::tempdir().unwrap();
     // 8, 9, 10, 11: unpadded numbers with a space, endings in both cases.
-    let mut paths = Vec::new();
-    for (z, ending) in ["tif", "TIF", "tiff", "TIFF"].into_iter().enumerate() {
-        paths.insert(
-            0,
-            folder.path().join(format!("scan slice {}.{ending}", z + 8)),
-        );
-        fs::write(&paths[0], &slices[z]).unwrap();
+    let names = ["s 11.TIFF", "s 10.tiff", "s 9.TIF", "s 8.tif"];
+    let paths = names.map(|name| folder.path().join(name));
+    for (path, page) in paths.iter().rev().zip(plain_pages()) {
+        fs::write(path, tiff(&[page])).unwrap();
     }
     fs::write(folder.path().join("notes.txt"), "not a slice").unwrap();
     assert_volume("folder", folder.path(), PLAIN);
     let stack = Stack::open(&paths).unwrap();
     assert_eq!(stack.dims(), DIMS);
-    let mut read = Vec::new();
-    for z in 0..DIMS[2] {
-        stack.read_page(z, &mut read).unwrap();
-        assert_eq!(read, values(z));
-    }
+    (0..DIMS[2]).for_each(|z| assert_eq!(read_page(&stack, z), values(z)));
 }
 
 #[test]
@@ -126,9 +115,8 @@ fn folders_of_bmp_and_png_slices() {
     };
     let usual = [0xff_0000, 0xff00, 0xff];
     let (_folder, path) = stored("a.bmp", &masked(usual));
-    let mut read = Vec::new();
-    open(&path).read_page(0, &mut read).unwrap();
-    assert_eq!(read[..3], [label(0, 0, 0), 7, label(0, 0, 0)]);
+    let first = label(0, 0, 0);
+    assert_eq!(read_page(&open(&path), 0)[..3], [first, 7, first]);
     let other = masked([0xff, 0xff00, 0xff_0000]);
     assert_refused("a.bmp", &other, &["compression 3"]);
     let mut clear = rgb_bmp(0, 32);

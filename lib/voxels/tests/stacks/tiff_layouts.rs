@@ -52,11 +52,9 @@ fn lzw(mut page: Page) -> Page {
 fn tiles(mut page: Page) -> Page {
     let [nx, ny, _] = DIMS;
     let data = page.chunks.remove(0);
-    for (ty, tx) in (0..ny)
-        .step_by(16)
-        .flat_map(|y| (0..nx).step_by(16).map(move |x| (y, x)))
-    {
-        let pixel = |i: usize| match (tx + i % 16, ty + i / 16) {
+    // One row of them is high enough.
+    for x0 in (0..nx).step_by(16) {
+        let pixel = |i: usize| match (x0 + i % 16, i / 16) {
             (x, y) if x < nx && y < ny => data[y * nx + x],
             _ => 99,
         };
@@ -97,9 +95,7 @@ fn lzw_tiles_of_one_label() {
     let mut page = page.short(322, 16).short(323, 32);
     (page.chunks, page.tiled) = (vec![vec![1; 512]; 6], true);
     let (_folder, path) = stored("a.tif", &tiff(&[lzw(page)]));
-    let mut read = Vec::new();
-    open(&path).read_page(0, &mut read).unwrap();
-    assert_eq!(read, [1; 1600]);
+    assert_eq!(read_page(&open(&path), 0), [1; 1600]);
 }
 
 #[test]

@@ -52,7 +52,7 @@ impl Folder {
     }
 
     fn file(&self, name: &str) -> ParticleFile {
-        ParticleFile::open(&self.path(name)).unwrap()
+        ParticleFile::open(self.path(name)).unwrap()
     }
 }
 
