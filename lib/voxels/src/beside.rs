@@ -6,9 +6,6 @@ use particle_file::limits;
 
 /// The files that a header at `path` names by `value` of its `field`: one, many by a pattern and
 /// its numbers (`slice%03d.raw 0 99 1`), or those in the lines `below` it (`LIST`).
-///
-/// # Errors
-/// A sentence for a pattern that is none, and as [`data_file`].
 pub(crate) fn data_files(
     path: &Path,
     value: &str,

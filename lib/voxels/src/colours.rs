@@ -100,10 +100,8 @@ impl Shown {
 }
 
 /// Two pages on which a stored value, of type `sample`, shows two colours, so that their colours
-/// are the labels; none where each value shows the same on all pages.
-///
-/// # Errors
-/// Two such pages, where the pages have no colours to go by.
+/// are the labels; none where each value shows the same on all pages. Where there are no colours to go by
+/// such pages are an error.
 pub(crate) fn unlike(
     shown: &[Arc<Shown>],
     sample: Sample,

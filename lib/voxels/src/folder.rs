@@ -14,11 +14,8 @@ const KINDS: [(&str, &[&str]); 4] = [
     ("JPEG", &["jpg", "jpeg"]),
 ];
 
-/// The slices of a folder, all of one kind; hidden and other files are passed over.
-///
-/// # Errors
-/// A folder that cannot be read, holds no slices, slices that are not there, or slices of two kinds: which of them the
-/// stack is and which are previews nobody can tell.
+/// The slices of a folder; hidden and other files are passed over. They are of one kind: which of two the stack is and
+/// which are previews nobody can tell.
 pub(crate) fn slices(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let unreadable = |e| Error::io(quoted(folder), e);
     let mut kinds = [const { Vec::new() }; KINDS.len()];

@@ -128,13 +128,14 @@ impl Histogram {
         };
         let Counted { counts, corners } =
             Counted::pages(stack, crop, scale.values, |value| scale.place(value))?;
-        let padding = corners.into_iter().next_back().and_then(|(value, corner)| {
+        let highest = corners.into_iter().next_back();
+        let padding = highest.and_then(|(value, (pages, voxels))| {
             let value = f64::from_bits(value);
             let place = scale.place(value)?;
-            (corner.pages == crop.dims()[2]).then_some(Padding {
+            (pages == crop.dims()[2]).then_some(Padding {
                 value,
                 place,
-                voxels: corner.voxels,
+                voxels,
             })
         });
         Ok(Self {
@@ -201,13 +202,7 @@ struct Counted {
     counts: Vec<u64>,
     /// By the bits of a value: pages with it at all corners, and voxels that stand in rows from
     /// there on.
-    corners: BTreeMap<u64, Corner>,
-}
-
-#[derive(Clone, Copy, Default)]
-struct Corner {
-    pages: usize,
-    voxels: u64,
+    corners: BTreeMap<u64, (usize, u64)>,
 }
 
 impl Counted {
@@ -234,7 +229,7 @@ impl Counted {
                     }
                 }
                 if let Some((value, voxels)) = corners(format, &rows) {
-                    counted.add(value, Corner { pages: 1, voxels });
+                    counted.add(value, (1, voxels));
                 }
                 Ok::<_, Error>(counted)
             })
@@ -247,10 +242,9 @@ impl Counted {
             })
     }
 
-    fn add(&mut self, value: u64, corner: Corner) {
+    fn add(&mut self, value: u64, corner: (usize, u64)) {
         let sum = self.corners.entry(value).or_default();
-        sum.pages += corner.pages;
-        sum.voxels += corner.voxels;
+        *sum = (sum.0 + corner.0, sum.1 + corner.1);
     }
 }
 

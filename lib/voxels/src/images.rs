@@ -17,11 +17,7 @@ use crate::{Error, bmp};
 /// The format of an image and what its values show, or what is wrong with it.
 pub(crate) type Read = Result<(PageFormat, Shown), Box<dyn std::error::Error>>;
 
-/// Opens images of one page each, in this order.
-///
-/// # Errors
-/// A file that is none of the three, has transparency, or is of another size or type than the
-/// first.
+/// Opens images of one page each, in this order; all have the size and type of the first.
 pub(crate) fn open(sources: Vec<Source>) -> Result<Volume, Error> {
     let mut format: Option<PageFormat> = None;
     let mut shown: Vec<Arc<Shown>> = Vec::new();

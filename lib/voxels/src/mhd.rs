@@ -3,24 +3,16 @@
 
 use std::path::Path;
 
-use crate::Error;
 use crate::beside::data_files;
-use crate::pixels::{self, Coding, Described, whole_numbers};
+use crate::pixels::{Coding, Described, whole_numbers};
 use crate::raw::Raw;
 use crate::sample::{PageFormat, Sample};
-use crate::source::Source;
-use crate::volume::Volume;
 use crate::voxel_size::{VoxelSize, decimal};
 
 /// Spacings that can be meant, in whatever unit.
 const SPACING: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
 
-/// Opens the header in `source` and the pixels it points to.
-pub(crate) fn open(source: Source) -> Result<Volume, Error> {
-    pixels::open(source, parse)
-}
-
-fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
+pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     let (fields, end) = fields(head)?;
     let field = |key: &str| {
         let found = fields.iter().find(|(own, ..)| own == key);

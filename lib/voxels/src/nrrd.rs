@@ -3,35 +3,26 @@
 
 use std::path::Path;
 
-use crate::Error;
 use crate::beside::data_files;
-use crate::pixels::{self, Coding, Described, MAX_HEADER, whole_numbers};
+use crate::pixels::{Coding, Described, MAX_HEADER, whole_numbers};
 use crate::raw::Raw;
 use crate::sample::{PageFormat, Sample};
-use crate::source::Source;
-use crate::volume::Volume;
 use crate::voxel_size::{VoxelSize, decimal};
 
-/// Opens the header in `source` and the pixels it points to.
-pub(crate) fn open(source: Source) -> Result<Volume, Error> {
-    pixels::open(source, parse)
-}
-
-fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
+pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
     let (fields, end) = fields(head)?;
     let field = |keys: &[&str]| {
         let found = fields.iter().find(|(key, _)| keys.contains(&key.as_str()));
         found.map(|(_, value)| value.as_str())
     };
     let needed = |key: &str| field(&[key]).ok_or_else(|| format!("its header has no {key}"));
-    let (channels, [width, height, pages]) = match whole_numbers(needed("sizes")?).as_deref() {
-        Some(&[x, y, z]) => (1, [x, y, z]),
-        Some(&[3, x, y, z]) => (3, [x, y, z]),
-        _ => {
-            let what = "it is no volume of three axes, or four of which the first has 3 colours";
-            return Err(what.into());
-        }
-    };
+    let axes = whole_numbers(needed("sizes")?);
+    let (channels, [width, height, pages]) = match axes.as_deref() {
+        Some(&[x, y, z]) => Some((1, [x, y, z])),
+        Some(&[3, x, y, z]) => Some((3, [x, y, z])),
+        _ => None,
+    }
+    .ok_or("it is no volume of three axes, or four of which the first has 3 colours")?;
     let sample = sample_of(needed("type")?)?;
     let coding = match needed("encoding")? {
         "raw" => Coding::Raw,
@@ -45,14 +36,12 @@ fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
         }
     };
     let big_endian = match field(&["endian"]) {
-        Some("big") => true,
-        Some("little") => false,
-        None if sample.bytes() == 1 || coding == Coding::Text => false,
-        _ => {
-            let what = "its header does not say whether its bytes are little or big endian";
-            return Err(what.into());
-        }
-    };
+        Some("big") => Some(true),
+        Some("little") => Some(false),
+        None if sample.bytes() == 1 || coding == Coding::Text => Some(false),
+        _ => None,
+    }
+    .ok_or("its header does not say whether its bytes are little or big endian")?;
     if field(&["line skip", "lineskip"]).is_some_and(|n| n != "0") {
         return Err("it skips lines of its data file; accepted is a skip of bytes".into());
     }
@@ -90,16 +79,13 @@ fn fields(head: &[u8]) -> Result<(Vec<(String, String)>, usize), String> {
     let mut end = 0;
     for (i, line) in head.split_inclusive(|b| *b == b'\n').enumerate() {
         end += line.len();
-        if i == 0 {
-            // The magic, which is_nrrd has seen.
-            continue;
-        }
         let text = String::from_utf8_lossy(line);
         let text = text.trim_end();
         if text.is_empty() && line.ends_with(b"\n") {
             return Ok((fields, end));
         }
-        if text.starts_with('#') || text.contains(":=") {
+        // The first line is the magic.
+        if i == 0 || text.starts_with('#') || text.contains(":=") {
             continue;
         }
         let (key, value) = text
@@ -118,32 +104,32 @@ fn fields(head: &[u8]) -> Result<(Vec<(String, String)>, usize), String> {
 }
 
 fn sample_of(kind: &str) -> Result<Sample, String> {
-    Ok(match kind {
-        "uchar" | "unsigned char" | "uint8" | "uint8_t" => Sample::U8,
-        "signed char" | "int8" | "int8_t" => Sample::I8,
-        "ushort" | "unsigned short" | "unsigned short int" | "uint16" | "uint16_t" => Sample::U16,
-        "short" | "short int" | "signed short" | "signed short int" | "int16" | "int16_t" => {
-            Sample::I16
-        }
-        "uint" | "unsigned int" | "uint32" | "uint32_t" => Sample::U32,
-        "int" | "signed int" | "int32" | "int32_t" => Sample::I32,
-        "ulonglong" | "unsigned long long" | "unsigned long long int" | "uint64" | "uint64_t" => {
-            Sample::U64
-        }
-        "longlong"
-        | "long long"
-        | "long long int"
-        | "signed long long"
-        | "signed long long int"
-        | "int64"
-        | "int64_t" => Sample::I64,
-        "float" => Sample::F32,
-        "double" => Sample::F64,
-        _ => {
-            return Err(format!(
-                "its type is '{kind}'; accepted are integers of 8 to 64 bits, float and double"
-            ));
-        }
+    const NAMES: [(Sample, &[&str]); 10] = [
+        (Sample::U8, &["uchar", "unsigned char", "uint8"]),
+        (Sample::I8, &["signed char", "int8"]),
+        (Sample::U16, &["ushort", "unsigned short", "uint16"]),
+        (Sample::I16, &["short", "signed short", "int16"]),
+        (Sample::U32, &["uint", "unsigned int", "uint32"]),
+        (Sample::I32, &["int", "signed int", "int32"]),
+        (Sample::U64, &["ulonglong", "unsigned long long", "uint64"]),
+        (
+            Sample::I64,
+            &["longlong", "long long", "signed long long", "int64"],
+        ),
+        (Sample::F32, &["float"]),
+        (Sample::F64, &["double"]),
+    ];
+    // As in C, short and long long may be followed by int; int8 and its like by _t.
+    let short = kind
+        .strip_suffix(" int")
+        .filter(|kind| kind.ends_with("short") || kind.ends_with("long"));
+    let sized = kind
+        .strip_suffix("_t")
+        .filter(|kind| kind.ends_with(char::is_numeric));
+    let name = short.or(sized).unwrap_or(kind);
+    let known = NAMES.iter().find(|(_, names)| names.contains(&name));
+    known.map(|(sample, _)| *sample).ok_or_else(|| {
+        format!("its type is '{kind}'; accepted are integers of 8 to 64 bits, float and double")
     })
 }
 

@@ -85,10 +85,6 @@ pub(crate) struct Described {
 
 /// Opens the volume that the header in `source` describes, by the `parse` of its format from its
 /// bytes and the path that files beside it are relative to.
-///
-/// # Errors
-/// A header that is none; files that hold more or fewer pixels than declared, or damaged ones; more
-/// bytes than half of the free space for temporary files.
 pub(crate) fn open(
     source: Source,
     parse: impl Fn(&[u8], &Path) -> Result<Described, String>,

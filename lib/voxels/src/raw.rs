@@ -41,9 +41,6 @@ impl Raw {
     }
 
     /// The pages in the last of `sources`, or in `unpacked` in its place.
-    ///
-    /// # Errors
-    /// As [`Raw::check`].
     pub(crate) fn volume(
         self,
         sources: Vec<Source>,

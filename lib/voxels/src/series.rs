@@ -34,9 +34,7 @@ struct Odd {
 impl Series {
     /// Puts slices in the order of the one number in which their names differ, or of several that grow together in
     /// even steps. A dot between digits is a decimal point where the numbers come in even steps only then.
-    ///
-    /// # Errors
-    /// A sentence that names two slices where all are not one clear series.
+    /// Where all are not one clear series, the sentence names two slices that are not.
     pub(crate) fn of(slices: Vec<PathBuf>) -> Result<Self, String> {
         if slices.len() < 2 {
             return Ok(Self { slices, gap: None });

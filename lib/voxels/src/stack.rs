@@ -13,7 +13,9 @@ use crate::series::Series;
 use crate::source::{Source, quoted};
 use crate::volume::Volume;
 use crate::voxel_size::VoxelSize;
-use crate::{Dims, Error, RawType, folder, foreign, images, mhd, nifti, npy, npz, nrrd, tiff};
+use crate::{
+    Dims, Error, RawType, folder, foreign, images, mhd, nifti, npy, npz, nrrd, pixels, tiff,
+};
 
 /// A stack of label or grey images, read page by page.
 ///
@@ -114,8 +116,8 @@ impl Stack {
             Some(Kind::Tiff) => tiff::open(source)?,
             Some(Kind::Npy) => npy::open(source, None)?,
             Some(Kind::Npz) => npz::open(source)?,
-            Some(Kind::MetaImage) => mhd::open(source)?,
-            Some(Kind::Nrrd) => nrrd::open(source)?,
+            Some(Kind::MetaImage) => pixels::open(source, mhd::parse)?,
+            Some(Kind::Nrrd) => pixels::open(source, nrrd::parse)?,
             Some(Kind::Nifti) => nifti::open(source)?,
             Some(Kind::Bmp | Kind::Png | Kind::Jpeg) => images::open(vec![source])?,
             None => {

@@ -38,12 +38,8 @@ impl VolumeFractions {
         let mut parts = [(0, 0.0); 8];
         for (corner, part) in parts.iter_mut().enumerate() {
             let up = [corner & 1, corner >> 1 & 1, corner >> 2];
-            let weight: f64 = (0..3)
-                .map(|a| match up[a] {
-                    1 => share[a],
-                    _ => 1.0 - share[a],
-                })
-                .product();
+            let along = |a: usize| [1.0 - share[a], share[a]][up[a]];
+            let weight: f64 = (0..3).map(along).product();
             let voxel: Voxel = std::array::from_fn(|a| low[a] + up[a]);
             if self.is_open(voxel) {
                 *part = (self.index(voxel), weight);
@@ -125,7 +121,7 @@ mod tests {
     use super::*;
     use crate::lattice::voxels;
 
-    fn all(dims: [usize; 3]) -> BitGrid {
+    fn all(dims: Voxel) -> BitGrid {
         BitGrid::from_fn(dims, |_, _, _| true)
     }
 
