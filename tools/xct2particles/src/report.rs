@@ -86,9 +86,9 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64, normal: Axis) {
         cli::note(format_args!(
             "{name:<10} {voxels:>12} voxels  {fraction:.6}"
         ));
-    }
-    if wood == 0 {
-        cli::warn("no voxel is wood");
+        if voxels == 0 && name == "wood" {
+            cli::warn("no voxel is wood");
+        }
     }
     if adhesive > wood {
         cli::warn("more voxels are adhesive than wood: are their labels the right way round?");
