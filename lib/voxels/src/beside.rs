@@ -6,32 +6,28 @@ use particle_file::limits;
 
 /// The files that a header at `path` names by `value` of its `field`: one, many by a pattern and
 /// its numbers (`slice%03d.raw 0 99 1`), or those in the lines `below` it (`LIST`).
-///
-/// # Errors
-/// A sentence for a pattern that is none, and as [`data_file`].
 pub(crate) fn data_files(
     path: &Path,
     value: &str,
     below: &[u8],
     field: &str,
 ) -> Result<Vec<PathBuf>, String> {
-    let names: Vec<String> = if value.split_whitespace().next() == Some("LIST") {
-        let text = String::from_utf8_lossy(below);
-        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
-        lines.map(str::to_owned).collect()
-    } else if value.contains('%') {
-        numbered(value).ok_or_else(|| {
+    let text = String::from_utf8_lossy(below);
+    let names: Vec<String> = match value.split_whitespace().next() {
+        Some("LIST") => {
+            let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+            lines.map(str::to_owned).collect()
+        }
+        _ if value.contains('%') => numbered(value).ok_or_else(|| {
             format!("its {field} '{value}' is no pattern; accepted is such as slice%03d.raw 0 99 1")
-        })?
-    } else {
-        vec![value.to_owned()]
+        })?,
+        _ => vec![value.to_owned()],
     };
     if names.is_empty() {
         return Err(format!("its {field} LIST has no names below it"));
     }
-    (names.iter())
-        .map(|name| data_file(path, Path::new(name), field))
-        .collect()
+    let file = |name: &String| data_file(path, Path::new(name), field);
+    names.iter().map(file).collect()
 }
 
 /// The names of a pattern, first number, last number and step; none where they are not such.
@@ -40,10 +36,8 @@ fn numbered(value: &str) -> Option<Vec<String>> {
     let (before, rest) = words.next()?.split_once('%')?;
     let (width, behind) = rest.split_once('d')?;
     // No flag or width prints as width 0.
-    let width: usize = format!("0{width}")
-        .parse()
-        .ok()
-        .filter(|width| *width < 20)?;
+    let width = format!("0{width}").parse().ok();
+    let width = width.filter(|width: &usize| *width < 20)?;
     let padded = rest.starts_with('0');
     let numbers: Option<Vec<u64>> = words.map(|n| n.parse().ok()).collect();
     let (first, last, step) = match numbers?[..] {
@@ -97,10 +91,8 @@ mod tests {
 
     #[test]
     fn patterns_as_printf_reads_them() {
-        assert_eq!(
-            numbered("a%03d.raw 8 12 2").unwrap(),
-            ["a008.raw", "a010.raw", "a012.raw"]
-        );
+        let padded = numbered("a%03d.raw 8 12 2").unwrap();
+        assert_eq!(padded, ["a008.raw", "a010.raw", "a012.raw"]);
         assert_eq!(numbered("a%d 9 10 1 2").unwrap(), ["a9", "a10"]);
         for none in [
             "a%03d",

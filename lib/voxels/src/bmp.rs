@@ -4,6 +4,7 @@
 //! where it is asked for indices of fewer than 8 bits it panics (0.25.10).
 
 use crate::colours::Shown;
+use crate::images::Read;
 use crate::sample::{PageFormat, Sample, unpack_bits};
 use crate::source::Source;
 
@@ -17,7 +18,6 @@ const BGRX: [u8; 12] = [0, 0, 0xff, 0, 0, 0xff, 0, 0, 0xff, 0, 0, 0];
 /// Where the pixels of a file are and how they are stored.
 struct Header {
     format: PageFormat,
-    /// Bits of a pixel.
     bits: usize,
     /// The first row stored is the highest, not the lowest.
     from_top: bool,
@@ -29,8 +29,8 @@ struct Header {
 }
 
 impl Header {
-    fn read(source: &Source) -> Result<Self, String> {
-        let head = source.window(0, HEAD).map_err(|e| e.to_string())?;
+    fn read(source: &Source) -> Result<Self, Box<dyn std::error::Error>> {
+        let head = source.window(0, HEAD)?;
         if head.len() < HEAD {
             return Err("its header is truncated".into());
         }
@@ -39,31 +39,26 @@ impl Header {
         let (width, height, bits, compression) = match long(14) {
             12 => (i32::from(short(18)), i32::from(short(20)), short(24), 0),
             40.. => (long(18) as i32, long(22) as i32, short(28), long(30)),
-            n => return Err(format!("its header of {n} bytes is of no known version")),
+            n => return Err(format!("its header of {n} bytes is of no known version").into()),
         };
-        let masks = source.window(MASKS, BGRX.len());
-        let masks = masks.map_err(|e| e.to_string())?;
         let plain = match (bits, compression) {
             (1 | 2 | 4 | 8 | 24 | 32, 0) => true,
             // By masks, which are those of plain pixels.
-            (32, 3 | 6) => masks == BGRX,
+            (32, 3 | 6) => source.window(MASKS, BGRX.len())? == BGRX,
             _ => false,
         };
         if !plain {
             return Err(format!(
                 "its pixels have {bits} bits and compression {compression}; accepted is BMP of 1, 4, 8, 24 or 32 bits without compression"
-            ));
+            )
+            .into());
         }
         if width <= 0 || height == 0 {
-            return Err(format!("it is {width} x {height}, which is no page"));
+            return Err(format!("it is {width} x {height}, which is no page").into());
         }
+        let size = [width, height].map(|n| n.unsigned_abs() as usize);
         Ok(Self {
-            format: PageFormat {
-                width: width as usize,
-                height: height.unsigned_abs() as usize,
-                sample: Sample::U8,
-                channels: if bits >= 24 { 3 } else { 1 },
-            },
+            format: PageFormat::new(size, Sample::U8, if bits >= 24 { 3 } else { 1 }),
             bits: bits.into(),
             from_top: height < 0,
             offset: long(10).into(),
@@ -72,51 +67,42 @@ impl Header {
         })
     }
 
-    fn shown(&self, source: &Source) -> Result<Shown, String> {
+    fn shown(&self, source: &Source) -> std::io::Result<Shown> {
         if self.bits >= 24 {
             return Ok(Shown::RGB);
         }
         let room = self.offset.saturating_sub(self.palette);
         let bytes = room.min((self.colour << self.bits) as u64) as usize;
-        let stored = source.window(self.palette, bytes);
-        let stored = stored.map_err(|e| e.to_string())?;
+        let stored = source.window(self.palette, bytes)?;
         let colours = stored.chunks_exact(self.colour);
         Ok(Shown::opaque(colours.map(|bgr| [bgr[2], bgr[1], bgr[0]])))
     }
-
-    /// Stored bytes of a row: whole words of 32 bits.
-    fn row(&self) -> usize {
-        (self.format.width * self.bits).div_ceil(32) * 4
-    }
 }
 
-/// The format of the file and what its values show; its pixels are read where there is a `page` for them.
-pub(crate) fn read(
-    source: &Source,
-    page: Option<&mut Vec<u8>>,
-) -> Result<(PageFormat, Shown), String> {
+/// Reads the pixels too where there is a `page` for them.
+pub(crate) fn read(source: &Source, page: Option<&mut Vec<u8>>) -> Read {
     let header = Header::read(source)?;
-    let (row, format) = (header.row(), header.format);
+    let format = header.format;
+    // Whole words of 32 bits.
+    let row = (format.width * header.bits).div_ceil(32) * 4;
     let bytes = row * format.height;
     if header.offset.saturating_add(bytes as u64) > source.len() {
-        return Err(format!(
-            "it is {format}, but the file ends before: it is truncated"
-        ));
+        return Err(format!("it is {format}, but the file ends before: it is truncated").into());
     }
     let shown = header.shown(source)?;
     let Some(page) = page else {
         return Ok((format, shown));
     };
-    let stored = source.window(header.offset, bytes);
-    let mut stored = stored.map_err(|e| e.to_string())?;
-    if !header.from_top {
-        let rows: Vec<&[u8]> = stored.chunks_exact(row).rev().collect();
-        stored = rows.concat();
-    }
+    let stored = source.window(header.offset, bytes)?;
     if header.bits == 32 && stored.chunks_exact(4).any(|pixel| pixel[3] != stored[3]) {
         return Err("some of its pixels are transparent: save it without transparency".into());
     }
-    for row in stored.chunks_exact(row) {
+    for y in 0..format.height {
+        let y = match header.from_top {
+            true => y,
+            false => format.height - 1 - y,
+        };
+        let row = &stored[y * row..][..row];
         match header.bits {
             bits @ (24 | 32) => {
                 let pixels = row.chunks_exact(bits / 8).take(format.width);

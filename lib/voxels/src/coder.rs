@@ -2,7 +2,7 @@
 
 use crate::label::Label;
 use crate::phases::{Phase, Phases};
-use crate::sample::{PageFormat, Sample};
+use crate::sample::PageFormat;
 
 // A code is what one pixel contributes: its phase and, for a guess, which label it had.
 const WOOD: u8 = 0x01;
@@ -17,36 +17,37 @@ const GUESSES: [(&[f64], [u8; 3]); 2] = [
     (&[0.0, 128.0, 255.0], [0x04, 0x20, 0x40]),
 ];
 
-/// Codes pixels of one format.
 pub(crate) struct Coder<'a> {
     phases: &'a Phases,
     format: PageFormat,
     /// Codes of all values of an 8- or 16-bit sample, by its bit pattern.
-    table: Option<Vec<u8>>,
+    table: Vec<u8>,
 }
 
 impl<'a> Coder<'a> {
     pub(crate) fn new(phases: &'a Phases, format: PageFormat) -> Self {
+        let table = Vec::new();
         let mut coder = Self {
             phases,
             format,
-            table: None,
+            table,
         };
-        if format.channels == 1 && format.sample.bytes() <= 2 {
-            let bytes = format.sample.bytes();
-            let codes = |bits: u16| match bytes {
-                1 => coder.code(&[bits as u8]),
-                _ => coder.code(&bits.to_ne_bytes()),
-            };
-            let last = if bytes == 1 { 0xff } else { 0xffff };
-            coder.table = Some((0..=last).map(codes).collect());
-        }
+        coder.table = match format.pixel_bytes() {
+            1 => (0..=u8::MAX).map(|n| coder.code(&[n])).collect(),
+            2 => (0..=u16::MAX)
+                .map(|n| coder.code(&n.to_ne_bytes()))
+                .collect(),
+            _ => Vec::new(),
+        };
         coder
     }
 
-    /// The code of the pixel stored in `pixel`.
+    fn label(&self, pixel: &[u8]) -> Label {
+        Label::of_pixel(pixel, self.format.sample, self.format.channels)
+    }
+
     fn code(&self, pixel: &[u8]) -> u8 {
-        let label = Label::of_pixel(pixel, self.format.sample, self.format.channels);
+        let label = self.label(pixel);
         match (self.phases, label) {
             (Phases::Labels(labels), _) => labels.phase(label).map_or(UNKNOWN, phase_code),
             (Phases::Grey(grey), Label::Value(v)) => grey.phase(v).map_or(UNKNOWN, phase_code),
@@ -57,23 +58,20 @@ impl<'a> Coder<'a> {
 
     /// Sets the bits of one row and returns the union of its codes.
     pub(crate) fn row(&self, pixels: &[u8], wood: &mut [u64], adhesive: &mut [u64]) -> u8 {
-        match (&self.table, self.format.sample) {
-            (Some(table), Sample::U8 | Sample::I8) => pack(
-                pixels.iter().map(|&b| table[usize::from(b)]),
-                wood,
-                adhesive,
-            ),
-            (Some(table), _) => {
-                let pairs = pixels.as_chunks::<2>().0;
-                let codes = pairs
-                    .iter()
-                    .map(|&b| table[usize::from(u16::from_ne_bytes(b))]);
+        match self.format.pixel_bytes() {
+            1 => {
+                let codes = pixels.iter().map(|&n| self.table[usize::from(n)]);
                 pack(codes, wood, adhesive)
             }
-            (None, _) => {
+            2 => {
+                let values = pixels.as_chunks().0.iter().map(|n| u16::from_ne_bytes(*n));
+                let codes = values.map(|n| self.table[usize::from(n)]);
+                pack(codes, wood, adhesive)
+            }
+            bytes => {
                 // Labels come in runs: only a change of value is looked up.
                 let mut last: (&[u8], u8) = (&[], UNKNOWN);
-                let codes = pixels.chunks_exact(self.format.pixel_bytes()).map(|pixel| {
+                let codes = pixels.chunks_exact(bytes).map(|pixel| {
                     if pixel != last.0 {
                         last = (pixel, self.code(pixel));
                     }
@@ -84,15 +82,12 @@ impl<'a> Coder<'a> {
         }
     }
 
-    /// The first pixel of a row that has no phase.
     pub(crate) fn first_unknown(&self, pixels: &[u8]) -> Option<(usize, Label)> {
-        let mut pixels = pixels.chunks_exact(self.format.pixel_bytes()).enumerate();
-        pixels
-            .find(|(_, pixel)| self.code(pixel) == UNKNOWN)
-            .map(|(x, pixel)| {
-                let label = Label::of_pixel(pixel, self.format.sample, self.format.channels);
-                (x, label)
-            })
+        let mut pixels = pixels.chunks_exact(self.format.pixel_bytes());
+        let x = pixels
+            .clone()
+            .position(|pixel| self.code(pixel) == UNKNOWN)?;
+        Some((x, self.label(pixels.nth(x)?)))
     }
 }
 
@@ -109,31 +104,26 @@ pub(crate) fn guessed(union: u8) -> Option<&'static [f64]> {
 
 /// The labels of either set that a stack with this union of codes held.
 pub(crate) fn found(union: u8) -> Vec<f64> {
-    let [(low, low_seen), (high, high_seen)] = GUESSES;
-    let all = low
+    let sets = GUESSES
         .iter()
-        .zip(low_seen)
-        .chain(high.iter().zip(high_seen).skip(1));
-    let held = all.filter(|(_, seen)| union & seen != 0);
-    held.map(|(label, _)| *label).collect()
+        .flat_map(|(labels, seen)| labels.iter().zip(seen));
+    let held = sets.filter(|(_, seen)| union & **seen != 0);
+    let mut held: Vec<f64> = held.map(|(label, _)| *label).collect();
+    held.sort_by(f64::total_cmp);
+    held.dedup();
+    held
 }
 
 fn phase_code(phase: Phase) -> u8 {
-    match phase {
-        Phase::Void => 0,
-        Phase::Wood => WOOD,
-        Phase::Adhesive => ADHESIVE,
-    }
+    [0, WOOD, ADHESIVE][phase as usize]
 }
 
 fn guess_code(value: f64) -> u8 {
-    let phases = [Phase::Void, Phase::Wood, Phase::Adhesive];
-    for (labels, seen) in GUESSES {
-        if let Some(i) = labels.iter().position(|l| *l == value) {
-            return phase_code(phases[i]) | seen[i];
-        }
-    }
-    UNKNOWN
+    let code = |(labels, seen): (&[f64], [u8; 3])| {
+        let i = labels.iter().position(|l| *l == value)?;
+        Some(phase_code(Phase::ALL[i]) | seen[i])
+    };
+    GUESSES.into_iter().find_map(code).unwrap_or(UNKNOWN)
 }
 
 /// Gathers bit 0 of each code into `wood`, bit 1 into `adhesive`, 64 pixels a word, and
@@ -145,10 +135,8 @@ fn pack(mut codes: impl Iterator<Item = u8>, wood: &mut [u64], adhesive: &mut [u
     let mut union = 0_u64;
     for (wood, adhesive) in wood.iter_mut().zip(adhesive) {
         let mut block = [0_u8; 64];
-        block
-            .iter_mut()
-            .zip(codes.by_ref())
-            .for_each(|(slot, code)| *slot = code);
+        let coded = block.iter_mut().zip(codes.by_ref());
+        coded.for_each(|(slot, code)| *slot = code);
         (*wood, *adhesive) = (0, 0);
         for (i, eight) in block.as_chunks::<8>().0.iter().enumerate() {
             let codes = u64::from_le_bytes(*eight);
@@ -170,25 +158,24 @@ mod tests {
         let (mut wood, mut adhesive) = ([!0; 3], [!0; 3]);
         pack(codes.iter().copied(), &mut wood, &mut adhesive);
         for i in 0..192 {
+            let bits = [wood, adhesive].map(|words| words[i / 64] >> (i % 64) & 1 == 1);
             let code = codes.get(i).copied().unwrap_or(0);
-            assert_eq!(wood[i / 64] >> (i % 64) & 1, u64::from(code == WOOD), "{i}");
-            let bit = adhesive[i / 64] >> (i % 64) & 1;
-            assert_eq!(bit, u64::from(code == ADHESIVE), "{i}");
+            assert_eq!(bits, [code == WOOD, code == ADHESIVE], "{i}");
         }
     }
 
     #[test]
     fn a_guess_needs_all_labels_of_one_set_or_its_void_and_wood() {
-        let of = |values: &[f64]| guessed(values.iter().fold(0, |u, v| u | guess_code(*v)));
-        assert_eq!(of(&[0.0, 1.0, 2.0]), Some(&[0.0, 1.0, 2.0][..]));
-        assert_eq!(of(&[255.0, 0.0, 128.0]), Some(&[0.0, 128.0, 255.0][..]));
-        assert_eq!(of(&[0.0, 1.0]), Some(&[0.0, 1.0][..]));
-        assert_eq!(of(&[128.0, 0.0]), Some(&[0.0, 128.0][..]));
-        let held = [255.0, 0.0, 2.0]
-            .map(guess_code)
-            .iter()
-            .fold(0, |u, code| u | code);
-        assert_eq!(found(held), [0.0, 2.0, 255.0]);
+        let union = |values: &[f64]| values.iter().fold(0, |u, v| u | guess_code(*v));
+        for known in [
+            &[0.0, 1.0, 2.0][..],
+            &[0.0, 128.0, 255.0],
+            &[0.0, 1.0],
+            &[0.0, 128.0],
+        ] {
+            assert_eq!(guessed(union(known)), Some(known));
+        }
+        assert_eq!(found(union(&[255.0, 0.0, 2.0])), [0.0, 2.0, 255.0]);
         // What 255 beside 0 alone is, wood or adhesive, nobody can tell.
         for unknown in [
             &[0.0][..],
@@ -200,7 +187,7 @@ mod tests {
             &[0.0, 1.0, 2.0, 128.0],
             &[0.0, 1.0, 2.0, 3.0],
         ] {
-            assert_eq!(of(unknown), None, "{unknown:?}");
+            assert_eq!(guessed(union(unknown)), None, "{unknown:?}");
         }
     }
 }

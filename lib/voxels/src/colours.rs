@@ -29,10 +29,8 @@ pub(crate) enum Shown {
 impl Shown {
     /// Greys of more than 8 bits, from black.
     pub(crate) const GREY: Self = Self::Other(1);
-    /// Red, green and blue.
     pub(crate) const RGB: Self = Self::Other(2);
 
-    /// A palette of the colours of 0, 1, ..., as red, green and blue.
     pub(crate) fn opaque(colours: impl Iterator<Item = [u8; 3]>) -> Self {
         Self::Palette(colours.map(|[r, g, b]| [r, g, b, OPAQUE]).collect())
     }
@@ -63,58 +61,25 @@ impl Shown {
         let shared = self.len().min(other.len());
         self == other || shared > 0 && (0..shared).all(|v| self.colour(v) == other.colour(v))
     }
-}
 
-/// The colours of pages on which the stored values do not show the same.
-#[derive(Debug)]
-pub(crate) struct Colours {
-    shown: Vec<Arc<Shown>>,
-    /// Two pages on which a value shows two colours.
-    pub(crate) unlike: [usize; 2],
-}
-
-impl Colours {
-    /// None where each stored value, of type `sample`, shows the same on all pages.
-    ///
-    /// # Errors
-    /// Two pages that differ, where the pages have no colours to go by.
-    pub(crate) fn of(shown: Vec<Arc<Shown>>, sample: Sample) -> Result<Option<Self>, [usize; 2]> {
-        let mut longest = 0;
-        let odd = (0..shown.len()).find(|&i| {
-            let agrees = shown[i].agrees(&shown[longest]);
-            if agrees && shown[i].len() > shown[longest].len() {
-                longest = i;
-            }
-            !agrees
-        });
-        let Some(odd) = odd else { return Ok(None) };
-        let unlike = [longest, odd];
-        if sample == Sample::U8 && shown.iter().all(|shown| shown.len() > 0) {
-            return Ok(Some(Self { shown, unlike }));
-        }
-        Err(unlike)
-    }
-
-    /// The first colours of page `z`, as labels.
-    pub(crate) fn first(&self, z: usize) -> String {
+    /// The first colours, as labels.
+    pub(crate) fn first(&self) -> String {
         const MOST: usize = 4;
-        let shown = &self.shown[z];
-        let mut labels: Vec<String> = (0..shown.len().min(MOST))
-            .filter_map(|value| shown.colour(value))
+        let mut labels: Vec<String> = (0..self.len().min(MOST))
+            .filter_map(|value| self.colour(value))
             .map(|[r, g, b, _]| format!("{r}:{g}:{b}"))
             .collect();
-        if shown.len() > MOST {
+        if self.len() > MOST {
             labels.push("...".into());
         }
         labels.join(", ")
     }
 
-    /// The colours, as red, green and blue, in place of the stored values of page `z`.
-    pub(crate) fn show(&self, z: usize, page: &mut Vec<u8>) -> Result<(), String> {
-        let shown = &self.shown[z];
-        let colours: Vec<_> = (0..=255).map(|value| shown.colour(value)).collect();
+    /// The colours, as red, green and blue, in place of the stored values of a page.
+    pub(crate) fn in_place_of(&self, page: &[u8]) -> Result<Vec<u8>, String> {
+        let colours: Vec<_> = (0..=255).map(|value| self.colour(value)).collect();
         let mut rgb = Vec::with_capacity(3 * page.len());
-        for &value in page.iter() {
+        for &value in page {
             match colours[usize::from(value)] {
                 Some([r, g, b, OPAQUE]) => rgb.extend([r, g, b]),
                 Some(_) => {
@@ -125,13 +90,34 @@ impl Colours {
                 None => {
                     return Err(format!(
                         "it holds {value}, but its palette has {} colours",
-                        shown.len()
+                        self.len()
                     ));
                 }
             }
         }
-        *page = rgb;
-        Ok(())
+        Ok(rgb)
+    }
+}
+
+/// Two pages on which a stored value, of type `sample`, shows two colours, so that their colours
+/// are the labels; none where each value shows the same on all pages. Where there are no colours to go by
+/// such pages are an error.
+pub(crate) fn unlike(
+    shown: &[Arc<Shown>],
+    sample: Sample,
+) -> Result<Option<[usize; 2]>, [usize; 2]> {
+    let mut longest = 0;
+    let odd = (0..shown.len()).find(|&i| {
+        let agrees = shown[i].agrees(&shown[longest]);
+        if agrees && shown[i].len() > shown[longest].len() {
+            longest = i;
+        }
+        !agrees
+    });
+    let coloured = sample == Sample::U8 && shown.iter().all(|shown| shown.len() > 0);
+    match odd.map(|odd| [longest, odd]) {
+        Some(unlike) if !coloured => Err(unlike),
+        unlike => Ok(unlike),
     }
 }
 
@@ -139,79 +125,36 @@ impl Colours {
 mod tests {
     use super::*;
 
-    fn palette(greys: &[u8]) -> Arc<Shown> {
-        Arc::new(Shown::opaque(greys.iter().map(|&g| [g; 3])))
-    }
-
-    fn grey(bits: u16, inverted: bool) -> Arc<Shown> {
-        Arc::new(Shown::Grey { bits, inverted })
-    }
-
-    fn unlike(shown: Vec<Arc<Shown>>) -> Option<[usize; 2]> {
-        Colours::of(shown, Sample::U8).unwrap().map(|c| c.unlike)
-    }
-
     #[test]
     fn palettes_without_their_unused_ends_agree() {
-        assert_eq!(
-            unlike(vec![palette(&[0, 9]), palette(&[0, 9, 7]), palette(&[0])]),
-            None
-        );
-        assert_eq!(unlike(vec![palette(&[0, 1, 2]), grey(8, false)]), None);
-        assert_eq!(unlike(vec![palette(&[255, 0]), grey(1, true)]), None);
-        // The first two pages do not tell which of the others is odd.
-        let shown = vec![
-            palette(&[0]),
-            palette(&[0, 9]),
-            palette(&[0]),
-            palette(&[0, 7]),
-        ];
-        assert_eq!(unlike(shown), Some([1, 3]));
-        assert_eq!(unlike(vec![grey(1, false), grey(8, false)]), Some([0, 1]));
-        assert_eq!(
-            unlike(vec![grey(8, false), grey(8, false), grey(8, true)]),
-            Some([0, 2])
-        );
-    }
-
-    #[test]
-    fn what_has_no_colours_cannot_be_told_by_them() {
+        let p = |greys: &[u8]| Arc::new(Shown::opaque(greys.iter().map(|&g| [g; 3])));
+        let grey = |bits, inverted| Arc::new(Shown::Grey { bits, inverted });
         let other = |code| Arc::new(Shown::Other(code));
-        assert!(
-            Colours::of(vec![other(0), other(0)], Sample::U16)
-                .unwrap()
-                .is_none()
-        );
-        assert_eq!(
-            Colours::of(vec![other(1), other(0)], Sample::F32).unwrap_err(),
-            [0, 1]
-        );
-        let shown = vec![palette(&[0, 1]), palette(&[1, 0])];
-        assert_eq!(Colours::of(shown, Sample::U16).unwrap_err(), [0, 1]);
+        for (shown, right) in [
+            (vec![p(&[0, 9]), p(&[0, 9, 7]), p(&[0])], None),
+            (vec![p(&[0, 1, 2]), grey(8, false)], None),
+            (vec![p(&[255, 0]), grey(1, true)], None),
+            // The first two pages do not tell which of the others is odd.
+            (vec![p(&[0]), p(&[0, 9]), p(&[0]), p(&[0, 7])], Some([1, 3])),
+            (vec![grey(1, false), grey(8, false)], Some([0, 1])),
+            (vec![grey(8, false), grey(8, true)], Some([0, 1])),
+        ] {
+            assert_eq!(unlike(&shown, Sample::U8), Ok(right), "{shown:?}");
+        }
+        // What has no colours cannot be told by them.
+        assert_eq!(unlike(&[other(0), other(0)], Sample::U16), Ok(None));
+        assert_eq!(unlike(&[other(1), other(0)], Sample::F32), Err([0, 1]));
+        let turned = [p(&[0, 1]), p(&[1, 0])];
+        assert_eq!(unlike(&turned, Sample::U16), Err([0, 1]));
     }
 
     #[test]
     fn colours_stand_for_values() {
-        let shown = vec![
-            palette(&[0, 9]),
-            Arc::new(Shown::Palette(vec![[9, 9, 9, 255], [1, 2, 3, 0]])),
-        ];
-        let colours = Colours::of(shown, Sample::U8).unwrap().unwrap();
-        assert_eq!(colours.first(0), "0:0:0, 9:9:9");
-        let mut page = vec![1, 0];
-        colours.show(0, &mut page).unwrap();
-        assert_eq!(page, [9, 9, 9, 0, 0, 0]);
-        assert!(
-            colours
-                .show(0, &mut vec![2])
-                .unwrap_err()
-                .contains("2 colours")
-        );
-        assert!(
-            colours
-                .show(1, &mut vec![1])
-                .unwrap_err()
-                .contains("transparent")
-        );
+        let shown = Shown::Palette(vec![[9, 9, 9, OPAQUE], [0, 0, 0, OPAQUE], [1, 2, 3, 0]]);
+        assert_eq!(shown.first(), "9:9:9, 0:0:0, 1:2:3");
+        assert_eq!(shown.in_place_of(&[1, 0]), Ok(vec![0, 0, 0, 9, 9, 9]));
+        for (value, said) in [(3, "3 colours"), (2, "transparent")] {
+            assert!(shown.in_place_of(&[value]).unwrap_err().contains(said));
+        }
     }
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::str::FromStr;
 
+use crate::Error;
 use crate::sample::PageFormat;
 
 /// A box of voxels to keep, half open: `x0:x1,y0:y1,z0:z1`.
@@ -39,16 +40,13 @@ impl Crop {
             .map(move |row| &row[x.start * pixel..x.end * pixel])
     }
 
-    /// A sentence if the box reaches out of a stack of `[nx, ny, nz]` voxels.
-    pub(crate) fn check(&self, dims: [usize; 3]) -> Result<(), String> {
-        for (axis, (range, n)) in self.0.iter().zip(dims).enumerate() {
-            if range.end > n {
-                return Err(format!(
-                    "the crop {}:{} along {} reaches out of the stack, which has {n} voxels there",
-                    range.start,
-                    range.end,
-                    ["x", "y", "z"][axis]
-                ));
+    /// Refuses a box that reaches out of a stack of `[nx, ny, nz]` voxels.
+    pub(crate) fn check(&self, dims: [usize; 3]) -> Result<(), Error> {
+        for ((Range { start, end }, n), axis) in self.0.iter().zip(dims).zip(["x", "y", "z"]) {
+            if *end > n {
+                return Err(Error::Usage(format!(
+                    "the crop {start}:{end} along {axis} reaches out of the stack, which has {n} voxels there"
+                )));
             }
         }
         Ok(())
@@ -65,14 +63,12 @@ impl FromStr for Crop {
             (!range.is_empty()).then_some(range)
         };
         let ranges: Option<Vec<_>> = text.split(',').map(range).collect();
-        ranges
-            .and_then(|ranges| ranges.try_into().ok())
-            .map(Self)
-            .ok_or_else(|| {
-                format!(
-                    "'{text}' is not a crop; accepted is x0:x1,y0:y1,z0:z1 in voxels, the first kept and the last not"
-                )
-            })
+        let crop = ranges.and_then(|ranges| ranges.try_into().ok()).map(Self);
+        crop.ok_or_else(|| {
+            format!(
+                "'{text}' is not a crop; accepted is x0:x1,y0:y1,z0:z1 in voxels, the first kept and the last not"
+            )
+        })
     }
 }
 
@@ -85,7 +81,8 @@ mod tests {
         let crop: Crop = "0:10,5:7,3:4".parse().unwrap();
         assert_eq!(crop.dims(), [10, 2, 1]);
         assert!(crop.check([10, 7, 4]).is_ok());
-        assert!(crop.check([10, 6, 4]).unwrap_err().contains("along y"));
+        let said = crop.check([10, 6, 4]).unwrap_err().to_string();
+        assert!(said.contains("along y"), "{said}");
         for bad in [
             "",
             "0:10",

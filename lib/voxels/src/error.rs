@@ -6,32 +6,9 @@ use std::io;
 /// Why a stack cannot be read or segmented; one sentence that names the file and the page.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The system cannot read a file.
-    #[error("cannot read {file}: {cause}")]
-    Io {
-        /// The file, quoted.
-        file: String,
-        /// The system's reason.
-        cause: io::Error,
-    },
-    /// A file is not what it should be.
-    #[error("{file}: {what}")]
-    File {
-        /// The file, quoted.
-        file: String,
-        /// What is wrong and what would be accepted.
-        what: String,
-    },
-    /// A page of a file is not what it should be.
-    #[error("{file}, page {page}: {what}")]
-    Page {
-        /// The file, quoted.
-        file: String,
-        /// The page, counted from 1.
-        page: usize,
-        /// What is wrong and what would be accepted.
-        what: String,
-    },
+    /// A file, or a page of it, cannot be read or is not what it should be.
+    #[error("{0}")]
+    Data(String),
     /// The data are sound but the arguments do not fit them.
     #[error("{0}")]
     Usage(String),
@@ -44,25 +21,15 @@ impl Error {
     }
 
     pub(crate) fn io(file: impl Display, cause: io::Error) -> Self {
-        Error::Io {
-            file: file.to_string(),
-            cause,
-        }
+        Error::Data(format!("cannot read {file}: {cause}"))
     }
 
     pub(crate) fn file(file: impl Display, what: impl Display) -> Self {
-        Error::File {
-            file: file.to_string(),
-            what: what.to_string(),
-        }
+        Error::Data(format!("{file}: {what}"))
     }
 
     /// `index` counts from 0, the message from 1.
     pub(crate) fn page(file: impl Display, index: usize, what: impl Display) -> Self {
-        Error::Page {
-            file: file.to_string(),
-            page: index + 1,
-            what: what.to_string(),
-        }
+        Error::Data(format!("{file}, page {}: {what}", index + 1))
     }
 }

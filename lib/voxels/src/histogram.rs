@@ -20,7 +20,6 @@ pub struct Histogram {
     pub(crate) scale: Scale,
     /// Voxels of the first value, of the next ...
     pub counts: Vec<u64>,
-    /// The value at the corners of all pages.
     pub(crate) padding: Option<Padding>,
 }
 
@@ -42,41 +41,42 @@ pub(crate) struct Scale {
     pub(crate) values: usize,
     /// A step is ten to this power.
     pub(crate) power: i32,
-    /// Whether the stack holds integers.
     pub(crate) whole: bool,
 }
 
 impl Scale {
     /// That of a sample whose values are all counted.
     fn of(sample: Sample) -> Option<Self> {
-        let (first, values) = match sample {
-            Sample::U8 => (0, 1 << 8),
-            Sample::I8 => (-(1 << 7), 1 << 8),
-            Sample::U16 => (0, 1 << 16),
-            Sample::I16 => (-(1 << 15), 1 << 16),
+        let (first, bits) = match sample {
+            Sample::U8 => (0, 8),
+            Sample::I8 => (-(1 << 7), 8),
+            Sample::U16 => (0, 16),
+            Sample::I16 => (-(1 << 15), 16),
             _ => return None,
         };
-        Some(Self {
+        Some(Self::whole(first, 1 << bits))
+    }
+
+    pub(crate) fn whole(first: i64, values: usize) -> Self {
+        Self {
             first,
             values,
             power: 0,
             whole: true,
-        })
+        }
     }
 
     /// That of the values in `range`, in the finest steps that are few enough.
     fn covering(range: Range<f64>, whole: bool) -> Self {
-        let finest = ((range.end - range.start) / (MOST - 2) as f64)
-            .log10()
-            .ceil();
-        let power = match finest.is_finite() {
-            true => (finest as i32).clamp(if whole { 0 } else { -300 }, 300),
-            false => 0,
+        let finest = (range.end - range.start) / (MOST - 2) as f64;
+        let power = match finest.log10().ceil() {
+            finest if finest.is_finite() => finest as i32,
+            _ => 0,
         };
         let mut scale = Self {
             first: 0,
             values: MOST,
-            power,
+            power: power.clamp(if whole { 0 } else { -300 }, 300),
             whole,
         };
         scale.first = scale.steps(range.start).round() as i64;
@@ -96,7 +96,6 @@ impl Scale {
         (0.0 <= place && place < self.values as f64).then_some(place as usize)
     }
 
-    /// The value at a place.
     pub(crate) fn value(&self, place: usize) -> f64 {
         let steps = (self.first + place as i64) as f64;
         match self.power {
@@ -113,7 +112,7 @@ impl Histogram {
     /// A page that cannot be read, pixels that are not one number, or a crop that reaches out of the
     /// stack.
     pub fn of(stack: &Stack, crop: &Crop) -> Result<Self, Error> {
-        crop.check(stack.dims()).map_err(Error::Usage)?;
+        crop.check(stack.dims())?;
         stack.check_numbers()?;
         stack.fits(stack.reading_bytes())?;
         let format = stack.format();
@@ -129,14 +128,15 @@ impl Histogram {
         };
         let Counted { counts, corners } =
             Counted::pages(stack, crop, scale.values, |value| scale.place(value))?;
-        let padding = corners.into_iter().next_back().and_then(|(value, corner)| {
+        let highest = corners.into_iter().next_back();
+        let padding = highest.and_then(|(value, (pages, voxels))| {
             let value = f64::from_bits(value);
-            let padding = Padding {
+            let place = scale.place(value)?;
+            (pages == crop.dims()[2]).then_some(Padding {
                 value,
-                place: scale.place(value)?,
-                voxels: corner.voxels,
-            };
-            (corner.pages == crop.dims()[2]).then_some(padding)
+                place,
+                voxels,
+            })
         });
         Ok(Self {
             scale,
@@ -152,15 +152,15 @@ impl Histogram {
         })?;
         let total: u64 = counted.counts.iter().sum();
         let most = (FEW * total as f64) as u64;
-        let beyond = |places: &mut dyn Iterator<Item = usize>| {
+        let beyond = |place: &dyn Fn(usize) -> usize| {
             let mut voxels = 0;
-            let passed = |&place: &usize| {
-                voxels += counted.counts[place];
+            let passed = |i: &usize| {
+                voxels += counted.counts[place(*i)];
                 voxels <= most
             };
-            places.take_while(passed).count()
+            (0..MOST).take_while(passed).count()
         };
-        let (below, above) = (beyond(&mut (0..MOST)), beyond(&mut (0..MOST).rev()));
+        let (below, above) = (beyond(&|i| i), beyond(&|i| MOST - 1 - i));
         let low = of_coarse(below.min(MOST - 1));
         let high = of_coarse((MOST - above).clamp(below + 1, MOST).min(MOST - 1));
         // What is as far again is no outlier.
@@ -198,18 +198,11 @@ fn of_coarse(place: usize) -> f64 {
     f64::from(value.clamp(f32::MIN, f32::MAX))
 }
 
-/// What is counted of pages.
 struct Counted {
     counts: Vec<u64>,
     /// By the bits of a value: pages with it at all corners, and voxels that stand in rows from
     /// there on.
-    corners: BTreeMap<u64, Corner>,
-}
-
-#[derive(Clone, Copy, Default)]
-struct Corner {
-    pages: usize,
-    voxels: u64,
+    corners: BTreeMap<u64, (usize, u64)>,
 }
 
 impl Counted {
@@ -236,8 +229,7 @@ impl Counted {
                     }
                 }
                 if let Some((value, voxels)) = corners(format, &rows) {
-                    let pages = 1;
-                    counted.add(value, Corner { pages, voxels });
+                    counted.add(value, (1, voxels));
                 }
                 Ok::<_, Error>(counted)
             })
@@ -250,10 +242,9 @@ impl Counted {
             })
     }
 
-    fn add(&mut self, value: u64, corner: Corner) {
+    fn add(&mut self, value: u64, corner: (usize, u64)) {
         let sum = self.corners.entry(value).or_default();
-        sum.pages += corner.pages;
-        sum.voxels += corner.voxels;
+        *sum = (sum.0 + corner.0, sum.1 + corner.1);
     }
 }
 
@@ -276,14 +267,11 @@ fn corners(format: PageFormat, rows: &[&[u8]]) -> Option<(u64, u64)> {
         return None;
     }
     let same = |v: &f64| *v == value;
+    let bytes = format.sample.bytes();
     let padded = rows.iter().map(|row| {
         let before = values(format, row).take_while(same).count();
-        let pixels = row.len() / format.sample.bytes();
-        if before == pixels {
-            return pixels;
-        }
-        let pixels = row.rchunks_exact(format.sample.bytes());
-        let behind = pixels.map(|pixel| format.sample.value(pixel));
+        let behind = row[before * bytes..].rchunks_exact(bytes);
+        let behind = behind.map(|pixel| format.sample.value(pixel));
         before + behind.take_while(same).count()
     });
     Some((value.to_bits(), padded.sum::<usize>() as u64))

@@ -48,12 +48,8 @@ impl FromStr for Label {
 
     fn from_str(text: &str) -> Result<Self, String> {
         // Beyond 2^53 two stored integers could share one double.
-        let number = |part: &str| {
-            part.trim()
-                .parse::<f64>()
-                .ok()
-                .filter(|v| v.abs() < 9_007_199_254_740_992.0 && v.fract() == 0.0)
-        };
+        let is_label = |v: &f64| v.abs() < 9_007_199_254_740_992.0 && v.fract() == 0.0;
+        let number = |part: &str| part.trim().parse().ok().filter(is_label);
         let parts: Option<Vec<f64>> = text.split(':').map(number).collect();
         match parts.as_deref() {
             Some(&[value]) => Ok(Label::Value(value)),

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use particle_file::{BitGrid, BitsRef, Block, Error, Header, Material, ParticleFile, limits};
 
+use crate::lattice::set_voxels;
 use crate::tiff::TiffWriter;
 use crate::volume_fractions::VolumeFractions;
 
@@ -33,12 +34,22 @@ pub struct LabelVolume<'a> {
     liquid: Option<Liquid<'a>>,
 }
 
-/// A block on the lattice.
+#[derive(Clone, Copy)]
 struct PlacedBlock<'a> {
     label: u8,
     /// Lattice voxel of its voxel (0, 0, 0).
     at: [usize; 3],
     bits: BitsRef<'a>,
+}
+
+impl<'a> PlacedBlock<'a> {
+    fn new(block: &Block, at: [usize; 3], bits: BitsRef<'a>) -> Self {
+        let label = match block.material {
+            Material::Rigid => WOOD,
+            Material::Adhesive => ADHESIVE,
+        };
+        Self { label, at, bits }
+    }
 }
 
 struct Liquid<'a> {
@@ -64,8 +75,7 @@ impl<'a> LabelVolume<'a> {
         let mut blocks = Vec::new();
         for (index, at) in places.into_iter().enumerate() {
             let (block, bits) = file.block(index)?;
-            let label = label_of(block);
-            blocks.push(PlacedBlock { label, at, bits });
+            blocks.push(PlacedBlock::new(block, at, bits));
         }
         let dims = dims(file, &blocks)?;
         // Wood is written last, over adhesive.
@@ -85,16 +95,11 @@ impl<'a> LabelVolume<'a> {
 
     /// The labels of one block, exactly where it is.
     pub fn of_block(block: &Block, bits: BitsRef<'a>) -> Self {
-        let placed = PlacedBlock {
-            label: label_of(block),
-            at: [0; 3],
-            bits,
-        };
         Self {
             dims: bits.dims(),
             origin_m: block.origin_m,
             voxel_m: block.voxel_m,
-            blocks: vec![placed],
+            blocks: vec![PlacedBlock::new(block, [0; 3], bits)],
             liquid: None,
         }
     }
@@ -109,13 +114,10 @@ impl<'a> LabelVolume<'a> {
             return Err(corrupt(file, what));
         }
         let mut fractions = VolumeFractions::new(self.void());
-        // Half a voxel: bodies were put on the nearest voxels.
-        let inside = |place: [f64; 3]| {
-            (0..3).all(|a| (-0.5..=self.dims[a] as f64 + 0.5).contains(&place[a]))
-        };
         for (position, &volume) in position.iter().zip(volume) {
             let place = self.place(*position);
-            if inside(place) {
+            // Half a voxel: bodies were put on the nearest voxels.
+            if (0..3).all(|a| (-0.5..=self.dims[a] as f64 + 0.5).contains(&place[a])) {
                 fractions.add(place, f64::from(volume) / voxel);
             }
         }
@@ -132,13 +134,8 @@ impl<'a> LabelVolume<'a> {
         let mut void = BitGrid::from_fn(self.dims, |_, _, _| true);
         for placed in &self.blocks {
             let [i, j, k] = placed.at;
-            let [_, ny, nz] = placed.bits.dims();
-            for z in 0..nz {
-                for y in 0..ny {
-                    (placed.bits.set_in_row(y, z))
-                        .for_each(|x| void.set(i + x, j + y, k + z, false));
-                }
-            }
+            let filled = set_voxels(placed.bits);
+            filled.for_each(|[x, y, z]| void.set(i + x, j + y, k + z, false));
         }
         void
     }
@@ -155,36 +152,31 @@ impl<'a> LabelVolume<'a> {
     }
 
     /// The label of one voxel.
-    ///
-    /// # Panics
-    /// Outside the lattice.
-    pub fn label(&self, [x, y, z]: [usize; 3]) -> u8 {
-        let wet = (self.liquid.as_ref()).is_some_and(|liquid| liquid.voxels.get(x, y, z));
-        // Wood comes last and counts first.
-        let block = self.blocks.iter().rev().find(|placed| {
-            let [i, j, k] = placed.at;
-            let [nx, ny, nz] = placed.bits.dims();
-            let inside = (i..i + nx).contains(&x) && (j..j + ny).contains(&y);
-            let inside = inside && (k..k + nz).contains(&z);
-            inside && placed.bits.get(x - i, y - j, z - k)
+    pub fn label(&self, voxel: [usize; 3]) -> u8 {
+        let mut layers = self.layers().rev();
+        let holder = layers.find(|placed| {
+            let dims = placed.bits.dims();
+            let [x, y, z] = [0, 1, 2].map(|a| voxel[a].wrapping_sub(placed.at[a]));
+            x < dims[0] && y < dims[1] && z < dims[2] && placed.bits.get(x, y, z)
         });
-        match block {
-            Some(placed) => placed.label,
-            None if wet => ADHESIVE,
-            None => VOID,
-        }
+        holder.map_or(VOID, |placed| placed.label)
+    }
+
+    /// What fills voxels; of two at one the later counts.
+    fn layers(&self) -> impl DoubleEndedIterator<Item = PlacedBlock<'_>> {
+        let liquid = self.liquid.as_ref().map(|liquid| PlacedBlock {
+            label: ADHESIVE,
+            at: [0; 3],
+            bits: liquid.voxels.view(),
+        });
+        liquid.into_iter().chain(self.blocks.iter().copied())
     }
 
     /// Writes the labels of page `z` into `page`, x fastest.
     fn page(&self, z: usize, page: &mut [u8]) {
         page.fill(VOID);
         let nx = self.dims[0];
-        if let Some(liquid) = &self.liquid {
-            for y in 0..self.dims[1] {
-                (liquid.voxels.view().set_in_row(y, z)).for_each(|x| page[y * nx + x] = ADHESIVE);
-            }
-        }
-        for placed in &self.blocks {
+        for placed in self.layers() {
             let [_, ny, nz] = placed.bits.dims();
             let Some(k) = z.checked_sub(placed.at[2]).filter(|&k| k < nz) else {
                 continue;
@@ -256,13 +248,6 @@ impl<'a> LabelVolume<'a> {
     }
 }
 
-fn label_of(block: &Block) -> u8 {
-    match block.material {
-        Material::Rigid => WOOD,
-        Material::Adhesive => ADHESIVE,
-    }
-}
-
 fn corrupt(file: &ParticleFile, what: String) -> Error {
     Error::Corrupt {
         file: file.name().to_owned(),
@@ -304,29 +289,25 @@ fn dims(file: &ParticleFile, blocks: &[PlacedBlock]) -> Result<[usize; 3], Error
     /// Bytes of the voxels that a liquid point reaches while the fullest are found.
     const RANKS: u64 = 32;
     let header = file.header();
-    let end = |placed: &PlacedBlock, a: usize| placed.at[a].saturating_add(placed.bits.dims()[a]);
-    let dims: [usize; 3] = std::array::from_fn(|a| match blocks {
-        [] => {
+    let dims: [usize; 3] = std::array::from_fn(|a| {
+        let ends = blocks
+            .iter()
+            .map(|b| b.at[a].saturating_add(b.bits.dims()[a]));
+        ends.max().unwrap_or_else(|| {
             let edge = header.box_max_m[a] - header.box_min_m[a];
             (edge / header.voxel_m).round().max(1.0) as usize
-        }
-        _ => blocks.iter().map(|b| end(b, a)).max().unwrap_or(1),
+        })
     });
     let voxels = limits::volume(dims.map(|n| n as u64));
-    let bytes = if header.particles > 0 {
-        LABEL + FRACTION
-    } else {
-        LABEL
-    };
     let what = "labels of its voxels";
-    file.is_worth(voxels.saturating_mul(bytes), what)?;
-    if header.particles > 0 {
-        // Labels are made page by page; fractions and ranks are not.
-        let ranks = header.particles.saturating_mul(RANKS);
-        file.fits(
-            voxels.saturating_mul(FRACTION + BITS).saturating_add(ranks),
-            what,
-        )?;
+    if header.particles == 0 {
+        file.is_worth(voxels.saturating_mul(LABEL), what)?;
+        return Ok(dims);
     }
+    file.is_worth(voxels.saturating_mul(LABEL + FRACTION), what)?;
+    // Labels are made page by page; fractions and ranks are not.
+    let ranks = header.particles.saturating_mul(RANKS);
+    let fractions = voxels.saturating_mul(FRACTION + BITS);
+    file.fits(fractions.saturating_add(ranks), what)?;
     Ok(dims)
 }

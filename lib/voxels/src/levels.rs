@@ -46,21 +46,21 @@ impl Levels {
     pub(crate) fn edges(&self, phases: usize) -> Vec<usize> {
         let last = self.count();
         let mut best = (f64::NEG_INFINITY, Vec::new());
-        let mut hold = |weight: f64, edges: &[usize]| {
-            if weight > best.0 {
-                best = (weight, edges.to_vec());
-            }
-        };
         for a in 1..last {
-            let below = self.weight(0, a);
-            if phases == 2 {
-                hold(below + self.weight(a, last), &[0, a, last]);
-            }
-            for b in (a + 1..last).filter(|_| phases > 2) {
-                let weight = below + self.weight(a, b) + self.weight(b, last);
-                hold(weight, &[0, a, b, last]);
+            // With two phases the third class is empty.
+            let seconds = if phases == 2 {
+                last..last + 1
+            } else {
+                a + 1..last
+            };
+            for b in seconds {
+                let weight = self.weight(0, a) + self.weight(a, b) + self.weight(b, last);
+                if weight > best.0 {
+                    best = (weight, vec![0, a, b, last]);
+                }
             }
         }
+        best.1.truncate(phases + 1);
         best.1
     }
 

@@ -18,8 +18,10 @@ mod folder;
 mod foreign;
 mod histogram;
 mod images;
+mod kind;
 mod label;
 mod label_volume;
+mod lattice;
 mod levels;
 mod mhd;
 mod names;
@@ -40,6 +42,7 @@ mod stack;
 mod surface;
 mod swapped;
 mod tiff;
+mod volume;
 mod volume_fractions;
 mod voxel_size;
 

@@ -1,124 +1,81 @@
 //! MetaImage: a text header (`.mhd`) and pixels, raw, by zlib or as text, beside it or behind it
 //! (<https://itk.org/Wiki/ITK/MetaIO/Documentation>).
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::Error;
 use crate::beside::data_files;
-use crate::pixels::{Coding, Pixels, Start};
-use crate::raw::RawVolume;
+use crate::pixels::{Coding, Described, whole_numbers};
+use crate::raw::Raw;
 use crate::sample::{PageFormat, Sample};
-use crate::source::Source;
 use crate::voxel_size::{VoxelSize, decimal};
 
 /// Spacings that can be meant, in whatever unit.
 const SPACING: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
-/// A header longer than this is none; it may name thousands of files.
-const MAX_HEADER: usize = 1 << 20;
 
-pub(crate) fn is_mhd(head: &[u8]) -> bool {
-    let text = String::from_utf8_lossy(head);
-    let key = text.split('=').next().unwrap_or_default().trim();
-    ["ObjectType", "NDims", "Comment"].contains(&key)
-}
+pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
+    let (fields, end) = fields(head)?;
+    let field = |key: &str| {
+        let found = fields.iter().find(|(own, ..)| own == key);
+        found.map(|(_, value, line)| (value.as_str(), *line))
+    };
+    let wrong = |line, accepted: &str| format!("line {line} of its header: accepted is {accepted}");
+    let needed = |key: &str| field(key).ok_or_else(|| format!("its header has no {key}"));
+    // As its own library reads them.
+    let is = |key: &str, first: [char; 3]| field(key).is_some_and(|(v, _)| v.starts_with(first));
+    let flag = |key: &str| is(key, ['T', 't', '1']);
 
-/// Opens the header in `source` and the pixels it points to, relative to `path`.
-pub(crate) fn open(source: Source, path: &Path) -> Result<(RawVolume, Option<VoxelSize>), Error> {
-    let head = source
-        .window(0, MAX_HEADER)
-        .map_err(|e| Error::io(&source, e))?;
-    let wrong = |what| Error::file(&source, what);
-    let header = Header::parse(&head, path).map_err(wrong)?;
-    let beside = (header.files.iter())
-        .map(|file| Source::open_slice(file))
-        .collect::<Result<_, _>>()?;
-    Ok((header.pixels.open(source, beside)?, header.voxel_size))
-}
-
-struct Header {
-    pixels: Pixels,
-    /// None where the pixels stand behind the header.
-    files: Vec<PathBuf>,
-    voxel_size: Option<VoxelSize>,
-}
-
-impl Header {
-    fn parse(head: &[u8], path: &Path) -> Result<Self, String> {
-        let (fields, end) = fields(head)?;
-        let field = |key: &str| {
-            let found = fields.iter().find(|f| f.key == key);
-            found.map(|f| (f.value.as_str(), f.line))
-        };
-        let wrong =
-            |line, accepted: &str| format!("line {line} of its header: accepted is {accepted}");
-        let needed = |key: &str| field(key).ok_or_else(|| format!("its header has no {key}"));
-        // As its own library reads them.
-        let is =
-            |key: &str, first: [char; 3]| field(key).is_some_and(|(v, _)| v.starts_with(first));
-        let flag = |key: &str| is(key, ['T', 't', '1']);
-
-        let (dims, line) = needed("DimSize")?;
-        let axes: Option<Vec<usize>> = dims.split_whitespace().map(|n| n.parse().ok()).collect();
-        let [width, height, pages] = axes
-            .and_then(|axes| axes.try_into().ok())
-            .ok_or_else(|| wrong(line, "three numbers of voxels along x, y, z"))?;
-        let (kind, line) = needed("ElementType")?;
-        let sample = sample_of(kind).ok_or_else(|| {
-            wrong(line, "MET_ and UCHAR, CHAR, USHORT, SHORT, UINT, INT, ULONG, LONG, ULONG_LONG, LONG_LONG, FLOAT or DOUBLE")
-        })?;
-        let channels = match field("ElementNumberOfChannels") {
-            None | Some(("1", _)) => 1,
-            Some(("3", _)) => 3,
-            Some(_) => return Err("its pixels have neither 1 nor 3 channels".into()),
-        };
-        let (value, line) = needed("ElementDataFile")?;
-        let (files, start) = match (value, field("HeaderSize")) {
-            ("", _) => return Err(wrong(line, "a file name, LOCAL or LIST")),
-            ("LOCAL", _) => (Vec::new(), Start::At(end as u64)),
-            (_, skip) => {
-                let start = match skip {
-                    None => Start::At(0),
-                    Some(("-1", _)) => Start::FromEnd,
-                    Some((n, line)) => Start::At(
-                        n.parse()
-                            .map_err(|_| wrong(line, "a number from 0, or -1"))?,
-                    ),
-                };
-                (
-                    data_files(path, value, &head[end..], "ElementDataFile")?,
-                    start,
-                )
-            }
-        };
-        Ok(Self {
-            pixels: Pixels {
-                format: PageFormat {
-                    width,
-                    height,
-                    sample,
-                    channels,
-                },
-                pages,
-                big_endian: flag("ElementByteOrderMSB") || flag("BinaryDataByteOrderMSB"),
-                coding: match () {
-                    () if flag("CompressedData") => Coding::Zlib,
-                    () if is("BinaryData", ['F', 'f', '0']) => Coding::Text,
-                    () => Coding::Raw,
-                },
-                start,
-                skip: 0,
-            },
-            files,
-            voxel_size: voxel_size(field("ElementSpacing"), field("DistanceUnits"))?,
-        })
+    let (dims, line) = needed("DimSize")?;
+    let axes = whole_numbers(dims).and_then(|axes| axes.try_into().ok());
+    let [width, height, pages] =
+        axes.ok_or_else(|| wrong(line, "three numbers of voxels along x, y, z"))?;
+    let (kind, line) = needed("ElementType")?;
+    let sample = sample_of(kind).ok_or_else(|| {
+        wrong(line, "MET_ and UCHAR, CHAR, USHORT, SHORT, UINT, INT, ULONG, LONG, ULONG_LONG, LONG_LONG, FLOAT or DOUBLE")
+    })?;
+    let channels = match field("ElementNumberOfChannels") {
+        None | Some(("1", _)) => 1,
+        Some(("3", _)) => 3,
+        Some(_) => return Err("its pixels have neither 1 nor 3 channels".into()),
+    };
+    let (value, line) = needed("ElementDataFile")?;
+    let local = value == "LOCAL";
+    if value.is_empty() {
+        return Err(wrong(line, "a file name, LOCAL or LIST"));
     }
+    let skip = field("HeaderSize").filter(|_| !local);
+    let at_end = skip.is_some_and(|(n, _)| n == "-1");
+    let offset = match skip {
+        _ if local => end as u64,
+        Some((n, line)) if !at_end => n
+            .parse()
+            .map_err(|_| wrong(line, "a number from 0, or -1"))?,
+        _ => 0,
+    };
+    let files = match local {
+        true => Vec::new(),
+        false => data_files(path, value, &head[end..], "ElementDataFile")?,
+    };
+    Ok(Described {
+        raw: Raw {
+            format: PageFormat::new([width, height], sample, channels),
+            pages,
+            offset,
+            big_endian: flag("ElementByteOrderMSB") || flag("BinaryDataByteOrderMSB"),
+        },
+        at_end,
+        coding: match () {
+            () if flag("CompressedData") => Coding::Zlib,
+            () if is("BinaryData", ['F', 'f', '0']) => Coding::Text,
+            () => Coding::Raw,
+        },
+        skip: 0,
+        files,
+        voxel_size: voxel_size(field("ElementSpacing"), field("DistanceUnits"))?,
+    })
 }
 
-struct Field {
-    key: String,
-    value: String,
-    line: usize,
-}
+/// Key, value and number of a line.
+type Field = (String, String, usize);
 
 /// `key = value` lines with their line numbers up to ElementDataFile, which is the last one
 /// by definition, and the byte behind it.
@@ -127,21 +84,16 @@ fn fields(head: &[u8]) -> Result<(Vec<Field>, usize), String> {
     let mut end = 0;
     for (i, line) in head.split_inclusive(|b| *b == b'\n').enumerate() {
         end += line.len();
-        let text = String::from_utf8_lossy(line);
+        let (text, line) = (String::from_utf8_lossy(line), i + 1);
         if text.trim().is_empty() {
             continue;
         }
         let (key, value) = text
             .split_once('=')
-            .ok_or_else(|| format!("line {} of its header is not KEY = VALUE", i + 1))?;
-        let key = key.trim().to_owned();
+            .ok_or_else(|| format!("line {line} of its header is not KEY = VALUE"))?;
+        let [key, value] = [key, value].map(|text| text.trim().to_owned());
         let last = key == "ElementDataFile";
-        let value = value.trim().to_owned();
-        fields.push(Field {
-            key,
-            value,
-            line: i + 1,
-        });
+        fields.push((key, value, line));
         if last {
             return Ok((fields, end));
         }
@@ -178,10 +130,9 @@ fn voxel_size(
         .map(|edge| decimal(edge).filter(|e| SPACING.contains(e)))
         .collect();
     let Some(&[x, y, z]) = edges.as_deref() else {
+        let (low, high) = (SPACING.start(), SPACING.end());
         return Err(format!(
-            "line {line} of its header: accepted are three spacings along x, y, z from {:e} to {:e}",
-            SPACING.start(),
-            SPACING.end()
+            "line {line} of its header: accepted are three spacings along x, y, z from {low:e} to {high:e}"
         ));
     };
     let size = |(unit, _)| VoxelSize::in_units([x, y, z], [unit; 3], "MetaImage spacing");

@@ -25,16 +25,13 @@ pub(crate) struct Name {
 /// sign where fewer texts then differ, as in z-1, z0, z1.
 pub(crate) fn read(slices: &[PathBuf], decimals: bool) -> Vec<Name> {
     let read = |signs| -> Vec<Name> {
-        let names = slices.iter();
-        names
-            .map(|path| Name::read(path, signs, decimals))
-            .collect()
+        let names = slices.iter().map(|path| Name::read(path, signs, decimals));
+        names.collect()
     };
     let [plain, signed] = [false, true].map(read);
-    if texts(&signed).len() < texts(&plain).len() {
-        signed
-    } else {
-        plain
+    match texts(&signed).len() < texts(&plain).len() {
+        true => signed,
+        false => plain,
     }
 }
 
@@ -50,11 +47,9 @@ pub(crate) fn texts(names: &[Name]) -> BTreeMap<&str, Vec<usize>> {
 impl Name {
     fn read(path: &Path, signs: bool, decimals: bool) -> Self {
         let ending = path.extension().unwrap_or_default().to_string_lossy();
-        let is_number = ending.chars().all(|c| c.is_ascii_digit());
-        let stem = if is_number {
-            path
-        } else {
-            &path.with_extension("")
+        let stem = match ending.chars().all(|c| c.is_ascii_digit()) {
+            true => path,
+            false => &path.with_extension(""),
         };
         let stem = stem.to_string_lossy().to_lowercase();
         let mut name = Self {

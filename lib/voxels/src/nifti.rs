@@ -5,49 +5,41 @@
 use std::io::Read;
 
 use crate::Error;
-use crate::pixels::{self, Coding, Pixels, Start};
-use crate::raw::RawVolume;
+use crate::kind::{NIFTI_HEADERS, is_gzip, nifti_version};
+use crate::pixels::{self, Coding, Described};
+use crate::raw::Raw;
 use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
+use crate::volume::Volume;
 use crate::voxel_size::VoxelSize;
 
-/// Length of a header of version 1 and 2, which is also its first field.
-const HEADERS: [usize; 2] = [348, 540];
-
-/// Whether a file that begins so is NIfTI; a gzipped one is told by [`pixels::is_gzip`], for
-/// nothing else is read gzipped.
-pub(crate) fn is_nifti(head: &[u8]) -> bool {
-    Fields::new(head).is_some()
-}
-
-pub(crate) fn open(source: Source) -> Result<(RawVolume, Option<VoxelSize>), Error> {
-    let length = HEADERS[1];
-    let plain = source
-        .window(0, length)
-        .map_err(|e| Error::io(&source, e))?;
-    let packed = pixels::is_gzip(&plain);
-    let head = if packed {
-        let mut head = Vec::new();
-        pixels::reader(&source, 0, Coding::Gzip)?
-            .take(length as u64)
-            .read_to_end(&mut head)
-            .map_err(|e| Error::io(&source, e))?;
-        head
-    } else {
-        plain
+pub(crate) fn open(source: Source) -> Result<Volume, Error> {
+    let unreadable = |e| Error::io(&source, e);
+    let begin = source.window(0, 2).map_err(unreadable)?;
+    let coding = match is_gzip(&begin) {
+        true => Coding::Gzip,
+        false => Coding::Raw,
     };
+    let mut head = Vec::new();
+    (pixels::reader(&source, 0, coding))
+        .and_then(|content| content.take(NIFTI_HEADERS[1] as u64).read_to_end(&mut head))
+        .map_err(unreadable)?;
     let wrong = |what: &str| Error::file(&source, what);
-    let fields = Fields::new(&head).ok_or_else(|| {
-        wrong("it is gzipped but no NIfTI image inside; accepted are .nii.gz files: unpack others with gunzip")
-    })?;
-    if head.len() < HEADERS[usize::from(fields.second)] {
+    let Some((version, big_endian)) = nifti_version(&head) else {
+        return Err(wrong(
+            "it is gzipped but no NIfTI image inside; accepted are .nii.gz files: unpack others with gunzip",
+        ));
+    };
+    if head.len() < NIFTI_HEADERS[version] {
         return Err(wrong("its header is truncated"));
     }
-    let (mut pixels, voxel_size) = fields.header().map_err(|what| wrong(&what))?;
-    if packed {
-        pixels.coding = Coding::Gzip;
-    }
-    Ok((pixels.open(source, Vec::new())?, voxel_size))
+    let fields = Fields {
+        head: &head,
+        second: version == 1,
+        big_endian,
+    };
+    let described = fields.described(coding).map_err(|what| wrong(&what))?;
+    described.open(source)
 }
 
 /// The fields of a header by where they stand.
@@ -57,24 +49,7 @@ struct Fields<'a> {
     big_endian: bool,
 }
 
-impl<'a> Fields<'a> {
-    fn new(head: &'a [u8]) -> Option<Self> {
-        let length: [u8; 4] = head.get(..4)?.try_into().ok()?;
-        let found = |length: u32| HEADERS.iter().position(|&n| n == length as usize);
-        let (version, big_endian) = match found(u32::from_le_bytes(length)) {
-            Some(version) => (version, false),
-            None => (found(u32::from_be_bytes(length))?, true),
-        };
-        let magic = if version == 0 { 344..348 } else { 4..8 };
-        let known: [&[u8]; 4] = [b"n+1\0", b"ni1\0", b"n+2\0", b"ni2\0"];
-        let known = head.len() >= HEADERS[0] && known.contains(&&head[magic]);
-        known.then_some(Self {
-            head,
-            second: version == 1,
-            big_endian,
-        })
-    }
-
+impl Fields<'_> {
     fn number<const N: usize>(&self, at: usize) -> [u8; N] {
         let mut bytes = [0; N];
         bytes.copy_from_slice(&self.head[at..at + N]);
@@ -99,7 +74,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    fn header(&self) -> Result<(Pixels, Option<VoxelSize>), String> {
+    fn described(&self, coding: Coding) -> Result<Described, String> {
         let magic = if self.second { 4 } else { 344 };
         if self.head[magic + 1] == b'i' {
             return Err("its pixels stand in an .img file beside it; accepted is NIfTI in one file: save it as .nii or .nii.gz".into());
@@ -119,21 +94,20 @@ impl<'a> Fields<'a> {
             false => f32::from_le_bytes(self.number(108)) as i64,
         };
         let offset = u64::try_from(offset).ok().filter(|n| *n >= 348);
-        let pixels = Pixels {
-            format: PageFormat {
-                width,
-                height,
-                sample,
-                channels,
+        Ok(Described {
+            raw: Raw {
+                format: PageFormat::new([width, height], sample, channels),
+                pages,
+                offset: 0,
+                big_endian: self.big_endian,
             },
-            pages,
-            big_endian: self.big_endian,
-            coding: Coding::Raw,
-            start: Start::At(0),
+            at_end: false,
+            coding,
             // Deflate cannot seek, so the header is unpacked with the pixels.
             skip: offset.ok_or("its pixels begin inside its header")?,
-        };
-        Ok((pixels, self.voxel_size()))
+            files: Vec::new(),
+            voxel_size: self.voxel_size(),
+        })
     }
 
     fn voxel_size(&self) -> Option<VoxelSize> {
@@ -148,22 +122,22 @@ impl<'a> Fields<'a> {
 }
 
 fn sample_of(kind: i16) -> Result<(Sample, usize), String> {
-    Ok(match kind {
-        2 => (Sample::U8, 1),
-        256 => (Sample::I8, 1),
-        512 => (Sample::U16, 1),
-        4 => (Sample::I16, 1),
-        768 => (Sample::U32, 1),
-        8 => (Sample::I32, 1),
-        1280 => (Sample::U64, 1),
-        1024 => (Sample::I64, 1),
-        16 => (Sample::F32, 1),
-        64 => (Sample::F64, 1),
-        128 => (Sample::U8, 3),
+    let sample = match kind {
+        2 | 128 => Sample::U8,
+        256 => Sample::I8,
+        512 => Sample::U16,
+        4 => Sample::I16,
+        768 => Sample::U32,
+        8 => Sample::I32,
+        1280 => Sample::U64,
+        1024 => Sample::I64,
+        16 => Sample::F32,
+        64 => Sample::F64,
         _ => {
             return Err(format!(
                 "its data type is {kind}; accepted are integers of 8 to 64 bits, floats of 32 and 64 bits and RGB24"
             ));
         }
-    })
+    };
+    Ok((sample, if kind == 128 { 3 } else { 1 }))
 }

@@ -8,82 +8,61 @@ use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use particle_file::{limits, temporary_file};
 
 use crate::Error;
-use crate::raw::RawVolume;
+use crate::kind::Kind;
+use crate::raw::Raw;
 use crate::sample::{PageFormat, Sample};
 use crate::source::Source;
+use crate::volume::Volume;
 
 /// A header longer than this is none; NumPy itself reads 10 000 bytes.
 const MAX_HEADER: usize = 1 << 16;
 /// Bytes that hold the whole header of an array of usual types.
 pub(crate) const LONGEST_HEAD: u64 = 4096;
-const MAGIC: &[u8] = b"\x93NUMPY";
 
-pub(crate) fn is_npy(head: &[u8]) -> bool {
-    head.starts_with(MAGIC)
-}
-
-/// Opens an array of three axes (z, y, x) in C or Fortran order.
-pub(crate) fn open(source: Source) -> Result<RawVolume, Error> {
-    let (text, data) = header(&source)?;
-    let header = Header::parse(&text).map_err(|what| Error::file(&source, what))?;
-    let [nz, ny, nx] = header.shape;
-    let format = PageFormat {
-        width: nx,
-        height: ny,
-        sample: header.sample,
-        channels: 1,
-    };
-    if !header.fortran {
-        return RawVolume::new(vec![source], format, nz, data, header.big_endian);
+/// Opens an array of three axes (z, y, x) in C or Fortran order, in `source` or in what was `unpacked` from it.
+pub(crate) fn open(source: Source, unpacked: Option<Source>) -> Result<Volume, Error> {
+    let array = unpacked.as_ref().unwrap_or(&source);
+    let (text, offset) = header(array)?;
+    let (raw, fortran) = parse(&text, offset).map_err(|what| Error::file(array, what))?;
+    if !fortran {
+        return raw.volume(vec![source], unpacked);
     }
+    let Raw { format, pages, .. } = raw;
+    let shape = [pages, format.height, format.width];
     // The same bytes read as C order are an array of shape (x, y, z): checked as such before
     // they are put in order.
-    let transposed = PageFormat {
-        width: nz,
-        ..format
-    };
-    let checked = RawVolume::new(vec![source], transposed, nx, data, header.big_endian)?;
-    let (sources, big_endian) = (checked.into_sources(), header.big_endian);
-    let Some(source) = sources.last() else {
-        return Err(Error::Usage("no stack is given".into()));
-    };
-    let size = header.sample.bytes();
-    if let Some(short) = machine::shortage(bytes_in_order(header.shape, size)) {
+    let mut transposed = raw;
+    (transposed.format.width, transposed.pages) = (pages, format.width);
+    transposed.check(array)?;
+    let size = format.sample.bytes();
+    if let Some(short) = machine::shortage(bytes_in_order(shape, size)) {
         let what = format!(
             "it is stored with z fastest (fortran_order), and to put it in order needs {short}: save it by numpy.ascontiguousarray"
         );
-        return Err(Error::file(source, what));
+        return Err(Error::file(array, what));
     }
-    let ordered = in_c_order(source, data, header.shape, size);
-    let ordered = ordered.map_err(|e| Error::io(source, e))?;
-    RawVolume::unpacked(sources, ordered, format, nz, 0, big_endian)
+    let ordered = in_c_order(array, offset, shape, size);
+    let ordered = array.with_content(ordered.map_err(|e| Error::io(array, e))?)?;
+    Raw { offset: 0, ..raw }.volume(vec![source], Some(ordered))
 }
 
 /// Whether a file that begins with `head`, of at least [`LONGEST_HEAD`] bytes where it has as many,
 /// is an array of three axes.
 pub(crate) fn is_volume(head: &[u8]) -> bool {
-    let shape = String::from_utf8_lossy(head);
-    is_npy(head)
-        && (shape.split_once("'shape':"))
-            .and_then(|(_, rest)| rest.split_once('(')?.1.split_once(')'))
-            .is_some_and(|(axes, _)| axes.split(',').filter(|n| !n.trim().is_empty()).count() == 3)
+    let axes = shape(&String::from_utf8_lossy(head)).map(|axes| axes.len());
+    Kind::of(head) == Some(Kind::Npy) && axes == Some(3)
 }
 
 /// The header's text and where the data begin.
 fn header(source: &Source) -> Result<(String, u64), Error> {
     let corrupt = || Error::file(source, "its .npy header is corrupt or truncated");
-    let start = source.window(0, 12).map_err(|e| Error::io(source, e))?;
-    let (length, begin) = match *start.as_slice() {
+    let window = |at, len| source.window(at, len).map_err(|e| Error::io(source, e));
+    let (length, begin) = match *window(0, 12)?.as_slice() {
         [.., 1, _, a, b, _, _] => (usize::from(u16::from_le_bytes([a, b])), 10),
         [.., 2 | 3, _, a, b, c, d] => (u32::from_le_bytes([a, b, c, d]) as usize, 12),
         _ => return Err(corrupt()),
     };
-    if length > MAX_HEADER {
-        return Err(corrupt());
-    }
-    let text = source
-        .window(begin, length)
-        .map_err(|e| Error::io(source, e))?;
+    let text = window(begin, length.min(MAX_HEADER))?;
     if text.len() < length {
         return Err(corrupt());
     }
@@ -91,70 +70,58 @@ fn header(source: &Source) -> Result<(String, u64), Error> {
     Ok((text, begin + length as u64))
 }
 
-struct Header {
-    sample: Sample,
-    big_endian: bool,
-    fortran: bool,
-    /// (pages, rows, columns).
-    shape: [usize; 3],
+/// The pixels behind byte `offset`, and whether they are in Fortran order, by the Python dictionary
+/// `{'descr': '<u2', 'fortran_order': False, 'shape': (..)}`.
+fn parse(text: &str, offset: u64) -> Result<(Raw, bool), String> {
+    let after = |key: &str| {
+        let found = text.split_once(key).map(|(_, rest)| rest.trim_start());
+        found.ok_or_else(|| format!("its .npy header has no {key}"))
+    };
+    let descr = after("'descr':")?.split(['\'', '"']).nth(1);
+    let (sample, big_endian) = sample_of(descr.unwrap_or_default())?;
+    let fortran = after("'fortran_order':")?.starts_with("True");
+    let axes = shape(text).and_then(|axes| axes.try_into().ok());
+    let [pages, height, width] =
+        axes.ok_or("its array has not three axes; accepted is the shape (pages, rows, columns)")?;
+    let raw = Raw {
+        format: PageFormat::new([width, height], sample, 1),
+        pages,
+        offset,
+        big_endian,
+    };
+    Ok((raw, fortran))
 }
 
-impl Header {
-    /// Parses the Python dictionary `{'descr': '<u2', 'fortran_order': False, 'shape': (..)}`.
-    fn parse(text: &str) -> Result<Self, String> {
-        let after = |key: &str| {
-            text.split_once(key)
-                .map(|(_, rest)| rest.trim_start())
-                .ok_or_else(|| format!("its .npy header has no {key}"))
-        };
-        let descr = after("'descr':")?;
-        let descr = descr.split(['\'', '"']).nth(1).unwrap_or_default();
-        let (sample, big_endian) = sample_of(descr)?;
-        let fortran = after("'fortran_order':")?.starts_with("True");
-        let shape = after("'shape':")?;
-        let axes: Option<Vec<usize>> = shape
-            .strip_prefix('(')
-            .and_then(|rest| rest.split_once(')'))
-            .map(|(inside, _)| inside.trim().trim_end_matches(','))
-            .and_then(|inside| inside.split(',').map(axis).collect());
-        let shape = axes
-            .and_then(|axes| axes.try_into().ok())
-            .ok_or("its array has not three axes; accepted is the shape (pages, rows, columns)")?;
-        Ok(Self {
-            sample,
-            big_endian,
-            fortran,
-            shape,
-        })
-    }
+/// The axes of a header's shape.
+fn shape(text: &str) -> Option<Vec<usize>> {
+    let (_, rest) = text.split_once("'shape':")?;
+    let (axes, _) = rest.trim_start().strip_prefix('(')?.split_once(')')?;
+    // Python 2 wrote an L behind a number.
+    let axis = |n: &str| n.trim().trim_end_matches('L').parse().ok();
+    axes.trim()
+        .trim_end_matches(',')
+        .split(',')
+        .map(axis)
+        .collect()
 }
 
-/// A number of voxels; Python 2 wrote an L behind it.
-fn axis(number: &str) -> Option<usize> {
-    number.trim().trim_end_matches('L').parse().ok()
-}
-
+/// The type of `<u2` and the like, and whether it is big-endian.
 fn sample_of(descr: &str) -> Result<(Sample, bool), String> {
     let sample = match descr.get(1..) {
-        Some("u1" | "b1") => Sample::U8,
-        Some("i1") => Sample::I8,
-        Some("u2") => Sample::U16,
-        Some("i2") => Sample::I16,
-        Some("u4") => Sample::U32,
-        Some("i4") => Sample::I32,
-        Some("u8") => Sample::U64,
-        Some("i8") => Sample::I64,
-        Some("f4") => Sample::F32,
-        Some("f8") => Sample::F64,
-        _ => {
-            return Err(format!(
-                "its array has the type '{descr}'; accepted are integers of 8 to 64 bits, bool, float32 and float64"
-            ));
-        }
+        Some("b1") => Some(Sample::U8),
+        Some(kind) => (kind.split_at_checked(1))
+            .and_then(|(kind, bytes)| Some((kind, bytes.parse::<u8>().ok()?)))
+            .and_then(|(kind, bytes)| Sample::named(&format!("{kind}{}", 8 * u16::from(bytes)))),
+        None => None,
     };
-    match descr.as_bytes() {
-        [b'|' | b'<' | b'=', ..] => Ok((sample, false)),
-        [b'>', ..] => Ok((sample, true)),
+    let sample = sample.ok_or_else(|| {
+        format!(
+            "its array has the type '{descr}'; accepted are integers of 8 to 64 bits, bool, float32 and float64"
+        )
+    })?;
+    match descr.as_bytes()[0] {
+        b'|' | b'<' | b'=' => Ok((sample, false)),
+        b'>' => Ok((sample, true)),
         _ => Err(format!("its array has the unknown byte order of '{descr}'")),
     }
 }
@@ -201,35 +168,4 @@ fn in_c_order(source: &Source, data: u64, shape: [usize; 3], size: usize) -> io:
     let mut file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
     file.seek(SeekFrom::Start(0))?;
     Ok(file)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn parse(text: &str) -> Result<Header, String> {
-        Header::parse(text)
-    }
-
-    #[test]
-    fn headers_as_numpy_writes_them() {
-        let good = "{'descr': '>u2', 'fortran_order': True, 'shape': (40, 64, 96), }  \n";
-        let header = parse(good).unwrap();
-        assert_eq!(header.sample, Sample::U16);
-        assert!(header.big_endian && header.fortran);
-        assert_eq!(header.shape, [40, 64, 96]);
-        let of_python_2 = "{'descr': '|u1', 'fortran_order': False, 'shape': (6L, 10L, 14L), }";
-        assert_eq!(parse(of_python_2).unwrap().shape, [6, 10, 14]);
-        for bad in [
-            "{'descr': '<c8', 'fortran_order': False, 'shape': (1, 1, 1), }",
-            "{'descr': [('a', '<u2')], 'fortran_order': False, 'shape': (1, 1, 1), }",
-            "{'descr': '<u2', 'fortran_order': False, 'shape': (64, 96), }",
-            "{'descr': '<u2', 'fortran_order': False, 'shape': (), }",
-            "{'descr': '<u2', 'fortran_order': False, 'shape': (-1, 2, 3), }",
-            "{'descr': '<u2', 'shape': (1, 2, 3)}",
-            "",
-        ] {
-            assert!(parse(bad).is_err(), "{bad}");
-        }
-    }
 }

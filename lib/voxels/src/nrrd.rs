@@ -1,121 +1,75 @@
 //! NRRD, raw, gzipped, by bzip2 or as text, with its pixels behind the header or in files beside it
 //! (<https://teem.sourceforge.net/nrrd/format.html>).
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::Error;
 use crate::beside::data_files;
-use crate::pixels::{Coding, Pixels, Start};
-use crate::raw::RawVolume;
+use crate::pixels::{Coding, Described, MAX_HEADER, whole_numbers};
+use crate::raw::Raw;
 use crate::sample::{PageFormat, Sample};
-use crate::source::Source;
 use crate::voxel_size::{VoxelSize, decimal};
 
-/// A header longer than this is none; it may name thousands of files.
-const MAX_HEADER: usize = 1 << 20;
-
-pub(crate) fn is_nrrd(head: &[u8]) -> bool {
-    head.starts_with(b"NRRD000")
-}
-
-/// Opens the header in `source` and the pixels it points to, relative to `path`.
-pub(crate) fn open(source: Source, path: &Path) -> Result<(RawVolume, Option<VoxelSize>), Error> {
-    let head = source
-        .window(0, MAX_HEADER)
-        .map_err(|e| Error::io(&source, e))?;
-    let wrong = |what| Error::file(&source, what);
-    let header = Header::parse(&head, path).map_err(wrong)?;
-    let beside = (header.files.iter())
-        .map(|file| Source::open_slice(file))
-        .collect::<Result<_, _>>()?;
-    Ok((header.pixels.open(source, beside)?, header.voxel_size))
-}
-
-struct Header {
-    pixels: Pixels,
-    /// None where the pixels stand behind the header.
-    files: Vec<PathBuf>,
-    voxel_size: Option<VoxelSize>,
-}
-
-impl Header {
-    fn parse(head: &[u8], path: &Path) -> Result<Self, String> {
-        let (fields, end) = fields(head)?;
-        let field = |keys: &[&str]| {
-            let found = fields.iter().find(|(key, _)| keys.contains(&key.as_str()));
-            found.map(|(_, value)| value.as_str())
-        };
-        let needed = |key: &str| field(&[key]).ok_or_else(|| format!("its header has no {key}"));
-        let sizes: Option<Vec<usize>> = (needed("sizes")?.split_whitespace())
-            .map(|n| n.parse().ok())
-            .collect();
-        let (channels, [width, height, pages]) = match sizes.as_deref() {
-            Some(&[x, y, z]) => (1, [x, y, z]),
-            Some(&[3, x, y, z]) => (3, [x, y, z]),
-            _ => {
-                return Err(
-                    "it is no volume of three axes, or four of which the first has 3 colours"
-                        .into(),
-                );
-            }
-        };
-        let sample = sample_of(needed("type")?)?;
-        let coding = match needed("encoding")? {
-            "raw" => Coding::Raw,
-            "gzip" | "gz" => Coding::Gzip,
-            "bzip2" | "bz2" => Coding::Bzip2,
-            "ascii" | "text" | "txt" => Coding::Text,
-            other => {
-                return Err(format!(
-                    "its encoding is '{other}'; accepted are raw, gzip, bzip2 and ascii: save it again, e.g. with unu save -f nrrd -e gzip"
-                ));
-            }
-        };
-        let big_endian = match field(&["endian"]) {
-            Some("big") => true,
-            Some("little") => false,
-            None if sample.bytes() == 1 || coding == Coding::Text => false,
-            _ => {
-                return Err(
-                    "its header does not say whether its bytes are little or big endian".into(),
-                );
-            }
-        };
-        if field(&["line skip", "lineskip"]).is_some_and(|n| n != "0") {
-            return Err("it skips lines of its data file; accepted is a skip of bytes".into());
-        }
-        let files = match field(&["data file", "datafile"]) {
-            None => Vec::new(),
-            Some(value) => data_files(path, value, &head[end..], "data file")?,
-        };
-        let skip = field(&["byte skip", "byteskip"]).unwrap_or("0");
-        let begin = if files.is_empty() { end as u64 } else { 0 };
-        let (start, skip) = match skip {
-            "-1" => (Start::FromEnd, 0),
-            n => (
-                Start::At(begin),
-                n.parse()
-                    .map_err(|_| "its byte skip is neither -1 nor a number from 0")?,
-            ),
-        };
-        Ok(Self {
-            pixels: Pixels {
-                format: PageFormat {
-                    width,
-                    height,
-                    sample,
-                    channels,
-                },
-                pages,
-                big_endian,
-                coding,
-                start,
-                skip,
-            },
-            files,
-            voxel_size: voxel_size(&field),
-        })
+pub(crate) fn parse(head: &[u8], path: &Path) -> Result<Described, String> {
+    let (fields, end) = fields(head)?;
+    let field = |keys: &[&str]| {
+        let found = fields.iter().find(|(key, _)| keys.contains(&key.as_str()));
+        found.map(|(_, value)| value.as_str())
+    };
+    let needed = |key: &str| field(&[key]).ok_or_else(|| format!("its header has no {key}"));
+    let axes = whole_numbers(needed("sizes")?);
+    let (channels, [width, height, pages]) = match axes.as_deref() {
+        Some(&[x, y, z]) => Some((1, [x, y, z])),
+        Some(&[3, x, y, z]) => Some((3, [x, y, z])),
+        _ => None,
     }
+    .ok_or("it is no volume of three axes, or four of which the first has 3 colours")?;
+    let sample = sample_of(needed("type")?)?;
+    let coding = match needed("encoding")? {
+        "raw" => Coding::Raw,
+        "gzip" | "gz" => Coding::Gzip,
+        "bzip2" | "bz2" => Coding::Bzip2,
+        "ascii" | "text" | "txt" => Coding::Text,
+        other => {
+            return Err(format!(
+                "its encoding is '{other}'; accepted are raw, gzip, bzip2 and ascii: save it again, e.g. with unu save -f nrrd -e gzip"
+            ));
+        }
+    };
+    let big_endian = match field(&["endian"]) {
+        Some("big") => Some(true),
+        Some("little") => Some(false),
+        None if sample.bytes() == 1 || coding == Coding::Text => Some(false),
+        _ => None,
+    }
+    .ok_or("its header does not say whether its bytes are little or big endian")?;
+    if field(&["line skip", "lineskip"]).is_some_and(|n| n != "0") {
+        return Err("it skips lines of its data file; accepted is a skip of bytes".into());
+    }
+    let files = match field(&["data file", "datafile"]) {
+        None => Vec::new(),
+        Some(value) => data_files(path, value, &head[end..], "data file")?,
+    };
+    let skip = match field(&["byte skip", "byteskip"]) {
+        None => Some(0),
+        Some("-1") => None,
+        Some(n) => {
+            let number = n.parse().ok();
+            Some(number.ok_or("its byte skip is neither -1 nor a number from 0")?)
+        }
+    };
+    Ok(Described {
+        raw: Raw {
+            format: PageFormat::new([width, height], sample, channels),
+            pages,
+            offset: if files.is_empty() { end as u64 } else { 0 },
+            big_endian,
+        },
+        at_end: skip.is_none(),
+        coding,
+        skip: skip.unwrap_or(0),
+        files,
+        voxel_size: voxel_size(&field),
+    })
 }
 
 /// `key: value` lines in lower case up to the empty line that ends the header, or a list of files,
@@ -125,16 +79,13 @@ fn fields(head: &[u8]) -> Result<(Vec<(String, String)>, usize), String> {
     let mut end = 0;
     for (i, line) in head.split_inclusive(|b| *b == b'\n').enumerate() {
         end += line.len();
-        if i == 0 {
-            // The magic, which is_nrrd has seen.
-            continue;
-        }
         let text = String::from_utf8_lossy(line);
         let text = text.trim_end();
         if text.is_empty() && line.ends_with(b"\n") {
             return Ok((fields, end));
         }
-        if text.starts_with('#') || text.contains(":=") {
+        // The first line is the magic.
+        if i == 0 || text.starts_with('#') || text.contains(":=") {
             continue;
         }
         let (key, value) = text
@@ -153,32 +104,32 @@ fn fields(head: &[u8]) -> Result<(Vec<(String, String)>, usize), String> {
 }
 
 fn sample_of(kind: &str) -> Result<Sample, String> {
-    Ok(match kind {
-        "uchar" | "unsigned char" | "uint8" | "uint8_t" => Sample::U8,
-        "signed char" | "int8" | "int8_t" => Sample::I8,
-        "ushort" | "unsigned short" | "unsigned short int" | "uint16" | "uint16_t" => Sample::U16,
-        "short" | "short int" | "signed short" | "signed short int" | "int16" | "int16_t" => {
-            Sample::I16
-        }
-        "uint" | "unsigned int" | "uint32" | "uint32_t" => Sample::U32,
-        "int" | "signed int" | "int32" | "int32_t" => Sample::I32,
-        "ulonglong" | "unsigned long long" | "unsigned long long int" | "uint64" | "uint64_t" => {
-            Sample::U64
-        }
-        "longlong"
-        | "long long"
-        | "long long int"
-        | "signed long long"
-        | "signed long long int"
-        | "int64"
-        | "int64_t" => Sample::I64,
-        "float" => Sample::F32,
-        "double" => Sample::F64,
-        _ => {
-            return Err(format!(
-                "its type is '{kind}'; accepted are integers of 8 to 64 bits, float and double"
-            ));
-        }
+    const NAMES: [(Sample, &[&str]); 10] = [
+        (Sample::U8, &["uchar", "unsigned char", "uint8"]),
+        (Sample::I8, &["signed char", "int8"]),
+        (Sample::U16, &["ushort", "unsigned short", "uint16"]),
+        (Sample::I16, &["short", "signed short", "int16"]),
+        (Sample::U32, &["uint", "unsigned int", "uint32"]),
+        (Sample::I32, &["int", "signed int", "int32"]),
+        (Sample::U64, &["ulonglong", "unsigned long long", "uint64"]),
+        (
+            Sample::I64,
+            &["longlong", "long long", "signed long long", "int64"],
+        ),
+        (Sample::F32, &["float"]),
+        (Sample::F64, &["double"]),
+    ];
+    // As in C, short and long long may be followed by int; int8 and its like by _t.
+    let short = kind
+        .strip_suffix(" int")
+        .filter(|kind| kind.ends_with("short") || kind.ends_with("long"));
+    let sized = kind
+        .strip_suffix("_t")
+        .filter(|kind| kind.ends_with(char::is_numeric));
+    let name = short.or(sized).unwrap_or(kind);
+    let known = NAMES.iter().find(|(_, names)| names.contains(&name));
+    known.map(|(sample, _)| *sample).ok_or_else(|| {
+        format!("its type is '{kind}'; accepted are integers of 8 to 64 bits, float and double")
     })
 }
 

@@ -82,13 +82,10 @@ impl Histogram {
             }
             range = shrunk(counts, range);
         };
-        let threshold = |edge: usize| self.scale.value(range.start + levels.place(edge));
         let bright = |p: &Padding| counts[p.place + 1..].iter().sum::<u64>() <= few;
         let top = padding.filter(bright).map(|padding| padding.value);
-        let thresholds: Vec<f64> = edges[1..phases]
-            .iter()
-            .map(|&edge| threshold(edge))
-            .collect();
+        let threshold = |edge: &usize| self.scale.value(range.start + levels.place(*edge));
+        let thresholds: Vec<f64> = edges[1..phases].iter().map(threshold).collect();
         let grey = Grey::of_thresholds(&thresholds, top, self.scale.whole);
         for (i, edges) in edges.windows(3).enumerate() {
             let apart = levels.apart([edges[0], edges[1], edges[2]]);
@@ -104,7 +101,7 @@ impl Histogram {
             )
         });
         let around = padding.map(|Padding { value, voxels, .. }| {
-            let phase = grey.phase(value).map_or("", Phase::name);
+            let phase = grey.phase(value).unwrap_or(Phase::Void);
             format!(
                 "{voxels} voxels of {value} reach in from the corners of all pages, as around a round field of view: they do not count for it and become {phase}; --crop keeps what is inside"
             )
@@ -142,11 +139,9 @@ fn too_few(phases: usize, left_out: u64) -> String {
 
 /// The sentence about phases of which the `lower` and the next are not two.
 fn hardly_parted(lower: usize, apart: f64, grey: &Grey) -> String {
-    let [lower, upper] = [[Phase::Void, Phase::Wood], [Phase::Wood, Phase::Adhesive]][lower];
+    let [lower, upper] = [lower, lower + 1].map(|phase| Phase::ALL[phase]);
     format!(
-        "its grey values do not part {} from {}: the means of the two are {apart:.2} times the sum of their deviations apart, and {PARTED} are needed; look at --histogram and give ranges, such as --grey {grey}, or take --grey auto-wood for wood without adhesive",
-        lower.name(),
-        upper.name()
+        "its grey values do not part {lower} from {upper}: the means of the two are {apart:.2} times the sum of their deviations apart, and {PARTED} are needed; look at --histogram and give ranges, such as --grey {grey}, or take --grey auto-wood for wood without adhesive"
     )
 }
 
@@ -156,14 +151,8 @@ mod tests {
     use crate::histogram::Scale;
 
     fn of_counts(counts: Vec<u64>) -> Histogram {
-        let scale = Scale {
-            first: 0,
-            values: counts.len(),
-            power: 0,
-            whole: true,
-        };
         Histogram {
-            scale,
+            scale: Scale::whole(0, counts.len()),
             counts,
             padding: None,
         }
@@ -171,44 +160,27 @@ mod tests {
 
     /// Bell curves of grey values with their means, deviations and numbers of voxels.
     fn of_peaks(values: usize, peaks: &[(f64, f64, f64)]) -> Histogram {
-        let bell = |x: f64| {
-            let parts = peaks.iter().map(|(mean, s, n)| {
-                n / s * (-0.5 * ((x - mean) / s).powi(2)).exp()
-                    / (2.0 * std::f64::consts::PI).sqrt()
-            });
-            parts.sum::<f64>().round() as u64
+        let bell = |x: f64, (mean, s, n): &(f64, f64, f64)| {
+            n / s * (-0.5 * ((x - mean) / s).powi(2)).exp() / std::f64::consts::TAU.sqrt()
         };
-        of_counts((0..values).map(|i| bell(i as f64)).collect())
+        let count = |i| peaks.iter().map(|peak| bell(i as f64, peak)).sum::<f64>();
+        of_counts((0..values).map(|i| count(i).round() as u64).collect())
     }
 
-    /// Three equal peaks: thresholds lie midway; closed form.
-    #[test]
-    fn thresholds_lie_between_three_peaks() {
-        let phase = |grey: &Grey, v: f64| grey.phase(v).unwrap();
-        use crate::Phase::{Adhesive, Void, Wood};
-        let narrow = of_peaks(
-            256,
-            &[(40.0, 6.0, 1e6), (120.0, 6.0, 1e6), (200.0, 6.0, 1e6)],
-        );
-        let grey = narrow.otsu().unwrap().grey;
-        let found = [70.0, 90.0, 150.0, 170.0].map(|v| phase(&grey, v));
-        assert_eq!(found, [Void, Wood, Wood, Adhesive]);
-        let wide = of_peaks(
-            65536,
-            &[
-                (8000.0, 900.0, 1e7),
-                (20_000.0, 900.0, 1e7),
-                (32_000.0, 900.0, 1e7),
-            ],
-        );
-        let grey = wide.otsu().unwrap().grey;
-        let found = [13_000.0, 15_000.0, 25_000.0, 27_000.0].map(|v| phase(&grey, v));
-        assert_eq!(found, [Void, Wood, Wood, Adhesive]);
+    fn phases<const N: usize>(grey: &Grey, values: [f64; N]) -> [u8; N] {
+        values.map(|v| grey.phase(v).unwrap() as u8)
     }
 
-    /// Two equal peaks: the threshold lies midway; closed form.
+    /// Equal peaks: thresholds lie midway; closed form.
     #[test]
-    fn the_threshold_of_wood_alone_lies_between_two_peaks() {
+    fn thresholds_lie_between_peaks() {
+        for (values, first, apart, s) in [(256, 40.0, 80.0, 6.0), (65536, 8000.0, 12_000.0, 900.0)]
+        {
+            let peaks = [0.0, 1.0, 2.0].map(|i| (first + i * apart, s, 1e6));
+            let grey = of_peaks(values, &peaks).otsu().unwrap().grey;
+            let beside = [0.4, 0.6, 1.4, 1.6].map(|i| first + i * apart);
+            assert_eq!(phases(&grey, beside), [0, 1, 1, 2]);
+        }
         let peaks = of_peaks(256, &[(60.0, 8.0, 1e6), (160.0, 8.0, 1e6)]);
         let said = peaks.otsu_of_wood().unwrap().grey.to_string();
         let from: f64 = said[5..said.len() - 2].parse().unwrap();
@@ -220,18 +192,13 @@ mod tests {
         let mut counts = vec![0; 256];
         (counts[3], counts[90], counts[91]) = (5, 7, 2);
         let grey = of_counts(counts).otsu().unwrap().grey;
-        let found = [3.0, 90.0, 91.0].map(|v| grey.phase(v).unwrap() as u8);
-        assert_eq!(found, [0, 1, 2]);
+        assert_eq!(phases(&grey, [3.0, 90.0, 91.0]), [0, 1, 2]);
         let mut two = of_counts(vec![1, 0, 4]);
         assert!(two.otsu().unwrap_err().contains("three"));
         two.scale.first = -128;
         assert_eq!(two.otsu_of_wood().unwrap().grey.to_string(), "wood=-127..");
-        assert!(
-            of_counts(vec![0, 9])
-                .otsu_of_wood()
-                .unwrap_err()
-                .contains("two")
-        );
+        let one = of_counts(vec![0, 9]).otsu_of_wood();
+        assert!(one.unwrap_err().contains("two"));
     }
 
     /// One bell curve has no two phases, and what is thinner than hot pixels is none.
@@ -244,9 +211,9 @@ mod tests {
         }
         let said = of_peaks(256, &wood[..1]).otsu_of_wood().unwrap_err();
         assert!(said.contains("void from wood"), "{said}");
-        let thin = [wood[0], wood[1], (240.0, 2.0, 3e4)];
-        assert!(of_peaks(256, &thin).otsu().is_err());
-        let enough = [wood[0], wood[1], (240.0, 2.0, 6e4)];
-        assert!(of_peaks(256, &enough).otsu().is_ok());
+        for (voxels, proposed) in [(3e4, false), (6e4, true)] {
+            let peaks = [wood[0], wood[1], (240.0, 2.0, voxels)];
+            assert_eq!(of_peaks(256, &peaks).otsu().is_ok(), proposed);
+        }
     }
 }

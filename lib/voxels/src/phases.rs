@@ -19,18 +19,22 @@ pub enum Phase {
 impl Phase {
     pub(crate) const ALL: [Phase; 3] = [Phase::Void, Phase::Wood, Phase::Adhesive];
 
-    pub(crate) fn name(self) -> &'static str {
-        ["void", "wood", "adhesive"][self as usize]
+    /// The phase and the rest of `PHASE=...`, of which there is an `example`.
+    fn split<'a>(part: &'a str, example: &str) -> Result<(Self, &'a str), String> {
+        let (name, rest) =
+            (part.split_once('=')).ok_or_else(|| format!("'{part}' is not PHASE={example}"))?;
+        let name = name.trim();
+        let known = Self::ALL.into_iter().find(|p| p.to_string() == name);
+        let phase = known.ok_or_else(|| {
+            format!("'{name}' is not a phase; accepted are void, wood and adhesive")
+        })?;
+        Ok((phase, rest))
     }
+}
 
-    fn parse(name: &str) -> Result<Self, String> {
-        let known = Self::ALL.into_iter().find(|p| p.name() == name.trim());
-        known.ok_or_else(|| {
-            format!(
-                "'{}' is not a phase; accepted are void, wood and adhesive",
-                name.trim()
-            )
-        })
+impl fmt::Display for Phase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(["void", "wood", "adhesive"][*self as usize])
     }
 }
 
@@ -68,39 +72,32 @@ impl FromStr for Labels {
     fn from_str(text: &str) -> Result<Self, String> {
         let mut labels = Self(Vec::new());
         for part in text.split(',') {
-            let (name, values) = part.split_once('=').ok_or_else(|| {
-                format!("'{part}' is not PHASE=LABEL, as in void=0,wood=1|2,adhesive=255")
-            })?;
-            let phase = Phase::parse(name)?;
+            let example = "LABEL, as in void=0,wood=1|2,adhesive=255";
+            let (phase, values) = Phase::split(part, example)?;
             if labels.0.iter().any(|(_, p)| *p == phase) {
                 return Err(format!(
-                    "{} is named twice; its labels stand together, as in {0}=1|2",
-                    phase.name()
+                    "{phase} is named twice; its labels stand together, as in {phase}=1|2"
                 ));
             }
             for value in values.split('|') {
                 let label = value.parse()?;
                 if let Some(other) = labels.phase(label) {
                     return Err(format!(
-                        "label {label} is given to {} and to {}; a label has one phase",
-                        other.name(),
-                        phase.name()
+                        "label {label} is given to {other} and to {phase}; a label has one phase"
                     ));
                 }
                 labels.0.push((label, phase));
             }
         }
         // Wood alone, before it is bonded, has no adhesive.
-        let missing = [Phase::Void, Phase::Wood]
-            .into_iter()
-            .find(|phase| labels.0.iter().all(|(_, p)| p != phase));
-        match missing {
-            Some(phase) => Err(format!(
-                "no label is given for {}; void and wood are needed, and adhesive where there is some, as in void=0,wood=128,adhesive=255",
-                phase.name()
-            )),
-            None => Ok(labels),
+        for phase in [Phase::Void, Phase::Wood] {
+            if labels.0.iter().all(|(_, p)| *p != phase) {
+                return Err(format!(
+                    "no label is given for {phase}; void and wood are needed, and adhesive where there is some, as in void=0,wood=128,adhesive=255"
+                ));
+            }
         }
+        Ok(labels)
     }
 }
 
@@ -123,19 +120,16 @@ impl Grey {
             () => Some(Phase::Void),
         }
     }
-}
 
-impl Grey {
     /// Void below the first threshold, wood from there on, adhesive from the second on where there is
     /// one. What is at `top` and above is void again. `whole` numbers end at the last before the next.
     pub(crate) fn of_thresholds(thresholds: &[f64], top: Option<f64>, whole: bool) -> Self {
         let before = |v: f64| if whole { v - 1.0 } else { v.next_down() };
-        let end = |next: Option<&f64>| next.map_or(f64::INFINITY, |v| before(*v));
-        let above = |from: f64| top.filter(|top| *top > from);
         let range = |i: usize| {
             let from = *thresholds.get(i)?;
-            let top = above(from);
-            Some((from, end(thresholds.get(i + 1).or(top.as_ref()))))
+            let top = top.filter(|top| *top > from);
+            let next = thresholds.get(i + 1).copied().or(top);
+            Some((from, next.map_or(f64::INFINITY, before)))
         };
         Self {
             wood: range(0).unwrap_or((f64::INFINITY, f64::INFINITY)),
@@ -146,12 +140,9 @@ impl Grey {
 
 impl fmt::Display for Grey {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let bound = |v: f64| {
-            if v.is_finite() {
-                v.to_string()
-            } else {
-                String::new()
-            }
+        let bound = |v: f64| match v.is_finite() {
+            true => v.to_string(),
+            false => String::new(),
         };
         let range = |(low, high)| format!("{}..{}", bound(low), bound(high));
         write!(f, "wood={}", range(self.wood))?;
@@ -167,24 +158,21 @@ impl FromStr for Grey {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let (mut wood, mut adhesive) = (None, None);
+        let example = "wood=90..170,adhesive=171..";
         for part in text.split(',') {
-            let (name, range) = part.split_once('=').ok_or_else(|| {
-                format!("'{part}' is not PHASE=LOW..HIGH, as in wood=90..170,adhesive=171..")
-            })?;
-            let slot = match Phase::parse(name)? {
+            let (phase, range) = Phase::split(part, &format!("LOW..HIGH, as in {example}"))?;
+            let slot = match phase {
                 Phase::Void => return Err("void is what no range names; leave it out".into()),
                 Phase::Wood => &mut wood,
                 Phase::Adhesive => &mut adhesive,
             };
             if slot.replace(parse_range(range)?).is_some() {
-                return Err(format!("{} has two ranges; give one", name.trim()));
+                return Err(format!("{phase} has two ranges; give one"));
             }
         }
-        let Some(wood) = wood else {
-            return Err(
-                "wood needs a range, and adhesive where there is some, as in wood=90..170,adhesive=171..".into(),
-            );
-        };
+        let wood = wood.ok_or_else(|| {
+            format!("wood needs a range, and adhesive where there is some, as in {example}")
+        })?;
         let meets = |adhesive: (f64, f64)| wood.0 <= adhesive.1 && adhesive.0 <= wood.1;
         if adhesive.is_some_and(meets) {
             return Err(format!(
@@ -216,16 +204,9 @@ mod tests {
     fn labels_of_several_values_and_colours() {
         assert!("void=0,wood=1".parse::<Labels>().is_ok());
         let labels: Labels = "void=0,wood=1|2|7,adhesive=255:0:0".parse().unwrap();
-        assert_eq!(labels.phase(Label::Value(7.0)), Some(Phase::Wood));
-        assert_eq!(
-            labels.phase(Label::Rgb([255.0, 0.0, 0.0])),
-            Some(Phase::Adhesive)
-        );
-        assert_eq!(labels.phase(Label::Value(3.0)), None);
-    }
-
-    #[test]
-    fn bad_labels_say_what_is_accepted() {
+        let red = Label::Rgb([255.0, 0.0, 0.0]);
+        let found = [Label::Value(7.0), red, Label::Value(3.0)].map(|label| labels.phase(label));
+        assert_eq!(found, [Some(Phase::Wood), Some(Phase::Adhesive), None]);
         for (bad, word) in [
             ("wood=1,adhesive=2", "no label is given for void"),
             ("void=0,adhesive=1", "no label is given for wood"),
@@ -249,18 +230,15 @@ mod tests {
     #[test]
     fn grey_ranges_hold_both_ends() {
         let grey: Grey = "wood=90..170,adhesive=171..".parse().unwrap();
-        let phase = |v| grey.phase(v).unwrap();
-        assert_eq!(phase(89.0), Phase::Void);
-        assert_eq!(phase(90.0), Phase::Wood);
-        assert_eq!(phase(170.0), Phase::Wood);
-        assert_eq!(phase(171.0), Phase::Adhesive);
+        let found = [89.0, 90.0, 170.0, 171.0].map(|v| grey.phase(v).unwrap() as u8);
+        assert_eq!(found, [0, 1, 1, 2]);
         for none in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             assert_eq!(grey.phase(none), None);
         }
         let bare: Grey = "wood=90..".parse().unwrap();
         assert_eq!(bare.to_string(), "wood=90..");
-        let found = [89.0, 90.0, 1e9].map(|v| bare.phase(v).unwrap());
-        assert_eq!(found, [Phase::Void, Phase::Wood, Phase::Wood]);
+        let found = [89.0, 90.0, 1e9].map(|v| bare.phase(v).unwrap() as u8);
+        assert_eq!(found, [0, 1, 1]);
         for bad in [
             "adhesive=90..170",
             "wood=90..170,adhesive=170..",

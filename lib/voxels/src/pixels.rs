@@ -4,16 +4,22 @@
 //! One raw file is read where it stands. All else is unpacked to an unnamed temporary file.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, BufWriter, Read, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
 
 use bzip2::read::MultiBzDecoder;
 use flate2::read::{MultiGzDecoder, ZlibDecoder};
 use particle_file::{limits, temporary_file};
 
 use crate::Error;
-use crate::raw::RawVolume;
-use crate::sample::{PageFormat, Sample};
+use crate::raw::Raw;
+use crate::sample::Sample;
 use crate::source::Source;
+use crate::volume::Volume;
+use crate::voxel_size::VoxelSize;
+
+/// A header with pixels behind it is no longer than this; it may name thousands of files.
+pub(crate) const MAX_HEADER: usize = 1 << 20;
 
 /// How numbers are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,16 +57,9 @@ impl Coding {
     }
 }
 
-pub(crate) fn is_gzip(head: &[u8]) -> bool {
-    head.starts_with(&[0x1f, 0x8b])
-}
-
 /// What is stored in `source` from byte `offset`.
-pub(crate) fn reader(source: &Source, offset: u64, coding: Coding) -> Result<Box<dyn Read>, Error> {
-    let stored = source
-        .reader_from(offset)
-        .map_err(|e| Error::io(source, e))?;
-    let stored = BufReader::with_capacity(1 << 20, stored);
+pub(crate) fn reader(source: &Source, offset: u64, coding: Coding) -> io::Result<Box<dyn Read>> {
+    let stored = BufReader::with_capacity(1 << 20, source.reader_from(offset)?);
     Ok(match coding {
         Coding::Raw | Coding::Text => Box::new(stored),
         Coding::Zlib => Box::new(ZlibDecoder::new(stored)),
@@ -69,127 +68,140 @@ pub(crate) fn reader(source: &Source, offset: u64, coding: Coding) -> Result<Box
     })
 }
 
-/// Where in a file its pixels begin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Start {
-    /// At this byte.
-    At(u64),
-    /// They end with the file.
-    FromEnd,
-}
-
 /// Pixels as a header describes them.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Pixels {
-    pub(crate) format: PageFormat,
-    pub(crate) pages: usize,
-    pub(crate) big_endian: bool,
-    pub(crate) coding: Coding,
+#[derive(Debug)]
+pub(crate) struct Described {
     /// Where they begin, in each file where there are several.
-    pub(crate) start: Start,
-    /// Bytes to pass over from there, counted once unpacked.
+    pub(crate) raw: Raw,
+    /// They end with their file instead.
+    pub(crate) at_end: bool,
+    pub(crate) coding: Coding,
+    /// Bytes to pass over before them, counted once unpacked.
     pub(crate) skip: u64,
+    /// Files of equal parts; none where they are in the header's own.
+    pub(crate) files: Vec<PathBuf>,
+    pub(crate) voxel_size: Option<VoxelSize>,
 }
 
-impl Pixels {
-    /// Opens them in `header` itself, or in the files `beside` it, which hold equal parts.
-    ///
-    /// # Errors
-    /// Files that hold more or fewer than declared, or damaged data; more bytes than half of the
-    /// free space for temporary files.
-    pub(crate) fn open(mut self, header: Source, beside: Vec<Source>) -> Result<RawVolume, Error> {
-        let bytes = self
-            .format
-            .volume_bytes(self.pages)
-            .ok_or_else(|| Error::file(&header, "it declares more voxels than can be counted"))?;
-        let files = beside.len().max(1);
-        if !self.pages.is_multiple_of(files) {
-            let what = format!(
-                "its {} pages are in {files} files, which cannot hold as many each",
-                self.pages
+/// Opens the volume that the header in `source` describes, by the `parse` of its format from its
+/// bytes and the path that files beside it are relative to.
+pub(crate) fn open(
+    source: Source,
+    parse: impl Fn(&[u8], &Path) -> Result<Described, String>,
+) -> Result<Volume, Error> {
+    let head = source.window(0, MAX_HEADER);
+    let head = head.map_err(|e| Error::io(&source, e))?;
+    let described = parse(&head, source.path()).map_err(|what| Error::file(&source, what))?;
+    described.open(source)
+}
+
+impl Described {
+    /// Opens them in `header` itself or in the files beside it, as [`open`] does.
+    pub(crate) fn open(mut self, header: Source) -> Result<Volume, Error> {
+        let (pages, parts) = (self.raw.pages, self.files.len().max(1));
+        let wrong = |file: &Source, what: String| Err(Error::file(file, what));
+        let Some(bytes) = self.raw.format.volume_bytes(pages) else {
+            return wrong(
+                &header,
+                "it declares more voxels than can be counted".into(),
             );
-            return Err(Error::file(&header, what));
+        };
+        let mut sources = vec![header];
+        for file in &self.files {
+            sources.push(Source::open_slice(file)?);
         }
-        let sources: Vec<Source> = [header].into_iter().chain(beside).collect();
-        let parts = &sources[sources.len() - files..];
-        let part = bytes / files as u64;
-        if let (Coding::Raw, [file]) = (self.coding, parts) {
-            let offset = self.begin(file, part)?.saturating_add(self.skip);
-            return RawVolume::new(sources, self.format, self.pages, offset, self.big_endian);
+        if !pages.is_multiple_of(parts) {
+            let what =
+                format!("its {pages} pages are in {parts} files, which cannot hold as many each");
+            return wrong(&sources[0], what);
         }
-        let mut stored: u64 = 0;
-        for file in parts {
-            stored += file.len().saturating_sub(self.begin(file, part)?);
-        }
-        if bytes > stored.saturating_mul(self.coding.most()) {
-            let what = format!(
-                "it declares {bytes} bytes of pixels, but {stored} {}bytes are stored: its size or the file is corrupt",
-                self.coding.adjective()
-            );
-            return Err(Error::file(&parts[0], what));
-        }
-        let named = |e| Error::io(&parts[0], e);
-        let unpacked = temporary_file(bytes).map_err(named)?;
-        for file in parts {
-            self.unpack(file, part, &unpacked)?;
-        }
-        if self.coding == Coding::Text {
-            self.big_endian = cfg!(target_endian = "big");
-        }
-        let Self { format, pages, .. } = self;
-        RawVolume::unpacked(sources, unpacked, format, pages, 0, self.big_endian)
+        let files = &sources[sources.len() - parts..];
+        let part = bytes / parts as u64;
+        let voxel_size = self.voxel_size.take();
+        let unpacked = if let (Coding::Raw, [file]) = (self.coding, files) {
+            self.raw.offset = self.begin(file, part)?.saturating_add(self.skip);
+            None
+        } else {
+            let mut stored: u64 = 0;
+            for file in files {
+                stored += file.len().saturating_sub(self.begin(file, part)?);
+            }
+            if bytes > stored.saturating_mul(self.coding.most()) {
+                let what = format!(
+                    "it declares {bytes} bytes of pixels, but {stored} {}bytes are stored: its size or the file is corrupt",
+                    self.coding.adjective()
+                );
+                return wrong(&files[0], what);
+            }
+            let unpacked = temporary_file(bytes).map_err(|e| Error::io(&files[0], e))?;
+            for file in files {
+                self.unpack(file, part, &unpacked)?;
+            }
+            self.raw.offset = 0;
+            self.raw.big_endian = match self.coding {
+                Coding::Text => cfg!(target_endian = "big"),
+                _ => self.raw.big_endian,
+            };
+            Some(files[parts - 1].with_content(unpacked)?)
+        };
+        let volume = self.raw.volume(sources, unpacked)?;
+        Ok(Volume {
+            voxel_size,
+            ..volume
+        })
     }
 
     /// The byte of `file` at which its `bytes` of raw pixels begin.
     fn begin(&self, file: &Source, bytes: u64) -> Result<u64, Error> {
-        match self.start {
-            Start::At(at) => Ok(at),
-            Start::FromEnd if self.coding == Coding::Raw => {
-                file.len().checked_sub(bytes).ok_or_else(|| {
-                    let what = format!(
-                        "it holds {} bytes, fewer than the {bytes} of its pixels: it is truncated",
-                        file.len()
-                    );
-                    Error::file(file, what)
-                })
-            }
-            Start::FromEnd => Err(Error::file(
-                file,
-                "its header says that pixels end with the file, which only raw pixels can",
-            )),
+        if !self.at_end {
+            return Ok(self.raw.offset);
         }
+        let what = match (self.coding, file.len().checked_sub(bytes)) {
+            (Coding::Raw, Some(at)) => return Ok(at),
+            (Coding::Raw, None) => format!(
+                "it holds {} bytes, fewer than the {bytes} of its pixels: it is truncated",
+                file.len()
+            ),
+            _ => "its header says that pixels end with the file, which only raw pixels can".into(),
+        };
+        Err(Error::file(file, what))
     }
 
     /// Appends the `bytes` of pixels that `file` holds to `out`.
     fn unpack(&self, file: &Source, bytes: u64, mut out: &File) -> Result<(), Error> {
-        let unreadable = |e: std::io::Error| {
+        let unreadable = |e: io::Error| {
             let what = format!("its {}pixels cannot be read: {e}", self.coding.adjective());
             Error::file(file, what)
         };
-        let mut content = reader(file, self.begin(file, bytes)?, self.coding)?;
-        let skipped = std::io::copy(&mut content.by_ref().take(self.skip), &mut std::io::sink());
+        let content = reader(file, self.begin(file, bytes)?, self.coding);
+        let mut content = content.map_err(|e| Error::io(file, e))?;
+        let skipped = io::copy(&mut content.by_ref().take(self.skip), &mut io::sink());
         skipped.map_err(unreadable)?;
         if self.coding == Coding::Text {
-            let numbers = bytes / self.format.sample.bytes() as u64;
-            let content = BufReader::new(content);
-            return from_text(content, self.format.sample, numbers, BufWriter::new(out))
-                .map_err(unreadable);
+            let sample = self.raw.format.sample;
+            let numbers = bytes / sample.bytes() as u64;
+            let read = from_text(
+                BufReader::new(content),
+                sample,
+                numbers,
+                BufWriter::new(out),
+            );
+            return read.map_err(unreadable);
         }
-        let found = std::io::copy(&mut content.by_ref().take(bytes), &mut out);
-        let found = found.map_err(unreadable)?;
+        let found = io::copy(&mut content.by_ref().take(bytes), &mut out).map_err(unreadable)?;
         if found < bytes {
             let what = format!("they end after {found} of {bytes} bytes");
-            return Err(unreadable(std::io::Error::other(what)));
+            return Err(unreadable(io::Error::other(what)));
         }
         // Checksums stand at the end, which is reached by asking for more.
         match content.read(&mut [0]).map_err(unreadable)? {
             0 => Ok(()),
-            _ => Err(Error::file(
-                file,
-                format!(
+            _ => {
+                let what = format!(
                     "it unpacks to more than the {bytes} bytes of pixels that its header declares"
-                ),
-            )),
+                );
+                Err(Error::file(file, what))
+            }
         }
     }
 }
@@ -200,10 +212,9 @@ fn from_text(
     sample: Sample,
     count: u64,
     mut out: impl Write,
-) -> std::io::Result<()> {
+) -> io::Result<()> {
     /// No number is written longer.
     const LONGEST: usize = 64;
-    let wrong = |what: String| Err(std::io::Error::other(what));
     let (mut number, mut found) = (String::new(), 0);
     for byte in text.bytes().chain([Ok(b' ')]) {
         let byte = byte?;
@@ -213,19 +224,24 @@ fn from_text(
         }
         if !number.is_empty() {
             found += 1;
-            let Some(bytes) = sample.parse(&number) else {
-                return wrong(format!(
+            let bytes = sample.parse(&number).ok_or_else(|| {
+                io::Error::other(format!(
                     "number {found} of its text is '{number}', which is not {sample}"
-                ));
-            };
+                ))
+            })?;
             out.write_all(&bytes)?;
             number.clear();
         }
     }
     match found == count {
         true => out.flush(),
-        false => wrong(format!(
+        false => Err(io::Error::other(format!(
             "its text holds {found} numbers, not the {count} that its header declares"
-        )),
+        ))),
     }
+}
+
+/// Whole numbers with blanks between them.
+pub(crate) fn whole_numbers(text: &str) -> Option<Vec<usize>> {
+    text.split_whitespace().map(|n| n.parse().ok()).collect()
 }

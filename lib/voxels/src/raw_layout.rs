@@ -14,11 +14,10 @@ impl FromStr for Dims {
     fn from_str(text: &str) -> Result<Self, String> {
         let number = |n: &str| n.trim().parse().ok().filter(|n: &usize| *n > 0);
         let dims: Option<Vec<usize>> = text.split('x').map(number).collect();
-        dims.and_then(|dims| dims.try_into().ok())
-            .map(Self)
-            .ok_or_else(|| {
-                format!("'{text}' is no size; accepted is XxYxZ in voxels, as in 400x394x400")
-            })
+        let dims = dims.and_then(|dims| dims.try_into().ok()).map(Self);
+        dims.ok_or_else(|| {
+            format!("'{text}' is no size; accepted is XxYxZ in voxels, as in 400x394x400")
+        })
     }
 }
 
@@ -37,23 +36,11 @@ impl FromStr for RawType {
             Some(name) => (name, true),
             None => (text.strip_suffix("le").unwrap_or(text), false),
         };
-        let sample = match name {
-            "u8" => Sample::U8,
-            "i8" => Sample::I8,
-            "u16" => Sample::U16,
-            "i16" => Sample::I16,
-            "u32" => Sample::U32,
-            "i32" => Sample::I32,
-            "u64" => Sample::U64,
-            "i64" => Sample::I64,
-            "f32" => Sample::F32,
-            "f64" => Sample::F64,
-            _ => {
-                return Err(format!(
-                    "'{text}' is no number type; accepted are u8, i8, u16, i16, u32, i32, u64, i64, f32 and f64, little-endian, or with be behind it"
-                ));
-            }
-        };
+        let sample = Sample::named(name).ok_or_else(|| {
+            format!(
+                "'{text}' is no number type; accepted are u8, i8, u16, i16, u32, i32, u64, i64, f32 and f64, little-endian, or with be behind it"
+            )
+        })?;
         Ok(Self { sample, big_endian })
     }
 }

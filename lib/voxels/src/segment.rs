@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::coder::{Coder, UNKNOWN, found, guessed};
 use crate::label::Label;
-use crate::phases::Phases;
+use crate::phases::{Phase, Phases};
 use crate::{Crop, Error, Stack};
 
 /// Phases that have a bit of each voxel: wood and adhesive.
@@ -20,6 +20,17 @@ pub struct Segmented {
     pub adhesive: BitGrid,
     /// The labels of void, wood and, unless it is undamaged wood, adhesive when they were guessed.
     pub guessed: Option<&'static [f64]>,
+}
+
+impl Segmented {
+    /// What a voxel holds.
+    pub(crate) fn phase(&self, [x, y, z]: [usize; 3]) -> Phase {
+        match (self.wood.get(x, y, z), self.adhesive.get(x, y, z)) {
+            (true, _) => Phase::Wood,
+            (_, true) => Phase::Adhesive,
+            _ => Phase::Void,
+        }
+    }
 }
 
 /// Reads the voxels of `crop` page by page on all threads and sorts them into phases.
@@ -37,7 +48,6 @@ pub fn segment(
     on_page: impl Fn() + Sync,
 ) -> Result<Segmented, Error> {
     check(stack, phases, crop)?;
-    let too_large = || Error::file(stack.name(), "it has more voxels than can be counted");
     let [nx, ny, nz] = crop.dims();
     let words_per_row = nx.div_ceil(u64::BITS as usize);
     let words_per_page = words_per_row * ny;
@@ -45,24 +55,22 @@ pub fn segment(
     let mut adhesive = vec![0; words_per_page * nz];
 
     let coder = Coder::new(phases, stack.format());
-    let unions: Vec<Result<u8, Error>> = wood
-        .par_chunks_mut(words_per_page)
+    let unions: Vec<Result<u8, Error>> = (wood.par_chunks_mut(words_per_page))
         .zip(adhesive.par_chunks_mut(words_per_page))
         .enumerate()
         .map_init(Vec::new, |page, (k, (wood, adhesive))| {
             let z = crop.ranges()[2].start + k;
             stack.read_page(z, page)?;
-            let union = crop
-                .rows(stack.format(), page)
-                .zip(wood.chunks_mut(words_per_row))
-                .zip(adhesive.chunks_mut(words_per_row))
-                .map(|((pixels, wood), adhesive)| coder.row(pixels, wood, adhesive))
+            let rows = wood
+                .chunks_mut(words_per_row)
+                .zip(adhesive.chunks_mut(words_per_row));
+            let union = (crop.rows(stack.format(), page).zip(rows))
+                .map(|(pixels, (wood, adhesive))| coder.row(pixels, wood, adhesive))
                 .fold(0, |union, row| union | row);
             on_page();
-            if union & UNKNOWN == 0 {
-                Ok(union)
-            } else {
-                Err(unknown_label(stack, phases, crop, page, z, &coder))
+            match union & UNKNOWN {
+                0 => Ok(union),
+                _ => Err(unknown_label(stack, phases, crop, page, z, &coder)),
             }
         })
         .collect();
@@ -74,9 +82,13 @@ pub fn segment(
         Phases::Guess => Some(guessed(union).ok_or_else(|| not_guessed(stack, union))?),
         _ => None,
     };
+    let [wood, adhesive] = [wood, adhesive].map(|words| {
+        let grid = BitGrid::from_words(crop.dims(), words);
+        grid.ok_or_else(|| Error::file(stack.name(), "it has more voxels than can be counted"))
+    });
     Ok(Segmented {
-        wood: BitGrid::from_words(crop.dims(), wood).ok_or_else(too_large)?,
-        adhesive: BitGrid::from_words(crop.dims(), adhesive).ok_or_else(too_large)?,
+        wood: wood?,
+        adhesive: adhesive?,
         guessed,
     })
 }
@@ -87,21 +99,20 @@ pub fn segment(
 /// A crop that reaches out of the stack, phases that its pages cannot have, or more memory than
 /// this process may have.
 pub fn check(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<(), Error> {
-    crop.check(stack.dims()).map_err(Error::Usage)?;
+    crop.check(stack.dims())?;
     if !matches!(phases, Phases::Labels(labels) if labels.are_colours()) {
         stack.check_numbers()?;
     }
-    if stack.format().channels > 1 && matches!(phases, Phases::Grey(_)) {
-        return Err(Error::Usage(format!(
-            "{}: grey values are asked for but its pixels are R:G:B; give R:G:B labels instead",
-            stack.name()
-        )));
-    }
-    if stack.is_lossy() && !matches!(phases, Phases::Grey(_)) {
-        return Err(Error::Usage(format!(
-            "{}: the compression of JPEG changes values, so that no labels survive it; give grey values by --grey",
-            stack.name()
-        )));
+    let by_grey = matches!(phases, Phases::Grey(_));
+    let wrong = if by_grey && stack.format().channels > 1 {
+        "grey values are asked for but its pixels are R:G:B; give R:G:B labels instead"
+    } else if !by_grey && stack.is_lossy() {
+        "the compression of JPEG changes values, so that no labels survive it; give grey values by --grey"
+    } else {
+        ""
+    };
+    if !wrong.is_empty() {
+        return Err(Error::Usage(format!("{}: {wrong}", stack.name())));
     }
     let [nx, ny, nz] = crop.dims().map(|n| n as u64);
     let words = limits::volume([nx.div_ceil(u64::BITS.into()), ny, nz]);
@@ -113,10 +124,9 @@ pub fn check(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<(), Error> {
 fn not_guessed(stack: &Stack, union: u8) -> Error {
     let found = found(union);
     let names = ["void=", "wood=", "adhesive="];
-    let example: Vec<String> = (names.iter().zip(&found))
-        .map(|(name, label)| format!("{name}{label}"))
-        .collect();
     let listed: Vec<String> = found.iter().map(f64::to_string).collect();
+    let example = (names.iter().zip(&listed)).map(|(name, label)| name.to_string() + label);
+    let example: Vec<String> = example.collect();
     Error::Usage(format!(
         "{}: it holds {} alone{}; labels are guessed only from exactly 0, 1, 2 or 0, 128, 255, or, for wood alone, the first two of either: say which is which, as in --labels {}",
         stack.name(),
@@ -142,14 +152,11 @@ fn unknown_label(
     coder: &Coder,
 ) -> Error {
     let [x0, y0] = [0, 1].map(|axis| crop.ranges()[axis].start);
-    let found = crop
-        .rows(stack.format(), page)
-        .enumerate()
-        .find_map(|(y, row)| {
-            coder
-                .first_unknown(row)
-                .map(|(x, label)| (label, x + x0, y + y0))
-        });
+    let mut rows = crop.rows(stack.format(), page).enumerate();
+    let found = rows.find_map(|(y, row)| {
+        let (x, label) = coder.first_unknown(row)?;
+        Some((label, x + x0, y + y0))
+    });
     let (label, x, y) = found.unwrap_or((Label::Value(f64::NAN), x0, y0));
     let cure = match phases {
         Phases::Labels(_) | Phases::Guess if !label.is_whole() => {

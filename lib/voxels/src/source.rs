@@ -10,7 +10,8 @@ use std::sync::Arc;
 
 use particle_file::spool;
 
-use crate::{Error, Stack};
+use crate::Error;
+use crate::kind::Kind;
 
 /// One input file, read at positions from any thread.
 ///
@@ -21,16 +22,10 @@ pub struct Source {
     /// The path as given; `-` is standard input.
     path: PathBuf,
     name: String,
-    handle: Handle,
+    /// None where it is opened for each page, so that a folder of thousands of slices does not exhaust
+    /// the file descriptors.
+    file: Option<Arc<File>>,
     len: u64,
-}
-
-#[derive(Debug)]
-enum Handle {
-    Held(Arc<File>),
-    /// Opened for each page, so that a folder of thousands of slices does not exhaust the
-    /// file descriptors.
-    Reopened(PathBuf),
 }
 
 impl Source {
@@ -38,56 +33,35 @@ impl Source {
     /// unnamed temporary file first, because pages are not read in order.
     pub(crate) fn open(path: &Path) -> Result<Self, Error> {
         let name = quoted(path);
-        let source = Self::of_any_kind(path, &name).map_err(|e| Error::io(&name, e))?;
+        let file = regular_file(path).map_err(|e| Error::io(&name, e))?;
+        let source = Self::of_file(path.to_owned(), name, file)?;
         match source.len {
-            0 => Err(Error::file(name, "it is empty")),
+            0 => Err(Error::file(source, "it is empty")),
             _ => Ok(source),
         }
     }
 
-    fn of_any_kind(path: &Path, name: &str) -> io::Result<Self> {
-        let opened = if path.as_os_str() == "-" {
-            io::stdin().as_fd().try_clone_to_owned().map(File::from)
-        } else {
-            File::open(path)
-        };
-        let file = opened?;
-        let meta = file.metadata()?;
-        if meta.is_dir() {
-            return Err(io::Error::other("it is a folder"));
-        }
-        let file = match meta.is_file() {
-            true => file,
-            false => spool(file, Stack::recognises)?,
-        };
-        Self::held(path.to_owned(), name.to_owned(), file)
-    }
-
-    fn held(path: PathBuf, name: String, file: File) -> io::Result<Self> {
-        let len = file.metadata()?.len();
+    /// Wraps a regular file that is open already; `name` stands for it in messages.
+    pub(crate) fn of_file(path: PathBuf, name: String, file: File) -> Result<Self, Error> {
+        let len = file.metadata().map_err(|e| Error::io(&name, e))?.len();
         Ok(Self {
             path,
             name,
-            handle: Handle::Held(Arc::new(file)),
+            file: Some(Arc::new(file)),
             len,
         })
     }
 
-    /// Wraps a regular file that is open already; `name` stands for it in messages.
-    pub(crate) fn of_file(name: String, file: File) -> io::Result<Self> {
-        Self::held(PathBuf::from(&name), name, file)
-    }
-
     /// The same input with `file`, which holds its content unpacked or in another order.
-    pub(crate) fn with_content(&self, file: File) -> io::Result<Self> {
-        Self::held(self.path.clone(), self.name.clone(), file)
+    pub(crate) fn with_content(&self, file: File) -> Result<Self, Error> {
+        Self::of_file(self.path.clone(), self.name.clone(), file)
     }
 
     /// As [`Source::open`], but holds no file open between reads.
     pub(crate) fn open_slice(path: &Path) -> Result<Self, Error> {
         let mut source = Self::open(path)?;
         if path.is_file() {
-            source.handle = Handle::Reopened(path.to_owned());
+            source.file = None;
         }
         Ok(source)
     }
@@ -107,11 +81,11 @@ impl Source {
         self.len
     }
 
-    /// A handle for a few reads in a row.
+    /// A handle for a few reads.
     pub(crate) fn file(&self) -> io::Result<Arc<File>> {
-        match &self.handle {
-            Handle::Held(file) => Ok(Arc::clone(file)),
-            Handle::Reopened(path) => File::open(path).map(Arc::new),
+        match &self.file {
+            Some(file) => Ok(Arc::clone(file)),
+            None => File::open(&self.path).map(Arc::new),
         }
     }
 
@@ -138,6 +112,18 @@ impl Source {
             at,
             len: self.len,
         })
+    }
+}
+
+fn regular_file(path: &Path) -> io::Result<File> {
+    let file = match path.as_os_str() == "-" {
+        true => io::stdin().as_fd().try_clone_to_owned()?.into(),
+        false => File::open(path)?,
+    };
+    match file.metadata()? {
+        meta if meta.is_dir() => Err(io::Error::other("it is a folder")),
+        meta if meta.is_file() => Ok(file),
+        _ => spool(file, |head| Kind::of(head).is_some()),
     }
 }
 
@@ -176,9 +162,8 @@ impl fmt::Display for Source {
 
 /// A path as it stands in messages.
 pub(crate) fn quoted(path: &Path) -> String {
-    if path.as_os_str() == "-" {
-        "standard input".into()
-    } else {
-        format!("'{}'", path.display())
+    match path.as_os_str() == "-" {
+        true => "standard input".into(),
+        false => format!("'{}'", path.display()),
     }
 }

@@ -2,7 +2,7 @@
 
 use particle_file::BitGrid;
 
-use crate::volume_fractions::around;
+use crate::lattice::{Voxel, around, set_voxels, voxels};
 
 /// A closed surface of triangles, which are seen counter-clockwise from outside.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +35,7 @@ impl Surface {
         let mut vertex_of = vec![u32::MAX; field.share.len()];
         for cube in field.cubes() {
             let corner = |c: usize| {
-                let at: [usize; 3] = std::array::from_fn(|a| cube[a] + (c >> a & 1));
+                let at: Voxel = std::array::from_fn(|a| cube[a] + (c >> a & 1));
                 (at, field.share[field.index(at)] - 0.5)
             };
             let (mut sum, mut count) = ([0.0_f32; 3], 0.0);
@@ -90,44 +90,33 @@ impl Surface {
 
 /// What the surface is a level of, at voxel centres and a layer of zeros around them.
 struct Field {
-    dims: [usize; 3],
+    dims: Voxel,
     share: Vec<f32>,
 }
 
 impl Field {
     fn new(body: &BitGrid, room: &BitGrid) -> Self {
-        let [nx, ny, nz] = body.dims();
-        let dims = [nx + 2, ny + 2, nz + 2];
+        let dims = body.dims().map(|n| n + 2);
         let mut field = Self {
             dims,
             share: vec![0.0; dims.iter().product()],
         };
-        for z in 0..nz {
-            for y in 0..ny {
-                for x in room.view().set_in_row(y, z) {
-                    let (mut within, mut count) = (0.0, 0.0);
-                    for [x, y, z] in around([x, y, z], body.dims()) {
-                        if room.get(x, y, z) {
-                            within += f32::from(u8::from(body.get(x, y, z)));
-                            count += 1.0;
-                        }
-                    }
-                    let own = f32::from(u8::from(body.get(x, y, z)));
-                    let at = field.index([x + 1, y + 1, z + 1]);
-                    field.share[at] = 0.5 * (own + within / count);
-                }
-            }
+        let own = |[x, y, z]: Voxel| f32::from(u8::from(body.get(x, y, z)));
+        for voxel in set_voxels(room.view()) {
+            let beside = around(voxel, body.dims()).filter(|&[x, y, z]| room.get(x, y, z));
+            let (within, count) = beside.fold((0.0, 0.0), |(sum, n), v| (sum + own(v), n + 1.0));
+            let at = field.index(voxel.map(|i| i + 1));
+            field.share[at] = 0.5 * (own(voxel) + within / count);
         }
         field
     }
 
     /// The cubes between centres, by their low corners.
-    fn cubes(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
-        let [nx, ny, nz] = self.dims.map(|n| n - 1);
-        (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])))
+    fn cubes(&self) -> impl Iterator<Item = Voxel> + use<> {
+        voxels(self.dims.map(|n| n - 1))
     }
 
-    fn index(&self, [x, y, z]: [usize; 3]) -> usize {
+    fn index(&self, [x, y, z]: Voxel) -> usize {
         (z * self.dims[1] + y) * self.dims[0] + x
     }
 }
@@ -138,14 +127,9 @@ mod tests {
 
     use super::*;
 
-    fn surface_of(
-        dims: [usize; 3],
-        inside: impl Fn(usize, usize, usize) -> bool + Sync,
-    ) -> Surface {
-        Surface::of(
-            &BitGrid::from_fn(dims, inside),
-            &BitGrid::from_fn(dims, |_, _, _| true),
-        )
+    fn surface_of(dims: Voxel, inside: impl Fn(usize, usize, usize) -> bool + Sync) -> Surface {
+        let room = BitGrid::from_fn(dims, |_, _, _| true);
+        Surface::of(&BitGrid::from_fn(dims, inside), &room)
     }
 
     /// Six times the signed volume of the tetrahedra below the triangles.
@@ -165,8 +149,8 @@ mod tests {
         let mut edges = BTreeMap::new();
         for &[a, b, c] in &surface.triangles {
             for (from, to) in [(a, b), (b, c), (c, a)] {
-                *edges.entry((from.min(to), from.max(to))).or_insert(0) +=
-                    if from < to { 1 } else { -1 };
+                let balance = edges.entry((from.min(to), from.max(to))).or_insert(0);
+                *balance += if from < to { 1 } else { -1 };
             }
         }
         edges.values().all(|&balance| balance == 0)
@@ -190,11 +174,8 @@ mod tests {
         let slab = surface_of([12, 9, 12], |_, y, _| (3..6).contains(&y));
         let middle = |v: &&[f32; 3]| (3.0..9.0).contains(&v[0]) && (3.0..9.0).contains(&v[2]);
         let heights: Vec<f32> = slab.vertices.iter().filter(middle).map(|v| v[1]).collect();
-        assert!(
-            heights
-                .iter()
-                .all(|y| (y - 3.0).abs() < 1e-6 || (y - 6.0).abs() < 1e-6)
-        );
+        let on_face = |y: &f32| (y - 3.0).abs() < 1e-6 || (y - 6.0).abs() < 1e-6;
+        assert!(heights.iter().all(on_face));
         assert!(heights.len() > 70 && is_closed(&slab));
         let one = surface_of([3, 3, 3], |x, y, z| [x, y, z] == [0, 1, 1]);
         assert!(is_closed(&one) && volume(&one) > 0.0 && one.triangles.len() == 12);
@@ -206,11 +187,8 @@ mod tests {
     fn a_body_ends_at_its_room() {
         let room = BitGrid::from_fn([8, 8, 8], |_, y, _| y >= 3);
         let body = BitGrid::from_fn([8, 8, 8], |_, y, _| (3..5).contains(&y));
-        let lowest = Surface::of(&body, &room)
-            .vertices
-            .iter()
-            .map(|v| v[1])
-            .fold(8.0, f32::min);
+        let surface = Surface::of(&body, &room);
+        let lowest = surface.vertices.iter().map(|v| v[1]).fold(8.0, f32::min);
         assert!((2.999..3.2).contains(&lowest), "{lowest}");
     }
 }

@@ -2,6 +2,8 @@
 
 use particle_file::BitGrid;
 
+use crate::lattice::{Voxel, around, set_voxels};
+
 /// Share of each open voxel that material points fill.
 ///
 /// Every point spreads its volume by a trilinear hat of one voxel half-width, i.e. over the
@@ -36,13 +38,9 @@ impl VolumeFractions {
         let mut parts = [(0, 0.0); 8];
         for (corner, part) in parts.iter_mut().enumerate() {
             let up = [corner & 1, corner >> 1 & 1, corner >> 2];
-            let weight: f64 = (0..3)
-                .map(|a| match up[a] {
-                    1 => share[a],
-                    _ => 1.0 - share[a],
-                })
-                .product();
-            let voxel: [usize; 3] = std::array::from_fn(|a| low[a] + up[a]);
+            let along = |a: usize| [1.0 - share[a], share[a]][up[a]];
+            let weight: f64 = (0..3).map(along).product();
+            let voxel: Voxel = std::array::from_fn(|a| low[a] + up[a]);
             if self.is_open(voxel) {
                 *part = (self.index(voxel), weight);
             }
@@ -65,22 +63,17 @@ impl VolumeFractions {
     /// first in storage order. There are fewer voxels where points are squeezed into less room
     /// than their volume and the voxels next to it.
     pub fn fullest(&self) -> BitGrid {
-        let mut ranked: Vec<(f32, usize)> = Vec::new();
         let reached = self.reached();
-        let [nx, ny, nz] = self.open.dims();
-        for z in 0..nz {
-            for y in 0..ny {
-                for x in reached.view().set_in_row(y, z) {
-                    ranked.push((self.rank([x, y, z]), self.index([x, y, z])));
-                }
-            }
-        }
+        let mut ranked: Vec<(f32, usize)> = set_voxels(reached.view())
+            .map(|voxel| (self.rank(voxel), self.index(voxel)))
+            .collect();
         let count = self.volume.round().max(0.0) as usize;
         if count < ranked.len() {
             ranked.select_nth_unstable_by(count, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
             ranked.truncate(count);
         }
-        let mut chosen = BitGrid::new([nx, ny, nz]);
+        let mut chosen = BitGrid::new(self.open.dims());
+        let [nx, ny, _] = self.open.dims();
         for (_, at) in ranked {
             chosen.set(at % nx, at / nx % ny, at / nx / ny, true);
         }
@@ -91,23 +84,16 @@ impl VolumeFractions {
     fn reached(&self) -> BitGrid {
         let dims = self.open.dims();
         let mut reached = BitGrid::new(dims);
-        for z in 0..dims[2] {
-            for y in 0..dims[1] {
-                for x in self.open.view().set_in_row(y, z) {
-                    if self.fraction[self.index([x, y, z])] > 0.0 {
-                        for [x, y, z] in around([x, y, z], dims) {
-                            if self.open.get(x, y, z) {
-                                reached.set(x, y, z, true);
-                            }
-                        }
-                    }
-                }
+        for voxel in set_voxels(self.open.view()) {
+            if self.fraction[self.index(voxel)] > 0.0 {
+                let open = around(voxel, dims).filter(|&[x, y, z]| self.open.get(x, y, z));
+                open.for_each(|[x, y, z]| reached.set(x, y, z, true));
             }
         }
         reached
     }
 
-    fn rank(&self, voxel: [usize; 3]) -> f32 {
+    fn rank(&self, voxel: Voxel) -> f32 {
         let (mut sum, mut count) = (0.0, 0.0);
         for [x, y, z] in around(voxel, self.open.dims()) {
             if self.open.get(x, y, z) {
@@ -119,46 +105,31 @@ impl VolumeFractions {
         own + (sum / count).min(1.0).powi(2)
     }
 
-    fn is_open(&self, voxel: [usize; 3]) -> bool {
+    fn is_open(&self, voxel: Voxel) -> bool {
         let [x, y, z] = voxel;
         (0..3).all(|a| voxel[a] < self.open.dims()[a]) && self.open.get(x, y, z)
     }
 
-    fn index(&self, [x, y, z]: [usize; 3]) -> usize {
+    fn index(&self, [x, y, z]: Voxel) -> usize {
         let [nx, ny, _] = self.open.dims();
         (z * ny + y) * nx + x
     }
 }
 
-/// A voxel and its neighbours by faces, edges and corners, as far as the grid reaches.
-pub(crate) fn around(voxel: [usize; 3], dims: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
-    let [xs, ys, zs] =
-        std::array::from_fn(|a| voxel[a].saturating_sub(1)..(voxel[a] + 2).min(dims[a]));
-    zs.flat_map(move |z| {
-        let xs = xs.clone();
-        ys.clone()
-            .flat_map(move |y| xs.clone().map(move |x| [x, y, z]))
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lattice::voxels;
 
-    fn all(dims: [usize; 3]) -> BitGrid {
+    fn all(dims: Voxel) -> BitGrid {
         BitGrid::from_fn(dims, |_, _, _| true)
     }
 
-    /// Points at the centres of `voxels`, shifted and of another volume.
-    fn points(voxels: &BitGrid, shift: f64, volume: f64, into: BitGrid) -> VolumeFractions {
+    /// Points at the centres of `voxels`, shifted.
+    fn points(voxels: &BitGrid, shift: f64, into: BitGrid) -> VolumeFractions {
         let mut fractions = VolumeFractions::new(into);
-        let [_, ny, nz] = voxels.dims();
-        for z in 0..nz {
-            for y in 0..ny {
-                for x in voxels.view().set_in_row(y, z) {
-                    fractions.add([x, y, z].map(|i| i as f64 + 0.5 + shift), volume);
-                }
-            }
+        for voxel in set_voxels(voxels.view()) {
+            fractions.add(voxel.map(|i| i as f64 + 0.5 + shift), 1.0);
         }
         fractions
     }
@@ -171,7 +142,7 @@ mod tests {
             };
             let voxels = BitGrid::from_fn([8, 8, 8], inside);
             // The places of a file are of single precision.
-            let fractions = points(&voxels, 1e-6, 1.0, all([8, 8, 8]));
+            let fractions = points(&voxels, 1e-6, all([8, 8, 8]));
             assert_eq!(fractions.fullest(), voxels, "{pattern}");
         }
     }
@@ -181,7 +152,7 @@ mod tests {
         let cube = BitGrid::from_fn([10, 10, 10], |x, y, z| {
             [x, y, z].iter().all(|i| (3..7).contains(i))
         });
-        let fractions = points(&cube, 0.25, 1.0, all([10, 10, 10]));
+        let fractions = points(&cube, 0.25, all([10, 10, 10]));
         let total: f32 = fractions.fraction.iter().sum();
         assert!((total - 64.0).abs() < 1e-4);
         assert_eq!(fractions.fullest(), cube);
@@ -192,12 +163,12 @@ mod tests {
         // A slab of 3 layers pressed half a layer into the floor and half over the end.
         let slab = BitGrid::from_fn([6, 8, 6], |_, y, _| (1..4).contains(&y));
         let open = BitGrid::from_fn([6, 8, 6], |_, y, _| y >= 1);
-        let fractions = points(&slab, -0.5, 1.0, open.clone());
+        let fractions = points(&slab, -0.5, open.clone());
         let total: f32 = fractions.fraction.iter().sum();
         assert!((total - 108.0).abs() < 1e-3, "{total}");
         let found = fractions.fullest();
         assert_eq!(found, slab);
-        let deep = points(&slab, -2.5, 1.0, open.clone());
+        let deep = points(&slab, -2.5, open.clone());
         assert_eq!(deep.volume, 108.0);
         let found = deep.fullest();
         let in_wood = BitGrid::from_fn([6, 8, 6], |x, y, z| found.get(x, y, z) && y < 1).count();
@@ -210,29 +181,19 @@ mod tests {
         // whole planes of voxels hold no point.
         let mut fractions = VolumeFractions::new(all([28, 12, 20]));
         let mut holding = BitGrid::new([28, 12, 20]);
-        for k in 0..14 {
-            for j in 0..6 {
-                for i in 0..10 {
-                    let [i, j, k] = [i, j, k].map(|i| f64::from(i) + 0.5);
-                    let place = [7.0 + 1.4 * i, 3.0 + j, 5.0 + k / 1.4];
-                    holding.set(
-                        place[0] as usize,
-                        place[1] as usize,
-                        place[2] as usize,
-                        true,
-                    );
-                    fractions.add(place, 1.0);
-                }
-            }
+        for point in voxels([10, 6, 14]) {
+            let [i, j, k] = point.map(|i| i as f64 + 0.5);
+            let place = [7.0 + 1.4 * i, 3.0 + j, 5.0 + k / 1.4];
+            let [x, y, z] = place.map(|x| x as usize);
+            holding.set(x, y, z, true);
+            fractions.add(place, 1.0);
         }
         let found = fractions.fullest();
         assert_eq!(found.count(), 840);
         assert!(holding.count() < 650, "{}", holding.count());
         // The box that the liquid fills, without its outermost voxels.
-        for z in 6..14 {
-            for y in 4..8 {
-                assert!((8..20).all(|x| found.get(x, y, z)), "hole at y {y}, z {z}");
-            }
+        for [x, y, z] in voxels([12, 4, 8]) {
+            assert!(found.get(x + 8, y + 4, z + 6), "hole at {x}, {y}, {z}");
         }
     }
 }

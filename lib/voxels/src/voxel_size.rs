@@ -77,11 +77,8 @@ impl VoxelSize {
     /// # Errors
     /// A sentence when the voxels are no cubes.
     pub fn cube_edge(&self) -> Result<f64, String> {
-        let (x, y, z) = (
-            self.edges.0,
-            self.edges.1,
-            self.edges.2.unwrap_or(self.edges.0),
-        );
+        let (x, y, z) = self.edges;
+        let z = z.unwrap_or(x);
         let (low, high) = (x.min(y).min(z), x.max(y).max(z));
         if high > low * (1.0 + CUBE_TOLERANCE) {
             return Err(format!(
@@ -112,12 +109,11 @@ pub(crate) fn micrometres(metres: f64) -> f64 {
 /// A number as people and programs write it, with a point or a comma before its decimals.
 pub(crate) fn decimal(text: &str) -> Option<f64> {
     let text = text.trim();
-    let number: f64 = match text.contains('.') {
+    let number = match text.contains('.') {
         true => text.parse(),
         false => text.replacen(',', ".", 1).parse(),
-    }
-    .ok()?;
-    number.is_finite().then_some(number)
+    };
+    number.ok().filter(|n: &f64| n.is_finite())
 }
 
 /// Metres of `1 unit` where `unit` is spelled as imaging programs do; none for pixels and
@@ -165,11 +161,11 @@ impl VoxelEdge {
             let from = "--voxel";
             return Ok(Self { metres, from });
         }
-        let stated = stated.ok_or_else(|| {
-            Error::Usage(format!(
+        let Some(stated) = stated else {
+            return Err(Error::Usage(format!(
                 "{name} does not say how large a voxel is, in a unit of length; give its edge, e.g. --voxel '1.45 um'"
-            ))
-        })?;
+            )));
+        };
         let refused = |why: String| Error::Usage(format!("{name}: {why}"));
         let (metres, from) = (stated.cube_edge().map_err(refused)?, stated.from);
         if !BELIEVED.contains(&metres) {
@@ -232,40 +228,40 @@ mod tests {
         let edge = |x, unit| VoxelSize::from_resolution(x, x, unit).map(|s| s.cube_edge().unwrap());
         assert!(close(edge(10_000.0, 3).unwrap(), 1e-6));
         assert!(close(edge(25_400.0, 2).unwrap(), 1e-6));
-        // Rounded, or written per centimetre.
-        for (x, unit) in [(72.0, 2), (72.009, 2), (28.35, 3), (236.22, 3), (4800.0, 2)] {
+        // Rounded, or written per centimetre; in no unit.
+        for (x, unit) in [
+            (72.0, 2),
+            (72.009, 2),
+            (28.35, 3),
+            (236.22, 3),
+            (4800.0, 2),
+            (1.0, 1),
+        ] {
             assert_eq!(edge(x, unit), None, "{x} {unit}");
         }
-        assert_eq!(edge(1.0, 1), None);
     }
 
     #[test]
-    fn units_as_programs_spell_them() {
-        for micron in [
-            "micron",
-            "um",
-            "µm",
-            "μm",
-            "\\u00B5m",
-            "\\u03bcm",
-            "Âµm",
-            "Microns",
-            "micrometers",
-            "\"um\"",
-            "µ",
+    fn numbers_and_units_as_programs_spell_them() {
+        for (names, metres) in [
+            (
+                "micron um µm μm \\u00B5m \\u03bcm Âµm Microns micrometers \"um\" µ",
+                1e-6,
+            ),
+            ("nm nanometre", 1e-9),
+            ("mm millimeter", 1e-3),
+            ("cm centimetre", 1e-2),
+            ("in inch inches", 0.0254),
+            ("m meter", 1.0),
         ] {
-            assert!(close(metres_of_unit(micron).unwrap(), 1e-6), "{micron}");
+            for name in names.split(' ') {
+                assert!(close(metres_of_unit(name).unwrap(), metres), "{name}");
+            }
         }
-        assert!(close(metres_of_unit("inches").unwrap(), 0.0254));
         for none in ["pixel", "pixels", "", "s", "voxel", "gray", "1 um"] {
             assert_eq!(metres_of_unit(none), None, "{none}");
         }
-    }
-
-    #[test]
-    fn commas_before_decimals() {
-        assert_eq!(decimal(" 1,45 "), Some(1.45));
-        assert_eq!(decimal("1.45"), Some(1.45));
+        assert_eq!([" 1,45 ", "1.45"].map(decimal), [Some(1.45); 2]);
         for none in ["1,450.5", "1.450,5", "1,4,5", "", "nan", "inf", "x"] {
             assert_eq!(decimal(none), None, "{none}");
         }
@@ -277,12 +273,9 @@ mod tests {
         let resolve = |given, metres| VoxelEdge::resolve(given, stated(metres).as_ref(), "'a'");
         for (metres, said) in [(1e-3, "1 mm"), (50.1e-6, "50.1 um"), (9e-9, "0.009 um")] {
             let error = resolve(None, metres).unwrap_err();
-            let sentence = error.to_string();
-            assert!(
-                sentence.contains(said) && sentence.contains("--voxel"),
-                "{sentence}"
-            );
             assert!(error.is_usage());
+            let error = error.to_string();
+            assert!(error.contains(said) && error.contains("--voxel"), "{error}");
             assert_eq!(resolve(Some(1e-3), metres).unwrap().metres, 1e-3);
         }
         assert_eq!(resolve(None, 50e-6).unwrap().metres, 50e-6);
@@ -290,17 +283,9 @@ mod tests {
 
     #[test]
     fn edges_beyond_what_shows_cells_are_doubted() {
-        let doubt = |metres| {
-            VoxelEdge {
-                metres,
-                from: "--voxel",
-            }
-            .doubt()
-        };
-        assert_eq!(
-            [doubt(1.45e-6), doubt(0.1e-6), doubt(20e-6)],
-            [None, None, None]
-        );
+        let from = "--voxel";
+        let doubt = |metres| VoxelEdge { metres, from }.doubt();
+        assert_eq!([1.45e-6, 0.1e-6, 20e-6].map(doubt), [None, None, None]);
         assert!(doubt(1.45e-3).unwrap().contains("1.45 mm by --voxel"));
         assert!(doubt(0.09e-6).unwrap().contains("unit"));
     }

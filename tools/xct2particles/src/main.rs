@@ -3,7 +3,6 @@
 mod arguments;
 mod report;
 
-use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -45,7 +44,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let phases = match (&arguments.labels, &arguments.grey, proposed) {
         (Some(labels), _, _) => Phases::Labels(labels.clone()),
         (None, Some(GreyLevels::Given(grey)), _) => Phases::Grey(grey.clone()),
-        (None, Some(GreyLevels::Auto | GreyLevels::AutoWood), Some(proposed)) => {
+        (None, Some(_), Some(proposed)) => {
             let wrong = |why| Failure::usage(format!("{}: {why}", stack.name()));
             Phases::Grey(proposed.map_err(wrong)?.grey)
         }
@@ -53,11 +52,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     };
     // Hashing a large file takes minutes: what cannot be read is refused before.
     voxels::check(&stack, &phases, &crop).map_err(failure)?;
-    let hashed = if output.is_some() {
-        stack.sources()
-    } else {
-        &[]
-    };
+    let hashed = output.as_ref().map_or(&[][..], |_| stack.sources());
     let (segmented, inputs) = rayon::join(|| read_pages(&stack, &phases, &crop), || hashes(hashed));
     let (mut segmented, inputs) = (segmented?, inputs?);
     if let Some(most) = arguments.despeckle {
@@ -73,10 +68,9 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         draw(&draft, &name.to_string_lossy(), preview)?;
     }
     look_swapped(&segmented, arguments.yes_really)?;
-    match output {
-        Some(output) => output.write(|out| draft.write_to(out)),
-        None => Ok(()),
-    }
+    output
+        .as_ref()
+        .map_or(Ok(()), |output| output.write(|out| draft.write_to(out)))
 }
 
 /// The grey values that are proposed, where that is asked for; the histogram is written.
@@ -85,21 +79,23 @@ fn proposal(
     crop: &Crop,
     arguments: &Arguments,
 ) -> Result<Option<Result<Proposal, String>>, Failure> {
-    let bare = matches!(arguments.grey, Some(GreyLevels::AutoWood));
-    let auto = bare || matches!(arguments.grey, Some(GreyLevels::Auto));
-    if !auto && arguments.histogram.is_none() {
+    let given = matches!(arguments.grey, None | Some(GreyLevels::Given(_)));
+    if given && arguments.histogram.is_none() {
         return Ok(None);
     }
     let histogram = Histogram::of(stack, crop).map_err(failure)?;
     if let Some(output) = &arguments.histogram {
-        output.write(|out| write_histogram(&histogram, out))?;
+        output.write(|out| {
+            writeln!(out, "grey,voxels")?;
+            (histogram.values()).try_for_each(|(grey, voxels)| writeln!(out, "{grey},{voxels}"))
+        })?;
     }
-    let proposed = Some(match bare {
-        true => histogram.otsu_of_wood(),
-        false => histogram.otsu(),
-    });
+    let proposed = match arguments.grey {
+        Some(GreyLevels::AutoWood) => histogram.otsu_of_wood(),
+        _ => histogram.otsu(),
+    };
     report::proposal(&proposed);
-    Ok(proposed)
+    Ok(Some(proposed))
 }
 
 /// The axis across the bond.
@@ -169,18 +165,11 @@ fn open(arguments: &Arguments) -> Result<Stack, voxels::Error> {
     }
 }
 
-/// `grey,voxels` from the lowest to the highest value found.
-fn write_histogram(histogram: &Histogram, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "grey,voxels")?;
-    (histogram.values()).try_for_each(|(grey, voxels)| writeln!(out, "{grey},{voxels}"))
-}
-
 /// Other arguments may help (exit 2) or the file is at fault (exit 3).
 fn failure(error: voxels::Error) -> Failure {
-    if error.is_usage() {
-        Failure::usage(error)
-    } else {
-        Failure::data(error)
+    match error.is_usage() {
+        true => Failure::usage(error),
+        false => Failure::data(error),
     }
 }
 
@@ -207,10 +196,8 @@ fn read_pages(stack: &Stack, phases: &Phases, crop: &Crop) -> Result<Segmented, 
 fn hashes(sources: &[Source]) -> Result<Vec<(String, u64)>, Failure> {
     let hash = |source: &Source| {
         let hash = source.reader().and_then(cli::hash_reader);
-        match hash {
-            Ok(hash) => Ok((source.path().display().to_string(), hash)),
-            Err(e) => Err(Failure::data(format!("cannot read {source}: {e}"))),
-        }
+        let hash = hash.map_err(|e| Failure::data(format!("cannot read {source}: {e}")))?;
+        Ok((source.path().display().to_string(), hash))
     };
     sources.par_iter().map(hash).collect()
 }
@@ -226,8 +213,7 @@ fn draft<'a>(
     let high = specimen.wood.dims().map(|n| n as f64 * edge.metres);
     let normal = across(arguments).index() as u8;
     let mut header = Header::new(Kind::Specimen, edge.metres, normal, [0.0; 3], high);
-    let [x, y, z] = crop.ranges();
-    let crop = [x, y, z].map(|range| format!("{}:{}", range.start, range.end));
+    let crop = (crop.ranges().clone()).map(|range| format!("{}:{}", range.start, range.end));
     header.set_attribute("crop", crop.join(","));
     header.set_attribute("voxel_from", edge.from);
     if let Some(most) = arguments.despeckle {

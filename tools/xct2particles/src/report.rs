@@ -35,18 +35,16 @@ pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
     }
 }
 
-/// What thresholds would part, where that was asked for.
-pub(crate) fn proposal(proposed: &Option<Result<Proposal, String>>) {
+/// What thresholds would part.
+pub(crate) fn proposal(proposed: &Result<Proposal, String>) {
     match proposed {
-        Some(Ok(proposal)) => {
-            let grey = &proposal.grey;
+        Ok(Proposal { grey, left_out }) => {
             cli::note(format_args!(
                 "grey        proposed by Otsu's thresholds: --grey {grey}"
             ));
-            proposal.left_out.iter().for_each(cli::warn);
+            left_out.iter().for_each(cli::warn);
         }
-        Some(Err(why)) => cli::warn(format_args!("no grey values are proposed: {why}")),
-        None => {}
+        Err(why) => cli::warn(format_args!("no grey values are proposed: {why}")),
     }
 }
 
@@ -79,15 +77,11 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64, normal: Axis) {
         )),
         _ => {}
     }
-    let [nx, ny, nz] = specimen.wood.dims().map(|n| n as u64);
+    let dims = specimen.wood.dims().map(|n| n as u64);
     let (wood, adhesive) = (specimen.wood.count(), specimen.adhesive.count());
-    let total = nx * ny * nz;
-    let phases = [
-        ("void", total - wood - adhesive),
-        ("wood", wood),
-        ("adhesive", adhesive),
-    ];
-    for (name, voxels) in phases {
+    let total: u64 = dims.iter().product();
+    let void = total - wood - adhesive;
+    for (name, voxels) in [("void", void), ("wood", wood), ("adhesive", adhesive)] {
         let fraction = voxels as f64 / total as f64;
         cli::note(format_args!(
             "{name:<10} {voxels:>12} voxels  {fraction:.6}"
@@ -100,19 +94,17 @@ pub(crate) fn phases(specimen: &Segmented, edge: f64, normal: Axis) {
         cli::warn("more voxels are adhesive than wood: are their labels the right way round?");
     }
     let um = edge * 1e6;
-    let columns = total / [nx, ny, nz][normal.index()];
+    let columns = total / dims[normal.index()];
     let area = columns as f64 * um * um;
-    let along: Vec<String> = (Axis::ALL.into_iter().filter(|axis| *axis != normal))
-        .map(|axis| axis.to_string())
-        .collect();
+    let along = Axis::ALL.into_iter().filter(|axis| *axis != normal);
+    let along: Vec<String> = along.map(|axis| axis.to_string()).collect();
     let along = along.join(" times ");
-    if adhesive == 0 {
-        return cli::note(format_args!(
-            "bond area   {area:.1} um2 ({along}); undamaged wood, to be bonded by build-bondline --slab or --spread"
-        ));
-    }
-    let thickness = adhesive as f64 * um / columns as f64;
-    cli::note(format_args!(
-        "bond area   {area:.1} um2 ({along}), adhesive volume over it {thickness:.4} um"
-    ));
+    let rest = match adhesive {
+        0 => "; undamaged wood, to be bonded by build-bondline --slab or --spread".into(),
+        n => {
+            let thickness = n as f64 * um / columns as f64;
+            format!(", adhesive volume over it {thickness:.4} um")
+        }
+    };
+    cli::note(format_args!("bond area   {area:.1} um2 ({along}){rest}"));
 }

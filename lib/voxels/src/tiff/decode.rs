@@ -5,10 +5,10 @@ use std::io::Cursor;
 use std::os::unix::fs::FileExt;
 
 use ::tiff::decoder::{Decoder, Limits};
+use ::tiff::tags::Tag;
 
-use super::ifd::tag;
 use super::layout::{Cut, PageLayout};
-use crate::sample::{Sample, swap_bytes, unpack_bits};
+use crate::sample::{Sample, to_native, unpack_bits};
 
 /// Reads the page into `page`, which is empty: rows without padding, channels interleaved, one sample per
 /// pixel and channel in native byte order.
@@ -22,9 +22,7 @@ pub(crate) fn read(file: &File, layout: &PageLayout, page: &mut Vec<u8>) -> Resu
             file.read_exact_at(run, offset).map_err(|e| e.to_string())?;
             rest = behind;
         }
-        if layout.big_endian != cfg!(target_endian = "big") {
-            swap_bytes(page, layout.format.sample.bytes());
-        }
+        to_native(page, layout.format.sample, layout.big_endian);
     } else {
         let chunks = layout.chunks.chunks(layout.chunks.len() / layout.planes());
         for (plane, chunks) in page.chunks_mut(plane_bytes).zip(chunks) {
@@ -99,110 +97,82 @@ fn decode_plane(
     Ok(())
 }
 
-const SHORT: u16 = 3;
-const LONG: u16 = 4;
-const LONG8: u16 = 16;
-
-/// The tags of a page of so many `chunks` as strips but for their places: number, type and value.
-fn tags(layout: &PageLayout, chunks: usize) -> Vec<(u16, u16, u64)> {
-    let sample_format = match layout.format.sample {
-        Sample::U8 | Sample::U16 | Sample::U32 | Sample::U64 => 1,
-        Sample::I8 | Sample::I16 | Sample::I32 | Sample::I64 => 2,
-        Sample::F32 | Sample::F64 => 3,
-    };
-    let format = &layout.format;
-    let (width, height, rows) = match layout.cut {
-        Cut::Strips(rows) => (format.width as u64, format.height as u64, rows),
-        Cut::Tiles(w, h) => (w.into(), u64::from(h) * chunks as u64, h),
-    };
-    let samples = layout.samples_side_by_side() as u64;
-    vec![
-        (tag::IMAGE_WIDTH, LONG, width),
-        (tag::IMAGE_LENGTH, LONG, height),
-        (tag::BITS_PER_SAMPLE, SHORT, layout.bits.into()),
-        (tag::COMPRESSION, SHORT, layout.compression.code().into()),
-        (tag::PHOTOMETRIC, SHORT, 1), // black is zero
-        (tag::SAMPLES_PER_PIXEL, SHORT, samples),
-        (tag::ROWS_PER_STRIP, LONG, rows.into()),
-        (tag::PREDICTOR, SHORT, layout.predictor.into()),
-        (tag::SAMPLE_FORMAT, SHORT, sample_format),
-    ]
-}
-
 /// A BigTIFF of one page with these chunks as strips.
 fn as_grey_tiff(
     file: &File,
     layout: &PageLayout,
     chunks: &[(u64, u64)],
 ) -> Result<Vec<u8>, String> {
-    let mut tags = tags(layout, chunks.len());
-    // Header (16), count (8), entries (20 each), next (8), offsets, lengths, chunks.
-    let entries = tags.len() + 2;
-    let arrays = 16 + 8 + 20 * entries as u64 + 8;
-    let n = chunks.len() as u64;
-    let mut at = arrays + 16 * n;
-    let big = layout.big_endian;
-    let mut out = Bytes {
-        bytes: Vec::new(),
-        big,
+    const LONG8: u64 = 16;
+    let number = |value: u64, width: usize| match layout.big_endian {
+        true => value.to_be_bytes()[8 - width..].to_vec(),
+        false => value.to_le_bytes()[..width].to_vec(),
     };
-    out.bytes.extend(if big { b"MM" } else { b"II" });
-    out.put(43, 2);
-    out.put(8, 2);
-    out.put(0, 2);
-    out.put(16, 8);
-    out.put(entries as u64, 8);
+    let n = chunks.len() as u64;
+    // Header (16), count (8), entries (20 each), next (8), offsets, lengths, chunks.
+    let mut tags = tags(layout, n);
+    let entries = tags.len() as u64 + 2;
+    let arrays = 16 + 8 + 20 * entries + 8;
+    let mut at = arrays + 16 * n;
     // One chunk's offset and length stand in the entry itself, as the format demands.
     let one = |value, place| if n == 1 { value } else { place };
-    let first = chunks.first().map_or(0, |c| c.1);
-    tags.push((tag::STRIP_OFFSETS, LONG8, one(at, arrays)));
-    tags.push((tag::STRIP_BYTE_COUNTS, LONG8, one(first, arrays + 8 * n)));
+    tags.push((Tag::StripOffsets.to_u16(), n, one(at, arrays)));
+    tags.push((
+        Tag::StripByteCounts.to_u16(),
+        n,
+        one(chunks[0].1, arrays + 8 * n),
+    ));
     tags.sort_unstable();
-    for (tag, kind, value) in tags {
-        out.put(tag.into(), 2);
-        out.put(kind.into(), 2);
-        out.put(if kind == LONG8 { n } else { 1 }, 8);
-        let width = match kind {
-            SHORT => 2,
-            LONG => 4,
-            _ => 8,
-        };
-        out.put(value, width);
-        out.put(0, 8 - width);
+    let mut bytes = if layout.big_endian { b"MM" } else { b"II" }.to_vec();
+    for (value, width) in [(43, 2), (8, 2), (0, 2), (16, 8), (entries, 8)] {
+        bytes.extend(number(value, width));
     }
-    out.put(0, 8);
+    for (tag, count, value) in tags {
+        for (value, width) in [(tag.into(), 2), (LONG8, 2), (count, 8), (value, 8)] {
+            bytes.extend(number(value, width));
+        }
+    }
+    bytes.extend(number(0, 8));
     for &(_, stored) in chunks {
-        out.put(at, 8);
+        bytes.extend(number(at, 8));
         at += stored;
     }
     for &(_, stored) in chunks {
-        out.put(stored, 8);
+        bytes.extend(number(stored, 8));
     }
-    let mut bytes = out.bytes;
     for &(offset, stored) in chunks {
         let start = bytes.len();
         bytes.resize(start + stored as usize, 0);
-        file.read_exact_at(&mut bytes[start..], offset)
-            .map_err(|e| e.to_string())?;
+        let read = file.read_exact_at(&mut bytes[start..], offset);
+        read.map_err(|e| e.to_string())?;
     }
     Ok(bytes)
 }
 
-/// Bytes of a TIFF in the making.
-struct Bytes {
-    bytes: Vec<u8>,
-    big: bool,
-}
-
-impl Bytes {
-    /// Appends the low `width` bytes of `value`.
-    fn put(&mut self, value: u64, width: usize) {
-        if self.big {
-            self.bytes.extend(&value.to_be_bytes()[8 - width..]);
-        } else {
-            self.bytes.extend(&value.to_le_bytes()[..width]);
-        }
-    }
+/// The tags of a page of so many `chunks` as strips but for their places: number, count and value.
+fn tags(layout: &PageLayout, chunks: u64) -> Vec<(u16, u64, u64)> {
+    let sample_format = match layout.format.sample {
+        Sample::U8 | Sample::U16 | Sample::U32 | Sample::U64 => 1,
+        Sample::I8 | Sample::I16 | Sample::I32 | Sample::I64 => 2,
+        Sample::F32 | Sample::F64 => 3,
+    };
+    let (width, height) = (layout.format.width as u64, layout.format.height as u64);
+    let (width, height, rows) = match layout.cut {
+        Cut::Strips(rows) => (width, height, rows),
+        Cut::Tiles(w, h) => (w.into(), u64::from(h) * chunks, h),
+    };
+    let tags = [
+        (Tag::ImageWidth, width),
+        (Tag::ImageLength, height),
+        (Tag::BitsPerSample, layout.bits.into()),
+        (Tag::Compression, layout.compression as u64),
+        (Tag::PhotometricInterpretation, 1), // black is zero
+        (Tag::SamplesPerPixel, layout.samples_side_by_side() as u64),
+        (Tag::RowsPerStrip, rows.into()),
+        (Tag::Predictor, layout.predictor.into()),
+        (Tag::SampleFormat, sample_format),
+    ];
+    tags.map(|(tag, value)| (tag.to_u16(), 1, value)).to_vec()
 }
 
 /// Pixels from planes.

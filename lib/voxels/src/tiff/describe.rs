@@ -1,20 +1,18 @@
 //! The image description of a TIFF as programs write it: the number of planes and the size
 //! of a voxel. ImageJ writes `key=value` lines, tifffile the shape, OME an XML document.
 
+use ::tiff::tags::Tag;
+
 use super::description::{Description, one_axis};
-use super::ifd::{Container, Directory, tag};
+use super::ifd::{Directory, UIC2};
 use super::layout::PageLayout;
 use super::ome;
 use crate::voxel_size::{VoxelSize, decimal, metres_of_unit};
 
 /// Reads the description of the first page.
-pub(crate) fn describe(
-    tiff: &Container,
-    page: &Directory,
-    layout: &PageLayout,
-) -> Result<Description, String> {
-    let text = tiff.text(page, tag::IMAGE_DESCRIPTION)?.unwrap_or_default();
-    let resolution = [tag::X_RESOLUTION, tag::Y_RESOLUTION].map(|t| tiff.rational(page, t));
+pub(crate) fn describe(page: &Directory, layout: &PageLayout) -> Result<Description, String> {
+    let text = page.text(Tag::ImageDescription)?;
+    let resolution = [Tag::XResolution, Tag::YResolution].map(|t| page.rational(t));
     let mut description = if text.starts_with("ImageJ=") {
         imagej(&text, resolution)?
     } else if let Some(shape) = shape(&text)? {
@@ -25,9 +23,9 @@ pub(crate) fn describe(
         Description::default()
     };
     // MetaMorph's STK has a value of this tag for each plane behind its only directory.
-    description.planes = description.planes.or(tiff.count(page, tag::UIC2));
+    description.planes = description.planes.or(page.count(UIC2));
     if let (false, [Some(x), Some(y)]) = (description.states_size, resolution) {
-        let unit = tiff.first_uint(page, tag::RESOLUTION_UNIT)?.unwrap_or(2);
+        let unit = page.uint(Tag::ResolutionUnit)?.unwrap_or(2);
         description.voxel_size = VoxelSize::from_resolution(x, y, unit);
     }
     Ok(description)
@@ -37,26 +35,21 @@ pub(crate) fn describe(
 /// of planes in `zunit`.
 fn imagej(text: &str, resolution: [Option<f64>; 2]) -> Result<Description, String> {
     let value = |key: &str| {
-        text.lines()
-            .find_map(|line| line.strip_prefix(key)?.strip_prefix('='))
-            .map(str::trim)
+        let mut lines = text.lines();
+        let value = lines.find_map(|line| line.strip_prefix(key)?.strip_prefix('='));
+        value.map(str::trim)
     };
     let count = |key| value(key).and_then(|n| n.parse::<u64>().ok());
     one_axis(["channels", "slices", "frames"].map(|key| count(key).unwrap_or(1)))?;
     let metres = |key| metres_of_unit(value(key).or(value("unit"))?);
-    let spacing = |text: &str| Some(decimal(text)?.abs() * metres("zunit")?);
     let voxel_size = || {
         let z = match value("spacing") {
             None => None,
-            Some(text) => Some(spacing(text)?),
+            Some(text) => Some(decimal(text)?.abs() * metres("zunit")?),
         };
-        let [x, y] = resolution;
-        VoxelSize::new(
-            metres("unit")? / x?,
-            metres("yunit")? / y?,
-            z,
-            "ImageJ metadata",
-        )
+        let [x, y] = [("unit", resolution[0]), ("yunit", resolution[1])]
+            .map(|(key, pixels)| Some(metres(key)? / pixels?));
+        VoxelSize::new(x?, y?, z, "ImageJ metadata")
     };
     Ok(Description {
         planes: count("images"),
@@ -69,10 +62,10 @@ fn imagej(text: &str, resolution: [Option<f64>; 2]) -> Result<Description, Strin
 /// The shape that tifffile writes: a JSON object with the key `shape`, once `shape=(N, rows, columns)`.
 fn shape(text: &str) -> Result<Option<Vec<Option<u64>>>, String> {
     let text = text.trim();
-    if let Some(axes) = text
+    let old = text
         .strip_prefix("shape=(")
-        .and_then(|t| t.strip_suffix(')'))
-    {
+        .and_then(|t| t.strip_suffix(')'));
+    if let Some(axes) = old {
         let axes = axes.trim_end_matches(',').split(',');
         return Ok(Some(axes.map(|n| n.trim().parse().ok()).collect()));
     }
@@ -87,24 +80,21 @@ fn shape(text: &str) -> Result<Option<Vec<Option<u64>>>, String> {
 
 /// Of `[N, rows, columns]`, with RGB `[N, rows, columns, 3]` or `[N, 3, rows, columns]`.
 fn shaped(axes: &[Option<u64>], layout: &PageLayout) -> Result<Description, String> {
-    let total = (axes.iter()).try_fold(1_u64, |n, axis| n.checked_mul((*axis)?));
     let format = layout.format;
-    let plane = (format.width as u64)
-        .checked_mul(format.height as u64)
-        .and_then(|n| n.checked_mul(format.channels as u64));
+    let product = |axes: &[Option<u64>]| {
+        axes.iter()
+            .try_fold(1_u64, |n, axis| n.checked_mul((*axis)?))
+    };
+    let plane = product(&[format.width, format.height, format.channels].map(|n| Some(n as u64)));
     // Axes before those of a plane: channels or frames beside slices are no series.
-    let series = (0..axes.len()).rev().find(|&at| {
-        let rest = (axes[at..].iter()).try_fold(1_u64, |n, axis| n.checked_mul((*axis)?));
-        rest == plane
-    });
-    let many = axes[..series.unwrap_or(0)]
-        .iter()
-        .filter(|axis| **axis != Some(1))
-        .count();
-    match (total, plane) {
+    let series = (0..axes.len())
+        .rev()
+        .find(|&at| product(&axes[at..]) == plane);
+    let before = &axes[..series.unwrap_or(0)];
+    let many = before.iter().filter(|axis| **axis != Some(1)).count();
+    match (product(axes), plane) {
         _ if many > 1 => Err(format!(
-            "its description declares a shape of {} axes beside those of a plane of {format}; one series of planes is accepted: save channels and frames apart",
-            many
+            "its description declares a shape of {many} axes beside those of a plane of {format}; one series of planes is accepted: save channels and frames apart"
         )),
         (Some(total), Some(plane)) if total > 0 && total % plane == 0 => Ok(Description {
             planes: Some(total / plane),

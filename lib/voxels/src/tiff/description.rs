@@ -8,11 +8,9 @@ use crate::voxel_size::VoxelSize;
 /// What the first page says about the whole file.
 #[derive(Debug, Default)]
 pub(crate) struct Description {
-    /// Planes in the file, if stated.
     pub(crate) planes: Option<u64>,
     /// Whether it gives a size of a voxel, be it no length, so that resolution tags do not.
     pub(crate) states_size: bool,
-    /// Size of a voxel, if stated.
     pub(crate) voxel_size: Option<VoxelSize>,
     /// Which planes stand where, if that is told; else they stand in file order.
     pub(crate) blocks: Vec<Block>,
@@ -21,7 +19,6 @@ pub(crate) struct Description {
 /// Planes that follow one another in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Block {
-    /// The first of them.
     pub(super) plane: u64,
     /// Their file in the folder of the description; none is the file that holds it.
     pub(super) file: Option<String>,
@@ -38,10 +35,8 @@ impl Description {
         let own = source.path().file_name().unwrap_or_default();
         let own = own.to_string_lossy().into_owned();
         let named = |blocks: &[Block]| -> BTreeSet<String> {
-            blocks
-                .iter()
-                .filter_map(|block| block.file.clone())
-                .collect()
+            let files = blocks.iter().filter_map(|block| block.file.clone());
+            files.collect()
         };
         if named(&self.blocks).len() < 2 {
             return Vec::new();

@@ -1,50 +1,36 @@
 //! How samples are encoded: number type, compression, predictor.
 
-use super::ifd::{Container, Directory, tag};
+use ::tiff::tags::Tag;
+
+use super::ifd::Directory;
 use crate::colours::Shown;
 use crate::sample::Sample;
 
-/// How pixels are packed into chunks.
+/// How pixels are packed into chunks, by its code in TIFF tag 259.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Compression {
-    None,
-    Lzw,
-    Deflate,
-    PackBits,
-    Zstd,
+    None = 1,
+    Lzw = 5,
+    Deflate = 8,
+    PackBits = 32773,
+    Zstd = 50000,
 }
 
 impl Compression {
-    /// From the code of TIFF tag 259.
     pub(crate) fn parse(code: u64) -> Result<Self, String> {
-        Ok(match code {
-            1 => Self::None,
-            5 => Self::Lzw,
-            8 | 32946 => Self::Deflate,
-            32773 => Self::PackBits,
-            50000 => Self::Zstd,
-            _ => {
-                let name = match code {
-                    2..=4 => " (CCITT fax)",
-                    6 | 7 => " (JPEG, which does not keep labels)",
-                    _ => "",
-                };
-                return Err(format!(
-                    "compression {code}{name} is not accepted; accepted are none, LZW, Deflate, PackBits and zstd"
-                ));
-            }
-        })
-    }
-
-    /// Code of TIFF tag 259.
-    pub(crate) fn code(self) -> u16 {
-        match self {
-            Self::None => 1,
-            Self::Lzw => 5,
-            Self::Deflate => 8,
-            Self::PackBits => 32773,
-            Self::Zstd => 50000,
-        }
+        let name = match code {
+            1 => return Ok(Self::None),
+            5 => return Ok(Self::Lzw),
+            8 | 32946 => return Ok(Self::Deflate),
+            32773 => return Ok(Self::PackBits),
+            50000 => return Ok(Self::Zstd),
+            2..=4 => " (CCITT fax)",
+            6 | 7 => " (JPEG, which does not keep labels)",
+            _ => "",
+        };
+        Err(format!(
+            "compression {code}{name} is not accepted; accepted are none, LZW, Deflate, PackBits and zstd"
+        ))
     }
 
     /// The predictor (tag 317) that is undone, if it makes sense for the samples: 2 is the
@@ -76,15 +62,10 @@ impl Compression {
 }
 
 /// What the values of a page of one channel or of colours show.
-pub(crate) fn shown(
-    tiff: &Container,
-    page: &Directory,
-    sample: Sample,
-    bits: u16,
-) -> Result<Shown, String> {
-    let code = tiff.first_uint(page, tag::PHOTOMETRIC)?.unwrap_or(1);
+pub(crate) fn shown(page: &Directory, sample: Sample, bits: u16) -> Result<Shown, String> {
+    let code = page.uint(Tag::PhotometricInterpretation)?.unwrap_or(1);
     let inverted = code == 0;
-    Ok(match (code, tiff.uints(page, tag::COLOR_MAP)?) {
+    Ok(match (code, page.uints(Tag::ColorMap)?) {
         (3, Some(map)) => {
             // Some programs write 8 bits of each colour instead of 16.
             let shift = if map.iter().all(|n| *n < 256) { 0 } else { 8 };
@@ -98,52 +79,37 @@ pub(crate) fn shown(
 }
 
 /// Sample type after unpacking, stored bits, channels.
-pub(crate) fn sample_of(
-    tiff: &Container,
-    page: &Directory,
-) -> Result<(Sample, u16, usize), String> {
-    let channels = match tiff.first_uint(page, tag::SAMPLES_PER_PIXEL)?.unwrap_or(1) {
-        1 => 1,
-        3 => 3,
-        n => {
-            return Err(format!(
-                "it has {n} samples per pixel; accepted are 1 and 3 (R:G:B)"
-            ));
-        }
-    };
-    let uniform = |tag, default| match tiff.uints(page, tag)? {
+pub(crate) fn sample_of(page: &Directory) -> Result<(Sample, u16, usize), String> {
+    let channels = page.uint(Tag::SamplesPerPixel)?.unwrap_or(1) as usize;
+    if ![1, 3].contains(&channels) {
+        return Err(format!(
+            "it has {channels} samples per pixel; accepted are 1 and 3 (R:G:B)"
+        ));
+    }
+    let uniform = |tag: Tag, default| match page.uints(tag)? {
         None => Ok(default),
         Some(values) => match values.first() {
             Some(&first) if values.iter().all(|v| *v == first) => Ok(first),
-            _ => Err(format!("tag {tag} differs between its channels")),
+            _ => Err(format!("tag {} differs between its channels", tag.to_u16())),
         },
     };
-    let bits = uniform(tag::BITS_PER_SAMPLE, 1)?;
-    let number = uniform(tag::SAMPLE_FORMAT, 1)?;
-    let sample = match (number, bits) {
-        (1 | 4, 1 | 2 | 4) if channels == 1 => Sample::U8,
-        (1 | 4, 8) => Sample::U8,
-        (1 | 4, 16) => Sample::U16,
-        (1 | 4, 32) => Sample::U32,
-        (1 | 4, 64) => Sample::U64,
-        (2, 8) => Sample::I8,
-        (2, 16) => Sample::I16,
-        (2, 32) => Sample::I32,
-        (2, 64) => Sample::I64,
-        (3, 32) => Sample::F32,
-        (3, 64) => Sample::F64,
-        _ => {
-            let kind = match number {
-                2 => "signed",
-                3 => "floating-point",
-                _ => "unsigned",
-            };
-            return Err(format!(
-                "its samples are {kind} of {bits} bits; accepted are unsigned of 1, 2, 4, 8, 16, 32 and 64, signed of 8 to 64, floats of 32 and 64 bits"
-            ));
-        }
+    let bits = uniform(Tag::BitsPerSample, 1)?;
+    let (letter, kind) = match uniform(Tag::SampleFormat, 1)? {
+        1 | 4 => ("u", "unsigned"),
+        2 => ("i", "signed"),
+        3 => ("f", "floating-point"),
+        _ => ("", "unsigned"),
     };
-    if channels == 3 && tiff.first_uint(page, tag::PHOTOMETRIC)? == Some(6) {
+    let sample = match (letter, bits) {
+        ("u", 1 | 2 | 4) if channels == 1 => Some(Sample::U8),
+        _ => Sample::named(&format!("{letter}{bits}")),
+    };
+    let sample = sample.ok_or_else(|| {
+        format!(
+            "its samples are {kind} of {bits} bits; accepted are unsigned of 1, 2, 4, 8, 16, 32 and 64, signed of 8 to 64, floats of 32 and 64 bits"
+        )
+    })?;
+    if channels == 3 && page.uint(Tag::PhotometricInterpretation)? == Some(6) {
         return Err("its colours are YCbCr, which does not keep labels; accepted is RGB".into());
     }
     Ok((sample, bits as u16, channels))

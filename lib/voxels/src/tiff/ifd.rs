@@ -7,36 +7,14 @@ use std::collections::{BTreeMap, HashSet};
 use std::fs::File;
 use std::os::unix::fs::FileExt;
 
+use ::tiff::tags::Tag;
+
+use crate::kind::Kind;
 use crate::source::Source;
 
-pub(crate) mod tag {
-    pub(crate) const NEW_SUBFILE_TYPE: u16 = 254;
-    pub(crate) const IMAGE_WIDTH: u16 = 256;
-    pub(crate) const IMAGE_LENGTH: u16 = 257;
-    pub(crate) const BITS_PER_SAMPLE: u16 = 258;
-    pub(crate) const COMPRESSION: u16 = 259;
-    pub(crate) const PHOTOMETRIC: u16 = 262;
-    pub(crate) const FILL_ORDER: u16 = 266;
-    pub(crate) const IMAGE_DESCRIPTION: u16 = 270;
-    pub(crate) const STRIP_OFFSETS: u16 = 273;
-    pub(crate) const ORIENTATION: u16 = 274;
-    pub(crate) const SAMPLES_PER_PIXEL: u16 = 277;
-    pub(crate) const ROWS_PER_STRIP: u16 = 278;
-    pub(crate) const STRIP_BYTE_COUNTS: u16 = 279;
-    pub(crate) const X_RESOLUTION: u16 = 282;
-    pub(crate) const Y_RESOLUTION: u16 = 283;
-    pub(crate) const PLANAR_CONFIGURATION: u16 = 284;
-    pub(crate) const RESOLUTION_UNIT: u16 = 296;
-    pub(crate) const PREDICTOR: u16 = 317;
-    pub(crate) const COLOR_MAP: u16 = 320;
-    pub(crate) const TILE_WIDTH: u16 = 322;
-    pub(crate) const TILE_LENGTH: u16 = 323;
-    pub(crate) const TILE_OFFSETS: u16 = 324;
-    pub(crate) const TILE_BYTE_COUNTS: u16 = 325;
-    pub(crate) const SAMPLE_FORMAT: u16 = 339;
-    pub(crate) const IMAGE_DEPTH: u16 = 32997;
-    pub(crate) const UIC2: u16 = 33629;
-}
+/// Planes of a directory (SGI's) and, by its count, of a file (MetaMorph's STK).
+pub(crate) const IMAGE_DEPTH: Tag = Tag::Unknown(32997);
+pub(crate) const UIC2: Tag = Tag::Unknown(33629);
 
 /// Bytes read at a directory's offset at once: enough for the usual directory whole.
 const WINDOW: usize = 1 << 10;
@@ -45,13 +23,14 @@ const WINDOW: usize = 1 << 10;
 pub(crate) struct Container<'a> {
     source: &'a Source,
     file: &'a File,
-    pub(crate) big_endian: bool,
+    big_endian: bool,
     big_tiff: bool,
     first: u64,
 }
 
 /// A directory: where the values of each tag stand.
-pub(crate) struct Directory {
+pub(crate) struct Directory<'a> {
+    tiff: &'a Container<'a>,
     entries: BTreeMap<u16, Entry>,
     /// Bytes that the file's header, the directory and the values of its tags fill.
     pub(crate) bytes: u64,
@@ -65,18 +44,10 @@ struct Entry {
     at: u64,
 }
 
-/// Whether a file with this beginning is a TIFF or BigTIFF.
-pub(crate) fn is_tiff(head: &[u8]) -> bool {
-    matches!(
-        head,
-        [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..]
-    )
-}
-
 impl<'a> Container<'a> {
     pub(crate) fn open(source: &'a Source, file: &'a File) -> Result<Self, String> {
         let head = source.window(0, 16).map_err(|e| e.to_string())?;
-        if !is_tiff(&head) {
+        if Kind::of(&head) != Some(Kind::Tiff) {
             return Err("it is not a TIFF file".into());
         }
         let big_endian = head[0] == b'M';
@@ -96,17 +67,15 @@ impl<'a> Container<'a> {
     }
 
     /// All directories of the chain in order; an error names the index of the page at fault.
-    pub(crate) fn directories(&self) -> Result<Vec<Directory>, (usize, String)> {
+    pub(crate) fn directories(&self) -> Result<Vec<Directory<'_>>, (usize, String)> {
         let mut directories = Vec::new();
         let mut seen = HashSet::new();
         let mut at = self.first;
         while at != 0 {
             let page = directories.len();
             if !seen.insert(at) {
-                return Err((
-                    page,
-                    "its directory was read before: the chain of pages is a loop".into(),
-                ));
+                let what = "its directory was read before: the chain of pages is a loop";
+                return Err((page, what.into()));
             }
             let (directory, next) = self.directory(at).map_err(|what| (page, what))?;
             directories.push(directory);
@@ -115,11 +84,10 @@ impl<'a> Container<'a> {
         Ok(directories)
     }
 
-    fn directory(&self, at: u64) -> Result<(Directory, u64), String> {
-        let (count_bytes, entry_bytes, offset_bytes) = if self.big_tiff {
-            (8, 20, 8)
-        } else {
-            (2, 12, 4)
+    fn directory(&self, at: u64) -> Result<(Directory<'_>, u64), String> {
+        let (count_bytes, entry_bytes, offset_bytes, header) = match self.big_tiff {
+            true => (8, 20, 8, 16),
+            false => (2, 12, 4, 8),
         };
         let truncated = || {
             format!(
@@ -127,22 +95,21 @@ impl<'a> Container<'a> {
                 self.source.len()
             )
         };
-        let mut bytes = self.source.window(at, WINDOW).map_err(|e| e.to_string())?;
+        let window = |len| self.source.window(at, len).map_err(|e| e.to_string());
+        let mut bytes = window(WINDOW)?;
         let count = self.uint(bytes.get(..count_bytes).ok_or_else(truncated)?);
-        let size = usize::try_from(count)
-            .ok()
+        let size = (usize::try_from(count).ok())
             .and_then(|n| {
                 n.checked_mul(entry_bytes)?
                     .checked_add(count_bytes + offset_bytes)
             })
             .ok_or_else(truncated)?;
         if size > bytes.len() {
-            bytes = self.source.window(at, size).map_err(|e| e.to_string())?;
+            bytes = window(size)?;
         }
         let list = bytes.get(count_bytes..size).ok_or_else(truncated)?;
         let (list, next) = list.split_at(size - count_bytes - offset_bytes);
         let mut entries = BTreeMap::new();
-        let header = if self.big_tiff { 16 } else { 8 };
         let mut filled = header + size as u64;
         for (i, entry) in list.chunks_exact(entry_bytes).enumerate() {
             let (head, value) = entry.split_at(entry_bytes - offset_bytes);
@@ -158,6 +125,7 @@ impl<'a> Container<'a> {
             entries.insert(self.uint(&head[..2]) as u16, Entry { kind, count, at });
         }
         let directory = Directory {
+            tiff: self,
             entries,
             bytes: filled,
         };
@@ -165,14 +133,15 @@ impl<'a> Container<'a> {
     }
 
     /// Bytes of a tag's value; the size is checked against the file before it is allocated.
-    fn bytes(&self, tag: u16, entry: Entry) -> Result<Vec<u8>, String> {
+    fn bytes(&self, tag: Tag, entry: Entry) -> Result<Vec<u8>, String> {
         let size = type_bytes(entry.kind)
             .and_then(|n| n.checked_mul(entry.count))
-            .ok_or_else(|| format!("tag {tag} has an unknown type or size"))?;
+            .ok_or_else(|| format!("tag {} has an unknown type or size", tag.to_u16()))?;
         let end = entry.at.checked_add(size);
         if end.is_none_or(|end| end > self.source.len()) {
             return Err(format!(
-                "tag {tag} lies beyond the end of the file at byte {}: the file is truncated",
+                "tag {} lies beyond the end of the file at byte {}: the file is truncated",
+                tag.to_u16(),
                 self.source.len()
             ));
         }
@@ -184,78 +153,68 @@ impl<'a> Container<'a> {
         Ok(bytes)
     }
 
-    /// The unsigned integers of a tag; none if the tag is absent.
-    pub(crate) fn uints(
-        &self,
-        directory: &Directory,
-        tag: u16,
-    ) -> Result<Option<Vec<u64>>, String> {
-        let Some(&entry) = directory.entries.get(&tag) else {
-            return Ok(None);
-        };
-        let size = match entry.kind {
-            1 => 1,
-            3 => 2,
-            4 | 13 => 4,
-            16 | 18 => 8,
-            _ => return Err(format!("tag {tag} does not hold unsigned integers")),
-        };
-        let bytes = self.bytes(tag, entry)?;
-        Ok(Some(
-            bytes.chunks_exact(size).map(|b| self.uint(b)).collect(),
-        ))
-    }
-
-    /// The first unsigned integer of a tag; none if the tag is absent.
-    pub(crate) fn first_uint(
-        &self,
-        directory: &Directory,
-        tag: u16,
-    ) -> Result<Option<u64>, String> {
-        match self.uints(directory, tag)? {
-            None => Ok(None),
-            Some(values) => match values.first() {
-                Some(&value) => Ok(Some(value)),
-                None => Err(format!("tag {tag} is empty")),
-            },
-        }
-    }
-
-    /// How many values a tag has; none if it is absent.
-    pub(crate) fn count(&self, directory: &Directory, tag: u16) -> Option<u64> {
-        Some(directory.entries.get(&tag)?.count)
-    }
-
-    /// The first rational of a tag; none if it is absent or no number.
-    pub(crate) fn rational(&self, directory: &Directory, tag: u16) -> Option<f64> {
-        let &entry = directory.entries.get(&tag)?;
-        let bytes = self.bytes(tag, entry).ok()?;
-        let (numerator, denominator) = (bytes.get(..4)?, bytes.get(4..8)?);
-        let value = self.uint(numerator) as f64 / self.uint(denominator) as f64;
-        (entry.kind == 5 && value.is_finite()).then_some(value)
-    }
-
-    /// A tag's text, which is UTF-8 or, from ImageJ, Latin-1; none if it is absent.
-    pub(crate) fn text(&self, directory: &Directory, tag: u16) -> Result<Option<String>, String> {
-        let Some(&entry) = directory.entries.get(&tag) else {
-            return Ok(None);
-        };
-        let mut bytes = self.bytes(tag, entry)?;
-        bytes.truncate(bytes.iter().position(|b| *b == 0).unwrap_or(bytes.len()));
-        Ok(Some(match String::from_utf8(bytes) {
-            Ok(text) => text,
-            Err(latin) => latin.as_bytes().iter().map(|b| char::from(*b)).collect(),
-        }))
-    }
-
     /// An unsigned integer of up to 8 bytes in the file's byte order.
     fn uint(&self, bytes: &[u8]) -> u64 {
         let join = |value: u64, byte: &u8| value << 8 | u64::from(*byte);
-        if self.big_endian {
-            bytes.iter().fold(0, join)
-        } else {
-            bytes.iter().rev().fold(0, join)
+        match self.big_endian {
+            true => bytes.iter().fold(0, join),
+            false => bytes.iter().rev().fold(0, join),
         }
+    }
+}
+
+impl Directory<'_> {
+    pub(crate) fn is_big_endian(&self) -> bool {
+        self.tiff.big_endian
+    }
+
+    /// A tag's type and the bytes of its values; none if it is absent.
+    fn value(&self, tag: Tag) -> Result<Option<(u16, Vec<u8>)>, String> {
+        let read = |entry: &Entry| Ok((entry.kind, self.tiff.bytes(tag, *entry)?));
+        self.entries.get(&tag.to_u16()).map(read).transpose()
+    }
+
+    /// The unsigned integers of a tag; none if it is absent.
+    pub(crate) fn uints(&self, tag: Tag) -> Result<Option<Vec<u64>>, String> {
+        let Some((kind, bytes)) = self.value(tag)? else {
+            return Ok(None);
+        };
+        let (1 | 3 | 4 | 13 | 16 | 18, Some(size)) = (kind, type_bytes(kind)) else {
+            return Err(format!(
+                "tag {} does not hold unsigned integers",
+                tag.to_u16()
+            ));
+        };
+        let values = bytes.chunks_exact(size as usize);
+        Ok(Some(values.map(|b| self.tiff.uint(b)).collect()))
+    }
+
+    /// The first unsigned integer of a tag; none if it is absent.
+    pub(crate) fn uint(&self, tag: Tag) -> Result<Option<u64>, String> {
+        let empty = || format!("tag {} is empty", tag.to_u16());
+        let first = |values: Vec<u64>| values.first().copied().ok_or_else(empty);
+        self.uints(tag)?.map(first).transpose()
+    }
+
+    /// How many values a tag has; none if it is absent.
+    pub(crate) fn count(&self, tag: Tag) -> Option<u64> {
+        Some(self.entries.get(&tag.to_u16())?.count)
+    }
+
+    /// The first rational of a tag; none if it is absent or no number.
+    pub(crate) fn rational(&self, tag: Tag) -> Option<f64> {
+        let (kind, bytes) = self.value(tag).ok()??;
+        let uint = |bytes| self.tiff.uint(bytes) as f64;
+        let value = uint(bytes.get(..4)?) / uint(bytes.get(4..8)?);
+        (kind == 5 && value.is_finite()).then_some(value)
+    }
+
+    /// A tag's text, which is UTF-8 or, from ImageJ, Latin-1; empty if it is absent.
+    pub(crate) fn text(&self, tag: Tag) -> Result<String, String> {
+        let mut bytes = self.value(tag)?.map_or(Vec::new(), |(_, bytes)| bytes);
+        bytes.truncate(bytes.iter().position(|b| *b == 0).unwrap_or(bytes.len()));
+        let latin = |bytes: &[u8]| bytes.iter().map(|b| char::from(*b)).collect();
+        Ok(String::from_utf8(bytes).unwrap_or_else(|e| latin(e.as_bytes())))
     }
 }
 

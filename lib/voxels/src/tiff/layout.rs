@@ -3,12 +3,15 @@
 
 use std::sync::Arc;
 
+use ::tiff::tags::Tag;
 use particle_file::limits;
 
 use super::encoding::{Compression, sample_of, shown};
-use super::ifd::{Container, Directory, tag};
+use super::ifd::{Directory, IMAGE_DEPTH};
 use crate::colours::Shown;
 use crate::sample::PageFormat;
+
+const TOO_LARGE: &str = "it declares more pixels than can be counted";
 
 /// How the page is cut into chunks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,9 +25,7 @@ pub(crate) enum Cut {
 /// A page as it is stored.
 #[derive(Clone, Debug)]
 pub(crate) struct PageLayout {
-    /// What reading the page yields.
     pub(crate) format: PageFormat,
-    /// What its values show.
     pub(crate) shown: Arc<Shown>,
     /// Value of tag 274; rows are read as they are stored, whatever it is.
     pub(crate) orientation: u64,
@@ -45,47 +46,45 @@ impl PageLayout {
     /// Reads and checks the layouts of the planes of a directory in a file of `file_len` bytes: one,
     /// or as many as its tag ImageDepth says (SGI's: the strips of plane after plane, or all planes
     /// in one strip).
-    pub(crate) fn read_planes(
-        tiff: &Container,
-        page: &Directory,
-        file_len: u64,
-    ) -> Result<Vec<Self>, String> {
-        let first = |tag, default| Ok::<_, String>(tiff.first_uint(page, tag)?.unwrap_or(default));
-        refuse_special_pages(first(tag::NEW_SUBFILE_TYPE, 0)?, first(tag::FILL_ORDER, 1)?)?;
-        let (sample, bits, channels) = sample_of(tiff, page)?;
-        let side = |tag, name| match tiff.first_uint(page, tag)? {
-            Some(n) if n > 0 && n <= u64::from(u32::MAX) => Ok(n as u32),
+    pub(crate) fn read_planes(page: &Directory, file_len: u64) -> Result<Vec<Self>, String> {
+        let first = |tag, default| Ok::<_, String>(page.uint(tag)?.unwrap_or(default));
+        if first(Tag::NewSubfileType, 0)? & 1 != 0 {
+            let what = "it is a reduced copy (thumbnail) of another page; remove it from the stack";
+            return Err(what.into());
+        }
+        if first(Tag::FillOrder, 1)? != 1 {
+            let what = "its bits are stored in reverse (FillOrder 2); accepted is FillOrder 1";
+            return Err(what.into());
+        }
+        let (sample, bits, channels) = sample_of(page)?;
+        let side = |tag, name| match page.uint(tag)? {
+            Some(n) if n > 0 && n <= u64::from(u32::MAX) => Ok(n as usize),
             Some(n) => Err(format!("its {name} is {n}, which is no size")),
             None => Err(format!("its {name} is not given")),
         };
-        let (width, height) = (
-            side(tag::IMAGE_WIDTH, "width")?,
-            side(tag::IMAGE_LENGTH, "height")?,
-        );
-        let compression = Compression::parse(first(tag::COMPRESSION, 1)?)?;
-        let predictor = compression.predictor(first(tag::PREDICTOR, 1)?, sample, bits)?;
+        let size = [
+            side(Tag::ImageWidth, "width")?,
+            side(Tag::ImageLength, "height")?,
+        ];
+        let format = PageFormat::new(size, sample, channels);
+        let compression = Compression::parse(first(Tag::Compression, 1)?)?;
         let mut layout = Self {
-            format: PageFormat {
-                width: width as usize,
-                height: height as usize,
-                sample,
-                channels,
-            },
-            orientation: first(tag::ORIENTATION, 1)?,
-            shown: Arc::new(shown(tiff, page, sample, bits)?),
+            orientation: first(Tag::Orientation, 1)?,
+            shown: Arc::new(shown(page, sample, bits)?),
             bits,
+            predictor: compression.predictor(first(Tag::Predictor, 1)?, sample, bits)?,
             compression,
-            predictor,
-            planar: channels > 1 && first(tag::PLANAR_CONFIGURATION, 1)? == 2,
-            cut: Cut::Strips(height),
-            big_endian: tiff.big_endian,
+            planar: channels > 1 && first(Tag::PlanarConfiguration, 1)? == 2,
+            cut: Cut::Strips(format.height as u32),
+            format,
+            big_endian: page.is_big_endian(),
             chunks: Vec::new(),
         };
-        let depth = first(tag::IMAGE_DEPTH, 1)?;
+        let depth = first(IMAGE_DEPTH, 1)?;
         if depth == 0 || depth > limits::PER_AXIS {
             return Err(format!("its tag ImageDepth declares {depth} planes"));
         }
-        layout.read_chunks(tiff, page, depth)?;
+        layout.read_chunks(page, depth)?;
         if depth == 1 {
             layout.check_chunks(file_len)?;
             return Ok(vec![layout]);
@@ -93,42 +92,80 @@ impl PageLayout {
         layout.cut_into_planes(depth as usize, file_len)
     }
 
-    /// The planes of a directory that holds more than one.
+    fn read_chunks(&mut self, page: &Directory, depth: u64) -> Result<(), String> {
+        let side = |tag| {
+            let side = page.uint(tag)?.filter(|n| *n > 0 && *n <= 1 << 24);
+            side.map(|n| n as u32)
+                .ok_or("its tiles have no size".to_owned())
+        };
+        let (offsets, counts) = match page.uints(Tag::TileOffsets)? {
+            Some(offsets) => {
+                self.cut = Cut::Tiles(side(Tag::TileWidth)?, side(Tag::TileLength)?);
+                (offsets, Tag::TileByteCounts)
+            }
+            None => {
+                let rows = page.uint(Tag::RowsPerStrip)?;
+                // At most the page's height, which fits 32 bits.
+                let rows = rows.unwrap_or(u64::MAX).clamp(1, self.format.height as u64);
+                self.cut = Cut::Strips(rows as u32);
+                let offsets = page.uints(Tag::StripOffsets)?;
+                let offsets = offsets.ok_or("it has neither strips nor tiles of pixels")?;
+                (offsets, Tag::StripByteCounts)
+            }
+        };
+        let expected = self.chunks_per_plane() * self.planes() as u64;
+        let in_one_piece = depth > 1 && offsets.len() == 1 && expected == 1;
+        let expected = expected.checked_mul(depth).ok_or(TOO_LARGE)?;
+        if offsets.len() as u64 != expected && !in_one_piece {
+            return Err(format!(
+                "it has {} strips or tiles but its size needs {expected}",
+                offsets.len()
+            ));
+        }
+        self.chunks = match page.uints(counts)? {
+            Some(counts) if counts.len() == offsets.len() => {
+                offsets.into_iter().zip(counts).collect()
+            }
+            None if self.compression == Compression::None => {
+                let sized = |(i, offset)| Some((offset, self.chunk_bytes(i)?));
+                let chunks: Option<_> = offsets.into_iter().enumerate().map(sized).collect();
+                chunks.ok_or(TOO_LARGE)?
+            }
+            _ => return Err("the lengths of its strips or tiles are not given".into()),
+        };
+        Ok(())
+    }
+
     fn cut_into_planes(mut self, depth: usize, file_len: u64) -> Result<Vec<Self>, String> {
-        let per_plane = self.chunks_per_plane() as usize;
         if self.planes() > 1 || !matches!(self.cut, Cut::Strips(_)) {
             return Err("it holds several planes by the tag ImageDepth, in tiles or by colour; accepted are strips of whole pixels: save it with a page for each plane".into());
         }
-        if let [(offset, stored)] = self.chunks[..] {
-            if self.compression != Compression::None {
-                return Err(format!(
-                    "its {depth} planes by the tag ImageDepth are compressed in one piece; accepted are strips of one plane, or no compression: save it with a page for each plane"
-                ));
-            }
-            let bytes = self.plane_bytes().ok_or(TOO_LARGE)?.1 as u64;
-            if bytes
-                .checked_mul(depth as u64)
-                .is_none_or(|all| all > stored)
-            {
-                return Err(format!(
-                    "its tag ImageDepth declares {depth} planes of {bytes} bytes, but {stored} bytes are stored: its size or the file is corrupt"
-                ));
-            }
-            self.cut = Cut::Strips(self.format.height as u32);
-            self.chunks = vec![(offset, bytes)];
-            self.check_chunks(file_len)?;
-            return (0..depth)
-                .map(|k| self.following_plane(k, file_len))
-                .collect();
-        }
-        (self.chunks.chunks(per_plane))
-            .map(|chunks| {
-                let mut plane = Self {
-                    chunks: chunks.to_vec(),
-                    ..self.clone()
-                };
+        let [(offset, stored)] = self.chunks[..] else {
+            let planes = self.chunks.chunks(self.chunks_per_plane() as usize);
+            let plane = |chunks: &[(u64, u64)]| {
+                let mut plane = self.clone();
+                plane.chunks = chunks.to_vec();
                 plane.check_chunks(file_len).map(|()| plane)
-            })
+            };
+            return planes.map(plane).collect();
+        };
+        if self.compression != Compression::None {
+            return Err(format!(
+                "its {depth} planes by the tag ImageDepth are compressed in one piece; accepted are strips of one plane, or no compression: save it with a page for each plane"
+            ));
+        }
+        let bytes = self.plane_bytes().ok_or(TOO_LARGE)?.1 as u64;
+        let all = bytes.checked_mul(depth as u64);
+        if all.is_none_or(|all| all > stored) {
+            return Err(format!(
+                "its tag ImageDepth declares {depth} planes of {bytes} bytes, but {stored} bytes are stored: its size or the file is corrupt"
+            ));
+        }
+        self.cut = Cut::Strips(self.format.height as u32);
+        self.chunks = vec![(offset, bytes)];
+        self.check_chunks(file_len)?;
+        (0..depth)
+            .map(|k| self.following_plane(k, file_len))
             .collect()
     }
 
@@ -163,61 +200,6 @@ impl PageLayout {
         Some((row as usize, self.chunk_bytes(0)? as usize))
     }
 
-    fn read_chunks(
-        &mut self,
-        tiff: &Container,
-        page: &Directory,
-        depth: u64,
-    ) -> Result<(), String> {
-        let tile = |tag| {
-            Ok::<_, String>(
-                tiff.first_uint(page, tag)?
-                    .filter(|n| *n > 0 && *n <= 1 << 24),
-            )
-        };
-        let (offsets, counts) = match tiff.uints(page, tag::TILE_OFFSETS)? {
-            Some(offsets) => {
-                let (Some(w), Some(h)) = (tile(tag::TILE_WIDTH)?, tile(tag::TILE_LENGTH)?) else {
-                    return Err("its tiles have no size".into());
-                };
-                self.cut = Cut::Tiles(w as u32, h as u32);
-                (offsets, tiff.uints(page, tag::TILE_BYTE_COUNTS)?)
-            }
-            None => {
-                let rows = tiff
-                    .first_uint(page, tag::ROWS_PER_STRIP)?
-                    .unwrap_or(u64::MAX);
-                // At most the page's height, which fits 32 bits.
-                let rows = rows.clamp(1, self.format.height as u64) as u32;
-                self.cut = Cut::Strips(rows);
-                let offsets = tiff.uints(page, tag::STRIP_OFFSETS)?;
-                let offsets = offsets.ok_or("it has neither strips nor tiles of pixels")?;
-                (offsets, tiff.uints(page, tag::STRIP_BYTE_COUNTS)?)
-            }
-        };
-        let expected = self.chunks_per_plane() * self.planes() as u64;
-        let in_one_piece = depth > 1 && offsets.len() == 1 && expected == 1;
-        let expected = expected.checked_mul(depth).ok_or(TOO_LARGE)?;
-        if offsets.len() as u64 != expected && !in_one_piece {
-            return Err(format!(
-                "it has {} strips or tiles but its size needs {expected}",
-                offsets.len()
-            ));
-        }
-        self.chunks = match counts {
-            Some(counts) if counts.len() == offsets.len() => {
-                offsets.into_iter().zip(counts).collect()
-            }
-            None if self.compression == Compression::None => {
-                let sized = |(i, offset)| Some((offset, self.chunk_bytes(i)?));
-                let chunks: Option<_> = offsets.into_iter().enumerate().map(sized).collect();
-                chunks.ok_or(TOO_LARGE)?
-            }
-            _ => return Err("the lengths of its strips or tiles are not given".into()),
-        };
-        Ok(())
-    }
-
     fn chunks_per_plane(&self) -> u64 {
         let [width, height] = [self.format.width, self.format.height].map(|n| n as u64);
         match self.cut {
@@ -229,15 +211,15 @@ impl PageLayout {
 
     /// Bytes of chunk `i` once decompressed; tiles are stored whole, the last strip is not.
     fn chunk_bytes(&self, i: usize) -> Option<u64> {
-        match self.cut {
+        let (width, rows) = match self.cut {
             Cut::Strips(rows) => {
                 let strip = i as u64 % self.chunks_per_plane();
                 let left = self.format.height as u64 - strip * u64::from(rows);
-                self.stored_row_bytes(self.format.width as u64)?
-                    .checked_mul(left.min(rows.into()))
+                (self.format.width as u64, left.min(rows.into()))
             }
-            Cut::Tiles(w, h) => self.stored_row_bytes(w.into())?.checked_mul(h.into()),
-        }
+            Cut::Tiles(w, h) => (w.into(), h.into()),
+        };
+        self.stored_row_bytes(width)?.checked_mul(rows)
     }
 
     /// Checks that the file can hold what the page declares, and joins strips that follow
@@ -267,19 +249,20 @@ impl PageLayout {
         if self.is_plain() {
             self.chunks.dedup_by(|next, run| {
                 let follows = run.0 + run.1 == next.0;
-                if follows {
-                    run.1 += next.1;
-                }
+                run.1 += if follows { next.1 } else { 0 };
                 follows
             });
         }
         self.check_tiles()?;
-        let total = self
+        let plane = self
             .plane_bytes()
             .and_then(|(_, n)| n.checked_mul(self.planes()));
-        total.filter(|n| *n > 0).ok_or(TOO_LARGE)?;
-        self.format.page_bytes().ok_or(TOO_LARGE)?;
-        Ok(())
+        let page = self.format.page_bytes();
+        plane
+            .and(page)
+            .filter(|_| plane > Some(0))
+            .map(|_| ())
+            .ok_or(TOO_LARGE.into())
     }
 
     /// Tiles side by side must end at whole bytes, and all of a plane make a page of a height
@@ -313,38 +296,18 @@ impl PageLayout {
     /// The layout of plane `k` of planes that follow this page in the file without
     /// directories of their own.
     pub(crate) fn following_plane(&self, k: usize, file_len: u64) -> Result<Self, String> {
-        let [(offset, bytes)] = self.chunks[..] else {
-            return Err(
-                "planes that follow one another need uncompressed pixels in one piece".into(),
-            );
+        let (true, [(offset, bytes)]) = (self.is_plain(), &self.chunks[..]) else {
+            let what = "planes that follow one another need uncompressed pixels in one piece";
+            return Err(what.into());
         };
-        if !self.is_plain() {
-            return Err("planes that follow one another need uncompressed strips of pixels".into());
-        }
-        let begin = offset.checked_add(bytes.saturating_mul(k as u64));
-        let end = begin.and_then(|n| n.checked_add(bytes));
-        match (begin, end) {
-            (Some(begin), Some(end)) if end <= file_len => Ok(Self {
-                chunks: vec![(begin, bytes)],
-                ..self.clone()
-            }),
-            _ => Err(format!(
+        let begin = offset.saturating_add(bytes.saturating_mul(k as u64));
+        if begin.saturating_add(*bytes) > file_len {
+            return Err(format!(
                 "its pixels reach beyond the end of the file at byte {file_len}: the file is truncated"
-            )),
+            ));
         }
+        let mut plane = self.clone();
+        plane.chunks = vec![(begin, *bytes)];
+        Ok(plane)
     }
-}
-
-const TOO_LARGE: &str = "it declares more pixels than can be counted";
-
-fn refuse_special_pages(subfile_type: u64, fill_order: u64) -> Result<(), String> {
-    if subfile_type & 1 != 0 {
-        return Err(
-            "it is a reduced copy (thumbnail) of another page; remove it from the stack".into(),
-        );
-    }
-    if fill_order != 1 {
-        return Err("its bits are stored in reverse (FillOrder 2); accepted is FillOrder 1".into());
-    }
-    Ok(())
 }

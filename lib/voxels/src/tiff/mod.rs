@@ -9,7 +9,6 @@ mod layout;
 mod ome;
 mod write;
 
-pub(crate) use ifd::is_tiff;
 pub use write::TiffWriter;
 
 use std::path::Path;
@@ -19,25 +18,15 @@ use particle_file::limits;
 
 use crate::Error;
 use crate::beside::data_file;
-use crate::colours::Shown;
-use crate::sample::PageFormat;
 use crate::source::Source;
-use crate::voxel_size::VoxelSize;
+use crate::volume::{Pixels, Volume};
 use description::Description;
-use ifd::{Container, Directory};
+use ifd::Container;
 use layout::PageLayout;
 
-/// The pages of one or several TIFF files.
-#[derive(Debug)]
-pub(crate) struct TiffPages {
-    sources: Vec<Source>,
-    /// At least one page with the place of its file in `sources`; all have the format of the first.
-    pages: Vec<(usize, PageLayout)>,
-}
-
 /// Opens one file with all its pages, or the files that it tells of.
-pub(crate) fn open(source: Source) -> Result<(TiffPages, Option<VoxelSize>), Error> {
-    let (mut pages, mut description) = read_directories(&source, describe::describe)?;
+pub(crate) fn open(source: Source) -> Result<Volume, Error> {
+    let (mut pages, mut description) = read_directories(&source, true)?;
     let files = description.files(&source);
     if !files.is_empty() {
         return open_set(&source, &files, description);
@@ -50,12 +39,12 @@ pub(crate) fn open(source: Source) -> Result<(TiffPages, Option<VoxelSize>), Err
 }
 
 /// Opens files of one page each, in this order unless they tell of another.
-pub(crate) fn open_slices(sources: Vec<Source>) -> Result<(TiffPages, Option<VoxelSize>), Error> {
+pub(crate) fn open_slices(sources: Vec<Source>) -> Result<Volume, Error> {
     let total = sources.len() as u64;
     let mut slices = Vec::with_capacity(sources.len());
     let mut sizes = Vec::new();
     for source in sources {
-        let (pages, mut description) = read_directories(&source, describe::describe)?;
+        let (pages, mut description) = read_directories(&source, true)?;
         let files = description.files(&source);
         if !files.is_empty() {
             let planes = description.planes;
@@ -90,16 +79,12 @@ pub(crate) fn open_slices(sources: Vec<Source>) -> Result<(TiffPages, Option<Vox
 }
 
 /// Opens the files beside `first` that its description tells of.
-fn open_set(
-    first: &Source,
-    files: &[String],
-    description: Description,
-) -> Result<(TiffPages, Option<VoxelSize>), Error> {
+fn open_set(first: &Source, files: &[String], description: Description) -> Result<Volume, Error> {
     let mut set = Vec::with_capacity(files.len());
     for file in files {
         let path = data_file(first.path(), Path::new(file), "OME FileName");
         let source = Source::open_slice(&path.map_err(|what| Error::file(first, what))?)?;
-        let (pages, _) = read_directories(&source, |_, _, _| Ok(Description::default()))?;
+        let (pages, _) = read_directories(&source, false)?;
         set.push((source, pages));
     }
     in_order(set, files, description)
@@ -110,10 +95,10 @@ fn in_order(
     files: Vec<(Source, Vec<PageLayout>)>,
     names: &[String],
     description: Description,
-) -> Result<(TiffPages, Option<VoxelSize>), Error> {
+) -> Result<Volume, Error> {
     let (sources, layouts): (Vec<_>, Vec<_>) = files.into_iter().unzip();
     let held: Vec<u64> = layouts.iter().map(|pages| pages.len() as u64).collect();
-    let pages = match description.blocks.as_slice() {
+    let pages: Vec<(usize, PageLayout)> = match description.blocks.as_slice() {
         [] => (layouts.into_iter().enumerate())
             .flat_map(|(file, pages)| pages.into_iter().map(move |page| (file, page)))
             .collect(),
@@ -123,47 +108,51 @@ fn in_order(
             .map(|(file, page)| (file, layouts[file][page].clone()))
             .collect(),
     };
-    let pages = TiffPages { sources, pages };
-    pages.are_alike()?;
-    Ok((pages, description.voxel_size))
+    let (source_of, pages): (Vec<usize>, Vec<PageLayout>) = pages.into_iter().unzip();
+    are_alike(&pages).map_err(|(odd, what)| Error::page(&sources[source_of[odd]], odd, what))?;
+    Ok(Volume {
+        format: pages[0].format,
+        pages: pages.len(),
+        voxel_size: description.voxel_size,
+        shown: pages.iter().map(|page| Arc::clone(&page.shown)).collect(),
+        lossy: false,
+        // Pages that are stored as they are read need no copy to decode.
+        copies: [3, 1][usize::from(pages.iter().all(PageLayout::is_plain))],
+        pixels: Box::new(pages),
+        source_of,
+        sources,
+    })
 }
 
-/// The layouts of a file's directories and what the first says about the file.
+/// The layouts of a file's directories and, where it is `described`, what the first says about the file.
 fn read_directories(
     source: &Source,
-    describe: impl Fn(&Container, &Directory, &PageLayout) -> Result<Description, String>,
+    described: bool,
 ) -> Result<(Vec<PageLayout>, Description), Error> {
     let file = source.file().map_err(|e| Error::io(source, e))?;
     let tiff = Container::open(source, &file).map_err(|what| Error::file(source, what))?;
-    let directories = tiff
-        .directories()
-        .map_err(|(page, what)| Error::page(source, page, what))?;
-    let pages = directories
-        .iter()
-        .enumerate()
-        .map(|(i, directory)| {
-            PageLayout::read_planes(&tiff, directory, source.len())
-                .map_err(|what| Error::page(source, i, what))
-        })
-        .collect::<Result<Vec<_>, _>>()?
-        .concat();
+    let wrong = |(page, what)| Error::page(source, page, what);
+    let directories = tiff.directories().map_err(wrong)?;
+    let mut pages = Vec::new();
+    for (i, directory) in directories.iter().enumerate() {
+        let planes = PageLayout::read_planes(directory, source.len());
+        pages.extend(planes.map_err(|what| wrong((i, what)))?);
+    }
     let (Some(directory), Some(page)) = (directories.first(), pages.first()) else {
         return Err(Error::file(source, "it holds no page"));
     };
-    let description =
-        describe(&tiff, directory, page).map_err(|what| Error::page(source, 0, what))?;
+    let description = match described {
+        true => describe::describe(directory, page).map_err(|what| wrong((0, what)))?,
+        false => Description::default(),
+    };
     if directories.len() == 1 {
         let planes = description.planes.unwrap_or(1).max(1);
-        let described = stored_bytes(&pages).saturating_mul(planes);
-        let described = described.saturating_add(directory.bytes);
-        nothing_behind(source, page, described)?;
+        let chunks = pages.iter().flat_map(|page| &page.chunks);
+        let stored = chunks.fold(0_u64, |sum, (_, bytes)| sum.saturating_add(*bytes));
+        let stored = stored.saturating_mul(planes);
+        nothing_behind(source, page, stored.saturating_add(directory.bytes))?;
     }
     Ok((pages, description))
-}
-
-fn stored_bytes(pages: &[PageLayout]) -> u64 {
-    let chunks = pages.iter().flat_map(|page| &page.chunks);
-    chunks.fold(0, |sum, (_, bytes)| sum.saturating_add(*bytes))
 }
 
 /// Refuses a file of one directory, which describes so many bytes, with room for another plane in the others:
@@ -181,7 +170,6 @@ fn nothing_behind(source: &Source, page: &PageLayout, described: u64) -> Result<
     Err(Error::file(source, what))
 }
 
-/// The layouts of planes that stand one after another behind a single directory.
 fn following_planes(
     source: &Source,
     pages: &[PageLayout],
@@ -195,67 +183,34 @@ fn following_planes(
         return Err(Error::file(source, what));
     };
     // One more than a stack may have, which is refused as a whole.
-    (0..planes.min(limits::PER_AXIS + 1))
-        .map(|k| {
-            let k = k as usize;
-            page.following_plane(k, source.len())
-                .map_err(|what| Error::page(source, k, what))
-        })
-        .collect()
+    let planes = 0..planes.min(limits::PER_AXIS + 1) as usize;
+    let plane = |k| {
+        page.following_plane(k, source.len())
+            .map_err(|what| Error::page(source, k, what))
+    };
+    planes.map(plane).collect()
 }
 
-impl TiffPages {
-    fn are_alike(&self) -> Result<(), Error> {
-        let odd = |own: &dyn Fn(&PageLayout) -> String| {
-            let first = own(&self.pages[0].1);
-            let odd = self.pages.iter().position(|(_, page)| own(page) != first)?;
-            let own = own(&self.pages[odd].1);
+/// The first page that is unlike the first, and a sentence.
+fn are_alike(pages: &[PageLayout]) -> Result<(), (usize, String)> {
+    let alike = |own: &dyn Fn(&PageLayout) -> String| {
+        let first = own(&pages[0]);
+        let mut owns = pages.iter().map(own).enumerate();
+        let odd = owns.find(|(_, own)| *own != first);
+        odd.map_or(Ok(()), |(odd, own)| {
             let what =
                 format!("it is {own} but page 1 is {first}; the pages of a stack must be alike");
-            Some(Error::page(self.source(odd), odd, what))
-        };
-        let format = odd(&|page| page.format.to_string());
-        let turned = || odd(&|page| format!("of orientation {}", page.orientation));
-        format.or_else(turned).map_or(Ok(()), Err)
-    }
+            Err((odd, what))
+        })
+    };
+    alike(&|page| page.format.to_string())?;
+    alike(&|page| format!("of orientation {}", page.orientation))
+}
 
-    pub(crate) fn len(&self) -> usize {
-        self.pages.len()
-    }
-
-    /// Whether pages are read as they are stored, without a copy to decode.
-    pub(crate) fn are_plain(&self) -> bool {
-        self.pages.iter().all(|(_, page)| page.is_plain())
-    }
-
-    pub(crate) fn format(&self) -> PageFormat {
-        self.pages[0].1.format
-    }
-
-    pub(crate) fn shown(&self) -> Vec<Arc<Shown>> {
-        let shown = self.pages.iter();
-        shown.map(|(_, page)| Arc::clone(&page.shown)).collect()
-    }
-
-    pub(crate) fn sources(&self) -> &[Source] {
-        &self.sources
-    }
-
-    fn source(&self, z: usize) -> &Source {
-        &self.sources[self.pages[z].0]
-    }
-
-    /// Page `z` as it stands in messages.
-    pub(crate) fn page_name(&self, z: usize) -> String {
-        format!("{}, page {} of {}", self.source(z), z + 1, self.len())
-    }
-
-    pub(crate) fn read(&self, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
-        let Some((_, layout)) = self.pages.get(z) else {
-            return Err(Error::Usage(format!("there is no page {}", z + 1)));
-        };
-        let source = self.source(z);
+impl Pixels for Vec<PageLayout> {
+    fn read(&self, volume: &Volume, z: usize, page: &mut Vec<u8>) -> Result<(), Error> {
+        let source = &volume.sources[volume.source_of[z]];
         let file = source.file().map_err(|e| Error::io(source, e))?;
-        decode::read(&file, layout, page).map_err(|what| Error::page(source, z, what))
+        decode::read(&file, &self[z], page).map_err(|what| Error::page(source, z, what))
     }
 }

@@ -14,15 +14,14 @@ pub(crate) fn describe(text: &str, layout: &PageLayout) -> Result<Description, S
     let xml = roxmltree::Document::parse(text)
         .map_err(|e| format!("its OME description is not valid XML: {e}"))?;
     let named = |name: &'static str| {
-        xml.descendants()
-            .filter(move |n| n.tag_name().name() == name)
+        let nodes = xml.descendants();
+        nodes.filter(move |node| node.tag_name().name() == name)
     };
     if let Some(elsewhere) = named("BinaryOnly").next() {
+        let file = elsewhere.attribute("MetadataFile");
         return Err(format!(
             "its OME description stands in '{}'; name the file that holds it, or save the pages with descriptions of their own",
-            elsewhere
-                .attribute("MetadataFile")
-                .unwrap_or("another file")
+            file.unwrap_or("another file")
         ));
     }
     let mut images = named("Pixels");
@@ -37,16 +36,10 @@ pub(crate) fn describe(text: &str, layout: &PageLayout) -> Result<Description, S
             "its OME description declares another size than {format}"
         ));
     }
-    let channels = count("SizeC").unwrap_or(1);
-    let planes = [
-        if channels == format.channels as u64 {
-            1
-        } else {
-            channels
-        },
-        count("SizeZ").unwrap_or(1),
-        count("SizeT").unwrap_or(1),
-    ];
+    let mut planes = ["SizeC", "SizeZ", "SizeT"].map(|key| count(key).unwrap_or(1));
+    if planes[0] == format.channels as u64 {
+        planes[0] = 1;
+    }
     one_axis(planes)?;
     let mut blocks: Vec<Block> = named("TiffData").map(block).collect();
     // Without directories they say no more than that there are pages.
@@ -69,16 +62,13 @@ fn number(node: Node, key: &str) -> Option<u64> {
 fn block(data: Node) -> Block {
     let at = |key| number(data, key).unwrap_or(0);
     let uuid = data.children().find(|n| n.tag_name().name() == "UUID");
+    let file = uuid.and_then(|n| n.attribute("FileName"));
     let one = data.has_attribute("IFD").then_some(1);
+    // Only one of the three axes is longer than 1, so their sum is the plane.
+    let [z, t, c] = ["FirstZ", "FirstT", "FirstC"].map(at);
     Block {
-        // Only one of the three axes is longer than 1, so their sum is the plane.
-        plane: ["FirstZ", "FirstT", "FirstC"]
-            .map(at)
-            .into_iter()
-            .fold(0, u64::saturating_add),
-        file: uuid
-            .and_then(|n| n.attribute("FileName"))
-            .map(str::to_owned),
+        plane: z.saturating_add(t).saturating_add(c),
+        file: file.map(str::to_owned),
         directory: at("IFD"),
         planes: number(data, "PlaneCount").or(one),
     }
@@ -117,16 +107,14 @@ pub(crate) fn places(
         let file = block.file.as_ref().and_then(named).unwrap_or(0);
         let left = pages[file].saturating_sub(block.directory);
         for k in 0..block.planes.unwrap_or(left) {
-            let plane = usize::try_from(block.plane.saturating_add(k)).ok();
-            let place = plane.and_then(|plane| places.get_mut(plane));
-            match place {
+            let plane = block.plane.saturating_add(k);
+            match places.get_mut(usize::try_from(plane).unwrap_or(usize::MAX)) {
                 Some(place @ None) if k < left => {
                     *place = Some((file, (block.directory + k) as usize));
                 }
                 _ => {
                     return Err(format!(
-                        "its OME description puts a page at plane {}, which is none or has one",
-                        block.plane.saturating_add(k)
+                        "its OME description puts a page at plane {plane}, which is none or has one"
                     ));
                 }
             }

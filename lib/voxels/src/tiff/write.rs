@@ -1,11 +1,11 @@
 //! Label stacks as TIFF.
 
-use std::io::{self, Write};
+use std::io::{self, ErrorKind, Write};
 
-use super::ifd::tag;
+use ::tiff::tags::Tag;
+
 use crate::voxel_size::micrometres;
 
-const BYTE_ORDER: &[u8] = b"II";
 const ASCII: u16 = 2;
 const SHORT: u16 = 3;
 const LONG: u16 = 4;
@@ -42,10 +42,11 @@ impl<W: Write> TiffWriter<W> {
         let layout = Layout::new(dims, voxel_edge, note, false)
             .filter(|layout| layout.end <= u64::from(u32::MAX))
             .or_else(|| Layout::new(dims, voxel_edge, note, true));
+        let [nx, ny, nz] = dims;
         let layout = layout.ok_or_else(|| {
-            let [nx, ny, nz] = dims;
-            let what = format!("a stack of {nx} x {ny} x {nz} voxels does not fit a TIFF file");
-            io::Error::new(io::ErrorKind::InvalidInput, what)
+            wrong(format!(
+                "a stack of {nx} x {ny} x {nz} voxels does not fit a TIFF file"
+            ))
         })?;
         Self::with_layout(out, &layout)
     }
@@ -55,10 +56,10 @@ impl<W: Write> TiffWriter<W> {
         for z in 0..layout.pages {
             out.write_all(&layout.directory(z))?;
         }
-        out.write_all(&layout.values())?;
+        out.write_all(&layout.values)?;
         Ok(Self {
             out,
-            page_bytes: layout.page_bytes(),
+            page_bytes: layout.page_bytes,
             pages_left: layout.pages,
         })
     }
@@ -70,7 +71,7 @@ impl<W: Write> TiffWriter<W> {
     pub fn write_page(&mut self, labels: &[u8]) -> io::Result<()> {
         if labels.len() as u64 != self.page_bytes || self.pages_left == 0 {
             let what = "the page does not belong to the stack that was announced";
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
+            return Err(wrong(what.into()));
         }
         self.pages_left -= 1;
         self.out.write_all(labels)
@@ -81,28 +82,30 @@ impl<W: Write> TiffWriter<W> {
     /// # Errors
     /// Pages that are still missing, or the failed write.
     pub fn finish(mut self) -> io::Result<()> {
-        if self.pages_left > 0 {
-            let what = format!("{} pages were not written", self.pages_left);
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
+        match self.pages_left {
+            0 => self.out.flush(),
+            n => Err(wrong(format!("{n} pages were not written"))),
         }
-        self.out.flush()
     }
+}
+
+fn wrong(what: String) -> io::Error {
+    io::Error::new(ErrorKind::InvalidInput, what)
 }
 
 /// Where everything stands in the file.
 struct Layout {
     width: u32,
     height: u32,
+    page_bytes: u64,
     pages: u64,
     big: bool,
-    description: Vec<u8>,
-    /// Pixels per micrometre as a fraction.
-    resolution: [u32; 2],
-    /// Byte at which the values behind the directories begin: resolution, description.
+    /// Pixels per micrometre as a fraction, then the description: what all directories point to.
+    values: Vec<u8>,
+    description: u64,
+    /// Byte at which the values begin, behind the directories.
     values_at: u64,
-    /// Byte at which the pixels begin.
-    data_at: u64,
-    /// Bytes of the whole file.
+    /// Bytes of the whole file; it ends with the pixels.
     end: u64,
 }
 
@@ -110,114 +113,109 @@ impl Layout {
     fn new(dims: [usize; 3], voxel_edge: f64, note: &str, big: bool) -> Option<Self> {
         let side = |n: usize| u32::try_from(n).ok().filter(|n| *n > 0);
         let (width, height, pages) = (side(dims[0])?, side(dims[1])?, u64::from(side(dims[2])?));
+        let page_bytes = u64::from(width) * u64::from(height);
         let edge_um = micrometres(voxel_edge);
-        let end = if note.is_empty() { "" } else { "\n" };
+        let line_end = if note.is_empty() { "" } else { "\n" };
         let description = format!(
-            "ImageJ=1.11a\nimages={pages}\nslices={pages}\nunit=um\nspacing={edge_um}\nloop=false\n{note}{end}\0"
+            "ImageJ=1.11a\nimages={pages}\nslices={pages}\nunit=um\nspacing={edge_um}\nloop=false\n{note}{line_end}\0"
         );
-        let mut layout = Self {
+        let mut values = pixels_per_micrometre(edge_um)
+            .map(u32::to_le_bytes)
+            .concat();
+        values.extend(description.as_bytes());
+        values.resize(values.len().next_multiple_of(8), 0);
+        let values_at = directory_at(big, pages);
+        let pixels = page_bytes.checked_mul(pages)?;
+        Some(Self {
             width,
             height,
+            page_bytes,
             pages,
             big,
-            description: description.into_bytes(),
-            resolution: pixels_per_micrometre(edge_um),
-            values_at: 0,
-            data_at: 0,
-            end: 0,
-        };
-        layout.values_at = layout.directory_at(pages);
-        layout.data_at = layout.values_at + layout.values().len() as u64;
-        layout.end = layout
-            .page_bytes()
-            .checked_mul(pages)?
-            .checked_add(layout.data_at)?;
-        Some(layout)
-    }
-
-    fn page_bytes(&self) -> u64 {
-        u64::from(self.width) * u64::from(self.height)
-    }
-
-    fn directory_at(&self, z: u64) -> u64 {
-        let (header, directory) = if self.big {
-            (16, 8 + 20 * ENTRIES + 8)
-        } else {
-            (8, 2 + 12 * ENTRIES + 4)
-        };
-        header + z * directory
+            description: description.len() as u64,
+            values_at,
+            end: pixels.checked_add(values_at + values.len() as u64)?,
+            values,
+        })
     }
 
     fn header(&self) -> Vec<u8> {
-        let mut bytes = BYTE_ORDER.to_vec();
-        if self.big {
-            bytes.extend([43, 0, 8, 0, 0, 0]);
-        } else {
-            bytes.extend([42, 0]);
-        }
-        self.put_offset(&mut bytes, self.directory_at(0));
-        bytes
+        let version: &[u8] = match self.big {
+            true => b"II\x2b\0\x08\0\0\0",
+            false => b"II\x2a\0",
+        };
+        [
+            version,
+            self.offset(&directory_at(self.big, 0).to_le_bytes()),
+        ]
+        .concat()
     }
 
-    /// An offset in the width of the flavour; a classic file ends below 4 GiB.
-    fn put_offset(&self, bytes: &mut Vec<u8>, value: u64) {
-        let width = if self.big { 8 } else { 4 };
-        bytes.extend(&value.to_le_bytes()[..width]);
+    /// The bytes of an offset or count that its flavour has; a classic file ends below 4 GiB.
+    fn offset<'a>(&self, bytes: &'a [u8; 8]) -> &'a [u8] {
+        &bytes[..if self.big { 8 } else { 4 }]
     }
 
     fn directory(&self, z: u64) -> Vec<u8> {
         let offset = if self.big { LONG8 } else { LONG };
-        let strip = self.data_at + z * self.page_bytes();
+        let strip = self.end - (self.pages - z) * self.page_bytes;
         // A rational fits the value field of a BigTIFF entry only.
-        let fraction = u64::from(self.resolution[0]) | u64::from(self.resolution[1]) << 32;
+        let fraction = self
+            .values
+            .first_chunk()
+            .map_or(0, |n| u64::from_le_bytes(*n));
         let resolution = if self.big { fraction } else { self.values_at };
-        let length = self.description.len() as u64;
-        let tags: [(u16, u16, u64, u64); ENTRIES as usize] = [
-            (tag::NEW_SUBFILE_TYPE, LONG, 1, 0),
-            (tag::IMAGE_WIDTH, LONG, 1, self.width.into()),
-            (tag::IMAGE_LENGTH, LONG, 1, self.height.into()),
-            (tag::BITS_PER_SAMPLE, SHORT, 1, 8),
-            (tag::COMPRESSION, SHORT, 1, 1),
-            (tag::PHOTOMETRIC, SHORT, 1, 1),
-            (tag::IMAGE_DESCRIPTION, ASCII, length, self.values_at + 8),
-            (tag::STRIP_OFFSETS, offset, 1, strip),
-            (tag::SAMPLES_PER_PIXEL, SHORT, 1, 1),
-            (tag::ROWS_PER_STRIP, LONG, 1, self.height.into()),
-            (tag::STRIP_BYTE_COUNTS, offset, 1, self.page_bytes()),
-            (tag::X_RESOLUTION, RATIONAL, 1, resolution),
-            (tag::Y_RESOLUTION, RATIONAL, 1, resolution),
-            (tag::RESOLUTION_UNIT, SHORT, 1, 1), // the unit stands in the description
+        let tags: [(Tag, u16, u64, u64); ENTRIES as usize] = [
+            (Tag::NewSubfileType, LONG, 1, 0),
+            (Tag::ImageWidth, LONG, 1, self.width.into()),
+            (Tag::ImageLength, LONG, 1, self.height.into()),
+            (Tag::BitsPerSample, SHORT, 1, 8),
+            (Tag::Compression, SHORT, 1, 1),
+            (Tag::PhotometricInterpretation, SHORT, 1, 1),
+            (
+                Tag::ImageDescription,
+                ASCII,
+                self.description,
+                self.values_at + 8,
+            ),
+            (Tag::StripOffsets, offset, 1, strip),
+            (Tag::SamplesPerPixel, SHORT, 1, 1),
+            (Tag::RowsPerStrip, LONG, 1, self.height.into()),
+            (Tag::StripByteCounts, offset, 1, self.page_bytes),
+            (Tag::XResolution, RATIONAL, 1, resolution),
+            (Tag::YResolution, RATIONAL, 1, resolution),
+            (Tag::ResolutionUnit, SHORT, 1, 1), // the unit stands in the description
         ];
-        let mut bytes = Vec::new();
         let count_width = if self.big { 8 } else { 2 };
-        bytes.extend(&ENTRIES.to_le_bytes()[..count_width]);
+        let mut bytes = ENTRIES.to_le_bytes()[..count_width].to_vec();
         for (tag, kind, count, value) in tags {
-            bytes.extend(tag.to_le_bytes());
-            bytes.extend(kind.to_le_bytes());
-            self.put_offset(&mut bytes, count);
-            self.put_offset(&mut bytes, value);
+            bytes.extend([tag.to_u16(), kind].map(u16::to_le_bytes).concat());
+            bytes.extend(self.offset(&count.to_le_bytes()));
+            bytes.extend(self.offset(&value.to_le_bytes()));
         }
-        let last = z + 1 == self.pages;
-        self.put_offset(&mut bytes, if last { 0 } else { self.directory_at(z + 1) });
+        let next = if z + 1 == self.pages {
+            0
+        } else {
+            directory_at(self.big, z + 1)
+        };
+        bytes.extend(self.offset(&next.to_le_bytes()));
         bytes
     }
+}
 
-    /// Resolution and description, which all directories point to.
-    fn values(&self) -> Vec<u8> {
-        let mut bytes: Vec<u8> = self.resolution.map(u32::to_le_bytes).concat();
-        bytes.extend(&self.description);
-        bytes.resize(bytes.len().next_multiple_of(8), 0);
-        bytes
+fn directory_at(big: bool, z: u64) -> u64 {
+    match big {
+        true => 16 + z * (8 + 20 * ENTRIES + 8),
+        false => 8 + z * (2 + 12 * ENTRIES + 4),
     }
 }
 
 /// 1/edge as a fraction of 32-bit integers, exact to a picometre up to 4 mm.
 fn pixels_per_micrometre(edge_um: f64) -> [u32; 2] {
     let picometres = (edge_um * 1e6).round();
-    if picometres <= f64::from(u32::MAX) {
-        [1_000_000, picometres as u32]
-    } else {
-        [1, edge_um.round() as u32]
+    match picometres <= f64::from(u32::MAX) {
+        true => [1_000_000, picometres as u32],
+        false => [1, edge_um.round() as u32],
     }
 }
 
@@ -226,55 +224,40 @@ mod tests {
     use super::*;
     use crate::Stack;
 
-    fn read_back(big: bool) -> (Stack, tempfile::TempDir) {
-        let dims = [5, 4, 3];
-        let layout = Layout::new(dims, 1.45e-6, "", big).unwrap();
-        let mut bytes = Vec::new();
-        let mut writer = TiffWriter::with_layout(&mut bytes, &layout).unwrap();
-        for z in 0..3_u8 {
-            let page: Vec<u8> = (0..20).map(|i| i + 20 * z).collect();
-            writer.write_page(&page).unwrap();
-        }
-        assert!(writer.write_page(&[0; 20]).is_err());
-        writer.finish().unwrap();
-        assert_eq!(bytes.len() as u64, layout.end);
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.tif");
-        std::fs::write(&path, bytes).unwrap();
-        (Stack::open(&[path]).unwrap(), folder)
-    }
-
+    /// Our reader takes pages as ImageJ does, others go from directory to directory.
     #[test]
     fn what_is_written_is_read() {
         for big in [false, true] {
-            let (stack, _folder) = read_back(big);
+            let layout = Layout::new([5, 4, 3], 1.45e-6, "", big).unwrap();
+            let mut bytes = Vec::new();
+            let mut writer = TiffWriter::with_layout(&mut bytes, &layout).unwrap();
+            for z in 0..3_u8 {
+                let page: Vec<u8> = (20 * z..20 * z + 20).collect();
+                writer.write_page(&page).unwrap();
+            }
+            assert!(writer.write_page(&[0; 20]).is_err());
+            writer.finish().unwrap();
+            assert_eq!(bytes.len() as u64, layout.end);
+            let mut decoder = tiff::decoder::Decoder::new(io::Cursor::new(&bytes)).unwrap();
+            for z in 0..3_u8 {
+                assert_eq!(decoder.dimensions().unwrap(), (5, 4));
+                let mut page = [0; 20];
+                decoder.read_image_bytes(&mut page).unwrap();
+                assert_eq!((page[0], decoder.more_images()), (20 * z, z < 2));
+                if z < 2 {
+                    decoder.next_image().unwrap();
+                }
+            }
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("a.tif");
+            std::fs::write(&path, bytes).unwrap();
+            let stack = Stack::open(&[path]).unwrap();
             assert_eq!(stack.dims(), [5, 4, 3]);
             let edge = stack.voxel_size().unwrap().cube_edge().unwrap();
             assert!((edge - 1.45e-6).abs() < 1e-18, "{edge}");
             let mut page = Vec::new();
             stack.read_page(2, &mut page).unwrap();
             assert_eq!(page, (40..60).collect::<Vec<u8>>());
-        }
-    }
-
-    /// Readers other than ours go from directory to directory.
-    #[test]
-    fn every_directory_but_the_last_names_the_next() {
-        for big in [false, true] {
-            let (_, folder) = read_back(big);
-            let file = std::fs::File::open(folder.path().join("a.tif")).unwrap();
-            let mut decoder = tiff::decoder::Decoder::new(std::io::BufReader::new(file)).unwrap();
-            for z in 0..3_u8 {
-                assert_eq!(decoder.dimensions().unwrap(), (5, 4));
-                let first = match decoder.read_image().unwrap() {
-                    tiff::decoder::DecodingResult::U8(page) => page[0],
-                    other => panic!("{other:?}"),
-                };
-                assert_eq!((first, decoder.more_images()), (20 * z, z < 2));
-                if z < 2 {
-                    decoder.next_image().unwrap();
-                }
-            }
         }
     }
 
