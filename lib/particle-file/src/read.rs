@@ -19,21 +19,14 @@ pub trait Value: Pod + Send + Sync {
     const ELEMENT: Element;
 }
 
-impl Value for f32 {
-    const ELEMENT: Element = Element::F32;
+macro_rules! values {
+    ($($number:ty: $element:ident),*) => {
+        $(impl Value for $number {
+            const ELEMENT: Element = Element::$element;
+        })*
+    };
 }
-impl Value for f64 {
-    const ELEMENT: Element = Element::F64;
-}
-impl Value for u32 {
-    const ELEMENT: Element = Element::U32;
-}
-impl Value for u64 {
-    const ELEMENT: Element = Element::U64;
-}
-impl Value for u8 {
-    const ELEMENT: Element = Element::U8;
-}
+values!(f32: F32, f64: F64, u32: U32, u64: U64, u8: U8);
 
 /// An opened particle file: header and layout are checked, arrays are read when asked for
 /// and checked against their checksum then.
@@ -68,14 +61,17 @@ impl ParticleFile {
     }
 
     fn of_input(path: &Path, bytes: io::Result<Mapped>) -> Result<Self, Error> {
-        let name = if path == Path::new("-") {
-            "standard input".to_owned()
-        } else {
-            path.display().to_string()
+        let name = match path == Path::new("-") {
+            true => "standard input".to_owned(),
+            false => path.display().to_string(),
         };
+        Self::named(name, bytes)
+    }
+
+    fn named(file: String, bytes: io::Result<Mapped>) -> Result<Self, Error> {
         match bytes {
-            Ok(bytes) => Self::from_mapped(name, bytes),
-            Err(source) => Err(Error::Unreadable { file: name, source }),
+            Ok(bytes) => Self::from_mapped(file, bytes),
+            Err(source) => Err(Error::Unreadable { file, source }),
         }
     }
 
@@ -84,11 +80,7 @@ impl ParticleFile {
     /// # Errors
     /// As [`ParticleFile::open`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        let name = "bytes in memory".to_owned();
-        match Mapped::copy_of(bytes) {
-            Ok(bytes) => Self::from_mapped(name, bytes),
-            Err(source) => Err(Error::Unreadable { file: name, source }),
-        }
+        Self::named("bytes in memory".into(), Mapped::copy_of(bytes))
     }
 
     /// Reads an input that was mapped already, e.g. to see what it is; `name` is for
@@ -176,11 +168,8 @@ impl ParticleFile {
     /// # Errors
     /// When there is no column of that name and type or it is damaged.
     pub fn column<T: Value>(&self, name: &str) -> Result<&[T], Error> {
-        let matches = |s: &Section| s.name == name && s.element == T::ELEMENT;
-        match self.stored.sections.iter().position(matches) {
-            Some(index) => self.values_of(index),
-            None => Err(self.missing(format!("column '{name}' of type {:?}", T::ELEMENT))),
-        }
+        let wanted = || format!("column '{name}' of type {:?}", T::ELEMENT);
+        self.array(name, T::ELEMENT, wanted)
     }
 
     /// The vectors of column `name`, which has three components.
@@ -201,10 +190,19 @@ impl ParticleFile {
     /// # Errors
     /// When there is no such blob or it is damaged.
     pub fn blob(&self, name: &str) -> Result<&[u8], Error> {
-        let matches = |s: &Section| s.name == name && s.element == Element::Blob;
+        self.array(name, Element::Blob, || format!("blob '{name}'"))
+    }
+
+    fn array<T: Pod>(
+        &self,
+        name: &str,
+        element: Element,
+        wanted: impl Fn() -> String,
+    ) -> Result<&[T], Error> {
+        let matches = |s: &Section| s.name == name && s.element == element;
         match self.stored.sections.iter().position(matches) {
             Some(index) => self.values_of(index),
-            None => Err(self.missing(format!("blob '{name}'"))),
+            None => Err(self.missing(wanted())),
         }
     }
 
@@ -215,8 +213,7 @@ impl ParticleFile {
     /// The checked bytes of section `index` as values of its type.
     pub(crate) fn values_of<T: Pod>(&self, index: usize) -> Result<&[T], Error> {
         let section = &self.stored.sections[index];
-        let bytes = section_bytes(&self.bytes, section)
-            .ok_or_else(|| self.corrupt("ends within an array".into()))?;
+        let bytes = &self.bytes[section.range()];
         let sound = self.sound[index].get_or_init(|| layout::checksum(bytes) == section.xxh3);
         match bytemuck::try_cast_slice(bytes) {
             Ok(values) if *sound => Ok(values),
@@ -251,13 +248,6 @@ impl ParticleFile {
             },
         }
     }
-}
-
-/// The bytes of a section, without padding.
-fn section_bytes<'a>(file: &'a [u8], section: &Section) -> Option<&'a [u8]> {
-    let start = usize::try_from(section.offset).ok()?;
-    let len = usize::try_from(section.bytes()?).ok()?;
-    file.get(start..start.checked_add(len)?)
 }
 
 /// Everything about the file but the arrays' values; the error says what is wrong with it.
