@@ -59,7 +59,7 @@ impl Datum {
     /// outside the state.
     pub fn find(reference: Reference, state: &State) -> Result<Self, Error> {
         if state.is_bare() {
-            return Err(bondline::Error::NoAdhesive.into());
+            return Err(bondline::Error::no_adhesive().into());
         }
         let normal = state.normal;
         let level = |bottom, top| Datum::Level {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::quantile::quantiles_up_to;
+use crate::quantile::quantiles;
 use crate::{Adhesive, Datum, State};
 
 /// One side of the bond line, or both.
@@ -103,8 +103,7 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
                 }
             });
         };
-        let [p95_depth_m, p99_depth_m] =
-            quantiles_up_to(sum.deepest, sum.volume, depths, [0.95, 0.99]);
+        let [p95_depth_m, p99_depth_m] = quantiles(sum.deepest, sum.volume, depths, [0.95, 0.99]);
         Penetration {
             side,
             plane_m: datum.plane_m(side),

@@ -183,7 +183,9 @@ impl<'a> State<'a> {
                 .for_each(|(p, &v)| visit(p.map(f64::from), f64::from(v))),
             Adhesive::Voxels(voxels) => {
                 let volume = voxels.voxel_m.powi(3);
-                voxels.for_each(|index| visit(voxels.centre_m(index), volume));
+                voxels
+                    .bits
+                    .for_each(|index| visit(voxels.centre_m(index), volume));
             }
         }
     }

@@ -31,6 +31,21 @@ impl Stack {
     }
 }
 
+/// 30 layers of wood with grooves, `t` layers of adhesive, 30 layers of wood with grooves.
+pub fn slab(normal: Axis, t: usize) -> Stack {
+    let mut dims = [24, 24, 24];
+    dims[normal.index()] = 60 + t;
+    Stack::new(dims, move |x, y, z| {
+        let index = [x, y, z];
+        let across = index[(normal.index() + 1) % 3];
+        match index[normal.index()] {
+            l if (30..30 + t).contains(&l) => 'a',
+            _ if across.is_multiple_of(3) => ' ',
+            _ => 'w',
+        }
+    })
+}
+
 /// Bits with the low corner at the origin.
 pub fn placed(bits: &BitGrid) -> Placed<'_> {
     Placed {
@@ -64,6 +79,17 @@ impl Run {
             position: Vec::new(),
             volume: Vec::new(),
         }
+    }
+
+    /// The same with the adhesive voxels of the stack as points that moved with the adherends.
+    pub fn of(stack: &Stack, plane: usize, gap: f64) -> Self {
+        let mut run = Self::new(stack, plane, gap);
+        stack.adhesive.view().for_each(|index| {
+            let mut place = index.map(|i| i as f64 + 0.5);
+            place[1] += if index[1] >= plane { gap / VOXEL } else { 0.0 };
+            run.add(place);
+        });
+        run
     }
 
     /// Adds a point of one voxel's volume at `place` in voxels.
