@@ -2,7 +2,6 @@
 
 use super::adherend::{Adherend, Counts, Tissue};
 use super::lumens::Lumens;
-use super::penetration::Filled;
 use super::recipe::Plan;
 
 /// What was measured on a synthetic specimen.
@@ -69,16 +68,13 @@ impl Anatomy {
     pub(crate) fn measure(
         plan: &Plan,
         adherends: &[Adherend],
-        pages: impl Iterator<Item = Counts>,
-        filled: &Filled,
+        counts: Counts,
+        adhesive_voxels: [usize; 3],
         lumens: Lumens,
     ) -> Self {
-        let mut counts = Counts::default();
-        pages.for_each(|page| counts += &page);
         let wood = counts.all.iter().sum::<u64>().max(1) as f64;
         let open = counts.open.iter().sum::<u64>() as f64;
-        let voxels = [filled.gap, filled.wood, filled.tube];
-        let volume = voxels.iter().sum::<usize>() as f64 * f64::from(plan.voxel).powi(3);
+        let volume = adhesive_voxels.iter().sum::<usize>() as f64 * f64::from(plan.voxel).powi(3);
         let [width, _, length] = plan.edges().map(f64::from);
         let sides = || adherends.iter().enumerate();
         let met = sides().map(|(s, wood)| rays_met(plan, wood, s));
@@ -89,7 +85,7 @@ impl Anatomy {
             rays_per_mm: met.0 as f64 / (met.1 * 1e-3),
             adhesive_volume: volume * 1e-18,
             slab: volume / (width * length) * 1e-6,
-            adhesive_voxels: voxels,
+            adhesive_voxels,
             lumens,
         }
     }

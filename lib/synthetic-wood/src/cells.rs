@@ -12,6 +12,23 @@ pub(crate) enum State {
     Adhesive,
 }
 
+/// Label of void voxels.
+pub const VOID: u8 = 0;
+/// Label of wood voxels.
+pub const WOOD: u8 = 128;
+/// Label of adhesive voxels.
+pub const ADHESIVE: u8 = 255;
+
+impl State {
+    fn label(self) -> u8 {
+        match self {
+            Self::Wood => WOOD,
+            Self::Open | Self::Queued => VOID,
+            Self::Adhesive => ADHESIVE,
+        }
+    }
+}
+
 /// States of all voxels. A page begins on a byte of its own, so that pages are written side by
 /// side; an *index* counts the voxels that this leaves unused, too.
 #[derive(Clone, Debug)]
@@ -79,10 +96,11 @@ impl Cells {
         put(&mut self.bytes, index, state);
     }
 
-    /// The states of one page, x fastest.
-    pub(crate) fn page_states(&self, page: usize) -> impl Iterator<Item = State> {
+    /// The labels of one page, x fastest.
+    pub(crate) fn labels(&self, page: usize) -> Vec<u8> {
         let first = page * self.page();
-        (first..first + self.size[0] * self.size[1]).map(|index| self.get(index))
+        let indices = first..first + self.size[0] * self.size[1];
+        indices.map(|index| self.get(index).label()).collect()
     }
 
     /// The indices of all voxels over the faces of this one.
@@ -126,9 +144,12 @@ mod tests {
                 assert_eq!(cells.place(index), *place);
                 cells.set(index, states[(i + turn) % 4]);
             }
-            let found = (0..2).flat_map(|page| cells.page_states(page));
-            let expected = (0..30).map(|i| states[(i + turn) % 4]);
-            assert!(found.eq(expected), "{turn}");
+            for (i, place) in places.iter().enumerate() {
+                assert_eq!(cells.get(cells.index(*place)), states[(i + turn) % 4]);
+            }
+            let labels = [WOOD, VOID, VOID, ADHESIVE];
+            let found = (0..2).flat_map(|page| cells.labels(page));
+            assert!(found.eq((0..30).map(|i| labels[(i + turn) % 4])), "{turn}");
         }
     }
 

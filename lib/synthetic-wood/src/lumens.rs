@@ -1,6 +1,6 @@
 //! Lumens as they are met on a cross-section of labels, measured without the generator's help.
 
-use super::WOOD;
+use super::cells::WOOD;
 use super::recipe::Plan;
 use super::species::{Grain, Species};
 
@@ -34,8 +34,7 @@ impl Lumens {
         let um = f64::from(plan.voxel);
         let open: Vec<bool> = page.iter().map(|&label| label != WOOD).collect();
         let vessel = least_vessel(plan.species);
-        let diameter =
-            |opening: &Opening| 2.0 * (opening.area as f64 / std::f64::consts::PI).sqrt() * um;
+        let diameter = |opening: &Opening| opening.diameter() * um;
         let cores = match vessel.is_finite() {
             true => openings(eroded(&open, nx, CLEAR / um), nx),
             false => Vec::new(),
@@ -73,11 +72,9 @@ impl Lumens {
 pub fn lumen_diameters(page: &[u8], nx: usize, voxel_um: f64) -> Vec<f64> {
     let open = page.iter().map(|&label| label != WOOD).collect();
     let ny = page.len() / nx;
-    let whole = openings(open, nx)
-        .into_iter()
-        .filter(|lumen| !lumen.is_cut(1, nx, ny));
-    let mut found: Vec<f64> = whole
-        .map(|lumen| 2.0 * (lumen.area as f64 / std::f64::consts::PI).sqrt() * voxel_um)
+    let mut found: Vec<f64> = (openings(open, nx).iter())
+        .filter(|lumen| !lumen.is_cut(1, nx, ny))
+        .map(|lumen| lumen.diameter() * voxel_um)
         .filter(|diameter| *diameter >= LEAST)
         .collect();
     found.sort_by(f64::total_cmp);
@@ -99,6 +96,11 @@ struct Opening {
 }
 
 impl Opening {
+    /// Of the circle of its area, voxels.
+    fn diameter(&self) -> f64 {
+        2.0 * (self.area as f64 / std::f64::consts::PI).sqrt()
+    }
+
     /// Whether it comes nearer than `reach` voxels to the low x or y side of its page.
     fn is_cut_low(&self, reach: usize) -> bool {
         self.bounds[0] < reach || self.bounds[2] < reach
@@ -118,11 +120,7 @@ fn eroded(open: &[bool], nx: usize, clear: f64) -> Vec<bool> {
     for (row, open) in along.chunks_mut(nx).zip(open.chunks(nx)) {
         for x in 0..nx {
             let before = if x > 0 { row[x - 1] } else { reach };
-            row[x] = if open[x] {
-                (before + 1).min(reach + 1)
-            } else {
-                0
-            };
+            row[x] = usize::from(open[x]) * (before + 1).min(reach + 1);
         }
         for x in (1..nx).rev() {
             row[x - 1] = row[x - 1].min(row[x] + 1);
@@ -194,7 +192,7 @@ fn quantile(values: &mut [f64], q: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::VOID;
+    use super::super::cells::VOID;
     use super::*;
 
     /// Square lumens of 6 voxels with walls of 2 between them, off the sides by one.

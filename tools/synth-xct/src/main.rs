@@ -132,7 +132,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         arguments.yes_really,
     )?;
     let specimen = Specimen::grow(&recipe).map_err(|error| match error {
-        RecipeError::Overfull { .. } => Failure::failed(error),
+        RecipeError::Overfull(_) => Failure::failed(error),
         _ => Failure::usage(error),
     })?;
     report(&specimen, &recipe);
