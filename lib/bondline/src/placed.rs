@@ -49,9 +49,6 @@ pub struct Specimen<'a> {
 
 impl<'a> Specimen<'a> {
     /// A specimen from its two materials.
-    ///
-    /// # Errors
-    /// When they are not voxels of the same stack.
     pub fn new(wood: Placed<'a>, adhesive: Placed<'a>) -> Result<Self, Error> {
         let same = wood.bits.dims() == adhesive.bits.dims()
             && wood.origin_m == adhesive.origin_m

@@ -31,14 +31,18 @@ pub fn keep_apart_with_records<'a>(
 ) -> Result<(), Failure> {
     let outputs: Vec<&Output> = outputs.into_iter().collect();
     let mut places = Places::read_at(inputs);
-    for output in &outputs {
-        places.write_at(output)?;
-    }
+    (outputs.iter()).try_for_each(|output| places.write_at(output))?;
     for output in outputs {
-        if let Some(record) = output.record_path() {
-            places.write_record_at(&record, output)?;
-            provenance::may_replace(&record)?;
+        let Some(record) = output.record_path() else {
+            continue;
+        };
+        if let Some(other) = places.taken(&record, ["is read", "is another output"]) {
+            return Err(Failure::usage(format!(
+                "'{}' {other} and would be replaced by the provenance record of {output}: give another file name",
+                record.display()
+            )));
         }
+        provenance::may_replace(&record)?;
     }
     Ok(())
 }
@@ -64,41 +68,31 @@ impl Places {
         let Output::File(path) = output else {
             return Ok(());
         };
-        // What cannot be placed cannot be written either, and is refused then.
-        let Some(place) = place(path) else {
-            return Ok(());
-        };
-        if self.read.contains(&place) {
-            return Err(Failure::usage(format!(
-                "{output} is read and cannot be the output too: give another file name"
-            )));
+        let twice = [
+            "is read and cannot be the output too: give another file name",
+            "is given for two outputs: give each a file name of its own",
+        ];
+        match self.taken(path, twice) {
+            Some(why) => Err(Failure::usage(format!("{output} {why}"))),
+            None if place(path).is_none() => Ok(()),
+            None => machine::replaced_permissions(path)
+                .map(|_| ())
+                .map_err(|e| Failure::write(output, &e)),
         }
-        if self.written.contains(&place) {
-            return Err(Failure::usage(format!(
-                "{output} is given for two outputs: give each a file name of its own"
-            )));
-        }
-        machine::replaced_permissions(&place).map_err(|e| Failure::write(output, &e))?;
-        self.written.push(place);
-        Ok(())
     }
 
-    fn write_record_at(&mut self, record: &Path, of: &Output) -> Result<(), Failure> {
-        let Some(place) = place(record) else {
-            return Ok(());
-        };
-        let other = match () {
-            () if self.read.contains(&place) => "is read",
-            () if self.written.contains(&place) => "is another output",
-            () => {
-                self.written.push(place);
-                return Ok(());
-            }
-        };
-        Err(Failure::usage(format!(
-            "'{}' {other} and would be replaced by the provenance record of {of}: give another file name",
-            record.display()
-        )))
+    /// Why another file cannot be written at `path`, of the two reasons, or nothing, and the place is taken from now on.
+    fn taken(&mut self, path: &Path, [read, written]: [&'static str; 2]) -> Option<&'static str> {
+        // What cannot be placed cannot be written either, and is refused then.
+        let place = place(path)?;
+        if self.read.contains(&place) {
+            return Some(read);
+        }
+        if self.written.contains(&place) {
+            return Some(written);
+        }
+        self.written.push(place);
+        None
     }
 }
 

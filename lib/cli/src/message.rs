@@ -46,9 +46,6 @@ pub fn warn(message: impl Display) {
 
 /// Text for people on standard output, made harmless as messages are; data go through
 /// [`Output::write`], which changes nothing.
-///
-/// # Errors
-/// As [`Output::write`].
 pub fn print(text: &str) -> Result<(), Failure> {
     Output::Stdout.write(|out| out.write_all(harmless(text).as_bytes()))
 }

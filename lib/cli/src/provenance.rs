@@ -90,9 +90,6 @@ fn is_record(path: &Path) -> bool {
 
 impl InputRecord {
     /// Hashes the file at `path`.
-    ///
-    /// # Errors
-    /// The system's reason when the file cannot be read.
     pub fn of_file(path: &Path) -> io::Result<Self> {
         Ok(Self::new(path.display().to_string(), hash_file(path)?))
     }
@@ -107,17 +104,11 @@ impl InputRecord {
 }
 
 /// XXH3-64 of a file's content.
-///
-/// # Errors
-/// The system's reason when the file cannot be read.
 pub fn hash_file(path: &Path) -> io::Result<u64> {
     hash_reader(File::open(path)?)
 }
 
 /// XXH3-64 of all that `reader` gives.
-///
-/// # Errors
-/// The system's reason when it cannot be read.
 pub fn hash_reader(mut reader: impl Read) -> io::Result<u64> {
     let mut hasher = Xxh3Default::new();
     let mut buffer = vec![0_u8; 1 << 20];

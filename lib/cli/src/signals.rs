@@ -28,9 +28,6 @@ const WARNINGS: [i32; 4] = [SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU];
 /// to the process and one to its group.
 ///
 /// Before this call, as in tools that never make it, a signal ends the process at once.
-///
-/// # Errors
-/// Exit 1 when the system refuses the handler.
 pub fn catch_interrupts() -> Result<(), Failure> {
     let warnings = WARNINGS
         .into_iter()

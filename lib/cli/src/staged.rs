@@ -19,12 +19,9 @@ pub struct StagedFolder {
 
 impl StagedFolder {
     /// Begins the files of the folder `target`, which need not exist.
-    ///
-    /// # Errors
-    /// Exit 1 with the system's reason.
     pub fn new(target: &Path) -> Result<Self, Failure> {
         let begun = aside::behind_links(target).and_then(|target| {
-            let (aside, _claim) = aside::folder_for(&target)?;
+            let (_claim, aside) = aside::folder_for(&target)?;
             Ok(Self {
                 target,
                 aside,

@@ -61,9 +61,6 @@ pub struct BondLine {
 }
 
 /// The bond line of `state`, which had `begun_m3` (m3) of adhesive and has these `sealed` voids.
-///
-/// # Errors
-/// No adherends to be told apart.
 pub fn bond_line(state: &State, begun_m3: f64, sealed: &Sealed) -> Result<BondLine, Error> {
     let surfaces = Datum::find(Reference::Adherend, state)?;
     let surfaces_m = surfaces.plane_m(Side::Top) - surfaces.plane_m(Side::Bottom);

@@ -26,9 +26,6 @@ pub struct DepthLayer {
 /// evenly over one voxel along the normal, so that a reference between voxel faces and an
 /// adherend between them need no rounding. With [`crate::Reference::Adherend`] what lies
 /// between the two bond surfaces is in no layer.
-///
-/// # Errors
-/// A tilted reference, which has no layers.
 pub fn depth_profile(
     state: &State,
     datum: &Datum,

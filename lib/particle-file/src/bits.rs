@@ -6,7 +6,7 @@ use rayon::prelude::*;
 pub(crate) const WORD: usize = u64::BITS as usize;
 
 /// A box of voxels, one bit each, x fastest. Every row (fixed y and z) starts at a new word,
-/// so that a row is a slice; the bits behind the last voxel of a row are zero.
+/// so that a row is a slice; the bits behind the last voxel of a row are zero. Places outside panic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BitGrid {
     dims: [usize; 3],
@@ -93,18 +93,12 @@ impl BitGrid {
     }
 
     /// Whether voxel (x, y, z) is set.
-    ///
-    /// # Panics
-    /// Outside the grid.
     #[inline]
     pub fn get(&self, x: usize, y: usize, z: usize) -> bool {
         self.view().get(x, y, z)
     }
 
     /// Sets or clears voxel (x, y, z).
-    ///
-    /// # Panics
-    /// Outside the grid.
     pub fn set(&mut self, x: usize, y: usize, z: usize, value: bool) {
         assert!(x < self.dims[0], "voxel outside the grid");
         let word = &mut self.row_mut(y, z)[x / WORD];
@@ -117,17 +111,11 @@ impl BitGrid {
     }
 
     /// The words of row (y, z), x fastest.
-    ///
-    /// # Panics
-    /// Outside the grid.
     pub fn row(&self, y: usize, z: usize) -> &[u64] {
         self.view().row(y, z)
     }
 
     /// The words of row (y, z) for writing; bits behind the last voxel must stay zero.
-    ///
-    /// # Panics
-    /// Outside the grid.
     pub fn row_mut(&mut self, y: usize, z: usize) -> &mut [u64] {
         let range = row_range(self.dims, y, z);
         &mut self.words[range]
@@ -156,9 +144,6 @@ impl<'a> BitsRef<'a> {
     }
 
     /// Whether voxel (x, y, z) is set.
-    ///
-    /// # Panics
-    /// Outside the grid.
     #[inline]
     pub fn get(&self, x: usize, y: usize, z: usize) -> bool {
         assert!(x < self.dims[0], "voxel outside the grid");
@@ -171,9 +156,6 @@ impl<'a> BitsRef<'a> {
     }
 
     /// The words of row (y, z), x fastest.
-    ///
-    /// # Panics
-    /// Outside the grid.
     pub fn row(&self, y: usize, z: usize) -> &'a [u64] {
         &self.words[row_range(self.dims, y, z)]
     }
@@ -184,9 +166,6 @@ impl<'a> BitsRef<'a> {
     }
 
     /// The x of the set voxels of row (y, z), ascending.
-    ///
-    /// # Panics
-    /// Outside the grid.
     pub fn set_in_row(&self, y: usize, z: usize) -> impl Iterator<Item = usize> + use<'a> {
         self.row(y, z).iter().enumerate().flat_map(|(w, &word)| {
             std::iter::successors(Some(word), |&rest| Some(rest & rest.wrapping_sub(1)))

@@ -12,9 +12,6 @@ impl ParticleFile {
     /// Reads everything: every array agrees with its checksum, the voxels of every block
     /// with its count, the bytes between arrays are zero, and, but for checkpoints, every
     /// number is finite. The header and the end marker were checked on opening.
-    ///
-    /// # Errors
-    /// The first array that is not so.
     pub fn check(&self) -> Result<(), Error> {
         for index in 0..self.header().blocks.len() {
             self.block(index)?;

@@ -28,9 +28,6 @@ impl Mapped {
 
     /// As [`Mapped::open`], but a file that has a name is read into memory, where nobody can
     /// change or truncate it any more: for what is used longer than it takes to read it.
-    ///
-    /// # Errors
-    /// As [`Mapped::open`].
     pub fn read(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<Self> {
         let (mut file, named) = opened(path, recognised)?;
         if !named {
@@ -47,9 +44,6 @@ impl Mapped {
     }
 
     /// A copy of `bytes`, aligned as a mapped file is.
-    ///
-    /// # Errors
-    /// When there is no memory for it.
     pub(crate) fn copy_of(bytes: &[u8]) -> io::Result<Self> {
         let mut map = MmapMut::map_anon(bytes.len().max(1))?;
         map[..bytes.len()].copy_from_slice(bytes);

@@ -29,7 +29,7 @@ macro_rules! values {
 values!(f32: F32, f64: F64, u32: U32, u64: U64, u8: U8);
 
 /// An opened particle file: header and layout are checked, arrays are read when asked for
-/// and checked against their checksum then.
+/// and checked against their checksum then. What is absent or damaged is an error.
 #[derive(Debug)]
 pub struct ParticleFile {
     name: String,
@@ -52,9 +52,6 @@ impl ParticleFile {
 
     /// As [`ParticleFile::open`], but nothing that happens to the file later matters: for one
     /// that is needed as long as a run takes.
-    ///
-    /// # Errors
-    /// As [`ParticleFile::open`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         Self::of_input(path, Mapped::read(path, Self::recognises))
@@ -76,18 +73,12 @@ impl ParticleFile {
     }
 
     /// Reads a file that lies in memory.
-    ///
-    /// # Errors
-    /// As [`ParticleFile::open`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         Self::named("bytes in memory".into(), Mapped::copy_of(bytes))
     }
 
     /// Reads an input that was mapped already, e.g. to see what it is; `name` is for
     /// messages.
-    ///
-    /// # Errors
-    /// As [`ParticleFile::open`].
     pub fn from_mapped(name: String, bytes: Mapped) -> Result<Self, Error> {
         match read_header(&bytes) {
             Ok(stored) => Ok(Self {
@@ -137,9 +128,6 @@ impl ParticleFile {
     }
 
     /// Block `index` and its voxels.
-    ///
-    /// # Errors
-    /// When there is no such block or its voxels are damaged.
     pub fn block(&self, index: usize) -> Result<(&Block, BitsRef<'_>), Error> {
         let block = (self.header().blocks.get(index))
             .ok_or_else(|| self.missing(format!("block number {index}")))?;
@@ -155,27 +143,18 @@ impl ParticleFile {
     }
 
     /// The block called `name` and its voxels.
-    ///
-    /// # Errors
-    /// When there is no such block or its voxels are damaged.
     pub fn block_named(&self, name: &str) -> Result<(&Block, BitsRef<'_>), Error> {
         let index = self.header().blocks.iter().position(|b| b.name == name);
         self.block(index.ok_or_else(|| self.missing(format!("block '{name}'")))?)
     }
 
     /// The values of column `name`, row by row.
-    ///
-    /// # Errors
-    /// When there is no column of that name and type or it is damaged.
     pub fn column<T: Value>(&self, name: &str) -> Result<&[T], Error> {
         let wanted = || format!("column '{name}' of type {:?}", T::ELEMENT);
         self.array(name, T::ELEMENT, wanted)
     }
 
     /// The vectors of column `name`, which has three components.
-    ///
-    /// # Errors
-    /// When there is no column of that name, type and width or it is damaged.
     pub fn vectors(&self, name: &str) -> Result<&[[f32; 3]], Error> {
         let fits = |s: &Section| s.name == name && s.components == 3;
         if self.columns().any(fits) {
@@ -186,9 +165,6 @@ impl ParticleFile {
     }
 
     /// The bytes of blob `name`.
-    ///
-    /// # Errors
-    /// When there is no such blob or it is damaged.
     pub fn blob(&self, name: &str) -> Result<&[u8], Error> {
         self.array(name, Element::Blob, || format!("blob '{name}'"))
     }

@@ -7,7 +7,7 @@ use std::path::Path;
 use bondline::{Placed, Specimen};
 use cli::{Failure, InputRecord};
 use metrics::{Adhesive, State};
-use particle_file::{BitGrid, Mapped, ParticleFile, temporary_file};
+use particle_file::{BitGrid, Kind, Mapped, ParticleFile, temporary_file};
 use units::Axis;
 use voxels::{
     Crop, Dims, Grey, Histogram, Labels, Phases, RawType, Segmented, Source, Stack, VoxelEdge,
@@ -111,6 +111,14 @@ impl Input {
                 "'{}' holds material points, which have no slices: --ignore-islands takes stacks, specimens and bonds (particles export makes a stack of it)",
                 self.name
             ))),
+        }
+    }
+
+    /// What it is; a stack is a specimen.
+    pub fn kind(&self) -> Kind {
+        match &self.content {
+            Content::Particles(file) => file.header().kind,
+            Content::Stack { .. } => Kind::Specimen,
         }
     }
 

@@ -16,6 +16,7 @@ use metrics::table::{self, PenetrationRows};
 use metrics::{
     Adhesive, Datum, Map, Reference, Sealed, Side, bond_line, compare, depth_profile, penetration,
 };
+use particle_file::Kind;
 use units::Quantity;
 
 fn main() -> ExitCode {
@@ -181,9 +182,9 @@ fn measure(
 struct Recorder {
     wanted: bool,
     inputs: Vec<InputRecord>,
-    /// Whether each specimen counts once, and what those are that were added.
+    /// Whether each specimen counts once, and names, kinds and contents of those that were added.
     once: bool,
-    specimens: Vec<(String, Vec<String>)>,
+    specimens: Vec<(String, Kind, Vec<String>)>,
 }
 
 impl Recorder {
@@ -203,14 +204,20 @@ impl Recorder {
         }
         let records = input.records()?;
         let content = records.iter().map(|record| record.xxh3.clone()).collect();
-        let copied = self.specimens.iter().find(|(_, other)| *other == content);
-        if let Some((other, _)) = copied {
+        let (name, kind) = (&input.name, input.kind());
+        let of_other_kind = self.specimens.iter().find(|(_, other, _)| *other != kind);
+        if let Some((other, other_kind, _)) = of_other_kind {
             return Err(Failure::usage(format!(
-                "'{}' holds the same as '{other}': --summary takes each specimen once",
-                input.name
+                "'{name}' is a {kind} and '{other}' a {other_kind}: --summary is of files of one kind"
             )));
         }
-        self.specimens.push((input.name.clone(), content));
+        let copied = self.specimens.iter().find(|(.., other)| *other == content);
+        if let Some((other, ..)) = copied {
+            return Err(Failure::usage(format!(
+                "'{name}' holds the same as '{other}': --summary takes each specimen once"
+            )));
+        }
+        self.specimens.push((name.clone(), kind, content));
         self.inputs.extend(records);
         Ok(())
     }

@@ -11,9 +11,6 @@ use super::points::{self, Values};
 
 /// Writes every array under its name: blocks as booleans (nz, ny, nx) with `NAME_origin_m`
 /// and `NAME_voxel_m` beside, columns as (rows, components), and the header's numbers.
-///
-/// # Errors
-/// Exit 3 when an array is damaged, exit 1 when the output cannot be written.
 pub fn write(file: &ParticleFile, output: &Output, record: &Record) -> Result<(), Failure> {
     let blocks = (0..file.header().blocks.len())
         .map(|i| file.block(i).map_err(Failure::data))

@@ -29,8 +29,6 @@ pub enum Values<'a> {
 }
 
 impl<'a> Points<'a> {
-    /// # Errors
-    /// Exit 3 when an array is damaged or there is no adhesive in the file.
     pub fn of(file: &'a ParticleFile) -> Result<Self, Failure> {
         let rows = file.header().particles;
         if rows == 0 {
@@ -82,9 +80,6 @@ fn adhesive_voxels(file: &ParticleFile) -> Result<u64, particle_file::Error> {
 }
 
 /// The column that `section` of `file` describes.
-///
-/// # Errors
-/// Exit 3 when it is damaged.
 pub fn column<'a>(file: &'a ParticleFile, section: &'a Section) -> Result<Column<'a>, Failure> {
     let name = section.name.as_str();
     let values = match section.element {
