@@ -136,35 +136,24 @@ mod tests {
         let inside = |name: &str| folder.path().join(name);
         let file = |name: &str| Output::File(inside(name));
         let input = inside("a.csv.provenance.json");
-        let check =
-            |outputs: &[Output]| keep_apart_with_records([input.as_path()], outputs).is_ok();
+        let check = |all: &[Output]| keep_apart_with_records([input.as_path()], all).is_ok();
         fs::write(&input, b"x").unwrap();
         assert!(!check(&[file("a.csv")]));
         for pair in [["b", "b.provenance.json"], ["b.provenance.json", "b"]] {
             assert!(!check(&pair.map(file)), "{pair:?}");
         }
-        let record = crate::Record::new("tool", "1.0", Vec::new()).to_json();
-        let foreign = [
-            "",
-            "{}",
-            "[]",
-            "text",
-            &record.replace("tool\":", "tol\":"),
-            &record.replacen('{', "{\"more\": 1,", 1),
-            &(record.clone() + "x"),
-        ];
-        for content in foreign {
+        let own = crate::Record::new("tool", "1.0", Vec::new());
+        let record = own.to_json();
+        let mistyped = record.replace("tool\":", "tol\":");
+        let more = record.replacen('{', "{\"more\": 1,", 1);
+        let longer = record.clone() + "x";
+        for content in ["", "{}", "[]", "text", &mistyped, &more, &longer] {
             fs::write(inside("c.provenance.json"), content).unwrap();
             assert!(!check(&[file("c")]), "{content}");
-            let written = file("c")
-                .write_with_record(&crate::Record::new("tool", "1.0", Vec::new()), |_| {
-                    panic!("a file is made that cannot have its record")
-                });
+            let written = file("c").write_with_record(&own, |_| panic!("written without record"));
             assert!(written.is_err() && !inside("c").exists());
-            assert_eq!(
-                fs::read_to_string(inside("c.provenance.json")).unwrap(),
-                content
-            );
+            let kept = fs::read_to_string(inside("c.provenance.json")).unwrap();
+            assert_eq!(kept, content);
         }
         fs::write(inside("c.provenance.json"), record).unwrap();
         assert!(check(&[file("c"), file("d")]));

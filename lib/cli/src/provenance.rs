@@ -40,22 +40,18 @@ impl Record {
     /// The record of this process; `tool` and `version` from the tool's own
     /// `CARGO_PKG_NAME` and `CARGO_PKG_VERSION`.
     pub fn new(tool: &str, version: &str, inputs: Vec<InputRecord>) -> Self {
-        let command = std::env::args_os()
-            .map(|a| a.to_string_lossy().into_owned())
-            .collect();
+        let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
         Self {
             tool: tool.into(),
             version: version.into(),
-            command,
+            command: words.collect(),
             inputs,
         }
     }
 
     /// The record as indented JSON with a final newline.
     pub fn to_json(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
-        text.push('\n');
-        text
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 }
 

@@ -110,13 +110,8 @@ mod tests {
         assert_eq!((read("a"), read("b")), ("old".into(), "old".into()));
         fs::set_permissions(target.join("b"), Permissions::from_mode(0o640)).unwrap();
         put().unwrap();
-        let mode = |name| {
-            fs::metadata(target.join(name))
-                .unwrap()
-                .permissions()
-                .mode()
-                & 0o777
-        };
+        let metadata = |name| fs::metadata(target.join(name)).unwrap();
+        let mode = |name| metadata(name).permissions().mode() & 0o777;
         assert_eq!((mode("a"), mode("b")), (0o600, 0o640));
         assert_eq!(read("a"), "new");
     }

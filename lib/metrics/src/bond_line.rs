@@ -195,25 +195,20 @@ impl<'a> Lattice<'a> {
     /// The wood's voxel at each face between wood and `liquid`.
     fn faces(&self, liquid: BitsRef) -> Vec<[usize; 3]> {
         let mut found = Vec::new();
-        let [_, ny, nz] = self.dims;
-        let rows = (0..nz).flat_map(|z| (0..ny).map(move |y| (y, z)));
-        for (y, z) in rows {
-            for x in liquid
-                .set_in_row(y, z)
-                .filter(|&x| !self.is_wood([x, y, z]))
-            {
-                let index = [x, y, z];
-                for a in 0..3 {
-                    for next in [index[a].checked_sub(1), Some(index[a] + 1)] {
-                        let mut beside = index;
-                        beside[a] = next.unwrap_or(usize::MAX);
-                        if beside[a] < self.dims[a] && self.is_wood(beside) {
-                            found.push(std::array::from_fn(|a| beside[a] - self.shift[a]));
-                        }
+        liquid.for_each(|index| {
+            if self.is_wood(index) {
+                return;
+            }
+            for a in 0..3 {
+                for next in [index[a].wrapping_sub(1), index[a] + 1] {
+                    let mut beside = index;
+                    beside[a] = next;
+                    if next < self.dims[a] && self.is_wood(beside) {
+                        found.push(std::array::from_fn(|a| beside[a] - self.shift[a]));
                     }
                 }
             }
-        }
+        });
         found
     }
 }

@@ -81,10 +81,16 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     let each = |visit: &mut dyn FnMut(Sample)| match &layers {
         Some(layers) => layers.iter().copied().for_each(visit),
         None => state.for_each_parcel(|point, volume| {
-            visit(Sample::new(datum.depth(point), volume, 1));
+            let (side, depth) = datum.depth(point);
+            visit(Sample {
+                side,
+                depth,
+                volume,
+                voxels: 1,
+            });
         }),
     };
-    let mut sums = [Sum::default(); 3];
+    let mut sums = [Sum::NONE; 3];
     each(&mut |sample| {
         for (sum, side) in sums.iter_mut().zip(Side::ALL) {
             if side.includes(sample.side) {
@@ -128,17 +134,6 @@ struct Sample {
     voxels: u64,
 }
 
-impl Sample {
-    fn new((side, depth): (Side, f64), volume: f64, voxels: u64) -> Self {
-        Self {
-            side,
-            depth,
-            volume,
-            voxels,
-        }
-    }
-}
-
 /// What the samples of a side add up to.
 #[derive(Clone, Copy)]
 struct Sum {
@@ -149,18 +144,14 @@ struct Sum {
     deepest: f64,
 }
 
-impl Default for Sum {
-    fn default() -> Self {
-        Self {
-            volume: 0.0,
-            squares: 0.0,
-            voxels: 0,
-            deepest: f64::NAN,
-        }
-    }
-}
-
 impl Sum {
+    const NONE: Self = Self {
+        volume: 0.0,
+        squares: 0.0,
+        voxels: 0,
+        deepest: f64::NAN,
+    };
+
     fn add(&mut self, sample: &Sample) {
         self.volume += sample.volume;
         self.squares += sample.volume * sample.depth * sample.depth;
@@ -178,10 +169,15 @@ fn layers(state: &State, datum: &Datum) -> Option<Vec<Sample>> {
     let volume = voxels.voxel_m.powi(3);
     let counts = voxels.bits.counts_along(n).into_iter().enumerate();
     let filled = counts.filter(|(_, count)| *count > 0);
-    let sample = |(layer, count): (usize, u64)| {
+    let sample = |(layer, voxels_of_it): (usize, u64)| {
         let centre = voxels.origin_m[n] + (layer as f64 + 0.5) * voxels.voxel_m;
-        let depth = datum.depth_of_level(centre);
-        Sample::new(depth, count as f64 * volume, count)
+        let (side, depth) = datum.depth_of_level(centre);
+        Sample {
+            side,
+            depth,
+            volume: voxels_of_it as f64 * volume,
+            voxels: voxels_of_it,
+        }
     };
     Some(filled.map(sample).collect())
 }

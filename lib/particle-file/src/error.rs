@@ -60,3 +60,8 @@ impl Error {
         }
     }
 }
+
+/// An error that says `fault` unless `sound`.
+pub(crate) fn ensure(sound: bool, fault: impl FnOnce() -> String) -> Result<(), String> {
+    if sound { Ok(()) } else { Err(fault()) }
+}

@@ -182,6 +182,12 @@ impl ParticleFile {
         }
     }
 
+    /// The bytes of one of [`ParticleFile::sections`], without padding.
+    pub fn bytes_of(&self, section: &Section) -> Result<&[u8], Error> {
+        let index = self.stored.sections.iter().position(|s| s == section);
+        self.values_of(index.ok_or_else(|| self.missing(format!("array '{}'", section.name)))?)
+    }
+
     pub(crate) fn bytes(&self) -> &[u8] {
         &self.bytes
     }
@@ -235,10 +241,9 @@ fn read_header(file: &[u8]) -> Result<Stored, String> {
         return Err("has a damaged header: its checksum does not agree".into());
     }
     let stored = Stored::decode(header).map_err(|what| format!("has a header that {what}"))?;
-    let fault = stored.header.fault();
-    if let Some(fault) = fault.or_else(|| layout::fault(&stored.header, &stored.sections)) {
-        return Err(format!("has an impossible header: {fault}"));
-    }
+    (stored.header.check())
+        .and_then(|()| layout::check(&stored.header, &stored.sections))
+        .map_err(|fault| format!("has an impossible header: {fault}"))?;
     let mut placed = stored.sections.clone();
     let file_len = layout::place(&mut placed, preamble.header_len);
     if file_len != Some(preamble.file_len) || placed != stored.sections {

@@ -158,10 +158,8 @@ impl<'a> Draft<'a> {
             header: self.header.clone(),
             sections,
         };
-        let fault = stored.header.fault();
-        if let Some(fault) = fault.or_else(|| layout::fault(&stored.header, &stored.sections)) {
-            return Err(fault);
-        }
+        stored.header.check()?;
+        layout::check(&stored.header, &stored.sections)?;
         // All integers have a fixed width: the length does not depend on the offsets.
         let header_len = layout::padded_header(stored.encode()?.len());
         if header_len > MAX_HEADER - PREAMBLE {

@@ -39,7 +39,6 @@ pub use species::{Species, Target};
 
 use adherend::{Adherend, Counts, Sample};
 use cells::{Cells, State};
-use lumens::Lumens;
 use recipe::Plan;
 use surface::Face;
 
@@ -84,10 +83,10 @@ impl Specimen {
             }
             None => 0,
         };
-        let lumens = Lumens::measure(&cells.labels(plan.size[2] / 2), plan);
+        let page = cells.labels(plan.size[2] / 2);
         let counts = counts.into_iter().map(|page| page.wood).sum();
         let adhesive = [gap, wood, tube];
-        let anatomy = Anatomy::measure(plan, &pieces.adherends, counts, adhesive, lumens);
+        let anatomy = Anatomy::measure(plan, &pieces.adherends, counts, adhesive, &page);
         Ok(Self {
             size: plan.size,
             cells,

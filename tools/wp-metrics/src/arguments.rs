@@ -11,6 +11,20 @@ use voxels::{Dims, Labels, RawType};
 
 use crate::input::GreyLevels;
 
+/// Options that have no meaning in tables of wood.
+const OF_ADHESIVE: [&str; 10] = [
+    "reference",
+    "normal",
+    "summary",
+    "map",
+    "profile",
+    "compare",
+    "finer",
+    "series",
+    "pressure",
+    "ignore_islands",
+];
+
 /// Measure weighted and effective penetration of adhesive
 ///
 /// Of a state of a run, a bond, a specimen (particle files) or straight of an image stack.
@@ -79,23 +93,11 @@ pub(crate) struct Arguments {
     pub(crate) ignore_islands: Option<usize>,
     /// Tell the permeability along this axis instead, x, y or z, of all that is not wood full of liquid that sticks to it:
     /// steady flow through the voxels in cells of one, and as its error the distance from that in cells of two
-    #[arg(
-        long,
-        value_name = "AXIS",
-        conflicts_with_all = [
-            "reference", "normal", "summary", "map", "profile", "compare", "finer", "series", "pressure", "ignore_islands"
-        ]
-    )]
+    #[arg(long, value_name = "AXIS", conflicts_with_all = OF_ADHESIVE)]
     pub(crate) permeability: Option<Axis>,
     /// Tell the sizes of pores and lumens instead: the share of what is not wood by the diameter of the largest ball that fits between the
     /// wood and holds the place (for bond-figures pores)
-    #[arg(
-        long,
-        conflicts_with_all = [
-            "reference", "normal", "summary", "map", "profile", "compare", "finer", "series", "pressure", "ignore_islands",
-            "permeability"
-        ]
-    )]
+    #[arg(long, conflicts_with = "permeability", conflicts_with_all = OF_ADHESIVE)]
     pub(crate) pores: bool,
     /// The sides along the flow are periodic, not mirrors
     #[arg(long, requires = "permeability")]
@@ -108,13 +110,8 @@ pub(crate) struct Arguments {
     pub(crate) labels: Option<Labels>,
     /// Grey values of stacks, as in wood=90..170,adhesive=171..; auto takes those that
     /// xct2particles --grey auto proposes, and says them
-    #[arg(
-        long,
-        value_name = "auto|RANGES",
-        conflicts_with = "labels",
-        help_heading = "Image stacks",
-        value_parser = grey
-    )]
+    #[arg(long, value_name = "auto|RANGES", conflicts_with = "labels", value_parser = grey)]
+    #[arg(help_heading = "Image stacks")]
     pub(crate) grey: Option<GreyLevels>,
     /// Size of stacks that are raw volumes, x fastest
     #[arg(
@@ -125,13 +122,8 @@ pub(crate) struct Arguments {
     )]
     pub(crate) dims: Option<Dims>,
     /// Number type of raw volumes: u8, i16, f32 ..., little-endian; big-endian as u16be
-    #[arg(
-        long = "type",
-        id = "kind",
-        value_name = "TYPE",
-        requires = "dims",
-        help_heading = "Image stacks"
-    )]
+    #[arg(long = "type", id = "kind", value_name = "TYPE", requires = "dims")]
+    #[arg(help_heading = "Image stacks")]
     pub(crate) kind: Option<RawType>,
     #[command(flatten)]
     pub(crate) common: cli::Common,

@@ -7,7 +7,7 @@ use std::path::Path;
 use bondline::{Placed, Specimen};
 use cli::{Failure, InputRecord};
 use metrics::{Adhesive, State};
-use particle_file::{BitGrid, Kind, Mapped, ParticleFile, temporary_file};
+use particle_file::{BitGrid, Header, Kind, Mapped, ParticleFile, temporary_file};
 use units::Axis;
 use voxels::{
     Crop, Dims, Grey, Histogram, Labels, Phases, RawType, Segmented, Source, Stack, VoxelEdge,
@@ -116,31 +116,24 @@ impl Input {
 
     /// What it is; a stack is a specimen.
     pub fn kind(&self) -> Kind {
-        match &self.content {
-            Content::Particles(file) => file.header().kind,
-            Content::Stack { .. } => Kind::Specimen,
-        }
+        self.header().map_or(Kind::Specimen, |header| header.kind)
     }
 
     /// Simulated time of a state, s; 0 of anything else.
     pub fn time_s(&self) -> f64 {
-        match &self.content {
-            Content::Particles(file) => file.header().time_s,
-            Content::Stack { .. } => 0.0,
-        }
+        self.header().map_or(0.0, |header| header.time_s)
     }
 
-    /// Way of the clamp left until the bond is closed, m; NaN of what has no gap.
-    pub fn gap_m(&self) -> f64 {
-        self.noted("gap_m").unwrap_or(f64::NAN)
+    fn header(&self) -> Option<&Header> {
+        match &self.content {
+            Content::Particles(file) => Some(file.header()),
+            Content::Stack { .. } => None,
+        }
     }
 
     /// A number that `mpm-run` notes at the states of a run.
     pub fn noted(&self, name: &str) -> Result<f64, Failure> {
-        let text = match &self.content {
-            Content::Particles(file) => file.header().attribute(name),
-            Content::Stack { .. } => None,
-        };
+        let text = self.header().and_then(|header| header.attribute(name));
         let number = text.and_then(|text| text.parse().ok());
         number.filter(|n: &f64| n.is_finite()).ok_or_else(|| {
             Failure::usage(format!(
@@ -153,10 +146,9 @@ impl Input {
     /// A failure to measure this input.
     pub fn failure(&self, error: &metrics::Error) -> Failure {
         let said = format!("'{}': {error}", self.name);
-        if error.is_usage() {
-            Failure::usage(said)
-        } else {
-            Failure::data(said)
+        match error.is_usage() {
+            true => Failure::usage(said),
+            false => Failure::data(said),
         }
     }
 
@@ -172,10 +164,10 @@ impl Input {
     /// The files read and their hashes.
     pub fn records(&self) -> Result<Vec<InputRecord>, Failure> {
         match &self.content {
-            Content::Particles(file) => Ok(vec![InputRecord::new(
-                self.name.clone(),
-                file.content_hash(),
-            )]),
+            Content::Particles(file) => {
+                let record = InputRecord::new(self.name.clone(), file.content_hash());
+                Ok(vec![record])
+            }
             Content::Stack { stack, .. } => stack.sources().iter().map(record).collect(),
         }
     }
@@ -188,22 +180,21 @@ fn open_file(path: &Path, options: &StackOptions) -> Result<Content, Failure> {
         return stack(Stack::open_raw(path, dims, kind), options);
     }
     let from_stdin = path == Path::new("-");
-    let name = if from_stdin {
-        "standard input".to_owned()
-    } else {
-        format!("'{}'", path.display())
+    let name = match from_stdin {
+        true => "standard input".to_owned(),
+        false => format!("'{}'", path.display()),
     };
     let known = |head: &[u8]| ParticleFile::recognises(head) || Stack::recognises(head);
     let bytes = Mapped::open(path, known)
         .map_err(|error| Failure::data(format!("cannot read {name}: {error}")))?;
     if ParticleFile::recognises(&bytes) {
-        let own_name = match from_stdin {
-            true => name,
-            false => path.display().to_string(),
+        let own_name = if from_stdin {
+            name
+        } else {
+            path.display().to_string()
         };
-        return ParticleFile::from_mapped(own_name, bytes)
-            .map(Content::Particles)
-            .map_err(Failure::data);
+        let file = ParticleFile::from_mapped(own_name, bytes).map_err(Failure::data)?;
+        return Ok(Content::Particles(file));
     }
     if from_stdin {
         // A pipe has been read already; a stack is read from a file.
@@ -251,10 +242,9 @@ fn stack(opened: Result<Stack, voxels::Error>, options: &StackOptions) -> Result
 }
 
 fn stack_failure(error: voxels::Error) -> Failure {
-    if error.is_usage() {
-        Failure::usage(error)
-    } else {
-        Failure::data(error)
+    match error.is_usage() {
+        true => Failure::usage(error),
+        false => Failure::data(error),
     }
 }
 

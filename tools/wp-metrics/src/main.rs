@@ -14,7 +14,8 @@ use cli::{Failure, InputRecord, Output, Record};
 use input::{Input, StackOptions};
 use metrics::table::{self, PenetrationRows};
 use metrics::{
-    Adhesive, Datum, Map, Reference, Sealed, Side, bond_line, compare, depth_profile, penetration,
+    Adhesive, Datum, DepthLayer, Map, Reference, Sealed, Side, bond_line, compare, depth_profile,
+    penetration,
 };
 use particle_file::Kind;
 use units::Quantity;
@@ -69,7 +70,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     if arguments.pores {
         return wood::tell_pores(&paths, &arguments, open, record);
     }
-    let mut files = Vec::new();
+    let mut files: Vec<PenetrationRows> = Vec::new();
     let mut profiles = Vec::new();
     for path in &paths {
         // A row of numbers is all that stays of a file.
@@ -81,13 +82,13 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         if arguments.series {
             let state = input.state(arguments.normal)?;
-            let begun = files.first().map_or(&rows, |first: &PenetrationRows| first);
-            let begun_m3 = begun.sides[2].volume_m3;
+            let begun_m3 = files.first().unwrap_or(&rows).sides[2].volume_m3;
             let fail = |error| input.failure(&error);
             let middle = Datum::find(Reference::Mid, &state).map_err(fail)?;
             let sealed = Sealed::of(&state, &middle);
             let line = bond_line(&state, begun_m3, &sealed).map_err(fail)?;
-            rows.course = Some((input.time_s(), input.gap_m(), line));
+            let gap_m = input.noted("gap_m").unwrap_or(f64::NAN);
+            rows.course = Some((input.time_s(), gap_m, line));
             if arguments.profile.is_some() {
                 let datum = Datum::find(arguments.reference, &state).map_err(fail)?;
                 let profile = depth_profile(&state, &datum, &sealed).map_err(fail)?;
@@ -100,9 +101,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         files.push(rows);
     }
     if let Some(output) = arguments.profile.as_ref().filter(|_| arguments.series) {
-        output.write_with_record(&record.finish(), |out| {
-            table::write_depth_profiles(out, &profiles)
-        })?;
+        write_profiles(output, &record, &profiles)?;
     }
     if let Some(output) = &arguments.summary {
         output.write_with_record(&record.finish(), |out| table::write_summary(out, &files))?;
@@ -124,6 +123,16 @@ fn stack_options(arguments: &Arguments) -> Result<StackOptions, Failure> {
         raw: arguments.dims.zip(arguments.kind),
         labels: arguments.labels.clone(),
         grey: arguments.grey.clone(),
+    })
+}
+
+fn write_profiles(
+    output: &Output,
+    record: &Recorder,
+    profiles: &[(Option<f64>, Vec<DepthLayer>)],
+) -> Result<(), Failure> {
+    output.write_with_record(&record.finish(), |out| {
+        table::write_depth_profiles(out, profiles)
     })
 }
 
@@ -151,20 +160,12 @@ fn measure(
         output.write_with_record(&record.finish(), |out| table::write_map(out, &map))?;
     }
     if let Some(output) = arguments.profile.as_ref().filter(|_| !arguments.series) {
-        let sealed = Sealed::of(&state, &datum);
-        let layers = depth_profile(&state, &datum, &sealed).map_err(fail)?;
-        let profile = [(None, layers)];
-        output.write_with_record(&record.finish(), |out| {
-            table::write_depth_profiles(out, &profile)
-        })?;
+        let layers = depth_profile(&state, &datum, &Sealed::of(&state, &datum)).map_err(fail)?;
+        write_profiles(output, record, &[(None, layers)])?;
     }
-    let agreement = match experiment {
-        Some(experiment) => {
-            let experiment = experiment.state(arguments.normal)?;
-            Some(compare(&state, &experiment).map_err(fail)?)
-        }
-        None => None,
-    };
+    let experiment = experiment.map(|e| e.state(arguments.normal)).transpose()?;
+    let agreement = experiment.map(|experiment| compare(&state, &experiment));
+    let agreement = agreement.transpose().map_err(fail)?;
     Ok(PenetrationRows {
         file: cli::cell(&input.name).into_owned(),
         reference: arguments.reference,
@@ -230,10 +231,7 @@ impl Recorder {
     }
 
     fn finish(&self) -> Record {
-        Record::new(
-            env!("CARGO_PKG_NAME"),
-            env!("CARGO_PKG_VERSION"),
-            self.inputs.clone(),
-        )
+        let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
+        Record::new(tool, version, self.inputs.clone())
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use bondline::Placed;
-use cli::Failure;
+use cli::{Failure, Progress};
 use implicit::Permeability;
 use metrics::table::{self, PermeabilityRow};
 use metrics::{State, Wood};
@@ -76,7 +76,11 @@ pub fn tell_pores(
         let state = input.state(None)?;
         let wood = whole(&input, &state)?;
         fits(&input, &wood, SIZE_BYTES, "the sizes of pores in")?;
-        let sizes = metrics::pore_sizes(wood);
+        let mut progress = Progress::new(&format!("pores of '{}'", input.name));
+        let sizes = metrics::pore_sizes(wood, |done| {
+            progress.update(&[("done, {} left", done)], || "sizes".into());
+        });
+        progress.finish();
         if sizes.is_empty() {
             return Err(refused(&input, "it has no pores between wood"));
         }
