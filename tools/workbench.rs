@@ -13,17 +13,14 @@ pub struct Bench {
     folder: TempDir,
 }
 
-/// What a tool left behind when it ended.
 pub struct Ended {
     line: String,
     status: Option<i32>,
     pub stdout: Vec<u8>,
-    /// On standard error.
     pub said: String,
 }
 
 impl Bench {
-    /// A folder for the tool at this path.
     pub fn new(tool: &'static str) -> Self {
         let folder = TempDir::new().unwrap();
         Self { tool, folder }
@@ -65,7 +62,6 @@ impl Bench {
         self.run_on(Stdio::null(), line)
     }
 
-    /// The same on a standard input.
     pub fn run_on(&self, stdin: impl Into<Stdio>, line: &str) -> Ended {
         let ended = Command::new(self.tool)
             .args(line.split_whitespace())
@@ -115,7 +111,6 @@ impl Ended {
     }
 }
 
-/// The rows of a table behind its header, fields apart.
 pub fn rows(csv: &str) -> Vec<Vec<String>> {
     let split = |line: &str| line.split(',').map(str::to_owned).collect();
     csv.lines().skip(1).map(split).collect()

@@ -140,7 +140,6 @@ fn take(floating: &mut BitGrid, at: [usize; 3], joined: &mut Vec<[usize; 3]>) {
     }
 }
 
-/// `bits` without the [`islands`] before `level`.
 pub(crate) fn without_islands(
     mut bits: BitGrid,
     normal: Axis,

@@ -65,7 +65,6 @@ impl Flood<'_> {
         }
     }
 
-    /// Goes on until no row finds more.
     fn spread(&mut self) {
         let [_, ny, nz] = self.wood.dims();
         while let Some([y, z]) = self.waiting.pop_front() {

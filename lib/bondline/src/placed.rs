@@ -71,7 +71,6 @@ impl<'a> Specimen<'a> {
     }
 }
 
-/// The voxels of `layers` along `axis`.
 pub(crate) fn layers(bits: BitsRef, axis: usize, layers: Range<usize>) -> BitGrid {
     let mut ranges = bits.dims().map(|d| 0..d);
     ranges[axis] = layers;

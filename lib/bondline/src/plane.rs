@@ -23,13 +23,9 @@ const PLAIN: f64 = 0.2;
 /// How much of each layer normal to the bond is wood and adhesive.
 #[derive(Clone, Debug)]
 struct Profile {
-    /// The axis the layers are normal to.
     normal: Axis,
-    /// Voxels in a layer.
     area: u64,
-    /// Wood voxels in each layer.
     wood: Vec<u64>,
-    /// Adhesive voxels in each layer.
     adhesive: Vec<u64>,
 }
 
@@ -47,7 +43,6 @@ impl Profile {
         }
     }
 
-    /// Adhesive less wood area fraction in a layer.
     fn contrast(&self, layer: usize) -> f64 {
         (self.adhesive[layer] as f64 - self.wood[layer] as f64) / self.area as f64
     }

@@ -157,7 +157,6 @@ fn turned(bits: &BitGrid, normal: Axis, turn: Turn) -> BitGrid {
     })
 }
 
-/// Both pieces at one cross-section, or a refusal.
 fn fitted(bottom: BitGrid, top: BitGrid, layup: &Layup) -> Result<(BitGrid, BitGrid), Error> {
     let [a, b] = across(layup.normal);
     let [low, high] = [&bottom, &top].map(|piece| [piece.dims()[a], piece.dims()[b]]);
@@ -202,7 +201,6 @@ fn trimmed(piece: BitGrid, normal: Axis, facing: Facing) -> Option<BitGrid> {
     Some(layers(piece.view(), n, wood))
 }
 
-/// Voxels that are no wood.
 fn void(piece: &BitGrid) -> u64 {
     let voxels: u64 = piece.dims().iter().map(|&d| d as u64).product();
     voxels - piece.count()

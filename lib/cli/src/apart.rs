@@ -47,7 +47,6 @@ pub fn keep_apart_with_records<'a>(
     Ok(())
 }
 
-/// Where the files of a command are.
 struct Places {
     read: Vec<PathBuf>,
     written: Vec<PathBuf>,
@@ -129,7 +128,6 @@ mod tests {
         assert!(check(&[null(), null()]).is_ok());
     }
 
-    /// Records replaced inputs, other outputs and files that were no records.
     #[test]
     fn a_record_is_an_output_and_replaces_only_records() {
         let folder = tempfile::tempdir().unwrap();

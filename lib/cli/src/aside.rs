@@ -25,7 +25,6 @@ pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("its symbolic links go round in a circle"))
 }
 
-/// The folder that `path` lies in.
 pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -114,7 +113,6 @@ fn sweep(target: &Path) {
 mod tests {
     use super::*;
 
-    /// A killed tool's temporary file stayed for ever.
     #[test]
     fn what_a_killed_process_left_is_swept_and_what_is_being_written_is_not() {
         let folder = tempfile::tempdir().unwrap();

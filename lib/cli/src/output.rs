@@ -141,7 +141,6 @@ mod tests {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
-    /// The link was replaced by a file.
     #[test]
     fn a_link_stays_and_what_it_points_to_is_replaced_or_made() {
         let folder = tempfile::tempdir().unwrap();
@@ -165,7 +164,6 @@ mod tests {
         assert_eq!(fs::read_dir(inside("elsewhere")).unwrap().count(), 2);
     }
 
-    /// A write-protected file was replaced by one that all may read.
     #[test]
     fn permissions_are_kept_and_write_protection_is_heeded() {
         let folder = tempfile::tempdir().unwrap();

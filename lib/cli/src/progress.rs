@@ -76,7 +76,6 @@ struct Pace {
 }
 
 impl Pace {
-    /// Least time between samples, s.
     const APART: f64 = 5.0;
     const KEPT: usize = 24;
 
@@ -172,7 +171,6 @@ mod tests {
         );
     }
 
-    /// The time since the start of this process was taken for that of all that was done.
     #[test]
     fn work_that_goes_on_is_reckoned_by_its_own_pace() {
         let mut pace = Pace::default();

@@ -91,7 +91,6 @@ mod tests {
 
     const CHILD: &str = "BONDLINE_TEST_LONG_STEP";
 
-    /// A run looked at its flag between steps only: a long step outlived the signal.
     #[test]
     fn a_long_step_does_not_outlive_the_grace() {
         if std::env::var_os(CHILD).is_some() {

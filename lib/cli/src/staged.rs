@@ -68,7 +68,6 @@ impl StagedFolder {
         put().map_err(|e| failure(&self.target, &e))
     }
 
-    /// Where each file is and where it goes.
     fn moves(&self) -> io::Result<Vec<(PathBuf, PathBuf)>> {
         let entries = fs::read_dir(self.aside.path())?;
         let place = |entry: fs::DirEntry| (entry.path(), self.target.join(entry.file_name()));

@@ -159,7 +159,6 @@ impl<'a> Lattice<'a> {
         (0..3).all(|a| own[a] < dims[a]) && self.wood.bits.get(own[0], own[1], own[2])
     }
 
-    /// The voxels that are not wood.
     fn open(&self) -> BitGrid {
         let [shift, dims] = [self.shift, self.wood.bits.dims()];
         if shift[0] > 0 {
@@ -176,7 +175,6 @@ impl<'a> Lattice<'a> {
         })
     }
 
-    /// The voxels that points fill.
     fn liquid(&self, position: &[[f32; 3]], volume: &[f32]) -> BitGrid {
         let edge = self.wood.voxel_m;
         let open = self.open();

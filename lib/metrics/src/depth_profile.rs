@@ -89,7 +89,6 @@ struct Layer {
     adhesive: f64,
 }
 
-/// Layers on both sides of a level datum, each counted away from it.
 struct Layers<'a> {
     datum: &'a Datum,
     voxel: f64,

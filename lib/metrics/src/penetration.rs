@@ -125,7 +125,6 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     })
 }
 
-/// Adhesive at one depth.
 #[derive(Clone, Copy)]
 struct Sample {
     side: Side,

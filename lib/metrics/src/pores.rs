@@ -74,7 +74,6 @@ fn levels(widest: u32) -> Vec<u64> {
         .collect()
 }
 
-/// From one distance to the next, quarter voxels.
 fn step(quarters: u64) -> u64 {
     (quarters / 40).max(1)
 }

@@ -35,12 +35,9 @@ pub(crate) fn quantiles<const N: usize>(
     near.map(|near| near.value(&listed[&near.bin]))
 }
 
-/// The bin of a quantile.
 struct Near {
     bin: usize,
-    /// Weight of the bins below.
     below: f64,
-    /// Weight up to the quantile.
     goal: f64,
 }
 

@@ -8,7 +8,6 @@ use specimens::{Run, Stack, VOXEL, close};
 use units::Axis;
 
 const DIMS: [usize; 3] = [12, 40, 10];
-/// Layers below the bond plane.
 const PLANE: usize = 20;
 /// Layers of adhesive between the bond surfaces and the plane, in every column.
 const FILM: usize = 2;

@@ -14,7 +14,6 @@ fn sizes(dims: [usize; 3], open: impl Fn([usize; 3]) -> bool + Sync) -> Vec<Pore
     found
 }
 
-/// Mean diameter by volume.
 fn mean(sizes: &[PoreSize]) -> f64 {
     sizes.iter().map(|size| size.share * size.diameter_m).sum()
 }

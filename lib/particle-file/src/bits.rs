@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-/// Voxels per word of a row.
 pub(crate) const WORD: usize = u64::BITS as usize;
 
 /// A box of voxels, one bit each, x fastest. Every row (fixed y and z) starts at a new word,
@@ -28,7 +27,6 @@ pub(crate) fn word_count(dims: [usize; 3]) -> Option<usize> {
         .checked_mul(dims[2])
 }
 
-/// The bits of the last word of a row that belong to voxels.
 fn last_word_mask(nx: usize) -> u64 {
     match nx % WORD {
         0 => u64::MAX,

@@ -24,10 +24,10 @@ pub fn states_of_run(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     states.extend(Some(folder.join("final.mpts")).filter(|path| path.is_file()));
     match states.is_empty() {
         false => Ok(states),
-        true => Err(Error::Corrupt {
-            file: folder.display().to_string(),
-            what: "holds no state of a run: snapshots/*.mpts or final.mpts is needed".into(),
-        }),
+        true => Err(Error::new(
+            folder.display().to_string(),
+            "holds no state of a run: snapshots/*.mpts or final.mpts is needed",
+        )),
     }
 }
 

@@ -12,15 +12,11 @@ use crate::section::{Element, Section};
 
 /// First bytes of every particle file; a transfer in text mode damages them.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89MPTS\r\n\x1a";
-/// First bytes of the end marker.
 pub(crate) const END: [u8; 8] = *b"MPTS-END";
-/// Version of the format.
 pub(crate) const VERSION: u32 = 1;
 /// Columns start at multiples of this many bytes: a cache line, the widest vector.
 pub(crate) const ALIGN: u64 = 64;
-/// Bytes before the header.
 pub(crate) const PREAMBLE: usize = 32;
-/// Bytes of the end marker.
 pub(crate) const END_LEN: usize = 16;
 
 /// Puts the sections one behind the other after a header of `header_len` bytes (with its
@@ -180,7 +176,6 @@ pub(crate) fn end_marker(checksum: u64) -> [u8; END_LEN] {
     bytes
 }
 
-/// The checksum of a section.
 pub(crate) fn checksum(bytes: &[u8]) -> u64 {
     xxh3_64(bytes)
 }

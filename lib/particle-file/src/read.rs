@@ -68,7 +68,7 @@ impl ParticleFile {
     fn named(file: String, bytes: io::Result<Mapped>) -> Result<Self, Error> {
         match bytes {
             Ok(bytes) => Self::from_mapped(file, bytes),
-            Err(source) => Err(Error::Unreadable { file, source }),
+            Err(reason) => Err(Error::unreadable(file, &reason)),
         }
     }
 
@@ -87,7 +87,7 @@ impl ParticleFile {
                 sound: stored.sections.iter().map(|_| OnceLock::new()).collect(),
                 stored,
             }),
-            Err(what) => Err(Error::Corrupt { file: name, what }),
+            Err(what) => Err(Error::new(name, what)),
         }
     }
 
@@ -207,28 +207,21 @@ impl ParticleFile {
     }
 
     pub(crate) fn corrupt(&self, what: String) -> Error {
-        Error::Corrupt {
-            file: self.name.clone(),
-            what,
-        }
+        Error::new(&self.name, what)
     }
 
     fn missing(&self, wanted: String) -> Error {
         const NAMED: usize = 20;
-        let mut names: Vec<String> = (self.stored.sections.iter().take(NAMED))
-            .map(|s| format!("'{}' ({:?} x {})", s.name, s.element, s.components))
-            .collect();
-        if let Some(more) = self.stored.sections.len().checked_sub(NAMED + 1) {
-            names.push(format!("and {} more", more + 1));
-        }
-        Error::Missing {
-            file: self.name.clone(),
-            wanted,
-            present: match names.is_empty() {
-                true => "no arrays".into(),
-                false => names.join(", "),
-            },
-        }
+        let sections = &self.stored.sections;
+        let named = (sections.iter().take(NAMED))
+            .map(|s| format!("'{}' ({:?} x {})", s.name, s.element, s.components));
+        let more = sections.len().saturating_sub(NAMED);
+        let more = (more > 0).then(|| format!("and {more} more"));
+        let present = match sections.is_empty() {
+            true => "no arrays".into(),
+            false => named.chain(more).collect::<Vec<_>>().join(", "),
+        };
+        self.corrupt(format!("has no {wanted}; it holds {present}"))
     }
 }
 

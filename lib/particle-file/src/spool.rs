@@ -94,7 +94,6 @@ mod tests {
         bytes
     }
 
-    /// `/dev/zero` filled the disk.
     #[test]
     fn a_pipe_without_an_end_is_cut_or_refused() {
         assert_eq!(content(spool(io::repeat(0), |_| false).unwrap()), [0; HEAD]);

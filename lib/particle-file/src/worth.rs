@@ -25,12 +25,9 @@ impl ParticleFile {
     /// Refuses a file from which `what`, of so many bytes, would be made although they are not to be
     /// had here.
     pub fn fits(&self, bytes: u64, what: &str) -> Result<(), Error> {
-        machine::shortage(bytes).map_or(Ok(()), |short| {
-            Err(Error::TooLarge {
-                file: self.name().to_owned(),
-                what: what.to_owned(),
-                short,
-            })
-        })
+        match machine::shortage(bytes) {
+            None => Ok(()),
+            Some(short) => Err(self.corrupt(format!("is too large: {what} would take {short}"))),
+        }
     }
 }

@@ -4,7 +4,6 @@ use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile,
 
 const FORMAT: &str = include_str!("../FORMAT.md");
 
-/// The bytes of the dump in FORMAT.md.
 fn golden() -> Vec<u8> {
     let (_, dump) = FORMAT.split_once("```hex\n").unwrap();
     let (dump, _) = dump.split_once("```").unwrap();
@@ -28,7 +27,6 @@ fn header() -> Header {
     header
 }
 
-/// Voxels (0, 0, 0), (2, 0, 0) and (1, 1, 0) of 3 x 2 x 1.
 fn wood() -> BitGrid {
     BitGrid::from_fn([3, 2, 1], |x, y, _| (x + y) % 2 == 0)
 }

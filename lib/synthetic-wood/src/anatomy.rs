@@ -97,5 +97,4 @@ fn rays_met(plan: &Plan, adherend: &Adherend, side: usize) -> (usize, f64) {
     (met, f64::from(length))
 }
 
-/// Every how many voxels a test line runs.
 const LINE_EVERY: usize = 4;

@@ -41,7 +41,6 @@ const PER_BYTE: usize = 4;
 const BITS: usize = 2;
 
 impl Cells {
-    /// Wood everywhere.
     pub(crate) fn new(size: [usize; 3]) -> Self {
         Self {
             size,
@@ -71,13 +70,11 @@ impl Cells {
         (0..self.size[2]).flat_map(move |z| z * page..z * page + voxels)
     }
 
-    /// Column, row and page of an index.
     pub(crate) fn place(&self, index: usize) -> [usize; 3] {
         let (page, nx) = (self.page(), self.size[0]);
         [index % page % nx, index % page / nx, index / page]
     }
 
-    /// The index of a column, row and page.
     #[cfg(test)]
     pub(crate) fn index(&self, [column, row, page]: [usize; 3]) -> usize {
         page * self.page() + row * self.size[0] + column
@@ -96,7 +93,6 @@ impl Cells {
         put(&mut self.bytes, index, state);
     }
 
-    /// The labels of one page, x fastest.
     pub(crate) fn labels(&self, page: usize) -> Vec<u8> {
         let first = page * self.page();
         let indices = first..first + self.size[0] * self.size[1];

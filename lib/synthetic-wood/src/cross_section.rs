@@ -71,7 +71,6 @@ impl Cover {
         (self.points.iter_mut()).for_each(|point| point.covered |= circle.covers(point));
     }
 
-    /// Covered share of the box.
     pub(crate) fn in_box(&self) -> f32 {
         let (all, covered, _) = self.count(true, &[]);
         covered as f32 / all.max(1) as f32

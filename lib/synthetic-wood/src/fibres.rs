@@ -27,7 +27,6 @@ struct Strip {
     spacing: f32,
     /// Position of the first fibre of each file.
     start: f32,
-    /// Fibres of the files in turn, along r.
     fibres: Vec<Fibre>,
 }
 

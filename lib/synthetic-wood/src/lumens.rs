@@ -80,12 +80,10 @@ fn least_vessel(species: Species) -> f64 {
 
 struct Opening {
     area: usize,
-    /// Lowest and highest x, lowest and highest y.
     bounds: [usize; 4],
 }
 
 impl Opening {
-    /// Of the circle of its area, voxels.
     fn diameter(&self) -> f64 {
         2.0 * (self.area as f64 / std::f64::consts::PI).sqrt()
     }
@@ -95,7 +93,6 @@ impl Opening {
         self.bounds[0] < reach || self.bounds[2] < reach
     }
 
-    /// The same for any side.
     fn is_cut(&self, reach: usize, nx: usize, ny: usize) -> bool {
         self.is_cut_low(reach) || self.bounds[1] + reach >= nx || self.bounds[3] + reach >= ny
     }
@@ -127,7 +124,6 @@ fn eroded(open: &[bool], nx: usize, clear: f64) -> Vec<bool> {
     (0..open.len()).map(far).collect()
 }
 
-/// The connected openings of a page, over the faces of voxels.
 fn openings(mut open: Vec<bool>, nx: usize) -> Vec<Opening> {
     let mut found = Vec::new();
     for start in 0..open.len() {

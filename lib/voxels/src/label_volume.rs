@@ -264,10 +264,7 @@ fn label_of(block: &Block) -> u8 {
 }
 
 fn corrupt(file: &ParticleFile, what: String) -> Error {
-    Error::Corrupt {
-        file: file.name().to_owned(),
-        what,
-    }
+    Error::new(file.name(), what)
 }
 
 /// The low corner (m) of the lattice and the voxel of it at which each block begins; without

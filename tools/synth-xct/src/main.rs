@@ -145,7 +145,6 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     })
 }
 
-/// What was measured, beside what the species has.
 fn report(specimen: &Specimen, recipe: &Recipe) {
     let anatomy = specimen.anatomy();
     let [nx, ny, nz] = specimen.size();

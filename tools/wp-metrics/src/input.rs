@@ -13,29 +13,24 @@ use voxels::{
     Crop, Dims, Grey, Histogram, Labels, Phases, RawType, Segmented, Source, Stack, VoxelEdge,
 };
 
-/// How to read an image stack.
 pub struct StackOptions {
     /// Voxel edge, m, when the stack's metadata shall not decide.
     pub voxel_m: Option<f64>,
     /// Size and number type of raw volumes.
     pub raw: Option<(Dims, RawType)>,
-    /// Labels of the phases.
     pub labels: Option<Labels>,
     /// Grey values of the phases, where there are no labels.
     pub grey: Option<GreyLevels>,
 }
 
-/// What `--grey` asks for.
 #[derive(Clone)]
 pub enum GreyLevels {
     /// Thresholds by Otsu's method.
     Auto,
-    /// As given.
     Given(Grey),
 }
 
 impl StackOptions {
-    /// Which values of `stack` are what.
     fn phases(&self, stack: &Stack) -> Result<Phases, Failure> {
         Ok(match (&self.labels, &self.grey) {
             (Some(labels), _) => Phases::Labels(labels.clone()),
@@ -58,9 +53,7 @@ impl StackOptions {
     }
 }
 
-/// An opened input.
 pub struct Input {
-    /// As the user named it.
     pub name: String,
     content: Content,
 }
@@ -143,7 +136,6 @@ impl Input {
         })
     }
 
-    /// A failure to measure this input.
     pub fn failure(&self, error: &metrics::Error) -> Failure {
         let said = format!("'{}': {error}", self.name);
         match error.is_usage() {
@@ -161,7 +153,6 @@ impl Input {
         sources.iter().map(Source::path)
     }
 
-    /// The files read and their hashes.
     pub fn records(&self) -> Result<Vec<InputRecord>, Failure> {
         match &self.content {
             Content::Particles(file) => {

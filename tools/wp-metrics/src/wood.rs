@@ -19,7 +19,6 @@ const FLOW_BYTES: u64 = 3000;
 /// Memory that the size of the pore at a voxel takes, bytes.
 const SIZE_BYTES: u64 = 17;
 
-/// Writes the permeability of each file along an axis.
 pub fn tell_permeability(
     paths: &[PathBuf],
     axis: Axis,
@@ -62,7 +61,6 @@ fn of(input: &Input, axis: Axis, periodic: bool) -> Result<Permeability, Failure
     implicit::permeability(&solid, axis.index(), sides).map_err(|why| refused(input, &why))
 }
 
-/// Writes the sizes of the pores of each file.
 pub fn tell_pores(
     paths: &[PathBuf],
     arguments: &Arguments,
@@ -89,7 +87,6 @@ pub fn tell_pores(
     (arguments.output).write_with_record(&record.finish(), |out| table::write_pores(out, &files))
 }
 
-/// The wood of a specimen or stack.
 fn whole<'a>(input: &Input, state: &State<'a>) -> Result<Placed<'a>, Failure> {
     match state.wood {
         Wood::Whole(wood) => Ok(wood),
@@ -101,7 +98,6 @@ fn whole<'a>(input: &Input, state: &State<'a>) -> Result<Placed<'a>, Failure> {
     }
 }
 
-/// Refuses wood for which there is too little memory.
 fn fits(input: &Input, wood: &Placed, bytes_a_voxel: u64, what: &str) -> Result<(), Failure> {
     let [x, y, z] = wood.bits.dims();
     let need = bytes_a_voxel.saturating_mul((x * y * z) as u64);

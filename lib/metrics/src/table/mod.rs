@@ -43,7 +43,6 @@ fn pascal(pressure: f64) -> String {
     format!("{pressure:.6e}")
 }
 
-/// A share of one, or another number near it.
 fn share(share: f64) -> String {
     format!("{share:.6}")
 }

@@ -42,7 +42,6 @@ pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::
     write(out, &names.join(","), texts)
 }
 
-/// Names and texts of the row of a side.
 fn cells(file: &PenetrationRows, side: usize) -> Vec<(&'static str, String)> {
     let p = &file.sides[side];
     let mut row = vec![
@@ -132,7 +131,6 @@ pub fn write_summary(out: &mut dyn Write, files: &[PenetrationRows]) -> io::Resu
     write(out, &format!("side,reference,files,{columns}"), rows)
 }
 
-/// Mean and standard deviation of a sample (n - 1).
 fn mean_and_deviation(values: &[f64]) -> [f64; 2] {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;

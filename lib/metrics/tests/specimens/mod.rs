@@ -6,10 +6,8 @@ use metrics::{Adhesive, State, Wood};
 use particle_file::BitGrid;
 use units::Axis;
 
-/// Voxel edge, m.
 pub const VOXEL: f64 = 1.45e-6;
 
-/// Wood and adhesive of one stack.
 pub struct Stack {
     pub wood: BitGrid,
     pub adhesive: BitGrid,
@@ -24,7 +22,6 @@ impl Stack {
         }
     }
 
-    /// The scanned specimen.
     pub fn state(&self, normal: Axis) -> State<'_> {
         let specimen = Specimen::new(placed(&self.wood), placed(&self.adhesive)).unwrap();
         State::of_specimen(&specimen, normal)
@@ -46,7 +43,6 @@ pub fn slab(normal: Axis, t: usize) -> Stack {
     })
 }
 
-/// Bits with the low corner at the origin.
 pub fn placed(bits: &BitGrid) -> Placed<'_> {
     Placed {
         origin_m: [0.0; 3],
@@ -120,7 +116,6 @@ impl Run {
     }
 }
 
-/// Whether two numbers agree to `relative`.
 pub fn close(a: f64, b: f64, relative: f64) -> bool {
     (a - b).abs() <= relative * a.abs().max(b.abs())
 }

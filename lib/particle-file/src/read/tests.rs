@@ -27,7 +27,6 @@ fn written(draft: impl FnOnce(Draft) -> Draft) -> Vec<u8> {
     bytes
 }
 
-/// Everything a tool might do with a file it was given.
 fn use_all(file: &ParticleFile) {
     let _ = (file.check(), file.sum());
     let _ = file.for_each_adhesive(|_, _| ());

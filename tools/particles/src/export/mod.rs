@@ -46,7 +46,6 @@ enum Format {
     Tiff,
 }
 
-/// Exports as the arguments say.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let format = format(arguments)?;
     if arguments.files.len() > 1 && format != Format::Pvd {

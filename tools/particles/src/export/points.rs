@@ -12,7 +12,6 @@ pub struct Points<'a> {
     pub columns: Vec<Column<'a>>,
 }
 
-/// One quantity of all points.
 pub struct Column<'a> {
     pub name: &'a str,
     pub components: usize,
@@ -73,7 +72,6 @@ fn adhesive_voxels(file: &ParticleFile) -> Result<u64, particle_file::Error> {
         .sum()
 }
 
-/// The column that `section` of `file` describes.
 pub fn column<'a>(file: &'a ParticleFile, section: &'a Section) -> Result<Column<'a>, Failure> {
     let bytes = file.bytes_of(section).map_err(Failure::data)?;
     Ok(Column {

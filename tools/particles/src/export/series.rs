@@ -55,7 +55,6 @@ fn folder_name(pvd: &Path) -> String {
     stem.replace(char::is_control, "_") + ".parts"
 }
 
-/// The files that a series refers to.
 struct Parts {
     folder: StagedFolder,
     /// Name of the file of a block with this index, place and hash of its voxels.
@@ -100,7 +99,6 @@ impl Parts {
     }
 }
 
-/// Text for an XML attribute.
 fn escape(text: &str) -> String {
     (text.replace('&', "&amp;").replace('<', "&lt;")).replace('"', "&quot;")
 }

@@ -144,7 +144,6 @@ impl Document {
     }
 }
 
-/// Writes an array with its length in front.
 fn append(bytes: &[u8], out: &mut dyn Write) -> io::Result<()> {
     out.write_all(&(bytes.len() as u64).to_le_bytes())?;
     out.write_all(bytes)

@@ -9,12 +9,9 @@ use std::fs::File;
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
 use workbench::Bench;
 
-/// Voxel edge, m.
 const VOXEL: f64 = 1.5e-6;
-/// Voxels of each adherend.
 const DIMS: [usize; 3] = [70, 4, 3];
 
-/// Whether a voxel of an adherend is wood.
 fn is_wood(x: usize, y: usize, z: usize) -> bool {
     (x + 2 * y + 3 * z).is_multiple_of(5)
 }

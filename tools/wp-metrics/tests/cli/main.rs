@@ -25,7 +25,6 @@ fn letter(x: usize, y: usize) -> char {
     }
 }
 
-/// A folder with `specimen.mpts`.
 fn bench() -> Bench {
     let bench = Bench::new(env!("CARGO_BIN_EXE_wp-metrics"));
     specimen(&bench, "specimen.mpts", DIMS);
@@ -193,7 +192,6 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
         .refused(3, "holds no state of a run");
 }
 
-/// Raw volumes and proposed grey values were for xct2particles alone.
 #[test]
 fn raw_volumes_and_proposed_grey_values() {
     let bench = bench();
