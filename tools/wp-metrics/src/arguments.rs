@@ -7,9 +7,7 @@ use clap::Parser;
 use cli::Output;
 use metrics::Reference;
 use units::{Axis, Length, Quantity};
-use voxels::{Dims, Labels, RawType};
-
-use crate::input::GreyLevels;
+use voxels::{Dims, Grey, Labels, RawType};
 
 /// Options that have no meaning in tables of wood.
 const OF_ADHESIVE: [&str; 10] = [
@@ -103,8 +101,8 @@ pub(crate) struct Arguments {
     #[arg(long, requires = "permeability")]
     pub(crate) periodic: bool,
     /// Voxel edge of stacks [default: from their metadata]
-    #[arg(long, value_name = "LEN", help_heading = "Image stacks")]
-    pub(crate) voxel: Option<Quantity<Length>>,
+    #[arg(long, value_name = "LEN", help_heading = "Image stacks", value_parser = edge)]
+    pub(crate) voxel: Option<f64>,
     /// Labels of stacks, as in void=0,wood=1|2,adhesive=255 [default: guessed]
     #[arg(long, value_name = "LABELS", help_heading = "Image stacks")]
     pub(crate) labels: Option<Labels>,
@@ -127,6 +125,20 @@ pub(crate) struct Arguments {
     pub(crate) kind: Option<RawType>,
     #[command(flatten)]
     pub(crate) common: cli::Common,
+}
+
+/// What `--grey` asks for; thresholds by Otsu's method where it is `auto`.
+#[derive(Clone)]
+pub(crate) enum GreyLevels {
+    Auto,
+    Given(Grey),
+}
+
+fn edge(text: &str) -> Result<f64, String> {
+    let length = text
+        .parse::<Quantity<Length>>()
+        .and_then(Quantity::positive);
+    length.map(Quantity::si).map_err(|e| e.to_string())
 }
 
 fn grey(text: &str) -> Result<GreyLevels, String> {

@@ -9,48 +9,28 @@ use cli::{Failure, InputRecord};
 use metrics::{Adhesive, State};
 use particle_file::{BitGrid, Header, Kind, Mapped, ParticleFile, temporary_file};
 use units::Axis;
-use voxels::{
-    Crop, Dims, Grey, Histogram, Labels, Phases, RawType, Segmented, Source, Stack, VoxelEdge,
-};
+use voxels::{Crop, Histogram, Phases, Segmented, Source, Stack, VoxelEdge};
 
-pub struct StackOptions {
-    /// Voxel edge, m, when the stack's metadata shall not decide.
-    pub voxel_m: Option<f64>,
-    /// Size and number type of raw volumes.
-    pub raw: Option<(Dims, RawType)>,
-    pub labels: Option<Labels>,
-    /// Grey values of the phases, where there are no labels.
-    pub grey: Option<GreyLevels>,
-}
+use crate::arguments::{Arguments, GreyLevels};
 
-#[derive(Clone)]
-pub enum GreyLevels {
-    /// Thresholds by Otsu's method.
-    Auto,
-    Given(Grey),
-}
-
-impl StackOptions {
-    fn phases(&self, stack: &Stack) -> Result<Phases, Failure> {
-        Ok(match (&self.labels, &self.grey) {
-            (Some(labels), _) => Phases::Labels(labels.clone()),
-            (None, Some(GreyLevels::Given(grey))) => Phases::Grey(grey.clone()),
-            (None, Some(GreyLevels::Auto)) => {
-                let whole = Crop::whole(stack.dims());
-                let histogram = Histogram::of(stack, &whole).map_err(stack_failure)?;
-                let wrong = |why| Failure::usage(format!("{}: {why}", stack.name()));
-                let proposal = histogram.otsu().map_err(wrong)?;
-                let grey = proposal.grey;
-                cli::note(format_args!(
-                    "{}: grey values taken as {grey}",
-                    stack.name()
-                ));
-                proposal.left_out.iter().for_each(cli::warn);
-                Phases::Grey(grey)
-            }
-            (None, None) => Phases::Guess,
-        })
-    }
+/// Which values of `stack` are what.
+fn phases(stack: &Stack, arguments: &Arguments) -> Result<Phases, Failure> {
+    Ok(match (&arguments.labels, &arguments.grey) {
+        (Some(labels), _) => Phases::Labels(labels.clone()),
+        (None, Some(GreyLevels::Given(grey))) => Phases::Grey(grey.clone()),
+        (None, Some(GreyLevels::Auto)) => {
+            let whole = Crop::whole(stack.dims());
+            let histogram = Histogram::of(stack, &whole).map_err(stack_failure)?;
+            let name = stack.name();
+            let proposal = histogram.otsu();
+            let proposal = proposal.map_err(|why| Failure::usage(format!("{name}: {why}")))?;
+            let grey = proposal.grey;
+            cli::note(format_args!("{name}: grey values taken as {grey}"));
+            proposal.left_out.iter().for_each(cli::warn);
+            Phases::Grey(grey)
+        }
+        (None, None) => Phases::Guess,
+    })
 }
 
 pub struct Input {
@@ -69,12 +49,12 @@ enum Content {
 
 impl Input {
     /// Opens a particle file or an image stack; `-` is standard input.
-    pub fn open(path: &Path, options: &StackOptions) -> Result<Self, Failure> {
+    pub fn open(path: &Path, arguments: &Arguments) -> Result<Self, Failure> {
         let name = path.display().to_string();
         let content = if path.is_dir() {
-            stack(Stack::open(&[path.to_owned()]), options)?
+            stack(Stack::open(&[path.to_owned()]), arguments)?
         } else {
-            open_file(path, options)?
+            open_file(path, arguments)?
         };
         Ok(Self { name, content })
     }
@@ -164,11 +144,11 @@ impl Input {
     }
 }
 
-fn open_file(path: &Path, options: &StackOptions) -> Result<Content, Failure> {
-    if let Some((dims, kind)) = options.raw
+fn open_file(path: &Path, arguments: &Arguments) -> Result<Content, Failure> {
+    if let Some((dims, kind)) = arguments.dims.zip(arguments.kind)
         && !begins_as_particles(path)
     {
-        return stack(Stack::open_raw(path, dims, kind), options);
+        return stack(Stack::open_raw(path, dims, kind), arguments);
     }
     let from_stdin = path == Path::new("-");
     let name = match from_stdin {
@@ -191,9 +171,9 @@ fn open_file(path: &Path, options: &StackOptions) -> Result<Content, Failure> {
         // A pipe has been read already; a stack is read from a file.
         let file = copy(&bytes)
             .map_err(|error| Failure::failed(format!("cannot keep standard input: {error}")))?;
-        return stack(Stack::of_open_file(&name, file), options);
+        return stack(Stack::of_open_file(&name, file), arguments);
     }
-    stack(Stack::open(&[path.to_owned()]), options)
+    stack(Stack::open(&[path.to_owned()]), arguments)
 }
 
 /// Whether a regular file begins as a particle file; what else it is its reader says.
@@ -209,14 +189,14 @@ fn copy(bytes: &[u8]) -> std::io::Result<File> {
     Ok(file)
 }
 
-fn stack(opened: Result<Stack, voxels::Error>, options: &StackOptions) -> Result<Content, Failure> {
+fn stack(opened: Result<Stack, voxels::Error>, arguments: &Arguments) -> Result<Content, Failure> {
     let stack = opened.map_err(stack_failure)?;
-    let edge = VoxelEdge::resolve(options.voxel_m, stack.voxel_size(), stack.name())
+    let edge = VoxelEdge::resolve(arguments.voxel, stack.voxel_size(), stack.name())
         .map_err(stack_failure)?;
     edge.doubt().into_iter().for_each(cli::warn);
     stack.gap().into_iter().for_each(cli::warn);
     let whole = Crop::whole(stack.dims());
-    let phases = options.phases(&stack)?;
+    let phases = phases(&stack, arguments)?;
     let voxels = voxels::segment(&stack, &phases, &whole, || ()).map_err(stack_failure)?;
     voxels.swapped().into_iter().for_each(cli::warn);
     if let Some([void, wood, adhesive]) = voxels.guessed {

@@ -11,14 +11,13 @@ use std::process::ExitCode;
 
 use arguments::Arguments;
 use cli::{Failure, InputRecord, Output, Record};
-use input::{Input, StackOptions};
+use input::Input;
 use metrics::table::{self, PenetrationRows};
 use metrics::{
     Adhesive, Datum, DepthLayer, Map, Reference, Sealed, Side, bond_line, compare, depth_profile,
     penetration,
 };
 use particle_file::Kind;
-use units::Quantity;
 
 fn main() -> ExitCode {
     cli::main(|a: &Arguments| &a.common, run)
@@ -26,35 +25,13 @@ fn main() -> ExitCode {
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
     let paths = files::of(&arguments)?;
-    if paths.len() > 1 && arguments.finer.is_some() {
-        return Err(Failure::usage(
-            "--finer belongs to one file, but several are given: run wp-metrics on each",
-        ));
-    }
-    let profile = arguments.profile.is_some() && !arguments.series;
-    if paths.len() > 1 && (arguments.map.is_some() || profile) {
-        return Err(Failure::usage(
-            "--map and --profile describe one file, but several are given: run wp-metrics on each",
-        ));
-    }
-    if paths.len() < 2 && arguments.summary.is_some() {
-        return Err(Failure::usage(
-            "--summary is of several files, and one is given: name them, or a folder of particle files",
-        ));
-    }
-    let on_stdout = outputs(&arguments).filter(|o| **o == Output::Stdout);
-    if on_stdout.count() > 1 {
-        return Err(Failure::usage(
-            "two tables on standard output cannot be told apart: give all but one of -o, --summary, --map and --profile a file",
-        ));
-    }
+    fit_together(&arguments, paths.len())?;
     let read = paths.iter();
     let read = read.chain(&arguments.compare).chain(&arguments.finer);
     cli::keep_apart_with_records(read.map(PathBuf::as_path), outputs(&arguments))?;
-    let options = stack_options(&arguments)?;
     // Which files a stack is read from shows once it is open; nothing is written before.
     let open = |path: &PathBuf| {
-        let input = Input::open(path, &options)?;
+        let input = Input::open(path, &arguments)?;
         cli::keep_apart_with_records(input.stack_files(), outputs(&arguments))?;
         Ok(input)
     };
@@ -111,19 +88,28 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     })
 }
 
+/// Refuses options that do not go with so many files, or with one another.
+fn fit_together(arguments: &Arguments, files: usize) -> Result<(), Failure> {
+    let map_or_profile =
+        arguments.map.is_some() || arguments.profile.is_some() && !arguments.series;
+    let on_stdout = outputs(arguments).filter(|o| **o == Output::Stdout);
+    let wrong = if files > 1 && arguments.finer.is_some() {
+        "--finer belongs to one file, but several are given: run wp-metrics on each"
+    } else if files > 1 && map_or_profile {
+        "--map and --profile describe one file, but several are given: run wp-metrics on each"
+    } else if files < 2 && arguments.summary.is_some() {
+        "--summary is of several files, and one is given: name them, or a folder of particle files"
+    } else if on_stdout.count() > 1 {
+        "two tables on standard output cannot be told apart: give all but one of -o, --summary, --map and --profile a file"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::usage(wrong))
+}
+
 fn outputs(arguments: &Arguments) -> impl Iterator<Item = &Output> {
     let table = [&arguments.output].into_iter().chain(&arguments.summary);
     table.chain(&arguments.map).chain(&arguments.profile)
-}
-
-fn stack_options(arguments: &Arguments) -> Result<StackOptions, Failure> {
-    let voxel = arguments.voxel.map(Quantity::positive).transpose();
-    Ok(StackOptions {
-        voxel_m: voxel.map_err(Failure::usage)?.map(Quantity::si),
-        raw: arguments.dims.zip(arguments.kind),
-        labels: arguments.labels.clone(),
-        grey: arguments.grey.clone(),
-    })
 }
 
 fn write_profiles(

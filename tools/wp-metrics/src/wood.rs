@@ -26,19 +26,19 @@ pub fn tell_permeability(
     open: impl Fn(&PathBuf) -> Result<Input, Failure>,
     mut record: Recorder,
 ) -> Result<(), Failure> {
-    let mut rows = Vec::new();
-    for path in paths {
+    let row = |path| {
         let input = open(path)?;
         record.add(&input)?;
         let found = of(&input, axis, arguments.periodic)?;
-        rows.push(PermeabilityRow {
+        Ok(PermeabilityRow {
             file: cli::cell(&input.name).into_owned(),
             axis,
             permeability_m2: [found.m2, found.error_m2],
             porosity: found.porosity,
             through: found.through,
-        });
-    }
+        })
+    };
+    let rows = paths.iter().map(row).collect::<Result<Vec<_>, Failure>>()?;
     arguments.output.write_with_record(&record.finish(), |out| {
         table::write_permeabilities(out, &rows)
     })
