@@ -41,7 +41,8 @@ fn an_attribute_is_set_once() {
 /// The last ones were written and read before, and panicked or hung whoever used them.
 #[test]
 fn numbers_that_are_none_are_in_no_header() {
-    let changes: [(fn(&mut Header), &str); 14] = [
+    type Change = fn(&mut Header);
+    let changes: [(Change, &str); 14] = [
         (|h| h.normal = 3, "normal"),
         (|h| h.time_s = f64::INFINITY, "time"),
         (|h| h.time_s = f64::NAN, "time"),

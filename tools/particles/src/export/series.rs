@@ -80,10 +80,8 @@ impl Parts {
         for index in 0..file.header().blocks.len() {
             let (block, bits) = file.block(index).map_err(Failure::data)?;
             let place = block.origin_m.map(f64::to_bits);
-            let name = match self
-                .blocks
-                .entry((index, place, file.sections()[index].xxh3))
-            {
+            let key = (index, place, file.sections()[index].xxh3);
+            let name = match self.blocks.entry(key) {
                 Entry::Occupied(written) => written.get().clone(),
                 Entry::Vacant(new) => {
                     let name = format!("{number:04}-{}.vti", super::plain(&block.name));
