@@ -84,11 +84,7 @@ fn every_axis_gives_the_same_bond() {
         let bond = stack.build(&options(normal)).unwrap();
         let n = normal.index();
         // Midway between the faces at 20 and 31 is 25.5: the face below it.
-        assert!(
-            near(bond.plane_m, 25.0 * VOXEL),
-            "{normal}: {}",
-            bond.plane_m
-        );
+        assert!(near(bond.plane_m, 25.0 * VOXEL), "{normal}");
         // 11 full layers, 6 layers of a quarter and a speck of 12 voxels: 12.5125 voxels,
         // hence 6 cells.
         assert_eq!(bond.adhesive_in, 12_012.0);

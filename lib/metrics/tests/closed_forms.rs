@@ -29,11 +29,7 @@ fn a_slab_has_not_penetrated() {
         // Voxels at their centres: variance (t^2 - 1) / 12, of a continuous slab t^2 / 12.
         let t = t as f64;
         let exact = ((t * t - 1.0) / 12.0).sqrt() * VOXEL;
-        assert!(
-            close(total.wp_m, exact, 1e-9),
-            "{normal} {t}: {}",
-            total.wp_m
-        );
+        assert!(close(total.wp_m, exact, 1e-9), "{normal} {t}: {total:?}");
         assert!(close(total.slab_wp_m, t * VOXEL / 12_f64.sqrt(), 1e-12));
         assert!(close(total.ep_m, t * VOXEL, 1e-12));
         assert!(close(total.plane_m, (30.0 + 0.5 * t) * VOXEL, 1e-12));

@@ -36,12 +36,10 @@ fn letter(depths: Depths, x: usize, y: usize, z: usize) -> char {
     let below = y < PLANE;
     let layer = if below { PLANE - 1 - y } else { y - PLANE };
     let groove = if x.is_multiple_of(2) { 10 } else { 0 };
-    if layer < depths(x, z)[usize::from(!below)] {
-        'a'
-    } else if layer < FILM + groove {
-        ' '
-    } else {
-        'w'
+    match layer {
+        _ if layer < depths(x, z)[usize::from(!below)] => 'a',
+        _ if layer < FILM + groove => ' ',
+        _ => 'w',
     }
 }
 
@@ -64,13 +62,10 @@ fn sides(depths: [usize; 2]) -> [Vec<usize>; 3] {
 /// WP in voxels of columns of `t` layers from the plane, the film of a gap of `gap` voxels
 /// between them left empty: the mean square of the centres' distances.
 fn wp(layers: &[usize], gap: f64) -> Option<f64> {
-    let half = 0.5 * gap;
-    let distances = || {
-        let of = |&t: &usize| (0..t).map(move |i| i as f64 + 0.5 + half);
-        layers.iter().flat_map(of)
-    };
-    let n = distances().count();
-    (n > 0).then(|| (distances().map(|d| d * d).sum::<f64>() / n as f64).sqrt())
+    let of = |&t: &usize| (0..t).map(move |i| (i as f64 + 0.5 + 0.5 * gap).powi(2));
+    let squares: Vec<f64> = layers.iter().flat_map(of).collect();
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    (!squares.is_empty()).then(|| mean.sqrt())
 }
 
 fn pearson(pairs: &[(f64, f64)]) -> f64 {
@@ -217,16 +212,12 @@ fn other_voxels_places_and_widths_are_refused() {
         said(other).unwrap_err();
     }
     let fault = said(|s| s.normal = Axis::X).unwrap_err();
-    assert!(
-        fault.contains("40 layers along y of [12, 10] voxels of 1.4500 um"),
-        "{fault}"
-    );
+    let measure = "40 layers along y of [12, 10] voxels of 1.4500 um";
+    assert!(fault.contains(measure), "{fault}");
     let cropped = Stack::new([12, 30, 10], |x, y, z| letter(theirs, x, y, z));
     let fault = compare(&cropped.state(Axis::Y), &measured).unwrap_err();
-    assert!(
-        fault.is_usage() && fault.to_string().contains("30 layers"),
-        "{fault}"
-    );
+    let usage = fault.is_usage();
+    assert!(usage && fault.to_string().contains("30 layers"), "{fault}");
     let fault = compare(&measured, &bond.state()).unwrap_err().to_string();
     assert!(fault.contains("no specimen"), "{fault}");
 }

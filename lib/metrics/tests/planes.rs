@@ -87,11 +87,7 @@ fn a_tilted_specimen_is_turned_level() {
         let tilt = tilt_of(&state);
         assert!(tilt.iter().all(|t| t.abs() < 0.2), "{normal}: {tilt:?}");
         let found = total(&state, Reference::Mid);
-        assert!(
-            close(found.ep_m, THICKNESS * VOXEL, 0.01),
-            "{normal}: {}",
-            found.ep_m
-        );
+        assert!(close(found.ep_m, THICKNESS * VOXEL, 0.01), "{normal}");
         // Voxels whose centres are in and out by rounding stand out of a slab.
         assert!(close(found.wp_m, THICKNESS / 12_f64.sqrt() * VOXEL, 0.03));
         let again = Specimen::new(placed(&turned.wood), placed(&turned.adhesive)).unwrap();

@@ -128,10 +128,8 @@ fn columns_come_back_in_every_type_and_only_in_their_own() {
     assert_eq!(file.column::<u64>("c").unwrap(), c);
     assert_eq!(file.column::<u8>("d").unwrap(), [1, 255]);
     assert_eq!(file.blob("notes").unwrap(), b"five!");
-    assert_eq!(
-        file.columns().map(|s| s.name.as_str()).collect::<String>(),
-        "abcd"
-    );
+    let names: String = file.columns().map(|s| s.name.as_str()).collect();
+    assert_eq!(names, "abcd");
     assert!(file.column::<f32>("a").is_err() && file.column::<u8>("notes").is_err());
     assert!(file.vectors("b").is_err() && file.block(0).is_err());
     let (single, double) = ([0.5_f32; 6], [0.5_f64; 6]);

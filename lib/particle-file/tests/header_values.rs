@@ -74,10 +74,8 @@ fn numbers_that_are_none_are_in_no_header() {
     }
     let mut flat = header();
     flat.box_max_m = flat.box_min_m;
-    assert!(
-        written(&Draft::new(flat)).is_ok(),
-        "a checkpoint has no box"
-    );
+    // A checkpoint has no box.
+    assert!(written(&Draft::new(flat)).is_ok());
 }
 
 #[test]

@@ -123,10 +123,8 @@ fn map_profile_and_comparison() {
     let header = "depth_um,adhesive_fraction,filled_void_fraction,filled_open_fraction";
     let layers = table("depth.csv", header);
     assert_eq!(layers.len(), 60);
-    assert_eq!(
-        layers[20],
-        ["-9.425000", "0.250000", "1.000000", "1.000000"]
-    );
+    let filled = ["-9.425000", "0.250000", "1.000000", "1.000000"];
+    assert_eq!(layers[20], filled);
 }
 
 #[test]
@@ -170,14 +168,10 @@ fn a_series_is_told_in_order_of_time_from_a_runs_folder() {
     // The last snapshot is the final state, told once.
     let found = rows(&table);
     let times: Vec<&str> = found.iter().map(|row| row[11].as_str()).collect();
-    assert_eq!(
-        times,
-        [["1.000000000e-3"; 3], ["6.000000000e1"; 3]].concat()
-    );
-    assert!(
-        number(&found[5][14]) > 0.0 && found[5][16] == "filled",
-        "{found:?}"
-    );
+    let [early, late] = [["1.000000000e-3"; 3], ["6.000000000e1"; 3]];
+    assert_eq!(times, [early, late].concat());
+    assert!(number(&found[5][14]) > 0.0, "{found:?}");
+    assert_eq!(found[5][16], "filled");
     // The gap is the way left until the bond is closed; the specimen's surfaces then stand 6 voxels apart.
     for (row, gap) in [(0, 6.0), (3, 0.0)] {
         for (column, voxels) in [(12, gap), (17, gap + 6.0)] {
@@ -217,10 +211,8 @@ fn raw_volumes_and_proposed_grey_values() {
         let told = run.said.contains("grey values taken as wood=");
         assert_eq!(told, values == "--grey auto", "{}", run.said);
         let found = rows(&run.output());
-        assert!(
-            found.iter().zip(&expected).all(|(a, b)| a[1..] == b[1..]),
-            "{found:?}"
-        );
+        let mut pairs = found.iter().zip(&expected);
+        assert!(pairs.all(|(a, b)| a[1..] == b[1..]), "{found:?}");
     }
     // A particle file beside them is told by itself.
     let both = bench

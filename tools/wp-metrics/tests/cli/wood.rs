@@ -19,10 +19,8 @@ fn permeability_is_that_of_the_gap_and_the_grooves() {
         assert!(table.starts_with("file,axis,permeability_m2,error_m2,porosity,through\n"));
         let found = &rows(&table)[0];
         let off = number(&found[2]) / (expected * squares) - 1.0;
-        assert!(
-            found[1] == axis && (0.0..0.2).contains(&off),
-            "{axis}: {off}"
-        );
+        assert_eq!(found[1], axis);
+        assert!((0.0..0.2).contains(&off), "{axis}: {off}");
         assert!(number(&found[3]) < 0.1 * number(&found[2]), "{found:?}");
     }
     // Ten grooves between periodic sides, and next to no resistance in the gap.
