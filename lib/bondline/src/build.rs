@@ -1,9 +1,9 @@
 //! The bond line before pressing, from a bonded specimen; the opening of any two adherends.
 
-use particle_file::{BitGrid, BitsRef};
+use particle_file::BitGrid;
 use units::Axis;
 
-use crate::placed::crop;
+use crate::placed::{corner, layers};
 use crate::slab;
 use crate::{BondLine, Error, Face, Placed, Specimen, find, severed};
 
@@ -110,128 +110,147 @@ impl Bond {
 /// side of the plane.
 ///
 /// # Errors
-/// As listed in [`Error`].
+/// No adhesive, no bond line, no wood on a side, a plane outside, and those of the slab and the gap.
 pub fn build(specimen: &Specimen, options: &Options) -> Result<Bond, Error> {
-    let Options {
-        normal,
-        voxels_per_cell,
-        ..
-    } = *options;
-    let (n, wood) = (normal.index(), specimen.wood());
-    let voxel_m = wood.voxel_m;
-    let (kept, trimmed) = whole_cells(wood.bits.dims(), normal, voxels_per_cell);
-    let wood = trim(wood, kept);
-    let adhesive_in = crop(specimen.adhesive().bits, &kept.map(|d| 0..d)).count();
-    if adhesive_in == 0 {
-        return Err(Error::NoAdhesive);
-    }
-    let (plane, found) = place(specimen, options)?;
-
-    let area: u64 = (0..3).filter(|&a| a != n).map(|a| kept[a] as u64).product();
-    let cell_m = voxels_per_cell as f64 * voxel_m;
-    let adhesive_in = adhesive_in as f64;
-    let slab_cells = slab::cells(
-        adhesive_in,
-        area,
-        voxels_per_cell,
-        options.tolerance,
-        cell_m,
-    )?;
-
-    let plane_m = wood.origin_m[n] + plane as f64 * voxel_m;
-    let [below, above] = [0..plane, plane..kept[n]].map(|layers| {
-        let mut ranges = kept.map(|d| 0..d);
-        ranges[n] = layers;
-        crop(wood.bits.view(), &ranges)
-    });
-    let opening = Opening {
-        plane_m,
-        gap_m: options.gap_m.unwrap_or(slab_cells as f64 * cell_m),
-        free_m: free_layers(below.view(), above.view(), plane_m, voxel_m, normal)?,
-        severed: severed(wood.bits.view(), normal, plane),
-    };
-    let mut top_origin_m = wood.origin_m;
-    top_origin_m[n] = plane_m;
-    let bottom = Part {
-        origin_m: wood.origin_m,
-        bits: below,
-    };
-    let top = Part {
-        origin_m: top_origin_m,
-        bits: above,
-    };
-    let mut bond = assemble(bottom, top, normal, voxel_m, cell_m, slab_cells, &opening)?;
-    (bond.adhesive_in, bond.trimmed, bond.found) = (adhesive_in, trimmed, found);
-    Ok(bond)
-}
-
-/// Where two closed adherends are opened, and by how much.
-pub(crate) struct Opening {
-    /// The bond plane, m.
-    pub(crate) plane_m: f64,
-    /// How far the top adherend is moved away, m.
-    pub(crate) gap_m: f64,
-    /// From the plane to the outermost wood of the bottom and of the top adherend, m; negative
-    /// where it reaches beyond.
-    pub(crate) free_m: [f64; 2],
-    /// Columns whose wood touches.
-    pub(crate) severed: u64,
-}
-
-/// Moves the closed top adherend away and puts the slab between; bottom and top are equally
-/// wide, a whole number of cells.
-pub(crate) fn assemble(
-    bottom: Part,
-    mut top: Part,
-    normal: Axis,
-    voxel_m: f64,
-    cell_m: f64,
-    slab_cells: u64,
-    opening: &Opening,
-) -> Result<Bond, Error> {
+    let (normal, wood) = (options.normal, specimen.wood());
     let n = normal.index();
-    let Opening { plane_m, gap_m, .. } = *opening;
-    let slab_m = slab_cells as f64 * cell_m;
-    let slab_low_m = slab::low_face(plane_m, gap_m, slab_m, opening.free_m, voxel_m)?;
-    let mut slab_dims = bottom.bits.dims();
-    slab_dims[n] = (slab_m / voxel_m).round() as usize;
-    let at = |coordinate: f64| {
-        let mut origin = bottom.origin_m;
-        origin[n] = coordinate;
-        origin
+    let (kept, trimmed) = whole_cells(wood.bits.dims(), normal, options.voxels_per_cell);
+    let adhesive_in = corner(specimen.adhesive().bits, kept).count() as f64;
+    if adhesive_in == 0.0 {
+        return Err(Error::no_adhesive());
+    }
+    let (plane, found) = match options.plane {
+        Plane::Auto => {
+            let line = find(specimen, normal)?;
+            // A middle inside a voxel goes to the face below it: nothing but adhesive or air
+            // lies between the two surfaces on average.
+            (line.middle() as usize, Some(line))
+        }
+        Plane::At(plane_m) => (layer_at(wood, plane_m, normal)?, None),
     };
-    let cells_below = ((slab_low_m - bottom.origin_m[n]) / cell_m - 1e-9).ceil();
-    let area = (0..3).filter(|&a| a != n).map(|a| slab_dims[a] as u64);
-    let area = area.product::<u64>();
-    let mut closed = slab_dims;
-    closed[n] = ((top.origin_m[n] - bottom.origin_m[n]) / voxel_m).round() as usize;
-    closed[n] += top.bits.dims()[n];
-    let mut box_max_m: [f64; 3] =
-        std::array::from_fn(|a| bottom.origin_m[a] + closed[a] as f64 * voxel_m);
-    box_max_m[n] += gap_m;
-    top.origin_m[n] += gap_m;
-    Ok(Bond {
-        severed: opening.severed,
-        slab: Part {
-            origin_m: at(slab_low_m),
-            bits: BitGrid::from_rows(slab_dims, |_, _, row| row.fill(u64::MAX)),
-        },
-        voxel_m,
-        box_min_m: at(slab_low_m - cells_below * cell_m),
-        box_max_m,
-        plane_m,
-        found: None,
-        faces: None,
-        gap_m,
-        slab_cells,
-        cell_m,
-        adhesive_in: 0.0,
-        adhesive_out: area * slab_dims[n] as u64,
-        area,
-        trimmed: [0; 3],
+    let bits = corner(wood.bits, kept);
+    let [bottom, top] = [0..plane, plane..kept[n]].map(|part| layers(bits.view(), n, part));
+    let [mut below, above] = [&bottom, &top].map(|part| part.view().counts_along(n));
+    below.reverse();
+    let plane_m = wood.origin_m[n] + plane as f64 * wood.voxel_m;
+    let no_wood =
+        |side| Error::no_wood(format!("{side} the bond plane at {:.3} um", 1e6 * plane_m));
+    let free = |counts: &[u64]| Some(counts.iter().position(|&n| n > 0)? as i64);
+    let free = [
+        free(&below).ok_or_else(|| no_wood("below"))?,
+        free(&above).ok_or_else(|| no_wood("above"))?,
+    ];
+    let closed = Closed {
+        origin_m: wood.origin_m,
+        voxel_m: wood.voxel_m,
         bottom,
         top,
+        touch: plane,
+        plane,
+        free,
+        severed: severed(bits.view(), normal, plane),
+        room_m: f64::INFINITY,
+        adhesive_in,
+    };
+    let (per_cell, tolerance) = (options.voxels_per_cell, options.tolerance);
+    let bond = closed.opened(normal, per_cell, tolerance, options.gap_m)?;
+    Ok(Bond {
+        trimmed,
+        found,
+        ..bond
     })
+}
+
+/// Two adherends, equally wide, where they are closed; layers are counted from the low face of the
+/// bottom one.
+pub(crate) struct Closed {
+    pub(crate) origin_m: [f64; 3],
+    pub(crate) voxel_m: f64,
+    pub(crate) bottom: BitGrid,
+    pub(crate) top: BitGrid,
+    /// Where the top adherend begins.
+    pub(crate) touch: usize,
+    /// The bond plane.
+    pub(crate) plane: usize,
+    /// Layers from the plane to the outermost wood of the bottom and of the top adherend; negative
+    /// where it reaches beyond.
+    pub(crate) free: [i64; 2],
+    /// Columns whose wood touches.
+    pub(crate) severed: u64,
+    /// Thickness of the slab (m) that the void of both holds.
+    pub(crate) room_m: f64,
+    /// Voxels of adhesive that the slab is to have.
+    pub(crate) adhesive_in: f64,
+}
+
+impl Closed {
+    /// Moves the top adherend away, by default as little as leaves room, and puts the slab between.
+    pub(crate) fn opened(
+        self,
+        normal: Axis,
+        voxels_per_cell: usize,
+        tolerance: f64,
+        gap_m: Option<f64>,
+    ) -> Result<Bond, Error> {
+        let (n, voxel_m, adhesive_in) = (normal.index(), self.voxel_m, self.adhesive_in);
+        let cell_m = voxels_per_cell as f64 * voxel_m;
+        let mut dims = self.bottom.dims();
+        let area: u64 = (0..3).filter(|&a| a != n).map(|a| dims[a] as u64).product();
+        let slab_cells = slab::cells(adhesive_in, area, voxels_per_cell, tolerance, cell_m)?;
+        let slab_m = slab_cells as f64 * cell_m;
+        if slab_m > self.room_m {
+            return Err(Error::new(format!(
+                "a slab of {:.3} um is more than all void of the closed pieces, {:.3} um over the bond area: they could never close; take thicker pieces or less adhesive",
+                1e6 * slab_m,
+                1e6 * self.room_m
+            )));
+        }
+        let at = |coordinate: f64| {
+            let mut origin = self.origin_m;
+            origin[n] = coordinate;
+            origin
+        };
+        let place = |layer: usize| self.origin_m[n] + layer as f64 * voxel_m;
+        let into_one_another = (-self.free[0] - self.free[1]).max(0);
+        let gap_m = gap_m.unwrap_or(slab_m + into_one_another as f64 * voxel_m);
+        let plane_m = place(self.plane);
+        let free_m = self.free.map(|layers| layers as f64 * voxel_m);
+        let slab_low_m = slab::low_face(plane_m, gap_m, slab_m, free_m, voxel_m)?;
+        let cells_below = ((slab_low_m - self.origin_m[n]) / cell_m - 1e-9).ceil();
+        let mut closed = dims;
+        closed[n] = self.touch + self.top.dims()[n];
+        let mut box_max_m = [0, 1, 2].map(|a| self.origin_m[a] + closed[a] as f64 * voxel_m);
+        box_max_m[n] += gap_m;
+        dims[n] = (slab_m / voxel_m).round() as usize;
+        Ok(Bond {
+            severed: self.severed,
+            slab: Part {
+                origin_m: at(slab_low_m),
+                bits: BitGrid::from_rows(dims, |_, _, row| row.fill(u64::MAX)),
+            },
+            voxel_m,
+            box_min_m: at(slab_low_m - cells_below * cell_m),
+            box_max_m,
+            plane_m,
+            found: None,
+            faces: None,
+            gap_m,
+            slab_cells,
+            cell_m,
+            adhesive_in,
+            adhesive_out: area * dims[n] as u64,
+            area,
+            trimmed: [0; 3],
+            top: Part {
+                origin_m: at(place(self.touch) + gap_m),
+                bits: self.top,
+            },
+            bottom: Part {
+                origin_m: self.origin_m,
+                bits: self.bottom,
+            },
+        })
+    }
 }
 
 /// Dimensions cut to whole cells across the bond, and what was cut. A stack thinner than a
@@ -250,27 +269,6 @@ pub(crate) fn whole_cells(
     (kept, std::array::from_fn(|a| dims[a] - kept[a]))
 }
 
-fn trim(placed: Placed, kept: [usize; 3]) -> Part {
-    Part {
-        origin_m: placed.origin_m,
-        bits: crop(placed.bits, &kept.map(|d| 0..d)),
-    }
-}
-
-/// The bond plane as a number of layers from the low face.
-fn place(specimen: &Specimen, options: &Options) -> Result<(usize, Option<BondLine>), Error> {
-    let wood = specimen.wood();
-    match options.plane {
-        Plane::Auto => {
-            let line = find(specimen, options.normal)?;
-            // A middle inside a voxel goes to the face below it: nothing but adhesive or air
-            // lies between the two surfaces on average.
-            Ok((line.middle() as usize, Some(line)))
-        }
-        Plane::At(plane_m) => Ok((layer_at(wood, plane_m, options.normal)?, None)),
-    }
-}
-
 /// The layer of `wood` that begins at the face between voxels nearest to `plane_m`.
 pub(crate) fn layer_at(wood: Placed, plane_m: f64, normal: Axis) -> Result<usize, Error> {
     let n = normal.index();
@@ -278,32 +276,10 @@ pub(crate) fn layer_at(wood: Placed, plane_m: f64, normal: Axis) -> Result<usize
     if layers >= 1.0 && layers < wood.bits.dims()[n] as f64 {
         return Ok(layers as usize);
     }
-    Err(Error::PlaneOutside {
-        plane_m,
-        low_m: wood.origin_m[n],
-        high_m: wood.max_m()[n],
-        normal,
-    })
-}
-
-/// Distance (m) from the plane to the outermost wood of the bottom and of the top adherend.
-fn free_layers(
-    below: BitsRef,
-    above: BitsRef,
-    plane_m: f64,
-    voxel_m: f64,
-    normal: Axis,
-) -> Result<[f64; 2], Error> {
-    let no_wood = |side| Error::NoWood {
-        side,
-        of: format!("the bond plane at {:.3} um", 1e6 * plane_m),
-    };
-    let below = below.counts_along(normal.index());
-    let above = above.counts_along(normal.index());
-    let bottom = below.iter().rev().position(|&n| n > 0);
-    let top = above.iter().position(|&n| n > 0);
-    Ok([
-        bottom.ok_or_else(|| no_wood("below"))? as f64 * voxel_m,
-        top.ok_or_else(|| no_wood("above"))? as f64 * voxel_m,
-    ])
+    Err(Error::new(format!(
+        "the bond plane at {:.3} um is outside the specimen, which reaches from {:.3} to {:.3} um along {normal}",
+        1e6 * plane_m,
+        1e6 * wood.origin_m[n],
+        1e6 * wood.max_m()[n]
+    )))
 }

@@ -1,9 +1,11 @@
 //! The face that a piece of undamaged wood turns to the bond: where it is and how rough.
 
+use std::ops::Range;
+
 use particle_file::{BitGrid, BitsRef};
 use units::Axis;
 
-use crate::placed::crop;
+use crate::placed::layers;
 use crate::surface;
 
 /// Which layers of a piece face the bond.
@@ -62,19 +64,14 @@ pub(crate) fn depths(bits: BitsRef, normal: Axis, facing: Facing) -> Vec<Option<
     let (dims, n) = (bits.dims(), normal.index());
     let [a, b] = across(normal);
     let mut depths = vec![None; dims[a] * dims[b]];
-    for z in 0..dims[2] {
-        for y in 0..dims[1] {
-            for x in bits.set_in_row(y, z) {
-                let index = [x, y, z];
-                let depth = match facing {
-                    Facing::Up => dims[n] - 1 - index[n],
-                    Facing::Down => index[n],
-                };
-                let first = &mut depths[index[b] * dims[a] + index[a]];
-                *first = Some(first.map_or(depth, |least: usize| least.min(depth)));
-            }
-        }
-    }
+    bits.for_each(|index| {
+        let depth = match facing {
+            Facing::Up => dims[n] - 1 - index[n],
+            Facing::Down => index[n],
+        };
+        let first = &mut depths[index[b] * dims[a] + index[a]];
+        *first = Some(first.map_or(depth, |least: usize| least.min(depth)));
+    });
     depths
 }
 
@@ -100,24 +97,19 @@ pub(crate) fn describe(bits: BitsRef, normal: Axis, facing: Facing) -> Face {
 /// layer, so only what floats is found. The dimensions are those of the layers down to `level`.
 pub(crate) fn islands(bits: BitsRef, normal: Axis, facing: Facing, level: usize) -> BitGrid {
     let n = normal.index();
-    let (mut floating, first) = front(bits, n, facing, level);
+    let mut floating = layers(bits, n, front(bits, normal, facing, level));
     let dims = floating.dims();
     let base = match facing {
         Facing::Up => 0,
         Facing::Down => dims[n] - 1,
     };
-    debug_assert!(first + dims[n] <= bits.dims()[n]);
     let mut joined = Vec::new();
-    let mut layer = [0..dims[0], 0..dims[1], 0..dims[2]];
-    layer[n] = base..base + 1;
-    let [xs, ys, zs] = layer;
-    for z in zs {
-        for y in ys.clone() {
-            for x in xs.clone() {
-                take(&mut floating, [x, y, z], &mut joined);
-            }
-        }
-    }
+    layers(floating.view(), n, base..base + 1)
+        .view()
+        .for_each(|mut at| {
+            at[n] = base;
+            take(&mut floating, at, &mut joined);
+        });
     while let Some(at) = joined.pop() {
         for step in 0..27 {
             let step = [step % 3, step / 3 % 3, step / 9];
@@ -130,16 +122,14 @@ pub(crate) fn islands(bits: BitsRef, normal: Axis, facing: Facing, level: usize)
     floating
 }
 
-/// The layers from the bond down to `level`, and the index of their lowest.
-fn front(bits: BitsRef, n: usize, facing: Facing, level: usize) -> (BitGrid, usize) {
-    let mut ranges = bits.dims().map(|d| 0..d);
-    let count = (level + 1).min(bits.dims()[n]);
-    ranges[n] = match facing {
-        Facing::Up => bits.dims()[n] - count..bits.dims()[n],
+/// The layers from the bond down to `level`.
+fn front(bits: BitsRef, normal: Axis, facing: Facing, level: usize) -> Range<usize> {
+    let all = bits.dims()[normal.index()];
+    let count = (level + 1).min(all);
+    match facing {
+        Facing::Up => all - count..all,
         Facing::Down => 0..count,
-    };
-    let first = ranges[n].start;
-    (crop(bits, &ranges), first)
+    }
 }
 
 fn take(floating: &mut BitGrid, at: [usize; 3], joined: &mut Vec<[usize; 3]>) {
@@ -150,27 +140,19 @@ fn take(floating: &mut BitGrid, at: [usize; 3], joined: &mut Vec<[usize; 3]>) {
     }
 }
 
-/// `bits` without the [`islands`] before `level`.
 pub(crate) fn without_islands(
-    bits: &BitGrid,
+    mut bits: BitGrid,
     normal: Axis,
     facing: Facing,
     level: usize,
 ) -> BitGrid {
-    let n = normal.index();
     let floating = islands(bits.view(), normal, facing, level);
-    let (_, first) = front(bits.view(), n, facing, level);
-    let mut kept = bits.clone();
-    for z in 0..floating.dims()[2] {
-        for y in 0..floating.dims()[1] {
-            for x in floating.view().set_in_row(y, z) {
-                let mut at = [x, y, z];
-                at[n] += first;
-                kept.set(at[0], at[1], at[2], false);
-            }
-        }
-    }
-    kept
+    let first = front(bits.view(), normal, facing, level).start;
+    floating.view().for_each(|mut at| {
+        at[normal.index()] += first;
+        bits.set(at[0], at[1], at[2], false);
+    });
+    bits
 }
 
 #[cfg(test)]
@@ -199,7 +181,7 @@ mod tests {
         assert!((face.mean - mean).abs() < 1e-12);
         let square: f64 = 16.0 * (2.0 - mean).powi(2) + 11.0 * (3.0 - mean).powi(2) + mean * mean;
         assert!((face.roughness - (square / 28.0).sqrt()).abs() < 1e-12);
-        let clean = without_islands(&grid, Axis::Y, Facing::Up, face.level);
+        let clean = without_islands(grid.clone(), Axis::Y, Facing::Up, face.level);
         assert_eq!(clean.count(), grid.count() - 1);
         assert_eq!(air(clean.view(), Axis::Y, Facing::Up), Some(2));
         // From below the piece is flat but for the groove.

@@ -65,7 +65,6 @@ impl Flood<'_> {
         }
     }
 
-    /// Goes on until no row finds more.
     fn spread(&mut self) {
         let [_, ny, nz] = self.wood.dims();
         while let Some([y, z]) = self.waiting.pop_front() {
@@ -145,29 +144,22 @@ mod tests {
     /// Voxel by voxel, as the rows do it a word at a time.
     fn by_voxels(wood: &BitGrid, axis: usize, layer: usize) -> BitGrid {
         let dims = wood.dims();
-        let mut open = BitGrid::from_fn(dims, |x, y, z| {
-            [x, y, z][axis] == layer && !wood.get(x, y, z)
-        });
-        loop {
-            let grown = BitGrid::from_fn(dims, |x, y, z| {
-                let near = |a: usize, at: [usize; 3]| {
-                    let beside = [at[a].wrapping_sub(1), at[a] + 1].map(|n| {
-                        let mut to = at;
-                        to[a] = n;
-                        to
-                    });
-                    beside.into_iter().any(|[x, y, z]| {
-                        x < dims[0] && y < dims[1] && z < dims[2] && open.get(x, y, z)
-                    })
-                };
-                let found = open.get(x, y, z) || (0..3).any(|a| near(a, [x, y, z]));
-                found && !wood.get(x, y, z)
-            });
-            if grown == open {
-                return open;
+        let mut open = BitGrid::new(dims);
+        let mut front = Vec::new();
+        let all = BitGrid::from_fn(dims, |x, y, z| [x, y, z][axis] == layer);
+        all.view().for_each(|index| front.push(index));
+        while let Some([x, y, z]) = front.pop() {
+            if wood.get(x, y, z) || open.get(x, y, z) {
+                continue;
             }
-            open = grown;
+            open.set(x, y, z, true);
+            for a in 0..3 {
+                let mut beside = [[x, y, z]; 2];
+                (beside[0][a], beside[1][a]) = (beside[0][a].wrapping_sub(1), beside[1][a] + 1);
+                front.extend(beside.into_iter().filter(|at| at[a] < dims[a]));
+            }
         }
+        open
     }
 
     /// Rows that end within, at and behind the end of a word, and voids that wind through several.
@@ -178,7 +170,7 @@ mod tests {
             let wood = BitGrid::from_fn(dims, |x, y, z| {
                 (x * 7919 + y * 104_729 + z * 1_299_709) % 97 % 5 < 2
             });
-            for (axis, normal) in [Axis::X, Axis::Y, Axis::Z].into_iter().enumerate() {
+            for (axis, normal) in Axis::ALL.into_iter().enumerate() {
                 for layer in [0, dims[axis] - 1] {
                     let expected = by_voxels(&wood, axis, layer);
                     let found = open_voids(wood.view(), normal, layer);

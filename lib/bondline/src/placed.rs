@@ -38,16 +38,6 @@ impl<'a> Placed<'a> {
     pub fn centre_m(&self, index: [usize; 3]) -> [f64; 3] {
         std::array::from_fn(|a| self.origin_m[a] + (index[a] as f64 + 0.5) * self.voxel_m)
     }
-
-    /// Calls `visit` with the index of every set voxel, in storage order.
-    pub fn for_each(&self, mut visit: impl FnMut([usize; 3])) {
-        let [_, ny, nz] = self.bits.dims();
-        for z in 0..nz {
-            for y in 0..ny {
-                self.bits.set_in_row(y, z).for_each(|x| visit([x, y, z]));
-            }
-        }
-    }
 }
 
 /// A bonded specimen: wood and adhesive of one stack.
@@ -59,15 +49,15 @@ pub struct Specimen<'a> {
 
 impl<'a> Specimen<'a> {
     /// A specimen from its two materials.
-    ///
-    /// # Errors
-    /// When they are not voxels of the same stack.
     pub fn new(wood: Placed<'a>, adhesive: Placed<'a>) -> Result<Self, Error> {
         let same = wood.bits.dims() == adhesive.bits.dims()
             && wood.origin_m == adhesive.origin_m
             && wood.voxel_m == adhesive.voxel_m;
-        same.then_some(Self { wood, adhesive })
-            .ok_or(Error::Mismatch)
+        same.then_some(Self { wood, adhesive }).ok_or_else(|| {
+            Error::unfit(
+                "the wood and the adhesive of the specimen are not voxels of the same stack",
+            )
+        })
     }
 
     /// The wood.
@@ -81,8 +71,19 @@ impl<'a> Specimen<'a> {
     }
 }
 
+pub(crate) fn layers(bits: BitsRef, axis: usize, layers: Range<usize>) -> BitGrid {
+    let mut ranges = bits.dims().map(|d| 0..d);
+    ranges[axis] = layers;
+    crop(bits, &ranges)
+}
+
+/// The voxels before `dims` along each axis.
+pub(crate) fn corner(bits: BitsRef, dims: [usize; 3]) -> BitGrid {
+    crop(bits, &dims.map(|d| 0..d))
+}
+
 /// The voxels inside `ranges` (along x, y, z, within the grid).
-pub(crate) fn crop(bits: BitsRef, ranges: &[Range<usize>; 3]) -> BitGrid {
+fn crop(bits: BitsRef, ranges: &[Range<usize>; 3]) -> BitGrid {
     let (shift, first) = (ranges[0].start % 64, ranges[0].start / 64);
     let dims = ranges.clone().map(|r| r.len());
     BitGrid::from_rows(dims, |y, z, row| {
@@ -115,18 +116,5 @@ mod tests {
             });
             assert_eq!(part, expected, "{x:?}");
         }
-    }
-
-    #[test]
-    fn voxels_of_different_stacks_are_no_specimen() {
-        let (a, b) = (BitGrid::new([2, 3, 4]), BitGrid::new([2, 3, 5]));
-        let placed = |grid, voxel_m| Placed {
-            origin_m: [0.0; 3],
-            voxel_m,
-            bits: BitGrid::view(grid),
-        };
-        assert!(Specimen::new(placed(&a, 1.0), placed(&a, 1.0)).is_ok());
-        assert!(Specimen::new(placed(&a, 1.0), placed(&b, 1.0)).is_err());
-        assert!(Specimen::new(placed(&a, 1.0), placed(&a, 2.0)).is_err());
     }
 }

@@ -23,13 +23,9 @@ const PLAIN: f64 = 0.2;
 /// How much of each layer normal to the bond is wood and adhesive.
 #[derive(Clone, Debug)]
 struct Profile {
-    /// The axis the layers are normal to.
     normal: Axis,
-    /// Voxels in a layer.
     area: u64,
-    /// Wood voxels in each layer.
     wood: Vec<u64>,
-    /// Adhesive voxels in each layer.
     adhesive: Vec<u64>,
 }
 
@@ -47,21 +43,14 @@ impl Profile {
         }
     }
 
-    /// Adhesive less wood area fraction in a layer.
     fn contrast(&self, layer: usize) -> f64 {
         (self.adhesive[layer] as f64 - self.wood[layer] as f64) / self.area as f64
     }
 
     /// The first layer in which adhesive most outweighs wood.
     fn seed(&self) -> usize {
-        let more = |best, y| {
-            if self.contrast(y) > self.contrast(best) {
-                y
-            } else {
-                best
-            }
-        };
-        (0..self.wood.len()).reduce(more).unwrap_or(0)
+        let by_contrast = |a: &usize, b: &usize| self.contrast(*a).total_cmp(&self.contrast(*b));
+        (0..self.wood.len()).rev().max_by(by_contrast).unwrap_or(0)
     }
 }
 
@@ -102,12 +91,11 @@ pub fn find(specimen: &Specimen, normal: Axis) -> Result<BondLine, Error> {
         .max_by(|a, b| a.1.total_cmp(&b.1));
     match fits {
         Some((fits, best)) if best > PLAIN && best > PLAINER * contrast => {
-            Err(Error::OtherNormal {
-                normal,
-                contrast,
-                fits,
-                best,
-            })
+            let [best, contrast] = [best, contrast].map(|share| 100.0 * share);
+            Err(Error::new(format!(
+                "the bond lies across {fits}, not across {normal}: adhesive covers up to {best:.1} % of the area more than wood in layers normal to {fits}, and {contrast:.1} % in those normal to {normal}",
+            ))
+            .help(format!("; give --normal {fits}, or the plane by hand")))
         }
         _ => found,
     }
@@ -121,22 +109,23 @@ pub fn find(specimen: &Specimen, normal: Axis) -> Result<BondLine, Error> {
 /// is the bond surface of that adherend.
 fn along(profile: &Profile) -> Result<BondLine, Error> {
     if profile.adhesive.iter().all(|&n| n == 0) {
-        return Err(Error::NoAdhesive);
+        return Err(Error::no_adhesive());
     }
     let seed = profile.seed();
     let contrast = profile.contrast(seed);
     if contrast <= 0.0 {
-        return Err(Error::NoBondLine {
-            normal: profile.normal,
-            contrast,
-        });
+        return Err(Error::new(format!(
+            "no layer normal to {} looks like a bond line: at best adhesive covers {:.1} % of a layer less than wood does, as where the bond is turned too far or lies across another axis",
+            profile.normal,
+            -100.0 * contrast
+        ))
+        .help("; give the plane by hand or another --normal"));
     }
-    let no_wood = |side| Error::NoWood {
-        side,
-        of: format!(
-            "the layer of most adhesive (layer {seed} along {})",
-            profile.normal
-        ),
+    let no_wood = |side| {
+        let axis = profile.normal;
+        Error::no_wood(format!(
+            "{side} the layer of most adhesive (layer {seed} along {axis})"
+        ))
     };
     let below: Vec<u64> = profile.wood[..seed].iter().rev().copied().collect();
     let above = &profile.wood[seed + 1..];
@@ -165,10 +154,10 @@ pub fn surface(wood: &[u64]) -> Option<usize> {
 mod tests {
     use super::*;
 
-    fn found(wood: &[u64], adhesive: &[u64]) -> Result<BondLine, Error> {
+    fn found(area: u64, wood: &[u64], adhesive: &[u64]) -> Result<BondLine, Error> {
         along(&Profile {
             normal: Axis::Y,
-            area: 100,
+            area,
             wood: wood.to_vec(),
             adhesive: adhesive.to_vec(),
         })
@@ -178,7 +167,7 @@ mod tests {
     fn a_clean_gap_is_split_in_the_middle_in_spite_of_specks() {
         let wood = [40, 0, 42, 38, 40, 2, 0, 0, 1, 44, 40, 41];
         let adhesive = [0, 9, 30, 40, 50, 95, 100, 100, 99, 20, 8, 0];
-        let line = found(&wood, &adhesive).unwrap();
+        let line = found(100, &wood, &adhesive).unwrap();
         assert_eq!((line.bottom, line.top, line.middle()), (5, 9, 7.0));
     }
 
@@ -188,7 +177,7 @@ mod tests {
         let mut adhesive = vec![0; 60];
         (10..20).for_each(|y| (wood[y], adhesive[y]) = (25, 45));
         (40..43).for_each(|y| (wood[y], adhesive[y]) = (12, 80));
-        let line = found(&wood, &adhesive).unwrap();
+        let line = found(100, &wood, &adhesive).unwrap();
         assert!((40..43).contains(&line.seed), "{line:?}");
     }
 
@@ -202,41 +191,25 @@ mod tests {
                 (30_000.0 * (phi((100.0 - y) / 8.0) + phi((y - 130.0) / 8.0))) as u64
             })
             .collect();
-        let adhesive = (0..230)
-            .map(|y: u32| {
-                if y.abs_diff(115) < 30 {
-                    100_000 - wood[y as usize]
-                } else {
-                    0
-                }
-            })
+        let near = |y: usize| y.abs_diff(115) < 30;
+        let adhesive: Vec<u64> = (0..230)
+            .map(|y| if near(y) { 100_000 - wood[y] } else { 0 })
             .collect();
-        let line = along(&Profile {
-            normal: Axis::Y,
-            area: 100_000,
-            wood,
-            adhesive,
-        })
-        .unwrap();
+        let line = found(100_000, &wood, &adhesive).unwrap();
         assert!((line.middle() - 115.0).abs() <= 0.5, "{line:?}");
         assert!(line.bottom > 100 && line.top < 130);
     }
 
     #[test]
-    fn refusals() {
-        let wood = [40, 40, 0, 40, 40];
-        assert!(matches!(found(&wood, &[0; 5]), Err(Error::NoAdhesive)));
-        assert!(matches!(
-            found(&[0, 0, 0, 40, 40], &[0, 0, 99, 0, 0]),
-            Err(Error::NoWood { side: "below", .. })
-        ));
-        assert!(matches!(
-            found(&[40, 40, 0, 0, 0], &[0, 0, 99, 0, 0]),
-            Err(Error::NoWood { side: "above", .. })
-        ));
-        assert!(matches!(
-            found(&[40; 5], &[9; 5]),
-            Err(Error::NoBondLine { .. })
-        ));
+    fn layers_without_a_bond_are_refused() {
+        for (wood, adhesive, said) in [
+            ([40, 40, 0, 40, 40], [0; 5], "no adhesive voxel"),
+            ([0, 0, 0, 40, 40], [0, 0, 99, 0, 0], "no wood below"),
+            ([40, 40, 0, 0, 0], [0, 0, 99, 0, 0], "no wood above"),
+            ([40; 5], [9; 5], "covers 31.0 % of a layer less"),
+        ] {
+            let error = found(100, &wood, &adhesive).unwrap_err().to_string();
+            assert!(error.contains(said), "{error}");
+        }
     }
 }

@@ -14,13 +14,12 @@ pub(crate) fn cells(
     let cells = exact_cells.round();
     let change = cells / exact_cells - 1.0;
     if change.abs() > tolerance || cells < 1.0 {
-        return Err(Error::Rounding {
-            exact_cells,
-            cells: cells as u64,
-            cell_m,
-            change,
-            tolerance,
-        });
+        return Err(Error::new(format!(
+            "the adhesive would make a slab of {exact_cells:.4} cells of {:.3} um; rounded to {cells} its volume changes by {:+.2} %, more than the tolerance of {:.2} %: use fewer voxels per cell or a larger --tolerance",
+            1e6 * cell_m,
+            100.0 * change,
+            100.0 * tolerance
+        )));
     }
     Ok(cells as u64)
 }
@@ -36,11 +35,12 @@ pub(crate) fn low_face(
 ) -> Result<f64, Error> {
     let least_m = slab_m - bottom - top;
     if gap_m < least_m - 1e-9 * voxel_m || gap_m < 0.0 {
-        return Err(Error::GapTooSmall {
-            gap_m,
-            slab_m,
-            least_m: least_m.max(0.0),
-        });
+        return Err(Error::new(format!(
+            "a gap of {:.3} um leaves no room for the adhesive slab of {:.3} um between the adherends: at least {:.3} um is needed",
+            1e6 * gap_m,
+            1e6 * slab_m,
+            1e6 * least_m.max(0.0)
+        )));
     }
     let lowest = plane_m - bottom;
     let highest = (plane_m + gap_m + top - slab_m).max(lowest);
@@ -75,6 +75,6 @@ mod tests {
         assert_eq!(low(6.0), Ok(10.0));
         assert_eq!(low(3.0), Ok(8.0), "the tightest fit touches both adherends");
         assert_eq!(low(10.0), Ok(12.0));
-        assert!(matches!(low(2.9), Err(Error::GapTooSmall { .. })));
+        assert!(low(2.9).unwrap_err().to_string().contains("no room"));
     }
 }

@@ -3,10 +3,10 @@
 use particle_file::{BitGrid, BitsRef};
 use units::Axis;
 
-use crate::build::{Opening, Part, assemble, whole_cells};
+use crate::build::{Closed, layer_at, whole_cells};
 use crate::faces::{Facing, across, air, depths, describe, without_islands};
-use crate::placed::crop;
-use crate::{Bond, Error, Placed, slab};
+use crate::placed::{corner, layers};
+use crate::{Bond, Error, Placed};
 
 /// What the adherends are made of.
 #[derive(Clone, Copy, Debug)]
@@ -65,102 +65,72 @@ pub struct Layup {
 /// of both.
 ///
 /// # Errors
-/// As listed in [`Error`].
+/// A plane outside; pieces of other voxels, of unequal width or without wood, which never meet or hold less than the slab; and
+/// those of the slab and the gap.
 pub fn lay_up(pieces: &Pieces, layup: &Layup) -> Result<Bond, Error> {
     let (n, normal) = (layup.normal.index(), layup.normal);
-    let (origin_m, voxel_m, [bottom, top]) = parts(pieces, layup)?;
+    let (origin_m, voxel_m, bottom, top) = parts(pieces, layup)?;
     let (bottom, top) = fitted(bottom, turned(&top, normal, layup.turn), layup)?;
     let (kept, trimmed) = whole_cells(bottom.dims(), normal, layup.voxels_per_cell);
-    let face = |piece: &BitGrid, facing| {
-        let mut ranges = kept.map(|d| 0..d);
-        ranges[n] = 0..piece.dims()[n];
-        let piece = crop(piece.view(), &ranges);
-        let cleaned = cleaned(piece, layup, facing).ok_or(Error::NoWoodIn {
-            piece: name(facing),
-        })?;
+    let face = |piece: &BitGrid, facing, name| {
+        let mut dims = kept;
+        dims[n] = piece.dims()[n];
+        let cleaned = cleaned(corner(piece.view(), dims), layup, facing);
+        let cleaned =
+            cleaned.ok_or_else(|| Error::unfit(format!("the {name} piece holds no wood")))?;
         Ok((describe(cleaned.view(), normal, facing), cleaned))
     };
-    let ((low, bottom), (high, top)) = (face(&bottom, Facing::Up)?, face(&top, Facing::Down)?);
+    let (low, bottom) = face(&bottom, Facing::Up, "bottom")?;
+    let (high, top) = face(&top, Facing::Down, "top")?;
 
     let area: u64 = (0..3).filter(|&a| a != n).map(|a| kept[a] as u64).product();
-    let adhesive_in = layup.slab_m / voxel_m * area as f64;
-    let cell_m = layup.voxels_per_cell as f64 * voxel_m;
-    let slab_cells = slab::cells(
-        adhesive_in,
-        area,
-        layup.voxels_per_cell,
-        layup.tolerance,
-        cell_m,
-    )?;
-
-    // Layers are counted from the low face of the bottom piece; the top one begins at `touch`.
     let height = bottom.dims()[n];
-    let (touch, touching) = touch(bottom.view(), top.view(), normal)?;
-    let levels = [height - low.level, touch + high.level];
-    let plane = (levels[0] + levels[1]) / 2;
-    let layers = |from: usize, to: usize| (to as f64 - from as f64) * voxel_m;
-    let slab_m = slab_cells as f64 * cell_m;
-    let void = void(&bottom) + void(&top);
-    let void_m = void as f64 / area as f64 * voxel_m - layers(touch, height);
-    if slab_m > void_m {
-        return Err(Error::NoRoom { slab_m, void_m });
-    }
-    let opening = Opening {
-        plane_m: origin_m[n] + plane as f64 * voxel_m,
-        gap_m: layup
-            .gap_m
-            .unwrap_or_else(|| slab_m + layers(touch, height)),
-        free_m: [layers(height, plane), layers(plane, touch)],
-        severed: touching,
-    };
-    let mut top_origin_m = origin_m;
-    top_origin_m[n] += touch as f64 * voxel_m;
-    let bottom = Part {
+    let (touch, severed) = touch(bottom.view(), top.view(), normal)?;
+    let plane = (height - low.level + touch + high.level) / 2;
+    let void_m = (void(&bottom) + void(&top)) as f64 / area as f64 * voxel_m;
+    let closed = Closed {
         origin_m,
-        bits: bottom,
+        voxel_m,
+        bottom,
+        top,
+        touch,
+        plane,
+        free: [plane as i64 - height as i64, touch as i64 - plane as i64],
+        severed,
+        room_m: void_m - (height - touch) as f64 * voxel_m,
+        adhesive_in: layup.slab_m / voxel_m * area as f64,
     };
-    let top = Part {
-        origin_m: top_origin_m,
-        bits: top,
-    };
-    let mut bond = assemble(bottom, top, normal, voxel_m, cell_m, slab_cells, &opening)?;
-    (bond.adhesive_in, bond.trimmed) = (adhesive_in, trimmed);
-    bond.faces = Some([low, high]);
-    Ok(bond)
-}
-
-fn name(facing: Facing) -> &'static str {
-    match facing {
-        Facing::Up => "bottom",
-        Facing::Down => "top",
-    }
+    let (per_cell, tolerance) = (layup.voxels_per_cell, layup.tolerance);
+    let bond = closed.opened(normal, per_cell, tolerance, layup.gap_m)?;
+    Ok(Bond {
+        trimmed,
+        faces: Some([low, high]),
+        ..bond
+    })
 }
 
 /// Low corner, voxel edge and wood of the bottom and the top piece.
-fn parts(pieces: &Pieces, layup: &Layup) -> Result<([f64; 3], f64, [BitGrid; 2]), Error> {
+fn parts(pieces: &Pieces, layup: &Layup) -> Result<([f64; 3], f64, BitGrid, BitGrid), Error> {
     let n = layup.normal.index();
     match *pieces {
         Pieces::Cut(wood, plane_m) => {
-            let plane = crate::build::layer_at(wood, plane_m, layup.normal)?;
-            let dims = wood.bits.dims();
-            let cut = [0..plane, plane..dims[n]].map(|layers| {
-                let mut ranges = dims.map(|d| 0..d);
-                ranges[n] = layers;
-                crop(wood.bits, &ranges)
-            });
-            Ok((wood.origin_m, wood.voxel_m, cut))
+            let plane = layer_at(wood, plane_m, layup.normal)?;
+            let above = plane..wood.bits.dims()[n];
+            let [bottom, top] = [0..plane, above].map(|part| layers(wood.bits, n, part));
+            Ok((wood.origin_m, wood.voxel_m, bottom, top))
         }
         Pieces::Two { bottom, top } => {
             // Edges from the metadata of two scans may differ in their last digits.
             if (top.voxel_m / bottom.voxel_m - 1.0).abs() > 1e-6 {
-                return Err(Error::Voxels {
-                    bottom_m: bottom.voxel_m,
-                    top_m: top.voxel_m,
-                });
+                return Err(Error::new(format!(
+                    "the voxels of the bottom piece have edges of {:.6} um and those of the top piece {:.6} um: both must be the same, so scale one stack to the other's",
+                    1e6 * bottom.voxel_m,
+                    1e6 * top.voxel_m
+                )));
             }
-            let whole = |bits: BitsRef| crop(bits, &bits.dims().map(|d| 0..d));
-            let both = [whole(bottom.bits), whole(top.bits)];
-            Ok((bottom.origin_m, bottom.voxel_m, both))
+            let whole = |bits: BitsRef| corner(bits, bits.dims());
+            let (below, above) = (whole(bottom.bits), whole(top.bits));
+            Ok((bottom.origin_m, bottom.voxel_m, below, above))
         }
     }
 }
@@ -187,7 +157,6 @@ fn turned(bits: &BitGrid, normal: Axis, turn: Turn) -> BitGrid {
     })
 }
 
-/// Both pieces at one cross-section, or a refusal.
 fn fitted(bottom: BitGrid, top: BitGrid, layup: &Layup) -> Result<(BitGrid, BitGrid), Error> {
     let [a, b] = across(layup.normal);
     let [low, high] = [&bottom, &top].map(|piece| [piece.dims()[a], piece.dims()[b]]);
@@ -195,16 +164,17 @@ fn fitted(bottom: BitGrid, top: BitGrid, layup: &Layup) -> Result<(BitGrid, BitG
         return Ok((bottom, top));
     }
     if !layup.crop {
-        return Err(Error::CrossSections {
-            axes: [a, b].map(|axis| Axis::ALL[axis]),
-            bottom: low,
-            top: high,
-        });
+        let [[i, j], [k, l]] = [low, high];
+        return Err(Error::new(format!(
+            "the bottom piece is {i} x {j} voxels wide along {} and {} and the top piece, as it lies, {k} x {l}: crop them to be the same, or give --crop-to-fit for what they share from their low corners",
+            Axis::ALL[a],
+            Axis::ALL[b]
+        )));
     }
     let cropped = |piece: BitGrid| {
-        let mut ranges = piece.dims().map(|d| 0..d);
-        (ranges[a], ranges[b]) = (0..low[0].min(high[0]), 0..low[1].min(high[1]));
-        crop(piece.view(), &ranges)
+        let mut dims = piece.dims();
+        (dims[a], dims[b]) = (low[0].min(high[0]), low[1].min(high[1]));
+        corner(piece.view(), dims)
     };
     Ok((cropped(bottom), cropped(top)))
 }
@@ -217,21 +187,20 @@ fn cleaned(piece: BitGrid, layup: &Layup, facing: Facing) -> Option<BitGrid> {
         return Some(piece);
     }
     let level = describe(piece.view(), layup.normal, facing).level;
-    let piece = without_islands(&piece, layup.normal, facing, level);
+    let piece = without_islands(piece, layup.normal, facing, level);
     trimmed(piece, layup.normal, facing)
 }
 
 fn trimmed(piece: BitGrid, normal: Axis, facing: Facing) -> Option<BitGrid> {
     let (n, air) = (normal.index(), air(piece.view(), normal, facing)?);
-    let mut ranges = piece.dims().map(|d| 0..d);
-    ranges[n] = match facing {
-        Facing::Up => 0..piece.dims()[n] - air,
-        Facing::Down => air..piece.dims()[n],
+    let height = piece.dims()[n];
+    let wood = match facing {
+        Facing::Up => 0..height - air,
+        Facing::Down => air..height,
     };
-    Some(crop(piece.view(), &ranges))
+    Some(layers(piece.view(), n, wood))
 }
 
-/// Voxels that are no wood.
 fn void(piece: &BitGrid) -> u64 {
     let voxels: u64 = piece.dims().iter().map(|&d| d as u64).product();
     voxels - piece.count()
@@ -245,8 +214,13 @@ fn touch(bottom: BitsRef, top: BitsRef, normal: Axis) -> Result<(usize, u64), Er
     let high = depths(top, normal, Facing::Down);
     let apart = || (low.iter().zip(&high)).filter_map(|(l, h)| Some((*l)? + (*h)?));
     // The pieces go into one another by the least of what the columns leave free.
-    let least = apart().min().ok_or(Error::NeverMeet)?;
-    let touching = apart().filter(|&free| free == least).count() as u64;
-    let rest = height.checked_sub(least).ok_or(Error::NeverMeet)?;
-    Ok((rest, touching))
+    match apart().min() {
+        Some(least) if least <= height => {
+            let touching = apart().filter(|&free| free == least).count() as u64;
+            Ok((height - least, touching))
+        }
+        _ => Err(Error::new(
+            "nowhere along the normal does wood of the top piece come to rest on wood of the bottom piece",
+        )),
+    }
 }

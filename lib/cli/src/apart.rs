@@ -31,19 +31,22 @@ pub fn keep_apart_with_records<'a>(
 ) -> Result<(), Failure> {
     let outputs: Vec<&Output> = outputs.into_iter().collect();
     let mut places = Places::read_at(inputs);
-    for output in &outputs {
-        places.write_at(output)?;
-    }
+    (outputs.iter()).try_for_each(|output| places.write_at(output))?;
     for output in outputs {
-        if let Some(record) = output.record_path() {
-            places.write_record_at(&record, output)?;
-            provenance::may_replace(&record)?;
+        let Some(record) = output.record_path() else {
+            continue;
+        };
+        if let Some(other) = places.taken(&record, ["is read", "is another output"]) {
+            return Err(Failure::usage(format!(
+                "'{}' {other} and would be replaced by the provenance record of {output}: give another file name",
+                record.display()
+            )));
         }
+        provenance::may_replace(&record)?;
     }
     Ok(())
 }
 
-/// Where the files of a command are.
 struct Places {
     read: Vec<PathBuf>,
     written: Vec<PathBuf>,
@@ -64,41 +67,31 @@ impl Places {
         let Output::File(path) = output else {
             return Ok(());
         };
-        // What cannot be placed cannot be written either, and is refused then.
-        let Some(place) = place(path) else {
-            return Ok(());
-        };
-        if self.read.contains(&place) {
-            return Err(Failure::usage(format!(
-                "{output} is read and cannot be the output too: give another file name"
-            )));
+        let twice = [
+            "is read and cannot be the output too: give another file name",
+            "is given for two outputs: give each a file name of its own",
+        ];
+        match self.taken(path, twice) {
+            Some(why) => Err(Failure::usage(format!("{output} {why}"))),
+            None if place(path).is_none() => Ok(()),
+            None => machine::replaced_permissions(path)
+                .map(|_| ())
+                .map_err(|e| Failure::write(output, &e)),
         }
-        if self.written.contains(&place) {
-            return Err(Failure::usage(format!(
-                "{output} is given for two outputs: give each a file name of its own"
-            )));
-        }
-        machine::replaced_permissions(&place).map_err(|e| Failure::write(output, &e))?;
-        self.written.push(place);
-        Ok(())
     }
 
-    fn write_record_at(&mut self, record: &Path, of: &Output) -> Result<(), Failure> {
-        let Some(place) = place(record) else {
-            return Ok(());
-        };
-        let other = match () {
-            () if self.read.contains(&place) => "is read",
-            () if self.written.contains(&place) => "is another output",
-            () => {
-                self.written.push(place);
-                return Ok(());
-            }
-        };
-        Err(Failure::usage(format!(
-            "'{}' {other} and would be replaced by the provenance record of {of}: give another file name",
-            record.display()
-        )))
+    /// Why another file cannot be written at `path`, of the two reasons, or nothing, and the place is taken from now on.
+    fn taken(&mut self, path: &Path, [read, written]: [&'static str; 2]) -> Option<&'static str> {
+        // What cannot be placed cannot be written either, and is refused then.
+        let place = place(path)?;
+        if self.read.contains(&place) {
+            return Some(read);
+        }
+        if self.written.contains(&place) {
+            return Some(written);
+        }
+        self.written.push(place);
+        None
     }
 }
 
@@ -135,42 +128,30 @@ mod tests {
         assert!(check(&[null(), null()]).is_ok());
     }
 
-    /// Records replaced inputs, other outputs and files that were no records.
     #[test]
     fn a_record_is_an_output_and_replaces_only_records() {
         let folder = tempfile::tempdir().unwrap();
         let inside = |name: &str| folder.path().join(name);
         let file = |name: &str| Output::File(inside(name));
         let input = inside("a.csv.provenance.json");
-        let check =
-            |outputs: &[Output]| keep_apart_with_records([input.as_path()], outputs).is_ok();
+        let check = |all: &[Output]| keep_apart_with_records([input.as_path()], all).is_ok();
         fs::write(&input, b"x").unwrap();
         assert!(!check(&[file("a.csv")]));
         for pair in [["b", "b.provenance.json"], ["b.provenance.json", "b"]] {
             assert!(!check(&pair.map(file)), "{pair:?}");
         }
-        let record = crate::Record::new("tool", "1.0", Vec::new()).to_json();
-        let foreign = [
-            "",
-            "{}",
-            "[]",
-            "text",
-            &record.replace("tool\":", "tol\":"),
-            &record.replacen('{', "{\"more\": 1,", 1),
-            &(record.clone() + "x"),
-        ];
-        for content in foreign {
+        let own = crate::Record::new("tool", "1.0", Vec::new());
+        let record = own.to_json();
+        let mistyped = record.replace("tool\":", "tol\":");
+        let more = record.replacen('{', "{\"more\": 1,", 1);
+        let longer = record.clone() + "x";
+        for content in ["", "{}", "[]", "text", &mistyped, &more, &longer] {
             fs::write(inside("c.provenance.json"), content).unwrap();
             assert!(!check(&[file("c")]), "{content}");
-            let written = file("c")
-                .write_with_record(&crate::Record::new("tool", "1.0", Vec::new()), |_| {
-                    panic!("a file is made that cannot have its record")
-                });
+            let written = file("c").write_with_record(&own, |_| panic!("written without record"));
             assert!(written.is_err() && !inside("c").exists());
-            assert_eq!(
-                fs::read_to_string(inside("c.provenance.json")).unwrap(),
-                content
-            );
+            let kept = fs::read_to_string(inside("c.provenance.json")).unwrap();
+            assert_eq!(kept, content);
         }
         fs::write(inside("c.provenance.json"), record).unwrap();
         assert!(check(&[file("c"), file("d")]));

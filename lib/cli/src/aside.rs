@@ -25,7 +25,6 @@ pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("its symbolic links go round in a circle"))
 }
 
-/// The folder that `path` lies in.
 pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -34,50 +33,47 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
 }
 
 /// An empty file beside `target` that nobody else takes for forgotten, with the permissions of the file that it is to
-/// replace, or those of a new one by the user's umask.
-///
-/// # Errors
-/// A target that is write-protected; the system's reason.
+/// replace, or those of a new one by the user's umask; nothing for a target that is write-protected.
 pub(crate) fn file_for(target: &Path) -> io::Result<NamedTempFile> {
     let replaced = machine::replaced_permissions(target)?;
     let new = || fs::Permissions::from_mode(0o666);
-    sweep(target);
-    loop {
-        let mut builder = Builder::new();
-        let prefix = prefix(target);
-        builder.prefix(&prefix).suffix(ENDING);
+    made_for(target, |builder, folder| {
         builder.permissions(replaced.clone().unwrap_or_else(new));
-        let file = builder.tempfile_in(folder_of(target))?;
+        let file = builder.tempfile_in(folder)?;
         // The umask holds for new files only.
         if let Some(permissions) = &replaced {
             file.as_file().set_permissions(permissions.clone())?;
         }
-        if claimed(file.as_file())? {
-            return Ok(file);
-        }
-    }
+        Ok((file.as_file().try_clone()?, file))
+    })
+    .map(|(_, file)| file)
 }
 
 /// An empty folder beside `target`, claimed as long as the handle lives.
-pub(crate) fn folder_for(target: &Path) -> io::Result<(TempDir, File)> {
-    sweep(target);
-    loop {
-        let mut builder = Builder::new();
-        let prefix = prefix(target);
-        builder.prefix(&prefix).suffix(ENDING);
-        let folder = builder.tempdir_in(folder_of(target))?;
-        let handle = File::open(folder.path())?;
-        if claimed(&handle)? {
-            return Ok((folder, handle));
-        }
-    }
+pub(crate) fn folder_for(target: &Path) -> io::Result<(File, TempDir)> {
+    made_for(target, |builder, folder| {
+        let made = builder.tempdir_in(folder)?;
+        Ok((File::open(made.path())?, made))
+    })
 }
 
-/// Locks what was just made; false when a sweep took it for forgotten in between.
-fn claimed(made: &File) -> io::Result<bool> {
-    // Where the file system knows no locks nothing is swept either.
-    let _ = made.lock();
-    Ok(made.metadata()?.nlink() > 0)
+/// What `make` makes in the folder of `target`, and a handle of it, locked.
+fn made_for<T>(
+    target: &Path,
+    make: impl Fn(&mut Builder, &Path) -> io::Result<(File, T)>,
+) -> io::Result<(File, T)> {
+    sweep(target);
+    loop {
+        let prefix = prefix(target);
+        let mut builder = Builder::new();
+        let (handle, made) = make(builder.prefix(&prefix).suffix(ENDING), folder_of(target))?;
+        // Where the file system knows no locks nothing is swept either.
+        let _ = handle.lock();
+        // A sweep may have taken it for forgotten in between.
+        if handle.metadata()?.nlink() > 0 {
+            return Ok((handle, made));
+        }
+    }
 }
 
 /// Names of what is written for `target` begin alike.
@@ -117,14 +113,13 @@ fn sweep(target: &Path) {
 mod tests {
     use super::*;
 
-    /// A killed tool's temporary file stayed for ever.
     #[test]
     fn what_a_killed_process_left_is_swept_and_what_is_being_written_is_not() {
         let folder = tempfile::tempdir().unwrap();
         let target = folder.path().join("=a.csv");
         let left = file_for(&target).unwrap().keep().unwrap();
         drop(left.0);
-        let (dir, lock) = folder_for(&target).unwrap();
+        let (lock, dir) = folder_for(&target).unwrap();
         assert!(!left.1.exists(), "a forgotten file is swept");
         let folder_left = dir.keep();
         fs::write(folder_left.join("part"), b"x").unwrap();

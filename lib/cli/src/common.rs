@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, ValueEnum};
+use clap_complete::Shell;
 
 use crate::{Failure, Output};
 use crate::{message, signals};
@@ -23,18 +24,9 @@ pub struct Common {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
     /// Print the man page or a shell completion script and exit
-    #[arg(long, value_name = "WHAT", exclusive = true)]
-    generate: Option<Generate>,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Generate {
-    Man,
-    Bash,
-    Zsh,
-    Fish,
-    Elvish,
-    Powershell,
+    #[arg(long, value_name = "WHAT", exclusive = true, ignore_case = true)]
+    #[arg(value_parser = ["man", "bash", "zsh", "fish", "elvish", "powershell"])]
+    generate: Option<String>,
 }
 
 /// Parses the command line, sets up messages and threads, runs the tool, maps its end to
@@ -45,7 +37,7 @@ pub fn main<A: Parser + CommandFactory>(
 ) -> ExitCode {
     let tool = A::command().get_name().to_owned();
     if let Some(what) = requested_generation(&A::command()) {
-        return match generate::<A>(what) {
+        return match generate::<A>(&what) {
             Ok(()) => ExitCode::SUCCESS,
             Err(failure) => failure.report(&tool),
         };
@@ -65,33 +57,28 @@ pub fn main<A: Parser + CommandFactory>(
 
 /// `--generate WHAT` must work without the tool's required arguments, so it is looked for
 /// before the real parse; a wrong WHAT is left to that parse to refuse.
-fn requested_generation(command: &clap::Command) -> Option<Generate> {
+fn requested_generation(command: &clap::Command) -> Option<String> {
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
     let mut words = (words.skip(1)).skip_while(|word| command.find_subcommand(word).is_some());
     let what = match words.next()?.as_str() {
         "--generate" => words.next()?,
         word => word.strip_prefix("--generate=")?.to_owned(),
     };
-    Generate::from_str(&what, true).ok()
+    let known = what.eq_ignore_ascii_case(MAN) || Shell::from_str(&what, true).is_ok();
+    known.then_some(what)
 }
 
-fn generate<A: CommandFactory>(what: Generate) -> Result<(), Failure> {
-    use clap_complete::Shell;
+const MAN: &str = "man";
+
+fn generate<A: CommandFactory>(what: &str) -> Result<(), Failure> {
+    let shell = Shell::from_str(what, true);
     // Pages refer to pages; of `help` there is none.
-    let mut command = A::command().disable_help_subcommand(matches!(what, Generate::Man));
+    let mut command = A::command().disable_help_subcommand(shell.is_err());
     let name = command.get_name().to_owned();
     let mut text = Vec::new();
-    let shell = match what {
-        Generate::Man => None,
-        Generate::Bash => Some(Shell::Bash),
-        Generate::Zsh => Some(Shell::Zsh),
-        Generate::Fish => Some(Shell::Fish),
-        Generate::Elvish => Some(Shell::Elvish),
-        Generate::Powershell => Some(Shell::PowerShell),
-    };
     match shell {
-        Some(shell) => clap_complete::generate(shell, &mut command, name, &mut text),
-        None => {
+        Ok(shell) => clap_complete::generate(shell, &mut command, name, &mut text),
+        Err(_) => {
             command.build();
             man_pages(&command, &mut text).map_err(|e| Failure::write("the man page", &e))?;
         }
@@ -135,11 +122,8 @@ fn setup(common: &Common) -> Result<(), Failure> {
         _ => 0,
     });
     let from_environment = |name| {
-        std::env::var(name)
-            .ok()?
-            .parse::<usize>()
-            .ok()
-            .filter(|&n| n > 0)
+        let number = std::env::var(name).ok()?.parse::<usize>();
+        number.ok().filter(|&n| n > 0)
     };
     let threads = common
         .threads

@@ -6,9 +6,6 @@ use crate::{Failure, message};
 
 /// Refuses `what`, which takes `bytes` of memory, where this process may not have them; the end of the
 /// sentence, `instead`, says what to ask for. With `--yes-really` it is a warning.
-///
-/// # Errors
-/// Exit 2 with what is needed and what there is.
 pub fn enough_memory(
     what: impl Display,
     bytes: u64,

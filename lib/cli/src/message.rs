@@ -46,9 +46,6 @@ pub fn warn(message: impl Display) {
 
 /// Text for people on standard output, made harmless as messages are; data go through
 /// [`Output::write`], which changes nothing.
-///
-/// # Errors
-/// As [`Output::write`].
 pub fn print(text: &str) -> Result<(), Failure> {
     Output::Stdout.write(|out| out.write_all(harmless(text).as_bytes()))
 }
@@ -64,12 +61,10 @@ pub fn harmless(text: &str) -> Cow<'_, str> {
         return text.into();
     }
     let mut plain = String::with_capacity(text.len() + 16);
-    for c in text.chars() {
-        match c {
-            c if steers(c) => plain.extend(c.escape_unicode()),
-            c => plain.push(c),
-        }
-    }
+    text.chars().for_each(|c| match steers(c) {
+        true => plain.extend(c.escape_unicode()),
+        false => plain.push(c),
+    });
     plain.into()
 }
 
@@ -101,9 +96,7 @@ mod tests {
     #[test]
     fn what_steers_a_terminal_is_written_as_an_escape() {
         assert_eq!(harmless("µ 'a b'\nc"), "µ 'a b'\nc");
-        assert_eq!(
-            harmless("\x1b[2Jx\r\u{202e}\x07\u{9b}"),
-            "\\u{1b}[2Jx\\u{d}\\u{202e}\\u{7}\\u{9b}"
-        );
+        let steers = "\x1b[2Jx\r\u{202e}\x07\u{9b}";
+        assert_eq!(harmless(steers), r"\u{1b}[2Jx\u{d}\u{202e}\u{7}\u{9b}");
     }
 }

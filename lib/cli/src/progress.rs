@@ -76,7 +76,6 @@ struct Pace {
 }
 
 impl Pace {
-    /// Least time between samples, s.
     const APART: f64 = 5.0;
     const KEPT: usize = 24;
 
@@ -148,26 +147,22 @@ mod tests {
             let done = [(1.0 - (1.0 - now_s / END).powi(3)), now_s / (2.0 * END)];
             pace.observe(now_s, &done);
             let left = pace.left_s(now_s, &done);
-            if s > 0 {
-                assert!(
-                    left[0] <= END - now_s && END - now_s <= left[1],
-                    "{now_s}: {left:?}"
-                );
-            }
+            let end = END - now_s;
+            assert!(
+                s == 0 || left[0] <= end && end <= left[1],
+                "{now_s}: {left:?}"
+            );
         }
     }
 
     #[test]
     fn a_closing_that_stalls_leaves_the_time_limit() {
         let ends = [(CLOSING, 0.25), (LIMIT, 0.5)];
-        let text = said(&ends, &[180.0, 3.0 * 3600.0]);
-        assert_eq!(
-            text,
-            "25.0 % closed, 3 min left at least; 50.0 % of the time limit, 3.0 h left at most"
-        );
+        let limit = "50.0 % of the time limit, 3.0 h left at most";
+        let both = format!("25.0 % closed, 3 min left at least; {limit}");
+        assert_eq!(said(&ends, &[180.0, 3.0 * 3600.0]), both);
         for stalled in [4.0 * 3600.0, f64::INFINITY] {
-            let text = said(&ends, &[stalled, 3.0 * 3600.0]);
-            assert_eq!(text, "50.0 % of the time limit, 3.0 h left at most");
+            assert_eq!(said(&ends, &[stalled, 3.0 * 3600.0]), limit);
         }
         let text = said(&ends, &[f64::NAN; 2]);
         assert!(
@@ -176,7 +171,6 @@ mod tests {
         );
     }
 
-    /// The time since the start of this process was taken for that of all that was done.
     #[test]
     fn work_that_goes_on_is_reckoned_by_its_own_pace() {
         let mut pace = Pace::default();
@@ -184,10 +178,11 @@ mod tests {
             let now_s = f64::from(s);
             let done = [0.5 + 1e-3 * now_s];
             pace.observe(now_s, &done);
-            if s > 0 {
-                let left = pace.left_s(now_s, &done)[0];
-                assert!((left - (500.0 - now_s)).abs() < 1e-6, "{now_s}: {left}");
-            }
+            let left = pace.left_s(now_s, &done)[0];
+            assert!(
+                s == 0 || (left - (500.0 - now_s)).abs() < 1e-6,
+                "{now_s}: {left}"
+            );
         }
         assert_eq!(pace.samples.len(), Pace::KEPT);
     }

@@ -40,22 +40,18 @@ impl Record {
     /// The record of this process; `tool` and `version` from the tool's own
     /// `CARGO_PKG_NAME` and `CARGO_PKG_VERSION`.
     pub fn new(tool: &str, version: &str, inputs: Vec<InputRecord>) -> Self {
-        let command = std::env::args_os()
-            .map(|a| a.to_string_lossy().into_owned())
-            .collect();
+        let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
         Self {
             tool: tool.into(),
             version: version.into(),
-            command,
+            command: words.collect(),
             inputs,
         }
     }
 
     /// The record as indented JSON with a final newline.
     pub fn to_json(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
-        text.push('\n');
-        text
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 }
 
@@ -90,9 +86,6 @@ fn is_record(path: &Path) -> bool {
 
 impl InputRecord {
     /// Hashes the file at `path`.
-    ///
-    /// # Errors
-    /// The system's reason when the file cannot be read.
     pub fn of_file(path: &Path) -> io::Result<Self> {
         Ok(Self::new(path.display().to_string(), hash_file(path)?))
     }
@@ -107,17 +100,11 @@ impl InputRecord {
 }
 
 /// XXH3-64 of a file's content.
-///
-/// # Errors
-/// The system's reason when the file cannot be read.
 pub fn hash_file(path: &Path) -> io::Result<u64> {
     hash_reader(File::open(path)?)
 }
 
 /// XXH3-64 of all that `reader` gives.
-///
-/// # Errors
-/// The system's reason when it cannot be read.
 pub fn hash_reader(mut reader: impl Read) -> io::Result<u64> {
     let mut hasher = Xxh3Default::new();
     let mut buffer = vec![0_u8; 1 << 20];

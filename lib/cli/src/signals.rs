@@ -28,9 +28,6 @@ const WARNINGS: [i32; 4] = [SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU];
 /// to the process and one to its group.
 ///
 /// Before this call, as in tools that never make it, a signal ends the process at once.
-///
-/// # Errors
-/// Exit 1 when the system refuses the handler.
 pub fn catch_interrupts() -> Result<(), Failure> {
     let warnings = WARNINGS
         .into_iter()
@@ -94,7 +91,6 @@ mod tests {
 
     const CHILD: &str = "BONDLINE_TEST_LONG_STEP";
 
-    /// A run looked at its flag between steps only: a long step outlived the signal.
     #[test]
     fn a_long_step_does_not_outlive_the_grace() {
         if std::env::var_os(CHILD).is_some() {

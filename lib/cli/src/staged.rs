@@ -19,12 +19,9 @@ pub struct StagedFolder {
 
 impl StagedFolder {
     /// Begins the files of the folder `target`, which need not exist.
-    ///
-    /// # Errors
-    /// Exit 1 with the system's reason.
     pub fn new(target: &Path) -> Result<Self, Failure> {
         let begun = aside::behind_links(target).and_then(|target| {
-            let (aside, _claim) = aside::folder_for(&target)?;
+            let (_claim, aside) = aside::folder_for(&target)?;
             Ok(Self {
                 target,
                 aside,
@@ -71,7 +68,6 @@ impl StagedFolder {
         put().map_err(|e| failure(&self.target, &e))
     }
 
-    /// Where each file is and where it goes.
     fn moves(&self) -> io::Result<Vec<(PathBuf, PathBuf)>> {
         let entries = fs::read_dir(self.aside.path())?;
         let place = |entry: fs::DirEntry| (entry.path(), self.target.join(entry.file_name()));
@@ -113,13 +109,8 @@ mod tests {
         assert_eq!((read("a"), read("b")), ("old".into(), "old".into()));
         fs::set_permissions(target.join("b"), Permissions::from_mode(0o640)).unwrap();
         put().unwrap();
-        let mode = |name| {
-            fs::metadata(target.join(name))
-                .unwrap()
-                .permissions()
-                .mode()
-                & 0o777
-        };
+        let metadata = |name| fs::metadata(target.join(name)).unwrap();
+        let mode = |name| metadata(name).permissions().mode() & 0o777;
         assert_eq!((mode("a"), mode("b")), (0o600, 0o640));
         assert_eq!(read("a"), "new");
     }

@@ -1,7 +1,7 @@
 //! Memory limits of the control groups of this process: batch systems and containers set them.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The files of a version of control groups: limit and use in bytes, and the line of `memory.stat` with
 /// the file cache that the system takes back before it ends a process.
@@ -28,27 +28,20 @@ const TWO: Version = Version {
 
 /// The least that the groups in `own`, which is /proc/self/cgroup, and those above them leave.
 pub(crate) fn left(own: &str) -> Option<u64> {
-    own.lines()
-        .filter_map(group)
-        .flat_map(|(version, path)| {
-            // In a container the path may be the host's: its root, which is there in any case, comes last.
-            let folders: Vec<PathBuf> = Path::new(&path)
-                .ancestors()
-                .map(|p| join(version.root, p))
-                .collect();
-            folders
-                .into_iter()
-                .filter_map(|folder| version.left(&folder))
-        })
-        .min()
-}
-
-fn join(root: &str, path: &Path) -> PathBuf {
-    Path::new(root).join(path.strip_prefix("/").unwrap_or(path))
+    let groups = own.lines().filter_map(group).flat_map(|(version, path)| {
+        // In a container the path may be the host's: its root, which is there in any case, comes last.
+        let groups = Path::new(path).ancestors();
+        groups.map(move |group| (version, group))
+    });
+    let left = groups.filter_map(|(version, group)| {
+        let below = group.strip_prefix("/").unwrap_or(group);
+        version.left(&Path::new(version.root).join(below))
+    });
+    left.min()
 }
 
 /// Version and path of a line `NUMBER:CONTROLLERS:PATH` that limits memory.
-fn group(line: &str) -> Option<(&'static Version, String)> {
+fn group(line: &str) -> Option<(&'static Version, &str)> {
     let mut parts = line.splitn(3, ':');
     let (number, controllers, path) = (parts.next()?, parts.next()?, parts.next()?);
     let version = match controllers {
@@ -56,7 +49,7 @@ fn group(line: &str) -> Option<(&'static Version, String)> {
         of if of.split(',').any(|name| name == "memory") => &ONE,
         _ => return None,
     };
-    Some((version, path.to_owned()))
+    Some((version, path))
 }
 
 impl Version {
@@ -69,9 +62,8 @@ impl Version {
         };
         let limit = number(self.limit)?;
         let stat = fs::read_to_string(folder.join("memory.stat")).unwrap_or_default();
-        let cache = stat
-            .lines()
-            .find_map(|line| line.strip_prefix(self.cache)?.trim().parse().ok());
+        let cache = |line: &str| line.strip_prefix(self.cache)?.trim().parse().ok();
+        let cache = stat.lines().find_map(cache);
         let used = number(self.used).unwrap_or(0);
         Some(limit.saturating_sub(used.saturating_sub(cache.unwrap_or(0))))
     }
@@ -84,14 +76,12 @@ mod tests {
     #[test]
     fn lines_that_limit_memory_are_told_from_others() {
         let found = |line| group(line).map(|(version, path)| (version.limit, path));
-        assert_eq!(found("0::/a/b"), Some(("memory.max", "/a/b".into())));
-        assert_eq!(
-            found("4:cpu,memory:/job:7"),
-            Some(("memory.limit_in_bytes", "/job:7".into()))
-        );
-        assert_eq!(found("5:devices:/"), None);
-        assert_eq!(found("1:name=systemd:/"), None);
-        assert_eq!(found(""), None);
+        assert_eq!(found("0::/a/b"), Some(("memory.max", "/a/b")));
+        let one = Some(("memory.limit_in_bytes", "/job:7"));
+        assert_eq!(found("4:cpu,memory:/job:7"), one);
+        for other in ["5:devices:/", "1:name=systemd:/", ""] {
+            assert_eq!(found(other), None);
+        }
     }
 
     #[test]

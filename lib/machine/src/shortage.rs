@@ -25,12 +25,8 @@ pub fn shortage(need: u64) -> Option<Shortage> {
 impl fmt::Display for Shortage {
     /// `17.2 GB of memory, and this process may have 2.0 GB`, to stand behind "needs" or "would take".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} of memory, and this process may have {}",
-            size(self.need),
-            size(self.have)
-        )
+        let (need, have) = (size(self.need), size(self.have));
+        write!(f, "{need} of memory, and this process may have {have}")
     }
 }
 
@@ -47,14 +43,9 @@ mod tests {
 
     #[test]
     fn need_and_have_are_named() {
-        let said = Shortage {
-            need: 17_240_000_000,
-            have: 1_536_000,
-        };
-        assert_eq!(
-            said.to_string(),
-            "17.2 GB of memory, and this process may have 2 MB"
-        );
+        let (need, have) = (17_240_000_000, 1_536_000);
+        let said = Shortage { need, have }.to_string();
+        assert_eq!(said, "17.2 GB of memory, and this process may have 2 MB");
         assert_eq!(shortage(0), None);
         if cfg!(target_os = "linux") {
             assert!(shortage(u64::MAX).is_some());

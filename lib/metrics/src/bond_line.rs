@@ -61,9 +61,6 @@ pub struct BondLine {
 }
 
 /// The bond line of `state`, which had `begun_m3` (m3) of adhesive and has these `sealed` voids.
-///
-/// # Errors
-/// No adherends to be told apart.
 pub fn bond_line(state: &State, begun_m3: f64, sealed: &Sealed) -> Result<BondLine, Error> {
     let surfaces = Datum::find(Reference::Adherend, state)?;
     let surfaces_m = surfaces.plane_m(Side::Top) - surfaces.plane_m(Side::Bottom);
@@ -162,7 +159,6 @@ impl<'a> Lattice<'a> {
         (0..3).all(|a| own[a] < dims[a]) && self.wood.bits.get(own[0], own[1], own[2])
     }
 
-    /// The voxels that are not wood.
     fn open(&self) -> BitGrid {
         let [shift, dims] = [self.shift, self.wood.bits.dims()];
         if shift[0] > 0 {
@@ -179,7 +175,6 @@ impl<'a> Lattice<'a> {
         })
     }
 
-    /// The voxels that points fill.
     fn liquid(&self, position: &[[f32; 3]], volume: &[f32]) -> BitGrid {
         let edge = self.wood.voxel_m;
         let open = self.open();
@@ -198,25 +193,20 @@ impl<'a> Lattice<'a> {
     /// The wood's voxel at each face between wood and `liquid`.
     fn faces(&self, liquid: BitsRef) -> Vec<[usize; 3]> {
         let mut found = Vec::new();
-        let [_, ny, nz] = self.dims;
-        let rows = (0..nz).flat_map(|z| (0..ny).map(move |y| (y, z)));
-        for (y, z) in rows {
-            for x in liquid
-                .set_in_row(y, z)
-                .filter(|&x| !self.is_wood([x, y, z]))
-            {
-                let index = [x, y, z];
-                for a in 0..3 {
-                    for next in [index[a].checked_sub(1), Some(index[a] + 1)] {
-                        let mut beside = index;
-                        beside[a] = next.unwrap_or(usize::MAX);
-                        if beside[a] < self.dims[a] && self.is_wood(beside) {
-                            found.push(std::array::from_fn(|a| beside[a] - self.shift[a]));
-                        }
+        liquid.for_each(|index| {
+            if self.is_wood(index) {
+                return;
+            }
+            for a in 0..3 {
+                for next in [index[a].wrapping_sub(1), index[a] + 1] {
+                    let mut beside = index;
+                    beside[a] = next;
+                    if next < self.dims[a] && self.is_wood(beside) {
+                        found.push(std::array::from_fn(|a| beside[a] - self.shift[a]));
                     }
                 }
             }
-        }
+        });
         found
     }
 }

@@ -1,7 +1,7 @@
 //! Agreement of a state with an experiment.
 
 use bondline::Placed;
-use particle_file::{BitGrid, BitsRef};
+use particle_file::BitGrid;
 use voxels::VolumeFractions;
 
 use crate::{Adhesive, Datum, Error, Map, Reference, Side, State, Wood};
@@ -39,21 +39,18 @@ pub fn compare(state: &State, experiment: &State) -> Result<[Agreement; 3], Erro
     same_voxels(state, experiment)?;
     let ours = Datum::find(Reference::Mid, state)?;
     let theirs = Datum::find(Reference::Mid, experiment)?;
-    let frame = Frame::new(state, experiment, adhesive, &ours, &theirs);
-    let overlaps = [Side::Bottom, Side::Top].map(|side| frame.overlap(side, wood.bits));
-    let dice = |common: u64, sizes: u64| 2.0 * common as f64 / sizes as f64;
-    let [(b, bottom), (t, top)] = overlaps;
-    Ok(Side::ALL.map(|side| Agreement {
-        side,
-        dice: match side {
-            Side::Bottom => dice(b, bottom),
-            Side::Top => dice(t, top),
-            Side::Total => dice(b + t, bottom + top),
-        },
-        map_correlation: correlation(
-            &Map::new(state, &ours, side),
-            &Map::new(experiment, &theirs, side),
-        ),
+    let [bottom, top] = [Side::Bottom, Side::Top]
+        .map(|side| overlap(state, &ours, [wood, adhesive], &theirs, side));
+    let total = [bottom[0] + top[0], bottom[1] + top[1]];
+    Ok(Side::ALL.map(|side| {
+        let [common, sizes] = [bottom, top, total][side as usize];
+        let maps = [(state, &ours), (experiment, &theirs)];
+        let [a, b] = maps.map(|(state, datum)| Map::new(state, datum, side));
+        Agreement {
+            side,
+            dice: 2.0 * common as f64 / sizes as f64,
+            map_correlation: correlation(&a, &b),
+        }
     }))
 }
 
@@ -91,87 +88,50 @@ fn layers(state: &State) -> usize {
     state.wood_blocks().map(|wood| wood.bits.dims()[n]).sum()
 }
 
-/// The voxels of the experiment and where the state's adhesive is among them.
-struct Frame<'a> {
-    state: &'a State<'a>,
-    datum: &'a Datum,
-    adhesive: Placed<'a>,
-    /// Index of the normal.
-    n: usize,
-    /// Layers below the bond plane.
-    plane: usize,
-    /// How far the top adherend is from its place, m.
-    parted: f64,
-    /// Voxels compared along x, y, z.
-    reach: [usize; 3],
-}
-
-impl<'a> Frame<'a> {
-    fn new(
-        state: &'a State,
-        experiment: &State,
-        adhesive: Placed<'a>,
-        ours: &'a Datum,
-        theirs: &Datum,
-    ) -> Self {
-        let n = experiment.normal.index();
-        let height = theirs.plane_m(Side::Total) - adhesive.origin_m[n];
-        let across = state.across();
-        let mut reach = adhesive.bits.dims();
-        for (axis, columns) in across.axes.into_iter().zip(across.columns) {
-            let within = &mut reach[axis.index()];
-            *within = columns.min(*within);
+/// Voxels that hold adhesive on `side` in both, in the frame of the adherend, and the sum of those in each.
+fn overlap(
+    state: &State,
+    ours: &Datum,
+    [wood, adhesive]: [Placed; 2],
+    theirs: &Datum,
+    side: Side,
+) -> [u64; 2] {
+    let (n, voxel) = (state.normal.index(), adhesive.voxel_m);
+    let height = theirs.plane_m(Side::Total) - adhesive.origin_m[n];
+    let plane = (height / voxel + 1e-6).floor() as usize;
+    let is_on = |layer: usize| (layer < plane) == (side == Side::Bottom);
+    let across = state.across();
+    let mut reach = adhesive.bits.dims();
+    for (axis, columns) in across.axes.into_iter().zip(across.columns) {
+        let within = &mut reach[axis.index()];
+        *within = columns.min(*within);
+    }
+    // How far the adherend is from its place, m.
+    let parted = match (side, state.wood) {
+        (Side::Top, Wood::Parted { bottom, top }) => top.origin_m[n] - bottom.max_m()[n],
+        _ => 0.0,
+    };
+    let open = BitGrid::from_fn(reach, |x, y, z| {
+        is_on([x, y, z][n]) && !wood.bits.get(x, y, z)
+    });
+    let mut fractions = VolumeFractions::new(open);
+    state.for_each_parcel(|mut point, v| {
+        if ours.depth(point).0 != side {
+            return;
         }
-        Self {
-            state,
-            datum: ours,
-            adhesive,
-            n,
-            plane: (height / adhesive.voxel_m + 1e-6).floor() as usize,
-            parted: match state.wood {
-                Wood::Parted { bottom, top } => top.origin_m[n] - bottom.max_m()[n],
-                _ => 0.0,
-            },
-            reach,
+        point[n] -= parted;
+        let place: [f64; 3] = std::array::from_fn(|a| (point[a] - adhesive.origin_m[a]) / voxel);
+        if is_on(place[n].max(0.0) as usize) {
+            fractions.add(place, v / voxel.powi(3));
         }
-    }
-
-    fn is_on(&self, side: Side, layer: usize) -> bool {
-        (layer < self.plane) == (side == Side::Bottom)
-    }
-
-    /// Voxels that hold adhesive on `side` in both, and the sum of those in each.
-    fn overlap(&self, side: Side, wood: BitsRef) -> (u64, u64) {
-        let ours = self.voxels(side, wood);
-        let theirs = BitGrid::from_fn(self.reach, |x, y, z| {
-            self.is_on(side, [x, y, z][self.n]) && self.adhesive.bits.get(x, y, z)
-        });
-        let words = ours.words().iter().zip(theirs.words());
-        let common = words.map(|(a, b)| u64::from((a & b).count_ones())).sum();
-        (common, ours.count() + theirs.count())
-    }
-
-    /// The voxels that the state's adhesive on `side` fills, in the frame of the adherend.
-    fn voxels(&self, side: Side, wood: BitsRef) -> BitGrid {
-        let voxel = self.adhesive.voxel_m;
-        let open = BitGrid::from_fn(self.reach, |x, y, z| {
-            self.is_on(side, [x, y, z][self.n]) && !wood.get(x, y, z)
-        });
-        let mut fractions = VolumeFractions::new(open);
-        self.state.for_each_parcel(|mut point, v| {
-            if self.datum.depth(point).0 != side {
-                return;
-            }
-            if side == Side::Top {
-                point[self.n] -= self.parted;
-            }
-            let place = std::array::from_fn(|a| (point[a] - self.adhesive.origin_m[a]) / voxel);
-            if self.is_on(side, place[self.n].max(0.0) as usize) {
-                fractions.add(place, v / voxel.powi(3));
-            }
-        });
-        fractions.fullest()
-    }
+    });
+    let ours = fractions.fullest();
+    let theirs = BitGrid::from_fn(reach, |x, y, z| {
+        is_on([x, y, z][n]) && adhesive.bits.get(x, y, z)
+    });
+    let words = ours.words().iter().zip(theirs.words());
+    let common = words.map(|(a, b)| u64::from((a & b).count_ones())).sum();
+    [common, ours.count() + theirs.count()]
 }
 
 /// Pearson correlation of two maps over the columns of the first where both hold adhesive.

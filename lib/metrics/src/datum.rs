@@ -58,8 +58,9 @@ impl Datum {
     /// No adhesive; no bond line to be found, or no wood: [`Reference::Plane`] is then the way out. A plane
     /// outside the state.
     pub fn find(reference: Reference, state: &State) -> Result<Self, Error> {
-        if state.is_bare() {
-            return Err(bondline::Error::NoAdhesive.into());
+        // Undamaged wood is a stack without adhesive.
+        if matches!(state.adhesive, Adhesive::Voxels(voxels) if voxels.bits.count() == 0) {
+            return Err(bondline::Error::no_adhesive().into());
         }
         let normal = state.normal;
         let level = |bottom, top| Datum::Level {

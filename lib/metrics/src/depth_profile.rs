@@ -26,9 +26,6 @@ pub struct DepthLayer {
 /// evenly over one voxel along the normal, so that a reference between voxel faces and an
 /// adherend between them need no rounding. With [`crate::Reference::Adherend`] what lies
 /// between the two bond surfaces is in no layer.
-///
-/// # Errors
-/// A tilted reference, which has no layers.
 pub fn depth_profile(
     state: &State,
     datum: &Datum,
@@ -39,16 +36,36 @@ pub fn depth_profile(
             "--profile counts layers, which a fitted, tilted plane does not have; use --reference mid, adherend or plane=LEN".into(),
         ));
     }
-    let n = state.normal.index();
+    let (n, voxel) = (state.normal.index(), state.voxel_m);
     let [low, high] = extent(state);
-    let voxel = state.voxel_m;
-    let mut layers = Layers::new(datum, low, high, voxel);
-    layers.add_span(low, high, 1.0, |l| &mut l.thickness);
+    let zeros = [Side::Bottom, Side::Top].map(|side| datum.plane_m(side));
+    // Layers on both sides, each counted away from the bond line.
+    let mut sides = [zeros[0] - low, high - zeros[1]].map(|thickness| {
+        let count = (thickness / voxel - 1e-6).ceil().max(0.0);
+        vec![Layer::default(); count as usize]
+    });
+    // Spreads a fraction of the bond area over a span (m along the normal).
+    let mut add = |[from, to]: [f64; 2], fraction: f64, what: fn(&mut Layer) -> &mut f64| {
+        let spans = [
+            [zeros[0] - to, zeros[0] - from],
+            [from - zeros[1], to - zeros[1]],
+        ];
+        for (layers, [near, far]) in sides.iter_mut().zip(spans) {
+            let first = (near / voxel).floor().max(0.0) as usize;
+            let last = (far / voxel).ceil().max(0.0) as usize;
+            for layer in first..last.min(layers.len()) {
+                let [low, high] = [layer, layer + 1].map(|l| l as f64 * voxel);
+                let overlap = far.min(high) - near.max(low);
+                *what(&mut layers[layer]) += fraction * overlap.max(0.0);
+            }
+        }
+    };
+    add([low, high], 1.0, |l| &mut l.thickness);
     let mut add_block = |block: Placed, counts: &[u64], what: fn(&mut Layer) -> &mut f64| {
         let area = block.voxel_m * block.voxel_m / state.area_m2();
         for (layer, &count) in counts.iter().enumerate() {
             let at = block.origin_m[n] + layer as f64 * block.voxel_m;
-            layers.add_span(at, at + block.voxel_m, count as f64 * area, what);
+            add([at, at + block.voxel_m], count as f64 * area, what);
         }
     };
     for (wood, closed) in state.wood_blocks().zip(sealed.layers()) {
@@ -56,20 +73,29 @@ pub fn depth_profile(
         add_block(wood, closed, |l| &mut l.sealed);
     }
     match state.adhesive {
-        Adhesive::Voxels(adhesive) => {
-            add_block(adhesive, &adhesive.bits.counts_along(n), |l| {
-                &mut l.adhesive
-            });
+        Adhesive::Voxels(block) => {
+            add_block(block, &block.bits.counts_along(n), |l| &mut l.adhesive);
         }
         Adhesive::Points { position, volume } => {
             for (p, &v) in position.iter().zip(volume) {
                 let at = f64::from(p[n]) - 0.5 * voxel;
                 let fraction = f64::from(v) / state.area_m2() / voxel;
-                layers.add_span(at, at + voxel, fraction, |l| &mut l.adhesive);
+                add([at, at + voxel], fraction, |l| &mut l.adhesive);
             }
         }
     }
-    Ok(layers.finish())
+    let [bottom, top] = &sides;
+    let at = |index: usize, layer: &Layer, sign: f64| {
+        let depth_m = sign * (index as f64 + 0.5) * voxel;
+        layer.at(depth_m, voxel)
+    };
+    let below = bottom
+        .iter()
+        .enumerate()
+        .rev()
+        .map(|(i, layer)| at(i, layer, -1.0));
+    let above = top.iter().enumerate().map(|(i, layer)| at(i, layer, 1.0));
+    Ok(below.chain(above).collect())
 }
 
 /// From the low face of the bottom to the high face of the top adherend, m.
@@ -92,74 +118,18 @@ struct Layer {
     adhesive: f64,
 }
 
-/// Layers on both sides of a level datum, each counted away from it.
-struct Layers<'a> {
-    datum: &'a Datum,
-    voxel: f64,
-    bottom: Vec<Layer>,
-    top: Vec<Layer>,
-}
-
-impl<'a> Layers<'a> {
-    fn new(datum: &'a Datum, low: f64, high: f64, voxel: f64) -> Self {
-        let count = |thickness: f64| (thickness / voxel - 1e-6).ceil().max(0.0) as usize;
-        let [bottom, top] = [
-            count(datum.plane_m(Side::Bottom) - low),
-            count(high - datum.plane_m(Side::Top)),
-        ];
-        Self {
-            datum,
-            voxel,
-            bottom: vec![Layer::default(); bottom],
-            top: vec![Layer::default(); top],
-        }
-    }
-
-    /// Spreads `fraction` of the bond area over `from` to `to` (m along the normal).
-    fn add_span(
-        &mut self,
-        from: f64,
-        to: f64,
-        fraction: f64,
-        what: impl Fn(&mut Layer) -> &mut f64,
-    ) {
-        let bottom = self.datum.plane_m(Side::Bottom);
-        let top = self.datum.plane_m(Side::Top);
-        let spans = [
-            (&mut self.bottom, bottom - to, bottom - from),
-            (&mut self.top, from - top, to - top),
-        ];
-        for (layers, near, far) in spans {
-            let first = (near / self.voxel).floor().max(0.0) as usize;
-            let last = (far / self.voxel).ceil().max(0.0) as usize;
-            for layer in first..last.min(layers.len()) {
-                let [low, high] = [layer, layer + 1].map(|l| l as f64 * self.voxel);
-                let overlap = far.min(high) - near.max(low);
-                *what(&mut layers[layer]) += fraction * overlap.max(0.0);
-            }
-        }
-    }
-
-    fn finish(self) -> Vec<DepthLayer> {
-        let voxel = self.voxel;
-        let share = |adhesive: f64, room: f64| match room {
-            room if room > 1e-9 * voxel => adhesive / room,
-            _ => f64::NAN,
+impl Layer {
+    fn at(&self, depth_m: f64, voxel: f64) -> DepthLayer {
+        let of_room = |room: f64| match room > 1e-9 * voxel {
+            true => self.adhesive / room,
+            false => f64::NAN,
         };
-        let layer = |sign: f64| {
-            move |(index, layer): (usize, &Layer)| DepthLayer {
-                depth_m: sign * (index as f64 + 0.5) * voxel,
-                adhesive_fraction: layer.adhesive / layer.thickness,
-                filled_void_fraction: share(layer.adhesive, layer.thickness - layer.wood),
-                filled_open_fraction: share(
-                    layer.adhesive,
-                    layer.thickness - layer.wood - layer.sealed,
-                ),
-            }
-        };
-        let bottom = self.bottom.iter().enumerate().rev().map(layer(-1.0));
-        bottom
-            .chain(self.top.iter().enumerate().map(layer(1.0)))
-            .collect()
+        let void = self.thickness - self.wood;
+        DepthLayer {
+            depth_m,
+            adhesive_fraction: self.adhesive / self.thickness,
+            filled_void_fraction: of_room(void),
+            filled_open_fraction: of_room(void - self.sealed),
+        }
     }
 }

@@ -8,14 +8,12 @@ pub(crate) const FAR: u32 = u32::MAX;
 /// Points of a grid of voxels: their centres, or the corners between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lattice {
-    /// Points along x, y, z.
     pub(crate) dims: [usize; 3],
     /// How far the first is beyond the first centre, half voxels.
     shift: [usize; 3],
 }
 
 impl Lattice {
-    /// The centres of the voxels.
     pub(crate) fn centres(dims: [usize; 3]) -> Self {
         let shift = [0; 3];
         Self { dims, shift }
@@ -82,7 +80,6 @@ fn along_last(squares: &[u32], [nx, ny, nz]: [usize; 3], along: Line) -> Vec<u32
 /// The lower envelope of parabolas that stand at places along a line.
 #[derive(Default)]
 struct Envelope {
-    /// Place and height of the foot of each.
     feet: Vec<(i64, i64)>,
     /// From where each is the lowest.
     from: Vec<f64>,
@@ -94,7 +91,6 @@ impl Envelope {
         self.from.clear();
     }
 
-    /// Adds the parabola at a place beyond all others.
     fn add(&mut self, place: usize, height: u32) {
         if height == FAR {
             return;

@@ -128,7 +128,7 @@ impl Openings {
         let mut above = vec![f64::INFINITY; columns];
         for block in state.wood_blocks() {
             let half = 0.5 * block.voxel_m;
-            block.for_each(|index| {
+            block.bits.for_each(|index| {
                 let centre = block.centre_m(index);
                 let column = across.column(centre);
                 let height = plane.coordinate(across.centre_m(column));

@@ -5,39 +5,31 @@ use particle_file::BitGrid;
 
 /// Adhesive without what hangs together, by edges and corners of pixels, to fewer than `least` pixels of a slice normal to z.
 pub fn without_islands(adhesive: Placed, least: usize) -> BitGrid {
-    let dims = adhesive.bits.dims();
-    let [nx, ny, nz] = dims;
-    let mut kept = BitGrid::new(dims);
+    let [nx, ny, nz] = adhesive.bits.dims();
+    let mut kept = BitGrid::new([nx, ny, nz]);
+    let mut left = BitGrid::new([nx, ny, nz]);
+    adhesive.bits.for_each(|[x, y, z]| left.set(x, y, z, true));
     let mut island = Vec::new();
-    for z in 0..nz {
-        let mut left: Vec<bool> = vec![false; nx * ny];
-        for y in 0..ny {
-            let set = adhesive.bits.set_in_row(y, z);
-            set.for_each(|x| left[x + nx * y] = true);
-        }
-        for start in 0..left.len() {
-            if !std::mem::take(&mut left[start]) {
-                continue;
+    adhesive.bits.for_each(|[x, y, z]| {
+        island.clear();
+        let mut next = 0;
+        let mut take = |x, y, island: &mut Vec<[usize; 2]>| {
+            if left.get(x, y, z) {
+                left.set(x, y, z, false);
+                island.push([x, y]);
             }
-            island.clear();
-            island.push(start);
-            let mut next = 0;
-            while let Some(&pixel) = island.get(next) {
-                next += 1;
-                let (x, y) = (pixel % nx, pixel / nx);
-                for v in y.saturating_sub(1)..(y + 2).min(ny) {
-                    for u in x.saturating_sub(1)..(x + 2).min(nx) {
-                        if std::mem::take(&mut left[u + nx * v]) {
-                            island.push(u + nx * v);
-                        }
-                    }
-                }
-            }
-            if island.len() >= least {
-                (island.iter()).for_each(|pixel| kept.set(pixel % nx, pixel / nx, z, true));
+        };
+        take(x, y, &mut island);
+        while let Some(&[x, y]) = island.get(next) {
+            next += 1;
+            for v in y.saturating_sub(1)..(y + 2).min(ny) {
+                (x.saturating_sub(1)..(x + 2).min(nx)).for_each(|u| take(u, v, &mut island));
             }
         }
-    }
+        if island.len() >= least {
+            island.iter().for_each(|&[x, y]| kept.set(x, y, z, true));
+        }
+    });
     kept
 }
 

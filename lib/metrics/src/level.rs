@@ -23,7 +23,7 @@ pub struct Level {
 /// A sentence: no bond line, or a box too thin to be turned so far.
 pub fn level(specimen: &Specimen, normal: Axis) -> Result<Level, String> {
     let wood = specimen.wood();
-    let line = bondline::find(specimen, normal).map_err(|error| without(&error))?;
+    let line = bondline::find(specimen, normal).map_err(|error| error.what().to_owned())?;
     let middle = wood.origin_m[normal.index()] + line.middle() * wood.voxel_m;
     let plane = fit::plane(&State::of_specimen(specimen, normal), middle)
         .ok_or("no column is open between the adherends, so no plane can be fitted")?;
@@ -62,26 +62,6 @@ pub fn level(specimen: &Specimen, normal: Axis) -> Result<Level, String> {
         wood: turned(wood.bits),
         adhesive: turned(specimen.adhesive().bits),
     })
-}
-
-/// Why there is no bond line, without the options of tools that take a plane by hand.
-fn without(error: &bondline::Error) -> String {
-    use bondline::Error;
-    match error {
-        Error::NoAdhesive => "the specimen has no adhesive voxel".into(),
-        Error::OtherNormal { normal, fits, .. } => {
-            format!("the bond lies across {fits}, not across {normal}")
-        }
-        Error::NoBondLine { normal, .. } => format!(
-            "no layer normal to {normal} looks like a bond line: it is turned too far, or lies across another axis"
-        ),
-        Error::NoWood { side, of } => {
-            format!(
-                "there is no wood {side} {of}: a specimen with an adherend on each side is needed"
-            )
-        }
-        other => other.to_string(),
-    }
 }
 
 /// The rotation about a line in the level plane that takes the unit vector n of `normal` to `up` = u:

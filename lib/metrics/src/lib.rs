@@ -35,7 +35,6 @@ pub use level::{Level, level};
 pub use map::Map;
 pub use penetration::{Penetration, Side, penetration};
 pub use pores::{PoreSize, pore_sizes};
-pub use quantile::Weighted;
 pub use sealed::Sealed;
 pub use shear_rate::{Convention, ShearRates, tube_shear_rate};
 pub use state::{Across, Adhesive, State, Wood};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::quantile::quantiles_up_to;
+use crate::quantile::quantiles;
 use crate::{Adhesive, Datum, State};
 
 /// One side of the bond line, or both.
@@ -81,10 +81,16 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     let each = |visit: &mut dyn FnMut(Sample)| match &layers {
         Some(layers) => layers.iter().copied().for_each(visit),
         None => state.for_each_parcel(|point, volume| {
-            visit(Sample::new(datum.depth(point), volume, 1));
+            let (side, depth) = datum.depth(point);
+            visit(Sample {
+                side,
+                depth,
+                volume,
+                voxels: 1,
+            });
         }),
     };
-    let mut sums = [Sum::default(); 3];
+    let mut sums = [Sum::NONE; 3];
     each(&mut |sample| {
         for (sum, side) in sums.iter_mut().zip(Side::ALL) {
             if side.includes(sample.side) {
@@ -103,8 +109,7 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
                 }
             });
         };
-        let [p95_depth_m, p99_depth_m] =
-            quantiles_up_to(sum.deepest, sum.volume, depths, [0.95, 0.99]);
+        let [p95_depth_m, p99_depth_m] = quantiles(sum.deepest, sum.volume, depths, [0.95, 0.99]);
         Penetration {
             side,
             plane_m: datum.plane_m(side),
@@ -120,24 +125,12 @@ pub fn penetration(state: &State, datum: &Datum) -> [Penetration; 3] {
     })
 }
 
-/// Adhesive at one depth.
 #[derive(Clone, Copy)]
 struct Sample {
     side: Side,
     depth: f64,
     volume: f64,
     voxels: u64,
-}
-
-impl Sample {
-    fn new((side, depth): (Side, f64), volume: f64, voxels: u64) -> Self {
-        Self {
-            side,
-            depth,
-            volume,
-            voxels,
-        }
-    }
 }
 
 /// What the samples of a side add up to.
@@ -150,18 +143,14 @@ struct Sum {
     deepest: f64,
 }
 
-impl Default for Sum {
-    fn default() -> Self {
-        Self {
-            volume: 0.0,
-            squares: 0.0,
-            voxels: 0,
-            deepest: f64::NAN,
-        }
-    }
-}
-
 impl Sum {
+    const NONE: Self = Self {
+        volume: 0.0,
+        squares: 0.0,
+        voxels: 0,
+        deepest: f64::NAN,
+    };
+
     fn add(&mut self, sample: &Sample) {
         self.volume += sample.volume;
         self.squares += sample.volume * sample.depth * sample.depth;
@@ -179,10 +168,15 @@ fn layers(state: &State, datum: &Datum) -> Option<Vec<Sample>> {
     let volume = voxels.voxel_m.powi(3);
     let counts = voxels.bits.counts_along(n).into_iter().enumerate();
     let filled = counts.filter(|(_, count)| *count > 0);
-    let sample = |(layer, count): (usize, u64)| {
+    let sample = |(layer, voxels_of_it): (usize, u64)| {
         let centre = voxels.origin_m[n] + (layer as f64 + 0.5) * voxels.voxel_m;
-        let depth = datum.depth_of_level(centre);
-        Sample::new(depth, count as f64 * volume, count)
+        let (side, depth) = datum.depth_of_level(centre);
+        Sample {
+            side,
+            depth,
+            volume: voxels_of_it as f64 * volume,
+            voxels: voxels_of_it,
+        }
     };
     Some(filled.map(sample).collect())
 }

@@ -22,8 +22,8 @@ pub struct PoreSize {
 ///
 /// Balls stand at centres and corners of voxels; their diameters go by half voxels, beyond twenty by a fortieth. Slits come
 /// out half a voxel too wide, round tubes up to a voxel too narrow, as voxels draw them. Beyond the sides of the box there
-/// is no wood.
-pub fn pore_sizes(wood: Placed) -> Vec<PoreSize> {
+/// is no wood. `progress` is told which part is done.
+pub fn pore_sizes(wood: Placed, mut progress: impl FnMut(f64)) -> Vec<PoreSize> {
     let dims = wood.bits.dims();
     let [nx, ny, _] = dims;
     let solid = |i: usize| wood.bits.get(i % nx, i / nx % ny, i / (nx * ny));
@@ -36,7 +36,9 @@ pub fn pore_sizes(wood: Placed) -> Vec<PoreSize> {
     }
     let mut open = vec![false; room[0].len()];
     let mut held = Vec::new();
-    for quarters in levels(widest).into_iter().rev() {
+    let levels = levels(widest);
+    for (done, &quarters) in levels.iter().rev().enumerate() {
+        progress((done + 1) as f64 / (levels.len() + 1) as f64);
         for (seats, room) in seats.iter().zip(&room) {
             let within = |half_voxels: u32| 4 * u64::from(half_voxels) < quarters * quarters;
             let to_seat = squared_distances(*seats, |i| !within(room[i]), voxels);
@@ -72,7 +74,6 @@ fn levels(widest: u32) -> Vec<u64> {
         .collect()
 }
 
-/// From one distance to the next, quarter voxels.
 fn step(quarters: u64) -> u64 {
     (quarters / 40).max(1)
 }

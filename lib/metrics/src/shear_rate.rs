@@ -4,7 +4,8 @@ use std::str::FromStr;
 
 use particle_file::ParticleFile;
 
-use crate::{Error, Weighted};
+use crate::Error;
+use crate::quantile::quantiles;
 
 /// What "shear rate" means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,19 +82,19 @@ impl ShearRates {
                 rates[i], volumes[i]
             )));
         }
+        // All of them where they are the same.
         let bytes = rates.len() * size_of::<(f64, f64)>();
         file.fits(bytes as u64, "the order of its shear rates")?;
-        let weighted = Weighted::new(
-            pairs
-                .map(|(&r, &v)| (factor * f64::from(r), f64::from(v)))
-                .collect(),
-        );
+        let parcels = pairs.map(|(&r, &v)| (factor * f64::from(r), f64::from(v)));
+        let max = parcels.clone().map(|(r, _)| r).fold(f64::NAN, f64::max);
+        let volume_m3: f64 = parcels.clone().map(|(_, v)| v).sum();
+        let each = |visit: &mut dyn FnMut(f64, f64)| parcels.clone().for_each(|(r, v)| visit(r, v));
         Ok(Self {
             time_s: file.header().time_s,
-            quantiles: weighted.quantiles(Self::SHARES),
-            max: weighted.max(),
-            mean: weighted.mean(),
-            volume_m3: weighted.total(),
+            quantiles: quantiles(max, volume_m3, each, Self::SHARES),
+            max,
+            mean: parcels.clone().map(|(r, v)| r * v).sum::<f64>() / volume_m3,
+            volume_m3,
         })
     }
 }

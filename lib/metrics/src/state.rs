@@ -92,10 +92,9 @@ impl<'a> State<'a> {
     pub fn of_file(file: &'a ParticleFile) -> Result<Self, Error> {
         let header = file.header();
         if header.kind == Kind::Checkpoint {
-            return Err(Error::Usage(
-                "a checkpoint is for mpm-run --resume only; a specimen, bond or state is needed"
-                    .into(),
-            ));
+            let what =
+                "a checkpoint is for mpm-run --resume only; a specimen, bond or state is needed";
+            return Err(Error::Usage(what.into()));
         }
         worth_its_columns(file)?;
         let block = |name| file.block_named(name).map(Placed::of_block);
@@ -110,11 +109,8 @@ impl<'a> State<'a> {
         } else {
             Wood::None
         };
-        let adhesive = match header
-            .blocks
-            .iter()
-            .position(|b| b.material == Material::Adhesive)
-        {
+        let mut materials = header.blocks.iter().map(|block| block.material);
+        let adhesive = match materials.position(|material| material == Material::Adhesive) {
             Some(index) => Adhesive::Voxels(Placed::of_block(file.block(index)?)),
             None => {
                 let (position, volume) = file.liquid()?;
@@ -162,11 +158,6 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Whether it is undamaged wood: a stack without adhesive.
-    pub fn is_bare(&self) -> bool {
-        matches!(self.adhesive, Adhesive::Voxels(voxels) if voxels.bits.count() == 0)
-    }
-
     /// Bond area, m2.
     pub fn area_m2(&self) -> f64 {
         let [u, v] = self.across().axes.map(Axis::index);
@@ -183,7 +174,9 @@ impl<'a> State<'a> {
                 .for_each(|(p, &v)| visit(p.map(f64::from), f64::from(v))),
             Adhesive::Voxels(voxels) => {
                 let volume = voxels.voxel_m.powi(3);
-                voxels.for_each(|index| visit(voxels.centre_m(index), volume));
+                voxels
+                    .bits
+                    .for_each(|index| visit(voxels.centre_m(index), volume));
             }
         }
     }

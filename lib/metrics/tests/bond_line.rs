@@ -1,9 +1,9 @@
-//! Wetted area and state of the bond line of grooved wood.
+//! Depth profiles, wetted area and state of the bond line against closed forms.
 
 mod specimens;
 
-use metrics::{BondLine, Datum, Filling, Reference, Sealed, State};
-use specimens::{Run, Stack, VOXEL, close};
+use metrics::{BondLine, Datum, DepthLayer, Filling, Reference, Sealed, State, depth_profile};
+use specimens::{Run, Stack, VOXEL, close, slab};
 use units::Axis;
 
 /// Grooves half as wide as their distance, wood up to 30 and from 36; adhesive in `filled` layers.
@@ -18,33 +18,20 @@ fn grooved(filled: std::ops::Range<usize>) -> Stack {
     })
 }
 
+fn profile(state: &State, reference: Reference) -> Vec<DepthLayer> {
+    let datum = Datum::find(reference, state).unwrap();
+    depth_profile(state, &datum, &Sealed::of(state, &datum)).unwrap()
+}
+
 fn line_of(state: &State, begun_m3: f64) -> BondLine {
     let middle = Datum::find(Reference::Mid, state).unwrap();
     metrics::bond_line(state, begun_m3, &Sealed::of(state, &middle)).unwrap()
 }
 
-/// The adhesive of `stack` as material points, its upper adherend `gap` (m) away.
-fn run_of(stack: &Stack, gap: f64) -> Run {
-    let mut run = Run::new(stack, 33, gap);
-    let [nx, ny, nz] = stack.adhesive.dims();
-    for (z, y, x) in
-        (0..nz).flat_map(|z| (0..ny).flat_map(move |y| (0..nx).map(move |x| (z, y, x))))
-    {
-        if stack.adhesive.get(x, y, z) {
-            let mut place = [x, y, z].map(|i| i as f64 + 0.5);
-            place[1] += if y >= 33 { gap / VOXEL } else { 0.0 };
-            run.add(place);
-        }
-    }
-    run
-}
-
-/// Faces of 16 columns of wood in 16 rows on the bond surface, and of 7 walls of grooves that are `deep`.
-fn faces(deep: usize) -> f64 {
-    (16 * 16 + 7 * deep * 16) as f64 * VOXEL.powi(2)
-}
-
+/// Faces of grooves so deep.
 fn wets(line: &BondLine, bottom: usize, top: usize) {
+    // 16 columns of wood in 16 rows on the bond surface, and 7 walls of grooves that are `deep`.
+    let faces = |deep: usize| (16 * 16 + 7 * deep * 16) as f64 * VOXEL.powi(2);
     let (bottom, top) = (faces(bottom), faces(top));
     for (found, wanted) in line.wetted_m2.into_iter().zip([bottom, top, bottom + top]) {
         assert!(close(found, wanted, 1e-9), "{found} {wanted}");
@@ -60,7 +47,7 @@ fn wood_is_wetted_on_its_surface_and_in_its_grooves() {
     assert!(close(line.filled, 1.0, 1e-9), "{line:?}");
     assert_eq!(line.filling, Filling::Filled);
     for gap in [0.0, 2.0 * VOXEL] {
-        let run = run_of(&stack, gap);
+        let run = Run::of(&stack, 33, gap);
         let line = line_of(&run.state(), 0.0);
         wets(&line, 6, 5);
         assert!(close(line.surfaces_m, 6.0 * VOXEL + gap, 1e-9));
@@ -75,18 +62,85 @@ fn a_bond_line_is_starved_or_squeezed_out_by_what_is_left() {
         (20..32, 0.4, Filling::Starved),
         (10..20, 0.0, Filling::Starved),
     ] {
-        let run = run_of(&grooved(filled), 0.0);
+        let run = Run::of(&grooved(filled), 33, 0.0);
         let line = line_of(&run.state(), 0.0);
         assert!((line.filled - share).abs() < 1e-5, "{}", line.filled);
         assert_eq!(line.filling, filling);
     }
-    let run = run_of(&grooved(24..41), 0.0);
+    let run = Run::of(&grooved(24..41), 33, 0.0);
     let begun: f64 = run.volume.iter().map(|&v| f64::from(v)).sum();
     let state = run.state();
-    let kept = line_of(&state, begun / 0.96);
-    let lost = line_of(&state, begun / 0.94);
-    assert_eq!(
-        (kept.filling, lost.filling),
-        (Filling::Filled, Filling::SqueezedOut)
-    );
+    for (left, filling) in [(0.96, Filling::Filled), (0.94, Filling::SqueezedOut)] {
+        assert_eq!(line_of(&state, begun / left).filling, filling);
+    }
+}
+
+#[test]
+fn a_depth_profile_is_the_share_of_layer_and_void() {
+    // Lumens are half of the wood's columns and filled to 6 layers below and 3 above.
+    let stack = Stack::new([8, 50, 4], |x, y, _| match (x % 2, y) {
+        (_, 22..28) => 'a',
+        (0, 16..31) => 'a',
+        (0, _) => ' ',
+        _ => 'w',
+    });
+    let state = stack.state(Axis::Y);
+    let layers = profile(&state, Reference::Mid);
+    assert_eq!(layers.len(), 50);
+    for (y, layer) in layers.iter().enumerate() {
+        let depth = (y as f64 + 0.5 - 25.0) * VOXEL;
+        assert!((layer.depth_m - depth).abs() < 1e-12);
+        let (share, filled) = match y {
+            22..28 => (1.0, 1.0),
+            16..31 => (0.5, 1.0),
+            _ => (0.0, 0.0),
+        };
+        assert!((layer.adhesive_fraction - share).abs() < 1e-9, "{layer:?}");
+        let off = layer.filled_void_fraction - filled;
+        assert!(off.abs() < 1e-9, "{layer:?}");
+    }
+    // From the adherends the 6 layers between them are in no layer.
+    let layers = profile(&state, Reference::Adherend);
+    assert_eq!(layers.len(), 44);
+    assert!(layers.iter().all(|l| l.adhesive_fraction < 0.51));
+}
+
+#[test]
+fn sealed_lumens_are_room_outside_wood_but_not_open() {
+    // Below the bond line a third of the columns are open lumens, filled to 6 layers; as many are sealed ones
+    // behind three layers of wood.
+    let stack = Stack::new([12, 50, 4], |x, y, _| match (x % 6, y) {
+        (_, 22..28) | (0 | 1, 16..28) => 'a',
+        (0 | 1, ..16) | (3 | 4, ..19) => ' ',
+        _ => 'w',
+    });
+    let state = stack.state(Axis::Y);
+    let layers = profile(&state, Reference::Mid);
+    for (y, void, open) in [(10, 0.0, 0.0), (17, 0.5, 1.0), (20, 1.0, 1.0)] {
+        let layer = layers[y];
+        let [of_void, of_open] = [layer.filled_void_fraction, layer.filled_open_fraction];
+        let off = (of_void - void).abs().max((of_open - open).abs());
+        assert!(off < 1e-9, "{layer:?}");
+    }
+    assert!(layers[40].filled_open_fraction.is_nan());
+    let line = line_of(&state, 0.0);
+    // Full to nine layers below the middle; above it there are open lumens between the surfaces only.
+    let half = line.half_filled_m.map(|depth| depth / VOXEL);
+    for (found, wanted) in half.into_iter().zip([9.0, 3.0, 3.0]) {
+        assert!((found - wanted).abs() < 1e-9, "{half:?}");
+    }
+}
+
+#[test]
+fn a_profile_between_voxel_faces_keeps_the_volume() {
+    let stack = slab(Axis::Y, 10);
+    let mut run = Run::new(&stack, 35, 7.3 * VOXEL);
+    for i in 0..500 {
+        run.add([0.5 + f64::from(i % 24), 25.0 + 0.05 * f64::from(i), 3.5]);
+    }
+    let state = run.state();
+    let layers = profile(&state, Reference::Mid).into_iter();
+    let thickness = layers.map(|l| l.adhesive_fraction).sum::<f64>() * VOXEL;
+    let volume = thickness * state.area_m2();
+    assert!(close(volume, 500.0 * VOXEL.powi(3), 1e-5), "{volume}");
 }

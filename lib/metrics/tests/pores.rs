@@ -9,12 +9,11 @@ use specimens::{VOXEL, placed};
 /// Sizes in voxels around wood that is everywhere but where `open` says so.
 fn sizes(dims: [usize; 3], open: impl Fn([usize; 3]) -> bool + Sync) -> Vec<PoreSize> {
     let wood = BitGrid::from_fn(dims, |x, y, z| !open([x, y, z]));
-    let mut found = pore_sizes(placed(&wood));
+    let mut found = pore_sizes(placed(&wood), |_| ());
     found.iter_mut().for_each(|size| size.diameter_m /= VOXEL);
     found
 }
 
-/// Mean diameter by volume.
 fn mean(sizes: &[PoreSize]) -> f64 {
     sizes.iter().map(|size| size.share * size.diameter_m).sum()
 }
@@ -41,37 +40,32 @@ fn a_slit_is_as_wide_as_it_is() {
         let wide = found.last().unwrap();
         let off = wide.diameter_m - 0.5 - width as f64;
         // From twenty voxels on sizes go by a fortieth.
-        assert!(
-            off.abs() <= 1e-9 + 0.5 * (width as f64 - 20.0).max(0.0) / 40.0,
-            "{width}: {off}"
-        );
+        let step = (width as f64 - 20.0).max(0.0) / 40.0;
+        assert!(off.abs() <= 1e-9 + 0.5 * step, "{width}: {off}");
         assert_eq!(wide.share, 1.0, "{width}");
     }
 }
 
 #[test]
 fn a_round_tube_has_one_diameter() {
-    for (diameter, shift) in [
+    let tubes = [
         (5.0, 0.0),
         (8.0, 0.2),
         (8.0, 0.5),
         (15.0, 0.3),
         (32.0, 0.25),
         (60.0, 0.2),
-    ] {
+    ];
+    for (diameter, shift) in tubes {
         let edge = diameter as usize + 6;
         let middle = 0.5 * edge as f64 + shift;
+        let from_middle = |i: usize| i as f64 + 0.5 - middle;
         let found = alike([edge, edge, 5], |[x, y, _]| {
-            let from = [x, y].map(|i| i as f64 + 0.5 - middle);
-            from[0].hypot(from[1]) < 0.5 * diameter
+            from_middle(x).hypot(from_middle(y)) < 0.5 * diameter
         });
         let (mean, widest) = (mean(&found), found.last().unwrap().diameter_m);
         println!("tube of {diameter}: {mean:.2}, widest {widest:.2}");
-        let off = mean - diameter;
-        assert!(
-            (-1.1 - diameter / 80.0..0.5).contains(&off),
-            "{diameter}: {off}"
-        );
+        assert!((-1.1 - diameter / 80.0..0.5).contains(&(mean - diameter)));
     }
 }
 
@@ -83,19 +77,14 @@ fn a_square_duct_has_small_corners() {
             (2..2 + edge).contains(&x) && (2..2 + edge).contains(&y)
         });
         let widest = found.last().unwrap();
-        println!(
-            "duct of {edge}: {} for {:.3}",
-            widest.diameter_m, widest.share
-        );
-        assert!((widest.diameter_m - edge as f64).abs() <= 1.0);
+        let (wide, share) = (widest.diameter_m, widest.share);
+        println!("duct of {edge}: {wide} for {share:.3}");
+        assert!((wide - edge as f64).abs() <= 1.0);
         let corners = |d: f64| (1.0 - std::f64::consts::FRAC_PI_4) * (d / edge as f64).powi(2);
         for size in &found {
             // Half a voxel too many along four quarter circles takes off pi/2 d of the corners.
             let off = size.up_to - size.share - corners(size.diameter_m);
-            assert!(
-                (-1.6 / edge as f64..0.01).contains(&off),
-                "{edge}: {size:?} {off}"
-            );
+            assert!(off < 0.01 && off >= -1.6 / edge as f64, "{size:?}");
         }
     }
 }

@@ -65,10 +65,8 @@ fn values_that_are_no_rates_are_refused() {
     ] {
         let file = snapshot(&[1.0, rate], &[1.0, volume], None);
         let said = ShearRates::of_file(&file, None).unwrap_err();
-        assert!(
-            !said.is_usage() && said.to_string().contains("point 1"),
-            "{said}"
-        );
+        let usage = said.is_usage();
+        assert!(!usage && said.to_string().contains("point 1"), "{said}");
     }
 }
 

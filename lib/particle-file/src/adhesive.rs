@@ -18,16 +18,8 @@ impl ParticleFile {
             }
             let (block, bits) = self.block(index)?;
             let volume = block.voxel_m.powi(3);
-            let centre =
-                |axis: usize, i: usize| block.origin_m[axis] + (i as f64 + 0.5) * block.voxel_m;
-            let [_, ny, nz] = bits.dims();
-            for z in 0..nz {
-                for y in 0..ny {
-                    for x in bits.set_in_row(y, z) {
-                        visit([centre(0, x), centre(1, y), centre(2, z)], volume);
-                    }
-                }
-            }
+            let centre = |a: usize, i: usize| block.origin_m[a] + (i as f64 + 0.5) * block.voxel_m;
+            bits.for_each(|index| visit(std::array::from_fn(|a| centre(a, index[a])), volume));
         }
         if self.header().particles > 0 {
             let positions = self.vectors("position")?;

@@ -2,11 +2,10 @@
 
 use rayon::prelude::*;
 
-/// Voxels per word of a row.
 pub(crate) const WORD: usize = u64::BITS as usize;
 
 /// A box of voxels, one bit each, x fastest. Every row (fixed y and z) starts at a new word,
-/// so that a row is a slice; the bits behind the last voxel of a row are zero.
+/// so that a row is a slice; the bits behind the last voxel of a row are zero. Places outside panic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BitGrid {
     dims: [usize; 3],
@@ -28,7 +27,6 @@ pub(crate) fn word_count(dims: [usize; 3]) -> Option<usize> {
         .checked_mul(dims[2])
 }
 
-/// The bits of the last word of a row that belong to voxels.
 fn last_word_mask(nx: usize) -> u64 {
     match nx % WORD {
         0 => u64::MAX,
@@ -49,8 +47,7 @@ impl BitGrid {
         }
     }
 
-    /// A grid from its words, rows (y, z) with y fastest; `None` when their number is not
-    /// `ceil(nx / 64) * ny * nz` or a bit behind the end of a row is set.
+    /// A grid from its words; `None` where [`BitsRef::new`] says so.
     pub fn from_words(dims: [usize; 3], words: Vec<u64>) -> Option<Self> {
         BitsRef::new(dims, &words)?;
         Some(Self { dims, words })
@@ -60,19 +57,13 @@ impl BitGrid {
     /// last voxel are cleared afterwards.
     pub fn from_rows(dims: [usize; 3], fill: impl Fn(usize, usize, &mut [u64]) + Sync) -> Self {
         let mut grid = Self::new(dims);
-        let words_per_row = dims[0].div_ceil(WORD);
-        if grid.words.is_empty() {
-            return grid;
-        }
+        let words_per_row = dims[0].div_ceil(WORD).max(1);
         let mask = last_word_mask(dims[0]);
-        grid.words
-            .par_chunks_exact_mut(words_per_row)
-            .with_min_len(64)
-            .enumerate()
-            .for_each(|(r, row)| {
-                fill(r % dims[1], r / dims[1], row);
-                row[words_per_row - 1] &= mask;
-            });
+        let rows = grid.words.par_chunks_exact_mut(words_per_row);
+        rows.with_min_len(64).enumerate().for_each(|(r, row)| {
+            fill(r % dims[1], r / dims[1], row);
+            row[words_per_row - 1] &= mask;
+        });
         grid
     }
 
@@ -100,18 +91,12 @@ impl BitGrid {
     }
 
     /// Whether voxel (x, y, z) is set.
-    ///
-    /// # Panics
-    /// Outside the grid.
     #[inline]
     pub fn get(&self, x: usize, y: usize, z: usize) -> bool {
         self.view().get(x, y, z)
     }
 
     /// Sets or clears voxel (x, y, z).
-    ///
-    /// # Panics
-    /// Outside the grid.
     pub fn set(&mut self, x: usize, y: usize, z: usize, value: bool) {
         assert!(x < self.dims[0], "voxel outside the grid");
         let word = &mut self.row_mut(y, z)[x / WORD];
@@ -124,17 +109,11 @@ impl BitGrid {
     }
 
     /// The words of row (y, z), x fastest.
-    ///
-    /// # Panics
-    /// Outside the grid.
     pub fn row(&self, y: usize, z: usize) -> &[u64] {
         self.view().row(y, z)
     }
 
     /// The words of row (y, z) for writing; bits behind the last voxel must stay zero.
-    ///
-    /// # Panics
-    /// Outside the grid.
     pub fn row_mut(&mut self, y: usize, z: usize) -> &mut [u64] {
         let range = row_range(self.dims, y, z);
         &mut self.words[range]
@@ -151,12 +130,9 @@ impl<'a> BitsRef<'a> {
     /// behind the end of a row is set.
     pub fn new(dims: [usize; 3], words: &'a [u64]) -> Option<Self> {
         let outside = !last_word_mask(dims[0]);
-        let words_per_row = dims[0].div_ceil(WORD);
+        let mut rows = words.chunks_exact(dims[0].div_ceil(WORD).max(1));
         let sound = word_count(dims)? == words.len()
-            && (outside == 0
-                || words
-                    .chunks_exact(words_per_row.max(1))
-                    .all(|row| row[words_per_row - 1] & outside == 0));
+            && rows.all(|row| row.last().is_some_and(|last| last & outside == 0));
         sound.then_some(Self { dims, words })
     }
 
@@ -166,9 +142,6 @@ impl<'a> BitsRef<'a> {
     }
 
     /// Whether voxel (x, y, z) is set.
-    ///
-    /// # Panics
-    /// Outside the grid.
     #[inline]
     pub fn get(&self, x: usize, y: usize, z: usize) -> bool {
         assert!(x < self.dims[0], "voxel outside the grid");
@@ -181,9 +154,6 @@ impl<'a> BitsRef<'a> {
     }
 
     /// The words of row (y, z), x fastest.
-    ///
-    /// # Panics
-    /// Outside the grid.
     pub fn row(&self, y: usize, z: usize) -> &'a [u64] {
         &self.words[row_range(self.dims, y, z)]
     }
@@ -194,15 +164,21 @@ impl<'a> BitsRef<'a> {
     }
 
     /// The x of the set voxels of row (y, z), ascending.
-    ///
-    /// # Panics
-    /// Outside the grid.
     pub fn set_in_row(&self, y: usize, z: usize) -> impl Iterator<Item = usize> + use<'a> {
         self.row(y, z).iter().enumerate().flat_map(|(w, &word)| {
             std::iter::successors(Some(word), |&rest| Some(rest & rest.wrapping_sub(1)))
                 .take_while(|&rest| rest != 0)
                 .map(move |rest| w * WORD + rest.trailing_zeros() as usize)
         })
+    }
+
+    /// Calls `visit` with the index of every set voxel, in storage order.
+    pub fn for_each(&self, mut visit: impl FnMut([usize; 3])) {
+        for z in 0..self.dims[2] {
+            for y in 0..self.dims[1] {
+                self.set_in_row(y, z).for_each(|x| visit([x, y, z]));
+            }
+        }
     }
 
     /// Number of set voxels in each layer across `axis` (0 = x, 1 = y, 2 = z).
@@ -239,69 +215,4 @@ fn row_range(dims: [usize; 3], y: usize, z: usize) -> std::ops::Range<usize> {
     let words_per_row = dims[0].div_ceil(WORD);
     let start = (z * dims[1] + y) * words_per_row;
     start..start + words_per_row
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn pattern(x: usize, y: usize, z: usize) -> bool {
-        (x * 7 + y * 3 + z * 5) % 11 < 4
-    }
-
-    #[test]
-    fn every_way_to_look_at_a_grid_agrees() {
-        for nx in [1, 63, 64, 65, 130] {
-            let dims = [nx, 3, 4];
-            let grid = BitGrid::from_fn(dims, pattern);
-            let mut by_set = BitGrid::new(dims);
-            let mut layers = [vec![0; nx], vec![0; 3], vec![0; 4]];
-            for z in 0..4 {
-                for y in 0..3 {
-                    let expected: Vec<usize> = (0..nx).filter(|&x| pattern(x, y, z)).collect();
-                    let found: Vec<usize> = grid.view().set_in_row(y, z).collect();
-                    assert_eq!(found, expected);
-                    for x in 0..nx {
-                        by_set.set(x, y, z, true);
-                        by_set.set(x, y, z, pattern(x, y, z));
-                        assert_eq!(grid.get(x, y, z), pattern(x, y, z));
-                    }
-                    for x in expected {
-                        layers[0][x] += 1;
-                        layers[1][y] += 1;
-                        layers[2][z] += 1;
-                    }
-                }
-            }
-            assert_eq!(by_set, grid);
-            assert_eq!(grid.count(), layers[0].iter().sum::<u64>());
-            for (axis, layers) in layers.iter().enumerate() {
-                assert_eq!(
-                    &grid.view().counts_along(axis),
-                    layers,
-                    "nx {nx} axis {axis}"
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn bits_behind_a_row_are_cleared_or_refused() {
-        let filled = BitGrid::from_rows([70, 2, 2], |_, _, row| row.fill(u64::MAX));
-        assert_eq!(filled.count(), 280);
-        let mut words = filled.words().to_vec();
-        assert!(BitGrid::from_words([70, 2, 2], words.clone()).is_some());
-        assert!(BitGrid::from_words([70, 2, 3], words.clone()).is_none());
-        words[3] |= 1 << 6; // x = 70 of the second row
-        assert!(BitGrid::from_words([70, 2, 2], words).is_none());
-    }
-
-    #[test]
-    fn grids_without_voxels_are_sound() {
-        for dims in [[0, 2, 2], [5, 0, 2], [5, 2, 0]] {
-            assert_eq!(BitGrid::from_fn(dims, |_, _, _| true).count(), 0);
-            assert!(BitGrid::from_words(dims, Vec::new()).is_some());
-        }
-        assert!(BitsRef::new([usize::MAX, usize::MAX, usize::MAX], &[]).is_none());
-    }
 }

@@ -12,9 +12,6 @@ impl ParticleFile {
     /// Reads everything: every array agrees with its checksum, the voxels of every block
     /// with its count, the bytes between arrays are zero, and, but for checkpoints, every
     /// number is finite. The header and the end marker were checked on opening.
-    ///
-    /// # Errors
-    /// The first array that is not so.
     pub fn check(&self) -> Result<(), Error> {
         for index in 0..self.header().blocks.len() {
             self.block(index)?;
@@ -57,14 +54,11 @@ impl ParticleFile {
     }
 
     fn check_padding(&self, section: &Section) -> Result<(), Error> {
-        let end = section.bytes().and_then(|n| n.checked_add(section.offset));
-        let range = end.and_then(|end| {
-            let next = usize::try_from(end.checked_next_multiple_of(ALIGN)?).ok()?;
-            Some(usize::try_from(end).ok()?..next)
-        });
-        match range.and_then(|range| self.bytes().get(range)) {
-            Some(padding) if padding.iter().all(|&b| b == 0) => Ok(()),
-            _ => Err(self.corrupt(format!(
+        let end = section.range().end;
+        let padding = &self.bytes()[end..end.next_multiple_of(ALIGN as usize)];
+        match padding.iter().all(|&b| b == 0) {
+            true => Ok(()),
+            false => Err(self.corrupt(format!(
                 "has bytes that are not zero behind array '{}'",
                 section.name
             ))),

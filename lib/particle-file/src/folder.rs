@@ -19,25 +19,19 @@ pub fn in_folder(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// The states in the folder of a run: its snapshots and the last.
-///
-/// # Errors
-/// A folder without.
 pub fn states_of_run(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut states = in_folder(&folder.join("snapshots"));
     states.extend(Some(folder.join("final.mpts")).filter(|path| path.is_file()));
     match states.is_empty() {
         false => Ok(states),
-        true => Err(Error::Corrupt {
-            file: folder.display().to_string(),
-            what: "holds no state of a run: snapshots/*.mpts or final.mpts is needed".into(),
-        }),
+        true => Err(Error::new(
+            folder.display().to_string(),
+            "holds no state of a run: snapshots/*.mpts or final.mpts is needed",
+        )),
     }
 }
 
 /// Particle files in order of their times, one of each: the last snapshot may be the final state.
-///
-/// # Errors
-/// A file that cannot be read.
 pub fn by_time(files: Vec<PathBuf>) -> Result<Vec<PathBuf>, Error> {
     let timed = files.into_iter().map(|path| {
         let time_s = ParticleFile::open(&path)?.header().time_s;

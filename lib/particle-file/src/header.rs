@@ -4,6 +4,7 @@ use bincode::config::{Configuration, Fixint, Limit, LittleEndian};
 use bincode::{Decode, Encode};
 
 use crate::bits::BitsRef;
+use crate::error::ensure;
 use crate::limits;
 use crate::section::Section;
 
@@ -206,68 +207,55 @@ impl Header {
         self.blocks.iter().fold(own, around)
     }
 
-    /// Why these values cannot be those of a particle file, if so.
-    pub(crate) fn fault(&self) -> Option<String> {
-        let edges = limits::VOXEL_M;
-        if !edges.contains(&self.voxel_m) {
-            return Some(format!(
-                "voxel edge {:e} m is not from {:e} to {:e} m",
-                self.voxel_m,
-                edges.start(),
-                edges.end()
-            ));
+    /// Whether these values can be those of a particle file; else why not.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        let (edges, edge) = (limits::VOXEL_M, self.voxel_m);
+        ensure(edges.contains(&edge), || {
+            let [least, most] = [edges.start(), edges.end()];
+            format!("voxel edge {edge:e} m is not from {least:e} to {most:e} m")
+        })?;
+        let (normal, time_s) = (self.normal, self.time_s);
+        ensure(normal <= 2, || {
+            format!("bond normal {normal} is not 0, 1 or 2")
+        })?;
+        let mut corners = self.box_min_m.iter().zip(&self.box_max_m);
+        ensure(corners.all(|(a, b)| (b - a).is_finite() && a <= b), || {
+            "the corners of the box are not in order".into()
+        })?;
+        ensure(time_s.is_finite() && time_s >= 0.0, || {
+            format!("time {time_s} s is not 0 or positive")
+        })?;
+        for block in &self.blocks {
+            self.check_block(block)
+                .map_err(|fault| format!("the {fault} in block '{}'", block.name))?;
         }
-        if self.normal > 2 {
-            return Some(format!("bond normal {} is not 0, 1 or 2", self.normal));
-        }
-        let corners = self.box_min_m.iter().zip(&self.box_max_m);
-        if !corners.clone().all(|(a, b)| (b - a).is_finite() && a <= b) {
-            return Some("the corners of the box are not in order".into());
-        }
-        if !(self.time_s.is_finite() && self.time_s >= 0.0) {
-            return Some(format!("time {} s is not 0 or positive", self.time_s));
-        }
-        let fault_of = |block| self.block_fault(block);
-        self.blocks
-            .iter()
-            .find_map(fault_of)
-            .or_else(|| self.span_fault())
+        let most = limits::FROM_ZERO;
+        let near = |x: &f64| x.abs() <= most * edge;
+        ensure(self.bounds_m().iter().flatten().all(near), || {
+            format!("a corner is further than {most:e} voxels from zero")
+        })?;
+        let ([x, y, z], most) = (self.span(), limits::SPAN_PER_AXIS);
+        ensure(x.max(y).max(z) <= most, || {
+            format!(
+                "its box and blocks span {x} x {y} x {z} voxels, more than {most} along an axis"
+            )
+        })
     }
 
-    fn block_fault(&self, block: &Block) -> Option<String> {
-        let is_own = |edge: f64| (edge / self.voxel_m - 1.0).abs() < 1e-6;
-        let fault = if block.dims.contains(&0) {
+    fn check_block(&self, block: &Block) -> Result<(), String> {
+        ensure(!block.dims.contains(&0), || {
             "number of voxels is zero".into()
-        } else if block.dims.iter().any(|&n| n > limits::PER_AXIS) {
-            format!(
-                "number of voxels is above {} along an axis",
-                limits::PER_AXIS
-            )
-        } else if !block.origin_m.iter().all(|x| x.is_finite()) {
+        })?;
+        let most = limits::PER_AXIS;
+        ensure(block.dims.iter().all(|&n| n <= most), || {
+            format!("number of voxels is above {most} along an axis")
+        })?;
+        ensure(block.origin_m.iter().all(|x| x.is_finite()), || {
             "low corner is not finite".into()
-        } else if !is_own(block.voxel_m) {
-            format!("voxel edge is not the file's, {:e} m,", self.voxel_m)
-        } else {
-            return None;
-        };
-        Some(format!("the {fault} in block '{}'", block.name))
-    }
-
-    fn span_fault(&self) -> Option<String> {
-        let most = limits::FROM_ZERO * self.voxel_m;
-        let sound = |x: &f64| x.abs() <= most;
-        if !self.bounds_m().iter().flatten().all(sound) {
-            return Some(format!(
-                "a corner is further than {:e} voxels from zero",
-                limits::FROM_ZERO
-            ));
-        }
-        let [x, y, z] = self.span();
-        (x.max(y).max(z) > limits::SPAN_PER_AXIS).then(|| {
-            format!(
-                "its box and blocks span {x} x {y} x {z} voxels, more than {} along an axis",
-                limits::SPAN_PER_AXIS
-            )
+        })?;
+        let edge = self.voxel_m;
+        ensure((block.voxel_m / edge - 1.0).abs() < 1e-6, || {
+            format!("voxel edge is not the file's, {edge:e} m,")
         })
     }
 }

@@ -5,21 +5,18 @@ use std::collections::HashSet;
 use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 
 use crate::bits::word_count;
+use crate::error::ensure;
 use crate::header::{Header, Kind, MAX_HEADER};
 use crate::limits;
 use crate::section::{Element, Section};
 
 /// First bytes of every particle file; a transfer in text mode damages them.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89MPTS\r\n\x1a";
-/// First bytes of the end marker.
 pub(crate) const END: [u8; 8] = *b"MPTS-END";
-/// Version of the format.
 pub(crate) const VERSION: u32 = 1;
 /// Columns start at multiples of this many bytes: a cache line, the widest vector.
 pub(crate) const ALIGN: u64 = 64;
-/// Bytes before the header.
 pub(crate) const PREAMBLE: usize = 32;
-/// Bytes of the end marker.
 pub(crate) const END_LEN: usize = 16;
 
 /// Puts the sections one behind the other after a header of `header_len` bytes (with its
@@ -40,66 +37,57 @@ pub(crate) fn padded_header(len: usize) -> usize {
     (PREAMBLE + len).next_multiple_of(ALIGN as usize) - PREAMBLE
 }
 
-/// Why the sections do not belong to this header, if so.
-pub(crate) fn fault(header: &Header, sections: &[Section]) -> Option<String> {
-    if sections.len() > limits::ARRAYS {
-        let (n, most) = (sections.len(), limits::ARRAYS);
-        return Some(format!("{n} arrays are more than {most}"));
-    }
+/// Whether the sections belong to this header; else why not.
+pub(crate) fn check(header: &Header, sections: &[Section]) -> Result<(), String> {
+    let (n, most) = (sections.len(), limits::ARRAYS);
+    ensure(n <= most, || format!("{n} arrays are more than {most}"))?;
     let attributes = header.attributes.iter().map(|(name, _)| name);
-    if attributes
-        .chain(sections.iter().map(|s| &s.name))
-        .any(|name| name.len() > limits::NAME)
-    {
-        return Some(format!("a name has more than {} bytes", limits::NAME));
+    let mut all = attributes.chain(sections.iter().map(|s| &s.name));
+    ensure(all.all(|name| name.len() <= limits::NAME), || {
+        format!("a name has more than {} bytes", limits::NAME)
+    })?;
+    let mut names = HashSet::with_capacity(n);
+    for Section { name, .. } in sections {
+        let fresh = !name.is_empty() && names.insert(name);
+        ensure(fresh, || {
+            format!("the name '{name}' is empty or used twice")
+        })?;
     }
-    let mut names = HashSet::with_capacity(sections.len());
-    for section in sections {
-        if section.name.is_empty() || !names.insert(&section.name) {
-            return Some(format!(
-                "the name '{}' is empty or used twice",
-                section.name
-            ));
-        }
-    }
-    let (bits, arrays) = match sections.split_at_checked(header.blocks.len()) {
-        Some(split) => split,
-        None => return Some("there are fewer arrays than blocks".into()),
-    };
+    let (bits, arrays) = (sections.split_at_checked(header.blocks.len()))
+        .ok_or("there are fewer arrays than blocks")?;
     for (block, section) in header.blocks.iter().zip(bits) {
-        let words = usize_dims(block.dims).and_then(word_count);
-        let rows = block.dims[1].checked_mul(block.dims[2]);
         let fits = section.name == block.name
             && section.element == Element::Bits
             && u64::from(section.components) == block.dims[0].div_ceil(u64::BITS.into())
-            && Some(section.rows) == rows
-            && words.is_some();
-        if !fits {
-            return Some(format!("the bits of block '{}' do not fit it", block.name));
-        }
+            && Some(section.rows) == block.dims[1].checked_mul(block.dims[2])
+            && usize_dims(block.dims).and_then(word_count).is_some();
+        let name = &block.name;
+        ensure(fits, || format!("the bits of block '{name}' do not fit it"))?;
     }
-    let is_column = |s: &&Section| s.element != Element::Blob;
-    let mut columns = arrays.iter().filter(is_column);
-    if header.particles > 0 && !columns.any(|s| s.rows == header.particles) {
-        return Some(format!(
-            "no column has a row for each of {} material points",
-            header.particles
-        ));
-    }
+    let points = header.particles;
+    let mut columns = arrays.iter().filter(|s| s.element != Element::Blob);
+    ensure(points == 0 || columns.any(|s| s.rows == points), || {
+        format!("no column has a row for each of {points} material points")
+    })?;
     for section in arrays {
+        let Section {
+            name,
+            components,
+            rows,
+            ..
+        } = section;
         let rows_fit = match section.element {
             Element::Bits => false,
-            Element::Blob => section.components == 1,
-            _ => section.rows == header.particles || header.kind == Kind::Checkpoint,
+            Element::Blob => *components == 1,
+            _ => *rows == points || header.kind == Kind::Checkpoint,
         };
-        if !rows_fit || section.components == 0 {
-            return Some(format!(
-                "column '{}' has {} rows of {} values for {} material points",
-                section.name, section.rows, section.components, header.particles
-            ));
-        }
+        ensure(rows_fit && *components > 0, || {
+            format!(
+                "column '{name}' has {rows} rows of {components} values for {points} material points"
+            )
+        })?;
     }
-    None
+    Ok(())
 }
 
 /// Dimensions as indices of this machine, if they are.
@@ -148,45 +136,36 @@ impl Preamble {
     /// Reads the preamble of a file; the error says what is wrong with the file.
     pub(crate) fn from_file(file: &[u8]) -> Result<Self, String> {
         let Some((bytes, _)) = file.split_first_chunk::<PREAMBLE>() else {
-            return Err(
-                if MAGIC.starts_with(&file[..file.len().min(8)]) && !file.is_empty() {
-                    "is truncated within its first 32 bytes".into()
-                } else {
-                    "is not a particle file; accepted are .mpts files".into()
-                },
-            );
+            let begun = !file.is_empty() && MAGIC.starts_with(&file[..file.len().min(8)]);
+            ensure(begun, not_a_particle_file)?;
+            return Err("is truncated within its first 32 bytes".into());
         };
-        if bytes[..8] != MAGIC {
-            return Err("is not a particle file; accepted are .mpts files".into());
-        }
+        ensure(bytes[..8] == MAGIC, not_a_particle_file)?;
         let u32_at = |at| u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
         let u64_at = |at| u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
-        if u32_at(8) != VERSION {
-            return Err(format!(
-                "has version {}; this tool reads version {VERSION}",
-                u32_at(8)
-            ));
-        }
-        let preamble = Self {
-            header_len: u32_at(12) as usize,
-            file_len: u64_at(16),
+        let version = u32_at(8);
+        ensure(version == VERSION, || {
+            format!("has version {version}; this tool reads version {VERSION}")
+        })?;
+        let (header_len, file_len, len) = (u32_at(12) as usize, u64_at(16), file.len());
+        ensure(file_len == len as u64, || {
+            format!(
+                "is {len} bytes long but its header says {file_len}; it is truncated or damaged"
+            )
+        })?;
+        ensure(header_len <= MAX_HEADER, || {
+            format!("claims a header of {header_len} bytes; at most {MAX_HEADER} are accepted")
+        })?;
+        Ok(Self {
+            header_len,
+            file_len,
             checksum: u64_at(24),
-        };
-        if preamble.file_len != file.len() as u64 {
-            return Err(format!(
-                "is {} bytes long but its header says {}; it is truncated or damaged",
-                file.len(),
-                preamble.file_len
-            ));
-        }
-        if preamble.header_len > MAX_HEADER {
-            return Err(format!(
-                "claims a header of {} bytes; at most {MAX_HEADER} are accepted",
-                preamble.header_len
-            ));
-        }
-        Ok(preamble)
+        })
     }
+}
+
+fn not_a_particle_file() -> String {
+    "is not a particle file; accepted are .mpts files".into()
 }
 
 /// The last bytes of a file whose preamble has `checksum`.
@@ -197,7 +176,6 @@ pub(crate) fn end_marker(checksum: u64) -> [u8; END_LEN] {
     bytes
 }
 
-/// The checksum of a section.
 pub(crate) fn checksum(bytes: &[u8]) -> u64 {
     xxh3_64(bytes)
 }

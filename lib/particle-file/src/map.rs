@@ -23,37 +23,27 @@ impl Mapped {
     /// # Errors
     /// The system's reason, or a pipe without an end.
     pub fn open(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<Self> {
-        match opened(path, recognised)? {
-            Opened::Named(file) => map(&file),
-            Opened::Spooled(file) => map(&file),
-        }
+        opened(path, recognised).and_then(|(file, _)| map(&file))
     }
 
     /// As [`Mapped::open`], but a file that has a name is read into memory, where nobody can
     /// change or truncate it any more: for what is used longer than it takes to read it.
-    ///
-    /// # Errors
-    /// As [`Mapped::open`].
     pub fn read(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<Self> {
-        match opened(path, recognised)? {
-            Opened::Named(mut file) => {
-                let len = file.metadata()?.len();
-                if let Some(short) = machine::shortage(len) {
-                    return Err(io::Error::other(format!("reading it needs {short}")));
-                }
-                let len = usize::try_from(len).map_err(io::Error::other)?;
-                let mut bytes = MmapMut::map_anon(len.max(1))?;
-                file.read_exact(&mut bytes[..len])?;
-                Ok(Self(bytes.make_read_only()?))
-            }
-            Opened::Spooled(file) => map(&file),
+        let (mut file, named) = opened(path, recognised)?;
+        if !named {
+            return map(&file);
         }
+        let len = file.metadata()?.len();
+        if let Some(short) = machine::shortage(len) {
+            return Err(io::Error::other(format!("reading it needs {short}")));
+        }
+        let len = usize::try_from(len).map_err(io::Error::other)?;
+        let mut bytes = MmapMut::map_anon(len.max(1))?;
+        file.read_exact(&mut bytes[..len])?;
+        Ok(Self(bytes.make_read_only()?))
     }
 
     /// A copy of `bytes`, aligned as a mapped file is.
-    ///
-    /// # Errors
-    /// When there is no memory for it.
     pub(crate) fn copy_of(bytes: &[u8]) -> io::Result<Self> {
         let mut map = MmapMut::map_anon(bytes.len().max(1))?;
         map[..bytes.len()].copy_from_slice(bytes);
@@ -61,15 +51,9 @@ impl Mapped {
     }
 }
 
-/// An opened input.
-enum Opened {
-    /// A regular file, which others can write to.
-    Named(File),
-    /// The private copy of a pipe.
-    Spooled(File),
-}
-
-fn opened(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<Opened> {
+/// A regular file, which has a name and which others can write to, or the private copy of a pipe; and
+/// whether it has a name.
+fn opened(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<(File, bool)> {
     let file = if path == Path::new("-") {
         io::stdin().as_fd().try_clone_to_owned()?.into()
     } else {
@@ -80,9 +64,9 @@ fn opened(path: &Path, recognised: impl Fn(&[u8]) -> bool) -> io::Result<Opened>
         return Err(io::Error::other("it is a folder"));
     }
     if kind.is_file() {
-        return Ok(Opened::Named(file));
+        return Ok((file, true));
     }
-    Ok(Opened::Spooled(spool(file, recognised)?))
+    Ok((spool(file, recognised)?, false))
 }
 
 impl Deref for Mapped {

@@ -19,24 +19,17 @@ pub trait Value: Pod + Send + Sync {
     const ELEMENT: Element;
 }
 
-impl Value for f32 {
-    const ELEMENT: Element = Element::F32;
+macro_rules! values {
+    ($($number:ty: $element:ident),*) => {
+        $(impl Value for $number {
+            const ELEMENT: Element = Element::$element;
+        })*
+    };
 }
-impl Value for f64 {
-    const ELEMENT: Element = Element::F64;
-}
-impl Value for u32 {
-    const ELEMENT: Element = Element::U32;
-}
-impl Value for u64 {
-    const ELEMENT: Element = Element::U64;
-}
-impl Value for u8 {
-    const ELEMENT: Element = Element::U8;
-}
+values!(f32: F32, f64: F64, u32: U32, u64: U64, u8: U8);
 
 /// An opened particle file: header and layout are checked, arrays are read when asked for
-/// and checked against their checksum then.
+/// and checked against their checksum then. What is absent or damaged is an error.
 #[derive(Debug)]
 pub struct ParticleFile {
     name: String,
@@ -59,43 +52,33 @@ impl ParticleFile {
 
     /// As [`ParticleFile::open`], but nothing that happens to the file later matters: for one
     /// that is needed as long as a run takes.
-    ///
-    /// # Errors
-    /// As [`ParticleFile::open`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         Self::of_input(path, Mapped::read(path, Self::recognises))
     }
 
     fn of_input(path: &Path, bytes: io::Result<Mapped>) -> Result<Self, Error> {
-        let name = if path == Path::new("-") {
-            "standard input".to_owned()
-        } else {
-            path.display().to_string()
+        let name = match path == Path::new("-") {
+            true => "standard input".to_owned(),
+            false => path.display().to_string(),
         };
+        Self::named(name, bytes)
+    }
+
+    fn named(file: String, bytes: io::Result<Mapped>) -> Result<Self, Error> {
         match bytes {
-            Ok(bytes) => Self::from_mapped(name, bytes),
-            Err(source) => Err(Error::Unreadable { file: name, source }),
+            Ok(bytes) => Self::from_mapped(file, bytes),
+            Err(reason) => Err(Error::unreadable(file, &reason)),
         }
     }
 
     /// Reads a file that lies in memory.
-    ///
-    /// # Errors
-    /// As [`ParticleFile::open`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        let name = "bytes in memory".to_owned();
-        match Mapped::copy_of(bytes) {
-            Ok(bytes) => Self::from_mapped(name, bytes),
-            Err(source) => Err(Error::Unreadable { file: name, source }),
-        }
+        Self::named("bytes in memory".into(), Mapped::copy_of(bytes))
     }
 
     /// Reads an input that was mapped already, e.g. to see what it is; `name` is for
     /// messages.
-    ///
-    /// # Errors
-    /// As [`ParticleFile::open`].
     pub fn from_mapped(name: String, bytes: Mapped) -> Result<Self, Error> {
         match read_header(&bytes) {
             Ok(stored) => Ok(Self {
@@ -104,7 +87,7 @@ impl ParticleFile {
                 sound: stored.sections.iter().map(|_| OnceLock::new()).collect(),
                 stored,
             }),
-            Err(what) => Err(Error::Corrupt { file: name, what }),
+            Err(what) => Err(Error::new(name, what)),
         }
     }
 
@@ -145,9 +128,6 @@ impl ParticleFile {
     }
 
     /// Block `index` and its voxels.
-    ///
-    /// # Errors
-    /// When there is no such block or its voxels are damaged.
     pub fn block(&self, index: usize) -> Result<(&Block, BitsRef<'_>), Error> {
         let block = (self.header().blocks.get(index))
             .ok_or_else(|| self.missing(format!("block number {index}")))?;
@@ -163,30 +143,18 @@ impl ParticleFile {
     }
 
     /// The block called `name` and its voxels.
-    ///
-    /// # Errors
-    /// When there is no such block or its voxels are damaged.
     pub fn block_named(&self, name: &str) -> Result<(&Block, BitsRef<'_>), Error> {
         let index = self.header().blocks.iter().position(|b| b.name == name);
         self.block(index.ok_or_else(|| self.missing(format!("block '{name}'")))?)
     }
 
     /// The values of column `name`, row by row.
-    ///
-    /// # Errors
-    /// When there is no column of that name and type or it is damaged.
     pub fn column<T: Value>(&self, name: &str) -> Result<&[T], Error> {
-        let matches = |s: &Section| s.name == name && s.element == T::ELEMENT;
-        match self.stored.sections.iter().position(matches) {
-            Some(index) => self.values_of(index),
-            None => Err(self.missing(format!("column '{name}' of type {:?}", T::ELEMENT))),
-        }
+        let wanted = || format!("column '{name}' of type {:?}", T::ELEMENT);
+        self.array(name, T::ELEMENT, wanted)
     }
 
     /// The vectors of column `name`, which has three components.
-    ///
-    /// # Errors
-    /// When there is no column of that name, type and width or it is damaged.
     pub fn vectors(&self, name: &str) -> Result<&[[f32; 3]], Error> {
         let fits = |s: &Section| s.name == name && s.components == 3;
         if self.columns().any(fits) {
@@ -197,15 +165,27 @@ impl ParticleFile {
     }
 
     /// The bytes of blob `name`.
-    ///
-    /// # Errors
-    /// When there is no such blob or it is damaged.
     pub fn blob(&self, name: &str) -> Result<&[u8], Error> {
-        let matches = |s: &Section| s.name == name && s.element == Element::Blob;
+        self.array(name, Element::Blob, || format!("blob '{name}'"))
+    }
+
+    fn array<T: Pod>(
+        &self,
+        name: &str,
+        element: Element,
+        wanted: impl Fn() -> String,
+    ) -> Result<&[T], Error> {
+        let matches = |s: &Section| s.name == name && s.element == element;
         match self.stored.sections.iter().position(matches) {
             Some(index) => self.values_of(index),
-            None => Err(self.missing(format!("blob '{name}'"))),
+            None => Err(self.missing(wanted())),
         }
+    }
+
+    /// The bytes of one of [`ParticleFile::sections`], without padding.
+    pub fn bytes_of(&self, section: &Section) -> Result<&[u8], Error> {
+        let index = self.stored.sections.iter().position(|s| s == section);
+        self.values_of(index.ok_or_else(|| self.missing(format!("array '{}'", section.name)))?)
     }
 
     pub(crate) fn bytes(&self) -> &[u8] {
@@ -215,8 +195,7 @@ impl ParticleFile {
     /// The checked bytes of section `index` as values of its type.
     pub(crate) fn values_of<T: Pod>(&self, index: usize) -> Result<&[T], Error> {
         let section = &self.stored.sections[index];
-        let bytes = section_bytes(&self.bytes, section)
-            .ok_or_else(|| self.corrupt("ends within an array".into()))?;
+        let bytes = &self.bytes[section.range()];
         let sound = self.sound[index].get_or_init(|| layout::checksum(bytes) == section.xxh3);
         match bytemuck::try_cast_slice(bytes) {
             Ok(values) if *sound => Ok(values),
@@ -228,36 +207,22 @@ impl ParticleFile {
     }
 
     pub(crate) fn corrupt(&self, what: String) -> Error {
-        Error::Corrupt {
-            file: self.name.clone(),
-            what,
-        }
+        Error::new(&self.name, what)
     }
 
     fn missing(&self, wanted: String) -> Error {
         const NAMED: usize = 20;
-        let mut names: Vec<String> = (self.stored.sections.iter().take(NAMED))
-            .map(|s| format!("'{}' ({:?} x {})", s.name, s.element, s.components))
-            .collect();
-        if let Some(more) = self.stored.sections.len().checked_sub(NAMED + 1) {
-            names.push(format!("and {} more", more + 1));
-        }
-        Error::Missing {
-            file: self.name.clone(),
-            wanted,
-            present: match names.is_empty() {
-                true => "no arrays".into(),
-                false => names.join(", "),
-            },
-        }
+        let sections = &self.stored.sections;
+        let named = (sections.iter().take(NAMED))
+            .map(|s| format!("'{}' ({:?} x {})", s.name, s.element, s.components));
+        let more = sections.len().saturating_sub(NAMED);
+        let more = (more > 0).then(|| format!("and {more} more"));
+        let present = match sections.is_empty() {
+            true => "no arrays".into(),
+            false => named.chain(more).collect::<Vec<_>>().join(", "),
+        };
+        self.corrupt(format!("has no {wanted}; it holds {present}"))
     }
-}
-
-/// The bytes of a section, without padding.
-fn section_bytes<'a>(file: &'a [u8], section: &Section) -> Option<&'a [u8]> {
-    let start = usize::try_from(section.offset).ok()?;
-    let len = usize::try_from(section.bytes()?).ok()?;
-    file.get(start..start.checked_add(len)?)
 }
 
 /// Everything about the file but the arrays' values; the error says what is wrong with it.
@@ -269,10 +234,9 @@ fn read_header(file: &[u8]) -> Result<Stored, String> {
         return Err("has a damaged header: its checksum does not agree".into());
     }
     let stored = Stored::decode(header).map_err(|what| format!("has a header that {what}"))?;
-    let fault = stored.header.fault();
-    if let Some(fault) = fault.or_else(|| layout::fault(&stored.header, &stored.sections)) {
-        return Err(format!("has an impossible header: {fault}"));
-    }
+    (stored.header.check())
+        .and_then(|()| layout::check(&stored.header, &stored.sections))
+        .map_err(|fault| format!("has an impossible header: {fault}"))?;
     let mut placed = stored.sections.clone();
     let file_len = layout::place(&mut placed, preamble.header_len);
     if file_len != Some(preamble.file_len) || placed != stored.sections {

@@ -1,6 +1,7 @@
 //! The arrays of a file.
 
 use std::mem::size_of;
+use std::ops::Range;
 
 use bincode::{Decode, Encode};
 
@@ -58,5 +59,11 @@ impl Section {
         self.rows
             .checked_mul(u64::from(self.components))?
             .checked_mul(self.element.size())
+    }
+
+    /// Where its bytes are in a file whose sections were found to lie within it.
+    pub(crate) fn range(&self) -> Range<usize> {
+        let len = self.rows * u64::from(self.components) * self.element.size();
+        self.offset as usize..(self.offset + len) as usize
     }
 }

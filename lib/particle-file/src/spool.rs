@@ -20,12 +20,8 @@ pub fn spool(mut pipe: impl Read, recognised: impl Fn(&[u8]) -> bool) -> io::Res
     pipe.by_ref().take(HEAD as u64).read_to_end(&mut head)?;
     file.write_all(&head)?;
     if recognised(&head) {
-        let free = rustix::fs::fstatvfs(&file)?;
-        copy(
-            pipe,
-            &mut file,
-            free.f_bavail.saturating_mul(free.f_frsize) / 2,
-        )?;
+        let most = most(&file)?;
+        copy(pipe, &mut file, most)?;
     }
     file.seek(SeekFrom::Start(0))?;
     Ok(file)
@@ -38,9 +34,8 @@ pub fn spool(mut pipe: impl Read, recognised: impl Fn(&[u8]) -> bool) -> io::Res
 pub fn fill(file: &mut File, content: impl Read, bytes: u64) -> io::Result<()> {
     let found = io::copy(&mut content.take(bytes), file)?;
     if found < bytes {
-        return Err(io::Error::other(format!(
-            "it ends after {found} of {bytes} bytes"
-        )));
+        let what = format!("it ends after {found} of {bytes} bytes");
+        return Err(io::Error::other(what));
     }
     file.seek(SeekFrom::Start(0)).map(|_| ())
 }
@@ -51,12 +46,7 @@ pub fn fill(file: &mut File, content: impl Read, bytes: u64) -> io::Result<()> {
 /// The system's reason, or more bytes than half of what is free in the folder of temporary files.
 pub fn temporary_file(bytes: u64) -> io::Result<File> {
     let file = unnamed_file()?;
-    let free = rustix::fs::fstatvfs(&file)?;
-    let most = free.f_bavail.saturating_mul(free.f_frsize) / 2;
-    match bytes > most {
-        true => Err(too_much(most)),
-        false => Ok(file),
-    }
+    refuse_above(most(&file)?, bytes).map(|()| file)
 }
 
 fn unnamed_file() -> io::Result<File> {
@@ -70,21 +60,28 @@ fn unnamed_file() -> io::Result<File> {
     })
 }
 
-/// Copies all of `pipe` unless it is more than `most` bytes.
-fn copy(pipe: impl Read, file: &mut File, most: u64) -> io::Result<()> {
-    if io::copy(&mut pipe.take(most.saturating_add(1)), file)? <= most {
-        return Ok(());
-    }
-    Err(too_much(most))
+/// Half of what is free where `file` is, bytes.
+fn most(file: &File) -> io::Result<u64> {
+    let free = rustix::fs::fstatvfs(file)?;
+    Ok(free.f_bavail.saturating_mul(free.f_frsize) / 2)
 }
 
-fn too_much(most: u64) -> io::Error {
-    io::Error::other(format!(
+/// Copies all of `pipe` unless it is more than `most` bytes.
+fn copy(pipe: impl Read, file: &mut File, most: u64) -> io::Result<()> {
+    let bytes = io::copy(&mut pipe.take(most.saturating_add(1)), file)?;
+    refuse_above(most, bytes)
+}
+
+fn refuse_above(most: u64, bytes: u64) -> io::Result<()> {
+    if bytes <= most {
+        return Ok(());
+    }
+    Err(io::Error::other(format!(
         "it gives more than {:.1} GB, half of what is free in '{}' for temporary files: \
          write it to a file and give its name, or set TMPDIR to a larger disk",
         most as f64 / 1e9,
         std::env::temp_dir().display()
-    ))
+    )))
 }
 
 #[cfg(test)]
@@ -97,7 +94,6 @@ mod tests {
         bytes
     }
 
-    /// `/dev/zero` filled the disk.
     #[test]
     fn a_pipe_without_an_end_is_cut_or_refused() {
         assert_eq!(content(spool(io::repeat(0), |_| false).unwrap()), [0; HEAD]);

@@ -15,9 +15,6 @@ impl ParticleFile {
     /// point (its values in all columns) and per word of a block that is not empty (its
     /// place and bits). FORMAT.md has the rule. Time, attributes and provenance do not
     /// enter.
-    ///
-    /// # Errors
-    /// When an array is damaged.
     pub fn sum(&self) -> Result<u64, Error> {
         let mut sum = self.sum_of_points()?;
         for index in 0..self.header().blocks.len() {

@@ -7,9 +7,6 @@ use crate::read::ParticleFile;
 impl ParticleFile {
     /// Refuses a file from which `what`, of so many bytes, would be made although the file is
     /// too small to be worth them: a header can claim any box.
-    ///
-    /// # Errors
-    /// The bound and what is asked for.
     pub fn is_worth(&self, bytes: u64, what: &str) -> Result<(), Error> {
         let len = self.len_bytes();
         let most = limits::made_of(len);
@@ -27,16 +24,10 @@ impl ParticleFile {
 
     /// Refuses a file from which `what`, of so many bytes, would be made although they are not to be
     /// had here.
-    ///
-    /// # Errors
-    /// What is needed and what there is.
     pub fn fits(&self, bytes: u64, what: &str) -> Result<(), Error> {
-        machine::shortage(bytes).map_or(Ok(()), |short| {
-            Err(Error::TooLarge {
-                file: self.name().to_owned(),
-                what: what.to_owned(),
-                short,
-            })
-        })
+        match machine::shortage(bytes) {
+            None => Ok(()),
+            Some(short) => Err(self.corrupt(format!("is too large: {what} would take {short}"))),
+        }
     }
 }

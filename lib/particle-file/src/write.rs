@@ -21,71 +21,45 @@ pub struct Draft<'a> {
 
 struct Array<'a> {
     section: Section,
-    content: Content<'a>,
+    content: Box<Visit<'a>>,
 }
 
-/// The bytes of an array.
-enum Content<'a> {
-    /// As they are.
-    Whole(&'a [u8]),
-    /// One piece after the other, each time anew.
-    Pieces(Box<Visit<'a>>),
-}
-
-/// Gives the bytes of an array piece by piece.
+/// Gives the bytes of an array piece by piece, the same each time.
 type Visit<'a> = dyn Fn(&mut dyn FnMut(&[u8])) + 'a;
 
 impl Array<'_> {
     /// Its section with the number of rows and the checksum.
     fn counted(&self) -> Result<Section, String> {
         let (mut hasher, mut length) = (Xxh3Default::new(), 0);
-        self.content.visit(&mut |bytes| {
+        (self.content)(&mut |bytes| {
             hasher.update(bytes);
             length += bytes.len() as u64;
         });
-        let Section {
-            name,
-            element,
-            components,
-            rows,
-            ..
-        } = &self.section;
-        let row = u64::from(*components) * element.size();
-        let rows = match self.content {
-            Content::Whole(_) => *rows,
-            Content::Pieces(_) => length / row.max(1),
-        };
-        match rows.checked_mul(row) == Some(length) {
-            true => Ok(Section {
-                rows,
-                xxh3: hasher.digest(),
-                ..self.section.clone()
-            }),
+        let mut section = self.section.clone();
+        let row = u64::from(section.components) * section.element.size();
+        section.rows = length / row.max(1);
+        section.xxh3 = hasher.digest();
+        match section.rows * row == length {
+            true => Ok(section),
             false => Err(format!(
-                "'{name}' does not end with a whole row of {components} values"
+                "'{}' does not end with a whole row of {} values",
+                section.name, section.components
             )),
         }
     }
-}
 
-impl Content<'_> {
-    fn visit(&self, take: &mut dyn FnMut(&[u8])) {
-        match self {
-            Self::Whole(bytes) => take(bytes),
-            Self::Pieces(visit) => visit(take),
-        }
-    }
-
-    /// Writes all, and tells how many bytes that are.
-    fn write_to(&self, out: &mut (impl Write + ?Sized)) -> io::Result<u64> {
+    /// Writes all bytes and the padding behind them.
+    fn write_to(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
         let (mut written, mut length) = (Ok(()), 0);
-        self.visit(&mut |bytes| {
+        (self.content)(&mut |bytes| {
             if written.is_ok() {
                 written = out.write_all(bytes);
                 length += bytes.len() as u64;
             }
         });
-        written.map(|()| length)
+        written?;
+        let padding = length.next_multiple_of(ALIGN) - length;
+        out.write_all(&[0; ALIGN as usize][..padding as usize])
     }
 }
 
@@ -109,17 +83,10 @@ impl<'a> Draft<'a> {
     pub fn block(mut self, block: Block, bits: impl Into<BitsRef<'a>>) -> Self {
         let bits = bits.into();
         let dims = bits.dims();
-        self.bits.push(Array {
-            section: Section {
-                name: block.name.clone(),
-                element: Element::Bits,
-                components: u32::try_from(dims[0].div_ceil(u64::BITS as usize)).unwrap_or(u32::MAX),
-                rows: dims[1] as u64 * dims[2] as u64,
-                offset: 0,
-                xxh3: 0,
-            },
-            content: Content::Whole(bytemuck::cast_slice(bits.words())),
-        });
+        let words = u32::try_from(dims[0].div_ceil(u64::BITS as usize)).unwrap_or(u32::MAX);
+        let content = move |take: &mut dyn FnMut(&[u8])| take(bytemuck::cast_slice(bits.words()));
+        let array = array(&block.name, Element::Bits, words, content);
+        self.bits.push(array);
         self.header.blocks.push(Block {
             dims: dims.map(|n| n as u64),
             count: bits.count(),
@@ -133,13 +100,10 @@ impl<'a> Draft<'a> {
     /// In a specimen, bond or state all columns have one row per liquid material point; in a
     /// checkpoint each has its own length.
     pub fn column<T: Value>(mut self, name: &str, components: u32, values: &'a [T]) -> Self {
-        let rows = values.len() as u64 / u64::from(components.max(1));
         if name == "position" || self.columns.is_empty() {
-            self.header.particles = rows;
+            self.header.particles = values.len() as u64 / u64::from(components.max(1));
         }
-        let content = Content::Whole(bytemuck::cast_slice(values));
-        self.push(name, T::ELEMENT, components, rows, content);
-        self
+        self.pieces(name, components, move |take| take(values))
     }
 
     /// Adds a column like [`Draft::column`], not the first, whose values `visit` gives piece by piece: once to be
@@ -150,40 +114,19 @@ impl<'a> Draft<'a> {
         components: u32,
         visit: impl Fn(&mut dyn FnMut(&[T])) + 'a,
     ) -> Self {
-        let content = Content::Pieces(Box::new(move |take| {
+        let content = move |take: &mut dyn FnMut(&[u8])| {
             visit(&mut |piece| take(bytemuck::cast_slice(piece)));
-        }));
-        // Counted when it is written.
-        self.push(name, T::ELEMENT, components, 0, content);
+        };
+        let array = array(name, T::ELEMENT, components, content);
+        self.columns.push(array);
         self
     }
 
     /// Adds bytes of any length.
     pub fn blob(mut self, name: &str, bytes: &'a [u8]) -> Self {
-        let content = Content::Whole(bytes);
-        self.push(name, Element::Blob, 1, bytes.len() as u64, content);
+        let content = move |take: &mut dyn FnMut(&[u8])| take(bytes);
+        self.columns.push(array(name, Element::Blob, 1, content));
         self
-    }
-
-    fn push(
-        &mut self,
-        name: &str,
-        element: Element,
-        components: u32,
-        rows: u64,
-        content: Content<'a>,
-    ) {
-        self.columns.push(Array {
-            section: Section {
-                name: name.into(),
-                element,
-                components,
-                rows,
-                offset: 0,
-                xxh3: 0,
-            },
-            content,
-        });
     }
 
     /// Writes the file.
@@ -204,9 +147,7 @@ impl<'a> Draft<'a> {
         out.write_all(&preamble.to_bytes())?;
         out.write_all(&head)?;
         for array in &arrays {
-            let length = array.content.write_to(out)?;
-            let padding = length.next_multiple_of(ALIGN) - length;
-            out.write_all(&[0; ALIGN as usize][..padding as usize])?;
+            array.write_to(out)?;
         }
         out.write_all(&layout::end_marker(preamble.checksum))
     }
@@ -217,10 +158,8 @@ impl<'a> Draft<'a> {
             header: self.header.clone(),
             sections,
         };
-        let fault = stored.header.fault();
-        if let Some(fault) = fault.or_else(|| layout::fault(&stored.header, &stored.sections)) {
-            return Err(fault);
-        }
+        stored.header.check()?;
+        layout::check(&stored.header, &stored.sections)?;
         // All integers have a fixed width: the length does not depend on the offsets.
         let header_len = layout::padded_header(stored.encode()?.len());
         if header_len > MAX_HEADER - PREAMBLE {
@@ -231,5 +170,25 @@ impl<'a> Draft<'a> {
         let mut head = stored.encode()?;
         head.resize(header_len, 0);
         Ok((head, file_len))
+    }
+}
+
+/// An array whose rows are counted when it is written.
+fn array<'a>(
+    name: &str,
+    element: Element,
+    components: u32,
+    content: impl Fn(&mut dyn FnMut(&[u8])) + 'a,
+) -> Array<'a> {
+    Array {
+        section: Section {
+            name: name.into(),
+            element,
+            components,
+            rows: 0,
+            offset: 0,
+            xxh3: 0,
+        },
+        content: Box::new(content),
     }
 }

@@ -31,36 +31,31 @@ fn numpy_reads_what_was_written() {
     header.set_attribute("gap_m", 1.5e-5);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("state.mpts");
-    let mut out = std::fs::File::create(&path).unwrap();
+    let block = Block::new("wood-top", Material::Rigid, [0.0; 3], 1.45e-6, &wood);
     Draft::new(header)
-        .block(
-            Block::new("wood-top", Material::Rigid, [0.0; 3], 1.45e-6, &wood),
-            &wood,
-        )
+        .block(block, &wood)
         .column("position", 3, &position)
         .column("label", 1, &label)
         .blob("notes", &[9, 8, 7])
-        .write_to(&mut out)
+        .write_to(&mut std::fs::File::create(&path).unwrap())
         .unwrap();
 
-    let weighted = |values: &mut dyn Iterator<Item = i64>| -> i64 {
-        (1..).zip(values).map(|(i, v): (i64, i64)| i * v).sum()
+    let line = |array: &str, values: Vec<i64>| {
+        let weighted: i64 = (1..).zip(values).map(|(i, v)| i * v).sum();
+        format!("{array} {weighted}")
     };
     let [nx, ny, nz] = dims;
-    let mut voxels =
-        (0..nx * ny * nz).map(|i| i64::from(wood.get(i % nx, i / nx % ny, i / nx / ny)));
+    let voxels = (0..nx * ny * nz).map(|i| i64::from(wood.get(i % nx, i / nx % ny, i / nx / ny)));
+    let positions = position.iter().map(|&x| x as i64).collect();
     let expected = [
         "2 42 5 0.000015".to_owned(),
-        format!("wood-top bool (2, 3, 70) {}", weighted(&mut voxels)),
-        format!(
-            "position float32 (5, 3) {}",
-            weighted(&mut position.iter().map(|&x| x as i64))
+        line("wood-top bool (2, 3, 70)", voxels.collect()),
+        line("position float32 (5, 3)", positions),
+        line(
+            "label uint32 (5, 1)",
+            label.iter().map(|&x| x.into()).collect(),
         ),
-        format!(
-            "label uint32 (5, 1) {}",
-            weighted(&mut label.iter().map(|&x| i64::from(x)))
-        ),
-        format!("notes uint8 (3, 1) {}", 9 + 2 * 8 + 3 * 7),
+        line("notes uint8 (3, 1)", vec![9, 8, 7]),
     ];
     let readers = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../readers/python/bondline");
     let output = Command::new("python3")

@@ -40,16 +40,13 @@ fn the_sum_does_not_know_the_order() {
     let sum = liquid_sum(&sorted, false, 0.0);
     assert_eq!(sum, liquid_sum(&shuffled, false, 0.0));
     assert_eq!(sum, liquid_sum(&shuffled, true, 0.0));
-    let one = rayon_threads(1, || liquid_sum(&shuffled, false, 0.0));
-    assert_eq!(sum, rayon_threads(3, || liquid_sum(&shuffled, false, 0.0)));
-    assert_eq!(sum, one);
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let again = pool.unwrap().install(|| liquid_sum(&shuffled, false, 0.0));
+        assert_eq!(sum, again);
+    }
     assert_ne!(sum, liquid_sum(&sorted, false, 0.25));
     assert_ne!(sum, liquid_sum(&sorted[1..], false, 0.0));
-}
-
-fn rayon_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.unwrap().install(work)
 }
 
 #[test]
@@ -77,56 +74,35 @@ fn the_sum_of_blocks_knows_place_and_material_but_not_their_order() {
 
 #[test]
 fn adhesive_is_the_same_as_voxels_and_as_points() {
-    let dims = [70, 4, 3];
-    let glue = BitGrid::from_fn(dims, |x, y, z| (x + y + z) % 3 == 0);
-    let wood = BitGrid::from_fn(dims, |x, y, z| (x + y + z) % 3 == 1);
+    let glue = BitGrid::from_fn([70, 4, 3], |x, y, z| (x + y + z) % 3 == 0);
+    let wood = BitGrid::from_fn([70, 4, 3], |x, y, z| (x + y + z) % 3 == 1);
     let origin = [1e-5, -2e-5, 0.0];
-    let specimen = open(
-        Draft::new(header(Kind::Specimen))
-            .block(
-                Block::new("wood", Material::Rigid, origin, VOXEL, &wood),
-                &wood,
-            )
-            .block(
-                Block::new("adhesive", Material::Adhesive, origin, VOXEL, &glue),
-                &glue,
-            ),
-    );
-    let mut from_voxels = Vec::new();
-    let push = |position, volume| from_voxels.push((position, volume));
-    specimen.for_each_adhesive(push).unwrap();
-    assert_eq!(from_voxels.len() as u64, glue.count());
-    let first: ([f64; 3], f64) = from_voxels[0];
-    for (x, low) in first.0.iter().zip(origin) {
-        assert!((x - low - 0.5 * VOXEL).abs() < 1e-12);
-    }
-    let centroid_y = from_voxels.iter().map(|(p, _)| p[1]).sum::<f64>() / from_voxels.len() as f64;
-    let layers = glue.view().counts_along(1);
-    let expected = (0..4)
-        .map(|y| layers[y] as f64 * (origin[1] + (y as f64 + 0.5) * VOXEL))
-        .sum::<f64>();
-    assert!((centroid_y - expected / glue.count() as f64).abs() < 1e-12);
+    let block = |name, material, bits| Block::new(name, material, origin, VOXEL, bits);
+    let draft = |kind| Draft::new(header(kind)).block(block("wood", Material::Rigid, &wood), &wood);
+    let parcels = |draft: Draft| {
+        let mut found: Vec<([f64; 3], f64)> = Vec::new();
+        let push = |position, volume| found.push((position, volume));
+        open(draft).for_each_adhesive(push).unwrap();
+        found
+    };
+    let adhesive = block("adhesive", Material::Adhesive, &glue);
+    let voxels = parcels(draft(Kind::Specimen).block(adhesive, &glue));
+    let mut expected = Vec::new();
+    glue.view().for_each(|index| {
+        let place: [f64; 3] = std::array::from_fn(|a| origin[a] + (index[a] as f64 + 0.5) * VOXEL);
+        expected.push((place, VOXEL.powi(3)));
+    });
+    assert_eq!(voxels, expected);
 
-    let position: Vec<f32> = from_voxels
+    let position: Vec<f32> = voxels
         .iter()
         .flat_map(|(p, _)| p.map(|x| x as f32))
         .collect();
-    let volume: Vec<f32> = from_voxels.iter().map(|(_, v)| *v as f32).collect();
-    let state = open(
-        Draft::new(header(Kind::State))
-            .block(
-                Block::new("wood-bottom", Material::Rigid, origin, VOXEL, &wood),
-                &wood,
-            )
-            .column("position", 3, &position)
-            .column("volume", 1, &volume),
-    );
-    let mut from_points = Vec::new();
-    state
-        .for_each_adhesive(|p, v| from_points.push((p, v)))
-        .unwrap();
-    assert_eq!(from_points.len(), from_voxels.len());
-    for (a, b) in from_points.iter().zip(&from_voxels) {
+    let volume: Vec<f32> = voxels.iter().map(|(_, v)| *v as f32).collect();
+    let liquid = draft(Kind::State).column("position", 3, &position);
+    let points = parcels(liquid.column("volume", 1, &volume));
+    assert_eq!(points.len(), voxels.len());
+    for (a, b) in points.iter().zip(&voxels) {
         assert!((a.1 / b.1 - 1.0).abs() < 1e-6);
         assert!((0..3).all(|i| (a.0[i] - b.0[i]).abs() < 1e-10));
     }

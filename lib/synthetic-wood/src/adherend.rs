@@ -51,12 +51,13 @@ impl Counts {
     }
 }
 
-impl std::ops::AddAssign<&Counts> for Counts {
-    fn add_assign(&mut self, other: &Counts) {
-        for tissue in 0..3 {
-            self.all[tissue] += other.all[tissue];
-            self.open[tissue] += other.open[tissue];
-        }
+impl std::iter::Sum for Counts {
+    fn sum<I: Iterator<Item = Self>>(counts: I) -> Self {
+        let plus = |a: [u64; 3], b: [u64; 3]| [0, 1, 2].map(|tissue| a[tissue] + b[tissue]);
+        counts.fold(Self::default(), |a, b| Self {
+            all: plus(a.all, b.all),
+            open: plus(a.open, b.open),
+        })
     }
 }
 
@@ -117,7 +118,7 @@ impl Adherend {
         let place = self.rays.locate(point);
         match self.vessels.at(point) {
             VesselPart::Lumen(vessel) if vessel.sealed => Sample::Tube,
-            VesselPart::Lumen(vessel) => Sample::Lumen(Tissue::Vessel, vessel.radius),
+            VesselPart::Lumen(vessel) => Sample::Lumen(Tissue::Vessel, vessel.lumen.radius),
             VesselPart::Pit => Sample::Lumen(Tissue::Vessel, PIT_RADIUS),
             VesselPart::Wall(vessel) => {
                 if !vessel.sealed && self.rays.pits_vessel(point, &place) {

@@ -1,32 +1,26 @@
 //! Anatomy of a grown specimen beside that of the literature.
 
 use super::adherend::{Adherend, Counts, Tissue};
-use super::lumens::Lumens;
-use super::penetration::Filled;
+use super::lumens;
 use super::recipe::Plan;
 
 /// What was measured on a synthetic specimen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Anatomy {
-    /// Open share of the wood, both adherends (faces excluded).
-    pub porosity: f64,
-    /// Volume shares of vessels, fibres and rays, walls included.
-    pub shares: [f64; 3],
-    /// Rays per mm along the growth ring, at the middle page.
-    pub rays_per_mm: f64,
+    /// The numbers of [`Anatomy::NAMES`].
+    pub values: [f64; 11],
     /// Adhesive volume, m3.
     pub adhesive_volume: f64,
     /// Adhesive volume over bond area, m.
     pub slab: f64,
     /// Adhesive voxels in the gap, in wood reached from it, and in the isolated tube.
     pub adhesive_voxels: [usize; 3],
-    /// What the labels of the middle page show.
-    pub lumens: Lumens,
 }
 
 impl Anatomy {
-    /// The numbers of [`Anatomy::values`], with their units. A box of a few cells cannot
-    /// average them: they mean something in boxes of some tenths of a millimetre.
+    /// What is measured, with its unit: open share of the wood, faces excluded; volume shares with walls; what lines along
+    /// the growth ring and the labels of the middle page show. A box of a few cells cannot average them: they mean
+    /// something in boxes of some tenths of a millimetre.
     pub const NAMES: [&'static str; 11] = [
         "porosity",
         "vessel volume share",
@@ -41,56 +35,41 @@ impl Anatomy {
         "early lumen um",
     ];
 
-    /// The measured numbers in the order of [`Anatomy::NAMES`].
-    pub fn values(&self) -> [f64; 11] {
-        let [vessels, fibres, rays] = self.shares;
-        let Lumens {
-            vessels_per_mm2,
-            vessel_diameter,
-            fibre_diameter,
-            wall,
-            radial: [late, early],
-        } = self.lumens;
-        [
-            self.porosity,
-            vessels,
-            fibres,
-            rays,
-            vessels_per_mm2,
-            self.rays_per_mm,
-            vessel_diameter,
-            fibre_diameter,
-            wall,
-            late,
-            early,
-        ]
-    }
-
     pub(crate) fn measure(
         plan: &Plan,
         adherends: &[Adherend],
-        pages: impl Iterator<Item = Counts>,
-        filled: &Filled,
-        lumens: Lumens,
+        counts: Counts,
+        adhesive_voxels: [usize; 3],
+        page: &[u8],
     ) -> Self {
-        let mut counts = Counts::default();
-        pages.for_each(|page| counts += &page);
         let wood = counts.all.iter().sum::<u64>().max(1) as f64;
         let open = counts.open.iter().sum::<u64>() as f64;
-        let voxels = [filled.gap, filled.wood, filled.tube];
-        let volume = voxels.iter().sum::<usize>() as f64 * f64::from(plan.voxel).powi(3);
+        let volume = adhesive_voxels.iter().sum::<usize>() as f64 * f64::from(plan.voxel).powi(3);
         let [width, _, length] = plan.edges().map(f64::from);
         let sides = || adherends.iter().enumerate();
         let met = sides().map(|(s, wood)| rays_met(plan, wood, s));
         let met = met.fold((0, 0.0), |(n, length), (m, more)| (n + m, length + more));
+        let [vessels, fibres, rays] = counts.all.map(|tissue| tissue as f64 / wood);
+        let rays_per_mm = met.0 as f64 / (met.1 * 1e-3);
+        let [per_mm2, vessel, fibre, wall, late, early] = lumens::measure(page, plan);
+        let values = [
+            open / wood,
+            vessels,
+            fibres,
+            rays,
+            per_mm2,
+            rays_per_mm,
+            vessel,
+            fibre,
+            wall,
+            late,
+            early,
+        ];
         Self {
-            porosity: open / wood,
-            shares: counts.all.map(|tissue| tissue as f64 / wood),
-            rays_per_mm: met.0 as f64 / (met.1 * 1e-3),
+            values,
             adhesive_volume: volume * 1e-18,
             slab: volume / (width * length) * 1e-6,
-            adhesive_voxels: voxels,
-            lumens,
+            adhesive_voxels,
         }
     }
 }
@@ -118,5 +97,4 @@ fn rays_met(plan: &Plan, adherend: &Adherend, side: usize) -> (usize, f64) {
     (met, f64::from(length))
 }
 
-/// Every how many voxels a test line runs.
 const LINE_EVERY: usize = 4;

@@ -12,6 +12,23 @@ pub(crate) enum State {
     Adhesive,
 }
 
+/// Label of void voxels.
+pub const VOID: u8 = 0;
+/// Label of wood voxels.
+pub const WOOD: u8 = 128;
+/// Label of adhesive voxels.
+pub const ADHESIVE: u8 = 255;
+
+impl State {
+    fn label(self) -> u8 {
+        match self {
+            Self::Wood => WOOD,
+            Self::Open | Self::Queued => VOID,
+            Self::Adhesive => ADHESIVE,
+        }
+    }
+}
+
 /// States of all voxels. A page begins on a byte of its own, so that pages are written side by
 /// side; an *index* counts the voxels that this leaves unused, too.
 #[derive(Clone, Debug)]
@@ -24,7 +41,6 @@ const PER_BYTE: usize = 4;
 const BITS: usize = 2;
 
 impl Cells {
-    /// Wood everywhere.
     pub(crate) fn new(size: [usize; 3]) -> Self {
         Self {
             size,
@@ -54,13 +70,11 @@ impl Cells {
         (0..self.size[2]).flat_map(move |z| z * page..z * page + voxels)
     }
 
-    /// Column, row and page of an index.
     pub(crate) fn place(&self, index: usize) -> [usize; 3] {
         let (page, nx) = (self.page(), self.size[0]);
         [index % page % nx, index % page / nx, index / page]
     }
 
-    /// The index of a column, row and page.
     #[cfg(test)]
     pub(crate) fn index(&self, [column, row, page]: [usize; 3]) -> usize {
         page * self.page() + row * self.size[0] + column
@@ -79,10 +93,10 @@ impl Cells {
         put(&mut self.bytes, index, state);
     }
 
-    /// The states of one page, x fastest.
-    pub(crate) fn page_states(&self, page: usize) -> impl Iterator<Item = State> {
+    pub(crate) fn labels(&self, page: usize) -> Vec<u8> {
         let first = page * self.page();
-        (first..first + self.size[0] * self.size[1]).map(|index| self.get(index))
+        let indices = first..first + self.size[0] * self.size[1];
+        indices.map(|index| self.get(index).label()).collect()
     }
 
     /// The indices of all voxels over the faces of this one.
@@ -126,9 +140,12 @@ mod tests {
                 assert_eq!(cells.place(index), *place);
                 cells.set(index, states[(i + turn) % 4]);
             }
-            let found = (0..2).flat_map(|page| cells.page_states(page));
-            let expected = (0..30).map(|i| states[(i + turn) % 4]);
-            assert!(found.eq(expected), "{turn}");
+            for (i, place) in places.iter().enumerate() {
+                assert_eq!(cells.get(cells.index(*place)), states[(i + turn) % 4]);
+            }
+            let labels = [WOOD, VOID, VOID, ADHESIVE];
+            let found = (0..2).flat_map(|page| cells.labels(page));
+            assert!(found.eq((0..30).map(|i| labels[(i + turn) % 4])), "{turn}");
         }
     }
 

@@ -2,12 +2,13 @@
 
 use rand::RngExt;
 
+use super::cross_section::WALL;
 use super::cut::WoodPoint;
 use super::random::{Feature, stream};
 use super::rays::{Place, Rays};
 use super::recipe::Plan;
 use super::species::FibreTraits;
-use super::vessels::{self, VesselPart, Vessels};
+use super::vessels::{VesselPart, Vessels};
 
 /// Length of the taper at the closed ends, um.
 const TAPER: f32 = 20.0;
@@ -26,7 +27,6 @@ struct Strip {
     spacing: f32,
     /// Position of the first fibre of each file.
     start: f32,
-    /// Fibres of the files in turn, along r.
     fibres: Vec<Fibre>,
 }
 
@@ -137,5 +137,5 @@ impl Strip {
 /// Whether a fibre with its axis here keeps most of its lumen clear of the vessels.
 fn has_room(vessels: &Vessels, r: f32, t: f32) -> bool {
     let axis = WoodPoint { l: 0.0, r, t };
-    matches!(vessels.at(axis), VesselPart::Outside(distance) if distance > vessels::WALL)
+    matches!(vessels.at(axis), VesselPart::Outside(distance) if distance > WALL)
 }

@@ -32,23 +32,15 @@ mod vessels;
 use rayon::prelude::*;
 
 pub use anatomy::Anatomy;
+pub use cells::{ADHESIVE, VOID, WOOD};
 pub use lumens::lumen_diameters;
 pub use recipe::{AdhesiveSystem, Recipe, RecipeError};
 pub use species::{Species, Target};
 
 use adherend::{Adherend, Counts, Sample};
 use cells::{Cells, State};
-use lumens::Lumens;
-use penetration::{Filled, Passages};
 use recipe::Plan;
 use surface::Face;
-
-/// Label of void voxels.
-pub const VOID: u8 = 0;
-/// Label of wood voxels.
-pub const WOOD: u8 = 128;
-/// Label of adhesive voxels.
-pub const ADHESIVE: u8 = 255;
 
 /// A synthetic label volume and what was measured on it; a quarter of a byte a voxel.
 #[derive(Clone, Debug)]
@@ -70,30 +62,31 @@ impl Specimen {
             Some(_) => [0, 1].map(|side| Face::new(&plan, side)).into(),
             None => Vec::new(),
         };
+        let adherends = Adherend::all(&plan);
         let pieces = Pieces {
-            adherends: Adherend::all(&plan),
-            faces,
             plan,
+            adherends,
+            faces,
         };
-        let Pieces {
-            plan, adherends, ..
-        } = &pieces;
+        let plan = &pieces.plan;
         let mut cells = Cells::new(plan.size);
         let counts: Vec<Page> = (cells.pages_mut().enumerate())
             .map(|(page, bytes)| pieces.carve(page, bytes))
             .collect();
-        let adhesive = match plan.adhesive {
+        let [gap, tube]: [usize; 2] =
+            [|page: &Page| page.gap, |page: &Page| page.tube].map(|of| counts.iter().map(of).sum());
+        let wood = match plan.adhesive {
             Some(_) => {
-                let sum = |of: fn(&Page) -> usize| counts.iter().map(of).sum();
-                let already = [sum(|page| page.gap), sum(|page| page.tube)];
-                penetration::fill(&mut cells, plan, &pieces, already)?
+                let is_gap = |place| pieces.is_gap(place);
+                let radius = |place| pieces.radius(place);
+                penetration::fill(&mut cells, plan, gap + tube, is_gap, radius)?
             }
-            None => Filled::default(),
+            None => 0,
         };
-        let middle: Vec<u8> = labels(&cells, plan.size[2] / 2).collect();
-        let lumens = Lumens::measure(&middle, plan);
-        let wood = counts.iter().map(|page| page.wood);
-        let anatomy = Anatomy::measure(plan, adherends, wood, &adhesive, lumens);
+        let page = cells.labels(plan.size[2] / 2);
+        let counts = counts.into_iter().map(|page| page.wood).sum();
+        let adhesive = [gap, wood, tube];
+        let anatomy = Anatomy::measure(plan, &pieces.adherends, counts, adhesive, &page);
         Ok(Self {
             size: plan.size,
             cells,
@@ -108,7 +101,7 @@ impl Specimen {
 
     /// Labels of each page in turn, x fastest.
     pub fn pages(&self) -> impl Iterator<Item = Vec<u8>> {
-        (0..self.size[2]).map(|page| labels(&self.cells, page).collect())
+        (0..self.size[2]).map(|page| self.cells.labels(page))
     }
 
     /// All labels, x fastest, then y, then z: a byte a voxel.
@@ -120,14 +113,6 @@ impl Specimen {
     pub fn anatomy(&self) -> &Anatomy {
         &self.anatomy
     }
-}
-
-fn labels(cells: &Cells, page: usize) -> impl Iterator<Item = u8> {
-    cells.page_states(page).map(|state| match state {
-        State::Wood => WOOD,
-        State::Open | State::Queued => VOID,
-        State::Adhesive => ADHESIVE,
-    })
 }
 
 /// All that says what is where before the adhesive goes in.
@@ -182,15 +167,14 @@ impl Pieces {
         let position = self.plan.centre(place);
         self.adherends[self.side(position)].at(position)
     }
-}
 
-impl Passages for Pieces {
     fn is_gap(&self, place: [usize; 3]) -> bool {
         let position = self.plan.centre(place);
         let face = self.faces.get(self.side(position));
         face.is_some_and(|face| position[1].abs() < face.recess(place[0], place[2]))
     }
 
+    /// Radius (um) of the lumen that an open voxel belongs to.
     fn radius(&self, place: [usize; 3]) -> f32 {
         match self.sample(place) {
             Sample::Lumen(_, radius) => radius,

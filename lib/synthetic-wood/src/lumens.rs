@@ -1,25 +1,8 @@
 //! Lumens as they are met on a cross-section of labels, measured without the generator's help.
 
-use super::WOOD;
+use super::cells::WOOD;
 use super::recipe::Plan;
 use super::species::{Grain, Species};
-
-/// What one page across the fibres shows, as a microscopist measures it; 0 where none is met.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Lumens {
-    /// Vessels per mm2; one cut by the low x or y side is not counted.
-    pub vessels_per_mm2: f64,
-    /// Median diameter (um) of the circle of a vessel lumen's area.
-    pub vessel_diameter: f64,
-    /// The same for the lumens of fibres or tracheids.
-    pub fibre_diameter: f64,
-    /// Mean thickness (um) of the wall between two lumens: twice the wall's area over the
-    /// length of its border, by lines along x and y (Underwood 1970).
-    pub wall: f64,
-    /// Width (um) along y, near the rays' direction, below which a tenth and above which a
-    /// tenth of the fibres' lumens are: of tracheids late and early wood.
-    pub radial: [f64; 2],
-}
 
 /// Narrower openings (um) are pits and the ends of cells.
 const LEAST: f64 = 3.0;
@@ -27,45 +10,50 @@ const LEAST: f64 = 3.0;
 /// walls, um: pits between them and ray cells are narrower.
 const CLEAR: f64 = 8.0;
 
-impl Lumens {
-    /// Measures one page of labels, x fastest.
-    pub(crate) fn measure(page: &[u8], plan: &Plan) -> Self {
-        let [nx, ny, _] = plan.size;
-        let um = f64::from(plan.voxel);
-        let open: Vec<bool> = page.iter().map(|&label| label != WOOD).collect();
-        let vessel = least_vessel(plan.species);
-        let diameter =
-            |opening: &Opening| 2.0 * (opening.area as f64 / std::f64::consts::PI).sqrt() * um;
-        let cores = match vessel.is_finite() {
-            true => openings(eroded(&open, nx, CLEAR / um), nx),
-            false => Vec::new(),
-        };
-        let cores: Vec<(&Opening, f64)> = (cores.iter())
-            .map(|core| (core, diameter(core) + 2.0 * CLEAR))
-            .filter(|(_, diameter)| *diameter >= vessel)
-            .collect();
-        let reach = (CLEAR / um).ceil() as usize + 1;
-        let counted = cores.iter().filter(|(core, _)| !core.is_cut_low(reach));
-        let whole = cores.iter().filter(|(core, _)| !core.is_cut(reach, nx, ny));
-        let mut vessels: Vec<f64> = whole.map(|(_, diameter)| *diameter).collect();
+/// What one page of labels (x fastest) across the fibres shows, as a microscopist measures it; 0 where none is met:
+/// - vessels per mm2, without those cut by the low x or y side;
+/// - median diameter (um) of the circle of a vessel lumen's area, and of the lumens of fibres or tracheids;
+/// - mean thickness (um) of the wall between two lumens: twice the wall's area over the length of its border, by lines
+///   along x and y (Underwood 1970);
+/// - width (um) along y, near the rays' direction, below which a tenth and above which a tenth of the fibres' lumens
+///   are: of tracheids late and early wood.
+pub(crate) fn measure(page: &[u8], plan: &Plan) -> [f64; 6] {
+    let [nx, ny, _] = plan.size;
+    let um = f64::from(plan.voxel);
+    let open: Vec<bool> = page.iter().map(|&label| label != WOOD).collect();
+    let vessel = least_vessel(plan.species);
+    let diameter = |opening: &Opening| opening.diameter() * um;
+    let cores = match vessel.is_finite() {
+        true => openings(eroded(&open, nx, CLEAR / um), nx),
+        false => Vec::new(),
+    };
+    let cores: Vec<(&Opening, f64)> = (cores.iter())
+        .map(|core| (core, diameter(core) + 2.0 * CLEAR))
+        .filter(|(_, diameter)| *diameter >= vessel)
+        .collect();
+    let reach = (CLEAR / um).ceil() as usize + 1;
+    let counted = cores.iter().filter(|(core, _)| !core.is_cut_low(reach));
+    let whole = cores.iter().filter(|(core, _)| !core.is_cut(reach, nx, ny));
+    let mut vessels: Vec<f64> = whole.map(|(_, diameter)| *diameter).collect();
 
-        let lumens = openings(open, nx);
-        let fibres: Vec<&Opening> = (lumens.iter())
-            .filter(|lumen| !lumen.is_cut(1, nx, ny))
-            .filter(|lumen| (LEAST..vessel).contains(&diameter(lumen)))
-            .collect();
-        let mut diameters: Vec<f64> = fibres.iter().map(|lumen| diameter(lumen)).collect();
-        let mut radial: Vec<f64> = (fibres.iter())
-            .map(|lumen| (lumen.bounds[3] + 1 - lumen.bounds[2]) as f64 * um)
-            .collect();
-        Self {
-            vessels_per_mm2: counted.count() as f64 / ((nx * ny) as f64 * um * um * 1e-6),
-            vessel_diameter: quantile(&mut vessels, 0.5),
-            fibre_diameter: quantile(&mut diameters, 0.5),
-            wall: wall(page, nx) * um,
-            radial: [0.1, 0.9].map(|q| quantile(&mut radial, q)),
-        }
-    }
+    let lumens = openings(open, nx);
+    let fibres: Vec<&Opening> = (lumens.iter())
+        .filter(|lumen| !lumen.is_cut(1, nx, ny))
+        .filter(|lumen| (LEAST..vessel).contains(&diameter(lumen)))
+        .collect();
+    let mut diameters: Vec<f64> = fibres.iter().map(|lumen| diameter(lumen)).collect();
+    let mut radial: Vec<f64> = (fibres.iter())
+        .map(|lumen| (lumen.bounds[3] + 1 - lumen.bounds[2]) as f64 * um)
+        .collect();
+    let area_mm2 = (nx * ny) as f64 * um * um * 1e-6;
+    [
+        counted.count() as f64 / area_mm2,
+        quantile(&mut vessels, 0.5),
+        quantile(&mut diameters, 0.5),
+        wall(page, nx) * um,
+        quantile(&mut radial, 0.1),
+        quantile(&mut radial, 0.9),
+    ]
 }
 
 /// Diameters (um) of the circles of the areas of whole lumens on a page of labels, x fastest, in order: what a microscopist's table
@@ -73,11 +61,9 @@ impl Lumens {
 pub fn lumen_diameters(page: &[u8], nx: usize, voxel_um: f64) -> Vec<f64> {
     let open = page.iter().map(|&label| label != WOOD).collect();
     let ny = page.len() / nx;
-    let whole = openings(open, nx)
-        .into_iter()
-        .filter(|lumen| !lumen.is_cut(1, nx, ny));
-    let mut found: Vec<f64> = whole
-        .map(|lumen| 2.0 * (lumen.area as f64 / std::f64::consts::PI).sqrt() * voxel_um)
+    let mut found: Vec<f64> = (openings(open, nx).iter())
+        .filter(|lumen| !lumen.is_cut(1, nx, ny))
+        .map(|lumen| lumen.diameter() * voxel_um)
         .filter(|diameter| *diameter >= LEAST)
         .collect();
     found.sort_by(f64::total_cmp);
@@ -94,17 +80,19 @@ fn least_vessel(species: Species) -> f64 {
 
 struct Opening {
     area: usize,
-    /// Lowest and highest x, lowest and highest y.
     bounds: [usize; 4],
 }
 
 impl Opening {
+    fn diameter(&self) -> f64 {
+        2.0 * (self.area as f64 / std::f64::consts::PI).sqrt()
+    }
+
     /// Whether it comes nearer than `reach` voxels to the low x or y side of its page.
     fn is_cut_low(&self, reach: usize) -> bool {
         self.bounds[0] < reach || self.bounds[2] < reach
     }
 
-    /// The same for any side.
     fn is_cut(&self, reach: usize, nx: usize, ny: usize) -> bool {
         self.is_cut_low(reach) || self.bounds[1] + reach >= nx || self.bounds[3] + reach >= ny
     }
@@ -118,11 +106,7 @@ fn eroded(open: &[bool], nx: usize, clear: f64) -> Vec<bool> {
     for (row, open) in along.chunks_mut(nx).zip(open.chunks(nx)) {
         for x in 0..nx {
             let before = if x > 0 { row[x - 1] } else { reach };
-            row[x] = if open[x] {
-                (before + 1).min(reach + 1)
-            } else {
-                0
-            };
+            row[x] = usize::from(open[x]) * (before + 1).min(reach + 1);
         }
         for x in (1..nx).rev() {
             row[x - 1] = row[x - 1].min(row[x] + 1);
@@ -140,7 +124,6 @@ fn eroded(open: &[bool], nx: usize, clear: f64) -> Vec<bool> {
     (0..open.len()).map(far).collect()
 }
 
-/// The connected openings of a page, over the faces of voxels.
 fn openings(mut open: Vec<bool>, nx: usize) -> Vec<Opening> {
     let mut found = Vec::new();
     for start in 0..open.len() {
@@ -194,7 +177,7 @@ fn quantile(values: &mut [f64], q: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::VOID;
+    use super::super::cells::VOID;
     use super::*;
 
     /// Square lumens of 6 voxels with walls of 2 between them, off the sides by one.

@@ -14,71 +14,48 @@ const COST: u16 = 800;
 /// Radii (um) are whole numbers between these.
 const RADII: [f32; 2] = [1.0, 250.0];
 
-/// How much adhesive went where, voxels.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Filled {
-    pub(crate) gap: usize,
-    pub(crate) wood: usize,
-    pub(crate) tube: usize,
-}
-
-/// What the front asks of a specimen, by column, row and page.
-pub(crate) trait Passages: Sync {
-    /// Whether the voxel lies between the faces.
-    fn is_gap(&self, place: [usize; 3]) -> bool;
-
-    /// Radius (um) of the lumen that an open voxel of the wood belongs to.
-    fn radius(&self, place: [usize; 3]) -> f32;
-}
-
-/// Turns open cells into adhesive until the plan's volume of it is reached exactly. On entry the
-/// `gap` and the isolated `tube` of so many voxels are adhesive, and nothing else is.
+/// Turns open cells into adhesive until the plan's volume of it is reached exactly, and gives how many. On entry the
+/// gap and the isolated tube, of so many voxels together, are adhesive, and nothing else is. `is_gap` tells whether a
+/// voxel (column, row and page) lies between the faces, `radius` (um) that of the lumen which an open one belongs to.
 pub(crate) fn fill(
     cells: &mut Cells,
     plan: &Plan,
-    passages: &impl Passages,
-    [gap, tube]: [usize; 2],
-) -> Result<Filled, RecipeError> {
+    already: usize,
+    is_gap: impl Fn([usize; 3]) -> bool,
+    radius: impl Fn([usize; 3]) -> f32,
+) -> Result<usize, RecipeError> {
     let asked = plan.adhesive_voxels();
     let mut front = Front {
         cells,
-        passages,
+        radius,
         buckets: vec![Vec::new(); usize::from(COST) + 1],
     };
-    front.enter_from_gap();
-    let wood = front.advance(asked.saturating_sub(gap + tube));
-    let held = gap + wood + tube;
-    if held == asked {
-        return Ok(Filled { gap, wood, tube });
+    for index in front.cells.indices() {
+        let is_adhesive = front.cells.get(index) == State::Adhesive;
+        if is_adhesive && is_gap(front.cells.place(index)) {
+            front.enter_neighbours(index, 0);
+        }
     }
-    let per_area = |voxels: usize| {
-        let area = (plan.size[0] * plan.size[2]) as f64;
-        voxels as f64 / area * f64::from(plan.voxel)
-    };
-    Err(RecipeError::Overfull {
-        held: per_area(held),
-        asked: per_area(asked),
-    })
+    let wood = front.advance(asked.saturating_sub(already));
+    if already + wood == asked {
+        return Ok(wood);
+    }
+    let area = (plan.size[0] * plan.size[2]) as f64;
+    let [held, asked] = [already + wood, asked].map(|n| n as f64 / area * f64::from(plan.voxel));
+    Err(RecipeError::Overfull(format!(
+        "the void reached from the bond line holds {held:.2} um of adhesive per bond area and {asked:.2} um are asked: take a thinner slab or another seed"
+    )))
 }
 
 /// Dijkstra's front with the cost on the entered voxel: the first neighbour to be reached is
 /// then the cheapest way in, so one visit per voxel and a ring of buckets are enough.
-struct Front<'a, P> {
+struct Front<'a, R> {
     cells: &'a mut Cells,
-    passages: &'a P,
+    radius: R,
     buckets: Vec<Vec<usize>>,
 }
 
-impl<P: Passages> Front<'_, P> {
-    fn enter_from_gap(&mut self) {
-        for index in self.cells.indices() {
-            let is_adhesive = self.cells.get(index) == State::Adhesive;
-            if is_adhesive && self.passages.is_gap(self.cells.place(index)) {
-                self.enter_neighbours(index, 0);
-            }
-        }
-    }
-
+impl<R: Fn([usize; 3]) -> f32> Front<'_, R> {
     /// Fills lumens in the order of cost until `count` are filled or none is left; gives how
     /// many were filled.
     fn advance(&mut self, count: usize) -> usize {
@@ -108,7 +85,7 @@ impl<P: Passages> Front<'_, P> {
                 continue;
             }
             self.cells.set(next, State::Queued);
-            let radius = self.passages.radius(self.cells.place(next));
+            let radius = (self.radius)(self.cells.place(next));
             let step = COST / radius.clamp(RADII[0], RADII[1]) as u16;
             let slot = (cost + usize::from(step)) % self.buckets.len();
             self.buckets[slot].push(next);

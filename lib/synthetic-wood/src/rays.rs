@@ -42,7 +42,6 @@ pub(crate) struct Place {
     pub(crate) across: f32,
     /// Distance from the nearer ray or strip border; negative inside a ray.
     pub(crate) clearance: f32,
-    /// The nearer column.
     column: usize,
     /// Distance from the middle of that column, signed.
     offset: f32,
@@ -127,7 +126,6 @@ impl Rays {
         from_end.abs() >= HALF_WALL || in_circle(row, across, PIT_RADIUS[0])
     }
 
-    /// Whether a point in a vessel's wall is in a vessel-ray pit.
     pub(crate) fn pits_vessel(&self, point: WoodPoint, place: &Place) -> bool {
         let in_pit = |[row, across]: [f32; 2]| in_circle(row, across, PIT_RADIUS[1]);
         place.half_width > SIDE_WALL && self.in_cell(point.l, place).is_some_and(in_pit)

@@ -78,55 +78,33 @@ impl Recipe {
     }
 }
 
-/// Why a recipe cannot be grown.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+impl Default for Recipe {
+    fn default() -> Self {
+        Self {
+            size: [48, 96, 48],
+            voxel: 1.45e-6,
+            species: Species::HybridPoplar,
+            adhesive: None,
+            slab: None,
+            grain_angle: None,
+            seed: 1,
+        }
+    }
+}
+
+/// Why a recipe cannot be grown; a sentence each.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RecipeError {
-    /// Too few voxels for open lumens, or more than memory can address.
-    #[error(
-        "size {}x{}x{} is not accepted: x and z need 24 to 4096 voxels and y {least} to 4096",
-        size[0], size[1], size[2]
-    )]
-    Size {
-        /// Asked.
-        size: [usize; 3],
-        /// Least along y: two adherends need more than one piece.
-        least: usize,
-    },
-    /// A bond line in a species that none is known of, or adhesive for undamaged wood.
-    #[error(
-        "a synthetic bond line is of hybrid poplar, whose penetration is known; {} is grown without adhesive, and bonded by build-bondline --slab",
-        .0.name()
-    )]
-    Species(Species),
-    /// A slab for undamaged wood.
-    #[error("undamaged wood has no slab: its adhesive is given to build-bondline")]
-    SlabOfWood,
-    /// Fibres that do not run near z.
-    #[error("grain angle of {0} degrees is not accepted: 0 to 30 degrees are")]
-    GrainAngle(f64),
-    /// Voxels that cannot resolve the cell walls.
-    #[error("voxel of {0:.3} um is not accepted: walls of 4 um need a voxel of 0.2 to 2 um")]
-    Voxel(f64),
-    /// A slab too thin for a gap of whole voxels or too thick for the box.
-    #[error("slab of {slab:.2} um is not accepted: this box takes {lowest:.2} to {highest:.2} um")]
-    Slab {
-        /// Asked, um.
-        slab: f64,
-        /// Thinnest accepted, um.
-        lowest: f64,
-        /// Thickest accepted, um.
-        highest: f64,
-    },
-    /// The adhesive does not fit into what the bond line reaches.
-    #[error(
-        "the void reached from the bond line holds {held:.2} um of adhesive per bond area and {asked:.2} um are asked: take a thinner slab or another seed"
-    )]
-    Overfull {
-        /// Reachable void over bond area, um.
-        held: f64,
-        /// Asked, um.
-        asked: f64,
-    },
+    /// What no seed helps.
+    #[error("{0}")]
+    Refused(String),
+    /// Adhesive that does not fit into what the bond line reaches.
+    #[error("{0}")]
+    Overfull(String),
+}
+
+fn refused<T>(why: impl Into<String>) -> Result<T, RecipeError> {
+    Err(RecipeError::Refused(why.into()))
 }
 
 /// A recipe in micrometres with its defaults filled in and its limits checked.
@@ -151,26 +129,38 @@ impl Plan {
         let accepted =
             (24..=4096).contains(&nx) && (least..=4096).contains(&ny) && (24..=4096).contains(&nz);
         if !accepted {
-            let size = recipe.size;
-            return Err(RecipeError::Size { size, least });
+            return refused(format!(
+                "size {nx}x{ny}x{nz} is not accepted: x and z need 24 to 4096 voxels and y {least} to 4096"
+            ));
         }
         // As it was said, to a millionth of a micrometre.
         let voxel = (recipe.voxel * 1e12).round() / 1e6;
         if !(0.2..=2.0).contains(&voxel) {
-            return Err(RecipeError::Voxel(voxel));
+            return refused(format!(
+                "voxel of {voxel:.3} um is not accepted: walls of 4 um need a voxel of 0.2 to 2 um"
+            ));
         }
         // As it was said: degrees come back from radians with rounding.
         let degrees = |angle: f64| (1e9 * angle.to_degrees()).round() / 1e9;
         let steep = (recipe.grain_angle.map(degrees)).filter(|angle| !(0.0..=30.0).contains(angle));
         if let Some(angle) = steep {
-            return Err(RecipeError::GrainAngle(angle));
+            return refused(format!(
+                "grain angle of {angle} degrees is not accepted: 0 to 30 degrees are"
+            ));
         }
         let slab = match recipe.adhesive {
             Some(_) if recipe.species != Species::HybridPoplar => {
-                return Err(RecipeError::Species(recipe.species));
+                return refused(format!(
+                    "a synthetic bond line is of hybrid poplar, whose penetration is known; {} is grown without adhesive, and bonded by build-bondline --slab",
+                    recipe.species.name()
+                ));
             }
             Some(adhesive) => slab(recipe, adhesive, ny as f64 * voxel, 2.0 * voxel)?,
-            None if recipe.slab.is_some() => return Err(RecipeError::SlabOfWood),
+            None if recipe.slab.is_some() => {
+                return refused(
+                    "undamaged wood has no slab: its adhesive is given to build-bondline",
+                );
+            }
             None => 0.0,
         };
         Ok(Self {
@@ -233,11 +223,9 @@ fn slab(
     };
     let (lowest, highest) = (4.0 * cell, height / 3.0);
     if !(lowest..=highest).contains(&slab) {
-        return Err(RecipeError::Slab {
-            slab,
-            lowest,
-            highest,
-        });
+        return refused(format!(
+            "slab of {slab:.2} um is not accepted: this box takes {lowest:.2} to {highest:.2} um"
+        ));
     }
     Ok(slab)
 }
@@ -264,19 +252,13 @@ mod tests {
         for (size, adhesive, measured) in MEASURED {
             let recipe = Recipe {
                 size,
-                voxel: 1.45e-6,
-                species: Species::HybridPoplar,
                 adhesive,
-                slab: None,
-                grain_angle: None,
-                seed: 1,
+                ..Recipe::default()
             };
             let forecast = recipe.memory_bytes().unwrap() as f64;
             let over = forecast / (1024 * measured) as f64;
-            println!(
-                "{size:?}: {:.1} MB, {over:.2} of what was measured",
-                forecast / 1e6
-            );
+            let mb = forecast / 1e6;
+            println!("{size:?}: {mb:.1} MB, {over:.2} of what was measured");
             assert!(over >= 1.0, "{size:?}: {over}");
             let large = size.iter().product::<usize>() > 50_000_000;
             assert!(!large || over < 1.25, "{size:?}: {over}");

@@ -9,13 +9,6 @@ pub struct Target {
     pub range: [f64; 2],
 }
 
-const fn target(value: f64, low: f64, high: f64) -> Target {
-    Target {
-        value,
-        range: [low, high],
-    }
-}
-
 /// A species of wood.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Species {
@@ -38,7 +31,10 @@ impl Species {
     /// What the literature says, in the order of [`super::Anatomy::NAMES`]; `None` where a
     /// species lacks something or no value was found.
     pub fn targets(self) -> [Option<Target>; 11] {
-        let t = |value, low, high| Some(target(value, low, high));
+        let t = |value, low, high| {
+            let range = [low, high];
+            Some(Target { value, range })
+        };
         match self {
             Self::HybridPoplar => [
                 t(0.72, 0.64, 0.75),

@@ -3,22 +3,16 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::cross_section::{Bins, Cover, Point};
+use super::cross_section::{Bins, Circle, Cover, REACH, WALL};
 use super::cut::{Cut, WoodPoint};
 use super::random::{Feature, stream};
 use super::recipe::{AdhesiveSystem, Plan};
 use super::species::VesselTraits;
 
-/// By how much the vessels' share of the cross-section may exceed that of their species.
-pub(crate) const TOLERANCE: f32 = 0.02;
-/// Wall of a vessel, um; fibres add their half wall outside it.
-pub(crate) const WALL: f32 = 2.5;
 /// Half of the wall that the vessels of a radial multiple share, um.
 const SHARED_HALF_WALL: f32 = 2.0;
 /// Least wood between two groups, um.
 const BETWEEN: f32 = 5.0;
-/// How far outside a vessel its distance is still needed (fibre walls), um.
-pub(crate) const REACH: f32 = 8.0;
 /// Spacing of the members of a multiple over the sum of their radii: below one, so that the
 /// shared wall is flat as in real radial multiples.
 const FLATTENED: f32 = 0.88;
@@ -32,10 +26,7 @@ const TUBE: f32 = 96.0;
 /// One vessel: a tube along l.
 #[derive(Clone, Debug)]
 pub(crate) struct Vessel {
-    pub(crate) r: f32,
-    pub(crate) t: f32,
-    /// Radius of the lumen, um.
-    pub(crate) radius: f32,
+    pub(crate) lumen: Circle,
     element: f32,
     phase: f32,
     pit_radius: f32,
@@ -68,8 +59,7 @@ impl Vessels {
     pub(crate) fn place(plan: &Plan, cut: &Cut, side: usize, bounds: [[f32; 2]; 2]) -> Self {
         let mut members = Vec::new();
         let Some(traits) = &plan.timber.vessels else {
-            let bins = Bins::new(&members, bounds);
-            return Self { members, bins };
+            return Self::of(members, bounds);
         };
         let mut random = stream(plan, side, Feature::Vessels);
         if plan.adhesive.is_some() {
@@ -78,7 +68,9 @@ impl Vessels {
         }
         let [r, t] = bounds;
         let mut cover = Cover::new(plan, cut, side, bounds);
-        members.iter().for_each(|vessel| cover.add(vessel));
+        members
+            .iter()
+            .for_each(|vessel: &Vessel| cover.add(&vessel.lumen));
         // Random sequential placement jams near this share; the bound ends hopeless tries.
         for _ in 0..20_000 {
             if cover.in_box() >= traits.share {
@@ -90,12 +82,17 @@ impl Vessels {
             ];
             let group = group(traits, start, &mut random);
             let clear = |a: &Vessel| members.iter().all(|b| a.clear_of(b));
-            if group.iter().all(clear) && cover.has_room(&group, traits.share) {
-                group.iter().for_each(|vessel| cover.add(vessel));
+            let lumens: Vec<Circle> = group.iter().map(|vessel| vessel.lumen).collect();
+            if group.iter().all(clear) && cover.has_room(&lumens, traits.share) {
+                lumens.iter().for_each(|lumen| cover.add(lumen));
                 members.extend(group);
             }
         }
-        let bins = Bins::new(&members, bounds);
+        Self::of(members, bounds)
+    }
+
+    fn of(members: Vec<Vessel>, bounds: [[f32; 2]; 2]) -> Self {
+        let bins = Bins::new(members.iter().map(|vessel| vessel.lumen), bounds);
         Self { members, bins }
     }
 
@@ -104,7 +101,7 @@ impl Vessels {
         let mut second = f32::INFINITY;
         for &index in self.bins.near(point.r, point.t) {
             let vessel = &self.members[index as usize];
-            let outside = vessel.outside(point.r, point.t);
+            let outside = vessel.lumen.outside(point.r, point.t);
             if outside < nearest.0 {
                 second = nearest.0;
                 nearest = (outside, Some(vessel));
@@ -123,9 +120,7 @@ impl Vessel {
     fn new(traits: &VesselTraits, r: f32, t: f32, radius: f32, random: &mut ChaCha8Rng) -> Self {
         let element = random.random_range(ELEMENT[0]..ELEMENT[1]);
         Self {
-            r,
-            t,
-            radius,
+            lumen: Circle { r, t, radius },
             element,
             phase: random.random_range(0.0..element),
             pit_radius: 0.5 * random.random_range(traits.pit[0]..traits.pit[1]),
@@ -133,18 +128,9 @@ impl Vessel {
         }
     }
 
-    /// Distance from the lumen surface, negative inside.
-    fn outside(&self, r: f32, t: f32) -> f32 {
-        let (dr, dt) = (r - self.r, t - self.t);
-        (dr * dr + dt * dt).sqrt() - self.radius
-    }
-
     fn clear_of(&self, other: &Self) -> bool {
-        self.outside(other.r, other.t) - other.radius > 2.0 * WALL + BETWEEN
-    }
-
-    pub(crate) fn covers(&self, point: &Point) -> bool {
-        self.outside(point.r, point.t) < WALL
+        let Circle { r, t, radius } = other.lumen;
+        self.lumen.outside(r, t) - radius > 2.0 * WALL + BETWEEN
     }
 
     /// Which part of this vessel a point is in that is nearer to it than to any other;
@@ -166,25 +152,22 @@ impl Vessel {
     fn in_pit(&self, point: WoodPoint) -> bool {
         let pitch = 2.0 * self.pit_radius + 8.0;
         let from_centre = |s: f32| s - pitch * (s / pitch).round();
-        let (l, t) = (from_centre(point.l), from_centre(point.t - self.t));
+        let (l, t) = (from_centre(point.l), from_centre(point.t - self.lumen.t));
         l * l + t * t < self.pit_radius * self.pit_radius
     }
 
     fn in_rim(&self, l: f32, outside: f32) -> bool {
         let along = l + self.phase;
         let to_end = along - self.element * (along / self.element).round();
-        2.0 * to_end.abs() < RIM[0] && outside > -RIM[1] * self.radius
+        2.0 * to_end.abs() < RIM[0] && outside > -RIM[1] * self.lumen.radius
     }
 }
 
 /// A solitary vessel or a radial multiple starting at `[r, t]`.
 fn group(traits: &VesselTraits, start: [f32; 2], random: &mut ChaCha8Rng) -> Vec<Vessel> {
     let chance: f32 = random.random();
-    let count = 1 + traits
-        .groups
-        .iter()
-        .filter(|&&bound| chance >= bound)
-        .count();
+    let more = traits.groups.iter().filter(|&&bound| chance >= bound);
+    let count = 1 + more.count();
     let mut r = start[0];
     let mut last = 0.0;
     (0..count)

@@ -1,6 +1,6 @@
 //! Synthetic specimens are referred to by their seeds: a seed must go on giving the same wood.
 
-use synthetic_wood::{ADHESIVE, AdhesiveSystem, Recipe, Species, Specimen, VOID};
+use synthetic_wood::{ADHESIVE, AdhesiveSystem, Recipe, Specimen, VOID};
 
 /// How many voxels have a label, and their mean x, y and z.
 fn census(specimen: &Specimen, label: u8) -> [f64; 4] {
@@ -12,12 +12,8 @@ fn census(specimen: &Specimen, label: u8) -> [f64; 4] {
             .zip(place)
             .for_each(|(sum, x)| *sum += x as f64);
     }
-    [
-        sums[0],
-        sums[1] / sums[0],
-        sums[2] / sums[0],
-        sums[3] / sums[0],
-    ]
+    let [count, x, y, z] = sums;
+    [count, x / count, y / count, z / count]
 }
 
 /// The wood of commit 314e630. Exact but for functions such as the cosine, which another
@@ -46,12 +42,9 @@ fn the_wood_of_a_seed_is_that_of_the_first_version() {
     for ((adhesive, size, seed), expected) in recipes.into_iter().zip(expected) {
         let recipe = Recipe {
             size,
-            voxel: 1.45e-6,
-            species: Species::HybridPoplar,
             adhesive: Some(adhesive),
-            slab: None,
-            grain_angle: None,
             seed,
+            ..Recipe::default()
         };
         let specimen = Specimen::grow(&recipe).unwrap();
         for (label, expected) in [VOID, ADHESIVE].into_iter().zip(expected) {

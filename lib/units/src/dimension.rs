@@ -62,21 +62,23 @@ pub fn unit(symbol: &str) -> Option<(&'static str, f64)> {
         let (_, factor) = D::UNITS.iter().find(|(name, _)| *name == symbol)?;
         Some((D::NAME, *factor))
     }
-    let all = [
-        of::<Length>,
-        of::<Time>,
-        of::<Speed>,
-        of::<Pressure>,
-        of::<Viscosity>,
-        of::<Density>,
-        of::<Acceleration>,
-        of::<ShearRate>,
-        of::<Consistency>,
-        of::<MolarEnergy>,
-        of::<Spread>,
-        of::<Diffusivity>,
-        of::<SurfaceTension>,
-        of::<Angle>,
-    ];
-    all.iter().find_map(|of| of(symbol))
+    macro_rules! first {
+        ($($dimension:ty),*) => { None$(.or_else(|| of::<$dimension>(symbol)))* };
+    }
+    first!(
+        Length,
+        Time,
+        Speed,
+        Pressure,
+        Viscosity,
+        Density,
+        Acceleration,
+        ShearRate,
+        Consistency,
+        MolarEnergy,
+        Spread,
+        Diffusivity,
+        SurfaceTension,
+        Angle
+    )
 }

@@ -36,10 +36,9 @@ impl<D: Dimension> Quantity<D> {
 
     /// This quantity if it is not too large to be meant; `text` is what was written.
     fn of_size(self, text: &str) -> Result<Self, ParseError> {
-        if self.si.abs() <= D::SIZE[1] {
-            Ok(self)
-        } else {
-            Err(Self::beyond(text))
+        match self.si.abs() <= D::SIZE[1] {
+            true => Ok(self),
+            false => Err(Self::beyond(text)),
         }
     }
 
@@ -79,35 +78,25 @@ impl<D: Dimension> FromStr for Quantity<D> {
     fn from_str(text: &str) -> Result<Self, ParseError> {
         let text = text.trim();
         // The longest numeric prefix, so that the 'e' of an exponent is not taken for a unit.
-        let split = (1..=text.len())
-            .rev()
-            .filter(|&end| text.is_char_boundary(end))
-            .find(|&end| {
-                text[..end]
-                    .trim_end()
-                    .parse::<f64>()
-                    .is_ok_and(f64::is_finite)
-            });
-        let Some(split) = split else {
+        let number = |end: usize| {
+            let number = text.get(..end)?.trim_end().parse().ok();
+            number
+                .filter(|x: &f64| x.is_finite())
+                .map(|x| (x, text[end..].trim()))
+        };
+        let (name, accepted) = (D::NAME, Self::accepted());
+        let Some((number, unit)) = (1..=text.len()).rev().find_map(number) else {
             return Err(ParseError(format!(
-                "'{text}' is not {}: a number with one of the units {} is needed",
-                D::NAME,
-                Self::accepted()
+                "'{text}' is not {name}: a number with one of the units {accepted} is needed"
             )));
         };
-        let number: f64 = text[..split].trim_end().parse().unwrap_or(f64::NAN);
-        let unit = text[split..].trim();
-        match D::UNITS.iter().find(|(name, _)| *name == unit) {
+        match D::UNITS.iter().find(|(symbol, _)| *symbol == unit) {
             Some((_, factor)) => Self::from_si(number * factor).of_size(text),
             None if unit.is_empty() => Err(ParseError(format!(
-                "'{text}' has no unit: {} needs one of {}",
-                D::NAME,
-                Self::accepted()
+                "'{text}' has no unit: {name} needs one of {accepted}"
             ))),
             None => Err(ParseError(format!(
-                "'{unit}' in '{text}' is not a unit of {}: accepted are {}",
-                D::NAME,
-                Self::accepted()
+                "'{unit}' in '{text}' is not a unit of {name}: accepted are {accepted}"
             ))),
         }
     }
@@ -132,12 +121,8 @@ impl<'de, D: Dimension> Deserialize<'de> for Quantity<D> {
             type Value = Quantity<D>;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                write!(
-                    f,
-                    "{} as a string with a unit ({})",
-                    D::NAME,
-                    Quantity::<D>::accepted()
-                )
+                let accepted = Quantity::<D>::accepted();
+                write!(f, "{} as a string with a unit ({accepted})", D::NAME)
             }
 
             fn visit_str<E: de::Error>(self, text: &str) -> Result<Self::Value, E> {
@@ -158,25 +143,30 @@ mod tests {
         text.parse::<Quantity<D>>().unwrap().si()
     }
 
-    fn close(a: f64, b: f64) -> bool {
-        (a - b).abs() <= 1e-14 * b.abs()
-    }
-
     #[test]
     fn the_papers_quantities() {
-        assert!(close(si::<Length>("1.45 um"), 1.45e-6));
-        assert!(close(si::<Length>("2.9um"), 2.9e-6));
-        assert!(close(si::<Viscosity>("1300 cP"), 1.3));
-        assert!(close(si::<Viscosity>("1.3 Pa s"), 1.3));
-        assert!(close(si::<Pressure>("2.5 MPa"), 2.5e6));
-        assert!(close(si::<Density>("1.2 g/cm3"), 1200.0));
-        assert!(close(si::<Speed>("1 m/s"), 1.0));
-        assert!(close(si::<Time>("0.08 ms"), 8e-5));
-        assert!(close(si::<Acceleration>("-2.3e5 m/s2"), -2.3e5));
+        for (found, si) in [
+            (si::<Length>("1.45 um"), 1.45e-6),
+            (si::<Length>("2.9um"), 2.9e-6),
+            (si::<Viscosity>("1300 cP"), 1.3),
+            (si::<Viscosity>("1.3 Pa s"), 1.3),
+            (si::<Pressure>("2.5 MPa"), 2.5e6),
+            (si::<Density>("1.2 g/cm3"), 1200.0),
+            (si::<Speed>("1 m/s"), 1.0),
+            (si::<Time>("0.08 ms"), 8e-5),
+            (si::<Acceleration>("-2.3e5 m/s2"), -2.3e5),
+            // An exponent is not a unit.
+            (si::<Length>("1e-3 m"), 1e-3),
+            (si::<Length>("1e3um"), 1e-3),
+        ] {
+            assert!((found - si).abs() <= 1e-14 * si.abs(), "{found} {si}");
+        }
     }
 
     #[test]
-    fn refusals_name_the_accepted_units() {
+    fn refusals_name_the_accepted_units_and_sizes() {
+        let parse = |text: &str| text.parse::<Quantity<Length>>();
+        let refused = |text: &str| parse(text).unwrap_err().to_string();
         for bad in [
             "",
             "um",
@@ -187,40 +177,22 @@ mod tests {
             "1,5 um",
             "1.45 Um",
         ] {
-            let said = bad.parse::<Quantity<Length>>().unwrap_err().to_string();
-            assert!(said.contains("um"), "{bad}: {said}");
+            assert!(refused(bad).contains("um"), "{bad}: {}", refused(bad));
         }
-        assert!(
-            "0 um"
-                .parse::<Quantity<Length>>()
-                .unwrap()
-                .positive()
-                .is_err()
-        );
-        assert!(
-            "-1 um"
-                .parse::<Quantity<Length>>()
-                .unwrap()
-                .positive()
-                .is_err()
-        );
-    }
-
-    #[test]
-    fn sizes_beyond_all_bounds_are_refused() {
-        let parse = |text: &str| text.parse::<Quantity<Length>>();
-        assert!(parse("1e300 m").is_err() && parse("-1e300 m").is_err());
-        assert!(parse("1e308 mm").is_err());
+        for large in ["1e300 m", "-1e300 m", "1e308 mm"] {
+            let said = refused(large);
+            assert!(said.contains("from 1e-12 to 1e9 m"), "{said}");
+        }
         // Near zero is a place like another, but not an edge or a thickness.
-        assert!(parse("1e-300 m").is_ok() && parse("0 m").is_ok());
-        let said = parse("1e-300 m").unwrap().positive().unwrap_err();
-        assert!(said.to_string().contains("from 1e-12 to 1e9 m"), "{said}");
-        assert!(parse("1 nm").unwrap().positive().is_ok());
-    }
-
-    #[test]
-    fn an_exponent_is_not_a_unit() {
-        assert!(close(si::<Length>("1e-3 m"), 1e-3));
-        assert!(close(si::<Length>("1e3um"), 1e-3));
+        let positive = |text: &str| parse(text).unwrap().positive();
+        for (none, why) in [
+            ("0 um", "greater than zero"),
+            ("-1 um", "greater than zero"),
+            ("1e-300 m", "from 1e-12 to 1e9 m"),
+        ] {
+            let said = positive(none).unwrap_err().to_string();
+            assert!(said.contains(why), "{said}");
+        }
+        assert!(positive("1 nm").is_ok());
     }
 }

@@ -249,10 +249,7 @@ impl<'a> LabelVolume<'a> {
 }
 
 fn corrupt(file: &ParticleFile, what: String) -> Error {
-    Error::Corrupt {
-        file: file.name().to_owned(),
-        what,
-    }
+    Error::new(file.name(), what)
 }
 
 /// The low corner (m) of the lattice and the voxel of it at which each block begins; without

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use bondline::Turn;
-use clap::{Args, Parser, ValueEnum};
+use clap::{Args, Parser};
 use cli::{Failure, Output};
 use units::{Axis, Density, Dimension, Length, Quantity, Spread};
 
@@ -71,8 +71,8 @@ pub(crate) struct Wood {
     #[arg(long, value_name = "DENSITY", allow_hyphen_values = true, value_parser = positive::<Density>, requires = "spread")]
     pub(crate) density: Option<f64>,
     /// Turn the top piece about the bond normal, right-handed, in degrees; 90 is plywood
-    #[arg(long, value_name = "DEGREES")]
-    pub(crate) turn_top: Option<Degrees>,
+    #[arg(long, value_name = "DEGREES", value_parser = ["0", "90", "180", "270"])]
+    pub(crate) turn_top: Option<String>,
     /// Crop pieces of unequal width to what they share, from their low corners
     #[arg(long)]
     pub(crate) crop_to_fit: bool,
@@ -82,10 +82,16 @@ pub(crate) struct Wood {
 }
 
 impl Wood {
+    pub(crate) fn turn(&self) -> Turn {
+        match self.turn_top.as_deref() {
+            Some("90") => Turn::Quarter,
+            Some("180") => Turn::Half,
+            Some("270") => Turn::ThreeQuarters,
+            _ => Turn::None,
+        }
+    }
+
     /// Thickness of the slab asked for, m; `None` for a bonded specimen.
-    ///
-    /// # Errors
-    /// A specimen of wood without adhesive given, or options of wood for a bonded specimen.
     pub(crate) fn slab_m(&self) -> Result<Option<f64>, Failure> {
         if let Some(slab_m) = self.slab {
             return Ok(Some(slab_m));
@@ -107,30 +113,6 @@ impl Wood {
     }
 }
 
-/// How the top piece may be turned.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum Degrees {
-    #[value(name = "0")]
-    None,
-    #[value(name = "90")]
-    Quarter,
-    #[value(name = "180")]
-    Half,
-    #[value(name = "270")]
-    ThreeQuarters,
-}
-
-impl From<Degrees> for Turn {
-    fn from(degrees: Degrees) -> Self {
-        match degrees {
-            Degrees::None => Turn::None,
-            Degrees::Quarter => Turn::Quarter,
-            Degrees::Half => Turn::Half,
-            Degrees::ThreeQuarters => Turn::ThreeQuarters,
-        }
-    }
-}
-
 /// A length in metres, or none for `auto`.
 #[derive(Clone, Copy)]
 pub(crate) struct AutoOr(pub(crate) Option<f64>);
@@ -139,10 +121,9 @@ fn auto_or_length(text: &str) -> Result<AutoOr, String> {
     if text == "auto" {
         return Ok(AutoOr(None));
     }
-    match text.parse::<Quantity<Length>>() {
-        Ok(length) => Ok(AutoOr(Some(length.si()))),
-        Err(error) => Err(format!("{error}, or 'auto'")),
-    }
+    let length = text.parse::<Quantity<Length>>();
+    let length = length.map_err(|error| format!("{error}, or 'auto'"))?;
+    Ok(AutoOr(Some(length.si())))
 }
 
 fn positive<D: Dimension>(text: &str) -> Result<f64, String> {

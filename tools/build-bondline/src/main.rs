@@ -7,7 +7,7 @@ mod report;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use bondline::{Bond, Error, Layup, Options, Pieces, Placed, Plane, Specimen, Turn};
+use bondline::{Bond, Error, Layup, Options, Pieces, Placed, Plane, Specimen};
 use cli::Failure;
 use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
 use units::Axis;
@@ -89,20 +89,16 @@ fn placed<'a>(file: &'a ParticleFile, name: &str) -> Result<Placed<'a>, Failure>
 fn refusal(files: &[ParticleFile], error: &Error) -> Failure {
     let names: Vec<_> = files.iter().map(|f| format!("'{}'", f.name())).collect();
     let said = format!("{}: {error}", names.join(" and "));
-    if error.is_unfit_data() {
-        Failure::data(said)
-    } else {
-        Failure::usage(said)
+    match error.is_unfit_data() {
+        true => Failure::data(said),
+        false => Failure::usage(said),
     }
 }
 
 fn bonded(file: &ParticleFile, arguments: &Arguments, normal: Axis) -> Result<Bond, Failure> {
     let options = Options {
         normal,
-        plane: match arguments.plane.0 {
-            Some(plane_m) => Plane::At(plane_m),
-            None => Plane::Auto,
-        },
+        plane: arguments.plane.0.map_or(Plane::Auto, Plane::At),
         voxels_per_cell: arguments.voxels_per_cell.into(),
         gap_m: arguments.gap.0,
         tolerance: arguments.tolerance,
@@ -153,7 +149,7 @@ fn wood(
         voxels_per_cell: arguments.voxels_per_cell.into(),
         gap_m: arguments.gap.0,
         tolerance: arguments.tolerance,
-        turn: arguments.wood.turn_top.map_or(Turn::None, Turn::from),
+        turn: arguments.wood.turn(),
         crop: arguments.wood.crop_to_fit,
         drop_islands: arguments.wood.drop_islands,
     };
@@ -186,15 +182,12 @@ fn write(
     }
     let inputs = paths.iter().zip(files);
     let inputs = inputs.map(|(path, file)| (path.display().to_string(), file.content_hash()));
-    header.provenance = files
+    let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
+    let own = Provenance::of_process(tool, version, inputs.collect());
+    let before = files
         .iter()
-        .flat_map(|file| file.header().provenance.clone())
-        .collect();
-    header.provenance.push(Provenance::of_process(
-        env!("CARGO_PKG_NAME"),
-        env!("CARGO_PKG_VERSION"),
-        inputs.collect(),
-    ));
+        .flat_map(|file| file.header().provenance.clone());
+    header.provenance = before.chain([own]).collect();
     let mut draft = Draft::new(header);
     for (name, material, part) in [
         ("wood-bottom", Material::Rigid, &bond.bottom),

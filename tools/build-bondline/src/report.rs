@@ -79,7 +79,6 @@ fn plane(bond: &Bond, normal: Axis) {
         .for_each(cli::warn);
 }
 
-/// The face of one piece of undamaged wood.
 fn piece(name: &str, face: &Face, voxel_m: f64) {
     let um = 1e6 * voxel_m;
     cli::note(format!(

@@ -14,12 +14,10 @@ pub fn describe(file: &ParticleFile) -> Result<String, Failure> {
 
 fn write(out: &mut String, file: &ParticleFile) -> std::fmt::Result {
     let header = file.header();
-    let kind = header.kind;
-    let normal = ["x", "y", "z"]
-        .get(usize::from(header.normal))
-        .unwrap_or(&"?");
+    // The header of an opened file names one of the three.
+    let normal = ["x", "y", "z"][usize::from(header.normal)];
     writeln!(out, "file        {}", file.name())?;
-    writeln!(out, "kind        {kind}")?;
+    writeln!(out, "kind        {}", header.kind)?;
     writeln!(out, "voxel       {} um", um(header.voxel_m))?;
     writeln!(out, "normal      {normal}")?;
     let box_um: Vec<String> = (header.box_min_m.iter().zip(&header.box_max_m))
@@ -27,11 +25,8 @@ fn write(out: &mut String, file: &ParticleFile) -> std::fmt::Result {
         .collect();
     writeln!(out, "box         {} um", box_um.join(", "))?;
     if matches!(header.kind, Kind::State | Kind::Checkpoint) {
-        writeln!(
-            out,
-            "time        {:e} s, step {}",
-            header.time_s, header.step
-        )?;
+        let (time_s, step) = (header.time_s, header.step);
+        writeln!(out, "time        {time_s:e} s, step {step}")?;
     }
     for block in &header.blocks {
         write_block(out, block)?;
@@ -39,20 +34,15 @@ fn write(out: &mut String, file: &ParticleFile) -> std::fmt::Result {
     if header.particles > 0 {
         writeln!(out, "liquid      {} points", header.particles)?;
     }
-    for section in file
+    let mut arrays = file
         .sections()
         .iter()
-        .filter(|s| s.element != Element::Bits)
-    {
-        write_array(out, section)?;
-    }
+        .filter(|s| s.element != Element::Bits);
+    arrays.try_for_each(|section| write_array(out, section))?;
     for (name, value) in &header.attributes {
         writeln!(out, "attribute   {name} = {value}")?;
     }
-    header
-        .provenance
-        .iter()
-        .try_for_each(|p| write_provenance(out, p))
+    (header.provenance.iter()).try_for_each(|p| write_provenance(out, p))
 }
 
 fn write_block(out: &mut String, block: &Block) -> std::fmt::Result {
@@ -75,32 +65,21 @@ fn write_block(out: &mut String, block: &Block) -> std::fmt::Result {
 }
 
 fn write_array(out: &mut String, section: &Section) -> std::fmt::Result {
-    let element = match section.element {
-        Element::Bits => "bits",
-        Element::F32 => "f32",
-        Element::F64 => "f64",
-        Element::U32 => "u32",
-        Element::U64 => "u64",
-        Element::U8 => "u8",
-        Element::Blob => {
-            return writeln!(out, "blob        {}: {} bytes", section.name, section.rows);
-        }
-    };
+    let (name, rows) = (&section.name, section.rows);
+    if section.element == Element::Blob {
+        return writeln!(out, "blob        {name}: {rows} bytes");
+    }
+    let element = format!("{:?}", section.element).to_lowercase();
     writeln!(
         out,
-        "column      {}: {} rows of {} {element}",
-        section.name, section.rows, section.components
+        "column      {name}: {rows} rows of {} {element}",
+        section.components
     )
 }
 
 fn write_provenance(out: &mut String, by: &Provenance) -> std::fmt::Result {
-    writeln!(
-        out,
-        "made by     {} {}: {}",
-        by.tool,
-        by.version,
-        by.command.join(" ")
-    )?;
+    let command = by.command.join(" ");
+    writeln!(out, "made by     {} {}: {command}", by.tool, by.version)?;
     for (path, hash) in &by.inputs {
         writeln!(out, "  from      {path} (xxh3 {hash:016x})")?;
     }

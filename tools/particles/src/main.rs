@@ -78,7 +78,6 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Prints one text per file.
 fn for_each(
     files: &[PathBuf],
     text: impl Fn(&ParticleFile) -> Result<String, Failure>,

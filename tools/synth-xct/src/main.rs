@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 use std::str::FromStr;
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
 use cli::{Failure, Output, Record};
 use synthetic_wood::{AdhesiveSystem, Anatomy, Recipe, RecipeError, Species, Specimen};
 use units::{Angle, Length, Quantity};
@@ -26,11 +26,11 @@ use voxels::TiffWriter;
 struct Arguments {
     /// Adhesive: sets the slab (PF 55.1 um, PVA-PF 78.3 um); large PF boxes hold an isolated tube.
     /// none is one piece of undamaged wood
-    #[arg(long, value_enum)]
-    adhesive: Adhesive,
+    #[arg(long, value_parser = ["pf", "pva-pf", "none"])]
+    adhesive: String,
     /// Wood; all but hybrid poplar without adhesive
-    #[arg(long, value_enum, default_value = "hybrid-poplar")]
-    species: SpeciesName,
+    #[arg(long, value_parser = ["hybrid-poplar", "beech", "birch", "spruce"], default_value = "hybrid-poplar")]
+    species: String,
     /// Voxels along x, y and z
     #[arg(long, value_name = "XxYxZ", default_value = "48x96x48")]
     size: Size,
@@ -56,21 +56,6 @@ struct Arguments {
     common: cli::Common,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Adhesive {
-    Pf,
-    PvaPf,
-    None,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum SpeciesName {
-    HybridPoplar,
-    Beech,
-    Birch,
-    Spruce,
-}
-
 #[derive(Clone, Copy)]
 struct Size([usize; 3]);
 
@@ -79,13 +64,12 @@ impl FromStr for Size {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let edges: Result<Vec<usize>, _> = text.split('x').map(str::parse).collect();
-        edges
-            .ok()
-            .and_then(|edges| <[usize; 3]>::try_from(edges).ok())
-            .map(Self)
-            .ok_or_else(|| {
-                format!("'{text}' is not a size: three numbers of voxels are needed, e.g. 48x96x48")
-            })
+        match edges.as_deref() {
+            Ok(&[nx, ny, nz]) => Ok(Self([nx, ny, nz])),
+            _ => Err(format!(
+                "'{text}' is not a size: three numbers of voxels are needed, e.g. 48x96x48"
+            )),
+        }
     }
 }
 
@@ -107,16 +91,16 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let recipe = Recipe {
         size: arguments.size.0,
         voxel: arguments.voxel,
-        species: match arguments.species {
-            SpeciesName::HybridPoplar => Species::HybridPoplar,
-            SpeciesName::Beech => Species::Beech,
-            SpeciesName::Birch => Species::Birch,
-            SpeciesName::Spruce => Species::Spruce,
+        species: match arguments.species.as_str() {
+            "beech" => Species::Beech,
+            "birch" => Species::Birch,
+            "spruce" => Species::Spruce,
+            _ => Species::HybridPoplar,
         },
-        adhesive: match arguments.adhesive {
-            Adhesive::Pf => Some(AdhesiveSystem::Pf),
-            Adhesive::PvaPf => Some(AdhesiveSystem::PvaPf),
-            Adhesive::None => None,
+        adhesive: match arguments.adhesive.as_str() {
+            "pf" => Some(AdhesiveSystem::Pf),
+            "pva-pf" => Some(AdhesiveSystem::PvaPf),
+            _ => None,
         },
         slab: arguments.slab,
         grain_angle: arguments.grain_angle,
@@ -132,7 +116,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         arguments.yes_really,
     )?;
     let specimen = Specimen::grow(&recipe).map_err(|error| match error {
-        RecipeError::Overfull { .. } => Failure::failed(error),
+        RecipeError::Overfull(_) => Failure::failed(error),
         _ => Failure::usage(error),
     })?;
     report(&specimen, &recipe);
@@ -161,7 +145,6 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     })
 }
 
-/// What was measured, beside what the species has.
 fn report(specimen: &Specimen, recipe: &Recipe) {
     let anatomy = specimen.anatomy();
     let [nx, ny, nz] = specimen.size();
@@ -174,7 +157,7 @@ fn report(specimen: &Specimen, recipe: &Recipe) {
         recipe.seed
     ));
     let targets = recipe.species.targets();
-    for ((name, target), value) in Anatomy::NAMES.iter().zip(targets).zip(anatomy.values()) {
+    for ((name, target), value) in Anatomy::NAMES.iter().zip(targets).zip(anatomy.values) {
         let Some(target) = target else { continue };
         let [low, high] = target.range;
         // A page too small to hold a whole vessel or ray shows none.

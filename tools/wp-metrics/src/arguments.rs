@@ -7,9 +7,21 @@ use clap::Parser;
 use cli::Output;
 use metrics::Reference;
 use units::{Axis, Length, Quantity};
-use voxels::{Dims, Labels, RawType};
+use voxels::{Dims, Grey, Labels, RawType};
 
-use crate::input::GreyLevels;
+/// Options that have no meaning in tables of wood.
+const OF_ADHESIVE: [&str; 10] = [
+    "reference",
+    "normal",
+    "summary",
+    "map",
+    "profile",
+    "compare",
+    "finer",
+    "series",
+    "pressure",
+    "ignore_islands",
+];
 
 /// Measure weighted and effective penetration of adhesive
 ///
@@ -79,42 +91,25 @@ pub(crate) struct Arguments {
     pub(crate) ignore_islands: Option<usize>,
     /// Tell the permeability along this axis instead, x, y or z, of all that is not wood full of liquid that sticks to it:
     /// steady flow through the voxels in cells of one, and as its error the distance from that in cells of two
-    #[arg(
-        long,
-        value_name = "AXIS",
-        conflicts_with_all = [
-            "reference", "normal", "summary", "map", "profile", "compare", "finer", "series", "pressure", "ignore_islands"
-        ]
-    )]
+    #[arg(long, value_name = "AXIS", conflicts_with_all = OF_ADHESIVE)]
     pub(crate) permeability: Option<Axis>,
     /// Tell the sizes of pores and lumens instead: the share of what is not wood by the diameter of the largest ball that fits between the
     /// wood and holds the place (for bond-figures pores)
-    #[arg(
-        long,
-        conflicts_with_all = [
-            "reference", "normal", "summary", "map", "profile", "compare", "finer", "series", "pressure", "ignore_islands",
-            "permeability"
-        ]
-    )]
+    #[arg(long, conflicts_with = "permeability", conflicts_with_all = OF_ADHESIVE)]
     pub(crate) pores: bool,
     /// The sides along the flow are periodic, not mirrors
     #[arg(long, requires = "permeability")]
     pub(crate) periodic: bool,
     /// Voxel edge of stacks [default: from their metadata]
-    #[arg(long, value_name = "LEN", help_heading = "Image stacks")]
-    pub(crate) voxel: Option<Quantity<Length>>,
+    #[arg(long, value_name = "LEN", help_heading = "Image stacks", value_parser = edge)]
+    pub(crate) voxel: Option<f64>,
     /// Labels of stacks, as in void=0,wood=1|2,adhesive=255 [default: guessed]
     #[arg(long, value_name = "LABELS", help_heading = "Image stacks")]
     pub(crate) labels: Option<Labels>,
     /// Grey values of stacks, as in wood=90..170,adhesive=171..; auto takes those that
     /// xct2particles --grey auto proposes, and says them
-    #[arg(
-        long,
-        value_name = "auto|RANGES",
-        conflicts_with = "labels",
-        help_heading = "Image stacks",
-        value_parser = grey
-    )]
+    #[arg(long, value_name = "auto|RANGES", conflicts_with = "labels", value_parser = grey)]
+    #[arg(help_heading = "Image stacks")]
     pub(crate) grey: Option<GreyLevels>,
     /// Size of stacks that are raw volumes, x fastest
     #[arg(
@@ -125,16 +120,25 @@ pub(crate) struct Arguments {
     )]
     pub(crate) dims: Option<Dims>,
     /// Number type of raw volumes: u8, i16, f32 ..., little-endian; big-endian as u16be
-    #[arg(
-        long = "type",
-        id = "kind",
-        value_name = "TYPE",
-        requires = "dims",
-        help_heading = "Image stacks"
-    )]
+    #[arg(long = "type", id = "kind", value_name = "TYPE", requires = "dims")]
+    #[arg(help_heading = "Image stacks")]
     pub(crate) kind: Option<RawType>,
     #[command(flatten)]
     pub(crate) common: cli::Common,
+}
+
+/// What `--grey` asks for; thresholds by Otsu's method where it is `auto`.
+#[derive(Clone)]
+pub(crate) enum GreyLevels {
+    Auto,
+    Given(Grey),
+}
+
+fn edge(text: &str) -> Result<f64, String> {
+    let length = text
+        .parse::<Quantity<Length>>()
+        .and_then(Quantity::positive);
+    length.map(Quantity::si).map_err(|e| e.to_string())
 }
 
 fn grey(text: &str) -> Result<GreyLevels, String> {

@@ -7,60 +7,33 @@ use std::path::Path;
 use bondline::{Placed, Specimen};
 use cli::{Failure, InputRecord};
 use metrics::{Adhesive, State};
-use particle_file::{BitGrid, Mapped, ParticleFile, temporary_file};
+use particle_file::{BitGrid, Header, Kind, Mapped, ParticleFile, temporary_file};
 use units::Axis;
-use voxels::{
-    Crop, Dims, Grey, Histogram, Labels, Phases, RawType, Segmented, Source, Stack, VoxelEdge,
-};
+use voxels::{Crop, Histogram, Phases, Segmented, Source, Stack, VoxelEdge};
 
-/// How to read an image stack.
-pub struct StackOptions {
-    /// Voxel edge, m, when the stack's metadata shall not decide.
-    pub voxel_m: Option<f64>,
-    /// Size and number type of raw volumes.
-    pub raw: Option<(Dims, RawType)>,
-    /// Labels of the phases.
-    pub labels: Option<Labels>,
-    /// Grey values of the phases, where there are no labels.
-    pub grey: Option<GreyLevels>,
+use crate::arguments::{Arguments, GreyLevels};
+
+/// Which values of `stack` are what.
+fn phases(stack: &Stack, arguments: &Arguments) -> Result<Phases, Failure> {
+    Ok(match (&arguments.labels, &arguments.grey) {
+        (Some(labels), _) => Phases::Labels(labels.clone()),
+        (None, Some(GreyLevels::Given(grey))) => Phases::Grey(grey.clone()),
+        (None, Some(GreyLevels::Auto)) => {
+            let whole = Crop::whole(stack.dims());
+            let histogram = Histogram::of(stack, &whole).map_err(stack_failure)?;
+            let name = stack.name();
+            let proposal = histogram.otsu();
+            let proposal = proposal.map_err(|why| Failure::usage(format!("{name}: {why}")))?;
+            let grey = proposal.grey;
+            cli::note(format_args!("{name}: grey values taken as {grey}"));
+            proposal.left_out.iter().for_each(cli::warn);
+            Phases::Grey(grey)
+        }
+        (None, None) => Phases::Guess,
+    })
 }
 
-/// What `--grey` asks for.
-#[derive(Clone)]
-pub enum GreyLevels {
-    /// Thresholds by Otsu's method.
-    Auto,
-    /// As given.
-    Given(Grey),
-}
-
-impl StackOptions {
-    /// Which values of `stack` are what.
-    fn phases(&self, stack: &Stack) -> Result<Phases, Failure> {
-        Ok(match (&self.labels, &self.grey) {
-            (Some(labels), _) => Phases::Labels(labels.clone()),
-            (None, Some(GreyLevels::Given(grey))) => Phases::Grey(grey.clone()),
-            (None, Some(GreyLevels::Auto)) => {
-                let whole = Crop::whole(stack.dims());
-                let histogram = Histogram::of(stack, &whole).map_err(stack_failure)?;
-                let wrong = |why| Failure::usage(format!("{}: {why}", stack.name()));
-                let proposal = histogram.otsu().map_err(wrong)?;
-                let grey = proposal.grey;
-                cli::note(format_args!(
-                    "{}: grey values taken as {grey}",
-                    stack.name()
-                ));
-                proposal.left_out.iter().for_each(cli::warn);
-                Phases::Grey(grey)
-            }
-            (None, None) => Phases::Guess,
-        })
-    }
-}
-
-/// An opened input.
 pub struct Input {
-    /// As the user named it.
     pub name: String,
     content: Content,
 }
@@ -76,12 +49,12 @@ enum Content {
 
 impl Input {
     /// Opens a particle file or an image stack; `-` is standard input.
-    pub fn open(path: &Path, options: &StackOptions) -> Result<Self, Failure> {
+    pub fn open(path: &Path, arguments: &Arguments) -> Result<Self, Failure> {
         let name = path.display().to_string();
         let content = if path.is_dir() {
-            stack(Stack::open(&[path.to_owned()]), options)?
+            stack(Stack::open(&[path.to_owned()]), arguments)?
         } else {
-            open_file(path, options)?
+            open_file(path, arguments)?
         };
         Ok(Self { name, content })
     }
@@ -114,25 +87,26 @@ impl Input {
         }
     }
 
-    /// Simulated time of a state, s; 0 of anything else.
-    pub fn time_s(&self) -> f64 {
-        match &self.content {
-            Content::Particles(file) => file.header().time_s,
-            Content::Stack { .. } => 0.0,
-        }
+    /// What it is; a stack is a specimen.
+    pub fn kind(&self) -> Kind {
+        self.header().map_or(Kind::Specimen, |header| header.kind)
     }
 
-    /// Way of the clamp left until the bond is closed, m; NaN of what has no gap.
-    pub fn gap_m(&self) -> f64 {
-        self.noted("gap_m").unwrap_or(f64::NAN)
+    /// Simulated time of a state, s; 0 of anything else.
+    pub fn time_s(&self) -> f64 {
+        self.header().map_or(0.0, |header| header.time_s)
+    }
+
+    fn header(&self) -> Option<&Header> {
+        match &self.content {
+            Content::Particles(file) => Some(file.header()),
+            Content::Stack { .. } => None,
+        }
     }
 
     /// A number that `mpm-run` notes at the states of a run.
     pub fn noted(&self, name: &str) -> Result<f64, Failure> {
-        let text = match &self.content {
-            Content::Particles(file) => file.header().attribute(name),
-            Content::Stack { .. } => None,
-        };
+        let text = self.header().and_then(|header| header.attribute(name));
         let number = text.and_then(|text| text.parse().ok());
         number.filter(|n: &f64| n.is_finite()).ok_or_else(|| {
             Failure::usage(format!(
@@ -142,13 +116,11 @@ impl Input {
         })
     }
 
-    /// A failure to measure this input.
     pub fn failure(&self, error: &metrics::Error) -> Failure {
         let said = format!("'{}': {error}", self.name);
-        if error.is_usage() {
-            Failure::usage(said)
-        } else {
-            Failure::data(said)
+        match error.is_usage() {
+            true => Failure::usage(said),
+            false => Failure::data(said),
         }
     }
 
@@ -161,49 +133,47 @@ impl Input {
         sources.iter().map(Source::path)
     }
 
-    /// The files read and their hashes.
     pub fn records(&self) -> Result<Vec<InputRecord>, Failure> {
         match &self.content {
-            Content::Particles(file) => Ok(vec![InputRecord::new(
-                self.name.clone(),
-                file.content_hash(),
-            )]),
+            Content::Particles(file) => {
+                let record = InputRecord::new(self.name.clone(), file.content_hash());
+                Ok(vec![record])
+            }
             Content::Stack { stack, .. } => stack.sources().iter().map(record).collect(),
         }
     }
 }
 
-fn open_file(path: &Path, options: &StackOptions) -> Result<Content, Failure> {
-    if let Some((dims, kind)) = options.raw
+fn open_file(path: &Path, arguments: &Arguments) -> Result<Content, Failure> {
+    if let Some((dims, kind)) = arguments.dims.zip(arguments.kind)
         && !begins_as_particles(path)
     {
-        return stack(Stack::open_raw(path, dims, kind), options);
+        return stack(Stack::open_raw(path, dims, kind), arguments);
     }
     let from_stdin = path == Path::new("-");
-    let name = if from_stdin {
-        "standard input".to_owned()
-    } else {
-        format!("'{}'", path.display())
+    let name = match from_stdin {
+        true => "standard input".to_owned(),
+        false => format!("'{}'", path.display()),
     };
     let known = |head: &[u8]| ParticleFile::recognises(head) || Stack::recognises(head);
     let bytes = Mapped::open(path, known)
         .map_err(|error| Failure::data(format!("cannot read {name}: {error}")))?;
     if ParticleFile::recognises(&bytes) {
-        let own_name = match from_stdin {
-            true => name,
-            false => path.display().to_string(),
+        let own_name = if from_stdin {
+            name
+        } else {
+            path.display().to_string()
         };
-        return ParticleFile::from_mapped(own_name, bytes)
-            .map(Content::Particles)
-            .map_err(Failure::data);
+        let file = ParticleFile::from_mapped(own_name, bytes).map_err(Failure::data)?;
+        return Ok(Content::Particles(file));
     }
     if from_stdin {
         // A pipe has been read already; a stack is read from a file.
         let file = copy(&bytes)
             .map_err(|error| Failure::failed(format!("cannot keep standard input: {error}")))?;
-        return stack(Stack::of_open_file(&name, file), options);
+        return stack(Stack::of_open_file(&name, file), arguments);
     }
-    stack(Stack::open(&[path.to_owned()]), options)
+    stack(Stack::open(&[path.to_owned()]), arguments)
 }
 
 /// Whether a regular file begins as a particle file; what else it is its reader says.
@@ -219,14 +189,14 @@ fn copy(bytes: &[u8]) -> std::io::Result<File> {
     Ok(file)
 }
 
-fn stack(opened: Result<Stack, voxels::Error>, options: &StackOptions) -> Result<Content, Failure> {
+fn stack(opened: Result<Stack, voxels::Error>, arguments: &Arguments) -> Result<Content, Failure> {
     let stack = opened.map_err(stack_failure)?;
-    let edge = VoxelEdge::resolve(options.voxel_m, stack.voxel_size(), stack.name())
+    let edge = VoxelEdge::resolve(arguments.voxel, stack.voxel_size(), stack.name())
         .map_err(stack_failure)?;
     edge.doubt().into_iter().for_each(cli::warn);
     stack.gap().into_iter().for_each(cli::warn);
     let whole = Crop::whole(stack.dims());
-    let phases = options.phases(&stack)?;
+    let phases = phases(&stack, arguments)?;
     let voxels = voxels::segment(&stack, &phases, &whole, || ()).map_err(stack_failure)?;
     voxels.swapped().into_iter().for_each(cli::warn);
     if let Some([void, wood, adhesive]) = voxels.guessed {
@@ -243,10 +213,9 @@ fn stack(opened: Result<Stack, voxels::Error>, options: &StackOptions) -> Result
 }
 
 fn stack_failure(error: voxels::Error) -> Failure {
-    if error.is_usage() {
-        Failure::usage(error)
-    } else {
-        Failure::data(error)
+    match error.is_usage() {
+        true => Failure::usage(error),
+        false => Failure::data(error),
     }
 }
 

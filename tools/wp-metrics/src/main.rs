@@ -11,12 +11,13 @@ use std::process::ExitCode;
 
 use arguments::Arguments;
 use cli::{Failure, InputRecord, Output, Record};
-use input::{Input, StackOptions};
+use input::Input;
 use metrics::table::{self, PenetrationRows};
 use metrics::{
-    Adhesive, Datum, Map, Reference, Sealed, Side, bond_line, compare, depth_profile, penetration,
+    Adhesive, Datum, DepthLayer, Map, Reference, Sealed, Side, bond_line, compare, depth_profile,
+    penetration,
 };
-use units::Quantity;
+use particle_file::Kind;
 
 fn main() -> ExitCode {
     cli::main(|a: &Arguments| &a.common, run)
@@ -24,35 +25,13 @@ fn main() -> ExitCode {
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
     let paths = files::of(&arguments)?;
-    if paths.len() > 1 && arguments.finer.is_some() {
-        return Err(Failure::usage(
-            "--finer belongs to one file, but several are given: run wp-metrics on each",
-        ));
-    }
-    let profile = arguments.profile.is_some() && !arguments.series;
-    if paths.len() > 1 && (arguments.map.is_some() || profile) {
-        return Err(Failure::usage(
-            "--map and --profile describe one file, but several are given: run wp-metrics on each",
-        ));
-    }
-    if paths.len() < 2 && arguments.summary.is_some() {
-        return Err(Failure::usage(
-            "--summary is of several files, and one is given: name them, or a folder of particle files",
-        ));
-    }
-    let on_stdout = outputs(&arguments).filter(|o| **o == Output::Stdout);
-    if on_stdout.count() > 1 {
-        return Err(Failure::usage(
-            "two tables on standard output cannot be told apart: give all but one of -o, --summary, --map and --profile a file",
-        ));
-    }
+    fit_together(&arguments, paths.len())?;
     let read = paths.iter();
     let read = read.chain(&arguments.compare).chain(&arguments.finer);
     cli::keep_apart_with_records(read.map(PathBuf::as_path), outputs(&arguments))?;
-    let options = stack_options(&arguments)?;
     // Which files a stack is read from shows once it is open; nothing is written before.
     let open = |path: &PathBuf| {
-        let input = Input::open(path, &options)?;
+        let input = Input::open(path, &arguments)?;
         cli::keep_apart_with_records(input.stack_files(), outputs(&arguments))?;
         Ok(input)
     };
@@ -68,7 +47,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     if arguments.pores {
         return wood::tell_pores(&paths, &arguments, open, record);
     }
-    let mut files = Vec::new();
+    let mut files: Vec<PenetrationRows> = Vec::new();
     let mut profiles = Vec::new();
     for path in &paths {
         // A row of numbers is all that stays of a file.
@@ -80,13 +59,13 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         }
         if arguments.series {
             let state = input.state(arguments.normal)?;
-            let begun = files.first().map_or(&rows, |first: &PenetrationRows| first);
-            let begun_m3 = begun.sides[2].volume_m3;
+            let begun_m3 = files.first().unwrap_or(&rows).sides[2].volume_m3;
             let fail = |error| input.failure(&error);
             let middle = Datum::find(Reference::Mid, &state).map_err(fail)?;
             let sealed = Sealed::of(&state, &middle);
             let line = bond_line(&state, begun_m3, &sealed).map_err(fail)?;
-            rows.course = Some((input.time_s(), input.gap_m(), line));
+            let gap_m = input.noted("gap_m").unwrap_or(f64::NAN);
+            rows.course = Some((input.time_s(), gap_m, line));
             if arguments.profile.is_some() {
                 let datum = Datum::find(arguments.reference, &state).map_err(fail)?;
                 let profile = depth_profile(&state, &datum, &sealed).map_err(fail)?;
@@ -99,9 +78,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         files.push(rows);
     }
     if let Some(output) = arguments.profile.as_ref().filter(|_| arguments.series) {
-        output.write_with_record(&record.finish(), |out| {
-            table::write_depth_profiles(out, &profiles)
-        })?;
+        write_profiles(output, &record, &profiles)?;
     }
     if let Some(output) = &arguments.summary {
         output.write_with_record(&record.finish(), |out| table::write_summary(out, &files))?;
@@ -111,18 +88,37 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     })
 }
 
+/// Refuses options that do not go with so many files, or with one another.
+fn fit_together(arguments: &Arguments, files: usize) -> Result<(), Failure> {
+    let map_or_profile =
+        arguments.map.is_some() || arguments.profile.is_some() && !arguments.series;
+    let on_stdout = outputs(arguments).filter(|o| **o == Output::Stdout);
+    let wrong = if files > 1 && arguments.finer.is_some() {
+        "--finer belongs to one file, but several are given: run wp-metrics on each"
+    } else if files > 1 && map_or_profile {
+        "--map and --profile describe one file, but several are given: run wp-metrics on each"
+    } else if files < 2 && arguments.summary.is_some() {
+        "--summary is of several files, and one is given: name them, or a folder of particle files"
+    } else if on_stdout.count() > 1 {
+        "two tables on standard output cannot be told apart: give all but one of -o, --summary, --map and --profile a file"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::usage(wrong))
+}
+
 fn outputs(arguments: &Arguments) -> impl Iterator<Item = &Output> {
     let table = [&arguments.output].into_iter().chain(&arguments.summary);
     table.chain(&arguments.map).chain(&arguments.profile)
 }
 
-fn stack_options(arguments: &Arguments) -> Result<StackOptions, Failure> {
-    let voxel = arguments.voxel.map(Quantity::positive).transpose();
-    Ok(StackOptions {
-        voxel_m: voxel.map_err(Failure::usage)?.map(Quantity::si),
-        raw: arguments.dims.zip(arguments.kind),
-        labels: arguments.labels.clone(),
-        grey: arguments.grey.clone(),
+fn write_profiles(
+    output: &Output,
+    record: &Recorder,
+    profiles: &[(Option<f64>, Vec<DepthLayer>)],
+) -> Result<(), Failure> {
+    output.write_with_record(&record.finish(), |out| {
+        table::write_depth_profiles(out, profiles)
     })
 }
 
@@ -150,20 +146,12 @@ fn measure(
         output.write_with_record(&record.finish(), |out| table::write_map(out, &map))?;
     }
     if let Some(output) = arguments.profile.as_ref().filter(|_| !arguments.series) {
-        let sealed = Sealed::of(&state, &datum);
-        let layers = depth_profile(&state, &datum, &sealed).map_err(fail)?;
-        let profile = [(None, layers)];
-        output.write_with_record(&record.finish(), |out| {
-            table::write_depth_profiles(out, &profile)
-        })?;
+        let layers = depth_profile(&state, &datum, &Sealed::of(&state, &datum)).map_err(fail)?;
+        write_profiles(output, record, &[(None, layers)])?;
     }
-    let agreement = match experiment {
-        Some(experiment) => {
-            let experiment = experiment.state(arguments.normal)?;
-            Some(compare(&state, &experiment).map_err(fail)?)
-        }
-        None => None,
-    };
+    let experiment = experiment.map(|e| e.state(arguments.normal)).transpose()?;
+    let agreement = experiment.map(|experiment| compare(&state, &experiment));
+    let agreement = agreement.transpose().map_err(fail)?;
     Ok(PenetrationRows {
         file: cli::cell(&input.name).into_owned(),
         reference: arguments.reference,
@@ -181,9 +169,9 @@ fn measure(
 struct Recorder {
     wanted: bool,
     inputs: Vec<InputRecord>,
-    /// Whether each specimen counts once, and what those are that were added.
+    /// Whether each specimen counts once, and names, kinds and contents of those that were added.
     once: bool,
-    specimens: Vec<(String, Vec<String>)>,
+    specimens: Vec<(String, Kind, Vec<String>)>,
 }
 
 impl Recorder {
@@ -203,14 +191,20 @@ impl Recorder {
         }
         let records = input.records()?;
         let content = records.iter().map(|record| record.xxh3.clone()).collect();
-        let copied = self.specimens.iter().find(|(_, other)| *other == content);
-        if let Some((other, _)) = copied {
+        let (name, kind) = (&input.name, input.kind());
+        let of_other_kind = self.specimens.iter().find(|(_, other, _)| *other != kind);
+        if let Some((other, other_kind, _)) = of_other_kind {
             return Err(Failure::usage(format!(
-                "'{}' holds the same as '{other}': --summary takes each specimen once",
-                input.name
+                "'{name}' is a {kind} and '{other}' a {other_kind}: --summary is of files of one kind"
             )));
         }
-        self.specimens.push((input.name.clone(), content));
+        let copied = self.specimens.iter().find(|(.., other)| *other == content);
+        if let Some((other, ..)) = copied {
+            return Err(Failure::usage(format!(
+                "'{name}' holds the same as '{other}': --summary takes each specimen once"
+            )));
+        }
+        self.specimens.push((name.clone(), kind, content));
         self.inputs.extend(records);
         Ok(())
     }
@@ -223,10 +217,7 @@ impl Recorder {
     }
 
     fn finish(&self) -> Record {
-        Record::new(
-            env!("CARGO_PKG_NAME"),
-            env!("CARGO_PKG_VERSION"),
-            self.inputs.clone(),
-        )
+        let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
+        Record::new(tool, version, self.inputs.clone())
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use bondline::Placed;
-use cli::Failure;
+use cli::{Failure, Progress};
 use implicit::Permeability;
 use metrics::table::{self, PermeabilityRow};
 use metrics::{State, Wood};
@@ -19,7 +19,6 @@ const FLOW_BYTES: u64 = 3000;
 /// Memory that the size of the pore at a voxel takes, bytes.
 const SIZE_BYTES: u64 = 17;
 
-/// Writes the permeability of each file along an axis.
 pub fn tell_permeability(
     paths: &[PathBuf],
     axis: Axis,
@@ -27,19 +26,19 @@ pub fn tell_permeability(
     open: impl Fn(&PathBuf) -> Result<Input, Failure>,
     mut record: Recorder,
 ) -> Result<(), Failure> {
-    let mut rows = Vec::new();
-    for path in paths {
+    let row = |path| {
         let input = open(path)?;
         record.add(&input)?;
         let found = of(&input, axis, arguments.periodic)?;
-        rows.push(PermeabilityRow {
+        Ok(PermeabilityRow {
             file: cli::cell(&input.name).into_owned(),
             axis,
             permeability_m2: [found.m2, found.error_m2],
             porosity: found.porosity,
             through: found.through,
-        });
-    }
+        })
+    };
+    let rows = paths.iter().map(row).collect::<Result<Vec<_>, Failure>>()?;
     arguments.output.write_with_record(&record.finish(), |out| {
         table::write_permeabilities(out, &rows)
     })
@@ -62,7 +61,6 @@ fn of(input: &Input, axis: Axis, periodic: bool) -> Result<Permeability, Failure
     implicit::permeability(&solid, axis.index(), sides).map_err(|why| refused(input, &why))
 }
 
-/// Writes the sizes of the pores of each file.
 pub fn tell_pores(
     paths: &[PathBuf],
     arguments: &Arguments,
@@ -76,7 +74,11 @@ pub fn tell_pores(
         let state = input.state(None)?;
         let wood = whole(&input, &state)?;
         fits(&input, &wood, SIZE_BYTES, "the sizes of pores in")?;
-        let sizes = metrics::pore_sizes(wood);
+        let mut progress = Progress::new(&format!("pores of '{}'", input.name));
+        let sizes = metrics::pore_sizes(wood, |done| {
+            progress.update(&[("done, {} left", done)], || "sizes".into());
+        });
+        progress.finish();
         if sizes.is_empty() {
             return Err(refused(&input, "it has no pores between wood"));
         }
@@ -85,7 +87,6 @@ pub fn tell_pores(
     (arguments.output).write_with_record(&record.finish(), |out| table::write_pores(out, &files))
 }
 
-/// The wood of a specimen or stack.
 fn whole<'a>(input: &Input, state: &State<'a>) -> Result<Placed<'a>, Failure> {
     match state.wood {
         Wood::Whole(wood) => Ok(wood),
@@ -97,7 +98,6 @@ fn whole<'a>(input: &Input, state: &State<'a>) -> Result<Placed<'a>, Failure> {
     }
 }
 
-/// Refuses wood for which there is too little memory.
 fn fits(input: &Input, wood: &Placed, bytes_a_voxel: u64, what: &str) -> Result<(), Failure> {
     let [x, y, z] = wood.bits.dims();
     let need = bytes_a_voxel.saturating_mul((x * y * z) as u64);

@@ -1,4 +1,4 @@
-//! The tables as CSV; the columns are a contract with other people's scripts.
+//! The tables as CSV; the columns are a contract with other people's scripts. Errors are those of `out`.
 
 mod penetration;
 
@@ -10,17 +10,29 @@ use units::Axis;
 
 use crate::{DepthLayer, Map, PoreSize, ShearRates};
 
+/// Writes the names of the columns, parted by commas, and the rows.
+fn write(
+    out: &mut dyn Write,
+    header: &str,
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    let header = header.split(',').map(str::to_owned).collect();
+    for row in [header].into_iter().chain(rows) {
+        // The writer's own error in place of csv's wrapping of it, so that a closed pipe can be told.
+        table
+            .write_record(row)
+            .map_err(|error| match error.into_kind() {
+                csv::ErrorKind::Io(error) => error,
+                other => io::Error::other(format!("{other:?}")),
+            })?;
+    }
+    table.flush()
+}
+
 /// Micrometres with six digits behind the point.
 fn um(metres: f64) -> String {
     format!("{:.6}", 1e6 * metres)
-}
-
-/// The writer's own error in place of csv's wrapping of it, so that a closed pipe can be told.
-fn unwrapped(error: csv::Error) -> io::Error {
-    match error.into_kind() {
-        csv::ErrorKind::Io(error) => error,
-        other => io::Error::other(format!("{other:?}")),
-    }
 }
 
 fn um3(cubic_metres: f64) -> String {
@@ -29,6 +41,14 @@ fn um3(cubic_metres: f64) -> String {
 
 fn pascal(pressure: f64) -> String {
     format!("{pressure:.6e}")
+}
+
+fn share(share: f64) -> String {
+    format!("{share:.6}")
+}
+
+fn seconds(time_s: f64) -> String {
+    format!("{time_s:.9e}")
 }
 
 /// A permeability, and what it was found from.
@@ -46,130 +66,78 @@ pub struct PermeabilityRow {
 }
 
 /// `file,axis,permeability_m2,error_m2,porosity,through`.
-///
-/// # Errors
-/// What `out` says.
 pub fn write_permeabilities(out: &mut dyn Write, rows: &[PermeabilityRow]) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
-    let header = "file,axis,permeability_m2,error_m2,porosity,through";
-    table.write_record(header.split(',')).map_err(unwrapped)?;
-    for row in rows {
+    let cells = |row: &PermeabilityRow| {
         let [m2, error] = row.permeability_m2;
-        let cells = [
+        vec![
             row.file.clone(),
             row.axis.to_string(),
             format!("{m2:.6e}"),
             format!("{error:.2e}"),
-            format!("{:.6}", row.porosity),
-            format!("{:.6}", row.through),
-        ];
-        table.write_record(cells).map_err(unwrapped)?;
-    }
-    table.flush()
+            share(row.porosity),
+            share(row.through),
+        ]
+    };
+    let header = "file,axis,permeability_m2,error_m2,porosity,through";
+    write(out, header, rows.iter().map(cells))
 }
 
 /// `file,diameter_um,volume_fraction,up_to_fraction`, a row for each size of pores in each file.
-///
-/// # Errors
-/// What `out` says.
 pub fn write_pores(out: &mut dyn Write, files: &[(String, Vec<PoreSize>)]) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
-    let header = "file,diameter_um,volume_fraction,up_to_fraction";
-    table.write_record(header.split(',')).map_err(unwrapped)?;
-    for (file, sizes) in files {
-        for size in sizes {
-            let [share, up_to] = [size.share, size.up_to].map(|share| format!("{share:.6}"));
-            let row = [file.clone(), um(size.diameter_m), share, up_to];
-            table.write_record(row).map_err(unwrapped)?;
-        }
-    }
-    table.flush()
+    let rows = files.iter().flat_map(|(file, sizes)| {
+        let cells = |size: &PoreSize| {
+            let [of, up_to] = [size.share, size.up_to].map(share);
+            vec![file.clone(), um(size.diameter_m), of, up_to]
+        };
+        sizes.iter().map(cells)
+    });
+    write(out, "file,diameter_um,volume_fraction,up_to_fraction", rows)
 }
 
 /// `x_um,z_um,wp_um,volume_um3` (the names of the two axes across the bond), a row for each
 /// column of voxels; WP is NaN where there is no adhesive.
-///
-/// # Errors
-/// What `out` says.
 pub fn write_map(out: &mut dyn Write, map: &Map) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
-    let [u, v] = map.across.axes.map(|axis: Axis| format!("{axis}_um"));
-    table
-        .write_record([u.as_str(), v.as_str(), "wp_um", "volume_um3"])
-        .map_err(unwrapped)?;
-    for (column, &volume) in map.volume_m3.iter().enumerate() {
+    let [u, v] = map.across.axes;
+    let rows = map.volume_m3.iter().enumerate().map(|(column, &volume)| {
         let [u, v] = map.across.centre_m(column).map(um);
         let wp = um(map.wp_m(column).unwrap_or(f64::NAN));
-        table
-            .write_record([u, v, wp, um3(volume)])
-            .map_err(unwrapped)?;
-    }
-    table.flush()
+        vec![u, v, wp, um3(volume)]
+    });
+    write(out, &format!("{u}_um,{v}_um,wp_um,volume_um3"), rows)
 }
 
 /// `depth_um,adhesive_fraction,filled_void_fraction,filled_open_fraction`, bottom adherend at negative depths; after `time_s` (s)
 /// for each state of a series.
-///
-/// # Errors
-/// What `out` says.
 pub fn write_depth_profiles(
     out: &mut dyn Write,
     profiles: &[(Option<f64>, Vec<DepthLayer>)],
 ) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
     let timed = profiles.iter().any(|(time_s, _)| time_s.is_some());
-    let header = [
-        "depth_um",
-        "adhesive_fraction",
-        "filled_void_fraction",
-        "filled_open_fraction",
-    ];
-    let header = timed.then_some("time_s").into_iter().chain(header);
-    table.write_record(header).map_err(unwrapped)?;
-    for (time_s, layers) in profiles {
-        for layer in layers {
-            let row = [
-                um(layer.depth_m),
-                format!("{:.6}", layer.adhesive_fraction),
-                format!("{:.6}", layer.filled_void_fraction),
-                format!("{:.6}", layer.filled_open_fraction),
+    let header = "depth_um,adhesive_fraction,filled_void_fraction,filled_open_fraction";
+    let header = format!("{}{header}", if timed { "time_s," } else { "" });
+    let rows = profiles.iter().flat_map(|(time_s, layers)| {
+        let cells = move |layer: &DepthLayer| {
+            let shares = [
+                layer.adhesive_fraction,
+                layer.filled_void_fraction,
+                layer.filled_open_fraction,
             ];
-            let time = time_s.map(|time_s| format!("{time_s:.9e}"));
-            table
-                .write_record(time.into_iter().chain(row))
-                .map_err(unwrapped)?;
-        }
-    }
-    table.flush()
+            let row = time_s.map(seconds).into_iter().chain([um(layer.depth_m)]);
+            row.chain(shares.map(share)).collect()
+        };
+        layers.iter().map(cells)
+    });
+    write(out, &header, rows)
 }
 
 /// `time_s,q05,q10,q25,q50,q75,q90,q95,max,mean,volume_um3`, rates in 1/s.
-///
-/// # Errors
-/// What `out` says.
 pub fn write_shear_rates(out: &mut dyn Write, states: &[ShearRates]) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
-    table
-        .write_record([
-            "time_s",
-            "q05",
-            "q10",
-            "q25",
-            "q50",
-            "q75",
-            "q90",
-            "q95",
-            "max",
-            "mean",
-            "volume_um3",
-        ])
-        .map_err(unwrapped)?;
-    for state in states {
-        let mut row = vec![format!("{:.9e}", state.time_s)];
+    let cells = |state: &ShearRates| {
         let rates = state.quantiles.iter().chain([&state.max, &state.mean]);
-        row.extend(rates.map(|rate| format!("{rate:.6e}")));
-        row.push(um3(state.volume_m3));
-        table.write_record(row).map_err(unwrapped)?;
-    }
-    table.flush()
+        let rates = rates.map(|rate| format!("{rate:.6e}"));
+        let row = [seconds(state.time_s)].into_iter().chain(rates);
+        row.chain([um3(state.volume_m3)]).collect()
+    };
+    let header = "time_s,q05,q10,q25,q50,q75,q90,q95,max,mean,volume_um3";
+    write(out, header, states.iter().map(cells))
 }

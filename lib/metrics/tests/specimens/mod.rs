@@ -6,10 +6,8 @@ use metrics::{Adhesive, State, Wood};
 use particle_file::BitGrid;
 use units::Axis;
 
-/// Voxel edge, m.
 pub const VOXEL: f64 = 1.45e-6;
 
-/// Wood and adhesive of one stack.
 pub struct Stack {
     pub wood: BitGrid,
     pub adhesive: BitGrid,
@@ -24,14 +22,27 @@ impl Stack {
         }
     }
 
-    /// The scanned specimen.
     pub fn state(&self, normal: Axis) -> State<'_> {
         let specimen = Specimen::new(placed(&self.wood), placed(&self.adhesive)).unwrap();
         State::of_specimen(&specimen, normal)
     }
 }
 
-/// Bits with the low corner at the origin.
+/// 30 layers of wood with grooves, `t` layers of adhesive, 30 layers of wood with grooves.
+pub fn slab(normal: Axis, t: usize) -> Stack {
+    let mut dims = [24, 24, 24];
+    dims[normal.index()] = 60 + t;
+    Stack::new(dims, move |x, y, z| {
+        let index = [x, y, z];
+        let across = index[(normal.index() + 1) % 3];
+        match index[normal.index()] {
+            l if (30..30 + t).contains(&l) => 'a',
+            _ if across.is_multiple_of(3) => ' ',
+            _ => 'w',
+        }
+    })
+}
+
 pub fn placed(bits: &BitGrid) -> Placed<'_> {
     Placed {
         origin_m: [0.0; 3],
@@ -66,6 +77,17 @@ impl Run {
         }
     }
 
+    /// The same with the adhesive voxels of the stack as points that moved with the adherends.
+    pub fn of(stack: &Stack, plane: usize, gap: f64) -> Self {
+        let mut run = Self::new(stack, plane, gap);
+        stack.adhesive.view().for_each(|index| {
+            let mut place = index.map(|i| i as f64 + 0.5);
+            place[1] += if index[1] >= plane { gap / VOXEL } else { 0.0 };
+            run.add(place);
+        });
+        run
+    }
+
     /// Adds a point of one voxel's volume at `place` in voxels.
     pub fn add(&mut self, place: [f64; 3]) {
         self.position.push(place.map(|x| (x * VOXEL) as f32));
@@ -94,7 +116,6 @@ impl Run {
     }
 }
 
-/// Whether two numbers agree to `relative`.
 pub fn close(a: f64, b: f64, relative: f64) -> bool {
     (a - b).abs() <= relative * a.abs().max(b.abs())
 }

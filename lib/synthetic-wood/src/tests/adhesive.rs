@@ -36,13 +36,8 @@ fn the_adhesive_has_the_slabs_volume() {
         (AdhesiveSystem::PvaPf, 29.0e-6),
     ] {
         let recipe = Recipe {
-            size: [48, 96, 40],
-            voxel: VOXEL,
-            species: Species::HybridPoplar,
-            adhesive: Some(adhesive),
             slab: Some(slab),
-            grain_angle: None,
-            seed: 7,
+            ..bonded([48, 96, 40], adhesive, 7)
         };
         let specimen = Specimen::grow(&recipe).unwrap();
         let voxels = specimen.labels().iter().filter(|&&l| l == ADHESIVE).count();
@@ -59,46 +54,31 @@ fn the_adhesive_has_the_slabs_volume() {
 fn wide_lumens_are_filled_deeper_in_proportion_to_their_radius() {
     let size = [24, 240, 24];
     let recipe = Recipe {
-        size,
-        voxel: VOXEL,
-        species: Species::HybridPoplar,
-        adhesive: Some(AdhesiveSystem::PvaPf),
         slab: Some(30e-6),
-        grain_angle: None,
-        seed: 1,
+        ..bonded(size, AdhesiveSystem::PvaPf, 1)
     };
     let plan = Plan::new(&recipe).unwrap();
-    struct Tubes;
-    impl penetration::Passages for Tubes {
-        fn is_gap(&self, [_, y, _]: [usize; 3]) -> bool {
-            (118..=121).contains(&y)
-        }
-        fn radius(&self, [x, _, _]: [usize; 3]) -> f32 {
-            if x <= 5 { 40.0 } else { 10.0 }
-        }
-    }
+    let is_gap = |[_, y, _]: [usize; 3]| (118..=121).contains(&y);
+    let radius = |[x, _, _]: [usize; 3]| if x <= 5 { 40.0 } else { 10.0 };
     let mut cells = Cells::new(size);
     for index in cells.indices() {
         let place = cells.place(index);
         let state = match place[0] {
-            _ if penetration::Passages::is_gap(&Tubes, place) => State::Adhesive,
+            _ if is_gap(place) => State::Adhesive,
             0..=5 | 12..=13 => State::Open,
             _ => State::Wood,
         };
         cells.set(index, state);
     }
-    penetration::fill(&mut cells, &plan, &Tubes, [24 * 4 * 24, 0]).unwrap();
+    penetration::fill(&mut cells, &plan, 24 * 4 * 24, is_gap, radius).unwrap();
     let depth = |x: usize| {
         let column = (122..240).map(|y| cells.get(cells.index([x, y, 0])));
         column.take_while(|&c| c == State::Adhesive).count() as f64
     };
     let (wide, narrow) = (depth(2), depth(12));
-    println!(
-        "depth {wide} at radius 40 um, {narrow} at 10 um: ratio {:.2}",
-        wide / narrow
-    );
-    assert!(narrow > 4.0 && wide < 118.0);
-    assert!((wide / narrow - 4.0).abs() < 0.4);
+    let ratio = wide / narrow;
+    println!("depth {wide} at radius 40 um, {narrow} at 10 um: ratio {ratio:.2}");
+    assert!(narrow > 4.0 && wide < 118.0 && (ratio - 4.0).abs() < 0.4);
 }
 
 #[test]

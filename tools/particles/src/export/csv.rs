@@ -2,32 +2,39 @@
 
 use std::io::{self, Write};
 
-use super::points::{Column, Points, Values};
+use bytemuck::pod_read_unaligned;
+use particle_file::Element;
+
+use super::points::{Column, Points};
 
 /// Writes a line per point; the names of the columns carry their units.
 pub fn write(points: &Points, out: &mut dyn Write) -> io::Result<()> {
     let names: Vec<String> = points.columns.iter().flat_map(names).collect();
     writeln!(out, "{}", names.join(","))?;
     for row in 0..points.rows {
-        for (c, column) in points.columns.iter().enumerate() {
-            for i in row * column.components..(row + 1) * column.components {
-                let comma = if c == 0 && i == row * column.components {
-                    ""
-                } else {
-                    ","
-                };
-                match &column.values {
-                    Values::F32(v) => write!(out, "{comma}{:e}", v[i])?,
-                    Values::F64(v) => write!(out, "{comma}{:e}", v[i])?,
-                    Values::U32(v) => write!(out, "{comma}{}", v[i])?,
-                    Values::U64(v) => write!(out, "{comma}{}", v[i])?,
-                    Values::U8(v) => write!(out, "{comma}{}", v[i])?,
-                }
+        let mut comma = "";
+        for column in &points.columns {
+            let size = column.element.size() as usize;
+            let width = column.components * size;
+            for value in column.bytes[row * width..(row + 1) * width].chunks_exact(size) {
+                out.write_all(comma.as_bytes())?;
+                write_value(column.element, value, out)?;
+                comma = ",";
             }
         }
         writeln!(out)?;
     }
     Ok(())
+}
+
+fn write_value(element: Element, value: &[u8], out: &mut dyn Write) -> io::Result<()> {
+    match element {
+        Element::F32 => write!(out, "{:e}", pod_read_unaligned::<f32>(value)),
+        Element::F64 => write!(out, "{:e}", pod_read_unaligned::<f64>(value)),
+        Element::U32 => write!(out, "{}", pod_read_unaligned::<u32>(value)),
+        Element::U64 | Element::Bits => write!(out, "{}", pod_read_unaligned::<u64>(value)),
+        Element::U8 | Element::Blob => write!(out, "{}", value[0]),
+    }
 }
 
 /// The header's names of a column, one per component.

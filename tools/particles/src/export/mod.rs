@@ -46,7 +46,6 @@ enum Format {
     Tiff,
 }
 
-/// Exports as the arguments say.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let format = format(arguments)?;
     if arguments.files.len() > 1 && format != Format::Pvd {
@@ -94,10 +93,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The labels of everything in `file`; says where the liquid's volume is not that of its voxels.
-///
-/// # Errors
-/// Exit 3 when an array is damaged, there are neither blocks nor points, or the file is too
-/// small for as many labels.
 fn labels_of(file: &ParticleFile) -> Result<LabelVolume<'_>, Failure> {
     let labels = LabelVolume::of(file).map_err(Failure::data)?;
     let (worth, found) = labels.liquid_voxels();

@@ -7,13 +7,10 @@ use particle_file::{BitsRef, Block, Element, ParticleFile};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use super::points::{self, Values};
+use super::points;
 
 /// Writes every array under its name: blocks as booleans (nz, ny, nx) with `NAME_origin_m`
 /// and `NAME_voxel_m` beside, columns as (rows, components), and the header's numbers.
-///
-/// # Errors
-/// Exit 3 when an array is damaged, exit 1 when the output cannot be written.
 pub fn write(file: &ParticleFile, output: &Output, record: &Record) -> Result<(), Failure> {
     let blocks = (0..file.header().blocks.len())
         .map(|i| file.block(i).map_err(Failure::data))
@@ -38,20 +35,20 @@ pub fn write(file: &ParticleFile, output: &Output, record: &Record) -> Result<()
             npz.block(block, *bits)?;
         }
         for column in &columns {
-            let bytes = column.values.bytes();
-            let (descr, size) = match column.values {
-                Values::F32(_) => ("<f4", 4),
-                Values::F64(_) => ("<f8", 8),
-                Values::U32(_) => ("<u4", 4),
-                Values::U64(_) => ("<u8", 8),
-                Values::U8(_) => ("|u1", 1),
+            let descr = match column.element {
+                Element::F32 => "<f4",
+                Element::F64 => "<f8",
+                Element::U32 => "<u4",
+                Element::U64 | Element::Bits => "<u8",
+                Element::U8 | Element::Blob => "|u1",
             };
+            let values = column.bytes.len() / column.element.size() as usize;
             let shape = match column.components {
-                1 => format!("({},)", bytes.len() / size),
-                n => format!("({}, {n})", bytes.len() / size / n),
+                1 => format!("({values},)"),
+                n => format!("({}, {n})", values / n),
             };
-            npz.entry(column.name, descr, &shape, false)?
-                .write_all(bytes)?;
+            let entry = npz.entry(column.name, descr, &shape, false)?;
+            entry.write_all(&column.bytes)?;
         }
         npz.0.finish().map(drop).map_err(io::Error::from)
     })
@@ -68,25 +65,22 @@ impl<W: Write> Npz<W> {
         shape: &str,
         deflate: bool,
     ) -> io::Result<&mut dyn Write> {
+        let method = match deflate {
+            true => CompressionMethod::Deflated,
+            false => CompressionMethod::Stored,
+        };
         let options = SimpleFileOptions::default()
             .large_file(true)
-            .compression_method(match deflate {
-                true => CompressionMethod::Deflated,
-                false => CompressionMethod::Stored,
-            });
+            .compression_method(method);
         let name = super::plain(name);
         self.0.start_file(format!("{name}.npy"), options)?;
-        let mut dictionary =
+        let dictionary =
             format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
         // Magic, version and length take 10 bytes; data start at a multiple of 64.
         let len = (10 + dictionary.len() + 1).next_multiple_of(64) - 10;
-        while dictionary.len() + 1 < len {
-            dictionary.push(' ');
-        }
-        dictionary.push('\n');
         self.0.write_all(b"\x93NUMPY\x01\x00")?;
         self.0.write_all(&(len as u16).to_le_bytes())?;
-        self.0.write_all(dictionary.as_bytes())?;
+        writeln!(self.0, "{dictionary:<0$}", len - 1)?;
         Ok(&mut self.0)
     }
 

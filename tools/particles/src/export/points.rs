@@ -12,25 +12,15 @@ pub struct Points<'a> {
     pub columns: Vec<Column<'a>>,
 }
 
-/// One quantity of all points.
 pub struct Column<'a> {
     pub name: &'a str,
     pub components: usize,
-    pub values: Values<'a>,
-}
-
-/// The values of a column, rows one behind the other.
-pub enum Values<'a> {
-    F32(Cow<'a, [f32]>),
-    F64(&'a [f64]),
-    U32(&'a [u32]),
-    U64(&'a [u64]),
-    U8(&'a [u8]),
+    pub element: Element,
+    /// The values as stored, little-endian, rows one behind the other.
+    pub bytes: Cow<'a, [u8]>,
 }
 
 impl<'a> Points<'a> {
-    /// # Errors
-    /// Exit 3 when an array is damaged or there is no adhesive in the file.
     pub fn of(file: &'a ParticleFile) -> Result<Self, Failure> {
         let rows = file.header().particles;
         if rows == 0 {
@@ -63,7 +53,8 @@ impl<'a> Points<'a> {
         let column = |name, components, values: Vec<f32>| Column {
             name,
             components,
-            values: Values::F32(values.into()),
+            element: Element::F32,
+            bytes: bytemuck::cast_slice(&values).to_vec().into(),
         };
         Ok(Self {
             rows: volume.len(),
@@ -81,36 +72,12 @@ fn adhesive_voxels(file: &ParticleFile) -> Result<u64, particle_file::Error> {
         .sum()
 }
 
-/// The column that `section` of `file` describes.
-///
-/// # Errors
-/// Exit 3 when it is damaged.
 pub fn column<'a>(file: &'a ParticleFile, section: &'a Section) -> Result<Column<'a>, Failure> {
-    let name = section.name.as_str();
-    let values = match section.element {
-        Element::F32 => file.column(name).map(|v| Values::F32(Cow::Borrowed(v))),
-        Element::F64 => file.column(name).map(Values::F64),
-        Element::U32 => file.column(name).map(Values::U32),
-        Element::U64 => file.column(name).map(Values::U64),
-        Element::U8 => file.column(name).map(Values::U8),
-        Element::Blob | Element::Bits => file.blob(name).map(Values::U8),
-    };
+    let bytes = file.bytes_of(section).map_err(Failure::data)?;
     Ok(Column {
-        name,
+        name: &section.name,
         components: section.components as usize,
-        values: values.map_err(Failure::data)?,
+        element: section.element,
+        bytes: bytes.into(),
     })
-}
-
-impl Values<'_> {
-    /// The values as stored: little-endian.
-    pub fn bytes(&self) -> &[u8] {
-        match self {
-            Values::F32(v) => bytemuck::cast_slice(v),
-            Values::F64(v) => bytemuck::cast_slice(v),
-            Values::U32(v) => bytemuck::cast_slice(v),
-            Values::U64(v) => bytemuck::cast_slice(v),
-            Values::U8(v) => v,
-        }
-    }
 }

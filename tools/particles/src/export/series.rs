@@ -55,7 +55,6 @@ fn folder_name(pvd: &Path) -> String {
     stem.replace(char::is_control, "_") + ".parts"
 }
 
-/// The files that a series refers to.
 struct Parts {
     folder: StagedFolder,
     /// Name of the file of a block with this index, place and hash of its voxels.
@@ -81,10 +80,8 @@ impl Parts {
         for index in 0..file.header().blocks.len() {
             let (block, bits) = file.block(index).map_err(Failure::data)?;
             let place = block.origin_m.map(f64::to_bits);
-            let name = match self
-                .blocks
-                .entry((index, place, file.sections()[index].xxh3))
-            {
+            let key = (index, place, file.sections()[index].xxh3);
+            let name = match self.blocks.entry(key) {
                 Entry::Occupied(written) => written.get().clone(),
                 Entry::Vacant(new) => {
                     let name = format!("{number:04}-{}.vti", super::plain(&block.name));
@@ -100,7 +97,6 @@ impl Parts {
     }
 }
 
-/// Text for an XML attribute.
 fn escape(text: &str) -> String {
     (text.replace('&', "&amp;").replace('<', "&lt;")).replace('"', "&quot;")
 }

@@ -4,9 +4,10 @@ use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
+use particle_file::Element;
 use voxels::LabelVolume;
 
-use super::points::{Column, Points, Values};
+use super::points::{Column, Points};
 
 const POINTS: &str = "PolyData";
 const LABELS: &str = "ImageData";
@@ -32,12 +33,12 @@ pub fn write_points(points: &Points, time_s: f64, out: &mut dyn Write) -> io::Re
     others().for_each(|column| document.column(column));
     document.open("</PointData>\n</Piece>");
     document.write_head(out)?;
-    append(position.values.bytes(), out)?;
+    append(&position.bytes, out)?;
     for first in [0, 1] {
         out.write_all(&(8 * n).to_le_bytes())?;
         (first..first + n).try_for_each(|i| out.write_all(&i.to_le_bytes()))?;
     }
-    others().try_for_each(|column| append(column.values.bytes(), out))?;
+    others().try_for_each(|column| append(&column.bytes, out))?;
     write_end(out)
 }
 
@@ -122,14 +123,14 @@ impl Document {
     }
 
     fn column(&mut self, column: &Column) {
-        let kind = match column.values {
-            Values::F32(_) => "Float32",
-            Values::F64(_) => "Float64",
-            Values::U32(_) => "UInt32",
-            Values::U64(_) => "UInt64",
-            Values::U8(_) => "UInt8",
+        let kind = match column.element {
+            Element::F32 => "Float32",
+            Element::F64 => "Float64",
+            Element::U32 => "UInt32",
+            Element::U64 | Element::Bits => "UInt64",
+            Element::U8 | Element::Blob => "UInt8",
         };
-        let len = column.values.bytes().len() as u64;
+        let len = column.bytes.len() as u64;
         self.array(kind, column.name, column.components, len);
     }
 
@@ -143,7 +144,6 @@ impl Document {
     }
 }
 
-/// Writes an array with its length in front.
 fn append(bytes: &[u8], out: &mut dyn Write) -> io::Result<()> {
     out.write_all(&(bytes.len() as u64).to_le_bytes())?;
     out.write_all(bytes)

@@ -2,37 +2,31 @@
 
 use std::fs;
 
-use tempfile::TempDir;
+use crate::workbench::{Bench, number, rows};
+use crate::{HEADER, specimen, state};
 
-use crate::{HEADER, number, rows, specimen, text, tool};
-
-/// Two specimens in a folder, and what is none.
-fn folder() -> TempDir {
-    let folder = TempDir::new().unwrap();
-    let own = specimen(folder.path());
-    let narrower = crate::specimen_of(folder.path(), "narrower.mpts", [39, 58, 12]);
-    assert!(own.is_file() && narrower.is_file());
-    fs::write(folder.path().join("notes.txt"), "two specimens").unwrap();
-    folder
+/// Two specimens in the folder `scans`, and what is none.
+fn scans() -> Bench {
+    let bench = crate::bench();
+    fs::create_dir(bench.path("scans")).unwrap();
+    specimen(&bench, "scans/specimen.mpts", crate::DIMS);
+    specimen(&bench, "scans/narrower.mpts", [39, 58, 12]);
+    bench.write("scans/notes.txt", "two specimens");
+    bench
 }
 
 #[test]
 fn a_folder_of_specimens_has_rows_of_each_and_a_summary() {
-    let folder = folder();
-    let path = folder.path().to_str().unwrap();
-    let summary = folder.path().join("mean.csv");
-    let alone = tool(&[path]);
-    let run = tool(&[path, "--summary", summary.to_str().unwrap()]);
-    assert!(run.status.success(), "{}", text(&run.stderr));
+    let bench = scans();
+    let table = bench.run("scans --summary mean.csv").output();
     // The rows stay what they are.
-    assert_eq!(text(&run.stdout), text(&alone.stdout));
-    let found = rows(&text(&run.stdout));
+    assert_eq!(table, bench.run("scans").output());
+    let found = rows(&table);
     assert!(found[0][0].ends_with("narrower.mpts") && found[3][0].ends_with("specimen.mpts"));
-    let table = fs::read_to_string(&summary).unwrap();
-    assert!(
-        table.starts_with("side,reference,files,wp_um,wp_sd_um,slab_wp_um,slab_wp_sd_um,ep_um")
-    );
-    for (side, row) in rows(&table).iter().enumerate() {
+    let summary = bench.text("mean.csv");
+    let header = "side,reference,files,wp_um,wp_sd_um,slab_wp_um,slab_wp_sd_um,ep_um,ep_sd_um";
+    assert!(summary.starts_with(header), "{summary}");
+    for (side, row) in rows(&summary).iter().enumerate() {
         assert_eq!(row[..3], [&found[side][1], "mid", "2"]);
         // wp, slab_wp, ep, max_depth, p99_depth, volume.
         for (i, column) in (4..10).enumerate() {
@@ -43,49 +37,37 @@ fn a_folder_of_specimens_has_rows_of_each_and_a_summary() {
             assert!((deviation - half * 2_f64.sqrt()).abs() < 1e-4, "{row:?}");
         }
     }
-    assert!(summary.with_extension("csv.provenance.json").is_file());
-    let one = folder.path().join("specimen.mpts");
-    let refused = tool(&[one.to_str().unwrap(), "--summary", "-", "-o", "/dev/null"]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(text(&refused.stderr).contains("several files"));
+    assert!(bench.path("mean.csv.provenance.json").is_file());
+    let one = bench.run("specimen.mpts --summary - -o /dev/null");
+    one.refused(2, "several files");
 }
 
+/// Copies, states beside specimens, and specimens that were left out because of pictures beside them, which
+/// were read as slices of a stack.
 #[test]
-fn a_copy_of_a_specimen_does_not_count_in_a_mean() {
-    let folder = folder();
-    let path = folder.path();
-    fs::copy(path.join("specimen.mpts"), path.join("the same.mpts")).unwrap();
-    let arguments = [path.to_str().unwrap(), "-o", "/dev/null", "--summary", "-"];
-    let refused = tool(&arguments);
-    let said = text(&refused.stderr);
-    assert_eq!(refused.status.code(), Some(2), "{said}");
-    assert!(said.contains("the same.mpts' holds the same as"), "{said}");
-    assert!(refused.stdout.is_empty());
+fn what_has_no_mean_is_refused() {
+    let bench = scans();
+    let mean = |files: &str| bench.run(&format!("{files} -o /dev/null --summary -"));
+    state(&bench, "state.mpts", 0, 0.0, |_| ());
+    let said = "'state.mpts' is a state of a run and 'specimen.mpts' a specimen";
+    mean("specimen.mpts state.mpts").refused(2, said);
+    bench.write("scans/the same.mpts", bench.read("scans/specimen.mpts"));
+    let copied = mean("scans").refused(2, "the same.mpts' holds the same as");
+    assert!(copied.stdout.is_empty());
     // Without a mean, two rows tell so.
-    assert!(tool(&arguments[..3]).status.success());
-}
-
-/// Pictures beside specimens were read as slices of a stack, and the specimens were left out.
-#[test]
-fn a_folder_of_specimens_and_slices_is_refused() {
-    let folder = folder();
-    fs::write(folder.path().join("look.png"), "a picture").unwrap();
-    let refused = tool(&[folder.path().to_str().unwrap()]);
-    let said = text(&refused.stderr);
-    assert_eq!(refused.status.code(), Some(2), "{said}");
-    assert!(said.contains("holds particle files and slices"), "{said}");
+    bench.run("scans").done();
+    bench.write("scans/look.png", "a picture");
+    bench
+        .run("scans")
+        .refused(2, "holds particle files and slices");
 }
 
 #[test]
 fn a_fit_tells_its_tilt_behind_all_columns() {
-    let folder = TempDir::new().unwrap();
-    let path = specimen(folder.path());
-    let run = tool(&[path.to_str().unwrap(), "--reference", "fit"]);
-    assert!(run.status.success(), "{}", text(&run.stderr));
-    let table = text(&run.stdout);
+    let table = crate::bench().run("specimen.mpts --reference fit").output();
     let header = format!("{HEADER},tilt_x_deg,tilt_y_deg,tilt_z_deg");
-    assert_eq!(table.lines().next(), Some(header.as_str()));
+    assert_eq!(table.lines().next(), Some(&*header));
     for row in rows(&table) {
-        assert_eq!(row[11..], ["0.0000", "0.0000", "0.0000"]);
+        assert_eq!(row[11..], ["0.0000"; 3]);
     }
 }

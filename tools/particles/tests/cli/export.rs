@@ -1,18 +1,16 @@
 //! Every exported format says what the particle file says.
 
-mod common;
-
 use std::fs;
 use std::io::Read;
-use std::path::Path;
 
-use common::{DIMS, VOXEL, is_wood, particles, state, stderr, stdout};
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material};
-use tempfile::tempdir;
 
-fn export(folder: &Path, input: &str, output: &str) -> Vec<u8> {
-    stdout(folder, &["export", input, "-o", output]);
-    fs::read(folder.join(output)).unwrap()
+use crate::workbench::Bench;
+use crate::{DIMS, VOXEL, bench, is_wood};
+
+fn export(bench: &Bench, input: &str, output: &str) -> Vec<u8> {
+    bench.run(&format!("export {input} -o {output}")).done();
+    bench.read(output)
 }
 
 /// Labels of the state of step 0 by the definition: adherends of 4 layers, a gap of 2 with
@@ -34,64 +32,55 @@ fn expected_labels() -> Vec<u8> {
         .collect()
 }
 
+fn csv(bench: &Bench, input: &str) -> (String, Vec<Vec<f64>>) {
+    let csv = String::from_utf8(export(bench, input, "a.csv")).unwrap();
+    let mut lines = csv.lines();
+    let header = lines.next().unwrap().to_owned();
+    let rows = lines.map(|line| line.split(',').map(|v| v.parse().unwrap()).collect());
+    (header, rows.collect())
+}
+
 #[test]
 fn csv_has_a_line_per_point_with_units_in_the_names() {
-    let folder = tempdir().unwrap();
-    state(folder.path(), 0);
-    let csv = String::from_utf8(export(folder.path(), "0000.mpts", "a.csv")).unwrap();
-    let mut lines = csv.lines();
-    assert_eq!(lines.next(), Some("x_m,y_m,z_m,volume_m3,pressure_Pa"));
-    let rows: Vec<Vec<f64>> = lines
-        .map(|line| line.split(',').map(|v| v.parse().unwrap()).collect())
-        .collect();
+    let bench = bench(&[0]);
+    let (header, rows) = csv(&bench, "0000.mpts");
+    assert_eq!(header, "x_m,y_m,z_m,volume_m3,pressure_Pa");
     assert_eq!(rows.len(), 3);
     assert!((rows[1][1] - 4.75 * VOXEL).abs() < 1e-12, "{}", rows[1][1]);
     assert_eq!((rows[1][3] as f32, rows[2][4]), (3.4e-18, 2.5e6));
-    assert!(folder.path().join("a.csv.provenance.json").exists());
+    assert!(bench.path("a.csv.provenance.json").exists());
 }
 
 #[test]
 fn adhesive_voxels_are_points_where_there_is_no_liquid() {
-    let folder = tempdir().unwrap();
-    let glue = BitGrid::from_fn(DIMS, |x, y, z| x == 65 && y == z);
-    let header = Header::new(Kind::Specimen, VOXEL, 1, [0.0; 3], [1e-4; 3]);
-    let block = Block::new("adhesive", Material::Adhesive, [1e-6; 3], VOXEL, &glue);
-    let mut out = fs::File::create(folder.path().join("s.mpts")).unwrap();
-    Draft::new(header)
-        .block(block, &glue)
-        .write_to(&mut out)
-        .unwrap();
-    let csv = String::from_utf8(export(folder.path(), "s.mpts", "s.csv")).unwrap();
-    let lines: Vec<&str> = csv.lines().collect();
-    assert_eq!((lines.len(), lines[0]), (4, "x_m,y_m,z_m,volume_m3"));
-    let last: Vec<f64> = lines[3].split(',').map(|v| v.parse().unwrap()).collect();
-    for (value, voxels) in last.iter().zip([65.5, 2.5, 2.5]) {
+    let bench = bench(&[]);
+    let bits = BitGrid::from_fn(DIMS, |x, y, z| x == 65 && y == z);
+    let write = |name, material| {
+        let header = Header::new(Kind::Specimen, VOXEL, 1, [0.0; 3], [1e-4; 3]);
+        let block = Block::new("block", material, [1e-6; 3], VOXEL, &bits);
+        bench.write_particles(name, &Draft::new(header).block(block, &bits));
+    };
+    write("glue.mpts", Material::Adhesive);
+    let (header, rows) = csv(&bench, "glue.mpts");
+    assert_eq!((rows.len(), &*header), (3, "x_m,y_m,z_m,volume_m3"));
+    for (value, voxels) in rows[2].iter().zip([65.5, 2.5, 2.5]) {
         assert!((value - 1e-6 - voxels * VOXEL).abs() < 1e-11, "{value}");
     }
-    assert!((last[3] / VOXEL.powi(3) - 1.0).abs() < 1e-6);
+    assert!((rows[2][3] / VOXEL.powi(3) - 1.0).abs() < 1e-6);
+    write("wood.mpts", Material::Rigid);
+    let refused = bench.run("export wood.mpts -o w.csv");
+    refused.refused(3, "has no adhesive");
+}
 
-    let wood_only = Header::new(Kind::Specimen, VOXEL, 1, [0.0; 3], [1e-4; 3]);
-    let block = Block::new("wood", Material::Rigid, [0.0; 3], VOXEL, &glue);
-    let mut out = fs::File::create(folder.path().join("w.mpts")).unwrap();
-    Draft::new(wood_only)
-        .block(block, &glue)
-        .write_to(&mut out)
-        .unwrap();
-    let refused = particles(folder.path(), &["export", "w.mpts", "-o", "w.csv"]);
-    assert_eq!(refused.status.code(), Some(3));
-    assert!(
-        stderr(&refused).contains("has no adhesive"),
-        "{}",
-        stderr(&refused)
-    );
+fn stack(bench: &Bench) -> voxels::Stack {
+    voxels::Stack::open(&[bench.path("a.tif")]).unwrap()
 }
 
 #[test]
 fn tiff_is_the_label_stack_with_its_voxel_size() {
-    let folder = tempdir().unwrap();
-    state(folder.path(), 0);
-    export(folder.path(), "0000.mpts", "a.tif");
-    let stack = voxels::Stack::open(&[folder.path().join("a.tif")]).unwrap();
+    let bench = bench(&[0]);
+    export(&bench, "0000.mpts", "a.tif");
+    let stack = stack(&bench);
     assert_eq!(stack.dims(), [DIMS[0], 10, DIMS[2]]);
     let edge = stack.voxel_size().unwrap().cube_edge().unwrap();
     assert!((edge / VOXEL - 1.0).abs() < 1e-9, "{edge}");
@@ -105,17 +94,11 @@ fn tiff_is_the_label_stack_with_its_voxel_size() {
 
 #[test]
 fn a_block_between_voxels_goes_to_the_nearest() {
-    let folder = tempdir().unwrap();
+    let bench = bench(&[1, 2, 3, 5]);
     for (step, height) in [(1, 10), (2, 10), (3, 9), (5, 9)] {
-        let name = format!("{:04}.mpts", step);
-        state(folder.path(), step);
-        export(folder.path(), &name, "a.tif");
-        let stack = voxels::Stack::open(&[folder.path().join("a.tif")]).unwrap();
-        assert_eq!(
-            stack.dims()[1],
-            height,
-            "top adherend down by {step} quarter voxels"
-        );
+        export(&bench, &format!("{step:04}.mpts"), "a.tif");
+        let down = format!("top adherend down by {step} quarter voxels");
+        assert_eq!(stack(&bench).dims()[1], height, "{down}");
     }
 }
 
@@ -124,17 +107,10 @@ fn appended<'a>(file: &'a [u8], name: &str) -> &'a [u8] {
     let mark = b"<AppendedData encoding=\"raw\">\n_";
     let at = file.windows(mark.len()).position(|w| w == mark).unwrap();
     let xml = std::str::from_utf8(&file[..at]).unwrap();
-    let line = xml
-        .lines()
-        .find(|l| l.contains(&format!("Name=\"{name}\"")))
-        .unwrap();
-    let offset = line
-        .split("offset=\"")
-        .nth(1)
-        .unwrap()
-        .split('"')
-        .next()
-        .unwrap();
+    let named = format!("Name=\"{name}\"");
+    let line = xml.lines().find(|line| line.contains(&named)).unwrap();
+    let (_, offset) = line.split_once("offset=\"").unwrap();
+    let (offset, _) = offset.split_once('"').unwrap();
     let data = &file[at + mark.len() + offset.parse::<usize>().unwrap()..];
     let len = u64::from_le_bytes(data[..8].try_into().unwrap()) as usize;
     &data[8..8 + len]
@@ -147,20 +123,15 @@ fn f32s(bytes: &[u8]) -> Vec<f32> {
 
 #[test]
 fn vtp_holds_points_vertices_and_columns() {
-    let folder = tempdir().unwrap();
-    state(folder.path(), 3);
-    let vtp = export(folder.path(), "0003.mpts", "a.vtp");
+    let bench = bench(&[3]);
+    let vtp = export(&bench, "0003.mpts", "a.vtp");
     let text = String::from_utf8_lossy(&vtp);
     assert!(text.contains("NumberOfPoints=\"3\" NumberOfVerts=\"3\""));
     assert!(text.contains("Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">3e-6<"));
     let position = f32s(appended(&vtp, "position"));
     assert_eq!(position[3], (2.25 * VOXEL) as f32);
     assert_eq!(f32s(appended(&vtp, "pressure")), [0.0, -1.5, 2.5e6]);
-    let u64s = |first: u64| {
-        (first..first + 3)
-            .flat_map(u64::to_le_bytes)
-            .collect::<Vec<_>>()
-    };
+    let u64s = |first: u64| -> Vec<u8> { (first..first + 3).flat_map(u64::to_le_bytes).collect() };
     assert_eq!(appended(&vtp, "connectivity"), u64s(0));
     assert_eq!(appended(&vtp, "offsets"), u64s(1));
     assert!(vtp.ends_with(b"\n</AppendedData>\n</VTKFile>\n"));
@@ -168,9 +139,8 @@ fn vtp_holds_points_vertices_and_columns() {
 
 #[test]
 fn vti_holds_the_labels_as_cells() {
-    let folder = tempdir().unwrap();
-    state(folder.path(), 0);
-    let vti = export(folder.path(), "0000.mpts", "a.vti");
+    let bench = bench(&[0]);
+    let vti = export(&bench, "0000.mpts", "a.vti");
     let text = String::from_utf8_lossy(&vti);
     assert!(text.contains("WholeExtent=\"0 70 0 10 0 3\" Origin=\"0e0 0e0 0e0\""));
     assert!(text.contains("Spacing=\"1.5e-6 1.5e-6 1.5e-6\""));
@@ -179,10 +149,9 @@ fn vti_holds_the_labels_as_cells() {
 
 #[test]
 fn npz_holds_every_array_for_numpy() {
-    let folder = tempdir().unwrap();
-    state(folder.path(), 0);
-    export(folder.path(), "0000.mpts", "a.npz");
-    let file = fs::File::open(folder.path().join("a.npz")).unwrap();
+    let bench = bench(&[0]);
+    export(&bench, "0000.mpts", "a.npz");
+    let file = fs::File::open(bench.path("a.npz")).unwrap();
     let mut archive = zip::ZipArchive::new(file).unwrap();
     let mut array = |name: &str| {
         let mut bytes = Vec::new();
@@ -198,10 +167,7 @@ fn npz_holds_every_array_for_numpy() {
     assert!(header.starts_with("{'descr': '<f4', 'fortran_order': False, 'shape': (3, 3), }"));
     assert_eq!(f32s(&position)[4], (4.75 * VOXEL) as f32);
     let (header, wood) = array("wood-top");
-    assert!(
-        header.contains("'|b1'") && header.contains("(3, 4, 70)"),
-        "{header}"
-    );
+    assert!(header.contains("'|b1'") && header.contains("(3, 4, 70)"));
     let [nx, ny, _] = DIMS;
     let voxel = |(i, &v): (usize, &u8)| (v == 1) == is_wood(i % nx, i / nx % ny, i / nx / ny);
     assert!(wood.len() == 840 && wood.iter().enumerate().all(voxel));
@@ -212,14 +178,11 @@ fn npz_holds_every_array_for_numpy() {
 
 #[test]
 fn pvd_is_a_series_that_writes_a_block_at_rest_once() {
-    let folder = tempdir().unwrap();
-    for step in [0, 4, 8] {
-        state(folder.path(), step);
-    }
-    let files = ["0000.mpts", "0004.mpts", "0008.mpts"];
-    let arguments = [&["export"], &files[..], &["-o", "press.pvd"]].concat();
-    stdout(folder.path(), &arguments);
-    let pvd = fs::read_to_string(folder.path().join("press.pvd")).unwrap();
+    let bench = bench(&[0, 4, 8]);
+    bench
+        .run("export 0000.mpts 0004.mpts 0008.mpts -o press.pvd")
+        .done();
+    let pvd = bench.text("press.pvd");
     let expected = [
         ("0e0", 0, "0000.vtp"),
         ("0e0", 1, "0000-wood-bottom.vti"),
@@ -232,35 +195,22 @@ fn pvd_is_a_series_that_writes_a_block_at_rest_once() {
         ("8e-6", 2, "0002-wood-top.vti"),
     ]
     .map(|(time, part, name)| {
-        assert!(
-            folder.path().join("press.parts").join(name).exists(),
-            "{name}"
-        );
+        assert!(bench.path("press.parts").join(name).exists(), "{name}");
         format!("<DataSet timestep=\"{time}\" part=\"{part}\" file=\"press.parts/{name}\"/>")
     });
     let found: Vec<&str> = pvd.lines().filter(|l| l.starts_with("<DataSet")).collect();
     assert_eq!(found, expected);
-    assert_eq!(
-        fs::read_dir(folder.path().join("press.parts"))
-            .unwrap()
-            .count(),
-        7
-    );
-    let top = fs::read(folder.path().join("press.parts/0002-wood-top.vti")).unwrap();
+    assert_eq!(fs::read_dir(bench.path("press.parts")).unwrap().count(), 7);
+    let top = bench.read("press.parts/0002-wood-top.vti");
     assert!(String::from_utf8_lossy(&top).contains("Origin=\"0e0 6e-6 0e0\""));
 }
 
 #[test]
 fn exports_go_to_standard_output_too() {
-    let folder = tempdir().unwrap();
-    state(folder.path(), 0);
+    let bench = bench(&[0]);
     for format in ["csv", "npz", "vtp", "vti", "tiff"] {
-        let name = format!("a.{format}");
-        let file = export(folder.path(), "0000.mpts", &name);
-        let piped = particles(
-            folder.path(),
-            &["export", "0000.mpts", "-o", "-", "-f", format],
-        );
-        assert!(piped.stdout == file, "{format}");
+        let file = export(&bench, "0000.mpts", &format!("a.{format}"));
+        let piped = bench.run(&format!("export 0000.mpts -o - -f {format}"));
+        assert!(piped.done().stdout == file, "{format}");
     }
 }

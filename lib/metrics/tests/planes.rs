@@ -1,0 +1,160 @@
+//! The plane of a bond: fitted, turned level, or refused and doubted where there is none.
+
+mod specimens;
+
+use bondline::Specimen;
+use metrics::{Datum, Penetration, Reference, Side, State, penetration};
+use specimens::{Stack, VOXEL, close, placed};
+use units::Axis;
+
+const SLOPE: [f64; 2] = [0.125, -0.09375];
+/// Of a gap of 8 voxels at these slopes: 8 / sqrt(1 + 0.125^2 + 0.09375^2) voxels.
+const THICKNESS: f64 = 7.904096270008;
+
+fn total(state: &State, reference: Reference) -> Penetration {
+    penetration(state, &Datum::find(reference, state).unwrap())[2]
+}
+
+fn tilt_of(state: &State) -> [f64; 3] {
+    let fit = Datum::find(Reference::Fit, state).unwrap();
+    fit.tilt_deg().unwrap()
+}
+
+/// A gap of 8 voxels that rises 12 voxels over 96 along x and falls 6 over 64 along z at these slopes, in wood
+/// with lumens; adhesive fills the gap only.
+fn tilted() -> Stack {
+    let middle = |x: usize, z: usize| {
+        60.0 + SLOPE[0] * (x as f64 + 0.5 - 48.0) + SLOPE[1] * (z as f64 + 0.5 - 32.0)
+    };
+    Stack::new([96, 120, 64], move |x, y, z| {
+        let height = y as f64 + 0.5 - middle(x, z);
+        let lumen = (x % 16) < 6 && (y % 14) < 9;
+        match height.abs() {
+            h if h < 4.0 => 'a',
+            _ if lumen => ' ',
+            _ => 'w',
+        }
+    })
+}
+
+#[test]
+fn a_tilted_bond_line_is_found_by_the_fit() {
+    let stack = tilted();
+    let state = stack.state(Axis::Y);
+    let found = total(&state, Reference::Fit);
+    let tilt = tilt_of(&state);
+    // A rise along x is a turn about z, a fall along z one about x.
+    for (tilt, exact) in tilt.into_iter().zip([-SLOPE[1], 0.0, SLOPE[0]]) {
+        assert!((tilt - exact.atan().to_degrees()).abs() < 0.1, "{tilt}");
+    }
+    // The same volume over the larger area of the plane.
+    let exact = THICKNESS / 12_f64.sqrt() * VOXEL;
+    let level = total(&state, Reference::Mid).wp_m;
+    let [fit_um, exact_um, level_um] = [found.wp_m, exact, level].map(|wp| 1e6 * wp);
+    println!("WP um: fit {fit_um:.4}, exact {exact_um:.4}, level {level_um:.4}");
+    assert!(close(found.wp_m, exact, 0.02));
+    assert!(close(found.plane_m, 60.0 * VOXEL, 0.005));
+    assert!(close(found.ep_m, THICKNESS * VOXEL, 0.005));
+    assert!(close(found.slab_wp_m, exact, 0.005));
+    // A level reference takes the tilt for penetration.
+    assert!(level > 1.5 * exact);
+}
+
+/// Turned, it has the thickness and depths that the fit tells, and no tilt; so for any bond normal.
+#[test]
+fn a_tilted_specimen_is_turned_level() {
+    let exact = tilted();
+    for normal in Axis::ALL {
+        // y of the specimen along the normal, the order of the axes kept.
+        let turn = (4 - normal.index()) % 3;
+        let old = [96, 120, 64];
+        let dims = std::array::from_fn(|i| old[(i + turn) % 3]);
+        let stack = Stack::new(dims, |x, y, z| {
+            let index: [usize; 3] = std::array::from_fn(|i| [x, y, z][(i + 3 - turn) % 3]);
+            match index {
+                [x, y, z] if exact.wood.get(x, y, z) => 'w',
+                [x, y, z] if exact.adhesive.get(x, y, z) => 'a',
+                _ => ' ',
+            }
+        });
+        let specimen = Specimen::new(placed(&stack.wood), placed(&stack.adhesive)).unwrap();
+        let level = metrics::level(&specimen, normal).unwrap();
+        let turned = Stack {
+            wood: level.wood,
+            adhesive: level.adhesive,
+        };
+        let state = turned.state(normal);
+        let tilt = tilt_of(&state);
+        assert!(tilt.iter().all(|t| t.abs() < 0.2), "{normal}: {tilt:?}");
+        let found = total(&state, Reference::Mid);
+        assert!(close(found.ep_m, THICKNESS * VOXEL, 0.01), "{normal}");
+        // Voxels whose centres are in and out by rounding stand out of a slab.
+        assert!(close(found.wp_m, THICKNESS / 12_f64.sqrt() * VOXEL, 0.03));
+        let again = Specimen::new(placed(&turned.wood), placed(&turned.adhesive)).unwrap();
+        let dims = metrics::level(&again, normal).unwrap().wood.dims();
+        assert!(dims.iter().zip(turned.wood.dims()).all(|(a, b)| a + 1 >= b));
+    }
+}
+
+/// A gap of six voxels that begins at layer `low` in half of the columns, one layer higher in the others.
+fn stepped(low: usize, layers: usize) -> Stack {
+    Stack::new([24, layers, 24], move |x, y, z| {
+        let bottom = low + (x + z) % 2;
+        match y {
+            y if (bottom..bottom + 6).contains(&y) => 'a',
+            _ if x % 4 == 3 => ' ',
+            _ => 'w',
+        }
+    })
+}
+
+/// Widths of gaps as wide were told apart by their rounding, which took one half of the columns or the other.
+#[test]
+fn gaps_that_are_as_wide_count_alike_wherever_they_are() {
+    for low in 15..40 {
+        let stack = stepped(low, 60);
+        let datum = Datum::find(Reference::Fit, &stack.state(Axis::Y)).unwrap();
+        let layer = datum.plane_m(Side::Total) / VOXEL;
+        assert!((layer - (low as f64 + 3.5)).abs() < 1e-6, "{low}: {layer}");
+    }
+}
+
+/// Adherends of columns of wood on both sides of layers 20 to 29 along x.
+fn across_x() -> Stack {
+    Stack::new([50, 24, 24], |x, y, z| match (x, (y + z) % 3) {
+        (20..30, _) => 'a',
+        (18..32, 0) => 'a',
+        (_, 0) => ' ',
+        _ => 'w',
+    })
+}
+
+#[test]
+fn a_bond_across_another_axis_is_refused_but_for_a_plane_by_hand() {
+    let stack = across_x();
+    for normal in [Axis::Y, Axis::Z] {
+        let state = stack.state(normal);
+        for reference in [Reference::Mid, Reference::Adherend, Reference::Fit] {
+            let error = Datum::find(reference, &state).unwrap_err();
+            let said = error.to_string();
+            assert!(error.is_usage() && said.contains("--normal x"), "{said}");
+        }
+        assert!(Datum::find(Reference::Plane(12.0 * VOXEL), &state).is_ok());
+    }
+    assert!(Datum::find(Reference::Mid, &stack.state(Axis::X)).is_ok());
+}
+
+#[test]
+fn a_plane_through_wood_is_doubted() {
+    let stack = across_x();
+    let doubt = |reference, normal| {
+        let state = stack.state(normal);
+        Datum::find(reference, &state).unwrap().doubt(&state)
+    };
+    assert_eq!(doubt(Reference::Mid, Axis::X), None);
+    let plane = |layers: f64| Reference::Plane(layers * VOXEL);
+    assert!(doubt(plane(10.0), Axis::X).unwrap().contains("66.7 %"));
+    // Wood of three quarters of the length, on a third of it.
+    assert!(doubt(plane(12.0), Axis::Y).unwrap().contains("26.7 %"));
+    assert_eq!(doubt(plane(0.0), Axis::X), None);
+}
