@@ -2,6 +2,7 @@
 
 use voxels::ADHESIVE;
 
+use crate::bitmap::{SUPERSAMPLING, average};
 use crate::solid::{Hit, Solids};
 
 type Vector = [f64; 3];
@@ -38,7 +39,7 @@ const CORNERS: f64 = 0.9;
 /// A step in distance of so many voxels has a dark line.
 const STEP: f64 = 6.0;
 /// Rays per pixel along an edge.
-const RAYS: usize = 2;
+const RAYS: usize = SUPERSAMPLING;
 
 fn dot(a: Vector, b: Vector) -> f64 {
     (0..3).map(|i| a[i] * b[i]).sum()
@@ -73,15 +74,12 @@ impl Camera {
     /// Low and high corner in the view of a box between these corners.
     pub(crate) fn extent(&self, ends: [Vector; 2]) -> [[f64; 2]; 2] {
         let places = corners(ends).map(|corner| self.place(corner));
-        let range = |a: usize| {
-            let along = places.map(|place| place[a]);
-            [
-                along.into_iter().fold(f64::INFINITY, f64::min),
-                along.into_iter().fold(f64::NEG_INFINITY, f64::max),
-            ]
-        };
-        let [x, y] = [range(0), range(1)];
-        [[x[0], y[0]], [x[1], y[1]]]
+        let [mut low, mut high] = [places[0]; 2];
+        for place in places {
+            low = [0, 1].map(|a| low[a].min(place[a]));
+            high = [0, 1].map(|a| high[a].max(place[a]));
+        }
+        [low, high]
     }
 
     /// The solids in a box between corners (voxels, from their own), so many pixels across.
@@ -107,21 +105,17 @@ impl Camera {
             }
         }
         let mut pixels = self.shaded(&hits, width);
-        self.edges(
-            &mut pixels,
-            &hits,
-            ends,
-            [low[0], high[1], far, voxel],
-            width,
-        );
-        averaged(&pixels, width)
+        let view = [low[0], high[1], far, voxel];
+        self.edges(&mut pixels, &hits, ends, view, width);
+        View {
+            size: [width / RAYS, height / RAYS],
+            rgb: average(pixels.as_flattened(), width),
+        }
     }
 
     fn shaded(&self, hits: &[Option<Hit>], width: usize) -> Vec<[u8; 3]> {
-        let light = {
-            let length = dot(LIGHT, LIGHT).sqrt();
-            LIGHT.map(|x| x / length)
-        };
+        let length = dot(LIGHT, LIGHT).sqrt();
+        let light = LIGHT.map(|x| x / length);
         let light: Vector = std::array::from_fn(|a| {
             light[0] * self.right[a] + light[1] * self.up[a] + light[2] * self.towards[a]
         });
@@ -139,10 +133,9 @@ impl Camera {
             let lit = AMBIENT + LAMP * dot(hit.normal, light).max(0.0);
             let open = (1.0 - CORNERS * (hit.filled - 0.5)).clamp(0.5, 1.1);
             let shade = lit * open * if step { 0.55 } else { 1.0 };
-            let base = if hit.label == ADHESIVE {
-                ADHESIVE_COLOUR
-            } else {
-                WOOD_COLOUR
+            let base = match hit.label {
+                ADHESIVE => ADHESIVE_COLOUR,
+                _ => WOOD_COLOUR,
             };
             base.map(|c| (c * shade).round().clamp(0.0, 255.0) as u8)
         };
@@ -184,25 +177,6 @@ impl Camera {
 /// All corners of a box between two.
 fn corners(ends: [Vector; 2]) -> [Vector; 8] {
     std::array::from_fn(|c| std::array::from_fn(|a| ends[c >> a & 1][a]))
-}
-
-/// Mean of each square of rays.
-fn averaged(pixels: &[[u8; 3]], width: usize) -> View {
-    let size = [width / RAYS, pixels.len() / width / RAYS];
-    let mut rgb = Vec::with_capacity(3 * size[0] * size[1]);
-    for row in 0..size[1] {
-        for column in 0..size[0] {
-            let mean = |channel: usize| {
-                let value = |i: usize| {
-                    let at = (row * RAYS + i / RAYS) * width + column * RAYS + i % RAYS;
-                    usize::from(pixels[at][channel])
-                };
-                (0..RAYS * RAYS).map(value).sum::<usize>() / (RAYS * RAYS)
-            };
-            rgb.extend([0, 1, 2].map(|channel| mean(channel) as u8));
-        }
-    }
-    View { size, rgb }
 }
 
 #[cfg(test)]
@@ -280,23 +254,19 @@ mod tests {
         let low = solids(|_, y, _| y < -10.0);
         let camera = Camera::new(1, 35.0, 25.0);
         let [high, low] = [&high, &low].map(|solids| shown(solids, &camera).1[1]);
-        assert!(
-            (low - high - 25.0 * 25_f64.to_radians().cos()).abs() < 5.0,
-            "{high} {low}"
-        );
+        let apart = 25.0 * 25_f64.to_radians().cos();
+        assert!((low - high - apart).abs() < 5.0, "{high} {low}");
     }
 
     /// One voxel, and a film of one layer, are still there.
     #[test]
     fn nothing_is_too_thin_to_be_seen() {
         let camera = Camera::new(1, 0.0, 90.0);
-        let film = shown(&solids(|_, y, _| y.abs() < 1.0 && y > 0.0), &camera).0;
+        let first = |x: f64| x > 0.0 && x < 1.0;
+        let film = shown(&solids(|_, y, _| first(y)), &camera).0;
         assert!((film / 1600.0 - 1.0).abs() < 0.02, "{film}");
-        let voxel = shown(
-            &solids(|x, y, z| x > 0.0 && x < 1.0 && y > 0.0 && y < 1.0 && z > 0.0 && z < 1.0),
-            &camera,
-        )
-        .0;
+        let one = solids(|x, y, z| first(x) && first(y) && first(z));
+        let voxel = shown(&one, &camera).0;
         assert!(voxel > 0.3, "{voxel}");
     }
 }

@@ -1,7 +1,7 @@
 //! Names of columns as they stand on axes.
 
 /// A column's name as it stands on an axis: `adhesive.viscosity_Pa_s` as `adhesive.viscosity (Pa s)`.
-pub(crate) fn worded(column: &str) -> String {
+pub fn worded(column: &str) -> String {
     let known = |unit: &str| match unit {
         "um3" => Some("µm³".to_owned()),
         "pa" => Some("Pa".to_owned()),

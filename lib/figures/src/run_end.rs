@@ -105,18 +105,17 @@ impl RunEnd {
         let open = format!("{mark} ({:.2} um)", 1e6 * self.gap_m);
         Some(match self.end.as_str() {
             "not-ended" | "interrupted" => {
-                format!(
-                    "{mark}: mpm-run with --resume goes on{}",
-                    self.with("--resume", None)
-                )
+                let command = self.with("--resume", None);
+                format!("{mark}: mpm-run with --resume goes on{command}")
             }
-            "failed" => format!("{mark}: {}", self.reasons.join("; ")),
-            _ if !self.sound => format!("{mark}: {}", self.reasons.join("; ")),
+            end if end == "failed" || !self.sound => {
+                format!("{mark}: {}", self.reasons.join("; "))
+            }
             "time-limit" => {
                 let limit = format!("clamp.time_limit={}", time(LONGER * self.time_s));
+                let command = self.with("--overwrite", Some(&limit));
                 format!(
-                    "{open}: penetration of a press on its way. It goes on longer with --set \"{limit}\" (make: SET=\"{limit}\"){}",
-                    self.with("--overwrite", Some(&limit))
+                    "{open}: penetration of a press on its way. It goes on longer with --set \"{limit}\" (make: SET=\"{limit}\"){command}"
                 )
             }
             end => format!("{open} when the run ended ({end})"),
@@ -238,12 +237,8 @@ mod tests {
         assert_eq!(RunEnd::beside(&file).unwrap(), None);
         write(MARK, "");
         let label = "FLIP".to_owned();
-        let marked = Labelled {
-            label,
-            path: file.clone(),
-        }
-        .marked()
-        .unwrap();
+        let path = file.clone();
+        let marked = Labelled { label, path }.marked().unwrap();
         assert_eq!(marked.label, "FLIP (not closed, 42 % of the gap left)");
         write(SUMMARY, "{");
         assert!(RunEnd::beside(&file).is_err());
