@@ -12,28 +12,27 @@ const OGL: &str = include_str!("../assets/ogl.min.js");
 const POLICY: &str =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
-/// A section with its heading.
-struct Section {
-    id: &'static str,
-    title: &'static str,
-    body: String,
-}
-
 /// The page of a report.
 pub(crate) fn write(report: &Report) -> String {
     let title = escape(&report.title);
-    let sections = sections(report);
+    let rest = report.pictures.get(summary::PICTURES..).unwrap_or_default();
+    let mut sections = vec![
+        ("summary", "Summary", summary::write(report)),
+        ("tables", "Tables", report.tables.concat()),
+        ("pictures", "Pictures", rest.concat()),
+        ("views", "In 3D", report.scenes.concat()),
+        ("runs", "Runs", runs(&report.runs)),
+        ("provenance", "How this page was made", provenance(report)),
+    ];
+    sections.retain(|(_, _, body)| !body.is_empty());
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<nav aria-label=\"Sections\"><ul>\n"
     );
-    for section in &sections {
-        out += &format!(
-            "<li><a href=\"#{}\">{}</a></li>\n",
-            section.id, section.title
-        );
+    for (id, title, _) in &sections {
+        out += &format!("<li><a href=\"#{id}\">{title}</a></li>\n");
     }
     out += "</ul></nav>\n</header>\n<main>\n";
-    for Section { id, title, body } in &sections {
+    for (id, title, body) in &sections {
         out += &format!("<section id=\"{id}\">\n<h2>{title}</h2>\n{body}</section>\n");
     }
     out += "</main>\n";
@@ -41,41 +40,6 @@ pub(crate) fn write(report: &Report) -> String {
         out += &format!("<script>{OGL}</script>\n<script>{VIEWER}</script>\n");
     }
     out + "</body>\n</html>\n"
-}
-
-fn sections(report: &Report) -> Vec<Section> {
-    let section = |id, title, body| Section { id, title, body };
-    let pictures = &report.pictures;
-    let all = [
-        section("summary", "Summary", summary::write(report)),
-        section(
-            "tables",
-            "Tables",
-            concat(&report.tables, crate::Table::to_html),
-        ),
-        section(
-            "pictures",
-            "Pictures",
-            concat(
-                pictures.get(summary::PICTURES..).unwrap_or_default(),
-                crate::Picture::to_html,
-            ),
-        ),
-        section(
-            "views",
-            "In 3D",
-            concat(&report.scenes, crate::Scene::to_html),
-        ),
-        section("runs", "Runs", runs(&report.runs)),
-        section("provenance", "How this page was made", provenance(report)),
-    ];
-    all.into_iter()
-        .filter(|section| !section.body.is_empty())
-        .collect()
-}
-
-fn concat<T>(parts: &[T], html: fn(&T) -> String) -> String {
-    parts.iter().map(html).collect()
 }
 
 fn runs(runs: &[RunFolder]) -> String {
