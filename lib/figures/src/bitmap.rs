@@ -106,9 +106,8 @@ pub(crate) fn average(pixels: &[u8], width: usize) -> Vec<u8> {
 /// Pixels as a PNG file, with its dots per inch if they mean something.
 pub(crate) fn encode(rgb: &[u8], size: [usize; 2], dpi: Option<f64>) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
-    let mut writer = encoder(&mut bytes, size, dpi)
-        .write_header()
-        .map_err(failed)?;
+    let encoder = encoder(&mut bytes, size, dpi);
+    let mut writer = encoder.write_header().map_err(failed)?;
     writer.write_image_data(rgb).map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)

@@ -75,12 +75,7 @@ pub fn closing(
     let labels = runs.iter().map(|run| run.label.as_str());
     let labels = labels.chain(bands.iter().map(|(label, _)| *label));
     let legend = Legend::new(labels, Legend::LINE, across);
-    let frame = |top, height| Frame {
-        left,
-        top,
-        width: across,
-        height,
-    };
+    let frame = |top, height| Frame::new([left, top], [across, height]);
     let upper = frame(title_height + legend.height + 10.0, heights[0]);
     let lower = frame(upper.bottom() + 34.0, heights[1]);
     let height = lower.bottom() + room_below(&axes.below, across) + 4.0;

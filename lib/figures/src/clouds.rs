@@ -56,12 +56,8 @@ impl<'a> Clouds<'a> {
         let sides = [side(0), side(1)];
         let edges = sides.map(|[low, high]| high - low);
         let axes = [0, 1].map(|i| Axis::over(self.axes[i], sides[i][0], sides[i][1]));
-        let sheets = self.clouds.iter().map(|(label, _)| Sheet {
-            edges,
-            name: label,
-            axes: Some(axes.clone()),
-            ..Sheet::default()
-        });
+        let sheets = self.clouds.iter();
+        let sheets = sheets.map(|(label, _)| Sheet::new(edges, label, Some(axes.clone())));
         let shades = Axis::over(self.value, self.range[0], self.range[1]);
         let plate = Plate {
             sheets: sheets.collect(),

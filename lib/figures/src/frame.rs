@@ -57,6 +57,15 @@ pub(crate) fn room_below(axis: &Axis, width: f64) -> f64 {
 }
 
 impl Frame {
+    pub(crate) fn new([left, top]: Point, [width, height]: [f64; 2]) -> Self {
+        Self {
+            left,
+            top,
+            width,
+            height,
+        }
+    }
+
     /// Where a value pair lies.
     pub(crate) fn place(&self, x: &Axis, y: &Axis, value: [f64; 2]) -> Point {
         [

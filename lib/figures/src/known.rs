@@ -20,28 +20,21 @@ pub(crate) struct Quantity {
     pub(crate) name: &'static str,
     pub(crate) side: &'static str,
     pub(crate) unit: &'static str,
-    /// Column; its extrapolation and error are named after it.
-    columns: [&'static str; 3],
+    /// Its columns begin and end so.
+    column: [&'static str; 2],
     /// Value in `unit` over that in the column.
     factor: f64,
     pub(crate) decimals: usize,
 }
 
 pub(crate) const SIDES: [&str; 3] = ["bottom", "top", "total"];
-const WP: [&str; 3] = ["wp_um", "wp_extrapolated_um", "wp_error_um"];
-const EP: [&str; 3] = ["ep_um", "ep_extrapolated_um", "ep_error_um"];
-const PRESSURE: [&str; 3] = [
-    "pressure_pa",
-    "pressure_extrapolated_pa",
-    "pressure_error_pa",
-];
 
-const fn depth(name: &'static str, side: usize, columns: [&'static str; 3]) -> Quantity {
+const fn depth(name: &'static str, side: usize, column: &'static str) -> Quantity {
     Quantity {
         name,
         side: SIDES[side],
         unit: "um",
-        columns,
+        column: [column, "um"],
         factor: 1.0,
         decimals: 2,
     }
@@ -49,16 +42,16 @@ const fn depth(name: &'static str, side: usize, columns: [&'static str; 3]) -> Q
 
 /// What is read of each run, in its order. The total EP is the volume of liquid, which no cell changes.
 pub(crate) const QUANTITIES: [Quantity; 6] = [
-    depth("WP", 0, WP),
-    depth("WP", 1, WP),
-    depth("WP", 2, WP),
-    depth("EP", 0, EP),
-    depth("EP", 1, EP),
+    depth("WP", 0, "wp"),
+    depth("WP", 1, "wp"),
+    depth("WP", 2, "wp"),
+    depth("EP", 0, "ep"),
+    depth("EP", 1, "ep"),
     Quantity {
         name: "pressure",
         side: SIDES[2],
         unit: "MPa",
-        columns: PRESSURE,
+        column: ["pressure", "pa"],
         factor: 1e-6,
         decimals: 3,
     },
@@ -84,12 +77,15 @@ impl Known {
         let mut read = [Self::plain(f64::NAN); 6];
         for (known, q) in read.iter_mut().zip(&QUANTITIES) {
             let row = sides.iter().position(|side| *side == q.side);
-            let number = |column: &str| match row.filter(|_| table.has(column)) {
-                Some(row) => table.numbers(column).map(|n| q.factor * n[row]),
-                None => Ok(f64::NAN),
+            let number = |what: &str| {
+                let column = format!("{}{what}_{}", q.column[0], q.column[1]);
+                match row.filter(|_| table.has(&column)) {
+                    Some(row) => table.numbers(&column).map(|n| q.factor * n[row]),
+                    None => Ok(f64::NAN),
+                }
             };
-            known.as_run = number(q.columns[0])?;
-            let [extrapolated, error] = [number(q.columns[1])?, number(q.columns[2])?];
+            known.as_run = number("")?;
+            let [extrapolated, error] = [number("_extrapolated")?, number("_error")?];
             if extrapolated.is_finite() && error.is_finite() {
                 (known.extrapolated, known.error) = (extrapolated, error);
             }

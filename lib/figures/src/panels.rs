@@ -21,12 +21,22 @@ pub(crate) struct Panels {
 }
 
 /// One panel: width and height in any unit, name, what is said below it, and its axes across and up.
-#[derive(Default)]
 pub(crate) struct Sheet<'a> {
     pub(crate) edges: [f64; 2],
     pub(crate) name: &'a str,
     pub(crate) detail: &'a str,
     pub(crate) axes: Option<[Axis; 2]>,
+}
+
+impl<'a> Sheet<'a> {
+    pub(crate) fn new(edges: [f64; 2], name: &'a str, axes: Option<[Axis; 2]>) -> Self {
+        Self {
+            edges,
+            name,
+            detail: "",
+            axes,
+        }
+    }
 }
 
 /// Room about the panels of a figure, logical pixels.
@@ -154,13 +164,9 @@ impl Panels {
         for (row, captions) in sheets.chunks(columns).zip(captions.chunks(columns)) {
             let above = highest(captions.iter().map(caption_height));
             for (i, sheet) in row.iter().enumerate() {
-                let [width, height] = size(sheet);
-                frames.push(Frame {
-                    left: i as f64 * column + layout.left + 0.5 * (inner - width),
-                    top: top + above,
-                    width,
-                    height,
-                });
+                let size = size(sheet);
+                let left = i as f64 * column + layout.left + 0.5 * (inner - size[0]);
+                frames.push(Frame::new([left, top + above], size));
             }
             top += above + tallest + layout.below;
         }

@@ -12,6 +12,11 @@ const LONG: f64 = 100.0;
 /// Most times of one profile that are drawn.
 const MOST_TIMES: usize = 5;
 
+/// Quantities: column, unit, and what they are called before a side.
+const WETTED: [&str; 3] = ["wetted_area", "um2", ""];
+const WP: [&str; 3] = ["wp", "um", "WP, "];
+const DEEPEST: [&str; 3] = ["p95_depth", "um", "95 %, "];
+
 /// What of penetration a figure shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shown {
@@ -33,16 +38,8 @@ pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
     let tables = tables.collect::<Result<Vec<_>, _>>()?;
     let (title, axis, quantities): (_, _, &[_]) = match shown {
         Shown::Filled => return filled(runs, &tables),
-        Shown::Wetted => (
-            "Wetted area",
-            "wood wetted (µm²)",
-            &[("wetted_area", "um2", "")],
-        ),
-        Shown::Depth => (
-            "Penetration",
-            "depth (µm)",
-            &[("wp", "um", "WP, "), ("p95_depth", "um", "95 %, ")],
-        ),
+        Shown::Wetted => ("Wetted area", "wood wetted (µm²)", &[WETTED]),
+        Shown::Depth => ("Penetration", "depth (µm)", &[WP, DEEPEST]),
     };
     let mut times = Vec::new();
     for table in &tables {
@@ -60,7 +57,7 @@ pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
             _ => (format!("{}: ", run.label), &["total"][..]),
         };
         for &side in sides {
-            for (quantity, of, what) in quantities {
+            for [quantity, of, what] in quantities {
                 let points = course(table, side, quantity, of, unit)?;
                 plot = plot.with(&format!("{own}{what}{side}"), Mark::LineAndDots, points);
             }

@@ -135,12 +135,8 @@ impl Plot {
         let legend = Legend::new(labels, Legend::LINE, width);
         let title = measure::lines(&self.title, NORMAL + 2.0, across - 2.0 * RIGHT, 3);
         let title_height = 12.0 + 1.4 * NORMAL * title.len() as f64;
-        let frame = Frame {
-            left,
-            top: title_height + legend.height + 10.0,
-            width,
-            height,
-        };
+        let top = title_height + legend.height + 10.0;
+        let frame = Frame::new([left, top], [width, height]);
         let bottom = frame.bottom() + room_below(&x, width) + 4.0;
         let mut drawing = Drawing::new(page, across, bottom);
         let middle = [0.5 * across, 20.0];

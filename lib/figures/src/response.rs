@@ -111,11 +111,8 @@ impl Sweep {
         let across =
             |(name, values): &(String, Vec<f64>)| axis(&worded(name), values.iter().copied());
         let across: Vec<Axis> = self.parameters.iter().map(across).collect();
-        let sheet = |_| Sheet {
-            edges: [1.0, HEIGHT],
-            ..Sheet::default()
-        };
-        let sheets: Vec<Sheet> = self.panels().map(sheet).collect();
+        let sheets = self.panels().map(|_| Sheet::new([1.0, HEIGHT], "", None));
+        let sheets: Vec<Sheet> = sheets.collect();
         let under = 10.0 + LINE * NORMAL * title.len() as f64;
         let layout = Layout {
             top: 12.0 + LINE * NORMAL * title.len() as f64 + key.height,

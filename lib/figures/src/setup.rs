@@ -54,11 +54,8 @@ pub fn setup(specimen: &Labelled, bond: &Labelled, page: Page) -> Result<Drawing
         parted,
         slice("d) slab of the same volume", &pressed)?,
     ];
-    let first = Sheet {
-        edges: stack.extent(0).map(|edge| edge * 1e-6),
-        name: "a) the stack",
-        ..Sheet::default()
-    };
+    let edges = stack.extent(0).map(|edge| edge * 1e-6);
+    let first = Sheet::new(edges, "a) the stack", None);
     let room = page.width().unwrap_or(LONGEST) - 2.0 * MARGIN;
     let plate = Plate {
         sheets: [first]

@@ -67,12 +67,9 @@ pub fn shear_rates(runs: &[Labelled], page: Page) -> Result<Drawing, Error> {
     for row in panels.chunks(columns) {
         let titles = row.iter().map(|panel| title(panel).len()).max();
         top += LINE * NORMAL * titles.unwrap_or(0) as f64 + 10.0;
-        frames.extend((0..row.len()).map(|i| Frame {
-            left: outer + i as f64 * (width + between),
-            top,
-            width,
-            height,
-        }));
+        let left = |i: usize| outer + i as f64 * (width + between);
+        let frame = |i| Frame::new([left(i), top], [width, height]);
+        frames.extend((0..row.len()).map(frame));
         top += height + below;
     }
     let mut drawing = Drawing::new(page, across, top);

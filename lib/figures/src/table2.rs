@@ -52,49 +52,29 @@ pub(crate) struct Row {
     pub(crate) end: Option<RunEnd>,
 }
 
-/// A line of the paper's Table 2, um.
+/// A line of the paper's Table 2: its adhesive; its case, and names that a case of ours goes by when it is
+/// the same, in lower case; WP of bottom, top and in total, um.
 #[derive(Debug, PartialEq)]
-pub(crate) struct Paper {
-    adhesive: &'static str,
-    case: &'static str,
-    /// Names that a case of ours goes by when it is the same, in lower case.
-    aliases: [&'static str; 2],
-    /// Bottom, top, total.
-    wp: [f64; 3],
-}
+pub(crate) struct Paper(&'static str, [&'static str; 3], [f64; 3]);
 
 /// What `wp-metrics` measures from.
 const REFERENCES: [&str; 4] = ["mid", "adherend", "plane", "fit"];
 
-const fn paper(
-    adhesive: &'static str,
-    case: &'static str,
-    aliases: [&'static str; 2],
-    wp: [f64; 3],
-) -> Paper {
-    Paper {
-        adhesive,
-        case,
-        aliases,
-        wp,
-    }
-}
-
-const EXPERIMENT: [&str; 2] = ["experiment", "experimental"];
-const XPIC: [&str; 2] = ["xpic", "xpic(5)"];
-const FLIP: [&str; 2] = ["flip", "flip partial-slip"];
-const FRICTIONLESS: [&str; 2] = ["frictionless", "flip frictionless"];
+const EXPERIMENT: [&str; 3] = ["Experimental", "experiment", "experimental"];
+const XPIC: [&str; 3] = ["XPIC(5)", "xpic", "xpic(5)"];
+const FLIP: [&str; 3] = ["FLIP", "flip", "flip partial-slip"];
+const FRICTIONLESS: [&str; 3] = ["Frictionless", "frictionless", "flip frictionless"];
 
 /// Table 2 of Hammerquist and Nairn.
 static PAPER: [Paper; 8] = [
-    paper("PVA-PF", "Experimental", EXPERIMENT, [24.69, 25.96, 25.3]),
-    paper("PVA-PF", "XPIC(5)", XPIC, [25.21, 23.32, 24.35]),
-    paper("PVA-PF", "FLIP", FLIP, [25.18, 23.3, 24.32]),
-    paper("PVA-PF", "Frictionless", FRICTIONLESS, [25.24, 23.3, 24.35]),
-    paper("PF", "Experimental", EXPERIMENT, [68.57, 31.62, 56.41]),
-    paper("PF", "XPIC(5)", XPIC, [27.98, 27.3, 27.7]),
-    paper("PF", "FLIP", FLIP, [27.97, 27.42, 27.74]),
-    paper("PF", "Frictionless", FRICTIONLESS, [26.57, 26.6, 26.58]),
+    Paper("PVA-PF", EXPERIMENT, [24.69, 25.96, 25.3]),
+    Paper("PVA-PF", XPIC, [25.21, 23.32, 24.35]),
+    Paper("PVA-PF", FLIP, [25.18, 23.3, 24.32]),
+    Paper("PVA-PF", FRICTIONLESS, [25.24, 23.3, 24.35]),
+    Paper("PF", EXPERIMENT, [68.57, 31.62, 56.41]),
+    Paper("PF", XPIC, [27.98, 27.3, 27.7]),
+    Paper("PF", FLIP, [27.97, 27.42, 27.74]),
+    Paper("PF", FRICTIONLESS, [26.57, 26.6, 26.58]),
 ];
 
 /// Of the table as CSV.
@@ -142,12 +122,12 @@ impl Table2 {
         for row in &self.rows {
             let wp = || row.known[..3].iter();
             let (paper, end) = (row.paper, row.end.as_ref());
-            let paper_wp = paper.map_or([f64::NAN; 3], |paper| paper.wp);
+            let paper_wp = paper.map_or([f64::NAN; 3], |paper| paper.2);
             let names = [&row.adhesive, &row.case, &row.reference];
             let mut record: Vec<String> = names.into_iter().cloned().collect();
             record.extend(wp().map(|known| number(known.as_run)));
             record.push(number(row.slab));
-            record.push(paper.map_or("", |paper| paper.case).into());
+            record.push(paper.map_or("", |paper| paper.1[0]).into());
             record.extend(paper_wp.map(number));
             record.push(paper.map_or("", |_| NOTE).into());
             record.extend(wp().map(|known| number(known.extrapolated)));
@@ -209,7 +189,7 @@ impl Table2 {
 
     /// The paper's numbers of a row, where they are to be shown.
     pub(crate) fn paper_of(&self, row: &Row) -> Option<[f64; 3]> {
-        row.paper.filter(|_| self.paper).map(|paper| paper.wp)
+        row.paper.filter(|_| self.paper).map(|paper| paper.2)
     }
 }
 
@@ -242,9 +222,8 @@ impl Row {
             )));
         }
         let name = source.name.to_lowercase();
-        let same = |paper: &&Paper| {
-            paper.adhesive.eq_ignore_ascii_case(&source.adhesive)
-                && paper.aliases.contains(&name.as_str())
+        let same = |Paper(adhesive, [_, names @ ..], _): &&Paper| {
+            adhesive.eq_ignore_ascii_case(&source.adhesive) && names.contains(&name.as_str())
         };
         Ok(Self {
             adhesive: source.adhesive.clone(),

@@ -4,7 +4,8 @@ use ab_glyph_rasterizer::{Point as Place, Rasterizer, point};
 use plotters::backend::DrawingBackend;
 use plotters::style::{Color, RGBAColor};
 use skrifa::instance::{LocationRef, Size};
-use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::outline::DrawSettings;
+use skrifa::outline::pen::PathElement;
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
 use crate::Error;
@@ -78,16 +79,11 @@ impl Line {
         let outlines = font.outline_glyphs();
         let mut x = margin;
         for glyph in &glyphs {
-            let origin = point(x, baseline);
-            let mut pen = Pen {
-                ink: &mut ink,
-                origin,
-                start: origin,
-                last: origin,
-            };
             if let Some(outline) = outlines.get(*glyph) {
+                let mut path: Vec<PathElement> = Vec::new();
                 let settings = DrawSettings::unhinted(size, place);
-                outline.draw(settings, &mut pen).map_err(failed)?;
+                outline.draw(settings, &mut path).map_err(failed)?;
+                trace(&mut ink, &path, point(x, baseline));
             }
             x += advance(glyph);
         }
@@ -102,47 +98,41 @@ impl Line {
     }
 }
 
-/// Puts outlines, whose y points up from the baseline, among pixels, whose y points down.
-struct Pen<'a> {
-    ink: &'a mut Rasterizer,
-    origin: Place,
-    start: Place,
-    last: Place,
-}
-
-impl Pen<'_> {
-    fn place(&self, x: f32, y: f32) -> Place {
-        point(self.origin.x + x, self.origin.y - y)
-    }
-}
-
-impl OutlinePen for Pen<'_> {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.start = self.place(x, y);
-        self.last = self.start;
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        let to = self.place(x, y);
-        self.ink.draw_line(self.last, to);
-        self.last = to;
-    }
-
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        let to = self.place(x, y);
-        self.ink.draw_quad(self.last, self.place(cx, cy), to);
-        self.last = to;
-    }
-
-    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        let (a, b, to) = (self.place(ax, ay), self.place(bx, by), self.place(x, y));
-        self.ink.draw_cubic(self.last, a, b, to);
-        self.last = to;
-    }
-
-    fn close(&mut self) {
-        self.ink.draw_line(self.last, self.start);
-        self.last = self.start;
+/// Puts an outline, whose y points up from `origin`, among pixels, whose y points down.
+fn trace(ink: &mut Rasterizer, path: &[PathElement], origin: Place) {
+    let place = |x: f32, y: f32| point(origin.x + x, origin.y - y);
+    let (mut start, mut last) = (origin, origin);
+    for element in path {
+        let from = last;
+        match *element {
+            PathElement::MoveTo { x, y } => {
+                last = place(x, y);
+                start = last;
+            }
+            PathElement::LineTo { x, y } => {
+                last = place(x, y);
+                ink.draw_line(from, last);
+            }
+            PathElement::QuadTo { cx0, cy0, x, y } => {
+                last = place(x, y);
+                ink.draw_quad(from, place(cx0, cy0), last);
+            }
+            PathElement::CurveTo {
+                cx0,
+                cy0,
+                cx1,
+                cy1,
+                x,
+                y,
+            } => {
+                last = place(x, y);
+                ink.draw_cubic(from, place(cx0, cy0), place(cx1, cy1), last);
+            }
+            PathElement::Close => {
+                ink.draw_line(from, start);
+                last = start;
+            }
+        }
     }
 }
 

@@ -91,10 +91,9 @@ impl Views {
         }
         let normal = normals.first().copied().unwrap_or(1);
         if normals.iter().any(|other| *other != normal) {
-            return Err(Error::Request(
-                "the files have their bonds across different axes: one figure shows one way up"
-                    .into(),
-            ));
+            let said =
+                "the files have their bonds across different axes: one figure shows one way up";
+            return Err(Error::Request(said.into()));
         }
         Ok(Self {
             panels,

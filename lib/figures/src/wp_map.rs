@@ -45,11 +45,9 @@ pub fn wp_maps(states: &[Labelled], page: Page) -> Result<Drawing, Error> {
     let cells = || maps.iter().flat_map(|map| map.wp.iter().copied());
     let holes = cells().any(|wp| wp.is_nan());
     let room = page.width().unwrap_or(LONGEST) - 2.0 * MARGIN;
-    let sheets = states.iter().zip(&maps).map(|(state, map)| Sheet {
-        edges: [map.x.edge(), map.z.edge()],
-        name: &state.label,
-        axes: Some(map.axes()),
-        ..Sheet::default()
+    let sheets = states.iter().zip(&maps).map(|(state, map)| {
+        let edges = [map.x.edge(), map.z.edge()];
+        Sheet::new(edges, &state.label, Some(map.axes()))
     });
     let shades = Axis::covering("weighted penetration (µm)", cells(), COVERED);
     let plate = Plate {

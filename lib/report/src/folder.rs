@@ -108,36 +108,25 @@ impl RunFolder {
         self.summary.pointer(pointer).map_or("-".into(), plain)
     }
 
-    /// Columns of the table of all runs.
-    pub(crate) const COLUMNS: [&str; 11] = [
-        "run",
-        "end",
-        "results",
-        "steps",
-        "simulated",
-        "gap left (um)",
-        "pressure at the end (MPa)",
-        "volume change (%)",
-        "deepest point in wood (um)",
-        "CPU (s)",
-        "memory (MB)",
-    ];
-
-    /// Its row.
-    pub(crate) fn row(&self) -> Vec<String> {
+    /// Columns of the table of all runs, and its row.
+    pub(crate) fn row(&self) -> [(&'static str, String); 11] {
         let sound = if self.end.sound { "sound" } else { "not sound" };
-        vec![
-            self.label.clone(),
-            self.end.end.replace('-', " "),
-            sound.into(),
-            self.text("/steps"),
-            self.time(),
-            self.number("/gap_m", 1e6, 2),
-            self.number("/final_pressure_pa", 1e-6, 3),
-            self.number("/invariants/volume_change", 100.0, 3),
-            self.number("/invariants/deepest_m", 1e6, 3),
-            self.number("/cpu_s", 1.0, 1),
-            self.number("/peak_memory_bytes", 1e-6, 0),
+        let pressure = self.number("/final_pressure_pa", 1e-6, 3);
+        let volume = self.number("/invariants/volume_change", 100.0, 3);
+        let deepest = self.number("/invariants/deepest_m", 1e6, 3);
+        let memory = self.number("/peak_memory_bytes", 1e-6, 0);
+        [
+            ("run", self.label.clone()),
+            ("end", self.end.end.replace('-', " ")),
+            ("results", sound.into()),
+            ("steps", self.text("/steps")),
+            ("simulated", self.time()),
+            ("gap left (um)", self.number("/gap_m", 1e6, 2)),
+            ("pressure at the end (MPa)", pressure),
+            ("volume change (%)", volume),
+            ("deepest point in wood (um)", deepest),
+            ("CPU (s)", self.number("/cpu_s", 1.0, 1)),
+            ("memory (MB)", memory),
         ]
     }
 

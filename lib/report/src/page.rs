@@ -43,13 +43,15 @@ pub(crate) fn write(report: &Report) -> String {
 }
 
 fn runs(runs: &[RunFolder]) -> String {
-    if runs.is_empty() {
+    let Some(first) = runs.first() else {
         return String::new();
-    }
-    let rows: Vec<Vec<String>> = runs.iter().map(RunFolder::row).collect();
+    };
+    let headers = first.row().map(|(header, _)| header);
+    let row = |run: &RunFolder| run.row().map(|(_, cell)| cell).to_vec();
+    let rows: Vec<Vec<String>> = runs.iter().map(row).collect();
     let one = |run: &RunFolder| format!("<h3>{}</h3>\n{}", escape(&run.label), run.to_html());
     let details: String = runs.iter().map(one).collect();
-    table("How the runs ended", &RunFolder::COLUMNS, &rows) + &details
+    table("How the runs ended", &headers, &rows) + &details
 }
 
 fn provenance(report: &Report) -> String {

@@ -46,14 +46,8 @@ fn pressed(runs: &[RunFolder]) -> String {
         ]
     };
     let rows: Vec<Vec<String>> = groups.iter().map(row).collect();
-    let headers = [
-        "run",
-        "specimen",
-        "size with the gap",
-        "adhesive",
-        "press",
-        "date",
-    ];
+    let size = "size with the gap";
+    let headers = ["run", "specimen", size, "adhesive", "press", "date"];
     table("What was pressed", &headers, &rows)
 }
 
@@ -66,14 +60,8 @@ fn penetration(runs: &[RunFolder]) -> String {
         row
     };
     let rows: Vec<Vec<String>> = runs.iter().map(row).collect();
-    let headers = [
-        "run",
-        "bottom",
-        "top",
-        "total",
-        "pressure at the end (MPa)",
-        "press",
-    ];
+    let pressure = "pressure at the end (MPa)";
+    let headers = ["run", "bottom", "top", "total", pressure, "press"];
     let note = match runs.iter().any(|run| run.wp[2].has_error()) {
         true => {
             "<p class=\"note\">With \u{b1}: extrapolated to infinitely small cells (first order); the error is the difference of two sizes of cells. Others: as run.</p>\n"
@@ -99,10 +87,8 @@ fn doubts(runs: &[RunFolder]) -> String {
     for run in runs {
         if let Some(advice) = run.end.advice() {
             let (said, command) = advice.split_once(":\n").unwrap_or((&advice, ""));
-            let command = match command.trim() {
-                "" => String::new(),
-                command => verbatim(command),
-            };
+            let command = Some(command.trim()).filter(|command| !command.is_empty());
+            let command = command.map_or(String::new(), verbatim);
             let (label, said) = (escape(&run.label), escape(said));
             items.push(format!("<strong>{label}: {said}</strong>{command}"));
         }
@@ -136,9 +122,7 @@ fn doubts(runs: &[RunFolder]) -> String {
         &|run| !run.wp[2].has_error(),
     );
     items.push("How well either scheme predicts a real bond line is not known: no scanned one was at hand.".into());
-    let items: String = items
-        .iter()
-        .map(|item| format!("<li>{item}</li>\n"))
-        .collect();
+    let items = items.iter().map(|item| format!("<li>{item}</li>\n"));
+    let items: String = items.collect();
     format!("<h3>What to doubt</h3>\n<ul class=\"doubts\">\n{items}</ul>\n")
 }

@@ -24,8 +24,14 @@ pub fn table(file: &Labelled) -> Result<String, Error> {
     }
     let held = |column: &(usize, &str)| rows.iter().any(|row| !row[column.0].is_empty());
     let columns = table.headers().iter().enumerate().filter(held);
-    // Pages say um throughout.
-    let named = columns.map(|(c, name)| (c, worded(name).replace('µ', "u")));
+    // Pages have units as the tables have.
+    let plain = |name: &str| {
+        worded(name)
+            .replace('µ', "u")
+            .replace('²', "2")
+            .replace('³', "3")
+    };
+    let named = columns.map(|(c, name)| (c, plain(name)));
     let (columns, headers): (Vec<usize>, Vec<String>) = named.unzip();
     let cell = |text: &str| match text.parse() {
         Ok(number) if text.contains(['.', 'e']) => rounded(number),

@@ -81,7 +81,7 @@ fn the_band_of_a_finer_run_reaches_from_the_line_beyond_the_extrapolation() {
     };
     let run = folder.labelled("a", flat(1e6, 1.0));
     let mut fine = folder.labelled("fine", flat(1.2e6, 2.0));
-    let draw = |fine| closing(from_ref(&run), from_ref(fine), None, "", Page::default());
+    let draw = |fine: &Labelled| closing(from_ref(&run), from_ref(fine), None, "", Page::default());
     let unknown = draw(&fine).unwrap_err();
     assert!(matches!(unknown, Error::Request(said) if said.contains("the label of no run")));
     fine.label = "a".into();

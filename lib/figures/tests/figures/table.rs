@@ -29,7 +29,6 @@ fn written(write: impl Fn(&mut Vec<u8>) -> std::io::Result<()>) -> Vec<String> {
     let mut bytes = Vec::new();
     write(&mut bytes).unwrap();
     let text = String::from_utf8(bytes).unwrap();
-    println!("{text}");
     text.lines().map(String::from).collect()
 }
 
@@ -99,7 +98,10 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         "pf,implicit,wp,total,um,7.6500,7.1500,0.2500,,",
         "pf,implicit,ep,top,um,5.0000,4.5000,0.5000,,",
     ] {
-        assert!(rows.iter().any(|line| line == row), "{row}");
+        assert!(
+            rows.iter().any(|line| line == row),
+            "{row} is not in {rows:#?}"
+        );
     }
     let shown = table.to_text();
     assert!(shown.contains("7.15 +- 0.25"), "{shown}");
