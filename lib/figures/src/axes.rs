@@ -20,17 +20,15 @@ impl Axis {
     /// is widened about it.
     pub(crate) fn linear(title: &str, values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = extent(values);
-        let pad = if high > low {
-            0.0
-        } else {
-            0.5 * high.abs().max(1.0)
+        let pad = match high > low {
+            true => 0.0,
+            false => 0.5 * high.abs().max(1.0),
         };
         let step = nice_step(high + pad - (low - pad), STEPS);
         Self {
-            title: title.into(),
             low: ((low - pad) / step).floor() * step,
             high: ((high + pad) / step).ceil() * step,
-            logarithmic: false,
+            ..Self::none(title)
         }
     }
 

@@ -18,14 +18,6 @@ pub(crate) struct Camera {
     pub(crate) front: usize,
 }
 
-/// Pixels of a view and the distance of what each shows, as far as it shows something.
-pub(crate) struct View {
-    /// Pixels across and down.
-    pub(crate) size: [usize; 2],
-    /// Row by row from the top, three bytes a pixel.
-    pub(crate) rgb: Vec<u8>,
-}
-
 const WOOD_COLOUR: Vector = [196.0, 188.0, 176.0];
 const ADHESIVE_COLOUR: Vector = [236.0, 150.0, 10.0];
 const EDGE: u8 = 120;
@@ -82,8 +74,14 @@ impl Camera {
         [low, high]
     }
 
-    /// The solids in a box between corners (voxels, from their own), so many pixels across.
-    pub(crate) fn view(&self, solids: &Solids, ends: [Vector; 2], across: usize) -> View {
+    /// The solids in a box between corners (voxels, from their own), so many pixels across: pixels across and
+    /// down, and row by row from the top, three bytes a pixel.
+    pub(crate) fn view(
+        &self,
+        solids: &Solids,
+        ends: [Vector; 2],
+        across: usize,
+    ) -> ([usize; 2], Vec<u8>) {
         let [low, high] = self.extent(ends);
         let width = across.max(1) * RAYS;
         let voxel = (high[0] - low[0]) / width as f64;
@@ -107,10 +105,8 @@ impl Camera {
         let mut pixels = self.shaded(&hits, width);
         let view = [low[0], high[1], far, voxel];
         self.edges(&mut pixels, &hits, ends, view, width);
-        View {
-            size: [width / RAYS, height / RAYS],
-            rgb: average(pixels.as_flattened(), width),
-        }
+        let size = [width / RAYS, height / RAYS];
+        (size, average(pixels.as_flattened(), width))
     }
 
     fn shaded(&self, hits: &[Option<Hit>], width: usize) -> Vec<[u8; 3]> {
@@ -123,11 +119,9 @@ impl Camera {
             let Some(hit) = hit else {
                 return [255; 3];
             };
-            let beside = [
-                i.checked_sub(width),
-                (i % width > 0).then(|| i.wrapping_sub(1)),
-            ];
-            let step = beside.into_iter().flatten().any(|other| {
+            let above = i.checked_sub(width);
+            let before = i.checked_sub(1).filter(|_| i % width > 0);
+            let step = above.into_iter().chain(before).any(|other| {
                 hits[other].is_some_and(|other| (other.distance - hit.distance).abs() > STEP)
             });
             let lit = AMBIENT + LAMP * dot(hit.normal, light).max(0.0);
@@ -198,11 +192,11 @@ mod tests {
     /// Area that is not white nor an edge of the box, in voxel faces, and its mean place.
     fn shown(solids: &Solids, camera: &Camera) -> (f64, [f64; 2]) {
         let edges = [[0.0; 3], [EDGE as f64; 3]];
-        let view = camera.view(solids, edges, 200);
+        let (size, rgb) = camera.view(solids, edges, 200);
         let [low, high] = camera.extent(edges);
-        let pixel = (high[0] - low[0]) / view.size[0] as f64;
+        let pixel = (high[0] - low[0]) / size[0] as f64;
         let coloured = |rgb: &[u8]| rgb[0] > rgb[2].saturating_add(40);
-        let found: Vec<usize> = (view.rgb.chunks(3).enumerate())
+        let found: Vec<usize> = (rgb.chunks(3).enumerate())
             .filter(|(_, rgb)| coloured(rgb))
             .map(|(i, _)| i)
             .collect();
@@ -210,7 +204,7 @@ mod tests {
         let mean = |part: &dyn Fn(usize) -> usize| {
             found.iter().map(|i| part(*i) as f64 + 0.5).sum::<f64>() / count * pixel
         };
-        let place = [mean(&|i| i % view.size[0]), mean(&|i| i / view.size[0])];
+        let place = [mean(&|i| i % size[0]), mean(&|i| i / size[0])];
         (count * pixel * pixel, place)
     }
 

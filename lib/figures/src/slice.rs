@@ -65,11 +65,7 @@ impl Slices {
             let file = ParticleFile::open(&state.path)?;
             Section::of(&file, &state.label, cut, colouring)
         };
-        Ok(Self {
-            sections: states.iter().map(section).collect::<Result<_, _>>()?,
-            colouring,
-            cell: None,
-        })
+        Self::of(states.iter().map(section), colouring)
     }
 
     /// A panel for each of several cuts through what `file`, called `label`, holds.
@@ -78,9 +74,16 @@ impl Slices {
     /// As [`Slices::read`].
     pub fn through(file: &ParticleFile, label: &str, cuts: &[Cut]) -> Result<Self, Error> {
         let section = |&cut| Section::of(file, label, cut, Colouring::Plain);
+        Self::of(cuts.iter().map(section), Colouring::Plain)
+    }
+
+    fn of(
+        sections: impl Iterator<Item = Result<Section, Error>>,
+        colouring: Colouring,
+    ) -> Result<Self, Error> {
         Ok(Self {
-            sections: cuts.iter().map(section).collect::<Result<_, _>>()?,
-            colouring: Colouring::Plain,
+            sections: sections.collect::<Result<_, _>>()?,
+            colouring,
             cell: None,
         })
     }

@@ -4,7 +4,7 @@ use particle_file::ParticleFile;
 use voxels::LabelVolume;
 
 use crate::axes::{NORMAL, SMALL};
-use crate::camera::{Camera, View};
+use crate::camera::Camera;
 use crate::colour::BLACK;
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::Frame;
@@ -172,7 +172,7 @@ impl Views {
         let panel = &self.panels[panel];
         let most = (MOST_PIXELS * frame.width / frame.height).sqrt();
         let across = (frame.width * drawing.page.scale()).round().min(most) as usize;
-        let View { size, rgb } = self.camera.view(&panel.solids, self.ends(panel), across);
+        let (size, rgb) = self.camera.view(&panel.solids, self.ends(panel), across);
         frame.fill(drawing, size, rgb);
     }
 

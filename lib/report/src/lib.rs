@@ -40,13 +40,6 @@ pub struct Report {
     pub inputs: Vec<[String; 2]>,
 }
 
-impl Report {
-    /// The page.
-    pub fn to_html(&self) -> String {
-        page::write(self)
-    }
-}
-
 /// The bytes of a file of at most `most` bytes.
 fn read(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
     let name = path.display();

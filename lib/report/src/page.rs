@@ -12,34 +12,36 @@ const OGL: &str = include_str!("../assets/ogl.min.js");
 const POLICY: &str =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
-/// The page of a report.
-pub(crate) fn write(report: &Report) -> String {
-    let title = escape(&report.title);
-    let rest = report.pictures.get(summary::PICTURES..).unwrap_or_default();
-    let mut sections = vec![
-        ("summary", "Summary", summary::write(report)),
-        ("tables", "Tables", report.tables.concat()),
-        ("pictures", "Pictures", rest.concat()),
-        ("views", "In 3D", report.scenes.concat()),
-        ("runs", "Runs", runs(&report.runs)),
-        ("provenance", "How this page was made", provenance(report)),
-    ];
-    sections.retain(|(_, _, body)| !body.is_empty());
-    let mut out = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<nav aria-label=\"Sections\"><ul>\n"
-    );
-    for (id, title, _) in &sections {
-        out += &format!("<li><a href=\"#{id}\">{title}</a></li>\n");
+impl Report {
+    /// The page.
+    pub fn to_html(&self) -> String {
+        let title = escape(&self.title);
+        let rest = self.pictures.get(summary::PICTURES..).unwrap_or_default();
+        let mut sections = vec![
+            ("summary", "Summary", summary::write(self)),
+            ("tables", "Tables", self.tables.concat()),
+            ("pictures", "Pictures", rest.concat()),
+            ("views", "In 3D", self.scenes.concat()),
+            ("runs", "Runs", runs(&self.runs)),
+            ("provenance", "How this page was made", provenance(self)),
+        ];
+        sections.retain(|(_, _, body)| !body.is_empty());
+        let mut out = format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<nav aria-label=\"Sections\"><ul>\n"
+        );
+        for (id, title, _) in &sections {
+            out += &format!("<li><a href=\"#{id}\">{title}</a></li>\n");
+        }
+        out += "</ul></nav>\n</header>\n<main>\n";
+        for (id, title, body) in &sections {
+            out += &format!("<section id=\"{id}\">\n<h2>{title}</h2>\n{body}</section>\n");
+        }
+        out += "</main>\n";
+        if !self.scenes.is_empty() {
+            out += &format!("<script>{OGL}</script>\n<script>{VIEWER}</script>\n");
+        }
+        out + "</body>\n</html>\n"
     }
-    out += "</ul></nav>\n</header>\n<main>\n";
-    for (id, title, body) in &sections {
-        out += &format!("<section id=\"{id}\">\n<h2>{title}</h2>\n{body}</section>\n");
-    }
-    out += "</main>\n";
-    if !report.scenes.is_empty() {
-        out += &format!("<script>{OGL}</script>\n<script>{VIEWER}</script>\n");
-    }
-    out + "</body>\n</html>\n"
 }
 
 fn runs(runs: &[RunFolder]) -> String {

@@ -37,17 +37,17 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let inputs = Inputs::of_runs([run, finer].concat())?;
             let (run, finer) = inputs.files().split_at(runs);
             let title = title.unwrap_or_default();
-            let drawing = closing(run, finer, limit, &title, picture.page());
+            let drawing = closing(run, finer, limit, &title, picture.print.page());
             (inputs, picture, drawing)
         }
         Figure::Map { map, picture } => {
             let inputs = Inputs::new(map)?.marked()?;
-            let drawing = wp_maps(inputs.files(), picture.page());
+            let drawing = wp_maps(inputs.files(), picture.print.page());
             (inputs, picture, drawing)
         }
         Figure::Shear { files, picture } => {
             let inputs = Inputs::new(files)?.marked()?;
-            let drawing = shear_rates(inputs.files(), picture.page());
+            let drawing = shear_rates(inputs.files(), picture.print.page());
             (inputs, picture, drawing)
         }
         Figure::Penetration {
@@ -57,13 +57,13 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         } => {
             let inputs = Inputs::of_runs(files)?.marked()?;
             let plot = penetrations(inputs.files(), show);
-            let drawing = plot.and_then(|plot| plot.draw(picture.page()));
+            let drawing = plot.and_then(|plot| plot.draw(picture.print.page()));
             (inputs, picture, drawing)
         }
         Figure::Pores { files, picture } => {
             let inputs = Inputs::new(files)?;
             let plot = pores(inputs.files());
-            let drawing = plot.and_then(|plot| plot.draw(picture.page()));
+            let drawing = plot.and_then(|plot| plot.draw(picture.print.page()));
             (inputs, picture, drawing)
         }
         Figure::Response {
@@ -73,7 +73,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             picture,
         } => {
             let inputs = Inputs::new(vec![sweep])?;
-            let drawing = response(&inputs.files()[0], &result, error, picture.page());
+            let drawing = response(&inputs.files()[0], &result, error, picture.print.page());
             (inputs, picture, drawing)
         }
         Figure::Slice {
@@ -99,7 +99,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             if let Some(cell) = grid {
                 slices = slices.and_then(|slices| slices.grid(cell.si(voxel)));
             }
-            let drawing = slices.map(|slices| slices.draw(picture.page()));
+            let drawing = slices.map(|slices| slices.draw(picture.print.page()));
             (inputs, picture, drawing)
         }
         Figure::Setup {
@@ -109,7 +109,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         } => {
             let inputs = Inputs::new(vec![specimen, bond])?;
             let [specimen, bond] = [0, 1].map(|i| &inputs.files()[i]);
-            let drawing = setup(specimen, bond, picture.page());
+            let drawing = setup(specimen, bond, picture.print.page());
             (inputs, picture, drawing)
         }
         Figure::View {
@@ -119,7 +119,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         } => {
             let inputs = Inputs::new(files)?.marked()?;
             let views = Views::read(inputs.files(), look.wood, look.from());
-            let drawing = views.map(|views| views.draw(picture.page()));
+            let drawing = views.map(|views| views.draw(picture.print.page()));
             (inputs, picture, drawing)
         }
     };

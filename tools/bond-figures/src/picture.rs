@@ -37,12 +37,6 @@ impl Print {
     }
 }
 
-impl Picture {
-    pub(crate) fn page(&self) -> Page {
-        self.print.page()
-    }
-}
-
 /// What is seen of a state, and from where.
 #[derive(Args)]
 pub(crate) struct Look {

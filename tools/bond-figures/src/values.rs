@@ -60,22 +60,26 @@ pub(crate) enum Format {
     Pdf,
 }
 
+const FORMATS: [(&str, Format); 3] = [
+    ("svg", Format::Svg),
+    ("png", Format::Png),
+    ("pdf", Format::Pdf),
+];
+
 impl Target {
     pub(crate) fn new(text: &OsStr) -> Result<Self, String> {
         let output = Output::from(text.to_owned());
-        let format = match &output {
-            Output::Stdout => Format::Svg,
-            Output::File(path) => match path.extension().and_then(|e| e.to_str()) {
-                Some(e) if e.eq_ignore_ascii_case("svg") => Format::Svg,
-                Some(e) if e.eq_ignore_ascii_case("png") => Format::Png,
-                Some(e) if e.eq_ignore_ascii_case("pdf") => Format::Pdf,
-                _ => {
-                    return Err(format!(
-                        "{output} is not a picture's name: it must end in .svg, .png or .pdf"
-                    ));
-                }
-            },
+        let named = |end: &OsStr| {
+            FORMATS
+                .iter()
+                .find(|(name, _)| end.eq_ignore_ascii_case(name))
         };
+        let format = match &output {
+            Output::Stdout => Some(Format::Svg),
+            Output::File(path) => path.extension().and_then(named).map(|(_, format)| *format),
+        };
+        let wrong = "is not a picture's name: it must end in .svg, .png or .pdf";
+        let format = format.ok_or_else(|| format!("{output} {wrong}"))?;
         Ok(Self { output, format })
     }
 
@@ -102,11 +106,10 @@ pub(crate) fn png(text: &OsStr) -> Result<Output, String> {
 }
 
 pub(crate) fn name(text: &str) -> Result<(String, String), String> {
-    let pair = text
-        .split_once('=')
-        .filter(|(key, text)| !key.is_empty() && !text.is_empty());
-    let pair = pair.map(|(key, text)| (key.to_owned(), text.to_owned()));
-    pair.ok_or_else(|| format!("'{text}' is not KEY=TEXT, as in xpic=XPIC(5)"))
+    match text.split_once('=') {
+        Some((key, name)) if !key.is_empty() && !name.is_empty() => Ok((key.into(), name.into())),
+        _ => Err(format!("'{text}' is not KEY=TEXT, as in xpic=XPIC(5)")),
+    }
 }
 
 /// A parser of arguments that hold a path, which need not be UTF-8.
