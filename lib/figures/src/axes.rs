@@ -18,38 +18,39 @@ pub(crate) struct Axis {
 impl Axis {
     /// A linear axis over the range of `values`, widened to whole ticks; a range of one value
     /// is widened about it.
-    pub(crate) fn linear(title: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
+    pub(crate) fn linear(title: &str, values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = extent(values);
-        let pad = if high > low {
-            0.0
-        } else {
-            0.5 * high.abs().max(1.0)
+        let pad = match high > low {
+            true => 0.0,
+            false => 0.5 * high.abs().max(1.0),
         };
         let step = nice_step(high + pad - (low - pad), STEPS);
         Self {
-            title: title.into(),
             low: ((low - pad) / step).floor() * step,
             high: ((high + pad) / step).ceil() * step,
-            logarithmic: false,
-        }
-    }
-
-    /// A linear axis that ends exactly at `low` and `high`.
-    pub(crate) fn exact(title: impl Into<String>, low: f64, high: f64) -> Self {
-        Self {
-            title: title.into(),
-            low,
-            high,
-            logarithmic: false,
+            ..Self::none(title)
         }
     }
 
     /// A linear axis that ends exactly at `low` and `high` if they differ.
-    pub(crate) fn over(title: impl Into<String>, low: f64, high: f64) -> Self {
-        if high > low {
-            Self::exact(title, low, high)
-        } else {
-            Self::linear(title, [low].into_iter())
+    pub(crate) fn over(title: &str, low: f64, high: f64) -> Self {
+        match high > low {
+            true => Self {
+                low,
+                high,
+                ..Self::none(title)
+            },
+            false => Self::linear(title, [low].into_iter()),
+        }
+    }
+
+    /// An axis without ticks.
+    pub(crate) fn none(title: &str) -> Self {
+        Self {
+            title: title.into(),
+            low: 0.0,
+            high: 0.0,
+            logarithmic: false,
         }
     }
 
@@ -78,31 +79,9 @@ impl Axis {
         axis
     }
 
-    /// The same axis without its title.
-    pub(crate) fn untitled(&self) -> Self {
-        Self {
-            title: String::new(),
-            ..self.clone()
-        }
-    }
-
-    /// An axis without ticks.
-    pub(crate) fn none() -> Self {
-        Self::exact(String::new(), 0.0, 0.0)
-    }
-
-    /// A logarithmic axis over the positive `values`, in whole decades and at most
-    /// `MOST_DECADES` of them below the largest value; lower values lie on its edge.
-    pub(crate) fn logarithmic(title: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
-        Self::in_decades(title, values, MOST_DECADES)
-    }
-
-    /// A logarithmic axis over all decades of the positive `values`.
-    pub(crate) fn decades(title: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
-        Self::in_decades(title, values, f64::INFINITY)
-    }
-
-    fn in_decades(title: impl Into<String>, values: impl Iterator<Item = f64>, most: f64) -> Self {
+    /// A logarithmic axis over the positive `values`, in whole decades and at most `most` of them
+    /// below the largest value; lower values lie on its edge.
+    pub(crate) fn logarithmic(title: &str, values: impl Iterator<Item = f64>, most: f64) -> Self {
         let (low, high) = extent(values.filter(|v| *v > 0.0));
         let (low, high) = if high > 0.0 { (low, high) } else { (1.0, 10.0) };
         let top = high.log10().ceil();
@@ -118,11 +97,14 @@ impl Axis {
     /// Share of the axis at which a value lies, 0 to 1 within its range; values outside are
     /// put on the edge. NaN stays NaN.
     pub(crate) fn share(&self, value: f64) -> f64 {
-        let value = if self.logarithmic {
-            value.max(0.0).log10()
-        } else {
-            value
-        };
+        self.part(match self.logarithmic {
+            true => value.max(0.0).log10(),
+            false => value,
+        })
+    }
+
+    /// The same of a value, or its decade where the axis is logarithmic.
+    fn part(&self, value: f64) -> f64 {
         ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0)
     }
 
@@ -160,46 +142,32 @@ impl Axis {
         };
         let first = (self.low / step - 1e-9).ceil() as i64;
         let last = (self.high / step + 1e-9).floor() as i64;
-        let values = (first..=last).map(|i| i as f64 * step);
-        let share = |value: f64| ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0);
-        if self.logarithmic {
-            // One way of writing for all of an axis.
-            let plain = self.low >= -2.0 && self.high <= 3.0;
-            let text = |decade: f64| match plain {
-                true => format!("{}", 10_f64.powf(decade)),
-                false => power_of_ten(decade as i32),
-            };
-            return values.map(|d| (share(d), text(d))).collect();
-        }
         let decimals = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
-        let text = |value: f64| format!("{value:.decimals$}");
-        values.map(|v| (share(v), text(v))).collect()
+        // One way of writing for all of an axis.
+        let plain = self.low >= -2.0 && self.high <= 3.0;
+        let text = |value: f64| match (self.logarithmic, plain) {
+            (false, _) => format!("{value:.decimals$}"),
+            (true, true) => format!("{}", 10_f64.powf(value)),
+            (true, false) => power_of_ten(value as i32),
+        };
+        let values = (first..=last).map(|i| i as f64 * step);
+        values.map(|v| (self.part(v), text(v))).collect()
     }
 }
 
 /// `10⁴`, `10⁻²`.
 fn power_of_ten(exponent: i32) -> String {
-    let raised = |digit| match digit {
-        '-' => '⁻',
-        '0' => '⁰',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        '7' => '⁷',
-        '8' => '⁸',
-        _ => '⁹',
+    let raised = |c: char| match c.to_digit(10) {
+        Some(digit) => RAISED[digit as usize],
+        None => '⁻',
     };
-    let digits = exponent.to_string();
-    ['1', '0']
-        .into_iter()
-        .chain(digits.chars().map(raised))
-        .collect()
+    let exponent = exponent.to_string();
+    "10".chars().chain(exponent.chars().map(raised)).collect()
 }
 
-const MOST_DECADES: f64 = 5.0;
+const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+/// Decades of a logarithmic axis that are seen apart.
+pub(crate) const DECADES: f64 = 5.0;
 /// About how many steps an axis has.
 const STEPS: f64 = 5.0;
 
@@ -226,17 +194,18 @@ fn nice_step(span: f64, parts: f64) -> f64 {
 mod tests {
     use super::*;
 
+    fn texts(axis: &Axis, length: f64, across: bool) -> Vec<String> {
+        let ticks = axis.ticks(length, across);
+        assert!(ticks.iter().all(|t| (0.0..=1.0).contains(&t.0)));
+        ticks.into_iter().map(|tick| tick.1).collect()
+    }
+
     #[test]
     fn ticks_are_round_and_inside() {
         let axis = Axis::linear("", [0.03, 2.61].into_iter());
-        let texts = |length| -> Vec<String> {
-            let ticks = axis.ticks(length, false);
-            assert!(ticks.iter().all(|t| (0.0..=1.0).contains(&t.0)));
-            ticks.into_iter().map(|t| t.1).collect()
-        };
-        assert_eq!(texts(300.0), ["0", "1", "2", "3"]);
-        assert_eq!(texts(40.0), ["0", "2"]);
-        assert_eq!(texts(1.0), ["0"]);
+        assert_eq!(texts(&axis, 300.0, false), ["0", "1", "2", "3"]);
+        assert_eq!(texts(&axis, 40.0, false), ["0", "2"]);
+        assert_eq!(texts(&axis, 1.0, false), ["0"]);
         let one = Axis::linear("", [7.0].into_iter());
         assert!(one.share(7.0) > 0.2 && one.share(7.0) < 0.8);
         let none = Axis::linear("", [f64::NAN].into_iter());
@@ -245,28 +214,23 @@ mod tests {
 
     #[test]
     fn a_logarithmic_axis_has_decades() {
-        let axis = Axis::logarithmic("", [0.0, 30.0, 4e5, f64::NAN].into_iter());
-        assert_eq!(axis.share(10.0), 0.0);
-        assert_eq!(axis.share(1e6), 1.0);
-        assert!((axis.share(1e3) - 0.4).abs() < 1e-12);
-        assert_eq!(axis.share(0.0), 0.0);
-        let texts = |axis: &Axis| -> Vec<String> {
-            let ticks = axis.ticks(300.0, true).into_iter();
-            ticks.map(|tick| tick.1).collect()
-        };
-        assert_eq!(texts(&axis), ["10¹", "10²", "10³", "10⁴", "10⁵", "10⁶"]);
-        let small = Axis::logarithmic("", [0.012, 30.0].into_iter());
-        assert_eq!(texts(&small), ["0.01", "0.1", "1", "10", "100"]);
+        let log = |values: &[f64]| Axis::logarithmic("", values.iter().copied(), DECADES);
+        let axis = log(&[0.0, 30.0, 4e5, f64::NAN]);
+        for (value, share) in [(0.0, 0.0), (10.0, 0.0), (1e3, 0.4), (1e6, 1.0)] {
+            assert!((axis.share(value) - share).abs() < 1e-12);
+        }
+        let decades = ["10¹", "10²", "10³", "10⁴", "10⁵", "10⁶"];
+        assert_eq!(texts(&axis, 300.0, true), decades);
+        let small = texts(&log(&[0.012, 30.0]), 300.0, true);
+        assert_eq!(small, ["0.01", "0.1", "1", "10", "100"]);
     }
 
     #[test]
     fn a_colour_scale_leaves_outliers_out_and_says_so() {
         let values = || (0..1000).map(f64::from).chain([1e6]);
         let axis = Axis::covering("T", values(), [0.0, 0.99]);
-        assert_eq!(
-            (axis.title.as_str(), axis.share(500.0)),
-            ("T, top: and more", 0.5)
-        );
+        assert_eq!(axis.title, "T, top: and more");
+        assert_eq!(axis.share(500.0), 0.5);
         let all = Axis::covering("T", values(), [0.0, 1.0]);
         assert_eq!((all.title.as_str(), all.share(1e6)), ("T", 1.0));
     }

@@ -8,7 +8,7 @@ use crate::{Error, text};
 
 /// A PNG is drawn this much larger and averaged, because the bitmap backend does not smooth
 /// the edges of thick lines and polygons.
-const SUPERSAMPLING: usize = 2;
+pub(crate) const SUPERSAMPLING: usize = 2;
 /// Pixels along the longer edge of a picture inside an SVG or PDF: small ones are enlarged,
 /// because not every viewer shows pixels as they are and the others would smooth the voxels away.
 const SMALLEST: usize = 900;
@@ -42,7 +42,8 @@ impl Drawing {
         let scale = width as f64 / self.width;
         let mut pixels = vec![255_u8; width * height * 3];
         for image in &self.images {
-            blit(image, &mut pixels, width, scale);
+            let [left, top, wide, high] = image.place.map(|s| (s * scale).round() as usize);
+            blit(image, [[left, wide], [top, high]], &mut pixels, width);
         }
         {
             let edges = (width as u32, height as u32);
@@ -60,19 +61,18 @@ impl Image {
         let factor = (SMALLEST / columns.max(rows)).max(1);
         let size = [columns * factor, rows * factor];
         let mut rgb = vec![0; 3 * size[0] * size[1]];
-        let place = [0.0, 0.0, size[0] as f64, size[1] as f64];
-        let whole = Self {
-            place,
-            ..self.clone()
-        };
-        blit(&whole, &mut rgb, size[0], 1.0);
-        Self { size, rgb, place }
+        blit(self, size.map(|n| [0, n]), &mut rgb, size[0]);
+        Self {
+            size,
+            rgb,
+            place: self.place,
+        }
     }
 }
 
-/// Copies an image into its place, nearest pixel.
-pub(crate) fn blit(image: &Image, pixels: &mut [u8], stride: usize, scale: f64) {
-    let [left, top, width, height] = image.place.map(|s| (s * scale).round() as usize);
+/// Copies an image into columns and rows (the first and how many) of pixels, nearest pixel.
+fn blit(image: &Image, place: [[usize; 2]; 2], pixels: &mut [u8], stride: usize) {
+    let [[left, width], [top, height]] = place;
     let [columns, rows] = image.size;
     for y in 0..height {
         let row = y * rows / height;
@@ -84,8 +84,8 @@ pub(crate) fn blit(image: &Image, pixels: &mut [u8], stride: usize, scale: f64) 
     }
 }
 
-/// Mean of each block of `SUPERSAMPLING` squared pixels.
-fn average(pixels: &[u8], width: usize) -> Vec<u8> {
+/// Mean of each block of [`SUPERSAMPLING`] squared pixels.
+pub(crate) fn average(pixels: &[u8], width: usize) -> Vec<u8> {
     let block = SUPERSAMPLING;
     let mut averaged = Vec::with_capacity(pixels.len() / (block * block));
     for rows in pixels.chunks(3 * width * block) {
@@ -106,9 +106,8 @@ fn average(pixels: &[u8], width: usize) -> Vec<u8> {
 /// Pixels as a PNG file, with its dots per inch if they mean something.
 pub(crate) fn encode(rgb: &[u8], size: [usize; 2], dpi: Option<f64>) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
-    let mut writer = encoder(&mut bytes, size, dpi)
-        .write_header()
-        .map_err(failed)?;
+    let encoder = encoder(&mut bytes, size, dpi);
+    let mut writer = encoder.write_header().map_err(failed)?;
     writer.write_image_data(rgb).map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)
@@ -148,19 +147,15 @@ mod tests {
             size: [2, 1],
             rgb: vec![255, 0, 0, 0, 0, 255],
         });
-        let bytes = drawing.to_png().unwrap();
-        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-            .read_info()
-            .unwrap();
-        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-        let info = reader.next_frame(&mut pixels).unwrap();
-        assert_eq!((info.width, info.height), (80, 60));
+        let (pixels, size) = drawing.pixels().unwrap();
+        assert_eq!(size, [80, 60]);
         let at = |x: usize, y: usize| &pixels[3 * (80 * y + x)..][..3];
-        assert_eq!(at(20, 10), [255, 0, 0]);
+        for (x, y) in [(20, 10), (39, 29)] {
+            assert_eq!(at(x, y), [255, 0, 0]);
+        }
         assert_eq!(at(59, 29), [0, 0, 255]);
-        assert_eq!(at(39, 29), [255, 0, 0]);
-        assert_eq!(at(19, 15), [255, 255, 255]);
-        assert_eq!(at(60, 15), [255, 255, 255]);
-        assert_eq!(at(30, 30), [255, 255, 255]);
+        for (x, y) in [(19, 15), (60, 15), (30, 30)] {
+            assert_eq!(at(x, y), [255, 255, 255]);
+        }
     }
 }

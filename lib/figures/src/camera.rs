@@ -2,6 +2,7 @@
 
 use voxels::ADHESIVE;
 
+use crate::bitmap::{SUPERSAMPLING, average};
 use crate::solid::{Hit, Solids};
 
 type Vector = [f64; 3];
@@ -17,14 +18,6 @@ pub(crate) struct Camera {
     pub(crate) front: usize,
 }
 
-/// Pixels of a view and the distance of what each shows, as far as it shows something.
-pub(crate) struct View {
-    /// Pixels across and down.
-    pub(crate) size: [usize; 2],
-    /// Row by row from the top, three bytes a pixel.
-    pub(crate) rgb: Vec<u8>,
-}
-
 const WOOD_COLOUR: Vector = [196.0, 188.0, 176.0];
 const ADHESIVE_COLOUR: Vector = [236.0, 150.0, 10.0];
 const EDGE: u8 = 120;
@@ -38,7 +31,7 @@ const CORNERS: f64 = 0.9;
 /// A step in distance of so many voxels has a dark line.
 const STEP: f64 = 6.0;
 /// Rays per pixel along an edge.
-const RAYS: usize = 2;
+const RAYS: usize = SUPERSAMPLING;
 
 fn dot(a: Vector, b: Vector) -> f64 {
     (0..3).map(|i| a[i] * b[i]).sum()
@@ -73,19 +66,22 @@ impl Camera {
     /// Low and high corner in the view of a box between these corners.
     pub(crate) fn extent(&self, ends: [Vector; 2]) -> [[f64; 2]; 2] {
         let places = corners(ends).map(|corner| self.place(corner));
-        let range = |a: usize| {
-            let along = places.map(|place| place[a]);
-            [
-                along.into_iter().fold(f64::INFINITY, f64::min),
-                along.into_iter().fold(f64::NEG_INFINITY, f64::max),
-            ]
-        };
-        let [x, y] = [range(0), range(1)];
-        [[x[0], y[0]], [x[1], y[1]]]
+        let [mut low, mut high] = [places[0]; 2];
+        for place in places {
+            low = [0, 1].map(|a| low[a].min(place[a]));
+            high = [0, 1].map(|a| high[a].max(place[a]));
+        }
+        [low, high]
     }
 
-    /// The solids in a box between corners (voxels, from their own), so many pixels across.
-    pub(crate) fn view(&self, solids: &Solids, ends: [Vector; 2], across: usize) -> View {
+    /// The solids in a box between corners (voxels, from their own), so many pixels across: pixels across and
+    /// down, and row by row from the top, three bytes a pixel.
+    pub(crate) fn view(
+        &self,
+        solids: &Solids,
+        ends: [Vector; 2],
+        across: usize,
+    ) -> ([usize; 2], Vec<u8>) {
         let [low, high] = self.extent(ends);
         let width = across.max(1) * RAYS;
         let voxel = (high[0] - low[0]) / width as f64;
@@ -107,21 +103,15 @@ impl Camera {
             }
         }
         let mut pixels = self.shaded(&hits, width);
-        self.edges(
-            &mut pixels,
-            &hits,
-            ends,
-            [low[0], high[1], far, voxel],
-            width,
-        );
-        averaged(&pixels, width)
+        let view = [low[0], high[1], far, voxel];
+        self.edges(&mut pixels, &hits, ends, view, width);
+        let size = [width / RAYS, height / RAYS];
+        (size, average(pixels.as_flattened(), width))
     }
 
     fn shaded(&self, hits: &[Option<Hit>], width: usize) -> Vec<[u8; 3]> {
-        let light = {
-            let length = dot(LIGHT, LIGHT).sqrt();
-            LIGHT.map(|x| x / length)
-        };
+        let length = dot(LIGHT, LIGHT).sqrt();
+        let light = LIGHT.map(|x| x / length);
         let light: Vector = std::array::from_fn(|a| {
             light[0] * self.right[a] + light[1] * self.up[a] + light[2] * self.towards[a]
         });
@@ -129,20 +119,17 @@ impl Camera {
             let Some(hit) = hit else {
                 return [255; 3];
             };
-            let beside = [
-                i.checked_sub(width),
-                (i % width > 0).then(|| i.wrapping_sub(1)),
-            ];
-            let step = beside.into_iter().flatten().any(|other| {
+            let above = i.checked_sub(width);
+            let before = i.checked_sub(1).filter(|_| i % width > 0);
+            let step = above.into_iter().chain(before).any(|other| {
                 hits[other].is_some_and(|other| (other.distance - hit.distance).abs() > STEP)
             });
             let lit = AMBIENT + LAMP * dot(hit.normal, light).max(0.0);
             let open = (1.0 - CORNERS * (hit.filled - 0.5)).clamp(0.5, 1.1);
             let shade = lit * open * if step { 0.55 } else { 1.0 };
-            let base = if hit.label == ADHESIVE {
-                ADHESIVE_COLOUR
-            } else {
-                WOOD_COLOUR
+            let base = match hit.label {
+                ADHESIVE => ADHESIVE_COLOUR,
+                _ => WOOD_COLOUR,
             };
             base.map(|c| (c * shade).round().clamp(0.0, 255.0) as u8)
         };
@@ -186,25 +173,6 @@ fn corners(ends: [Vector; 2]) -> [Vector; 8] {
     std::array::from_fn(|c| std::array::from_fn(|a| ends[c >> a & 1][a]))
 }
 
-/// Mean of each square of rays.
-fn averaged(pixels: &[[u8; 3]], width: usize) -> View {
-    let size = [width / RAYS, pixels.len() / width / RAYS];
-    let mut rgb = Vec::with_capacity(3 * size[0] * size[1]);
-    for row in 0..size[1] {
-        for column in 0..size[0] {
-            let mean = |channel: usize| {
-                let value = |i: usize| {
-                    let at = (row * RAYS + i / RAYS) * width + column * RAYS + i % RAYS;
-                    usize::from(pixels[at][channel])
-                };
-                (0..RAYS * RAYS).map(value).sum::<usize>() / (RAYS * RAYS)
-            };
-            rgb.extend([0, 1, 2].map(|channel| mean(channel) as u8));
-        }
-    }
-    View { size, rgb }
-}
-
 #[cfg(test)]
 mod tests {
     use particle_file::{BitGrid, Block, Material};
@@ -224,11 +192,11 @@ mod tests {
     /// Area that is not white nor an edge of the box, in voxel faces, and its mean place.
     fn shown(solids: &Solids, camera: &Camera) -> (f64, [f64; 2]) {
         let edges = [[0.0; 3], [EDGE as f64; 3]];
-        let view = camera.view(solids, edges, 200);
+        let (size, rgb) = camera.view(solids, edges, 200);
         let [low, high] = camera.extent(edges);
-        let pixel = (high[0] - low[0]) / view.size[0] as f64;
+        let pixel = (high[0] - low[0]) / size[0] as f64;
         let coloured = |rgb: &[u8]| rgb[0] > rgb[2].saturating_add(40);
-        let found: Vec<usize> = (view.rgb.chunks(3).enumerate())
+        let found: Vec<usize> = (rgb.chunks(3).enumerate())
             .filter(|(_, rgb)| coloured(rgb))
             .map(|(i, _)| i)
             .collect();
@@ -236,7 +204,7 @@ mod tests {
         let mean = |part: &dyn Fn(usize) -> usize| {
             found.iter().map(|i| part(*i) as f64 + 0.5).sum::<f64>() / count * pixel
         };
-        let place = [mean(&|i| i % view.size[0]), mean(&|i| i / view.size[0])];
+        let place = [mean(&|i| i % size[0]), mean(&|i| i / size[0])];
         (count * pixel * pixel, place)
     }
 
@@ -280,23 +248,19 @@ mod tests {
         let low = solids(|_, y, _| y < -10.0);
         let camera = Camera::new(1, 35.0, 25.0);
         let [high, low] = [&high, &low].map(|solids| shown(solids, &camera).1[1]);
-        assert!(
-            (low - high - 25.0 * 25_f64.to_radians().cos()).abs() < 5.0,
-            "{high} {low}"
-        );
+        let apart = 25.0 * 25_f64.to_radians().cos();
+        assert!((low - high - apart).abs() < 5.0, "{high} {low}");
     }
 
     /// One voxel, and a film of one layer, are still there.
     #[test]
     fn nothing_is_too_thin_to_be_seen() {
         let camera = Camera::new(1, 0.0, 90.0);
-        let film = shown(&solids(|_, y, _| y.abs() < 1.0 && y > 0.0), &camera).0;
+        let first = |x: f64| x > 0.0 && x < 1.0;
+        let film = shown(&solids(|_, y, _| first(y)), &camera).0;
         assert!((film / 1600.0 - 1.0).abs() < 0.02, "{film}");
-        let voxel = shown(
-            &solids(|x, y, z| x > 0.0 && x < 1.0 && y > 0.0 && y < 1.0 && z > 0.0 && z < 1.0),
-            &camera,
-        )
-        .0;
+        let one = solids(|x, y, z| first(x) && first(y) && first(z));
+        let voxel = shown(&one, &camera).0;
         assert!(voxel > 0.3, "{voxel}");
     }
 }

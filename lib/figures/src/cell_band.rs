@@ -18,16 +18,16 @@ pub(crate) fn check(run: &Labelled, finer: &Labelled) -> Result<(), Error> {
     let (Some(cell), Some(half)) = (cell_m(&run.path), cell_m(&finer.path)) else {
         return Ok(());
     };
-    if (cell / half / RATIO - 1.0).abs() <= HAIR {
-        return Ok(());
+    match (cell / half / RATIO - 1.0).abs() <= HAIR {
+        true => Ok(()),
+        false => Err(Error::Request(format!(
+            "'{}' has cells of {:.4} um and '{}' of {:.4} um: a finer run is the same in cells half as large",
+            run.path.display(),
+            1e6 * cell,
+            finer.path.display(),
+            1e6 * half
+        ))),
     }
-    Err(Error::Request(format!(
-        "'{}' has cells of {:.4} um and '{}' of {:.4} um: a finer run is the same in cells half as large",
-        run.path.display(),
-        1e6 * cell,
-        finer.path.display(),
-        1e6 * half
-    )))
 }
 
 /// Edge of the cells of the run whose folder a history lies in, m.
@@ -68,14 +68,13 @@ pub(crate) fn band(
         let beyond = (3.0 * fine - 2.0 * own).max(0.0).min(limit);
         let low = own.min(fine).min(beyond);
         let high = own.max(fine).max(beyond);
-        let reach = Reach {
+        let finite = [time, low, high].iter().all(|x| x.is_finite());
+        finite.then_some(Reach {
             time,
             low,
             high,
             converged: high - low <= own.abs(),
-        };
-        let numbers = [time, low, high];
-        numbers.iter().all(|x| x.is_finite()).then_some(reach)
+        })
     };
     places.into_iter().filter_map(reach).collect()
 }
@@ -157,17 +156,12 @@ mod tests {
         let band = band([&way, &way], &way, [&coarse, &fine], 2.5);
         let ends: Vec<[f64; 2]> = band.iter().map(|at| [at.low, at.high]).collect();
         assert_eq!(ends[0], [0.0, 0.2]);
-        assert!(
-            ends[1][0] == 0.63 && (ends[1][1] - 2.34).abs() < 1e-12,
-            "{ends:?}"
-        );
+        assert!((ends[1][1] - 2.34).abs() < 1e-12, "{ends:?}");
+        assert_eq!(ends[1][0], 0.63);
         assert_eq!(ends[2..], [[2.4, 2.5], [2.5, 2.5]]);
         let converged: Vec<bool> = band.iter().map(|at| at.converged).collect();
         assert_eq!(converged, [true, false, true, true]);
-        let parts = parts(&band);
-        assert_eq!(
-            parts.iter().map(|part| part.len()).collect::<Vec<_>>(),
-            [3, 2]
-        );
+        let parts = parts(&band).into_iter().map(<[_]>::len);
+        assert_eq!(parts.collect::<Vec<_>>(), [3, 2]);
     }
 }

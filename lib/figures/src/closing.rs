@@ -1,9 +1,9 @@
 //! The figure of pressure and closing speed against time.
 
-use crate::axes::{Axis, NORMAL, SMALL, extent};
-use crate::cell_band::{self, Reach, band, parts};
 use plotters::style::RGBAColor;
 
+use crate::axes::{Axis, NORMAL, SMALL, extent};
+use crate::cell_band::{self, Reach, band, parts};
 use crate::colour::{BLACK, DISTINCT, faded, opaque, series};
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::{Frame, room_below, room_beside};
@@ -13,16 +13,7 @@ use crate::page::Page;
 use crate::table::Table;
 use crate::{Error, Labelled};
 
-/// Clamping pressure and closing speed against time, one line per run (Figs. 5 and 6 of the
-/// paper), from the `history.csv` of each run.
-#[derive(Clone, Debug)]
-pub struct Closing {
-    runs: Vec<Course>,
-    limit: Option<f64>,
-    title: String,
-    page: Page,
-}
-
+/// Pressure and speed of one run.
 #[derive(Clone, Debug)]
 struct Course {
     label: String,
@@ -56,168 +47,149 @@ const UNSETTLED: &str = "not converged: error above the value";
 const UNSETTLED_COLOUR: [u8; 3] = [240, 200, 60];
 const BAND_SHADE: f64 = 0.25;
 
-impl Closing {
-    /// Reads the histories of runs, and of some of them in cells half as large, by the same label: what
-    /// these say of the pressure is drawn as a band. `limit` (Pa) is drawn as a dashed line.
-    ///
-    /// # Errors
-    /// [`Error::Data`] for an unreadable history, a missing column, or one without numbers;
-    /// [`Error::Request`] for more runs than can be told apart, or a finer run of none of them, of
-    /// several, given twice, or not in cells half as large.
-    pub fn read(
-        runs: &[Labelled],
-        finer: &[Labelled],
-        limit: Option<f64>,
-        title: &str,
-    ) -> Result<Self, Error> {
-        if runs.len() > DISTINCT {
+/// Clamping pressure and closing speed against time, one line per run (Figs. 5 and 6 of the
+/// paper), from the `history.csv` of each run. What runs in cells half as large (`finer`, by the label of
+/// their run) say of the pressure is drawn as a band, `limit` (Pa) as a dashed line.
+///
+/// # Errors
+/// [`Error::Data`] for an unreadable history, a missing column, or one without numbers;
+/// [`Error::Request`] for more runs than can be told apart, or a finer run of none of them, of
+/// several, given twice, or not in cells half as large.
+pub fn closing(
+    runs: &[Labelled],
+    finer: &[Labelled],
+    limit: Option<f64>,
+    title: &str,
+    page: Page,
+) -> Result<Drawing, Error> {
+    let runs = read(runs, finer, limit)?;
+    let width = page.width().unwrap_or(WIDTH);
+    let axes = Axes::over(&runs, limit);
+    let heights = [(0.375 * width).max(170.0), (0.1875 * width).max(120.0)];
+    let left = room_beside(&axes.pressure, heights[0]).max(room_beside(&axes.speed, heights[1]));
+    let left = left + 4.0;
+    let across = width - left - RIGHT;
+    let title = measure::lines(title, NORMAL + 2.0, width - 2.0 * RIGHT, 3);
+    let title_height = 10.0 + 1.4 * NORMAL * title.len() as f64;
+    let bands = bands(&runs);
+    let labels = runs.iter().map(|run| run.label.as_str());
+    let labels = labels.chain(bands.iter().map(|(label, _)| *label));
+    let legend = Legend::new(labels, Legend::LINE, across);
+    let frame = |top, height| Frame::new([left, top], [across, height]);
+    let upper = frame(title_height + legend.height + 10.0, heights[0]);
+    let lower = frame(upper.bottom() + 34.0, heights[1]);
+    let height = lower.bottom() + room_below(&axes.below, across) + 4.0;
+    let mut drawing = Drawing::new(page, width, height);
+    drawing.lines(&title, [0.5 * width, 20.0], Anchor::Centre, NORMAL + 2.0);
+    let sample = |drawing: &mut Drawing, i: usize, ends| match i.checked_sub(runs.len()) {
+        Some(band) => drawing.area(patch(ends), bands[band].1),
+        None => Stroke::of_series(i).draw(drawing, &ends),
+    };
+    legend.draw(&mut drawing, [left, title_height], sample);
+    draw(&mut drawing, &runs, &axes, [&upper, &lower]);
+    if let Some(limit) = limit {
+        let place = |t| upper.place(&axes.above, &axes.pressure, [t / axes.unit, limit * 1e-6]);
+        let ends = [0.0, f64::MAX].map(place);
+        drawing.dashes(&ends, BLACK, 1.2, [4.0, 4.0]);
+        name_limit(&mut drawing, &upper, ends[0][1], limit);
+    }
+    Ok(drawing)
+}
+
+/// The histories, with bands and marked labels.
+fn read(
+    sources: &[Labelled],
+    finer: &[Labelled],
+    limit: Option<f64>,
+) -> Result<Vec<Course>, Error> {
+    if sources.len() > DISTINCT {
+        return Err(Error::Request(format!(
+            "{} runs are too many for one figure: {DISTINCT} can be told apart",
+            sources.len()
+        )));
+    }
+    let mut runs: Vec<Course> = sources.iter().map(Course::read).collect::<Result<_, _>>()?;
+    for (place, fine) in finer.iter().enumerate() {
+        let named = runs.iter_mut().zip(sources);
+        let mut named = named.filter(|(run, _)| run.label == fine.label);
+        let (Some((run, source)), None) = (named.next(), named.next()) else {
             return Err(Error::Request(format!(
-                "{} runs are too many for one figure: {DISTINCT} can be told apart",
-                runs.len()
+                "the finer run '{}' has the label of no run, or of several",
+                fine.label
+            )));
+        };
+        if finer[..place].iter().any(|other| other.label == fine.label) {
+            return Err(Error::Request(format!(
+                "two finer runs have the label '{}'",
+                fine.label
             )));
         }
-        let sources = runs;
-        let mut runs: Vec<Course> = runs.iter().map(Course::read).collect::<Result<_, _>>()?;
-        for (place, fine) in finer.iter().enumerate() {
-            let named = runs.iter_mut().zip(sources);
-            let mut named = named.filter(|(run, _)| run.label == fine.label);
-            let (Some((run, source)), None) = (named.next(), named.next()) else {
-                return Err(Error::Request(format!(
-                    "the finer run '{}' has the label of no run, or of several",
-                    fine.label
-                )));
-            };
-            if finer[..place].iter().any(|other| other.label == fine.label) {
-                return Err(Error::Request(format!(
-                    "two finer runs have the label '{}'",
-                    fine.label
-                )));
-            }
-            cell_band::check(source, fine)?;
-            let (ways, finer) = ([travel(source)?, travel(fine)?], Course::read(fine)?);
-            let pressures = [&run.pressure[..], &finer.pressure];
-            let limit = limit.unwrap_or(f64::INFINITY);
-            run.band = band([&ways[0], &ways[1]], &run.time, pressures, limit);
-        }
-        for (run, source) in runs.iter_mut().zip(sources) {
-            run.label = source.clone().marked()?.label;
-        }
-        Ok(Self {
-            runs,
-            limit,
-            title: title.into(),
-            page: Page::default(),
-        })
+        cell_band::check(source, fine)?;
+        let (ways, finer) = ([travel(source)?, travel(fine)?], Course::read(fine)?);
+        let pressures = [&run.pressure[..], &finer.pressure];
+        let limit = limit.unwrap_or(f64::INFINITY);
+        run.band = band([&ways[0], &ways[1]], &run.time, pressures, limit);
     }
-
-    /// The same for a page.
-    pub fn on(self, page: Page) -> Self {
-        Self { page, ..self }
+    for (run, source) in runs.iter_mut().zip(sources) {
+        run.label = source.clone().marked()?.label;
     }
+    Ok(runs)
+}
 
-    /// The figure.
-    pub fn draw(&self) -> Drawing {
-        let page = self.page.width().unwrap_or(WIDTH);
-        let axes = self.axes();
-        let heights = [(0.375 * page).max(170.0), (0.1875 * page).max(120.0)];
-        let left = [(&axes.pressure, heights[0]), (&axes.speed, heights[1])]
-            .map(|(axis, height)| room_beside(axis, height));
-        let left = left[0].max(left[1]) + 4.0;
-        let width = page - left - RIGHT;
-        let title = measure::lines(&self.title, NORMAL + 2.0, page - 2.0 * RIGHT, 3);
-        let title_height = 10.0 + 1.4 * NORMAL * title.len() as f64;
-        let labels = self.runs.iter().map(|run| run.label.as_str());
-        let bands = self.bands();
-        let labels = labels.chain(bands.iter().map(|(label, _)| *label));
-        let legend = Legend::new(labels, Legend::LINE, width);
-        let frame = |top, height| Frame {
-            left,
-            top,
-            width,
-            height,
-        };
-        let upper = frame(title_height + legend.height() + 10.0, heights[0]);
-        let lower = frame(upper.bottom() + 34.0, heights[1]);
-        let height = lower.bottom() + room_below(&axes.below, width) + 4.0;
-        let mut drawing = Drawing::new(self.page, page, height);
-        drawing.lines(&title, [0.5 * page, 20.0], Anchor::Centre, NORMAL + 2.0);
-        legend.draw(
-            &mut drawing,
-            [left, title_height],
-            |drawing, i, ends| match i.checked_sub(self.runs.len()) {
-                Some(band) => drawing.area(patch(ends), bands[band].1),
-                None => Stroke::of_series(i).draw(drawing, &ends),
-            },
-        );
-        self.plot(&mut drawing, &axes, &upper, &lower);
-        drawing
-    }
+/// Kinds of bands that there are, and how they look in the key.
+fn bands(runs: &[Course]) -> Vec<(&'static str, RGBAColor)> {
+    let kind = |(label, converged)| {
+        let has = |run: &Course| run.band.iter().any(|at| at.converged == converged);
+        let run = runs.iter().position(has)?;
+        Some((label, shade(run, converged)))
+    };
+    let kinds = [(BAND, true), (UNSETTLED, false)];
+    kinds.into_iter().filter_map(kind).collect()
+}
 
-    /// Kinds of bands that there are, and how they look in the key.
-    fn bands(&self) -> Vec<(&'static str, RGBAColor)> {
-        let kind = |converged: bool| {
-            let has = |run: &Course| run.band.iter().any(|at| at.converged == converged);
-            let run = self.runs.iter().position(has)?;
-            let label = if converged { BAND } else { UNSETTLED };
-            Some((label, shade(run, converged)))
-        };
-        [true, false].into_iter().filter_map(kind).collect()
-    }
-
-    fn axes(&self) -> Axes {
-        let times = || self.runs.iter().flat_map(|run| run.time.iter().copied());
-        let (unit, name) = time_unit(extent(times()).1);
-        let (first, last) = extent(times());
-        let time = |title: String| Axis::over(title, first.min(0.0) / unit, last / unit);
-        let pressures = self.runs.iter().flat_map(|run| run.pressure.iter());
-        let bands = self.runs.iter().flat_map(|run| &run.band);
+impl Axes {
+    fn over(runs: &[Course], limit: Option<f64>) -> Self {
+        let (first, last) = extent(runs.iter().flat_map(|run| run.time.iter().copied()));
+        let (unit, name) = time_unit(last);
+        let time = |title: &str| Axis::over(title, first.min(0.0) / unit, last / unit);
+        let bands = runs.iter().flat_map(|run| &run.band);
         let bands = bands.flat_map(|at| [at.low, at.high]);
-        let pressures = pressures
-            .copied()
-            .chain(bands)
-            .chain(self.limit)
-            .chain([0.0]);
+        let pressures = runs.iter().flat_map(|run| run.pressure.iter().copied());
+        let pressures = pressures.chain(bands).chain(limit).chain([0.0]);
         // Room above the limit, for its name, and the full speed, which else lie on the frame.
         let roomy = |title: &str, (low, high): (f64, f64)| Axis::over(title, low, 1.12 * high);
-        let speeds = self.runs.iter().flat_map(|run| run.speed.iter().copied());
-        Axes {
-            above: time(String::new()),
-            below: time(format!("time ({name})")),
+        let speeds = runs.iter().flat_map(|run| run.speed.iter().copied());
+        Self {
+            above: time(""),
+            below: time(&format!("time ({name})")),
             pressure: roomy("pressure (MPa)", extent(pressures.map(|p| p * 1e-6))),
             speed: roomy("closing speed (m/s)", extent(speeds.chain([0.0]))),
             unit,
         }
     }
+}
 
-    fn plot(&self, drawing: &mut Drawing, axes: &Axes, upper: &Frame, lower: &Frame) {
-        upper.draw(drawing, &axes.above, &axes.pressure, true);
-        lower.draw(drawing, &axes.below, &axes.speed, true);
-        let end =
-            |t: f64, p: f64| upper.place(&axes.above, &axes.pressure, [t / axes.unit, p * 1e-6]);
-        for (i, run) in self.runs.iter().enumerate() {
-            for part in parts(&run.band) {
-                let low = part.iter().map(|at| end(at.time, at.low));
-                let high = part.iter().rev().map(|at| end(at.time, at.high));
-                let shade = shade(i, part.iter().all(|at| at.converged));
-                drawing.area(low.chain(high).collect(), shade);
-            }
+fn draw(drawing: &mut Drawing, runs: &[Course], axes: &Axes, [upper, lower]: [&Frame; 2]) {
+    upper.draw(drawing, &axes.above, &axes.pressure, true);
+    lower.draw(drawing, &axes.below, &axes.speed, true);
+    let end = |t: f64, p: f64| upper.place(&axes.above, &axes.pressure, [t / axes.unit, p * 1e-6]);
+    for (i, run) in runs.iter().enumerate() {
+        for part in parts(&run.band) {
+            let low = part.iter().map(|at| end(at.time, at.low));
+            let high = part.iter().rev().map(|at| end(at.time, at.high));
+            let shade = shade(i, part.iter().all(|at| at.converged));
+            drawing.area(low.chain(high).collect(), shade);
         }
-        for (i, run) in self.runs.iter().enumerate() {
-            let stroke = Stroke::of_series(i);
-            let line = |frame: &Frame, y: &Axis, values: &[f64], scale: f64| {
-                let pairs = run.time.iter().zip(values);
-                let place =
-                    |(t, v): (&f64, &f64)| frame.place(&axes.above, y, [t / axes.unit, v * scale]);
-                thinned(pairs.map(place))
-            };
-            stroke.draw(drawing, &line(upper, &axes.pressure, &run.pressure, 1e-6));
-            stroke.draw(drawing, &line(lower, &axes.speed, &run.speed, 1.0));
-        }
-        if let Some(limit) = self.limit {
-            let ends = [0.0, f64::MAX].map(|t| end(t, limit));
-            drawing.dashes(&ends, BLACK, 1.2, [4.0, 4.0]);
-            name_limit(drawing, upper, ends[0][1], limit);
-        }
+    }
+    for (i, run) in runs.iter().enumerate() {
+        let line = |frame: &Frame, y: &Axis, values: &[f64], scale: f64| {
+            let pairs = run.time.iter().zip(values);
+            let place = |(t, v): (&f64, &f64)| [t / axes.unit, v * scale];
+            thinned(pairs.map(|pair| frame.place(&axes.above, y, place(pair))))
+        };
+        let stroke = Stroke::of_series(i);
+        stroke.draw(drawing, &line(upper, &axes.pressure, &run.pressure, 1e-6));
+        stroke.draw(drawing, &line(lower, &axes.speed, &run.speed, 1.0));
     }
 }
 
@@ -225,12 +197,9 @@ impl Closing {
 fn name_limit(drawing: &mut Drawing, frame: &Frame, y: f64, limit: f64) {
     let text = format!("pressure limit, {} MPa", (limit * 1e-6) as f32);
     let text = measure::shortened(&text, SMALL, frame.width - 12.0);
-    let up = if y - frame.top < 1.3 * SMALL {
-        1.0
-    } else {
-        -1.0
-    };
-    let (right, y) = (frame.right() - 6.0, y + 0.75 * up * SMALL);
+    let room_above = y - frame.top >= 1.3 * SMALL;
+    let aside = if room_above { -0.75 } else { 0.75 };
+    let (right, y) = (frame.right() - 6.0, y + aside * SMALL);
     let left = right - measure::width(&text, SMALL);
     let [above, below] = [y - 0.5 * SMALL, y + 0.55 * SMALL];
     let ground = [[left, above], [right, above], [right, below], [left, below]];
@@ -258,19 +227,10 @@ impl Course {
 }
 
 fn shade(run: usize, converged: bool) -> RGBAColor {
-    let colour = if converged {
-        series(run)
-    } else {
-        opaque(UNSETTLED_COLOUR)
-    };
-    faded(
-        colour,
-        if converged {
-            BAND_SHADE
-        } else {
-            2.0 * BAND_SHADE
-        },
-    )
+    match converged {
+        true => faded(series(run), BAND_SHADE),
+        false => faded(opaque(UNSETTLED_COLOUR), 2.0 * BAND_SHADE),
+    }
 }
 
 /// How far the clamp of a run had gone in the middles of its steps, m.
@@ -279,9 +239,8 @@ fn travel(source: &Labelled) -> Result<Vec<f64>, Error> {
     let (steps, speed) = (table.data("dt_s")?, table.data("closing_speed_m_s")?);
     let steps = steps.iter().zip(speed);
     let ends = table.data("displacement_m")?.into_iter();
-    Ok((ends.zip(steps))
-        .map(|(s, (dt, v))| s - 0.5 * dt * v)
-        .collect())
+    let middles = ends.zip(steps).map(|(s, (dt, v))| s - 0.5 * dt * v);
+    Ok(middles.collect())
 }
 
 /// The largest unit that shows a time of `last` seconds as a number above one.
@@ -313,14 +272,13 @@ pub(crate) fn thinned(points: impl Iterator<Item = Point>) -> Vec<Point> {
         column.clear();
     };
     for point in points {
-        let changes = column
-            .first()
-            .is_some_and(|first| first[0].floor() != point[0].floor());
-        if changes || !(point[0].is_finite() && point[1].is_finite()) {
+        let gap = !(point[0].is_finite() && point[1].is_finite());
+        let begins = |first: &Point| first[0].floor() != point[0].floor();
+        if gap || column.first().is_some_and(begins) {
             flush(&mut column);
         }
         column.push(point);
-        if !(point[0].is_finite() && point[1].is_finite()) {
+        if gap {
             flush(&mut column);
         }
     }

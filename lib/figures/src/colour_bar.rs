@@ -2,7 +2,7 @@
 
 use crate::axes::Axis;
 use crate::colour::viridis;
-use crate::drawing::{Drawing, Image};
+use crate::drawing::Drawing;
 use crate::frame::{Frame, most_beside, room_beside};
 
 /// Width of the bar itself, and what is free on its right.
@@ -20,17 +20,9 @@ pub(crate) fn width(shades: &Axis) -> f64 {
 /// Draws a vertical colour scale with the ticks and title of `shades`.
 pub(crate) fn draw(drawing: &mut Drawing, right_of: f64, top: f64, height: f64, shades: &Axis) {
     const STEPS: usize = 256;
-    let frame = Frame {
-        left: right_of + room_beside(shades, height),
-        top,
-        width: BAR,
-        height,
-    };
+    let left = right_of + room_beside(shades, height);
+    let frame = Frame::new([left, top], [BAR, height]);
     let colours = (0..STEPS).rev().map(|i| i as f64 / (STEPS - 1) as f64);
-    drawing.images.push(Image {
-        place: [frame.left, frame.top, frame.width, frame.height],
-        size: [1, STEPS],
-        rgb: colours.flat_map(viridis).collect(),
-    });
-    frame.draw(drawing, &Axis::none(), shades, false);
+    frame.fill(drawing, [1, STEPS], colours.flat_map(viridis).collect());
+    frame.draw(drawing, &Axis::none(""), shades, false);
 }

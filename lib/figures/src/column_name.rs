@@ -1,8 +1,9 @@
 //! Names of columns as they stand on axes.
 
 /// A column's name as it stands on an axis: `adhesive.viscosity_Pa_s` as `adhesive.viscosity (Pa s)`.
-pub(crate) fn worded(column: &str) -> String {
+pub fn worded(column: &str) -> String {
     let known = |unit: &str| match unit {
+        "um2" => Some("µm²".to_owned()),
         "um3" => Some("µm³".to_owned()),
         "pa" => Some("Pa".to_owned()),
         "cell" => Some("cells".to_owned()),
@@ -19,16 +20,14 @@ pub(crate) fn worded(column: &str) -> String {
 
 /// The name of a result in words; keys of the case stay as they are written there.
 fn spaced(name: &str) -> String {
-    match name.contains('.') {
-        true => name.to_owned(),
-        false => (name.split('_'))
-            .map(|word| match word {
-                "wp" | "ep" => word.to_uppercase(),
-                other => other.to_owned(),
-            })
-            .collect::<Vec<_>>()
-            .join(" "),
+    if name.contains('.') {
+        return name.to_owned();
     }
+    let words = name.split('_').map(|word| match word {
+        "wp" | "ep" => word.to_uppercase(),
+        other => other.to_owned(),
+    });
+    words.collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
@@ -42,6 +41,7 @@ mod tests {
             ("slab_wp_um", "slab WP (µm)"),
             ("adhesive.viscosity_Pa_s", "adhesive.viscosity (Pa s)"),
             ("volume_um3", "volume (µm³)"),
+            ("wetted_area_um2", "wetted area (µm²)"),
             ("clamp.max_pressure_MPa", "clamp.max_pressure (MPa)"),
             ("integrator.cfl", "integrator.cfl"),
             ("steps", "steps"),

@@ -33,21 +33,12 @@ pub(crate) struct Image {
 
 #[derive(Clone, Debug)]
 pub(crate) enum Item {
-    Line {
-        points: Vec<Point>,
-        colour: RGBAColor,
-        width: f64,
-    },
-    Area {
-        points: Vec<Point>,
-        colour: RGBAColor,
-    },
-    Text {
-        text: String,
-        at: Point,
-        anchor: Anchor,
-        size: f64,
-    },
+    /// Its points, colour and width.
+    Line(Vec<Point>, RGBAColor, f64),
+    /// Its outline and colour.
+    Area(Vec<Point>, RGBAColor),
+    /// What it says, its place, anchor and size.
+    Text(String, Point, Anchor, f64),
 }
 
 /// Where the text lies with respect to its point.
@@ -61,6 +52,17 @@ pub(crate) enum Anchor {
     Right,
     /// Centred on it, reading upwards.
     Upwards,
+}
+
+impl Anchor {
+    /// Share of the text's width that lies before its point.
+    pub(crate) fn before(self) -> f64 {
+        match self {
+            Self::Left => 0.0,
+            Self::Centre | Self::Upwards => 0.5,
+            Self::Right => 1.0,
+        }
+    }
 }
 
 /// A line of text and the room that it takes, in logical pixels from the top left corner.
@@ -84,11 +86,7 @@ impl Drawing {
     }
 
     pub(crate) fn line(&mut self, points: Vec<Point>, colour: RGBAColor, width: f64) {
-        self.items.push(Item::Line {
-            points,
-            colour,
-            width,
-        });
+        self.items.push(Item::Line(points, colour, width));
     }
 
     /// A line of dashes `on` long with gaps of `off`.
@@ -130,16 +128,11 @@ impl Drawing {
     }
 
     pub(crate) fn area(&mut self, points: Vec<Point>, colour: RGBAColor) {
-        self.items.push(Item::Area { points, colour });
+        self.items.push(Item::Area(points, colour));
     }
 
     pub(crate) fn text(&mut self, text: impl Into<String>, at: Point, anchor: Anchor, size: f64) {
-        self.items.push(Item::Text {
-            text: text.into(),
-            at,
-            anchor,
-            size,
-        });
+        (self.items).push(Item::Text(text.into(), at, anchor, size));
     }
 
     /// Lines of text one below the other, the first with its middle at `at`.
@@ -162,29 +155,19 @@ impl Drawing {
     /// Every line of text with its room in the embedded font.
     pub fn text_boxes(&self) -> Vec<TextBox> {
         let boxed = |item: &Item| match item {
-            Item::Text {
-                text,
-                at,
-                anchor,
-                size,
-            } => Some(TextBox {
-                text: text.clone(),
-                edges: edges(measure::width(text, *size), *at, *anchor, *size),
-            }),
+            Item::Text(text, [x, y], anchor, size) => {
+                let width = measure::width(text, *size);
+                let [above, below] = [ABOVE * size, BELOW * size];
+                let start = x - anchor.before() * width;
+                let edges = match anchor {
+                    Anchor::Upwards => [x - above, y - 0.5 * width, x + below, y + 0.5 * width],
+                    _ => [start, y - above, start + width, y + below],
+                };
+                let text = text.clone();
+                Some(TextBox { text, edges })
+            }
             _ => None,
         };
         self.items.iter().filter_map(boxed).collect()
-    }
-}
-
-/// Where text of a width lies: left, top, right and lower end.
-fn edges(width: f64, [x, y]: Point, anchor: Anchor, size: f64) -> [f64; 4] {
-    let [above, below] = [ABOVE * size, BELOW * size];
-    let across = |start: f64| [start, y - above, start + width, y + below];
-    match anchor {
-        Anchor::Left => across(x),
-        Anchor::Centre => across(x - 0.5 * width),
-        Anchor::Right => across(x - width),
-        Anchor::Upwards => [x - above, y - 0.5 * width, x + below, y + 0.5 * width],
     }
 }

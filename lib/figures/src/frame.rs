@@ -2,8 +2,8 @@
 
 use crate::axes::{Axis, NORMAL, SMALL};
 use crate::colour::{BLACK, FAINT};
-use crate::drawing::{Anchor, Drawing, Point};
-use crate::measure::{self, LINE};
+use crate::drawing::{Anchor, Drawing, Image, Point};
+use crate::measure::{self, LINE, highest};
 
 /// A rectangle of the drawing with an x and a y axis.
 #[derive(Clone, Debug)]
@@ -31,10 +31,8 @@ fn title(axis: &Axis, length: f64) -> Vec<String> {
 }
 
 fn widest(axis: &Axis, height: f64) -> f64 {
-    let ticks = axis.ticks(height, true).into_iter();
-    ticks
-        .map(|(_, text)| measure::width(&text, SMALL))
-        .fold(0.0, f64::max)
+    let ticks = axis.ticks(height, true);
+    highest(ticks.iter().map(|(_, text)| measure::width(text, SMALL)))
 }
 
 /// Room that the ticks and title of an axis take on the left of a frame of this height.
@@ -49,8 +47,7 @@ pub(crate) fn room_beside(axis: &Axis, height: f64) -> f64 {
 
 /// The same for a frame that is at least so high.
 pub(crate) fn most_beside(axis: &Axis, least: f64) -> f64 {
-    let rooms = [1.0, 2.0, 4.0].map(|times| room_beside(axis, times * least));
-    rooms.into_iter().fold(0.0, f64::max)
+    highest([1.0, 2.0, 4.0].map(|times| room_beside(axis, times * least)))
 }
 
 /// Room that the ticks and title of an axis take below a frame of this width.
@@ -60,6 +57,15 @@ pub(crate) fn room_below(axis: &Axis, width: f64) -> f64 {
 }
 
 impl Frame {
+    pub(crate) fn new([left, top]: Point, [width, height]: [f64; 2]) -> Self {
+        Self {
+            left,
+            top,
+            width,
+            height,
+        }
+    }
+
     /// Where a value pair lies.
     pub(crate) fn place(&self, x: &Axis, y: &Axis, value: [f64; 2]) -> Point {
         [
@@ -100,7 +106,14 @@ impl Frame {
             drawing.line(vec![[self.left - TICK, at], [self.left, at]], BLACK, 1.0);
             drawing.text(text, [self.left - BESIDE, at], Anchor::Right, SMALL);
         }
-        self.outline(drawing);
+        let corners = [
+            [self.left, self.top],
+            [right, self.top],
+            [right, bottom],
+            [self.left, bottom],
+            [self.left, self.top],
+        ];
+        drawing.line(corners.to_vec(), BLACK, 1.0);
         let below = [self.middle(), bottom + BELOW + 1.3 * NORMAL];
         drawing.lines(&title(x, self.width), below, Anchor::Centre, NORMAL);
         let title = title(y, self.height);
@@ -111,16 +124,9 @@ impl Frame {
         drawing.lines(&title, beside, Anchor::Upwards, NORMAL);
     }
 
-    /// The rectangle itself.
-    pub(crate) fn outline(&self, drawing: &mut Drawing) {
-        let (bottom, right) = (self.bottom(), self.right());
-        let corners = [
-            [self.left, self.top],
-            [right, self.top],
-            [right, bottom],
-            [self.left, bottom],
-            [self.left, self.top],
-        ];
-        drawing.line(corners.to_vec(), BLACK, 1.0);
+    /// Fills the frame with pixels: how many across and down, row by row from the top.
+    pub(crate) fn fill(&self, drawing: &mut Drawing, size: [usize; 2], rgb: Vec<u8>) {
+        let place = [self.left, self.top, self.width, self.height];
+        drawing.images.push(Image { place, size, rgb });
     }
 }

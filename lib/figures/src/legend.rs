@@ -66,9 +66,10 @@ pub(crate) struct Legend {
     entries: Vec<(String, Point)>,
     /// Length of a sample.
     sample: f64,
-    rows: f64,
-    /// Right end of the longest row.
-    width: f64,
+    /// Width of the longest row.
+    pub(crate) width: f64,
+    /// Height of all rows.
+    pub(crate) height: f64,
 }
 
 impl Legend {
@@ -100,19 +101,9 @@ impl Legend {
         Self {
             entries,
             sample,
-            rows,
             width: longest,
+            height: rows * ROW,
         }
-    }
-
-    /// Width of the longest row.
-    pub(crate) fn width(&self) -> f64 {
-        self.width
-    }
-
-    /// Height of all rows.
-    pub(crate) fn height(&self) -> f64 {
-        self.rows * ROW
     }
 
     /// Draws the labels and, by `sample`, what stands before them: given the entry and the ends
@@ -135,10 +126,6 @@ impl Legend {
 /// The patch of a colour between the ends of a sample.
 pub(crate) fn patch([start, end]: [Point; 2]) -> Vec<Point> {
     let [above, below] = [start[1] - 7.0, start[1] + 7.0];
-    vec![
-        [start[0], above],
-        [end[0], above],
-        [end[0], below],
-        [start[0], below],
-    ]
+    let [left, right] = [start[0], end[0]];
+    [[left, above], [right, above], [right, below], [left, below]].to_vec()
 }

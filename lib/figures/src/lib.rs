@@ -1,11 +1,11 @@
 //! Figures and Table 2 of the pipeline, from the tools' own output files.
 //!
-//! A figure is read from data into a plain struct (`Closing`, `WpMap`, `ShearRates`,
-//! `Slices`, `Views`), drawn into a [`Drawing`] and written as SVG, PNG or PDF. The font is embedded, so a
-//! machine without fonts or display gives the same picture. No chart is drawn from data that
-//! are not there: a missing column or an empty file is an [`Error`].
+//! A figure is read from files and drawn for a [`Page`] into a [`Drawing`], which is written as SVG, PNG or PDF.
+//! The font is embedded, so a machine without fonts or display gives the same picture. No chart is drawn from data
+//! that are not there: a missing column or an empty file is an [`Error`].
 
 mod axes;
+mod base64;
 mod bitmap;
 mod camera;
 mod cell_band;
@@ -16,11 +16,10 @@ mod colour;
 mod colour_bar;
 mod column_name;
 mod drawing;
-mod error;
 mod frame;
+mod known;
 mod legend;
 mod measure;
-mod measured;
 mod movie;
 mod outcome;
 mod page;
@@ -29,7 +28,6 @@ mod pdf;
 mod penetration;
 mod plot;
 mod pores;
-mod raster;
 mod replay;
 mod response;
 mod run_end;
@@ -46,26 +44,30 @@ mod text;
 mod view;
 mod wp_map;
 
-pub use cell_error::CellErrors;
-pub use closing::Closing;
+pub use base64::base64;
+pub use closing::closing;
 pub use clouds::{Clouds, Spot};
+pub use column_name::worded;
 pub use drawing::{Drawing, TextBox};
-pub use error::Error;
-pub use movie::Movie;
+pub use known::Known;
+pub use movie::movie;
 pub use page::Page;
 pub use penetration::{Shown, penetrations};
 pub use plot::{Mark, Plot};
 pub use pores::pores;
-pub use response::Response;
+pub use response::response;
 pub use run_end::{RunEnd, summary_beside};
-pub use setup::Setup;
-pub use shear_rate::ShearRates;
+pub use setup::setup;
+pub use shear_rate::shear_rates;
 pub use slice::{Colouring, Cut, Position, Slices};
+pub use table::Table;
 pub use table2::{Case, Table2};
 pub use view::{Direction, Views, Wood};
-pub use wp_map::WpMap;
+pub use wp_map::wp_maps;
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::os::unix::ffi::OsStrExt;
+use std::path::{Path, PathBuf};
 
 /// A data file with the name it goes by in a figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -74,4 +76,55 @@ pub struct Labelled {
     pub label: String,
     /// The file.
     pub path: PathBuf,
+}
+
+impl Labelled {
+    /// Of `LABEL=PATH`, which need not be UTF-8.
+    pub fn split(text: &OsStr) -> Option<Self> {
+        let bytes = text.as_bytes();
+        let at = bytes.iter().position(|b| *b == b'=')?;
+        Some(Self {
+            label: String::from_utf8_lossy(&bytes[..at]).into_owned(),
+            path: OsStr::from_bytes(&bytes[at + 1..]).into(),
+        })
+    }
+
+    /// Of `LABEL=PATH`, or of a path alone, which `named` says the label of.
+    ///
+    /// # Errors
+    /// A sentence where the label or the path is empty.
+    pub fn parse(text: &OsStr, named: fn(&Path) -> String) -> Result<Self, String> {
+        let path = Path::new(text);
+        let parsed = Self::split(text).unwrap_or_else(|| Self {
+            label: named(path),
+            path: path.into(),
+        });
+        match parsed.label.is_empty() || parsed.path.as_os_str().is_empty() {
+            true => Err(format!(
+                "'{}' needs a label and a path, as in FLIP=out/pf-flip",
+                text.display()
+            )),
+            false => Ok(parsed),
+        }
+    }
+}
+
+/// Why there is no figure, in one sentence.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The data cannot be read or do not hold what the figure shows.
+    #[error("{0}")]
+    Data(String),
+    /// The figure asked for cannot be made of these data.
+    #[error("{0}")]
+    Request(String),
+    /// The picture could not be made.
+    #[error("cannot draw the figure: {0}")]
+    Draw(String),
+}
+
+impl From<particle_file::Error> for Error {
+    fn from(error: particle_file::Error) -> Self {
+        Self::Data(error.to_string())
+    }
 }

@@ -14,16 +14,19 @@ pub(crate) const BELOW: f64 = 0.60 * EM;
 /// From one line of text to the next, in sizes.
 pub(crate) const LINE: f64 = 1.2;
 
+/// The largest of lengths, or zero.
+pub(crate) fn highest(lengths: impl IntoIterator<Item = f64>) -> f64 {
+    lengths.into_iter().fold(0.0, f64::max)
+}
+
 /// Width of a line of text of the embedded font, in the unit of `size`.
 pub(crate) fn width(text: &str, size: f64) -> f64 {
     let Ok(font) = FontRef::new(dejavu::sans::regular()) else {
         return 0.0;
     };
     let em = Size::new((EM * size) as f32);
-    let (glyphs, advances) = (
-        font.charmap(),
-        font.glyph_metrics(em, LocationRef::default()),
-    );
+    let advances = font.glyph_metrics(em, LocationRef::default());
+    let glyphs = font.charmap();
     let advance = |c| advances.advance_width(glyphs.map(c).unwrap_or(GlyphId::NOTDEF));
     let widths = text.chars().filter_map(advance);
     widths.map(f64::from).sum()
@@ -36,13 +39,9 @@ pub(crate) fn shortened(text: &str, size: f64, room: f64) -> String {
     }
     let letters: Vec<char> = text.chars().collect();
     let kept = |count: usize| -> String {
-        let (head, tail) = (count.div_ceil(2), count / 2);
-        let tail = &letters[letters.len() - tail..];
-        letters[..head]
-            .iter()
-            .chain(['…'].iter())
-            .chain(tail)
-            .collect()
+        let (head, tail) = letters.split_at(count.div_ceil(2));
+        let tail = &tail[tail.len() - count / 2..];
+        head.iter().chain(&['…']).chain(tail).collect()
     };
     let counts: Vec<usize> = (0..letters.len()).collect();
     let fit = counts.partition_point(|&count| width(&kept(count), size) <= room);

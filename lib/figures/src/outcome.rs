@@ -1,6 +1,6 @@
 //! A result of a sweep: its values, error and axis.
 
-use crate::axes::{Axis, extent};
+use crate::axes::{Axis, DECADES, extent};
 use crate::closing::time_unit;
 use crate::column_name::worded;
 
@@ -47,10 +47,8 @@ impl Outcome {
 
     /// An axis over the values and their errors, no finer than these.
     pub(crate) fn axis(&self) -> Axis {
-        let ends = self
-            .values
-            .iter()
-            .flat_map(|v| [-self.error, self.error].map(|e| v * (1.0 + e)));
+        let ends = |v: &f64| [-self.error, self.error].map(|e| v * (1.0 + e));
+        let ends = self.values.iter().flat_map(ends);
         let (low, high) = extent(ends.clone());
         let least = ROOM * self.error * low.abs().max(high.abs());
         let pad = (0.5 * (least - (high - low))).max(0.0);
@@ -63,7 +61,7 @@ pub(crate) fn axis(name: &str, values: impl Iterator<Item = f64> + Clone) -> Axi
     let finite = values.filter(|v| v.is_finite());
     let [low, high] = [f64::min, f64::max].map(|pick| finite.clone().fold(f64::NAN, pick));
     match low > 0.0 && high > LOGARITHMIC * low {
-        true => Axis::logarithmic(name, finite),
+        true => Axis::logarithmic(name, finite, DECADES),
         false => Axis::linear(name, finite),
     }
 }

@@ -1,9 +1,11 @@
 //! Panels of equal scale with room for axes and captions.
 
-use crate::axes::{NORMAL, SMALL};
-use crate::drawing::{Anchor, Drawing};
-use crate::frame::Frame;
-use crate::measure::{self, LINE};
+use crate::axes::{Axis, NORMAL, SMALL};
+use crate::colour_bar;
+use crate::drawing::{Anchor, Drawing, Point};
+use crate::frame::{Frame, most_beside, room_below};
+use crate::legend::Legend;
+use crate::measure::{self, LINE, highest};
 use crate::page::Page;
 
 /// Panels of equal scale side by side in rows, with room for axes on the left and below and a
@@ -18,14 +20,26 @@ pub(crate) struct Panels {
     captions: Vec<[Vec<String>; 2]>,
 }
 
-/// One panel: width and height in any unit, name, and what is said below it.
+/// One panel: width and height in any unit, name, what is said below it, and its axes across and up.
 pub(crate) struct Sheet<'a> {
     pub(crate) edges: [f64; 2],
     pub(crate) name: &'a str,
     pub(crate) detail: &'a str,
+    pub(crate) axes: Option<[Axis; 2]>,
 }
 
-/// What the panels of a figure have in common, logical pixels.
+impl<'a> Sheet<'a> {
+    pub(crate) fn new(edges: [f64; 2], name: &'a str, axes: Option<[Axis; 2]>) -> Self {
+        Self {
+            edges,
+            name,
+            detail: "",
+            axes,
+        }
+    }
+}
+
+/// Room about the panels of a figure, logical pixels.
 #[derive(Clone, Copy)]
 pub(crate) struct Layout {
     /// Top of the first row.
@@ -35,10 +49,25 @@ pub(crate) struct Layout {
     /// Room on the left of a panel and below it, for its axes.
     pub(crate) left: f64,
     pub(crate) below: f64,
-    /// Room on the right of all, for a colour bar.
+    /// Room on the right of all.
     pub(crate) right: f64,
 }
 
+/// Panels with a key above them and, where there are `shades`, a colour bar on their right.
+pub(crate) struct Plate<'a> {
+    pub(crate) sheets: Vec<Sheet<'a>>,
+    pub(crate) key: Legend,
+    pub(crate) shades: Option<Axis>,
+    /// Longest edge of a panel, logical pixels.
+    pub(crate) longest: f64,
+    /// Room between the axes of a panel and what stands below it.
+    pub(crate) apart: f64,
+}
+
+/// Margin on either side of keys and titles.
+pub(crate) const MARGIN: f64 = 24.0;
+/// About the least edge of a panel with axes.
+const LEAST: f64 = 100.0;
 /// From the right end of a panel to the next column.
 const GAP: f64 = 14.0;
 /// Least width of a panel with its caption, where the page has none.
@@ -48,19 +77,55 @@ const MOST_LINES: usize = 3;
 /// Height over width that panels of a given width are arranged to come near.
 const SHAPE: f64 = 0.8;
 
+impl Plate<'_> {
+    /// The figure: `sample` draws what stands before an entry of the key, `draw` a panel by its number.
+    pub(crate) fn draw(
+        &self,
+        page: Page,
+        sample: impl Fn(&mut Drawing, usize, [Point; 2]),
+        draw: impl Fn(&mut Drawing, usize, &Frame),
+    ) -> Drawing {
+        let axes = || self.sheets.iter().filter_map(|sheet| sheet.axes.as_ref());
+        let layout = Layout {
+            top: 10.0 + self.key.height,
+            longest: self.longest,
+            left: highest(axes().map(|[_, up]| most_beside(up, LEAST))) + 4.0,
+            below: highest(axes().map(|[across, _]| room_below(across, LEAST))) + self.apart,
+            right: self.shades.as_ref().map_or(0.0, colour_bar::width),
+        };
+        let panels = Panels::place(&self.sheets, layout, page);
+        let natural = (panels.right + layout.right).max(self.key.width + 2.0 * MARGIN);
+        let (top, height) = (panels.frames[0].top, panels.frames[0].height);
+        let height = height.max(colour_bar::LEAST);
+        let bottom = match self.shades {
+            Some(_) => panels.bottom.max(top + height + MARGIN),
+            None => panels.bottom,
+        };
+        let mut drawing = Drawing::new(page, page.width().unwrap_or(natural), bottom);
+        self.key.draw(&mut drawing, [MARGIN, 8.0], sample);
+        panels.draw_captions(&mut drawing);
+        for (i, frame) in panels.frames.iter().enumerate() {
+            draw(&mut drawing, i, frame);
+        }
+        if let Some(shades) = &self.shades {
+            colour_bar::draw(&mut drawing, panels.right, top, height, shades);
+        }
+        drawing
+    }
+}
+
 impl Panels {
     /// Places the panels on a page: of the number of columns that is natural for their shape or,
     /// where the page has a width, of the number that fills it best.
-    pub(crate) fn place(sheets: &[Sheet], layout: Layout, page: &Page) -> Self {
+    pub(crate) fn place(sheets: &[Sheet], layout: Layout, page: Page) -> Self {
         let count = sheets.len().max(1);
-        let largest = |axis: usize| sheets.iter().map(|s| s.edges[axis]).fold(0.0, f64::max);
-        let edges = [largest(0), largest(1)];
+        let edges = [0, 1].map(|axis| highest(sheets.iter().map(|s| s.edges[axis])));
         let natural = layout.longest / edges[0].max(edges[1]);
         let Some(width) = page.width() else {
-            let most = if edges[0] < 0.6 * edges[1] { 6 } else { 3 };
             let columns = match count {
-                4 if most == 3 => 2,
-                n => n.min(most),
+                n if edges[0] < 0.6 * edges[1] => n.min(6),
+                4 => 2,
+                n => n.min(3),
             };
             return Self::in_columns(sheets, layout, columns, natural, COLUMN);
         };
@@ -88,29 +153,22 @@ impl Panels {
         least: f64,
     ) -> Self {
         let size = |s: &Sheet| s.edges.map(|edge| edge * scale);
-        let widest = sheets.iter().map(|s| size(s)[0]).fold(0.0, f64::max);
-        let highest = sheets.iter().map(|s| size(s)[1]).fold(0.0, f64::max);
-        let inner = widest.max(least);
+        let inner = highest(sheets.iter().map(|s| size(s)[0])).max(least);
+        let tallest = highest(sheets.iter().map(|s| size(s)[1]));
         let column = layout.left + inner + GAP;
         let lines = |text, size| measure::lines(text, size, inner + GAP, MOST_LINES);
-        let captions: Vec<_> = sheets
-            .iter()
+        let captions: Vec<_> = (sheets.iter())
             .map(|s| [lines(s.name, NORMAL), lines(s.detail, SMALL)])
             .collect();
         let (mut frames, mut top) = (Vec::new(), layout.top);
         for (row, captions) in sheets.chunks(columns).zip(captions.chunks(columns)) {
-            let above = captions.iter().map(caption_height).fold(0.0, f64::max);
+            let above = highest(captions.iter().map(caption_height));
             for (i, sheet) in row.iter().enumerate() {
-                let [width, height] = size(sheet);
-                let free = inner - width;
-                frames.push(Frame {
-                    left: i as f64 * column + layout.left + 0.5 * free,
-                    top: top + above,
-                    width,
-                    height,
-                });
+                let size = size(sheet);
+                let left = i as f64 * column + layout.left + 0.5 * (inner - size[0]);
+                frames.push(Frame::new([left, top + above], size));
             }
-            top += above + highest + layout.below;
+            top += above + tallest + layout.below;
         }
         Self {
             frames,
@@ -123,9 +181,8 @@ impl Panels {
     /// Draws each panel's name and detail above it.
     pub(crate) fn draw_captions(&self, drawing: &mut Drawing) {
         for (frame, caption) in self.frames.iter().zip(&self.captions) {
-            let [name, detail] = caption;
             let mut y = frame.top - caption_height(caption) + 0.7 * NORMAL;
-            for (lines, size) in [(name, NORMAL), (detail, SMALL)] {
+            for (lines, size) in caption.iter().zip([NORMAL, SMALL]) {
                 drawing.lines(lines, [frame.middle(), y], Anchor::Centre, size);
                 y += lines.len() as f64 * LINE * size;
             }

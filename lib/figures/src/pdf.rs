@@ -13,6 +13,7 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
 use plotters::style::RGBAColor;
 
 use crate::Error;
+use crate::colour::BLACK;
 use crate::drawing::{Anchor, Drawing, Item, Point};
 use crate::measure::EM;
 use crate::page::millimetres;
@@ -39,76 +40,75 @@ impl Drawing {
     /// # Errors
     /// [`Error::Draw`] where the embedded font cannot be read.
     pub fn to_pdf(&self) -> Result<Vec<u8>, Error> {
-        let mut sheet = Sheet::new(self.height)?;
+        let mut ink = Ink::new(self.height)?;
         for (i, image) in self.images.iter().enumerate() {
             let [x, y, width, height] = image.place;
-            let [x, y] = sheet.place(&[x, y + height]);
-            let [width, height] = [width, height].map(|edge| sheet.points(edge));
-            sheet.content.save_state();
-            sheet.content.transform([width, 0.0, 0.0, height, x, y]);
-            sheet.content.x_object(Name(image_name(i).as_bytes()));
-            sheet.content.restore_state();
+            let [x, y] = ink.place(&[x, y + height]);
+            let [width, height] = [width, height].map(points);
+            ink.content.save_state();
+            ink.content.transform([width, 0.0, 0.0, height, x, y]);
+            ink.content.x_object(Name(format!("I{i}").as_bytes()));
+            ink.content.restore_state();
         }
         for item in &self.items {
-            sheet.draw(item);
+            ink.draw(item);
         }
-        self.document(sheet)
-    }
-
-    fn document(&self, sheet: Sheet) -> Result<Vec<u8>, Error> {
         let mut pdf = Pdf::new();
         pdf.catalog(CATALOG).pages(PAGES);
         pdf.pages(PAGES).kids([PAGE]).count(1);
-        let images: Vec<Ref> = (0..self.images.len())
-            .map(|i| Ref::new(NEXT + i as i32))
-            .collect();
-        let states = |i: usize| Ref::new(NEXT + (self.images.len() + i) as i32);
-        let mut page = pdf.page(PAGE);
-        let [width, height] = [self.width, self.height].map(|edge| sheet.points(edge));
-        page.media_box(Rect::new(0.0, 0.0, width, height));
-        page.parent(PAGES).contents(CONTENT);
-        let mut resources = page.resources();
-        resources.fonts().pair(FONT, TYPE0);
-        let mut objects = resources.x_objects();
-        for (i, id) in images.iter().enumerate() {
-            objects.pair(Name(image_name(i).as_bytes()), *id);
-        }
-        objects.finish();
-        let mut graphics = resources.ext_g_states();
-        for (i, name) in sheet.opacities.iter().enumerate() {
-            graphics.pair(Name(state_name(*name).as_bytes()), states(i));
-        }
-        graphics.finish();
-        resources.finish();
-        page.finish();
-        for (i, per_mille) in sheet.opacities.iter().enumerate() {
+        self.page(&mut pdf, &ink.opacities);
+        for (i, per_mille) in ink.opacities.iter().enumerate() {
             let alpha = f32::from(*per_mille) / 1000.0;
-            let mut state = pdf.ext_graphics(states(i));
+            let mut state = pdf.ext_graphics(self.opacity(i));
             state.non_stroking_alpha(alpha).stroking_alpha(alpha);
         }
-        for (image, id) in self.images.iter().zip(images) {
+        for (i, image) in self.images.iter().enumerate() {
             let image = image.enlarged();
             let data = packed(&image.rgb)?;
-            let mut object = pdf.image_xobject(id, &data);
+            let mut object = pdf.image_xobject(picture(i), &data);
             let [columns, rows] = image.size.map(|n| n as i32);
             object.filter(Filter::FlateDecode);
             object.width(columns).height(rows);
             object.color_space().device_rgb();
             object.bits_per_component(8);
         }
-        sheet.text.write(&mut pdf)?;
-        let content = packed(&sheet.content.finish())?;
+        ink.text.write(&mut pdf)?;
+        let content = packed(&ink.content.finish())?;
         pdf.stream(CONTENT, &content).filter(Filter::FlateDecode);
         Ok(pdf.finish())
     }
+
+    /// The page and what its content names: font, images, opacities.
+    fn page(&self, pdf: &mut Pdf, opacities: &BTreeSet<u16>) {
+        let mut page = pdf.page(PAGE);
+        let [width, height] = [self.width, self.height].map(points);
+        page.media_box(Rect::new(0.0, 0.0, width, height));
+        page.parent(PAGES).contents(CONTENT);
+        let mut resources = page.resources();
+        resources.fonts().pair(FONT, TYPE0);
+        let mut objects = resources.x_objects();
+        for i in 0..self.images.len() {
+            objects.pair(Name(format!("I{i}").as_bytes()), picture(i));
+        }
+        objects.finish();
+        let mut graphics = resources.ext_g_states();
+        for (i, per_mille) in opacities.iter().enumerate() {
+            graphics.pair(Name(format!("G{per_mille}").as_bytes()), self.opacity(i));
+        }
+    }
+
+    fn opacity(&self, i: usize) -> Ref {
+        picture(self.images.len() + i)
+    }
 }
 
-fn image_name(i: usize) -> String {
-    format!("I{i}")
+fn picture(i: usize) -> Ref {
+    Ref::new(NEXT + i as i32)
 }
 
-fn state_name(per_mille: u16) -> String {
-    format!("G{per_mille}")
+/// A length in logical pixels, points.
+fn points(pixels: f64) -> f32 {
+    (millimetres(pixels) * 72.0 / 25.4) as f32
 }
 
 fn packed(bytes: &[u8]) -> Result<Vec<u8>, Error> {
@@ -118,7 +118,7 @@ fn packed(bytes: &[u8]) -> Result<Vec<u8>, Error> {
 }
 
 /// What is drawn so far.
-struct Sheet {
+struct Ink {
     content: Content,
     /// Height of the drawing, logical pixels.
     height: f64,
@@ -127,7 +127,7 @@ struct Sheet {
     text: Glyphs,
 }
 
-impl Sheet {
+impl Ink {
     fn new(height: f64) -> Result<Self, Error> {
         let mut content = Content::new();
         content.set_line_cap(LineCapStyle::ButtCap);
@@ -140,40 +140,25 @@ impl Sheet {
         })
     }
 
-    /// A length in logical pixels, points.
-    fn points(&self, pixels: f64) -> f32 {
-        (millimetres(pixels) * 72.0 / 25.4) as f32
-    }
-
     /// A place, points from the lower left corner.
     fn place(&self, [x, y]: &Point) -> [f32; 2] {
-        [self.points(*x), self.points(self.height - y)]
+        [*x, self.height - y].map(points)
     }
 
     fn draw(&mut self, item: &Item) {
         match item {
-            Item::Line {
-                points,
-                colour,
-                width,
-            } => {
+            Item::Line(path, colour, width) => {
                 self.colour(colour);
-                let width = self.points(*width);
-                self.content.set_line_width(width);
-                self.path(points);
+                self.content.set_line_width(points(*width));
+                self.path(path);
                 self.content.stroke();
             }
-            Item::Area { points, colour } => {
+            Item::Area(outline, colour) => {
                 self.colour(colour);
-                self.path(points);
+                self.path(outline);
                 self.content.fill_nonzero();
             }
-            Item::Text {
-                text,
-                at,
-                anchor,
-                size,
-            } => self.text(text, *at, *anchor, *size),
+            Item::Text(text, at, anchor, size) => self.text(text, *at, *anchor, *size),
         }
     }
 
@@ -181,14 +166,14 @@ impl Sheet {
         let [r, g, b] = [colour.0, colour.1, colour.2].map(|c| f32::from(c) / 255.0);
         let opacity = (1000.0 * colour.3).round() as u16;
         self.opacities.insert(opacity);
-        self.content
-            .set_parameters(Name(state_name(opacity).as_bytes()));
+        let name = format!("G{opacity}");
+        self.content.set_parameters(Name(name.as_bytes()));
         self.content.set_stroke_rgb(r, g, b);
         self.content.set_fill_rgb(r, g, b);
     }
 
-    fn path(&mut self, points: &[Point]) {
-        for (i, point) in points.iter().enumerate() {
+    fn path(&mut self, path: &[Point]) {
+        for (i, point) in path.iter().enumerate() {
             let [x, y] = self.place(point);
             match i {
                 0 => self.content.move_to(x, y),
@@ -198,29 +183,17 @@ impl Sheet {
     }
 
     fn text(&mut self, text: &str, at: Point, anchor: Anchor, size: f64) {
-        self.colour(&crate::colour::BLACK);
+        self.colour(&BLACK);
         let (codes, width) = self.text.encode(text, size);
-        let start = match anchor {
-            Anchor::Left => 0.0,
-            Anchor::Centre | Anchor::Upwards => 0.5 * width,
-            Anchor::Right => width,
-        };
+        let start = anchor.before() * width;
         let down = 0.5 * self.text.capitals * EM * size;
-        let upwards = anchor == Anchor::Upwards;
-        let origin = match upwards {
-            true => [at[0] + down, at[1] + start],
-            false => [at[0] - start, at[1] + down],
+        let (origin, [a, b, c, d]) = match anchor {
+            Anchor::Upwards => ([at[0] + down, at[1] + start], [0.0, 1.0, -1.0, 0.0]),
+            _ => ([at[0] - start, at[1] + down], [1.0, 0.0, 0.0, 1.0]),
         };
         let [x, y] = self.place(&origin);
-        let turn = if upwards {
-            [0.0, 1.0, -1.0, 0.0]
-        } else {
-            [1.0, 0.0, 0.0, 1.0]
-        };
-        let [a, b, c, d] = turn;
-        let em = self.points(EM * size);
         self.content.begin_text();
-        self.content.set_font(FONT, em);
+        self.content.set_font(FONT, points(EM * size));
         self.content.set_text_matrix([a, b, c, d, x, y]);
         self.content.show(Str(&codes));
         self.content.end_text();

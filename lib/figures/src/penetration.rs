@@ -1,6 +1,7 @@
 //! How deep adhesive has gone, how much wood it wets and how full the open lumens are, from the tables of
 //! `wp-metrics --series` or the histories of runs.
 
+use crate::axes::extent;
 use crate::closing::time_unit;
 use crate::table::Table;
 use crate::{Error, Labelled, Mark, Plot};
@@ -10,6 +11,11 @@ use crate::{Error, Labelled, Mark, Plot};
 const LONG: f64 = 100.0;
 /// Most times of one profile that are drawn.
 const MOST_TIMES: usize = 5;
+
+/// Quantities: column, unit, and what they are called before a side.
+const WETTED: [&str; 3] = ["wetted_area", "um2", ""];
+const WP: [&str; 3] = ["wp", "um", "WP, "];
+const DEEPEST: [&str; 3] = ["p95_depth", "um", "95 %, "];
 
 /// What of penetration a figure shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,29 +36,17 @@ pub enum Shown {
 pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
     let tables = runs.iter().map(|run| Table::read(&run.path));
     let tables = tables.collect::<Result<Vec<_>, _>>()?;
-    if shown == Shown::Filled {
-        return filled(runs, &tables);
-    }
+    let (title, axis, quantities): (_, _, &[_]) = match shown {
+        Shown::Filled => return filled(runs, &tables),
+        Shown::Wetted => ("Wetted area", "wood wetted (µm²)", &[WETTED]),
+        Shown::Depth => ("Penetration", "depth (µm)", &[WP, DEEPEST]),
+    };
     let mut times = Vec::new();
     for table in &tables {
         times.extend(table.data("time_s")?.into_iter().filter(|t| *t > 0.0));
     }
-    let (first, last) = (times.iter()).fold((f64::INFINITY, 0.0_f64), |(first, last), &t| {
-        (first.min(t), last.max(t))
-    });
+    let (first, last) = extent(times.into_iter());
     let (unit, name) = time_unit(last);
-    let (title, axis, quantities): (_, _, &[_]) = match shown {
-        Shown::Wetted => (
-            "Wetted area",
-            "wood wetted (µm²)",
-            &[("wetted_area", "um2", "")],
-        ),
-        _ => (
-            "Penetration",
-            "depth (µm)",
-            &[("wp", "um", "WP, "), ("p95_depth", "um", "95 %, ")],
-        ),
-    };
     let mut plot = Plot::new(title, &format!("time ({name})"), axis);
     if last > LONG * first {
         plot = plot.decades();
@@ -63,8 +57,8 @@ pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
             _ => (format!("{}: ", run.label), &["total"][..]),
         };
         for &side in sides {
-            for (column, of, what) in quantities {
-                let points = course(table, side, column, of, unit)?;
+            for [quantity, of, what] in quantities {
+                let points = course(table, side, quantity, of, unit)?;
                 plot = plot.with(&format!("{own}{what}{side}"), Mark::LineAndDots, points);
             }
         }
@@ -81,18 +75,21 @@ pub fn penetrations(runs: &[Labelled], shown: Shown) -> Result<Plot, Error> {
 fn course(
     table: &Table,
     side: &str,
-    column: &str,
+    quantity: &str,
     of: &str,
     unit: f64,
 ) -> Result<Vec<[f64; 2]>, Error> {
     let times = table.data("time_s")?;
     // A series has a row for each side, a history a column.
     let (sides, values) = match table.has("side") {
-        true => (table.texts("side")?, table.data(&format!("{column}_{of}"))?),
-        false => (
-            vec![side; times.len()],
-            of_history(table, side, column, of)?,
+        true => (
+            table.texts("side")?,
+            table.data(&format!("{quantity}_{of}"))?,
         ),
+        false => {
+            let column = |side: &str| format!("{quantity}_{side}_{of}");
+            (vec![side; times.len()], of_history(table, side, column)?)
+        }
     };
     let rows = (0..sides.len()).filter(|&row| sides[row] == side && times[row] > 0.0);
     let points: Vec<[f64; 2]> = rows.map(|row| [times[row] / unit, values[row]]).collect();
@@ -105,21 +102,24 @@ fn course(
     Ok(points)
 }
 
-/// A quantity of one side in each row of a history.
-fn of_history(table: &Table, side: &str, column: &str, of: &str) -> Result<Vec<f64>, Error> {
-    let name = |side: &str| format!("{column}_{side}_{of}");
-    if !table.has(&name("bottom")) {
+/// What each row of a history has in the column of a side.
+fn of_history(
+    table: &Table,
+    side: &str,
+    column: impl Fn(&str) -> String,
+) -> Result<Vec<f64>, Error> {
+    if !table.has(&column("bottom")) {
         return Err(Error::Data(format!(
             "'{}' does not tell of penetration: a history does where the case has [output] penetration = true, and \
              wp-metrics --series tells it of the snapshots of any run",
             table.name()
         )));
     }
-    if side == "total" && !table.has(&name(side)) {
-        let [bottom, top] = [table.data(&name("bottom"))?, table.data(&name("top"))?];
+    if side == "total" && !table.has(&column(side)) {
+        let [bottom, top] = [table.data(&column("bottom"))?, table.data(&column("top"))?];
         return Ok(bottom.iter().zip(&top).map(|(b, t)| b + t).collect());
     }
-    table.data(&name(side))
+    table.data(&column(side))
 }
 
 /// The filled share of open lumens against depth: of one run at some of its times, of several at their last.
@@ -134,28 +134,27 @@ fn filled(runs: &[Labelled], tables: &[Table]) -> Result<Plot, Error> {
         };
         let mut told = times.clone();
         told.dedup();
+        let last = told.len() - 1;
         let count = if runs.len() > 1 {
             1
         } else {
             MOST_TIMES.min(told.len())
         };
-        let (unit, name) = time_unit(told.last().copied().unwrap_or(0.0));
+        let (unit, name) = time_unit(told[last]);
         for i in 0..count {
             // The last in any case, the others evenly among the rest.
-            let time =
-                told[(told.len() - 1) - (count - 1 - i) * (told.len() - 1) / (count - 1).max(1)];
+            let time = told[last - (count - 1 - i) * last / (count - 1).max(1)];
             let rows = (0..depths.len()).filter(|&row| times[row] == time);
             // A layer without open lumens breaks the line and does not widen the axis.
             let place = |row: usize| match shares[row].is_finite() {
                 true => [depths[row], shares[row]],
                 false => [f64::NAN; 2],
             };
-            let points = rows.map(place).collect();
             let label = match (runs.len(), table.has("time_s")) {
                 (1, true) => format!("{:.3} {name}", time / unit),
                 _ => run.label.clone(),
             };
-            plot = plot.with(&label, Mark::Line, points);
+            plot = plot.with(&label, Mark::Line, rows.map(place).collect());
         }
     }
     Ok(plot)

@@ -1,7 +1,7 @@
 //! The figure of any quantity against another.
 
 use crate::Error;
-use crate::axes::{Axis, NORMAL};
+use crate::axes::{Axis, DECADES, NORMAL};
 use crate::colour::{DISTINCT, faded, series};
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::{Frame, room_below, room_beside};
@@ -13,19 +13,9 @@ use crate::page::Page;
 #[derive(Clone, Debug)]
 pub struct Plot {
     title: String,
-    axes: [(String, Scale); 2],
+    /// Titles of x and y and, where values lie by their logarithms, of how many decades at most.
+    axes: [(String, Option<f64>); 2],
     series: Vec<Series>,
-    page: Page,
-}
-
-/// How values are placed on an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Scale {
-    Linear,
-    /// By their logarithms, the uppermost decades.
-    Logarithmic,
-    /// By their logarithms, all decades.
-    Decades,
 }
 
 /// One series of a [`Plot`].
@@ -61,31 +51,22 @@ impl Plot {
     pub fn new(title: &str, x: &str, y: &str) -> Self {
         Self {
             title: title.into(),
-            axes: [(x.into(), Scale::Linear), (y.into(), Scale::Linear)],
+            axes: [(x.into(), None), (y.into(), None)],
             series: Vec::new(),
-            page: Page::default(),
         }
-    }
-
-    /// The same for a page.
-    pub fn on(self, page: Page) -> Self {
-        Self { page, ..self }
     }
 
     /// The same with logarithmic axes, x and y, where asked.
     pub fn logarithmic(mut self, which: [bool; 2]) -> Self {
         for (axis, logarithmic) in self.axes.iter_mut().zip(which) {
-            axis.1 = match logarithmic {
-                true => Scale::Logarithmic,
-                false => Scale::Linear,
-            };
+            axis.1 = logarithmic.then_some(DECADES);
         }
         self
     }
 
     /// The same with a logarithmic x axis over all decades that there are.
     pub fn decades(mut self) -> Self {
-        self.axes[0].1 = Scale::Decades;
+        self.axes[0].1 = Some(f64::INFINITY);
         self
     }
 
@@ -125,7 +106,7 @@ impl Plot {
     /// # Errors
     /// [`Error::Data`] when no series has a finite point; [`Error::Request`] for more series
     /// than can be told apart.
-    pub fn draw(&self) -> Result<Drawing, Error> {
+    pub fn draw(&self, page: Page) -> Result<Drawing, Error> {
         let entries: Vec<&Series> = self.entries().collect();
         if entries.len() > DISTINCT {
             return Err(Error::Request(format!(
@@ -138,32 +119,27 @@ impl Plot {
             return Err(Error::Data(format!("'{}' has no data", self.title)));
         }
         let axis = |i: usize| {
-            let (title, scale) = &self.axes[i];
+            let (title, decades) = &self.axes[i];
             let values = all().map(|p| p[i]);
-            match scale {
-                Scale::Linear => Axis::linear(title.as_str(), values),
-                Scale::Logarithmic => Axis::logarithmic(title.as_str(), values),
-                Scale::Decades => Axis::decades(title.as_str(), values),
+            match decades {
+                None => Axis::linear(title, values),
+                Some(most) => Axis::logarithmic(title, values, *most),
             }
         };
         let (x, y) = (axis(0), axis(1));
-        let page = self.page.width().unwrap_or(WIDTH);
-        let height = (0.525 * page).max(200.0);
+        let across = page.width().unwrap_or(WIDTH);
+        let height = (0.525 * across).max(200.0);
         let left = room_beside(&y, height) + 4.0;
-        let width = page - left - RIGHT;
+        let width = across - left - RIGHT;
         let labels = entries.iter().map(|s| s.label.as_str());
         let legend = Legend::new(labels, Legend::LINE, width);
-        let title = measure::lines(&self.title, NORMAL + 2.0, page - 2.0 * RIGHT, 3);
+        let title = measure::lines(&self.title, NORMAL + 2.0, across - 2.0 * RIGHT, 3);
         let title_height = 12.0 + 1.4 * NORMAL * title.len() as f64;
-        let frame = Frame {
-            left,
-            top: title_height + legend.height() + 10.0,
-            width,
-            height,
-        };
+        let top = title_height + legend.height + 10.0;
+        let frame = Frame::new([left, top], [width, height]);
         let bottom = frame.bottom() + room_below(&x, width) + 4.0;
-        let mut drawing = Drawing::new(self.page, page, bottom);
-        let middle = [0.5 * page, 20.0];
+        let mut drawing = Drawing::new(page, across, bottom);
+        let middle = [0.5 * across, 20.0];
         drawing.lines(&title, middle, Anchor::Centre, NORMAL + 2.0);
         legend.draw(&mut drawing, [left, title_height], |drawing, i, [a, b]| {
             let middle = [0.5 * (a[0] + b[0]), a[1]];
@@ -217,11 +193,9 @@ impl Series {
     }
 
     fn draw_dots(&self, drawing: &mut Drawing, places: &[Point]) {
-        if self.mark != Mark::Line {
-            for place in places {
-                // A run of one point is a dot.
-                Stroke::of_series(self.entry).draw(drawing, &[*place]);
-            }
+        // A run of one point is a dot.
+        for place in places.chunks(1).filter(|_| self.mark != Mark::Line) {
+            Stroke::of_series(self.entry).draw(drawing, place);
         }
     }
 }
@@ -244,8 +218,8 @@ mod tests {
         assert_eq!(plot.entries().count(), DISTINCT);
         let highest = plot.series[0].extent().map(|p| p[1]).fold(0.0, f64::max);
         assert_eq!(highest, 15.0);
-        assert!(plot.draw().is_ok());
+        assert!(plot.draw(Page::default()).is_ok());
         let one_more = plot.with("another", Mark::Line, vec![[0.0, 0.0]]);
-        assert!(one_more.draw().is_err());
+        assert!(one_more.draw(Page::default()).is_err());
     }
 }

@@ -15,11 +15,7 @@ pub(crate) fn replay<B: DrawingBackend>(
     let pixel = |p: &[f64; 2]| ((p[0] * scale).round() as i32, (p[1] * scale).round() as i32);
     for item in &drawing.items {
         match item {
-            Item::Line {
-                points,
-                colour,
-                width,
-            } => {
+            Item::Line(points, colour, width) => {
                 let style = colour.stroke_width((width * scale).round().max(1.0) as u32);
                 // One by one: the corner of two is drawn far beyond them where they turn sharply.
                 for ends in points.windows(2) {
@@ -28,15 +24,12 @@ pub(crate) fn replay<B: DrawingBackend>(
                         .map_err(failed)?;
                 }
             }
-            Item::Area { points, colour } => backend
+            Item::Area(points, colour) => backend
                 .fill_polygon(points.iter().map(pixel), colour)
                 .map_err(failed)?,
-            Item::Text {
-                text,
-                at,
-                anchor,
-                size,
-            } => text_at(backend, text, at.map(|x| x * scale), *anchor, size * scale)?,
+            Item::Text(text, at, anchor, size) => {
+                text_at(backend, text, at.map(|x| x * scale), *anchor, size * scale)?;
+            }
         }
     }
     backend.present().map_err(failed)

@@ -6,31 +6,24 @@ use crate::column_name::worded;
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::{Frame, room_below, room_beside};
 use crate::legend::{Legend, Stroke, disc};
-use crate::measure::{self, LINE};
+use crate::measure::{self, LINE, highest};
 use crate::outcome::{Outcome, axis};
 use crate::page::Page;
-use crate::panels::{Layout, Panels, Sheet};
+use crate::panels::{Layout, MARGIN, Panels, Sheet};
 use crate::table::Table;
 use crate::{Error, Labelled};
 
-/// A result of a sweep with its error, pressure and time against each of its parameters, a panel each, from the CSV of
-/// `bond-sweep collect`. Runs that differ in that parameter alone are joined by a line.
+/// A sweep: results and parameters of its runs.
 #[derive(Clone, Debug)]
-pub struct Response {
+struct Sweep {
     /// The one asked for, then those that stand beside it.
     results: Vec<Outcome>,
     /// Runs that ended at their time limit before closing.
     open: Vec<bool>,
-    parameters: Vec<Parameter>,
+    /// Names and values.
+    parameters: Vec<(String, Vec<f64>)>,
     /// The cells of each row but the numbers of `parameters`.
     words: Vec<String>,
-    page: Page,
-}
-
-#[derive(Clone, Debug)]
-struct Parameter {
-    name: String,
-    values: Vec<f64>,
 }
 
 /// The column from which on a row holds results.
@@ -44,110 +37,95 @@ const CAP: f64 = 5.0;
 const LONGEST: f64 = 380.0;
 const LEAST: f64 = 130.0;
 const HEIGHT: f64 = 0.74;
-const MARGIN: f64 = 24.0;
 
-impl Response {
-    /// Reads `result`, a column of numbers, known to a relative `error` (by default what small specimens show), pressure
-    /// and time where there are any, and every parameter with more than one number; where
-    /// there is none, the row.
-    ///
-    /// # Errors
-    /// [`Error::Data`] for a table that is not of a sweep or a result without a number.
-    pub fn read(sweep: &Labelled, result: &str, error: Option<f64>) -> Result<Self, Error> {
+/// A `result` of a sweep, a column of numbers, known to a relative `error` (by default what small specimens show),
+/// pressure and time where there are any, against each of its parameters with more than one number or, where there is
+/// none, the row: a panel each, from the CSV of `bond-sweep collect`. Runs that differ in that parameter alone are joined
+/// by a line.
+///
+/// # Errors
+/// [`Error::Data`] for a table that is not of a sweep or a result without a number.
+pub fn response(
+    sweep: &Labelled,
+    result: &str,
+    error: Option<f64>,
+    page: Page,
+) -> Result<Drawing, Error> {
+    Ok(Sweep::read(sweep, result, error)?.draw(page))
+}
+
+impl Sweep {
+    fn read(sweep: &Labelled, result: &str, error: Option<f64>) -> Result<Self, Error> {
         let table = Table::read(&sweep.path)?;
         let values = table.data(result)?;
         let rows = values.len();
         let mut results = vec![Outcome::new(result, values, error)];
-        for name in BESIDE.into_iter().filter(|name| *name != result) {
-            let values = match table.has(name) {
-                true => table.numbers(name)?,
-                false => Vec::new(),
-            };
+        for name in BESIDE
+            .into_iter()
+            .filter(|name| *name != result && table.has(name))
+        {
+            let values = table.numbers(name)?;
             if values.iter().any(|value| value.is_finite()) {
                 results.push(Outcome::new(name, values, None));
             }
         }
-        let open = match table.has("end") {
-            true => table
-                .texts("end")?
-                .iter()
-                .map(|end| *end == "time-limit")
-                .collect(),
-            false => vec![false; rows],
+        let ends = match table.has("end") {
+            true => table.texts("end")?,
+            false => vec![""; rows],
         };
-        let inputs = table.before(FIRST_RESULT)?;
         let mut parameters = Vec::new();
         let mut words = vec![Vec::new(); rows];
-        for name in inputs.into_iter().filter(|name| *name != "row") {
+        let inputs = table.before(FIRST_RESULT)?.into_iter();
+        for name in inputs.filter(|name| *name != "row") {
             match table.numbers(name) {
-                Ok(numbers) if varies(&numbers) => parameters.push(Parameter {
-                    name: name.to_owned(),
-                    values: numbers,
-                }),
-                _ => {
-                    for (row, cell) in words.iter_mut().zip(table.texts(name)?) {
-                        row.push(cell.to_owned());
-                    }
-                }
+                Ok(numbers) if varies(&numbers) => parameters.push((name.to_owned(), numbers)),
+                // The words of a row that say something.
+                _ => (words.iter_mut().zip(table.texts(name)?))
+                    .filter(|(_, cell)| !cell.is_empty())
+                    .for_each(|(row, cell)| row.push(cell)),
             }
         }
         if parameters.is_empty() {
-            parameters.push(Parameter {
-                name: "row".into(),
-                values: (1..=rows).map(|row| row as f64).collect(),
-            });
+            let numbers = (1..=rows).map(|row| row as f64);
+            parameters.push(("row".into(), numbers.collect()));
         }
         Ok(Self {
             results,
-            open,
+            open: ends.iter().map(|end| *end == "time-limit").collect(),
             parameters,
-            words: words.into_iter().map(|row| distinct(&row)).collect(),
-            page: Page::default(),
+            words: words.iter().map(|row| row.join(", ")).collect(),
         })
     }
 
-    /// The same for a page.
-    pub fn on(self, page: Page) -> Self {
-        Self { page, ..self }
-    }
-
-    /// The figure.
-    pub fn draw(&self) -> Drawing {
+    fn draw(&self, page: Page) -> Drawing {
         let kinds = self.kinds();
         let labels = match kinds.len() {
             2..=DISTINCT => &kinds[..],
             _ => &[],
         };
-        let panels = self.panels().count().min(3) as f64;
-        let room = self.page.width().unwrap_or(panels * LONGEST) - 2.0 * MARGIN;
+        let columns = self.panels().count().min(3) as f64;
+        let room = page.width().unwrap_or(columns * LONGEST) - 2.0 * MARGIN;
         let key = Legend::new(labels.iter().copied(), Legend::LINE, room);
         let title = measure::lines(&self.title(), NORMAL, room, 3);
         let responses: Vec<Axis> = self.results.iter().map(Outcome::axis).collect();
-        let across: Vec<Axis> = self.parameters.iter().map(Parameter::axis).collect();
-        let sheet = |_| Sheet {
-            edges: [1.0, HEIGHT],
-            name: "",
-            detail: "",
-        };
-        let sheets: Vec<Sheet> = self.panels().map(sheet).collect();
-        let beside = responses
-            .iter()
-            .map(|axis| room_beside(axis, HEIGHT * LEAST));
-        let below = across.iter().map(|axis| room_below(axis, LEAST));
+        let across =
+            |(name, values): &(String, Vec<f64>)| axis(&worded(name), values.iter().copied());
+        let across: Vec<Axis> = self.parameters.iter().map(across).collect();
+        let sheets = self.panels().map(|_| Sheet::new([1.0, HEIGHT], "", None));
+        let sheets: Vec<Sheet> = sheets.collect();
+        let under = 10.0 + LINE * NORMAL * title.len() as f64;
         let layout = Layout {
-            top: 12.0 + LINE * NORMAL * title.len() as f64 + key.height(),
+            top: 12.0 + LINE * NORMAL * title.len() as f64 + key.height,
             longest: LONGEST,
-            left: beside.fold(0.0, f64::max) + 6.0,
-            below: below.fold(0.0, f64::max) + 6.0,
+            left: highest(responses.iter().map(|y| room_beside(y, HEIGHT * LEAST))) + 6.0,
+            below: highest(across.iter().map(|x| room_below(x, LEAST))) + 6.0,
             right: MARGIN,
         };
-        let panels = Panels::place(&sheets, layout, &self.page);
-        let page = (self.page.width())
-            .unwrap_or(panels.right + layout.right)
-            .max(key.width() + 2.0 * MARGIN);
-        let mut drawing = Drawing::new(self.page, page, panels.bottom);
-        drawing.lines(&title, [0.5 * page, 16.0], Anchor::Centre, NORMAL);
-        let under = 10.0 + LINE * NORMAL * title.len() as f64;
+        let panels = Panels::place(&sheets, layout, page);
+        let natural = (panels.right + layout.right).max(key.width + 2.0 * MARGIN);
+        let width = page.width().unwrap_or(natural);
+        let mut drawing = Drawing::new(page, width, panels.bottom);
+        drawing.lines(&title, [0.5 * width, 16.0], Anchor::Centre, NORMAL);
         key.draw(&mut drawing, [MARGIN, under], |drawing, kind, ends| {
             Stroke::of_series(kind).draw(drawing, &ends);
         });
@@ -196,7 +174,7 @@ impl Response {
         [parameter, result]: [usize; 2],
         (kind, path): (usize, &[usize]),
     ) {
-        let own = &self.parameters[parameter].values;
+        let own = &self.parameters[parameter].1;
         let Outcome { values, error, .. } = &self.results[result];
         let place =
             |row: usize, value: f64| -> Point { frame.place(across, response, [own[row], value]) };
@@ -235,18 +213,16 @@ impl Response {
         let kinds = self.kinds();
         let others = |row: usize| -> (&str, Vec<u64>) {
             let rest = self.parameters.iter().enumerate().filter(|(k, _)| *k != i);
-            let rest = rest.map(|(_, parameter)| parameter.values[row].to_bits());
+            let rest = rest.map(|(_, (_, values))| values[row].to_bits());
             (&self.words[row], rest.collect())
         };
         let mut paths: Vec<(usize, Vec<usize>)> = Vec::new();
-        let own = &self.parameters[i].values;
+        let own = &self.parameters[i].1;
         let values = &self.results[result].values;
         let shown = |row: &usize| own[*row].is_finite() && values[*row].is_finite();
         for row in (0..values.len()).filter(shown) {
-            match paths
-                .iter_mut()
-                .find(|(_, path)| others(path[0]) == others(row))
-            {
+            let same = |(_, path): &&mut (usize, Vec<usize>)| others(path[0]) == others(row);
+            match paths.iter_mut().find(same) {
                 Some((_, path)) => path.push(row),
                 None => {
                     let kind = kinds.iter().position(|kind| *kind == self.words[row]);
@@ -261,24 +237,8 @@ impl Response {
     }
 }
 
-impl Parameter {
-    fn axis(&self) -> Axis {
-        axis(&worded(&self.name), self.values.iter().copied())
-    }
-}
-
 fn varies(numbers: &[f64]) -> bool {
     let mut finite = numbers.iter().filter(|v| v.is_finite());
     let first = finite.next();
     finite.any(|other| Some(other) != first)
-}
-
-/// The words of a row that say something.
-fn distinct(row: &[String]) -> String {
-    let words: Vec<&str> = row
-        .iter()
-        .map(String::as_str)
-        .filter(|w| !w.is_empty())
-        .collect();
-    words.join(", ")
 }

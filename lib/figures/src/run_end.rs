@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use crate::closing::time_unit;
 use crate::{Error, Labelled};
 
 /// Marks a folder as a run's.
@@ -47,13 +48,13 @@ impl RunEnd {
             Error::Data(format!("cannot read '{}': {e}", path.display()))
         };
         let mut text = Vec::new();
-        match File::open(&path).and_then(|f| f.take(MOST_BYTES).read_to_end(&mut text)) {
-            Err(e) if e.kind() == ErrorKind::NotFound => Ok(Some(Self::of(&Value::Null))),
-            Err(e) => Err(broken(&e)),
-            Ok(_) => (serde_json::from_slice(&text))
-                .map(|summary| Some(Self::of(&summary)))
-                .map_err(|e| broken(&e)),
-        }
+        let summary =
+            match File::open(&path).and_then(|f| f.take(MOST_BYTES).read_to_end(&mut text)) {
+                Err(e) if e.kind() == ErrorKind::NotFound => Value::Null,
+                Err(e) => return Err(broken(&e)),
+                Ok(_) => serde_json::from_slice(&text).map_err(|e| broken(&e))?,
+            };
+        Ok(Some(Self::of(&summary)))
     }
 
     /// The end that a summary tells of; of no summary, that there is none yet.
@@ -90,10 +91,10 @@ impl RunEnd {
             "not-ended" | "interrupted" => Some("not ended".into()),
             "failed" => Some("failed".into()),
             _ if !self.sound => Some("not sound".into()),
-            _ if open => Some(format!(
-                "not closed, {:.0} % of the gap left",
-                100.0 * self.gap_share
-            )),
+            _ if open => {
+                let percent = 100.0 * self.gap_share;
+                Some(format!("not closed, {percent:.0} % of the gap left"))
+            }
             "time-limit" => Some("not closed".into()),
             _ => None,
         }
@@ -105,18 +106,15 @@ impl RunEnd {
         let open = format!("{mark} ({:.2} um)", 1e6 * self.gap_m);
         Some(match self.end.as_str() {
             "not-ended" | "interrupted" => {
-                format!(
-                    "{mark}: mpm-run with --resume goes on{}",
-                    self.with("--resume", None)
-                )
+                let command = self.with("--resume", None);
+                format!("{mark}: mpm-run with --resume goes on{command}")
             }
-            "failed" => format!("{mark}: {}", self.reasons.join("; ")),
-            _ if !self.sound => format!("{mark}: {}", self.reasons.join("; ")),
+            end if end == "failed" || !self.sound => mark + ": " + &self.reasons.join("; "),
             "time-limit" => {
                 let limit = format!("clamp.time_limit={}", time(LONGER * self.time_s));
+                let command = self.with("--overwrite", Some(&limit));
                 format!(
-                    "{open}: penetration of a press on its way. It goes on longer with --set \"{limit}\" (make: SET=\"{limit}\"){}",
-                    self.with("--overwrite", Some(&limit))
+                    "{open}: penetration of a press on its way. It goes on longer with --set \"{limit}\" (make: SET=\"{limit}\"){command}"
                 )
             }
             end => format!("{open} when the run ended ({end})"),
@@ -158,14 +156,11 @@ impl Labelled {
 
 /// A time as a case takes it, rounded up to one digit.
 fn time(seconds: f64) -> String {
-    let (unit, name) = match seconds {
-        s if s < 1e-3 => (1e-6, "us"),
-        s if s < 1.0 => (1e-3, "ms"),
-        _ => (1.0, "s"),
-    };
+    let (unit, name) = time_unit(seconds);
     let count = seconds / unit;
     let digit = 10_f64.powf(count.log10().floor());
-    format!("{} {name}", ((count / digit - 1e-9).ceil() * digit).round())
+    let count = ((count / digit - 1e-9).ceil() * digit).round();
+    format!("{count} {}", name.replace('µ', "u"))
 }
 
 /// A word for a shell.
@@ -198,8 +193,9 @@ mod tests {
             "\n    bin/mpm-run 'a case.toml' -o run --overwrite --set 'clamp.time_limit=300 us'";
         assert!(advice.ends_with(command), "{advice}");
         assert!(advice.contains("(4.20 um)"), "{advice}");
-        assert_eq!(RunEnd::of(&summary("closed", 0.0)).mark(), None);
-        assert_eq!(RunEnd::of(&summary("time", 0.0)).mark(), None);
+        for closed in ["closed", "time"] {
+            assert_eq!(RunEnd::of(&summary(closed, 0.0)).mark(), None);
+        }
         let set = RunEnd::of(&summary("set", 1e-6));
         assert_eq!(set.mark().unwrap(), "not closed, 10 % of the gap left");
         assert!(!set.advice().unwrap().contains("--set"));
@@ -207,12 +203,14 @@ mod tests {
 
     #[test]
     fn runs_that_failed_are_not_sound_or_have_not_ended_are_marked() {
-        let mut unsound = summary("closed", 0.0);
-        unsound["verdict"] = serde_json::json!({ "sound": false, "reasons": ["lost points"] });
-        let unsound = RunEnd::of(&unsound);
-        assert_eq!(unsound.advice().unwrap(), "not sound: lost points");
-        let failed = serde_json::json!({ "end": "failed", "verdict": { "sound": false, "reasons": ["step 7"] } });
-        assert_eq!(RunEnd::of(&failed).advice().unwrap(), "failed: step 7");
+        for (end, reason, advice) in [
+            ("closed", "lost points", "not sound: lost points"),
+            ("failed", "step 7", "failed: step 7"),
+        ] {
+            let mut told = summary(end, 0.0);
+            told["verdict"] = serde_json::json!({ "sound": false, "reasons": [reason] });
+            assert_eq!(RunEnd::of(&told).advice().unwrap(), advice);
+        }
         assert_eq!(RunEnd::of(&Value::Null).mark().unwrap(), "not ended");
     }
 
@@ -238,12 +236,8 @@ mod tests {
         assert_eq!(RunEnd::beside(&file).unwrap(), None);
         write(MARK, "");
         let label = "FLIP".to_owned();
-        let marked = Labelled {
-            label,
-            path: file.clone(),
-        }
-        .marked()
-        .unwrap();
+        let path = file.clone();
+        let marked = Labelled { label, path }.marked().unwrap();
         assert_eq!(marked.label, "FLIP (not closed, 42 % of the gap left)");
         write(SUMMARY, "{");
         assert!(RunEnd::beside(&file).is_err());

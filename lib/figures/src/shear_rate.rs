@@ -1,6 +1,6 @@
 //! The figure of shear rates against time.
 
-use crate::axes::{Axis, NORMAL, extent};
+use crate::axes::{Axis, DECADES, NORMAL, extent};
 use crate::closing::time_unit;
 use crate::colour::{BLACK, faded, series};
 use crate::drawing::{Anchor, Drawing, Point};
@@ -8,16 +8,9 @@ use crate::frame::{Frame, room_below, room_beside};
 use crate::legend::{self, Legend};
 use crate::measure::{self, LINE};
 use crate::page::Page;
+use crate::panels::MARGIN;
 use crate::table::Table;
 use crate::{Error, Labelled};
-
-/// Quantiles of the shear rate against time, one panel per run (Figs. 10 and 11 of the
-/// paper), from the CSV of `shear-stats`.
-#[derive(Clone, Debug)]
-pub struct ShearRates {
-    panels: Vec<Panel>,
-    page: Page,
-}
 
 #[derive(Clone, Debug)]
 struct Panel {
@@ -42,78 +35,53 @@ const BANDS: [(usize, usize, &str, f64); 3] = [
 /// Widest and narrowest panel, logical pixels.
 const PANEL: [f64; 2] = [590.0, 250.0];
 const BETWEEN: f64 = 30.0;
-const MARGIN: f64 = 24.0;
 /// Most panels side by side.
 const COLUMNS: usize = 3;
 
-impl ShearRates {
-    /// Reads one panel per CSV.
-    ///
-    /// # Errors
-    /// [`Error::Data`] for an unreadable file, a missing column, or one without numbers.
-    pub fn read(runs: &[Labelled]) -> Result<Self, Error> {
-        let panels = runs.iter().map(Panel::read).collect::<Result<_, _>>()?;
-        Ok(Self {
-            panels,
-            page: Page::default(),
-        })
+/// Quantiles of the shear rate against time, one panel per run with a common axis of rates (Figs. 10
+/// and 11 of the paper), from the CSV of `shear-stats`.
+///
+/// # Errors
+/// [`Error::Data`] for an unreadable file, a missing column, or one without numbers.
+pub fn shear_rates(runs: &[Labelled], page: Page) -> Result<Drawing, Error> {
+    let panels = runs.iter().map(Panel::read);
+    let panels = panels.collect::<Result<Vec<_>, _>>()?;
+    let rates = || panels.iter().flat_map(Panel::rates).copied();
+    let rate = |title| Axis::logarithmic(title, rates(), DECADES);
+    let (titled, untitled) = (rate("shear rate (1/s)"), rate(""));
+    let outer = room_beside(&titled, PANEL[1]) + 4.0;
+    let between = BETWEEN + room_beside(&untitled, PANEL[1]);
+    let count = panels.len().min(COLUMNS);
+    let room =
+        |width: f64, columns: f64| (width - outer - MARGIN - (columns - 1.0) * between) / columns;
+    let fits = |page: f64| (1..=count).rfind(|&n| room(page, n as f64) >= PANEL[1]);
+    let columns = page.width().map_or(count, |page| fits(page).unwrap_or(1));
+    let natural = outer + MARGIN + columns as f64 * (PANEL[0] + between) - between;
+    let across = page.width().unwrap_or(natural);
+    let width = room(across, columns as f64);
+    let height = (0.62 * width).max(200.0);
+    let key = key(across - 2.0 * MARGIN);
+    let title = |panel: &Panel| measure::lines(&panel.label, NORMAL, width + 1.8 * MARGIN, 3);
+    let below = room_below(&panels[0].time_axis().0, width) + 6.0;
+    let (mut frames, mut top) = (Vec::new(), 14.0 + key.height);
+    for row in panels.chunks(columns) {
+        let titles = row.iter().map(|panel| title(panel).len()).max();
+        top += LINE * NORMAL * titles.unwrap_or(0) as f64 + 10.0;
+        let left = |i: usize| outer + i as f64 * (width + between);
+        let frame = |i| Frame::new([left(i), top], [width, height]);
+        frames.extend((0..row.len()).map(frame));
+        top += height + below;
     }
-
-    /// The same for a page.
-    pub fn on(self, page: Page) -> Self {
-        Self { page, ..self }
+    let mut drawing = Drawing::new(page, across, top);
+    key.draw(&mut drawing, [MARGIN, 8.0], sample);
+    for (i, (panel, frame)) in panels.iter().zip(&frames).enumerate() {
+        let title = title(panel);
+        let first = frame.top - 16.0 - LINE * NORMAL * (title.len() as f64 - 1.0);
+        drawing.lines(&title, [frame.middle(), first], Anchor::Centre, NORMAL);
+        let first = i % columns == 0;
+        panel.draw(&mut drawing, frame, if first { &titled } else { &untitled });
     }
-
-    /// The figure: all panels share the shear-rate axis.
-    pub fn draw(&self) -> Drawing {
-        let rates = self.panels.iter().flat_map(|panel| {
-            let quantiles = panel.quantiles.iter().flatten();
-            quantiles.chain(&panel.max).copied()
-        });
-        let rate = Axis::logarithmic("shear rate (1/s)", rates);
-        let unnamed = rate.untitled();
-        let outer = room_beside(&rate, PANEL[1]) + 4.0;
-        let between = BETWEEN + room_beside(&unnamed, PANEL[1]);
-        let count = self.panels.len().min(COLUMNS);
-        let room = |width: f64, columns: f64| {
-            (width - outer - MARGIN - (columns - 1.0) * between) / columns
-        };
-        let columns = match self.page.width() {
-            None => count,
-            Some(page) => (1..=count)
-                .rfind(|&n| room(page, n as f64) >= PANEL[1])
-                .unwrap_or(1),
-        };
-        let natural = outer + MARGIN + columns as f64 * (PANEL[0] + between) - between;
-        let page = self.page.width().unwrap_or(natural);
-        let width = room(page, columns as f64);
-        let height = (0.62 * width).max(200.0);
-        let key = key(page - 2.0 * MARGIN);
-        let title = |panel: &Panel| measure::lines(&panel.label, NORMAL, width + 1.8 * MARGIN, 3);
-        let below = room_below(&self.panels[0].time_axis().0, width) + 6.0;
-        let (mut frames, mut top) = (Vec::new(), 14.0 + key.height());
-        for row in self.panels.chunks(columns) {
-            let titles = row.iter().map(|panel| title(panel).len()).max();
-            top += LINE * NORMAL * titles.unwrap_or(0) as f64 + 10.0;
-            frames.extend((0..row.len()).map(|i| Frame {
-                left: outer + i as f64 * (width + between),
-                top,
-                width,
-                height,
-            }));
-            top += height + below;
-        }
-        let mut drawing = Drawing::new(self.page, page, top);
-        key.draw(&mut drawing, [MARGIN, 8.0], sample);
-        for (i, (panel, frame)) in self.panels.iter().zip(&frames).enumerate() {
-            let title = title(panel);
-            let first = frame.top - 16.0 - LINE * NORMAL * (title.len() as f64 - 1.0);
-            drawing.lines(&title, [frame.middle(), first], Anchor::Centre, NORMAL);
-            let first = i % columns == 0;
-            panel.draw(&mut drawing, frame, if first { &rate } else { &unnamed });
-        }
-        drawing
-    }
+    Ok(drawing)
 }
 
 /// What the bands and lines are.
@@ -153,12 +121,16 @@ impl Panel {
         })
     }
 
+    fn rates(&self) -> impl Iterator<Item = &f64> {
+        self.quantiles.iter().flatten().chain(&self.max)
+    }
+
     /// Its axis and the unit of time, s.
     fn time_axis(&self) -> (Axis, f64) {
         let (unit, name) = time_unit(extent(self.time.iter().copied()).1);
         let (first, last) = extent(self.time.iter().map(|t| t / unit));
-        let axis = Axis::over(format!("time ({name})"), first.min(0.0), last);
-        (axis, unit)
+        let title = format!("time ({name})");
+        (Axis::over(&title, first.min(0.0), last), unit)
     }
 
     fn draw(&self, drawing: &mut Drawing, frame: &Frame, rate: &Axis) {
@@ -168,11 +140,10 @@ impl Panel {
         // A rate of zero, as before the start, has no place on a logarithmic axis; of a band
         // whose upper end has one, the lower end lies on the edge.
         let places = |values: &[f64], shown: &[f64]| -> Vec<[f64; 2]> {
-            let triples = times.clone().zip(values).zip(shown);
-            let shown =
-                triples.filter(|((t, v), shown)| t.is_finite() && v.is_finite() && **shown > 0.0);
-            shown
-                .map(|((t, v), _)| frame.place(&time, rate, [t, *v]))
+            let rows = times.clone().zip(values).zip(shown);
+            let rows =
+                rows.filter(|((t, v), shown)| t.is_finite() && v.is_finite() && **shown > 0.0);
+            rows.map(|((t, v), _)| frame.place(&time, rate, [t, *v]))
                 .collect()
         };
         let line = |values: &[f64]| places(values, values);

@@ -4,25 +4,21 @@ use particle_file::ParticleFile;
 use units::Axis as Direction;
 
 use crate::axes::Axis;
-use crate::colour_bar;
 use crate::drawing::{Drawing, Point};
-use crate::frame::{most_beside, room_below};
 use crate::legend::Legend;
 use crate::page::Page;
-use crate::panels::{Layout, Panels, Sheet};
-use crate::raster::Pixel;
-use crate::section::{self, GRID, KEY, Section};
+use crate::panels::{MARGIN, Plate};
+use crate::section::{self, GRID, KEY, Pixel, Section};
 use crate::{Error, Labelled};
 
-/// Slices through states (specimens, bonds, snapshots of a run), a pixel for each voxel of
-/// [`LabelVolume`]: wood grey, void white, adhesive in one colour or by its pressure.
+/// Slices through states (specimens, bonds, snapshots of a run), a pixel for each voxel:
+/// wood grey, void white, adhesive in one colour or by its pressure.
 #[derive(Clone, Debug)]
 pub struct Slices {
     sections: Vec<Section>,
     colouring: Colouring,
     /// Edge of a cell of the grid, m.
     cell: Option<f64>,
-    page: Page,
 }
 
 /// What the adhesive's colour shows.
@@ -57,9 +53,7 @@ pub enum Position {
 const COVERED: [f64; 2] = [0.02, 0.98];
 /// Most cells of a grid along an edge.
 const MOST_CELLS: f64 = 200.0;
-/// About the least edge of a panel, logical pixels.
-const LEAST: f64 = 100.0;
-const MARGIN: f64 = 24.0;
+
 impl Slices {
     /// Reads one panel per particle file.
     ///
@@ -67,11 +61,11 @@ impl Slices {
     /// [`Error::Data`] for an unreadable file or one without the pressure that is to be
     /// shown, [`Error::Request`] for a slice beside the box.
     pub fn read(states: &[Labelled], cut: Cut, colouring: Colouring) -> Result<Self, Error> {
-        let read = |state| Section::read(state, cut, colouring);
-        Ok(Self::of(
-            states.iter().map(read).collect::<Result<_, _>>()?,
-            colouring,
-        ))
+        let section = |state: &Labelled| {
+            let file = ParticleFile::open(&state.path)?;
+            Section::of(&file, &state.label, cut, colouring)
+        };
+        Self::of(states.iter().map(section), colouring)
     }
 
     /// A panel for each of several cuts through what `file`, called `label`, holds.
@@ -80,22 +74,18 @@ impl Slices {
     /// As [`Slices::read`].
     pub fn through(file: &ParticleFile, label: &str, cuts: &[Cut]) -> Result<Self, Error> {
         let section = |&cut| Section::of(file, label, cut, Colouring::Plain);
-        let sections = cuts.iter().map(section).collect::<Result<_, _>>()?;
-        Ok(Self::of(sections, Colouring::Plain))
+        Self::of(cuts.iter().map(section), Colouring::Plain)
     }
 
-    fn of(sections: Vec<Section>, colouring: Colouring) -> Self {
-        Self {
-            sections,
+    fn of(
+        sections: impl Iterator<Item = Result<Section, Error>>,
+        colouring: Colouring,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            sections: sections.collect::<Result<_, _>>()?,
             colouring,
             cell: None,
-            page: Page::default(),
-        }
-    }
-
-    /// The same for a page.
-    pub fn on(self, page: Page) -> Self {
-        Self { page, ..self }
+        })
     }
 
     /// Edge of a voxel of the first state, m.
@@ -130,104 +120,60 @@ impl Slices {
     }
 
     /// The figure.
-    pub fn draw(&self) -> Drawing {
+    pub fn draw(&self, page: Page) -> Drawing {
         let shades = self.shades();
         let phases = self.phases();
-        let grid = self
-            .cell
-            .map(|cell| format!("cells of {} µm", (cell * 1e6) as f32));
+        let grid = (self.cell).map(|cell| format!("cells of {} µm", (cell * 1e6) as f32));
         let names = phases.iter().map(|phase| phase.0).chain(grid.as_deref());
-        let longest = if self.sections.len() > 2 {
-            340.0
-        } else {
-            480.0
+        let longest = match self.sections.len() {
+            ..=2 => 480.0,
+            _ => 340.0,
         };
-        let room = self.page.width().unwrap_or(longest) - 2.0 * MARGIN;
-        let key = Legend::new(names, Legend::PATCH, room);
-        let layout = layout(
-            &self.sections,
-            10.0 + key.height(),
+        let room = page.width().unwrap_or(longest) - 2.0 * MARGIN;
+        let plate = Plate {
+            sheets: self.sections.iter().map(Section::sheet).collect(),
+            key: Legend::new(names, Legend::PATCH, room),
+            shades: shades.clone(),
             longest,
-            shades.as_ref(),
-        );
-        let sheets: Vec<Sheet> = self.sections.iter().map(Section::sheet).collect();
-        let panels = Panels::place(&sheets, layout, &self.page);
-        let natural = (panels.right + layout.right).max(key.width() + 2.0 * MARGIN);
-        let page = self.page.width().unwrap_or(natural);
-        let (top, height) = (panels.frames[0].top, panels.frames[0].height);
-        let height = height.max(colour_bar::LEAST);
-        let bottom = panels.bottom.max(match shades {
-            Some(_) => top + height + MARGIN,
-            None => 0.0,
-        });
-        let mut drawing = Drawing::new(self.page, page, bottom);
-        key.draw(
-            &mut drawing,
-            [MARGIN, 8.0],
+            apart: 8.0,
+        };
+        plate.draw(
+            page,
             |drawing, i, ends| match phases.get(i) {
                 Some(phase) => section::patch(drawing, phase.1, ends),
                 None => cell(drawing, ends),
             },
-        );
-        panels.draw_captions(&mut drawing);
-        for (section, frame) in self.sections.iter().zip(&panels.frames) {
-            section.draw(&mut drawing, frame, shades.as_ref(), self.cell);
-        }
-        if let Some(shades) = &shades {
-            colour_bar::draw(&mut drawing, panels.right, top, height, shades);
-        }
-        drawing
+            |drawing, i, frame| self.sections[i].draw(drawing, frame, shades.as_ref(), self.cell),
+        )
+    }
+
+    fn pixels(&self) -> impl Iterator<Item = Pixel> {
+        let pixels = self.sections.iter().flat_map(|section| &section.pixels);
+        pixels.copied()
     }
 
     /// Entries of the key for the phases that are in the picture; the colour bar stands for adhesive by its pressure.
     fn phases(&self) -> Vec<(&'static str, [u8; 3])> {
-        let pixels = || self.sections.iter().flat_map(|section| &section.pixels);
+        let plain = self.colouring == Colouring::Plain;
         let seen = [
-            pixels().any(|pixel| matches!(pixel, Pixel::Wood)),
-            pixels().any(|pixel| matches!(pixel, Pixel::Void)),
-            self.colouring == Colouring::Plain
-                && pixels().any(|pixel| matches!(pixel, Pixel::Adhesive(_))),
+            self.pixels().any(|pixel| pixel == Pixel::Wood),
+            self.pixels().any(|pixel| pixel == Pixel::Void),
+            plain && (self.pixels()).any(|pixel| matches!(pixel, Pixel::Adhesive(_))),
         ];
         let phases = KEY.into_iter().zip(seen);
         phases
-            .filter(|(_, seen)| *seen)
-            .map(|(phase, _)| phase)
+            .filter_map(|(phase, seen)| seen.then_some(phase))
             .collect()
     }
 
     /// The scale of the pressures shown, if they are.
     fn shades(&self) -> Option<Axis> {
-        let pixels = self.sections.iter().flat_map(|section| &section.pixels);
-        let pressures = pixels.filter_map(|pixel| match pixel {
-            Pixel::Adhesive(pressure) => Some(f64::from(*pressure) * 1e-6),
+        let pressures = self.pixels().filter_map(|pixel| match pixel {
+            Pixel::Adhesive(pressure) => Some(f64::from(pressure) * 1e-6),
             _ => None,
         });
-        match self.colouring {
-            Colouring::Plain => None,
-            Colouring::Pressure => Some(Axis::covering(
-                "pressure of the adhesive (MPa)",
-                pressures,
-                COVERED,
-            )),
-        }
-    }
-}
-
-/// Room for sections with their axes.
-pub(crate) fn layout(
-    sections: &[Section],
-    top: f64,
-    longest: f64,
-    shades: Option<&Axis>,
-) -> Layout {
-    let axes: Vec<[Axis; 2]> = sections.iter().map(Section::axes).collect();
-    let most = |room: &dyn Fn(&[Axis; 2]) -> f64| axes.iter().map(room).fold(0.0, f64::max);
-    Layout {
-        top,
-        longest,
-        left: most(&|axes| most_beside(&axes[1], LEAST)) + 4.0,
-        below: most(&|axes| room_below(&axes[0], LEAST)) + 8.0,
-        right: shades.map_or(0.0, colour_bar::width),
+        let title = "pressure of the adhesive (MPa)";
+        (self.colouring == Colouring::Pressure).then(|| Axis::covering(title, pressures, COVERED))
     }
 }
 

@@ -118,9 +118,8 @@ impl Solids {
                 let face = cell[a] as f64 + if way[a] > 0.0 { 1.0 } else { 0.0 };
                 (face - start[a]) / way[a]
             });
-            let axis = (0..3)
-                .min_by(|&a, &b| faces[a].total_cmp(&faces[b]))
-                .unwrap_or(0);
+            let nearest = (0..3).min_by(|&a, &b| faces[a].total_cmp(&faces[b]));
+            let axis = nearest.unwrap_or(0);
             let low = self.index(cell);
             if self.surface[low] != 0 {
                 let ends = [at, faces[axis].max(at)];
@@ -163,17 +162,11 @@ impl Solids {
             let inside = |at: f64| {
                 let part: [f64; 3] =
                     std::array::from_fn(|a| start[a] + at * way[a] - cell[a] as f64);
-                let weight = |c: usize| -> f64 {
-                    (0..3)
-                        .map(|a| {
-                            if c >> a & 1 == 1 {
-                                part[a]
-                            } else {
-                                1.0 - part[a]
-                            }
-                        })
-                        .product()
+                let along = |c: usize, a: usize| match c >> a & 1 {
+                    1 => part[a],
+                    _ => 1.0 - part[a],
                 };
+                let weight = |c: usize| (0..3).map(|a| along(c, a)).product::<f64>();
                 let own = |c: &usize| self.labels[low + corners[*c]] == label;
                 (0..8).filter(own).map(weight).sum::<f64>() - 0.5
             };
@@ -202,26 +195,23 @@ impl Solids {
     fn shape(&self, hit: [f64; 3], label: u8, way: [f64; 3]) -> ([f64; 3], f64) {
         let middle = hit.map(|x| x.round() as isize);
         let (mut moment, mut all, mut solid) = ([0.0; 3], 0.0, 0.0);
-        let range = -REACH..=REACH;
-        for dz in range.clone() {
-            for dy in range.clone() {
-                for dx in range.clone() {
-                    let voxel = [middle[0] + dx, middle[1] + dy, middle[2] + dz];
-                    let away: [f64; 3] = std::array::from_fn(|a| voxel[a] as f64 - hit[a]);
-                    let square: f64 = away.iter().map(|x| x * x).sum();
-                    if square >= RADIUS * RADIUS {
-                        continue;
-                    }
-                    let weight = (1.0 - square / (RADIUS * RADIUS)).powi(2);
-                    let found = self.label(voxel);
-                    all += weight;
-                    if found != VOID {
-                        solid += weight;
-                    }
-                    if found == label {
-                        (0..3).for_each(|a| moment[a] -= weight * away[a]);
-                    }
-                }
+        let edge = 2 * REACH + 1;
+        for i in 0..edge * edge * edge {
+            let away = [i % edge, i / edge % edge, i / edge / edge].map(|i| i - REACH);
+            let voxel: [isize; 3] = std::array::from_fn(|a| middle[a] + away[a]);
+            let away: [f64; 3] = std::array::from_fn(|a| voxel[a] as f64 - hit[a]);
+            let square: f64 = away.iter().map(|x| x * x).sum();
+            if square >= RADIUS * RADIUS {
+                continue;
+            }
+            let weight = (1.0 - square / (RADIUS * RADIUS)).powi(2);
+            let found = self.label(voxel);
+            all += weight;
+            if found != VOID {
+                solid += weight;
+            }
+            if found == label {
+                (0..3).for_each(|a| moment[a] -= weight * away[a]);
             }
         }
         let length = moment.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -6,11 +6,11 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontTransform, TextStyle};
 
-use crate::Error;
 use crate::bitmap::encode;
 use crate::drawing::{Anchor, Drawing, Point};
 use crate::page::millimetres;
 use crate::replay::{failed, replay};
+use crate::{Error, base64};
 
 /// Units of the SVG per logical pixel: the backend writes whole numbers.
 const SCALE: u32 = 8;
@@ -70,12 +70,6 @@ fn svg_text(
     size: f64,
 ) -> Result<(), Error> {
     let [x, y] = at.map(|x| x.round() as i32);
-    backend
-        .draw_text(text, &text_style(anchor, size), (x, y))
-        .map_err(failed)
-}
-
-fn text_style(anchor: Anchor, size: f64) -> TextStyle<'static> {
     let mut font = FontDesc::new(FontFamily::Name(FAMILIES), size, FontStyle::Normal);
     if anchor == Anchor::Upwards {
         font = font.transform(FontTransform::Rotate270);
@@ -85,45 +79,6 @@ fn text_style(anchor: Anchor, size: f64) -> TextStyle<'static> {
         Anchor::Centre | Anchor::Upwards => HPos::Center,
         Anchor::Right => HPos::Right,
     };
-    TextStyle::from(font).pos(Pos::new(across, VPos::Center))
-}
-
-/// RFC 4648 base 64, for pictures inside SVG.
-fn base64(bytes: &[u8]) -> String {
-    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for group in bytes.chunks(3) {
-        let bits = (0..3).fold(0_u32, |bits, i| {
-            bits << 8 | u32::from(group.get(i).copied().unwrap_or(0))
-        });
-        for digit in 0..4 {
-            if digit <= group.len() {
-                text.push(char::from(
-                    ALPHABET[(bits >> (18 - 6 * digit) & 63) as usize],
-                ));
-            } else {
-                text.push('=');
-            }
-        }
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn base64_of_the_rfc() {
-        for (plain, coded) in [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foob", "Zm9vYg=="),
-            ("foobar", "Zm9vYmFy"),
-        ] {
-            assert_eq!(base64(plain.as_bytes()), coded);
-        }
-    }
+    let style = TextStyle::from(font).pos(Pos::new(across, VPos::Center));
+    backend.draw_text(text, &style, (x, y)).map_err(failed)
 }

@@ -1,6 +1,5 @@
 //! CSV files by the names of their columns.
 
-use std::io::Read;
 use std::path::Path;
 
 use csv::StringRecord;
@@ -13,31 +12,33 @@ use crate::Error;
 const RECORD: [u64; 2] = [180, 16];
 
 /// A CSV file whose columns are asked for by name.
-pub(crate) struct Table {
+pub struct Table {
     name: String,
     headers: StringRecord,
     rows: Vec<StringRecord>,
 }
 
 impl Table {
-    pub(crate) fn read(path: &Path) -> Result<Self, Error> {
+    /// Reads a table; lines that begin with `#` are no rows.
+    ///
+    /// # Errors
+    /// [`Error::Data`] for an unreadable file, or one that is no table with at least one row.
+    pub fn read(path: &Path) -> Result<Self, Error> {
         let name = path.display().to_string();
         let unreadable = |e| Error::Data(format!("cannot read '{name}': {e}"));
         let text = read_table(path, RECORD).map_err(unreadable)?;
-        Self::from_reader(text.as_slice(), name)
+        Self::of(&text, name)
     }
 
-    pub(crate) fn from_reader(reader: impl Read, name: String) -> Result<Self, Error> {
+    fn of(text: &[u8], name: String) -> Result<Self, Error> {
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
-            .from_reader(reader);
+            .from_reader(text);
         let broken = |e: csv::Error| Error::Data(format!("'{name}' is not a CSV table: {e}"));
         let headers = reader.headers().map_err(broken)?.clone();
-        let rows = reader
-            .records()
-            .collect::<Result<Vec<_>, _>>()
-            .map_err(broken)?;
+        let rows: Result<Vec<_>, _> = reader.records().collect();
+        let rows = rows.map_err(broken)?;
         if rows.is_empty() {
             return Err(Error::Data(format!(
                 "'{name}' has no data: at least one row below its header is needed"
@@ -50,8 +51,19 @@ impl Table {
         })
     }
 
-    pub(crate) fn name(&self) -> &str {
+    /// What the file is called.
+    pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The names of the columns.
+    pub fn headers(&self) -> &StringRecord {
+        &self.headers
+    }
+
+    /// The rows below them, each of as many cells.
+    pub fn rows(&self) -> &[StringRecord] {
+        &self.rows
     }
 
     /// Whether there is such a column.
@@ -92,13 +104,12 @@ impl Table {
     /// As [`Table::numbers`], but the column must hold at least one finite number.
     pub(crate) fn data(&self, column: &str) -> Result<Vec<f64>, Error> {
         let numbers = self.numbers(column)?;
-        if numbers.iter().any(|n| n.is_finite()) {
-            Ok(numbers)
-        } else {
-            Err(Error::Data(format!(
+        match numbers.iter().any(|n| n.is_finite()) {
+            true => Ok(numbers),
+            false => Err(Error::Data(format!(
                 "'{}', column {column}: no row holds a finite number",
                 self.name
-            )))
+            ))),
         }
     }
 
@@ -120,7 +131,7 @@ mod tests {
     use super::*;
 
     fn table(text: &str) -> Result<Table, Error> {
-        Table::from_reader(text.as_bytes(), "t.csv".into())
+        Table::of(text.as_bytes(), "t.csv".into())
     }
 
     #[test]
@@ -133,16 +144,17 @@ mod tests {
 
     #[test]
     fn refusals_name_file_row_and_column() {
-        let said = |result: Result<Vec<f64>, Error>| result.unwrap_err().to_string();
-        let good = table("a,b\n1,x\nNaN,\n").unwrap();
-        let missing = said(good.numbers("c"));
-        assert!(missing.contains("no column c") && missing.contains("a, b"));
-        let wrong = said(good.numbers("b"));
-        assert!(wrong.contains("row 1") && wrong.contains("'x'"), "{wrong}");
-        let nothing = said(table("a\nNaN\n").unwrap().data("a"));
-        assert!(nothing.contains("no row holds a finite number"));
-        assert!(table("a,b\n").is_err());
-        assert!(table("").is_err());
-        assert!(table("a,b\n1\n").is_err());
+        let good = table("a,b,c\n1,x,NaN\nNaN,,\n").unwrap();
+        for (refused, words) in [
+            (good.numbers("d"), ["no column d", "a, b, c"]),
+            (good.numbers("b"), ["row 1", "'x'"]),
+            (good.data("c"), ["column c", "no row holds a finite number"]),
+        ] {
+            let said = refused.unwrap_err().to_string();
+            assert!(words.iter().all(|word| said.contains(word)), "{said}");
+        }
+        for broken in ["a,b\n", "", "a,b\n1\n"] {
+            assert!(table(broken).is_err());
+        }
     }
 }

@@ -1,21 +1,30 @@
 //! Table 2 of the paper.
 
-use std::io::{self, Write};
-
+use std::fs::File;
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use particle_file::ParticleFile;
+use serde_json::Value;
+
+use crate::known::SIDES;
 use crate::table::Table;
-use crate::{Error, RunEnd, measured};
+use crate::{Error, Known, RunEnd};
 
 /// One state for [`Table2`]: the CSV that `wp-metrics` wrote for it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Case {
     /// Adhesive, e.g. `pf`.
     pub adhesive: String,
-    /// What the state is: `experiment` or the name of a run.
+    /// What the state is: [`Case::EXPERIMENT`] or the name of a run.
     pub name: String,
     /// The CSV.
     pub path: PathBuf,
+}
+
+impl Case {
+    /// Name of what is no run.
+    pub const EXPERIMENT: &str = "experiment";
 }
 
 /// Weighted penetration of the experiment and the runs, as Table 2 of the paper, with its error, the slab that has
@@ -34,12 +43,8 @@ pub(crate) struct Row {
     pub(crate) case: String,
     /// Reference plane as `wp-metrics` states it.
     reference: String,
-    /// Bottom, top, total.
-    wp: [f64; 3],
-    /// The same carried on to cells of no size; NaN where no finer run was given.
-    extrapolated: [f64; 3],
-    /// Of that.
-    pub(crate) error: [f64; 3],
+    /// What was measured, as [`Known::read`] has it.
+    pub(crate) known: [Known; 6],
     /// Weighted penetration t / sqrt(12) of the unpenetrated slab of the same volume.
     pub(crate) slab: f64,
     pub(crate) paper: Option<&'static Paper>,
@@ -47,55 +52,41 @@ pub(crate) struct Row {
     pub(crate) end: Option<RunEnd>,
 }
 
-/// A line of the paper's Table 2, um.
+/// A line of the paper's Table 2: its adhesive; its case, and names that a case of ours goes by when it is
+/// the same, in lower case; WP of bottom, top and in total, um.
 #[derive(Debug, PartialEq)]
-pub(crate) struct Paper {
-    adhesive: &'static str,
-    case: &'static str,
-    /// Names that a case of ours goes by when it is the same, in lower case.
-    aliases: [&'static str; 2],
-    /// Bottom, top, total.
-    wp: [f64; 3],
-}
+pub(crate) struct Paper(&'static str, [&'static str; 3], [f64; 3]);
 
 /// What `wp-metrics` measures from.
 const REFERENCES: [&str; 4] = ["mid", "adherend", "plane", "fit"];
-pub(crate) const SIDES: [&str; 3] = ["bottom", "top", "total"];
 
-const fn paper(
-    adhesive: &'static str,
-    case: &'static str,
-    aliases: [&'static str; 2],
-    wp: [f64; 3],
-) -> Paper {
-    Paper {
-        adhesive,
-        case,
-        aliases,
-        wp,
-    }
-}
-
-const EXPERIMENT: [&str; 2] = ["experiment", "experimental"];
-const XPIC: [&str; 2] = ["xpic", "xpic(5)"];
-const FLIP: [&str; 2] = ["flip", "flip partial-slip"];
-const FRICTIONLESS: [&str; 2] = ["frictionless", "flip frictionless"];
+const EXPERIMENT: [&str; 3] = ["Experimental", "experiment", "experimental"];
+const XPIC: [&str; 3] = ["XPIC(5)", "xpic", "xpic(5)"];
+const FLIP: [&str; 3] = ["FLIP", "flip", "flip partial-slip"];
+const FRICTIONLESS: [&str; 3] = ["Frictionless", "frictionless", "flip frictionless"];
 
 /// Table 2 of Hammerquist and Nairn.
 static PAPER: [Paper; 8] = [
-    paper("PVA-PF", "Experimental", EXPERIMENT, [24.69, 25.96, 25.3]),
-    paper("PVA-PF", "XPIC(5)", XPIC, [25.21, 23.32, 24.35]),
-    paper("PVA-PF", "FLIP", FLIP, [25.18, 23.3, 24.32]),
-    paper("PVA-PF", "Frictionless", FRICTIONLESS, [25.24, 23.3, 24.35]),
-    paper("PF", "Experimental", EXPERIMENT, [68.57, 31.62, 56.41]),
-    paper("PF", "XPIC(5)", XPIC, [27.98, 27.3, 27.7]),
-    paper("PF", "FLIP", FLIP, [27.97, 27.42, 27.74]),
-    paper("PF", "Frictionless", FRICTIONLESS, [26.57, 26.6, 26.58]),
+    Paper("PVA-PF", EXPERIMENT, [24.69, 25.96, 25.3]),
+    Paper("PVA-PF", XPIC, [25.21, 23.32, 24.35]),
+    Paper("PVA-PF", FLIP, [25.18, 23.3, 24.32]),
+    Paper("PVA-PF", FRICTIONLESS, [25.24, 23.3, 24.35]),
+    Paper("PF", EXPERIMENT, [68.57, 31.62, 56.41]),
+    Paper("PF", XPIC, [27.98, 27.3, 27.7]),
+    Paper("PF", FLIP, [27.97, 27.42, 27.74]),
+    Paper("PF", FRICTIONLESS, [26.57, 26.6, 26.58]),
 ];
 
+/// Of the table as CSV.
+const COLUMNS: &str = "adhesive,case,reference,bottom_wp_um,top_wp_um,total_wp_um,slab_wp_um,\
+    paper_case,paper_bottom_wp_um,paper_top_wp_um,paper_total_wp_um,note,\
+    bottom_wp_extrapolated_um,top_wp_extrapolated_um,total_wp_extrapolated_um,\
+    bottom_wp_error_um,top_wp_error_um,total_wp_error_um,end,sound,gap_um,mark";
 const NOTE: &str = "paper: the paper's specimen, not this one";
 /// The state that a run ends with.
 const FINAL: &str = "final.mpts";
+/// Most bytes of a record beside a table.
+const MOST_BYTES: u64 = 1 << 20;
 /// What the numbers are, in the table for reading.
 pub(crate) const ERRORS: &str = "with \u{b1}: extrapolated to infinitely small cells (first order); the error is the difference of two sizes of cells";
 
@@ -109,11 +100,11 @@ impl Table2 {
     pub fn read(cases: &[Case]) -> Result<Self, Error> {
         let mut sorted: Vec<&Case> = cases.iter().collect();
         sorted.sort_by_key(|case| cases.iter().position(|c| c.adhesive == case.adhesive));
-        let rows = sorted
-            .into_iter()
-            .map(Row::read)
-            .collect::<Result<_, _>>()?;
-        Ok(Self { rows, paper: false })
+        let rows = sorted.into_iter().map(Row::read);
+        Ok(Self {
+            rows: rows.collect::<Result<_, _>>()?,
+            paper: false,
+        })
     }
 
     /// The same with the paper's numbers below ours.
@@ -127,47 +118,20 @@ impl Table2 {
     /// The failed write.
     pub fn write_csv(&self, out: impl Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
-        writer.write_record([
-            "adhesive",
-            "case",
-            "reference",
-            "bottom_wp_um",
-            "top_wp_um",
-            "total_wp_um",
-            "slab_wp_um",
-            "paper_case",
-            "paper_bottom_wp_um",
-            "paper_top_wp_um",
-            "paper_total_wp_um",
-            "note",
-            "bottom_wp_extrapolated_um",
-            "top_wp_extrapolated_um",
-            "total_wp_extrapolated_um",
-            "bottom_wp_error_um",
-            "top_wp_error_um",
-            "total_wp_error_um",
-            "end",
-            "sound",
-            "gap_um",
-            "mark",
-        ])?;
-        let number = |value: f64| match value.is_finite() {
-            true => format!("{value:.4}"),
-            false => String::new(),
-        };
+        writer.write_record(COLUMNS.split(','))?;
         for row in &self.rows {
-            let mut record = vec![
-                row.adhesive.clone(),
-                row.case.clone(),
-                row.reference.clone(),
-            ];
-            record.extend(row.wp.map(number));
+            let wp = || row.known[..3].iter();
+            let (paper, end) = (row.paper, row.end.as_ref());
+            let paper_wp = paper.map_or([f64::NAN; 3], |paper| paper.2);
+            let names = [&row.adhesive, &row.case, &row.reference];
+            let mut record: Vec<String> = names.into_iter().cloned().collect();
+            record.extend(wp().map(|known| number(known.as_run)));
             record.push(number(row.slab));
-            record.push(row.paper.map_or("", |paper| paper.case).into());
-            record.extend(row.paper_wp().map(number));
-            record.push(row.paper.map_or("", |_| NOTE).into());
-            record.extend(row.extrapolated.into_iter().chain(row.error).map(number));
-            let end = row.end.as_ref();
+            record.push(paper.map_or("", |paper| paper.1[0]).into());
+            record.extend(paper_wp.map(number));
+            record.push(paper.map_or("", |_| NOTE).into());
+            record.extend(wp().map(|known| number(known.extrapolated)));
+            record.extend(wp().map(|known| number(known.error)));
             record.push(end.map_or(String::new(), |e| e.end.clone()));
             record.push(end.map_or(String::new(), |e| e.sound.to_string()));
             record.push(end.map_or(String::new(), |e| number(1e6 * e.gap_m)));
@@ -179,18 +143,15 @@ impl Table2 {
 
     /// The table for reading, with a heading, and what is to be said against runs.
     pub fn to_text(&self) -> String {
-        let longest = self.rows.iter().map(|row| row.case.chars().count());
-        let wide = longest.max().unwrap_or(0).max(16) + 1;
+        let wide = self.widest();
         let heads = SIDES.map(|side| format!("{side:>15}")).concat();
         let mut text = format!(
             "Weighted penetration (um)\n{:<9} {:<wide$}{heads}{:>8}\n",
             "adhesive", "case", "slab"
         );
         for row in &self.rows {
-            let numbers = row
-                .numbers()
-                .map(|n| format!("{:>15}", n.join(" +- ")))
-                .concat();
+            let numbers = |known: &Known| format!("{:>15}", known.told(2).join(" +- "));
+            let numbers: String = row.known[..3].iter().map(numbers).collect();
             let (adhesive, case, slab, mark) = (&row.adhesive, &row.case, row.slab, row.mark());
             text += &format!("{adhesive:<9} {case:<wide$}{numbers}{slab:>8.2}  {mark}");
             text.truncate(text.trim_end().len());
@@ -215,14 +176,20 @@ impl Table2 {
         text
     }
 
+    /// Characters of the column of cases.
+    pub(crate) fn widest(&self) -> usize {
+        let longest = self.rows.iter().map(|row| row.case.chars().count());
+        longest.max().unwrap_or(0).max(16) + 1
+    }
+
     /// Whether a row has an error.
     pub(crate) fn has_errors(&self) -> bool {
-        self.rows.iter().any(|row| row.error[2].is_finite())
+        self.rows.iter().any(Row::has_error)
     }
 
     /// The paper's numbers of a row, where they are to be shown.
     pub(crate) fn paper_of(&self, row: &Row) -> Option<[f64; 3]> {
-        row.paper.filter(|_| self.paper).map(|paper| paper.wp)
+        row.paper.filter(|_| self.paper).map(|paper| paper.2)
     }
 }
 
@@ -237,18 +204,14 @@ impl Row {
             )));
         }
         let (sides, references) = (table.texts("side")?, table.texts("reference")?);
-        let (wps, slabs) = (table.numbers("wp_um")?, table.numbers("slab_wp_um")?);
-        let row_of = |side: &str| {
-            sides.iter().position(|s| *s == side).ok_or_else(|| {
-                Error::Data(format!("'{}' has no row with side {side}", table.name()))
-            })
-        };
-        let rows = [row_of(SIDES[0])?, row_of(SIDES[1])?, row_of(SIDES[2])?];
-        let optional = |column: &str| match table.has(column) {
-            true => table.numbers(column).map(|n| rows.map(|row| n[row])),
-            false => Ok([f64::NAN; 3]),
-        };
-        let total = rows[2];
+        table.numbers("wp_um")?;
+        let slabs = table.numbers("slab_wp_um")?;
+        let mut total = 0;
+        for side in SIDES {
+            let row = sides.iter().position(|s| *s == side);
+            let missing = || Error::Data(format!("'{}' has no row with side {side}", table.name()));
+            total = row.ok_or_else(missing)?;
+        }
         // It goes into our own table, which people open in a spreadsheet.
         if !REFERENCES.contains(&references[total]) {
             return Err(Error::Data(format!(
@@ -259,43 +222,28 @@ impl Row {
             )));
         }
         let name = source.name.to_lowercase();
-        let same = |paper: &&Paper| {
-            paper.adhesive.eq_ignore_ascii_case(&source.adhesive)
-                && paper.aliases.contains(&name.as_str())
+        let same = |Paper(adhesive, [_, names @ ..], _): &&Paper| {
+            adhesive.eq_ignore_ascii_case(&source.adhesive) && names.contains(&name.as_str())
         };
         Ok(Self {
             adhesive: source.adhesive.clone(),
             case: source.name.clone(),
             reference: references[total].into(),
-            wp: rows.map(|row| wps[row]),
-            extrapolated: optional("wp_extrapolated_um")?,
-            error: optional("wp_error_um")?,
+            known: Known::read(&table)?,
             slab: slabs[total],
             paper: PAPER.iter().find(same),
             end: end(&source.path, files[0])?,
         })
     }
 
-    /// WP of each side and, where it is known, its error, as texts.
-    pub(crate) fn numbers(&self) -> [Vec<String>; 3] {
-        std::array::from_fn(|side| {
-            let (best, error) = (self.extrapolated[side], self.error[side]);
-            match best.is_finite() && error.is_finite() {
-                true => vec![format!("{best:.2}"), format!("{error:.2}")],
-                false if self.wp[side].is_finite() => vec![format!("{:.2}", self.wp[side])],
-                false => vec!["-".into()],
-            }
-        })
+    pub(crate) fn has_error(&self) -> bool {
+        self.known[2].has_error()
     }
 
     /// What is to be said against its run, in a few words.
     pub(crate) fn mark(&self) -> String {
         let mark = self.end.as_ref().and_then(RunEnd::mark);
         mark.unwrap_or_default()
-    }
-
-    fn paper_wp(&self) -> [f64; 3] {
-        self.paper.map_or([f64::NAN; 3], |paper| paper.wp)
     }
 }
 
@@ -307,9 +255,47 @@ fn end(table: &Path, named: &str) -> Result<Option<RunEnd>, Error> {
     }
     for place in [table, state] {
         if let Some(end) = RunEnd::beside(place)? {
-            measured::check(table, named, &place.with_file_name(FINAL))?;
+            is_of(table, named, &place.with_file_name(FINAL))?;
             return Ok(Some(end));
         }
     }
     Ok(None)
+}
+
+/// Refuses a table in which `named` was measured if the record beside the table has another content of it than `state`
+/// has now: a run that was made again. Of tables without a record that is not known.
+fn is_of(table: &Path, named: &str, state: &Path) -> Result<(), Error> {
+    let Some(hash) = recorded(table, named).filter(|_| state.is_file()) else {
+        return Ok(());
+    };
+    let now = ParticleFile::open(state)?.content_hash();
+    match hash == format!("{now:016x}") {
+        true => Ok(()),
+        false => Err(Error::Data(format!(
+            "'{}' is not of '{}' as it is now: run wp-metrics again",
+            table.display(),
+            state.display()
+        ))),
+    }
+}
+
+/// The hash of the file `named` by the record of a table.
+fn recorded(table: &Path, named: &str) -> Option<String> {
+    let mut record = table.to_owned().into_os_string();
+    record.push(".provenance.json");
+    let mut text = Vec::new();
+    let file = File::open(record).ok()?;
+    file.take(MOST_BYTES).read_to_end(&mut text).ok()?;
+    let record: Value = serde_json::from_slice(&text).ok()?;
+    let mut inputs = record.get("inputs")?.as_array()?.iter();
+    let input = inputs.find(|input| input["path"] == named)?;
+    input["xxh3"].as_str().map(str::to_owned)
+}
+
+/// A cell of a number.
+pub(crate) fn number(value: f64) -> String {
+    match value.is_finite() {
+        true => format!("{value:.4}"),
+        false => String::new(),
+    }
 }

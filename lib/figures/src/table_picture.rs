@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use crate::axes::{NORMAL, SMALL};
 use crate::colour::BLACK;
 use crate::drawing::{Anchor, Drawing};
+use crate::known::SIDES;
 use crate::measure::{self, LINE};
 use crate::page::Page;
-use crate::table2::{ERRORS, Row, SIDES, Table2};
+use crate::table2::{ERRORS, Row, Table2};
 
 const WIDTH: f64 = 520.0;
 const MARGIN: f64 = 12.0;
@@ -18,12 +19,12 @@ const INDENT: f64 = 14.0;
 const ROW: f64 = 1.45 * NORMAL;
 
 /// A table on its way down the page.
-struct Sheet {
+struct Column {
     drawing: Drawing,
     y: f64,
 }
 
-impl Sheet {
+impl Column {
     fn rule(&mut self, width: f64) {
         let right = self.drawing.width - MARGIN;
         let ends = [MARGIN, right].map(|x| [x, self.y]);
@@ -35,34 +36,32 @@ impl Sheet {
     fn row(&mut self, name: &str, indent: f64, size: f64, cells: &[String]) {
         let left = MARGIN + indent;
         let first = self.drawing.width - MARGIN - COLUMNS * COLUMN;
-        let free = if cells.is_empty() {
-            self.drawing.width - MARGIN
-        } else {
-            first
+        let free = match cells {
+            [] => self.drawing.width - MARGIN,
+            _ => first,
         };
         let lines = measure::lines(name, size, free - left, 3);
         self.y += 0.5 * ROW;
-        self.drawing
-            .lines(&lines, [left, self.y], Anchor::Left, size);
+        (self.drawing).lines(&lines, [left, self.y], Anchor::Left, size);
         for (i, cell) in cells.iter().enumerate() {
             let right = first + (i as f64 + 1.0) * COLUMN;
-            self.drawing
-                .text(cell.as_str(), [right, self.y], Anchor::Right, size);
+            (self.drawing).text(cell.as_str(), [right, self.y], Anchor::Right, size);
         }
         self.y += 0.5 * ROW + (lines.len().max(1) - 1) as f64 * LINE * size;
     }
 
     fn case(&mut self, row: &Row, name: &str, paper: Option<[f64; 3]>) {
-        let numbers = row.numbers();
-        let values = numbers.iter().map(|n| n[0].clone());
-        let values: Vec<String> = values.chain([format!("{:.2}", row.slab)]).collect();
+        let wp = row.known[..3].iter().map(|known| known.told(2));
+        let (mut values, mut errors) = (Vec::new(), Vec::new());
+        for mut told in wp {
+            errors.push(told.get(1).map_or(String::new(), |e| format!("± {e}")));
+            values.push(told.swap_remove(0));
+        }
+        values.push(format!("{:.2}", row.slab));
         self.row(name, INDENT, NORMAL, &values);
         let below = 2.0 * INDENT;
-        if row.error[2].is_finite() {
-            let errors = numbers
-                .iter()
-                .map(|n| n.get(1).map_or(String::new(), |e| format!("± {e}")));
-            self.row("error", below, SMALL, &errors.collect::<Vec<_>>());
+        if row.has_error() {
+            self.row("error", below, SMALL, &errors);
         }
         if let Some(paper) = paper {
             self.row("paper", below, SMALL, &paper.map(|wp| format!("{wp:.2}")));
@@ -79,33 +78,32 @@ impl Table2 {
     pub fn draw(&self, names: &BTreeMap<String, String>, page: Page) -> Drawing {
         let named = |key: &str| names.get(key).map_or(key.to_owned(), Clone::clone);
         let width = page.width().unwrap_or(WIDTH);
-        let mut sheet = Sheet {
+        let mut table = Column {
             drawing: Drawing::new(page, width, 0.0),
             y: MARGIN,
         };
-        sheet.rule(1.8);
-        let heads = SIDES.into_iter().chain(["slab"]).map(String::from);
-        let heads: Vec<String> = heads.collect();
-        sheet.row("Weighted penetration (µm)", 0.0, NORMAL, &heads);
-        sheet.y += 0.2 * ROW;
-        sheet.rule(1.0);
+        table.rule(1.8);
+        let heads = [SIDES[0], SIDES[1], SIDES[2], "slab"].map(String::from);
+        table.row("Weighted penetration (µm)", 0.0, NORMAL, &heads);
+        table.y += 0.2 * ROW;
+        table.rule(1.0);
         for group in self.rows.chunk_by(|a, b| a.adhesive == b.adhesive) {
-            sheet.row(&named(&group[0].adhesive), 0.0, NORMAL, &[]);
+            table.row(&named(&group[0].adhesive), 0.0, NORMAL, &[]);
             for row in group {
-                sheet.case(row, &named(&row.case), self.paper_of(row));
+                table.case(row, &named(&row.case), self.paper_of(row));
             }
-            sheet.y += 0.25 * ROW;
+            table.y += 0.25 * ROW;
         }
-        sheet.rule(1.8);
+        table.rule(1.8);
         let notes = [
             Some("slab: the unpenetrated slab of the same volume, t/√12"),
             self.has_errors().then_some(ERRORS),
             (self.paper).then_some("paper: Hammerquist and Nairn, Table 2; another specimen"),
         ];
         for note in notes.into_iter().flatten() {
-            sheet.row(note, 0.0, SMALL, &[]);
+            table.row(note, 0.0, SMALL, &[]);
         }
-        let Sheet { mut drawing, y } = sheet;
+        let Column { mut drawing, y } = table;
         drawing.height = (y + MARGIN).ceil();
         drawing
     }

@@ -4,12 +4,14 @@ use ab_glyph_rasterizer::{Point as Place, Rasterizer, point};
 use plotters::backend::DrawingBackend;
 use plotters::style::{Color, RGBAColor};
 use skrifa::instance::{LocationRef, Size};
-use skrifa::outline::{DrawSettings, OutlineGlyphCollection, OutlinePen};
+use skrifa::outline::DrawSettings;
+use skrifa::outline::pen::PathElement;
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
 use crate::Error;
 use crate::drawing::{Anchor, Point};
 use crate::measure::EM;
+use crate::replay::failed;
 
 /// Draws black text of the embedded DejaVu Sans on pixels: lines of glyphs as they stand in
 /// the font, without kerning. Capitals and figures are centred on `at`.
@@ -24,11 +26,7 @@ pub(crate) fn draw<B: DrawingBackend>(
     size: f64,
 ) -> Result<(), Error> {
     let line = Line::new(text, (EM * size) as f32)?;
-    let start = match anchor {
-        Anchor::Left => 0.0,
-        Anchor::Centre | Anchor::Upwards => 0.5 * line.width,
-        Anchor::Right => line.width,
-    };
+    let start = anchor.before() as f32 * line.width;
     let [left, top] = [start + line.margin, line.baseline - 0.5 * line.capitals];
     let origin = at.map(|x| x.round() as i32);
     let [left, top] = [left, top].map(|x| x.round() as i32);
@@ -46,7 +44,7 @@ pub(crate) fn draw<B: DrawingBackend>(
             failure = backend.draw_pixel((x, y), ink).err();
         }
     });
-    failure.map_or(Ok(()), |e| Err(Error::Draw(e.to_string())))
+    failure.map_or(Ok(()), |e| Err(failed(e)))
 }
 
 /// A line of text as the share of each pixel that its glyphs cover; lengths in pixels.
@@ -64,8 +62,7 @@ struct Line {
 
 impl Line {
     fn new(text: &str, em: f32) -> Result<Self, Error> {
-        let unreadable = |_| Error::Draw("the embedded font is not readable".into());
-        let font = FontRef::new(dejavu::sans::regular()).map_err(unreadable)?;
+        let font = FontRef::new(dejavu::sans::regular()).map_err(failed)?;
         let (size, place) = (Size::new(em), LocationRef::default());
         let (metrics, advances) = (font.metrics(size, place), font.glyph_metrics(size, place));
         // What the font lacks is drawn as its glyph 0, a box.
@@ -82,12 +79,12 @@ impl Line {
         let outlines = font.outline_glyphs();
         let mut x = margin;
         for glyph in &glyphs {
-            trace(
-                &outlines,
-                *glyph,
-                size,
-                &mut Pen::new(&mut ink, x, baseline),
-            )?;
+            if let Some(outline) = outlines.get(*glyph) {
+                let mut path: Vec<PathElement> = Vec::new();
+                let settings = DrawSettings::unhinted(size, place);
+                outline.draw(settings, &mut path).map_err(failed)?;
+                trace(&mut ink, &path, point(x, baseline));
+            }
             x += advance(glyph);
         }
         let capitals = metrics.cap_height.unwrap_or(0.73 * em);
@@ -101,73 +98,41 @@ impl Line {
     }
 }
 
-fn trace(
-    outlines: &OutlineGlyphCollection,
-    glyph: GlyphId,
-    size: Size,
-    pen: &mut Pen,
-) -> Result<(), Error> {
-    let Some(outline) = outlines.get(glyph) else {
-        return Ok(());
-    };
-    let settings = DrawSettings::unhinted(size, LocationRef::default());
-    match outline.draw(settings, pen) {
-        Ok(_) => Ok(()),
-        Err(e) => Err(Error::Draw(e.to_string())),
-    }
-}
-
-/// Puts outlines, whose y points up from the baseline, among pixels, whose y points down.
-struct Pen<'a> {
-    ink: &'a mut Rasterizer,
-    origin: Place,
-    start: Place,
-    last: Place,
-}
-
-impl<'a> Pen<'a> {
-    fn new(ink: &'a mut Rasterizer, x: f32, y: f32) -> Self {
-        let origin = point(x, y);
-        Self {
-            ink,
-            origin,
-            start: origin,
-            last: origin,
+/// Puts an outline, whose y points up from `origin`, among pixels, whose y points down.
+fn trace(ink: &mut Rasterizer, path: &[PathElement], origin: Place) {
+    let place = |x: f32, y: f32| point(origin.x + x, origin.y - y);
+    let (mut start, mut last) = (origin, origin);
+    for element in path {
+        let from = last;
+        match *element {
+            PathElement::MoveTo { x, y } => {
+                last = place(x, y);
+                start = last;
+            }
+            PathElement::LineTo { x, y } => {
+                last = place(x, y);
+                ink.draw_line(from, last);
+            }
+            PathElement::QuadTo { cx0, cy0, x, y } => {
+                last = place(x, y);
+                ink.draw_quad(from, place(cx0, cy0), last);
+            }
+            PathElement::CurveTo {
+                cx0,
+                cy0,
+                cx1,
+                cy1,
+                x,
+                y,
+            } => {
+                last = place(x, y);
+                ink.draw_cubic(from, place(cx0, cy0), place(cx1, cy1), last);
+            }
+            PathElement::Close => {
+                ink.draw_line(from, start);
+                last = start;
+            }
         }
-    }
-
-    fn place(&self, x: f32, y: f32) -> Place {
-        point(self.origin.x + x, self.origin.y - y)
-    }
-}
-
-impl OutlinePen for Pen<'_> {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.start = self.place(x, y);
-        self.last = self.start;
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        let to = self.place(x, y);
-        self.ink.draw_line(self.last, to);
-        self.last = to;
-    }
-
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        let to = self.place(x, y);
-        self.ink.draw_quad(self.last, self.place(cx, cy), to);
-        self.last = to;
-    }
-
-    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        let (a, b, to) = (self.place(ax, ay), self.place(bx, by), self.place(x, y));
-        self.ink.draw_cubic(self.last, a, b, to);
-        self.last = to;
-    }
-
-    fn close(&mut self) {
-        self.ink.draw_line(self.last, self.start);
-        self.last = self.start;
     }
 }
 
@@ -209,21 +174,15 @@ mod tests {
             (Anchor::Centre, -0.376 * em),
             (Anchor::Right, -0.752 * em),
         ] {
-            let [[x0, y0], [x1, y1]] = ink("H", at, anchor).unwrap();
-            assert!(
-                near(y0, 150.0 - high) && near(y1, 150.0 + high),
-                "{y0} {y1}"
-            );
+            let [low, end] = ink("H", at, anchor).unwrap();
+            assert!(near(low[1], 150.0 - high) && near(end[1], 150.0 + high));
             let left = 200.0 + start;
-            assert!(near(x0, left + 0.098 * em), "{anchor:?}: {x0}");
-            assert!(near(x1, left + 0.654 * em), "{anchor:?}: {x1}");
+            assert!(near(low[0], left + 0.098 * em), "{anchor:?}: {low:?}");
+            assert!(near(end[0], left + 0.654 * em), "{anchor:?}: {end:?}");
         }
-        let [[x0, y0], [x1, y1]] = ink("H", at, Anchor::Upwards).unwrap();
-        assert!(
-            near(x0, 200.0 - high) && near(x1, 200.0 + high),
-            "{x0} {x1}"
-        );
-        assert!(near(y0, 150.0 - 0.278 * em) && near(y1, 150.0 + 0.278 * em));
+        let [low, end] = ink("H", at, Anchor::Upwards).unwrap();
+        assert!(near(low[0], 200.0 - high) && near(end[0], 200.0 + high));
+        assert!(near(low[1], 150.0 - 0.278 * em) && near(end[1], 150.0 + 0.278 * em));
     }
 
     #[test]

@@ -1,17 +1,17 @@
 //! The figure of states in three dimensions.
 
-use particle_file::{Kind, ParticleFile};
+use particle_file::ParticleFile;
 use voxels::LabelVolume;
 
 use crate::axes::{NORMAL, SMALL};
-use crate::camera::{Camera, View};
-use crate::closing::time_unit;
+use crate::camera::Camera;
 use crate::colour::BLACK;
-use crate::drawing::{Anchor, Drawing, Image, Point};
+use crate::drawing::{Anchor, Drawing, Point};
 use crate::frame::Frame;
 use crate::measure::{self, LINE};
 use crate::page::Page;
 use crate::panels::{Layout, Panels, Sheet};
+use crate::section::time_of;
 use crate::solid::Solids;
 use crate::{Error, Labelled};
 
@@ -24,7 +24,6 @@ pub struct Views {
     normal: usize,
     /// Low and high corner of what all panels show, m; without, each shows its own voxels.
     within: Option<[[f64; 3]; 2]>,
-    page: Page,
 }
 
 /// How much of the wood is shown.
@@ -84,7 +83,7 @@ impl Views {
         let mut normals = Vec::new();
         let mut panels = Vec::new();
         for file in files {
-            let opened = ParticleFile::open(&file.path).map_err(data)?;
+            let opened = ParticleFile::open(&file.path)?;
             let normal = usize::from(opened.header().normal);
             let camera = Camera::new(normal, from.turn, from.tilt);
             panels.push(Panel::read(file, &opened, wood, &camera)?);
@@ -92,38 +91,34 @@ impl Views {
         }
         let normal = normals.first().copied().unwrap_or(1);
         if normals.iter().any(|other| *other != normal) {
-            return Err(Error::Request(
-                "the files have their bonds across different axes: one figure shows one way up"
-                    .into(),
-            ));
+            let said =
+                "the files have their bonds across different axes: one figure shows one way up";
+            return Err(Error::Request(said.into()));
         }
         Ok(Self {
             panels,
             camera: Camera::new(normal, from.turn, from.tilt),
             normal,
             within: None,
-            page: Page::default(),
         })
-    }
-
-    /// The same for a page.
-    pub fn on(self, page: Page) -> Self {
-        Self { page, ..self }
     }
 
     /// The same with all panels of a box between these corners (m), which holds their voxels.
     pub(crate) fn within(self, corners_m: [[f64; 3]; 2]) -> Self {
-        let within = Some(corners_m);
-        Self { within, ..self }
+        Self {
+            within: Some(corners_m),
+            ..self
+        }
     }
 
     /// The figure.
-    pub fn draw(&self) -> Drawing {
+    pub fn draw(&self, page: Page) -> Drawing {
         let sheets: Vec<Sheet> = (self.panels.iter().enumerate())
             .map(|(i, panel)| Sheet {
                 edges: self.extent(i),
                 name: &panel.label,
                 detail: &panel.detail,
+                axes: None,
             })
             .collect();
         let layout = Layout {
@@ -133,9 +128,9 @@ impl Views {
             below: 14.0,
             right: 0.0,
         };
-        let panels = Panels::place(&sheets, layout, &self.page);
-        let page = self.page.width().unwrap_or(panels.right.max(260.0));
-        let mut drawing = Drawing::new(self.page, page, panels.bottom + STRIP);
+        let panels = Panels::place(&sheets, layout, page);
+        let width = page.width().unwrap_or(panels.right.max(260.0));
+        let mut drawing = Drawing::new(page, width, panels.bottom + STRIP);
         panels.draw_captions(&mut drawing);
         for (i, frame) in panels.frames.iter().enumerate() {
             self.draw_into(&mut drawing, i, frame);
@@ -176,13 +171,9 @@ impl Views {
     pub(crate) fn draw_into(&self, drawing: &mut Drawing, panel: usize, frame: &Frame) {
         let panel = &self.panels[panel];
         let most = (MOST_PIXELS * frame.width / frame.height).sqrt();
-        let across = (frame.width * self.page.scale()).round().min(most) as usize;
-        let View { size, rgb } = self.camera.view(&panel.solids, self.ends(panel), across);
-        drawing.images.push(Image {
-            place: [frame.left, frame.top, frame.width, frame.height],
-            size,
-            rgb,
-        });
+        let across = (frame.width * drawing.page.scale()).round().min(most) as usize;
+        let (size, rgb) = self.camera.view(&panel.solids, self.ends(panel), across);
+        frame.fill(drawing, size, rgb);
     }
 
     /// The three axes as arrows of a round length, which are the scale too.
@@ -192,11 +183,8 @@ impl Views {
         let length = steps.take_while(fits).last().unwrap_or(1.0);
         let vector = |axis: usize| std::array::from_fn(|a| f64::from(u8::from(a == axis)));
         let tips = [0, 1, 2].map(|axis| {
-            let [x, y] = self
-                .camera
-                .place(vector(axis))
-                .map(|part| part * length * scale);
-            [x, -y]
+            let [x, y] = self.camera.place(vector(axis));
+            [x * length * scale, -(y * length * scale)]
         });
         let low = |a: usize| tips.iter().map(|tip| tip[a]).fold(0.0, f64::min);
         let high = |a: usize| tips.iter().map(|tip| tip[a]).fold(0.0, f64::max);
@@ -205,11 +193,10 @@ impl Views {
         for (axis, tip) in tips.iter().enumerate() {
             let end = [origin[0] + tip[0], origin[1] + tip[1]];
             arrow(drawing, origin, end);
-            let long = tip[0].hypot(tip[1]);
             // An axis that points at the viewer has its name beside it.
-            let away = match long > 6.0 {
-                true => tip.map(|part| part / long * 10.0),
-                false => [-9.0, 9.0],
+            let away = match tip[0].hypot(tip[1]) {
+                long if long > 6.0 => tip.map(|part| part / long * 10.0),
+                _ => [-9.0, 9.0],
             };
             let at = [end[0] + away[0], end[1] + away[1]];
             drawing.text(["x", "y", "z"][axis], at, Anchor::Centre, SMALL);
@@ -230,18 +217,10 @@ fn arrow(drawing: &mut Drawing, from: Point, to: Point) {
     let length = dx.hypot(dy);
     if length > 6.0 {
         let [ux, uy] = [dx / length, dy / length];
-        let wing = |side: f64| {
-            [
-                to[0] - 7.0 * ux + side * 3.0 * uy,
-                to[1] - 7.0 * uy - side * 3.0 * ux,
-            ]
-        };
-        drawing.area(vec![to, wing(1.0), wing(-1.0)], BLACK);
+        let [x, y] = [to[0] - 7.0 * ux, to[1] - 7.0 * uy];
+        let wings = [1.0, -1.0].map(|side| [x + side * 3.0 * uy, y - side * 3.0 * ux]);
+        drawing.area(vec![to, wings[0], wings[1]], BLACK);
     }
-}
-
-pub(crate) fn data(error: particle_file::Error) -> Error {
-    Error::Data(error.to_string())
 }
 
 impl Panel {
@@ -251,26 +230,17 @@ impl Panel {
         wood: Wood,
         camera: &Camera,
     ) -> Result<Self, Error> {
-        let labels = LabelVolume::of(file).map_err(data)?;
-        let bytes = Solids::bytes(labels.dims);
-        file.fits(bytes, "a view of its voxels").map_err(data)?;
+        let labels = LabelVolume::of(file)?;
+        file.fits(Solids::bytes(labels.dims), "a view of its voxels")?;
         let middle = labels.dims[camera.front] / 2;
         let solids = Solids::new(&labels, |voxel| match wood {
             Wood::Hidden => false,
             Wood::Cut => voxel[camera.front] < middle,
             Wood::Whole => true,
         });
-        let (unit, name) = time_unit(file.header().time_s);
-        let detail = match file.header().kind {
-            Kind::State => format!(
-                "t\u{a0}=\u{a0}{:.2}\u{a0}{name}",
-                file.header().time_s / unit
-            ),
-            _ => String::new(),
-        };
         Ok(Self {
             label: named.label.clone(),
-            detail,
+            detail: time_of(file).unwrap_or_default(),
             origin_m: labels.origin_m,
             edges: labels.dims.map(|n| n as f64),
             voxel: labels.voxel_m * 1e6,

@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use figures::RunEnd;
+use figures::{Known, RunEnd, Table};
 use serde_json::Value;
 
-use crate::penetration::Penetration;
 use crate::setup::Setup;
 use crate::{Error, Labelled, html, read_text};
 
 const MOST_BYTES: u64 = 1 << 20;
+/// How far the table beside a run may be from what the run says of itself: else it is another state's.
+const SAME: f64 = 1e-3;
 
 /// A run folder.
 pub struct RunFolder {
@@ -19,11 +20,15 @@ pub struct RunFolder {
     resolved: String,
     pub(crate) end: RunEnd,
     pub(crate) setup: Setup,
-    pub(crate) penetration: Penetration,
+    /// Bottom, top, total; um.
+    pub(crate) wp: [Known; 3],
+    /// At the end, MPa.
+    pub(crate) pressure: Known,
 }
 
 impl RunFolder {
     /// Reads a run folder; one without a summary is of a run that has not ended, which it then says.
+    /// Errors of penetration are of the `wp.csv` that lies there.
     ///
     /// # Errors
     /// A folder without `resolved.toml`, or files that are not a run's.
@@ -32,17 +37,41 @@ impl RunFolder {
         let summary: Value = match path.try_exists() {
             Ok(false) => Value::Null,
             _ => serde_json::from_str(&read_text(&path, MOST_BYTES)?)
-                .map_err(|e| Error(format!("'{}' is not JSON: {e}", path.display())))?,
+                .map_err(|e| Error::Data(format!("'{}' is not JSON: {e}", path.display())))?,
         };
         let resolved = read_text(&folder.path.join("resolved.toml"), MOST_BYTES)?;
-        let inputs = summary.pointer("/provenance/inputs/0/path");
-        let case = Path::new(inputs.and_then(Value::as_str).unwrap_or("case"));
+        let case = summary.pointer("/provenance/inputs/0/path");
+        let case = Path::new(case.and_then(Value::as_str).unwrap_or("case"));
         let case = case.file_name().unwrap_or_default().to_string_lossy();
+        let number = |pointer: &str, unit: f64| {
+            let found = summary.pointer(pointer).and_then(Value::as_f64);
+            Known::plain(unit * found.unwrap_or(f64::NAN))
+        };
+        let sides = ["bottom", "top", "total"];
+        let mut wp = sides.map(|side| number(&format!("/penetration/wp_m/{side}"), 1e6));
+        let mut pressure = number("/final_pressure_pa", 1e-6);
+        let beside = folder.path.join("wp.csv");
+        if beside.is_file() {
+            let [bottom, top, total, .., last] = Known::read(&Table::read(&beside)?)?;
+            let found = [bottom, top, total];
+            let far = |(own, found): (&Known, &Known)| {
+                (found.as_run - own.as_run).abs() > SAME * found.as_run
+            };
+            if !wp.iter().zip(&found).any(far) {
+                wp = found;
+                pressure = if last.best().is_finite() {
+                    last
+                } else {
+                    pressure
+                };
+            }
+        }
         Ok(Self {
             label: folder.label.clone(),
             end: RunEnd::of(&summary),
             setup: Setup::read(&folder.path, &case, &resolved),
-            penetration: Penetration::read(&folder.path, &summary)?,
+            wp,
+            pressure,
             summary,
             resolved,
         })
@@ -59,8 +88,8 @@ impl RunFolder {
 
     /// A number of the summary by its path, times `unit`, with so many decimals.
     fn number(&self, pointer: &str, unit: f64, decimals: usize) -> String {
-        let value = self.summary.pointer(pointer).and_then(Value::as_f64);
-        value.map_or("-".into(), |x| format!("{:.decimals$}", x * unit))
+        let value = self.summary.pointer(pointer).unwrap_or(&Value::Null);
+        number(value, unit, decimals)
     }
 
     /// The simulated time in a unit that suits it: runs take from microseconds to hours.
@@ -79,36 +108,25 @@ impl RunFolder {
         self.summary.pointer(pointer).map_or("-".into(), plain)
     }
 
-    /// Columns of the table of all runs.
-    pub(crate) const COLUMNS: [&str; 11] = [
-        "run",
-        "end",
-        "results",
-        "steps",
-        "simulated",
-        "gap left (um)",
-        "pressure at the end (MPa)",
-        "volume change (%)",
-        "deepest point in wood (um)",
-        "CPU (s)",
-        "memory (MB)",
-    ];
-
-    /// Its row.
-    pub(crate) fn row(&self) -> Vec<String> {
+    /// Columns of the table of all runs, and its row.
+    pub(crate) fn row(&self) -> [(&'static str, String); 11] {
         let sound = if self.end.sound { "sound" } else { "not sound" };
-        vec![
-            self.label.clone(),
-            self.end.end.replace('-', " "),
-            sound.into(),
-            self.text("/steps"),
-            self.time(),
-            self.number("/gap_m", 1e6, 2),
-            self.number("/final_pressure_pa", 1e-6, 3),
-            self.number("/invariants/volume_change", 100.0, 3),
-            self.number("/invariants/deepest_m", 1e6, 3),
-            self.number("/cpu_s", 1.0, 1),
-            self.number("/peak_memory_bytes", 1e-6, 0),
+        let pressure = self.number("/final_pressure_pa", 1e-6, 3);
+        let volume = self.number("/invariants/volume_change", 100.0, 3);
+        let deepest = self.number("/invariants/deepest_m", 1e6, 3);
+        let memory = self.number("/peak_memory_bytes", 1e-6, 0);
+        [
+            ("run", self.label.clone()),
+            ("end", self.end.end.replace('-', " ")),
+            ("results", sound.into()),
+            ("steps", self.text("/steps")),
+            ("simulated", self.time()),
+            ("gap left (um)", self.number("/gap_m", 1e6, 2)),
+            ("pressure at the end (MPa)", pressure),
+            ("volume change (%)", volume),
+            ("deepest point in wood (um)", deepest),
+            ("CPU (s)", self.number("/cpu_s", 1.0, 1)),
+            ("memory (MB)", memory),
         ]
     }
 
@@ -151,13 +169,11 @@ impl RunFolder {
                 "<p>Not measured with this update, shape and options; lumens of 17.4 um, not this specimen's, are {across} cells across.</p>\n"
             );
         };
-        let errors = self.list("/expected_error/errors").iter().map(|error| {
-            let percent = error.get("relative").and_then(Value::as_f64);
-            let text = |key: &str| error.get(key).map_or("-".into(), plain);
-            let percent = percent.map_or("-".into(), |r| format!("{:.2}", 100.0 * r));
-            vec![text("quantity"), text("scene"), percent]
-        });
-        let errors: Vec<Vec<String>> = errors.collect();
+        let list = self.list("/expected_error/errors");
+        let mut errors = rows(list, ["quantity", "scene"]);
+        for (row, error) in errors.iter_mut().zip(list) {
+            row.push(number(&error["relative"], 100.0, 2));
+        }
         let others = self.list("/expected_error/not_as_measured");
         let others: Vec<String> = others.iter().map(plain).collect();
         let others = match others.join(", ") {
@@ -175,30 +191,23 @@ impl RunFolder {
     }
 
     fn cost(&self) -> String {
+        let stepping = self.number("/stepping_wall_s", 1.0, 2);
+        let memory = self.number("/peak_memory_bytes", 1e-6, 1);
+        let speed = self.number("/particle_steps_per_s", 1.0, 0);
         let facts = [
             ("CPU time (s)", self.number("/cpu_s", 1.0, 2)),
-            (
-                "wall time in steps (s)",
-                self.number("/stepping_wall_s", 1.0, 2),
-            ),
+            ("wall time in steps (s)", stepping),
             ("threads", self.text("/threads")),
-            (
-                "peak memory (MB)",
-                self.number("/peak_memory_bytes", 1e-6, 1),
-            ),
+            ("peak memory (MB)", memory),
             ("material points", self.text("/liquid_points")),
-            (
-                "particle-steps per second",
-                self.number("/particle_steps_per_s", 1.0, 0),
-            ),
+            ("particle-steps per second", speed),
         ];
         let facts = facts.map(|(name, value)| vec![name.to_owned(), value]);
-        let stages = self.list("/stages").iter().map(|stage| {
-            let name = stage.get("name").map_or("-".into(), plain);
-            let wall = stage.get("wall_s").and_then(Value::as_f64);
-            vec![name, wall.map_or("-".into(), |s| format!("{s:.3}"))]
-        });
-        let stages: Vec<Vec<String>> = stages.collect();
+        let list = self.list("/stages");
+        let mut stages = rows(list, ["name"]);
+        for (row, stage) in stages.iter_mut().zip(list) {
+            row.push(number(&stage["wall_s"], 1.0, 3));
+        }
         html::table("Whole run", &["what", "value"], &facts)
             + &html::table("Stages of a step", &["stage", "wall time (s)"], &stages)
     }
@@ -214,8 +223,14 @@ impl RunFolder {
     }
 }
 
-/// Two members of each object.
-fn rows(list: &[Value], keys: [&str; 2]) -> Vec<Vec<String>> {
+/// A number times `unit`, with so many decimals.
+fn number(value: &Value, unit: f64, decimals: usize) -> String {
+    let value = value.as_f64();
+    value.map_or("-".into(), |x| format!("{:.decimals$}", x * unit))
+}
+
+/// Some members of each object.
+fn rows<const N: usize>(list: &[Value], keys: [&str; N]) -> Vec<Vec<String>> {
     let member = |value: &Value, key: &str| value.get(key).map_or("-".into(), plain);
     let row = |value: &Value| keys.map(|key| member(value, key)).to_vec();
     list.iter().map(row).collect()
@@ -231,7 +246,6 @@ fn rounded(value: &Value) -> String {
 
 /// A text without its quotes, else JSON.
 fn plain(value: &Value) -> String {
-    value
-        .as_str()
-        .map_or_else(|| value.to_string(), str::to_owned)
+    let text = value.as_str().map(str::to_owned);
+    text.unwrap_or_else(|| value.to_string())
 }

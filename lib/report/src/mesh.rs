@@ -2,11 +2,10 @@
 
 use std::io::Write;
 
+use figures::base64;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use voxels::Surface;
-
-use crate::html::base64;
 
 /// A surface for the viewer: number of vertices and triangles (u32 each), then coordinates as u16
 /// of the box's edges and numbers of vertices as u32, each as difference from the one three before,

@@ -12,80 +12,48 @@ const OGL: &str = include_str!("../assets/ogl.min.js");
 const POLICY: &str =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
-/// A section with its heading.
-struct Section {
-    id: &'static str,
-    title: &'static str,
-    body: String,
-}
-
-/// The page of a report.
-pub(crate) fn write(report: &Report) -> String {
-    let title = escape(&report.title);
-    let sections = sections(report);
-    let mut out = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<nav aria-label=\"Sections\"><ul>\n"
-    );
-    for section in &sections {
-        out += &format!(
-            "<li><a href=\"#{}\">{}</a></li>\n",
-            section.id, section.title
+impl Report {
+    /// The page.
+    pub fn to_html(&self) -> String {
+        let title = escape(&self.title);
+        let rest = self.pictures.get(summary::PICTURES..).unwrap_or_default();
+        let mut sections = vec![
+            ("summary", "Summary", summary::write(self)),
+            ("tables", "Tables", self.tables.concat()),
+            ("pictures", "Pictures", rest.concat()),
+            ("views", "In 3D", self.scenes.concat()),
+            ("runs", "Runs", runs(&self.runs)),
+            ("provenance", "How this page was made", provenance(self)),
+        ];
+        sections.retain(|(_, _, body)| !body.is_empty());
+        let mut out = format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<nav aria-label=\"Sections\"><ul>\n"
         );
+        for (id, title, _) in &sections {
+            out += &format!("<li><a href=\"#{id}\">{title}</a></li>\n");
+        }
+        out += "</ul></nav>\n</header>\n<main>\n";
+        for (id, title, body) in &sections {
+            out += &format!("<section id=\"{id}\">\n<h2>{title}</h2>\n{body}</section>\n");
+        }
+        out += "</main>\n";
+        if !self.scenes.is_empty() {
+            out += &format!("<script>{OGL}</script>\n<script>{VIEWER}</script>\n");
+        }
+        out + "</body>\n</html>\n"
     }
-    out += "</ul></nav>\n</header>\n<main>\n";
-    for Section { id, title, body } in &sections {
-        out += &format!("<section id=\"{id}\">\n<h2>{title}</h2>\n{body}</section>\n");
-    }
-    out += "</main>\n";
-    if !report.scenes.is_empty() {
-        out += &format!("<script>{OGL}</script>\n<script>{VIEWER}</script>\n");
-    }
-    out + "</body>\n</html>\n"
-}
-
-fn sections(report: &Report) -> Vec<Section> {
-    let section = |id, title, body| Section { id, title, body };
-    let pictures = &report.pictures;
-    let all = [
-        section("summary", "Summary", summary::write(report)),
-        section(
-            "tables",
-            "Tables",
-            concat(&report.tables, crate::Table::to_html),
-        ),
-        section(
-            "pictures",
-            "Pictures",
-            concat(
-                pictures.get(summary::PICTURES..).unwrap_or_default(),
-                crate::Picture::to_html,
-            ),
-        ),
-        section(
-            "views",
-            "In 3D",
-            concat(&report.scenes, crate::Scene::to_html),
-        ),
-        section("runs", "Runs", runs(&report.runs)),
-        section("provenance", "How this page was made", provenance(report)),
-    ];
-    all.into_iter()
-        .filter(|section| !section.body.is_empty())
-        .collect()
-}
-
-fn concat<T>(parts: &[T], html: fn(&T) -> String) -> String {
-    parts.iter().map(html).collect()
 }
 
 fn runs(runs: &[RunFolder]) -> String {
-    if runs.is_empty() {
+    let Some(first) = runs.first() else {
         return String::new();
-    }
-    let rows: Vec<Vec<String>> = runs.iter().map(RunFolder::row).collect();
+    };
+    let headers = first.row().map(|(header, _)| header);
+    let row = |run: &RunFolder| run.row().map(|(_, cell)| cell).to_vec();
+    let rows: Vec<Vec<String>> = runs.iter().map(row).collect();
     let one = |run: &RunFolder| format!("<h3>{}</h3>\n{}", escape(&run.label), run.to_html());
     let details: String = runs.iter().map(one).collect();
-    table("How the runs ended", &RunFolder::COLUMNS, &rows) + &details
+    table("How the runs ended", &headers, &rows) + &details
 }
 
 fn provenance(report: &Report) -> String {

@@ -1,94 +1,58 @@
 //! A state in 3D: the surfaces of wood and adhesive of its voxels.
 
-use figures::{Direction, Page, Views, Wood};
+use figures::{Direction, Page, Views, Wood, base64};
 use particle_file::{BitGrid, ParticleFile};
 use voxels::{ADHESIVE, LabelVolume, Surface, WOOD};
 
-use crate::html::{base64, escape};
+use crate::html::escape;
 use crate::mesh::packed;
 use crate::{Error, Labelled};
 
 /// Voxels that the viewer shows; of a larger state the middle of the bond plane is.
 const MOST_VOXELS: usize = 700_000;
-/// Pixels per inch of the picture: a bond fits on a screen.
-const DPI: f64 = 150.0;
+/// The picture for those who run no scripts: at this many pixels per inch a bond fits on a screen.
+const PAGE: Page = Page {
+    width_mm: None,
+    dpi: 150.0,
+};
 
-/// Wood and adhesive of a state, the bond normal up.
-pub struct Scene {
-    pub(crate) label: String,
-    /// What is shown, in words.
-    pub(crate) detail: String,
-    /// Edges of the box in voxels: to the right, up, towards the viewer.
-    pub(crate) edges: [f32; 3],
-    pub(crate) wood: Surface,
-    pub(crate) adhesive: Surface,
-    /// What those see who run no scripts, PNG: the whole state as `bond-figures view` draws it.
-    picture: Vec<u8>,
-}
-
-impl Scene {
-    /// Reads a specimen, bond or state.
-    ///
-    /// # Errors
-    /// An unreadable or damaged file, or one without voxels.
-    pub fn read(file: &Labelled) -> Result<Self, Error> {
-        let picture = picture(file).map_err(|e| Error(e.to_string()))?;
-        let told = |e: particle_file::Error| Error(e.to_string());
-        let particles = ParticleFile::open(&file.path).map_err(told)?;
-        let labels = LabelVolume::of(&particles).map_err(told)?;
-        let up = usize::from(particles.header().normal);
-        let axes = [(up + 2) % 3, up, (up + 1) % 3];
-        let window = Window::of(labels.dims, axes);
-        let pick = |label: u8| {
-            BitGrid::from_fn(window.size, |i, j, k| {
-                labels.label(window.voxel([i, j, k])) == label
-            })
-        };
-        let (wood, adhesive) = (pick(WOOD), pick(ADHESIVE));
-        let everywhere = BitGrid::from_fn(window.size, |_, _, _| true);
-        let open = BitGrid::from_fn(window.size, |i, j, k| !wood.get(i, j, k));
-        Ok(Self {
-            label: file.label.clone(),
-            detail: window.told(labels.dims, labels.voxel_m),
-            edges: window.size.map(|n| n as f32),
-            wood: Surface::of(&wood, &everywhere),
-            adhesive: Surface::of(&adhesive, &open),
-            picture,
+/// Wood and adhesive of a specimen, bond or state, the bond normal up, as HTML: a picture, the nearer half of the wood
+/// cut away, and what the viewer makes of it where scripts run.
+///
+/// # Errors
+/// An unreadable or damaged file, or one without voxels.
+pub fn scene(file: &Labelled) -> Result<String, Error> {
+    let from = Direction::default();
+    let views = Views::read(std::slice::from_ref(file), Wood::Cut, from)?;
+    let picture = base64(&views.draw(PAGE).to_png()?);
+    let particles = ParticleFile::open(&file.path)?;
+    let labels = LabelVolume::of(&particles)?;
+    let up = usize::from(particles.header().normal);
+    let window = Window::of(labels.dims, [(up + 2) % 3, up, (up + 1) % 3]);
+    let pick = |label: u8| {
+        BitGrid::from_fn(window.size, |i, j, k| {
+            labels.label(window.voxel([i, j, k])) == label
         })
-    }
-
-    /// The scene as HTML: a picture, and what the viewer makes of it where scripts run.
-    pub(crate) fn to_html(&self) -> String {
-        let (label, detail) = (escape(&self.label), escape(&self.detail));
-        let from = Direction::default();
-        let data = serde_json::json!({
-            "edges": self.edges,
-            "turn": from.turn.to_radians(),
-            "tilt": from.tilt.to_radians(),
-            "wood": packed(&self.wood, self.edges),
-            "adhesive": packed(&self.adhesive, self.edges),
-        });
-        // No text may end the element that holds it.
-        let data = data.to_string().replace('<', "\\u003c");
-        format!(
-            "<figure class=\"scene\"><img alt=\"{label}: pressed bond seen from above and aside; adhesive in orange, the nearer half of the wood cut away\" src=\"data:image/png;base64,{}\">\n<script type=\"application/json\">{data}</script>\n<figcaption>{label}: {detail}.</figcaption></figure>\n",
-            base64(&self.picture)
-        )
-    }
-}
-
-/// The state from where the viewer begins, the nearer half of the wood cut away.
-fn picture(file: &Labelled) -> Result<Vec<u8>, figures::Error> {
-    let file = figures::Labelled {
-        label: file.label.clone(),
-        path: file.path.clone(),
     };
-    let page = Page {
-        dpi: DPI,
-        ..Page::default()
-    };
-    let views = Views::read(&[file], Wood::Cut, Direction::default())?;
-    views.on(page).draw().to_png()
+    let (wood, adhesive) = (pick(WOOD), pick(ADHESIVE));
+    let everywhere = BitGrid::from_fn(window.size, |_, _, _| true);
+    let open = BitGrid::from_fn(window.size, |i, j, k| !wood.get(i, j, k));
+    // Edges of the box in voxels: to the right, up, towards the viewer.
+    let edges = window.size.map(|n| n as f32);
+    let data = serde_json::json!({
+        "edges": edges,
+        "turn": from.turn.to_radians(),
+        "tilt": from.tilt.to_radians(),
+        "wood": packed(&Surface::of(&wood, &everywhere), edges),
+        "adhesive": packed(&Surface::of(&adhesive, &open), edges),
+    });
+    // No text may end the element that holds it.
+    let data = data.to_string().replace('<', "\\u003c");
+    let label = escape(&file.label);
+    let detail = escape(&window.told(labels.dims, labels.voxel_m));
+    Ok(format!(
+        "<figure class=\"scene\"><img alt=\"{label}: pressed bond seen from above and aside; adhesive in orange, the nearer half of the wood cut away\" src=\"data:image/png;base64,{picture}\">\n<script type=\"application/json\">{data}</script>\n<figcaption>{label}: {detail}.</figcaption></figure>\n"
+    ))
 }
 
 /// The voxels that the viewer shows.
@@ -130,17 +94,12 @@ impl Window {
         let edges: Vec<String> = (0..3)
             .map(|i| format!("{} um along {}", um(self.size[i]), names[i]))
             .collect();
-        let whole = self.axes.map(|a| dims[a]) == self.size;
-        let part = if whole {
-            ""
-        } else {
-            "where it can be turned, the middle of the specimen, "
+        let part = match self.axes.map(|a| dims[a]) == self.size {
+            true => "",
+            false => "where it can be turned, the middle of the specimen, ",
         };
-        format!(
-            "{part}{}; {} is up, the bond normal",
-            edges.join(", "),
-            names[1]
-        )
+        let (edges, up) = (edges.join(", "), names[1]);
+        format!("{part}{edges}; {up} is up, the bond normal")
     }
 }
 

@@ -74,10 +74,8 @@ fn text<'a>(case: &'a Table, table: &str, key: &str) -> Option<&'a str> {
 }
 
 fn adhesive(case: &Table) -> String {
-    let has = |key: &str| {
-        case.get("adhesive")
-            .is_some_and(|table| table.get(key).is_some())
-    };
+    let table = case.get("adhesive");
+    let has = |key: &str| table.is_some_and(|table| table.get(key).is_some());
     let law = LAWS.iter().find(|(key, _)| has(key)).map(|(_, name)| *name);
     let mut said = match (text(case, "adhesive", "viscosity"), law) {
         (_, Some(law)) => law.to_owned(),

@@ -1,11 +1,10 @@
 //! The first section of the page: what was pressed, what came of it, what to doubt.
 
-use figures::RunEnd;
+use figures::{Known, RunEnd};
 
 use crate::html::{escape, table, verbatim};
-use crate::penetration::{Known, Penetration};
 use crate::setup::Setup;
-use crate::{Picture, Report, RunFolder};
+use crate::{Report, RunFolder};
 
 /// Pictures that stand in the summary.
 pub(crate) const PICTURES: usize = 2;
@@ -14,19 +13,15 @@ const LARGE: f64 = 0.1;
 
 /// The section.
 pub(crate) fn write(report: &Report) -> String {
-    let mut out = String::new();
-    if !report.runs.is_empty() {
-        out += &pressed(&report.runs);
-        out += &penetration(&report.runs);
-    }
-    let pictures = report.pictures.iter().take(PICTURES);
-    let pictures: String = pictures.map(Picture::to_html).collect();
-    if !pictures.is_empty() {
-        out += &format!("<div class=\"pair\">\n{pictures}</div>\n");
-    }
-    match report.runs.is_empty() {
-        true => out,
-        false => out + &doubts(&report.runs),
+    let runs = &report.runs[..];
+    let pictures: String = report.pictures.iter().take(PICTURES).cloned().collect();
+    let pictures = match pictures.is_empty() {
+        true => pictures,
+        false => format!("<div class=\"pair\">\n{pictures}</div>\n"),
+    };
+    match runs {
+        [] => pictures,
+        runs => pressed(runs) + &penetration(runs) + &pictures + &doubts(runs),
     }
 }
 
@@ -51,39 +46,23 @@ fn pressed(runs: &[RunFolder]) -> String {
         ]
     };
     let rows: Vec<Vec<String>> = groups.iter().map(row).collect();
-    let headers = [
-        "run",
-        "specimen",
-        "size with the gap",
-        "adhesive",
-        "press",
-        "date",
-    ];
+    let size = "size with the gap";
+    let headers = ["run", "specimen", size, "adhesive", "press", "date"];
     table("What was pressed", &headers, &rows)
 }
 
 fn penetration(runs: &[RunFolder]) -> String {
     let row = |run: &RunFolder| {
-        let Penetration { wp, pressure } = &run.penetration;
         let mut row = vec![run.label.clone()];
-        row.extend(wp.iter().map(|known| known.told(2)));
-        row.push(pressure.told(2));
+        let known = run.wp.iter().chain([&run.pressure]);
+        row.extend(known.map(|known| known.told(2).join(" \u{b1} ")));
         row.push(run.end.mark().unwrap_or_else(|| ended(&run.end)));
         row
     };
     let rows: Vec<Vec<String>> = runs.iter().map(row).collect();
-    let headers = [
-        "run",
-        "bottom",
-        "top",
-        "total",
-        "pressure at the end (MPa)",
-        "press",
-    ];
-    let note = match runs
-        .iter()
-        .any(|run| run.penetration.wp[2].error.is_finite())
-    {
+    let pressure = "pressure at the end (MPa)";
+    let headers = ["run", "bottom", "top", "total", pressure, "press"];
+    let note = match runs.iter().any(|run| run.wp[2].has_error()) {
         true => {
             "<p class=\"note\">With \u{b1}: extrapolated to infinitely small cells (first order); the error is the difference of two sizes of cells. Others: as run.</p>\n"
         }
@@ -108,10 +87,8 @@ fn doubts(runs: &[RunFolder]) -> String {
     for run in runs {
         if let Some(advice) = run.end.advice() {
             let (said, command) = advice.split_once(":\n").unwrap_or((&advice, ""));
-            let command = match command.trim() {
-                "" => String::new(),
-                command => verbatim(command),
-            };
+            let command = Some(command.trim()).filter(|command| !command.is_empty());
+            let command = command.map_or(String::new(), verbatim);
             let (label, said) = (escape(&run.label), escape(said));
             items.push(format!("<strong>{label}: {said}</strong>{command}"));
         }
@@ -132,22 +109,20 @@ fn doubts(runs: &[RunFolder]) -> String {
         "Adhesive came to the outer face of the wood: the specimen is too small",
         &|run| run.outer_face_reached(),
     );
-    let large = |known: &Known| known.error > LARGE * known.value.abs();
+    let large = |known: &Known| known.error > LARGE * known.best().abs();
     say("WP of a side is off by more than a tenth", &|run| {
-        run.penetration.wp.iter().any(large)
+        run.wp.iter().any(large)
     });
     say(
         "The pressure at the end is off by more than a tenth",
-        &|run| large(&run.penetration.pressure),
+        &|run| large(&run.pressure),
     );
     say(
         "The error by the size of the cells is not known (wp-metrics --finer tells it)",
-        &|run| !run.penetration.wp[2].error.is_finite(),
+        &|run| !run.wp[2].has_error(),
     );
     items.push("How well either scheme predicts a real bond line is not known: no scanned one was at hand.".into());
-    let items: String = items
-        .iter()
-        .map(|item| format!("<li>{item}</li>\n"))
-        .collect();
+    let items = items.iter().map(|item| format!("<li>{item}</li>\n"));
+    let items: String = items.collect();
     format!("<h3>What to doubt</h3>\n<ul class=\"doubts\">\n{items}</ul>\n")
 }

@@ -2,13 +2,13 @@
 
 use clap::{Args, Parser, Subcommand};
 use cli::Output;
-use figures::{Case, Labelled, Position};
+use figures::{Case, Colouring, Labelled, Position, Shown};
 use units::Axis;
 
 use crate::picture::{Look, Picture, Print};
 use crate::values::{
-    Colour, Extent, Limit, Part, Shown, Target, cell, experiment, given, labelled, name, part, png,
-    position, rate, run, share,
+    COLOURINGS, Extent, SHOWN, Target, cell, experiment, given, labelled, limit, name, one_of,
+    part, png, position, rate, run, share,
 };
 
 /// Draw the figures of the pipeline and print Table 2 from the tools' output files
@@ -30,16 +30,16 @@ impl Arguments {
     /// The common options of whichever figure.
     pub(crate) fn common(&self) -> &cli::Common {
         match &self.figure {
-            Figure::Pressure(a) => &a.picture.common,
-            Figure::Map(a) => &a.picture.common,
-            Figure::Shear(a) => &a.picture.common,
-            Figure::Penetration(a) => &a.picture.common,
-            Figure::Slice(a) => &a.picture.common,
-            Figure::Response(a) => &a.picture.common,
-            Figure::Pores(a) => &a.picture.common,
-            Figure::View(a) => &a.picture.common,
+            Figure::Pressure { picture, .. }
+            | Figure::Map { picture, .. }
+            | Figure::Shear { picture, .. }
+            | Figure::Penetration { picture, .. }
+            | Figure::Pores { picture, .. }
+            | Figure::Slice { picture, .. }
+            | Figure::Response { picture, .. }
+            | Figure::Setup { picture, .. }
+            | Figure::View { picture, .. } => &picture.common,
             Figure::Movie(a) => &a.common,
-            Figure::Setup(a) => &a.picture.common,
             Figure::Table2(a) => &a.common,
         }
     }
@@ -52,56 +52,153 @@ pub(crate) enum Figure {
   bond-figures pressure --run \"XPIC(5)=out/pf-xpic\" --run FLIP=out/pf-flip -o pressure.svg
   bond-figures pressure --run out/pf-xpic --limit \"2.5 MPa\" --title PF -o pf.svg -o pf.png
   bond-figures pressure --run quick=history.csv -o - > pressure.svg")]
-    Pressure(PressureArgs),
+    Pressure {
+        /// A run: its folder or its history.csv; may be repeated
+        #[arg(long, value_name = "[LABEL=]RUNDIR", required = true, value_parser = given(labelled))]
+        run: Vec<Labelled>,
+        /// The same in cells half as large, by the LABEL of its run: its pressure gets a band, in cells of
+        /// no size by first order +- the difference; may be repeated
+        #[arg(long, value_name = "LABEL=RUNDIR", value_parser = given(labelled))]
+        finer: Vec<Labelled>,
+        /// Draw this pressure as a dashed line
+        #[arg(long, value_name = "PRESSURE", value_parser = limit)]
+        limit: Option<f64>,
+        /// Title above the figure
+        #[arg(long, value_name = "TEXT")]
+        title: Option<String>,
+        #[command(flatten)]
+        picture: Picture,
+    },
     /// Weighted penetration over the bond plane (Figs. 8 and 9)
     #[command(after_help = "Examples:
   bond-figures map --map experiment=exp-map.csv --map \"XPIC(5)=xpic-map.csv\" -o map.png
   wp-metrics final.mpts --map map.csv && bond-figures map --map map.csv -o map.svg
   bond-figures map --map a.csv --map b.csv -o ab.svg -o ab.png")]
-    Map(MapArgs),
+    Map {
+        /// A map as `wp-metrics --map` writes; may be repeated
+        #[arg(long, value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
+        map: Vec<Labelled>,
+        #[command(flatten)]
+        picture: Picture,
+    },
     /// Quantiles of the shear rate against time (Figs. 10 and 11)
     #[command(after_help = "Examples:
   bond-figures shear shear.csv -o shear.svg
   bond-figures shear PF=pf-shear.csv PVA-PF=pva-pf-shear.csv -o shear.png
   shear-stats out/pf/snapshots/*.mpts -o s.csv && bond-figures shear PF=s.csv -o s.svg")]
-    Shear(ShearArgs),
+    Shear {
+        /// Tables of `shear-stats`, one panel each
+        #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
+        files: Vec<Labelled>,
+        #[command(flatten)]
+        picture: Picture,
+    },
     /// Penetration of each side and wetted area over time, filled lumens by depth
     #[command(after_help = "Examples:
   wp-metrics --series out/press -o series.csv && bond-figures penetration series.csv -o depth.svg
   bond-figures penetration PF=pf-series.csv PVAc=pvac-series.csv -o depth.png
   bond-figures penetration --show filled depth-profile.csv -o filled.svg")]
-    Penetration(PenetrationArgs),
+    Penetration {
+        /// Tables of `wp-metrics --series`, or runs (folder or history.csv) whose case has [output] penetration = true;
+        /// for --show filled, tables of its --profile
+        #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
+        files: Vec<Labelled>,
+        /// WP and depth of 95 % of the adhesive, or wetted area, over time; or filled share of the open lumens by depth
+        #[arg(long, value_name = "WHAT", default_value = "depth", value_parser = one_of(SHOWN))]
+        show: Shown,
+        #[command(flatten)]
+        picture: Picture,
+    },
     /// Sizes of pores and lumens: the share of the open volume up to each diameter
     #[command(after_help = "Examples:
   wp-metrics birch.tif --pores -o pores.csv && bond-figures pores birch=pores.csv -o pores.svg
   bond-figures pores beech=beech.csv birch=birch.csv -o species.png
   wp-metrics wood/ --pores | bond-figures pores - -o pores.pdf")]
-    Pores(PoresArgs),
+    Pores {
+        /// Tables of `wp-metrics --pores`
+        #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
+        files: Vec<Labelled>,
+        #[command(flatten)]
+        picture: Picture,
+    },
     /// Slices through specimens, bonds and states of a run
     #[command(after_help = "Examples:
   bond-figures slice bond.mpts -o bond.png
   bond-figures slice start=bond.mpts end=final.mpts --normal x --at 40% -o ends.png
   bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg
   bond-figures slice bond.mpts --part \"0 um:40 um,20 um:60 um\" --grid \"2 voxels\" -o fig3.svg")]
-    Slice(SliceArgs),
+    Slice {
+        /// Particle files, one panel each
+        #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
+        files: Vec<Labelled>,
+        /// Axis that the slice is normal to: x, y or z
+        #[arg(long, value_name = "AXIS", default_value = "z")]
+        normal: Axis,
+        /// Where along that axis: a length, or a percentage of the box
+        #[arg(long, value_name = "LEN|PERCENT", default_value = "50%", allow_hyphen_values = true,
+              value_parser = position)]
+        at: Position,
+        /// Colour the adhesive: plain, or by its pressure
+        #[arg(long, default_value = "plain", value_parser = one_of(COLOURINGS))]
+        colour: Colouring,
+        /// Only this part of the slice: ends along the axis to the right, then along the one up; lengths
+        /// or voxels
+        #[arg(long, value_name = "LEN:LEN,LEN:LEN", allow_hyphen_values = true, value_parser = part)]
+        part: Option<[[Extent; 2]; 2]>,
+        /// Draw the grid of a run in cells of this size (Fig. 3), a length or voxels
+        #[arg(long, value_name = "LEN", value_parser = cell)]
+        grid: Option<Extent>,
+        #[command(flatten)]
+        picture: Picture,
+    },
     /// A result of a sweep with its error, pressure and time against each of its parameters
     #[command(after_help = "Examples:
   bond-figures response out/sweep/table.csv -o response.svg
   bond-figures response sweep.csv --result ep_um --error 8% -o ep.png
   bond-sweep collect sweep -o - | bond-figures response - -o response.svg")]
-    Response(ResponseArgs),
+    Response {
+        /// Table of `bond-sweep collect`
+        #[arg(value_name = "CSV", value_parser = given(labelled))]
+        sweep: Labelled,
+        /// Column of the result to draw
+        #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
+        result: String,
+        /// Its error by the size of the cells, as a percentage; without it 4 for WP, 6 for WP of a side and 10 for
+        /// pressures, which is what small specimens show at worst
+        #[arg(long, value_name = "PERCENT", value_parser = share)]
+        error: Option<f64>,
+        #[command(flatten)]
+        picture: Picture,
+    },
     /// How a run is set up: stack, slice, adherends parted, slab put in (Fig. 2)
     #[command(after_help = "Examples:
   bond-figures setup experiment.mpts bond.mpts -o setup.svg
   bond-figures setup experiment.mpts bond.mpts --width \"174 mm\" -o setup.pdf
   build-bondline exp.mpts -o bond.mpts && bond-figures setup exp.mpts bond.mpts -o setup.png")]
-    Setup(SetupArgs),
+    Setup {
+        /// Particle file of the specimen
+        #[arg(value_name = "SPECIMEN", value_parser = given(labelled))]
+        specimen: Labelled,
+        /// Particle file of the bond that was made of it
+        #[arg(value_name = "BOND", value_parser = given(labelled))]
+        bond: Labelled,
+        #[command(flatten)]
+        picture: Picture,
+    },
     /// Specimens, bonds and states of a run in three dimensions (Figs. 1 and 7)
     #[command(after_help = "Examples:
   bond-figures view start=bond.mpts mid=run/snapshots/0004.mpts end=run/final.mpts -o fig1.png
   bond-figures view experiment=exp.mpts FLIP=flip/final.mpts --wood hidden -o fig7.pdf
   bond-figures view final.mpts --turn -60 --tilt 40 --width \"84 mm\" --dpi 600 -o view.png")]
-    View(ViewArgs),
+    View {
+        /// Particle files, one panel each
+        #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
+        files: Vec<Labelled>,
+        #[command(flatten)]
+        look: Look,
+        #[command(flatten)]
+        picture: Picture,
+    },
     /// The states of a run in three dimensions as an animated PNG, which browsers play
     #[command(after_help = "Examples:
   bond-figures movie out/pf-implicit -o press.png
@@ -116,114 +213,6 @@ pub(crate) enum Figure {
   bond-figures table2 --run pf:implicit=wp.csv --errors errors.csv -o table2.csv
   bond-figures table2 --run pf:flip=wp.csv --name pf=PF --picture t.pdf --width \"84 mm\" -o t.csv")]
     Table2(Table2Args),
-}
-
-#[derive(Args)]
-pub(crate) struct PressureArgs {
-    /// A run: its folder or its history.csv; may be repeated
-    #[arg(long, value_name = "[LABEL=]RUNDIR", required = true, value_parser = given(labelled))]
-    pub(crate) run: Vec<Labelled>,
-    /// The same in cells half as large, by the LABEL of its run: its pressure gets a band, in cells of
-    /// no size by first order +- the difference; may be repeated
-    #[arg(long, value_name = "LABEL=RUNDIR", value_parser = given(labelled))]
-    pub(crate) finer: Vec<Labelled>,
-    /// Draw this pressure as a dashed line
-    #[arg(long, value_name = "PRESSURE")]
-    pub(crate) limit: Option<Limit>,
-    /// Title above the figure
-    #[arg(long, value_name = "TEXT")]
-    pub(crate) title: Option<String>,
-    #[command(flatten)]
-    pub(crate) picture: Picture,
-}
-
-#[derive(Args)]
-pub(crate) struct MapArgs {
-    /// A map as `wp-metrics --map` writes; may be repeated
-    #[arg(long, value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
-    pub(crate) map: Vec<Labelled>,
-    #[command(flatten)]
-    pub(crate) picture: Picture,
-}
-
-#[derive(Args)]
-pub(crate) struct ShearArgs {
-    /// Tables of `shear-stats`, one panel each
-    #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
-    pub(crate) files: Vec<Labelled>,
-    #[command(flatten)]
-    pub(crate) picture: Picture,
-}
-
-#[derive(Args)]
-pub(crate) struct PenetrationArgs {
-    /// Tables of `wp-metrics --series`, or runs (folder or history.csv) whose case has [output] penetration = true;
-    /// for --show filled, tables of its --profile
-    #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
-    pub(crate) files: Vec<Labelled>,
-    /// WP and depth of 95 % of the adhesive, or wetted area, over time; or filled share of the open lumens by depth
-    #[arg(long, value_name = "WHAT", default_value = "depth")]
-    pub(crate) show: Shown,
-    #[command(flatten)]
-    pub(crate) picture: Picture,
-}
-
-#[derive(Args)]
-pub(crate) struct PoresArgs {
-    /// Tables of `wp-metrics --pores`
-    #[arg(value_name = "[LABEL=]CSV", required = true, value_parser = given(labelled))]
-    pub(crate) files: Vec<Labelled>,
-    #[command(flatten)]
-    pub(crate) picture: Picture,
-}
-
-#[derive(Args)]
-pub(crate) struct SliceArgs {
-    /// Particle files, one panel each
-    #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
-    pub(crate) files: Vec<Labelled>,
-    /// Axis that the slice is normal to: x, y or z
-    #[arg(long, value_name = "AXIS", default_value = "z")]
-    pub(crate) normal: Axis,
-    /// Where along that axis: a length, or a percentage of the box
-    #[arg(long, value_name = "LEN|PERCENT", default_value = "50%", allow_hyphen_values = true,
-          value_parser = position)]
-    pub(crate) at: Position,
-    /// Colour the adhesive: plain, or by its pressure
-    #[arg(long, value_enum, default_value = "plain")]
-    pub(crate) colour: Colour,
-    /// Only this part of the slice: ends along the axis to the right, then along the one up; lengths
-    /// or voxels
-    #[arg(long, value_name = "LEN:LEN,LEN:LEN", allow_hyphen_values = true, value_parser = part)]
-    pub(crate) part: Option<Part>,
-    /// Draw the grid of a run in cells of this size (Fig. 3), a length or voxels
-    #[arg(long, value_name = "LEN", value_parser = cell)]
-    pub(crate) grid: Option<Extent>,
-    #[command(flatten)]
-    pub(crate) picture: Picture,
-}
-
-#[derive(Args)]
-pub(crate) struct SetupArgs {
-    /// Particle file of the specimen
-    #[arg(value_name = "SPECIMEN", value_parser = given(labelled))]
-    pub(crate) specimen: Labelled,
-    /// Particle file of the bond that was made of it
-    #[arg(value_name = "BOND", value_parser = given(labelled))]
-    pub(crate) bond: Labelled,
-    #[command(flatten)]
-    pub(crate) picture: Picture,
-}
-
-#[derive(Args)]
-pub(crate) struct ViewArgs {
-    /// Particle files, one panel each
-    #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
-    pub(crate) files: Vec<Labelled>,
-    #[command(flatten)]
-    pub(crate) look: Look,
-    #[command(flatten)]
-    pub(crate) picture: Picture,
 }
 
 #[derive(Args)]
@@ -243,22 +232,6 @@ pub(crate) struct MovieArgs {
     pub(crate) print: Print,
     #[command(flatten)]
     common: cli::Common,
-}
-
-#[derive(Args)]
-pub(crate) struct ResponseArgs {
-    /// Table of `bond-sweep collect`
-    #[arg(value_name = "CSV", value_parser = given(labelled))]
-    pub(crate) sweep: Labelled,
-    /// Column of the result to draw
-    #[arg(long, value_name = "COLUMN", default_value = "wp_um")]
-    pub(crate) result: String,
-    /// Its error by the size of the cells, as a percentage; without it 4 for WP, 6 for WP of a side and 10 for
-    /// pressures, which is what small specimens show at worst
-    #[arg(long, value_name = "PERCENT", value_parser = share)]
-    pub(crate) error: Option<f64>,
-    #[command(flatten)]
-    pub(crate) picture: Picture,
 }
 
 #[derive(Args)]
@@ -293,11 +266,6 @@ pub(crate) struct Table2Args {
 }
 
 impl Table2Args {
-    /// How many of the cases are experiments.
-    pub(crate) fn experiments(&self) -> usize {
-        self.experiment.len()
-    }
-
     /// Experiments, then runs.
     pub(crate) fn cases(&self) -> Vec<Case> {
         self.experiment.iter().chain(&self.run).cloned().collect()

@@ -70,11 +70,11 @@ impl Inputs {
         };
         let inputs = Self::new(cases.iter().map(file).collect())?;
         let placed = cases.into_iter().zip(&inputs.files);
-        let cases = placed.map(|(case, file)| Case {
+        let placed = placed.map(|(case, file)| Case {
             path: file.path.clone(),
             ..case
         });
-        let cases = cases.collect();
+        let cases = placed.collect();
         Ok((inputs, cases))
     }
 
@@ -101,21 +101,17 @@ impl Inputs {
     /// The provenance of an output made of these files.
     pub(crate) fn record(&self) -> Result<Record, Failure> {
         let files = self.files.iter().map(|file| &file.path).zip(&self.given);
-        let hashed =
-            files
-                .chain(self.summaries.iter().zip(&self.summaries))
-                .map(|(file, given)| {
-                    let name = given.display().to_string();
-                    cli::hash_file(file)
-                        .map(|hash| InputRecord::new(name.clone(), hash))
-                        .map_err(|e| Failure::data(format!("cannot read '{name}': {e}")))
-                });
+        let files = files.chain(self.summaries.iter().zip(&self.summaries));
+        let hashed = files.map(|(file, given)| {
+            let name = given.display().to_string();
+            match cli::hash_file(file) {
+                Ok(hash) => Ok(InputRecord::new(name, hash)),
+                Err(e) => Err(Failure::data(format!("cannot read '{name}': {e}"))),
+            }
+        });
+        let hashed = hashed.collect::<Result<_, _>>()?;
         let (tool, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
-        Ok(Record::new(
-            tool,
-            version,
-            hashed.collect::<Result<_, _>>()?,
-        ))
+        Ok(Record::new(tool, version, hashed))
     }
 }
 

@@ -9,14 +9,13 @@ use std::process::ExitCode;
 
 use cli::{Failure, Output, Record};
 use figures::{
-    Case, CellErrors, Closing, Cut, Drawing, Error, Labelled, Movie, Response, Setup, ShearRates,
-    Slices, Table2, Views, WpMap, penetrations, pores,
+    Cut, Drawing, Error, Labelled, Slices, Table2, Views, closing, penetrations, pores, response,
+    setup, shear_rates, wp_maps,
 };
 use particle_file::{by_time, states_of_run};
 
-use arguments::{Arguments, Figure, MovieArgs, SliceArgs, Table2Args};
+use arguments::{Arguments, Figure, MovieArgs, Table2Args};
 use inputs::Inputs;
-use picture::Picture;
 use values::{Format, Target};
 
 fn main() -> ExitCode {
@@ -24,77 +23,109 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: Arguments) -> Result<(), Failure> {
-    match arguments.figure {
-        Figure::Pressure(a) => {
-            let runs = a.run.len();
-            let inputs = Inputs::of_runs(a.run.into_iter().chain(a.finer).collect())?;
+    let (inputs, picture, drawing) = match arguments.figure {
+        Figure::Movie(a) => return movie(&a),
+        Figure::Table2(a) => return table2(&a),
+        Figure::Pressure {
+            run,
+            finer,
+            limit,
+            title,
+            picture,
+        } => {
+            let runs = run.len();
+            let inputs = Inputs::of_runs([run, finer].concat())?;
             let (run, finer) = inputs.files().split_at(runs);
-            let limit = a.limit.map(|pressure| pressure.0);
-            let title = a.title.as_deref().unwrap_or_default();
-            let figure = Closing::read(run, finer, limit, title).map_err(failure)?;
-            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
+            let title = title.unwrap_or_default();
+            let drawing = closing(run, finer, limit, &title, picture.print.page());
+            (inputs, picture, drawing)
         }
-        Figure::Map(a) => {
-            let inputs = Inputs::new(a.map)?.marked()?;
-            let figure = WpMap::read(inputs.files()).map_err(failure)?;
-            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
+        Figure::Map { map, picture } => {
+            let inputs = Inputs::new(map)?.marked()?;
+            let drawing = wp_maps(inputs.files(), picture.print.page());
+            (inputs, picture, drawing)
         }
-        Figure::Shear(a) => {
-            let inputs = Inputs::new(a.files)?.marked()?;
-            let figure = ShearRates::read(inputs.files()).map_err(failure)?;
-            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
+        Figure::Shear { files, picture } => {
+            let inputs = Inputs::new(files)?.marked()?;
+            let drawing = shear_rates(inputs.files(), picture.print.page());
+            (inputs, picture, drawing)
         }
-        Figure::Penetration(a) => {
-            let inputs = Inputs::of_runs(a.files)?.marked()?;
-            let plot = penetrations(inputs.files(), a.show.into())
-                .map_err(failure)?
-                .on(a.picture.page());
-            write(&plot.draw().map_err(failure)?, &a.picture, &inputs)
+        Figure::Penetration {
+            files,
+            show,
+            picture,
+        } => {
+            let inputs = Inputs::of_runs(files)?.marked()?;
+            let plot = penetrations(inputs.files(), show);
+            let drawing = plot.and_then(|plot| plot.draw(picture.print.page()));
+            (inputs, picture, drawing)
         }
-        Figure::Pores(a) => {
-            let inputs = Inputs::new(a.files)?;
-            let plot = pores(inputs.files()).map_err(failure)?.on(a.picture.page());
-            write(&plot.draw().map_err(failure)?, &a.picture, &inputs)
+        Figure::Pores { files, picture } => {
+            let inputs = Inputs::new(files)?;
+            let plot = pores(inputs.files());
+            let drawing = plot.and_then(|plot| plot.draw(picture.print.page()));
+            (inputs, picture, drawing)
         }
-        Figure::Response(a) => {
-            let inputs = Inputs::new(vec![a.sweep])?;
-            let figure = Response::read(&inputs.files()[0], &a.result, a.error).map_err(failure)?;
-            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
+        Figure::Response {
+            sweep,
+            result,
+            error,
+            picture,
+        } => {
+            let inputs = Inputs::new(vec![sweep])?;
+            let drawing = response(&inputs.files()[0], &result, error, picture.print.page());
+            (inputs, picture, drawing)
         }
-        Figure::Slice(a) => slice(a),
-        Figure::Setup(a) => {
-            let inputs = Inputs::new(vec![a.specimen, a.bond])?;
-            let files = inputs.files();
-            let figure = Setup::read(&files[0], &files[1]).map_err(failure)?;
-            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
+        Figure::Slice {
+            files,
+            normal,
+            at,
+            colour,
+            part,
+            grid,
+            picture,
+        } => {
+            let inputs = Inputs::new(files)?.marked()?;
+            let cut = Cut {
+                axis: normal,
+                position: at,
+            };
+            let mut slices = Slices::read(inputs.files(), cut, colour);
+            let voxel = slices.as_ref().map_or(f64::NAN, Slices::voxel_m);
+            if let Some(part) = part {
+                let part = part.map(|ends| ends.map(|end| end.si(voxel)));
+                slices = slices.and_then(|slices| slices.part(part));
+            }
+            if let Some(cell) = grid {
+                slices = slices.and_then(|slices| slices.grid(cell.si(voxel)));
+            }
+            let drawing = slices.map(|slices| slices.draw(picture.print.page()));
+            (inputs, picture, drawing)
         }
-        Figure::View(a) => {
-            let inputs = Inputs::new(a.files)?.marked()?;
-            let (wood, from) = (a.look.wood.into(), a.look.from());
-            let figure = Views::read(inputs.files(), wood, from).map_err(failure)?;
-            write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
+        Figure::Setup {
+            specimen,
+            bond,
+            picture,
+        } => {
+            let inputs = Inputs::new(vec![specimen, bond])?;
+            let [specimen, bond] = [0, 1].map(|i| &inputs.files()[i]);
+            let drawing = setup(specimen, bond, picture.print.page());
+            (inputs, picture, drawing)
         }
-        Figure::Movie(a) => movie(&a),
-        Figure::Table2(a) => table2(a),
-    }
-}
-
-fn slice(a: SliceArgs) -> Result<(), Failure> {
-    let inputs = Inputs::new(a.files)?.marked()?;
-    let cut = Cut {
-        axis: a.normal,
-        position: a.at,
+        Figure::View {
+            files,
+            look,
+            picture,
+        } => {
+            let inputs = Inputs::new(files)?.marked()?;
+            let views = Views::read(inputs.files(), look.wood, look.from());
+            let drawing = views.map(|views| views.draw(picture.print.page()));
+            (inputs, picture, drawing)
+        }
     };
-    let mut figure = Slices::read(inputs.files(), cut, a.colour.into()).map_err(failure)?;
-    let voxel = figure.voxel_m();
-    if let Some(part) = a.part {
-        let part = part.map(|ends| ends.map(|end| end.si(voxel)));
-        figure = figure.part(part).map_err(failure)?;
-    }
-    if let Some(cell) = a.grid {
-        figure = figure.grid(cell.si(voxel)).map_err(failure)?;
-    }
-    write(&figure.on(a.picture.page()).draw(), &a.picture, &inputs)
+    let drawing = drawing.map_err(failure)?;
+    inputs.keep_from(picture.output.iter().map(|target| &target.output))?;
+    write(&drawing, &picture.output, &inputs.record()?)
 }
 
 fn movie(a: &MovieArgs) -> Result<(), Failure> {
@@ -107,66 +138,57 @@ fn movie(a: &MovieArgs) -> Result<(), Failure> {
     });
     let inputs = Inputs::new(named.collect())?;
     inputs.keep_from([&a.output])?;
-    let movie = Movie::read(inputs.files(), a.look.wood.into(), a.look.from()).map_err(failure)?;
-    let png = movie.on(a.print.page()).to_png(a.rate).map_err(failure)?;
+    let (wood, from) = (a.look.wood, a.look.from());
+    let png = figures::movie(inputs.files(), wood, from, a.print.page(), a.rate);
+    let png = png.map_err(failure)?;
     (a.output).write_with_record(&inputs.record()?, |out| out.write_all(&png))
 }
 
-fn table2(a: Table2Args) -> Result<(), Failure> {
+fn table2(a: &Table2Args) -> Result<(), Failure> {
     let (inputs, cases) = Inputs::of_cases(a.cases())?;
     let pictures = a.picture.iter().map(|target| &target.output);
     inputs.keep_from([&a.output].into_iter().chain(&a.errors).chain(pictures))?;
     let table = Table2::read(&cases).map_err(failure)?.with_paper(a.paper);
-    let errors = errors(&a, &cases[a.experiments()..])?;
+    let has_errors = table.has_cell_errors();
+    match &a.errors {
+        Some(Output::Stdout) => {
+            return Err(Failure::usage("--errors goes to a file, not to '-'"));
+        }
+        Some(_) if !has_errors => {
+            return Err(Failure::usage(
+                "--errors: no run has an error; give the table that wp-metrics --finer writes",
+            ));
+        }
+        _ => {}
+    }
     let mut text = table.to_text();
-    text.extend(errors.iter().map(CellErrors::to_text));
+    if has_errors {
+        text += &table.cell_errors_to_text();
+    }
     // The CSV may itself go to standard output; the text for reading then gives way.
     match &a.output {
         Output::Stdout => cli::note(text.trim_end()),
         Output::File(_) => cli::print(&text)?,
     }
     let record = inputs.record()?;
-    if let (Some(output), Some(errors)) = (&a.errors, &errors) {
-        output.write_with_record(&record, |out| errors.write_csv(out))?;
+    if let Some(output) = &a.errors {
+        output.write_with_record(&record, |out| table.write_cell_errors(out))?;
     }
     let drawing = table.draw(&a.name.iter().cloned().collect(), a.print.page());
-    write_all(&drawing, &a.picture, &record)?;
-    a.output
-        .write_with_record(&record, |out| table.write_csv(out))
-}
-
-/// What finer runs say of the errors of `runs`.
-fn errors(arguments: &Table2Args, runs: &[Case]) -> Result<Option<CellErrors>, Failure> {
-    if arguments.errors.as_ref() == Some(&Output::Stdout) {
-        return Err(Failure::usage("--errors goes to a file, not to '-'"));
-    }
-    let errors = match runs {
-        [] => None,
-        runs => CellErrors::read(runs).map_err(failure)?,
-    };
-    if arguments.errors.is_some() && errors.is_none() {
-        return Err(Failure::usage(
-            "--errors: no run has an error; give the table that wp-metrics --finer writes",
-        ));
-    }
-    Ok(errors)
+    write(&drawing, &a.picture, &record)?;
+    (a.output).write_with_record(&record, |out| table.write_csv(out))
 }
 
 /// Writes the picture to each of its outputs.
-fn write(drawing: &Drawing, picture: &Picture, inputs: &Inputs) -> Result<(), Failure> {
-    inputs.keep_from(picture.output.iter().map(|target| &target.output))?;
-    write_all(drawing, &picture.output, &inputs.record()?)
-}
-
-fn write_all(drawing: &Drawing, targets: &[Target], record: &Record) -> Result<(), Failure> {
+fn write(drawing: &Drawing, targets: &[Target], record: &Record) -> Result<(), Failure> {
     for target in targets {
         let bytes = match target.format {
-            Format::Svg => drawing.to_svg().map_err(failure)?.into_bytes(),
-            Format::Png => drawing.to_png().map_err(failure)?,
-            Format::Pdf => drawing.to_pdf().map_err(failure)?,
+            Format::Svg => drawing.to_svg().map(String::into_bytes),
+            Format::Png => drawing.to_png(),
+            Format::Pdf => drawing.to_pdf(),
         };
-        let write = |out: &mut dyn std::io::Write| out.write_all(&bytes);
-        target.output.write_with_record(record, write)?;
+        let bytes = bytes.map_err(failure)?;
+        (target.output).write_with_record(record, |out| out.write_all(&bytes))?;
     }
     Ok(())
 }

@@ -1,9 +1,9 @@
 //! Options that several figures share: where a picture goes, its page, and how a state is looked at.
 
 use clap::Args;
-use figures::{Direction, Page};
+use figures::{Direction, Page, Wood};
 
-use crate::values::{Target, Wood, degrees, dpi, given, width};
+use crate::values::{Target, WOOD, degrees, dpi, given, one_of, width};
 
 #[derive(Args)]
 pub(crate) struct Picture {
@@ -37,17 +37,11 @@ impl Print {
     }
 }
 
-impl Picture {
-    pub(crate) fn page(&self) -> Page {
-        self.print.page()
-    }
-}
-
 /// What is seen of a state, and from where.
 #[derive(Args)]
 pub(crate) struct Look {
     /// How much of the wood is shown: none, the half away from the viewer, or all
-    #[arg(long, value_enum, default_value = "cut")]
+    #[arg(long, default_value = "cut", value_parser = one_of(WOOD))]
     pub(crate) wood: Wood,
     /// Degrees to look from beside the front, about the axis across the bond
     #[arg(long, value_name = "DEGREES", default_value_t = Direction::default().turn, allow_hyphen_values = true,

@@ -1,81 +1,49 @@
 //! Values of arguments.
 
 use std::ffi::OsStr;
-use std::os::unix::ffi::OsStrExt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::str::FromStr;
 
-use clap::ValueEnum;
-use clap::builder::{OsStringValueParser, TypedValueParser};
+use clap::builder::{OsStringValueParser, PossibleValuesParser, TypedValueParser};
 use cli::Output;
-use figures::{Case, Colouring, Labelled, Page, Position};
+use figures::{Case, Colouring, Labelled, Page, Position, Shown, Wood};
 use units::{Length, Pressure, Quantity};
 
 /// How to colour the adhesive.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum Colour {
-    Plain,
-    Pressure,
-}
-
-impl From<Colour> for Colouring {
-    fn from(colour: Colour) -> Self {
-        match colour {
-            Colour::Plain => Self::Plain,
-            Colour::Pressure => Self::Pressure,
-        }
-    }
-}
-
+pub(crate) const COLOURINGS: &[(&str, Colouring)] = &[
+    ("plain", Colouring::Plain),
+    ("pressure", Colouring::Pressure),
+];
 /// How much of the wood is shown.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum Wood {
-    Hidden,
-    Cut,
-    Whole,
-}
-
-impl From<Wood> for figures::Wood {
-    fn from(wood: Wood) -> Self {
-        match wood {
-            Wood::Hidden => Self::Hidden,
-            Wood::Cut => Self::Cut,
-            Wood::Whole => Self::Whole,
-        }
-    }
-}
-
+pub(crate) const WOOD: &[(&str, Wood)] = &[
+    ("hidden", Wood::Hidden),
+    ("cut", Wood::Cut),
+    ("whole", Wood::Whole),
+];
 /// What of penetration is shown.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum Shown {
-    Depth,
-    Wetted,
-    Filled,
-}
+pub(crate) const SHOWN: &[(&str, Shown)] = &[
+    ("depth", Shown::Depth),
+    ("wetted", Shown::Wetted),
+    ("filled", Shown::Filled),
+];
 
-impl From<Shown> for figures::Shown {
-    fn from(shown: Shown) -> Self {
-        match shown {
-            Shown::Depth => Self::Depth,
-            Shown::Wetted => Self::Wetted,
-            Shown::Filled => Self::Filled,
-        }
-    }
+/// A parser of what has a name.
+pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
+    named: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    let names = named.iter().map(|(name, _)| *name);
+    PossibleValuesParser::new(names).try_map(|text| {
+        let found = named.iter().find(|(name, _)| *name == text);
+        found
+            .map(|(_, value)| *value)
+            .ok_or("there is no such value")
+    })
 }
 
 /// A positive pressure, Pa.
-#[derive(Clone, Copy)]
-pub(crate) struct Limit(pub(crate) f64);
-
-impl FromStr for Limit {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let pressure = text
-            .parse::<Quantity<Pressure>>()
-            .and_then(Quantity::positive);
-        pressure.map(|p| Self(p.si())).map_err(|e| e.to_string())
-    }
+pub(crate) fn limit(text: &str) -> Result<f64, String> {
+    let pressure = (text.parse::<Quantity<Pressure>>()).and_then(Quantity::positive);
+    pressure.map(Quantity::si).map_err(|e| e.to_string())
 }
 
 /// A picture's file and format.
@@ -92,45 +60,43 @@ pub(crate) enum Format {
     Pdf,
 }
 
+const FORMATS: [(&str, Format); 3] = [
+    ("svg", Format::Svg),
+    ("png", Format::Png),
+    ("pdf", Format::Pdf),
+];
+
 impl Target {
     pub(crate) fn new(text: &OsStr) -> Result<Self, String> {
         let output = Output::from(text.to_owned());
-        let format = match &output {
-            Output::Stdout => Format::Svg,
-            Output::File(path) => match path.extension().and_then(|e| e.to_str()) {
-                Some(e) if e.eq_ignore_ascii_case("svg") => Format::Svg,
-                Some(e) if e.eq_ignore_ascii_case("png") => Format::Png,
-                Some(e) if e.eq_ignore_ascii_case("pdf") => Format::Pdf,
-                _ => {
-                    return Err(format!(
-                        "{output} is not a picture's name: it must end in .svg, .png or .pdf"
-                    ));
-                }
-            },
+        let named = |end: &OsStr| {
+            FORMATS
+                .iter()
+                .find(|(name, _)| end.eq_ignore_ascii_case(name))
         };
+        let format = match &output {
+            Output::Stdout => Some(Format::Svg),
+            Output::File(path) => path.extension().and_then(named).map(|(_, format)| *format),
+        };
+        let wrong = "is not a picture's name: it must end in .svg, .png or .pdf";
+        let format = format.ok_or_else(|| format!("{output} {wrong}"))?;
         Ok(Self { output, format })
     }
-}
 
-impl Target {
     /// As [`Target::new`], but no standard output.
     pub(crate) fn file(text: &OsStr) -> Result<Self, String> {
-        match Self::new(text)? {
-            Self {
-                output: Output::Stdout,
-                ..
-            } => Err("a picture of the table goes to a file".into()),
-            target => Ok(target),
+        let target = Self::new(text)?;
+        match target.output {
+            Output::Stdout => Err("a picture of the table goes to a file".into()),
+            Output::File(_) => Ok(target),
         }
     }
 }
 
 /// Where a PNG goes.
 pub(crate) fn png(text: &OsStr) -> Result<Output, String> {
-    let png = Path::new(text)
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("png"));
-    match png || text == "-" {
+    let extension = Path::new(text).extension();
+    match text == "-" || extension.is_some_and(|e| e.eq_ignore_ascii_case("png")) {
         true => Ok(text.to_owned().into()),
         false => Err(format!(
             "{} is no name of a PNG: it must end in .png",
@@ -140,11 +106,10 @@ pub(crate) fn png(text: &OsStr) -> Result<Output, String> {
 }
 
 pub(crate) fn name(text: &str) -> Result<(String, String), String> {
-    let pair = text
-        .split_once('=')
-        .filter(|(key, text)| !key.is_empty() && !text.is_empty());
-    let pair = pair.map(|(key, text)| (key.to_owned(), text.to_owned()));
-    pair.ok_or_else(|| format!("'{text}' is not KEY=TEXT, as in xpic=XPIC(5)"))
+    match text.split_once('=') {
+        Some((key, name)) if !key.is_empty() && !name.is_empty() => Ok((key.into(), name.into())),
+        _ => Err(format!("'{text}' is not KEY=TEXT, as in xpic=XPIC(5)")),
+    }
 }
 
 /// A parser of arguments that hold a path, which need not be UTF-8.
@@ -154,25 +119,9 @@ pub(crate) fn given<T: Clone + Send + Sync + 'static>(
     OsStringValueParser::new().try_map(move |text| parse(&text))
 }
 
-/// What is before and behind the first `=`.
-fn name_and_path(text: &OsStr) -> Option<(String, PathBuf)> {
-    let bytes = text.as_bytes();
-    let at = bytes.iter().position(|b| *b == b'=')?;
-    let name = String::from_utf8_lossy(&bytes[..at]).into_owned();
-    Some((name, OsStr::from_bytes(&bytes[at + 1..]).into()))
-}
-
 /// `LABEL=PATH`, or a path alone, whose last two names are its label.
 pub(crate) fn labelled(text: &OsStr) -> Result<Labelled, String> {
-    let alone = || (short_name(Path::new(text)), PathBuf::from(text));
-    let (label, path) = name_and_path(text).unwrap_or_else(alone);
-    if label.is_empty() || path.as_os_str().is_empty() {
-        return Err(format!(
-            "'{}' needs a label and a path, as in FLIP=out/pf-flip",
-            text.display()
-        ));
-    }
-    Ok(Labelled { label, path })
+    Labelled::parse(text, short_name)
 }
 
 /// `xpic/final` for `out/quick/pf/xpic/final.mpts`.
@@ -184,16 +133,32 @@ fn short_name(path: &Path) -> String {
 }
 
 pub(crate) fn experiment(text: &OsStr) -> Result<Case, String> {
-    let case = name_and_path(text).map(|(adhesive, path)| Case {
-        adhesive,
-        name: "experiment".into(),
-        path,
+    let example = "ADHESIVE=CSV, as in pf=experiment.csv";
+    case(text, example, |adhesive| Some((adhesive, Case::EXPERIMENT)))
+}
+
+pub(crate) fn run(text: &OsStr) -> Result<Case, String> {
+    let example = "ADHESIVE:RUN=CSV, as in pf:xpic=wp.csv";
+    case(text, example, |of| of.split_once(':'))
+}
+
+/// `OF=CSV`, with the adhesive and the name that are in `OF`.
+fn case(
+    text: &OsStr,
+    example: &str,
+    split: fn(&str) -> Option<(&str, &str)>,
+) -> Result<Case, String> {
+    let given = Labelled::split(text);
+    let case = given.as_ref().and_then(|given| {
+        let (adhesive, name) = split(&given.label)?;
+        Some(Case {
+            adhesive: adhesive.into(),
+            name: name.into(),
+            path: given.path.clone(),
+        })
     });
-    let case = case.ok_or_else(|| {
-        let text = text.display();
-        format!("'{text}' is not ADHESIVE=CSV, as in pf=experiment.csv")
-    })?;
-    plain(&case.adhesive)?;
+    let case = case.ok_or_else(|| format!("'{}' is not {example}", text.display()))?;
+    plain(&case.adhesive).and(plain(&case.name))?;
     Ok(case)
 }
 
@@ -205,23 +170,6 @@ fn plain(name: &str) -> Result<(), String> {
             "the name '{name}' would be a formula in a spreadsheet: it may not begin with one of = + - @ ' or have control characters"
         )),
     }
-}
-
-pub(crate) fn run(text: &OsStr) -> Result<Case, String> {
-    let case = name_and_path(text).and_then(|(of, path)| {
-        let (adhesive, name) = of.split_once(':')?;
-        Some(Case {
-            adhesive: adhesive.into(),
-            name: name.into(),
-            path,
-        })
-    });
-    let case = case.ok_or_else(|| {
-        let text = text.display();
-        format!("'{text}' is not ADHESIVE:RUN=CSV, as in pf:xpic=wp.csv")
-    })?;
-    plain(&case.adhesive).and(plain(&case.name))?;
-    Ok(case)
 }
 
 /// A printed width, mm.
@@ -238,29 +186,26 @@ pub(crate) fn width(text: &str) -> Result<f64, String> {
     }
 }
 
+/// The number in `text`, if it is from `least` to `most`.
+fn within([least, most]: [f64; 2], text: &str) -> Option<f64> {
+    let number = text.parse().ok();
+    number.filter(|number| (least..=most).contains(number))
+}
+
 pub(crate) fn degrees(text: &str, [least, most]: [f64; 2]) -> Result<f64, String> {
-    match text.parse() {
-        Ok(degrees) if (least..=most).contains(&degrees) => Ok(degrees),
-        _ => Err(format!(
-            "'{text}' is not an angle from {least} to {most} degrees"
-        )),
-    }
+    let wrong = || format!("'{text}' is not an angle from {least} to {most} degrees");
+    within([least, most], text).ok_or_else(wrong)
 }
 
 pub(crate) fn dpi(text: &str) -> Result<f64, String> {
     let [least, most] = Page::DPI;
-    match text.parse() {
-        Ok(dpi) if (least..=most).contains(&dpi) => Ok(dpi),
-        _ => Err(format!("'{text}' is not a number from {least} to {most}")),
-    }
+    let wrong = || format!("'{text}' is not a number from {least} to {most}");
+    within(Page::DPI, text).ok_or_else(wrong)
 }
 
 /// Frames a second.
 pub(crate) fn rate(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(rate) if (0.1..=60.0).contains(&rate) => Ok(rate),
-        _ => Err(format!("'{text}' is not a number from 0.1 to 60")),
-    }
+    within([0.1, 60.0], text).ok_or_else(|| format!("'{text}' is not a number from 0.1 to 60"))
 }
 
 /// A length, or a multiple of the voxel of the first file.
@@ -306,10 +251,8 @@ pub(crate) fn cell(text: &str) -> Result<Extent, String> {
     }
 }
 
-/// Ends across and up.
-pub(crate) type Part = [[Extent; 2]; 2];
-
-pub(crate) fn part(text: &str) -> Result<Part, String> {
+/// Ends of a part across and up.
+pub(crate) fn part(text: &str) -> Result<[[Extent; 2]; 2], String> {
     let wrong = || format!("'{text}' is not a part, as in \"0 um:40 um,20 um:60 um\"");
     let range = |text: &str| -> Result<[Extent; 2], String> {
         let (from, to) = text.split_once(':').ok_or_else(wrong)?;
@@ -321,10 +264,9 @@ pub(crate) fn part(text: &str) -> Result<Part, String> {
 
 /// A percentage, as a share.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
-    match text.strip_suffix('%').unwrap_or(text).trim().parse::<f64>() {
-        Ok(percent) if (0.0..=100.0).contains(&percent) => Ok(percent / 100.0),
-        _ => Err(format!("'{text}' is not a percentage from 0% to 100%")),
-    }
+    let percent = text.strip_suffix('%').unwrap_or(text).trim();
+    let share = within([0.0, 100.0], percent).map(|percent| percent / 100.0);
+    share.ok_or_else(|| format!("'{text}' is not a percentage from 0% to 100%"))
 }
 
 pub(crate) fn position(text: &str) -> Result<Position, String> {
@@ -332,7 +274,6 @@ pub(crate) fn position(text: &str) -> Result<Position, String> {
         return share(text).map(Position::Share);
     }
     let length = text.parse::<Quantity<Length>>();
-    length
-        .map(|length| Position::At(length.si()))
-        .map_err(|e| format!("{e}, or a percentage of the box, e.g. 50%"))
+    let length = length.map_err(|e| format!("{e}, or a percentage of the box, e.g. 50%"));
+    length.map(|length| Position::At(length.si()))
 }

@@ -16,13 +16,8 @@ fn state(path: &Path, time_s: f64, gap: f64) {
         let origin = [0.0, y * VOXEL, 0.0];
         Block::new(name, Material::Rigid, origin, VOXEL, &wood)
     };
-    let mut header = Header::new(
-        Kind::State,
-        VOXEL,
-        1,
-        [0.0; 3],
-        [12.0, 30.0, 8.0].map(|n| n * VOXEL),
-    );
+    let edges = [12.0, 30.0, 8.0].map(|n| n * VOXEL);
+    let mut header = Header::new(Kind::State, VOXEL, 1, [0.0; 3], edges);
     header.time_s = time_s;
     Draft::new(header)
         .block(block("wood-bottom", 0.0), &wood)
@@ -45,44 +40,33 @@ fn a_movie_has_a_frame_a_state_and_its_camera_stands_still() {
     let run = folder.path().join("run");
     fs::create_dir_all(run.join("snapshots")).unwrap();
     for (i, gap) in [8.0, 4.0, 0.0].into_iter().enumerate() {
-        state(
-            &run.join(format!("snapshots/{i:04}.mpts")),
-            1e-6 * i as f64,
-            gap,
-        );
+        let path = run.join(format!("snapshots/{i:04}.mpts"));
+        state(&path, 1e-6 * i as f64, gap);
     }
     // The last snapshot is the final state.
     state(&run.join("final.mpts"), 2e-6, 0.0);
     let output = movie(folder.path(), "PF=run --rate 4 --dpi 60 -o press.png");
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
     assert!(folder.path().join("press.png.provenance.json").is_file());
 
     let file = BufReader::new(File::open(folder.path().join("press.png")).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();
     let control = reader.info().animation_control().unwrap();
     assert_eq!((control.num_frames, control.num_plays), (3, 0));
-    let mut frames = Vec::new();
+    let (mut frames, mut delays) = (Vec::new(), Vec::new());
     for _ in 0..3 {
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
         reader.next_frame(&mut pixels).unwrap();
         let shown = reader.info().frame_control().unwrap();
-        frames.push((
-            pixels,
-            f64::from(shown.delay_num) / f64::from(shown.delay_den),
-        ));
+        delays.push(f64::from(shown.delay_num) / f64::from(shown.delay_den));
+        frames.push(pixels);
     }
-    assert_eq!(
-        frames.iter().map(|f| f.1).collect::<Vec<_>>(),
-        [0.25, 0.25, 2.0]
-    );
+    assert_eq!(delays, [0.25, 0.25, 2.0]);
     // The axes and the lower adherend, the lower third, stay as they are; above all changes.
     let [width, height] = [reader.info().width, reader.info().height].map(|n| n as usize);
     let part = |frame: usize, rows: std::ops::Range<usize>| {
-        frames[frame].0[3 * width * rows.start..3 * width * rows.end].to_vec()
+        frames[frame][3 * width * rows.start..3 * width * rows.end].to_vec()
     };
     for frame in [1, 2] {
         let low = 2 * height / 3..height;

@@ -1,14 +1,12 @@
 //! One page of HTML about runs: see `lib/report`.
 
-use std::ffi::OsStr;
-use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use cli::{Failure, InputRecord, Output, Record};
-use report::{Error, Labelled, Picture, Report, RunFolder, Scene, Table};
+use report::{Error, Labelled, Report, RunFolder, picture, scene, table};
 
 /// Put runs, tables and pictures into one HTML page that needs no network
 #[derive(Parser)]
@@ -68,9 +66,9 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     let mut report = Report {
         title: arguments.title,
         runs: all(&arguments.run, RunFolder::read)?,
-        tables: all(&arguments.table, Table::read)?,
-        pictures: all(&arguments.picture, Picture::read)?,
-        scenes: all(&arguments.state, Scene::read)?,
+        tables: all(&arguments.table, table)?,
+        pictures: all(&arguments.picture, picture)?,
+        scenes: all(&arguments.state, scene)?,
         ..Report::default()
     };
     // What was read has an end.
@@ -95,19 +93,14 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
 }
 
 fn all<T>(given: &[Labelled], read: fn(&Labelled) -> Result<T, Error>) -> Result<Vec<T>, Failure> {
-    given
-        .iter()
-        .map(read)
-        .collect::<Result<_, _>>()
-        .map_err(Failure::data)
+    let read: Result<_, _> = given.iter().map(read).collect();
+    read.map_err(Failure::data)
 }
 
 /// The files read.
 fn inputs(arguments: &Arguments) -> Vec<PathBuf> {
-    let of_runs = arguments
-        .run
-        .iter()
-        .flat_map(|run| RunFolder::FILES.map(|name| run.path.join(name)));
+    let files = |run: &Labelled| RunFolder::FILES.map(|name| run.path.join(name));
+    let of_runs = arguments.run.iter().flat_map(files);
     let others = [&arguments.table, &arguments.picture, &arguments.state];
     let others = others.into_iter().flatten().map(|file| file.path.clone());
     of_runs.chain(others).collect()
@@ -115,24 +108,6 @@ fn inputs(arguments: &Arguments) -> Vec<PathBuf> {
 
 /// `LABEL=PATH`, or a path alone, which is its own label. Paths need not be UTF-8.
 fn labelled() -> impl TypedValueParser<Value = Labelled> {
-    OsStringValueParser::new().try_map(|text| {
-        let bytes = text.as_bytes();
-        let (label, path) = match bytes.iter().position(|b| *b == b'=') {
-            Some(at) => (
-                String::from_utf8_lossy(&bytes[..at]).into_owned(),
-                OsStr::from_bytes(&bytes[at + 1..]),
-            ),
-            None => (text.display().to_string(), text.as_os_str()),
-        };
-        match path.is_empty() || label.is_empty() {
-            true => Err(format!(
-                "'{}' needs a label and a path, as in FLIP=out/pf-flip",
-                text.display()
-            )),
-            false => Ok(Labelled {
-                label,
-                path: Path::new(path).to_owned(),
-            }),
-        }
-    })
+    let itself = |path: &Path| path.display().to_string();
+    OsStringValueParser::new().try_map(move |text| Labelled::parse(&text, itself))
 }

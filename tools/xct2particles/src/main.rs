@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use arguments::{Arguments, GreyLevels};
 use bondline::{Placed, Specimen};
 use cli::{Failure, Output, Progress};
-use figures::{Cut, Position, Slices};
+use figures::{Cut, Page, Position, Slices};
 use particle_file::{Block, Draft, Header, Kind, Material, ParticleFile, Provenance};
 use rayon::prelude::*;
 use units::Axis;
@@ -148,7 +148,10 @@ fn draw(draft: &Draft, name: &str, preview: &Output) -> Result<(), Failure> {
         position: Position::Share(0.5),
     });
     let slices = Slices::through(&file, name, &cuts).map_err(Failure::failed)?;
-    let png = slices.draw().to_png().map_err(Failure::failed)?;
+    let png = slices
+        .draw(Page::default())
+        .to_png()
+        .map_err(Failure::failed)?;
     preview.write(|out| out.write_all(&png))
 }
 

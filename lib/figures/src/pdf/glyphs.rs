@@ -44,9 +44,8 @@ impl Glyphs {
 
     /// The text as numbers of glyphs, and its width in the unit of `size`.
     pub(super) fn encode(&mut self, text: &str, size: f64) -> (Vec<u8>, f64) {
-        let advances = self
-            .font
-            .glyph_metrics(Size::new(1.0), LocationRef::default());
+        let size_of_one = Size::new(1.0);
+        let advances = (self.font).glyph_metrics(size_of_one, LocationRef::default());
         let (mut codes, mut width) = (Vec::new(), 0.0);
         for c in text.chars() {
             let glyph = self.font.charmap().map(c).unwrap_or(GlyphId::NOTDEF);
@@ -62,14 +61,13 @@ impl Glyphs {
 
     pub(super) fn write(&self, pdf: &mut Pdf) -> Result<(), Error> {
         let mut font = pdf.type0_font(TYPE0);
-        font.base_font(FONT_NAME)
-            .encoding_predefined(Name(b"Identity-H"));
+        font.base_font(FONT_NAME);
+        font.encoding_predefined(Name(b"Identity-H"));
         font.descendant_font(CID_FONT).to_unicode(UNICODE);
         font.finish();
         let mut cid = pdf.cid_font(CID_FONT);
-        cid.subtype(CidFontType::Type2)
-            .base_font(FONT_NAME)
-            .system_info(CID);
+        cid.subtype(CidFontType::Type2).base_font(FONT_NAME);
+        cid.system_info(CID);
         cid.font_descriptor(DESCRIPTOR).default_width(0.0);
         cid.cid_to_gid_map_predefined(Name(b"Identity"));
         let mut widths = cid.widths();
@@ -81,21 +79,13 @@ impl Glyphs {
         let metrics = self.font.metrics(Size::new(1000.0), LocationRef::default());
         let bounds = metrics.bounds.unwrap_or_default();
         let mut descriptor = pdf.font_descriptor(DESCRIPTOR);
-        descriptor
-            .name(FONT_NAME)
-            .flags(FontFlags::NON_SYMBOLIC)
-            .italic_angle(0.0);
-        descriptor.bbox(Rect::new(
-            bounds.x_min,
-            bounds.y_min,
-            bounds.x_max,
-            bounds.y_max,
-        ));
+        descriptor.name(FONT_NAME).flags(FontFlags::NON_SYMBOLIC);
+        descriptor.italic_angle(0.0);
+        let [left, low] = [bounds.x_min, bounds.y_min];
+        descriptor.bbox(Rect::new(left, low, bounds.x_max, bounds.y_max));
         descriptor.ascent(metrics.ascent).descent(metrics.descent);
-        descriptor
-            .cap_height(1000.0 * self.capitals as f32)
-            .stem_v(90.0)
-            .font_file2(FONT_FILE);
+        descriptor.cap_height(1000.0 * self.capitals as f32);
+        descriptor.stem_v(90.0).font_file2(FONT_FILE);
         descriptor.finish();
         let names = self.named.iter().filter(|(glyph, _)| **glyph > 0);
         let mut unicode = UnicodeCmap::<u16>::new(Name(b"Text"), CID);

@@ -1,17 +1,15 @@
 //! Every text of every figure lies on the canvas and overlaps no other, whatever the names, the
 //! number of panels and the width of the page.
 
-use std::fmt::Write as _;
-
 use figures::{
-    Case, Closing, Clouds, Colouring, Cut, Direction, Drawing, Mark, Page, Plot, Position, Setup,
-    ShearRates, Slices, Table2, Views, Wood, WpMap,
+    Case, Clouds, Colouring, Cut, Direction, Drawing, Labelled, Mark, Page, Plot, Position, Slices,
+    Table2, Views, Wood, closing, setup, shear_rates, wp_maps,
 };
 use particle_file::Kind;
 use units::Axis;
 
-use crate::Folder;
-use crate::slices::{bond, layers};
+use crate::slices::layers;
+use crate::{Folder, csv};
 
 const LONG: &str =
     "phenol formaldehyde of a very long name, partial slip with an influence length, XPIC(5)";
@@ -29,13 +27,6 @@ fn names(count: usize) -> Vec<String> {
 
 /// No page, one column of a journal, a narrow one, a poster.
 const WIDTHS: [Option<f64>; 4] = [None, Some(84.0), Some(Page::NARROWEST), Some(400.0)];
-
-fn page(width_mm: Option<f64>) -> Page {
-    Page {
-        width_mm,
-        ..Page::default()
-    }
-}
 
 /// What is wrong with the texts of a drawing.
 fn faults(drawing: &Drawing, what: &str) -> Vec<String> {
@@ -70,42 +61,42 @@ fn check(kind: &str, draw: impl Fn(&[String], Page) -> Drawing) {
     let mut all = Vec::new();
     for count in [1, 2, 3, 6] {
         for width in WIDTHS {
-            let drawing = draw(&names(count), page(width));
+            let page = Page {
+                width_mm: width,
+                ..Page::default()
+            };
+            let drawing = draw(&names(count), page);
             if let Some(mm) = width {
                 let found = drawing.size()[0] * 25.4 / 120.0;
                 assert!((found - mm).abs() < 1e-9, "{kind}: {found} mm, not {mm}");
             }
-            all.extend(faults(
-                &drawing,
-                &format!("{kind}, {count} names, {width:?}"),
-            ));
+            let what = format!("{kind}, {count} names, {width:?}");
+            all.extend(faults(&drawing, &what));
         }
     }
     assert!(all.is_empty(), "{} faults:\n{}", all.len(), all.join("\n"));
 }
 
-fn labelled(folder: &Folder, names: &[String], content: &[u8]) -> Vec<figures::Labelled> {
-    let one = |name: &String| folder.labelled(name, content);
+fn labelled(folder: &Folder, names: &[String], content: impl AsRef<[u8]>) -> Vec<Labelled> {
+    let one = |name: &String| folder.labelled(name, content.as_ref());
     names.iter().map(one).collect()
+}
+
+/// Pixels as few as can be: texts do not depend on them.
+fn coarse(page: Page) -> Page {
+    let dpi = Page::DPI[0];
+    Page { dpi, ..page }
 }
 
 #[test]
 fn of_closing() {
     let folder = Folder::new();
     for (peak, limit) in [(2.4e6, Some(2.5e6)), (3.7e-3, None), (8e9, Some(8.9e9))] {
-        let mut text = String::from("time_s,closing_speed_m_s,pressure_top_Pa\n");
-        for i in 0..50 {
-            let _ = writeln!(
-                text,
-                "{},1,{}",
-                f64::from(i) * 1e-6,
-                peak * f64::from(i) / 50.0
-            );
-        }
+        let row = |i: i32| format!("{}e-6,1,{}", i, peak * f64::from(i) / 50.0);
+        let text = csv("time_s,closing_speed_m_s,pressure_top_Pa", (0..50).map(row));
         check("closing", |names, page| {
-            let runs = labelled(&folder, names, text.as_bytes());
-            let figure = Closing::read(&runs, &[], limit, LONG).unwrap();
-            figure.on(page).draw()
+            let runs = labelled(&folder, names, &text);
+            closing(&runs, &[], limit, LONG, page).unwrap()
         });
     }
 }
@@ -114,41 +105,34 @@ fn of_closing() {
 fn of_shear_rates() {
     let folder = Folder::new();
     for most in [9.0, 4e5, 7e11] {
-        let mut text = String::from("time_s,q05,q10,q25,q50,q75,q90,q95,max\n");
-        for i in 0..20 {
+        let row = |i: i32| {
             let q = most * f64::from(i) / 1e3;
-            let _ = writeln!(
-                text,
-                "{},{q},{q},{q},{q},{q},{q},{q},{q}",
-                f64::from(i) * 1e-3
-            );
-        }
+            format!("{i}e-3,{q},{q},{q},{q},{q},{q},{q},{q}")
+        };
+        let text = csv("time_s,q05,q10,q25,q50,q75,q90,q95,max", (0..20).map(row));
         check("shear rates", |names, page| {
-            let runs = labelled(&folder, names, text.as_bytes());
-            ShearRates::read(&runs).unwrap().on(page).draw()
+            shear_rates(&labelled(&folder, names, &text), page).unwrap()
         });
     }
 }
 
+/// The ticks of maps with longer numbers than the first have room too.
 #[test]
 fn of_maps() {
     let folder = Folder::new();
     for [columns, rows] in [[20, 30], [90, 9], [9, 90]] {
-        let mut text = String::from("x_um,z_um,wp_um,volume_um3\n");
-        for i in 0..columns * rows {
-            let (x, z) = (i % columns, i / columns);
-            let _ = writeln!(
-                text,
-                "{},{},{},{}",
-                1.45 * x as f64,
-                1.45 * z as f64,
-                x * z,
-                i % 7
-            );
-        }
+        let text = |origin: f64| {
+            let row = |i: usize| {
+                let (x, z) = (i % columns, i / columns);
+                let [left, low] = [x, z].map(|i| origin + 1.45 * i as f64);
+                format!("{left},{low},{},{}", x * z, i % 7)
+            };
+            csv("x_um,z_um,wp_um,volume_um3", (0..columns * rows).map(row))
+        };
         check("maps", |names, page| {
-            let maps = labelled(&folder, names, text.as_bytes());
-            WpMap::read(&maps).unwrap().on(page).draw()
+            let mut maps = labelled(&folder, names, text(0.0));
+            maps.push(folder.labelled("far", text(1e6)));
+            wp_maps(&maps, page).unwrap()
         });
     }
 }
@@ -156,62 +140,50 @@ fn of_maps() {
 #[test]
 fn of_slices() {
     let folder = Folder::new();
-    for axis in [Axis::X, Axis::Y, Axis::Z] {
-        check("slices", |names, page| {
-            let states = labelled(&folder, names, &bond());
-            let cut = Cut {
-                axis,
-                position: Position::Share(0.5),
-            };
-            let slices = Slices::read(&states, cut, Colouring::Plain).unwrap();
-            slices.on(page).draw()
-        });
+    let slices = |names: &[String], axis| {
+        let states = labelled(&folder, names, layers(Kind::Bond));
+        let position = Position::Share(0.5);
+        Slices::read(&states, Cut { axis, position }, Colouring::Plain).unwrap()
+    };
+    for axis in Axis::ALL {
+        check("slices", |names, page| slices(names, axis).draw(page));
     }
     check("slices with a grid", |names, page| {
-        let states = labelled(&folder, names, &bond());
-        let cut = Cut {
-            axis: Axis::Z,
-            position: Position::Share(0.5),
-        };
-        let slices = Slices::read(&states, cut, Colouring::Plain).unwrap();
-        let part = slices.part([[0.0, 9e-6], [20.4e-6, 31e-6]]).unwrap();
-        part.grid(2e-6).unwrap().on(page).draw()
+        let part = slices(names, Axis::Z).part([[0.0, 9e-6], [20.4e-6, 31e-6]]);
+        part.unwrap().grid(2e-6).unwrap().draw(page)
     });
 }
 
 #[test]
 fn of_setups_and_tables() {
     let folder = Folder::new();
-    let bond = folder.labelled("bond", bond());
+    let bond = folder.labelled("bond", layers(Kind::Bond));
     let specimen = folder.labelled("specimen", layers(Kind::Specimen));
     check("setup", |_, page| {
-        let dpi = Page::DPI[0];
-        let page = Page { dpi, ..page };
-        let drawing = Setup::read(&specimen, &bond).unwrap().on(page).draw();
+        let drawing = setup(&specimen, &bond, coarse(page)).unwrap();
         let whole = page.width_mm.is_none_or(|mm| mm >= 84.0);
         let boxes = drawing.text_boxes();
         let cut = boxes.iter().find(|one| whole && one.text.contains('…'));
         assert!(cut.is_none(), "{:?} on {page:?}", cut.map(|one| &one.text));
         drawing
     });
-    let refused = Setup::read(&bond, &bond).err().unwrap().to_string();
+    let refused = setup(&bond, &bond, Page::default())
+        .unwrap_err()
+        .to_string();
     let said = "holds a bond before pressing, where a specimen is needed";
     assert!(refused.contains(said), "{refused}");
-    let wp = folder.file(
-        "wp.csv",
-        "file,side,reference,wp_um,slab_wp_um\na,bottom,mid,1,2\na,top,mid,111.1,2\na,total,mid,,2\n",
-    );
+    let rows = ["a,bottom,mid,1,2", "a,top,mid,111.1,2", "a,total,mid,,2"].map(String::from);
+    let wp = csv("file,side,reference,wp_um,slab_wp_um", rows);
+    let wp = folder.file("wp.csv", wp);
     check("table", |names, page| {
-        let case = |name: &String| Case {
-            adhesive: names[0].clone(),
-            name: name.clone(),
+        let case = |adhesive: &str, name: &str| Case {
+            adhesive: adhesive.into(),
+            name: name.into(),
             path: wp.clone(),
         };
-        let known = ["xpic", "flip"].map(|name| Case {
-            adhesive: "pf".into(),
-            ..case(&name.to_owned())
-        });
-        let cases: Vec<Case> = names.iter().map(case).chain(known).collect();
+        let known = ["xpic", "flip"].map(|name| case("pf", name));
+        let cases = names.iter().map(|name| case(&names[0], name)).chain(known);
+        let cases: Vec<Case> = cases.collect();
         let called = [("pf".to_owned(), WORD.to_owned())].into();
         Table2::read(&cases).unwrap().draw(&called, page)
     });
@@ -222,10 +194,9 @@ fn of_views() {
     let folder = Folder::new();
     for [turn, tilt] in [[35.0, 25.0], [-60.0, 90.0]] {
         check("views", |names, page| {
-            let states = labelled(&folder, names, &bond());
-            let views = Views::read(&states, Wood::Cut, Direction { turn, tilt }).unwrap();
-            let dpi = Page::DPI[0];
-            views.on(Page { dpi, ..page }).draw()
+            let states = labelled(&folder, names, layers(Kind::Bond));
+            let views = Views::read(&states, Wood::Cut, Direction { turn, tilt });
+            views.unwrap().draw(coarse(page))
         });
     }
 }
@@ -236,12 +207,13 @@ fn of_plots_and_clouds() {
         let plot = Plot::new(LONG, WORD, LONG).logarithmic([true, false]);
         let curve = vec![[1e-3, -1e6], [1e9, 2e6]];
         let with = |plot: Plot, name: &String| plot.with(name, Mark::LineAndDots, curve.clone());
-        names.iter().fold(plot.on(page), with).draw().unwrap()
+        names.iter().fold(plot, with).draw(page).unwrap()
     });
     check("clouds", |names, page| {
-        let clouds = Clouds::new([LONG, LONG], LONG, [0.0, 1.0], 0.1).on(page);
-        let spots = vec![([0.0, 0.0], 0.0), ([1.0, 2.0], 1.0)];
-        let with = |clouds: Clouds, name: &String| clouds.with(name, spots.clone());
-        names.iter().fold(clouds, with).draw().unwrap()
+        let mut clouds = Clouds::new([LONG, LONG], LONG, [0.0, 1.0], 0.1);
+        for name in names {
+            clouds = clouds.with(name, vec![([0.0, 0.0], 0.0), ([1.0, 2.0], 1.0)]);
+        }
+        clouds.draw(page).unwrap()
     });
 }

@@ -11,6 +11,9 @@ use std::path::PathBuf;
 
 use figures::{Drawing, Labelled};
 
+const BLUE: [u8; 3] = [0, 114, 178];
+const VERMILION: [u8; 3] = [213, 94, 0];
+
 struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -26,11 +29,16 @@ impl Folder {
 
     fn labelled(&self, label: &str, content: impl AsRef<[u8]>) -> Labelled {
         let name: String = label.chars().filter(char::is_ascii_alphanumeric).collect();
-        Labelled {
-            label: label.into(),
-            path: self.file(&name, content),
-        }
+        let path = self.file(&name, content);
+        let label = label.into();
+        Labelled { label, path }
     }
+}
+
+/// A table of rows below their header.
+fn csv(header: &str, rows: impl IntoIterator<Item = String>) -> String {
+    let rows = rows.into_iter().map(|row| row + "\n");
+    format!("{header}\n{}", rows.collect::<String>())
 }
 
 /// All text of an SVG document, which must parse.
@@ -43,22 +51,23 @@ fn texts(drawing: &Drawing) -> Vec<String> {
         .collect()
 }
 
-/// Size and pixels of the PNG.
-fn pixels(drawing: &Drawing) -> ([u32; 2], Vec<[u8; 3]>) {
-    let bytes = drawing.to_png().unwrap();
-    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-        .read_info()
-        .unwrap();
+/// Each of the words is a text of the drawing.
+fn says(drawing: &Drawing, words: &[&str]) {
+    let said = texts(drawing);
+    for word in words {
+        assert!(said.iter().any(|t| t == word), "{word} is not in {said:?}");
+    }
+}
+
+/// Width and pixels of the PNG.
+fn pixels(drawing: &Drawing) -> (usize, Vec<[u8; 3]>) {
+    let bytes = std::io::Cursor::new(drawing.to_png().unwrap());
+    let mut reader = png::Decoder::new(bytes).read_info().unwrap();
     let mut buffer = vec![0; reader.output_buffer_size().unwrap()];
-    let info = reader.next_frame(&mut buffer).unwrap();
-    let pixels = buffer.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
-    ([info.width, info.height], pixels)
+    let width = reader.next_frame(&mut buffer).unwrap().width as usize;
+    (width, buffer.as_chunks().0.to_vec())
 }
 
 fn share(pixels: &[[u8; 3]], colour: [u8; 3]) -> f64 {
     pixels.iter().filter(|p| **p == colour).count() as f64 / pixels.len() as f64
 }
-
-const BLUE: [u8; 3] = [0, 114, 178];
-
-const VERMILION: [u8; 3] = [213, 94, 0];

@@ -1,114 +1,96 @@
 //! Table 2.
 
-use std::fmt::Write as _;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 
-use figures::{Case, CellErrors, Table2};
+use figures::{Case, Page, Table2};
+use particle_file::{Draft, Header, Kind, ParticleFile};
 
-use crate::Folder;
+use crate::{Folder, csv, says, texts};
 
-fn wp(bottom: f64, top: f64, total: f64) -> String {
-    let mut text = String::from(
-        "file,side,reference,plane_m,wp_um,slab_wp_um,ep_um,max_depth_um,p99_depth_um,volume_um3,voxels\n",
-    );
-    for (side, wp) in [("bottom", bottom), ("top", top), ("total", total)] {
-        let _ = writeln!(
-            text,
-            "a.mpts,{side},mid,7e-5,{wp},6.697,23.2,18,16,1000,300"
-        );
+fn case(adhesive: &str, name: &str, path: PathBuf) -> Case {
+    let (adhesive, name) = (adhesive.into(), name.into());
+    Case {
+        adhesive,
+        name,
+        path,
     }
-    text
+}
+
+/// The table of `file` with WP of the bottom, the top and in total.
+fn wp(file: &str, wp: [f64; 3]) -> String {
+    let rows = ["bottom", "top", "total"].into_iter().zip(wp);
+    let rows = rows.map(|(side, wp)| format!("{file},{side},mid,7e-5,{wp},6.697,23.2"));
+    csv("file,side,reference,plane_m,wp_um,slab_wp_um,ep_um", rows)
+}
+
+/// What a table writes, by lines.
+fn written(write: impl Fn(&mut Vec<u8>) -> std::io::Result<()>) -> Vec<String> {
+    let mut bytes = Vec::new();
+    write(&mut bytes).unwrap();
+    let text = String::from_utf8(bytes).unwrap();
+    text.lines().map(String::from).collect()
 }
 
 #[test]
 fn table_2_has_ours_the_slab_and_the_papers_numbers_labelled() {
     let folder = Folder::new();
-    let case = |adhesive: &str, name: &str, wp: String| Case {
-        adhesive: adhesive.into(),
-        name: name.into(),
-        path: folder.file(&format!("{adhesive}{name}"), wp),
-    };
     let cases = [
-        case("pf", "experiment", wp(8.5, 8.6, 8.55)),
-        case("pva-pf", "xpic", wp(1.0, 2.0, 1.5)),
-        case("pf", "implicit", wp(3.0, 4.0, 3.5)),
+        ("pf", "experiment", [8.5, 8.6, 8.55]),
+        ("pva-pf", "xpic", [1.0, 2.0, 1.5]),
+        ("pf", "implicit", [3.0, 4.0, 3.5]),
     ];
+    let cases = cases.map(|(adhesive, name, of)| {
+        let path = folder.file(&format!("{adhesive}{name}"), wp("a.mpts", of));
+        case(adhesive, name, path)
+    });
     let table = Table2::read(&cases).unwrap();
-    let mut csv = Vec::new();
-    table.write_csv(&mut csv).unwrap();
-    let csv = String::from_utf8(csv).unwrap();
-    println!("{csv}");
-    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
-    assert_eq!(
-        rows[1][..7],
-        [
-            "pf",
-            "experiment",
-            "mid",
-            "8.5000",
-            "8.6000",
-            "8.5500",
-            "6.6970"
-        ]
-    );
-    assert_eq!(
-        rows[1][7..11],
-        ["Experimental", "68.5700", "31.6200", "56.4100"]
-    );
-    assert_eq!(rows[2][..2], ["pf", "implicit"]);
-    assert_eq!(rows[2][7..11], ["", "", "", ""]);
-    assert_eq!(rows[3][7..11], ["XPIC(5)", "25.2100", "23.3200", "24.3500"]);
-    assert!(csv.contains("the paper's specimen, not this one"));
+    let rows = written(|out| table.write_csv(out));
+    for (row, begins) in rows[1..].iter().zip([
+        "pf,experiment,mid,8.5000,8.6000,8.5500,6.6970,Experimental,68.5700,31.6200,56.4100,\"paper: the paper's specimen, not this one\"",
+        "pf,implicit,mid,3.0000,4.0000,3.5000,6.6970,,,,,",
+        "pva-pf,xpic,mid,1.0000,2.0000,1.5000,6.6970,XPIC(5),25.2100,23.3200,24.3500,",
+    ]) {
+        assert!(row.starts_with(begins), "{row}");
+    }
     let text = table.to_text();
     assert!(!text.contains("56.41") && !text.contains("paper"), "{text}");
     let text = table.with_paper(true).to_text();
-    assert!(
-        text.contains("another specimen") && text.contains("56.41"),
-        "{text}"
-    );
-    let two = wp(1.0, 1.0, 1.0).replacen("a.mpts", "b.mpts", 1);
-    let said = Table2::read(&[case("pf", "flip", two)])
-        .unwrap_err()
-        .to_string();
-    assert!(said.contains("several states"), "{said}");
+    let told = ["another specimen", "56.41"];
+    assert!(told.iter().all(|told| text.contains(told)), "{text}");
+    let two = wp("a.mpts", [1.0; 3]).replacen("a.mpts", "b.mpts", 1);
+    let said = Table2::read(&[case("pf", "flip", folder.file("two", two))]).unwrap_err();
+    assert!(said.to_string().contains("several states"), "{said}");
 }
 
 /// The table of `wp-metrics --finer` with WP 7.15 +- 0.25 in total, of a run with `wp` as run.
 fn finer(wp: f64) -> String {
-    let mut text = String::from("file,side,reference,wp_um,slab_wp_um,ep_um,pressure_pa");
-    text += ",wp_extrapolated_um,wp_error_um,ep_extrapolated_um,ep_error_um,pressure_extrapolated_pa,pressure_error_pa\n";
-    for side in ["bottom", "top", "total"] {
-        let _ = writeln!(
-            text,
-            "a.mpts,{side},mid,{wp},4.2,5,2.4e6,7.15,0.25,4.5,0.5,2.1e6,3e5"
-        );
-    }
-    text
+    let header = "file,side,reference,wp_um,slab_wp_um,ep_um,pressure_pa,wp_extrapolated_um,wp_error_um,\
+                  ep_extrapolated_um,ep_error_um,pressure_extrapolated_pa,pressure_error_pa";
+    let rows = ["bottom", "top", "total"]
+        .map(|side| format!("a.mpts,{side},mid,{wp},4.2,5,2.4e6,7.15,0.25,4.5,0.5,2.1e6,3e5"));
+    csv(header, rows)
 }
 
 #[test]
 fn implicit_runs_have_errors_and_the_others_their_difference() {
     let folder = Folder::new();
-    let case = |name: &str, text: String| Case {
-        adhesive: "pf".into(),
-        name: name.into(),
-        path: folder.file(name, text),
-    };
-    let plain = wp(8.0, 9.0, 8.5);
-    let pressed = finer(8.5)
-        .lines()
-        .map(|line| line.split(',').take(7).collect::<Vec<_>>().join(",") + "\n")
-        .collect();
+    let case = |name: &str, text: &str| case("pf", name, folder.file(name, text));
+    let plain = wp("a.mpts", [8.0, 9.0, 8.5]);
+    let whole = finer(8.5);
+    let pressed = whole.lines().map(|line| {
+        let cells: Vec<&str> = line.split(',').take(7).collect();
+        cells.join(",") + "\n"
+    });
     let runs = [
-        case("flip", pressed),
-        case("frictionless", plain.clone()),
-        case("implicit", finer(7.65)),
-        case("implicit-frictionless", finer(6.0).replace("7.15", "6.5")),
+        case("flip", &pressed.collect::<String>()),
+        case("frictionless", &plain),
+        case("implicit", &finer(7.65)),
+        case("implicit-frictionless", &finer(6.0).replace("7.15", "6.5")),
     ];
-    let errors = CellErrors::read(&runs).unwrap().unwrap();
-    let mut csv = Vec::new();
-    errors.write_csv(&mut csv).unwrap();
-    let csv = String::from_utf8(csv).unwrap();
-    println!("{csv}{}", errors.to_text());
+    let table = Table2::read(&runs).unwrap();
+    assert!(table.has_cell_errors());
+    let rows = written(|out| table.write_cell_errors(out));
     for row in [
         "pf,flip,wp,total,um,8.5000,,0.2500,implicit,1.3500",
         "pf,flip,pressure,total,MPa,2.4000,,0.3000,implicit,0.3000",
@@ -117,66 +99,51 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         "pf,implicit,ep,top,um,5.0000,4.5000,0.5000,,",
     ] {
         assert!(
-            csv.lines().any(|line| line == row),
-            "{row} is not in\n{csv}"
+            rows.iter().any(|line| line == row),
+            "{row} is not in {rows:#?}"
         );
     }
-    let table = Table2::read(&runs).unwrap();
     let shown = table.to_text();
     assert!(shown.contains("7.15 +- 0.25"), "{shown}");
-    let picture =
-        crate::texts(&table.draw(&std::collections::BTreeMap::new(), figures::Page::default()));
-    assert!(picture.iter().any(|text| text == "± 0.25"), "{picture:?}");
-    let text = errors.to_text();
-    let line = |name: &str| text.lines().rfind(|l| l.contains(name)).unwrap().to_owned();
-    assert!(line(" flip").contains("+0.300"), "{text}");
-    assert!(
-        line(" implicit ").contains("4.50 +- 0.50")
-            && line(" implicit ").contains("2.100 +- 0.300"),
-        "{text}"
-    );
-    // A pressure that the table does not have is not made up.
-    assert!(line(" frictionless").trim_end().ends_with('-'), "{text}");
-    assert!(CellErrors::read(&[case("alone", plain)]).unwrap().is_none());
+    says(&table.draw(&BTreeMap::new(), Page::default()), &["± 0.25"]);
+    let text = table.cell_errors_to_text();
+    for (name, told) in [
+        (" flip", "+0.300"),
+        (" implicit ", "4.50 +- 0.50"),
+        (" implicit ", "2.100 +- 0.300"),
+        // A pressure that the table does not have is not made up.
+        (" frictionless", " -"),
+    ] {
+        let line = text.lines().rfind(|line| line.contains(name)).unwrap();
+        assert!(line.contains(told), "{line}");
+    }
+    let alone = Table2::read(&[case("alone", &plain)]).unwrap();
+    assert!(!alone.has_cell_errors());
 }
 
 /// A press that was made again, and closed, once stood in Table 2 with the WP of the one that had not.
 #[test]
 fn a_table_of_a_run_that_was_made_again_is_refused() {
-    use particle_file::{Draft, Header, Kind, ParticleFile};
     let folder = Folder::new();
     folder.file("bondline-run.toml", "");
-    folder.file(
-        "summary.json",
-        r#"{"end": "closed", "verdict": {"sound": true}}"#,
-    );
-    let state = folder.file("final.mpts", "");
+    let summary = r#"{"end": "closed", "verdict": {"sound": true}}"#;
+    folder.file("summary.json", summary);
     let header = Header::new(Kind::State, 1.0, 1, [0.0; 3], [1.0; 3]);
     let mut bytes = Vec::new();
     Draft::new(header).write_to(&mut bytes).unwrap();
-    std::fs::write(&state, bytes).unwrap();
+    let state = folder.file("final.mpts", bytes);
     let hash = ParticleFile::open(&state).unwrap().content_hash();
-    let table = wp(1.0, 2.0, 1.5).replace("a.mpts", "run/final.mpts");
-    let path = folder.file("wp.csv", table);
+    let path = folder.file("wp.csv", wp("run/final.mpts", [1.0, 2.0, 1.5]));
     let read = |hash: u64| {
-        let inputs = format!(r#"[{{"path": "run/final.mpts", "xxh3": "{hash:016x}"}}]"#);
-        folder.file(
-            "wp.csv.provenance.json",
-            format!(r#"{{"inputs": {inputs}}}"#),
-        );
-        let (adhesive, name, path) = ("pf".into(), "flip".into(), path.clone());
-        Table2::read(&[Case {
-            adhesive,
-            name,
-            path,
-        }])
+        let record =
+            format!(r#"{{"inputs": [{{"path": "run/final.mpts", "xxh3": "{hash:016x}"}}]}}"#);
+        folder.file("wp.csv.provenance.json", record);
+        Table2::read(&[case("pf", "flip", path.clone())])
     };
     assert!(read(hash).is_ok());
     let said = read(hash ^ 1).unwrap_err().to_string();
-    assert!(
-        said.contains("as it is now: run wp-metrics again"),
-        "{said}"
-    );
+    let expected = "as it is now: run wp-metrics again";
+    assert!(said.contains(expected), "{said}");
 }
 
 /// A press with 42 % of its gap left once stood in Table 2 as a result.
@@ -184,36 +151,20 @@ fn a_table_of_a_run_that_was_made_again_is_refused() {
 fn a_press_that_did_not_close_is_marked() {
     let folder = Folder::new();
     folder.file("bondline-run.toml", "");
-    folder.file(
-        "summary.json",
-        r#"{"end": "time-limit", "verdict": {"sound": true, "reasons": []}, "gap_m": 4.2e-6, "travel_m": 5.8e-6, "time_s": 1e-5}"#,
-    );
-    let path = folder.file(
-        "wp.csv",
-        wp(1.0, 2.0, 1.5).replace("a.mpts", "run/final.mpts"),
-    );
-    let (adhesive, name) = ("pf".into(), "flip".into());
-    let table = Table2::read(&[Case {
-        adhesive,
-        name,
-        path,
-    }])
-    .unwrap();
+    let summary = r#"{"end": "time-limit", "verdict": {"sound": true, "reasons": []}, "gap_m": 4.2e-6, "travel_m": 5.8e-6, "time_s": 1e-5}"#;
+    folder.file("summary.json", summary);
+    let path = folder.file("wp.csv", wp("run/final.mpts", [1.0, 2.0, 1.5]));
+    let table = Table2::read(&[case("pf", "flip", path)]).unwrap();
     let text = table.to_text();
-    assert!(
-        text.contains("  not closed, 42 % of the gap left\n"),
-        "{text}"
-    );
-    assert!(text.contains("--set \"clamp.time_limit=30 us\""), "{text}");
-    let mut csv = Vec::new();
-    table.write_csv(&mut csv).unwrap();
-    let csv = String::from_utf8(csv).unwrap();
-    let cells = ",time-limit,true,4.2000,\"not closed, 42 % of the gap left\"\n";
-    assert!(csv.ends_with(cells), "{csv}");
-    let picture = table.draw(&std::collections::BTreeMap::new(), figures::Page::default());
-    assert!(
-        crate::texts(&picture)
-            .iter()
-            .any(|t| t.starts_with("not closed"))
-    );
+    for told in [
+        "  not closed, 42 % of the gap left\n",
+        "--set \"clamp.time_limit=30 us\"",
+    ] {
+        assert!(text.contains(told), "{text}");
+    }
+    let rows = written(|out| table.write_csv(out));
+    let cells = ",time-limit,true,4.2000,\"not closed, 42 % of the gap left\"";
+    assert!(rows[1].ends_with(cells));
+    let picture = texts(&table.draw(&BTreeMap::new(), Page::default()));
+    assert!(picture.iter().any(|t| t.starts_with("not closed")));
 }

@@ -43,7 +43,7 @@ pub fn sound(all: &[Rise]) -> bool {
 /// The system's reason, or what the figure lacks.
 pub fn write(study: &Study, all: &[Rise]) -> Result<String, String> {
     let file = "experiments-capillary.png";
-    let drawing = plot(all).on(PAGE).draw().and_then(|d| d.to_png());
+    let drawing = plot(all).draw(PAGE).and_then(|d| d.to_png());
     study.write(file, drawing.map_err(|e| format!("{file}: {e}"))?)?;
     Ok(section(all))
 }

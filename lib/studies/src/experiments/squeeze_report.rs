@@ -85,10 +85,7 @@ pub fn write(study: &Study, all: &[Prediction]) -> Result<String, String> {
     let first = of(all, CELLS[0]);
     for liquid in distinct(first.iter().map(|p| p.experiment.liquid.name)) {
         let file = format!("experiments-squeeze-{}.png", liquid.to_lowercase());
-        let drawing = plot(&first, liquid)
-            .on(PAGE)
-            .draw()
-            .and_then(|d| d.to_png());
+        let drawing = plot(&first, liquid).draw(PAGE).and_then(|d| d.to_png());
         study.write(&file, drawing.map_err(|e| format!("{file}: {e}"))?)?;
     }
     Ok(section(all))

@@ -22,7 +22,7 @@ pub fn write(study: &Study, rows: &[Row], head: &str) -> Result<(), String> {
     let columns = "flow,scheme,method,varied,cells,set,error,cpu_s,pareto,failed";
     study.write_csv("tradeoff.csv", columns, rows.iter().map(fields))?;
     for (flow, name) in [(Flow::Slit, "slit"), (Flow::BondPressure, "bond")] {
-        let drawing = plot(rows, flow).on(PAGE).draw().and_then(|d| d.to_png());
+        let drawing = plot(rows, flow).draw(PAGE).and_then(|d| d.to_png());
         study.write(
             &format!("tradeoff-{name}.png"),
             drawing.map_err(|e| e.to_string())?,

@@ -37,14 +37,14 @@ pub fn write(study: &Study, outcomes: &[Outcome]) -> Result<(), String> {
     }
     let channel = channel(outcomes);
     if let Some(plot) = channel {
-        save("channel", plot.on(PAGE).draw())?;
+        save("channel", plot.draw(PAGE))?;
     }
     let slits: Vec<(&str, Run)> = ["FLIP", "XPIC(5)", "APIC", "implicit"]
         .into_iter()
         .filter_map(|label| Some((label, done("slit-n6-off0-0", label)?)))
         .collect();
     if !slits.is_empty() {
-        save("slit", slit_forces(&slits)?.on(PAGE).draw())?;
+        save("slit", slit_forces(&slits)?.draw(PAGE))?;
     }
     Ok(())
 }
@@ -67,7 +67,7 @@ fn profiles(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
             [y, incline::velocity(y * LUMEN) / incline::fastest()]
         })
         .collect();
-    plot.with("Eq. 5", Mark::Line, exact).on(PAGE).draw()
+    plot.with("Eq. 5", Mark::Line, exact).draw(PAGE)
 }
 
 fn points(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
@@ -81,7 +81,7 @@ fn points(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
         let spots = incline::profile(run, 6, 0.0).map_err(figures::Error::Data)?;
         clouds = clouds.with(label, spots);
     }
-    clouds.on(PAGE).draw()
+    clouds.draw(PAGE)
 }
 
 /// Error of the channel's mean velocity over the offset of its walls, six cells.

@@ -1,0 +1,119 @@
+//! What `wp-metrics` measured of a state, with errors by the size of the cells.
+
+use crate::Error;
+use crate::table::Table;
+
+/// A number as it was run, and carried on to cells of no size with the error of that; NaN where it is
+/// not known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Known {
+    /// In the cells of the run.
+    pub as_run: f64,
+    /// In cells of no size, by first order; NaN where no finer run was given.
+    pub extrapolated: f64,
+    /// Of that.
+    pub error: f64,
+}
+
+/// A quantity and where a table has it.
+pub(crate) struct Quantity {
+    pub(crate) name: &'static str,
+    pub(crate) side: &'static str,
+    pub(crate) unit: &'static str,
+    /// Its columns begin and end so.
+    column: [&'static str; 2],
+    /// Value in `unit` over that in the column.
+    factor: f64,
+    pub(crate) decimals: usize,
+}
+
+pub(crate) const SIDES: [&str; 3] = ["bottom", "top", "total"];
+
+const fn depth(name: &'static str, side: usize, column: &'static str) -> Quantity {
+    Quantity {
+        name,
+        side: SIDES[side],
+        unit: "um",
+        column: [column, "um"],
+        factor: 1.0,
+        decimals: 2,
+    }
+}
+
+/// What is read of each run, in its order. The total EP is the volume of liquid, which no cell changes.
+pub(crate) const QUANTITIES: [Quantity; 6] = [
+    depth("WP", 0, "wp"),
+    depth("WP", 1, "wp"),
+    depth("WP", 2, "wp"),
+    depth("EP", 0, "ep"),
+    depth("EP", 1, "ep"),
+    Quantity {
+        name: "pressure",
+        side: SIDES[2],
+        unit: "MPa",
+        column: ["pressure", "pa"],
+        factor: 1e-6,
+        decimals: 3,
+    },
+];
+
+impl Known {
+    /// A number without an error.
+    pub fn plain(as_run: f64) -> Self {
+        Self {
+            as_run,
+            extrapolated: f64::NAN,
+            error: f64::NAN,
+        }
+    }
+
+    /// WP of the bottom, the top and in total (um), EP of the bottom and the top (um) and the pressure (MPa) in
+    /// the rows of a table of `wp-metrics`.
+    ///
+    /// # Errors
+    /// [`Error::Data`] for a table without sides or a value that is not a number.
+    pub fn read(table: &Table) -> Result<[Self; 6], Error> {
+        let sides = table.texts("side")?;
+        let mut read = [Self::plain(f64::NAN); 6];
+        for (known, q) in read.iter_mut().zip(&QUANTITIES) {
+            let row = sides.iter().position(|side| *side == q.side);
+            let number = |what: &str| {
+                let column = format!("{}{what}_{}", q.column[0], q.column[1]);
+                match row.filter(|_| table.has(&column)) {
+                    Some(row) => table.numbers(&column).map(|n| q.factor * n[row]),
+                    None => Ok(f64::NAN),
+                }
+            };
+            known.as_run = number("")?;
+            let [extrapolated, error] = [number("_extrapolated")?, number("_error")?];
+            if extrapolated.is_finite() && error.is_finite() {
+                (known.extrapolated, known.error) = (extrapolated, error);
+            }
+        }
+        Ok(read)
+    }
+
+    /// Whether there is an error.
+    pub fn has_error(self) -> bool {
+        self.error.is_finite()
+    }
+
+    /// The best that is known of it.
+    pub fn best(self) -> f64 {
+        match self.has_error() {
+            true => self.extrapolated,
+            false => self.as_run,
+        }
+    }
+
+    /// The best that is known of it and, where there is one, its error, as texts.
+    pub fn told(self, decimals: usize) -> Vec<String> {
+        let error = Some(self.error).filter(|_| self.has_error());
+        match self.best() {
+            best if best.is_finite() => ([best].into_iter().chain(error))
+                .map(|number| format!("{number:.decimals$}"))
+                .collect(),
+            _ => vec!["-".into()],
+        }
+    }
+}
