@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::packed::LANES;
 use crate::simd::{Kernel, dispatch};
 use crate::system::SaddleSystem;
-use crate::vector::{CHUNK, Real, Work, for_chunks};
+use crate::vector::{CHUNK, Real, Work, for_each};
 
 /// Faces of a cell that are solved for with its pressure; further ones keep their velocity.
 const FACES: usize = 6;
@@ -65,13 +65,10 @@ impl Vanka {
         for cell in 0..n {
             let (block, lane) = (cell / LANES, cell % LANES);
             for (slot, &face) in system.g.row(cell).0.iter().take(FACES).enumerate() {
-                let place = &mut places[face as usize];
                 let at = ((block * FACES + slot) * LANES + lane) as u32;
-                *place = if place[0] == u32::MAX {
-                    [at; 2]
-                } else {
-                    [place[0], at]
-                };
+                let place = &mut places[face as usize];
+                let first = if place[0] == u32::MAX { at } else { place[0] };
+                *place = [first, at];
             }
         }
         Self {
@@ -104,12 +101,10 @@ impl Vanka {
             });
         let corrections = self.corrections.as_flattened().as_flattened();
         let places = &self.places;
-        for_chunks(velocity, |start, part| {
-            for (i, v) in part.iter_mut().enumerate() {
-                let [one, other] = places[start + i].map(|place| place as usize);
-                if let (Some(one), Some(other)) = (corrections.get(one), corrections.get(other)) {
-                    *v += (0.5 * DAMPING) * scale[start + i] * (one + other);
-                }
+        for_each(velocity, |face, v| {
+            let [one, other] = places[face].map(|place| corrections.get(place as usize));
+            if let (Some(one), Some(other)) = (one, other) {
+                *v += (0.5 * DAMPING) * scale[face] * (one + other);
             }
         });
     }
@@ -151,10 +146,8 @@ impl Block {
         let mut flux = Vector6::zeros();
         for (i, &face) in faces.iter().enumerate() {
             for (column, entry) in system.a.matrix.row(face as usize) {
-                if let Some(j) = faces[..i]
-                    .iter()
-                    .position(|&other| other as usize == column)
-                {
+                let before = faces[..i].iter();
+                if let Some(j) = before.clone().position(|&other| other as usize == column) {
                     block[(i, j)] += entry;
                     block[(j, i)] += entry;
                 }
