@@ -109,27 +109,15 @@ mod tests {
     use super::*;
     use crate::{Csr, VelocityBlock};
 
-    /// Two cells and the face between them, closed.
-    fn pair() -> Csr<f64> {
-        Csr::assemble(2, 1, |cell, entries| entries.add(0, [1.0, -1.0][cell])).unwrap()
-    }
-
-    /// What `said` makes of the pair with a friction, a compressibility and a source left over.
+    /// What `said` makes of two cells and the face between them, closed, with a friction, a compressibility and a source left over.
     fn of<T>([friction, c, left]: [f64; 3], said: impl Fn(&SaddleSystem) -> T) -> T {
-        let one = VelocityBlock::assemble(1, |_, entries| entries.add(0, 1.0));
+        let one = VelocityBlock::assemble(1, |_, entries| entries.add(0, 1.0)).unwrap();
+        let pair = Csr::assemble(2, 1, |cell, entries| entries.add(0, [1.0, -1.0][cell]));
         said(&SaddleSystem {
-            a: &one.unwrap(),
-            g: &pair(),
-            pockets: 0,
-            standing: &[],
-            clinging: &[],
-            slow: 0.0,
             c: &[c; 2],
             friction: &[friction],
-            two_eta: &[1.0; 2],
-            b: &[0.0],
             volume_source: &[0.5, -0.5 + left],
-            carried: &[0.0; 2],
+            ..SaddleSystem::still(&one, &pair.unwrap(), &[1.0; 2], &[0.0; 2])
         })
     }
 

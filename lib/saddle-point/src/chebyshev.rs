@@ -72,10 +72,12 @@ impl<'a> Chebyshev<'a> {
         let (centre, half_width) = (0.5 * (high + low), 0.5 * (high - low));
         let sigma = centre / half_width;
         let first = Work::nearest(1.0 / centre);
-        let scale = &self.block.scale;
+        let scale = &self.block.scale[..];
         for_each(&mut self.before[..n], |_, before| *before = 0.0);
         for_each(&mut self.rhs[..n], |i, rhs| *rhs = b[i] * scale[i]);
-        for_each(&mut self.now[..n], |i, now| *now = first * self.rhs[i]);
+        for_each(&mut self.now[..n], |i, now| {
+            *now = first * (b[i] * scale[i])
+        });
         let mut rho = 1.0 / sigma;
         let steps = (1..self.degree).map(|_| {
             let next = 1.0 / (2.0 * sigma - rho);
@@ -89,7 +91,8 @@ impl<'a> Chebyshev<'a> {
         });
         let steps: Vec<_> = steps.collect();
         (self.block.matrix).sweep(&mut self.now, &mut self.before, &steps);
-        for_each(x, |i, x| *x = self.now[i] * scale[i]);
+        let now = &self.now[..];
+        for_each(x, |i, x| *x = now[i] * scale[i]);
     }
 }
 

@@ -218,18 +218,9 @@ mod tests {
         };
         let measure = |b: &[f64; 2], speed: f64| {
             let system = SaddleSystem {
-                a: &a,
-                g: &g,
-                pockets: 0,
-                standing: &[],
-                clinging: &[],
-                slow: 0.0,
-                c: &[0.0],
-                friction: &[0.0; 2],
-                two_eta: &[1.0],
                 b,
-                volume_source: &[0.0],
                 carried: &[3e3],
+                ..SaddleSystem::still(&a, &g, &[1.0; 2], &[0.0; 2])
             };
             load.check(&system).unwrap();
             load.measure(&system, speed)

@@ -43,7 +43,7 @@ impl Schur {
         pockets.remove_mean(r);
         self.amg.cycle(r, &mut self.friction_part);
         pockets.remove_mean(&mut self.friction_part);
-        let (viscous, friction_part) = (&self.viscous, &self.friction_part);
+        let (viscous, friction_part) = (&self.viscous[..], &self.friction_part[..]);
         for_each(p, |i, p| *p = -(friction_part[i] + viscous[i] * r[i]));
     }
 }

@@ -100,10 +100,10 @@ impl Vanka {
                 });
             });
         let corrections = self.corrections.as_flattened().as_flattened();
-        let places = &self.places;
+        let places = &self.places[..];
         for_each(velocity, |face, v| {
-            let [one, other] = places[face].map(|place| corrections.get(place as usize));
-            if let (Some(one), Some(other)) = (one, other) {
+            let [one, other] = places[face].map(|place| place as usize);
+            if let (Some(one), Some(other)) = (corrections.get(one), corrections.get(other)) {
                 *v += (0.5 * DAMPING) * scale[face] * (one + other);
             }
         });
@@ -221,30 +221,14 @@ mod tests {
             (rows[row].iter().enumerate()).for_each(|(column, &x)| entries.add(column, x));
         });
         let a = a.unwrap();
-        let (g, c) = (
-            Csr::assemble(1, 3, |_, entries| {
-                [-1.0, 1.0, 0.5]
-                    .into_iter()
-                    .enumerate()
-                    .for_each(|(face, x)| entries.add(face, x));
-            })
-            .unwrap(),
-            [0.25],
-        );
-        let (ones, zeros) = ([1.0; 3], [0.0; 3]);
+        let fluxes = [-1.0, 1.0, 0.5];
+        let g = Csr::assemble(1, 3, |_, entries| {
+            (fluxes.iter().enumerate()).for_each(|(face, &x)| entries.add(face, x));
+        });
+        let g = g.unwrap();
         let system = SaddleSystem {
-            a: &a,
-            g: &g,
-            pockets: 0,
-            standing: &[],
-            clinging: &[],
-            slow: 0.0,
-            c: &c,
-            friction: &ones,
-            two_eta: &ones[..1],
-            b: &zeros,
-            volume_source: &zeros[..1],
-            carried: &zeros[..1],
+            c: &[0.25],
+            ..SaddleSystem::still(&a, &g, &[1.0; 3], &[0.0; 3])
         };
         let scale = [0.5, 0.5, 1.0 / 3.0];
         // What [A, -G^T; -G, -C] makes of this solution, the momentum scaled.
@@ -252,7 +236,7 @@ mod tests {
         let mut momentum = [0.0; 3];
         a.multiply(&u, &mut momentum);
         let momentum: Vec<Work> = (0..3)
-            .map(|i| scale[i] * (momentum[i] - [-1.0, 1.0, 0.5][i] * p) as Work)
+            .map(|i| scale[i] * (momentum[i] - fluxes[i] * p) as Work)
             .collect();
         let volume = [-(-1.0 - 2.0 + 1.5) - 0.25 * p as Work];
         let (mut v, mut q) = ([0.0; 3], [0.0]);
@@ -270,21 +254,8 @@ mod tests {
             row.add(cell, -1.0);
             row.add(cell + 1, 1.0);
         });
-        let ones = [1.0; 3];
-        let system = SaddleSystem {
-            a: &a,
-            g: &g.unwrap(),
-            pockets: 0,
-            standing: &[],
-            clinging: &[],
-            slow: 0.0,
-            c: &[0.0; 2],
-            friction: &ones,
-            two_eta: &ones[..2],
-            b: &ones,
-            volume_source: &ones[..2],
-            carried: &[0.0; 2],
-        };
+        let g = g.unwrap();
+        let system = SaddleSystem::still(&a, &g, &[1.0; 3], &[0.0; 3]);
         let (mut v, mut q) = ([0.0; 3], [0.0; 2]);
         // The first cell swells by one: half through each of its faces.
         let scale = [0.5f32.sqrt(); 3];

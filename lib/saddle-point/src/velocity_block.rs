@@ -62,13 +62,13 @@ impl VelocityBlock {
 
     /// The same; `scratch` takes the scaled `x`.
     pub(crate) fn multiply_by<X: Real>(&self, x: &[X], scratch: &mut Vec<f64>, out: &mut [f64]) {
-        let root = &self.root;
+        let root = &self.root[..];
         scratch.resize(self.matrix.padded_len(), 0.0);
         for_each(&mut scratch[..x.len()], |i, scaled| {
             *scaled = root[i] * x[i].into()
         });
         self.matrix.multiply_fine(scratch, out);
-        let scaled = &*scratch;
+        let scaled = &scratch[..];
         for_each(out, |i, out| *out = root[i] * (scaled[i] + *out));
     }
 }
