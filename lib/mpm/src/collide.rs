@@ -25,6 +25,14 @@ pub(crate) struct Obstacle<'a> {
     pub(crate) velocity: [Real; 3],
 }
 
+impl Obstacle<'_> {
+    /// Whether it holds a point at the end of the step.
+    pub(crate) fn contains(&self, node: [i32; 3], d: &Lanes4, lattice: &Lattice) -> bool {
+        let mut parts = self.parts.iter();
+        parts.any(|part| part.contains(node, d, &self.to, lattice))
+    }
+}
+
 /// The first point whose displacement is not a number or 0.9 of a cell or longer.
 pub(crate) type Fault = Option<u32>;
 
@@ -182,8 +190,7 @@ fn move_point(
     lattice: &Lattice,
     bodies: &[Obstacle],
 ) -> bool {
-    let base = tile.points.base[p];
-    let mut node = tile.node_of(base);
+    let mut node = tile.node_of(tile.points.base[p]);
     if !bodies.is_empty() {
         collide(tile, p, node, &mut d, lattice, bodies);
     }
@@ -195,9 +202,8 @@ fn move_point(
         return false;
     }
     let local: [i32; 3] = std::array::from_fn(|a| node[a] - tile.origin[a]);
-    let stays = local[..lattice.axes()]
-        .iter()
-        .all(|l| (0..EDGE as i32).contains(l));
+    let mut axes = local[..lattice.axes()].iter();
+    let stays = axes.all(|l| (0..EDGE as i32).contains(l));
     if stays {
         tile.points.base[p] = base_of(local);
     } else {
@@ -273,10 +279,7 @@ fn collide(
     }
     if hit {
         tile.hits.count += 1;
-        let trapped = bodies.iter().any(|body| {
-            let inside = |part: &BlockShape| part.contains(node, d, &body.to, lattice);
-            body.parts.iter().any(inside)
-        });
+        let trapped = bodies.iter().any(|body| body.contains(node, d, lattice));
         tile.hits.trapped += u64::from(trapped);
     }
 }

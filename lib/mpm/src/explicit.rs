@@ -1,6 +1,6 @@
 //! The explicit scheme on a scene: what it holds.
 
-use physics::{Motion, PidControl, Scene};
+use physics::{Motion, PidControl, RigidBody, Scene};
 
 use crate::collide::Obstacle;
 use crate::density::Projection;
@@ -70,28 +70,22 @@ impl Explicit {
         velocities: &[[Real; 3]],
     ) -> Vec<Obstacle<'a>> {
         let cell = self.scene.grid.cell_m;
-        self.parts
-            .iter()
-            .enumerate()
-            .map(|(b, parts)| Obstacle {
-                parts,
-                from: from[b].map(|x| x / cell),
-                to: to[b].map(|x| x / cell),
-                velocity: velocities[b],
-            })
-            .collect()
+        let obstacle = |(b, parts): (usize, &'a Vec<BlockShape>)| Obstacle {
+            parts,
+            from: from[b].map(|x| x / cell),
+            to: to[b].map(|x| x / cell),
+            velocity: velocities[b],
+        };
+        self.parts.iter().enumerate().map(obstacle).collect()
     }
 
     /// Velocity of each body at closing speed `speed`, m/s.
     pub(crate) fn body_velocities(&self, speed: f64) -> Vec<[f64; 3]> {
-        self.scene
-            .bodies
-            .iter()
-            .map(|body| match body.motion {
-                Motion::Fixed => [0.0; 3],
-                Motion::Constant(v) => v,
-                Motion::Clamped => [0.0, -speed, 0.0],
-            })
-            .collect()
+        let velocity = |body: &RigidBody| match body.motion {
+            Motion::Fixed => [0.0; 3],
+            Motion::Constant(v) => v,
+            Motion::Clamped => [0.0, -speed, 0.0],
+        };
+        self.scene.bodies.iter().map(velocity).collect()
     }
 }

@@ -1,12 +1,32 @@
 //! Short vectors whose lanes are fields of one point or node, or one field of eight points, so that the
 //! vector unit is full whatever the number of points in a cell.
 //!
-//! Operations take `FMA`: with it they are fused and the processor's own on whole vectors (`vector`), for
-//! kernels that `simd` runs where there are such instructions; without it they are plain loops.
+//! Operations take `FMA`: with it they are fused, for kernels that `simd` runs where there are such instructions, and in single
+//! precision the processor's own on whole vectors (`vector`); else they are plain loops.
 
+#[cfg(all(target_arch = "x86_64", not(feature = "double")))]
 mod vector;
 
 use crate::real::Real;
+
+/// Returns what whole vectors give where there are such instructions.
+macro_rules! by_vectors {
+    ($fma:ident, $given:expr) => {
+        #[cfg(all(target_arch = "x86_64", not(feature = "double")))]
+        if $fma {
+            return $given;
+        }
+    };
+}
+
+/// What sums over points are made of, whatever their number of lanes.
+pub(crate) trait Lanes: Copy {
+    const ZERO: Self;
+    /// Sum lane by lane.
+    fn add(self, b: Self) -> Self;
+    /// Turns the sign of a lane.
+    fn turn(&mut self, lane: usize);
+}
 
 macro_rules! lanes {
     ($name:ident, $n:literal, $align:literal, $vector:ident, $doc:literal) => {
@@ -15,18 +35,34 @@ macro_rules! lanes {
         #[repr(C, align($align))]
         pub(crate) struct $name(pub(crate) [Real; $n]);
 
+        impl Lanes for $name {
+            const ZERO: Self = Self::ZERO;
+
+            #[inline(always)]
+            fn add(self, b: Self) -> Self {
+                self.plus::<false>(b)
+            }
+
+            #[inline(always)]
+            fn turn(&mut self, lane: usize) {
+                self.0[lane] = -self.0[lane];
+            }
+        }
+
         impl $name {
             pub(crate) const ZERO: Self = Self([0.0; $n]);
 
             /// `self + a b`, lane by lane; fused where `FMA`.
             #[inline(always)]
             pub(crate) fn add_product<const FMA: bool>(self, a: Self, b: Self) -> Self {
-                if FMA {
-                    return Self(vector::$vector::fused(a.0, b.0, self.0));
-                }
+                by_vectors!(FMA, Self(vector::$vector::fused(a.0, b.0, self.0)));
                 let mut r = self.0;
                 for l in 0..$n {
-                    r[l] += a.0[l] * b.0[l];
+                    r[l] = if FMA {
+                        a.0[l].mul_add(b.0[l], r[l])
+                    } else {
+                        r[l] + a.0[l] * b.0[l]
+                    };
                 }
                 Self(r)
             }
@@ -40,9 +76,7 @@ macro_rules! lanes {
             /// Sum lane by lane.
             #[inline(always)]
             pub(crate) fn plus<const FMA: bool>(self, b: Self) -> Self {
-                if FMA {
-                    return Self(vector::$vector::sum(self.0, b.0));
-                }
+                by_vectors!(FMA, Self(vector::$vector::sum(self.0, b.0)));
                 let mut r = self.0;
                 for l in 0..$n {
                     r[l] += b.0[l];
@@ -53,9 +87,7 @@ macro_rules! lanes {
             /// Product lane by lane.
             #[inline(always)]
             pub(crate) fn times<const FMA: bool>(self, b: Self) -> Self {
-                if FMA {
-                    return Self(vector::$vector::product(self.0, b.0));
-                }
+                by_vectors!(FMA, Self(vector::$vector::product(self.0, b.0)));
                 let mut r = self.0;
                 for l in 0..$n {
                     r[l] *= b.0[l];
@@ -91,9 +123,7 @@ impl Lanes8 {
     /// Difference lane by lane.
     #[inline(always)]
     pub(crate) fn minus<const FMA: bool>(self, b: Self) -> Self {
-        if FMA {
-            return Self(vector::difference(self.0, b.0));
-        }
+        by_vectors!(FMA, Self(vector::difference(self.0, b.0)));
         let mut r = self.0;
         for l in 0..8 {
             r[l] -= b.0[l];
@@ -123,9 +153,7 @@ impl Lanes8 {
     /// The lanes `from` of these, in that order.
     #[inline(always)]
     pub(crate) fn pick<const FMA: bool>(self, from: [usize; 8]) -> Self {
-        if FMA {
-            return Self(vector::pick(self.0, from));
-        }
+        by_vectors!(FMA, Self(vector::pick(self.0, from)));
         let mut r = self.0;
         for l in 0..8 {
             r[l] = self.0[from[l]];
@@ -137,7 +165,7 @@ impl Lanes8 {
 /// What eight vectors have in lane 0, 1, 2 and 3.
 #[inline(always)]
 pub(crate) fn transposed<const FMA: bool>(list: &[Lanes4; 8]) -> [Lanes8; 4] {
-    if FMA {
+    by_vectors!(FMA, {
         let [a, b, c, d, e, f, g, h] = *list;
         let pairs = [
             Lanes8::of(a, e).0,
@@ -146,8 +174,8 @@ pub(crate) fn transposed<const FMA: bool>(list: &[Lanes4; 8]) -> [Lanes8; 4] {
             Lanes8::of(d, h).0,
         ];
         let [x, y, z, u] = vector::transposed(pairs);
-        return [Lanes8(x), Lanes8(y), Lanes8(z), Lanes8(u)];
-    }
+        [Lanes8(x), Lanes8(y), Lanes8(z), Lanes8(u)]
+    });
     let mut r = [Lanes8::ZERO; 4];
     for (p, x) in list.iter().enumerate() {
         for l in 0..4 {
@@ -173,13 +201,13 @@ pub(crate) fn first_eight(list: &[Lanes4]) -> [Lanes4; 8] {
 /// Lane 0, 1, ... 7 of all eight vectors.
 #[inline(always)]
 pub(crate) fn transposed_eight<const FMA: bool>(list: &[Lanes8; 8]) -> [Lanes8; 8] {
-    if FMA {
+    by_vectors!(FMA, {
         let [a, b, c, d, e, f, g, h] = *list;
         let list = [a.0, b.0, c.0, d.0, e.0, f.0, g.0, h.0];
         let [a, b, c, d, e, f, g, h] = vector::transposed_eight(list);
         let ([a, b, c, d], [e, f, g, h]) = ([a, b, c, d].map(Lanes8), [e, f, g, h].map(Lanes8));
-        return [a, b, c, d, e, f, g, h];
-    }
+        [a, b, c, d, e, f, g, h]
+    });
     let mut r = [Lanes8::ZERO; 8];
     for (p, x) in list.iter().enumerate() {
         for l in 0..8 {

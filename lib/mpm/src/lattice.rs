@@ -38,6 +38,16 @@ impl Lattice {
         }
     }
 
+    /// A cube of `n` cells an edge, all sides alike.
+    #[cfg(test)]
+    pub(crate) fn cube(n: i32, side: Boundary) -> Self {
+        Self {
+            cells: [n; 3],
+            boundary: [side; 3],
+            three: true,
+        }
+    }
+
     /// Axes that are computed.
     pub(crate) fn axes(&self) -> usize {
         if self.three { 3 } else { 2 }

@@ -11,18 +11,12 @@ pub(crate) trait Flow: Send + Sync {
 }
 
 /// Constant kinematic viscosity.
-pub(crate) struct Constant(Real);
+pub(crate) struct Constant(pub(crate) Real);
 
 impl Flow for Constant {
     #[inline(always)]
     fn viscosity(&self, _rate: Real) -> Real {
         self.0
-    }
-}
-
-impl Constant {
-    pub(crate) fn new(viscosity: f64, density: f64) -> Self {
-        Self((viscosity / density) as Real)
     }
 }
 
@@ -67,14 +61,8 @@ impl Flow for Segments {
 
 /// A law by formula, over the density.
 pub(crate) struct Formula {
-    law: Law,
-    density: f64,
-}
-
-impl Formula {
-    pub(crate) fn new(law: Law, density: f64) -> Self {
-        Self { law, density }
-    }
+    pub(crate) law: Law,
+    pub(crate) density: f64,
 }
 
 impl Flow for Formula {

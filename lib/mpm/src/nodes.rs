@@ -4,7 +4,7 @@ use physics::{Rheology, WallLaw};
 
 use crate::contact::{Meeting, Restraint, meeting};
 use crate::fields::{body, node, sum, wall_sum};
-use crate::lanes::{Lanes4, Lanes8};
+use crate::lanes::{Lanes, Lanes4, Lanes8};
 use crate::lattice::{EDGE, Lattice, block_node};
 use crate::real::Real;
 use crate::settings::Mode;
@@ -110,10 +110,11 @@ impl Block {
         if self.filter.restraints.len() != restraints {
             self.filter.restraints = vec![None; restraints];
         }
-        let sums = self.sums(tiles, |tile| &tile.local, [sum::MOMENTUM, sum::IMPULSE]);
+        let vectors = [sum::MOMENTUM, sum::IMPULSE];
+        let sums = sums::<Lanes8, 2>(&self.spans, |t| &tiles[t].local, vectors);
         let near = walls.then(|| {
             let vectors = [wall_sum::MOMENT, wall_sum::GRADIENT];
-            self.sums(tiles, |tile| &tile.wall_local, vectors)
+            self::sums::<Lanes8, 2>(&self.spans, |t| &tiles[t].wall_local, vectors)
         });
         for node in 0..self.velocity.len() {
             let sum = &sums[node];
@@ -134,36 +135,6 @@ impl Block {
             });
             self.advance_node(node, sum, meeting, step);
         }
-    }
-
-    /// Sums over the tiles that reach each node; vectors begin at the lanes `vectors`. A tile without values adds
-    /// nothing.
-    fn sums<'a>(
-        &self,
-        tiles: &'a [Tile],
-        values: impl Fn(&'a Tile) -> &'a Vec<Lanes8>,
-        vectors: [usize; 2],
-    ) -> [Lanes8; NODES] {
-        let mut sums = [Lanes8::ZERO; NODES];
-        for span in &self.spans {
-            let Some(values) = values(&tiles[span.other as usize]).get(span.entries()) else {
-                continue;
-            };
-            let sums = &mut sums[span.nodes()];
-            if span.flip == 0 {
-                span.each(sums, values, |sum, &value| *sum = sum.plus::<false>(value));
-                continue;
-            }
-            for (sum, &value) in sums.iter_mut().zip(values) {
-                let mut value = value;
-                for a in span.mirrored() {
-                    value.0[vectors[0] + a] = -value.0[vectors[0] + a];
-                    value.0[vectors[1] + a] = -value.0[vectors[1] + a];
-                }
-                *sum = sum.plus::<false>(value);
-            }
-        }
-        sums
     }
 
     fn advance_node<R: Rheology>(
@@ -217,22 +188,7 @@ impl Block {
     /// One step of the recursion w_l = (I - S+ S) w_{l-1}, added to v*. The increment of a
     /// body's velocity is zero for l >= 2, so contact only restrains.
     pub(crate) fn refine<R: Rheology>(&mut self, tiles: &[Tile], step: &NodeStep<R>) {
-        let mut sums = [Lanes4::ZERO; NODES];
-        for span in &self.spans {
-            let values = &tiles[span.other as usize].filtered[span.entries()];
-            let sums = &mut sums[span.nodes()];
-            if span.flip == 0 {
-                span.each(sums, values, |sum, &value| *sum = sum.plus::<false>(value));
-                continue;
-            }
-            for (sum, &value) in sums.iter_mut().zip(values) {
-                let mut value = value;
-                for a in span.mirrored() {
-                    value.0[a] = -value.0[a];
-                }
-                *sum = sum.plus::<false>(value);
-            }
-        }
+        let sums = sums::<Lanes4, 1>(&self.spans, |t| &tiles[t].filtered, [0]);
         for node in 0..self.velocity.len() {
             if self.filter.w[node].0[node::ONE] == 0.0 {
                 continue;
@@ -258,6 +214,34 @@ impl Block {
             *velocity = Lanes8::of(velocity.low(), sum);
         }
     }
+}
+
+/// Sums over the tiles that reach each node; vectors begin at the lanes `vectors`. A tile without values adds
+/// nothing.
+fn sums<'a, T: Lanes + 'a, const N: usize>(
+    spans: &[Span],
+    values: impl Fn(usize) -> &'a Vec<T>,
+    vectors: [usize; N],
+) -> [T; NODES] {
+    let mut sums = [T::ZERO; NODES];
+    for span in spans {
+        let Some(values) = values(span.other as usize).get(span.entries()) else {
+            continue;
+        };
+        let sums = &mut sums[span.nodes()];
+        if span.flip == 0 {
+            span.each(sums, values, |sum, &value| *sum = sum.add(value));
+            continue;
+        }
+        for (sum, &value) in sums.iter_mut().zip(values) {
+            let mut value = value;
+            for a in span.mirrored() {
+                vectors.iter().for_each(|first| value.turn(first + a));
+            }
+            *sum = sum.add(value);
+        }
+    }
+    sums
 }
 
 /// `v` with its first three lanes as `of` leaves them.

@@ -32,7 +32,7 @@ pub(crate) fn stages(scene: &Scene, settings: &Settings) -> Stages {
 
 /// The list resolved for the step and for what tiles and blocks hold: no scene pays for what it
 /// does not use.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Present {
     pub(crate) three: bool,
     pub(crate) contact: bool,
@@ -44,23 +44,6 @@ pub(crate) struct Present {
     pub(crate) affine: bool,
     pub(crate) cell_mean: bool,
     pub(crate) projection: bool,
-}
-
-#[cfg(test)]
-impl Present {
-    /// Contact in three dimensions and nothing else.
-    pub(crate) const CONTACT: Self = Self {
-        three: true,
-        contact: true,
-        friction: false,
-        force: false,
-        clamp: false,
-        load: false,
-        filter: false,
-        affine: false,
-        cell_mean: false,
-        projection: false,
-    };
 }
 
 impl From<&Stages> for Present {

@@ -62,11 +62,11 @@ impl Explicit {
             settings: *settings,
             present,
             mode,
-            kernels: Kernels::new(settings.shape, present.three, mode),
+            kernels: Kernels::new(present.three, mode),
             flow: match &scene.liquid.viscosity {
-                Viscosity::Newtonian(law) => AnyFlow::Constant(Constant::new(law.0, density)),
+                Viscosity::Newtonian(law) => AnyFlow::Constant(Constant((law.0 / density) as Real)),
                 Viscosity::Table(table) => AnyFlow::Segments(Segments::new(table, density)),
-                Viscosity::Law(law) => AnyFlow::Formula(Formula::new(*law, density)),
+                Viscosity::Law(law) => AnyFlow::Formula(Formula { law: *law, density }),
             },
             stress: Stress::new(&scene.liquid, cell, plan.viscosity_cap),
             integrator: Integrator::new(&lattice, settings.shape),
@@ -130,11 +130,8 @@ impl Explicit {
             place.0[a] = (at - f64::from(node[a])) as Real;
             motion.0[a] = if a < axes { v[a] as Real } else { 0.0 };
         }
-        let inside = |body: &Obstacle| {
-            let mut parts = body.parts.iter();
-            parts.any(|part| part.contains(node, &place, &body.to, lattice))
-        };
-        if let Some(b) = rest.iter().position(inside) {
+        let mut bodies = rest.iter();
+        if let Some(b) = bodies.position(|body| body.contains(node, &place, lattice)) {
             return Err(format!(
                 "liquid point {id} at {x:?} m lies inside the rigid body '{}'",
                 scene.bodies[b].name

@@ -84,10 +84,10 @@ impl Explicit {
 
     fn points_to_nodes(&mut self, dt: f64) {
         let scale = (dt / self.scene.grid.cell_m) as Real;
-        let kernels = self.kernels;
+        let (kernels, shape) = (self.kernels, self.settings.shape);
         self.grid.tiles.par_iter_mut().for_each(|tile| {
             tile.points.gather_runs();
-            kernels.p2g(tile, scale);
+            (kernels.p2g)(tile, scale, shape);
         });
     }
 
@@ -95,45 +95,37 @@ impl Explicit {
     fn nodes<R: Rheology>(&mut self, dt: f64, velocities: &[[Real; 3]], rheology: &R) {
         let (cell, density) = (self.scene.grid.cell_m, self.scene.liquid.density);
         let mode = self.mode;
+        let [x, y, z] = self.scene.gravity.map(|g| (g * dt) as Real);
         let step = NodeStep {
-            law: if self.present.friction {
-                self.scene.wall
-            } else {
-                WallLaw::Frictionless
+            law: match self.present.friction {
+                true => self.scene.wall,
+                false => WallLaw::Frictionless,
             },
             rheology,
             velocities,
             separation: self.separation,
-            fall: if self.present.force {
-                let [x, y, z] = self.scene.gravity.map(|g| (g * dt) as Real);
-                [x, y, z, 0.0]
-            } else {
-                [0.0; 4]
+            fall: match self.present.force {
+                true => [x, y, z, 0.0],
+                false => [0.0; 4],
             },
             dt_over_mass: dt / (density * cell),
             mode,
         };
-        let tiles = &self.grid.tiles;
-        self.grid
-            .blocks
-            .par_iter_mut()
-            .for_each(|block| block.advance(tiles, &step));
+        let (blocks, tiles) = (&mut self.grid.blocks, &self.grid.tiles);
+        (blocks.par_iter_mut()).for_each(|block| block.advance(tiles, &step));
         self.clock.lap(Stage::Nodes);
         if self.present.filter {
-            let kernels = self.kernels;
+            let (kernels, shape) = (self.kernels, self.settings.shape);
             for round in 2..=self.settings.velocity_update.order() {
                 let blocks = &self.grid.blocks;
                 let keep = round == 2 && mode == Mode::FilterBefore;
                 let tiles = self.grid.tiles.par_iter_mut();
                 tiles.for_each_init(Vec::new, |field, tile| {
                     gather_filtered(tile, blocks, field);
-                    kernels.filter(tile, field, keep);
+                    (kernels.filter)(tile, field, keep, shape);
                 });
-                let tiles = &self.grid.tiles;
-                self.grid
-                    .blocks
-                    .par_iter_mut()
-                    .for_each(|block| block.refine(tiles, &step));
+                let (blocks, tiles) = (&mut self.grid.blocks, &self.grid.tiles);
+                (blocks.par_iter_mut()).for_each(|block| block.refine(tiles, &step));
             }
             self.clock.lap(Stage::Filter);
         }
@@ -151,11 +143,10 @@ impl Explicit {
         let (blocks, lattice) = (&self.grid.blocks, &self.grid.lattice);
         let scale = (dt / self.scene.grid.cell_m) as Real;
         let shared = self.present.cell_mean;
-        let fault = tiles
-            .par_iter_mut()
+        let fault = (tiles.par_iter_mut())
             .map_init(Scratch::default, |scratch, tile| {
                 gather_velocity(tile, blocks, &mut scratch.field);
-                self.kernels.g2p(tile, scratch, scale);
+                (self.kernels.g2p)(tile, scratch, scale, self.settings.shape);
                 if shared {
                     share_rate(tile, scratch, lattice.axes());
                 }

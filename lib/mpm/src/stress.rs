@@ -268,7 +268,7 @@ mod tests {
         let liquid = liquid();
         let cell = 2.9e-6;
         let law = Stress::new(&liquid, cell, f64::INFINITY);
-        let flow = Constant::new(1.3, liquid.density);
+        let flow = Constant((1.3 / liquid.density) as Real);
         let mut points = points(&[0.0]);
         let rate = 1e5_f64;
         // dv_x/dy = rate, and a compression that ends at j = -1e-3 after the step.

@@ -47,6 +47,27 @@ pub(crate) struct Scratch {
     pub(crate) gradient: Gradient,
 }
 
+/// Does the same to every array of points but `affine`.
+macro_rules! each {
+    ($points:ident, |$list:ident| $does:expr) => {{
+        let Points {
+            id,
+            base,
+            place,
+            motion,
+            stress,
+            affine: _,
+        } = $points;
+        each!($list, $does, id base place motion stress);
+    }};
+    ($list:ident, $does:expr, $($array:ident)*) => {
+        $({
+            let $list = $array;
+            $does;
+        })*
+    };
+}
+
 impl Points {
     pub(crate) fn len(&self) -> usize {
         self.id.len()
@@ -54,7 +75,12 @@ impl Points {
 
     pub(crate) fn push(&mut self, point: &Point, base: u16, affine: bool) {
         if self.len() == self.id.capacity() {
-            self.reserve(affine);
+            // An eighth more: points are most of a run's memory, which doubling would half waste.
+            let more = self.len() / 8 + 8;
+            each!(self, |list| list.reserve_exact(more));
+            if affine {
+                self.affine.reserve_exact(more);
+            }
         }
         self.id.push(point.id);
         self.base.push(base);
@@ -63,19 +89,6 @@ impl Points {
         self.stress.push(point.stress);
         if affine {
             self.affine.push(point.affine);
-        }
-    }
-
-    /// Room for an eighth more: points are most of a run's memory, which doubling would half waste.
-    fn reserve(&mut self, affine: bool) {
-        let more = self.len() / 8 + 8;
-        self.id.reserve_exact(more);
-        self.base.reserve_exact(more);
-        self.place.reserve_exact(more);
-        self.motion.reserve_exact(more);
-        self.stress.reserve_exact(more);
-        if affine {
-            self.affine.reserve_exact(more);
         }
     }
 
@@ -91,25 +104,16 @@ impl Points {
 
     /// Brings the points of each node together where moves have scattered them.
     pub(crate) fn gather_runs(&mut self) {
-        let Some(order) = run_order(&self.base) else {
-            return;
-        };
-        reorder(&mut self.id, &order);
-        reorder(&mut self.base, &order);
-        reorder(&mut self.place, &order);
-        reorder(&mut self.motion, &order);
-        reorder(&mut self.stress, &order);
-        if !self.affine.is_empty() {
-            reorder(&mut self.affine, &order);
+        if let Some(order) = run_order(&self.base) {
+            each!(self, |list| reorder(list, &order));
+            if !self.affine.is_empty() {
+                reorder(&mut self.affine, &order);
+            }
         }
     }
 
     pub(crate) fn swap_remove(&mut self, p: usize) {
-        self.id.swap_remove(p);
-        self.base.swap_remove(p);
-        self.place.swap_remove(p);
-        self.motion.swap_remove(p);
-        self.stress.swap_remove(p);
+        each!(self, |list| list.swap_remove(p));
         if !self.affine.is_empty() {
             self.affine.swap_remove(p);
         }

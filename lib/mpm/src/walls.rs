@@ -54,15 +54,12 @@ impl NearBody {
         integrator: &Integrator,
     ) -> Self {
         let mut near = 0;
-        let columns: Vec<Columns> = parts
-            .iter()
-            .enumerate()
+        let columns: Vec<Columns> = (parts.iter().enumerate())
             .filter_map(|(part, block)| columns(part, block, origin, shift, integrator, &mut near))
             .collect();
-        let n = if columns.is_empty() {
-            0
-        } else {
-            integrator.lattice.block_len()
+        let n = match columns[..] {
+            [] => 0,
+            _ => integrator.lattice.block_len(),
         };
         Self {
             columns,
@@ -195,14 +192,6 @@ mod tests {
     use crate::lattice::Lattice;
     use crate::settings::ShapeFunction;
 
-    fn lattice() -> Lattice {
-        Lattice {
-            cells: [20, 20, 20],
-            boundary: [Boundary::Open; 3],
-            three: true,
-        }
-    }
-
     /// Of the hat function times position over a voxel of half a cell around `x` cells from the node:
     /// Simpson's rule is exact on either side of the node.
     fn moment(x: f64) -> f64 {
@@ -225,15 +214,13 @@ mod tests {
                     if !block.solid.solid(i, j, k) {
                         continue;
                     }
-                    let x: [f64; 3] = std::array::from_fn(|a| {
+                    let x = [0, 1, 2].map(|a| {
                         block.origin[a] + shift[a] + ([i, j, k][a] as f64 + 0.5) * block.voxel[a]
                     });
                     let nearest = x.map(f64::round);
-                    let d: [f64; 3] = std::array::from_fn(|a| x[a] - nearest[a]);
-                    let d = d.map(|d| Lanes8([d as Real; 8]));
+                    let d = [0, 1, 2].map(|a| Lanes8([(x[a] - nearest[a]) as Real; 8]));
                     let sides = ShapeFunction::Gimp.sides::<3, false>(&d);
-                    let offset: [f64; 3] =
-                        std::array::from_fn(|a| f64::from(node[a]) - nearest[a] + 1.0);
+                    let offset = [0, 1, 2].map(|a| f64::from(node[a]) - nearest[a] + 1.0);
                     if offset.iter().any(|o| !(0.0..=2.0).contains(o)) {
                         continue;
                     }
@@ -267,7 +254,7 @@ mod tests {
                 (i * 5 + j * 3 + k * 7) % 4 < 2
             }),
         };
-        let integrator = Integrator::new(&lattice(), ShapeFunction::Gimp);
+        let integrator = Integrator::new(&Lattice::cube(20, Boundary::Open), ShapeFunction::Gimp);
         let parts = [block];
         let origin = [4, 4, 4];
         let mut near = NearBody::new(&parts, origin, [0.0; 3], &integrator);
@@ -277,10 +264,9 @@ mod tests {
             assert!(!near.is_stale(shift));
             near.update(&parts, origin, shift, true, &integrator);
             for i in 0..64 {
-                let expected = rigid_points(&parts[0], shift, {
-                    let local = crate::lattice::block_node(i);
-                    std::array::from_fn(|a| origin[a] + local[a])
-                });
+                let local = crate::lattice::block_node(i);
+                let node = [0, 1, 2].map(|a| origin[a] + local[a]);
+                let expected = rigid_points(&parts[0], shift, node);
                 for (a, e) in expected.iter().enumerate() {
                     worst = worst.max((f64::from(near.values[i].0[a]) - e).abs());
                 }

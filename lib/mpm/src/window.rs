@@ -64,16 +64,16 @@ pub(crate) fn offsets<const FMA: bool>(places: &[Lanes4]) -> [Lanes8; 3] {
 /// The values of point `p`, each in all lanes.
 #[inline(always)]
 pub(crate) fn of_point(x: &Pairs, p: usize) -> Pairs {
-    of_points(x, x, p)
+    of_points((x, p), (x, p))
 }
 
-/// The values of point `p`, those of `low` in lanes 0 to 3 and those of `high` in lanes 4 to 7.
+/// The values of a point of `low` in lanes 0 to 3 and those of one of `high` in lanes 4 to 7.
 #[inline(always)]
-pub(crate) fn of_points(low: &Pairs, high: &Pairs, p: usize) -> Pairs {
+pub(crate) fn of_points((low, p): (&Pairs, usize), (high, q): (&Pairs, usize)) -> Pairs {
     let mut r = [[Lanes8::ZERO; 2]; 3];
     for a in 0..3 {
         for side in 0..2 {
-            let (l, h) = (low[a][side].0[p], high[a][side].0[p]);
+            let (l, h) = (low[a][side].0[p], high[a][side].0[q]);
             r[a][side] = Lanes8([l, l, l, l, h, h, h, h]);
         }
     }

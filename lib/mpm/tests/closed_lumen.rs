@@ -4,8 +4,8 @@
 mod scenes;
 
 use mpm::{Explicit, ShapeFunction, VelocityUpdate};
-use physics::{Boundary, Clamp, Motion, RigidBody, Scene, Scheme, VoxelBlock, WallLaw};
-use scenes::{CELL, FREE, fill, scene, settings, solid};
+use physics::{Boundary, Motion, Scene, Scheme, VoxelBlock};
+use scenes::{CELL, FREE, body, clamp, pour, scene, settings, solid};
 
 const WIDTH: usize = 4;
 
@@ -14,9 +14,6 @@ const WIDTH: usize = 4;
 fn sealed(thickness: usize, offset: f64) -> Scene {
     let mut s = scene([2 * WIDTH, 14, 4], [Boundary::Symmetry; 3]);
     s.boundary[1] = Boundary::Open;
-    s.wall = WallLaw::PartialSlip {
-        influence_length_m: 0.01 * CELL,
-    };
     // Voxels of half a cell: floor 2, lumen 6, roof; the wall stands in the middle.
     let lumen = 2..8;
     let roof = 8 + thickness;
@@ -30,38 +27,12 @@ fn sealed(thickness: usize, offset: f64) -> Scene {
     );
     let top = low + 0.5 * roof as f64;
     let side = wall.end as f64 * 0.5;
-    fill(
-        &mut s,
-        [side, low + 1.0, 0.0],
-        [2.0 * WIDTH as f64, top, 4.0],
-        |_| [0.0; 3],
-    );
-    let lid = top + 2.0;
-    fill(
-        &mut s,
-        [0.0, top, 0.0],
-        [2.0 * WIDTH as f64, lid, 4.0],
-        |_| [0.0; 3],
-    );
-    s.bodies = vec![
-        RigidBody {
-            name: "wood".into(),
-            blocks: vec![wood],
-            motion: Motion::Fixed,
-        },
-        solid(
-            "lid",
-            [0.0, lid, 0.0],
-            [2.0 * WIDTH as f64, lid + 2.0, 4.0],
-            Motion::Clamped,
-        ),
-    ];
-    s.clamp = Some(Clamp {
-        closing_speed: 1.0,
-        max_pressure: Some(2.5e6),
-        pid: None,
-    });
-    (s.bottom, s.top) = (Some(0), Some(1));
+    let (width, lid) = (2.0 * WIDTH as f64, top + 2.0);
+    pour(&mut s, [side, low + 1.0, 0.0], [width, top, 4.0]);
+    pour(&mut s, [0.0, top, 0.0], [width, lid, 4.0]);
+    let (low, high) = ([0.0, lid, 0.0], [width, lid + 2.0, 4.0]);
+    let lid = solid("lid", low, high, Motion::Clamped);
+    clamp(&mut s, [body("wood", wood, Motion::Fixed), lid], 1.0);
     s
 }
 

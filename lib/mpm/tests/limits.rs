@@ -3,15 +3,15 @@
 mod scenes;
 
 use mpm::{Explicit, Limit, Plan, Settings, ShapeFunction, VelocityUpdate};
-use physics::{Amount, Boundary, Motion, Newtonian, Scene, Scheme, Table, Viscosity};
-use scenes::{CELL, DENSITY, FREE, VISCOSITY, fill, scene, settings, solid};
+use physics::{Amount, Boundary, Motion, Newtonian, Scene, Scheme, Viscosity};
+use scenes::{CELL, DENSITY, FREE, VISCOSITY, fill, pour, pva_pf, scene, settings, solid};
 
 fn pool() -> Scene {
     let mut s = scene([8, 10, 8], [Boundary::Symmetry; 3]);
     s.boundary[1] = Boundary::Open;
     s.gravity = [0.0, -1e8, 0.0];
     s.bodies = vec![solid("floor", [0.0; 3], [8.0, 2.0, 8.0], Motion::Fixed)];
-    fill(&mut s, [0.0, 2.0, 0.0], [8.0, 6.0, 8.0], |_| [0.0; 3]);
+    pour(&mut s, [0.0, 2.0, 0.0], [8.0, 6.0, 8.0]);
     s
 }
 
@@ -27,13 +27,7 @@ fn the_plan_gives_the_limits_of_the_papers_materials() {
     assert_eq!(plan.limit, Limit::Viscous);
     assert_eq!(plan.dt_s, 0.5 * plan.viscous_s);
     // PVA-PF: its 210 Pa s would ask for 6 ps, its smallest viscosity of 1 Pa s for 1.26 ns.
-    let table = Table::new(&[
-        (1.0, 210.0),
-        (6.30957, 87.0),
-        (39.8107, 1.7),
-        (501.187, 1.0),
-    ]);
-    s.liquid.viscosity = Viscosity::Table(table.unwrap());
+    s.liquid.viscosity = pva_pf();
     let plan = Plan::new(&s, &Amount::of(&s.points), &flip);
     assert!((plan.viscous_s / 1.2615e-9 - 1.0).abs() < 1e-3);
     assert!((plan.viscosity_cap / 2.0 - 1.0).abs() < 1e-6);

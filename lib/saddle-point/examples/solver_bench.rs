@@ -20,16 +20,14 @@ use saddle_point::{SaddleOptions, SaddleReport, SaddleSolver};
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let tolerance = arguments.next().map_or(Ok(1e-4), |text| text.parse())?;
-    let sizes: Vec<String> = arguments.collect();
-    let sizes = if sizes.is_empty() {
-        vec!["32,48,48,12".to_owned(), "64,56,64,12".to_owned()]
-    } else {
-        sizes
-    };
+    let mut sizes: Vec<String> = arguments.collect();
+    if sizes.is_empty() {
+        sizes = ["32,48,48,12", "64,56,64,12"].map(str::to_owned).into();
+    }
     println!("threads {}", rayon::current_num_threads());
     println!(
-        "{:>8} {:>8} {:>9} {:>14} {:>7} {:>7} {:>7} {:>7} {:>6}",
-        "cells", "faces", "entries", "its 1e-2/3/4", "setup_s", "wall_s", "cpu_s", "MiB", "bound"
+        "{:>8} {:>8} {:>9} {:>14} {:>7} {:>7} {:>7} {:>6}",
+        "cells", "faces", "entries", "its 1e-2/3/4", "wall_s", "cpu_s", "MiB", "bound"
     );
     for size in sizes {
         let numbers = size
@@ -39,9 +37,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let [x, y, z, gap] = numbers[..] else {
             return Err(format!("size {size}; nx,ny,nz,gap expected").into());
         };
+        let cells = [x, y, z];
         row(
             Case {
-                cells: [x, y, z],
+                cells,
                 gap,
                 ..Case::default()
             },
@@ -53,7 +52,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn row(case: Case, tolerance: f64) -> Result<(), Box<dyn Error>> {
     let problem = Problem::new(&case)?;
-    let (mut u, mut p) = (vec![0.0; problem.b.len()], vec![0.0; problem.c.len()]);
+    let (mut u, mut p) = problem.rest();
     let mut solver = SaddleSolver::new(SaddleOptions {
         tolerance,
         ..SaddleOptions::default()
@@ -62,12 +61,11 @@ fn row(case: Case, tolerance: f64) -> Result<(), Box<dyn Error>> {
     let report = solver.solve(&problem.system(), &mut u, &mut p)?;
     let (wall, cpu) = (started.elapsed().as_secs_f64(), cpu_seconds()? - cpu);
     println!(
-        "{:8} {:8} {:9} {:>14} {:7.2} {:7.2} {:7.2} {:7} {:6.3}",
+        "{:8} {:8} {:9} {:>14} {:7.2} {:7.2} {:7} {:6.3}",
         p.len(),
         u.len(),
         problem.a.n_entries(),
         iterations(&report),
-        report.setup.as_secs_f64(),
         wall,
         cpu,
         peak_mebibytes()?,
@@ -98,14 +96,6 @@ fn cpu_seconds() -> Result<f64, Box<dyn Error>> {
 /// Largest memory in use so far (Linux), MiB.
 fn peak_mebibytes() -> Result<u64, Box<dyn Error>> {
     let text = std::fs::read_to_string("/proc/self/status")?;
-    let line = text
-        .lines()
-        .find(|line| line.starts_with("VmHWM"))
-        .unwrap_or_default();
-    Ok(line
-        .split_whitespace()
-        .nth(1)
-        .unwrap_or("0")
-        .parse::<u64>()?
-        / 1024)
+    let mut words = text.split_whitespace().skip_while(|word| *word != "VmHWM:");
+    Ok(words.nth(1).unwrap_or("0").parse::<u64>()? / 1024)
 }

@@ -1,6 +1,6 @@
 //! Why a saddle-point system was not solved.
 
-use crate::csr::Csr;
+use crate::pockets::components;
 use crate::system::SaddleSystem;
 use crate::{NEARLY, SolveError};
 
@@ -43,12 +43,13 @@ const BALANCED: f64 = 1e-6;
 
 /// The error with its likely cause; one that a step can live with stays as it is.
 pub(crate) fn explained(error: SolveError, system: &SaddleSystem) -> SolveError {
+    let near = |residual, tolerance| residual <= NEARLY * tolerance;
     match error {
         SolveError::NotConverged {
             residual,
             tolerance,
             ..
-        } if residual <= NEARLY * tolerance => error,
+        } if near(residual, tolerance) => error,
         SolveError::NotConverged { .. } | SolveError::Overflow { .. } => SolveError::Unsolved {
             error: Box::new(error),
             cause: cause(system),
@@ -58,10 +59,10 @@ pub(crate) fn explained(error: SolveError, system: &SaddleSystem) -> SolveError 
 }
 
 fn cause(system: &SaddleSystem) -> Cause {
-    let most = |list: &mut dyn Iterator<Item = f64>| list.fold(0.0, f64::max);
-    let viscosity = most(&mut system.two_eta.iter().copied());
-    let inertia = most(&mut system.friction.iter().copied()) / viscosity;
-    let stiffness = most(&mut system.c.iter().zip(system.two_eta).map(|(c, eta)| c * eta));
+    let most = |list: &[f64]| list.iter().copied().fold(0.0, f64::max);
+    let inertia = most(system.friction) / most(system.two_eta);
+    let stiffness = system.c.iter().zip(system.two_eta).map(|(c, eta)| c * eta);
+    let stiffness = stiffness.fold(0.0, f64::max);
     if let Some(cells) = unbalanced(system) {
         Cause::Unbalanced { cells }
     } else if stiffness > STIFF {
@@ -76,81 +77,47 @@ fn cause(system: &SaddleSystem) -> Cause {
 /// Cells of the first closed space (no cell of it at a free surface) whose sources do not balance.
 fn unbalanced(system: &SaddleSystem) -> Option<usize> {
     let faces = system.g.transpose();
-    let mut seen = vec![false; system.g.n_rows()];
-    for cell in 0..seen.len() {
-        if seen[cell] {
-            continue;
-        }
-        let space = Space::around(cell, system.g, &faces, &mut seen);
-        let of = |values: &[f64]| space.cells.iter().map(|&c| values[c]).collect::<Vec<f64>>();
+    let sides = |cell: u32| {
+        let of_cell = system.g.row(cell as usize).0.iter();
+        of_cell.map(|&face| faces.row(face as usize).0)
+    };
+    let neighbours = |cell| sides(cell).flatten().copied();
+    let unbalanced = |space: &Vec<u32>| {
+        let of = |values: &[f64]| {
+            space
+                .iter()
+                .map(|&c| values[c as usize])
+                .collect::<Vec<f64>>()
+        };
         let sources = of(system.volume_source);
         let moved: f64 = sources.iter().map(|s| s.abs()).sum();
         let left: f64 = sources.iter().sum::<f64>().abs();
         let softness: f64 = of(system.c).iter().sum();
-        if !space.open && left > (BALANCED * moved).max(TAKEN_UP * softness) {
-            return Some(space.cells.len());
-        }
-    }
-    None
-}
-
-/// Connected cells.
-struct Space {
-    cells: Vec<usize>,
-    /// Whether one of them has a face to air.
-    open: bool,
-}
-
-impl Space {
-    fn around(start: usize, g: &Csr<f64>, faces: &Csr<f64>, seen: &mut [bool]) -> Self {
-        seen[start] = true;
-        let mut found = Self {
-            cells: vec![start],
-            open: false,
+        let open = || {
+            space
+                .iter()
+                .any(|&cell| sides(cell).any(|sides| sides.len() < 2))
         };
-        let mut next = 0;
-        while let Some(&cell) = found.cells.get(next) {
-            next += 1;
-            for &face in g.row(cell).0 {
-                let sides = faces.row(face as usize).0;
-                found.open |= sides.len() < 2;
-                for &side in sides {
-                    if !std::mem::replace(&mut seen[side as usize], true) {
-                        found.cells.push(side as usize);
-                    }
-                }
-            }
-        }
-        found
-    }
+        left > (BALANCED * moved).max(TAKEN_UP * softness) && !open()
+    };
+    let mut spaces = components(system.g.n_rows(), neighbours);
+    spaces.find(unbalanced).map(|space| space.len())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::VelocityBlock;
+    use crate::{Csr, VelocityBlock};
 
-    /// Two cells and the face between them, closed.
-    fn pair() -> Csr<f64> {
-        Csr::assemble(2, 1, |cell, entries| entries.add(0, [1.0, -1.0][cell])).unwrap()
-    }
-
-    /// What `said` makes of the pair with a friction, a compressibility and a source left over.
+    /// What `said` makes of two cells and the face between them, closed, with a friction, a compressibility and a source left over.
     fn of<T>([friction, c, left]: [f64; 3], said: impl Fn(&SaddleSystem) -> T) -> T {
-        let one = VelocityBlock::assemble(1, |_, entries| entries.add(0, 1.0));
+        let one = VelocityBlock::assemble(1, |_, entries| entries.add(0, 1.0)).unwrap();
+        let pair = Csr::assemble(2, 1, |cell, entries| entries.add(0, [1.0, -1.0][cell]));
         said(&SaddleSystem {
-            a: &one.unwrap(),
-            g: &pair(),
-            pockets: 0,
-            standing: &[],
-            clinging: &[],
-            slow: 0.0,
             c: &[c; 2],
             friction: &[friction],
-            two_eta: &[1.0; 2],
-            b: &[0.0],
             volume_source: &[0.5, -0.5 + left],
-            carried: &[0.0; 2],
+            ..SaddleSystem::still(&one, &pair.unwrap(), &[1.0; 2], &[0.0; 2])
         })
     }
 

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::packed::{Absolute, Finish, LANES, PackedMatrix};
-use crate::vector::{CHUNK, Real, Work, for_chunks, for_chunks_pair, reset};
+use crate::vector::{CHUNK, Real, Work, for_each};
 use crate::velocity_block::VelocityBlock;
 
 /// Sweeps that tighten the bound of the largest eigenvalue, to within 25 %.
@@ -17,7 +17,8 @@ const WIDEST: f64 = 6400.0;
 /// (Golub & Van Loan, Matrix Computations, 4th ed., section 11.2.8).
 pub(crate) struct Chebyshev<'a> {
     block: &'a VelocityBlock,
-    bound: f64,
+    /// Guaranteed upper bound of the eigenvalues of `D^-1 A`.
+    pub(crate) bound: f64,
     degree: usize,
     ratio: f64,
     /// Scaled right-hand side, and the last two iterates.
@@ -42,16 +43,14 @@ impl<'a> Chebyshev<'a> {
         }
     }
 
-    /// What the `x` of the last [`Chebyshev::apply`] leaves of `S (b - A x)`, plus `S more(row)`;
+    /// What the `x` of the last [`Chebyshev::apply`] leaves of `S (b - A x)`, plus `S more(row)`.
     pub(crate) fn residual(&mut self, more: impl Fn(usize) -> Work + Sync) -> &[Work] {
         let (rhs, scale) = (&self.rhs, &self.block.scale);
         let (now, before) = (&mut self.now, &mut self.before);
-        (self.block.matrix).sweep(now, before, &[Residual { rhs }]);
+        (self.block.matrix).sweep(now, before, &[Residual(rhs)]);
         std::mem::swap(now, before);
-        for_chunks(&mut self.before[..scale.len()], |start, part| {
-            for (i, out) in part.iter_mut().enumerate() {
-                *out += scale[start + i] * more(start + i);
-            }
+        for_each(&mut before[..scale.len()], |row, out| {
+            *out += scale[row] * more(row)
         });
         &self.before
     }
@@ -66,11 +65,6 @@ impl<'a> Chebyshev<'a> {
         wider > 1.0
     }
 
-    /// Guaranteed upper bound of the eigenvalues of `D^-1 A`.
-    pub(crate) fn bound(&self) -> f64 {
-        self.bound
-    }
-
     /// `x ~ A^-1 b`.
     pub(crate) fn apply(&mut self, b: &[Work], x: &mut [Work]) {
         let n = b.len();
@@ -78,13 +72,11 @@ impl<'a> Chebyshev<'a> {
         let (centre, half_width) = (0.5 * (high + low), 0.5 * (high - low));
         let sigma = centre / half_width;
         let first = Work::nearest(1.0 / centre);
-        for_chunks(&mut self.before[..n], |_, part| part.fill(0.0));
-        let scale = &self.block.scale;
-        for_chunks_pair(&mut self.rhs[..n], &mut self.now[..n], |start, rhs, now| {
-            for (i, (rhs, now)) in rhs.iter_mut().zip(now).enumerate() {
-                *rhs = b[start + i] * scale[start + i];
-                *now = first * *rhs;
-            }
+        let scale = &self.block.scale[..];
+        for_each(&mut self.before[..n], |_, before| *before = 0.0);
+        for_each(&mut self.rhs[..n], |i, rhs| *rhs = b[i] * scale[i]);
+        for_each(&mut self.now[..n], |i, now| {
+            *now = first * (b[i] * scale[i])
         });
         let mut rho = 1.0 / sigma;
         let steps = (1..self.degree).map(|_| {
@@ -99,18 +91,13 @@ impl<'a> Chebyshev<'a> {
         });
         let steps: Vec<_> = steps.collect();
         (self.block.matrix).sweep(&mut self.now, &mut self.before, &steps);
-        for_chunks(x, |start, part| {
-            for (i, x) in part.iter_mut().enumerate() {
-                *x = self.now[start + i] * scale[start + i];
-            }
-        });
+        let now = &self.now[..];
+        for_each(x, |i, x| *x = now[i] * scale[i]);
     }
 }
 
 /// `rhs - now - product`.
-struct Residual<'a> {
-    rhs: &'a [Work],
-}
+struct Residual<'a>(&'a [Work]);
 
 impl Finish for Residual<'_> {
     #[inline(always)]
@@ -121,7 +108,7 @@ impl Finish for Residual<'_> {
         product: [Work; LANES],
         out: &mut [Work; LANES],
     ) {
-        let rhs = &self.rhs.as_chunks::<LANES>().0[block];
+        let rhs = &self.0.as_chunks::<LANES>().0[block];
         *out = std::array::from_fn(|i| rhs[i] - now[i] - product[i]);
     }
 }
@@ -170,10 +157,8 @@ fn largest_eigenvalue_bound(
             ratios.fold(1.0, Work::max)
         })
         .reduce(|| 1.0, Work::max);
-    for vector in [w, next] {
-        let len = vector.len();
-        reset(vector, len);
-    }
+    w.fill(0.0);
+    next.fill(0.0);
     // Room for the rounding of single-precision sums.
     f64::from(bound) * (1.0 + 1e-5)
 }
@@ -188,19 +173,15 @@ mod tests {
     fn the_residual_is_the_chebyshev_polynomial() {
         // D^-1 A has the eigenvalues 1.6 and 0.4, with S x = (1, 1) and (1, -1).
         let entries = [[4.0, 1.2], [1.2, 1.0]];
-        let a = VelocityBlock::assemble(2, |row, list| {
-            list.add(0, entries[row][0]);
-            list.add(1, entries[row][1]);
-        });
-        let scaled = a.unwrap();
-        let polynomial = |k: usize, x: f64| {
-            (1..k)
-                .fold((1.0, x), |(last, now), _| (now, 2.0 * x * now - last))
-                .1
-        };
+        let scaled = VelocityBlock::assemble(2, |row, list| {
+            (0..2).for_each(|column| list.add(column, entries[row][column]));
+        })
+        .unwrap();
+        let next = |x: f64| move |(last, now), _| (now, 2.0 * x * now - last);
+        let polynomial = |k: usize, x: f64| (1..k).fold((1.0, x), next(x)).1;
         for (degree, ratio) in [(1, 30.0), (2, 4.0), (3, 30.0), (6, 10.0)] {
             let mut inverse = Chebyshev::new(&scaled, degree, ratio);
-            let high = inverse.bound();
+            let high = inverse.bound;
             assert!((high - 1.6).abs() < 1e-4, "{high}");
             let half = 0.5 * (high - high / ratio);
             let centre = high - half;

@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 
 use crate::SolveError;
-use crate::vector::{CHUNK, Real, for_chunks};
+use crate::vector::{CHUNK, Real, for_each};
 
 /// A sparse matrix by rows: `columns` and `values` of row `i` are the entries
 /// `row_start[i]..row_start[i + 1]`, columns ascending and unique.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone)]
 pub struct Csr<T> {
     n_columns: usize,
     row_start: Vec<u32>,
@@ -64,14 +64,6 @@ pub(crate) struct Rows<T> {
 }
 
 impl<T> Rows<T> {
-    fn with_capacity(rows: usize, entries: usize) -> Self {
-        Self {
-            row_end: Vec::with_capacity(rows),
-            columns: Vec::with_capacity(entries),
-            values: Vec::with_capacity(entries),
-        }
-    }
-
     /// Columns and values of its row `row`.
     pub(crate) fn row(&self, row: usize) -> (&[u32], &[T]) {
         let start = (row.checked_sub(1)).map_or(0, |before| self.row_end[before]);
@@ -104,12 +96,6 @@ impl<T: Real> Csr<T> {
                 "{total} entries exceed the 32-bit index range"
             )));
         }
-        Ok(Self::join(n_rows, n_columns, chunks))
-    }
-
-    /// Joins the rows of consecutive chunks, whose entries number less than 2^32.
-    fn join(n_rows: usize, n_columns: usize, chunks: Vec<Rows<T>>) -> Self {
-        let total = chunks.iter().map(|rows| rows.columns.len()).sum();
         let mut row_start = Vec::with_capacity(n_rows + 1);
         row_start.push(0);
         let mut columns = vec![0; total];
@@ -130,12 +116,12 @@ impl<T: Real> Csr<T> {
             columns.copy_from_slice(&rows.columns);
             values.copy_from_slice(&rows.values);
         });
-        Self {
+        Ok(Self {
             n_columns,
             row_start,
             columns,
             values,
-        }
+        })
     }
 
     /// Number of rows.
@@ -162,10 +148,8 @@ impl<T: Real> Csr<T> {
     /// The entry on the diagonal of every row, zero where none is stored.
     pub fn diagonal(&self) -> Vec<T> {
         let mut diagonal = vec![T::default(); self.n_rows()];
-        for_chunks(&mut diagonal, |start, part| {
-            for (i, out) in part.iter_mut().enumerate() {
-                *out = value_at(self.row(start + i), start + i);
-            }
+        for_each(&mut diagonal, |row, out| {
+            *out = value_at(self.row(row), row)
         });
         diagonal
     }
@@ -202,10 +186,8 @@ impl<T: Real> Csr<T> {
     /// The same matrix in another precision.
     pub(crate) fn cast<U: Real>(&self) -> Csr<U> {
         let mut values = vec![U::default(); self.values.len()];
-        for_chunks(&mut values, |start, part| {
-            for (out, &value) in part.iter_mut().zip(&self.values[start..]) {
-                *out = U::nearest(value.into());
-            }
+        for_each(&mut values, |i, out| {
+            *out = U::nearest(self.values[i].into())
         });
         Csr {
             n_columns: self.n_columns,
@@ -235,15 +217,6 @@ impl<T: Real> Csr<T> {
             sum += value.into() * x[column as usize].into();
         }
         sum
-    }
-
-    /// `y = matrix x`, in double precision; `x` has a value per column, `y` one per row.
-    pub fn multiply<X: Real>(&self, x: &[X], y: &mut [f64]) {
-        for_chunks(y, |start, part| {
-            for (i, y) in part.iter_mut().enumerate() {
-                *y = self.row_times_wide(start + i, x);
-            }
-        });
     }
 }
 
@@ -278,7 +251,11 @@ fn assemble_rows<T: Real>(
     n_columns: usize,
     fill: &(impl Fn(usize, &mut RowEntries) + Sync),
 ) -> Result<Rows<T>, SolveError> {
-    let mut rows = Rows::with_capacity(range.len(), 8 * range.len());
+    let mut rows = Rows {
+        row_end: Vec::with_capacity(range.len()),
+        columns: Vec::with_capacity(8 * range.len()),
+        values: Vec::with_capacity(8 * range.len()),
+    };
     let mut row_entries = RowEntries::default();
     for row in range {
         row_entries.entries.clear();

@@ -29,18 +29,19 @@ pub(crate) trait Precondition {
     /// `z` is that of `r`.
     fn apply(&mut self, r: &[Work], z: &mut Vec<Work>);
 
-    /// Whether there is anything that its precision cannot tell.
-    fn begins(&self) -> bool;
-
-    /// Adds that to `x` before a cycle, in double precision, by the residual `r`.
-    fn begin(&self, r: &[f64], x: &mut [f64]);
+    /// Adds to `x` before a cycle, in double precision and by the residual `r`, what its own precision cannot tell; whether
+    /// there is anything.
+    fn begin(&self, r: &[f64], x: &mut [f64]) -> bool;
 
     /// Makes it nearer to the inverse, for more work; whether it could.
     fn strengthen(&mut self) -> bool;
 }
 
+/// Krylov vectors before a restart; memory is 8 bytes x unknowns x this.
+const RESTART: usize = 30;
+
 /// When to stop.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(crate) struct Limits {
     pub(crate) tolerance: f64,
     /// What the tolerance is relative to; 0 where `b` is.
@@ -48,7 +49,6 @@ pub(crate) struct Limits {
     /// Part of the residual at the start that is enough; 0 where the tolerance must be reached.
     pub(crate) enough: f64,
     pub(crate) max_iterations: usize,
-    pub(crate) restart: usize,
 }
 
 /// Krylov basis and its preconditioned images, kept between solves.
@@ -82,8 +82,7 @@ pub(crate) fn fgmres<K: Operator>(
     let mut wanted = limits.tolerance * size;
     loop {
         let mut residual = true_residual(operator, b, x, &mut space.vector);
-        if preconditioner.begins() {
-            preconditioner.begin(&space.vector, x);
+        if preconditioner.begin(&space.vector, x) {
             residual = true_residual(operator, b, x, &mut space.vector);
         }
         if history.is_empty() {
@@ -109,7 +108,7 @@ pub(crate) fn fgmres<K: Operator>(
             residual,
             target: MARGIN * wanted,
             size,
-            steps: limits.restart.min(limits.max_iterations - iterations),
+            steps: RESTART.min(limits.max_iterations - iterations),
         };
         cycle.run(operator, preconditioner, x, space, &mut history)?;
     }
@@ -214,79 +213,17 @@ fn normalise(vector: &[f64], length: f64, out: &mut Vec<Work>) {
 mod tests {
     use super::*;
 
-    /// diag(1, 2, ..), and how often it was applied.
-    struct Diagonal(usize);
-
-    impl Operator for Diagonal {
-        fn apply<X: Real>(&mut self, x: &[X], y: &mut [f64]) {
-            self.0 += 1;
-            for (row, (y, &x)) in y.iter_mut().zip(x).enumerate() {
-                *y = (row + 1) as f64 * x.into();
-            }
-        }
-    }
-
-    struct Identity;
-
-    impl Precondition for Identity {
-        fn apply(&mut self, r: &[Work], z: &mut Vec<Work>) {
-            z.clone_from(&r.to_vec());
-        }
-
-        fn begins(&self) -> bool {
-            false
-        }
-
-        fn begin(&self, _: &[f64], _: &mut [f64]) {}
-
-        fn strengthen(&mut self) -> bool {
-            false
-        }
-    }
-
-    /// Residuals by iteration, and how often the operator was applied.
-    fn solve(tolerance: f64) -> (Vec<f64>, usize) {
-        let (mut diagonal, mut x) = (Diagonal(0), vec![0.0; 30]);
-        let limits = Limits {
-            tolerance,
-            size: 30.0_f64.sqrt(),
-            enough: 0.0,
-            max_iterations: 100,
-            restart: 25,
-        };
-        let space = &mut KrylovSpace::default();
-        let history = fgmres(
-            &mut diagonal,
-            &mut Identity,
-            &[1.0; 30],
-            &mut x,
-            limits,
-            space,
-        )
-        .unwrap();
-        (history, diagonal.0)
-    }
-
-    /// An estimate just below the tolerance ends the cycle, one just above does not: neither an
-    /// iteration too many nor a cycle for rounding, which would apply the operator once more.
-    #[test]
-    fn one_cycle_reaches_the_tolerance_and_no_more() {
-        let r = solve(1e-4).0[8];
-        let below = solve(r / 0.9);
-        assert_eq!((below.0.len() - 1, below.1), (8, 10));
-        let above = solve(r / 1.5);
-        assert_eq!(above.1, above.0.len() - 1 + 2, "{:?}", above.0);
-    }
-
-    /// diag(1, 1/2^power, 1/3^power, ..), whose inverse is at hand once it is asked for.
+    /// diag(1, 1/2^power, 1/3^power, ..), whose inverse is at hand once it is asked for, and how often it was applied.
     #[derive(Clone, Copy)]
     struct Steep {
         power: f64,
         strong: bool,
+        applied: usize,
     }
 
     impl Operator for Steep {
         fn apply<X: Real>(&mut self, x: &[X], y: &mut [f64]) {
+            self.applied += 1;
             for (row, (y, &x)) in y.iter_mut().zip(x).enumerate() {
                 *y = x.into() / ((row + 1) as f64).powf(self.power);
             }
@@ -300,40 +237,51 @@ mod tests {
             *z = r.iter().enumerate().map(inverse).collect();
         }
 
-        fn begins(&self) -> bool {
+        fn begin(&self, _: &[f64], _: &mut [f64]) -> bool {
             false
         }
-
-        fn begin(&self, _: &[f64], _: &mut [f64]) {}
 
         fn strengthen(&mut self) -> bool {
             !std::mem::replace(&mut self.strong, true)
         }
     }
 
-    /// Residuals by iteration, and the basis vectors that a solve took.
-    fn steep(power: f64) -> (Vec<f64>, usize) {
+    /// Residuals by iteration over `n` rows, how often the operator was applied, and the basis vectors that it took.
+    fn solve(n: usize, power: f64, tolerance: f64) -> (Vec<f64>, usize, usize) {
         let limits = Limits {
-            tolerance: 1e-5,
-            size: 10.0,
+            tolerance,
+            size: (n as f64).sqrt(),
             enough: 0.0,
             max_iterations: 200,
-            restart: 30,
         };
-        let strong = false;
-        let [mut operator, mut preconditioner] = [Steep { power, strong }; 2];
-        let (b, mut x) = ([1.0; 100], [0.0; 100]);
-        let mut space = KrylovSpace::default();
-        let (operator, preconditioner) = (&mut operator, &mut preconditioner);
-        let history = fgmres(operator, preconditioner, &b, &mut x, limits, &mut space);
-        (history.unwrap(), space.preconditioned.len())
+        let [mut operator, mut preconditioner] = [Steep {
+            power,
+            strong: false,
+            applied: 0,
+        }; 2];
+        let (b, mut x, mut space) = (vec![1.0; n], vec![0.0; n], KrylovSpace::default());
+        let (k, m) = (&mut operator, &mut preconditioner);
+        let history = fgmres(k, m, &b, &mut x, limits, &mut space).unwrap();
+        (history, operator.applied, space.preconditioned.len())
+    }
+
+    /// An estimate just below the tolerance ends the cycle, one just above does not: neither an
+    /// iteration too many nor a cycle for rounding, which would apply the operator once more.
+    #[test]
+    fn one_cycle_reaches_the_tolerance_and_no_more() {
+        let solve = |tolerance| solve(30, -1.0, tolerance);
+        let r = solve(1e-4).0[8];
+        let below = solve(r / 0.9);
+        assert_eq!((below.0.len() - 1, below.1), (8, 10));
+        let above = solve(r / 1.5);
+        assert_eq!(above.1, above.0.len() - 1 + 2, "{:?}", above.0);
     }
 
     /// Ten iterations that leave a little more than 0.3 of the residual give way to the inverse, which needs one or two; those
     /// that leave a little less go on.
     #[test]
     fn a_cycle_that_is_slow_gives_way_to_a_stronger_preconditioner() {
-        let [fast, slow] = [1.5, 1.6].map(|power| steep(power).0);
+        let [fast, slow] = [1.5, 1.6].map(|power| solve(100, power, 1e-5).0);
         assert!(
             (0.2..0.3).contains(&fast[10]) && fast.len() > 30,
             "{fast:?}"
@@ -347,7 +295,7 @@ mod tests {
     /// Ten iterations that leave a little less than 0.1 of the residual end their cycle; those that leave a little more go on.
     #[test]
     fn a_prompt_cycle_takes_ten_vectors() {
-        let [(prompt, few), (other, more)] = [1.05, 1.2].map(steep);
+        let [(prompt, _, few), (other, _, more)] = [1.05, 1.2].map(|power| solve(100, power, 1e-5));
         assert!(
             (0.05..0.1).contains(&prompt[10]) && prompt.len() > 12 && few == 10,
             "{few}: {prompt:?}"

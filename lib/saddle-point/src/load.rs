@@ -24,22 +24,18 @@ pub struct Load {
 
 impl Load {
     pub(crate) fn check(&self, system: &SaddleSystem) -> Result<(), SolveError> {
-        check_length(
-            "momenta of the load",
-            self.momentum.len(),
-            system.a.n_rows(),
-        )?;
-        check_length("sources of the load", self.source.len(), system.g.n_rows())?;
-        if !self.is_felt() {
+        let (momenta, sources) = (self.momentum.len(), self.source.len());
+        check_length("momenta of the load", momenta, system.a.n_rows())?;
+        check_length("sources of the load", sources, system.g.n_rows())?;
+        // A body that no liquid touches meets no resistance.
+        let acts = |values: &[f64]| values.iter().any(|v| *v != 0.0);
+        if self.resistance == 0.0 && !acts(&self.momentum) && !acts(&self.source) {
             return Err(SolveError::Matrix(
                 "a load on a body without resistance: its speed is unbounded".into(),
             ));
         }
-        if self.scale > 0.0
-            && self.scale.is_finite()
-            && self.force.is_finite()
-            && self.resistance >= 0.0
-        {
+        let finite = self.scale.is_finite() && self.force.is_finite();
+        if finite && self.scale > 0.0 && self.resistance >= 0.0 {
             return Ok(());
         }
         Err(SolveError::Matrix(format!(
@@ -47,12 +43,6 @@ impl Load {
              resistance not negative",
             self.force, self.scale, self.resistance
         )))
-    }
-
-    /// Whether the body's motion meets any resistance: a body that no liquid touches does not.
-    pub(crate) fn is_felt(&self) -> bool {
-        let acts = |values: &[f64]| values.iter().any(|v| *v != 0.0);
-        self.resistance != 0.0 || acts(&self.momentum) || acts(&self.source)
     }
 
     /// The same load with the velocities of the faces counted from the share t = m/A_ff of its speed V that each takes
@@ -108,25 +98,18 @@ pub(crate) struct LoadedOperator<'a, K> {
     pub(crate) weight: f64,
 }
 
-impl<K: Operator> LoadedOperator<'_, K> {
-    /// The body's part of the product, with that of the system without it in `y`.
-    fn add_body<X: Real>(&self, x: &[X], speed: X, y: &mut [f64], force: &mut f64) {
+impl<K: Operator> Operator for LoadedOperator<'_, K> {
+    fn apply<X: Real>(&mut self, x: &[X], y: &mut [f64]) {
         let (load, weight) = (self.load, self.weight);
+        let ((x, speed), (y, force)) = (split(x), y.split_at_mut(y.len() - 1));
+        self.inner.apply(x, y);
         let speed: f64 = speed.into();
         let (y_u, y_p) = y.split_at_mut(load.momentum.len());
         add_scaled(y_u, -weight * speed, &load.momentum);
         add_scaled(y_p, weight * speed, &load.source);
         let (u, p) = x.split_at(load.momentum.len());
-        *force = weight * (dot(&load.source, p) - dot(&load.momentum, u))
+        force[0] = weight * (dot(&load.source, p) - dot(&load.momentum, u))
             + weight * weight * load.resistance * speed;
-    }
-}
-
-impl<K: Operator> Operator for LoadedOperator<'_, K> {
-    fn apply<X: Real>(&mut self, x: &[X], y: &mut [f64]) {
-        let ((x, speed), (y, force)) = (split(x), y.split_at_mut(y.len() - 1));
-        self.inner.apply(x, y);
-        self.add_body(x, speed, y, &mut force[0]);
     }
 }
 
@@ -197,13 +180,12 @@ impl Precondition for Bordered<'_, '_> {
         stronger
     }
 
-    fn begins(&self) -> bool {
-        !self.inner.sealed().is_empty()
-    }
-
     /// Adds mean pressures of sealed pockets and the speed: in single precision the rest would be lost beside them.
-    fn begin(&self, r: &[f64], x: &mut [f64]) {
+    fn begin(&self, r: &[f64], x: &mut [f64]) -> bool {
         let sealed = self.inner.sealed();
+        if sealed.is_empty() {
+            return false;
+        }
         let ((r, force), (x, speed)) = (split(r), x.split_at_mut(x.len() - 1));
         let means = sealed.pockets.means(&r[self.faces..]);
         let change = (force - self.held.push(&means)) / self.pivot;
@@ -212,6 +194,7 @@ impl Precondition for Bordered<'_, '_> {
         sealed.begin_others(&self.held, &means, &mut x[self.faces..]);
         sealed.pockets.subtract(&suction, &mut x[self.faces..]);
         speed[0] += change;
+        true
     }
 }
 
@@ -235,18 +218,9 @@ mod tests {
         };
         let measure = |b: &[f64; 2], speed: f64| {
             let system = SaddleSystem {
-                a: &a,
-                g: &g,
-                pockets: 0,
-                standing: &[],
-                clinging: &[],
-                slow: 0.0,
-                c: &[0.0],
-                friction: &[0.0; 2],
-                two_eta: &[1.0],
                 b,
-                volume_source: &[0.0],
                 carried: &[3e3],
+                ..SaddleSystem::still(&a, &g, &[1.0; 2], &[0.0; 2])
             };
             load.check(&system).unwrap();
             load.measure(&system, speed)

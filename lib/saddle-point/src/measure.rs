@@ -68,7 +68,6 @@ impl<'a> Measure<'a> {
             size: 0.0,
             enough: if stands { options.tolerance } else { 0.0 },
             max_iterations: options.max_iterations,
-            restart: options.restart.max(1),
         };
         let mut history = solve(&mut limits)?;
         let mut done = !stands;

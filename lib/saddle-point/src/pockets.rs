@@ -6,32 +6,19 @@ use crate::vector::Real;
 /// The connected components of the rows of a matrix on which the entries sum to nothing, or next to it, so
 /// that a constant is in the null space, or nearly.
 pub(crate) struct ClosedPockets {
-    members: Vec<Vec<u32>>,
+    /// The rows of each.
+    pub(crate) members: Vec<Vec<u32>>,
 }
 
 impl ClosedPockets {
     /// The components that `closed` finds so.
     pub(crate) fn of(matrix: &Csr<f64>, closed: impl Fn(&[u32]) -> bool) -> Self {
-        let n = matrix.n_rows();
-        let mut reached = vec![false; n];
-        let mut members = Vec::new();
-        for first in 0..n as u32 {
-            let pocket = flood(matrix, &mut reached, first);
-            if !pocket.is_empty() && closed(&pocket) {
-                members.push(pocket);
-            }
+        let neighbours = |row: u32| matrix.row(row as usize).0.iter().copied();
+        Self {
+            members: (components(matrix.n_rows(), neighbours))
+                .filter(|pocket| closed(pocket))
+                .collect(),
         }
-        Self { members }
-    }
-
-    /// The rows of each.
-    pub(crate) fn members(&self) -> &[Vec<u32>] {
-        &self.members
-    }
-
-    /// Numbers of their rows.
-    pub(crate) fn sizes(&self) -> impl Iterator<Item = f64> {
-        self.members.iter().map(|pocket| pocket.len() as f64)
     }
 
     /// Means over every closed pocket.
@@ -66,20 +53,25 @@ pub(crate) fn sum_and_diagonal(matrix: &Csr<f64>, row: u32) -> (f64, f64) {
     (values.iter().sum(), diagonal)
 }
 
-/// Marks every row connected to `first`, and returns them; none where it was marked before.
-fn flood(matrix: &Csr<f64>, reached: &mut [bool], first: u32) -> Vec<u32> {
-    if std::mem::replace(&mut reached[first as usize], true) {
-        return Vec::new();
-    }
-    let mut found = vec![first];
-    let mut next = 0;
-    while let Some(&row) = found.get(next) {
-        next += 1;
-        for &column in matrix.row(row as usize).0 {
-            if !std::mem::replace(&mut reached[column as usize], true) {
-                found.push(column);
+/// The connected components of `n` rows.
+pub(crate) fn components<I: Iterator<Item = u32>>(
+    n: usize,
+    neighbours: impl Fn(u32) -> I,
+) -> impl Iterator<Item = Vec<u32>> {
+    let mut reached = vec![false; n];
+    (0..n as u32).filter_map(move |first| {
+        if std::mem::replace(&mut reached[first as usize], true) {
+            return None;
+        }
+        let (mut found, mut next) = (vec![first], 0);
+        while let Some(&row) = found.get(next) {
+            next += 1;
+            for row in neighbours(row) {
+                if !std::mem::replace(&mut reached[row as usize], true) {
+                    found.push(row);
+                }
             }
         }
-    }
-    found
+        Some(found)
+    })
 }

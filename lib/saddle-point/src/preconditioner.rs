@@ -4,12 +4,17 @@ use crate::SolveError;
 use crate::chebyshev::Chebyshev;
 use crate::csr::Csr;
 use crate::fgmres::Precondition;
-use crate::options::SaddleOptions;
 use crate::schur::Schur;
 use crate::sealed::Sealed;
 use crate::system::SaddleSystem;
 use crate::vanka::Vanka;
-use crate::vector::{Real, Work, for_chunks};
+use crate::vector::{Real, Work, for_each};
+
+/// Degree of the Chebyshev polynomial that stands for `A^-1`. Lower ones cost more iterations than they save: a hard step
+/// of a bond of 100 x 394 x 100 voxels takes 69 with 14 and 25 with 24.
+const DEGREE: usize = 24;
+/// Its interval: largest over smallest eigenvalue of `D^-1 A` treated.
+const RATIO: f64 = 400.0;
 
 /// `[Ahat, 0; -G, -Shat]^-1`, then one sweep of [`Vanka`] on what that leaves.
 pub(crate) struct Preconditioner<'a> {
@@ -30,15 +35,13 @@ impl<'a> Preconditioner<'a> {
     pub(crate) fn new(
         system: &SaddleSystem<'a>,
         g_transposed: &'a Csr<f64>,
-        options: &SaddleOptions,
     ) -> Result<Self, SolveError> {
-        let (degree, ratio) = (options.chebyshev_degree, options.chebyshev_ratio);
         Ok(Self {
             g: system.g,
             g_transposed,
             c: system.c,
             vanka: Vanka::new(system),
-            chebyshev: Chebyshev::new(system.a, degree, ratio),
+            chebyshev: Chebyshev::new(system.a, DEGREE, RATIO),
             scale: &system.a.scale,
             schur: Schur::new(system, g_transposed)?,
             volume: vec![Work::default(); system.g.n_rows()],
@@ -48,11 +51,12 @@ impl<'a> Preconditioner<'a> {
 
     /// The pockets whose means it leaves alone.
     pub(crate) fn sealed(&self) -> &Sealed {
-        self.schur.sealed()
+        &self.schur.sealed
     }
 
+    /// Upper bound of the eigenvalues of `D^-1 A` used.
     pub(crate) fn bound(&self) -> f64 {
-        self.chebyshev.bound()
+        self.chebyshev.bound
     }
 }
 
@@ -64,19 +68,14 @@ impl Precondition for Preconditioner<'_> {
         let (velocity, pressure) = z.split_at_mut(r_u.len());
         self.chebyshev.apply(r_u, velocity);
         let (g, u) = (self.g, &*velocity);
-        for_chunks(&mut self.volume, |start, part| {
-            for (i, out) in part.iter_mut().enumerate() {
-                let flux = g.row_times_wide(start + i, u);
-                *out = r_p[start + i] + Work::nearest(flux);
-            }
+        for_each(&mut self.volume, |cell, out| {
+            *out = r_p[cell] + Work::nearest(g.row_times_wide(cell, u));
         });
         self.left.clone_from(&self.volume);
         self.schur.apply_negative(&mut self.volume, pressure);
         let (c, p) = (self.c, &*pressure);
-        for_chunks(&mut self.left, |start, part| {
-            for (i, left) in part.iter_mut().enumerate() {
-                *left += Work::nearest(c[start + i]) * p[start + i];
-            }
+        for_each(&mut self.left, |cell, left| {
+            *left += Work::nearest(c[cell]) * p[cell]
         });
         let g_transposed = self.g_transposed;
         let push = |face| Work::nearest(g_transposed.row_times_wide(face, p));
@@ -88,12 +87,9 @@ impl Precondition for Preconditioner<'_> {
         self.chebyshev.widen()
     }
 
-    fn begins(&self) -> bool {
-        !self.sealed().is_empty()
-    }
-
-    fn begin(&self, r: &[f64], x: &mut [f64]) {
-        let faces = self.g.n_columns();
-        self.sealed().begin(&r[faces..], &mut x[faces..]);
+    fn begin(&self, r: &[f64], x: &mut [f64]) -> bool {
+        let (faces, sealed) = (self.g.n_columns(), self.sealed());
+        sealed.begin(&r[faces..], &mut x[faces..]);
+        !sealed.is_empty()
     }
 }

@@ -1,7 +1,5 @@
 //! Solution of the coupled velocity-pressure system.
 
-use std::time::Instant;
-
 use crate::SolveError;
 use crate::cause::explained;
 use crate::csr::Csr;
@@ -11,7 +9,7 @@ use crate::measure::Measure;
 use crate::options::{SaddleOptions, SaddleReport};
 use crate::preconditioner::Preconditioner;
 use crate::system::SaddleSystem;
-use crate::vector::{Real, add_scaled, for_chunks};
+use crate::vector::{Real, add_scaled, for_each};
 
 /// Solver of [`SaddleSystem`]s; keeps its memory from one step to the next, nothing else.
 #[derive(Default)]
@@ -47,21 +45,16 @@ impl SaddleSolver {
         p: &mut [f64],
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
-        let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
         let rhs = system.right_hand_side();
         let known = system.measure(system.b, system.volume_source);
         let (options, space) = (&self.options, &mut self.space);
         let measure = Measure::new(system, options, 0.0);
-        let report = prepared(system, options, |mut operator, mut preconditioner| {
-            let result = measure.stages(options, |limits| {
-                limits.size = measure.of(known, &x);
-                let (operator, preconditioner) = (&mut operator, &mut preconditioner);
-                fgmres(operator, preconditioner, &rhs, &mut x, *limits, space)
-            });
-            (result, preconditioner.bound())
-        });
-        spread(&x, u, p);
-        report.map_err(|error| explained(error, system))
+        solved(system, u, p, |operator, preconditioner, x| {
+            measure.stages(options, |limits| {
+                limits.size = measure.of(known, x);
+                fgmres(operator, preconditioner, &rhs, x, *limits, space)
+            })
+        })
     }
 
     /// As [`SaddleSolver::solve`] with the speed of a body unknown and the force on it known;
@@ -79,75 +72,69 @@ impl SaddleSolver {
     ) -> Result<SaddleReport, SolveError> {
         system.check(u, p)?;
         load.check(system)?;
-        let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
         let (followed, shares) = load.followed(system);
         let mut rhs = system.right_hand_side();
+        let last = rhs.len();
         rhs.push(0.0);
-        x.push(0.0);
-        let last = x.len() - 1;
         // The force row weighs as much as the others do with the body moving.
         let resting = system.measure(system.b, system.volume_source);
         let (options, space) = (&self.options, &mut self.space);
         let measure = Measure::new(system, options, 1.0);
-        let report = prepared(system, options, |mut inner, mut preconditioner| {
-            let result = measure.stages(options, |limits| {
+        solved(system, u, p, |inner, preconditioner, x| {
+            x.push(0.0);
+            measure.stages(options, |limits| {
                 let moving = measure.of(followed.measure(system, *speed), &x[..last]);
                 let weight = moving / followed.scale;
                 (x[last], rhs[last]) = (*speed / weight, weight * followed.force);
                 limits.size = resting.hypot(moving);
                 let mut operator = LoadedOperator {
-                    inner: &mut inner,
+                    inner,
                     load: &followed,
                     weight,
                 };
-                let mut bordered = Bordered::new(&mut preconditioner, &followed, weight);
+                let mut bordered = Bordered::new(preconditioner, &followed, weight);
                 add_scaled(&mut x[..shares.len()], -*speed, &shares);
-                let result = fgmres(&mut operator, &mut bordered, &rhs, &mut x, *limits, space);
+                let result = fgmres(&mut operator, &mut bordered, &rhs, x, *limits, space);
                 *speed = weight * x[last];
                 add_scaled(&mut x[..shares.len()], *speed, &shares);
                 result
-            });
-            (result, preconditioner.bound())
-        });
-        spread(&x[..last], u, p);
-        report.map_err(|error| explained(error, system))
+            })
+        })
     }
 }
 
-/// History of residuals, and the eigenvalue bound of the preconditioner.
-type Iterated = (Result<Vec<f64>, SolveError>, f64);
-
-/// Runs `iterate` on the operator and the preconditioner of `system`, and reports on it.
-fn prepared(
+/// Solves `system` by `iterate`, which takes velocities and pressures in one vector from a guess to the solution and yields
+/// the residuals.
+fn solved(
     system: &SaddleSystem,
-    options: &SaddleOptions,
-    iterate: impl FnOnce(SaddleOperator, Preconditioner) -> Iterated + Send,
+    u: &mut [f64],
+    p: &mut [f64],
+    iterate: impl FnOnce(
+        &mut SaddleOperator,
+        &mut Preconditioner,
+        &mut Vec<f64>,
+    ) -> Result<Vec<f64>, SolveError>
+    + Send,
 ) -> Result<SaddleReport, SolveError> {
+    let mut x: Vec<f64> = u.iter().chain(&*p).copied().collect();
     // On the thread pool throughout: its threads need not be woken for every product.
-    rayon::scope(|_| {
-        let started = Instant::now();
+    let report = rayon::scope(|_| {
         let g_transposed = system.g.transpose();
-        let operator = SaddleOperator {
+        let mut operator = SaddleOperator {
             system: *system,
             g_transposed: &g_transposed,
             scratch: Vec::new(),
         };
-        let preconditioner = Preconditioner::new(system, &g_transposed, options)?;
-        let setup = started.elapsed();
-        let (result, eigenvalue_bound) = iterate(operator, preconditioner);
+        let mut preconditioner = Preconditioner::new(system, &g_transposed)?;
         Ok(SaddleReport {
-            history: result?,
-            eigenvalue_bound,
-            setup,
-            iteration: started.elapsed() - setup,
+            history: iterate(&mut operator, &mut preconditioner, &mut x)?,
+            eigenvalue_bound: preconditioner.bound(),
         })
-    })
-}
-
-fn spread(x: &[f64], u: &mut [f64], p: &mut [f64]) {
-    let (x_u, x_p) = x.split_at(u.len());
-    u.copy_from_slice(x_u);
-    p.copy_from_slice(x_p);
+    });
+    let (faces, cells) = (u.len(), p.len());
+    u.copy_from_slice(&x[..faces]);
+    p.copy_from_slice(&x[faces..faces + cells]);
+    report.map_err(|error| explained(error, system))
 }
 
 struct SaddleOperator<'a> {
@@ -157,28 +144,15 @@ struct SaddleOperator<'a> {
     scratch: Vec<f64>,
 }
 
-impl SaddleOperator<'_> {
-    /// The rest of the product, with `A u` in `y_u`.
-    fn add_fluxes<X: Real>(&self, u: &[X], p: &[X], y_u: &mut [f64], y_p: &mut [f64]) {
-        for_chunks(y_u, |start, part| {
-            for (i, y) in part.iter_mut().enumerate() {
-                *y -= self.g_transposed.row_times_wide(start + i, p);
-            }
-        });
-        for_chunks(y_p, |start, part| {
-            for (i, y) in part.iter_mut().enumerate() {
-                let cell = start + i;
-                *y = -self.system.g.row_times_wide(cell, u) - self.system.c[cell] * p[cell].into();
-            }
-        });
-    }
-}
-
 impl Operator for SaddleOperator<'_> {
     fn apply<X: Real>(&mut self, x: &[X], y: &mut [f64]) {
-        let (u, p) = x.split_at(self.system.a.n_rows());
+        let (SaddleSystem { a, g, c, .. }, g_transposed) = (self.system, self.g_transposed);
+        let (u, p) = x.split_at(a.n_rows());
         let (y_u, y_p) = y.split_at_mut(u.len());
-        self.system.a.multiply_by(u, &mut self.scratch, y_u);
-        self.add_fluxes(u, p, y_u, y_p);
+        a.multiply_by(u, &mut self.scratch, y_u);
+        for_each(y_u, |face, y| *y -= g_transposed.row_times_wide(face, p));
+        for_each(y_p, |cell, y| {
+            *y = -g.row_times_wide(cell, u) - c[cell] * p[cell].into()
+        });
     }
 }

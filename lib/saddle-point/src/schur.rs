@@ -1,11 +1,11 @@
 //! Approximate inverse of the pressure Schur complement.
 
 use crate::SolveError;
-use crate::amg::{Amg, Workspace};
+use crate::amg::Amg;
 use crate::csr::Csr;
 use crate::sealed::Sealed;
 use crate::system::SaddleSystem;
-use crate::vector::{Real, Work, for_chunks};
+use crate::vector::{Real, Work, for_each};
 
 /// `2 eta` times the response `sum g^2/A_ff` of a full cell's faces: six of area one, with `A_ff = 8 eta`.
 const FULL_CELL: f64 = 1.5;
@@ -15,9 +15,9 @@ const FULL_CELL: f64 = 1.5;
 /// Numer. Meth. Fluids 8, 869-895, with Darcy friction joined to inertia).
 pub(crate) struct Schur {
     amg: Amg,
-    sealed: Sealed,
+    /// The pockets whose means it leaves alone.
+    pub(crate) sealed: Sealed,
     viscous: Vec<Work>,
-    workspace: Workspace,
     friction_part: Vec<Work>,
 }
 
@@ -29,33 +29,22 @@ impl Schur {
             0 => matrix,
             _ => tamed(&matrix)?,
         };
-        let viscous = viscous_part(system);
         Ok(Self {
             amg: Amg::new(&matrix)?,
             sealed: Sealed::find(&matrix, system.c),
-            viscous,
-            workspace: Workspace::default(),
-            friction_part: Vec::new(),
+            viscous: viscous_part(system),
+            friction_part: vec![0.0; system.g.n_rows()],
         })
-    }
-
-    /// The pockets whose means it leaves alone.
-    pub(crate) fn sealed(&self) -> &Sealed {
-        &self.sealed
     }
 
     /// `p = -S^-1 r` but for the means over sealed pockets, which `r` loses.
     pub(crate) fn apply_negative(&mut self, r: &mut [Work], p: &mut [Work]) {
         let pockets = &self.sealed.pockets;
         pockets.remove_mean(r);
-        (self.amg).cycle(r, &mut self.friction_part, &mut self.workspace);
+        self.amg.cycle(r, &mut self.friction_part);
         pockets.remove_mean(&mut self.friction_part);
-        let (viscous, friction_part) = (&self.viscous, &self.friction_part);
-        for_chunks(p, |start, part| {
-            for (i, p) in part.iter_mut().enumerate() {
-                *p = -(friction_part[start + i] + viscous[start + i] * r[start + i]);
-            }
-        });
+        let (viscous, friction_part) = (&self.viscous[..], &self.friction_part[..]);
+        for_each(p, |i, p| *p = -(friction_part[i] + viscous[i] * r[i]));
     }
 }
 

@@ -35,19 +35,14 @@ impl Sealed {
         let stiffness = |pocket: &Vec<u32>| {
             let (leak, whole) = sums(pocket);
             let leak = if leak > ROUNDING * whole { leak } else { 0.0 };
-            let soft = pocket
-                .iter()
-                .map(|&row| c[row as usize])
-                .sum::<f64>()
-                .max(leak);
-            if soft > 0.0 {
-                pocket.len() as f64 / soft
-            } else {
-                0.0
+            let soft: f64 = pocket.iter().map(|&row| c[row as usize]).sum();
+            match soft.max(leak) {
+                soft if soft > 0.0 => pocket.len() as f64 / soft,
+                _ => 0.0,
             }
         };
         Self {
-            stiffness: pockets.members().iter().map(stiffness).collect(),
+            stiffness: pockets.members.iter().map(stiffness).collect(),
             pockets,
         }
     }
@@ -64,8 +59,8 @@ impl Sealed {
 
     /// The same of mean volumes `r` where a body displaces nothing.
     pub(crate) fn begin_others(&self, held: &Held, r: &[f64], p: &mut [f64]) {
-        let stiffness: Vec<f64> = (self.stiffness.iter().zip(&held.moved))
-            .map(|(stiffness, moved)| if *moved == 0.0 { *stiffness } else { 0.0 })
+        let stiffness: Vec<f64> = (self.stiffness.iter().zip(&held.0))
+            .map(|(stiffness, held)| if held.moved == 0.0 { *stiffness } else { 0.0 })
             .collect();
         self.add(r, &stiffness, p);
     }
@@ -77,60 +72,53 @@ impl Sealed {
 
     /// What a body meets that displaces `column` in each cell at unit speed.
     pub(crate) fn hold(&self, column: &[f64]) -> Held {
-        let sizes: Vec<f64> = self.pockets.sizes().collect();
         let parts: Vec<f64> = column.iter().map(|moved| moved.abs()).collect();
-        let moved: Vec<f64> = (self.pockets.means(column).into_iter())
-            .zip(self.pockets.means(&parts))
-            .map(|(moved, parts)| {
-                if moved.abs() > CARRIED * parts {
-                    moved
-                } else {
-                    0.0
-                }
-            })
-            .collect();
-        // Others stay as they began.
-        let stiffness = (moved.iter().zip(&self.stiffness))
-            .map(|(moved, stiffness)| if *moved == 0.0 { 0.0 } else { *stiffness })
-            .collect();
-        Held {
-            whole: (moved.iter().zip(sizes))
-                .map(|(moved, size)| moved * size)
+        let moved = (self.pockets.means(column).into_iter()).zip(self.pockets.means(&parts));
+        let moved = moved.map(|(moved, parts)| match moved.abs() > CARRIED * parts {
+            true => moved,
+            false => 0.0,
+        });
+        let pockets = (self.pockets.members.iter()).zip(&self.stiffness);
+        Held(
+            (moved.zip(pockets))
+                .map(|(moved, (pocket, stiffness))| HeldPocket {
+                    moved,
+                    whole: moved * pocket.len() as f64,
+                    // Others stay as they began.
+                    stiffness: if moved == 0.0 { 0.0 } else { *stiffness },
+                })
                 .collect(),
-            moved,
-            stiffness,
-        }
+        )
     }
 }
 
 /// Sealed pockets and a body that displaces liquid in them.
-pub(crate) struct Held {
-    /// Mean over each pocket of what the body displaces in it at unit speed, and the whole.
-    moved: Vec<f64>,
-    whole: Vec<f64>,
-    stiffness: Vec<f64>,
+pub(crate) struct Held(Vec<HeldPocket>);
+
+struct HeldPocket {
+    /// Mean over the pocket of what the body displaces in it at unit speed, and the whole.
+    moved: f64,
+    whole: f64,
+    stiffness: f64,
 }
 
 impl Held {
     /// Force on the body by its unit speed.
     pub(crate) fn resistance(&self) -> f64 {
-        (self.whole.iter().zip(&self.moved).zip(&self.stiffness))
-            .map(|((whole, moved), stiffness)| whole * moved * stiffness)
-            .sum()
+        let of = |held: &HeldPocket| held.whole * held.moved * held.stiffness;
+        self.0.iter().map(of).sum()
     }
 
     /// Force on the body, at rest, by the mean volumes `r`.
     pub(crate) fn push(&self, r: &[f64]) -> f64 {
-        (self.whole.iter().zip(r).zip(&self.stiffness))
-            .map(|((whole, r), stiffness)| -whole * r * stiffness)
-            .sum()
+        let of = |(held, r): (&HeldPocket, &f64)| -held.whole * r * held.stiffness;
+        self.0.iter().zip(r).map(of).sum()
     }
 
     /// Mean pressures, taken negative, by the mean volumes `r` and the body's speed.
     pub(crate) fn suction(&self, r: &[f64], speed: f64) -> Vec<f64> {
-        (self.moved.iter().zip(r).zip(&self.stiffness))
-            .map(|((moved, r), stiffness)| (r - moved * speed) * stiffness)
-            .collect()
+        let of = |(held, r): (&HeldPocket, &f64)| (r - held.moved * speed) * held.stiffness;
+        self.0.iter().zip(r).map(of).collect()
     }
 }
 

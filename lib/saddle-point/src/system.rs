@@ -122,6 +122,7 @@ impl SaddleSystem<'_> {
     /// Refuses lengths that do not fit, with those of the guess, and values that are not as described.
     pub(crate) fn check(&self, u: &[f64], p: &[f64]) -> Result<(), SolveError> {
         let (faces, cells) = (self.a.n_rows(), self.g.n_rows());
+        let or_none = |forces: &[f64]| if forces.is_empty() { 0 } else { faces };
         for (what, found, expected) in [
             ("columns of the flux operator", self.g.n_columns(), faces),
             ("compressibilities", self.c.len(), cells),
@@ -131,12 +132,12 @@ impl SaddleSystem<'_> {
             (
                 "standing forces",
                 self.standing.len(),
-                if self.standing.is_empty() { 0 } else { faces },
+                or_none(self.standing),
             ),
             (
                 "forces of what clings",
                 self.clinging.len(),
-                if self.clinging.is_empty() { 0 } else { faces },
+                or_none(self.clinging),
             ),
             ("volume sources", self.volume_source.len(), cells),
             ("carried volumes", self.carried.len(), cells),
@@ -167,6 +168,33 @@ impl SaddleSystem<'_> {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+impl<'a> SaddleSystem<'a> {
+    /// Of friction and viscosity of `ones`, as many as there are faces, and `zeros` else.
+    pub(crate) fn still(
+        a: &'a VelocityBlock,
+        g: &'a Csr<f64>,
+        ones: &'a [f64],
+        zeros: &'a [f64],
+    ) -> Self {
+        let (cells, faces) = (g.n_rows(), a.n_rows());
+        Self {
+            a,
+            g,
+            pockets: 0,
+            standing: &[],
+            clinging: &[],
+            slow: 0.0,
+            c: &zeros[..cells],
+            friction: ones,
+            two_eta: &ones[..cells],
+            b: &zeros[..faces],
+            volume_source: &zeros[..cells],
+            carried: &zeros[..cells],
+        }
     }
 }
 

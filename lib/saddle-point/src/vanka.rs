@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::packed::LANES;
 use crate::simd::{Kernel, dispatch};
 use crate::system::SaddleSystem;
-use crate::vector::{CHUNK, Real, Work, for_chunks};
+use crate::vector::{CHUNK, Real, Work, for_each};
 
 /// Faces of a cell that are solved for with its pressure; further ones keep their velocity.
 const FACES: usize = 6;
@@ -65,13 +65,10 @@ impl Vanka {
         for cell in 0..n {
             let (block, lane) = (cell / LANES, cell % LANES);
             for (slot, &face) in system.g.row(cell).0.iter().take(FACES).enumerate() {
-                let place = &mut places[face as usize];
                 let at = ((block * FACES + slot) * LANES + lane) as u32;
-                *place = if place[0] == u32::MAX {
-                    [at; 2]
-                } else {
-                    [place[0], at]
-                };
+                let place = &mut places[face as usize];
+                let first = if place[0] == u32::MAX { at } else { place[0] };
+                *place = [first, at];
             }
         }
         Self {
@@ -103,13 +100,11 @@ impl Vanka {
                 });
             });
         let corrections = self.corrections.as_flattened().as_flattened();
-        let places = &self.places;
-        for_chunks(velocity, |start, part| {
-            for (i, v) in part.iter_mut().enumerate() {
-                let [one, other] = places[start + i].map(|place| place as usize);
-                if let (Some(one), Some(other)) = (corrections.get(one), corrections.get(other)) {
-                    *v += (0.5 * DAMPING) * scale[start + i] * (one + other);
-                }
+        let places = &self.places[..];
+        for_each(velocity, |face, v| {
+            let [one, other] = places[face].map(|place| place as usize);
+            if let (Some(one), Some(other)) = (corrections.get(one), corrections.get(other)) {
+                *v += (0.5 * DAMPING) * scale[face] * (one + other);
             }
         });
     }
@@ -151,10 +146,8 @@ impl Block {
         let mut flux = Vector6::zeros();
         for (i, &face) in faces.iter().enumerate() {
             for (column, entry) in system.a.matrix.row(face as usize) {
-                if let Some(j) = faces[..i]
-                    .iter()
-                    .position(|&other| other as usize == column)
-                {
+                let before = faces[..i].iter();
+                if let Some(j) = before.clone().position(|&other| other as usize == column) {
                     block[(i, j)] += entry;
                     block[(j, i)] += entry;
                 }
@@ -228,30 +221,14 @@ mod tests {
             (rows[row].iter().enumerate()).for_each(|(column, &x)| entries.add(column, x));
         });
         let a = a.unwrap();
-        let (g, c) = (
-            Csr::assemble(1, 3, |_, entries| {
-                [-1.0, 1.0, 0.5]
-                    .into_iter()
-                    .enumerate()
-                    .for_each(|(face, x)| entries.add(face, x));
-            })
-            .unwrap(),
-            [0.25],
-        );
-        let (ones, zeros) = ([1.0; 3], [0.0; 3]);
+        let fluxes = [-1.0, 1.0, 0.5];
+        let g = Csr::assemble(1, 3, |_, entries| {
+            (fluxes.iter().enumerate()).for_each(|(face, &x)| entries.add(face, x));
+        });
+        let g = g.unwrap();
         let system = SaddleSystem {
-            a: &a,
-            g: &g,
-            pockets: 0,
-            standing: &[],
-            clinging: &[],
-            slow: 0.0,
-            c: &c,
-            friction: &ones,
-            two_eta: &ones[..1],
-            b: &zeros,
-            volume_source: &zeros[..1],
-            carried: &zeros[..1],
+            c: &[0.25],
+            ..SaddleSystem::still(&a, &g, &[1.0; 3], &[0.0; 3])
         };
         let scale = [0.5, 0.5, 1.0 / 3.0];
         // What [A, -G^T; -G, -C] makes of this solution, the momentum scaled.
@@ -259,7 +236,7 @@ mod tests {
         let mut momentum = [0.0; 3];
         a.multiply(&u, &mut momentum);
         let momentum: Vec<Work> = (0..3)
-            .map(|i| scale[i] * (momentum[i] - [-1.0, 1.0, 0.5][i] * p) as Work)
+            .map(|i| scale[i] * (momentum[i] - fluxes[i] * p) as Work)
             .collect();
         let volume = [-(-1.0 - 2.0 + 1.5) - 0.25 * p as Work];
         let (mut v, mut q) = ([0.0; 3], [0.0]);
@@ -277,21 +254,8 @@ mod tests {
             row.add(cell, -1.0);
             row.add(cell + 1, 1.0);
         });
-        let ones = [1.0; 3];
-        let system = SaddleSystem {
-            a: &a,
-            g: &g.unwrap(),
-            pockets: 0,
-            standing: &[],
-            clinging: &[],
-            slow: 0.0,
-            c: &[0.0; 2],
-            friction: &ones,
-            two_eta: &ones[..2],
-            b: &ones,
-            volume_source: &ones[..2],
-            carried: &[0.0; 2],
-        };
+        let g = g.unwrap();
+        let system = SaddleSystem::still(&a, &g, &[1.0; 3], &[0.0; 3]);
         let (mut v, mut q) = ([0.0; 3], [0.0; 2]);
         // The first cell swells by one: half through each of its faces.
         let scale = [0.5f32.sqrt(); 3];

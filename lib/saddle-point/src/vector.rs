@@ -1,8 +1,7 @@
 //! Dense vectors in fixed chunks: every reduction adds the same partial sums in the same order
 //! whatever the number of threads, so results are bit-identical.
 
-use std::fmt::Debug;
-use std::ops::{Add, AddAssign, Mul, Range, Sub};
+use std::ops::{AddAssign, Mul, Sub};
 
 use rayon::prelude::*;
 
@@ -17,18 +16,7 @@ pub(crate) type Work = f32;
 
 /// A storage precision, `f32` or `f64`.
 pub trait Real:
-    Copy
-    + Debug
-    + Default
-    + PartialEq
-    + Send
-    + Sync
-    + Into<f64>
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + AddAssign
-    + 'static
+    Copy + Default + Send + Sync + Into<f64> + Sub<Output = Self> + Mul<Output = Self> + AddAssign
 {
     /// The nearest value of this precision.
     fn nearest(value: f64) -> Self;
@@ -46,18 +34,6 @@ impl Real for f64 {
     }
 }
 
-/// Sum of `part` over the chunks of `0..len`, added in order.
-pub(crate) fn sum_over_chunks(len: usize, part: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
-    if len <= CHUNK {
-        return part(0..len);
-    }
-    let parts: Vec<f64> = (0..len.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|chunk| part(chunk * CHUNK..len.min((chunk + 1) * CHUNK)))
-        .collect();
-    parts.iter().sum()
-}
-
 /// Calls `work(first index, chunk)` on every chunk of `out`.
 pub(crate) fn for_chunks<T: Send>(out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     if out.len() <= CHUNK {
@@ -68,6 +44,15 @@ pub(crate) fn for_chunks<T: Send>(out: &mut [T], work: impl Fn(usize, &mut [T]) 
         .for_each(|(chunk, part)| work(chunk * CHUNK, part));
 }
 
+/// Calls `work(index, value)` on every value of `out`, by chunks.
+pub(crate) fn for_each<T: Send>(out: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
+    for_chunks(out, |start, part| {
+        for (i, out) in part.iter_mut().enumerate() {
+            work(start + i, out);
+        }
+    });
+}
+
 /// Like [`for_chunks`], with a partial sum of each chunk; returns their sum in order.
 pub(crate) fn for_chunks_sum<T: Send>(
     out: &mut [T],
@@ -76,27 +61,11 @@ pub(crate) fn for_chunks_sum<T: Send>(
     if out.len() <= CHUNK {
         return work(0, out);
     }
-    let parts: Vec<f64> = out
-        .par_chunks_mut(CHUNK)
-        .enumerate()
+    let chunks = out.par_chunks_mut(CHUNK).enumerate();
+    let parts: Vec<f64> = chunks
         .map(|(chunk, part)| work(chunk * CHUNK, part))
         .collect();
     parts.iter().sum()
-}
-
-/// Like [`for_chunks`] for two arrays of equal length.
-pub(crate) fn for_chunks_pair<T: Send, U: Send>(
-    left: &mut [T],
-    right: &mut [U],
-    work: impl Fn(usize, &mut [T], &mut [U]) + Sync,
-) {
-    if left.len() <= CHUNK {
-        return work(0, left, right);
-    }
-    left.par_chunks_mut(CHUNK)
-        .zip(right.par_chunks_mut(CHUNK))
-        .enumerate()
-        .for_each(|(chunk, (left, right))| work(chunk * CHUNK, left, right));
 }
 
 /// Scalar product within one chunk, in double precision over eight lanes.
@@ -138,11 +107,14 @@ pub(crate) fn dot_each<const N: usize, X: Real, Y: Real>(x: [&[X]; N], y: &[Y]) 
     })
 }
 
-/// Scalar product.
+/// Scalar product of vectors of equal length.
 pub(crate) fn dot<X: Real, Y: Real>(x: &[X], y: &[Y]) -> f64 {
-    sum_over_chunks(x.len().min(y.len()), |range| {
-        dot_chunk(&x[range.clone()], &y[range])
-    })
+    if x.len() <= CHUNK {
+        return dot_chunk(x, y);
+    }
+    let chunks = x.par_chunks(CHUNK).zip(y.par_chunks(CHUNK));
+    let parts: Vec<f64> = chunks.map(|(x, y)| dot_chunk(x, y)).collect();
+    parts.iter().sum()
 }
 
 /// Euclidean norm.
@@ -164,11 +136,5 @@ pub(crate) fn add_scaled<Y: Real, X: Real>(y: &mut [Y], alpha: f64, x: &[X]) {
 pub(crate) fn fit<T: Real>(v: &mut Vec<T>, len: usize) {
     v.truncate(len);
     v.reserve_exact(len - v.len());
-    v.resize(len, T::default());
-}
-
-/// Sets `v` to `len` zeros, keeping its memory.
-pub(crate) fn reset<T: Real>(v: &mut Vec<T>, len: usize) {
-    v.clear();
     v.resize(len, T::default());
 }

@@ -10,12 +10,12 @@ use crate::tiles::Point;
 /// A point of an eighth of a cell goes down to y = 2.75 at `v` (m/s) onto a floor of y = 3 that
 /// rises at 1 m/s: its velocity, the floor's momentum and how many points were stopped and trapped.
 fn landed(v: Real) -> ([Real; 3], f64, [u64; 2]) {
-    let lattice = Lattice {
-        cells: [8; 3],
-        boundary: [Boundary::Open; 3],
+    let lattice = Lattice::cube(8, Boundary::Open);
+    let present = Present {
         three: true,
+        contact: true,
+        ..Present::default()
     };
-    let present = Present::CONTACT;
     let node = [5, 4, 5];
     let mut tile = Tile::new(lattice.tile_key(node), &lattice, present, 1);
     tile.bodies = 1;

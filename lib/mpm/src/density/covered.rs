@@ -18,10 +18,8 @@ pub(super) fn covered(
     let parts = bodies
         .iter()
         .flat_map(|body| body.parts.iter().map(move |part| (body, part)));
-    parts
-        .map(|(body, part)| overlap(low, high, part, &body.to, lattice))
-        .sum::<f64>()
-        .min(whole)
+    let overlaps = parts.map(|(body, part)| overlap(low, high, part, &body.to, lattice));
+    overlaps.sum::<f64>().min(whole)
 }
 
 /// Volume of the solid voxels of a block and its images beyond periodic sides in the box.
@@ -93,11 +91,7 @@ mod tests {
             voxel: [4.0, 10.0, 10.0],
             solid: VoxelBlock::solid_box([0.0; 3], [1.0; 3]),
         };
-        let lattice = Lattice {
-            cells: [10; 3],
-            boundary: [Boundary::Periodic; 3],
-            three: true,
-        };
+        let lattice = Lattice::cube(10, Boundary::Periodic);
         for periods in [-2.0, 0.0, 5.0] {
             let shift = [10.0 * periods, 0.0, 0.0];
             let of = |x: f64| overlap([x, 1.0, 1.0], [x + 1.0, 2.0, 2.0], &post, &shift, &lattice);

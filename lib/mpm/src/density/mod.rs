@@ -23,7 +23,6 @@ use crate::tiles::Tile;
 use cells::Cells;
 
 /// When to project.
-#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Projection {
     /// Cells of motion between two projections.
     every: f64,
@@ -94,12 +93,8 @@ fn displace(
         let (node, d) = (tile.node_of(base), tile.points.place[p]);
         let mut shift = cells.displacement(node, &d);
         let target = Lanes4(std::array::from_fn(|l| d.0[l] + shift.0[l]));
-        let blocked = tile.near_wall[usize::from(base)]
-            && bodies
-                .iter()
-                .flat_map(|body| body.parts.iter().map(move |part| (body, part)))
-                .any(|(body, part)| part.contains(node, &target, &body.to, lattice));
-        if blocked {
+        let mut near = bodies.iter().filter(|_| tile.near_wall[usize::from(base)]);
+        if near.any(|body| body.contains(node, &target, lattice)) {
             shift = Lanes4::ZERO;
         }
         shifts.push(shift);

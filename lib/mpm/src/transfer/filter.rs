@@ -8,7 +8,8 @@ use crate::settings::ShapeFunction;
 use crate::simd::Kernel;
 use crate::tiles::Tile;
 use crate::window::{
-    BATCH, NOTHING, Pairs, Sides, Window, differences, gather_value, nodal, offsets, spread_value,
+    BATCH, NOTHING, Sides, Window, differences, gather_value, nodal, of_points, offsets,
+    spread_value,
 };
 
 /// One application of S+ S before division by the nodal mass: gathers `field` to the
@@ -43,7 +44,7 @@ impl<const D: usize> Kernel for Filter<'_, D> {
                 let places = &place[start..end.min(start + BATCH)];
                 let sides = Sides::new::<D, FMA>(self.shape, &offsets::<FMA>(&place[start..]));
                 for p in (0..places.len()).step_by(2) {
-                    let pair = pair(&sides.w, p);
+                    let pair = of_points((&sides.w, p), (&sides.w, p + 1));
                     let value = gather_value::<D, FMA>(&field, &pair);
                     // The last of an odd number goes with one of no mass.
                     let (a, mut b) = (places[p].0[VOLUME], 0.0);
@@ -65,19 +66,6 @@ impl<const D: usize> Kernel for Filter<'_, D> {
             add_both::<D, FMA>(&mut filtered[base..base + window(D)], &sums);
         }
     }
-}
-
-/// The values of points `p` and `p + 1`, each in four lanes.
-#[inline(always)]
-fn pair(x: &Pairs, p: usize) -> Pairs {
-    let mut r = [[Lanes8::ZERO; 2]; 3];
-    for a in 0..3 {
-        for side in 0..2 {
-            let (l, h) = (x[a][side].0[p], x[a][side].0[p + 1]);
-            r[a][side] = Lanes8([l, l, l, l, h, h, h, h]);
-        }
-    }
-    r
 }
 
 /// Adds the sums of both points.

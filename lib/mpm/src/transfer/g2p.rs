@@ -1,13 +1,11 @@
 //! Nodes to points: velocity by every update, its gradient, and the displacement.
 
-use std::marker::PhantomData;
-
 use crate::fields::{node, point::J};
 use crate::lanes::{Lanes4, Lanes8, first_eight, transposed, transposed_eight};
 use crate::lattice::window;
 use crate::real::Real;
 use crate::runs::run_end;
-use crate::settings::ShapeFunction;
+use crate::settings::{Mode, ShapeFunction};
 use crate::simd::Kernel;
 use crate::tiles::{Scratch, Tile};
 use crate::window::{BATCH, Sides, Window, differences, gather, gather_lane, offsets};
@@ -15,78 +13,36 @@ use crate::window::{BATCH, Sides, Window, differences, gather, gather_lane, offs
 /// Nodes to points: new velocity, velocity gradient and displacement.
 ///
 /// The scratch holds the nodal velocities of [`node`](crate::fields::node).
-pub(crate) struct G2p<'a, U, const D: usize> {
+pub(crate) struct G2p<'a, const D: usize, const MODE: u8> {
     pub(crate) tile: &'a mut Tile,
     pub(crate) scratch: &'a mut Scratch,
     /// dt over cell, s/m.
     pub(crate) dt_over_cell: Real,
     pub(crate) shape: ShapeFunction,
-    pub(crate) update: PhantomData<U>,
 }
 
-/// A velocity update: the table of docs/methods.md, section 2.3. Kernels are generic over it.
-pub(crate) trait Update {
-    /// Points carry an affine field.
-    const AFFINE: bool = false;
-    /// It takes the second half of a node's velocities.
-    const SECOND: bool = true;
-    /// It takes S w_1 of the points.
-    const DRIFT: bool = false;
+const INCREMENT: u8 = Mode::Increment as u8;
+const AFFINE: u8 = Mode::Affine as u8;
+const FILTER_BEFORE: u8 = Mode::FilterBefore as u8;
 
-    /// Of a component at eight points, the new velocity and that of the displacement from their own (`old`),
-    /// S v+ (`plus`), S of the second half (`second`) and S w_1 (`drift`).
-    fn apply<const FMA: bool>(
-        old: Lanes8,
-        plus: Lanes8,
-        second: Lanes8,
-        drift: Lanes8,
-    ) -> [Lanes8; 2];
-}
-
-/// FLIP.
-pub(crate) struct Increment;
-/// APIC.
-pub(crate) struct Affine;
-/// XPIC of order 2 and more.
-pub(crate) struct FilterBefore;
-/// FMPM, and what else has v* = v+: PIC and XPIC(1).
-pub(crate) struct FilterAfter;
-
-impl Update for Increment {
-    #[inline(always)]
-    fn apply<const FMA: bool>(old: Lanes8, plus: Lanes8, second: Lanes8, _: Lanes8) -> [Lanes8; 2] {
-        let new = old.plus::<FMA>(second);
-        [new, plus.add_product::<FMA>(Lanes8([-0.5; 8]), second)]
-    }
-}
-
-impl Update for Affine {
-    const AFFINE: bool = true;
-    const SECOND: bool = false;
-    #[inline(always)]
-    fn apply<const FMA: bool>(_: Lanes8, plus: Lanes8, _: Lanes8, _: Lanes8) -> [Lanes8; 2] {
-        [plus, plus]
-    }
-}
-
-impl Update for FilterBefore {
-    const DRIFT: bool = true;
-    #[inline(always)]
-    fn apply<const FMA: bool>(
-        old: Lanes8,
-        _: Lanes8,
-        second: Lanes8,
-        drift: Lanes8,
-    ) -> [Lanes8; 2] {
-        let change = second.minus::<FMA>(old);
-        [second, drift.add_product::<FMA>(Lanes8([0.5; 8]), change)]
-    }
-}
-
-impl Update for FilterAfter {
-    #[inline(always)]
-    fn apply<const FMA: bool>(_: Lanes8, plus: Lanes8, second: Lanes8, _: Lanes8) -> [Lanes8; 2] {
-        [second, plus]
+/// Of a component at eight points, the new velocity and that of the displacement from their own (`old`), S v+ (`plus`), S of the
+/// second half (`second`) and S w_1 (`drift`): the table of docs/methods.md, section 2.3.
+#[inline(always)]
+fn updated<const MODE: u8, const FMA: bool>(
+    [old, plus, second, drift]: [Lanes8; 4],
+) -> [Lanes8; 2] {
+    match MODE {
+        INCREMENT => [
+            old.plus::<FMA>(second),
+            plus.add_product::<FMA>(Lanes8([-0.5; 8]), second),
+        ],
+        AFFINE => [plus, plus],
+        FILTER_BEFORE => {
+            let change = second.minus::<FMA>(old);
+            [second, drift.add_product::<FMA>(Lanes8([0.5; 8]), change)]
+        }
+        // FMPM, and what else has v* = v+: PIC and XPIC(1).
+        _ => [second, plus],
     }
 }
 
@@ -140,7 +96,7 @@ fn drift<const FMA: bool>(stress: &[Lanes8]) -> [Lanes8; 3] {
     [x, y, z]
 }
 
-impl<U: Update, const D: usize> Kernel for G2p<'_, U, D> {
+impl<const D: usize, const MODE: u8> Kernel for G2p<'_, D, MODE> {
     #[inline(always)]
     fn run<const FMA: bool>(self) {
         let Tile { points, .. } = self.tile;
@@ -164,7 +120,7 @@ impl<U: Update, const D: usize> Kernel for G2p<'_, U, D> {
                 let batch = start..end.min(start + BATCH);
                 let d = offsets::<FMA>(&place[start..]);
                 let sides = Sides::new::<D, FMA>(self.shape, &d);
-                if U::AFFINE {
+                if MODE == AFFINE {
                     let fields = affine::<D, FMA>(&window, &moments::<D>(&d, &sides));
                     for p in batch.clone() {
                         points.affine[p] = fields[p - start];
@@ -172,7 +128,7 @@ impl<U: Update, const D: usize> Kernel for G2p<'_, U, D> {
                 }
                 let old = transposed::<FMA>(&first_eight(&motion[start..]));
                 let mut drifts = [Lanes8::ZERO; 3];
-                if U::DRIFT {
+                if MODE == FILTER_BEFORE {
                     drifts = drift::<FMA>(&stress[start..]);
                 }
                 // New velocity and j, displacement.
@@ -184,10 +140,10 @@ impl<U: Update, const D: usize> Kernel for G2p<'_, U, D> {
                     // Nothing moves along z in plane strain, not even where a body does.
                     if c < D {
                         let mut second = Lanes8::ZERO;
-                        if U::SECOND {
+                        if MODE != AFFINE {
                             second = gather_lane::<D, FMA>(&window, node::SECOND + c, &sides.w);
                         }
-                        let [new, travel] = U::apply::<FMA>(old[c], plus, second, drifts[c]);
+                        let [new, travel] = updated::<MODE, FMA>([old[c], plus, second, drifts[c]]);
                         (fields[c], fields[4 + c]) = (new, travel.times::<FMA>(scale));
                     }
                 }

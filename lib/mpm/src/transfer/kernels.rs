@@ -1,9 +1,7 @@
 //! The kernels of a run, chosen once by dimensions, update and viscosity law.
 
-use std::marker::PhantomData;
-
 use super::filter::Filter;
-use super::g2p::{Affine, FilterAfter, FilterBefore, G2p, Increment, Update};
+use super::g2p::G2p;
 use super::p2g::P2g;
 use crate::gradient::Gradient;
 use crate::lanes::Lanes8;
@@ -17,33 +15,36 @@ use crate::tiles::{Points, Scratch, Tile};
 /// The kernels of a run, chosen once, so that no scene pays for what it does not use.
 #[derive(Clone, Copy)]
 pub(crate) struct Kernels {
-    shape: ShapeFunction,
-    p2g: fn(&mut Tile, Real, ShapeFunction),
-    g2p: fn(&mut Tile, &mut Scratch, Real, ShapeFunction),
-    filter: fn(&mut Tile, &[Lanes8], bool, ShapeFunction),
+    /// Points to nodes, with dt over cell.
+    pub(crate) p2g: fn(&mut Tile, Real, ShapeFunction),
+    /// Nodes to points, with dt over cell.
+    pub(crate) g2p: fn(&mut Tile, &mut Scratch, Real, ShapeFunction),
+    /// One round of the velocity filter of a nodal field; whether to keep the gathered value.
+    pub(crate) filter: fn(&mut Tile, &[Lanes8], bool, ShapeFunction),
 }
 
 impl Kernels {
-    pub(crate) fn new(shape: ShapeFunction, three: bool, mode: Mode) -> Self {
+    pub(crate) fn new(three: bool, mode: Mode) -> Self {
         if three {
-            Self::within::<3>(shape, mode)
+            Self::within::<3>(mode)
         } else {
-            Self::within::<2>(shape, mode)
+            Self::within::<2>(mode)
         }
     }
 
-    fn within<const D: usize>(shape: ShapeFunction, mode: Mode) -> Self {
+    fn within<const D: usize>(mode: Mode) -> Self {
         match mode {
-            Mode::Increment => Self::exact::<Increment, D, false>(shape),
-            Mode::Affine => Self::exact::<Affine, D, true>(shape),
-            Mode::FilterBefore => Self::exact::<FilterBefore, D, false>(shape),
-            Mode::FilterAfter | Mode::Replace => Self::exact::<FilterAfter, D, false>(shape),
+            Mode::Increment => Self::exact::<D, { Mode::Increment as u8 }, false>(),
+            Mode::Affine => Self::exact::<D, { Mode::Affine as u8 }, true>(),
+            Mode::FilterBefore => Self::exact::<D, { Mode::FilterBefore as u8 }, false>(),
+            Mode::FilterAfter | Mode::Replace => {
+                Self::exact::<D, { Mode::FilterAfter as u8 }, false>()
+            }
         }
     }
 
-    fn exact<U: Update, const D: usize, const AFFINE: bool>(shape: ShapeFunction) -> Self {
+    fn exact<const D: usize, const MODE: u8, const AFFINE: bool>() -> Self {
         Self {
-            shape,
             p2g: |tile, dt_over_cell, shape| {
                 dispatch(P2g::<D, AFFINE> {
                     tile,
@@ -52,13 +53,11 @@ impl Kernels {
                 });
             },
             g2p: |tile, scratch, dt_over_cell, shape| {
-                let update = PhantomData;
-                dispatch(G2p::<U, D> {
+                dispatch(G2p::<D, MODE> {
                     tile,
                     scratch,
                     dt_over_cell,
                     shape,
-                    update,
                 });
             },
             filter: |tile, field, keep, shape| {
@@ -70,21 +69,6 @@ impl Kernels {
                 });
             },
         }
-    }
-
-    /// Points to nodes, with dt over cell.
-    pub(crate) fn p2g(&self, tile: &mut Tile, dt_over_cell: Real) {
-        (self.p2g)(tile, dt_over_cell, self.shape);
-    }
-
-    /// Nodes to points, with dt over cell.
-    pub(crate) fn g2p(&self, tile: &mut Tile, scratch: &mut Scratch, dt_over_cell: Real) {
-        (self.g2p)(tile, scratch, dt_over_cell, self.shape);
-    }
-
-    /// One round of the velocity filter of a nodal field; whether to keep the gathered value.
-    pub(crate) fn filter(&self, tile: &mut Tile, field: &[Lanes8], keep: bool) {
-        (self.filter)(tile, field, keep, self.shape);
     }
 }
 

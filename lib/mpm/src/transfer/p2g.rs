@@ -39,10 +39,8 @@ impl<const D: usize, const AFFINE: bool> Kernel for P2g<'_, D, AFFINE> {
         }
         let mut start = 0;
         while start < points.len() {
-            let (base, end) = (
-                usize::from(points.base[start]),
-                run_end(&points.base, start),
-            );
+            let base = usize::from(points.base[start]);
+            let end = run_end(&points.base, start);
             let run = NodePoints {
                 points,
                 start,
@@ -52,13 +50,10 @@ impl<const D: usize, const AFFINE: bool> Kernel for P2g<'_, D, AFFINE> {
             };
             let reach = base..base + window(D);
             if *bodies != 0 && near_wall[base] {
-                let parts = (
-                    &run.fluxes::<D, FMA, AFFINE, true>(),
-                    &run.values::<D, FMA, AFFINE>(),
-                );
-                add_near::<D, FMA>(&mut local[reach.clone()], &mut wall_local[reach], parts);
+                let parts = run.sums::<D, FMA, AFFINE, true>();
+                add_near::<D, FMA>(&mut local[reach.clone()], &mut wall_local[reach], &parts);
             } else {
-                let sums = run.fluxes::<D, FMA, AFFINE, false>();
+                let (sums, _) = run.sums::<D, FMA, AFFINE, false>();
                 add::<D, FMA>(&mut local[reach], &sums);
             }
             start = end;
@@ -77,12 +72,13 @@ struct NodePoints<'a> {
 
 impl NodePoints<'_> {
     /// Sums at the nodes of [`sum`](crate::fields::sum). With `NEAR` only its impulse and volume, and in the
-    /// upper four lanes the gradient of volume: the rest is in [`Run::values`].
+    /// upper four lanes the gradient of volume; momentum and mass are then in the second window, and beside them the first
+    /// moment of mass about the nearest node.
     #[inline(always)]
-    fn fluxes<const D: usize, const FMA: bool, const AFFINE: bool, const NEAR: bool>(
+    fn sums<const D: usize, const FMA: bool, const AFFINE: bool, const NEAR: bool>(
         &self,
-    ) -> Window {
-        let mut sums = NOTHING;
+    ) -> (Window, Window) {
+        let (mut sums, mut values) = (NOTHING, NOTHING);
         let mut start = self.start;
         while start < self.end {
             let places = &self.points.place[start..self.end.min(start + BATCH)];
@@ -92,10 +88,19 @@ impl NodePoints<'_> {
             let motion = &self.points.motion[start..start + places.len()];
             let stress = &self.points.stress[start..start + places.len()];
             for p in 0..places.len() {
-                let (mass, volume) = amount(&places[p], &motion[p]);
+                let mass = places[p].0[VOLUME];
+                let volume = mass * (1.0 + motion[p].0[J]);
                 let mut s = stress[p].scaled::<FMA>(-self.dt_over_cell * volume);
                 (s.0[6], s.0[7]) = (volume, 0.0);
                 let bulk = Lanes4([0.0, 0.0, 0.0, volume]);
+                let momentum = beside::<FMA>(&motion[p], 1.0, mass);
+                let mut carried = [Lanes4::ZERO; 3];
+                if AFFINE {
+                    let affine = &self.points.affine[start + p];
+                    for a in 0..3 {
+                        carried[a] = beside::<FMA>(&affine[a], 0.0, mass);
+                    }
+                }
                 let w = of_point(&sides.w, p);
                 if NEAR {
                     let flux = [
@@ -106,6 +111,17 @@ impl NodePoints<'_> {
                     let g = of_point(&sides.g, p);
                     let x = Lanes8::of(bulk, Lanes4::ZERO);
                     spread::<D, FMA>(&mut sums, (&w, &g), x, flux);
+                    let x = Lanes8::of(momentum, places[p].scaled::<FMA>(mass));
+                    if AFFINE {
+                        let mut flux = [Lanes8::ZERO; 3];
+                        for a in 0..3 {
+                            flux[a] = Lanes8::of(carried[a], Lanes4::ZERO);
+                        }
+                        let g = of_point(&arms, p);
+                        spread::<D, FMA>(&mut values, (&w, &g), x, flux);
+                    } else {
+                        spread_value::<D, FMA>(&mut values, &w, x);
+                    }
                     continue;
                 }
                 let mut flux = [
@@ -115,74 +131,28 @@ impl NodePoints<'_> {
                 ];
                 let mut g = of_point(&sides.g, p);
                 if AFFINE {
-                    let affine = &self.points.affine[start + p];
                     for a in 0..3 {
-                        flux[a] = Lanes8::of(carried::<FMA>(&affine[a], mass), flux[a].high());
+                        flux[a] = Lanes8::of(carried[a], flux[a].high());
                     }
-                    g = of_points(&arms, &sides.g, p);
+                    g = of_points((&arms, p), (&sides.g, p));
                 }
-                let x = Lanes8::of(momentum::<FMA>(&motion[p], mass), bulk);
-                spread::<D, FMA>(&mut sums, (&w, &g), x, flux);
+                spread::<D, FMA>(&mut sums, (&w, &g), Lanes8::of(momentum, bulk), flux);
             }
             start += places.len();
         }
         nodal::<D, FMA>(&mut sums);
-        sums
-    }
-
-    /// Near bodies, at the nodes: momentum and mass, and the first moment of mass about the nearest node.
-    #[inline(always)]
-    fn values<const D: usize, const FMA: bool, const AFFINE: bool>(&self) -> Window {
-        let mut sums = NOTHING;
-        let mut start = self.start;
-        while start < self.end {
-            let places = &self.points.place[start..self.end.min(start + BATCH)];
-            let d = offsets::<FMA>(&self.points.place[start..]);
-            let sides = Sides::new::<D, FMA>(self.shape, &d);
-            let motion = &self.points.motion[start..start + places.len()];
-            for p in 0..places.len() {
-                let mass = places[p].0[VOLUME];
-                let moment = places[p].scaled::<FMA>(mass);
-                let x = Lanes8::of(momentum::<FMA>(&motion[p], mass), moment);
-                let w = of_point(&sides.w, p);
-                if AFFINE {
-                    let affine = &self.points.affine[start + p];
-                    let mut flux = [Lanes8::ZERO; 3];
-                    for a in 0..3 {
-                        flux[a] = Lanes8::of(carried::<FMA>(&affine[a], mass), Lanes4::ZERO);
-                    }
-                    let g = of_point(&arms(&d, &sides), p);
-                    spread::<D, FMA>(&mut sums, (&w, &g), x, flux);
-                } else {
-                    spread_value::<D, FMA>(&mut sums, &w, x);
-                }
-            }
-            start += places.len();
+        if NEAR {
+            nodal::<D, FMA>(&mut values);
         }
-        nodal::<D, FMA>(&mut sums);
-        sums
+        (sums, values)
     }
 }
 
-/// Mass, and volume (cells).
+/// A velocity, or a derivative of one, with `last` in the fourth lane, times the mass.
 #[inline(always)]
-fn amount(place: &Lanes4, motion: &Lanes4) -> (Real, Real) {
-    let mass = place.0[VOLUME];
-    (mass, mass * (1.0 + motion.0[J]))
-}
-
-/// Momentum, and mass beside it.
-#[inline(always)]
-fn momentum<const FMA: bool>(motion: &Lanes4, mass: Real) -> Lanes4 {
-    let [x, y, z, _] = motion.0;
-    Lanes4([x, y, z, 1.0]).scaled::<FMA>(mass)
-}
-
-/// A derivative of the affine velocity times the mass, none of that beside it.
-#[inline(always)]
-fn carried<const FMA: bool>(affine: &Lanes4, mass: Real) -> Lanes4 {
-    let [x, y, z, _] = affine.0;
-    Lanes4([x, y, z, 0.0]).scaled::<FMA>(mass)
+fn beside<const FMA: bool>(velocity: &Lanes4, last: Real, mass: Real) -> Lanes4 {
+    let [x, y, z, _] = velocity.0;
+    Lanes4([x, y, z, last]).scaled::<FMA>(mass)
 }
 
 /// Weights times the way from the point to the lower and the upper node: what carries a velocity that
@@ -205,7 +175,7 @@ fn arms(d: &[Lanes8; 3], sides: &Sides) -> Pairs {
 fn add_near<const D: usize, const FMA: bool>(
     nodes: &mut [Lanes8],
     near: &mut [Lanes8],
-    (fluxes, values): (&Window, &Window),
+    (fluxes, values): &(Window, Window),
 ) {
     for k in 0..layers(D) {
         for j in 0..3 {

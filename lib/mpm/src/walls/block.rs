@@ -21,14 +21,12 @@ pub(crate) struct BlockShape {
 impl BlockShape {
     /// The blocks of a body.
     pub(crate) fn of(body: &RigidBody, min_m: [f64; 3], cell_m: f64) -> Vec<Self> {
-        body.blocks
-            .iter()
-            .map(|block| Self {
-                origin: std::array::from_fn(|a| (block.origin()[a] - min_m[a]) / cell_m),
-                voxel: block.voxel().map(|v| v / cell_m),
-                solid: block.clone(),
-            })
-            .collect()
+        let shape = |block: &VoxelBlock| Self {
+            origin: std::array::from_fn(|a| (block.origin()[a] - min_m[a]) / cell_m),
+            voxel: block.voxel().map(|v| v / cell_m),
+            solid: block.clone(),
+        };
+        body.blocks.iter().map(shape).collect()
     }
 
     /// Position of a point in voxels of this block displaced by `shift`.
@@ -123,18 +121,10 @@ mod tests {
         }
     }
 
-    fn lattice(boundary: Boundary) -> Lattice {
-        Lattice {
-            cells: [10; 3],
-            boundary: [boundary; 3],
-            three: true,
-        }
-    }
-
     /// Where a point that goes from `start` to `end` (x, y) while the body rises by `rise` comes to, and in
     /// which directions it was stopped.
     fn swept(start: [f64; 2], end: [f64; 2], rise: f64) -> ([f64; 2], Option<[i8; 3]>) {
-        let lattice = lattice(Boundary::Open);
+        let lattice = Lattice::cube(10, Boundary::Open);
         let node = [5; 3];
         let from_node =
             |x: [f64; 2]| Lanes4([(x[0] - 5.0) as Real, (x[1] - 5.0) as Real, 0.0, 0.0]);
@@ -173,7 +163,7 @@ mod tests {
             voxel: [4.0, 10.0, 10.0],
             solid: VoxelBlock::solid_box([0.0; 3], [1.0; 3]),
         };
-        let lattice = lattice(Boundary::Periodic);
+        let lattice = Lattice::cube(10, Boundary::Periodic);
         for (from, by, to) in [(2.8, 0.5, 3.0), (7.2, -0.5, 7.0)] {
             for periods in [-3.0, -1.0, 0.0, 1.0, 2.0, 7.0] {
                 let shift = [10.0 * periods + 0.5, 0.0, 0.0];

@@ -112,10 +112,9 @@ impl Integrator {
             }
             Boundary::Open => {}
         }
-        let (clip_low, clip_high) = if boundary == Boundary::Symmetry {
-            (0.0, n)
-        } else {
-            (f64::NEG_INFINITY, f64::INFINITY)
+        let (clip_low, clip_high) = match boundary {
+            Boundary::Symmetry => (0.0, n),
+            _ => (f64::NEG_INFINITY, f64::INFINITY),
         };
         for (node, sign) in images {
             let first = ((node - reach - origin) / voxel).floor().max(0.0) as usize;
@@ -165,11 +164,7 @@ mod tests {
     /// A body that had gone more than a period was gone for the nodes.
     #[test]
     fn a_body_is_felt_however_many_periods_it_has_gone() {
-        let lattice = Lattice {
-            cells: [6; 3],
-            boundary: [Boundary::Periodic; 3],
-            three: true,
-        };
+        let lattice = Lattice::cube(6, Boundary::Periodic);
         let of = Integrator::new(&lattice, ShapeFunction::Gimp);
         for width in [1, 4, 12] {
             let block = BlockShape {
@@ -198,24 +193,15 @@ mod tests {
     #[test]
     fn integrals_are_those_of_the_shape_function() {
         const STEP: f64 = 1e-3;
-        let lattice = Lattice {
-            cells: [4; 3],
-            boundary: [Boundary::Open; 3],
-            three: true,
-        };
+        let lattice = Lattice::cube(4, Boundary::Open);
         for shape in [ShapeFunction::Gimp, ShapeFunction::Bspline2] {
             let of = Integrator::new(&lattice, shape);
             let (mut sum, mut moment) = (0.0, 0.0);
             for i in 0..4000 {
                 let x = f64::from(i) * STEP - 2.0;
-                assert!(
-                    (of.integral(x) - sum).abs() < 1e-6,
-                    "{shape:?} at {x}: {sum}"
-                );
-                assert!(
-                    (of.moment(x) - moment).abs() < 1e-6,
-                    "{shape:?} at {x}: {moment}"
-                );
+                for (found, exact) in [(of.integral(x), sum), (of.moment(x), moment)] {
+                    assert!((found - exact).abs() < 1e-6, "{shape:?} at {x}: {exact}");
+                }
                 let middle = x + 0.5 * STEP;
                 sum += STEP * of.value(middle);
                 moment += STEP * middle * of.value(middle);

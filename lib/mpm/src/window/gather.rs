@@ -8,15 +8,14 @@ use crate::lattice::layers;
 /// A field at a point with the weights `w`, lane by lane.
 #[inline(always)]
 pub(crate) fn gather_value<const D: usize, const FMA: bool>(window: &Window, w: &Pairs) -> Lanes8 {
-    let first = plane_value::<FMA>(&window[0], w);
-    if D == 2 {
-        return first;
+    let mut planes = [Lanes8::ZERO; 3];
+    for k in 0..layers(D) {
+        planes[k] = plane_value::<FMA>(&window[k], w);
     }
-    let (second, third) = (
-        plane_value::<FMA>(&window[1], w),
-        plane_value::<FMA>(&window[2], w),
-    );
-    between::<FMA>(&[first, second, third], &w[2])
+    if D == 2 {
+        return planes[0];
+    }
+    between::<FMA>(&planes, &w[2])
 }
 
 #[inline(always)]
@@ -66,11 +65,7 @@ fn plane_of<const FMA: bool>(
     w: &Pairs,
     g: &Pairs,
 ) -> (Lanes8, Lanes8, Lanes8) {
-    let nodes = [
-        in_all(&plane[0], c),
-        in_all(&plane[1], c),
-        in_all(&plane[2], c),
-    ];
+    let nodes = nodes_of(plane, c);
     let lines = [
         between::<FMA>(&nodes[0], &w[0]),
         between::<FMA>(&nodes[1], &w[0]),
@@ -90,12 +85,14 @@ fn plane_of<const FMA: bool>(
 
 /// Lane `c` of each node in all lanes.
 #[inline(always)]
-fn in_all(line: &Line, c: usize) -> Line {
-    [
-        Lanes8([line[0].0[c]; 8]),
-        Lanes8([line[1].0[c]; 8]),
-        Lanes8([line[2].0[c]; 8]),
-    ]
+fn nodes_of(plane: &Plane, c: usize) -> Plane {
+    let mut nodes = [[Lanes8::ZERO; 3]; 3];
+    for j in 0..3 {
+        for i in 0..3 {
+            nodes[j][i] = Lanes8([plane[j][i].0[c]; 8]);
+        }
+    }
+    nodes
 }
 
 #[inline(always)]
@@ -112,13 +109,7 @@ pub(crate) fn gather_lane<const D: usize, const FMA: bool>(
 ) -> Lanes8 {
     let mut planes = [Lanes8::ZERO; 3];
     for k in 0..layers(D) {
-        let plane = &window[k];
-        let lines = [
-            between::<FMA>(&in_all(&plane[0], c), &w[0]),
-            between::<FMA>(&in_all(&plane[1], c), &w[0]),
-            between::<FMA>(&in_all(&plane[2], c), &w[0]),
-        ];
-        planes[k] = between::<FMA>(&lines, &w[1]);
+        planes[k] = plane_value::<FMA>(&nodes_of(&window[k], c), w);
     }
     if D == 2 {
         return planes[0];

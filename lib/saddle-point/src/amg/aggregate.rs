@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::SolveError;
 use crate::csr::Csr;
-use crate::vector::{CHUNK, Work, for_chunks};
+use crate::vector::{CHUNK, Work, for_each};
 
 /// Marks a row that belongs to no aggregate: it has no neighbours and the smoother solves it.
 const NONE: u32 = u32::MAX;
@@ -55,34 +55,30 @@ impl Aggregation {
 
     /// `coarse = P^T fine`: sums over aggregates.
     pub(super) fn restrict(&self, fine: &[Work], coarse: &mut [Work]) {
-        for_chunks(coarse, |start, part| {
-            for (i, out) in part.iter_mut().enumerate() {
-                let members = self.members(start + i);
-                *out = members.iter().map(|&row| fine[row as usize]).sum();
-            }
+        for_each(coarse, |row, out| {
+            *out = (self.members(row).iter())
+                .map(|&row| fine[row as usize])
+                .sum();
         });
     }
 
     /// `fine += factor P coarse`.
     pub(super) fn add_prolonged(&self, factor: Work, coarse: &[Work], fine: &mut [Work]) {
-        for_chunks(fine, |start, part| {
-            for (out, &coarse_row) in part.iter_mut().zip(&self.coarse_of[start..]) {
-                if coarse_row != NONE {
-                    *out += factor * coarse[coarse_row as usize];
-                }
+        for_each(fine, |row, out| {
+            if let Some(coarse) = coarse.get(self.coarse_of[row] as usize) {
+                *out += factor * coarse;
             }
         });
     }
 
     /// `self` followed by `next` on its coarse rows.
     fn then(&self, next: &Self) -> Self {
-        let coarse_of = (self.coarse_of.par_iter())
-            .map(|&middle| match middle {
-                NONE => NONE,
-                _ => next.coarse_of[middle as usize],
-            })
-            .collect();
-        Self::new(coarse_of, next.n_coarse())
+        let of = |&middle: &u32| next.coarse_of.get(middle as usize).copied();
+        let coarse_of = self
+            .coarse_of
+            .par_iter()
+            .map(|middle| of(middle).unwrap_or(NONE));
+        Self::new(coarse_of.collect(), next.n_coarse())
     }
 }
 

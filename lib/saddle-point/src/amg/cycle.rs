@@ -1,7 +1,7 @@
 //! One multigrid cycle.
 
 use super::{Amg, Bottom, Level};
-use crate::vector::{Work, add_scaled, dot, for_chunks, norm, reset};
+use crate::vector::{Work, add_scaled, dot, for_each, norm};
 
 /// Jacobi weights of the two sweeps: inverse Chebyshev points of the interval [0.25, 2], the part
 /// of the spectrum of `D^-1 A` that aggregates of eight cannot represent. The bound 2 holds for
@@ -13,9 +13,8 @@ const OVERCORRECTION: Work = 1.3;
 /// The second Krylov step is left out when the first reduces the residual by this (Notay 2010, ETNA 37, 123-146).
 const ENOUGH: f64 = 0.25;
 
-/// Vectors of one level.
-#[derive(Default)]
-struct Vectors {
+/// Vectors of one level, kept between cycles.
+pub(super) struct Vectors {
     rhs: Vec<Work>,
     solution: Vec<Work>,
     scratch: Vec<Work>,
@@ -25,165 +24,127 @@ struct Vectors {
     second: Vec<Work>,
 }
 
-/// Vectors of all levels, kept between cycles.
-#[derive(Default)]
-pub(crate) struct Workspace {
-    levels: Vec<Vectors>,
-}
-
-impl Workspace {
-    fn fit(&mut self, amg: &Amg) {
-        let rows = amg.rows_per_level();
-        self.levels.resize_with(rows.len(), Vectors::default);
-        for (vectors, n) in self.levels.iter_mut().zip(rows) {
-            if vectors.rhs.len() != n {
-                for vector in [
-                    &mut vectors.rhs,
-                    &mut vectors.solution,
-                    &mut vectors.scratch,
-                    &mut vectors.direction,
-                    &mut vectors.product,
-                    &mut vectors.second,
-                ] {
-                    reset(vector, n);
-                }
-            }
-        }
-    }
-}
-
-impl Amg {
-    /// `x ~ matrix^-1 b` by one cycle from zero.
-    pub(crate) fn cycle(&self, b: &[Work], x: &mut Vec<Work>, workspace: &mut Workspace) {
-        workspace.fit(self);
-        let Some((top, below)) = workspace.levels.split_first_mut() else {
-            return;
-        };
-        reset(x, b.len());
-        self.descend(0, b, x, &mut top.scratch, below);
-    }
-
-    /// Smoothing, coarse correction, smoothing on level `index`.
-    fn descend(
-        &self,
-        index: usize,
-        b: &[Work],
-        x: &mut [Work],
-        scratch: &mut [Work],
-        below: &mut [Vectors],
-    ) {
-        let Some(level) = self.levels.get(index) else {
-            return self.bottom.solve(b, x);
-        };
-        smooth_from_zero(level, b, x, scratch);
-        for_chunks(scratch, |start, part| {
-            for (i, out) in part.iter_mut().enumerate() {
-                *out = b[start + i] - level.matrix.row_times(start + i, x);
-            }
-        });
-        let Some((next, rest)) = below.split_first_mut() else {
-            return;
-        };
-        level.aggregation.restrict(scratch, &mut next.rhs);
-        if index + 1 < self.levels.len() {
-            self.accelerate(index + 1, next, rest);
-        } else {
-            let Vectors {
-                rhs,
-                solution,
-                scratch,
-                ..
-            } = next;
-            self.descend(index + 1, rhs, solution, scratch, rest);
-        }
-        (level.aggregation).add_prolonged(OVERCORRECTION, &next.solution, x);
-        jacobi(level, WEIGHTS[1], b, x, scratch);
-        jacobi(level, WEIGHTS[0], b, scratch, x);
-    }
-
-    /// Solves level `index` for `vectors.rhs` by at most two steps of flexible conjugate
-    /// gradients, each preconditioned by a cycle (Notay 2010, algorithm 3.2).
-    fn accelerate(&self, index: usize, vectors: &mut Vectors, below: &mut [Vectors]) {
-        let Vectors {
+impl Vectors {
+    pub(super) fn new(rows: usize) -> Self {
+        let [rhs, solution, scratch] = std::array::from_fn(|_| vec![0.0; rows]);
+        let [direction, product, second] = std::array::from_fn(|_| vec![0.0; rows]);
+        Self {
             rhs,
             solution,
             scratch,
             direction,
             product,
             second,
-        } = vectors;
-        let matrix = &self.levels[index].matrix;
-        let multiply = |x: &[Work], y: &mut [Work]| {
-            for_chunks(y, |start, part| {
-                for (i, y) in part.iter_mut().enumerate() {
-                    *y = matrix.row_times(start + i, x);
-                }
-            });
-        };
-        self.descend(index, rhs, solution, scratch, below);
-        multiply(solution, product);
-        let curvature = dot(solution, product);
-        if curvature <= 0.0 || curvature.is_nan() {
-            return;
         }
-        let before = norm(rhs);
-        let first_step = dot(solution, rhs) / curvature;
-        add_scaled(rhs, -first_step, product);
-        if norm(rhs) <= ENOUGH * before {
-            scale(solution, first_step);
-            return;
-        }
-        self.descend(index, rhs, direction, scratch, below);
-        multiply(direction, second);
-        let coupling = dot(direction, product);
-        let second_curvature = dot(direction, second) - coupling * coupling / curvature;
-        if second_curvature <= 0.0 || second_curvature.is_nan() {
-            scale(solution, first_step);
-            return;
-        }
-        let second_step = dot(direction, rhs) / second_curvature;
-        scale(solution, first_step - coupling * second_step / curvature);
-        add_scaled(solution, second_step, direction);
     }
+}
+
+impl Amg {
+    /// `x ~ matrix^-1 b` by one cycle from zero.
+    pub(crate) fn cycle(&mut self, b: &[Work], x: &mut [Work]) {
+        let Self {
+            levels,
+            bottom,
+            vectors,
+        } = self;
+        if let Some((top, below)) = vectors.split_first_mut() {
+            descend((levels, bottom), b, x, &mut top.scratch, below);
+        }
+    }
+}
+
+/// The levels from one on, and the last.
+type Levels<'a> = (&'a [Level], &'a Bottom);
+
+/// Smoothing, coarse correction, smoothing on the first of `levels`.
+fn descend(
+    (levels, bottom): Levels,
+    b: &[Work],
+    x: &mut [Work],
+    scratch: &mut [Work],
+    below: &mut [Vectors],
+) {
+    let (Some((level, lower)), Some((next, rest))) =
+        (levels.split_first(), below.split_first_mut())
+    else {
+        return bottom.solve(b, x);
+    };
+    // From zero the first sweep needs no product.
+    let inverse = &level.inverse_diagonal;
+    for_each(scratch, |row, out| {
+        *out = WEIGHTS[0] * inverse[row] * b[row]
+    });
+    jacobi(level, WEIGHTS[1], b, scratch, x);
+    for_each(scratch, |row, out| {
+        *out = b[row] - level.matrix.row_times(row, x)
+    });
+    level.aggregation.restrict(scratch, &mut next.rhs);
+    if lower.is_empty() {
+        bottom.solve(&next.rhs, &mut next.solution);
+    } else {
+        accelerate((lower, bottom), next, rest);
+    }
+    (level.aggregation).add_prolonged(OVERCORRECTION, &next.solution, x);
+    jacobi(level, WEIGHTS[1], b, x, scratch);
+    jacobi(level, WEIGHTS[0], b, scratch, x);
+}
+
+/// Solves the first of `levels` for `vectors.rhs` by at most two steps of flexible conjugate
+/// gradients, each preconditioned by a cycle (Notay 2010, algorithm 3.2).
+fn accelerate(levels: Levels, vectors: &mut Vectors, below: &mut [Vectors]) {
+    let Vectors {
+        rhs,
+        solution,
+        scratch,
+        direction,
+        product,
+        second,
+    } = vectors;
+    let matrix = &levels.0[0].matrix;
+    let multiply = |x: &[Work], y: &mut [Work]| for_each(y, |row, y| *y = matrix.row_times(row, x));
+    descend(levels, rhs, solution, scratch, below);
+    multiply(solution, product);
+    let curvature = dot(solution, product);
+    if curvature <= 0.0 || curvature.is_nan() {
+        return;
+    }
+    let before = norm(rhs);
+    let first_step = dot(solution, rhs) / curvature;
+    add_scaled(rhs, -first_step, product);
+    if norm(rhs) <= ENOUGH * before {
+        return scale(solution, first_step);
+    }
+    descend(levels, rhs, direction, scratch, below);
+    multiply(direction, second);
+    let coupling = dot(direction, product);
+    let second_curvature = dot(direction, second) - coupling * coupling / curvature;
+    if second_curvature <= 0.0 || second_curvature.is_nan() {
+        return scale(solution, first_step);
+    }
+    let second_step = dot(direction, rhs) / second_curvature;
+    scale(solution, first_step - coupling * second_step / curvature);
+    add_scaled(solution, second_step, direction);
 }
 
 impl Bottom {
     fn solve(&self, b: &[Work], x: &mut [Work]) {
         match self {
             Self::Dense(factor) => factor.solve(b, x),
-            Self::Jacobi(inverse_diagonal) => {
-                for ((x, b), d) in x.iter_mut().zip(b).zip(inverse_diagonal) {
-                    *x = b * d;
-                }
-            }
+            Self::Jacobi(inverse) => for_each(x, |row, x| *x = b[row] * inverse[row]),
         }
     }
 }
 
 fn scale(x: &mut [Work], factor: f64) {
     let factor = factor as Work;
-    for_chunks(x, |_, part| part.iter_mut().for_each(|x| *x *= factor));
-}
-
-/// Both sweeps from `x = 0`, where the first needs no product.
-fn smooth_from_zero(level: &Level, b: &[Work], x: &mut [Work], scratch: &mut [Work]) {
-    let inverse = &level.inverse_diagonal;
-    for_chunks(scratch, |start, part| {
-        for (i, out) in part.iter_mut().enumerate() {
-            *out = WEIGHTS[0] * inverse[start + i] * b[start + i];
-        }
-    });
-    jacobi(level, WEIGHTS[1], b, scratch, x);
+    for_each(x, |_, x| *x *= factor);
 }
 
 /// `out = x + weight D^-1 (b - A x)`.
 fn jacobi(level: &Level, weight: Work, b: &[Work], x: &[Work], out: &mut [Work]) {
-    for_chunks(out, |start, part| {
-        for (i, out) in part.iter_mut().enumerate() {
-            let row = start + i;
-            let residual = b[row] - level.matrix.row_times(row, x);
-            *out = x[row] + weight * level.inverse_diagonal[row] * residual;
-        }
+    for_each(out, |row, out| {
+        let residual = b[row] - level.matrix.row_times(row, x);
+        *out = x[row] + weight * level.inverse_diagonal[row] * residual;
     });
 }
 
@@ -215,29 +176,26 @@ mod tests {
     /// multiple of one cycle.
     #[test]
     fn steps_on_a_level_are_the_best_in_the_energy() {
-        let n = 20;
-        let amg = Amg::new(&cube(n)).unwrap();
-        let rows = amg.rows_per_level();
-        assert_eq!(rows.len(), 3, "{rows:?}");
-        let matrix = &amg.levels[1].matrix;
-        let product = |x: &[Work]| -> Vec<Work> {
-            (0..rows[1]).map(|row| matrix.row_times(row, x)).collect()
-        };
+        let mut amg = Amg::new(&cube(20)).unwrap();
+        assert_eq!(amg.levels.len(), 2);
+        let levels = (&amg.levels[1..], &amg.bottom);
+        let matrix = &levels.0[0].matrix;
+        let rows = matrix.n_rows();
+        let product =
+            |x: &[Work]| -> Vec<Work> { (0..rows).map(|row| matrix.row_times(row, x)).collect() };
+        let (next, rest) = amg.vectors[1..].split_first_mut().unwrap();
         let mut most = 0.0_f64;
         // From the smoothest to nearly the roughest right-hand side, which takes fewer steps.
         for waves in [1, 2, 5, 100, 450] {
-            let wave = std::f64::consts::PI * f64::from(waves) / rows[1] as f64;
-            let b: Vec<Work> = (0..rows[1])
+            let wave = std::f64::consts::PI * f64::from(waves) / rows as f64;
+            let b: Vec<Work> = (0..rows)
                 .map(|row| (wave * (row as f64 + 0.5)).sin() as Work)
                 .collect();
-            let mut workspace = Workspace::default();
-            workspace.fit(&amg);
-            let (next, rest) = workspace.levels[1..].split_first_mut().unwrap();
             next.rhs.copy_from_slice(&b);
-            amg.descend(1, &b, &mut next.solution, &mut next.scratch, rest);
+            descend(levels, &b, &mut next.solution, &mut next.scratch, rest);
             let (x, ax) = (&next.solution, product(&next.solution));
             let single = dot(x, &b).powi(2) / dot(x, &ax);
-            amg.accelerate(1, next, rest);
+            accelerate(levels, next, rest);
             let x = &next.solution;
             let (ax, energy) = (product(x), dot(x, &b));
             let left: Vec<Work> = b.iter().zip(&ax).map(|(b, ax)| b - ax).collect();

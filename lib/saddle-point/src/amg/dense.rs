@@ -49,10 +49,6 @@ impl Cholesky {
         }
     }
 
-    pub(super) fn len(&self) -> usize {
-        self.n
-    }
-
     /// `x = A^-1 b`.
     pub(super) fn solve(&self, b: &[Work], x: &mut [Work]) {
         let row = |i: usize| &self.lower[i * (i.max(1) - 1) / 2..][..i];

@@ -9,11 +9,10 @@ mod dense;
 
 use super::SolveError;
 use super::csr::Csr;
-use super::vector::{Real, Work, for_chunks};
+use super::vector::{Real, Work, for_each};
 use aggregate::{Aggregation, coarsen};
+use cycle::Vectors;
 use dense::Cholesky;
-
-pub(crate) use cycle::Workspace;
 
 /// Rows below which a level is factorised; a coarse solve costs the square of this.
 const MAX_DENSE: usize = 256;
@@ -39,23 +38,24 @@ enum Bottom {
 pub(crate) struct Amg {
     levels: Vec<Level>,
     bottom: Bottom,
+    /// Of all levels, the last included.
+    vectors: Vec<Vectors>,
 }
 
 impl Amg {
     /// Builds the hierarchy of `matrix`.
     pub(crate) fn new(matrix: &Csr<f64>) -> Result<Self, SolveError> {
-        let mut levels = Vec::new();
+        let (mut levels, mut vectors) = (Vec::new(), Vec::new());
         let mut coarse: Option<Csr<f64>> = None;
-        loop {
+        let bottom = loop {
             let fine = coarse.as_ref().unwrap_or(matrix);
+            vectors.push(Vectors::new(fine.n_rows()));
             if fine.n_rows() <= MAX_DENSE {
-                let bottom = Bottom::Dense(Cholesky::new(fine));
-                return Ok(Self { levels, bottom });
+                break Bottom::Dense(Cholesky::new(fine));
             }
             let (aggregation, next) = coarsen(fine)?;
             if levels.len() == MAX_LEVELS || next.n_rows() * 10 > fine.n_rows() * 9 {
-                let bottom = Bottom::Jacobi(inverse_diagonal(fine));
-                return Ok(Self { levels, bottom });
+                break Bottom::Jacobi(inverse_diagonal(fine));
             }
             levels.push(Level {
                 matrix: fine.cast(),
@@ -63,27 +63,21 @@ impl Amg {
                 aggregation,
             });
             coarse = Some(next);
-        }
-    }
-
-    /// Rows of every level, finest first.
-    pub(crate) fn rows_per_level(&self) -> Vec<usize> {
-        let mut rows: Vec<usize> = self.levels.iter().map(|l| l.matrix.n_rows()).collect();
-        rows.push(match &self.bottom {
-            Bottom::Dense(factor) => factor.len(),
-            Bottom::Jacobi(diagonal) => diagonal.len(),
-        });
-        rows
+        };
+        Ok(Self {
+            levels,
+            bottom,
+            vectors,
+        })
     }
 }
 
 fn inverse_diagonal(matrix: &Csr<f64>) -> Vec<Work> {
     let diagonal = matrix.diagonal();
     let mut inverse = vec![0.0; diagonal.len()];
-    for_chunks(&mut inverse, |start, part| {
-        for (out, &d) in part.iter_mut().zip(&diagonal[start..]) {
-            *out = if d > 0.0 { Work::nearest(1.0 / d) } else { 0.0 };
-        }
+    for_each(&mut inverse, |row, out| {
+        let d = diagonal[row];
+        *out = if d > 0.0 { Work::nearest(1.0 / d) } else { 0.0 };
     });
     inverse
 }
@@ -104,7 +98,7 @@ mod tests {
                     entries.add(row + 1, -1.0);
                 }
             });
-            Amg::new(&chain.unwrap()).unwrap().rows_per_level().len()
+            Amg::new(&chain.unwrap()).unwrap().vectors.len()
         };
         assert_eq!((levels(256), levels(257)), (1, 2));
     }

@@ -1,9 +1,7 @@
 //! Staggered operators of the test problem: viscous stresses of cells and edges, mass, wall
 //! friction, fluxes and compressibility, scaled by the reference viscosity.
 
-mod shear;
-
-use super::{Case, Cell, Wood};
+use super::{Case, Cell, Point, Wood, add_row, shift};
 use saddle_point::{Csr, RowEntries, SaddleSystem, SolveError, VelocityBlock};
 
 /// Cell edge, m; density, kg/m3; time step, s; speed of the upper block, m/s.
@@ -34,6 +32,23 @@ impl Problem {
         Stokes::new(case).assemble()
     }
 
+    /// Of fluxes `g`, with friction of `stiffness` at faces and nothing else, of cells that yield by `c`, at rest.
+    pub fn still(g: Csr<f64>, stiffness: impl Fn(usize) -> f64 + Sync, c: f64) -> Self {
+        let (faces, cells) = (g.n_columns(), g.n_rows());
+        let fill = |row: usize, entries: &mut RowEntries| entries.add(row, stiffness(row));
+        Self {
+            a: Csr::assemble(faces, faces, fill).unwrap(),
+            block: VelocityBlock::assemble(faces, fill).unwrap(),
+            g,
+            c: vec![c; cells],
+            friction: (0..faces).map(&stiffness).collect(),
+            two_eta: vec![stiffness(0); cells],
+            b: vec![0.0; faces],
+            volume_source: vec![0.0; cells],
+            carried: vec![0.0; cells],
+        }
+    }
+
     pub fn system(&self) -> SaddleSystem<'_> {
         SaddleSystem {
             a: &self.block,
@@ -50,29 +65,15 @@ impl Problem {
             carried: &self.carried,
         }
     }
+
+    /// Velocities and pressures at rest.
+    pub fn rest(&self) -> (Vec<f64>, Vec<f64>) {
+        (vec![0.0; self.b.len()], vec![0.0; self.c.len()])
+    }
 }
 
-/// The matrix as the solver takes it.
-fn block(a: &Csr<f64>) -> Result<VelocityBlock, SolveError> {
-    VelocityBlock::assemble(a.n_rows(), |row, entries| {
-        let (columns, values) = a.row(row);
-        for (&column, &value) in columns.iter().zip(values) {
-            entries.add(column as usize, value);
-        }
-    })
-}
-
-type Point = [i64; 3];
-
-fn shift(mut at: Point, axis: usize, by: i64) -> Point {
-    at[axis] += by;
-    at
-}
-
-struct Face {
-    axis: usize,
-    at: Point,
-}
+/// A face across an axis, the lower one of a cell.
+type Face = (usize, Point);
 
 struct Stokes {
     case: Case,
@@ -84,103 +85,83 @@ struct Stokes {
 }
 
 impl Stokes {
-    fn new(case: &Case) -> Self {
-        let wood = Wood::new(case);
-        let mut stokes = Self {
-            case: *case,
-            velocity: vec![[NONE; 3]; wood.cell.len()],
-            cells: Vec::new(),
-            faces: Vec::new(),
-            wood,
-        };
-        stokes.number();
-        stokes
-    }
-
     /// Numbers the unknowns along grid lines, one velocity component after the other on each line:
     /// neighbouring rows then couple to equal distances.
-    fn number(&mut self) {
-        let [nx, ny, nz] = self.wood.n.map(|n| n as i64);
+    fn new(case: &Case) -> Self {
+        let wood = Wood::new(case);
+        let mut velocity = vec![[NONE; 3]; wood.cell.len()];
+        let (mut cells, mut faces) = (Vec::new(), Vec::new());
+        let [nx, ny, nz] = wood.n.map(|n| n as i64);
         for (z, y) in (0..nz).flat_map(|z| (0..ny).map(move |y| (z, y))) {
             let line = (0..nx).map(|x| [x, y, z]);
-            let liquid = line.clone().filter(|&at| self.wood.at(at) == Cell::Liquid);
-            self.cells.extend(liquid);
+            cells.extend(line.clone().filter(|&at| wood.at(at) == Cell::Liquid));
             for axis in 0..3 {
                 for at in line.clone() {
-                    if self.is_active(axis, at) {
-                        let index = self.wood.index(at.map(|v| v as usize));
-                        self.velocity[index][axis] = self.faces.len() as u32;
-                        self.faces.push(Face { axis, at });
+                    let sides = [wood.at(at), wood.at(shift(at, axis, -1))];
+                    if sides.into_iter().all(Cell::is_open) && sides.contains(&Cell::Liquid) {
+                        velocity[wood.index(at)][axis] = faces.len() as u32;
+                        faces.push((axis, at));
                     }
                 }
             }
         }
-    }
-
-    /// Whether the lower face of a cell along `axis` is open and wet.
-    fn is_active(&self, axis: usize, at: Point) -> bool {
-        let sides = [self.wood.at(at), self.wood.at(shift(at, axis, -1))];
-        sides.into_iter().all(Cell::is_open) && sides.contains(&Cell::Liquid)
+        Self {
+            case: *case,
+            wood,
+            velocity,
+            cells,
+            faces,
+        }
     }
 
     fn assemble(&self) -> Result<Problem, SolveError> {
-        let n = self.faces.len();
-        let eta = self.case.viscosity;
-        let cells = self.cells.len();
-        let compressibility = eta / (self.case.bulk_modulus * TIME_STEP);
+        let (n, cells) = (self.faces.len(), self.cells.len());
+        let compressibility = self.case.viscosity / (self.case.bulk_modulus * TIME_STEP);
+        let of_cells = |of: &dyn Fn(Point) -> f64| self.cells.iter().map(|&at| of(at)).collect();
         let a = Csr::assemble(n, n, |face, entries| {
-            self.momentum_row(face, entries);
-        })?;
-        let g = Csr::assemble(cells, n, |cell, entries| {
-            self.flux_row(cell, entries);
+            self.momentum_row(self.faces[face], entries);
         })?;
         Ok(Problem {
-            block: block(&a)?,
+            block: VelocityBlock::assemble(n, |face, entries| add_row(a.row(face), entries))?,
             a,
-            g,
-            c: self
-                .cells
-                .iter()
-                .map(|&at| compressibility * self.open(at))
-                .collect(),
-            friction: (0..n)
-                .map(|face| self.friction(&self.faces[face]))
-                .collect(),
-            two_eta: self
-                .cells
-                .iter()
-                .map(|&at| 2.0 * self.viscosity(at))
-                .collect(),
-            b: (0..n)
-                .map(|face| self.momentum_row(face, &mut RowEntries::default()))
+            g: Csr::assemble(cells, n, |cell, entries| {
+                self.flux_row(self.cells[cell], entries);
+            })?,
+            c: of_cells(&|at| compressibility * self.open(at)),
+            friction: self.faces.iter().map(|&face| self.friction(face)).collect(),
+            two_eta: of_cells(&|at| 2.0 * self.viscosity(at)),
+            b: (self.faces.iter())
+                .map(|&face| self.momentum_row(face, &mut RowEntries::default()))
                 .collect(),
             carried: vec![0.0; cells],
-            volume_source: (0..cells)
-                .map(|cell| self.flux_row(cell, &mut RowEntries::default()))
+            volume_source: (self.cells.iter())
+                .map(|&at| self.flux_row(at, &mut RowEntries::default()))
                 .collect(),
         })
     }
 
-    fn face(&self, axis: usize, at: Point) -> u32 {
+    fn unknown(&self, (axis, at): Face) -> u32 {
         match self.wood.at(at) {
             Cell::Outside => NONE,
-            _ => self.velocity[self.wood.index(at.map(|v| v as usize))][axis],
+            _ => self.velocity[self.wood.index(at)][axis],
         }
     }
 
     /// Velocity of a closed face: that of the upper block where it touches it.
-    fn closed_velocity(&self, axis: usize, at: Point) -> f64 {
-        let touches =
-            self.wood.at(at) == Cell::Top || self.wood.at(shift(at, axis, -1)) == Cell::Top;
-        if axis == 1 && touches { SPEED } else { 0.0 }
+    fn closed_velocity(&self, (axis, at): Face) -> f64 {
+        let sides = [at, shift(at, axis, -1)].map(|at| self.wood.at(at));
+        if axis == 1 && sides.contains(&Cell::Top) {
+            SPEED
+        } else {
+            0.0
+        }
     }
 
     /// Viscosity over the reference.
     fn viscosity(&self, at: Point) -> f64 {
         let wave = |axis: usize, period: f64| {
-            (0.5 * std::f64::consts::TAU * at[axis] as f64 / period)
-                .sin()
-                .powi(2)
+            let half = 0.5 * std::f64::consts::TAU * at[axis] as f64 / period;
+            half.sin().powi(2)
         };
         let exponent = (wave(0, 8.0) + wave(1, 11.0) + wave(2, 37.0)) / 3.0;
         self.case.contrast.powf(exponent)
@@ -188,7 +169,7 @@ impl Stokes {
 
     /// Open fraction of a cell.
     fn open(&self, at: Point) -> f64 {
-        let cut = at[1] + 1 == self.wood.top as i64
+        let cut = at[1] + 1 == self.wood.top
             && self.wood.at(at) == Cell::Liquid
             && self.wood.at(shift(at, 1, 1)) == Cell::Top;
         if cut { self.case.sliver } else { 1.0 }
@@ -199,83 +180,132 @@ impl Stokes {
     }
 
     /// The liquid cells on both sides of a face.
-    fn sides(&self, face: &Face) -> impl Iterator<Item = Point> {
-        [shift(face.at, face.axis, -1), face.at]
-            .into_iter()
-            .filter(|&at| self.wood.at(at) == Cell::Liquid)
+    fn sides(&self, (axis, at): Face) -> impl Iterator<Item = Point> {
+        let sides = [shift(at, axis, -1), at].into_iter();
+        sides.filter(|&at| self.wood.at(at) == Cell::Liquid)
     }
 
-    fn volume(&self, face: &Face) -> f64 {
+    fn volume(&self, face: Face) -> f64 {
         self.sides(face).map(|at| 0.5 * self.open(at)).sum()
     }
 
-    fn mean_viscosity(&self, face: &Face) -> f64 {
+    fn mean_viscosity(&self, face: Face) -> f64 {
         let sum: f64 = self.sides(face).map(|at| self.viscosity(at)).sum();
         sum / self.sides(face).count() as f64
     }
 
     /// Row of `A` for a face; returns its right-hand side.
-    fn momentum_row(&self, row: usize, entries: &mut RowEntries) -> f64 {
-        let face = &self.faces[row];
-        let axis = face.axis;
-        let mut rhs = 0.0;
+    fn momentum_row(&self, face: Face, entries: &mut RowEntries) -> f64 {
+        let (axis, at) = face;
+        let row = self.unknown(face) as usize;
         entries.add(row, self.inverse_time() * self.volume(face));
-        // Normal stress of the cells on both sides.
-        for (side, far) in [(-1, -1), (0, 1)] {
-            let cell = shift(face.at, axis, side);
-            if self.wood.at(cell) != Cell::Liquid {
-                continue;
+        let mut rhs = 0.0;
+        // A stress that grows with every second face's velocity and falls with that of the others.
+        let mut add = |weight: f64, faces: &[Face]| {
+            let mine = faces.iter().position(|&other| other == face);
+            for (i, &other) in faces.iter().enumerate() {
+                let value = if mine.is_some_and(|mine| mine % 2 == i % 2) {
+                    weight
+                } else {
+                    -weight
+                };
+                match self.unknown(other) {
+                    NONE => rhs -= value * self.closed_velocity(other),
+                    id => entries.add(id as usize, value),
+                }
             }
+        };
+        for cell in self.sides(face) {
             let stiffness = 2.0 * self.viscosity(cell) * self.open(cell);
-            let other = shift(face.at, axis, far);
-            entries.add(row, stiffness);
-            match self.face(axis, other) {
-                NONE => rhs += stiffness * self.closed_velocity(axis, other),
-                id => entries.add(id as usize, -stiffness),
-            }
+            add(stiffness, &[(axis, cell), (axis, shift(cell, axis, 1))]);
         }
         for tangent in (0..3).filter(|&t| t != axis) {
             for up in [0, 1] {
-                rhs += self.shear(row, axis, tangent, shift(face.at, tangent, up), entries);
+                let edge = self.edge(axis, tangent, shift(at, tangent, up));
+                if let Some((faces, [common, rest])) = edge {
+                    add(common, &faces);
+                    add(rest, &faces[..2]);
+                }
             }
-            rhs += self.wall(row, face, tangent, entries);
+        }
+        for tangent in (0..3).filter(|&t| t != axis) {
+            rhs += self.wall(face, tangent, row, entries);
         }
         rhs
     }
 
-    /// Friction of the walls beside a face along one tangent.
-    fn wall(&self, row: usize, face: &Face, tangent: usize, entries: &mut RowEntries) -> f64 {
-        if !self.case.friction {
-            return 0.0;
+    /// The edge at the lower corner of cell `at` in the plane of two axes: lower and upper face of the first axis, of the second;
+    /// weights of the shear stress common to both axes and of the rest of the first.
+    fn edge(&self, axis: usize, tangent: usize, at: Point) -> Option<([Face; 4], [f64; 2])> {
+        let (low_axis, low_tangent) = (shift(at, axis, -1), shift(at, tangent, -1));
+        let corners = [at, low_axis, low_tangent, shift(low_axis, tangent, -1)];
+        let kinds = corners.map(|corner| self.wood.at(corner));
+        if kinds.contains(&Cell::Outside) || !kinds.contains(&Cell::Liquid) {
+            return None;
         }
+        let open = kinds.iter().filter(|kind| kind.is_open()).count() as f64;
+        let liquid = (corners.into_iter()).filter(|&at| self.wood.at(at) == Cell::Liquid);
+        let stiffness: f64 = liquid.map(|at| self.viscosity(at) * self.open(at)).sum();
+        let faces = [
+            (axis, low_tangent),
+            (axis, at),
+            (tangent, low_axis),
+            (tangent, at),
+        ];
+        let [here, left, below, corner] = kinds.map(Cell::is_open);
+        // Two parallel faces see each other through each half of the edge that has no wall, and not at all where one is
+        // open but no unknown.
+        let sees = |[a, b]: [(bool, bool); 2], of: &[Face]| {
+            let half = |a: bool, b: bool| if a && b { 0.5 } else { 0.0 };
+            let lost =
+                |(low, high): (bool, bool), face: Face| low && high && self.unknown(face) == NONE;
+            match lost(a, of[0]) || lost(b, of[1]) {
+                true => 0.0,
+                false => half(a.0, b.0) + half(a.1, b.1),
+            }
+        };
+        let first = sees([(corner, below), (left, here)], &faces[..2]);
+        let second = sees([(corner, left), (below, here)], &faces[2..]);
+        let common = f64::min(first, second);
+        Some((
+            faces,
+            [common, first - common].map(|w| w * stiffness / open),
+        ))
+    }
+
+    /// Friction of the walls beside a face along one tangent.
+    fn wall(&self, face: Face, tangent: usize, row: usize, entries: &mut RowEntries) -> f64 {
         let mut rhs = 0.0;
         for step in [-1, 1] {
-            let beside = shift(face.at, tangent, step);
-            let halves = [beside, shift(beside, face.axis, -1)].map(|at| self.wood.at(at));
+            let halves = self.beside(face, tangent, step);
             let walls = halves.into_iter().filter(|half| half.is_body()).count();
-            if walls == 0 {
+            if walls == 0 || !self.case.friction {
                 continue;
             }
-            let width = self.width(face, tangent);
-            let open = self.volume(face) / self.sides(face).count() as f64 * 2.0;
-            let distance = open * (0.5 - 1.0 / (3.0 * width));
-            let wet = 0.5 * self.sides(face).count() as f64;
-            let stiffness = self.mean_viscosity(face) * 0.5 * walls as f64 / distance * wet;
+            let sides = self.sides(face).count() as f64;
+            let open = self.volume(face) / sides * 2.0;
+            let distance = open * (0.5 - 1.0 / (3.0 * self.width(face, tangent)));
+            let stiffness = self.mean_viscosity(face) * 0.25 * walls as f64 / distance * sides;
             entries.add(row, stiffness);
-            if face.axis == 1 && halves.contains(&Cell::Top) {
+            if face.0 == 1 && halves.contains(&Cell::Top) {
                 rhs += stiffness * SPEED;
             }
         }
         rhs
     }
 
+    /// The cells on both sides of the face that is `far` cells along `tangent`.
+    fn beside(&self, (axis, at): Face, tangent: usize, far: i64) -> [Cell; 2] {
+        let beside = shift(at, tangent, far);
+        [beside, shift(beside, axis, -1)].map(|at| self.wood.at(at))
+    }
+
     /// Free length along `tangent` through a face.
-    fn width(&self, face: &Face, tangent: usize) -> f64 {
+    fn width(&self, face: Face, tangent: usize) -> f64 {
         let mut length = 1;
         for step in [-1, 1] {
             for far in 1..WIDEST {
-                let beside = shift(face.at, tangent, step * far);
-                let pair = [beside, shift(beside, face.axis, -1)].map(|at| self.wood.at(at));
+                let pair = self.beside(face, tangent, step * far);
                 if pair.contains(&Cell::Outside) {
                     return WIDEST as f64;
                 }
@@ -289,30 +319,25 @@ impl Stokes {
     }
 
     /// Friction and inertia of the liquid around a face, for the pressure preconditioner.
-    fn friction(&self, face: &Face) -> f64 {
-        let lumen: f64 = (0..3)
-            .filter(|&tangent| tangent != face.axis)
+    fn friction(&self, face: Face) -> f64 {
+        let tangents = (0..3).filter(|&tangent| tangent != face.0 && self.case.friction);
+        let lumen: f64 = tangents
             .map(|tangent| 12.0 / self.width(face, tangent).powi(2))
             .sum();
-        let lumen = if self.case.friction { lumen } else { 0.0 };
         self.volume(face) * (self.inverse_time() + self.mean_viscosity(face) * lumen)
     }
 
     /// Row of `G` for a cell; returns its volume source.
-    fn flux_row(&self, row: usize, entries: &mut RowEntries) -> f64 {
-        let at = self.cells[row];
+    fn flux_row(&self, at: Point, entries: &mut RowEntries) -> f64 {
         let mut source = 0.0;
         for axis in 0..3 {
             for (position, sign) in [(at, -1.0), (shift(at, axis, 1), 1.0)] {
-                match self.face(axis, position) {
-                    NONE => source -= sign * self.closed_velocity(axis, position),
+                let below = shift(position, axis, -1);
+                match self.unknown((axis, position)) {
+                    NONE => source -= sign * self.closed_velocity((axis, position)),
+                    id if axis == 1 => entries.add(id as usize, sign),
                     id => {
-                        let narrowest = if axis == 1 {
-                            1.0
-                        } else {
-                            let neighbour = shift(position, axis, -1);
-                            self.open(position).min(self.open(neighbour))
-                        };
+                        let narrowest = self.open(position).min(self.open(below));
                         entries.add(id as usize, sign * narrowest);
                     }
                 }

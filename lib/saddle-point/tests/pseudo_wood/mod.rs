@@ -2,9 +2,27 @@
 //! cell and a vessel now and then, a gap between them, liquid in the gap and in the ends of the
 //! lumens, the upper block closing at unit speed. Lengths are in cells; every wall lies on a face.
 
+#![allow(dead_code, reason = "the benchmark uses less of it than the tests")]
+
 mod assembly;
 
 pub use assembly::Problem;
+use saddle_point::RowEntries;
+
+/// A cell, or a face by the cell above it.
+type Point = [i64; 3];
+
+fn shift(mut at: Point, axis: usize, by: i64) -> Point {
+    at[axis] += by;
+    at
+}
+
+/// Adds the row of a matrix.
+pub fn add_row((columns, values): (&[u32], &[f64]), entries: &mut RowEntries) {
+    for (&column, &value) in columns.iter().zip(values) {
+        entries.add(column as usize, value);
+    }
+}
 
 /// What fills a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -74,65 +92,50 @@ pub struct Wood {
     pub n: [usize; 3],
     pub cell: Vec<Cell>,
     /// First row of the upper block.
-    pub top: usize,
+    pub top: i64,
 }
 
 impl Wood {
     pub fn new(case: &Case) -> Self {
         let n = case.cells;
-        let bottom = (n[1] - case.gap) / 2;
-        let top = bottom + case.gap;
-        let mut cell = Vec::with_capacity(n[0] * n[1] * n[2]);
-        for z in 0..n[2] as i64 {
-            for y in 0..n[1] as i64 {
-                for x in 0..n[0] as i64 {
-                    cell.push(substance(
-                        x,
-                        y,
-                        z,
-                        bottom as i64,
-                        top as i64,
-                        case.depth as i64,
-                    ));
-                }
-            }
-        }
+        let bottom = ((n[1] - case.gap) / 2) as i64;
+        let top = bottom + case.gap as i64;
+        let place = |i: usize| [i % n[0], i / n[0] % n[1], i / (n[0] * n[1])].map(|v| v as i64);
+        let cell = (0..n.iter().product())
+            .map(|i| substance(place(i), [bottom, top], case.depth as i64))
+            .collect();
         let mut wood = Self { n, cell, top };
         wood.drop_disconnected([1, (bottom + top) / 2, 1]);
         wood
     }
 
-    pub fn index(&self, at: [usize; 3]) -> usize {
-        (at[2] * self.n[1] + at[1]) * self.n[0] + at[0]
+    pub fn index(&self, at: Point) -> usize {
+        let [x, y, z] = at.map(|v| v as usize);
+        (z * self.n[1] + y) * self.n[0] + x
     }
 
     /// The cell at a position that may lie outside.
-    pub fn at(&self, at: [i64; 3]) -> Cell {
+    pub fn at(&self, at: Point) -> Cell {
         let inside = (0..3).all(|d| (0..self.n[d] as i64).contains(&at[d]));
         if inside {
-            self.cell[self.index(at.map(|v| v as usize))]
+            self.cell[self.index(at)]
         } else {
             Cell::Outside
         }
     }
 
     /// Turns liquid that does not touch the gap into air.
-    fn drop_disconnected(&mut self, seed: [usize; 3]) {
+    fn drop_disconnected(&mut self, seed: Point) {
         let mut reached = vec![false; self.cell.len()];
         let mut front = vec![seed];
         reached[self.index(seed)] = true;
         while let Some(from) = front.pop() {
-            for axis in 0..3 {
-                for step in [-1i64, 1] {
-                    let mut to = from.map(|v| v as i64);
-                    to[axis] += step;
-                    if self.at(to) == Cell::Liquid {
-                        let to = to.map(|v| v as usize);
-                        let index = self.index(to);
-                        if !std::mem::replace(&mut reached[index], true) {
-                            front.push(to);
-                        }
-                    }
+            for (axis, step) in (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]) {
+                let to = shift(from, axis, step);
+                if self.at(to) == Cell::Liquid
+                    && !std::mem::replace(&mut reached[self.index(to)], true)
+                {
+                    front.push(to);
                 }
             }
         }
@@ -144,7 +147,7 @@ impl Wood {
     }
 }
 
-fn substance(x: i64, y: i64, z: i64, bottom: i64, top: i64, depth: i64) -> Cell {
+fn substance([x, y, z]: Point, [bottom, top]: [i64; 2], depth: i64) -> Cell {
     let tilt = (SLOPE * z as f64).round() as i64;
     let wall = if y < bottom {
         is_wall(x, y - tilt, 20, bottom - 6).then_some(Cell::Bottom)

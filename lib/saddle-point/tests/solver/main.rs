@@ -3,6 +3,7 @@
 
 mod dense;
 mod failures;
+mod loaded;
 #[path = "../pseudo_wood/mod.rs"]
 mod pseudo_wood;
 mod sizes;
@@ -40,7 +41,7 @@ fn solve(
     problem: &Problem,
     tolerance: f64,
 ) -> Result<(Vec<f64>, Vec<f64>, SaddleReport), SolveError> {
-    let (mut u, mut p) = (vec![0.0; problem.b.len()], vec![0.0; problem.c.len()]);
+    let (mut u, mut p) = problem.rest();
     let report = SaddleSolver::new(options(tolerance)).solve(&problem.system(), &mut u, &mut p)?;
     Ok((u, p, report))
 }
@@ -51,8 +52,8 @@ fn distance(x: &[f64], y: &[f64]) -> f64 {
     (square(&|i| x[i] - y[i]) / square(&|i| y[i])).sqrt()
 }
 
-/// Two rows of cells, the first closed, the second open at its end.
-fn pockets(closed: usize, open: usize) -> (Csr<f64>, Vec<f64>) {
+/// Two rows of cells that yield by `c`, the first closed, the second open at its end, with friction of 2 at faces.
+fn pockets(closed: usize, open: usize, c: f64) -> Problem {
     let cells = closed + open;
     let g = Csr::assemble(cells, cells, |cell, entries| {
         // Face `i` lies behind cell `i`; the closed row has none at its end.
@@ -63,5 +64,5 @@ fn pockets(closed: usize, open: usize) -> (Csr<f64>, Vec<f64>) {
             entries.add(cell - 1, -1.0);
         }
     });
-    (g.unwrap(), vec![1.0; cells])
+    Problem::still(g.unwrap(), |_| 2.0, c)
 }

@@ -1,7 +1,5 @@
 //! Iterations over sizes and materials; the same result by any number of threads.
 
-use std::time::Instant;
-
 use crate::pseudo_wood::{Case, Problem};
 use crate::{MEDIUM, solve};
 use saddle_point::Csr;
@@ -10,39 +8,13 @@ use saddle_point::Csr;
 fn iterations_do_not_grow_with_the_domain() {
     let iterations = [[24, 40, 16], [32, 48, 48]].map(|cells| {
         let problem = Problem::new(&Case { cells, ..MEDIUM }).unwrap();
-        let started = Instant::now();
         let (_, p, report) = solve(&problem, 1e-4).unwrap();
-        println!(
-            "{} cells: {} iterations to 1e-4",
-            p.len(),
-            report.iterations()
-        );
+        let iterations = report.iterations();
+        println!("{} cells: {iterations} iterations to 1e-4", p.len());
         assert!(report.residual() <= 1e-4);
-        // Its parts are no longer than the whole.
-        assert!(report.setup + report.iteration <= started.elapsed());
-        report.iterations()
+        iterations
     });
     assert!(2 * iterations[1] <= 3 * iterations[0] && iterations[1] <= 28);
-}
-
-#[test]
-#[ignore = "a minute; 0.5 M cells"]
-fn iterations_do_not_grow_up_to_full_size() {
-    for (cells, gap) in [([64, 56, 64], 12), ([128, 56, 128], 19)] {
-        let problem = Problem::new(&Case {
-            cells,
-            gap,
-            ..MEDIUM
-        })
-        .unwrap();
-        let (_, p, report) = solve(&problem, 1e-4).unwrap();
-        println!(
-            "{} cells: {} iterations to 1e-4",
-            p.len(),
-            report.iterations()
-        );
-        assert!(report.iterations() <= 28);
-    }
 }
 
 #[test]
@@ -67,12 +39,9 @@ fn materials_walls_and_slivers() {
         let mut case = MEDIUM;
         change(&mut case);
         let (_, _, report) = solve(&Problem::new(&case).unwrap(), 1e-6).unwrap();
-        println!("{name}: {} iterations to 1e-6", report.iterations());
-        assert!(
-            report.iterations() <= most,
-            "{name}: {} > {most}",
-            report.iterations()
-        );
+        let iterations = report.iterations();
+        println!("{name}: {iterations} iterations to 1e-6");
+        assert!(iterations <= most, "{name}: {iterations} > {most}");
     }
 }
 
@@ -118,10 +87,7 @@ fn slivers_swept_by_walls_cost_few_iterations() {
         let problem = with_swept_slivers(Problem::new(&MEDIUM).unwrap(), every, area);
         let (_, p, report) = solve(&problem, 1e-3).unwrap();
         let iterations = report.iterations();
-        println!(
-            "{} cells, area {area}: {iterations} iterations to 1e-3",
-            p.len()
-        );
+        println!("{} cells, area {area}: {iterations} iterations", p.len());
         assert!(iterations <= 30);
     }
 }
@@ -134,11 +100,8 @@ fn identical_for_any_number_of_threads() {
     })
     .unwrap();
     let with = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
-        pool.install(|| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build().unwrap().install(|| {
             let (u, p, report) = solve(&problem, 1e-4).unwrap();
             (u, p, report.history)
         })
