@@ -2,16 +2,15 @@
 //! (docs/results/README.md#what-the-acer-volumes-are). They are not in the repository, so that these
 //! tests are ignored; `make test` runs them where the folder is present.
 
-use std::path::PathBuf;
+use crate::workbench::{IMPLICIT, METHODS, Table, Workbench, root};
 
-use crate::workbench::{Workbench, said};
-
-/// A file of the folder of shared data beside the repository.
-fn shared(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../../shared/data")
-        .join(name);
-    (path.canonicalize()).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+/// The tool's line on a file of the folder of shared data beside the repository.
+fn converted(name: &str, more: &str) -> String {
+    let stack = root().join("../shared/data").join(name);
+    format!(
+        "xct2particles '{}' -q --voxel 1.45um {more}",
+        stack.display()
+    )
 }
 
 /// The reference numbers of bondline-acer-240.json about y = 156 voxels, by an independent
@@ -19,35 +18,25 @@ fn shared(name: &str) -> PathBuf {
 #[test]
 #[ignore = "needs the shared volumes, which are not in the repository"]
 fn shared_data_has_the_known_penetration() {
-    let stack = shared("bondline-acer-240.tif");
+    let stack = converted("bondline-acer-240.tif", "-o -");
     let bench = Workbench::new();
-    let output = bench.shell(&format!(
-        "xct2particles '{}' -q --voxel '1.45 um' -o - | wp-metrics - -q --reference plane=226.2um",
-        stack.display()
-    ));
-    assert!(output.status.success(), "{}", said(&output));
-    let table = String::from_utf8(output.stdout).unwrap();
-    let value = |side: &str, column: usize| -> f64 {
-        let row = table.lines().find(|l| l.contains(&format!(",{side},")));
-        row.unwrap()
-            .split(',')
-            .nth(column)
-            .unwrap()
-            .parse()
-            .unwrap()
-    };
-    assert!(table.starts_with("file,side,reference,plane_m,wp_um,slab_wp_um,ep_um,"));
-    let found = [
-        value("total", 4),
-        value("top", 4),
-        value("bottom", 4),
-        value("total", 6),
-    ];
+    let table = Table::new(&bench.done(&format!(
+        "{stack} | wp-metrics - -q --reference plane=226.2um"
+    )));
+    let (sides, depths) = (["bottom", "top", "total"], table.column("wp_um"));
+    let found = [depths[2], depths[1], depths[0], table.last("ep_um")];
     println!("WP total, top, bottom, EP (um): {found:?}");
+    assert!(
+        table
+            .rows
+            .iter()
+            .zip(sides)
+            .all(|(row, side)| row[1] == side)
+    );
     for (found, known) in found.iter().zip([17.1586, 16.7128, 17.5810, 40.6666]) {
         assert!((found - known).abs() <= 0.5e-4, "{found} {known}");
     }
-    assert_eq!(value("total", 10), 1_615_446.0);
+    assert_eq!(table.rows[2][10], "1615446");
 }
 
 /// Invariants of a short run in the acer volume, by both schemes. The crop of the crop keeps the
@@ -55,32 +44,15 @@ fn shared_data_has_the_known_penetration() {
 #[test]
 #[ignore = "needs the shared volumes, which are not in the repository"]
 fn shared_data_keeps_liquid_out_of_wood_and_of_sealed_voids() {
-    let stack = shared("bondline-acer-64x192x128.tif");
     let bench = Workbench::with_bond();
-    let crop = format!(
-        "xct2particles '{}' -q --voxel '1.45 um' --crop 30:62,66:126,0:24 -o - |
-         build-bondline - -q -o bond.mpts",
-        stack.display()
+    let crop = converted(
+        "bondline-acer-64x192x128.tif",
+        "--crop 30:62,66:126,0:24 -o -",
     );
-    let output = bench.shell(&crop);
-    assert!(output.status.success(), "{}", said(&output));
-    let xpic = ["integrator.velocity_update=xpic", "integrator.order=5"];
-    for method in [&xpic[..], &["integrator.scheme=implicit"]] {
-        let mut changes = vec!["clamp.stop=0.9 us"];
-        changes.extend(method);
-        bench.pressed("run", &changes, &["--overwrite"]);
-        let summary = String::from_utf8(bench.read("run/summary.json")).unwrap();
-        let number = |key: &str| -> f64 {
-            let after = summary.split(&format!("\"{key}\":")).nth(1);
-            let after = after.unwrap_or_else(|| panic!("no {key} in {summary}"));
-            after
-                .split([',', '\n', '}'])
-                .next()
-                .unwrap()
-                .trim()
-                .parse()
-                .unwrap()
-        };
+    bench.done(&format!("{crop} | build-bondline - -q -o bond.mpts"));
+    for method in [METHODS[1], &[IMPLICIT]] {
+        bench.press("run", method, "--overwrite --set 'clamp.stop=0.9 us'");
+        let number = |key: &str| bench.summary("run", key);
         let (in_wood, deepest) = (number("points_in_wood"), number("deepest_m"));
         let sealed = number("points_in_unreachable_voids");
         let change = number("volume_change");
@@ -99,30 +71,15 @@ fn shared_data_keeps_liquid_out_of_wood_and_of_sealed_voids() {
 #[test]
 #[ignore = "needs the shared volumes, which are not in the repository"]
 fn shared_data_is_bonded_as_undamaged_wood() {
-    let stack = shared("bondline-acer-64x192x128.tif");
     let bench = Workbench::with_bond();
-    let bare = format!(
-        "xct2particles '{}' -q --voxel '1.45 um' --labels 'void=0|255,wood=128' --crop 30:62,66:126,0:32 -o wood.mpts",
-        stack.display()
-    );
-    for build in [
-        "build-bondline wood.mpts --plane 43.5um --slab 8.7um -o bond.mpts",
-        "build-bondline wood.mpts --plane 24um --turn-top 90 --slab 8.7um -o bond.mpts",
-    ] {
-        let output = bench.shell(&format!("{bare} && {build}"));
-        assert!(output.status.success(), "{}", said(&output));
-        println!("{}", said(&output));
-        bench.pressed(
-            "run",
-            &["integrator.scheme=implicit", "clamp.stop=0.9 us"],
-            &["--overwrite"],
-        );
-        let sum = bench.shell("wp-metrics -q run/final.mpts | grep -q total");
-        assert!(sum.status.success(), "{}", said(&sum));
-        let summary = String::from_utf8(bench.read("run/summary.json")).unwrap();
-        assert!(
-            summary.contains("\"points_in_unreachable_voids\": 0,"),
-            "{summary}"
-        );
+    let labels = "--labels 'void=0|255,wood=128' --crop 30:62,66:126,0:32 -o wood.mpts";
+    bench.done(&converted("bondline-acer-64x192x128.tif", labels));
+    for options in ["--plane 43.5um", "--plane 24um --turn-top 90"] {
+        bench.done(&format!(
+            "build-bondline wood.mpts {options} --slab 8.7um -o bond.mpts"
+        ));
+        bench.press("run", &[IMPLICIT, "clamp.stop=0.9 us"], "--overwrite");
+        assert_eq!(bench.measured("run/final.mpts").rows[2][1], "total");
+        assert_eq!(bench.summary("run", "points_in_unreachable_voids"), 0.0);
     }
 }

@@ -6,14 +6,6 @@ use voxels::{Stack, VOID, WOOD};
 
 use crate::workbench::{CASE, METHODS, Workbench};
 
-/// Side `total` of a table of wp-metrics: WP, EP and volume.
-fn total(bench: &Workbench, file: &str) -> [f64; 3] {
-    let table = bench.done("wp-metrics", &["-q", file]);
-    let row: Vec<&str> = table.lines().last().unwrap().split(',').collect();
-    assert_eq!(row[1], "total");
-    [4, 6, 9].map(|i| row[i].parse().unwrap())
-}
-
 /// Numbers of voxels along x, y, z and the labels of a stack.
 fn labels(bench: &Workbench, file: &str) -> ([usize; 3], Vec<u8>) {
     let stack = Stack::open(&[bench.path(file)]).unwrap();
@@ -23,6 +15,12 @@ fn labels(bench: &Workbench, file: &str) -> ([usize; 3], Vec<u8>) {
         all.extend_from_slice(&page);
     }
     (stack.dims(), all)
+}
+
+/// The voxels of the cube of this reach about one.
+fn around([x, y, z]: [i64; 3], reach: i64) -> impl Iterator<Item = [i64; 3]> {
+    let side = move || -reach..=reach;
+    side().flat_map(move |k| side().flat_map(move |j| side().map(move |i| [x + i, y + j, z + k])))
 }
 
 /// Void voxels of the export about which the points' density in the open voxels of 5 x 5 x 5,
@@ -48,47 +46,30 @@ fn holes(bench: &Workbench, state: &str, stack: &str) -> usize {
         let place = p.map(|x| (f64::from(x) / voxel).floor() as i64);
         *held.entry(place).or_default() += f64::from(v) / voxel.powi(3);
     }
-    let density = |[x, y, z]: [i64; 3], reach: i64| {
-        let (mut volume, mut open) = (0.0, 0.0);
-        for k in z - reach..=z + reach {
-            for j in y - reach..=y + reach {
-                for i in x - reach..=x + reach {
-                    volume += held.get(&[i, j, k]).copied().unwrap_or(0.0);
-                    open += f64::from(u8::from(at([i, j, k]) != WOOD));
-                }
-            }
-        }
-        volume / open
+    let density = |voxel: [i64; 3], reach: i64| {
+        let volume: f64 = around(voxel, reach).filter_map(|v| held.get(&v)).sum();
+        let open = around(voxel, reach).filter(|&v| at(v) != WOOD).count();
+        volume / open as f64
     };
-    let reached = held.keys().flat_map(|&[x, y, z]| {
-        (-1..=1).flat_map(move |k| {
-            (-1..=1).flat_map(move |j| (-1..=1).map(move |i| [x + i, y + j, z + k]))
-        })
-    });
+    let reached = held.keys().flat_map(|&voxel| around(voxel, 1));
     let mut void: Vec<[i64; 3]> = reached.filter(|&voxel| at(voxel) == VOID).collect();
     void.sort_unstable();
     void.dedup();
     let full =
         |&voxel: &[i64; 3]| (density(voxel, 2) - 1.0).abs() < 0.01 && density(voxel, 1) >= 0.99;
-    void.iter().copied().filter(full).count()
+    void.into_iter().filter(full).count()
 }
 
 /// Counting the voxels that hold a point loses a fifth to a quarter of the volume here.
 #[test]
 fn a_pressed_state_keeps_volume_wp_and_ep_in_its_stack() {
-    let bench = Workbench::new();
-    bench.write("case.toml", CASE);
-    let made = bench.shell(
-        "synth-xct -q --adhesive pf --size 32x80x32 --slab '14.5 um' --seed 7 -o - |
-         xct2particles - -q -o - | build-bondline - -q -o bond.mpts",
-    );
-    assert!(made.status.success());
+    let bench = Workbench::with_wood("--adhesive pf --size 32x80x32 --slab 14.5um --seed 7", CASE);
     for method in &METHODS[1..] {
-        bench.pressed("run", method, &["--overwrite"]);
+        bench.press("run", method, "--overwrite");
         let state = "run/final.mpts";
-        bench.done("particles", &["export", "-q", state, "-o", "a.tif"]);
-        let [ours, theirs] = [state, "a.tif"].map(|file| total(&bench, file));
-        let error = [0, 1, 2].map(|i| theirs[i] / ours[i] - 1.0);
+        bench.done(&format!("particles export -q {state} -o a.tif"));
+        let [ours, theirs] = [state, "a.tif"].map(|file| bench.measured(file));
+        let error = ["wp_um", "ep_um", "volume_m3"].map(|c| theirs.last(c) / ours.last(c) - 1.0);
         let holes = holes(&bench, state, "a.tif");
         println!("{method:?}: WP, EP, volume off by {error:.5?}, {holes} holes");
         // Voxels are full or void: those of a front that are filled in part fall to the fullest, which lie nearer to the bond.
@@ -100,10 +81,12 @@ fn a_pressed_state_keeps_volume_wp_and_ep_in_its_stack() {
         assert_eq!(holes, 0);
 
         // The .vti holds the very same labels.
-        bench.done("particles", &["export", "-q", state, "-o", "a.vti"]);
+        bench.done(&format!("particles export -q {state} -o a.vti"));
         let vti = bench.read("a.vti");
-        let labels = labels(&bench, "a.tif").1;
         let arrays = vti.strip_suffix(b"\n</AppendedData>\n</VTKFile>\n");
-        assert!(arrays.unwrap().ends_with(&labels), "{method:?}");
+        assert!(
+            arrays.unwrap().ends_with(&labels(&bench, "a.tif").1),
+            "{method:?}"
+        );
     }
 }
