@@ -3,22 +3,11 @@
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+const NAN: f64 = f64::NAN;
+const INF: f64 = f64::INFINITY;
 /// Numbers at which arithmetic goes wrong, as they stand in binary files.
-const NUMBERS: [f64; 14] = [
-    0.0,
-    -0.0,
-    -1.0,
-    1.0,
-    1e-300,
-    1e-30,
-    1e-15,
-    1e-9,
-    1e9,
-    1e14,
-    1e30,
-    1e300,
-    f64::NAN,
-    f64::INFINITY,
+const NUMBERS: [f64; 16] = [
+    0.0, -0.0, -1.0, 1.0, 0.5, 1e-300, 1e-30, 1e-15, 1e-9, 1e-6, 1e9, 1e14, 1e30, 1e300, NAN, INF,
 ];
 const COUNTS: [u64; 12] = [
     0,
@@ -31,27 +20,13 @@ const COUNTS: [u64; 12] = [
     1 << 31,
     1 << 32,
     1 << 40,
-    i64::MAX as u64,
+    1 << 63,
     u64::MAX,
 ];
 /// The same for text.
 const WORDS: [&str; 16] = [
-    "0",
-    "-1",
-    "1e-300",
-    "1e300",
-    "nan",
-    "inf",
-    "99999999999999999999",
-    "1e9",
-    "1e-9",
-    "\"",
-    "[",
-    "= 1\n",
-    "um",
-    "MPa",
-    "true",
-    "../",
+    "0", "-1", "1e-300", "1e300", "nan", "inf", "99999999", "1e9", "1e-9", "\"", "[", "= 1\n",
+    "um", "MPa", "true", "../",
 ];
 
 /// Changes inputs, always in the same way for the same seed.
