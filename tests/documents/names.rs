@@ -172,10 +172,10 @@ impl Finder {
 
     /// Headings of a document, without their marks.
     fn headings(&self, document: &str) -> Vec<String> {
-        let is_file = self.files.contains(document);
-        let text = is_file
-            .then(|| read(&self.root, document))
-            .unwrap_or_default();
+        let text = match self.files.contains(document) {
+            true => read(&self.root, document),
+            false => String::new(),
+        };
         (text.lines().filter(|line| line.starts_with('#')))
             .map(|line| line.trim_start_matches('#').trim().to_owned())
             .collect()

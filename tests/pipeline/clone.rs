@@ -1,5 +1,5 @@
 //! A copy of the Makefile and the pipelines with the built tools, in which `make` may be run and anything
-//! changed. Left out, and said, where there is no `make`.
+//! changed.
 
 use std::process::{Command, Output, Stdio};
 
@@ -10,23 +10,17 @@ use crate::workbench::{Workbench, root, said};
 /// A key that makes every run two steps, of which the second meets wood.
 const SHORT: &str = "SET=clamp.stop=4 us";
 
-/// `make`, not told the flags of a make that runs the tests; none where it is not installed.
-pub fn available() -> Option<Command> {
-    let mut make = Command::new("make");
-    if make.arg("--version").output().is_err() {
-        println!("left out: there is no make");
-        return None;
-    }
+/// `make`, not told the flags of a make that runs the tests.
+pub fn gnu_make() -> Command {
     let mut make = Command::new("make");
     make.env_remove("MAKEFLAGS")
         .env_remove("MFLAGS")
         .stdin(Stdio::null());
-    Some(make)
+    make
 }
 
-/// The copy; none where there is no `make`.
-pub fn clone() -> Option<Workbench> {
-    available()?;
+/// The copy.
+pub fn clone() -> Workbench {
     let bench = Workbench::new();
     bench.done(&format!(
         "cp -r '{0}/Makefile' '{0}/pipelines' .; mkdir -p target/release
@@ -34,12 +28,12 @@ pub fn clone() -> Option<Workbench> {
         root().display(),
         outputs::bin_folder().display()
     ));
-    Some(bench)
+    bench
 }
 
 /// `make` in the copy, of one short run unless told.
 pub fn command(bench: &Workbench, arguments: &[&str]) -> Command {
-    let mut make = available().expect("make was there");
+    let mut make = gnu_make();
     make.args(["-s", "CARGO=true", "RUNS=implicit", "ERROR=no", SHORT])
         .args(arguments)
         .current_dir(bench.folder());

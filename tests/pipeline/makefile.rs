@@ -1,50 +1,39 @@
-//! The Makefile, by what it would run; left out, and said, where there is no `make`.
+//! The Makefile, by what it would run.
 
 use std::process::Output;
 
-use crate::clone::available;
+use crate::clone::gnu_make;
 use crate::workbench::{TOOLS, root, said};
 
-/// `make` at the top of the repository with the tools taken for built; nothing without make.
-fn make(arguments: &[&str]) -> Option<Output> {
-    let mut make = available()?;
-    let make = make.arg("BUILT=1").args(arguments).current_dir(root());
-    Some(make.output().unwrap())
+/// `make` at the top of the repository with the tools taken for built.
+fn make(arguments: &[&str]) -> Output {
+    let mut make = gnu_make();
+    make.arg("BUILT=1").args(arguments).current_dir(root());
+    make.output().unwrap()
 }
 
-/// The lines that `make` would run, all but the tools taken for not made.
-fn plan(arguments: &[&str]) -> Option<String> {
-    let output = make(&[&["-nB"], arguments].concat())?;
+/// The lines that `make` would run, all but the tools taken for not made; all of `wanted` are in them.
+fn plan(arguments: &[&str], wanted: &[&str]) -> String {
+    let output = make(&[&["-nB"], arguments].concat());
     assert!(output.status.success(), "{arguments:?}: {}", said(&output));
-    Some(String::from_utf8(output.stdout).unwrap())
-}
-
-fn assert_plans(arguments: &[&str], wanted: &[&str]) {
-    let Some(planned) = plan(arguments) else {
-        return;
-    };
+    let planned = String::from_utf8(output.stdout).unwrap();
     for wanted in wanted {
         assert!(planned.contains(wanted), "{wanted}: {planned}");
     }
+    planned
 }
 
-fn assert_refused(arguments: &[&str], sentence: &str) {
-    let Some(output) = make(&[&["-nB"], arguments].concat()) else {
-        return;
-    };
+fn refuse(arguments: &[&str], sentence: &str) {
+    let output = make(&[&["-nB"], arguments].concat());
     let told = said(&output);
-    assert!(
-        !output.status.success() && told.contains(sentence),
-        "{arguments:?}: {told}"
-    );
+    assert!(!output.status.success(), "{arguments:?}");
+    assert!(told.contains(sentence), "{arguments:?}: {told}");
 }
 
 /// A VOXEL that was not given once was 1.45 um, and runs of days were started of one's own stacks.
 #[test]
 fn own_stacks_have_their_own_voxel_and_runs_that_end_soon() {
-    let Some(planned) = plan(&["XCT_PF=a.tif", "runs"]) else {
-        return;
-    };
+    let planned = plan(&["XCT_PF=a.tif", "runs"], &[]);
     assert!(!planned.contains("--voxel"), "{planned}");
     let runs = planned.lines().filter(|line| line.contains("mpm-run "));
     let runs: Vec<&str> = runs.collect();
@@ -57,7 +46,7 @@ fn own_stacks_have_their_own_voxel_and_runs_that_end_soon() {
         assert_eq!(line.contains("grid.cell"), !cells.is_empty(), "{line}");
     }
     let set = "SET=adhesive.viscosity=500 cP clamp.max_pressure=\"1 MPa\"";
-    assert_plans(
+    plan(
         &["XCT_PF=a.tif", "VOXEL=.725E3nm", "CELL=1.5 um", set, "runs"],
         &[
             "--voxel '.725E3nm'",
@@ -65,7 +54,7 @@ fn own_stacks_have_their_own_voxel_and_runs_that_end_soon() {
             "--set 'adhesive.viscosity=500 cP' --set 'clamp.max_pressure=\"1 MPa\"' ",
         ],
     );
-    assert_refused(&["SET=grid.cell=1 um", "runs"], "give CELL=");
+    refuse(&["SET=grid.cell=1 um", "runs"], "give CELL=");
 }
 
 /// Names that make reads as its own once gave make's own messages, or another file.
@@ -84,12 +73,12 @@ fn stacks_may_be_called_anything_and_folders_of_results_are_refused_in_a_sentenc
         "%,(.tif",
     ] {
         let named = format!("xct2particles '{}' ", name.replace('\'', "'\\''"));
-        assert_plans(
+        plan(
             &[&format!("XCT_PF={name}"), "out/xct/pf/experiment.mpts"],
             &[&named],
         );
         let folder = [&format!("OUT=out/{name}"), "table2"];
-        assert_refused(&folder, "the name of the folder of results is made of");
+        refuse(&folder, "the name of the folder of results is made of");
     }
 }
 
@@ -98,9 +87,7 @@ fn stacks_may_be_called_anything_and_folders_of_results_are_refused_in_a_sentenc
 fn the_tools_are_installed_stripped() {
     let folder = tempfile::tempdir().unwrap();
     let prefix = format!("PREFIX={}", folder.path().display());
-    let Some(output) = make(&["-s", &prefix, "install"]) else {
-        return;
-    };
+    let output = make(&["-s", &prefix, "install"]);
     assert!(output.status.success(), "{}", said(&output));
     let tools = TOOLS.map(|name| folder.path().join("bin").join(name));
     let bytes: u64 = tools
@@ -120,23 +107,18 @@ fn the_tools_are_installed_stripped() {
 #[test]
 fn jobs_that_were_asked_for_hold_in_sub_makes() {
     for jobs in ["-j3", "-j1", "-j"] {
-        let Some(output) = make(&["-nB", jobs, "BUILT=", "CARGO=true", "ERROR=no", "table2"])
-        else {
-            return;
-        };
+        let output = make(&["-nB", jobs, "BUILT=", "CARGO=true", "ERROR=no", "table2"]);
         assert!(output.status.success(), "{jobs}: {}", said(&output));
         let plan = String::from_utf8_lossy(&output.stdout);
-        let own = plan
-            .lines()
-            .filter(|line| line.contains("--no-print-directory"));
-        let own: Vec<&str> = own.collect();
+        let is_own = |line: &&str| line.contains("--no-print-directory");
+        let own: Vec<&str> = plan.lines().filter(is_own).collect();
         assert!(!own.is_empty(), "{plan}");
         assert!(own.iter().all(|line| !line.contains(" -j")), "{own:?}");
         assert!(!said(&output).contains("forced"), "{}", said(&output));
     }
 }
 
-/// Undamaged wood: two stacks or one that is cut, without an experiment, or a sentence.
+/// Undamaged wood is no experiment: two stacks or one that is cut, or a sentence.
 #[test]
 fn undamaged_wood_is_laid_up_and_is_no_experiment() {
     let folder = tempfile::tempdir().unwrap();
@@ -146,32 +128,23 @@ fn undamaged_wood_is_laid_up_and_is_no_experiment() {
             std::fs::write(&path, "").unwrap();
             format!("{variable}={}", path.display())
         });
-    let (bottom, top) = (bottom.as_str(), top.as_str());
-    let goals = [
-        "SLAB=55.1 um",
-        "RUNS=implicit",
-        "ERROR=no",
-        "out/wood/table2.csv",
-        "out/wood/figures/pf-map.svg",
-    ];
-    let two = [&[bottom, top, "TURN=90"][..], &goals].concat();
-    assert_plans(
-        &two,
+    let (bottom, top, slab) = (bottom.as_str(), top.as_str(), "SLAB=55.1 um");
+    let goals = ["RUNS=implicit", "ERROR=no", "out/wood/table2.csv"];
+    let planned = plan(
+        &[&[bottom, top, slab, "TURN=90"][..], &goals].concat(),
         &[
             "--bottom out/wood/bottom.mpts --top out/wood/top.mpts",
             "--slab '55.1 um' --turn-top '90' --normal 'y' -o out/wood/pva-pf/bond.mpts",
         ],
     );
-    assert!(plan(&two).is_none_or(|planned| !planned.contains("experiment")));
-    let one = [&[bottom, "PLANE=139.2 um"][..], &goals].concat();
-    assert_plans(&one, &["out/wood/bottom.mpts --plane '139.2 um'"]);
+    assert!(!planned.contains("experiment"), "{planned}");
     for (arguments, sentence) in [
         (&[bottom, top][..], "give SLAB="),
-        (&[bottom, "SLAB=55.1 um"], "XCT_TOP=, or PLANE="),
-        (&[top, "SLAB=55.1 um"], "XCT_TOP needs XCT_BOTTOM"),
-        (&[bottom, "XCT_PF=x.tif", "SLAB=55.1 um"], "one kind"),
+        (&[bottom, slab], "XCT_TOP=, or PLANE="),
+        (&[top, slab], "XCT_TOP needs XCT_BOTTOM"),
+        (&[bottom, "XCT_PF=x.tif", slab], "one kind"),
     ] {
-        assert_refused(arguments, sentence);
+        refuse(arguments, sentence);
     }
 }
 
@@ -179,7 +152,7 @@ fn undamaged_wood_is_laid_up_and_is_no_experiment() {
 /// pictures without any.
 #[test]
 fn figures_and_the_page_name_what_they_draw() {
-    assert_plans(
+    plan(
         &[
             "SCALE=none",
             "RUNS=implicit",

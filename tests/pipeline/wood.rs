@@ -97,7 +97,7 @@ fn menisci_come_to_rest_in_wood() {
     let case = include_str!("../../pipelines/examples/wicking-pf.toml");
     assert!(case.contains("time = \"4 ms\""));
     let bench = wood(
-        "40x96x40",
+        "32x64x32",
         case.replace("time = \"4 ms\"", "time = \"0.5 s\""),
     );
     bench.press("run", &[], "");
