@@ -24,7 +24,7 @@ test:
 
 # Tests on volumes that are not in the repository say that they are ignored; where the folder is
 # beside the repository, they run.
-SHARED_TESTS = @echo "left out: six tests, for ../shared/data is absent"
+SHARED_TESTS = @echo "left out: five tests, for ../shared/data is absent"
 ifneq ($(wildcard ../shared/data/*.tif),)
 SHARED_TESTS = $(CARGO) test --release -p voxels -p wp-metrics -p tests -- --ignored shared_data
 endif

@@ -37,4 +37,6 @@ kernels:
 # 50 000 forged particle files and checkpoints with right checksums: none panics, hangs or floods.
 .PHONY: forge
 forge:
-	$(CARGO) run --release --quiet -p attack --bin forge -- out/forge $(or $(COUNT),50000) $(ONLY)
+	@$(CARGO) test --release --quiet -p attack --test seeded --no-run
+	ulimit -v 4000000; ATTACKS=$(or $(COUNT),50000) $(CARGO) test --release --quiet -p attack --test seeded -- \
+	    --nocapture $(patsubst %,mutated_%s,$(subst -,_,$(or $(ONLY),particle-file checkpoint)))

@@ -34,7 +34,7 @@ failed=0
 for target in "$@"; do
     mkdir -p "$out/corpus/$target" "$out/finds"
     status=0
-    nice "$bin/$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=32768 \
+    TARGET=$target nice "$bin/fuzz" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=32768 \
         -print_final_stats=1 -artifact_prefix="$out/finds/$target-" \
         "$out/corpus/$target" "$out/seeds/$target" >"$out/$target.log" 2>&1 || status=$?
     stat() { sed -n "s/^stat::$1: *//p" "$out/$target.log" | tail -n 1; }

@@ -15,69 +15,61 @@ fn root() -> PathBuf {
 #[test]
 fn every_name_in_documents_and_comments_exists() {
     let finder = Finder::new(root());
-    let broken: Vec<String> = finder
-        .texts()
-        .iter()
-        .flat_map(|t| finder.broken(t))
-        .collect();
+    let broken = finder.all_broken();
     assert!(broken.is_empty(), "\n{}", broken.join("\n"));
+    assert_eq!(
+        finder.unsaid(),
+        Vec::<&str>::new(),
+        "sources without a line on what they hold"
+    );
 }
 
 /// The test above can fail: each of these names something that is not there.
 #[test]
 fn broken_names_are_found() {
     let finder = Finder::new(root());
-    let markdown = |text: &str| finder.broken(&names::Text::new("docs/some.md", text));
-    let comment = |text: &str| finder.broken(&names::Text::new("lib/mpm/src/some.rs", text));
-    for text in [
-        "[a page](nowhere.md)",
-        "[a page](methods.md#no-such-heading)",
-        "[a heading](#no-such-heading)",
-        "as in methods.md section 99.1",
-        "see numerics.md for it",
-        "`lib/mpm/src/no_such_file.rs`",
-        "in `physics/src/no_such_file.rs`",
-        "run `pipelines/examples/no-such.sh`",
-        "run `make no-such-target`",
+    let (page, source) = ("docs/some.md", "lib/mpm/src/some.rs");
+    for (file, text, broken) in [
+        (page, "[a page](nowhere.md)", 1),
+        (page, "[a page](methods.md#no-such-heading)", 1),
+        (page, "[a heading](#no-such-heading)", 1),
+        (page, "as in methods.md section 99.1", 1),
+        (page, "see numerics.md for it", 1),
+        (page, "`lib/mpm/src/no_such_file.rs`", 1),
+        (page, "in `physics/src/no_such_file.rs`", 1),
+        (page, "run `pipelines/examples/no-such.sh`", 1),
+        (page, "run `make no-such-target`", 1),
+        (source, "/// As in docs/results/no-such-page.md.", 1),
+        (source, "//! docs/methods.md\n//! section 99", 1),
+        (source, "fn f() {} // lib/nowhere/src/lib.rs", 1),
+        (
+            page,
+            "[methods](methods.md#3-the-implicit-scheme), methods.md section 2.6",
+            0,
+        ),
+        (
+            page,
+            "../README.md, `lib/mpm/src/step.rs`, `pipelines/cases/*.toml`, `make test`",
+            0,
+        ),
+        (page, "<https://nowhere.md/a/b.rs>", 0),
+        (source, "let x = \"docs/nowhere.md\";", 0),
     ] {
-        assert_eq!(markdown(text).len(), 1, "{text}: {:?}", markdown(text));
+        let found = finder.broken(file, text);
+        assert_eq!(found.len(), broken, "{text}: {found:?}");
     }
-    for text in [
-        "/// As in docs/results/no-such-page.md.",
-        "//! docs/methods.md\n//! section 99",
-        "fn f() {} // lib/nowhere/src/lib.rs",
-    ] {
-        assert_eq!(comment(text).len(), 1, "{text}: {:?}", comment(text));
-    }
-    for text in [
-        "[methods](methods.md#3-the-implicit-scheme), methods.md section 2.6, ../README.md",
-        "`lib/mpm/src/step.rs`, `pipelines/cases/*.toml`, `make test`, <https://nowhere.md/a/b.rs>",
-    ] {
-        assert_eq!(markdown(text), Vec::<String>::new());
-    }
-    assert_eq!(
-        comment("let x = \"docs/nowhere.md\";"),
-        Vec::<String>::new()
-    );
-}
-
-#[test]
-fn every_source_opens_with_what_it_holds() {
-    assert_eq!(Finder::new(root()).unsaid(), Vec::<&str>::new());
 }
 
 #[test]
 fn the_book_has_every_document() {
-    let root = root();
-    let chapters = std::fs::read_to_string(root.join("docs/SUMMARY.md")).unwrap();
+    let docs = root().join("docs");
+    let chapters = std::fs::read_to_string(docs.join("SUMMARY.md")).unwrap();
     for folder in ["", "results/", "decisions/"] {
-        for entry in std::fs::read_dir(root.join("docs").join(folder)).unwrap() {
+        for entry in std::fs::read_dir(docs.join(folder)).unwrap() {
             let name = entry.unwrap().file_name().into_string().unwrap();
             let is_chapter = name.ends_with(".md") && name != "SUMMARY.md";
-            assert!(
-                !is_chapter || chapters.contains(&format!("]({folder}{name})")),
-                "{folder}{name}"
-            );
+            let listed = chapters.contains(&format!("]({folder}{name})"));
+            assert!(!is_chapter || listed, "{folder}{name}");
         }
     }
 }

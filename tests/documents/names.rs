@@ -11,31 +11,20 @@ const ENDINGS: [&str; 5] = [".rs", ".md", ".toml", ".mk", ".sh"];
 /// Where outputs lie, and what belongs to others.
 const ELSEWHERE: [&str; 6] = ["out/", "target/", "/", "~", "http", "$"];
 
-/// A file of the repository and the part of it that is read by people.
-pub struct Text {
-    /// Path from the root.
-    file: String,
-    words: String,
-}
-
-impl Text {
-    /// The text of a document, of the comments of a source file, or all of a tool's source, whose
-    /// strings are help.
-    pub fn new(file: &str, content: &str) -> Self {
-        let comments_only = file.ends_with(".rs") && !file.starts_with("tools/");
-        let lines = content.lines().filter_map(|line| {
-            let comment = line.find("//").filter(|at| !line[..*at].ends_with(':'));
-            match (file.ends_with(".rs"), comment) {
-                (true, Some(at)) => Some(line[at..].trim_start_matches(['/', '!'])),
-                (true, None) if comments_only => None,
-                _ => Some(line),
-            }
-        });
-        Self {
-            file: file.to_owned(),
-            words: lines.collect::<Vec<_>>().join("\n"),
+/// The part of a file that people read: all of a document, the comments of a source, all of a tool's source,
+/// whose strings are help.
+fn readable(file: &str, content: &str) -> String {
+    let source = file.ends_with(".rs");
+    let strings = file.starts_with("tools/");
+    let lines = content.lines().filter_map(|line| {
+        let comment = line.find("//").filter(|at| !line[..*at].ends_with(':'));
+        match comment.filter(|_| source) {
+            Some(at) => Some(line[at..].trim_start_matches(['/', '!'])),
+            None if source && !strings => None,
+            None => Some(line),
         }
-    }
+    });
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Finds what texts name.
@@ -43,6 +32,7 @@ pub struct Finder {
     root: PathBuf,
     /// All files, from the root.
     files: BTreeSet<String>,
+    /// Targets of make.
     targets: BTreeSet<String>,
 }
 
@@ -50,12 +40,11 @@ impl Finder {
     pub fn new(root: PathBuf) -> Self {
         let mut files = BTreeSet::new();
         walk(&root, "", &mut files);
-        let makes = files
-            .iter()
-            .filter(|f| *f == "Makefile" || f.ends_with(".mk"));
-        let rules: Vec<String> = makes.map(|f| read(&root, f)).collect();
-        let targets = (rules.iter().flat_map(|text| text.lines()))
-            .filter_map(|line| line.split_once(':'))
+        let is_rules = |f: &&String| *f == "Makefile" || f.ends_with(".mk");
+        let rules: String = (files.iter().filter(is_rules))
+            .map(|f| read(&root, f))
+            .collect();
+        let targets = (rules.lines().filter_map(|line| line.split_once(':')))
             .flat_map(|(names, _)| names.split_whitespace().map(str::to_owned))
             .collect();
         Self {
@@ -65,139 +54,127 @@ impl Finder {
         }
     }
 
-    /// All documents, scripts and sources.
-    pub fn texts(&self) -> Vec<Text> {
-        let own = "tests/documents/";
-        (self.files.iter())
-            .filter(|f| !f.starts_with(own))
-            .filter(|f| {
-                [".md", ".rs", ".mk", ".sh"].iter().any(|e| f.ends_with(e)) || *f == "Makefile"
-            })
-            .map(|f| Text::new(f, &read(&self.root, f)))
+    /// A sentence about each name in the repository's documents, scripts and sources that does not exist.
+    pub fn all_broken(&self) -> Vec<String> {
+        let is_text = |file: &&String| {
+            let ending = [".md", ".rs", ".mk", ".sh", "Makefile"]
+                .iter()
+                .any(|e| file.ends_with(e));
+            ending && !file.starts_with("tests/documents/")
+        };
+        let texts = self.files.iter().filter(is_text);
+        texts
+            .flat_map(|file| self.broken(file, &read(&self.root, file)))
             .collect()
     }
 
     /// Sources whose first line does not say what they hold.
-    pub fn unsaid(&self) -> Vec<&str> {
+    pub fn unsaid(&self) -> Vec<&String> {
         let says = |f: &str| read(&self.root, f).starts_with("//! ");
-        let sources = self.files.iter().filter(|f| f.ends_with(".rs"));
-        sources.map(String::as_str).filter(|f| !says(f)).collect()
+        self.files
+            .iter()
+            .filter(|f| f.ends_with(".rs") && !says(f))
+            .collect()
     }
 
-    /// A sentence about each name in `text` that does not exist.
-    pub fn broken(&self, text: &Text) -> Vec<String> {
+    /// A sentence about each name in a file that does not exist.
+    pub fn broken(&self, file: &str, content: &str) -> Vec<String> {
         let mut said = Vec::new();
-        let markdown = text.file.ends_with(".md");
-        let words: Vec<&str> = text.words.split_whitespace().collect();
-        for (i, word) in words.iter().enumerate() {
-            let mut word = *word;
-            if let Some((_, link)) = word.split_once("](").filter(|_| markdown) {
-                let link = link.split(')').next().unwrap_or_default();
-                self.link(&text.file, link, &mut said);
-                word = word.split("](").next().unwrap_or_default();
+        let markdown = file.ends_with(".md");
+        let text = readable(file, content);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let word = |i: usize| words.get(i).copied().unwrap_or_default();
+        for i in 0..words.len() {
+            let mut named = word(i);
+            if let Some((before, link)) = named.split_once("](").filter(|_| markdown) {
+                said.extend(self.link(file, link.split(')').next().unwrap_or_default()));
+                named = before;
             }
-            for name in word.split(|c: char| !(c.is_alphanumeric() || "_./-*#~$:".contains(c))) {
+            for name in named.split(|c: char| !(c.is_alphanumeric() || "_./-*#~$:".contains(c))) {
                 let name = name
                     .trim_end_matches(['.', ':', '-'])
                     .trim_start_matches([':', '-']);
-                self.name(&text.file, name, &mut said);
-                let section = (words.get(i + 1).filter(|next| **next == "section"))
-                    .and_then(|_| words.get(i + 2));
-                if let Some(section) = section.filter(|_| name.ends_with(".md")) {
-                    self.section(&text.file, name, section, &mut said);
+                said.extend(self.name(file, name));
+                if name.ends_with(".md") && word(i + 1) == "section" {
+                    said.extend(self.section(file, name, word(i + 2)));
                 }
             }
-            if word.trim_start_matches('`') == "make" && word.starts_with('`') && markdown {
-                let target = words
-                    .get(i + 1)
-                    .map_or("", |w| w.trim_matches(['`', ',', '.', ';', ':', ')']));
-                let plain = target.chars().all(|c| c.is_ascii_lowercase() || c == '-');
-                if plain && !target.is_empty() && !self.targets.contains(target) {
-                    said.push(format!("{}: no target `make {target}`", text.file));
-                }
+            let target = word(i + 1).trim_matches(['`', ',', '.', ';', ':', ')']);
+            let plain = target.chars().all(|c| c.is_ascii_lowercase() || c == '-');
+            let made = markdown && named == "`make" && plain && !target.is_empty();
+            if made && !self.targets.contains(target) {
+                said.push(format!("{file}: no target `make {target}`"));
             }
         }
         said
     }
 
     /// A path, or a document with or without a heading.
-    fn name(&self, file: &str, name: &str, said: &mut Vec<String>) {
-        let (path, heading) = match name.split_once('#') {
-            Some((path, heading)) => (path, Some(heading)),
-            None => (name, None),
-        };
+    fn name(&self, file: &str, name: &str) -> Option<String> {
+        let (path, heading) = name.split_once('#').unwrap_or((name, ""));
         let checked = TOP
             .iter()
             .any(|top| path.starts_with(top) && path.len() > top.len())
             || path.contains('/') && ENDINGS.iter().any(|e| path.ends_with(e))
             || path.len() > 3 && path.ends_with(".md");
-        if !checked || ELSEWHERE.iter().any(|e| path.starts_with(e)) || path.contains([':', '$']) {
-            return;
+        let elsewhere = ELSEWHERE.iter().any(|e| path.starts_with(e)) || path.contains([':', '$']);
+        if !checked || elsewhere {
+            return None;
         }
-        match (self.find(file, path), heading) {
-            (None, _) => said.push(format!("{file}: no {path}")),
-            (Some(found), Some(heading)) => self.heading(file, &found, heading, said),
-            _ => {}
+        match self.find(file, path) {
+            None => Some(format!("{file}: no {path}")),
+            Some(found) => self.heading(file, &found, heading),
         }
     }
 
-    fn link(&self, file: &str, link: &str, said: &mut Vec<String>) {
+    fn link(&self, file: &str, link: &str) -> Option<String> {
         if link.starts_with("http") || link.starts_with("mailto") {
-            return;
+            return None;
         }
         let (path, heading) = link.split_once('#').unwrap_or((link, ""));
         let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
-        let target = if path.is_empty() {
-            Some(file.to_owned())
-        } else {
-            normal(&format!("{folder}/{path}")).filter(|t| self.exists(t))
+        let target = match path {
+            "" => Some(file.to_owned()),
+            path => normal(&format!("{folder}/{path}")).filter(|t| self.exists(t)),
         };
         match target {
-            None => said.push(format!("{file}: no link target {link}")),
-            Some(target) if !heading.is_empty() => self.heading(file, &target, heading, said),
-            _ => {}
+            None => Some(format!("{file}: no link target {link}")),
+            Some(target) => self.heading(file, &target, heading),
         }
     }
 
-    fn heading(&self, file: &str, target: &str, heading: &str, said: &mut Vec<String>) {
-        let slug = |line: &str| -> String {
-            let kept = line.trim().to_lowercase();
-            (kept
-                .chars()
-                .filter(|c| c.is_alphanumeric() || " -_".contains(*c)))
-            .map(|c| if c == ' ' { '-' } else { c })
-            .collect()
+    /// A heading by its anchor, if one is given.
+    fn heading(&self, file: &str, target: &str, anchor: &str) -> Option<String> {
+        let is_anchor = |line: &String| {
+            let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
+            let line: String = line.to_lowercase().chars().filter(kept).collect();
+            line.replace(' ', "-") == anchor
         };
-        if !self
-            .headings(target)
-            .iter()
-            .any(|line| slug(line) == heading)
-        {
-            said.push(format!("{file}: no heading #{heading} in {target}"));
-        }
+        let missing = !anchor.is_empty() && !self.headings(target).iter().any(is_anchor);
+        missing.then(|| format!("{file}: no heading #{anchor} in {target}"))
     }
 
-    fn section(&self, file: &str, name: &str, section: &str, said: &mut Vec<String>) {
+    /// A section by its number.
+    fn section(&self, file: &str, name: &str, section: &str) -> Option<String> {
         let number = section.trim_matches(|c: char| !c.is_ascii_digit());
-        let Some(target) = self.find(file, name).filter(|_| !number.is_empty()) else {
-            return;
-        };
-        let headings = self.headings(&target);
-        if !headings.iter().any(|line| {
+        let target = self.find(file, name).filter(|_| !number.is_empty())?;
+        let first = |line: &String| {
             line.split(' ')
                 .next()
-                .is_some_and(|n| n.trim_end_matches('.') == number)
-        }) {
-            said.push(format!("{file}: no section {number} in {target}"));
-        }
+                .map(|n| n.trim_end_matches('.') == number)
+        };
+        let found = self
+            .headings(&target)
+            .iter()
+            .any(|line| first(line) == Some(true));
+        (!found).then(|| format!("{file}: no section {number} in {target}"))
     }
 
     /// Headings of a document, without their marks.
     fn headings(&self, document: &str) -> Vec<String> {
-        let text = if self.files.contains(document) {
-            read(&self.root, document)
-        } else {
-            String::new()
+        let text = match self.files.contains(document) {
+            true => read(&self.root, document),
+            false => String::new(),
         };
         (text.lines().filter(|line| line.starts_with('#')))
             .map(|line| line.trim_start_matches('#').trim().to_owned())
@@ -220,12 +197,8 @@ impl Finder {
 
     fn exists(&self, path: &str) -> bool {
         let folder = format!("{}/", path.trim_end_matches('/'));
-        self.files.contains(path)
-            || self
-                .files
-                .range(folder.clone()..)
-                .next()
-                .is_some_and(|f| f.starts_with(&folder))
+        let first = self.files.range(folder.clone()..).next();
+        self.files.contains(path) || first.is_some_and(|f| f.starts_with(&folder))
     }
 }
 
@@ -260,17 +233,11 @@ fn walk(root: &Path, folder: &str, files: &mut BTreeSet<String>) {
     for entry in fs::read_dir(root.join(folder)).expect("a folder") {
         let entry = entry.expect("an entry");
         let name = entry.file_name().to_string_lossy().into_owned();
-        let path = if folder.is_empty() {
-            name.clone()
-        } else {
-            format!("{folder}/{name}")
-        };
-        if entry.path().is_dir() {
-            if ![".git", "target", "out", "shared"].contains(&name.as_str()) {
-                walk(root, &path, files);
-            }
-        } else {
+        let path = Path::new(folder).join(&name).display().to_string();
+        if !entry.path().is_dir() {
             files.insert(path);
+        } else if ![".git", "target", "out", "shared"].contains(&name.as_str()) {
+            walk(root, &path, files);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::workbench::{Workbench, grooved, npy, said};
+use crate::workbench::{Workbench, grooved, npy};
 
 const METRICS: &str = "wp-metrics --voxel 1.45um --labels void=0,wood=128,adhesive=255";
 
@@ -15,24 +15,19 @@ fn bench() -> Workbench {
         "a.mhd",
         "ObjectType = Image\nNDims = 3\nDimSize = 16 32 16\nElementType = MET_UCHAR\nElementDataFile = a.raw\n",
     );
-    fs::create_dir(bench.path("slices")).unwrap();
-    bench.done("particles", &["export", "specimen.mpts", "-o", "a.tif"]);
     bench.write("page.npy", npy([16, 32, 1], grooved));
     bench.convert("page.npy", "page.mpts");
-    for name in ["slices/003.tif", "slices/004.tif"] {
-        bench.done("particles", &["export", "page.mpts", "-o", name]);
-        fs::remove_file(bench.path(&format!("{name}.provenance.json"))).unwrap();
-    }
+    bench.done(
+        "particles export specimen.mpts -o a.tif; mkdir slices
+         for i in 3 4; do particles export page.mpts -o slices/00$i.tif; done; rm slices/*.json",
+    );
     bench
 }
 
 /// Runs a line that must be refused for `sentence` with `kept` as it was.
 fn refused(bench: &Workbench, line: &str, kept: &str, sentence: &str) {
     let (before, names) = (bench.read(kept), bench.names(""));
-    let output = bench.shell(line);
-    let said = said(&output);
-    assert_eq!(output.status.code(), Some(2), "{line}: {said}");
-    assert!(said.contains(sentence), "{line}: {said}");
+    bench.ends(2, line, sentence);
     assert!(bench.read(kept) == before, "{line}: {kept} was replaced");
     assert_eq!(bench.names(""), names, "{line}");
 }
@@ -41,7 +36,7 @@ fn refused(bench: &Workbench, line: &str, kept: &str, sentence: &str) {
 #[test]
 fn metrics_leave_every_file_of_their_stacks() {
     let bench = bench();
-    let lines = [
+    for (line, kept) in [
         ("a.mhd -o a.raw", "a.raw"),
         ("a.mhd -o b.csv --map ./a.raw", "a.raw"),
         ("a.mhd -o b.csv --profile slices/../a.raw", "a.raw"),
@@ -50,13 +45,11 @@ fn metrics_leave_every_file_of_their_stacks() {
         ("slices -o slices/004.tif", "slices/004.tif"),
         ("a.mhd --compare slices -o slices/003.tif", "slices/003.tif"),
         ("- -o a.tif < a.tif", "a.tif"),
-    ];
-    for (line, kept) in lines {
+    ] {
         refused(&bench, &format!("{METRICS} {line}"), kept, "is read");
     }
     for name in ["a.mhd", "slices"] {
-        let output = bench.shell(&format!("{METRICS} {name} -o m.csv"));
-        assert!(output.status.success(), "{}", said(&output));
+        bench.done(&format!("{METRICS} {name} -o m.csv"));
     }
 }
 
@@ -64,25 +57,27 @@ fn metrics_leave_every_file_of_their_stacks() {
 #[test]
 fn a_provenance_record_replaces_only_a_record() {
     let bench = bench();
-    fs::copy(bench.path("bond.mpts"), bench.path("y.provenance.json")).unwrap();
-    let record = "y.provenance.json";
-    for line in [
-        "particles export y.provenance.json -f csv -o y",
-        "particles export y.provenance.json -f pvd -o y",
-        "wp-metrics bond.mpts y.provenance.json -o y",
-        "particles export - -f csv -o y < y.provenance.json",
-    ] {
-        refused(&bench, line, record, "is read and would be replaced");
+    let (record, picture) = ("y.provenance.json", "y.svg.provenance.json");
+    for kept in [record, picture] {
+        fs::copy(bench.path("bond.mpts"), bench.path(kept)).unwrap();
     }
-    let picture = "y.svg.provenance.json";
-    fs::copy(bench.path("bond.mpts"), bench.path(picture)).unwrap();
-    for line in [
-        "bond-figures slice y.svg.provenance.json --normal z -o y.svg",
-        "bond-figures slice - --normal z -o y.svg < y.svg.provenance.json",
+    for (line, kept) in [
+        ("particles export y.provenance.json -f csv -o y", record),
+        ("particles export y.provenance.json -f pvd -o y", record),
+        ("wp-metrics bond.mpts y.provenance.json -o y", record),
+        ("particles export - -f csv -o y < y.provenance.json", record),
+        (
+            "bond-figures slice y.svg.provenance.json --normal z -o y.svg",
+            picture,
+        ),
+        (
+            "bond-figures slice - --normal z -o y.svg < y.svg.provenance.json",
+            picture,
+        ),
     ] {
-        refused(&bench, line, picture, "is read and would be replaced");
+        refused(&bench, line, kept, "is read and would be replaced");
     }
-    bench.write("y.provenance.json", "{\"a file\": \"of mine\"}\n");
+    bench.write(record, "{\"a file\": \"of mine\"}\n");
     for line in [
         "particles export bond.mpts -f npz -o y",
         "particles export bond.mpts -f pvd -o y",
@@ -96,7 +91,7 @@ fn a_provenance_record_replaces_only_a_record() {
     refused(&bench, two, "bond.mpts", "is another output");
     // The record of an earlier output is replaced.
     for _ in 0..2 {
-        bench.done("wp-metrics", &["bond.mpts", "-o", "m.csv"]);
+        bench.done("wp-metrics bond.mpts -o m.csv");
     }
 }
 
@@ -104,13 +99,13 @@ fn a_provenance_record_replaces_only_a_record() {
 #[test]
 fn parts_of_a_series_replace_only_such_parts() {
     let bench = bench();
-    let again = ["export", "bond.mpts", "specimen.mpts", "-o", "o.pvd"];
-    bench.done("particles", &again);
+    let again = "particles export bond.mpts specimen.mpts -o o.pvd";
+    bench.done(again);
     let parts = bench.names("o.parts");
     let part = parts.iter().find(|name| name.starts_with("0001")).unwrap();
     let path = format!("o.parts/{part}");
     let own = bench.read(&path);
-    bench.done("particles", &again);
+    bench.done(again);
 
     bench.write("o.parts/notes.txt", "mine");
     fs::copy(bench.path("bond.mpts"), bench.path(&path)).unwrap();
@@ -122,21 +117,20 @@ fn parts_of_a_series_replace_only_such_parts() {
         assert!(bench.read("o.parts/0000-wood-bottom.vti").ends_with(b" "));
     };
     others(&format!("particles export specimen.mpts {path} -o o.pvd"));
-    let line = format!("particles {}", again.join(" "));
-    others(&line);
+    others(again);
     for foreign in [
-        &b""[..],
-        b"<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\">\n",
+        "",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\">\n",
     ] {
         bench.write(&path, foreign);
-        others(&line);
+        others(again);
     }
     // Asked for by its name, it is nobody's part.
     bench.write(&path, &own);
-    bench.done("particles", &["export", "bond.mpts", "-o", &path]);
-    others(&line);
+    bench.done(&format!("particles export bond.mpts -o {path}"));
+    others(again);
     fs::remove_file(bench.path(&format!("{path}.provenance.json"))).unwrap();
-    bench.done("particles", &again);
+    bench.done(again);
     assert!(bench.read(&path) == own);
     assert_eq!(bench.read("o.parts/notes.txt"), b"mine");
 }

@@ -2,7 +2,7 @@
 //! started unasked.
 
 use std::os::unix::process::CommandExt;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -16,53 +16,47 @@ const STACK: [&str; 3] = [
 ];
 
 /// The copy with a stack.
-fn with_stack() -> Option<Workbench> {
-    let bench = clone()?;
+fn with_stack() -> Workbench {
+    let bench = clone();
     bench.write("a.npy", npy([16, 32, 16], grooved));
-    Some(bench)
+    bench
 }
 
 /// Ends a make and all that it has started, at a moment.
-fn killed(bench: &Workbench, after: Duration) {
+fn killed(bench: &Workbench, milliseconds: u64) {
     let mut make = command(bench, &[&STACK[..], &["OUT=killed", "table2"]].concat())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .process_group(0)
         .spawn()
         .unwrap();
-    sleep(after);
-    let group = format!("-{}", make.id());
-    let kill = Command::new("kill")
-        .args(["-KILL", "--", &group])
-        .stderr(Stdio::null())
-        .status();
-    assert!(kill.is_ok());
+    sleep(Duration::from_millis(milliseconds));
+    bench.shell(&format!("kill -KILL -- -{}", make.id()));
     make.wait().unwrap();
 }
 
 #[test]
 fn kills_at_any_moment_and_another_make_change_nothing() {
-    let Some(bench) = with_stack() else {
-        return;
-    };
+    let bench = with_stack();
     let whole = table(&bench, "whole", &STACK).unwrap();
     for moment in [150, 300, 450, 600, 800, 1000] {
-        killed(&bench, Duration::from_millis(moment));
+        killed(&bench, moment);
     }
     assert_eq!(table(&bench, "killed", &STACK).as_ref(), Some(&whole));
     // Two at once, of other variables: each shows its own.
     let other = [&STACK[..2], &["SET=adhesive.viscosity=5 Pa s"]].concat();
-    let one = |arguments: &[&str]| {
-        let arguments = [arguments, &["OUT=both", "V=1", "table2"]].concat();
-        command(&bench, &arguments)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap()
-    };
-    let both = [one(&STACK), one(&other)].map(|make| make.wait_with_output().unwrap());
-    for (made, arguments) in both.iter().zip([&STACK[..], &other]) {
-        assert!(made.status.success(), "{}", said(made));
+    let variables = [&STACK[..], &other];
+    let both = variables.map(|arguments| {
+        let mut make = command(
+            &bench,
+            &[arguments, &["OUT=both", "V=1", "table2"]].concat(),
+        );
+        let make = make.stdout(Stdio::piped()).stderr(Stdio::piped());
+        make.spawn().unwrap()
+    });
+    for (made, arguments) in both.into_iter().zip(variables) {
+        let made = made.wait_with_output().unwrap();
+        assert!(made.status.success(), "{}", said(&made));
         let anew = table(&bench, "alone", arguments).unwrap();
         let shown = String::from_utf8_lossy(&made.stdout);
         assert!(shown.contains(&anew), "{anew}{shown}");
@@ -102,17 +96,13 @@ scheme = "implicit"
 /// make removed what the run had said that it keeps.
 #[test]
 fn a_run_that_is_not_sound_stays_and_is_told_again() {
-    let Some(bench) = with_stack() else {
-        return;
-    };
+    let bench = with_stack();
     bench.write("pipelines/cases/pf-implicit.toml", UNSOUND);
     let pressed = || {
-        let made = make(
-            &bench,
-            &["XCT_PF=a.npy", "VOXEL=1.45 um", "SET=", "OUT=o", "table2"],
-        );
-        assert!(!made.status.success());
+        let goal = ["XCT_PF=a.npy", "VOXEL=1.45 um", "SET=", "OUT=o", "table2"];
+        let made = make(&bench, &goal);
         let told = said(&made);
+        assert!(!made.status.success(), "{told}");
         assert!(told.contains("not sound (kept, and marked so"), "{told}");
         (told, String::from_utf8(made.stdout).unwrap())
     };
@@ -133,25 +123,19 @@ fn a_run_that_is_not_sound_stays_and_is_told_again() {
 
 #[test]
 fn runs_of_more_than_an_hour_are_not_started_unasked() {
-    let Some(bench) = with_stack() else {
-        return;
-    };
-    let long = [
-        "RUNS=flip",
-        "SET=clamp.closing_speed=1 um/s",
-        "OUT=o",
-        "runs",
-    ];
+    let bench = with_stack();
+    let slow = "SET=clamp.closing_speed=1 um/s";
+    let long = ["RUNS=flip", slow, "OUT=o", "runs"];
     let refused = make(&bench, &[&STACK[..2], &long].concat());
     let plan = String::from_utf8_lossy(&refused.stdout);
     assert!(
         plan.contains("o/pf/flip") && plan.contains("1 run, "),
         "{plan}"
     );
+    let told = said(&refused);
     assert!(
-        !refused.status.success() && said(&refused).contains("YES=1 starts it"),
-        "{}",
-        said(&refused)
+        !refused.status.success() && told.contains("YES=1 starts it"),
+        "{told}"
     );
     assert!(!bench.path("o/pf/flip").exists());
 }

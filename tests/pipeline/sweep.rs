@@ -3,7 +3,8 @@
 //!
 //! `BONDLINE_SWEEP=2000` makes that many cases instead of the few of `make test`.
 
-use studies::outputs;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use crate::verdicts::SMALL;
 use crate::workbench::{Workbench, said};
@@ -23,45 +24,34 @@ const NUMBERS: [(&str, &str, f64); 11] = [
     ("\"6 um\", \"0 um\"], max = [\"", " um\"", 12.0),
 ];
 
-/// xorshift64*, which needs nobody's seed but ours.
-struct Random(u64);
+const SPECIAL: [&str; 6] = ["nan", "inf", "-inf", "0", "-1", "1e400"];
 
-impl Random {
-    fn below(&mut self, n: u64) -> u64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 32) % n
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.below(1 << 30) as f64 / f64::from(1 << 30)
-    }
-
-    fn extreme(&mut self, value: f64) -> String {
-        let special = ["nan", "inf", "-inf", "0", "-1", "1e400"];
-        match self.below(20) {
-            n @ 0..3 => special[2 * n as usize + self.below(2) as usize].into(),
-            3..11 => format!("{:e}", value * 10_f64.powf(self.between(-30.0, 30.0))),
-            _ => format!("{:e}", value * 10_f64.powf(self.between(-3.0, 3.0))),
-        }
-    }
+fn extreme(random: &mut ChaCha8Rng, value: f64) -> String {
+    let decades = match random.random_range(0..20) {
+        0..3 => return SPECIAL[random.random_range(0..SPECIAL.len())].into(),
+        3..11 => 30.0,
+        _ => 3.0,
+    };
+    format!(
+        "{:e}",
+        value * 10_f64.powf(random.random_range(-decades..decades))
+    )
 }
 
 /// The case with one to three of its numbers changed, by one of the schemes.
-fn mutated(random: &mut Random) -> String {
+fn mutated(random: &mut ChaCha8Rng) -> String {
     let mut text = SMALL.to_owned();
     // The last plate's corner is not the one meant below.
-    for _ in 0..=random.below(3) {
-        let (before, after, value) = NUMBERS[random.below(NUMBERS.len() as u64) as usize];
+    for _ in 0..=random.random_range(0..3) {
+        let (before, after, value) = NUMBERS[random.random_range(0..NUMBERS.len())];
         let start = text.rfind(before).expect(before) + before.len();
         let end = start + text[start..].find(after).expect(after);
-        text.replace_range(start..end, &random.extreme(value));
+        text.replace_range(start..end, &extreme(random, value));
     }
-    if random.below(2) == 0 {
+    if random.random_range(0..2) == 0 {
         text = text.replace("\"implicit\"", "\"explicit\"");
     }
-    if random.below(4) == 0 {
+    if random.random_range(0..4) == 0 {
         let limit = text.find("max_pressure").unwrap();
         let end = limit + text[limit..].find('\n').unwrap();
         text.replace_range(limit..=end, "");
@@ -72,7 +62,7 @@ fn mutated(random: &mut Random) -> String {
 #[test]
 fn no_number_of_a_case_makes_a_run_lie_panic_or_hang() {
     let count = std::env::var("BONDLINE_SWEEP").map_or(60, |n| n.parse().unwrap());
-    let mut random = Random(20_261_121);
+    let mut random = ChaCha8Rng::seed_from_u64(2026);
     let bench = Workbench::new();
     let mut ends = std::collections::BTreeMap::<i32, u32>::new();
     for _ in 0..count {
@@ -102,20 +92,15 @@ fn no_number_of_a_case_makes_a_run_lie_panic_or_hang() {
 
 /// Looks at what a run with exit status 0 left, without its own verdict.
 fn sound(bench: &Workbench, case: &str) {
-    let history = String::from_utf8(bench.read("run/history.csv")).unwrap();
-    let (_, rows) = history.split_once('\n').unwrap();
+    let rows = bench.table("run/history.csv").rows.concat().concat();
     assert!(
         !rows.is_empty() && !rows.contains("NaN") && !rows.contains("inf"),
         "{rows}\n{case}"
     );
-    let run = outputs::Run {
-        folder: bench.path("run"),
-    };
-    let number = |key: &str| run.summary(key).expect(key);
-    let change = number("volume_change");
+    let change = bench.summary("run", "volume_change");
     assert!(change.abs() < 0.106, "volume {change}\n{case}");
     // Half a cell.
-    let deepest = number("deepest_m");
+    let deepest = bench.summary("run", "deepest_m");
     assert!(deepest <= 1.001e-6, "{deepest} m in wood\n{case}");
-    bench.done("particles", &["check", "run/final.mpts"]);
+    bench.done("particles check run/final.mpts");
 }

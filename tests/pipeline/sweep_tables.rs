@@ -1,110 +1,55 @@
-//! Tables of runs: what is refused before the first one starts, and that kills change no byte of the
+//! Tables of runs: that bad ones are refused before one starts, and that kills change no byte of the
 //! results.
 
-use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
+use crate::workbench::{IMPLICIT, Workbench};
 
-use crate::workbench::{Workbench, said};
+const PLAN: &str = "bond-sweep plan -q table.csv --case case.toml -o";
 
 /// A bench with the table of a sweep on its bond, its case by the implicit scheme.
 fn bench(table: &str) -> Workbench {
     let bench = Workbench::with_bond();
-    let case = String::from_utf8(bench.read("case.toml")).unwrap();
+    let case = bench.text("case.toml");
     bench.write("case.toml", case.replace("\"explicit\"", "\"implicit\""));
     bench.write("table.csv", table);
     bench
 }
 
+/// Plans a sweep; its runs.
 fn planned(bench: &Workbench, folder: &str) -> Vec<String> {
-    bench.done(
-        "bond-sweep",
-        &[
-            "plan",
-            "-q",
-            "table.csv",
-            "--case",
-            "case.toml",
-            "-o",
-            folder,
-        ],
-    );
-    let runs = String::from_utf8(bench.read(&format!("{folder}/runs.txt"))).unwrap();
+    bench.done(&format!("{PLAN} {folder}"));
+    let runs = bench.text(&format!("{folder}/runs.txt"));
     runs.lines().map(str::to_owned).collect()
 }
 
+/// Tables, their lines parted by ;, and two parts of the sentence about each.
+const BAD: &str = "\
+adhesive.viscosity;300 cP;300 | row 2, column adhesive.viscosity: | with a unit
+adhesive.viskosity;300 cP | row 1, column adhesive.viskosity | unknown field
+particles,adhesive.viscosity,grid.cell;bond.mpts,300 cP,2.9 um;bond.mpts,300 cP,3 um | row 2, column grid.cell: | 7.733 cells
+particles,integrator.scheme,integrator.pressure;bond.mpts,implicit,;bond.mpts,implicit,cell-mean | row 2 | column integrator.pressure:
+particles,specimen.seed;bond.mpts,1 | row 1, column specimen.seed | leave one of them empty
+particles;specimen.mpts | row 1, column particles | holds a specimen
+particles;absent.mpts | row 1, column particles | absent.mpts
+specimen.seed;1;-1 | row 2, column specimen.seed: | '-1'
+specimen.size;8x8x8 | row 1: its specimen: | synth-xct:
+case;absent | row 1 | absent.toml
+viscosity;1 | 'viscosity' | is no column";
+
 #[test]
 fn a_bad_cell_is_named_before_any_run_starts() {
-    for (table, words) in [
-        (
-            "adhesive.viscosity\n300 cP\n300\n",
-            &["row 2, column adhesive.viscosity: ", "with a unit"][..],
-        ),
-        (
-            "adhesive.viskosity\n300 cP\n",
-            &["row 1, column adhesive.viskosity", "unknown field"],
-        ),
-        // Accepted as a case, refused with the bond: the cell does not divide its sides.
-        (
-            "particles,adhesive.viscosity,grid.cell\nbond.mpts,300 cP,2.9 um\nbond.mpts,300 cP,3 um\n",
-            &["row 2, column grid.cell: ", "7.733 cells"],
-        ),
-        (
-            "particles,integrator.scheme,integrator.pressure\nbond.mpts,implicit,\nbond.mpts,implicit,cell-mean\n",
-            &["row 2, column integrator.pressure: "],
-        ),
-        (
-            "particles,specimen.seed\nbond.mpts,1\n",
-            &["row 1, column specimen.seed", "leave one of them empty"],
-        ),
-        (
-            "particles\nspecimen.mpts\n",
-            &["row 1, column particles", "holds a specimen"],
-        ),
-        (
-            "particles\nabsent.mpts\n",
-            &["row 1, column particles", "absent.mpts"],
-        ),
-        (
-            "specimen.seed\n1\n-1\n",
-            &["row 2, column specimen.seed: '-1'"],
-        ),
-        (
-            "specimen.size\n8x8x8\n",
-            &["row 1: its specimen: synth-xct: "],
-        ),
-        ("case\nabsent\n", &["row 1", "absent.toml"]),
-        ("viscosity\n1\n", &["'viscosity' is no column"]),
-    ] {
-        let bench = bench(table);
-        let arguments = [
-            "plan",
-            "-q",
-            "table.csv",
-            "--case",
-            "case.toml",
-            "-o",
-            "sweep",
-        ];
-        let output = bench.run("bond-sweep", &arguments);
-        let told = said(&output);
-        assert_eq!(output.status.code(), Some(2), "{table}: {told}");
-        for word in words {
-            assert!(told.contains(word), "{word} is not in {told}");
-        }
+    let bench = bench("");
+    for line in BAD.lines() {
+        let [table, place, words] = line.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{line}");
+        };
+        bench.write("table.csv", table.replace(';', "\n") + "\n");
+        let told = bench.ends(2, &format!("{PLAN} sweep"), place);
+        assert!(told.contains(words), "{words} is not in {told}");
         assert!(!bench.path("sweep/runs.txt").exists(), "{table}");
     }
-    let bench = bench("particles\nbond.mpts\n");
+    bench.write("table.csv", "particles\nbond.mpts\n");
     bench.write("runs.txt", "mine");
-    let output = bench.run(
-        "bond-sweep",
-        &["plan", "table.csv", "--case", "case.toml", "-o", "."],
-    );
-    assert!(
-        said(&output).contains("not of a sweep"),
-        "{}",
-        said(&output)
-    );
+    bench.ends(2, &format!("{PLAN} ."), "not of a sweep");
     assert_eq!(bench.read("runs.txt"), b"mine");
 }
 
@@ -123,112 +68,76 @@ fn killed_runs_give_the_same_table_and_failed_ones_their_reason() {
     let bench = bench(TABLE);
     let runs = planned(&bench, "whole");
     assert_eq!(runs.len(), 4, "rows 1 and 3 are one run");
-    for run in &runs {
-        bench.done("bond-sweep", &["run", "-q", "--threads", "1", "whole", run]);
-    }
     bench.done(
-        "bond-sweep",
-        &[
-            "collect",
-            "-q",
-            "whole",
-            "-o",
-            "whole.csv",
-            "--cost",
-            "cost.csv",
-        ],
+        "for run in $(cat whole/runs.txt); do bond-sweep run -q --threads 1 whole $run; done
+         bond-sweep collect -q whole -o whole.csv --cost cost.csv",
     );
-    let whole = String::from_utf8(bench.read("whole.csv")).unwrap();
-    let rows: Vec<Vec<&str>> = whole
-        .lines()
-        .map(|line| line.split(',').collect())
-        .collect();
-    assert!(whole.starts_with("row,particles,adhesive.viscosity_cP,integrator.scheme,clamp.max_pressure_MPa,clamp.closing_speed_m/s,status,said,end,wp_bottom_um"), "{whole}");
-    assert_eq!(rows[1][1..6], ["bond.mpts", "300", "implicit", "2.5", "10"]);
-    assert_eq!(rows[1][6], "sound");
-    assert_eq!(rows[1][1..], rows[3][1..], "the same run");
-    assert_eq!(rows[1][1..], rows[2][1..], "in other words");
-    assert_ne!(rows[1][9..], rows[4][9..], "the explicit scheme");
-    let failed = rows[5].clone();
-    assert!(
-        ["failed", "not sound"].contains(&failed[6]) && !failed[7].is_empty(),
-        "{failed:?}"
-    );
-    assert!(
-        failed[failed.len() - 12..]
-            .iter()
-            .all(|cell| cell.is_empty()),
-        "{failed:?}"
-    );
-    // The numbers are those of wp-metrics.
-    let measured = bench.done(
-        "wp-metrics",
-        &[
-            "-q",
-            &format!("whole/runs/{}/final.mpts", sound(&bench, &runs)),
-        ],
-    );
-    let total: Vec<&str> = measured.lines().nth(3).unwrap().split(',').collect();
-    assert!(
-        rows[1..].iter().any(|row| row.get(11) == Some(&total[4])),
-        "{measured}{whole}"
-    );
+    check_rows(&bench);
 
-    assert_eq!(
-        planned(&bench, "killed"),
-        runs,
-        "runs are called the same everywhere"
-    );
-    let early = bench.run("bond-sweep", &["collect", "killed", "-o", "killed.csv"]);
-    assert_eq!(early.status.code(), Some(75), "{}", said(&early));
-    assert!(
-        said(&early).contains("5 of 5 rows have no result yet"),
-        "{}",
-        said(&early)
+    let again = planned(&bench, "killed");
+    assert_eq!(again, runs, "runs are called the same everywhere");
+    bench.ends(
+        75,
+        "bond-sweep collect killed -o killed.csv",
+        "5 of 5 rows have no result yet",
     );
     for (i, run) in runs.iter().enumerate() {
+        let line = format!("bond-sweep run -q --threads 1 killed {run}");
         for (k, signal) in ["TERM", "KILL", "TERM"].into_iter().enumerate() {
-            let mut child = bench
-                .command(
-                    "bond-sweep",
-                    &["run", "-q", "--threads", "1", "killed", run],
-                )
-                .stderr(Stdio::null())
-                .spawn()
-                .unwrap();
-            sleep(Duration::from_millis(40 + 90 * (k + i) as u64));
-            let kill = Command::new("kill")
-                .args(["-s", signal, &child.id().to_string()])
-                .stderr(Stdio::null())
-                .status();
-            assert!(kill.is_ok());
-            let ended = child.wait().unwrap().code();
-            assert!(matches!(ended, Some(0 | 75) | None), "{ended:?}");
+            let after = 0.04 + 0.09 * (k + i) as f64;
+            let output = bench.shell(&format!(
+                "timeout --preserve-status -s {signal} {after} {line}"
+            ));
+            let code = output.status.code();
+            assert!(matches!(code, Some(0 | 75 | 137 | 143) | None), "{code:?}");
         }
-        bench.done(
-            "bond-sweep",
-            &["run", "-q", "--threads", "1", "killed", run],
-        );
+        bench.done(&line);
     }
-    bench.done(
-        "bond-sweep",
-        &["collect", "-q", "killed", "-o", "killed.csv"],
-    );
-    assert_eq!(bench.read("killed.csv"), bench.read("whole.csv"));
+    bench.done("bond-sweep collect -q killed -o killed.csv");
+    assert_eq!(bench.text("killed.csv"), bench.text("whole.csv"));
 
-    let figure = bench.run("bond-figures", &["response", "whole.csv", "-o", "r.svg"]);
-    assert!(figure.status.success(), "{}", said(&figure));
-    let drawn = String::from_utf8(bench.read("r.svg")).unwrap();
+    bench.done("bond-figures response whole.csv -o r.svg");
+    let drawn = bench.text("r.svg");
     assert!(
         drawn.contains("5 runs, of which 1 have no result"),
         "{drawn}"
     );
     // A bond file that changes under a plan is not what its rows say.
     bench.write("bond.mpts", bench.read("specimen.mpts"));
-    std::fs::remove_file(bench.path(&format!("killed/runs/{}/row.csv", runs[0]))).unwrap();
-    let changed = bench.run("bond-sweep", &["run", "killed", &runs[0]]);
-    assert_eq!(changed.status.code(), Some(2), "{}", said(&changed));
-    assert!(said(&changed).contains("plan again"), "{}", said(&changed));
+    let run = &runs[0];
+    let line = format!("rm killed/runs/{run}/row.csv; bond-sweep run killed {run}");
+    bench.ends(2, &line, "plan again");
+}
+
+/// Holds the collected rows of [`TABLE`] against one another and a measurement.
+fn check_rows(bench: &Workbench) {
+    let whole = bench.table("whole.csv");
+    let names = "row,particles,adhesive.viscosity_cP,integrator.scheme,clamp.max_pressure_MPa,clamp.closing_speed_m/s,status,said,end,wp_bottom_um";
+    assert!(
+        whole.header.join(",").starts_with(names),
+        "{:?}",
+        whole.header
+    );
+    let rows = &whole.rows;
+    assert_eq!(
+        rows[0][1..7],
+        ["bond.mpts", "300", "implicit", "2.5", "10", "sound"]
+    );
+    assert_eq!(rows[0][1..], rows[2][1..], "the same run");
+    assert_eq!(rows[0][1..], rows[1][1..], "in other words");
+    assert_ne!(rows[1][9..], rows[3][9..], "the explicit scheme");
+    let failed = &rows[4];
+    let status = failed[6].as_str();
+    assert!(["failed", "not sound"].contains(&status), "{failed:?}");
+    assert!(!failed[7].is_empty(), "{failed:?}");
+    assert!(
+        failed.iter().rev().take(12).all(String::is_empty),
+        "{failed:?}"
+    );
+    // The numbers are those of wp-metrics.
+    bench.press("alone", &[IMPLICIT], "");
+    let measured = bench.measured("alone/final.mpts");
+    assert_eq!(rows[0][11], measured.rows[2][4], "{measured:?}");
 }
 
 /// The figure failed, and `make sweep` with it, though all was done.
@@ -236,24 +145,12 @@ fn killed_runs_give_the_same_table_and_failed_ones_their_reason() {
 fn a_sweep_of_one_row_has_a_figure_and_rows_of_commas_are_none() {
     let bench = bench("particles,adhesive.viscosity\nbond.mpts,300 cP\n,\n,\n");
     let [run] = planned(&bench, "one").try_into().unwrap();
-    bench.done("bond-sweep", &["run", "-q", "one", &run]);
-    bench.done("bond-sweep", &["collect", "-q", "one", "-o", "one.csv"]);
-    let arguments = ["response", "one.csv", "--result", "wp_um", "-o", "one.svg"];
-    let figure = bench.run("bond-figures", &arguments);
-    assert!(figure.status.success(), "{}", said(&figure));
-    let drawn = String::from_utf8(bench.read("one.svg")).unwrap();
-    assert!(
-        drawn.contains("\n1 run; bars: error by the size of the cells\n")
-            && drawn.contains("\nrow\n"),
-        "{drawn}"
-    );
-}
-
-/// One of the runs that ended sound.
-fn sound(bench: &Workbench, runs: &[String]) -> String {
-    let row = |run: &&String| bench.read(&format!("whole/runs/{run}/row.csv"));
-    let sound = runs
-        .iter()
-        .find(|run| String::from_utf8_lossy(&row(run)).contains("\nsound"));
-    sound.unwrap().clone()
+    bench.done(&format!(
+        "bond-sweep run -q one {run}; bond-sweep collect -q one -o one.csv
+         bond-figures response one.csv --result wp_um -o one.svg"
+    ));
+    let drawn = bench.text("one.svg");
+    for wanted in ["\n1 run; bars: error by the size of the cells\n", "\nrow\n"] {
+        assert!(drawn.contains(wanted), "{wanted}: {drawn}");
+    }
 }

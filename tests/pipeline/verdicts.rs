@@ -1,8 +1,6 @@
 //! Exit status 0 is a claim: what goes wrong ends with 1, and a sentence says what to change.
 
-use std::process::Output;
-
-use crate::workbench::{Workbench, said};
+use crate::workbench::Workbench;
 
 /// A drop between two plates, the upper of which the clamp drives.
 pub const SMALL: &str = r#"
@@ -41,6 +39,14 @@ material = "adhesive"
 box = { min = ["0 um", "6 um", "0 um"], max = ["12 um", "14 um", "2 um"] }
 "#;
 
+pub const NO_LIMIT: (&str, &str) = ("max_pressure = \"2.5 MPa\"\n", "");
+pub const EXPLICIT: (&str, &str) = ("\"implicit\"", "\"explicit\"");
+/// Liquid that fills all between the plates.
+pub const SEALED: (&str, &str) = ("max = [\"12 um\", \"14 um\"", "max = [\"24 um\", \"16 um\"");
+
+const RUN: &str = "mpm-run -q case.toml -o run --overwrite";
+const AGAIN: &str = "mpm-run case.toml -o run --resume";
+
 /// [`SMALL`] with texts replaced.
 pub fn changed(changes: &[(&str, &str)]) -> String {
     changes.iter().fold(SMALL.to_owned(), |text, (from, to)| {
@@ -49,86 +55,68 @@ pub fn changed(changes: &[(&str, &str)]) -> String {
     })
 }
 
-pub fn run(bench: &Workbench, case: &str, more: &[&str]) -> Output {
-    bench.write("case.toml", case);
-    bench.run(
-        "mpm-run",
-        &[&["-q", "case.toml", "-o", "run"], more].concat(),
-    )
+/// [`SMALL`] so wide and 10 mm high, the plates 8 mm apart.
+pub fn widened(width: &str) -> String {
+    let [domain, drop] = ["8 mm\", \"2 um\"] }\n[adhesive]", "8 mm\""]
+        .map(|rest| format!("max = [\"{width}\", \"{rest}"));
+    changed(&[
+        (
+            "max = [\"24 um\", \"30 um\", \"2 um\"] }\n[adhesive]",
+            &domain,
+        ),
+        ("max = [\"12 um\", \"14 um\"", &drop),
+        ("\"0 um\", \"16 um\"", "\"0 um\", \"9 mm\""),
+        (
+            "\"24 um\", \"30 um\", \"2 um\"]",
+            "\"24 um\", \"10 mm\", \"2 um\"]",
+        ),
+        ("\"4 um\"", "\"2 mm\""),
+    ])
 }
 
-pub const NO_LIMIT: (&str, &str) = ("max_pressure = \"2.5 MPa\"\n", "");
-pub const EXPLICIT: (&str, &str) = ("\"implicit\"", "\"explicit\"");
 /// Before, both schemes ended with exit status 0 and the volume 29 and 39 % off.
 #[test]
 fn a_sealed_liquid_that_is_crushed_stops_the_run() {
-    let sealed = [
-        NO_LIMIT,
-        ("max = [\"12 um\", \"14 um\"", "max = [\"24 um\", \"16 um\""),
-    ];
     let bench = Workbench::new();
     for scheme in [&[][..], &[EXPLICIT]] {
-        let output = run(
-            &bench,
-            &changed(&[&sealed[..], scheme].concat()),
-            &["--overwrite"],
+        bench.write(
+            "case.toml",
+            changed(&[&[NO_LIMIT, SEALED], scheme].concat()),
         );
-        let said = said(&output);
-        assert_eq!(output.status.code(), Some(1), "{said}");
-        assert!(
-            said.contains("the liquid is compressed by") && said.contains("max_pressure"),
-            "{said}"
-        );
+        let said = bench.ends(1, RUN, "the liquid is compressed by");
+        assert!(said.contains("max_pressure"), "{said}");
     }
     // Held at its pressure limit the same liquid is sound.
-    let output = run(&bench, &changed(&[sealed[1]]), &["--overwrite"]);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    bench.write("case.toml", changed(&[SEALED]));
+    bench.done(RUN);
 }
 
-/// A run that has ended is judged the same when it is asked for again.
+/// Before, a run that had ended was said to have done so with exit status 0 whatever its files say.
 #[test]
-fn a_summary_has_the_verdict_and_a_run_not_sound_stays_so() {
+fn a_run_that_ended_is_sound_only_if_its_files_say_so() {
     let bench = Workbench::new();
-    let output = run(&bench, SMALL, &[]);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    let summary = String::from_utf8(bench.read("run/summary.json")).unwrap();
-    assert!(summary.contains("\"sound\": true"), "{summary}");
+    bench.write("case.toml", SMALL);
+    bench.done(RUN);
+    bench.ends(0, AGAIN, "has ended already");
+    let summary = bench.text("run/summary.json");
     let worse = summary
         .replace("\"sound\": true", "\"sound\": false")
         .replace("\"reasons\": []", "\"reasons\": [\"it is forged\"]");
     bench.write("run/summary.json", worse);
-    let again = bench.run("mpm-run", &["case.toml", "-o", "run", "--resume"]);
-    assert_eq!(again.status.code(), Some(1), "{}", said(&again));
-    assert!(said(&again).contains("not sound") && said(&again).contains("it is forged"));
-}
-
-/// Before, all of these said "has ended already" with exit status 0.
-#[test]
-fn a_run_that_ended_is_sound_only_if_its_files_say_so() {
-    let bench = Workbench::new();
-    let output = run(&bench, SMALL, &[]);
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    let asked = |status, sentence: &str| {
-        let again = bench.run("mpm-run", &["case.toml", "-o", "run", "--resume"]);
-        assert_eq!(again.status.code(), Some(status), "{}", said(&again));
-        assert!(said(&again).contains(sentence), "{}", said(&again));
-    };
-    asked(0, "has ended already");
-    let summary = bench.read("run/summary.json");
+    let said = bench.ends(1, AGAIN, "not sound");
+    assert!(said.contains("it is forged"), "{said}");
+    let silent = "does not say whether the results are sound";
     bench.write("run/summary.json", "{}");
-    asked(3, "does not say whether the results are sound");
+    bench.ends(3, AGAIN, silent);
     std::fs::remove_file(bench.path("run/summary.json")).unwrap();
-    asked(3, "does not say whether the results are sound");
+    bench.ends(3, AGAIN, silent);
     bench.write("run/summary.json", summary);
     let whole = bench.read("run/final.mpts");
-    let mut flipped = whole.clone();
-    let middle = flipped.len() / 2;
-    flipped[middle] ^= 4;
-    bench.write("run/final.mpts", flipped);
-    asked(3, "its final state is damaged");
+    bench.damage("run/final.mpts", "run/final.mpts", whole.len() / 2);
+    bench.ends(3, AGAIN, "its final state is damaged");
     bench.write("run/final.mpts", whole);
     std::fs::remove_file(bench.path("run/bondline-run.toml")).unwrap();
-    asked(2, "is not marked as a run folder");
+    bench.ends(2, AGAIN, "is not marked as a run folder");
 }
 
 /// A slit whose clamp meets its limit in the very step that ends its way: the held speed then follows the
@@ -142,29 +130,12 @@ fn a_clamp_that_meets_its_limit_in_its_last_step_closes() {
             "[clamp]\nclosing_speed = \"1 m/s\"\nmax_pressure = \"0.3 MPa\"\ntravel = \"0.1 um\"",
         )
         .replace("[\"0 m/s\", \"-0.5 m/s\", \"0 m/s\"]", "\"clamp\"");
-    bench.write("slit.toml", text);
+    bench.write("case.toml", text);
     for viscosity in ["1 cP", "10 cP", "100 cP"] {
-        let set = format!("adhesive.viscosity={viscosity}");
-        let folder = viscosity.replace(' ', "");
-        let said = bench.run(
-            "mpm-run",
-            &["-q", "slit.toml", "--set", &set, "-o", &folder],
-        );
-        assert!(said.status.success(), "{viscosity}: {said:?}");
-        let history = String::from_utf8(bench.read(&format!("{folder}/history.csv"))).unwrap();
-        let names = history.lines().next().unwrap().split(',');
-        let row: Vec<&str> = history.lines().last().unwrap().split(',').collect();
-        let last = |name: &str| {
-            let place = names.clone().position(|n| n == name).unwrap();
-            row[place].parse::<f64>().unwrap()
-        };
-        assert!(
-            (last("displacement_m") / 1e-7 - 1.0).abs() < 1e-6,
-            "{viscosity}: {history}"
-        );
-        assert!(
-            last("pressure_top_Pa") < 0.3e6 * 1.005,
-            "{viscosity}: {history}"
-        );
+        bench.done(&format!("{RUN} --set 'adhesive.viscosity={viscosity}'"));
+        let history = bench.table("run/history.csv");
+        let [way, pressure] = ["displacement_m", "pressure_top_Pa"].map(|name| history.last(name));
+        assert!((way / 1e-7 - 1.0).abs() < 1e-6, "{viscosity}: {way} m");
+        assert!(pressure < 0.3e6 * 1.005, "{viscosity}: {pressure} Pa");
     }
 }

@@ -1,29 +1,24 @@
 //! Presses of synthetic wood: what comes of its rough lumens alone.
 
-use studies::outputs::Run;
+use crate::workbench::{FINER, Workbench};
 
-use crate::workbench::{VOXEL, Workbench};
+const PRESS: &str = include_str!("../../pipelines/cases/pf-implicit.toml");
 
 /// `bond.mpts` of a synthetic specimen of so many voxels and `case.toml` with this text.
 fn wood(size: &str, case: impl AsRef<[u8]>) -> Workbench {
-    let bench = Workbench::new();
-    let stack = ["--adhesive", "pf", "--voxel", VOXEL, "-o", "wood.tif"];
-    let size = ["--size", size, "--slab", "14.5 um", "--seed", "1"];
-    bench.done("synth-xct", &[&stack[..], &size].concat());
-    bench.convert("wood.tif", "wood.mpts");
-    bench.done("build-bondline", &["-q", "wood.mpts", "-o", "bond.mpts"]);
-    bench.write("case.toml", case);
-    bench
+    Workbench::with_wood(
+        &format!("--adhesive pf --size {size} --slab 14.5um --seed 1"),
+        case,
+    )
 }
 
 /// Liquid that dries a million times as thick in the corners of cells at its walls is solved as other liquid is: those corners do not
 /// make their neighbours as thick, and what drags them along is not what the solver's tolerance is relative to.
 #[test]
 fn liquid_that_dries_at_once_at_its_walls_is_solved() {
-    let case = include_str!("../../pipelines/cases/pf-implicit.toml");
     let water = "[adhesive.water]\nsolids = 0.45\nuptake = \"20 um/s\"\ndiffusivity = \"1e-10 m2/s\"\n\
                  viscosity_by_solids = [[0.45, 1.0], [0.55, 100.0], [0.65, 1e6]]\n";
-    let bench = wood("40x96x40", case.to_owned() + water);
+    let bench = wood("40x96x40", PRESS.to_owned() + water);
     sides_agree(&bench, "1e-3");
 }
 
@@ -31,9 +26,8 @@ fn liquid_that_dries_at_once_at_its_walls_is_solved() {
 /// By one relative to that drag pressures are 25 and 40 % off, and sides part by 16 %.
 #[test]
 fn liquid_that_thins_by_decades_is_solved() {
-    let case = include_str!("../../pipelines/cases/pf-implicit.toml");
     let newtonian = "viscosity = \"1300 cP\"";
-    assert!(case.contains(newtonian));
+    assert!(PRESS.contains(newtonian));
     for (size, law) in [
         (
             "24x64x24",
@@ -44,7 +38,7 @@ fn liquid_that_thins_by_decades_is_solved() {
             "herschel_bulkley = { yield_stress = \"10 kPa\", consistency = \"1 Pa s^n\", index = 0.8, regularisation_rate = \"1 1/s\" }",
         ),
     ] {
-        let bench = wood(size, case.replace(newtonian, law));
+        let bench = wood(size, PRESS.replace(newtonian, law));
         let [usual, tight] = ["1e-3", "1e-5"].map(|tolerance| sides_agree(&bench, tolerance));
         // Steps after the first, of one end and length to a hundredth: steps part with the flow that sets them.
         let mut compared = 0;
@@ -70,18 +64,16 @@ fn sides_agree(bench: &Workbench, tolerance: &str) -> Vec<[f64; 3]> {
         "output.history_every=10 us",
         &tolerance_set,
     ];
-    bench.pressed(tolerance, &changes, &[]);
-    let run = Run {
-        folder: bench.path(tolerance),
-    };
-    let sides = ["pressure_bottom_Pa", "pressure_top_Pa"].map(|side| run.history(side).unwrap());
-    for (step, (bottom, top)) in sides[0].iter().zip(&sides[1]).enumerate() {
+    bench.press(tolerance, &changes, "");
+    let history = bench.table(&format!("{tolerance}/history.csv"));
+    let [times, lengths, bottom, top] = ["time_s", "dt_s", "pressure_bottom_Pa", "pressure_top_Pa"]
+        .map(|name| history.column(name));
+    for (step, (bottom, top)) in bottom.iter().zip(&top).enumerate() {
         let apart = (top / bottom - 1.0).abs();
         assert!(apart < 0.02, "row {step}: {bottom} and {top} Pa");
     }
-    let [times, lengths] = ["time_s", "dt_s"].map(|column| run.history(column).unwrap());
-    let rows = times.into_iter().zip(lengths).zip(&sides[0]);
-    rows.map(|((time, dt), &pressure)| [time, dt, pressure])
+    (0..times.len())
+        .map(|i| [times[i], lengths[i], bottom[i]])
         .collect()
 }
 
@@ -89,17 +81,10 @@ fn sides_agree(bench: &Workbench, tolerance: &str) -> Vec<[f64; 3]> {
 /// which made it 7 % deeper.
 #[test]
 fn adhesive_gets_as_deep_in_cells_of_two_sizes() {
-    let bench = wood(
-        "40x96x40",
-        include_str!("../../pipelines/cases/pf-implicit.toml"),
-    );
-    let fine = ["grid.cell=1.45 um", "contact.influence_length=0.029 um"];
-    let depths = [&[][..], &fine].map(|changes| {
-        let folder = changes.len().to_string();
-        bench.pressed(&folder, changes, &[]);
-        let table = bench.done("wp-metrics", &[&format!("{folder}/final.mpts")]);
-        let total = table.lines().find(|line| line.contains(",total,")).unwrap();
-        total.split(',').nth(4).unwrap().parse::<f64>().unwrap()
+    let bench = wood("40x96x40", PRESS);
+    let depths = ["", FINER].map(|cells| {
+        bench.press("run", &[], &format!("{cells} --overwrite"));
+        bench.measured("run/final.mpts").last("wp_um")
     });
     let error = depths[0] / depths[1] - 1.0;
     println!("weighted penetration in cells of two voxels and of one: {depths:?} um, {error:+.3}");
@@ -111,13 +96,12 @@ fn adhesive_gets_as_deep_in_cells_of_two_sizes() {
 fn menisci_come_to_rest_in_wood() {
     let case = include_str!("../../pipelines/examples/wicking-pf.toml");
     assert!(case.contains("time = \"4 ms\""));
-    let case = case.replace("time = \"4 ms\"", "time = \"0.5 s\"");
-    let bench = wood("40x96x40", case);
-    bench.pressed("run", &[], &[]);
-    let run = Run {
-        folder: bench.path("run"),
-    };
-    let steps = run.history("dt_s").unwrap();
-    println!("{} steps", steps.len());
-    assert!(steps.len() < 150, "{} steps", steps.len());
+    let bench = wood(
+        "32x64x32",
+        case.replace("time = \"4 ms\"", "time = \"0.5 s\""),
+    );
+    bench.press("run", &[], "");
+    let steps = bench.table("run/history.csv").rows.len();
+    println!("{steps} steps");
+    assert!(steps < 150, "{steps} steps");
 }

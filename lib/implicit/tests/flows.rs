@@ -59,8 +59,8 @@ fn thinning(n: usize, off: bool) -> f64 {
     scene.liquid.density = 1.2;
     scene.gravity = [2.0 * STRESS / H / 1.2, 0.0, 0.0];
     scene.liquid.viscosity = Viscosity::Law(Law::Power {
-        consistency: CONSISTENCY,
-        index: INDEX,
+        k: CONSISTENCY,
+        n: INDEX,
         rates: [1e2, 1e9],
     });
     let rate = (STRESS / CONSISTENCY).powf(1.0 / INDEX);

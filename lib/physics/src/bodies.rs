@@ -84,20 +84,12 @@ impl VoxelBlock {
         let mut bits = vec![0_u64; words_per_row * dims[1] * dims[2]];
         for k in 0..dims[2] {
             for j in 0..dims[1] {
-                for i in 0..dims[0] {
-                    if solid(i, j, k) {
-                        bits[(k * dims[1] + j) * words_per_row + i / 64] |= 1 << (i % 64);
-                    }
+                for i in (0..dims[0]).filter(|&i| solid(i, j, k)) {
+                    bits[(k * dims[1] + j) * words_per_row + i / 64] |= 1 << (i % 64);
                 }
             }
         }
-        Self {
-            origin,
-            voxel,
-            dims,
-            words_per_row,
-            bits: bits.into(),
-        }
+        Self::new(origin, voxel, dims, bits)
     }
 
     /// Low corner, m.
@@ -171,20 +163,13 @@ mod tests {
             (i * 7 + j * 3 + k).is_multiple_of(5)
         });
         let mut count = 0;
-        for k in 0..2 {
-            for j in 0..3 {
-                for i in 0..70 {
-                    let solid = (i * 7 + j * 3 + k) % 5 == 0;
-                    count += u64::from(solid);
-                    let centre = [
-                        1.0 + 0.5 * (i as f64 + 0.5),
-                        j as f64 + 0.5,
-                        2.0 * (k as f64 + 0.5),
-                    ];
-                    assert_eq!(block.contains(centre), solid);
-                    assert_eq!(block.row(j, k)[i / 64] >> (i % 64) & 1 == 1, solid);
-                }
-            }
+        for n in 0..420 {
+            let [i, j, k] = [n % 70, n / 70 % 3, n / 210];
+            let solid = (i * 7 + j * 3 + k) % 5 == 0;
+            count += u64::from(solid);
+            let [x, y, z] = [i, j, k].map(|index| index as f64 + 0.5);
+            assert_eq!(block.contains([1.0 + 0.5 * x, y, 2.0 * z]), solid);
+            assert_eq!(block.row(j, k)[i / 64] >> (i % 64) & 1 == 1, solid);
         }
         assert_eq!(block.count(), count);
         assert!(!block.contains([0.99, 0.5, 0.5]) && !block.contains([f64::NAN, 0.5, 0.5]));

@@ -21,15 +21,10 @@ pub trait Choice: Copy + 'static {
     fn named(word: &str) -> Result<Self, String> {
         let found = Self::NAMED.iter().find(|(name, _)| *name == word);
         found.map(|(_, choice)| *choice).ok_or_else(|| {
-            let names: Vec<_> = Self::NAMED
-                .iter()
-                .map(|(n, _)| format!("\"{n}\""))
-                .collect();
-            let (last, others) = names.split_last().map_or(("", &[][..]), |(l, o)| (l, o));
-            format!(
-                "'{word}' is not accepted: {} or {last} is needed",
-                others.join(", ")
-            )
+            let names = Self::NAMED.iter().map(|(name, _)| format!("\"{name}\""));
+            let names = names.collect::<Vec<_>>().join(", ");
+            let (others, last) = names.rsplit_once(", ").unwrap_or_default();
+            format!("'{word}' is not accepted: {others} or {last} is needed")
         })
     }
 }

@@ -28,11 +28,8 @@ impl Default for Pid {
     /// The gains of the six runs: integral alone. The force of contact is an impulse over the step
     /// and answers a change of speed at once: a proportional gain of 0.3 doubles the overshoot.
     fn default() -> Self {
-        Self {
-            kp: 0.0,
-            ki: 0.02,
-            kd: 0.0,
-        }
+        let (kp, ki, kd) = (0.0, 0.02, 0.0);
+        Self { kp, ki, kd }
     }
 }
 
@@ -154,10 +151,14 @@ mod tests {
         pid: None,
     };
 
+    fn control() -> PidControl {
+        PidControl::new(CLAMP, 2.9e-6 / 913.0)
+    }
+
     /// Plant: p = R v, R rising e-fold per 1.6 um of travel as measured on a real bond line,
     /// behind a lag. Returns the largest and the last pressure over the limit.
     fn closing(dt: f64, lag: f64) -> (f64, f64) {
-        let mut control = PidControl::new(CLAMP, 2.9e-6 / 913.0);
+        let mut control = control();
         let (mut p, mut travel, mut largest) = (0.0_f64, 0.0, 0.0_f64);
         for _ in 0..(30e-6 / dt) as usize {
             let target = 0.265e6 * f64::exp(travel / 1.6e-6) * control.speed();
@@ -175,9 +176,7 @@ mod tests {
         for dt in [0.5e-9, 1e-9, 1.5e-9] {
             for lag in [0.02e-6, 0.05e-6, 0.1e-6] {
                 let (largest, late) = closing(dt, lag);
-                println!(
-                    "dt {dt:e} s, lag {lag:e} s: largest {largest:.4}, at the end {late:.4} of the limit"
-                );
+                println!("dt {dt:e} s, lag {lag:e} s: largest {largest:.4}, late {late:.4}");
                 assert!(largest < 1.02 && (late - 1.0).abs() < 0.005);
             }
         }
@@ -188,23 +187,20 @@ mod tests {
     #[test]
     fn comes_back_from_far_above_the_limit_and_from_a_thousandth_of_the_speed() {
         let resistance = 1e3 * 2.5e6;
-        let mut control = PidControl::new(CLAMP, 2.9e-6 / 913.0);
+        let mut control = control();
         let mut p = 14.0 * 2.5e6;
         for _ in 0..1000 {
             p += (resistance * control.speed() - p) * 0.02;
             control.observe(p, 1e-9);
         }
-        println!(
-            "{:.4} of the limit at {:.3e} m/s",
-            p / 2.5e6,
-            control.speed()
-        );
-        assert!((p / 2.5e6 - 1.0).abs() < 0.02 && (1e3 * control.speed() - 1.0).abs() < 0.02);
+        let (pressure, speed) = (p / 2.5e6, control.speed());
+        println!("{pressure:.4} of the limit at {speed:.3e} m/s");
+        assert!((pressure - 1.0).abs() < 0.02 && (1e3 * speed - 1.0).abs() < 0.02);
     }
 
     #[test]
     fn does_not_wind_up() {
-        let mut control = PidControl::new(CLAMP, 2.9e-6 / 913.0);
+        let mut control = control();
         for _ in 0..1_000_000 {
             control.observe(0.0, 1e-9);
         }
@@ -213,16 +209,13 @@ mod tests {
             control.observe(1.5 * 2.5e6, 1e-9);
             steps += 1;
         }
-        assert!(
-            steps < 10,
-            "{steps} steps at 1.5 times the limit to slow down by 10 %"
-        );
+        assert!(steps < 10, "{steps} steps to slow down by 10 %");
     }
 
     /// It went on at a millionth of its speed for good.
     #[test]
     fn stands_where_liquid_gives_way_to_nothing_and_comes_back() {
-        let mut control = PidControl::new(CLAMP, 2.9e-6 / 913.0);
+        let mut control = control();
         for _ in 0..4000 {
             control.observe(1.5 * 2.5e6, 1e-9);
         }
@@ -238,13 +231,8 @@ mod tests {
 
     #[test]
     fn without_a_limit_the_speed_is_constant() {
-        let mut control = PidControl::new(
-            Clamp {
-                max_pressure: None,
-                ..CLAMP
-            },
-            1e-9,
-        );
+        let mut control = control();
+        control.clamp.max_pressure = None;
         control.observe(1e12, 1e-9);
         assert_eq!(control.speed(), 1.0);
     }

@@ -18,8 +18,8 @@ pub use bodies::{Motion, RigidBody, VoxelBlock};
 pub use choice::Choice;
 pub use clamp::{Clamp, Pid, PidControl, breaks, broken};
 pub use material::{
-    Course, Cure, CureLaw, Law, Liquid, Newtonian, Rheology, SET, ShearRate, TAIT_C, Table,
-    TableError, Tait, Viscosity, Water, WaterLaw, Wetting,
+    Course, Cure, CureLaw, Law, Liquid, Newtonian, Rheology, SET, ShearRate, TAIT_C, Table, Tait,
+    Viscosity, Water, WaterLaw, Wetting,
 };
 pub use press::{Press, PressRun, PressStage, PressStep, Reason, StageEnd};
 pub use regime::Regime;

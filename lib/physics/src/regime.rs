@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::{Amount, Scene, Viscosity};
+use crate::{Amount, Scene};
 
 /// Surface tension of a typical wood adhesive, N/m (paper, below Eq. 4).
 const SURFACE_TENSION: f64 = 0.03;
@@ -39,10 +39,7 @@ impl Regime {
         let lumen = 6.0 * scene.grid.cell_m;
         let speed = scene.speed_with(amount);
         let rate = 8.0 * speed / lumen;
-        let eta = match &liquid.viscosity {
-            Viscosity::Newtonian(law) => law.0,
-            table => table.at(rate),
-        };
+        let eta = liquid.viscosity.at(rate);
         let adhesion = (liquid.wetting).map_or(SURFACE_TENSION, |wetting| wetting.adhesion());
         let max_pressure = scene.clamp.and_then(|c| c.max_pressure);
         Self {
@@ -73,14 +70,11 @@ impl Regime {
                 self.reynolds
             ));
         }
-        if let Some(p) = self
-            .max_pressure
-            .filter(|p| !self.capillarity && self.capillary_pressure > 0.05 * p)
-        {
+        let drawn = |p: &f64| !self.capillarity && self.capillary_pressure > 0.05 * p;
+        if let Some(limit) = self.max_pressure.filter(drawn) {
+            let [drawn, limit] = [self.capillary_pressure, limit].map(|p| p / 1e3);
             said.push(format!(
-                "capillary pressure in a six-cell lumen is {:.1} kPa, more than 5 % of the clamp's {:.1} kPa, and is not modelled",
-                self.capillary_pressure / 1e3,
-                p / 1e3
+                "capillary pressure in a six-cell lumen is {drawn:.1} kPa, more than 5 % of the clamp's {limit:.1} kPa, and is not modelled"
             ));
         }
         if let Some(strain) = self.volume_strain.filter(|s| *s > 0.05) {
@@ -95,29 +89,18 @@ impl Regime {
 
 impl fmt::Display for Regime {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
-            f,
-            "sound speed        {:.4} m/s, Mach {:.2e}",
-            self.sound_speed, self.mach
-        )?;
-        writeln!(
-            f,
-            "Reynolds number    {:.3e} (lumen of six cells)",
-            self.reynolds
-        )?;
-        writeln!(
-            f,
-            "diffusion time     {:.3e} s across that lumen",
-            self.diffusion_time
-        )?;
-        writeln!(
-            f,
-            "tube shear rate    {:.3e} 1/s (paper Eq. 7)",
-            self.tube_shear_rate
-        )?;
         write!(
             f,
-            "capillary pressure {:.3e} Pa (paper Eq. 4)",
+            "sound speed        {:.4} m/s, Mach {:.2e}\n\
+             Reynolds number    {:.3e} (lumen of six cells)\n\
+             diffusion time     {:.3e} s across that lumen\n\
+             tube shear rate    {:.3e} 1/s (paper Eq. 7)\n\
+             capillary pressure {:.3e} Pa (paper Eq. 4)",
+            self.sound_speed,
+            self.mach,
+            self.reynolds,
+            self.diffusion_time,
+            self.tube_shear_rate,
             self.capillary_pressure
         )?;
         if let Some(strain) = self.volume_strain {

@@ -135,33 +135,33 @@ impl Saved {
     /// When it is absent or of another type.
     pub fn f64s(&self, name: &str) -> Result<&[f64], String> {
         match self.find(name)? {
-            Array::F64(a) => Ok(a),
+            Array::F64(array) => Ok(array),
             _ => Err(format!(
                 "array '{name}' of the checkpoint is not in double precision"
             )),
         }
     }
 
-    /// The array `name` in single precision.
+    /// The same in single precision.
     ///
     /// # Errors
-    /// When it is absent or of another type.
+    /// As there.
     pub fn f32s(&self, name: &str) -> Result<&[f32], String> {
         match self.find(name)? {
-            Array::F32(a) => Ok(a),
+            Array::F32(array) => Ok(array),
             _ => Err(format!(
                 "array '{name}' of the checkpoint is not in single precision"
             )),
         }
     }
 
-    /// The array `name` of indices.
+    /// The same of indices.
     ///
     /// # Errors
-    /// When it is absent or of another type.
+    /// As there.
     pub fn u32s(&self, name: &str) -> Result<&[u32], String> {
         match self.find(name)? {
-            Array::U32(a) => Ok(a),
+            Array::U32(array) => Ok(array),
             _ => Err(format!(
                 "array '{name}' of the checkpoint does not hold indices"
             )),
@@ -169,10 +169,9 @@ impl Saved {
     }
 
     fn find(&self, name: &str) -> Result<&Array, String> {
-        self.0
-            .iter()
-            .find(|(n, _)| n == name)
-            .map(|(_, a)| a)
+        let found = self.0.iter().find(|(n, _)| n == name);
+        found
+            .map(|(_, array)| array)
             .ok_or_else(|| format!("the checkpoint has no array '{name}'"))
     }
 }

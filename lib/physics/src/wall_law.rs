@@ -129,22 +129,30 @@ mod tests {
     use super::*;
     use crate::material::Newtonian;
 
+    /// 1/k, m.
+    const LENGTH: f64 = 0.029e-6;
+    const PARTIAL: WallLaw = WallLaw::PartialSlip {
+        influence_length_m: LENGTH,
+    };
+
     #[test]
     fn newtonian_has_the_closed_form() {
-        let law = WallLaw::PartialSlip {
-            influence_length_m: 0.029e-6,
-        };
-        let x = law.remaining_slip(&Newtonian(1.3), 0.5, 1e-7);
-        let f = 1e-7 / 0.029e-6;
-        assert!((x - 1.0 / (1.0 + 1.3 * f)).abs() < 1e-14);
-        assert_eq!(
-            WallLaw::Stick.remaining_slip(&Newtonian(1.3), 0.5, 1e-7),
-            0.0
-        );
-        assert_eq!(
-            WallLaw::Frictionless.remaining_slip(&Newtonian(1.3), 0.5, 1e-7),
-            1.0
-        );
+        let newtonian = 1.0 / (1.0 + 1.3 * 1e-7 / LENGTH);
+        for (law, exact) in [
+            (PARTIAL, newtonian),
+            (WallLaw::Stick, 0.0),
+            (WallLaw::Frictionless, 1.0),
+        ] {
+            let left = law.remaining_slip(&Newtonian(1.3), 0.5, 1e-7);
+            assert!((left - exact).abs() < 1e-14, "{law:?}: {left}");
+        }
+    }
+
+    /// The slip that is left, and what is wrong with any other.
+    fn solved<R: Rheology>(law: &R, slip: f64, dose: f64) -> (f64, impl Fn(f64) -> f64) {
+        let (rate, a) = (slip / LENGTH, dose / LENGTH);
+        let excess = move |x: f64| x * (1.0 + a * law.viscosity(x * rate)) - 1.0;
+        (PARTIAL.remaining_slip(law, slip, dose), excess)
     }
 
     #[test]
@@ -152,22 +160,17 @@ mod tests {
         let table = crate::material::test_table();
         for slip in [1e-9, 1e-7, 1e-6, 1e-5, 1e-3, 1.0] {
             for dose in [1e-12, 1e-10, 1e-9, 1e-8, 1e-6] {
-                let law = WallLaw::PartialSlip {
-                    influence_length_m: 0.029e-6,
-                };
-                let (rate, a) = (slip / 0.029e-6, dose / 0.029e-6);
-                let x = law.remaining_slip(&table, slip, dose);
-                let g = |x: f64| x * (1.0 + a * table.viscosity(x * rate)) - 1.0;
-                assert!(x > 0.0 && x <= 1.0);
+                let (x, excess) = solved(&table, slip, dose);
+                let off = excess(x).abs();
+                assert!(x > 0.0 && x <= 1.0, "{x}");
                 assert!(
-                    g(x).abs() < 1e-9 * (1.0 + a * 210.0),
-                    "slip {slip} dose {dose}: {}",
-                    g(x)
+                    off < 1e-9 * (1.0 + dose / LENGTH * 210.0),
+                    "{slip} {dose}: {off}"
                 );
-                let lower = (1..2000).map(|i| x * 0.999 * f64::from(i) / 2000.0);
+                let mut lower = (1..2000).map(|i| x * 0.999 * f64::from(i) / 2000.0);
                 assert!(
-                    lower.clone().all(|y| g(y) < 0.0),
-                    "a lower root at slip {slip} dose {dose}"
+                    lower.all(|y| excess(y) < 0.0),
+                    "a lower root at {slip} {dose}"
                 );
             }
         }
@@ -175,15 +178,11 @@ mod tests {
 
     #[test]
     fn a_law_by_formula_has_one_root() {
-        let law = WallLaw::PartialSlip {
-            influence_length_m: 0.029e-6,
-        };
         for formula in crate::material::TEST_LAWS {
             for slip in [0.0, 1e-9, 1e-5, 1.0] {
                 for dose in [1e-12, 1e-9, 1e-6] {
-                    let (rate, a) = (slip / 0.029e-6, dose / 0.029e-6);
-                    let x = law.remaining_slip(&formula, slip, dose);
-                    let off = x * (1.0 + a * formula.viscosity(x * rate)) - 1.0;
+                    let (x, excess) = solved(&formula, slip, dose);
+                    let off = excess(x);
                     assert!(
                         off.abs() < 1e-9,
                         "{formula}: slip {slip} dose {dose}: {off}"

@@ -1,13 +1,11 @@
 //! Uses of a forged particle file: read, measured, built into a bond, pressed.
 
-use std::fs;
-
 use bondline::{Options, Placed, Plane, Specimen};
 use metrics::{Datum, Map, Reference, ShearRates, Side, State};
 use particle_file::{Kind, ParticleFile};
 use units::Axis;
 
-use crate::readers::{explained, scratch};
+use crate::readers::{self, explained};
 use crate::runs::{self, SCHEMES};
 use crate::sign::signed;
 
@@ -86,17 +84,9 @@ fn build(file: &ParticleFile) {
 
 /// Explains the bond and takes one step of it by both schemes.
 fn press(bytes: &[u8]) {
-    let bond = scratch().join("forged.mpts");
-    if fs::write(&bond, bytes).is_err() {
-        return;
-    }
-    for scheme in SCHEMES {
-        let Some(case) = runs::case_file(scheme) else {
-            return;
-        };
+    let bond = readers::file("forged.mpts", bytes);
+    for case in SCHEMES.map(runs::case_file) {
         explained(&case, Some(&bond));
-        let folder = scratch().join("pressed");
-        let _ = fs::remove_dir_all(&folder);
-        let _ = runs::steps(&case, &bond, &folder, 1);
+        let _ = runs::steps(&case, &bond, &runs::empty("pressed"), 1);
     }
 }

@@ -3,22 +3,11 @@
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+const NAN: f64 = f64::NAN;
+const INF: f64 = f64::INFINITY;
 /// Numbers at which arithmetic goes wrong, as they stand in binary files.
-const NUMBERS: [f64; 14] = [
-    0.0,
-    -0.0,
-    -1.0,
-    1.0,
-    1e-300,
-    1e-30,
-    1e-15,
-    1e-9,
-    1e9,
-    1e14,
-    1e30,
-    1e300,
-    f64::NAN,
-    f64::INFINITY,
+const NUMBERS: [f64; 16] = [
+    0.0, -0.0, -1.0, 1.0, 0.5, 1e-300, 1e-30, 1e-15, 1e-9, 1e-6, 1e9, 1e14, 1e30, 1e300, NAN, INF,
 ];
 const COUNTS: [u64; 12] = [
     0,
@@ -31,27 +20,13 @@ const COUNTS: [u64; 12] = [
     1 << 31,
     1 << 32,
     1 << 40,
-    i64::MAX as u64,
+    1 << 63,
     u64::MAX,
 ];
 /// The same for text.
 const WORDS: [&str; 16] = [
-    "0",
-    "-1",
-    "1e-300",
-    "1e300",
-    "nan",
-    "inf",
-    "99999999999999999999",
-    "1e9",
-    "1e-9",
-    "\"",
-    "[",
-    "= 1\n",
-    "um",
-    "MPa",
-    "true",
-    "../",
+    "0", "-1", "1e-300", "1e300", "nan", "inf", "99999999", "1e9", "1e-9", "\"", "[", "= 1\n",
+    "um", "MPa", "true", "../",
 ];
 
 /// Changes inputs, always in the same way for the same seed.
@@ -89,13 +64,21 @@ impl Mutator {
                 let bit = 1 << self.below(8);
                 bytes.iter_mut().skip(at).take(1).for_each(|b| *b ^= bit);
             }
-            2 => overwrite(bytes, at, &NUMBERS[self.below(NUMBERS.len())].to_le_bytes()),
-            3 => overwrite(bytes, at, &COUNTS[self.below(COUNTS.len())].to_le_bytes()),
-            4 => overwrite(
-                bytes,
-                at,
-                &(COUNTS[self.below(COUNTS.len())] as u32).to_le_bytes(),
-            ),
+            2 => {
+                // Arrays begin at multiples of 64 bytes.
+                let at = at / 4 * 4;
+                let number = NUMBERS[self.below(NUMBERS.len())];
+                match self.below(2) {
+                    0 => overwrite(bytes, at, &number.to_le_bytes()),
+                    _ => overwrite(bytes, at, &(number as f32).to_le_bytes()),
+                }
+            }
+            3 => {
+                let count = COUNTS[self.below(COUNTS.len())];
+                let size = [4, 8][self.below(2)];
+                overwrite(bytes, at, &count.to_le_bytes()[..size]);
+            }
+            4 => overwrite(bytes, at, &NUMBERS[self.below(NUMBERS.len())].to_le_bytes()),
             5 => bytes.truncate(at),
             _ => {
                 let end = (at + 1 + self.below(64)).min(bytes.len());
@@ -120,17 +103,11 @@ impl Mutator {
         let at = self.below(bytes.len());
         let start = bytes.iter().skip(at).position(word).map_or(at, |i| at + i);
         let length = bytes.iter().skip(start).take_while(|b| word(b)).count();
-        let old = bytes[start.min(bytes.len())..]
-            .iter()
-            .take(length)
-            .copied()
-            .collect::<Vec<_>>();
         let new = match self.below(6) {
             0 => Vec::new(),
-            1 => [old.as_slice(), old.as_slice()].concat(),
+            1 => bytes[start..start + length].repeat(2),
             _ => WORDS[self.below(WORDS.len())].as_bytes().to_vec(),
         };
-        let start = start.min(bytes.len());
         bytes.splice(start..start + length, new);
     }
 }

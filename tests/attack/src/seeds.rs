@@ -69,13 +69,12 @@ pub(crate) fn particle_files() -> Vec<Vec<u8>> {
 
 /// The bond line of the specimen before pressing.
 pub(crate) fn bond() -> Vec<u8> {
-    let [wood, adhesive] = parts();
-    let placed = |bits: &'static BitGrid| Placed {
+    let parts = parts();
+    let [wood, adhesive] = parts.each_ref().map(|bits| Placed {
         origin_m: [0.0; 3],
         voxel_m: VOXEL,
         bits: bits.view(),
-    };
-    let [wood, adhesive] = [wood, adhesive].map(|bits| &*Box::leak(Box::new(bits)));
+    });
     let options = Options {
         normal: Axis::Y,
         plane: Plane::Auto,
@@ -83,12 +82,9 @@ pub(crate) fn bond() -> Vec<u8> {
         gap_m: None,
         tolerance: 0.1,
     };
-    let built = Specimen::new(placed(wood), placed(adhesive))
-        .and_then(|specimen| bondline::build(&specimen, &options));
-    let bond = match built {
-        Ok(bond) => bond,
-        Err(e) => panic!("the bond of the seeds: {e}"),
-    };
+    let built =
+        Specimen::new(wood, adhesive).and_then(|specimen| bondline::build(&specimen, &options));
+    let bond = built.unwrap_or_else(|e| panic!("the bond of the seeds: {e}"));
     let mut header = header(Kind::Bond, bond.box_min_m, bond.box_max_m);
     header.set_attribute("gap_m", bond.gap_m);
     let mut draft = Draft::new(header);

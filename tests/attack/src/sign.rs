@@ -43,10 +43,7 @@ pub(crate) fn signed(bytes: &[u8]) -> Vec<u8> {
 /// Where the checksum of each array stands in the header, and what it should be; `None` where
 /// the header cannot be followed to its end.
 fn sections(file: &[u8], header_end: usize) -> Option<Vec<(usize, u64)>> {
-    let mut at = Walk {
-        bytes: &file[..header_end],
-        at: PREAMBLE,
-    };
+    let mut at = Header(&file[PREAMBLE..header_end]);
     // Kind, voxel, normal, box, time, step.
     at.skip(4 + 8 + 1 + 48 + 8 + 8)?;
     at.each(|block| {
@@ -61,7 +58,7 @@ fn sections(file: &[u8], header_end: usize) -> Option<Vec<(usize, u64)>> {
     at.each(|tool| {
         tool.text()?;
         tool.text()?;
-        tool.each(Walk::text)?;
+        tool.each(Header::text)?;
         tool.each(|input| {
             input.text()?;
             input.skip(8)
@@ -70,64 +67,48 @@ fn sections(file: &[u8], header_end: usize) -> Option<Vec<(usize, u64)>> {
     let mut found = Vec::new();
     at.each(|section| {
         section.text()?;
-        let size = match section.u32()? {
+        let size = match section.number(4)? {
             1 | 3 => 4,
             5 | 6 => 1,
             _ => 8,
         };
-        let components = u64::from(section.u32()?);
-        let (rows, offset) = (section.u64()?, section.u64()?);
+        let components = section.number(4)?;
+        let (rows, offset) = (section.number(8)?, section.number(8)?);
         let length = rows.checked_mul(components)?.checked_mul(size)?;
-        let range =
-            usize::try_from(offset).ok()?..usize::try_from(offset.checked_add(length)?).ok()?;
-        if let Some(array) = file.get(range) {
-            found.push((section.at, xxh3_64(array)));
+        if let Some(array) = file.get(offset..offset.checked_add(length)?) {
+            found.push((header_end - section.0.len(), xxh3_64(array)));
         }
         section.skip(8)
     })?;
     Some(found)
 }
 
-/// Goes through a header of fixed-width little-endian integers.
-struct Walk<'a> {
-    bytes: &'a [u8],
-    at: usize,
-}
+/// What is left of a header of fixed-width little-endian integers.
+struct Header<'a>(&'a [u8]);
 
-impl Walk<'_> {
+impl<'a> Header<'a> {
+    fn take(&mut self, length: usize) -> Option<&'a [u8]> {
+        self.0.split_off(..length)
+    }
+
     fn skip(&mut self, length: usize) -> Option<()> {
-        self.at = self
-            .at
-            .checked_add(length)
-            .filter(|&at| at <= self.bytes.len())?;
-        Some(())
+        self.take(length).map(|_| ())
     }
 
-    fn u32(&mut self) -> Option<u32> {
-        let from = self.at;
-        self.skip(4)?;
-        self.bytes[from..self.at]
-            .try_into()
-            .ok()
-            .map(u32::from_le_bytes)
-    }
-
-    fn u64(&mut self) -> Option<u64> {
-        let from = self.at;
-        self.skip(8)?;
-        self.bytes[from..self.at]
-            .try_into()
-            .ok()
-            .map(u64::from_le_bytes)
+    /// A whole number of so many bytes.
+    fn number(&mut self, bytes: usize) -> Option<usize> {
+        let bytes = self.take(bytes)?.iter().rev();
+        let number = bytes.fold(0, |number: u64, &byte| number << 8 | u64::from(byte));
+        usize::try_from(number).ok()
     }
 
     fn text(&mut self) -> Option<()> {
-        let length = usize::try_from(self.u64()?).ok()?;
+        let length = self.number(8)?;
         self.skip(length)
     }
 
     fn each(&mut self, mut item: impl FnMut(&mut Self) -> Option<()>) -> Option<()> {
-        let count = self.u64()?;
+        let count = self.number(8)?;
         // Every item is at least a length: a forged count ends at the end of the header.
         (0..count).try_for_each(|_| item(self))
     }

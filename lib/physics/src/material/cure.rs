@@ -1,5 +1,7 @@
 //! Cure: how the viscosity changes with time and temperature, whatever the shear rate.
 
+use super::neighbours;
+
 /// Gas constant, J/(mol K) (CODATA 2018).
 const GAS: f64 = 8.314_462_618;
 /// Viscosity over that at the start from which the liquid counts as set.
@@ -152,17 +154,16 @@ impl Cure {
                 dt *= 0.5;
             };
             let end = begin + SET.ln();
+            cure.set = to >= end || law.has_gelled(older);
             if to >= end {
                 cure.knots
                     .push((time + (end - from) / (to - from) * dt, end));
-                cure.set = true;
                 break;
             }
             (time, age, step) = (time + dt, older, 2.0 * dt);
             cure.knots.push((time, to));
-            if law.has_gelled(age) {
+            if cure.set {
                 cure.knots.push((time, end));
-                cure.set = true;
                 break;
             }
         }
@@ -204,10 +205,8 @@ impl Cure {
 
 /// Time to the next point at which a formula of `law` changes, s; `None` where nothing changes any more.
 fn left(law: &CureLaw, heats: &[f64], ages: &[f64], time: f64, age: f64) -> Option<f64> {
-    let heat = heats
-        .iter()
-        .find(|mark| **mark > time)
-        .map(|mark| mark - time);
+    let heat = heats.iter().find(|mark| **mark > time);
+    let heat = heat.map(|mark| mark - time);
     // A hair, so that a sum of many steps that should meet a mark does.
     let course = ages.iter().find(|mark| **mark > age * (1.0 + 1e-12));
     let course = course.map(|mark| (mark - age) / law.haste(time).exp());
@@ -219,14 +218,9 @@ fn left(law: &CureLaw, heats: &[f64], ages: &[f64], time: f64, age: f64) -> Opti
 
 /// Values of points (argument, value) in between by `of` of the values, linear; constant outside.
 fn between(points: &[(f64, f64)], x: f64, of: impl Fn(f64) -> f64) -> f64 {
-    let right = points.partition_point(|p| p.0 <= x);
-    match (
-        right.checked_sub(1).map(|left| points[left]),
-        points.get(right),
-    ) {
-        (Some((a, fa)), Some(&(b, fb))) => of(fa) + (x - a) / (b - a) * (of(fb) - of(fa)),
-        (Some((_, f)), None) | (None, Some(&(_, f))) => of(f),
-        (None, None) => 0.0,
+    match neighbours(points, x) {
+        [Some((a, fa)), Some((b, fb))] => of(fa) + (x - a) / (b - a) * (of(fb) - of(fa)),
+        [one, other] => one.or(other).map_or(0.0, |point| of(point.1)),
     }
 }
 
@@ -234,12 +228,14 @@ fn between(points: &[(f64, f64)], x: f64, of: impl Fn(f64) -> f64) -> f64 {
 mod tests {
     use super::*;
 
+    fn course(exponent: f64) -> Option<Course> {
+        let time = 100.0;
+        Some(Course::Gel { time, exponent })
+    }
+
     fn gel(temperature: &[(f64, f64)]) -> CureLaw {
         CureLaw {
-            course: Some(Course::Gel {
-                time: 100.0,
-                exponent: 2.0,
-            }),
+            course: course(2.0),
             temperature: temperature.to_vec(),
             reference: 400.0,
             cure_energy: 80e3,
@@ -251,10 +247,7 @@ mod tests {
     #[test]
     fn whatever_its_exponent_a_liquid_has_set_at_its_gel_time() {
         for exponent in [0.1, 0.3, 0.499, 0.501, 3.0] {
-            let course = Some(Course::Gel {
-                time: 100.0,
-                exponent,
-            });
+            let course = course(exponent);
             let cure = Cure::new(&CureLaw { course, ..gel(&[]) }).unwrap();
             let set = cure.set_at().expect("it sets");
             assert!((98.9..=100.0 + 1e-9).contains(&set), "{exponent}: {set}");
@@ -296,7 +289,7 @@ mod tests {
     #[test]
     fn a_table_and_a_flow_that_thins_as_it_heats() {
         let mut law = gel(&[(10.0, 300.0), (20.0, 400.0)]);
-        law.course = Some(Course::Table(vec![(5.0, 2.0), (15.0, 200.0)]));
+        law.course = table(&[(5.0, 2.0), (15.0, 200.0)]);
         (law.cure_energy, law.flow_energy) = (0.0, 30e3);
         let cure = Cure::new(&law).unwrap();
         let thick = |t: f64| (30e3 / GAS * (1.0 / t - 1.0 / 400.0)).exp();
@@ -325,26 +318,32 @@ mod tests {
         assert!((cure.change(set) / SET.ln() - 1.0).abs() < 1e-9);
     }
 
+    fn table(points: &[(f64, f64)]) -> Option<Course> {
+        Some(Course::Table(points.to_vec()))
+    }
+
     #[test]
     fn what_is_no_cure_is_refused_in_a_sentence() {
-        let said = |change: &dyn Fn(&mut CureLaw)| {
+        type Change = fn(&mut CureLaw);
+        let cases: [(Change, &str); 6] = [
+            (|law| law.temperature.reverse(), "must increase"),
+            (|law| law.reference = 20.0, "20 K is no temperature"),
+            (|law| law.course = table(&[(0.0, 1.0)]), "two points"),
+            (
+                |law| law.course = table(&[(0.0, 1.0), (1.0, 0.0)]),
+                "above zero",
+            ),
+            (|law| law.course = course(0.0), "exponent"),
+            (
+                |law| (law.course, law.temperature) = (None, Vec::new()),
+                "is needed",
+            ),
+        ];
+        for (change, sentence) in cases {
             let mut law = gel(&[(0.0, 300.0), (1.0, 400.0)]);
             change(&mut law);
-            Cure::new(&law).unwrap_err()
-        };
-        assert!(said(&|l| l.temperature.reverse()).contains("must increase"));
-        assert!(said(&|l| l.reference = 20.0).contains("20 K is no temperature"));
-        let table = |points: &[(f64, f64)]| Some(Course::Table(points.to_vec()));
-        assert!(said(&|l| l.course = table(&[(0.0, 1.0)])).contains("two points"));
-        assert!(said(&|l| l.course = table(&[(0.0, 1.0), (1.0, 0.0)])).contains("above zero"));
-        let exponent = 0.0;
-        assert!(
-            said(&|l| l.course = Some(Course::Gel {
-                time: 1.0,
-                exponent
-            }))
-            .contains("exponent")
-        );
-        assert!(said(&|l| (l.course, l.temperature) = (None, Vec::new())).contains("is needed"));
+            let said = Cure::new(&law).unwrap_err();
+            assert!(said.contains(sentence), "{said}");
+        }
     }
 }

@@ -4,50 +4,50 @@ use std::fmt;
 
 use super::Rheology;
 
-/// A viscosity law by formula. All are finite at any rate and have a stress that never falls with the
-/// rate, so that a flow under a given load is one.
+/// A viscosity law by formula, its parameters by the symbols of the formula. All are finite at any rate and
+/// have a stress that never falls with the rate, so that a flow under a given load is one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
     /// eta = K rate^(n - 1) between two rates, and constant outside (Ostwald 1925; de Waele 1923).
     Power {
         /// K, Pa s^n.
-        consistency: f64,
+        k: f64,
         /// n.
-        index: f64,
+        n: f64,
         /// Where it holds, 1/s.
         rates: [f64; 2],
     },
     /// eta = eta_inf + (eta_0 - eta_inf)/(1 + (rate time)^m) (Cross 1965).
     Cross {
         /// eta_0 and eta_inf, Pa s.
-        plateaus: [f64; 2],
+        eta: [f64; 2],
         /// s.
         time: f64,
         /// m.
-        exponent: f64,
+        m: f64,
     },
     /// eta = eta_inf + (eta_0 - eta_inf) (1 + (rate time)^a)^((n - 1)/a) (Carreau 1972; Yasuda et al. 1981).
     CarreauYasuda {
         /// eta_0 and eta_inf, Pa s.
-        plateaus: [f64; 2],
+        eta: [f64; 2],
         /// s.
         time: f64,
         /// n.
-        index: f64,
+        n: f64,
         /// a; 2 is Carreau's.
-        transition: f64,
+        a: f64,
     },
     /// Stress (tau_y + K rate^n) (1 - exp(-rate/r)), finite at rest by the rate r (Papanastasiou 1987 in the
     /// form of Souza Mendes & Dutra 2004): below that of Herschel & Bulkley (1926) by the part exp(-rate/r).
     HerschelBulkley {
         /// tau_y, Pa.
-        yield_stress: f64,
+        tau: f64,
         /// K, Pa s^n.
-        consistency: f64,
+        k: f64,
         /// n.
-        index: f64,
+        n: f64,
         /// r, 1/s.
-        regularisation: f64,
+        r: f64,
     },
 }
 
@@ -68,53 +68,37 @@ impl Law {
     /// One sentence.
     pub fn check(&self) -> Result<(), String> {
         let name = self.name();
-        let exponent = |what: &str, value: f64, most: f64| {
-            if value > 0.0 && value <= most {
-                return Ok(());
+        // Exponents with their largest values, and viscosities at rest and at infinite rate.
+        let (exponents, plateaus) = match *self {
+            Law::Power { n, .. } => (vec![("index", n, 1.5)], None),
+            Law::Cross { eta, m, .. } => (vec![("exponent", m, 1.0)], Some(eta)),
+            Law::CarreauYasuda { eta, n, a, .. } => {
+                (vec![("index", n, 1.0), ("transition", a, 10.0)], Some(eta))
             }
-            Err(format!(
-                "{name}: {what} = {value} is not accepted: a number above 0 and at most {most} is needed"
-            ))
+            Law::HerschelBulkley { n, .. } => (vec![("index", n, 1.0)], None),
         };
-        let falling = |[slow, fast]: [f64; 2]| {
-            if fast <= slow {
-                return Ok(());
-            }
-            Err(format!(
+        let falls = |[slow, fast]: &[f64; 2]| fast <= slow;
+        if let Some([slow, fast]) = plateaus.filter(|eta| !falls(eta)) {
+            return Err(format!(
                 "{name}: the viscosity at infinite rate, {fast} Pa s, must not be above that at rest, {slow} Pa s"
-            ))
-        };
-        match *self {
-            Law::Power {
-                index,
-                rates: [from, to],
-                ..
-            } => {
-                exponent("index", index, 1.5)?;
-                if from < to {
-                    return Ok(());
-                }
-                Err(format!(
-                    "{name}: it holds from {from} 1/s to {to} 1/s: the second rate must be the larger"
-                ))
-            }
-            Law::Cross {
-                plateaus,
-                exponent: m,
-                ..
-            } => falling(plateaus).and_then(|()| exponent("exponent", m, 1.0)),
-            Law::CarreauYasuda {
-                plateaus,
-                index,
-                transition,
-                ..
-            } => {
-                falling(plateaus)?;
-                exponent("index", index, 1.0)?;
-                exponent("transition", transition, 10.0)
-            }
-            Law::HerschelBulkley { index, .. } => exponent("index", index, 1.0),
+            ));
         }
+        let odd = |(_, value, most): &(&str, f64, f64)| !(*value > 0.0 && value <= most);
+        if let Some((what, value, most)) = exponents.into_iter().find(odd) {
+            return Err(format!(
+                "{name}: {what} = {value} is not accepted: a number above 0 and at most {most} is needed"
+            ));
+        }
+        let [from, to] = match *self {
+            Law::Power { rates, .. } => rates,
+            _ => return Ok(()),
+        };
+        if from < to {
+            return Ok(());
+        }
+        Err(format!(
+            "{name}: it holds from {from} 1/s to {to} 1/s: the second rate must be the larger"
+        ))
     }
 }
 
@@ -122,39 +106,24 @@ impl Rheology for Law {
     #[inline]
     fn viscosity(&self, rate: f64) -> f64 {
         match *self {
-            Law::Power {
-                consistency,
-                index,
-                rates: [from, to],
-            } => consistency * rate.clamp(from, to).powf(index - 1.0),
-            Law::Cross {
-                plateaus: [slow, fast],
-                time,
-                exponent,
-            } => fast + (slow - fast) / (1.0 + (rate * time).powf(exponent)),
-            Law::CarreauYasuda {
-                plateaus: [slow, fast],
-                time,
-                index,
-                transition,
-            } => {
-                let bend = 1.0 + (rate * time).powf(transition);
-                fast + (slow - fast) * bend.powf((index - 1.0) / transition)
+            Law::Power { k, n, rates } => k * rate.clamp(rates[0], rates[1]).powf(n - 1.0),
+            Law::Cross { eta, time, m } => {
+                let [slow, fast] = eta;
+                fast + (slow - fast) / (1.0 + (rate * time).powf(m))
             }
-            Law::HerschelBulkley {
-                yield_stress,
-                consistency,
-                index,
-                regularisation,
-            } => {
-                let part = rate / regularisation;
+            Law::CarreauYasuda { eta, time, n, a } => {
+                let [slow, fast] = eta;
+                let bend = 1.0 + (rate * time).powf(a);
+                fast + (slow - fast) * bend.powf((n - 1.0) / a)
+            }
+            Law::HerschelBulkley { tau, k, n, r } => {
+                let part = rate / r;
                 // (1 - exp(-x))/x, 1 at rest.
-                let share = if part > 0.0 {
-                    -(-part).exp_m1() / part
-                } else {
-                    1.0
+                let share = match part > 0.0 {
+                    true => -(-part).exp_m1() / part,
+                    false => 1.0,
                 };
-                (yield_stress + consistency * rate.powf(index)) * share / regularisation
+                (tau + k * rate.powf(n)) * share / r
             }
         }
     }
@@ -167,13 +136,8 @@ impl Rheology for Law {
     fn largest(&self) -> f64 {
         match *self {
             Law::Power { rates, .. } => self.viscosity(rates[0]).max(self.viscosity(rates[1])),
-            Law::Cross { plateaus, .. } | Law::CarreauYasuda { plateaus, .. } => plateaus[0],
-            Law::HerschelBulkley {
-                yield_stress,
-                consistency,
-                index,
-                regularisation: r,
-            } => (yield_stress + consistency * r.powf(index)) / r,
+            Law::Cross { eta, .. } | Law::CarreauYasuda { eta, .. } => eta[0],
+            Law::HerschelBulkley { tau, k, n, r } => (tau + k * r.powf(n)) / r,
         }
     }
 
@@ -183,42 +147,34 @@ impl Rheology for Law {
 impl fmt::Display for Law {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}, ", self.name())?;
+        let at = |rate| self.viscosity(rate);
         match *self {
-            Law::Power {
-                consistency,
-                index,
-                rates: [from, to],
-            } => write!(
-                f,
-                "{consistency} Pa s^n, n = {index}, from {from} to {to} 1/s ({:.3e} to {:.3e} Pa s), constant outside",
-                self.viscosity(from),
-                self.viscosity(to)
-            ),
-            Law::Cross {
-                plateaus: [slow, fast],
-                time,
-                exponent,
-            } => write!(f, "{slow} to {fast} Pa s, {time} s, m = {exponent}"),
-            Law::CarreauYasuda {
-                plateaus: [slow, fast],
-                time,
-                index,
-                transition,
-            } => write!(
-                f,
-                "{slow} to {fast} Pa s, {time} s, n = {index}, a = {transition}"
-            ),
-            Law::HerschelBulkley {
-                yield_stress,
-                consistency,
-                index,
-                regularisation: r,
-            } => write!(
-                f,
-                "yield stress {yield_stress} Pa, {consistency} Pa s^n, n = {index}; regularised: {:.3e} Pa s at rest, stress 0.1 % low at {:.3e} 1/s and less above",
-                self.viscosity(0.0),
-                -(1e-3_f64).ln() * r
-            ),
+            Law::Power { k, n, rates } => {
+                let ([from, to], [slow, fast]) = (rates, rates.map(at));
+                write!(f, "{k} Pa s^n, n = {n}, from {from} to {to} 1/s ")?;
+                write!(f, "({slow:.3e} to {fast:.3e} Pa s), constant outside")
+            }
+            Law::Cross { eta, time, m } => {
+                write!(f, "{} to {} Pa s, {time} s, m = {m}", eta[0], eta[1])
+            }
+            Law::CarreauYasuda { eta, time, n, a } => {
+                write!(
+                    f,
+                    "{} to {} Pa s, {time} s, n = {n}, a = {a}",
+                    eta[0], eta[1]
+                )
+            }
+            Law::HerschelBulkley { tau, k, n, r } => {
+                let (rest, low) = (at(0.0), -(1e-3_f64).ln() * r);
+                write!(
+                    f,
+                    "yield stress {tau} Pa, {k} Pa s^n, n = {n}; regularised: {rest:.3e} Pa s "
+                )?;
+                write!(
+                    f,
+                    "at rest, stress 0.1 % low at {low:.3e} 1/s and less above"
+                )
+            }
         }
     }
 }
@@ -229,26 +185,26 @@ pub(crate) mod tests {
 
     pub(crate) const ALL: [Law; 4] = [
         Law::Power {
-            consistency: 10.0,
-            index: 0.3,
+            k: 10.0,
+            n: 0.3,
             rates: [1.0, 1e6],
         },
         Law::Cross {
-            plateaus: [100.0, 0.1],
+            eta: [100.0, 0.1],
             time: 0.1,
-            exponent: 0.8,
+            m: 0.8,
         },
         Law::CarreauYasuda {
-            plateaus: [100.0, 0.1],
+            eta: [100.0, 0.1],
             time: 0.1,
-            index: 0.4,
-            transition: 2.0,
+            n: 0.4,
+            a: 2.0,
         },
         Law::HerschelBulkley {
-            yield_stress: 50.0,
-            consistency: 10.0,
-            index: 0.5,
-            regularisation: 0.01,
+            tau: 50.0,
+            k: 10.0,
+            n: 0.5,
+            r: 0.01,
         },
     ];
 
@@ -259,10 +215,7 @@ pub(crate) mod tests {
         close(power.viscosity(100.0), 10.0 * 100_f64.powf(-0.7));
         assert_eq!(power.viscosity(0.0), 10.0);
         assert_eq!(power.viscosity(1e9), power.viscosity(1e6));
-        assert_eq!(
-            (cross.viscosity(0.0), carreau.viscosity(0.0)),
-            (100.0, 100.0)
-        );
+        assert_eq!([cross, carreau].map(|law| law.viscosity(0.0)), [100.0; 2]);
         // At one over the time: half way, and 2^(-0.3) of it.
         close(cross.viscosity(10.0), 0.1 + 99.9 / 2.0);
         close(carreau.viscosity(10.0), 0.1 + 99.9 * 2_f64.powf(-0.3));
@@ -292,26 +245,26 @@ pub(crate) mod tests {
     #[test]
     fn other_parameters_are_refused_in_a_sentence() {
         let [power, cross, carreau, yielding] = ALL;
-        let said = |law: Law| law.check().unwrap_err();
-        let mut law = power;
-        if let Law::Power { rates, .. } = &mut law {
-            rates.reverse();
-        }
-        assert!(said(law).contains("second rate"), "{}", said(law));
-        for (mut law, value) in [(power, 1.6), (carreau, 0.0), (yielding, f64::NAN)] {
+        for (mut law, value, sentence) in [
+            (power, 1.6, "index"),
+            (carreau, 0.0, "index"),
+            (yielding, f64::NAN, "index"),
+            (power, 0.5, "second rate"),
+            (cross, 0.5, "infinite rate"),
+            (carreau, 0.5, "infinite rate"),
+        ] {
             match &mut law {
-                Law::Power { index, .. }
-                | Law::CarreauYasuda { index, .. }
-                | Law::HerschelBulkley { index, .. } => *index = value,
+                Law::Power { rates, .. } if sentence != "index" => rates.reverse(),
+                Law::Cross { eta, .. } | Law::CarreauYasuda { eta, .. } if sentence != "index" => {
+                    eta.reverse();
+                }
+                Law::Power { n, .. }
+                | Law::CarreauYasuda { n, .. }
+                | Law::HerschelBulkley { n, .. } => *n = value,
                 Law::Cross { .. } => unreachable!(),
             }
-            assert!(said(law).contains("index"), "{}", said(law));
-        }
-        for mut law in [cross, carreau] {
-            if let Law::Cross { plateaus, .. } | Law::CarreauYasuda { plateaus, .. } = &mut law {
-                plateaus.reverse();
-            }
-            assert!(said(law).contains("infinite rate"), "{}", said(law));
+            let said = law.check().unwrap_err();
+            assert!(said.contains(sentence), "{said}");
         }
     }
 }

@@ -10,7 +10,7 @@ mod wetting;
 pub use cure::{Course, Cure, CureLaw, SET};
 pub use laws::Law;
 pub use tait::{TAIT_C, Tait};
-pub use viscosity::{Newtonian, Rheology, ShearRate, Table, TableError, Viscosity};
+pub use viscosity::{Newtonian, Rheology, ShearRate, Table, Viscosity};
 pub use water::{Water, WaterLaw};
 pub use wetting::Wetting;
 
@@ -40,6 +40,13 @@ impl Liquid {
     pub fn sound_speed(&self) -> f64 {
         (self.tait.bulk_modulus / self.density).sqrt()
     }
+}
+
+/// The points (argument, value) before and after an argument, of points in ascending order.
+fn neighbours(points: &[(f64, f64)], x: f64) -> [Option<(f64, f64)>; 2] {
+    let right = points.partition_point(|point| point.0 <= x);
+    let left = right.checked_sub(1).map(|left| points[left]);
+    [left, points.get(right).copied()]
 }
 
 #[cfg(test)]

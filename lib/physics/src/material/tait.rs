@@ -50,10 +50,14 @@ mod tests {
         }
     }
 
+    /// -dp/dJ by central differences: the bulk modulus at rest, more under compression (j < 0).
     #[test]
-    fn the_slope_is_the_bulk_modulus() {
+    fn stiffness_is_the_slope_of_the_pressure() {
         let tait = Tait { bulk_modulus: 1e9 };
-        let slope = (tait.pressure(-1e-7) - tait.pressure(1e-7)) / 2e-7;
-        assert!((slope / tait.stiffness(0.0) - 1.0).abs() < 1e-6);
+        for j in [-0.2, -0.05, 0.0, 0.03, 0.1] {
+            let slope = (tait.pressure(j - 1e-6) - tait.pressure(j + 1e-6)) / 2e-6;
+            assert!((slope / tait.stiffness(j) - 1.0).abs() < 1e-6, "{j}");
+        }
+        assert_eq!(tait.stiffness(0.0), 1e9);
     }
 }

@@ -69,36 +69,28 @@ pub struct Table {
     viscosities: Vec<f64>,
 }
 
-/// Why a list of points is not a viscosity table.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct TableError(String);
-
 impl Table {
     /// A table from (rate in 1/s, viscosity in Pa s) points.
     ///
     /// # Errors
-    /// Fewer than two points, rates not increasing, or values not positive.
-    pub fn new(points: &[(f64, f64)]) -> Result<Self, TableError> {
+    /// A sentence: fewer than two points, rates not increasing, or values not positive.
+    pub fn new(points: &[(f64, f64)]) -> Result<Self, String> {
         if points.len() < 2 {
-            return Err(TableError(
-                "a viscosity table needs at least two points".into(),
-            ));
+            return Err("a viscosity table needs at least two points".into());
         }
-        for (i, &(rate, viscosity)) in points.iter().enumerate() {
+        let mut before = 0.0;
+        for (i, &(rate, viscosity)) in (1..).zip(points) {
             if !(rate > 0.0 && viscosity > 0.0 && rate.is_finite() && viscosity.is_finite()) {
-                return Err(TableError(format!(
-                    "point {} of the viscosity table is ({rate} 1/s, {viscosity} Pa s): both must be positive",
-                    i + 1
-                )));
+                return Err(format!(
+                    "point {i} of the viscosity table is ({rate} 1/s, {viscosity} Pa s): both must be positive"
+                ));
             }
-            if i > 0 && rate <= points[i - 1].0 {
-                return Err(TableError(format!(
-                    "the rates of the viscosity table must increase, but point {} has {rate} 1/s after {} 1/s",
-                    i + 1,
-                    points[i - 1].0
-                )));
+            if rate <= before {
+                return Err(format!(
+                    "the rates of the viscosity table must increase, but point {i} has {rate} 1/s after {before} 1/s"
+                ));
             }
+            before = rate;
         }
         Ok(Self {
             rates: points.iter().map(|p| p.0).collect(),
@@ -118,8 +110,8 @@ impl Rheology for Table {
         if rate >= self.rates[last] {
             return self.viscosities[last];
         }
-        let right = self.rates.partition_point(|&r| r <= rate);
-        let (a, b) = (right - 1, right);
+        let b = self.rates.partition_point(|&r| r <= rate);
+        let a = b - 1;
         let t = (rate.log10() - self.log_rates[a]) / (self.log_rates[b] - self.log_rates[a]);
         self.viscosities[a] + t * (self.viscosities[b] - self.viscosities[a])
     }
@@ -169,14 +161,8 @@ pub(crate) mod tests {
 
     /// Paper Table 1 in SI.
     pub(crate) fn pva_pf() -> Table {
-        let at = |log: f64, cp: f64| (10_f64.powf(log), cp * 1e-3);
-        Table::new(&[
-            at(0.0, 210_000.0),
-            at(0.8, 87_000.0),
-            at(1.6, 1700.0),
-            at(2.7, 1000.0),
-        ])
-        .unwrap()
+        let points = [(0.0, 210e3), (0.8, 87e3), (1.6, 1700.0), (2.7, 1000.0)];
+        Table::new(&points.map(|(log, cp)| (10_f64.powf(log), cp * 1e-3))).unwrap()
     }
 
     #[test]
@@ -184,10 +170,10 @@ pub(crate) mod tests {
         let table = pva_pf();
         assert_eq!(table.viscosity(0.01), 210.0);
         assert_eq!(table.viscosity(1e6), 1.0);
-        let middle = table.viscosity(10_f64.powf(0.4));
-        assert!((middle - (210.0 + 87.0) / 2.0).abs() < 1e-9, "{middle}");
-        let middle = table.viscosity(10_f64.powf(2.15));
-        assert!((middle - 1.35).abs() < 1e-9, "{middle}");
+        for (log, exact) in [(0.4, (210.0 + 87.0) / 2.0), (2.15, 1.35)] {
+            let middle = table.viscosity(10_f64.powf(log));
+            assert!((middle - exact).abs() < 1e-9, "{middle}");
+        }
     }
 
     #[test]

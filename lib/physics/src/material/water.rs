@@ -1,5 +1,7 @@
 //! Loss of water into the cell walls of wood: how fast, how far, and what it does to the viscosity.
 
+use super::neighbours;
+
 /// Density of water, kg/m3.
 const WATER: f64 = 1000.0;
 /// Part of a solids content by which two that should agree may differ.
@@ -57,10 +59,8 @@ impl Water {
         }
         let rises = |pair: &[(f64, f64)]| pair[0].0 < pair[1].0 && pair[0].1 <= pair[1].1;
         if !(law.factor.windows(2).all(rises) && last.0 < 1.0 && last.1.is_finite()) {
-            return Err(
-                "viscosity_by_solids: solids contents must increase and stay below 1, factors must not fall"
-                    .into(),
-            );
+            let said = "viscosity_by_solids: solids contents must increase and stay below 1, factors must not fall";
+            return Err(said.into());
         }
         let limit = law.limit.unwrap_or(last.0);
         if !(limit > law.solids && limit <= last.0 * (1.0 + ROUNDING)) {
@@ -103,15 +103,10 @@ impl Water {
     /// What multiplies the viscosity at a volume of water over that of the solids; that of the nearer end
     /// outside the table.
     pub fn factor(&self, ratio: f64) -> f64 {
-        let (points, solids) = (&self.law.factor, self.solids(ratio));
-        let right = points.partition_point(|p| p.0 <= solids);
-        match (
-            right.checked_sub(1).map(|left| points[left]),
-            points.get(right),
-        ) {
-            (Some((a, fa)), Some(&(b, fb))) => fa * (fb / fa).powf((solids - a) / (b - a)),
-            (Some((_, f)), None) | (None, Some(&(_, f))) => f,
-            (None, None) => 1.0,
+        let solids = self.solids(ratio);
+        match neighbours(&self.law.factor, solids) {
+            [Some((a, fa)), Some((b, fb))] => fa * (fb / fa).powf((solids - a) / (b - a)),
+            [one, other] => one.or(other).map_or(1.0, |point| point.1),
         }
     }
 
@@ -137,8 +132,8 @@ impl Water {
 
     /// The first name in `walls` that no body has, of those of these names.
     pub fn stray<'a>(&'a self, bodies: &[&str]) -> Option<&'a str> {
-        let names = self.law.walls.iter().map(String::as_str);
-        names.into_iter().find(|name| !bodies.contains(name))
+        let mut names = self.law.walls.iter().map(String::as_str);
+        names.find(|name| !bodies.contains(name))
     }
 
     /// Mass (kg) of a volume of water, m3.
@@ -187,18 +182,22 @@ mod tests {
 
     #[test]
     fn what_is_no_loss_of_water_is_refused_in_a_sentence() {
-        let said = |change: &dyn Fn(&mut WaterLaw), density| {
+        type Change = fn(&mut WaterLaw);
+        let cases: [(Change, f64, &str); 8] = [
+            (|l| l.solids = 1.2, 1250.0, "between 0 and 1"),
+            (|l| l.solids = 0.41, 1250.0, "[0.41, 1.0]"),
+            (|l| l.factor[1].1 = 0.5, 1250.0, "must not fall"),
+            (|l| l.factor[2].0 = 0.45, 1250.0, "must increase"),
+            (|l| l.limit = Some(0.9), 1250.0, "beyond the last row"),
+            (|l| l.limit = Some(0.4), 1250.0, "above solids"),
+            (|_| (), 1700.0, "no room for the solids"),
+            (|l| l.factor.truncate(1), 1250.0, "two rows"),
+        ];
+        for (change, density, sentence) in cases {
             let mut law = law();
             change(&mut law);
-            Water::new(law, density).unwrap_err()
-        };
-        assert!(said(&|l| l.solids = 1.2, 1250.0).contains("between 0 and 1"));
-        assert!(said(&|l| l.solids = 0.41, 1250.0).contains("[0.41, 1.0]"));
-        assert!(said(&|l| l.factor[1].1 = 0.5, 1250.0).contains("must not fall"));
-        assert!(said(&|l| l.factor[2].0 = 0.45, 1250.0).contains("must increase"));
-        assert!(said(&|l| l.limit = Some(0.9), 1250.0).contains("beyond the last row"));
-        assert!(said(&|l| l.limit = Some(0.4), 1250.0).contains("above solids"));
-        assert!(said(&|_| (), 1700.0).contains("no room for the solids"));
-        assert!(said(&|l| l.factor.truncate(1), 1250.0).contains("two rows"));
+            let said = Water::new(law, density).unwrap_err();
+            assert!(said.contains(sentence), "{said}");
+        }
     }
 }

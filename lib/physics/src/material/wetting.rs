@@ -24,15 +24,13 @@ mod tests {
 
     #[test]
     fn a_right_angle_neither_draws_nor_holds() {
-        let adhesion = |degrees: f64| {
+        for (degrees, exact) in [(0.0_f64, 0.05), (60.0, 0.025), (90.0, 0.0), (120.0, -0.025)] {
+            let (tension, contact_angle) = (0.05, degrees.to_radians());
             let wetting = Wetting {
-                tension: 0.05,
-                contact_angle: degrees.to_radians(),
+                tension,
+                contact_angle,
             };
-            wetting.adhesion()
-        };
-        assert_eq!(adhesion(0.0), 0.05);
-        assert!((adhesion(60.0) - 0.025).abs() < 1e-15 && adhesion(90.0).abs() < 1e-17);
-        assert!((adhesion(120.0) + 0.025).abs() < 1e-15);
+            assert!((wetting.adhesion() - exact).abs() < 1e-15, "{degrees}");
+        }
     }
 }

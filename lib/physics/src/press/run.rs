@@ -134,10 +134,9 @@ impl PressRun {
             pressure: step.pressure,
         });
         self.elapsed_s = 0.0;
-        let most = if set.is_finite() {
-            set
-        } else {
-            self.stage().pressure.unwrap_or(0.0)
+        let most = match set.is_finite() {
+            true => set,
+            false => self.stage().pressure.unwrap_or(0.0),
         };
         self.from = step.pressure.clamp(0.0, most);
         true
@@ -199,12 +198,13 @@ impl PressRun {
         self.ended.clear();
         for &[index, time_s, travel_m, pressure] in ends {
             let reason = Reason::NAMED.get(index as usize).ok_or_else(wrong)?.1;
-            self.ended.push(StageEnd {
+            let end = StageEnd {
                 reason,
                 time_s,
                 travel_m,
                 pressure,
-            });
+            };
+            self.ended.push(end);
         }
         if !self.is_over() && elapsed_s > self.stage().time_s {
             return Err(wrong());

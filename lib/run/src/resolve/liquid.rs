@@ -54,30 +54,30 @@ fn viscosity(adhesive: &Adhesive) -> Result<Viscosity, CaseError> {
         let points: Vec<_> = (points.iter())
             .map(|(rate, eta)| (rate.si(), eta.si()))
             .collect();
-        let table = Table::new(&points).map_err(|e| refused(e.to_string()))?;
+        let table = Table::new(&points).map_err(refused)?;
         Ok(Viscosity::Table(table))
     });
     let power = adhesive.power_law.map(|law| Law::Power {
-        consistency: law.consistency.si(),
-        index: law.index,
+        k: law.consistency.si(),
+        n: law.index,
         rates: law.rates.map(|rate| rate.si()),
     });
     let cross = adhesive.cross.map(|law| Law::Cross {
-        plateaus: [law.zero_rate.si(), law.infinite_rate.si()],
+        eta: [law.zero_rate.si(), law.infinite_rate.si()],
         time: law.time.si(),
-        exponent: law.exponent,
+        m: law.exponent,
     });
     let carreau = adhesive.carreau_yasuda.map(|law| Law::CarreauYasuda {
-        plateaus: [law.zero_rate.si(), law.infinite_rate.si()],
+        eta: [law.zero_rate.si(), law.infinite_rate.si()],
         time: law.time.si(),
-        index: law.index,
-        transition: law.transition,
+        n: law.index,
+        a: law.transition,
     });
     let herschel = adhesive.herschel_bulkley.map(|law| Law::HerschelBulkley {
-        yield_stress: law.yield_stress.si(),
-        consistency: law.consistency.si(),
-        index: law.index,
-        regularisation: law.regularisation_rate.si(),
+        tau: law.yield_stress.si(),
+        k: law.consistency.si(),
+        n: law.index,
+        r: law.regularisation_rate.si(),
     });
     let laws = [power, cross, carreau, herschel];
     let laws = laws.into_iter().flatten().map(|law| {

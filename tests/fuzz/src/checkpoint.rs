@@ -1,9 +1,0 @@
-//! `make fuzz ONLY=checkpoint`
-#![no_main]
-
-use attack::Target;
-use libfuzzer_sys::fuzz_target;
-
-fuzz_target!(|bytes: &[u8]| {
-    Target::Checkpoint.feed(bytes);
-});
