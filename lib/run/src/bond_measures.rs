@@ -10,7 +10,7 @@ use serde::Serialize;
 use units::Axis;
 
 use crate::case::Case;
-use crate::failure::{RunError, RunFailure};
+use crate::failure::RunFailure;
 use crate::resolve::Setup;
 use crate::snapshot::{in_file_axes, wood_now};
 
@@ -109,7 +109,7 @@ impl<'a> Watch<'a> {
     ///
     /// # Errors
     /// A bond file that cannot be read any more.
-    pub(crate) fn look(&self, scheme: &dyn Scheme) -> Result<Moment, RunError> {
+    pub(crate) fn look(&self, scheme: &dyn Scheme) -> Result<Moment, RunFailure> {
         let mut liquid = scheme.liquid();
         in_file_axes(&mut liquid, self.normal);
         let displacements = scheme.displacements();
@@ -127,7 +127,7 @@ impl<'a> Watch<'a> {
         &self,
         liquid: &LiquidState,
         displacements: &[[f64; 3]],
-    ) -> Result<Answers, RunError> {
+    ) -> Result<Answers, RunFailure> {
         self.measure(liquid, displacements, |state, middle| {
             let layers = depth_profile(state, middle, &self.sealed)?;
             let shares = [true, false].map(|below| shares(&layers, below));
@@ -149,7 +149,7 @@ impl<'a> Watch<'a> {
         liquid: &LiquidState,
         displacements: &[[f64; 3]],
         what: impl FnOnce(&State, &Datum) -> Result<T, metrics::Error>,
-    ) -> Result<T, RunError> {
+    ) -> Result<T, RunFailure> {
         let wood = wood_now(self.bond, displacements, self.normal)?;
         let [bottom, top] = wood
             .each_ref()
@@ -169,7 +169,7 @@ impl<'a> Watch<'a> {
         let middle = Datum::find(Reference::Mid, &state);
         middle
             .and_then(|middle| what(&state, &middle))
-            .map_err(|error| RunError::Checkpoint(format!("the bond cannot be measured: {error}")))
+            .map_err(|error| RunFailure::Data(format!("the bond cannot be measured: {error}")))
     }
 }
 

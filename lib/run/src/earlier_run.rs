@@ -9,7 +9,6 @@ use same_file::is_same_file;
 
 use crate::checkpoint::{self, Checkpoint, Origin};
 use crate::clock::Clock;
-use crate::failure::RunError;
 use crate::failure::RunFailure;
 use crate::files::is_there;
 use crate::folder::{
@@ -50,7 +49,7 @@ pub(crate) fn checkpoint(
         }
         Ok(None) => Ok(None),
         Err(_) if mode.overwrite => Ok(None),
-        Err(RunError::AnotherCase(said)) => Err(RunFailure::Data(said + &changed(folder, text))),
+        Err(RunFailure::Data(said)) => Err(RunFailure::Data(said + &changed(folder, text))),
         Err(error) => Err(error.into()),
     }
 }
@@ -193,21 +192,21 @@ fn is_same(input: &Path, path: &Path) -> bool {
 }
 
 /// Names of the files that a run replaces which goes on with snapshot number `first`.
-fn replaced(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunError> {
+fn replaced(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunFailure> {
     let names = [FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED].map(String::from);
     Ok([names.into(), snapshots(folder, first)?].concat())
 }
 
 /// Names in the run folder of the snapshots from number `first` on.
-fn snapshots(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunError> {
+fn snapshots(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunFailure> {
     let path = folder.place(SNAPSHOTS);
     let entries = match fs::read_dir(&path) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-        entries => entries.map_err(RunError::write(&path))?,
+        entries => entries.map_err(RunFailure::write(&path))?,
     };
     let mut found = Vec::new();
     for entry in entries {
-        let file = entry.map_err(RunError::write(&path))?.file_name();
+        let file = entry.map_err(RunFailure::write(&path))?.file_name();
         let digits = file.to_str().and_then(|name| name.strip_suffix(".mpts"));
         let Some(number) = digits.and_then(|digits| digits.parse().ok()) else {
             continue;

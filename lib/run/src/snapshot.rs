@@ -7,7 +7,6 @@ use physics::{LiquidState, Scheme, ShearRate};
 use units::Axis;
 
 use crate::clock::Clock;
-use crate::failure::RunError;
 use crate::failure::RunFailure;
 use crate::folder::snapshot_name;
 use crate::folder::{FINAL, RunFolder};
@@ -105,7 +104,7 @@ impl<'a> SnapshotWriter<'a> {
         &self,
         clock: &mut Clock,
         scheme: &dyn Scheme,
-    ) -> Result<(), RunError> {
+    ) -> Result<(), RunFailure> {
         self.folder.make_snapshots()?;
         let mut liquid = scheme.liquid();
         in_file_axes(&mut liquid, self.normal);
@@ -124,7 +123,7 @@ impl<'a> SnapshotWriter<'a> {
         clock: &Clock,
         liquid: &LiquidState,
         displacements: &[[f64; 3]],
-    ) -> Result<(), RunError> {
+    ) -> Result<(), RunFailure> {
         self.write(FINAL, clock, liquid, displacements)
     }
 
@@ -134,7 +133,7 @@ impl<'a> SnapshotWriter<'a> {
         clock: &Clock,
         state: &LiquidState,
         displacements: &[[f64; 3]],
-    ) -> Result<(), RunError> {
+    ) -> Result<(), RunFailure> {
         let mut header = self.header.clone();
         (header.time_s, header.step) = (clock.time_s, clock.step);
         header.set_attribute(PRESSURE, clock.last.pressure_top);
@@ -178,11 +177,11 @@ pub(crate) fn wood_now<'a>(
     bond: &'a ParticleFile,
     displacements: &[[f64; 3]],
     normal: Axis,
-) -> Result<[(Block, BitsRef<'a>); 2], RunError> {
+) -> Result<[(Block, BitsRef<'a>); 2], RunFailure> {
     let place = |name, body: usize| {
         let (block, bits) = bond
             .block_named(name)
-            .map_err(|e| RunError::Checkpoint(e.to_string()))?;
+            .map_err(|e| RunFailure::Data(e.to_string()))?;
         let mut block = block.clone();
         let shift = swap(displacements[body], normal);
         block.origin_m = std::array::from_fn(|a| block.origin_m[a] + shift[a]);
