@@ -53,9 +53,6 @@ pub(crate) struct Watch<'a> {
 
 /// Refuses a case that asks for what its scene cannot tell: without a bond there is nothing to measure, and in a
 /// slice the liquid is as deep as a cell and the wood as a voxel.
-///
-/// # Errors
-/// A sentence.
 pub(crate) fn check(case: &Case, bonded: bool, setup: &Setup) -> Result<(), RunFailure> {
     match case.output.penetration && !(bonded && is_solid(setup)) {
         true => Err(RunFailure::Usage(
@@ -66,9 +63,7 @@ pub(crate) fn check(case: &Case, bonded: bool, setup: &Setup) -> Result<(), RunF
 }
 
 /// Who measures the bond of a run, where [`check`] lets it be asked for.
-///
-/// # Errors
-/// A bond that cannot be measured although the case asks for it.
+/// Errors: a bond that cannot be measured although the case asks for it.
 pub(crate) fn watch<'a>(
     case: &Case,
     bond: Option<&'a ParticleFile>,
@@ -91,9 +86,6 @@ fn is_solid(setup: &Setup) -> bool {
 
 impl<'a> Watch<'a> {
     /// A watch on the run of `setup`, whose wood is that of `bond`.
-    ///
-    /// # Errors
-    /// Why the bond cannot be measured.
     fn on(bond: &'a ParticleFile, setup: &Setup) -> Result<Self, metrics::Error> {
         let state = State::of_file(bond)?;
         let middle = Datum::find(Reference::Mid, &state)?;
@@ -106,9 +98,6 @@ impl<'a> Watch<'a> {
     }
 
     /// What the bond has come to.
-    ///
-    /// # Errors
-    /// A bond file that cannot be read any more.
     pub(crate) fn look(&self, scheme: &dyn Scheme) -> Result<Moment, RunFailure> {
         let mut liquid = scheme.liquid();
         in_file_axes(&mut liquid, self.normal);
@@ -120,9 +109,6 @@ impl<'a> Watch<'a> {
 
     /// The same of `liquid`, in the axes of the bond file, and bodies so displaced (m), with the filled share of the
     /// open lumens by depth.
-    ///
-    /// # Errors
-    /// As [`Watch::look`].
     pub(crate) fn look_closely(
         &self,
         liquid: &LiquidState,

@@ -28,9 +28,7 @@ pub struct Mode {
 }
 
 /// The checkpoint to go on from, if there is one that is wanted. Nothing is changed.
-///
-/// # Errors
-/// A checkpoint that cannot be used and may not be replaced.
+/// Errors: a checkpoint that cannot be used and may not be replaced.
 pub(crate) fn checkpoint(
     folder: &RunFolder,
     mode: Mode,
@@ -41,7 +39,7 @@ pub(crate) fn checkpoint(
     if !mode.resume || is_there(&folder.place(FINAL)) {
         return Ok(None);
     }
-    match checkpoint::read(folder.path(), origin) {
+    match checkpoint::read(folder.path(), origin, &|| changed(folder, text)) {
         Ok(Some(checkpoint)) => {
             prove_snapshots(folder, checkpoint.clock.snapshots, &origin.by)?;
             folder.check_writable(&replaced(folder, checkpoint.clock.snapshots)?)?;
@@ -49,15 +47,12 @@ pub(crate) fn checkpoint(
         }
         Ok(None) => Ok(None),
         Err(_) if mode.overwrite => Ok(None),
-        Err(RunFailure::Data(said)) => Err(RunFailure::Data(said + &changed(folder, text))),
-        Err(error) => Err(error.into()),
+        Err(error) => Err(error),
     }
 }
 
 /// Starts anew, with the earlier run's files gone.
-///
-/// # Errors
-/// Another run that may not be replaced, a file in the way that is not the tool's own, a failed write.
+/// Errors: another run that may not be replaced, a file in the way that is not the tool's own, a failed write.
 pub(crate) fn anew(
     folder: &RunFolder,
     mode: Mode,
@@ -102,9 +97,6 @@ fn held_by_a_run(folder: &Path, resume: bool) -> RunFailure {
 
 /// Removes what a run left that goes on from `clock`, but not its history: snapshots of
 /// a course that may not come again, and a summary that would be wrong if the run fails.
-///
-/// # Errors
-/// A failed write.
 pub(crate) fn forget_what_came_after(
     folder: &RunFolder,
     clock: &Clock,
@@ -143,11 +135,8 @@ fn clear(folder: &RunFolder, by: &Provenance) -> Result<(), RunFailure> {
 }
 
 /// Removes what a kill after the final state left: its run has nothing to continue.
-///
-/// # Errors
-/// A failed removal.
 pub(crate) fn tidy(folder: &RunFolder, origin: &Origin) -> Result<(), RunFailure> {
-    if checkpoint::read(folder.path(), origin).is_ok_and(|found| found.is_some()) {
+    if checkpoint::read(folder.path(), origin, &String::new).is_ok_and(|found| found.is_some()) {
         folder.remove(CHECKPOINT)?;
     }
     Ok(())
@@ -155,9 +144,6 @@ pub(crate) fn tidy(folder: &RunFolder, origin: &Origin) -> Result<(), RunFailure
 
 /// Refuses a folder in which something else stands at a name of the run's, or one of `inputs`;
 /// removes unfinished files that a killed run left.
-///
-/// # Errors
-/// What is in the way.
 pub(crate) fn make_room(folder: &RunFolder, inputs: &[PathBuf]) -> Result<(), RunFailure> {
     let snapshots_folder = folder.place(SNAPSHOTS);
     if fs::symlink_metadata(&snapshots_folder).is_ok_and(|found| !found.is_dir()) {

@@ -58,13 +58,11 @@ pub(crate) struct RunFolder {
 
 impl RunFolder {
     /// The folder at `path` if it is marked as a run folder, held from now on.
-    ///
-    /// # Errors
-    /// What is no folder, or is held by another run.
+    /// Errors: what is no folder, or is held by another run.
     pub(crate) fn find(path: &Path, by: &Provenance) -> Result<Option<Self>, RunFailure> {
         match fs::metadata(path) {
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(e) => return Err(RunFailure::write(path)(e).into()),
+            Err(e) => return Err(RunFailure::write(path)(e)),
             Ok(found) if found.is_dir() => {}
             Ok(_) => {
                 return Err(RunFailure::Usage(format!(
@@ -81,9 +79,7 @@ impl RunFolder {
 
     /// Makes a run folder at `path`, of a folder that is there too if it holds none of a run's
     /// names.
-    ///
-    /// # Errors
-    /// What cannot become a run folder, or is held by another run by now.
+    /// Errors: what cannot become a run folder, or is held by another run by now.
     pub(crate) fn make(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
         fs::create_dir_all(path).map_err(RunFailure::write(path))?;
         let names = [
@@ -164,9 +160,7 @@ impl RunFolder {
 
     /// Writes `name` whole or not at all: beside its place, to the disk, and then renamed. It keeps the permissions of
     /// what stood there.
-    ///
-    /// # Errors
-    /// The file and the system's reason; a file there that is write-protected.
+    /// Errors: the file and the system's reason; a file there that is write-protected.
     pub(crate) fn write_whole(
         &self,
         name: &str,
@@ -199,17 +193,11 @@ impl RunFolder {
     }
 
     /// Writes a text file whole or not at all.
-    ///
-    /// # Errors
-    /// The file and the system's reason.
     pub(crate) fn write_text(&self, name: &str, text: &str) -> Result<(), RunFailure> {
         self.write_whole(name, |out| out.write_all(text.as_bytes()))
     }
 
     /// Removes the file `name`; one that is not there need not be removed.
-    ///
-    /// # Errors
-    /// The file and the system's reason.
     pub(crate) fn remove(&self, name: &str) -> Result<(), RunFailure> {
         let path = self.place(name);
         let remove = || match machine::replaced_permissions(&path)? {
@@ -224,9 +212,7 @@ impl RunFolder {
     }
 
     /// Fails where nothing can be written, or one of `names` is write-protected, before anything is removed to make room.
-    ///
-    /// # Errors
-    /// The folder or file and the reason.
+    /// Errors: the folder or file and the reason.
     pub(crate) fn check_writable(&self, names: &[String]) -> Result<(), RunFailure> {
         for name in names {
             let path = self.place(name);
@@ -243,9 +229,6 @@ impl RunFolder {
     }
 
     /// Makes the folder of the snapshots, in a run folder that must still be there.
-    ///
-    /// # Errors
-    /// The folder and the system's reason.
     pub(crate) fn make_snapshots(&self) -> Result<(), RunFailure> {
         let path = self.place(SNAPSHOTS);
         match fs::create_dir(&path) {

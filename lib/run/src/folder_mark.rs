@@ -31,9 +31,7 @@ fn text(by: &Provenance) -> String {
 }
 
 /// Reads the mark; one that is empty or cut off, which a kill or a user may leave, is filled in.
-///
-/// # Errors
-/// A file that is none of this tool's marks (exit 2); a failed write.
+/// Errors: a file that is none of this tool's marks (exit 2); a failed write.
 pub(crate) fn complete(marker: &mut File, by: &Provenance, place: &Path) -> Result<(), RunFailure> {
     let mut found = Vec::new();
     let read = (&*marker).take(1 << 12).read_to_end(&mut found);

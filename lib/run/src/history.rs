@@ -57,9 +57,6 @@ pub(crate) struct History {
 
 impl History {
     /// Starts the history of a run of `scene` in `folder`, with the columns of its bond where that is `watched`.
-    ///
-    /// # Errors
-    /// The file and the system's reason.
     pub(crate) fn create(
         folder: &RunFolder,
         scene: &Scene,
@@ -88,9 +85,7 @@ impl History {
 
     /// Continues a history from where a checkpoint left it. What came after, whole rows or a
     /// part of one, is cut off.
-    ///
-    /// # Errors
-    /// A history that no longer begins as the checkpoint left it (exit 3); a failed write.
+    /// Errors: a history that no longer begins as the checkpoint left it (exit 3); a failed write.
     pub(crate) fn resume(folder: &RunFolder, extent: Extent) -> Result<Self, RunFailure> {
         let path = folder.place(HISTORY);
         let unusable = |why: &str| {
@@ -119,9 +114,7 @@ impl History {
     }
 
     /// Brings all rows to the disk and says how far they go.
-    ///
-    /// # Errors
-    /// The file and the system's reason; also where the rows went into a file that is no longer there.
+    /// Errors: the file and the system's reason; also where the rows went into a file that is no longer there.
     pub(crate) fn sync(&self) -> Result<Extent, RunFailure> {
         let sync = || {
             self.file.sync_data()?;
@@ -135,9 +128,6 @@ impl History {
     }
 
     /// Appends a row. An unknown gap (no clamp) stays empty.
-    ///
-    /// # Errors
-    /// The file and the system's reason.
     pub(crate) fn row(
         &mut self,
         clock: &Clock,

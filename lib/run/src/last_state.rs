@@ -13,9 +13,6 @@ use crate::verdict;
 
 /// The summary of a run, its liquid in the axes of the bond file, and the displacements of its bodies (m). The
 /// scheme, most of a run's memory, is gone before the liquid is measured.
-///
-/// # Errors
-/// A bond file that cannot be read any more.
 pub(crate) fn conclude(
     setup: &Setup,
     scheme: Box<dyn Scheme>,

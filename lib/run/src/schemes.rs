@@ -23,9 +23,7 @@ pub(crate) fn default_cfl(case: &Case) -> f64 {
 }
 
 /// The scheme at the start of its scene.
-///
-/// # Errors
-/// Settings that are not of this scheme, and scenes it cannot do.
+/// Errors: settings that are not of this scheme, and scenes it cannot do.
 pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFailure> {
     let scene = &setup.scene;
     Ok(match case.integrator.scheme {

@@ -21,9 +21,6 @@ const GAP: &str = "gap_m";
 
 /// Whether `folder` holds the final state of the run with this identity, whole. One that is damaged
 /// is none where it is `replaceable`.
-///
-/// # Errors
-/// A damaged one that is not.
 pub(crate) fn is_final_of(
     folder: &Path,
     identity: &str,
@@ -115,9 +112,6 @@ impl<'a> SnapshotWriter<'a> {
     }
 
     /// Writes `final.mpts` of `liquid`, in the axes of the file, and bodies so displaced (m).
-    ///
-    /// # Errors
-    /// The file and the system's reason.
     pub(crate) fn write_final(
         &self,
         clock: &Clock,
@@ -170,9 +164,6 @@ pub(crate) fn in_file_axes(state: &mut LiquidState, normal: Axis) {
 }
 
 /// Bottom and top adherend of `bond`, bodies 0 and 1 of its scene, at their current place.
-///
-/// # Errors
-/// A block that cannot be read.
 pub(crate) fn wood_now<'a>(
     bond: &'a ParticleFile,
     displacements: &[[f64; 3]],

@@ -59,9 +59,7 @@ pub(crate) struct Outcome {
 
 impl TimeLoop<'_> {
     /// Runs `scheme` to its end.
-    ///
-    /// # Errors
-    /// An unstable state or an output that cannot be written.
+    /// Errors: an unstable state or an output that cannot be written.
     pub(crate) fn run(mut self, scheme: &mut dyn Scheme) -> Result<Outcome, RunFailure> {
         let ends = Ends::of(self.setup);
         let (mut stepping, mut steps_here) = (Duration::ZERO, 0);

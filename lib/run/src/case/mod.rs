@@ -21,9 +21,7 @@ use crate::failure::RunFailure;
 
 impl Case {
     /// Parses the text of a case file; `path` is for messages.
-    ///
-    /// # Errors
-    /// Not TOML, unknown or missing keys, values without unit or out of range.
+    /// Errors: Not TOML, unknown or missing keys, values without unit or out of range.
     pub(crate) fn parse(text: &str, path: &Path) -> Result<Self, RunFailure> {
         toml::from_str(text).map_err(|error| {
             let place = error.span().map_or(String::new(), |span| {

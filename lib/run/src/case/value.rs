@@ -99,9 +99,6 @@ pub(crate) enum CellEdge {
 
 impl CellEdge {
     /// In metres, with the voxel of a bond file where there is one.
-    ///
-    /// # Errors
-    /// A multiple of a voxel where nothing has voxels.
     pub(crate) fn si(self, voxel_m: Option<f64>) -> Result<f64, RunFailure> {
         match (self, voxel_m) {
             (CellEdge::Metres(edge), _) => Ok(edge),

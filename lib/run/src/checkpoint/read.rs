@@ -8,11 +8,13 @@ use physics::{Array, Saved, StepReport};
 use super::*;
 use crate::failure::RunFailure;
 
-/// Reads the run folder's checkpoint, if there is one.
-///
-/// # Errors
-/// A checkpoint that is corrupt, or belongs to another case or particle file, or was written by another build.
-pub(crate) fn read(folder: &Path, origin: &Origin) -> Result<Option<Checkpoint>, RunFailure> {
+/// Reads the run folder's checkpoint, if there is one; `changed` says what of the case is not as it was.
+/// Errors: a checkpoint that is corrupt, or belongs to another case or particle file, or was written by another build.
+pub(crate) fn read(
+    folder: &Path,
+    origin: &Origin,
+    changed: &dyn Fn() -> String,
+) -> Result<Option<Checkpoint>, RunFailure> {
     let path = folder.join(CHECKPOINT);
     if !path.exists() {
         return Ok(None);
@@ -25,10 +27,8 @@ pub(crate) fn read(folder: &Path, origin: &Origin) -> Result<Option<Checkpoint>,
     }
     let written = header.attribute(FORMAT).is_some();
     if written && header.attribute(IDENTITY) != Some(&origin.identity) {
-        return Err(RunFailure::Data(format!(
-            "{}: it belongs to another case (only integrator.cfl may change) or particle file; use --overwrite to start anew",
-            path.display()
-        )));
+        let another = "it belongs to another case (only integrator.cfl may change) or particle file; use --overwrite to start anew";
+        return Err(bad(another.to_owned() + &changed()));
     }
     another_build(header, origin).map_or(Ok(()), |said| Err(bad(said)))?;
     content(&file).map(Some).map_err(bad)

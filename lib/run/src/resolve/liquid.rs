@@ -9,9 +9,7 @@ use crate::case::{Adhesive, CureTable, WaterTable};
 use crate::failure::{RunFailure, refused};
 
 /// The liquid of `[adhesive]`.
-///
-/// # Errors
-/// No viscosity or two, a table or a law out of range.
+/// Errors: No viscosity or two, a table or a law out of range.
 pub(super) fn liquid(adhesive: &Adhesive) -> Result<Liquid, RunFailure> {
     let density = adhesive.density.si();
     let water = adhesive.water.as_ref().map(|table| water(table, density));

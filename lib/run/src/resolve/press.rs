@@ -9,9 +9,7 @@ use crate::failure::{RunFailure, refused};
 const APPROACH: f64 = 2.0;
 
 /// The stages of a programme for a clamp that can travel `travel_m` (m); none of a clamp without.
-///
-/// # Errors
-/// Keys of a clamp without stages beside them, and stages that contradict themselves or one another.
+/// Errors: Keys of a clamp without stages beside them, and stages that contradict themselves or one another.
 pub(super) fn programme(
     table: &ClampTable,
     travel_m: Option<f64>,

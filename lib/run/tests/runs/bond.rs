@@ -125,6 +125,7 @@ fn bonds_and_cells_that_do_not_fit_are_refused() {
     let bench = bench(8, |_| {});
     let domain =
         r#"grid.domain={ min = ["0 um", "0 um", "0 um"], max = ["8 um", "8 um", "8 um"] }"#;
+    let points = "grid={ cell = \"4 um\", points_per_direction = 1 }";
     let body = r#"body=[{ material = "rigid", box = { min = ["0 m", "0 m", "0 m"], max = ["1 m", "1 m", "1 m"] } }]"#;
     for (change, sentence) in [
         (
@@ -136,7 +137,7 @@ fn bonds_and_cells_that_do_not_fit_are_refused() {
             "grid.cell=1.6 um",
             "puts 2.500 points along a voxel of 2.0000 um",
         ),
-        ("grid.cell=5 um", "puts 0.800 points along a voxel"),
+        (points, "puts 0.500 points along a voxel"),
         ("grid.cell=2 voxel s", "or voxels, such as \"2 voxels\""),
         (
             "grid.cell=voxels",
@@ -163,22 +164,23 @@ fn bonds_and_cells_that_do_not_fit_are_refused() {
 
 #[test]
 fn a_file_that_is_no_bond_is_refused() {
-    let read = |change: &dyn Fn(&mut Header)| bench(8, change).read(&[]);
-    match read(&|header| header.kind = Kind::Specimen) {
+    type Change = fn(&mut Header);
+    let read = |change: Change| bench(8, change).read(&[]);
+    match read(|header| header.kind = Kind::Specimen) {
         Err(RunFailure::Usage(said)) => has(&said, &["no bond file but holds a specimen"]),
         other => panic!("{other:?}"),
     }
     // The box may be larger by a cell, 64 voxels at most, and rounding.
-    read(&|header| header.box_max_m[0] += 64.0 * VOXEL).unwrap();
-    let corrupt: [(&str, &dyn Fn(&mut Header)); 4] = [
-        ("gap_m is missing", &|header| header.attributes.clear()),
-        ("not a length", &|header| {
+    read(|header| header.box_max_m[0] += 64.0 * VOXEL).unwrap();
+    let corrupt: [(&str, Change); 4] = [
+        ("gap_m is missing", |header| header.attributes.clear()),
+        ("not a length", |header| {
             header.set_attribute("gap_m", -1e-6)
         }),
-        ("the same to a cell", &|header| {
+        ("the same to a cell", |header| {
             header.box_max_m[0] += 66.0 * VOXEL
         }),
-        ("the same to a cell", &|header| {
+        ("the same to a cell", |header| {
             header.box_min_m[2] -= 66.0 * VOXEL
         }),
     ];

@@ -127,7 +127,10 @@ fn bodies_that_would_meet_or_outrun_sound_are_refused() {
     ] {
         match plan(replaced, &[change]) {
             Ok(said) => assert_eq!(wanted, "", "{replaced:?} {change} is accepted:\n{said}"),
-            Err(said) => assert!(wanted != "" && said.contains(wanted), "{change}: {said}"),
+            Err(said) => assert!(
+                !wanted.is_empty() && said.contains(wanted),
+                "{change}: {said}"
+            ),
         }
     }
 }
