@@ -10,7 +10,7 @@ use serde::Serialize;
 use units::Axis;
 
 use crate::case::Case;
-use crate::failure::{RunError, RunFailure};
+use crate::failure::RunFailure;
 use crate::resolve::Setup;
 use crate::snapshot::{in_file_axes, wood_now};
 
@@ -53,9 +53,6 @@ pub(crate) struct Watch<'a> {
 
 /// Refuses a case that asks for what its scene cannot tell: without a bond there is nothing to measure, and in a
 /// slice the liquid is as deep as a cell and the wood as a voxel.
-///
-/// # Errors
-/// A sentence.
 pub(crate) fn check(case: &Case, bonded: bool, setup: &Setup) -> Result<(), RunFailure> {
     match case.output.penetration && !(bonded && is_solid(setup)) {
         true => Err(RunFailure::Usage(
@@ -66,9 +63,7 @@ pub(crate) fn check(case: &Case, bonded: bool, setup: &Setup) -> Result<(), RunF
 }
 
 /// Who measures the bond of a run, where [`check`] lets it be asked for.
-///
-/// # Errors
-/// A bond that cannot be measured although the case asks for it.
+/// Errors: a bond that cannot be measured although the case asks for it.
 pub(crate) fn watch<'a>(
     case: &Case,
     bond: Option<&'a ParticleFile>,
@@ -91,9 +86,6 @@ fn is_solid(setup: &Setup) -> bool {
 
 impl<'a> Watch<'a> {
     /// A watch on the run of `setup`, whose wood is that of `bond`.
-    ///
-    /// # Errors
-    /// Why the bond cannot be measured.
     fn on(bond: &'a ParticleFile, setup: &Setup) -> Result<Self, metrics::Error> {
         let state = State::of_file(bond)?;
         let middle = Datum::find(Reference::Mid, &state)?;
@@ -106,10 +98,7 @@ impl<'a> Watch<'a> {
     }
 
     /// What the bond has come to.
-    ///
-    /// # Errors
-    /// A bond file that cannot be read any more.
-    pub(crate) fn look(&self, scheme: &dyn Scheme) -> Result<Moment, RunError> {
+    pub(crate) fn look(&self, scheme: &dyn Scheme) -> Result<Moment, RunFailure> {
         let mut liquid = scheme.liquid();
         in_file_axes(&mut liquid, self.normal);
         let displacements = scheme.displacements();
@@ -120,14 +109,11 @@ impl<'a> Watch<'a> {
 
     /// The same of `liquid`, in the axes of the bond file, and bodies so displaced (m), with the filled share of the
     /// open lumens by depth.
-    ///
-    /// # Errors
-    /// As [`Watch::look`].
     pub(crate) fn look_closely(
         &self,
         liquid: &LiquidState,
         displacements: &[[f64; 3]],
-    ) -> Result<Answers, RunError> {
+    ) -> Result<Answers, RunFailure> {
         self.measure(liquid, displacements, |state, middle| {
             let layers = depth_profile(state, middle, &self.sealed)?;
             let shares = [true, false].map(|below| shares(&layers, below));
@@ -149,7 +135,7 @@ impl<'a> Watch<'a> {
         liquid: &LiquidState,
         displacements: &[[f64; 3]],
         what: impl FnOnce(&State, &Datum) -> Result<T, metrics::Error>,
-    ) -> Result<T, RunError> {
+    ) -> Result<T, RunFailure> {
         let wood = wood_now(self.bond, displacements, self.normal)?;
         let [bottom, top] = wood
             .each_ref()
@@ -169,7 +155,7 @@ impl<'a> Watch<'a> {
         let middle = Datum::find(Reference::Mid, &state);
         middle
             .and_then(|middle| what(&state, &middle))
-            .map_err(|error| RunError::Checkpoint(format!("the bond cannot be measured: {error}")))
+            .map_err(|error| RunFailure::Data(format!("the bond cannot be measured: {error}")))
     }
 }
 

@@ -2,6 +2,8 @@
 
 use physics::{RigidBody, Scene, VoxelBlock};
 
+use crate::forecast::line;
+
 /// Layers of voxels from the bond surface into the wood that are looked at.
 const LAYERS: usize = 32;
 /// Cells across a lumen below which the implicit scheme is off by more than a tenth in places
@@ -22,21 +24,26 @@ pub(crate) fn text(scene: &Scene) -> String {
     };
     let (voxel, cell) = (block.voxel()[0], scene.grid.cell_m);
     let cells = chord as f64 * voxel / cell;
-    let mut out = format!(
-        "  lumens at the bond {chord} voxels across the grain, {cells:.1} cells (median by volume of {} chords)\n",
-        lengths.count()
+    let mut out = line(
+        "lumens at the bond",
+        format!(
+            "{chord} voxels across the grain, {cells:.1} cells (median by volume of {} chords)",
+            lengths.count()
+        ),
     );
     if cells < FEWEST && cell > 1.01 * voxel {
         // One given in cells would become shorter with them.
         let length = scene.wall.influence_length();
-        let same_walls = if length > 0.0 && length.is_finite() {
-            format!(" and contact.influence_length = \"{:.6} um\"", 1e6 * length)
-        } else {
-            String::new()
+        let same_walls = match length > 0.0 && length.is_finite() {
+            true => format!(" and contact.influence_length = \"{:.6} um\"", 1e6 * length),
+            false => String::new(),
         };
-        out += &format!(
-            "  proposed           one voxel a cell, grid.cell = \"{:.6} um\"{same_walls}: fewer than {FEWEST} cells across leave pressure and flow off by a tenth and more\n",
-            1e6 * voxel
+        let um = 1e6 * voxel;
+        out += &line(
+            "proposed",
+            format!(
+                "one voxel a cell, grid.cell = \"{um:.6} um\"{same_walls}: fewer than {FEWEST} cells across leave pressure and flow off by a tenth and more"
+            ),
         );
     }
     out

@@ -61,11 +61,11 @@ impl MovedBodies<'_> {
 
 #[cfg(test)]
 mod tests {
-    use physics::{Boundary, LiquidState, VoxelBlock};
+    use physics::{Boundary, VoxelBlock};
 
     use super::*;
     use crate::invariants::check;
-    use crate::invariants::tests::{block, scene};
+    use crate::invariants::tests::{at, block, scene};
 
     fn depth(scene: &Scene, point: [f64; 3]) -> f64 {
         let placed = MovedBodies {
@@ -92,12 +92,7 @@ mod tests {
         let plate = VoxelBlock::solid_box([0.0, 1.0, 0.0], [8.0, 5.0, 3.0]);
         let scene = scene(vec![floor, plate]);
         assert!((depth(&scene, [4.0, 2.5, 1.5]) - 2.5).abs() < 1e-12);
-        let at = LiquidState {
-            position: vec![[4.0, 2.5, 1.5]],
-            volume: vec![1.0],
-            ..LiquidState::default()
-        };
-        let found = check(&scene, 1.0, &at, &[[0.0; 3]; 2]);
+        let found = check(&scene, 1.0, &at([[4.0, 2.5, 1.5]]), &[[0.0; 3]; 2]);
         assert_eq!((found.points_in_wood, found.points_deep_in_wood), (1, 1));
     }
 
@@ -107,11 +102,7 @@ mod tests {
         let post = VoxelBlock::solid_box([5.0, 0.0, 0.0], [7.0, 6.0, 3.0]);
         let mut scene = scene(vec![post]);
         scene.boundary = [Boundary::Periodic, Boundary::Symmetry, Boundary::Symmetry];
-        let at = LiquidState {
-            position: vec![[0.75, 3.0, 1.5], [7.5, 3.0, 1.5], [4.0, 3.0, 1.5]],
-            volume: vec![1.0; 3],
-            ..LiquidState::default()
-        };
+        let at = at([[0.75, 3.0, 1.5], [7.5, 3.0, 1.5], [4.0, 3.0, 1.5]]);
         // From 7 to 9 of 8.
         for periods in [-3.0, 0.0, 1.0, 40.0] {
             let found = check(&scene, 3.0, &at, &[[2.0 + 8.0 * periods, 0.0, 0.0]]);

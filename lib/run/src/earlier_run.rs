@@ -9,7 +9,6 @@ use same_file::is_same_file;
 
 use crate::checkpoint::{self, Checkpoint, Origin};
 use crate::clock::Clock;
-use crate::failure::RunError;
 use crate::failure::RunFailure;
 use crate::files::is_there;
 use crate::folder::{
@@ -29,9 +28,7 @@ pub struct Mode {
 }
 
 /// The checkpoint to go on from, if there is one that is wanted. Nothing is changed.
-///
-/// # Errors
-/// A checkpoint that cannot be used and may not be replaced.
+/// Errors: a checkpoint that cannot be used and may not be replaced.
 pub(crate) fn checkpoint(
     folder: &RunFolder,
     mode: Mode,
@@ -42,7 +39,7 @@ pub(crate) fn checkpoint(
     if !mode.resume || is_there(&folder.place(FINAL)) {
         return Ok(None);
     }
-    match checkpoint::read(folder.path(), origin) {
+    match checkpoint::read(folder.path(), origin, &|| changed(folder, text)) {
         Ok(Some(checkpoint)) => {
             prove_snapshots(folder, checkpoint.clock.snapshots, &origin.by)?;
             folder.check_writable(&replaced(folder, checkpoint.clock.snapshots)?)?;
@@ -50,15 +47,12 @@ pub(crate) fn checkpoint(
         }
         Ok(None) => Ok(None),
         Err(_) if mode.overwrite => Ok(None),
-        Err(RunError::AnotherCase(said)) => Err(RunFailure::Data(said + &changed(folder, text))),
-        Err(error) => Err(error.into()),
+        Err(error) => Err(error),
     }
 }
 
 /// Starts anew, with the earlier run's files gone.
-///
-/// # Errors
-/// Another run that may not be replaced, a file in the way that is not the tool's own, a failed write.
+/// Errors: another run that may not be replaced, a file in the way that is not the tool's own, a failed write.
 pub(crate) fn anew(
     folder: &RunFolder,
     mode: Mode,
@@ -103,9 +97,6 @@ fn held_by_a_run(folder: &Path, resume: bool) -> RunFailure {
 
 /// Removes what a run left that goes on from `clock`, but not its history: snapshots of
 /// a course that may not come again, and a summary that would be wrong if the run fails.
-///
-/// # Errors
-/// A failed write.
 pub(crate) fn forget_what_came_after(
     folder: &RunFolder,
     clock: &Clock,
@@ -144,11 +135,8 @@ fn clear(folder: &RunFolder, by: &Provenance) -> Result<(), RunFailure> {
 }
 
 /// Removes what a kill after the final state left: its run has nothing to continue.
-///
-/// # Errors
-/// A failed removal.
 pub(crate) fn tidy(folder: &RunFolder, origin: &Origin) -> Result<(), RunFailure> {
-    if checkpoint::read(folder.path(), origin).is_ok_and(|found| found.is_some()) {
+    if checkpoint::read(folder.path(), origin, &String::new).is_ok_and(|found| found.is_some()) {
         folder.remove(CHECKPOINT)?;
     }
     Ok(())
@@ -156,9 +144,6 @@ pub(crate) fn tidy(folder: &RunFolder, origin: &Origin) -> Result<(), RunFailure
 
 /// Refuses a folder in which something else stands at a name of the run's, or one of `inputs`;
 /// removes unfinished files that a killed run left.
-///
-/// # Errors
-/// What is in the way.
 pub(crate) fn make_room(folder: &RunFolder, inputs: &[PathBuf]) -> Result<(), RunFailure> {
     let snapshots_folder = folder.place(SNAPSHOTS);
     if fs::symlink_metadata(&snapshots_folder).is_ok_and(|found| !found.is_dir()) {
@@ -193,21 +178,21 @@ fn is_same(input: &Path, path: &Path) -> bool {
 }
 
 /// Names of the files that a run replaces which goes on with snapshot number `first`.
-fn replaced(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunError> {
+fn replaced(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunFailure> {
     let names = [FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED].map(String::from);
     Ok([names.into(), snapshots(folder, first)?].concat())
 }
 
 /// Names in the run folder of the snapshots from number `first` on.
-fn snapshots(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunError> {
+fn snapshots(folder: &RunFolder, first: u32) -> Result<Vec<String>, RunFailure> {
     let path = folder.place(SNAPSHOTS);
     let entries = match fs::read_dir(&path) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-        entries => entries.map_err(RunError::write(&path))?,
+        entries => entries.map_err(RunFailure::write(&path))?,
     };
     let mut found = Vec::new();
     for entry in entries {
-        let file = entry.map_err(RunError::write(&path))?.file_name();
+        let file = entry.map_err(RunFailure::write(&path))?.file_name();
         let digits = file.to_str().and_then(|name| name.strip_suffix(".mpts"));
         let Some(number) = digits.and_then(|digits| digits.parse().ok()) else {
             continue;

@@ -1,11 +1,10 @@
 //! The error to expect of a run, quoted from the measured table of `make tradeoff`
 //! (docs/results/tradeoff.md).
 
-use std::fmt::Write;
-
 use physics::Choice;
 
 use crate::case::{Case, SchemeName};
+use crate::forecast::line;
 use crate::schemes;
 
 /// Written by `make tradeoff`; not to be edited.
@@ -18,7 +17,7 @@ const LUMEN_M: f64 = 17.4e-6;
 #[derive(Clone, Debug, PartialEq)]
 struct Measured {
     /// Scheme, update, order, shape, pressure, projection.
-    key: [String; 6],
+    key: [&'static str; 6],
     cells: f64,
     /// Relative errors: piston force, channel flux, pressure and WP of a small bond line.
     errors: [Option<f64>; 4],
@@ -85,78 +84,63 @@ pub(crate) fn of(case: &Case, cell_m: f64) -> ExpectedError {
 
 /// The lines of `--explain` about a case in cells of `cell_m`.
 pub(crate) fn text(case: &Case, cell_m: f64) -> String {
-    let mut out = "\nerror to expect (measured, docs/results/tradeoff.md)\n".to_owned();
-    // Writing to a string cannot fail.
-    let _ = quote(&mut out, &of(case, cell_m));
-    out
-}
-
-fn quote(out: &mut String, expected: &ExpectedError) -> std::fmt::Result {
+    let expected = of(case, cell_m);
     let across = expected.cells_per_lumen;
-    writeln!(
-        out,
-        "  lumens             of 17.4 um, not this specimen's: {across:.1} cells across"
-    )?;
+    let mut out = "\nerror to expect (measured, docs/results/tradeoff.md)\n".to_owned();
+    let lumens = format!("of 17.4 um, not this specimen's: {across:.1} cells across");
+    out += &line("lumens", lumens);
     let Some(cells) = expected.measured_with_cells else {
-        return writeln!(
-            out,
-            "  pressure, flow     not measured with this update, shape and options"
-        );
-    };
-    let percent = |error: f64| match 100.0 * error {
-        p if p < 10.0 => format!("{p:.1} %"),
-        p => format!("{p:.0} %"),
+        let not = "not measured with this update, shape and options";
+        return out + &line("pressure, flow", not);
     };
     for errors in expected.errors.chunk_by(|a, b| a.quantity == b.quantity) {
         let measured = errors.iter().map(|error| {
-            let size = percent(error.relative);
-            format!("about {size} ({})", error.scene)
+            let percent = 100.0 * error.relative;
+            let digits = usize::from(percent < 10.0);
+            format!("about {percent:.digits$} % ({})", error.scene)
         });
-        let measured: Vec<String> = measured.collect();
-        let name = errors[0].quantity;
-        writeln!(out, "  {name:<18} {}", measured.join(", "))?;
+        out += &line(errors[0].quantity, measured.collect::<Vec<_>>().join(", "));
     }
-    writeln!(
-        out,
-        "  measured with      {cells} cells across the lumen, walls off the nodes among them"
-    )?;
-    writeln!(
-        out,
-        "                     slit against finite elements; bond line against finer runs of an implicit scheme, no independent reference"
-    )?;
+    let walls = format!("{cells} cells across the lumen, walls off the nodes among them");
+    out += &line("measured with", walls);
+    out += &line(
+        "",
+        "slit against finite elements; bond line against finer runs of an implicit scheme, no independent reference",
+    );
     match expected.not_as_measured.join(", ") {
-        none if none.is_empty() => Ok(()),
-        other => writeln!(out, "                     and the default {other}"),
+        none if none.is_empty() => out,
+        other => out + &line("", format!("and the default {other}")),
     }
 }
 
 /// What of a case selects rows.
 fn key(case: &Case) -> [String; 6] {
     let table = &case.integrator;
-    if table.scheme != SchemeName::Explicit {
-        return [table.scheme.name(), "", "", "", "", ""].map(str::to_owned);
-    }
-    let projection = match table.density_projection {
-        Some(_) => "yes",
-        None => "no",
+    let scheme = table.scheme.name();
+    let key = match table.scheme {
+        SchemeName::Implicit => [scheme, "", "", "", "", ""],
+        SchemeName::Explicit => [
+            scheme,
+            table.velocity_update.unwrap_or_default().name(),
+            &table.order.map_or(String::new(), |order| order.to_string()),
+            case.grid.shape.unwrap_or_default().name(),
+            table.pressure.unwrap_or_default().name(),
+            match table.density_projection {
+                Some(_) => "yes",
+                None => "no",
+            },
+        ],
     };
-    let order = table.order.map_or(String::new(), |m| m.to_string());
-    let [scheme, update, shape, pressure, projection] = [
-        table.scheme.name(),
-        table.velocity_update.unwrap_or_default().name(),
-        case.grid.shape.unwrap_or_default().name(),
-        table.pressure.unwrap_or_default().name(),
-        projection,
-    ]
-    .map(str::to_owned);
-    [scheme, update, order, shape, pressure, projection]
+    key.map(str::to_owned)
 }
 
 /// The row of this key whose cells are nearest, by ratio.
-fn nearest(key: &[String; 6], cells: f64) -> Option<Measured> {
+fn nearest(key: &[impl AsRef<str>; 6], cells: f64) -> Option<Measured> {
     let far = |row: &Measured| (row.cells / cells).ln().abs();
     rows()
-        .filter(|row| row.key == *key && row.errors.iter().any(Option::is_some))
+        .filter(|row| {
+            row.key == key.each_ref().map(AsRef::as_ref) && row.errors.iter().any(Option::is_some)
+        })
         .min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
@@ -166,7 +150,7 @@ fn rows() -> impl Iterator<Item = Measured> {
         let key: [&str; 6] = words.get(..6)?.try_into().ok()?;
         let error = |i: usize| words.get(i)?.parse::<f64>().ok();
         Some(Measured {
-            key: key.map(str::to_owned),
+            key,
             cells: words.get(6)?.parse().ok()?,
             errors: [7, 8, 9, 10].map(error),
         })
@@ -179,18 +163,14 @@ mod tests {
 
     use super::*;
 
-    fn key(words: [&str; 6]) -> [String; 6] {
-        words.map(str::to_owned)
-    }
-
     #[test]
     fn every_line_of_the_table_is_a_row_with_the_slit_measured_or_failed() {
         assert_eq!(rows().count(), TABLE.lines().count() - 1);
         assert!(rows().any(|row| row.errors[0].is_some()));
         for Measured { key, .. } in rows().filter(|row| row.key[0] == SchemeName::Explicit.name()) {
-            VelocityUpdate::named(&key[1]).unwrap();
-            ShapeFunction::named(&key[3]).unwrap();
-            PressureFrom::named(&key[4]).unwrap();
+            VelocityUpdate::named(key[1]).unwrap();
+            ShapeFunction::named(key[3]).unwrap();
+            PressureFrom::named(key[4]).unwrap();
         }
     }
 
@@ -201,14 +181,11 @@ mod tests {
             ["explicit", "xpic", "5", "gimp", "point", "no"],
             ["implicit", "", "", "", "", ""],
         ] {
-            let row = nearest(&key(words), 6.4).unwrap();
+            let row = nearest(&words, 6.4).unwrap();
             assert_eq!(row.cells, 6.0, "{words:?}");
             assert!(row.errors.iter().all(Option::is_some), "{words:?}");
-            assert!(nearest(&key(words), 40.0).unwrap().cells > 6.0);
+            assert!(nearest(&words, 40.0).unwrap().cells > 6.0);
         }
-        assert_eq!(
-            nearest(&key(["explicit", "xpic", "19", "", "", ""]), 6.0),
-            None
-        );
+        assert_eq!(nearest(&["explicit", "xpic", "19", "", "", ""], 6.0), None);
     }
 }

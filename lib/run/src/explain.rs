@@ -1,17 +1,122 @@
 //! `--explain`: the plan of a run as text.
 
-use std::fmt::Write;
-
 use physics::{
     Choice, Cure, Dimensions, Motion, Press, PressStage, Regime, SET, Scene, Stop, Viscosity,
-    WallLaw, Water,
+    VoxelBlock, WallLaw, Water, Wetting,
 };
 
 use crate::case::{Case, SchemeName};
-use crate::forecast::{Forecast, duration};
+use crate::forecast::{Forecast, duration, line};
 use crate::left_out::left_out;
 use crate::resolve::Setup;
 use crate::{chords, expected_error};
+
+/// The plan of a run.
+pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
+    let scheme = match case.integrator.scheme {
+        SchemeName::Explicit => "explicit material point method",
+        SchemeName::Implicit => "implicit, liquid as volume fractions",
+    };
+    let regime = Regime::of(&setup.scene, &setup.liquid).to_string();
+    let regime: String = regime.lines().map(|line| format!("  {line}\n")).collect();
+    let left_out = left_out(case, setup, &forecast.stages);
+    let left_out: String = (left_out.iter())
+        .map(|item| line(item.what, &item.why))
+        .collect();
+    [
+        "scene\n",
+        &scene(setup),
+        &line("scheme", scheme),
+        "\ncost (estimated)\n",
+        &cost(setup, forecast),
+        &expected_error::text(case, setup.scene.grid.cell_m),
+        &chords::text(&setup.scene),
+        "\nregime\n",
+        &regime,
+        "\nleft out\n",
+        &left_out,
+    ]
+    .concat()
+}
+
+fn scene(setup: &Setup) -> String {
+    let scene = &setup.scene;
+    let [nx, ny, nz] = scene.grid.cells;
+    let um = 1e6 * scene.grid.cell_m;
+    let dimensions = match scene.dimensions {
+        Dimensions::Two => "plane strain",
+        Dimensions::Three => "3D",
+    };
+    let grid = format!("{nx} x {ny} x {nz} cells of {um:.4} um, {dimensions}");
+    let mut out = line("grid", grid) + &liquid(setup) + &walls(scene);
+    let [x, y, z] = scene.boundary.map(Choice::name);
+    out += &line("sides", format!("x {x}, y {y}, z {z}"));
+    for (index, stage) in scene.programme.iter().enumerate() {
+        out += &line(&format!("stage {}", index + 1), told(stage));
+    }
+    if let Some(clamp) = scene.clamp.filter(|_| scene.programme.is_empty()) {
+        let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
+            format!("at most {:.4} MPa", p / 1e6)
+        });
+        out += &line("clamp", format!("{} m/s, {limit}", clamp.closing_speed));
+    }
+    out + &line("end", end(setup))
+}
+
+/// What the liquid is and does.
+fn liquid(setup: &Setup) -> String {
+    let (liquid, cell_m) = (&setup.scene.liquid, setup.scene.grid.cell_m);
+    let (points, volume) = (setup.liquid.points, setup.liquid.volume_m3);
+    let mut out = line(
+        "liquid",
+        format!("{points} material points, {volume:.4e} m3"),
+    );
+    let viscosity = match &liquid.viscosity {
+        Viscosity::Newtonian(law) => format!("{} Pa s", law.0),
+        Viscosity::Law(law) => law.to_string(),
+        table => {
+            let [rest, fast] = [0.0, 1e6].map(|rate| table.at(rate));
+            format!("table, {rest} Pa s at rest, {fast} Pa s at 1e6 1/s")
+        }
+    };
+    let (density, bulk) = (liquid.density, liquid.tait.bulk_modulus);
+    out += &line(
+        "",
+        format!("{density} kg/m3, K {bulk:.3e} Pa, viscosity {viscosity}"),
+    );
+    if let Some(cure) = &liquid.cure {
+        let set = cure.set_at().map_or("never sets".to_owned(), |set| {
+            format!("sets ({SET:e} times that) at {set:.4e} s")
+        });
+        let factor = cure.factor(0.0);
+        out += &line(
+            "cure",
+            format!("viscosity times {factor:.4} at the start, {set}"),
+        );
+    }
+    let wetting = liquid
+        .wetting
+        .as_ref()
+        .map(|wetting| wetted(wetting, cell_m));
+    out.extend(wetting.map(|told| line("wetting", told)));
+    let water = liquid.water.as_ref().map(|water| dried(water, cell_m));
+    out.extend(water.map(|told| line("loss of water", told)));
+    out
+}
+
+/// What the walls do to liquid in a slit of six cells of `cell_m`.
+fn wetted(wetting: &Wetting, cell_m: f64) -> String {
+    let way = match wetting.adhesion() >= 0.0 {
+        true => "drawn in",
+        false => "held back",
+    };
+    format!(
+        "{:.4} N/m at {:.1} degrees: it is {way} with {:.3e} Pa in a slit of six cells",
+        wetting.tension,
+        wetting.contact_angle.to_degrees(),
+        (2.0 * wetting.adhesion() / (6.0 * cell_m)).abs()
+    )
+}
 
 /// What the loss of water does in a tube of six cells of `cell_m` that nothing flows into.
 fn dried(water: &Water, cell_m: f64) -> String {
@@ -28,177 +133,52 @@ fn dried(water: &Water, cell_m: f64) -> String {
     )
 }
 
-/// The plan of a run.
-pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = scene(&mut out, case, setup);
-    let _ = cost(&mut out, setup, forecast);
-    out.push_str(&expected_error::text(case, setup.scene.grid.cell_m));
-    out.push_str(&chords::text(&setup.scene));
-    let _ = writeln!(
-        out,
-        "\nregime\n{}",
-        indent(&Regime::of(&setup.scene, &setup.liquid).to_string())
-    );
-    let _ = writeln!(out, "\nleft out");
-    for item in left_out(case, setup, &forecast.stages) {
-        let _ = writeln!(out, "  {:<18} {}", item.what, item.why);
-    }
-    out
-}
-
-fn indent(text: &str) -> String {
-    text.lines()
-        .map(|l| format!("  {l}"))
-        .collect::<Vec<_>>()
-        .join("\n")
-}
-
-fn scene(out: &mut String, case: &Case, setup: &Setup) -> std::fmt::Result {
-    let scene = &setup.scene;
-    let [nx, ny, nz] = scene.grid.cells;
-    let um = 1e6 * scene.grid.cell_m;
-    writeln!(out, "scene")?;
-    let dimensions = match scene.dimensions {
-        Dimensions::Two => "plane strain",
-        Dimensions::Three => "3D",
-    };
-    writeln!(
-        out,
-        "  grid               {nx} x {ny} x {nz} cells of {um:.4} um, {dimensions}"
-    )?;
-    liquid_lines(out, setup)?;
-    wall_lines(out, scene)?;
-    let [x, y, z] = scene.boundary.map(Choice::name);
-    writeln!(out, "  sides              x {x}, y {y}, z {z}")?;
-    for (index, stage) in scene.programme.iter().enumerate() {
-        writeln!(out, "  stage {:<12} {}", index + 1, told(stage))?;
-    }
-    if let Some(clamp) = scene.clamp.filter(|_| scene.programme.is_empty()) {
-        let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
-            format!("at most {:.4} MPa", p / 1e6)
-        });
-        writeln!(
-            out,
-            "  clamp              {} m/s, {limit}",
-            clamp.closing_speed
-        )?;
-    }
-    writeln!(out, "  end                {}", end(setup))?;
-    let scheme = match case.integrator.scheme {
-        SchemeName::Explicit => "explicit material point method",
-        SchemeName::Implicit => "implicit, liquid as volume fractions",
-    };
-    writeln!(out, "  scheme             {scheme}")
-}
-
-/// What the liquid is and does.
-fn liquid_lines(out: &mut String, setup: &Setup) -> std::fmt::Result {
-    let scene = &setup.scene;
-    writeln!(
-        out,
-        "  liquid             {} material points, {:.4e} m3",
-        setup.liquid.points, setup.liquid.volume_m3
-    )?;
-    let liquid = &scene.liquid;
-    let viscosity = match &liquid.viscosity {
-        Viscosity::Newtonian(law) => format!("{} Pa s", law.0),
-        Viscosity::Law(law) => law.to_string(),
-        table => format!(
-            "table, {} Pa s at rest, {} Pa s at 1e6 1/s",
-            table.at(0.0),
-            table.at(1e6)
-        ),
-    };
-    writeln!(
-        out,
-        "                     {} kg/m3, K {:.3e} Pa, viscosity {viscosity}",
-        liquid.density, liquid.tait.bulk_modulus
-    )?;
-    if let Some(cure) = &liquid.cure {
-        let set = cure.set_at().map_or("never sets".to_owned(), |set| {
-            format!("sets ({SET:e} times that) at {set:.4e} s")
-        });
-        writeln!(
-            out,
-            "  cure               viscosity times {:.4} at the start, {set}",
-            cure.factor(0.0)
-        )?;
-    }
-    if let Some(wetting) = &liquid.wetting {
-        writeln!(
-            out,
-            "  wetting            {:.4} N/m at {:.1} degrees: it is {} with {:.3e} Pa in a slit of six cells",
-            wetting.tension,
-            wetting.contact_angle.to_degrees(),
-            if wetting.adhesion() >= 0.0 {
-                "drawn in"
-            } else {
-                "held back"
-            },
-            (2.0 * wetting.adhesion() / (6.0 * scene.grid.cell_m)).abs()
-        )?;
-    }
-    if let Some(water) = &liquid.water {
-        writeln!(
-            out,
-            "  loss of water      {}",
-            dried(water, scene.grid.cell_m)
-        )?;
-    }
-    Ok(())
-}
-
 /// What is rigid.
-fn wall_lines(out: &mut String, scene: &Scene) -> std::fmt::Result {
+fn walls(scene: &Scene) -> String {
+    let mut out = String::new();
     for body in &scene.bodies {
-        let solid: u64 = body.blocks.iter().map(physics::VoxelBlock::count).sum();
+        let (name, solid) = (
+            &body.name,
+            body.blocks.iter().map(VoxelBlock::count).sum::<u64>(),
+        );
         let motion = match body.motion {
             Motion::Fixed => "at rest".to_owned(),
-            Motion::Constant(v) => format!("moves at ({}, {}, {}) m/s", v[0], v[1], v[2]),
+            Motion::Constant([x, y, z]) => format!("moves at ({x}, {y}, {z}) m/s"),
             Motion::Clamped => "driven by the clamp".to_owned(),
         };
-        writeln!(
-            out,
-            "  rigid body         {}: {solid} voxels, {motion}",
-            body.name
-        )?;
+        out += &line("rigid body", format!("{name}: {solid} voxels, {motion}"));
     }
-    if !scene.bodies.is_empty() {
-        let law = match scene.wall {
-            WallLaw::PartialSlip { influence_length_m } => {
-                format!(
-                    "partial slip, influence length {:.4e} m (k = {:.3e} 1/m)",
-                    influence_length_m,
-                    1.0 / influence_length_m
-                )
-            }
-            law => law.name().to_owned(),
-        };
-        writeln!(out, "  walls              {law}")?;
-    }
-    Ok(())
+    let law = match scene.wall {
+        _ if scene.bodies.is_empty() => return out,
+        WallLaw::PartialSlip {
+            influence_length_m: length,
+        } => {
+            let k = 1.0 / length;
+            format!("partial slip, influence length {length:.4e} m (k = {k:.3e} 1/m)")
+        }
+        law => law.name().to_owned(),
+    };
+    out + &line("walls", law)
 }
 
 /// When the run ends.
 fn end(setup: &Setup) -> String {
     let scene = &setup.scene;
+    let latest = setup.time_limit_s;
     match scene.stop {
-        Stop::Closed { travel_m } if !scene.programme.is_empty() => format!(
-            "with the last stage, at the latest at {:.4e} s; the clamp stands after {:.2} um of travel",
-            (scene.liquid.cure.as_ref().and_then(|cure| cure.set_at()))
-                .map_or(setup.time_limit_s, |set| set.min(setup.time_limit_s)),
-            travel_m * 1e6
-        ),
-        Stop::Time(t) => format!("at {t:.4e} s"),
-        Stop::Closed { travel_m } => {
+        Stop::Closed { travel_m } if !scene.programme.is_empty() => {
+            let set = scene.liquid.cure.as_ref().and_then(Cure::set_at);
             format!(
-                "closed after {:.2} um of travel, at the latest at {:.4e} s",
-                travel_m * 1e6,
-                setup.time_limit_s
+                "with the last stage, at the latest at {:.4e} s; the clamp stands after {:.2} um of travel",
+                set.map_or(latest, |set| set.min(latest)),
+                travel_m * 1e6
             )
         }
+        Stop::Time(t) => format!("at {t:.4e} s"),
+        Stop::Closed { travel_m } => format!(
+            "closed after {:.2} um of travel, at the latest at {latest:.4e} s",
+            travel_m * 1e6
+        ),
     }
 }
 
@@ -224,49 +204,35 @@ fn told(stage: &PressStage) -> String {
     said + &format!(", {:.4e} s at the longest", stage.time_s)
 }
 
-fn cost(out: &mut String, setup: &Setup, forecast: &Forecast) -> std::fmt::Result {
+fn cost(setup: &Setup, forecast: &Forecast) -> String {
     let set = setup.scene.liquid.cure.as_ref().and_then(Cure::set_at);
-    writeln!(out, "\ncost (estimated)")?;
-    writeln!(
-        out,
-        "  time step          {:.4e} s, set by {}",
-        forecast.dt_s, forecast.limit
-    )?;
-    writeln!(
-        out,
-        "  steps              about {} to {:.4e} s{}",
-        count(forecast.steps),
-        setup.nominal_duration_s.min(set.unwrap_or(f64::INFINITY)),
-        if forecast.most_steps > forecast.steps {
-            format!(
-                ", at most {} where the pressure limit holds the clamp",
-                count(forecast.most_steps)
-            )
-        } else {
-            String::new()
-        }
-    )?;
-    writeln!(
-        out,
-        "  memory             {:.0} MB",
-        forecast.memory_bytes / 1e6
-    )?;
-    writeln!(
-        out,
-        "  run time           {} on {} threads",
-        duration(forecast.steps * forecast.step_s),
-        rayon::current_num_threads()
-    )?;
-    for note in &forecast.notes {
-        writeln!(out, "  {note}")?;
-    }
-    if let Some(excess) = forecast.excess() {
-        writeln!(
-            out,
-            "  refused            unless --yes-really is given: {excess}"
-        )?;
-    }
-    Ok(())
+    let end_s = setup.nominal_duration_s.min(set.unwrap_or(f64::INFINITY));
+    let held = match forecast.most_steps > forecast.steps {
+        true => format!(
+            ", at most {} where the pressure limit holds the clamp",
+            count(forecast.most_steps)
+        ),
+        false => String::new(),
+    };
+    let steps = count(forecast.steps);
+    let time = duration(forecast.steps * forecast.step_s);
+    let threads = rayon::current_num_threads();
+    let mut out = [
+        line(
+            "time step",
+            format!("{:.4e} s, set by {}", forecast.dt_s, forecast.limit),
+        ),
+        line("steps", format!("about {steps} to {end_s:.4e} s{held}")),
+        line("memory", format!("{:.0} MB", forecast.memory_bytes / 1e6)),
+        line("run time", format!("{time} on {threads} threads")),
+    ]
+    .concat();
+    out += &forecast.notes;
+    let excess = forecast.excess();
+    out.extend(
+        excess.map(|excess| line("refused", format!("unless --yes-really is given: {excess}"))),
+    );
+    out
 }
 
 /// A number of steps, in full where it is readable.

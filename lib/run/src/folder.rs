@@ -20,7 +20,6 @@ use std::path::{Path, PathBuf};
 
 use particle_file::Provenance;
 
-use crate::failure::RunError;
 use crate::failure::RunFailure;
 use crate::files::{is_still, is_there, sync_folder};
 use crate::folder_mark::{self, MARKER};
@@ -59,13 +58,11 @@ pub(crate) struct RunFolder {
 
 impl RunFolder {
     /// The folder at `path` if it is marked as a run folder, held from now on.
-    ///
-    /// # Errors
-    /// What is no folder, or is held by another run.
+    /// Errors: what is no folder, or is held by another run.
     pub(crate) fn find(path: &Path, by: &Provenance) -> Result<Option<Self>, RunFailure> {
         match fs::metadata(path) {
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(e) => return Err(RunError::write(path)(e).into()),
+            Err(e) => return Err(RunFailure::write(path)(e)),
             Ok(found) if found.is_dir() => {}
             Ok(_) => {
                 return Err(RunFailure::Usage(format!(
@@ -82,11 +79,9 @@ impl RunFolder {
 
     /// Makes a run folder at `path`, of a folder that is there too if it holds none of a run's
     /// names.
-    ///
-    /// # Errors
-    /// What cannot become a run folder, or is held by another run by now.
+    /// Errors: what cannot become a run folder, or is held by another run by now.
     pub(crate) fn make(path: &Path, by: &Provenance) -> Result<Self, RunFailure> {
-        fs::create_dir_all(path).map_err(RunError::write(path))?;
+        fs::create_dir_all(path).map_err(RunFailure::write(path))?;
         let names = [
             FINAL, CHECKPOINT, SUMMARY, HISTORY, RESOLVED, SNAPSHOTS, ASIDE,
         ];
@@ -106,7 +101,7 @@ impl RunFolder {
             .as_deref()
             .and_then(Path::parent)
         {
-            sync_folder(parent).map_err(RunError::write(path))?;
+            sync_folder(parent).map_err(RunFailure::write(path))?;
         }
         Ok(held)
     }
@@ -123,7 +118,7 @@ impl RunFolder {
             .create(true)
             .truncate(false)
             .open(&place);
-        let mut marker = open.map_err(RunError::write(&place))?;
+        let mut marker = open.map_err(RunFailure::write(&place))?;
         let unlocked = match marker.try_lock() {
             Ok(()) => None,
             Err(TryLockError::WouldBlock) => {
@@ -135,7 +130,7 @@ impl RunFolder {
             Err(TryLockError::Error(error)) => Some(error),
         };
         folder_mark::complete(&mut marker, by, &place)?;
-        sync_folder(path).map_err(RunError::write(path))?;
+        sync_folder(path).map_err(RunFailure::write(path))?;
         Ok(Self {
             path: path.to_owned(),
             marker,
@@ -165,22 +160,20 @@ impl RunFolder {
 
     /// Writes `name` whole or not at all: beside its place, to the disk, and then renamed. It keeps the permissions of
     /// what stood there.
-    ///
-    /// # Errors
-    /// The file and the system's reason; a file there that is write-protected.
+    /// Errors: the file and the system's reason; a file there that is write-protected.
     pub(crate) fn write_whole(
         &self,
         name: &str,
         body: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), RunError> {
+    ) -> Result<(), RunFailure> {
         let path = self.place(name);
         let within = path.parent().unwrap_or(&self.path);
         let aside = within.join(ASIDE);
         let place = self.place(MARKER);
-        is_still(&self.marker, &place).map_err(RunError::write(&place))?;
-        let replaced = machine::replaced_permissions(&path).map_err(RunError::write(&path))?;
+        is_still(&self.marker, &place).map_err(RunFailure::write(&place))?;
+        let replaced = machine::replaced_permissions(&path).map_err(RunFailure::write(&path))?;
         // A new file, so that nothing is written through a link.
-        let file = File::create_new(&aside).map_err(RunError::write(&path))?;
+        let file = File::create_new(&aside).map_err(RunFailure::write(&path))?;
         let write = || {
             if let Some(permissions) = replaced.or_else(|| self.removed.borrow_mut().remove(&path))
             {
@@ -195,23 +188,17 @@ impl RunFolder {
         write().map_err(|error| {
             // The failed attempt is of no use; that it cannot be removed changes nothing.
             let _ = fs::remove_file(&aside);
-            RunError::write(&path)(error)
+            RunFailure::write(&path)(error)
         })
     }
 
     /// Writes a text file whole or not at all.
-    ///
-    /// # Errors
-    /// The file and the system's reason.
-    pub(crate) fn write_text(&self, name: &str, text: &str) -> Result<(), RunError> {
+    pub(crate) fn write_text(&self, name: &str, text: &str) -> Result<(), RunFailure> {
         self.write_whole(name, |out| out.write_all(text.as_bytes()))
     }
 
     /// Removes the file `name`; one that is not there need not be removed.
-    ///
-    /// # Errors
-    /// The file and the system's reason.
-    pub(crate) fn remove(&self, name: &str) -> Result<(), RunError> {
+    pub(crate) fn remove(&self, name: &str) -> Result<(), RunFailure> {
         let path = self.place(name);
         let remove = || match machine::replaced_permissions(&path)? {
             Some(permissions) => {
@@ -221,39 +208,34 @@ impl RunFolder {
             }
             None => Ok(()),
         };
-        remove().map_err(RunError::write(&path))
+        remove().map_err(RunFailure::write(&path))
     }
 
     /// Fails where nothing can be written, or one of `names` is write-protected, before anything is removed to make room.
-    ///
-    /// # Errors
-    /// The folder or file and the reason.
-    pub(crate) fn check_writable(&self, names: &[String]) -> Result<(), RunError> {
+    /// Errors: the folder or file and the reason.
+    pub(crate) fn check_writable(&self, names: &[String]) -> Result<(), RunFailure> {
         for name in names {
             let path = self.place(name);
-            machine::replaced_permissions(&path).map_err(RunError::write(&path))?;
+            machine::replaced_permissions(&path).map_err(RunFailure::write(&path))?;
         }
         for within in [self.path.clone(), self.place(SNAPSHOTS)] {
             let aside = within.join(ASIDE);
             match File::create_new(&aside).and_then(|_| fs::remove_file(&aside)) {
                 Err(e) if e.kind() == io::ErrorKind::NotFound => {}
-                tried => tried.map_err(RunError::write(&within))?,
+                tried => tried.map_err(RunFailure::write(&within))?,
             }
         }
         Ok(())
     }
 
     /// Makes the folder of the snapshots, in a run folder that must still be there.
-    ///
-    /// # Errors
-    /// The folder and the system's reason.
-    pub(crate) fn make_snapshots(&self) -> Result<(), RunError> {
+    pub(crate) fn make_snapshots(&self) -> Result<(), RunFailure> {
         let path = self.place(SNAPSHOTS);
         match fs::create_dir(&path) {
             Err(e) if e.kind() == io::ErrorKind::AlreadyExists => Ok(()),
             made => made.and_then(|()| sync_folder(&self.path)),
         }
-        .map_err(RunError::write(&path))
+        .map_err(RunFailure::write(&path))
     }
 }
 

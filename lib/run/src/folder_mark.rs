@@ -7,7 +7,6 @@ use std::path::Path;
 use particle_file::Provenance;
 use serde::Deserialize;
 
-use crate::failure::RunError;
 use crate::failure::RunFailure;
 
 /// Its name. A run holds the lock of this file.
@@ -32,17 +31,15 @@ fn text(by: &Provenance) -> String {
 }
 
 /// Reads the mark; one that is empty or cut off, which a kill or a user may leave, is filled in.
-///
-/// # Errors
-/// A file that is none of this tool's marks (exit 2); a failed write.
+/// Errors: a file that is none of this tool's marks (exit 2); a failed write.
 pub(crate) fn complete(marker: &mut File, by: &Provenance, place: &Path) -> Result<(), RunFailure> {
     let mut found = Vec::new();
     let read = (&*marker).take(1 << 12).read_to_end(&mut found);
-    read.map_err(RunError::write(place))?;
+    read.map_err(RunFailure::write(place))?;
     if let Some(rest) = text(by).as_bytes().strip_prefix(found.as_slice()) {
         if !rest.is_empty() {
             let write = marker.write_all(rest).and_then(|()| marker.sync_all());
-            write.map_err(RunError::write(place))?;
+            write.map_err(RunFailure::write(place))?;
         }
         return Ok(());
     }

@@ -1,26 +1,28 @@
 //! Time and memory that a run will take, and the bounds beyond which it is not started unasked.
 
+use std::fmt::Display;
+
 use physics::Stages;
 
 /// What a scheme expects of a run.
 #[derive(Clone, Debug)]
-pub struct Forecast {
+pub(crate) struct Forecast {
     /// First time step, s.
-    pub dt_s: f64,
+    pub(crate) dt_s: f64,
     /// Which limit sets it, in words.
-    pub limit: String,
+    pub(crate) limit: String,
     /// Steps to the nominal end: the clamp keeps its full speed.
-    pub steps: f64,
+    pub(crate) steps: f64,
     /// The same to the latest end, where a pressure limit holds the clamp back.
-    pub most_steps: f64,
+    pub(crate) most_steps: f64,
     /// Largest resident memory, bytes.
-    pub memory_bytes: f64,
+    pub(crate) memory_bytes: f64,
     /// Wall time of a step on the threads at hand, s.
-    pub step_s: f64,
-    /// Further lines: unknowns, caps.
-    pub notes: Vec<String>,
+    pub(crate) step_s: f64,
+    /// Further lines of the plan: unknowns, caps.
+    pub(crate) notes: String,
     /// What a step consists of.
-    pub stages: Stages,
+    pub(crate) stages: Stages,
 }
 
 /// Steps from which a run will not end: at a microsecond each they take weeks.
@@ -30,7 +32,7 @@ const PATIENCE: f64 = 7.0 * 86_400.0;
 
 impl Forecast {
     /// A sentence where the run will not end in time or not fit into memory.
-    pub fn excess(&self) -> Option<String> {
+    pub(crate) fn excess(&self) -> Option<String> {
         let seconds = self.most_steps * self.step_s;
         // A forecast that is not a number is beyond all bounds too.
         let fits = |value: f64, most: f64| value <= most;
@@ -52,6 +54,11 @@ impl Forecast {
             "the run would need {short}; a coarser cell, fewer points_per_direction or a smaller specimen is needed"
         ))
     }
+}
+
+/// A line of a plan.
+pub(crate) fn line(name: &str, text: impl Display) -> String {
+    format!("  {name:<18} {text}\n")
 }
 
 /// A wall time in the unit that suits it.
@@ -77,7 +84,7 @@ mod tests {
             most_steps,
             memory_bytes,
             step_s: 1e-6,
-            notes: Vec::new(),
+            notes: String::new(),
             stages: Stages::default(),
         };
         let said = forecast(6e13, 0.0).excess().expect("a refusal");

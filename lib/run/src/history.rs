@@ -4,11 +4,11 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
 
-use physics::{Diagnostics, StepReport, WaterState};
+use physics::{Diagnostics, Scene};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::bond_measures::{self, Moment};
-use crate::failure::RunError;
+use crate::clock::Clock;
 use crate::failure::RunFailure;
 use crate::files::is_still;
 use crate::folder::{HISTORY, RunFolder};
@@ -25,13 +25,13 @@ const WET: &str = ",solids_content,water_in_walls_m3";
 /// What a press programme adds: the number of the stage that the step was of.
 const STAGE: &str = ",stage";
 
-/// What only some histories hold, in the order of their columns.
+/// What a row holds beside clock and diagnostics.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RowMore {
+    /// Way of the clamp left, m.
+    pub(crate) gap_m: Option<f64>,
     /// Factor of the viscosity of a liquid that cures.
     pub(crate) factor: Option<f64>,
-    /// Where the water is of a liquid that loses it.
-    pub(crate) water: Option<WaterState>,
     /// Number of the press programme's stage, from 1.
     pub(crate) stage: Option<usize>,
     /// What the press has come to.
@@ -40,11 +40,11 @@ pub(crate) struct RowMore {
 
 /// How far a history went, and what it then held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Extent {
+pub(crate) struct Extent {
     /// Length, bytes.
-    pub bytes: u64,
+    pub(crate) bytes: u64,
     /// XXH3-64 of them.
-    pub hash: u64,
+    pub(crate) hash: u64,
 }
 
 /// An open `history.csv`.
@@ -56,37 +56,27 @@ pub(crate) struct History {
 }
 
 impl History {
-    /// Starts a new history in `folder`, with a column for the factor of a liquid that `cures`, two for one
-    /// that `dries`, one for the stage of a press programme where it is `staged`, and those of a bond that is
-    /// `watched`.
-    ///
-    /// # Errors
-    /// The file and the system's reason.
+    /// Starts the history of a run of `scene` in `folder`, with the columns of its bond where that is `watched`.
     pub(crate) fn create(
         folder: &RunFolder,
-        cures: bool,
-        dries: bool,
-        staged: bool,
+        scene: &Scene,
         watched: bool,
-    ) -> Result<Self, RunError> {
+    ) -> Result<Self, RunFailure> {
         let more = [
-            (cures, CURED),
-            (dries, WET),
-            (staged, STAGE),
+            (scene.liquid.cure.is_some(), CURED),
+            (scene.liquid.water.is_some(), WET),
+            (!scene.programme.is_empty(), STAGE),
             (watched, bond_measures::COLUMNS),
         ];
-        let more = more
-            .into_iter()
-            .filter(|(has, _)| *has)
-            .map(|(_, columns)| columns);
-        let header = format!("{HEADER}{}\n", more.collect::<String>());
+        let more = more.map(|(has, columns)| if has { columns } else { "" });
+        let header = format!("{HEADER}{}\n", more.concat());
         folder.write_text(HISTORY, &header)?;
         let path = folder.place(HISTORY);
         let open = File::options().append(true).open(&path);
         let mut hash = Xxh3Default::new();
         hash.update(header.as_bytes());
         Ok(Self {
-            file: open.map_err(RunError::write(&path))?,
+            file: open.map_err(RunFailure::write(&path))?,
             path,
             bytes: header.len() as u64,
             hash,
@@ -95,9 +85,7 @@ impl History {
 
     /// Continues a history from where a checkpoint left it. What came after, whole rows or a
     /// part of one, is cut off.
-    ///
-    /// # Errors
-    /// A history that no longer begins as the checkpoint left it (exit 3); a failed write.
+    /// Errors: a history that no longer begins as the checkpoint left it (exit 3); a failed write.
     pub(crate) fn resume(folder: &RunFolder, extent: Extent) -> Result<Self, RunFailure> {
         let path = folder.place(HISTORY);
         let unusable = |why: &str| {
@@ -108,14 +96,15 @@ impl History {
         };
         let mut file = match File::options().read(true).append(true).open(&path) {
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Err(unusable("is missing")),
-            opened => opened.map_err(RunError::write(&path))?,
+            opened => opened.map_err(RunFailure::write(&path))?,
         };
-        let (bytes, hash) = hash_start(&mut file, extent.bytes).map_err(RunError::write(&path))?;
+        let (bytes, hash) =
+            hash_start(&mut file, extent.bytes).map_err(RunFailure::write(&path))?;
         if (bytes, hash.digest()) != (extent.bytes, extent.hash) {
             return Err(unusable("is not what it was at the last checkpoint"));
         }
         let cut = (file.set_len(bytes)).and_then(|()| file.seek(SeekFrom::Start(bytes)));
-        cut.map_err(RunError::write(&path))?;
+        cut.map_err(RunFailure::write(&path))?;
         Ok(Self {
             file,
             path,
@@ -125,15 +114,13 @@ impl History {
     }
 
     /// Brings all rows to the disk and says how far they go.
-    ///
-    /// # Errors
-    /// The file and the system's reason; also where the rows went into a file that is no longer there.
-    pub(crate) fn sync(&self) -> Result<Extent, RunError> {
+    /// Errors: the file and the system's reason; also where the rows went into a file that is no longer there.
+    pub(crate) fn sync(&self) -> Result<Extent, RunFailure> {
         let sync = || {
             self.file.sync_data()?;
             is_still(&self.file, &self.path)
         };
-        sync().map_err(RunError::write(&self.path))?;
+        sync().map_err(RunFailure::write(&self.path))?;
         Ok(Extent {
             bytes: self.bytes,
             hash: self.hash.digest(),
@@ -141,46 +128,40 @@ impl History {
     }
 
     /// Appends a row. An unknown gap (no clamp) stays empty.
-    ///
-    /// # Errors
-    /// The file and the system's reason.
     pub(crate) fn row(
         &mut self,
-        step: u64,
-        time_s: f64,
-        gap_m: Option<f64>,
-        report: &StepReport,
+        clock: &Clock,
         diagnostics: &Diagnostics,
         more: RowMore,
-    ) -> Result<(), RunError> {
-        let gap = gap_m.map_or(String::new(), |g| format!("{g:.9e}"));
-        let factor = more.factor.map_or(String::new(), |f| format!(",{f:.9e}"));
-        let water = more.water.map_or(String::new(), |water| {
-            format!(",{:.9e},{:.9e}", water.solids, water.in_walls_m3)
-        });
-        let stage = more
-            .stage
-            .map_or(String::new(), |stage| format!(",{stage}"));
-        let answers = more.moment.map_or(String::new(), |moment| moment.fields());
-        let row = format!(
-            "{step},{time_s:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}{factor}{water}{stage}{answers}\n",
-            report.dt_s,
-            report.closing_speed,
-            report.travel_m,
-            report.pressure_bottom + 0.0, // no -0
-            report.pressure_top + 0.0,
+    ) -> Result<(), RunFailure> {
+        let last = &clock.last;
+        let gap = more.gap_m.map_or(String::new(), |g| format!("{g:.9e}"));
+        let mut row = format!(
+            "{},{:.9e},{:.6e},{:.9e},{:.9e},{gap},{:.6e},{:.6e},{:.6e},{:.6e},{:.9e},{:.6e},{},{},{:.4e}",
+            clock.step,
+            clock.time_s,
+            last.dt_s,
+            last.closing_speed,
+            last.travel_m,
+            last.pressure_bottom + 0.0, // no -0
+            last.pressure_top + 0.0,
             diagnostics.kinetic_energy,
             diagnostics.viscous_power,
             diagnostics.volume,
             diagnostics.max_speed,
-            report.lost,
-            report.iterations,
+            last.lost,
+            last.iterations,
             diagnostics.capped_fraction,
         );
+        row.extend(more.factor.map(|factor| format!(",{factor:.9e}")));
+        row.extend((diagnostics.water).map(|w| format!(",{:.9e},{:.9e}", w.solids, w.in_walls_m3)));
+        row.extend(more.stage.map(|stage| format!(",{stage}")));
+        row.extend(more.moment.map(|moment| moment.fields()));
+        row.push('\n');
         self.file.write_all(row.as_bytes()).map_err(|error| {
             // Part of a row on a full disk is of no use; if it stays, --resume cuts it off.
             let _ = self.file.set_len(self.bytes);
-            RunError::write(&self.path)(error)
+            RunFailure::write(&self.path)(error)
         })?;
         self.bytes += row.len() as u64;
         self.hash.update(row.as_bytes());
@@ -210,13 +191,20 @@ mod tests {
 
     use super::*;
     use crate::folder::tests::held;
+    use crate::verdict::tests::setup;
+
+    fn create(folder: &RunFolder) -> History {
+        History::create(folder, &setup().scene, false).unwrap()
+    }
 
     fn add(history: &mut History, steps: &[u64]) {
         for &step in steps {
-            let (report, diagnostics) = (StepReport::default(), Diagnostics::default());
-            history
-                .row(step, 1e-9, None, &report, &diagnostics, RowMore::default())
-                .unwrap();
+            let clock = Clock {
+                step,
+                ..Clock::default()
+            };
+            let row = history.row(&clock, &Diagnostics::default(), RowMore::default());
+            row.unwrap();
         }
     }
 
@@ -225,7 +213,7 @@ mod tests {
     fn resuming_drops_rows_after_the_checkpoint_and_parts_of_rows() {
         let (_place, folder) = held();
         let path = folder.place(HISTORY);
-        let mut history = History::create(&folder, false, false, false, false).unwrap();
+        let mut history = create(&folder);
         add(&mut history, &[1, 12]);
         let extent = history.sync().unwrap();
         let kept = fs::read(&path).unwrap();
@@ -248,7 +236,7 @@ mod tests {
     #[test]
     fn a_history_that_is_removed_meanwhile_is_noticed() {
         let (_place, folder) = held();
-        let mut history = History::create(&folder, false, false, false, false).unwrap();
+        let mut history = create(&folder);
         fs::remove_file(folder.place(HISTORY)).unwrap();
         add(&mut history, &[1]);
         let said = history.sync().unwrap_err().to_string();
@@ -259,7 +247,7 @@ mod tests {
     #[test]
     fn a_history_that_was_changed_is_not_continued() {
         let (_place, folder) = held();
-        let mut history = History::create(&folder, false, false, false, false).unwrap();
+        let mut history = create(&folder);
         add(&mut history, &[1, 2]);
         let extent = history.sync().unwrap();
         let whole = fs::read(folder.place(HISTORY)).unwrap();

@@ -61,18 +61,15 @@ impl Invariants {
 
 /// Checks `liquid`, whose volume was `initial_volume` (m3) at the start, with the bodies
 /// displaced by `displacements` (m).
-pub fn check(
+pub(crate) fn check(
     scene: &Scene,
     initial_volume: f64,
     liquid: &LiquidState,
     displacements: &[[f64; 3]],
 ) -> Invariants {
     let spacing = 0.5 * scene.grid.cell_m;
-    let reachable: Vec<Option<Reachable>> = scene
-        .bodies
-        .iter()
-        .map(|b| Reachable::of(b, scene))
-        .collect();
+    let bodies = scene.bodies.iter();
+    let reachable: Vec<_> = bodies.map(|b| Reachable::of(b, scene)).collect();
     let placed = MovedBodies {
         scene,
         displacements,
@@ -141,12 +138,10 @@ impl<'a> Reachable<'a> {
 
 #[cfg(test)]
 pub(crate) mod tests {
-    use physics::{
-        Boundary, Dimensions, GridBox, Liquid, Newtonian, Points, ShearRate, Stop, Tait, Viscosity,
-        WallLaw,
-    };
+    use physics::{Dimensions, GridBox};
 
     use super::*;
+    use crate::verdict::tests::setup;
 
     /// Floor at j = 0, a closed lumen at (2, 2) and an open one at x = 5.
     pub(crate) fn block() -> VoxelBlock {
@@ -169,26 +164,19 @@ pub(crate) mod tests {
                 min_m: [0.0; 3],
                 cells: [8, 6, 3],
             },
-            boundary: [Boundary::Symmetry; 3],
-            liquid: Liquid {
-                density: 1e3,
-                tait: Tait { bulk_modulus: 1e9 },
-                viscosity: Viscosity::Newtonian(Newtonian(1.0)),
-                shear_rate: ShearRate::Paper,
-                cure: None,
-                water: None,
-                cavitation_pressure: None,
-                wetting: None,
-            },
-            points: Points::default(),
             bodies: bodies.into_iter().enumerate().map(body).collect(),
-            wall: WallLaw::Stick,
-            gravity: [0.0; 3],
-            clamp: None,
-            programme: Vec::new(),
-            stop: Stop::Time(1.0),
             bottom: None,
             top: None,
+            ..setup().scene
+        }
+    }
+
+    /// Liquid of 1 m3 at each of these places.
+    pub(crate) fn at<const N: usize>(position: [[f32; 3]; N]) -> LiquidState {
+        LiquidState {
+            position: position.to_vec(),
+            volume: vec![1.0; N],
+            ..LiquidState::default()
         }
     }
 
@@ -197,12 +185,7 @@ pub(crate) mod tests {
     fn a_point_in_a_domain_full_of_wood_is_four_cells_deep() {
         let mut scene = scene(vec![VoxelBlock::solid_box([-9.0; 3], [99.0; 3])]);
         scene.grid.cell_m = 0.5;
-        let at = LiquidState {
-            position: vec![[2.0, 1.5, 0.75]],
-            volume: vec![1.0],
-            ..LiquidState::default()
-        };
-        let found = check(&scene, 1.0, &at, &[[0.0; 3]]);
+        let found = check(&scene, 1.0, &at([[2.0, 1.5, 0.75]]), &[[0.0; 3]]);
         assert_eq!((found.deepest_m, found.points_deep_in_wood), (2.0, 1));
     }
 
@@ -269,38 +252,19 @@ pub(crate) mod tests {
             });
         let mut scene = scene(vec![block]);
         scene.grid.cells = [40, 60, 80];
-        let at = |[x, y, z]: [f64; 3]| [x + shift[0], y + shift[1], z + shift[2]].map(|x| x as f32);
-        let liquid = LiquidState {
-            // In the void at the bond, in the closed one, a quarter under the side of the block, and 1
-            // under the floor of the void at the bond.
-            position: [
-                [13.0, 34.0, 42.0],
-                [17.0, 26.0, 42.0],
-                [19.75, 29.0, 42.0],
-                [13.0, 31.0, 42.0],
-            ]
-            .map(at)
-            .to_vec(),
-            volume: vec![0.5; 4],
-            ..LiquidState::default()
-        };
-        let found = check(&scene, 2.5, &liquid, &[shift]);
+        // In the void at the bond, in the closed one, a quarter under the side of the block, and 1
+        // under the floor of the void at the bond.
+        let liquid = at([
+            [13.0, 34.0, 42.0],
+            [17.0, 26.0, 42.0],
+            [19.75, 29.0, 42.0],
+            [13.0, 31.0, 42.0],
+        ]
+        .map(|at| std::array::from_fn(|a| (at[a] + shift[a]) as f32)));
+        let found = check(&scene, 5.0, &liquid, &[shift]);
         assert_eq!(found.points_in_unreachable_voids, 1);
         assert_eq!((found.points_in_wood, found.points_deep_in_wood), (2, 1));
         assert!((found.deepest_m - 1.0).abs() < 1e-5, "{}", found.deepest_m);
         assert!((found.volume_change + 0.2).abs() < 1e-6);
-    }
-
-    #[test]
-    fn closed_lumens_are_unreachable() {
-        let block = block();
-        let wood = BitsRef::new(block.dims(), block.bits()).unwrap();
-        let r = Reachable {
-            block: &block,
-            open: open_voids(wood, Axis::Y, 4),
-        };
-        assert!(r.is_closed_void([2.5, 2.5, 1.5]));
-        assert!(!r.is_closed_void([5.5, 1.5, 1.5]));
-        assert!(!r.is_closed_void([0.5, 0.5, 0.5]), "wood is no void");
     }
 }

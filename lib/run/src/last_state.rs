@@ -3,66 +3,65 @@
 use physics::{Cure, LiquidState, Scheme};
 
 use crate::bond_measures::Watch;
-use crate::case::Case;
-use crate::courant::Courant;
-use crate::expected_error;
 use crate::failure::RunFailure;
 use crate::invariants;
-use crate::left_out::LeftOut;
 use crate::resolve::Setup;
 use crate::snapshot::in_file_axes;
-use crate::summary::{self, Facts, Summary};
+use crate::summary::{self, Account, Stage, Summary};
 use crate::time_loop::Outcome;
 use crate::verdict;
 
-/// What a summary repeats of the run as it was asked for.
-pub(crate) struct Asked {
-    pub(crate) courant_numbers: Vec<Courant>,
-    pub(crate) left_out: Vec<LeftOut>,
-    pub(crate) provenance: serde_json::Value,
-}
-
 /// The summary of a run, its liquid in the axes of the bond file, and the displacements of its bodies (m). The
 /// scheme, most of a run's memory, is gone before the liquid is measured.
-///
-/// # Errors
-/// A bond file that cannot be read any more.
 pub(crate) fn conclude(
-    case: &Case,
     setup: &Setup,
     scheme: Box<dyn Scheme>,
-    outcome: &Outcome,
+    outcome: Outcome,
     watch: Option<&Watch>,
-    asked: Asked,
+    account: Account,
 ) -> Result<(Summary, LiquidState, Vec<[f64; 3]>), RunFailure> {
     let (mut liquid, displacements) = (scheme.liquid(), scheme.displacements());
     let (stages, counts) = (scheme.stage_times(), scheme.counts());
     let programme = summary::programme(scheme.programme());
     let (objection, follows) = (scheme.objection(), scheme.follows_points());
     drop(scheme);
-    let (begun_m3, water) = (setup.liquid.volume_m3, outcome.diagnostics.water);
+    let (begun_m3, diagnostics) = (setup.liquid.volume_m3, outcome.diagnostics);
+    let (clock, water) = (outcome.clock, diagnostics.water);
+    let lost = clock.last.lost;
     let invariants = invariants::check(&setup.scene, begun_m3, &liquid, &displacements)
         .with_water(water, begun_m3);
-    let lost = outcome.clock.last.lost;
     let verdict = verdict::judge(setup, &liquid, &invariants, water, lost, follows).and(objection);
     in_file_axes(&mut liquid, setup.normal);
     let penetration = watch
         .map(|watch| watch.look_closely(&liquid, &displacements))
         .transpose()?;
-    let facts = Facts {
-        courant_numbers: asked.courant_numbers,
-        liquid_points: setup.liquid.points,
-        initial_gap_m: setup.initial_gap_m,
-        stages,
-        counts,
+    let wall = outcome.stepping.as_secs_f64();
+    let work = outcome.steps_here as f64 * setup.liquid.points as f64;
+    let summary = Summary {
+        end: outcome.end,
         verdict,
+        steps: clock.step,
+        courant_numbers: outcome.courant,
+        time_s: clock.time_s,
+        travel_m: clock.travel_m,
+        gap_m: setup.initial_gap_m.map(|g| g - clock.travel_m),
+        final_pressure_pa: clock.last.pressure_top,
+        liquid_points: setup.liquid.points,
+        points_left: lost,
+        kinetic_energy_j: diagnostics.kinetic_energy,
+        capped_viscosity_fraction: diagnostics.capped_fraction,
+        stepping_wall_s: wall,
+        cpu_s: machine::cpu_seconds(),
+        threads: rayon::current_num_threads(),
+        particle_steps_per_s: if wall > 0.0 { work / wall } else { 0.0 },
+        peak_memory_bytes: machine::peak_memory_bytes(),
         programme,
         penetration,
         set_s: setup.scene.liquid.cure.as_ref().and_then(Cure::set_at),
+        stages: stages.iter().map(Stage::of).collect(),
+        counts: counts.into_iter().collect(),
         invariants,
-        expected_error: expected_error::of(case, setup.scene.grid.cell_m),
-        left_out: asked.left_out,
-        provenance: asked.provenance,
+        account,
     };
-    Ok((Summary::new(outcome, facts), liquid, displacements))
+    Ok((summary, liquid, displacements))
 }

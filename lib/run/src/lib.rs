@@ -2,7 +2,7 @@
 //! a run writes (`history.csv`, snapshots, checkpoint, `final.mpts`, `summary.json`).
 
 mod bond_measures;
-pub mod case;
+mod case;
 mod changes;
 mod checkpoint;
 mod chords;
@@ -34,6 +34,7 @@ mod time_loop;
 mod verdict;
 
 pub use bond_measures::{Answers, FilledByDepth, Sides};
+pub use case::REFERENCE;
 pub use changes::changed_case;
 pub use courant::Courant;
 pub use earlier_run::Mode;

@@ -17,9 +17,7 @@ use crate::resolve::Bond;
 const MADE_OF_A_BYTE: u64 = 2;
 
 /// The text of a case file.
-///
-/// # Errors
-/// Exit 2 when it cannot be read, is longer than a case can be, or is no text.
+/// Errors: exit 2 when it cannot be read, is longer than a case can be, or is no text.
 pub(crate) fn case_text(path: &Path) -> Result<String, RunFailure> {
     let refused = |why: String| {
         RunFailure::Usage(format!(
@@ -45,9 +43,7 @@ pub(crate) fn swap<T>(mut v: [T; 3], normal: Axis) -> [T; 3] {
 }
 
 /// Reads what a run needs from a bond file.
-///
-/// # Errors
-/// Exit 2 when the file is no bond file, exit 3 when it is corrupt.
+/// Errors: exit 2 when the file is no bond file, exit 3 when it is corrupt.
 pub(crate) fn bond(file: &ParticleFile) -> Result<Bond, RunFailure> {
     let header = file.header();
     if header.kind != Kind::Bond {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use particle_file::{ParticleFile, Provenance};
-use physics::{Regime, Scheme, StepReport};
+use physics::{Regime, Scheme};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::bond_measures;
@@ -15,19 +15,20 @@ use crate::courant::{Courant, continued, without_cfl};
 use crate::earlier_run::{self, Mode};
 use crate::ends::{Ahead, End};
 use crate::expected_error;
-use crate::failure::{RunError, RunFailure};
+use crate::failure::{RunFailure, refused};
 use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
+use crate::forecast::Forecast;
 use crate::history::History;
-use crate::last_state::{Asked, conclude};
-use crate::left_out::{LeftOut, left_out};
+use crate::last_state::conclude;
+use crate::left_out::left_out;
 use crate::load;
 use crate::resolve::{self, Setup};
 use crate::resolved;
 use crate::schemes;
 use crate::snapshot::{SnapshotWriter, is_final_of};
-use crate::summary::{self, Summary};
-use crate::time_loop::{self, Controls};
-use crate::verdict;
+use crate::summary::{self, Account, Failed, Summary};
+use crate::time_loop::TimeLoop;
+use crate::verdict::Verdict;
 
 /// A run ready to be explained or executed.
 #[derive(Debug)]
@@ -43,11 +44,7 @@ pub struct Request {
 }
 
 /// Where a run begins to take steps.
-struct Begun {
-    clock: Clock,
-    courant: Vec<Courant>,
-    history: History,
-}
+type Begun = (Clock, Vec<Courant>, History);
 
 impl Request {
     /// Reads and resolves a case with `changes` (`key=value`) and its bond file.
@@ -74,9 +71,8 @@ impl Request {
             None => None,
         };
         let plain = bond.as_ref().map(load::bond).transpose()?;
-        let bonded = plain.is_some();
         let setup = resolve::resolve(&parsed, plain)?;
-        bond_measures::check(&parsed, bonded, &setup)?;
+        bond_measures::check(&parsed, bond.is_some(), &setup)?;
         Ok(Self {
             case: parsed,
             text,
@@ -92,12 +88,16 @@ impl Request {
         Regime::of(&self.setup.scene, &self.setup.liquid).warnings()
     }
 
+    fn forecast(&self) -> Result<Forecast, RunFailure> {
+        schemes::forecast(&self.case, &self.setup)
+    }
+
     /// What the run is forecast to need beyond all patience or memory, as a sentence.
     ///
     /// # Errors
     /// What would keep the scheme from starting.
     pub fn excess(&self) -> Result<Option<String>, RunFailure> {
-        Ok(schemes::forecast(&self.case, &self.setup)?.excess())
+        Ok(self.forecast()?.excess())
     }
 
     /// The plan of the run as text.
@@ -105,11 +105,8 @@ impl Request {
     /// # Errors
     /// What would keep the scheme from starting.
     pub fn explain(&self) -> Result<String, RunFailure> {
-        Ok(crate::explain::text(
-            &self.case,
-            &self.setup,
-            &schemes::forecast(&self.case, &self.setup)?,
-        ))
+        let forecast = self.forecast()?;
+        Ok(crate::explain::text(&self.case, &self.setup, &forecast))
     }
 
     /// Runs into `folder`, with `warn` told what the user should know; `None` when `folder` holds
@@ -137,21 +134,17 @@ impl Request {
             by: by.clone(),
         };
         let found = RunFolder::find(folder, &by)?;
+        // In a folder without the mark nothing is known to be a run's: making it one refuses.
         if let Some(found) = &found {
             earlier_run::make_room(found, &self.places)?;
-        }
-        // In a folder without the mark nothing is known to be a run's: making it one refuses.
-        if let Some(found) = &found
-            && mode.resume
-            && is_final_of(folder, &identity, mode.overwrite)?
-        {
-            earlier_run::tidy(found, &origin)?;
-            return Ok(None);
+            if mode.resume && is_final_of(folder, &identity, mode.overwrite)? {
+                earlier_run::tidy(found, &origin)?;
+                return Ok(None);
+            }
         }
         // What is refused must not cost a run folder.
         let watch = bond_measures::watch(&self.case, self.bond.as_ref(), &self.setup)?;
-        self.check_patience(mode, warn)?;
-        let stages = schemes::forecast(&self.case, &self.setup)?.stages;
+        let account = self.account(mode, &by, warn)?;
         let resolved = resolved::text(&self.text, &self.case, &self.setup);
         // Read before there is a scheme, beside which its file need not be in memory, too.
         let checkpoint = match &found {
@@ -164,75 +157,60 @@ impl Request {
             None => RunFolder::make(folder, &by)?,
         };
         folder.warning().into_iter().for_each(warn);
-        let Begun {
-            clock,
-            courant,
-            mut history,
-        } = match checkpoint {
+        let (clock, courant, history) = match checkpoint {
             Some(checkpoint) => self.continued(folder, checkpoint, scheme.as_mut(), &resolved)?,
             None => self.anew(folder, mode, &resolved, &by)?,
         };
-        let watch = watch.as_ref();
-        let mut controls = Controls {
-            watch: watch.filter(|_| self.case.output.penetration),
-            history_every_s: self.setup.history_every_s,
-            snapshot_every_s: self.snapshot_every(),
-            snapshots_of_way: self.case.output.snapshots,
-            interrupted,
-            progress: &mut |ends, time_s, report: &StepReport| {
-                let pressure = report.pressure_top / 1e6;
-                let state = format!("{}, {pressure:.3} MPa", summary::time(time_s, 3));
-                progress(ends, state);
-            },
-            origin,
-            courant,
-        };
-        let provenance = provenance_json(&by);
         let writer = SnapshotWriter::new(folder, &self.setup, self.bond.as_ref(), by, &identity);
-        let ended = time_loop::run_to_its_end(
-            &self.setup,
-            scheme.as_mut(),
-            clock,
-            &mut history,
-            &writer,
+        let time_loop = TimeLoop {
+            setup: &self.setup,
             folder,
-            &mut controls,
-        );
-        let left_out = left_out(&self.case, &self.setup, &stages);
-        let outcome = match ended {
-            Err(error @ RunError::Unstable { step, time_s, .. }) => {
-                let at = (step, time_s);
-                return Err(self.failed(folder, error.into(), at, left_out, provenance));
-            }
-            ended => ended?,
+            clock,
+            courant,
+            history,
+            writer: &writer,
+            snapshots: self.case.output.snapshots,
+            watch: watch.as_ref().filter(|_| self.case.output.penetration),
+            origin,
+            interrupted,
+            progress,
         };
-        let asked = Asked {
-            courant_numbers: controls.courant,
-            left_out,
-            provenance,
+        let outcome = match time_loop.run(scheme.as_mut()) {
+            Err(failure) => return Err(failed(folder, failure, account)),
+            Ok(outcome) => outcome,
         };
+        let (end, clock) = (outcome.end, outcome.clock);
         let (summary, liquid, displacements) =
-            conclude(&self.case, &self.setup, scheme, &outcome, watch, asked)?;
+            conclude(&self.setup, scheme, outcome, watch.as_ref(), account)?;
         folder.write_text(SUMMARY, &summary::text(&summary))?;
-        if outcome.end != End::Interrupted {
-            writer.write_final(&outcome.clock, &liquid, &displacements)?;
+        if end != End::Interrupted {
+            writer.write_final(&clock, &liquid, &displacements)?;
             folder.remove(CHECKPOINT)?;
         }
         Ok(Some(summary))
     }
 
-    /// Refuses a run beyond all patience or memory unless `mode` takes it however long, and then warns.
-    fn check_patience(&self, mode: Mode, warn: &dyn Fn(String)) -> Result<(), RunFailure> {
-        match self.excess()? {
+    /// What is known of a run before it starts. One beyond all patience or memory is refused unless `mode` takes it
+    /// however long, and then warned of.
+    fn account(
+        &self,
+        mode: Mode,
+        by: &Provenance,
+        warn: &dyn Fn(String),
+    ) -> Result<Account, RunFailure> {
+        let forecast = self.forecast()?;
+        match forecast.excess() {
             Some(excess) if mode.however_long => warn(excess),
             Some(excess) => {
-                return Err(RunFailure::Usage(format!(
-                    "{excess}; --yes-really runs it all the same"
-                )));
+                return refused(format!("{excess}; --yes-really runs it all the same"));
             }
             None => {}
         }
-        Ok(())
+        Ok(Account {
+            expected_error: expected_error::of(&self.case, self.setup.scene.grid.cell_m),
+            left_out: left_out(&self.case, &self.setup, &forecast.stages),
+            provenance: summary::provenance(by),
+        })
     }
 
     /// Brings `scheme` and `folder` to where `checkpoint` was written.
@@ -252,11 +230,8 @@ impl Request {
         let clock = checkpoint.clock;
         earlier_run::forget_what_came_after(folder, &clock, resolved)?;
         let cfl = schemes::cfl(&self.case);
-        Ok(Begun {
-            clock,
-            courant: continued(checkpoint.courant, clock.step, cfl),
-            history,
-        })
+        let courant = continued(checkpoint.courant, clock.step, cfl);
+        Ok((clock, courant, history))
     }
 
     /// Makes `folder` that of a run at its start.
@@ -268,42 +243,9 @@ impl Request {
         by: &Provenance,
     ) -> Result<Begun, RunFailure> {
         earlier_run::anew(folder, mode, resolved, by)?;
-        let scene = &self.setup.scene;
-        let history = History::create(
-            folder,
-            scene.liquid.cure.is_some(),
-            scene.liquid.water.is_some(),
-            !scene.programme.is_empty(),
-            self.case.output.penetration,
-        )?;
-        Ok(Begun {
-            clock: Clock::default(),
-            courant: continued(Vec::new(), 0, schemes::cfl(&self.case)),
-            history,
-        })
-    }
-
-    /// Leaves the summary of a run that failed at this step and time (s).
-    fn failed(
-        &self,
-        folder: &RunFolder,
-        failure: RunFailure,
-        (steps, time_s): (u64, f64),
-        left_out: Vec<LeftOut>,
-        provenance: serde_json::Value,
-    ) -> RunFailure {
-        let failed = summary::Failed {
-            end: "failed",
-            verdict: verdict::Verdict::because(vec![failure.said()]),
-            steps,
-            time_s,
-            expected_error: expected_error::of(&self.case, self.setup.scene.grid.cell_m),
-            left_out,
-            provenance,
-        };
-        // That the run failed is worse than that its folder does not say why.
-        let _ = folder.write_text(SUMMARY, &summary::text(&failed));
-        failure
+        let history = History::create(folder, &self.setup.scene, self.case.output.penetration)?;
+        let courant = continued(Vec::new(), 0, schemes::cfl(&self.case));
+        Ok((Clock::default(), courant, history))
     }
 
     /// What makes two runs the same: the case as run, the inputs and the version.
@@ -316,21 +258,23 @@ impl Request {
         let bond = self.inputs.get(1).map_or(0, |i| i.1);
         format!("{:016x} {bond:016x}", xxh3_64(case.as_bytes()))
     }
-
-    fn snapshot_every(&self) -> f64 {
-        match self.case.output.snapshots {
-            0 => f64::INFINITY,
-            _ if !self.setup.scene.programme.is_empty() => f64::INFINITY,
-            n => self.setup.nominal_duration_s / f64::from(n),
-        }
-    }
 }
 
-fn provenance_json(by: &Provenance) -> serde_json::Value {
-    let inputs: Vec<_> = by
-        .inputs
-        .iter()
-        .map(|(path, hash)| serde_json::json!({ "path": path, "xxh3": format!("{hash:016x}") }))
-        .collect();
-    serde_json::json!({ "tool": by.tool, "version": by.version, "command": by.command, "inputs": inputs })
+/// Leaves the summary of a run that became unstable.
+fn failed(folder: &RunFolder, failure: RunFailure, account: Account) -> RunFailure {
+    if let RunFailure::Unstable {
+        said, step, time_s, ..
+    } = &failure
+    {
+        let failed = Failed {
+            end: "failed",
+            verdict: Verdict::because(vec![said.clone()]),
+            steps: *step,
+            time_s: *time_s,
+            account,
+        };
+        // That the run failed is worse than that its folder does not say why.
+        let _ = folder.write_text(SUMMARY, &summary::text(&failed));
+    }
+    failure
 }

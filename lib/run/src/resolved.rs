@@ -1,12 +1,14 @@
 //! `resolved.toml`: the case as run, every key that was left out with the value that held instead.
 //! As a case file it makes the same run again.
 
-use std::fmt::Write;
+use mpm::{PressureFrom, ShapeFunction, VelocityUpdate};
+use physics::{Choice, Pid};
+use units::{Dimension, Length, Time};
 
-use crate::case::Case;
-use crate::case::keys::{Absent, Key, TABLES, Table};
+use crate::case::{Case, SchemeName, StopRule, Table, tables};
 use crate::courant::without_cfl;
 use crate::resolve::Setup;
+use crate::schemes;
 
 const OPENING: &str = "\
 # The case of this run, with the defaults that held: as a case file it makes the same run again.
@@ -15,31 +17,99 @@ const OPENING: &str = "\
 
 /// What stands behind a value that was not given.
 const DEFAULT: &str = " # default";
+/// Tables that a case need not name for their defaults to hold.
+const IMPLIED: [&str; 3] = ["output", "gravity", "boundary"];
 /// Differing keys that are named.
 const TOLD: usize = 3;
 
 /// The text of the file, for a case of this `text`.
 pub(crate) fn text(text: &str, case: &Case, setup: &Setup) -> String {
-    let given = text.parse::<toml::Table>().unwrap_or_default();
-    let given = toml::Value::Table(given);
+    let given = toml::Value::Table(text.parse().unwrap_or_default());
+    let none = toml::Value::Table(toml::Table::new());
     let mut out = String::from(OPENING);
-    for table in TABLES {
-        let none = toml::Value::Table(toml::Table::new());
+    for table in tables() {
         let places = match found(&given, table.path) {
             Some(toml::Value::Array(list)) => list.iter().collect(),
             Some(place) => vec![place],
-            None if table.always => vec![&none],
+            None if IMPLIED.contains(&table.path) => vec![&none],
             None => Vec::new(),
         };
         if places.is_empty() {
-            out.push_str(&format!("\n# {}: not given\n", heading(table)));
+            out += &format!("\n# {}: not given\n", table.heading);
         }
         for place in places {
-            // Writing to a string cannot fail.
-            let _ = write_table(&mut out, table, place, case, setup);
+            out += &table_text(&table, place, case, setup);
         }
     }
     out
+}
+
+fn table_text(table: &Table, place: &toml::Value, case: &Case, setup: &Setup) -> String {
+    let mut out = format!("\n{}\n", table.heading);
+    for key in &table.keys {
+        let name = key.name();
+        let derived = || derived(&format!("{}.{name}", table.path), case, setup);
+        let words = key.default().replace('`', "");
+        out += &match found(place, name) {
+            Some(value) => format!("{name} = {value}"),
+            None => match (derived(), key.value()) {
+                (Some(Some(value)), _) => format!("{name} = {value}{DEFAULT}"),
+                (Some(None), _) => format!("# {name}: not used"),
+                (None, Some(value)) => format!("{name} = {value}{DEFAULT}"),
+                (None, None) if words.starts_with("needed") => {
+                    format!("# {name}: not given, {words}")
+                }
+                (None, None) => format!("# {name}: {words}"),
+            },
+        };
+        out.push('\n');
+    }
+    out
+}
+
+/// The default of a key that follows from case and scene, as TOML, none where it is not used; nothing for other keys.
+fn derived(key: &str, case: &Case, setup: &Setup) -> Option<Option<String>> {
+    let explicit = case.integrator.scheme == SchemeName::Explicit;
+    let grid = || (!case.body.is_empty()).then_some(&setup.scene.grid);
+    let clamp = case.clamp.as_ref();
+    let unstaged = clamp.filter(|clamp| clamp.stage.is_empty());
+    let closes = unstaged.filter(|clamp| matches!(clamp.stop, None | Some(StopRule::Closed)));
+    let word = |name: &str| format!("\"{name}\"");
+    let of_explicit = |name: &str| explicit.then(|| word(name));
+    let gain = |gain: f64| {
+        let held = clamp.is_some_and(|clamp| clamp.max_pressure.is_some());
+        (held && explicit).then(|| format!("{gain:?}"))
+    };
+    Some(match key {
+        "grid.shape" => of_explicit(ShapeFunction::default().name()),
+        "grid.domain.min" => grid().map(|grid| corner(grid.min_m)),
+        "grid.domain.max" => grid().map(|grid| corner(grid.max_m())),
+        "clamp.pid.kp" => gain(Pid::default().kp),
+        "clamp.pid.ki" => gain(Pid::default().ki),
+        "clamp.pid.kd" => gain(Pid::default().kd),
+        "clamp.stop" => unstaged.map(|_| word("closed")),
+        "clamp.time_limit" => closes.map(|_| si::<Time>(setup.time_limit_s)),
+        "clamp.travel" => clamp.and(setup.initial_gap_m).map(si::<Length>),
+        "integrator.velocity_update" => of_explicit(VelocityUpdate::default().name()),
+        "integrator.cfl" => Some(format!("{:?}", schemes::cfl(case))),
+        "integrator.pressure" => of_explicit(PressureFrom::default().name()),
+        "integrator.tolerance" => {
+            (!explicit).then(|| format!("{:?}", implicit::Settings::default().tolerance))
+        }
+        "output.history_every" => {
+            (setup.history_every_s > 0.0).then(|| si::<Time>(setup.history_every_s))
+        }
+        _ => return None,
+    })
+}
+
+/// A value in SI as TOML that reads back to the same number.
+fn si<D: Dimension>(value: f64) -> String {
+    format!("\"{value:?} {}\"", D::UNITS[0].0)
+}
+
+fn corner(metres: [f64; 3]) -> String {
+    format!("[{}]", metres.map(si::<Length>).join(", "))
 }
 
 /// The first keys by which the case of one such text differs from that of another, with both values: so that a run that is not
@@ -49,10 +119,10 @@ pub(crate) fn differences(is: &str, was: &str) -> Vec<String> {
     let (Some(is), Some(was)) = (given(is), given(was)) else {
         return Vec::new();
     };
-    let paths = TABLES.iter().flat_map(|table| match table.repeated {
+    let paths = tables().flat_map(|table| match table.repeated() {
         true => vec![table.path.to_owned()],
         false => (table.keys.iter())
-            .map(|key| format!("{}.{}", table.path, key.name))
+            .map(|key| format!("{}.{}", table.path, key.name()))
             .collect(),
     });
     let value = |of: Option<&toml::Value>| of.map_or("not given".to_owned(), ToString::to_string);
@@ -72,46 +142,8 @@ fn given(text: &str) -> Option<toml::Value> {
     text.parse().ok().map(toml::Value::Table)
 }
 
-fn heading(table: &Table) -> String {
-    match table.repeated {
-        true => format!("[[{}]]", table.path),
-        false => format!("[{}]", table.path),
-    }
-}
-
 /// The value below `place` at a dotted path.
 fn found<'a>(place: &'a toml::Value, path: &str) -> Option<&'a toml::Value> {
     path.split('.')
         .try_fold(place, |place, name| place.get(name))
-}
-
-fn write_table(
-    out: &mut String,
-    table: &Table,
-    place: &toml::Value,
-    case: &Case,
-    setup: &Setup,
-) -> std::fmt::Result {
-    writeln!(out, "\n{}", heading(table))?;
-    for Key { name, absent, .. } in table.keys {
-        if let Some(value) = found(place, name) {
-            writeln!(out, "{name} = {value}")?;
-            continue;
-        }
-        match absent {
-            Absent::Value(value) => writeln!(out, "{name} = {value}{DEFAULT}")?,
-            Absent::Of(_, value) => match value(case, setup) {
-                Some(value) => writeln!(out, "{name} = {value}{DEFAULT}")?,
-                None => writeln!(out, "# {name}: not used")?,
-            },
-            Absent::Needed(when) => writeln!(out, "# {name}: not given, needed {}", plain(when))?,
-            Absent::Nothing(words) => writeln!(out, "# {name}: {}", plain(words))?,
-        }
-    }
-    Ok(())
-}
-
-/// Words without their Markdown.
-fn plain(words: &str) -> String {
-    words.replace('`', "")
 }

@@ -4,9 +4,9 @@ use implicit::Implicit;
 use mpm::{Explicit, PressureFrom, VelocityUpdate};
 use physics::{Choice, Scene, Scheme};
 
-use crate::case::{Case, CaseError, SchemeName};
-use crate::failure::RunFailure;
-use crate::forecast::Forecast;
+use crate::case::{Case, CellLength, SchemeName};
+use crate::failure::{RunFailure, refused};
+use crate::forecast::{Forecast, line};
 use crate::resolve::Setup;
 
 /// The Courant number of a case, or its scheme's own.
@@ -23,9 +23,7 @@ pub(crate) fn default_cfl(case: &Case) -> f64 {
 }
 
 /// The scheme at the start of its scene.
-///
-/// # Errors
-/// Settings that are not of this scheme, and scenes it cannot do.
+/// Errors: settings that are not of this scheme, and scenes it cannot do.
 pub(crate) fn build(case: &Case, setup: &Setup) -> Result<Box<dyn Scheme>, RunFailure> {
     let scene = &setup.scene;
     Ok(match case.integrator.scheme {
@@ -56,62 +54,46 @@ pub(crate) fn forecast(case: &Case, setup: &Setup) -> Result<Forecast, RunFailur
     }
 }
 
-fn explicit(case: &Case, cell: f64) -> Result<mpm::Settings, CaseError> {
-    let table = &case.integrator;
-    if table.tolerance.is_some() {
-        return Err(CaseError(
-            "[integrator] tolerance is for scheme = \"implicit\" only".into(),
-        ));
+/// Refuses a key of the other scheme: the first of `keys` that is given, with why it is that of `scheme` only.
+fn refuse_stray(scheme: &str, keys: &[(bool, &str, &str)]) -> Result<(), RunFailure> {
+    match keys.iter().find(|(given, ..)| *given) {
+        None => Ok(()),
+        Some((_, key, why)) => refused(format!("{key} is for scheme = \"{scheme}\" only{why}")),
     }
-    if case.adhesive.cure.is_some() {
-        return Err(CaseError(
-            "[adhesive.cure] is for scheme = \"implicit\" only: explicit steps do not reach the time of cure"
-                .into(),
-        ));
-    }
-    if case.adhesive.water.is_some() {
-        return Err(CaseError(
-            "[adhesive.water] is for scheme = \"implicit\" only: explicit steps do not reach the time in which wood takes water"
-                .into(),
-        ));
-    }
-    if case.adhesive.surface_tension.is_some() {
-        return Err(CaseError(
-            "[adhesive] surface_tension is for scheme = \"implicit\" only: explicit steps are too short for liquid to be drawn anywhere"
-                .into(),
-        ));
-    }
-    if case.adhesive.dynamic_angle.is_some() {
-        return Err(CaseError(
-            "[adhesive] dynamic_angle is for scheme = \"implicit\" only".into(),
-        ));
-    }
-    if case.air.is_some() {
-        return Err(CaseError(
-            "[air] is for scheme = \"implicit\" only: the explicit scheme has no pressure in what it leaves empty"
-                .into(),
-        ));
-    }
-    if (case.clamp.as_ref()).is_some_and(|clamp| !clamp.stage.is_empty()) {
-        return Err(CaseError(
-            "[[clamp.stage]] is for scheme = \"implicit\" only: explicit steps are too short for a press"
-                .into(),
-        ));
-    }
+}
+
+fn separation(case: &Case) -> Option<CellLength> {
+    case.contact.as_ref()?.separation
+}
+
+fn explicit(case: &Case, cell: f64) -> Result<mpm::Settings, RunFailure> {
+    let (table, adhesive) = (&case.integrator, &case.adhesive);
+    let staged = case.clamp.as_ref().is_some_and(|c| !c.stage.is_empty());
+    #[rustfmt::skip]
+    let stray = [
+        (table.tolerance.is_some(), "[integrator] tolerance", ""),
+        (adhesive.cure.is_some(), "[adhesive.cure]", ": explicit steps do not reach the time of cure"),
+        (adhesive.water.is_some(), "[adhesive.water]", ": explicit steps do not reach the time in which wood takes water"),
+        (adhesive.surface_tension.is_some(), "[adhesive] surface_tension", ": explicit steps are too short for liquid to be drawn anywhere"),
+        (adhesive.dynamic_angle.is_some(), "[adhesive] dynamic_angle", ""),
+        (case.air.is_some(), "[air]", ": the explicit scheme has no pressure in what it leaves empty"),
+        (staged, "[[clamp.stage]]", ": explicit steps are too short for a press"),
+    ];
+    refuse_stray("implicit", &stray)?;
     let update = table.velocity_update.unwrap_or_default();
     let velocity_update = match (update, table.order.map(u32::from)) {
         (VelocityUpdate::Xpic(_), Some(order)) => VelocityUpdate::Xpic(order),
         (VelocityUpdate::Fmpm(_), Some(order)) => VelocityUpdate::Fmpm(order),
         (VelocityUpdate::Xpic(_) | VelocityUpdate::Fmpm(_), None) => {
-            return Err(CaseError(format!(
+            return refused(format!(
                 "[integrator] velocity_update = \"{}\" needs an order, such as order = 5",
                 update.name()
-            )));
+            ));
         }
         (_, Some(_)) => {
-            return Err(CaseError(
-                "[integrator] order is for velocity_update = \"xpic\" and \"fmpm\" only".into(),
-            ));
+            return refused(
+                "[integrator] order is for velocity_update = \"xpic\" and \"fmpm\" only",
+            );
         }
         (update, None) => update,
     };
@@ -121,40 +103,24 @@ fn explicit(case: &Case, cell: f64) -> Result<mpm::Settings, CaseError> {
         cfl: cfl(case),
         pressure: table.pressure.unwrap_or_default(),
         density_projection: table.density_projection.map(|length| length.cells(cell)),
-        separation: (case.contact.as_ref())
-            .and_then(|contact| contact.separation)
-            .map(|length| length.cells(cell)),
+        separation: separation(case).map(|length| length.cells(cell)),
     };
-    settings.check().map_err(CaseError)?;
+    settings.check().map_err(RunFailure::Usage)?;
     Ok(settings)
 }
 
-fn implicit(case: &Case) -> Result<implicit::Settings, CaseError> {
+fn implicit(case: &Case) -> Result<implicit::Settings, RunFailure> {
     let table = &case.integrator;
+    #[rustfmt::skip]
     let stray = [
-        (
-            table.velocity_update.is_some(),
-            "[integrator] velocity_update",
-        ),
-        (table.order.is_some(), "[integrator] order"),
-        (table.pressure.is_some(), "[integrator] pressure"),
-        (
-            table.density_projection.is_some(),
-            "[integrator] density_projection",
-        ),
-        (case.grid.shape.is_some(), "[grid] shape"),
-        (
-            case.contact
-                .as_ref()
-                .is_some_and(|c| c.separation.is_some()),
-            "[contact] separation",
-        ),
+        (table.velocity_update.is_some(), "[integrator] velocity_update", ""),
+        (table.order.is_some(), "[integrator] order", ""),
+        (table.pressure.is_some(), "[integrator] pressure", ""),
+        (table.density_projection.is_some(), "[integrator] density_projection", ""),
+        (case.grid.shape.is_some(), "[grid] shape", ""),
+        (separation(case).is_some(), "[contact] separation", ""),
     ];
-    if let Some((_, key)) = stray.iter().find(|(given, _)| *given) {
-        return Err(CaseError(format!(
-            "{key} is for scheme = \"explicit\" only"
-        )));
-    }
+    refuse_stray("explicit", &stray)?;
     let default = implicit::Settings::default();
     let settings = implicit::Settings {
         cfl: cfl(case),
@@ -165,7 +131,7 @@ fn implicit(case: &Case) -> Result<implicit::Settings, CaseError> {
             .map_or(default.air_leak_time, |time| time.si()),
         dynamic_angle: case.adhesive.dynamic_angle.unwrap_or_default(),
     };
-    settings.check().map_err(CaseError)?;
+    settings.check().map_err(RunFailure::Usage)?;
     Ok(settings)
 }
 
@@ -197,18 +163,21 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
         VelocityUpdate::Apic => APIC_STEP,
         update => 1.0 + FILTER_ORDER * f64::from(update.order() - 1),
     };
-    let mut notes = vec![format!(
-        "limits             acoustic {:.3e} s, viscous {:.3e} s; the Courant number {} is of the smaller",
-        plan.acoustic_s, plan.viscous_s, settings.cfl
-    )];
-    if setup.scene.liquid.viscosity.largest() > plan.viscosity_cap {
-        notes.push(format!(
-            "viscosity cap      {:.3} Pa s: this step carries no more, and the table goes to {} Pa s",
-            plan.viscosity_cap,
-            setup.scene.liquid.viscosity.largest()
-        ));
+    let mut notes = line(
+        "limits",
+        format!(
+            "acoustic {:.3e} s, viscous {:.3e} s; the Courant number {} is of the smaller",
+            plan.acoustic_s, plan.viscous_s, settings.cfl
+        ),
+    );
+    let (cap, largest) = (plan.viscosity_cap, setup.scene.liquid.viscosity.largest());
+    if largest > cap {
+        let said = format!(
+            "{cap:.3} Pa s: this step carries no more, and the table goes to {largest} Pa s"
+        );
+        notes += &line("viscosity cap", said);
     }
-    notes.extend(departures(settings));
+    notes += &departures(settings);
     Ok(Forecast {
         dt_s: plan.dt_s,
         limit: plan.limit.to_string(),
@@ -223,38 +192,41 @@ fn explicit_forecast(settings: &mpm::Settings, setup: &Setup) -> Result<Forecast
 }
 
 /// What the settings change of the paper's method, none of it silently.
-fn departures(settings: &mpm::Settings) -> Vec<String> {
-    let mut list = Vec::new();
+fn departures(settings: &mpm::Settings) -> String {
+    let mut out = String::new();
     if settings.pressure == PressureFrom::CellMean {
-        list.push("pressure           from the mean J of each cell, not the paper's".to_owned());
+        out += &line("pressure", "from the mean J of each cell, not the paper's");
     }
     if let Some(cells) = settings.density_projection {
-        list.push(format!(
-            "density projection after every {cells} cell of motion, not the paper's"
-        ));
+        let said = format!("after every {cells} cell of motion, not the paper's");
+        out += &line("density projection", said);
     }
     if let Some(cells) = settings.separation {
-        list.push(format!(
-            "contact separation {cells} cell, not the shape function's own"
-        ));
+        let said = format!("{cells} cell, not the shape function's own");
+        out += &line("contact separation", said);
     }
-    list
+    out
 }
 
 fn implicit_forecast(settings: &implicit::Settings, setup: &Setup) -> Forecast {
     let plan = implicit::Plan::new(&setup.scene, &setup.liquid, settings);
-    let mut notes = vec![format!(
-        "unknowns           {:.2e} velocities and pressures in {:.2e} liquid cells",
-        plan.unknowns, plan.liquid_cells
-    )];
-    notes.extend(settings.air_pressure.map(|pressure| {
+    let mut notes = line(
+        "unknowns",
+        format!(
+            "{:.2e} velocities and pressures in {:.2e} liquid cells",
+            plan.unknowns, plan.liquid_cells
+        ),
+    );
+    if let Some(pressure) = settings.air_pressure {
         let kilopascals = pressure / 1e3;
         let leak = match settings.air_leak_time.is_finite() {
             true => format!(", leaking in {:.3e} s", settings.air_leak_time),
             false => String::new(),
         };
-        format!("trapped air        closed off at {kilopascals} kPa (absolute){leak}: a pressure for each pocket")
-    }));
+        let said =
+            format!("closed off at {kilopascals} kPa (absolute){leak}: a pressure for each pocket");
+        notes += &line("trapped air", said);
+    }
     Forecast {
         dt_s: plan.dt_s,
         limit: "advective, cfl cell/|v|, shorter as the liquid gets faster".into(),

@@ -7,7 +7,6 @@ use physics::{LiquidState, Scheme, ShearRate};
 use units::Axis;
 
 use crate::clock::Clock;
-use crate::failure::RunError;
 use crate::failure::RunFailure;
 use crate::folder::snapshot_name;
 use crate::folder::{FINAL, RunFolder};
@@ -22,9 +21,6 @@ const GAP: &str = "gap_m";
 
 /// Whether `folder` holds the final state of the run with this identity, whole. One that is damaged
 /// is none where it is `replaceable`.
-///
-/// # Errors
-/// A damaged one that is not.
 pub(crate) fn is_final_of(
     folder: &Path,
     identity: &str,
@@ -105,7 +101,7 @@ impl<'a> SnapshotWriter<'a> {
         &self,
         clock: &mut Clock,
         scheme: &dyn Scheme,
-    ) -> Result<(), RunError> {
+    ) -> Result<(), RunFailure> {
         self.folder.make_snapshots()?;
         let mut liquid = scheme.liquid();
         in_file_axes(&mut liquid, self.normal);
@@ -116,15 +112,12 @@ impl<'a> SnapshotWriter<'a> {
     }
 
     /// Writes `final.mpts` of `liquid`, in the axes of the file, and bodies so displaced (m).
-    ///
-    /// # Errors
-    /// The file and the system's reason.
     pub(crate) fn write_final(
         &self,
         clock: &Clock,
         liquid: &LiquidState,
         displacements: &[[f64; 3]],
-    ) -> Result<(), RunError> {
+    ) -> Result<(), RunFailure> {
         self.write(FINAL, clock, liquid, displacements)
     }
 
@@ -134,7 +127,7 @@ impl<'a> SnapshotWriter<'a> {
         clock: &Clock,
         state: &LiquidState,
         displacements: &[[f64; 3]],
-    ) -> Result<(), RunError> {
+    ) -> Result<(), RunFailure> {
         let mut header = self.header.clone();
         (header.time_s, header.step) = (clock.time_s, clock.step);
         header.set_attribute(PRESSURE, clock.last.pressure_top);
@@ -171,18 +164,15 @@ pub(crate) fn in_file_axes(state: &mut LiquidState, normal: Axis) {
 }
 
 /// Bottom and top adherend of `bond`, bodies 0 and 1 of its scene, at their current place.
-///
-/// # Errors
-/// A block that cannot be read.
 pub(crate) fn wood_now<'a>(
     bond: &'a ParticleFile,
     displacements: &[[f64; 3]],
     normal: Axis,
-) -> Result<[(Block, BitsRef<'a>); 2], RunError> {
+) -> Result<[(Block, BitsRef<'a>); 2], RunFailure> {
     let place = |name, body: usize| {
         let (block, bits) = bond
             .block_named(name)
-            .map_err(|e| RunError::Checkpoint(e.to_string()))?;
+            .map_err(|e| RunFailure::Data(e.to_string()))?;
         let mut block = block.clone();
         let shift = swap(displacements[body], normal);
         block.origin_m = std::array::from_fn(|a| block.origin_m[a] + shift[a]);

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use physics::{Choice, Diagnostics, PressRun, StageTime};
+use particle_file::Provenance;
+use physics::{Choice, PressRun, StageTime};
 use serde::Serialize;
 
 use crate::bond_measures::Answers;
@@ -11,7 +12,6 @@ use crate::ends::End;
 use crate::expected_error::ExpectedError;
 use crate::invariants::Invariants;
 use crate::left_out::LeftOut;
-use crate::time_loop::Outcome;
 use crate::verdict::Verdict;
 
 /// Content of `summary.json`.
@@ -66,9 +66,17 @@ pub struct Summary {
     pub counts: BTreeMap<&'static str, u64>,
     /// Checks of the final state.
     pub invariants: Invariants,
+    /// What is known before it starts.
+    #[serde(flatten)]
+    pub account: Account,
+}
+
+/// What is known of a run before it starts.
+#[derive(Debug, Serialize)]
+pub struct Account {
     /// What was measured of the error of its scheme and options.
     pub expected_error: ExpectedError,
-    /// What the run did not compute, and why.
+    /// What the run does not compute, and why.
     pub left_out: Vec<LeftOut>,
     /// What made this run folder.
     pub provenance: serde_json::Value,
@@ -77,20 +85,14 @@ pub struct Summary {
 /// `summary.json` of a run that failed: what its folder has to say of it.
 #[derive(Debug, Serialize)]
 pub(crate) struct Failed {
-    /// `failed`.
-    pub end: &'static str,
+    pub(crate) end: &'static str,
     /// Not sound, with the sentence that the run ended with.
-    pub verdict: Verdict,
-    /// Steps that were good.
-    pub steps: u64,
-    /// Time they came to, s.
-    pub time_s: f64,
-    /// As of a run that ended.
-    pub expected_error: ExpectedError,
-    /// As of a run that ended.
-    pub left_out: Vec<LeftOut>,
-    /// What made this run folder.
-    pub provenance: serde_json::Value,
+    pub(crate) verdict: Verdict,
+    /// Steps that were good, and the time they came to, s.
+    pub(crate) steps: u64,
+    pub(crate) time_s: f64,
+    #[serde(flatten)]
+    pub(crate) account: Account,
 }
 
 /// How a stage of a press programme ended.
@@ -144,70 +146,25 @@ pub struct Stage {
     pub wall_s: f64,
 }
 
-/// What a summary needs beside the loop's outcome.
-pub(crate) struct Facts {
-    pub courant_numbers: Vec<Courant>,
-    pub liquid_points: u64,
-    pub initial_gap_m: Option<f64>,
-    pub stages: Vec<StageTime>,
-    pub counts: Vec<(&'static str, u64)>,
-    pub verdict: Verdict,
-    pub programme: Vec<PressedStage>,
-    pub penetration: Option<Answers>,
-    pub set_s: Option<f64>,
-    pub invariants: Invariants,
-    pub expected_error: ExpectedError,
-    pub left_out: Vec<LeftOut>,
-    pub provenance: serde_json::Value,
+impl Stage {
+    pub(crate) fn of(time: &StageTime) -> Self {
+        Self {
+            name: time.name,
+            wall_s: time.wall_s,
+        }
+    }
+}
+
+/// What made a run folder, as a summary has it.
+pub(crate) fn provenance(by: &Provenance) -> serde_json::Value {
+    let inputs = by.inputs.iter();
+    let inputs: Vec<_> = inputs
+        .map(|(path, hash)| serde_json::json!({ "path": path, "xxh3": format!("{hash:016x}") }))
+        .collect();
+    serde_json::json!({ "tool": by.tool, "version": by.version, "command": by.command, "inputs": inputs })
 }
 
 impl Summary {
-    pub(crate) fn new(outcome: &Outcome, facts: Facts) -> Self {
-        let Diagnostics {
-            kinetic_energy,
-            capped_fraction,
-            ..
-        } = outcome.diagnostics;
-        let last = outcome.clock.last;
-        let wall = outcome.stepping.as_secs_f64();
-        let work = outcome.steps_here as f64 * facts.liquid_points as f64;
-        Self {
-            end: outcome.end,
-            verdict: facts.verdict,
-            steps: outcome.clock.step,
-            courant_numbers: facts.courant_numbers,
-            time_s: outcome.clock.time_s,
-            travel_m: outcome.clock.travel_m,
-            gap_m: facts.initial_gap_m.map(|g| g - outcome.clock.travel_m),
-            final_pressure_pa: last.pressure_top,
-            liquid_points: facts.liquid_points,
-            points_left: last.lost,
-            kinetic_energy_j: kinetic_energy,
-            capped_viscosity_fraction: capped_fraction,
-            stepping_wall_s: wall,
-            cpu_s: machine::cpu_seconds(),
-            threads: rayon::current_num_threads(),
-            particle_steps_per_s: if wall > 0.0 { work / wall } else { 0.0 },
-            peak_memory_bytes: machine::peak_memory_bytes(),
-            programme: facts.programme,
-            penetration: facts.penetration,
-            set_s: facts.set_s,
-            stages: facts
-                .stages
-                .iter()
-                .map(|s| Stage {
-                    name: s.name,
-                    wall_s: s.wall_s,
-                })
-                .collect(),
-            counts: facts.counts.into_iter().collect(),
-            invariants: facts.invariants,
-            expected_error: facts.expected_error,
-            left_out: facts.left_out,
-            provenance: facts.provenance,
-        }
-    }
-
     /// One sentence for the terminal.
     pub fn sentence(&self) -> String {
         let end = match self.end {

@@ -12,10 +12,8 @@ use crate::row;
 const NAMED: usize = 8;
 
 /// Writes the table of the sweep in `folder`: row, inputs, results. Neither time nor place of the
-/// runs is in it, so that the same sweep gives the same bytes; what they cost goes to `cost`.
-///
-/// # Errors
-/// Exit 75 where a row has no result yet; exit 3 for a damaged one.
+/// runs is in it, so that the same sweep gives the same bytes; what they cost goes to `cost`. Exit 75 where a row has no
+/// result yet; exit 3 for a damaged one.
 pub fn collect(folder: &Path, output: &Output, cost: Option<&Output>) -> Result<(), Failure> {
     let plan = Plan::read(folder)?;
     let place = folder.join(plan::PLAN);
@@ -99,12 +97,10 @@ fn costs(plan: &Plan, folder: &Path) -> Result<Vec<u8>, Failure> {
 
 /// Says which rows have no numbers.
 fn report(rows: &[StringRecord]) {
-    let status = |row: &StringRecord| row.get(0) == Some("sound");
-    let failed: Vec<usize> = (1..)
+    let failed = (1..)
         .zip(rows)
-        .filter(|(_, row)| !status(row))
-        .map(|(i, _)| i)
-        .collect();
+        .filter(|(_, row)| row.get(0) != Some("sound"));
+    let failed: Vec<usize> = failed.map(|(i, _)| i).collect();
     if !failed.is_empty() {
         cli::warn(format_args!(
             "{} of {} rows failed or are not sound and have no numbers, but the reason: {}",

@@ -7,9 +7,9 @@ use particle_file::{Kind as FileKind, ParticleFile};
 use run::{Request, RunFailure, changed_case};
 use serde::{Deserialize, Serialize};
 
+use crate::failure;
 use crate::specimen::{self, Recipe};
 use crate::table::{ColumnKind, Table};
-use crate::{blame, failure};
 
 /// What is pressed.
 #[derive(Debug)]
@@ -49,10 +49,7 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// Reads the row counted from 0; `case` is that of rows that name none.
-    ///
-    /// # Errors
-    /// A sentence with row and column.
+    /// Reads the row counted from 0; `case` is that of rows that name none. A refusal names row and column.
     pub fn of_row(table: &Table, row: usize, case: &Path) -> Result<Self, Failure> {
         let case = case_of(table, row, case);
         let bond = bond_of(table, row)?;
@@ -86,10 +83,8 @@ impl Draft {
         }
     }
 
-    /// Resolves its run with its bond file, as `mpm-run` does before it starts.
-    ///
-    /// # Errors
-    /// A sentence with row and, where a single cell is at fault, column.
+    /// Resolves its run with its bond file, as `mpm-run` does before it starts. A refusal names the row and, where a
+    /// single cell is at fault, its column.
     pub fn resolve(
         &self,
         table: &Table,
@@ -134,7 +129,7 @@ fn blamed<T>(
     let RunFailure::Usage(refused) = refused else {
         return failure(refused);
     };
-    let Some(column) = blame::column(changes, |changes| accepts(changes).is_ok()) else {
+    let Some(column) = blame(changes, |changes| accepts(changes).is_ok()) else {
         return table.wrong_row(row, refused);
     };
     // Alone it is refused in fewer words.
@@ -146,6 +141,26 @@ fn blamed<T>(
     let prefix = alone.first().map(|(_, text)| format!("--set {text}: "));
     let said = prefix.and_then(|p| said.strip_prefix(&p)).unwrap_or(&said);
     table.wrong_cell(row, column, said)
+}
+
+/// The column of the change that keeps a row from being accepted: the one that is refused alone,
+/// or without which the rest is accepted. None where it is no single one, or the case itself.
+///
+/// `changes` are columns and what they change, `accepts` tells whether a case so changed is.
+fn blame(
+    changes: &[(usize, String)],
+    accepts: impl Fn(&[&(usize, String)]) -> bool,
+) -> Option<usize> {
+    let alone = || {
+        let refused = |change: &&(usize, String)| !accepts(&[*change]);
+        accepts(&[]).then(|| changes.iter().find(refused)).flatten()
+    };
+    let needless = |change: &&(usize, String)| {
+        let rest: Vec<_> = changes.iter().filter(|other| other != change).collect();
+        accepts(&rest)
+    };
+    let found = alone().or_else(|| changes.iter().find(needless));
+    found.map(|(column, _)| *column)
 }
 
 /// The case file of a row: a name without an ending stands beside that of the other rows.
@@ -192,4 +207,25 @@ fn bond_of(table: &Table, row: usize) -> Result<Bond, Failure> {
         .map(|(_, option, cell)| (*option, *cell))
         .collect();
     Ok(Bond::Synthetic(Recipe::quick_but(&changes)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_change_refused_alone_or_in_company_is_found() {
+        let changes: Vec<_> = [(3, "a"), (5, "b"), (7, "c")]
+            .map(|(i, what)| (i, what.to_owned()))
+            .to_vec();
+        let has = |given: &[&(usize, String)], what: &str| given.iter().any(|c| c.1 == what);
+        assert_eq!(blame(&changes, |given| !has(given, "b")), Some(5));
+        // Each is accepted alone, two of them together are not.
+        let pair = |given: &[&(usize, String)]| !(has(given, "a") && has(given, "c"));
+        assert_eq!(blame(&changes, pair), Some(3));
+        // A case that needs a change is not refused for it.
+        let needs = |given: &[&(usize, String)]| has(given, "a") && !has(given, "c");
+        assert_eq!(blame(&changes, needs), Some(7));
+        assert_eq!(blame(&changes, |_| false), None);
+    }
 }

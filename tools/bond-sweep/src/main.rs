@@ -1,6 +1,5 @@
 //! Many runs from one table, on whatever starts jobs: see docs/cluster.md.
 
-mod blame;
 mod collect;
 mod draft;
 mod inputs;

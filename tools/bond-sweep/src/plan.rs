@@ -46,10 +46,7 @@ pub struct Row {
 }
 
 impl Plan {
-    /// The plan in `folder`.
-    ///
-    /// # Errors
-    /// Exit 2 for a folder without one, or one of another version; exit 3 for one that is damaged.
+    /// The plan in `folder`: exit 2 without one, or with one of another version; exit 3 with one that is damaged.
     pub fn read(folder: &Path) -> Result<Self, Failure> {
         let place = folder.join(PLAN);
         let text = fs::read_to_string(&place).map_err(|e| {
@@ -72,9 +69,6 @@ impl Plan {
     }
 
     /// The run of this name.
-    ///
-    /// # Errors
-    /// Exit 2 where there is none.
     pub fn job(&self, run: &str) -> Result<&Job, Failure> {
         self.runs.get(run).ok_or_else(|| {
             Failure::usage(format!(
@@ -85,14 +79,11 @@ impl Plan {
 
     /// Writes what is not there yet; the plan first, which says whose the folder is.
     fn write(&self, folder: &Path, cases: &BTreeMap<String, &str>) -> Result<(), Failure> {
-        let made = fs::create_dir_all(folder);
-        made.map_err(|e| Failure::write(format!("'{}'", folder.display()), &e))?;
+        make_folder(folder)?;
         let text = serde_json::to_string_pretty(self).unwrap_or_default() + "\n";
         keep(&folder.join(PLAN), &text)?;
         for (run, case) in cases {
-            let place = run_folder(folder, run);
-            let made = fs::create_dir_all(&place);
-            made.map_err(|e| Failure::write(format!("'{}'", place.display()), &e))?;
+            make_folder(&run_folder(folder, run))?;
             keep(&case_of(folder, run), case)?;
         }
         let names: String = self.runs.keys().map(|run| format!("{run}\n")).collect();
@@ -110,11 +101,8 @@ pub fn case_of(folder: &Path, run: &str) -> PathBuf {
     run_folder(folder, run).join("case.toml")
 }
 
-/// Plans the sweep of `table` in `folder`; runs of an earlier plan there stay and are used again.
-///
-/// # Errors
-/// A cell that is refused, with its row and column (exit 2); a folder that is not a sweep's; what
-/// the tools say that make the specimens.
+/// Plans the sweep of `table` in `folder`; runs of an earlier plan there stay and are used again. Refused are cells, with
+/// row and column, and a folder that is not a sweep's (exit 2).
 pub fn make(path: &Path, case: &Path, folder: &Path, however_long: bool) -> Result<(), Failure> {
     let table = Table::read(path)?;
     let drafts = (0..table.rows.len())
@@ -125,15 +113,14 @@ pub fn make(path: &Path, case: &Path, folder: &Path, however_long: bool) -> Resu
     cli::keep_apart(read.chain([path]), &written)?;
     refuse_foreign(folder)?;
     let made = make_specimens(&table, &drafts, folder)?;
+    let (inputs, cells) = inputs::columns(&table, &drafts);
     let mut plan = Plan {
         version: VERSION.into(),
         however_long,
-        inputs: Vec::new(),
+        inputs,
         rows: Vec::new(),
         runs: BTreeMap::new(),
     };
-    let (header, cells) = inputs::columns(&table, &drafts);
-    plan.inputs = header;
     let mut cases = BTreeMap::new();
     for (row, (draft, inputs)) in drafts.iter().zip(cells).enumerate() {
         let run = name(draft);
@@ -197,6 +184,10 @@ fn refuse_foreign(folder: &Path) -> Result<(), Failure> {
             folder.join(name).display()
         ))),
     }
+}
+
+fn make_folder(place: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(place).map_err(|e| Failure::write(format!("'{}'", place.display()), &e))
 }
 
 /// Writes `text` where it does not stand already, so that what was made of it stays newer.

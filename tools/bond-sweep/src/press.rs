@@ -7,8 +7,7 @@ use particle_file::Provenance;
 use run::{End, Mode, Request, RunFailure, Verdict};
 
 use crate::plan::{self, Plan, VERSION};
-use crate::row::{self, Ended};
-use crate::{failure, specimen};
+use crate::{failure, row, specimen};
 
 /// Runs the run `name` of the sweep in `folder` to its end and writes its row. One that has its
 /// row is not run again; to have that, remove the row.
@@ -36,27 +35,26 @@ pub fn run(folder: &Path, name: &str) -> Result<(), Failure> {
         )));
     }
     let case = plan::case_of(folder, name);
-    let ended = press(&case, &bond, &place, plan.however_long)?;
-    let cells = row::of_run(&place, ended)?;
+    let (status, said) = press(&case, &bond, &place, plan.however_long)?;
+    let cells = row::of_run(&place, status, &said)?;
     row::write(&row, &cells)?;
-    cli::note(format_args!(
-        "{}: {}{}",
-        place.display(),
-        cells[0],
-        match cells[1].as_str() {
-            "" => format!(", WP {} um", cells[5]),
-            said => format!(", {said}"),
-        }
-    ));
+    let told = match cells[1].as_str() {
+        "" => format!("WP {} um", cells[5]),
+        said => said.to_owned(),
+    };
+    cli::note(format_args!("{}: {status}, {told}", place.display()));
     Ok(())
 }
 
-/// Runs `mpm-run` in this process, so that what ends the process ends the run.
-fn press(case: &Path, bond: &Path, place: &Path, however_long: bool) -> Result<Ended, Failure> {
+/// Runs `mpm-run` in this process, so that what ends the process ends the run. How it ended, and why.
+fn press(
+    case: &Path,
+    bond: &Path,
+    place: &Path,
+    however_long: bool,
+) -> Result<(&'static str, String), Failure> {
     let request = Request::read(case, Some(bond), &[]).map_err(failure)?;
-    for warning in request.warnings() {
-        cli::warn(warning);
-    }
+    request.warnings().into_iter().for_each(cli::warn);
     let mode = Mode {
         resume: true,
         overwrite: false,
@@ -74,26 +72,23 @@ fn press(case: &Path, bond: &Path, place: &Path, however_long: bool) -> Result<E
         &|warning| cli::warn(warning),
     );
     progress.finish();
+    let name = place.display();
     let verdict = match ended {
-        Err(RunFailure::Unstable { said, .. }) => return Ok(Ended::Failed(said)),
+        Err(RunFailure::Unstable { said, .. }) => return Ok(("failed", said)),
         Err(other) => return Err(failure(other)),
         Ok(Some(summary)) if summary.end == End::Interrupted => {
-            let place = place.display();
-            return Err(Failure::new(
-                Status::Resumable,
-                format!("{place}: stopped early; the same command continues it"),
-            ));
+            let said = format!("{name}: stopped early; the same command continues it");
+            return Err(Failure::new(Status::Resumable, said));
         }
         Ok(Some(summary)) => summary.verdict,
         Ok(None) => Verdict::of_ended(place).ok_or_else(|| {
-            let place = place.display();
             Failure::data(format!(
-                "'{place}' has ended, but its summary.json does not say whether the results are sound: remove the folder to run it again"
+                "'{name}' has ended, but its summary.json does not say whether the results are sound: remove the folder to run it again"
             ))
         })?,
     };
     Ok(match verdict.sound {
-        true => Ended::Sound,
-        false => Ended::NotSound(verdict.reasons.join("; ")),
+        true => ("sound", String::new()),
+        false => ("not sound", verdict.reasons.join("; ")),
     })
 }

@@ -30,35 +30,15 @@ pub const COLUMNS: [&str; 14] = [
 /// The file of a run that holds its row. It is the sign that the run need not be started again.
 pub const FILE: &str = "row.csv";
 
-/// How a run ended.
-pub enum Ended {
-    /// Its results are sound.
-    Sound,
-    /// It came to an end that is not sound, for this reason.
-    NotSound(String),
-    /// It failed on the way.
-    Failed(String),
-}
-
-/// The row of the run in `folder`. Of a run that is not sound only the reason is a cell: a number
-/// that cannot be relied on is none.
-///
-/// # Errors
-/// A final state or a summary that cannot be read.
-pub fn of_run(folder: &Path, ended: Ended) -> Result<[String; COLUMNS.len()], Failure> {
-    let mut cells = [const { String::new() }; COLUMNS.len()];
-    let (status, said) = match ended {
-        Ended::Sound => ("sound", String::new()),
-        Ended::NotSound(said) => ("not sound", said),
-        Ended::Failed(said) => ("failed", said),
+/// The row of the run in `folder` that ended `sound` or otherwise, for the reason `said`. Of a run that is not sound only
+/// the reason is a cell: a number that cannot be relied on is none. A final state or a summary that cannot be read is refused.
+pub fn of_run(folder: &Path, status: &str, said: &str) -> Result<Vec<String>, Failure> {
+    let numbers = match status {
+        "sound" => numbers(folder)?,
+        _ => [const { String::new() }; COLUMNS.len() - 2],
     };
-    cells[0] = status.into();
-    cells[1] = cli::cell(&said).into_owned();
-    if status == "sound" {
-        for (cell, number) in cells[2..].iter_mut().zip(numbers(folder)?) {
-            *cell = number;
-        }
-    }
+    let mut cells = vec![status.to_owned(), cli::cell(said).into_owned()];
+    cells.extend(numbers);
     Ok(cells)
 }
 
@@ -71,16 +51,10 @@ fn numbers(folder: &Path) -> Result<[String; COLUMNS.len() - 2], Failure> {
     let sides = penetration(&state, &datum);
     let [bottom, top, total] = &sides;
     let summary = folder.join("summary.json");
-    let said = |key: &str| {
-        let what = format!("'{}' does not say {key}", summary.display());
-        field(&summary, key).ok_or_else(|| Failure::data(what))
-    };
-    let si = |key: &str| {
-        let value = said(key)?;
-        value
-            .as_f64()
-            .ok_or_else(|| Failure::data(format!("'{}': {key} is no number", summary.display())))
-    };
+    let missing =
+        |what: &str| Failure::data(format!("'{}' does not say {what}", summary.display()));
+    let said = |key: &str| field(&summary, key).ok_or_else(|| missing(key));
+    let si = |key: &str| said(key)?.as_f64().ok_or_else(|| missing(key));
     let um = |metres: f64| format!("{:.6}", 1e6 * metres);
     let wp = |side: &Penetration| um(side.wp_m);
     Ok([
@@ -107,9 +81,6 @@ pub fn field(path: &Path, key: &str) -> Option<Value> {
 }
 
 /// Writes the row of a run.
-///
-/// # Errors
-/// Exit 1 where it cannot be written.
 pub fn write(place: &Path, cells: &[String]) -> Result<(), Failure> {
     let mut table = csv::Writer::from_writer(Vec::new());
     let whole = (table.write_record(COLUMNS)).and_then(|()| table.write_record(cells));
@@ -118,19 +89,13 @@ pub fn write(place: &Path, cells: &[String]) -> Result<(), Failure> {
 }
 
 /// The text of a table that was written into memory.
-///
-/// # Errors
-/// What kept it from being written.
 pub fn text(table: csv::Writer<Vec<u8>>, written: csv::Result<()>) -> Result<Vec<u8>, Failure> {
     let whole = written.map_err(|e| e.to_string());
     let text = whole.and_then(|()| table.into_inner().map_err(|e| e.to_string()));
     text.map_err(|e| Failure::failed(format!("cannot write a table: {e}")))
 }
 
-/// The row of a run; none where it has not ended.
-///
-/// # Errors
-/// Exit 3 for a file that is no row.
+/// The row of a run; none where it has not ended. A file that is no row is damaged (exit 3).
 pub fn read(place: &Path) -> Result<Option<csv::StringRecord>, Failure> {
     let broken = |why: &dyn std::fmt::Display| {
         Failure::data(format!("'{}' is no row of a sweep: {why}", place.display()))

@@ -23,33 +23,28 @@ pub const QUICK: [(&str, &str); 6] = [
 /// Why `value` is none of an option, if it is not; what depends on several options is found when
 /// the specimen is grown.
 pub fn check(option: &str, value: &str) -> Result<(), String> {
-    let accepted = match option {
-        "adhesive" => ["pf", "pva-pf"].contains(&value),
+    let (accepted, needed) = match option {
+        "adhesive" => (["pf", "pva-pf"].contains(&value), "pf or pva-pf"),
         "size" => {
-            let edges = value.split('x').map(|n| n.parse::<u32>());
-            edges.clone().count() == 3 && edges.clone().all(|n| n.is_ok_and(|n| n > 0))
+            let mut edges = value.split('x').map(|n| n.parse::<u32>());
+            let three = edges.clone().count() == 3 && edges.all(|n| n.is_ok_and(|n| n > 0));
+            (three, "voxels along x, y and z such as 40x96x40")
         }
-        "seed" => value.parse::<u64>().is_ok(),
+        "seed" => (value.parse::<u64>().is_ok(), "a whole number from 0"),
         "grain_angle" => {
             let angle = value.parse::<Quantity<Angle>>();
             return angle.map(|_| ()).map_err(|e| e.to_string());
         }
         _ => {
             let length = value.parse::<Quantity<Length>>();
-            return length
-                .and_then(Quantity::positive)
-                .map(|_| ())
-                .map_err(|e| e.to_string());
+            let length = length.and_then(Quantity::positive);
+            return length.map(|_| ()).map_err(|e| e.to_string());
         }
     };
-    accepted.then_some(()).ok_or_else(|| {
-        let needed = match option {
-            "adhesive" => "pf or pva-pf",
-            "size" => "voxels along x, y and z such as 40x96x40",
-            _ => "a whole number from 0",
-        };
-        format!("'{value}' is not accepted: {needed} is needed")
-    })
+    match accepted {
+        true => Ok(()),
+        false => Err(format!("'{value}' is not accepted: {needed} is needed")),
+    }
 }
 
 /// A synthetic specimen by the values of all its options.
@@ -77,54 +72,42 @@ impl Recipe {
         Path::new("specimens").join(name).join("bond.mpts")
     }
 
-    /// Makes its bond file below `sweep`, where there is none.
-    ///
-    /// # Errors
-    /// What the tools say.
+    /// Makes its bond file below `sweep`, where there is none; an error is what the tools say.
     pub fn make(&self, sweep: &Path) -> Result<(), String> {
         let bond = sweep.join(self.bond());
-        let folder = bond.with_file_name("");
         if bond.is_file() {
             return Ok(());
         }
+        let folder = bond.with_file_name("");
         fs::create_dir_all(&folder)
             .map_err(|e| format!("cannot make '{}': {e}", folder.display()))?;
         let [stack, experiment] = ["specimen.tif", "experiment.mpts"].map(|n| folder.join(n));
-        let mut synth = tool("synth-xct");
         let values = QUICK.iter().zip(&self.0);
-        for ((option, _), value) in values.filter(|(_, value)| !value.is_empty()) {
-            synth.arg(format!("--{}", option.replace('_', "-")));
-            synth.arg(value);
-        }
-        finished(synth.arg("-o").arg(&stack), "synth-xct")?;
-        let mut convert = tool("xct2particles");
-        finished(
-            convert.arg(&stack).arg("-o").arg(&experiment),
-            "xct2particles",
-        )?;
-        let mut build = tool("build-bondline");
-        finished(
-            build.arg(&experiment).arg("-o").arg(&bond),
-            "build-bondline",
-        )
+        let options: Vec<String> = values
+            .filter(|(_, value)| !value.is_empty())
+            .flat_map(|((option, _), value)| {
+                [format!("--{}", option.replace('_', "-")), value.clone()]
+            })
+            .collect();
+        run("synth-xct", |tool| tool.args(options).arg("-o").arg(&stack))?;
+        run("xct2particles", |tool| {
+            tool.arg(&stack).arg("-o").arg(&experiment)
+        })?;
+        run("build-bondline", |tool| {
+            tool.arg(&experiment).arg("-o").arg(&bond)
+        })
     }
 }
 
-/// A tool of the pipeline: the one beside this, or the one on the path.
-fn tool(name: &str) -> Command {
+/// Runs a tool of the pipeline to its end: the one beside this, or the one on the path.
+fn run(name: &str, arguments: impl FnOnce(&mut Command) -> &mut Command) -> Result<(), String> {
     let beside = std::env::current_exe().map(|own| own.with_file_name(name));
-    let mut command = match beside {
+    let mut tool = match beside {
         Ok(path) if path.is_file() => Command::new(path),
         _ => Command::new(name),
     };
-    command.arg("--quiet").stdin(Stdio::null());
-    command
-}
-
-fn finished(command: &mut Command, name: &str) -> Result<(), String> {
-    let ended = command
-        .output()
-        .map_err(|e| format!("cannot start {name}: {e}"))?;
+    let ended = arguments(tool.arg("--quiet").stdin(Stdio::null())).output();
+    let ended = ended.map_err(|e| format!("cannot start {name}: {e}"))?;
     match ended.status.success() {
         true => Ok(()),
         false => Err(String::from_utf8_lossy(&ended.stderr).trim().to_owned()),
@@ -132,9 +115,6 @@ fn finished(command: &mut Command, name: &str) -> Result<(), String> {
 }
 
 /// The hash of a bond file's content as it stands in plans.
-///
-/// # Errors
-/// Exit 3 where it cannot be read.
 pub fn content(path: &Path) -> Result<String, Failure> {
     let hash = cli::hash_file(path)
         .map_err(|e| Failure::data(format!("cannot read '{}': {e}", path.display())))?;

@@ -38,11 +38,8 @@ pub struct Table {
 
 impl Table {
     /// Reads a CSV file with a header; lines that begin with `#` are passed over, and rows of empty
-    /// cells alone, which spreadsheets write.
-    ///
-    /// # Errors
-    /// Exit 3 for a file that cannot be read or is no CSV, exit 2 for an unknown column, a name
-    /// twice, a row of another length.
+    /// cells alone, which spreadsheets write. Exit 3 for a file that cannot be read or is no CSV, exit 2 for an unknown
+    /// column, a name twice, a row of another length.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let name = path.display();
         let text = read_table(path, ROW_AND_CELL)

@@ -87,7 +87,7 @@ fn main() -> ExitCode {
 
 fn start(arguments: Arguments) -> Result<(), Failure> {
     let Some(case) = &arguments.case else {
-        return cli::Output::Stdout.write(|out| write!(out, "{}", run::case::reference()));
+        return cli::Output::Stdout.write(|out| write!(out, "{}", run::REFERENCE));
     };
     let request =
         Request::read(case, arguments.particles.as_deref(), &arguments.set).map_err(failure)?;

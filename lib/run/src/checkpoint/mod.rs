@@ -136,12 +136,14 @@ mod tests {
             format: "explicit 1, run 1".into(),
             by: by("0.1.0"),
         };
-        assert_eq!(read(place.path(), &of("x")).unwrap(), None);
+        assert_eq!(read(place.path(), &of("x"), &String::new).unwrap(), None);
         write(&folder, &of("x"), checkpoint).unwrap();
-        let found = read(place.path(), &of("x")).unwrap().unwrap();
+        let found = read(place.path(), &of("x"), &String::new).unwrap().unwrap();
         assert_eq!((found.clock, found.courant), (clock, courant.to_vec()));
         assert_eq!((found.history, found.saved), (history, saved));
-        let said = read(place.path(), &of("y")).unwrap_err().to_string();
+        let said = read(place.path(), &of("y"), &String::new)
+            .unwrap_err()
+            .to_string();
         assert!(said.contains("another case"), "{said}");
     }
 
@@ -162,7 +164,7 @@ mod tests {
         };
         write(&folder, &of("0.1.0", "explicit 1, run 1"), checkpoint).unwrap();
         let said = |version: &str, format: &str| {
-            let found = read(place.path(), &of(version, format));
+            let found = read(place.path(), &of(version, format), &String::new);
             found.map(|_| ()).map_err(|error| error.to_string())
         };
         said("0.1.0", "explicit 1, run 1").unwrap();

@@ -6,29 +6,29 @@ use particle_file::{Header, Kind, ParticleFile};
 use physics::{Array, Saved, StepReport};
 
 use super::*;
-use crate::failure::RunError;
+use crate::failure::RunFailure;
 
-/// Reads the run folder's checkpoint, if there is one.
-///
-/// # Errors
-/// A checkpoint that is corrupt, or belongs to another case or particle file, or was written by another build.
-pub(crate) fn read(folder: &Path, origin: &Origin) -> Result<Option<Checkpoint>, RunError> {
+/// Reads the run folder's checkpoint, if there is one; `changed` says what of the case is not as it was.
+/// Errors: a checkpoint that is corrupt, or belongs to another case or particle file, or was written by another build.
+pub(crate) fn read(
+    folder: &Path,
+    origin: &Origin,
+    changed: &dyn Fn() -> String,
+) -> Result<Option<Checkpoint>, RunFailure> {
     let path = folder.join(CHECKPOINT);
     if !path.exists() {
         return Ok(None);
     }
-    let bad = |said: String| RunError::Checkpoint(format!("{}: {said}", path.display()));
-    let file = ParticleFile::open(&path).map_err(|e| RunError::Checkpoint(e.to_string()))?;
+    let bad = |said: String| RunFailure::Data(format!("{}: {said}", path.display()));
+    let file = ParticleFile::open(&path).map_err(|e| RunFailure::Data(e.to_string()))?;
     let header = file.header();
     if header.kind != Kind::Checkpoint {
         return Err(bad("it is no checkpoint".into()));
     }
     let written = header.attribute(FORMAT).is_some();
     if written && header.attribute(IDENTITY) != Some(&origin.identity) {
-        return Err(RunError::AnotherCase(format!(
-            "{}: it belongs to another case (only integrator.cfl may change) or particle file; use --overwrite to start anew",
-            path.display()
-        )));
+        let another = "it belongs to another case (only integrator.cfl may change) or particle file; use --overwrite to start anew";
+        return Err(bad(another.to_owned() + &changed()));
     }
     another_build(header, origin).map_or(Ok(()), |said| Err(bad(said)))?;
     content(&file).map(Some).map_err(bad)

@@ -4,7 +4,7 @@ use particle_file::{Draft, Header, Kind};
 use physics::{Array, Saving};
 
 use super::*;
-use crate::failure::RunError;
+use crate::failure::RunFailure;
 
 /// Writes the run folder's checkpoint, replacing the one before. What it counts on, history and
 /// snapshots, must be on the disk by then.
@@ -17,7 +17,7 @@ pub(crate) fn write(
         history,
         saved,
     }: Checkpoint<Vec<(String, Saving)>>,
-) -> Result<(), RunError> {
+) -> Result<(), RunFailure> {
     let mut header = Header::new(Kind::Checkpoint, 1.0, 1, [0.0; 3], [0.0; 3]);
     (header.time_s, header.step) = (clock.time_s, clock.step);
     header.provenance.push(origin.by.clone());

@@ -5,7 +5,8 @@ use physics::{Dimensions, GridBox, Motion, RigidBody, VoxelBlock};
 
 use super::seed::Seeds;
 use super::{Geometry, cells_along};
-use crate::case::{Case, CaseError};
+use crate::case::Case;
+use crate::failure::{RunFailure, refused};
 
 /// What a bond file says, with the bond normal turned to y.
 #[derive(Clone, Debug)]
@@ -32,38 +33,36 @@ pub(super) fn geometry(
     case: &Case,
     dimensions: Dimensions,
     bond: Bond,
-) -> Result<Geometry, CaseError> {
+) -> Result<Geometry, RunFailure> {
     let cell = case.grid.cell.si(Some(bond.adhesive.voxel()[0]))?;
     if case.grid.domain.is_some() {
-        return Err(CaseError(
-            "[grid] domain is for [[body]] scenes; a bond file has its own box".into(),
-        ));
+        return refused("[grid] domain is for [[body]] scenes; a bond file has its own box");
     }
     let plane_strain = dimensions == Dimensions::Two;
     if plane_strain && bond.adhesive.dims()[2] != 1 {
-        return Err(CaseError(format!(
+        return refused(format!(
             "plane strain needs a bond one voxel thick along z, but this one has {}; cut it with xct2particles --crop",
             bond.adhesive.dims()[2]
-        )));
+        ));
     }
     let mut cells = [1; 3];
     for a in 0..if plane_strain { 2 } else { 3 } {
         let n = (bond.max_m[a] - bond.min_m[a]) / cell;
         if a != 1 && (n - n.round()).abs() > 1e-3 {
-            return Err(CaseError(format!(
+            return refused(format!(
                 "the bond is {n:.3} cells of {:.4} um wide along {}: its symmetry sides must lie on cell faces; crop it or choose another cell",
                 cell * 1e6,
                 ["x", "y", "z"][a]
-            )));
+            ));
         }
         cells[a] = cells_along(n - 1e-3)?;
     }
     let [x, y, z] = cells;
     if limits::volume(cells.map(|n| n as u64)) > bond.most_cells {
-        return Err(CaseError(format!(
+        return refused(format!(
             "the grid would have {x} x {y} x {z} cells; accepted are {} in all for a bond file of this size: choose a larger cell",
             bond.most_cells
-        )));
+        ));
     }
     let mut min_m = bond.min_m;
     let depth = plane_strain.then_some(cell);
@@ -125,17 +124,17 @@ fn seeds(
     block: &VoxelBlock,
     cell: f64,
     depth: Option<f64>,
-) -> Result<Seeds, CaseError> {
+) -> Result<Seeds, RunFailure> {
     let voxel = block.voxel()[0];
     let spacing = cell / f64::from(case.grid.points_per_direction);
     let per_edge = voxel / spacing;
     if per_edge < 0.99 || (per_edge - per_edge.round()).abs() > 1e-3 {
-        return Err(CaseError(format!(
+        return refused(format!(
             "cell {:.4} um with {} points per direction puts {per_edge:.3} points along a voxel of {:.4} um: a whole number is needed",
             cell * 1e6,
             case.grid.points_per_direction,
             voxel * 1e6
-        )));
+        ));
     }
     Ok(Seeds::Voxels {
         block: block.clone(),

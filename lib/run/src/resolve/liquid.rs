@@ -1,38 +1,38 @@
 //! The liquid of a case.
 
-use physics::{Course, Cure, CureLaw, Law, Liquid, Newtonian, Table, Tait, Viscosity, Wetting};
+use physics::{
+    Course, Cure, CureLaw, Law, Liquid, Newtonian, RigidBody, Table, Tait, Viscosity, Water,
+    WaterLaw, Wetting,
+};
 
-use super::water::water;
-use crate::case::{Adhesive, CaseError, CureTable};
+use crate::case::{Adhesive, CureTable, WaterTable};
+use crate::failure::{RunFailure, refused};
 
 /// The liquid of `[adhesive]`.
-///
-/// # Errors
-/// No viscosity or two, a table or a law out of range.
-pub(super) fn liquid(adhesive: &Adhesive) -> Result<Liquid, CaseError> {
+/// Errors: No viscosity or two, a table or a law out of range.
+pub(super) fn liquid(adhesive: &Adhesive) -> Result<Liquid, RunFailure> {
+    let density = adhesive.density.si();
+    let water = adhesive.water.as_ref().map(|table| water(table, density));
     Ok(Liquid {
-        density: adhesive.density.si(),
+        density,
         tait: Tait {
             bulk_modulus: adhesive.bulk_modulus.si(),
         },
         viscosity: viscosity(adhesive)?,
         cure: adhesive.cure.as_ref().map(cure).transpose()?,
-        water: (adhesive.water.as_ref())
-            .map(|table| water(table, adhesive.density.si()))
-            .transpose()?,
+        water: water.transpose()?,
         shear_rate: adhesive.shear_rate,
         cavitation_pressure: adhesive.cavitation_pressure.map(|p| p.si()),
         wetting: wetting(adhesive)?,
     })
 }
 
-fn wetting(adhesive: &Adhesive) -> Result<Option<Wetting>, CaseError> {
-    let refused = |said: &str| Err(CaseError(format!("[adhesive] {said}")));
+fn wetting(adhesive: &Adhesive) -> Result<Option<Wetting>, RunFailure> {
     match (adhesive.surface_tension, adhesive.contact_angle) {
         (Some(tension), Some(angle)) => {
             let contact_angle = angle.si();
             if !(0.0..=std::f64::consts::PI).contains(&contact_angle) {
-                return refused("contact_angle lies between \"0 deg\" and \"180 deg\"");
+                return refused("[adhesive] contact_angle lies between \"0 deg\" and \"180 deg\"");
             }
             Ok(Some(Wetting {
                 tension: tension.si(),
@@ -40,21 +40,21 @@ fn wetting(adhesive: &Adhesive) -> Result<Option<Wetting>, CaseError> {
             }))
         }
         (None, None) if adhesive.dynamic_angle.is_some() => {
-            refused("dynamic_angle goes with surface_tension and contact_angle")
+            refused("[adhesive] dynamic_angle goes with surface_tension and contact_angle")
         }
         (None, None) => Ok(None),
-        _ => refused("surface_tension and contact_angle go together"),
+        _ => refused("[adhesive] surface_tension and contact_angle go together"),
     }
 }
 
-fn viscosity(adhesive: &Adhesive) -> Result<Viscosity, CaseError> {
-    let refused = |said: String| CaseError(format!("[adhesive] {said}"));
+fn viscosity(adhesive: &Adhesive) -> Result<Viscosity, RunFailure> {
+    const KEYS: &str =
+        "viscosity, viscosity_table, power_law, cross, carreau_yasuda and herschel_bulkley";
+    let out_of_range = |said: String| RunFailure::Usage(format!("[adhesive] {said}"));
     let newtonian = (adhesive.viscosity).map(|eta| Ok(Viscosity::Newtonian(Newtonian(eta.si()))));
-    let table = adhesive.viscosity_table.as_ref().map(|points| {
-        let points: Vec<_> = (points.iter())
-            .map(|(rate, eta)| (rate.si(), eta.si()))
-            .collect();
-        let table = Table::new(&points).map_err(refused)?;
+    let table = adhesive.viscosity_table.as_ref().map(|rows| {
+        let rows: Vec<_> = rows.iter().map(|(r, eta)| (r.si(), eta.si())).collect();
+        let table = Table::new(&rows).map_err(out_of_range)?;
         Ok(Viscosity::Table(table))
     });
     let power = adhesive.power_law.map(|law| Law::Power {
@@ -81,24 +81,20 @@ fn viscosity(adhesive: &Adhesive) -> Result<Viscosity, CaseError> {
     });
     let laws = [power, cross, carreau, herschel];
     let laws = laws.into_iter().flatten().map(|law| {
-        law.check().map_err(refused)?;
+        law.check().map_err(out_of_range)?;
         Ok(Viscosity::Law(law))
     });
     let mut given = newtonian.into_iter().chain(table).chain(laws);
     match (given.next(), given.next()) {
         (Some(one), None) => one,
-        (Some(_), Some(_)) => Err(refused(format!(
-            "has more than one of {KEYS}: only one can hold"
-        ))),
-        (None, _) => Err(refused(format!("needs viscosity or another of {KEYS}"))),
+        (Some(_), Some(_)) => refused(format!(
+            "[adhesive] has more than one of {KEYS}: only one can hold"
+        )),
+        (None, _) => refused(format!("[adhesive] needs viscosity or another of {KEYS}")),
     }
 }
 
-const KEYS: &str =
-    "viscosity, viscosity_table, power_law, cross, carreau_yasuda and herschel_bulkley";
-
-fn cure(table: &CureTable) -> Result<Cure, CaseError> {
-    let refused = |said: &str| CaseError(format!("[adhesive.cure] {said}"));
+fn cure(table: &CureTable) -> Result<Cure, RunFailure> {
     let course = match (table.gel_time, table.exponent, &table.factor) {
         (Some(time), Some(exponent), None) => Some(Course::Gel {
             time: time.si(),
@@ -110,15 +106,15 @@ fn cure(table: &CureTable) -> Result<Cure, CaseError> {
         }
         (None, None, None) => None,
         _ => {
-            return Err(refused(
-                "takes either gel_time and exponent, for (1 - t/t_gel)^-n, or factor, a table",
-            ));
+            return refused(
+                "[adhesive.cure] takes either gel_time and exponent, for (1 - t/t_gel)^-n, or factor, a table",
+            );
         }
     };
     if table.activation_energy.is_some() && course.is_none() {
-        return Err(refused(
-            "activation_energy is that of gel_time or factor: one of them is needed",
-        ));
+        return refused(
+            "[adhesive.cure] activation_energy is that of gel_time or factor: one of them is needed",
+        );
     }
     let heats = table.activation_energy.is_some() || table.flow_activation_energy.is_some();
     let reference = match (&table.temperature, table.reference_temperature) {
@@ -126,21 +122,51 @@ fn cure(table: &CureTable) -> Result<Cure, CaseError> {
         // Any: nothing depends on it.
         (None, None) if !heats => 300.0,
         _ => {
-            return Err(refused(
-                "temperature, reference_temperature and activation_energy or flow_activation_energy go together",
-            ));
+            return refused(
+                "[adhesive.cure] temperature, reference_temperature and activation_energy or flow_activation_energy go together",
+            );
         }
     };
-    let energy =
-        |given: Option<crate::case::Positive<units::MolarEnergy>>| given.map_or(0.0, |e| e.si());
     let law = CureLaw {
         course,
         temperature: (table.temperature.iter().flatten())
             .map(|(time, kelvin)| (time.si(), kelvin.0))
             .collect(),
         reference,
-        cure_energy: energy(table.activation_energy),
-        flow_energy: energy(table.flow_activation_energy),
+        cure_energy: table.activation_energy.map_or(0.0, |e| e.si()),
+        flow_energy: table.flow_activation_energy.map_or(0.0, |e| e.si()),
     };
-    Cure::new(&law).map_err(|said| refused(&said))
+    Cure::new(&law).map_err(|said| RunFailure::Usage(format!("[adhesive.cure] {said}")))
+}
+
+/// What `[adhesive.water]` says, of a liquid of `density` (kg/m3).
+fn water(table: &WaterTable, density: f64) -> Result<Water, RunFailure> {
+    let law = WaterLaw {
+        uptake: table.uptake.si(),
+        solids: table.solids,
+        capacity: table.capacity.map(|length| length.si()),
+        limit: table.limit,
+        diffusivity: table.diffusivity.si(),
+        factor: table.viscosity_by_solids.clone(),
+        walls: table.walls.clone(),
+    };
+    Water::new(law, density).map_err(|said| RunFailure::Usage(format!("[adhesive.water] {said}")))
+}
+
+/// Refuses walls for the water that no body is.
+pub(super) fn check_walls(liquid: &Liquid, bodies: &[RigidBody]) -> Result<(), RunFailure> {
+    let Some(water) = &liquid.water else {
+        return Ok(());
+    };
+    let names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
+    if names.is_empty() {
+        return refused("[adhesive.water] has no wall to go into: the scene has no rigid body");
+    }
+    match water.stray(&names) {
+        None => Ok(()),
+        Some(name) => refused(format!(
+            "[adhesive.water] walls has '{name}', which no rigid body is named: there is {}",
+            names.join(", ")
+        )),
+    }
 }

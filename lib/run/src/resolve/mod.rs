@@ -10,7 +10,6 @@ mod plausible;
 mod press;
 mod primitives;
 mod seed;
-mod water;
 
 use particle_file::limits;
 use physics::{
@@ -18,21 +17,22 @@ use physics::{
     WallLaw,
 };
 
-use crate::case::{Case, CaseError, ClampTable, Contact, StopRule};
+use crate::case::{Case, ClampTable, Contact, StopRule};
+use crate::failure::{RunFailure, refused};
 
 pub use bond::Bond;
 pub(crate) use plausible::OVERLAP;
 use seed::Seeds;
 
 /// A number of cells along an axis, rounded up.
-fn cells_along(n: f64) -> Result<usize, CaseError> {
+fn cells_along(n: f64) -> Result<usize, RunFailure> {
     if n <= limits::PER_AXIS as f64 {
         return Ok(n.ceil().max(1.0) as usize);
     }
-    Err(CaseError(format!(
+    refused(format!(
         "the domain is {n:.3e} cells long, more than {}: the cell is too small",
         limits::PER_AXIS
-    )))
+    ))
 }
 
 /// A run resolved to SI with what the run loop needs beside the scene.
@@ -83,37 +83,37 @@ struct Geometry {
 ///
 /// # Errors
 /// One sentence about keys that contradict each other or geometry that does not fit.
-pub fn resolve(case: &Case, bond: Option<Bond>) -> Result<Setup, CaseError> {
+pub fn resolve(case: &Case, bond: Option<Bond>) -> Result<Setup, RunFailure> {
     let dimensions = match case.grid.dimensions {
         2 => Dimensions::Two,
         3 => Dimensions::Three,
         n => {
-            return Err(CaseError(format!(
+            return refused(format!(
                 "[grid] dimensions = {n} is not accepted: 2 or 3 is needed"
-            )));
+            ));
         }
     };
     if !(1..=4).contains(&case.grid.points_per_direction) {
-        return Err(CaseError(
-            "[grid] points_per_direction must be 1 to 4".into(),
-        ));
+        return refused("[grid] points_per_direction must be 1 to 4");
     }
     let geometry = match bond {
         Some(bond) if case.body.is_empty() => bond::geometry(case, dimensions, bond)?,
         Some(_) => {
-            return Err(CaseError("the case has [[body]] tables and --particles: only one of them can describe the scene".into()));
+            return refused(
+                "the case has [[body]] tables and --particles: only one of them can describe the scene",
+            );
         }
         None if case.body.is_empty() => {
-            return Err(CaseError(
-                "nothing describes the scene: give --particles BOND or [[body]] tables".into(),
-            ));
+            return refused(
+                "nothing describes the scene: give --particles BOND or [[body]] tables",
+            );
         }
         None => primitives::geometry(case, dimensions)?,
     };
     finish(case, dimensions, geometry)
 }
 
-fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Setup, CaseError> {
+fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Setup, RunFailure> {
     let cell = geometry.grid.cell_m;
     let programme = match &case.clamp {
         Some(table) => press::programme(table, geometry.travel_m)?,
@@ -133,20 +133,15 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
         points: Points::default(),
         wall: wall(case.contact.as_ref(), cell, !geometry.bodies.is_empty())?,
         bodies: geometry.bodies,
-        gravity: case
-            .gravity
-            .as_ref()
-            .map_or([0.0; 3], |g| g.acceleration.map(|a| a.si())),
+        gravity: (case.gravity.as_ref()).map_or([0.0; 3], |g| g.acceleration.map(|a| a.si())),
         clamp,
         programme,
         stop,
         bottom: geometry.bottom,
         top: geometry.top,
     };
-    if let Some(water) = &scene.liquid.water {
-        water::check(water, &scene.bodies)?;
-    }
-    let liquid = geometry.seeds.amount().map_err(CaseError)?;
+    liquid::check_walls(&scene.liquid, &scene.bodies)?;
+    let liquid = geometry.seeds.amount().map_err(RunFailure::Usage)?;
     plausible::check(&scene, &liquid, time_limit_s)?;
     let initial_gap_m = scene.clamp.and(geometry.travel_m);
     // The steps of a press programme follow the flow, from microseconds to hours: each has a row.
@@ -169,9 +164,9 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
 }
 
 /// A clamp of one speed and one limit.
-fn clamp(table: &ClampTable) -> Result<Clamp, CaseError> {
+fn clamp(table: &ClampTable) -> Result<Clamp, RunFailure> {
     let closing_speed = table.closing_speed.ok_or_else(|| {
-        CaseError("[clamp] needs closing_speed, or a list of [[clamp.stage]]".into())
+        RunFailure::Usage("[clamp] needs closing_speed, or a list of [[clamp.stage]]".into())
     })?;
     let pid = table.pid.map(|g| Pid {
         kp: g.kp,
@@ -180,9 +175,7 @@ fn clamp(table: &ClampTable) -> Result<Clamp, CaseError> {
     });
     let sound = |gain: f64| gain.is_finite() && gain >= 0.0;
     if pid.is_some_and(|pid| ![pid.kp, pid.ki, pid.kd].into_iter().all(sound)) {
-        return Err(CaseError(
-            "[clamp] pid: kp, ki and kd must be numbers of at least 0".into(),
-        ));
+        return refused("[clamp] pid: kp, ki and kd must be numbers of at least 0");
     }
     Ok(Clamp {
         closing_speed: closing_speed.si(),
@@ -197,20 +190,20 @@ fn stop(
     clamp: Option<Clamp>,
     programme: &[PressStage],
     travel: Option<f64>,
-) -> Result<(Stop, f64, f64), CaseError> {
+) -> Result<(Stop, f64, f64), RunFailure> {
     let (table, clamp) = match (&case.clamp, clamp) {
         (Some(table), Some(clamp)) => (table, clamp),
         _ => {
             let time = case.stop.as_ref().map(|s| s.time.si()).ok_or_else(|| {
-                CaseError("the case has no end: give [stop] time, or a [clamp] with stop".into())
+                RunFailure::Usage(
+                    "the case has no end: give [stop] time, or a [clamp] with stop".into(),
+                )
             })?;
             return Ok((Stop::Time(time), time, time));
         }
     };
     if case.stop.is_some() {
-        return Err(CaseError(
-            "[stop] is for runs without [clamp]; use the clamp's own stop".into(),
-        ));
+        return refused("[stop] is for runs without [clamp]; use the clamp's own stop");
     }
     if let (false, Some(travel_m)) = (programme.is_empty(), travel) {
         let longest = programme.iter().map(|stage| stage.time_s).sum();
@@ -220,7 +213,9 @@ fn stop(
         StopRule::Time(t) => Ok((Stop::Time(t), t, t)),
         StopRule::Closed => {
             let travel_m = travel.ok_or_else(|| {
-                CaseError("stop = \"closed\" needs the clamp's travel: give [clamp] travel".into())
+                RunFailure::Usage(
+                    "stop = \"closed\" needs the clamp's travel: give [clamp] travel".into(),
+                )
             })?;
             let nominal = travel_m / clamp.closing_speed;
             // Under load control closure may never come (paper Fig. 5): twice the time at
@@ -231,27 +226,23 @@ fn stop(
     }
 }
 
-fn boundary(case: &Case, dimensions: Dimensions) -> Result<[Boundary; 3], CaseError> {
+fn boundary(case: &Case, dimensions: Dimensions) -> Result<[Boundary; 3], RunFailure> {
     let sides = [case.boundary.x, case.boundary.y, case.boundary.z];
     if dimensions == Dimensions::Two && sides[2] != Boundary::Symmetry {
-        return Err(CaseError(
-            "[boundary] z has no meaning in plane strain (dimensions = 2)".into(),
-        ));
+        return refused("[boundary] z has no meaning in plane strain (dimensions = 2)");
     }
     if case.clamp.is_some() && sides[1] == Boundary::Periodic {
-        return Err(CaseError(
-            "[boundary] y = \"periodic\" has no meaning with [clamp], which closes the bond along y: use \"symmetry\" or \"open\"".into(),
-        ));
+        return refused(
+            "[boundary] y = \"periodic\" has no meaning with [clamp], which closes the bond along y: use \"symmetry\" or \"open\"",
+        );
     }
     Ok(sides)
 }
 
-fn wall(contact: Option<&Contact>, cell: f64, walls: bool) -> Result<WallLaw, CaseError> {
+fn wall(contact: Option<&Contact>, cell: f64, walls: bool) -> Result<WallLaw, RunFailure> {
     let Some(contact) = contact else {
         return if walls {
-            Err(CaseError(
-                "the scene has rigid bodies: [contact] law is needed".into(),
-            ))
+            refused("the scene has rigid bodies: [contact] law is needed")
         } else {
             Ok(WallLaw::Frictionless)
         };
@@ -260,12 +251,12 @@ fn wall(contact: Option<&Contact>, cell: f64, walls: bool) -> Result<WallLaw, Ca
         (WallLaw::PartialSlip { .. }, Some(l)) => Ok(WallLaw::PartialSlip {
             influence_length_m: l.si(cell),
         }),
-        (WallLaw::PartialSlip { .. }, None) => Err(CaseError(
-            "[contact] law = \"partial-slip\" needs influence_length, such as \"0.01 cell\"".into(),
-        )),
-        (WallLaw::Frictionless | WallLaw::Stick, Some(_)) => Err(CaseError(
-            "[contact] influence_length is for law = \"partial-slip\" only".into(),
-        )),
+        (WallLaw::PartialSlip { .. }, None) => refused(
+            "[contact] law = \"partial-slip\" needs influence_length, such as \"0.01 cell\"",
+        ),
+        (WallLaw::Frictionless | WallLaw::Stick, Some(_)) => {
+            refused("[contact] influence_length is for law = \"partial-slip\" only")
+        }
         (law, None) => Ok(law),
     }
 }

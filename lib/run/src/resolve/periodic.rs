@@ -3,7 +3,7 @@
 use physics::{Boundary, Dimensions, GridBox};
 
 use super::Corners;
-use crate::case::CaseError;
+use crate::failure::{RunFailure, refused};
 
 /// Part of a cell that rounding may make of a length.
 const ROUNDING: f64 = 1e-6;
@@ -13,13 +13,13 @@ pub(super) fn check(
     grid: &GridBox,
     (min, max): Corners,
     boundary: [Boundary; 3],
-) -> Result<(), CaseError> {
+) -> Result<(), RunFailure> {
     for (a, name) in ["x", "y", "z"].into_iter().enumerate() {
         let cells = (max[a] - min[a]) / grid.cell_m;
         if boundary[a] == Boundary::Periodic && (cells - grid.cells[a] as f64).abs() > ROUNDING {
-            return Err(CaseError(format!(
+            return refused(format!(
                 "the domain is {cells:.3} cells long along {name}, whose sides are periodic: a whole number is needed, another [grid] domain or cell"
-            )));
+            ));
         }
     }
     Ok(())

@@ -3,7 +3,7 @@
 use physics::{Amount, Clamp, Motion, Scene, Stop};
 
 use super::collisions::{self, Obstacle};
-use crate::case::CaseError;
+use crate::failure::{RunFailure, refused};
 use crate::verdict::MOST_PRESSURE;
 
 /// Cells by which bodies may come to overlap: far below what walls are resolved to, and some scenes
@@ -15,16 +15,15 @@ const MOST_PERIODS: f64 = 1e6;
 
 /// Refuses a scene in which nothing is pressed, bodies would overlap, or speeds or weights are
 /// beyond what a nearly incompressible liquid can follow. It ends at `limit_s` (s) at the latest.
-pub(super) fn check(scene: &Scene, liquid: &Amount, limit_s: f64) -> Result<(), CaseError> {
+pub(super) fn check(scene: &Scene, liquid: &Amount, limit_s: f64) -> Result<(), RunFailure> {
     slower_than_sound(scene, liquid)?;
     weight(scene)?;
     periods(scene, limit_s)?;
     if let Some(clamp) = scene.clamp {
         if !scene.bodies.iter().any(|b| b.motion == Motion::Clamped) {
-            return Err(CaseError(
-                "[clamp] has nothing to move: give a [[body]] of material = \"rigid\" velocity = \"clamp\", or leave [clamp] out"
-                    .into(),
-            ));
+            return refused(
+                "[clamp] has nothing to move: give a [[body]] of material = \"rigid\" velocity = \"clamp\", or leave [clamp] out",
+            );
         }
         let travel_m = match scene.stop {
             Stop::Closed { travel_m } => travel_m,
@@ -42,7 +41,7 @@ fn clamp_is_clear(
     clamp: Clamp,
     travel_m: f64,
     limit_s: f64,
-) -> Result<(), CaseError> {
+) -> Result<(), RunFailure> {
     let slack = OVERLAP * scene.grid.cell_m;
     if clamp.max_pressure.is_some() {
         let most_m = match scene.stop {
@@ -50,10 +49,10 @@ fn clamp_is_clear(
             Stop::Time(_) => f64::INFINITY,
         };
         if let Some(other) = collisions::possible(scene, limit_s, most_m, slack) {
-            return Err(CaseError(format!(
+            return refused(format!(
                 "where the clamp is when '{}' of given velocity comes into its way depends on [clamp] max_pressure, and bodies cannot overlap: no max_pressure, another velocity or an earlier end is needed",
                 other.name
-            )));
+            ));
         }
     }
     // Where pressure may stop the clamp before, the run itself looks at its travel.
@@ -62,11 +61,11 @@ fn clamp_is_clear(
         Some((clearance_m, other))
             if (certain || clearance_m < -slack) && travel_m > clearance_m + slack =>
         {
-            Err(CaseError(format!(
+            refused(format!(
                 "the clamp would travel {:.4} um, but its body meets {other} after {:.4} um and bodies cannot overlap: a smaller [clamp] travel (or stop time) is needed",
                 1e6 * travel_m,
                 1e6 * clearance_m.max(0.0)
-            )))
+            ))
         }
         _ => Ok(()),
     }
@@ -80,23 +79,23 @@ pub(super) fn clamp_clearance(scene: &Scene, limit_s: f64) -> Option<(f64, Strin
 }
 
 /// Refuses bodies that go over more periods than collisions can be looked for in.
-fn periods(scene: &Scene, limit_s: f64) -> Result<(), CaseError> {
+fn periods(scene: &Scene, limit_s: f64) -> Result<(), RunFailure> {
     for body in &scene.bodies {
         let v = scene.velocity(body.motion);
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
             let count = (scene.period(axis)).map_or(0.0, |length| v[axis].abs() * limit_s / length);
             if count > MOST_PERIODS {
-                return Err(CaseError(format!(
+                return refused(format!(
                     "the body '{}' would go over {count:.1e} periods of the domain along {name} by {limit_s:.4e} s; accepted are {MOST_PERIODS:.0e}: a lower velocity or an earlier end is needed",
                     body.name
-                )));
+                ));
             }
         }
     }
     Ok(())
 }
 
-fn slower_than_sound(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
+fn slower_than_sound(scene: &Scene, liquid: &Amount) -> Result<(), RunFailure> {
     let (speed, sound) = (scene.speed_with(liquid), scene.liquid.sound_speed());
     if speed <= sound {
         return Ok(());
@@ -109,13 +108,13 @@ fn slower_than_sound(scene: &Scene, liquid: &Amount) -> Result<(), CaseError> {
         _ if liquid.speed == speed => "the velocity of an adhesive body",
         _ => "the velocity of a rigid body",
     };
-    Err(CaseError(format!(
+    refused(format!(
         "{who} is {speed:.4e} m/s, above the liquid's speed of sound sqrt(K/rho) = {sound:.4e} m/s: such a liquid is shocked, not pressed; a lower speed, a higher bulk_modulus or a lower density is needed"
-    )))
+    ))
 }
 
 /// Pressure under the weight of a domain full of liquid against what Tait's law holds for.
-fn weight(scene: &Scene) -> Result<(), CaseError> {
+fn weight(scene: &Scene) -> Result<(), RunFailure> {
     let (low, high) = (scene.grid.min_m, scene.grid.max_m());
     let pressure: f64 = (0..3)
         .map(|a| scene.liquid.density * scene.gravity[a].abs() * (high[a] - low[a]))
@@ -124,14 +123,14 @@ fn weight(scene: &Scene) -> Result<(), CaseError> {
     if pressure <= most {
         return Ok(());
     }
-    Err(CaseError(format!(
+    refused(format!(
         "[gravity] acceleration makes a domain full of liquid weigh {pressure:.3e} Pa on its floor, more than the {most:.3e} Pa ({MOST_PRESSURE} of the bulk modulus) to which the pressure law holds: a smaller acceleration is needed"
-    )))
+    ))
 }
 
 /// A clamp whose body passes no place near liquid presses nothing. Liquid that moves of itself may
 /// yet come to it.
-fn reached(scene: &Scene, liquid: &Amount, travel_m: f64) -> Result<(), CaseError> {
+fn reached(scene: &Scene, liquid: &Amount, travel_m: f64) -> Result<(), RunFailure> {
     let moved = scene
         .bodies
         .iter()
@@ -149,14 +148,14 @@ fn reached(scene: &Scene, liquid: &Amount, travel_m: f64) -> Result<(), CaseErro
     if passes {
         return Ok(());
     }
-    Err(CaseError(format!(
+    refused(format!(
         "the clamp's body does not come near the adhesive within its travel of {:.4} um: nothing would be pressed",
         1e6 * travel_m
-    )))
+    ))
 }
 
 /// Refuses bodies of given velocities that would collide before the end.
-fn apart(scene: &Scene, limit_s: f64) -> Result<(), CaseError> {
+fn apart(scene: &Scene, limit_s: f64) -> Result<(), RunFailure> {
     let end_s = match (scene.stop, scene.clamp) {
         (Stop::Closed { travel_m }, Some(clamp))
             if scene.programme.is_empty() && clamp.max_pressure.is_none() =>
@@ -172,7 +171,7 @@ fn apart(scene: &Scene, limit_s: f64) -> Result<(), CaseError> {
         return Ok(());
     }
     let (name, from_s) = (&met.body.name, met.time_s.max(0.0));
-    Err(CaseError(match met.with {
+    refused(match met.with {
         Obstacle::Body(other) => format!(
             "the bodies '{name}' and '{}' would overlap from {from_s:.4e} s on, before the end at {end_s:.4e} s: other velocities or an earlier end are needed",
             other.name
@@ -180,5 +179,5 @@ fn apart(scene: &Scene, limit_s: f64) -> Result<(), CaseError> {
         side @ Obstacle::Mirror(..) => format!(
             "the body '{name}' would go through {side} from {from_s:.4e} s on, before the end at {end_s:.4e} s: another velocity, an open side or an earlier end is needed"
         ),
-    }))
+    })
 }

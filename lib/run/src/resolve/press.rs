@@ -2,19 +2,18 @@
 
 use physics::{Choice, Clamp, Press, PressStage};
 
-use crate::case::{CaseError, ClampTable, StageTable};
+use crate::case::{ClampTable, StageTable};
+use crate::failure::{RunFailure, refused};
 
 /// Duration of an approach without one over that of all its way at full speed: it ends before, closed.
 const APPROACH: f64 = 2.0;
 
 /// The stages of a programme for a clamp that can travel `travel_m` (m); none of a clamp without.
-///
-/// # Errors
-/// Keys of a clamp without stages beside them, and stages that contradict themselves or one another.
+/// Errors: Keys of a clamp without stages beside them, and stages that contradict themselves or one another.
 pub(super) fn programme(
     table: &ClampTable,
     travel_m: Option<f64>,
-) -> Result<Vec<PressStage>, CaseError> {
+) -> Result<Vec<PressStage>, RunFailure> {
     if table.stage.is_empty() {
         return Ok(Vec::new());
     }
@@ -26,20 +25,18 @@ pub(super) fn programme(
         (table.time_limit.is_some(), "time_limit"),
     ];
     if let Some((_, key)) = stray.iter().find(|(given, _)| *given) {
-        return Err(CaseError(format!(
+        return refused(format!(
             "[clamp] {key} is for a clamp without [[clamp.stage]]: its stages say speed, pressure and time"
-        )));
+        ));
     }
     let Some(room_m) = travel_m else {
-        return Err(CaseError(
-            "[[clamp.stage]] needs the way that the clamp has: give [clamp] travel".into(),
-        ));
+        return refused("[[clamp.stage]] needs the way that the clamp has: give [clamp] travel");
     };
     let mut stages: Vec<PressStage> = Vec::new();
     for (index, stage) in table.stage.iter().enumerate() {
         let stage = resolved(stage, stages.last(), room_m).map_err(|said| {
             let kind = stage.kind.name();
-            CaseError(format!(
+            RunFailure::Usage(format!(
                 "[[clamp.stage]] number {} ({kind}): {said}",
                 index + 1
             ))

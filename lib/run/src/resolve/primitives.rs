@@ -4,9 +4,10 @@ use physics::{Dimensions, GridBox, Motion, RigidBody, VoxelBlock};
 
 use super::seed::{Lattice, Seeds};
 use super::{Corners, Geometry, boundary, cells_along, periodic};
-use crate::case::{Body, BodyVelocity, BoxCorners, Case, CaseError, MaterialName};
+use crate::case::{Body, BodyVelocity, BoxCorners, Case, MaterialName};
+use crate::failure::{RunFailure, refused};
 
-pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, CaseError> {
+pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, RunFailure> {
     let cell = case.grid.cell.si(None)?;
     let depth = (dimensions == Dimensions::Two).then_some(cell);
     let boundary = boundary(case, dimensions)?;
@@ -18,30 +19,29 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
     let mut filled: Vec<(usize, Corners)> = Vec::new();
     for (index, body) in case.body.iter().enumerate() {
         let (min, max) = corners(&body.corners, depth)
-            .map_err(|e| CaseError(format!("[[body]] number {}: {e}", index + 1)))?;
+            .map_err(|e| RunFailure::Usage(format!("[[body]] number {}: {e}", index + 1)))?;
         match body.material {
             MaterialName::Adhesive => {
                 let velocity = match body.velocity {
                     None => [0.0; 3],
                     Some(BodyVelocity::Constant(v)) => v,
                     Some(BodyVelocity::Clamp) => {
-                        return Err(CaseError(
-                            "an adhesive body cannot be driven by the clamp".into(),
-                        ));
+                        return refused("an adhesive body cannot be driven by the clamp");
                     }
                 };
                 if let Some((other, _)) = filled.iter().find(|(_, b)| overlap(b, &(min, max))) {
-                    return Err(CaseError(format!(
+                    return refused(format!(
                         "[[body]] number {}: it overlaps number {}, and a place holds liquid once",
                         index + 1,
                         other + 1
-                    )));
+                    ));
                 }
                 filled.push((index, (min, max)));
                 let spacing = cell / f64::from(case.grid.points_per_direction);
                 let lattice = Lattice::new(min, max, spacing, depth, velocity);
-                inside(&lattice, &grid)
-                    .map_err(|e| CaseError(format!("[[body]] number {}: {e}", index + 1)))?;
+                inside(&lattice, &grid).map_err(|e| {
+                    RunFailure::Usage(format!("[[body]] number {}: {e}", index + 1))
+                })?;
                 lattices.push(lattice);
             }
             MaterialName::Rigid => {
@@ -78,16 +78,14 @@ fn add_rigid(
     body: &Body,
     parts: Vec<Corners>,
     clamped: bool,
-) -> Result<(), CaseError> {
+) -> Result<(), RunFailure> {
     let motion = match body.velocity {
         None => Motion::Fixed,
         Some(BodyVelocity::Constant(v)) if v == [0.0; 3] => Motion::Fixed,
         Some(BodyVelocity::Constant(v)) => Motion::Constant(v),
         Some(BodyVelocity::Clamp) if clamped => Motion::Clamped,
         Some(BodyVelocity::Clamp) => {
-            return Err(CaseError(
-                "a [[body]] with velocity = \"clamp\" needs a [clamp] table".into(),
-            ));
+            return refused("a [[body]] with velocity = \"clamp\" needs a [clamp] table");
         }
     };
     let name = body.name.clone().unwrap_or_else(|| "wall".into());
@@ -121,14 +119,15 @@ fn corners(corners: &BoxCorners, depth: Option<f64>) -> Result<Corners, String> 
 }
 
 /// The domain as given, or the box around all bodies.
-fn domain(case: &Case, depth: Option<f64>) -> Result<Corners, CaseError> {
+fn domain(case: &Case, depth: Option<f64>) -> Result<Corners, RunFailure> {
     if let Some(domain) = &case.grid.domain {
-        return corners(domain, depth).map_err(|e| CaseError(format!("[grid] domain: {e}")));
+        return corners(domain, depth)
+            .map_err(|e| RunFailure::Usage(format!("[grid] domain: {e}")));
     }
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     for body in &case.body {
-        let (min, max) = corners(&body.corners, depth).map_err(CaseError)?;
+        let (min, max) = corners(&body.corners, depth).map_err(RunFailure::Usage)?;
         for a in 0..3 {
             low[a] = low[a].min(min[a]);
             high[a] = high[a].max(max[a]);
@@ -137,7 +136,7 @@ fn domain(case: &Case, depth: Option<f64>) -> Result<Corners, CaseError> {
     Ok((low, high))
 }
 
-fn grid((min, max): Corners, cell: f64) -> Result<GridBox, CaseError> {
+fn grid((min, max): Corners, cell: f64) -> Result<GridBox, RunFailure> {
     let mut cells = [0; 3];
     for a in 0..3 {
         cells[a] = cells_along((max[a] - min[a]) / cell - 1e-6)?;

@@ -92,9 +92,7 @@ pub(super) enum Seeds {
 
 impl Seeds {
     /// How much liquid it is.
-    ///
-    /// # Errors
-    /// A sentence when there is none or more than any run takes.
+    /// Errors: a sentence when there is none or more than any run takes.
     pub(super) fn amount(&self) -> Result<Amount, String> {
         let amount =
             (self.lattices()).fold(Amount::default(), |sum, lattice| sum.and(lattice.amount()));

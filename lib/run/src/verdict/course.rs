@@ -11,9 +11,7 @@ use crate::resolve::{OVERLAP, Setup};
 pub(crate) const MOST_PRESSURE: f64 = 0.2;
 
 /// Looks at what a step reported.
-///
-/// # Errors
-/// A number that is none, or a clamp that has gone into another body.
+/// Errors: a number that is none, or a clamp that has gone into another body.
 pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
     let numbers = [
         ("time step", report.dt_s),
@@ -37,9 +35,7 @@ pub(crate) fn step(setup: &Setup, report: &StepReport) -> Result<(), Failure> {
 }
 
 /// Looks at the diagnostics of a state that is to be written: row, snapshot or checkpoint.
-///
-/// # Errors
-/// A number that is none, liquid faster than its sound, or more pressure than Eq. 1 holds for.
+/// Errors: a number that is none, liquid faster than its sound, or more pressure than Eq. 1 holds for.
 pub(crate) fn state(setup: &Setup, diagnostics: &Diagnostics, lost: u64) -> Result<(), Failure> {
     finite(&[
         ("kinetic energy", diagnostics.kinetic_energy),

@@ -1,15 +1,15 @@
 //! Penetration as a run tells it while it goes on, against straight grooves filled by a volume known
 //! beforehand, and against the same measured of its states afterwards.
 
-use std::cell::Cell;
 use std::fs;
 use std::path::Path;
 
 use metrics::{Datum, Reference, Sealed, State, bond_line, penetration};
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile};
-use run::{Mode, Request, RunFailure, Summary};
+use run::RunFailure;
 
-use crate::bench::{Bench, PLAIN, RESUME, files};
+use crate::bench::{Bench, END, PLAIN, case, has};
+use crate::stopped::ends_the_same;
 
 /// Edge of a voxel and of a cell, um.
 const VOXEL: f64 = 2.0;
@@ -20,14 +20,7 @@ const WOOD: usize = 40;
 /// Voxels along x: half a groove, a land twice as wide, half a groove.
 const WIDE: usize = 12;
 
-const CASE: &str = r#"
-[grid]
-cell = "2 um"
-[adhesive]
-density = "1200 kg/m3"
-bulk_modulus = "1 GPa"
-viscosity = "1 Pa s"
-[contact]
+const TABLES: &str = r#"[contact]
 law = "frictionless"
 [clamp]
 closing_speed = "1 m/s"
@@ -70,53 +63,24 @@ fn grooved(path: &Path) {
     fs::write(path, bytes).unwrap();
 }
 
-fn run(bench: &Bench, changes: &[&str]) -> Result<Option<Summary>, RunFailure> {
-    run_into(bench, "run", PLAIN, usize::MAX, changes)
+fn bench() -> Bench {
+    let bench = Bench::with(&case("2 um", None, TABLES));
+    grooved(&bench.path("bond.mpts"));
+    bench
 }
 
-/// Stopped after `steps` steps of this process.
-fn run_into(
-    bench: &Bench,
-    folder: &str,
-    mode: Mode,
-    steps: usize,
-    changes: &[&str],
-) -> Result<Option<Summary>, RunFailure> {
-    let left = Cell::new(steps);
-    let stop = || {
-        left.set(left.get() - 1);
-        left.get() == 0
-    };
-    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-    let bond = bench.path("bond.mpts");
-    Request::read(&bench.path("case.toml"), Some(&bond), &changes)?.execute(
-        &bench.path(folder),
-        mode,
-        particle_file::Provenance::default(),
-        &stop,
-        &mut |_, _| {},
-        &|said| panic!("{said}"),
-    )
-}
-
-/// The fields of the last row of the history by the names of their columns.
-fn last_row(folder: &Path) -> impl Fn(&str) -> String + use<> {
-    let text = fs::read_to_string(folder.join("history.csv")).unwrap();
-    let split = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
-    let header = split(text.lines().next().unwrap());
-    let row = split(text.lines().last().unwrap());
-    assert_eq!(header.len(), row.len());
-    move |name| row[header.iter().position(|h| h == name).unwrap()].clone()
+/// The last field of a column of the history.
+fn last(bench: &Bench, name: &str) -> String {
+    bench.column(name).pop().unwrap()
 }
 
 /// By then the clamp has moved 20 of 24 um. Of the adhesive, 12 voxels high before, 2 are left between the
 /// lands, and half of the rest fills 10 voxels of each groove, 11 from the middle on.
 #[test]
 fn grooves_filled_by_a_known_volume_are_told_within_a_voxel() {
-    let bench = Bench::with(CASE);
-    grooved(&bench.path("bond.mpts"));
-    let summary = run(&bench, &[]).unwrap().unwrap();
-    let told = last_row(&bench.path("run"));
+    let bench = bench();
+    let summary = bench.ran("run", PLAIN, END);
+    let told = |name: &str| last(&bench, name);
     let number = |name: &str| told(name).parse::<f64>().unwrap();
     // Of 72 square voxels a side: 12 wide up to a depth of 1, 6 wide from there to 11.
     let wp = ((12.0 + 6.0 * (11_f64.powi(3) - 1.0)) / 3.0 / 72.0).sqrt() * VOXEL;
@@ -176,10 +140,9 @@ fn grooves_filled_by_a_known_volume_are_told_within_a_voxel() {
 /// One meaning of gap: history, summary, states and, where flat surfaces meet when the bond is closed, their distance.
 #[test]
 fn the_gap_is_the_way_left_wherever_it_is_told() {
-    let bench = Bench::with(CASE);
-    grooved(&bench.path("bond.mpts"));
-    let summary = run(&bench, &[]).unwrap().unwrap();
-    let told = last_row(&bench.path("run"));
+    let bench = bench();
+    let summary = bench.ran("run", PLAIN, END);
+    let told = |name: &str| last(&bench, name);
     let wanted = 4e-6;
     let file = ParticleFile::open(bench.path("run/final.mpts")).unwrap();
     let noted: f64 = file.header().attribute("gap_m").unwrap().parse().unwrap();
@@ -204,23 +167,14 @@ fn the_gap_is_the_way_left_wherever_it_is_told() {
 
 #[test]
 fn a_run_that_tells_penetration_stopped_on_its_way_ends_the_same() {
-    let bench = Bench::with(CASE);
-    grooved(&bench.path("bond.mpts"));
-    run(&bench, &[]).unwrap();
-    let whole = files(&bench.path("run"));
-    for steps in [1, 5] {
-        let folder = format!("stopped-{steps}");
-        run_into(&bench, &folder, PLAIN, steps, &[]).unwrap();
-        run_into(&bench, &folder, RESUME, usize::MAX, &[]).unwrap();
-        assert!(files(&bench.path(&folder)) == whole, "{steps}");
-    }
+    ends_the_same(&bench(), 4);
 }
 
 /// What a page can show of it.
 #[test]
 fn a_run_that_fails_leaves_its_sentence() {
     let bench = Bench::new("scheme = \"explicit\"\ncfl = 1.5", "1.4 us", "0.01 us");
-    let Err(RunFailure::Unstable { said, .. }) = bench.run("run", PLAIN, usize::MAX) else {
+    let Err(RunFailure::Unstable { said, .. }) = bench.run("run", PLAIN, END, &[]) else {
         panic!("the run did not fail");
     };
     let summary = fs::read_to_string(bench.path("run/summary.json")).unwrap();
@@ -228,22 +182,18 @@ fn a_run_that_fails_leaves_its_sentence() {
     assert_eq!(told["end"], "failed");
     assert_eq!(told["verdict"]["reasons"][0], said.as_str());
     assert!(told["steps"].as_u64().unwrap() > 0 && told["time_s"].as_f64().unwrap() > 0.0);
+    assert!(told["left_out"].is_array() && told["provenance"]["tool"] == "mpm-run");
 }
 
 #[test]
 fn rows_tell_it_where_asked_and_scenes_without_a_bond_are_refused() {
-    let bench = Bench::with(CASE);
-    grooved(&bench.path("bond.mpts"));
-    let summary = run(&bench, &["output.penetration=false", "clamp.stop=1 us"]);
+    let bench = bench();
+    let changes = ["output.penetration=false", "clamp.stop=1 us"];
+    let summary = bench.run("run", PLAIN, END, &changes);
     assert!(summary.unwrap().unwrap().penetration.is_some());
     let history = fs::read_to_string(bench.path("run/history.csv")).unwrap();
     assert!(!history.contains("wp_"), "{history}");
     let plates = Bench::explicit();
-    let said = plates.run_changed("run", PLAIN, 1, &["output.penetration=true"]);
-    let said = said.unwrap_err().to_string();
-    assert!(
-        said.contains("measured of the bond of a bond file"),
-        "{said}"
-    );
-    assert!(!plates.path("run").exists());
+    let said = plates.refusal(&["output.penetration=true"]);
+    has(&said, &["measured of the bond of a bond file"]);
 }

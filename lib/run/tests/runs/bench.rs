@@ -1,4 +1,4 @@
-//! A small scene and its runs.
+//! Small scenes and their runs.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -9,39 +9,54 @@ use particle_file::Provenance;
 use run::{Ahead, Mode, Request, RunFailure, Summary};
 use tempfile::TempDir;
 
-/// A case of a drop `drop` um wide and 10 um high on the lower of two plates in a box `wide` um wide,
-/// the upper one `gap` um above it and driven by the clamp; `tables` are those of clamp, integrator and output.
-pub fn plates(wide: u32, gap: u32, drop: u32, tables: &str) -> String {
-    let top = 6 + gap;
+/// A case of cells of `cell` in a scene in plane strain within `corners` (um), or of a bond; liquid of 1.3 Pa s between
+/// `tables`.
+pub fn case(cell: &str, corners: Option<[i32; 4]>, tables: &str) -> String {
+    let domain = corners.map_or(String::new(), |corners| {
+        format!("dimensions = 2\ndomain = {}\n", corners_of(corners))
+    });
     format!(
         r#"[grid]
-cell = "2 um"
-dimensions = 2
-domain = {{ min = ["0 um", "0 um", "0 um"], max = ["{wide} um", "30 um", "2 um"] }}
-[adhesive]
+cell = "{cell}"
+{domain}[adhesive]
 density = "1200 kg/m3"
 bulk_modulus = "1 GPa"
 viscosity = "1.3 Pa s"
-[contact]
-law = "stick"
-{tables}
-[[body]]
-material = "rigid"
-name = "bottom"
-box = {{ min = ["0 um", "0 um", "0 um"], max = ["{wide} um", "6 um", "2 um"] }}
-[[body]]
-material = "rigid"
-name = "top"
-velocity = "clamp"
-box = {{ min = ["0 um", "{top} um", "0 um"], max = ["{wide} um", "{} um", "2 um"] }}
-[[body]]
-material = "adhesive"
-box = {{ min = ["0 um", "6 um", "0 um"], max = ["{drop} um", "16 um", "2 um"] }}
-"#,
-        top + 22
+{tables}"#
     )
 }
 
+fn corners_of([x, y, to_x, to_y]: [i32; 4]) -> String {
+    format!(r#"{{ min = ["{x} um", "{y} um", "0 um"], max = ["{to_x} um", "{to_y} um", "1 um"] }}"#)
+}
+
+/// A body of `material`, with further keys, within corners x, y to x, y (um).
+pub fn body(material: &str, keys: &str, corners: [i32; 4]) -> String {
+    let corners = corners_of(corners);
+    format!("[[body]]\nmaterial = \"{material}\"\nbox = {corners}\n{keys}\n")
+}
+
+/// A case of a drop `drop` um wide and 10 um high on the lower of two plates in a box `wide` um wide,
+/// the upper one `gap` um above it and driven by the clamp; `tables` are those of clamp, integrator and output.
+pub fn plates(wide: i32, gap: i32, drop: i32, tables: &str) -> String {
+    let top = 6 + gap;
+    let tables = [
+        "[contact]\nlaw = \"stick\"\n",
+        tables,
+        "\n",
+        &body("rigid", "name = \"bottom\"", [0, 0, wide, 6]),
+        &body(
+            "rigid",
+            "name = \"top\"\nvelocity = \"clamp\"",
+            [0, top, wide, top + 22],
+        ),
+        &body("adhesive", "", [0, 6, drop, 16]),
+    ];
+    case("2 um", Some([0, 0, wide, 30]), &tables.concat())
+}
+
+/// Of a run to its end.
+pub const END: usize = usize::MAX;
 pub const PLAIN: Mode = Mode {
     resume: false,
     overwrite: false,
@@ -56,7 +71,7 @@ pub const OVERWRITE: Mode = Mode {
     ..PLAIN
 };
 
-/// A folder with a case.
+/// A folder with a case, and with a bond where a test puts `bond.mpts` there.
 pub struct Bench(TempDir);
 
 impl Bench {
@@ -94,20 +109,25 @@ snapshots = 3"#
 
     pub fn read(&self, changes: &[&str]) -> Result<Request, RunFailure> {
         let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-        Request::read(&self.path("case.toml"), None, &changes)
+        let bond = self.path("bond.mpts");
+        let bond = bond.exists().then_some(bond.as_path());
+        Request::read(&self.path("case.toml"), bond, &changes)
+    }
+
+    /// The sentence by which the case is refused.
+    pub fn refusal(&self, changes: &[&str]) -> String {
+        self.read(changes).unwrap_err().to_string()
+    }
+
+    /// The plan with single blanks.
+    pub fn plan(&self, changes: &[&str]) -> Result<String, RunFailure> {
+        let plan = self.read(changes)?.explain()?;
+        let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        Ok(plan.lines().map(|line| words(line) + "\n").collect())
     }
 
     /// Runs the case into `folder`, stopped after `steps` steps of this process.
     pub fn run(
-        &self,
-        folder: &str,
-        mode: Mode,
-        steps: usize,
-    ) -> Result<Option<Summary>, RunFailure> {
-        self.run_changed(folder, mode, steps, &[])
-    }
-
-    pub fn run_changed(
         &self,
         folder: &str,
         mode: Mode,
@@ -119,17 +139,7 @@ snapshots = 3"#
             left.set(left.get() - 1);
             left.get() == 0
         };
-        self.run_until(folder, mode, &stop, changes)
-    }
-
-    pub fn run_until(
-        &self,
-        folder: &str,
-        mode: Mode,
-        stop: &dyn Fn() -> bool,
-        changes: &[&str],
-    ) -> Result<Option<Summary>, RunFailure> {
-        self.run_told(folder, mode, stop, &mut |_, _| {}, changes)
+        self.run_told(folder, mode, &stop, &mut |_, _| {}, changes)
     }
 
     pub fn run_told(
@@ -152,8 +162,35 @@ snapshots = 3"#
 
     /// A run to its end, or stopped on the way, which must not fail.
     pub fn ran(&self, folder: &str, mode: Mode, steps: usize) -> Summary {
-        let ended = self.run(folder, mode, steps).unwrap();
+        let ended = self.run(folder, mode, steps, &[]).unwrap();
         ended.expect("a run that has not ended")
+    }
+
+    /// A column of the history of the run in `run`.
+    pub fn column(&self, name: &str) -> Vec<String> {
+        let text = fs::read_to_string(self.path("run/history.csv")).unwrap();
+        let header = text.lines().next().unwrap();
+        let place = header.split(',').position(|own| own == name).expect(name);
+        let rows = text.lines().skip(1);
+        rows.map(|row| row.split(',').nth(place).unwrap().to_owned())
+            .collect()
+    }
+
+    pub fn numbers(&self, name: &str) -> Vec<f64> {
+        let text = self.column(name);
+        text.iter().map(|number| number.parse().unwrap()).collect()
+    }
+
+    /// Everything in the run folder `run` by name.
+    pub fn everything(&self) -> BTreeMap<String, Vec<u8>> {
+        everything(&self.path("run"))
+    }
+}
+
+#[track_caller]
+pub fn has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "'{part}' is not in\n{text}");
     }
 }
 

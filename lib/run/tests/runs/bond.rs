@@ -2,36 +2,28 @@
 //! numbers worked out by hand, and what of it is refused.
 
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile};
-use run::{Request, RunFailure};
+use run::RunFailure;
 
-use crate::bench::{Bench, PLAIN};
+use crate::bench::{Bench, END, PLAIN, case, has};
 
 /// Edge of a voxel, m.
 const VOXEL: f64 = 2e-6;
 /// How far the upper adherend was moved away, m.
 const GAP: f64 = 5e-6;
 
-const CASE: &str = r#"
-[grid]
-cell = "1 um"
-[adhesive]
-density = "1200 kg/m3"
-bulk_modulus = "1 GPa"
-viscosity = "1 Pa s"
-[contact]
+const TABLES: &str = r#"[contact]
 law = "stick"
 [clamp]
 closing_speed = "1 m/s"
 stop = "closed"
 [integrator]
 scheme = "implicit"
-[output]
-snapshots = 0
 "#;
 
 /// A bond along z of 4 x `wide` voxels: wood three voxels thick with a pit of two, adhesive of two
 /// layers, wood of two. `change` has the last word on the header.
-fn bond(bench: &Bench, wide: usize, change: impl FnOnce(&mut Header)) {
+fn bench(wide: usize, change: impl FnOnce(&mut Header)) -> Bench {
+    let bench = Bench::with(&case("1 um", None, TABLES));
     let gap_voxels = GAP / VOXEL;
     let parts = [
         ("wood-bottom", Material::Rigid, 3, 0.0),
@@ -55,107 +47,63 @@ fn bond(bench: &Bench, wide: usize, change: impl FnOnce(&mut Header)) {
     let mut bytes = Vec::new();
     draft.write_to(&mut bytes).unwrap();
     std::fs::write(bench.path("bond.mpts"), bytes).unwrap();
-}
-
-fn read(bench: &Bench, changes: &[&str]) -> Result<Request, RunFailure> {
-    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-    let bond = bench.path("bond.mpts");
-    Request::read(&bench.path("case.toml"), Some(&bond), &changes)
-}
-
-/// The plan with single blanks.
-fn plan(bench: &Bench, changes: &[&str]) -> String {
-    let said = read(bench, changes).unwrap().explain().unwrap();
-    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
-    said.lines().map(|line| words(line) + "\n").collect()
+    bench
 }
 
 #[test]
 fn the_bond_normal_is_turned_to_y_and_every_adhesive_voxel_filled() {
-    let bench = Bench::with(CASE);
-    bond(&bench, 8, |_| {});
-    let said = plan(&bench, &[]);
-    for line in [
+    let bench = bench(8, |_| {});
+    let lines = [
         "grid 8 x 15 x 16 cells of 1.0000 um, 3D",
         // 4 x 8 x 2 voxels of 8 um3, four points along each of their edges.
         "liquid 4096 material points, 5.1200e-16 m3",
         "rigid body wood-bottom: 94 voxels, at rest",
         "rigid body wood-top: 64 voxels, driven by the clamp",
         "end closed after 5.00 um of travel",
-    ] {
-        assert!(said.contains(line), "'{line}' is not in\n{said}");
-    }
-    let said = plan(
-        &bench,
-        &["clamp.travel=3 um", "grid.points_per_direction=3"],
-    );
-    assert!(said.contains("liquid 13824 material points, 5.1200e-16 m3"));
-    assert!(said.contains("end closed after 3.00 um of travel"));
+    ];
+    has(&bench.plan(&[]).unwrap(), &lines);
+    let changes = ["clamp.travel=3 um", "grid.points_per_direction=3"];
+    let lines = [
+        "liquid 13824 material points, 5.1200e-16 m3",
+        "end closed after 3.00 um of travel",
+    ];
+    has(&bench.plan(&changes).unwrap(), &lines);
 }
 
 /// A case that names voxels fits any specimen.
 #[test]
 fn cells_may_be_voxels_of_the_bond() {
-    let bench = Bench::with(CASE);
-    bond(&bench, 8, |_| {});
+    let bench = bench(8, |_| {});
     for (cell, grid) in [
         ("0.5 voxel", "grid 8 x 15 x 16 cells of 1.0000 um"),
         ("1voxel", "grid 4 x 8 x 8 cells of 2.0000 um"),
         ("2 voxels", "grid 2 x 4 x 4 cells of 4.0000 um"),
     ] {
-        let said = plan(&bench, &[&format!("grid.cell={cell}")]);
-        assert!(said.contains(grid), "{cell}: {said}");
-    }
-    for (cell, sentence) in [
-        ("2 voxel s", "or voxels, such as \"2 voxels\""),
-        ("voxels", "a number of voxels greater than zero is needed"),
-        (
-            "-2 voxels",
-            "a number of voxels greater than zero is needed",
-        ),
-        (
-            "nan voxels",
-            "a number of voxels greater than zero is needed",
-        ),
-    ] {
-        let refused = read(&bench, &[&format!("grid.cell={cell}")]).unwrap_err();
-        assert!(refused.to_string().contains(sentence), "{cell}: {refused}");
+        let plan = bench.plan(&[&format!("grid.cell={cell}")]);
+        has(&plan.unwrap(), &[grid]);
     }
 }
 
 #[test]
 fn plane_strain_is_one_voxel_thick_and_one_cell_deep() {
-    let bench = Bench::with(CASE);
-    bond(&bench, 1, |_| {});
-    let said = plan(&bench, &["grid.dimensions=2"]);
-    for line in [
+    let plan = bench(1, |_| {}).plan(&["grid.dimensions=2"]);
+    let lines = [
         "grid 8 x 15 x 1 cells of 1.0000 um, plane strain",
         // 4 x 2 voxels of 4 um2, 1 um deep.
         "liquid 128 material points, 3.2000e-17 m3",
         "rigid body wood-bottom: 10 voxels, at rest",
-    ] {
-        assert!(said.contains(line), "'{line}' is not in\n{said}");
-    }
+    ];
+    has(&plan.unwrap(), &lines);
 }
 
 /// A state is written in the axes of its bond file, with the upper wood where it is.
 #[test]
 fn states_are_written_in_the_axes_of_the_bond() {
-    let bench = Bench::with(CASE);
-    bond(&bench, 1, |_| {});
-    let request = read(&bench, &["grid.dimensions=2", "clamp.stop=0.3 us"]).unwrap();
-    let folder = bench.path("run");
-    let ended = request.execute(
-        &folder,
-        PLAIN,
-        particle_file::Provenance::default(),
-        &|| false,
-        &mut |_, _| {},
-        &|said| panic!("{said}"),
-    );
-    let summary = ended.unwrap().unwrap();
+    let bench = bench(1, |_| {});
+    let changes = ["grid.dimensions=2", "clamp.stop=0.3 us"];
+    let summary = bench.run("run", PLAIN, END, &changes).unwrap().unwrap();
     assert!((summary.travel_m - 3e-7).abs() < 1e-15);
-    let state = ParticleFile::open(folder.join("final.mpts")).unwrap();
+    let state = ParticleFile::open(bench.path("run/final.mpts")).unwrap();
     assert_eq!(state.header().normal, 2);
     let (top, bits) = state.block_named("wood-top").unwrap();
     assert_eq!(bits.dims(), [4, 1, 2]);
@@ -174,77 +122,72 @@ fn states_are_written_in_the_axes_of_the_bond() {
 
 #[test]
 fn bonds_and_cells_that_do_not_fit_are_refused() {
-    let bench = Bench::with(CASE);
-    let said = |changes: &[&str]| read(&bench, changes).unwrap_err().to_string();
-    bond(&bench, 8, |_| {});
-    for (changes, sentence) in [
+    let bench = bench(8, |_| {});
+    let domain =
+        r#"grid.domain={ min = ["0 um", "0 um", "0 um"], max = ["8 um", "8 um", "8 um"] }"#;
+    let points = "grid={ cell = \"4 um\", points_per_direction = 1 }";
+    let body = r#"body=[{ material = "rigid", box = { min = ["0 m", "0 m", "0 m"], max = ["1 m", "1 m", "1 m"] } }]"#;
+    for (change, sentence) in [
         (
-            &["grid.dimensions=2"][..],
+            "grid.dimensions=2",
             "one voxel thick along z, but this one has 8",
         ),
-        (&["grid.cell=3 um"], "2.667 cells of 3.0000 um wide along x"),
+        ("grid.cell=3 um", "2.667 cells of 3.0000 um wide along x"),
         (
-            &["grid.cell=1.6 um"],
+            "grid.cell=1.6 um",
             "puts 2.500 points along a voxel of 2.0000 um",
         ),
+        (points, "puts 0.500 points along a voxel"),
+        ("grid.cell=2 voxel s", "or voxels, such as \"2 voxels\""),
         (
-            &["grid.cell=4 um", "grid.points_per_direction=1"],
-            "puts 0.500 points along a voxel",
+            "grid.cell=voxels",
+            "a number of voxels greater than zero is needed",
         ),
         (
-            &[r#"grid.domain={ min = ["0 um", "0 um", "0 um"], max = ["8 um", "8 um", "8 um"] }"#],
-            "a bond file has its own box",
+            "grid.cell=-2 voxels",
+            "a number of voxels greater than zero is needed",
         ),
+        (
+            "grid.cell=nan voxels",
+            "a number of voxels greater than zero is needed",
+        ),
+        (domain, "a bond file has its own box"),
+        (body, "only one of them can describe the scene"),
         // 4e6 cells are accepted however small the file.
-        (
-            &["grid.cell=0.05 um"],
-            "160 x 300 x 320 cells; accepted are",
-        ),
+        ("grid.cell=0.05 um", "160 x 300 x 320 cells; accepted are"),
     ] {
-        assert!(
-            said(changes).contains(sentence),
-            "{changes:?}: {}",
-            said(changes)
-        );
+        has(&bench.refusal(&[change]), &[sentence]);
     }
-    let body = "\n[[body]]\nmaterial = \"rigid\"\nbox = { min = [\"0 um\", \"0 um\", \"0 um\"], max = [\"1 um\", \"1 um\", \"1 um\"] }\n";
-    let both = Bench::with(&(CASE.to_owned() + body));
-    bond(&both, 8, |_| {});
-    let refused = read(&both, &[]).unwrap_err().to_string();
-    assert!(
-        refused.contains("only one of them can describe the scene"),
-        "{refused}"
-    );
-    let neither = bench.read(&[]).unwrap_err().to_string();
-    assert!(neither.contains("nothing describes the scene"), "{neither}");
+    std::fs::remove_file(bench.path("bond.mpts")).unwrap();
+    has(&bench.refusal(&[]), &["nothing describes the scene"]);
 }
 
 #[test]
 fn a_file_that_is_no_bond_is_refused() {
-    let bench = Bench::with(CASE);
-    bond(&bench, 8, |header| header.kind = Kind::Specimen);
-    match read(&bench, &[]) {
-        Err(RunFailure::Usage(said)) => assert!(said.contains("no bond file but holds a specimen")),
+    type Change = fn(&mut Header);
+    let read = |change: Change| bench(8, change).read(&[]);
+    match read(|header| header.kind = Kind::Specimen) {
+        Err(RunFailure::Usage(said)) => has(&said, &["no bond file but holds a specimen"]),
         other => panic!("{other:?}"),
     }
-    let corrupt = |sentence: &str, change: &dyn Fn(&mut Header)| {
-        bond(&bench, 8, change);
-        match read(&bench, &[]) {
-            Err(RunFailure::Data(said)) => assert!(said.contains(sentence), "{said}"),
+    // The box may be larger by a cell, 64 voxels at most, and rounding.
+    read(|header| header.box_max_m[0] += 64.0 * VOXEL).unwrap();
+    let corrupt: [(&str, Change); 4] = [
+        ("gap_m is missing", |header| header.attributes.clear()),
+        ("not a length", |header| {
+            header.set_attribute("gap_m", -1e-6)
+        }),
+        ("the same to a cell", |header| {
+            header.box_max_m[0] += 66.0 * VOXEL
+        }),
+        ("the same to a cell", |header| {
+            header.box_min_m[2] -= 66.0 * VOXEL
+        }),
+    ];
+    for (sentence, change) in corrupt {
+        match read(change) {
+            Err(RunFailure::Data(said)) => has(&said, &[sentence]),
             other => panic!("{sentence}: {other:?}"),
         }
-    };
-    corrupt("gap_m is missing", &|header| header.attributes.clear());
-    corrupt("not a length", &|header| {
-        header.set_attribute("gap_m", -1e-6)
-    });
-    // The box may be larger by a cell, 64 voxels at most, and rounding.
-    bond(&bench, 8, |header| header.box_max_m[0] += 64.0 * VOXEL);
-    read(&bench, &[]).unwrap();
-    corrupt("the same to a cell", &|header| {
-        header.box_max_m[0] += 66.0 * VOXEL
-    });
-    corrupt("the same to a cell", &|header| {
-        header.box_min_m[2] -= 66.0 * VOXEL
-    });
+    }
 }

@@ -7,7 +7,7 @@ use crate::bench::{Bench, RESUME};
 /// Attributes and arrays of the checkpoint of a run stopped after four steps: name, type and, of arrays whose length does
 /// not follow the liquid, number of rows.
 fn layout(bench: &Bench, changes: &[&str]) -> (String, String) {
-    let stopped = bench.run_changed("run", RESUME, 4, changes);
+    let stopped = bench.run("run", RESUME, 4, changes);
     assert_eq!(stopped.unwrap().unwrap().end, run::End::Interrupted);
     let file = ParticleFile::open(bench.path("run/checkpoint.mpts")).unwrap();
     let attributes = file.header().attributes.iter();

@@ -12,7 +12,7 @@ const TIME: f64 = 1e-6;
 /// A drop of 8 x 8 x 4 um of 1200 kg/m3.
 const VOLUME: f64 = 256e-18;
 
-const CASE: &str = r#"
+pub const CASE: &str = r#"
 [grid]
 cell = "2 um"
 domain = { min = ["0 um", "0 um", "0 um"], max = ["20 um", "20 um", "4 um"] }
@@ -61,26 +61,6 @@ fn near(found: f64, expected: f64, relative: f64) -> bool {
     (found / expected - 1.0).abs() < relative
 }
 
-/// The columns of `history.csv` by name.
-fn column(bench: &Bench, name: &str) -> Vec<String> {
-    let text = std::fs::read_to_string(bench.path("run/history.csv")).unwrap();
-    let mut lines = text.lines();
-    let at = lines
-        .next()
-        .unwrap()
-        .split(',')
-        .position(|n| n == name)
-        .unwrap();
-    lines
-        .map(|line| line.split(',').nth(at).unwrap().to_owned())
-        .collect()
-}
-
-fn numbers(bench: &Bench, name: &str) -> Vec<f64> {
-    let text = column(bench, name);
-    text.iter().map(|number| number.parse().unwrap()).collect()
-}
-
 /// `error` is relative to the last speed; that of the implicit scheme is made in its first step.
 fn a_drop_falls(scheme: &str, error: f64) {
     let bench = Bench::with(&CASE.replace("SCHEME", scheme));
@@ -104,33 +84,33 @@ fn a_drop_falls(scheme: &str, error: f64) {
         summary.sentence()
     );
 
-    let times = numbers(&bench, "time_s");
-    let steps = numbers(&bench, "step");
+    let times = bench.numbers("time_s");
+    let steps = bench.numbers("step");
     assert!(times.is_sorted_by(|a, b| a < b) && steps.is_sorted_by(|a, b| a < b));
     assert_eq!(steps[0], 1.0, "a row after the first step");
     assert_eq!(*steps.last().unwrap(), summary.steps as f64);
     assert!(near(*times.last().unwrap(), TIME, 1e-9));
     // A row for every tenth of the time, after the first step past it, and one for the end.
-    let longest = numbers(&bench, "dt_s").into_iter().fold(0.0, f64::max);
+    let longest = bench.numbers("dt_s").into_iter().fold(0.0, f64::max);
     let gaps = times.windows(2).map(|pair| pair[1] - pair[0]);
     assert!(
         gaps.clone().all(|gap| gap < 0.1 * TIME + 2.0 * longest),
         "{times:?}"
     );
     assert!((9..=12).contains(&times.len()), "{times:?}");
-    for (time, speed) in times.iter().zip(numbers(&bench, "max_speed_m_s")) {
+    for (time, speed) in times.iter().zip(bench.numbers("max_speed_m_s")) {
         assert!(
             (speed - G * time).abs() < error * G * TIME,
             "{speed} at {time}"
         );
     }
-    let volumes = numbers(&bench, "adhesive_volume_m3");
+    let volumes = bench.numbers("adhesive_volume_m3");
     assert!(volumes.iter().all(|&v| near(v, VOLUME, 1e-3)));
     assert!(
-        column(&bench, "gap_m").iter().all(String::is_empty),
+        bench.column("gap_m").iter().all(String::is_empty),
         "no clamp"
     );
-    assert!(numbers(&bench, "lost_particles").iter().all(|&n| n == 0.0));
+    assert!(bench.numbers("lost_particles").iter().all(|&n| n == 0.0));
 
     let run = bench.path("run");
     assert!(!run.join("checkpoint.mpts").exists(), "nothing to continue");

@@ -1,19 +1,10 @@
 //! Bodies beside and beyond periodic sides.
 
-use crate::bench::{Bench, OVERWRITE};
+use crate::bench::{Bench, END, PLAIN, body, case, has};
 
-/// A post under liquid that a clamp presses on, its low side at `low` um, in a domain of 12 um.
-fn press(low: i32) -> String {
-    format!(
-        r#"[grid]
-cell = "1 um"
-dimensions = 2
-domain = {{ min = ["0 um", "0 um", "0 um"], max = ["12 um", "10 um", "1 um"] }}
-[adhesive]
-density = "1200 kg/m3"
-bulk_modulus = "1 GPa"
-viscosity = "1 Pa s"
-[contact]
+/// A post under liquid that a clamp presses on, its low side at `low` um, in a domain `wide` um wide.
+fn press(wide: i32, low: i32) -> Bench {
+    let tables = r#"[contact]
 law = "stick"
 [clamp]
 closing_speed = "1 m/s"
@@ -22,55 +13,42 @@ travel = "0.2 um"
 scheme = "implicit"
 [boundary]
 x = "periodic"
-[[body]]
-material = "rigid"
-name = "top"
-velocity = "clamp"
-box = {{ min = ["0 um", "8 um", "0 um"], max = ["12 um", "10 um", "1 um"] }}
-[[body]]
-material = "adhesive"
-box = {{ min = ["0 um", "6 um", "0 um"], max = ["12 um", "8 um", "1 um"] }}
-[[body]]
-material = "rigid"
-name = "bottom"
-box = {{ min = ["{low} um", "0 um", "0 um"], max = ["{} um", "6 um", "1 um"] }}
-"#,
-        low + 6
-    )
-}
-
-fn pressure(low: i32, scheme: &str) -> f64 {
-    let bench = Bench::with(&press(low));
-    let scheme = format!("integrator.scheme={scheme}");
-    let ended = bench.run_changed("run", OVERWRITE, usize::MAX, &[&scheme]);
-    ended.unwrap().unwrap().final_pressure_pa
+"#;
+    let bodies = [
+        body(
+            "rigid",
+            "name = \"top\"\nvelocity = \"clamp\"",
+            [0, 8, 12, 10],
+        ),
+        body("adhesive", "", [0, 6, 12, 8]),
+        body("rigid", "name = \"bottom\"", [low, 0, low + 6, 6]),
+    ];
+    let tables = tables.to_owned() + &bodies.concat();
+    Bench::with(&case("1 um", Some([0, 0, wide, 10]), &tables))
 }
 
 /// A box across a side was cut there by the implicit scheme, and one beyond it was a wall of no width.
 #[test]
 fn a_box_is_the_same_wherever_it_lies_along_a_periodic_axis() {
-    for scheme in ["implicit", "explicit"] {
-        let middle = pressure(3, scheme);
+    for scheme in ["integrator.scheme=implicit", "integrator.scheme=explicit"] {
+        let pressure = |low: i32| {
+            let ended = press(12, low).run("run", PLAIN, END, &[scheme]);
+            ended.unwrap().unwrap().final_pressure_pa
+        };
+        let middle = pressure(3);
         for low in [9, 15, -9] {
-            let found = pressure(low, scheme);
-            assert!(
-                (found / middle - 1.0).abs() < 1e-3,
-                "{scheme}, {low}: {found} for {middle}"
-            );
+            let off = pressure(low) / middle - 1.0;
+            assert!(off.abs() < 1e-3, "{scheme}, {low}: {off}");
         }
     }
 }
 
 #[test]
 fn a_period_is_a_whole_number_of_cells() {
-    let bench = Bench::with(&press(3).replace(
-        "[\"12 um\", \"10 um\", \"1 um\"] }\n[adh",
-        "[\"11.5 um\", \"10 um\", \"1 um\"] }\n[adh",
-    ));
-    let said = bench.read(&[]).unwrap_err().to_string();
-    assert!(
-        said.contains("11.500 cells long along x, whose sides are periodic"),
-        "{said}"
+    let said = press(12, 3).refusal(&["grid.domain.max.0=11.5 um"]);
+    has(
+        &said,
+        &["11.500 cells long along x, whose sides are periodic"],
     );
 }
 
@@ -78,51 +56,32 @@ fn a_period_is_a_whole_number_of_cells() {
 /// the explicit scheme once it was two periods away.
 #[test]
 fn a_lid_drags_liquid_however_many_periods_it_has_gone() {
-    let case = |scheme: &str| {
-        format!(
-            r#"[grid]
-cell = "1 um"
-dimensions = 2
-domain = {{ min = ["0 um", "0 um", "0 um"], max = ["4 um", "8 um", "1 um"] }}
-[adhesive]
-density = "1200 kg/m3"
-bulk_modulus = "1 GPa"
-viscosity = "1 Pa s"
-[contact]
+    let tables = r#"[contact]
 law = "stick"
 [stop]
 time = "1.2 us"
 [integrator]
-scheme = "{scheme}"
+scheme = "explicit"
 [boundary]
 x = "periodic"
 y = "open"
-[[body]]
-material = "rigid"
-name = "floor"
-box = {{ min = ["0 um", "0 um", "0 um"], max = ["4 um", "2 um", "1 um"] }}
-[[body]]
-material = "rigid"
-name = "lid"
-velocity = ["10 m/s", "0 m/s", "0 m/s"]
-box = {{ min = ["0 um", "6 um", "0 um"], max = ["4 um", "8 um", "1 um"] }}
-[[body]]
-material = "adhesive"
-box = {{ min = ["0 um", "2 um", "0 um"], max = ["4 um", "6 um", "1 um"] }}
-"#
-        )
-    };
-    // 1 Pa s (10 m/s / 4 um)^2 over 4 x 4 x 1 um.
-    let expected = (10.0_f64 / 4e-6).powi(2) * 16e-18;
+"#;
+    let lid = "name = \"lid\"\nvelocity = [\"10 m/s\", \"0 m/s\", \"0 m/s\"]";
+    let bodies = [
+        body("rigid", "name = \"floor\"", [0, 0, 4, 2]),
+        body("rigid", lid, [0, 6, 4, 8]),
+        body("adhesive", "", [0, 2, 4, 6]),
+    ];
+    let tables = tables.to_owned() + &bodies.concat();
+    let bench = Bench::with(&case("1 um", Some([0, 0, 4, 8]), &tables));
+    // 1.3 Pa s (10 m/s / 4 um)^2 over 4 x 4 x 1 um.
+    let expected = 1.3 * (10.0_f64 / 4e-6).powi(2) * 16e-18;
     for scheme in ["explicit", "implicit"] {
-        let bench = Bench::with(&case(scheme));
-        bench.ran("run", OVERWRITE, usize::MAX);
-        let history = std::fs::read_to_string(bench.path("run/history.csv")).unwrap();
-        let row = history.lines().last().unwrap();
-        let power: f64 = row.split(',').nth(9).unwrap().parse().unwrap();
-        assert!(
-            (power / expected - 1.0).abs() < 0.25,
-            "{scheme}: {power} for {expected}"
-        );
+        let change = format!("integrator.scheme={scheme}");
+        let mode = crate::bench::OVERWRITE;
+        bench.run("run", mode, END, &[&change]).unwrap();
+        let power = *bench.numbers("viscous_power_W").last().unwrap();
+        let off = power / expected - 1.0;
+        assert!(off.abs() < 0.25, "{scheme}: {power} for {expected}");
     }
 }

@@ -1,10 +1,9 @@
 //! Press programmes: what they do, what is refused, and runs stopped in the middle of any stage.
 
-use std::fs;
-
 use run::End;
 
-use crate::bench::{Bench, PLAIN, RESUME, files, plates};
+use crate::bench::{Bench, END, PLAIN, files, has, plates};
+use crate::stopped::ends_the_same;
 
 /// Approach, ramp, hold until next to nothing flows, release: from microseconds to minutes.
 const STAGES: &str = r#"
@@ -47,19 +46,10 @@ fn bench(stages: &str) -> Bench {
     Bench::with(&case("8 um", stages))
 }
 
-fn column(history: &str, name: &str) -> Vec<f64> {
-    let mut lines = history.lines();
-    let names = lines.next().unwrap().split(',');
-    let place = names.into_iter().position(|n| n == name).unwrap();
-    lines
-        .map(|line| line.split(',').nth(place).unwrap().parse().unwrap())
-        .collect()
-}
-
 #[test]
 fn stages_follow_one_another_in_steps_that_follow_the_flow() {
     let bench = bench(STAGES);
-    let summary = bench.ran("run", PLAIN, usize::MAX);
+    let summary = bench.ran("run", PLAIN, END);
     assert_eq!(summary.end, End::Programme);
     let ended: Vec<_> = summary
         .programme
@@ -80,9 +70,8 @@ fn stages_follow_one_another_in_steps_that_follow_the_flow() {
     assert_eq!(ended, wanted);
     assert!(summary.steps < 200, "{} steps", summary.steps);
     assert!(summary.verdict.sound, "{:?}", summary.verdict);
-    let history = fs::read_to_string(bench.path("run").join("history.csv")).unwrap();
     let [time, pressure, stage] =
-        ["time_s", "pressure_top_Pa", "stage"].map(|name| column(&history, name));
+        ["time_s", "pressure_top_Pa", "stage"].map(|name| bench.numbers(name));
     assert_eq!(time.len() as u64, summary.steps, "a row for each step");
     // The pressure of a step is that which is set in its middle.
     let ends: Vec<f64> = summary.programme.iter().map(|s| s.end_s).collect();
@@ -113,15 +102,7 @@ fn stages_follow_one_another_in_steps_that_follow_the_flow() {
 
 #[test]
 fn a_programme_stopped_after_any_step_ends_the_same() {
-    let bench = bench(STAGES);
-    let summary = bench.ran("whole", RESUME, usize::MAX);
-    let whole = files(&bench.path("whole"));
-    for steps in (1..=summary.steps as usize).step_by(3) {
-        let parts = format!("parts-{steps}");
-        assert_eq!(bench.ran(&parts, RESUME, steps).end, End::Interrupted);
-        bench.ran(&parts, RESUME, usize::MAX);
-        assert!(files(&bench.path(&parts)) == whole, "stopped after {steps}");
-    }
+    ends_the_same(&bench(STAGES), 3);
 }
 
 /// The clamp has gone all its way before the press does: wood on wood bears the rest.
@@ -129,7 +110,7 @@ fn a_programme_stopped_after_any_step_ends_the_same() {
 fn a_closed_clamp_stands_until_the_programme_is_over() {
     let stages = STAGES.replace("slower = \"500 um/s\"\n", "");
     let bench = Bench::with(&case("6 um", &stages.replace("10 kPa", "1 MPa")));
-    let summary = bench.ran("run", PLAIN, usize::MAX);
+    let summary = bench.ran("run", PLAIN, END);
     assert_eq!(summary.end, End::Programme);
     let hold = &summary.programme[2];
     assert_eq!((hold.ended_by, hold.end_s > 300.0), ("time", true));
@@ -137,80 +118,97 @@ fn a_closed_clamp_stands_until_the_programme_is_over() {
     assert!(summary.steps < 300 && summary.verdict.sound, "{summary:?}");
 }
 
+/// Stages after an approach to 1 MPa, and a hold there, in words of their keys.
 #[test]
 fn stages_that_contradict_one_another_are_refused() {
-    let approach = "[[clamp.stage]]\nkind = \"approach\"\nspeed = \"1 mm/s\"\n";
-    let next = |kind: &str, keys: &str| {
-        format!("{approach}pressure = \"1 MPa\"\n[[clamp.stage]]\nkind = \"{kind}\"\n{keys}")
+    let stage = |kind: &str, keys: &str| {
+        let keys: String = keys.split(", ").map(|key| format!("{key}\n")).collect();
+        format!("[[clamp.stage]]\nkind = \"{kind}\"\n{keys}")
     };
-    let after_hold = |kind: &str, keys: &str| {
-        let held = next("hold", "time = \"1 s\"\n");
-        format!("{held}[[clamp.stage]]\nkind = \"{kind}\"\n{keys}")
-    };
-    let cases = [
+    let first = |keys: &str| stage("approach", &format!("speed = \"1 mm/s\", {keys}"));
+    let [pressed, endless] = ["pressure = \"1 MPa\"", "contact = true"].map(first);
+    let held = pressed.clone() + &stage("hold", "time = \"1 s\"");
+    let second = "time = \"1 s\"";
+    for (before, kind, keys, wanted) in [
+        (&pressed, "ramp", second, "a pressure to go to"),
+        (&pressed, "ramp", "pressure = \"2 MPa\"", "needs a time"),
         (
-            format!("closing_speed = \"1 m/s\"\n{approach}"),
-            "closing_speed is for a clamp without",
-        ),
-        (
-            format!("stop = \"closed\"\n{approach}"),
-            "stop is for a clamp without",
-        ),
-        (
-            approach.replace("speed = \"1 mm/s\"\n", ""),
-            "needs a speed",
-        ),
-        (
-            approach.to_owned() + "slower = \"1 nm/s\"\n",
-            "slower ends a hold",
-        ),
-        (
-            approach.to_owned() + "travel = \"9 um\"\n",
-            "at most the 8.0000 um",
-        ),
-        (next("ramp", "time = \"1 s\"\n"), "a pressure to go to"),
-        (next("ramp", "pressure = \"2 MPa\"\n"), "needs a time"),
-        (
-            next("hold", "contact = true\n"),
+            &pressed,
+            "hold",
+            "contact = true",
             "contact ends an approach only",
         ),
         (
-            next("release", "pressure = \"1 MPa\"\ntime = \"1 s\"\n"),
+            &pressed,
+            "release",
+            "pressure = \"1 MPa\"",
             "a release has no pressure",
         ),
         (
-            after_hold("hold", "pressure = \"2 MPa\"\ntime = \"1 s\"\n"),
+            &held,
+            "hold",
+            "pressure = \"2 MPa\", time = \"1 s\"",
             "a ramp between them",
         ),
         (
-            after_hold("ramp", "pressure = \"1 MPa\"\ntime = \"1 s\"\n"),
+            &held,
+            "ramp",
+            "pressure = \"1 MPa\", time = \"1 s\"",
             "1.0000 MPa already",
         ),
+        (&endless, "hold", second, "ends at none"),
         (
-            format!("{approach}[[clamp.stage]]\nkind = \"hold\"\ntime = \"1 s\"\n"),
-            "ends at none",
+            &endless,
+            "approach",
+            "slower = \"1 nm/s\"",
+            "slower ends a hold",
         ),
         (
-            "[[clamp.stage]]\nkind = \"release\"\nspeed = \"1 mm/s\"\ntime = \"1 s\"\n".into(),
-            "ends at no pressure",
+            &endless,
+            "approach",
+            "travel = \"9 um\"",
+            "at most the 8.0000 um",
         ),
         (
-            "[[clamp.stage]]\nkind = \"press\"\n".into(),
+            &endless,
+            "press",
+            second,
             "\"hold\" or \"release\" is needed",
         ),
         (
-            String::new(),
-            "needs closing_speed, or a list of [[clamp.stage]]",
+            &String::new(),
+            "approach",
+            "contact = true",
+            "needs a speed",
         ),
-    ];
-    for (stages, wanted) in cases {
-        let said = bench(&stages).read(&[]).unwrap_err().to_string();
-        assert!(said.contains(wanted), "{said}\nnot: {wanted}");
+        (
+            &String::new(),
+            "release",
+            "speed = \"1 mm/s\", time = \"1 s\"",
+            "ends at no pressure",
+        ),
+        (
+            &"stop = \"closed\"\n".to_owned(),
+            "hold",
+            second,
+            "stop is for a clamp without",
+        ),
+        (
+            &"closing_speed = \"1 m/s\"\n".to_owned(),
+            "hold",
+            second,
+            "closing_speed is for a clamp without",
+        ),
+    ] {
+        let said = bench(&format!("{before}{}", stage(kind, keys))).refusal(&[]);
+        has(&said, &[wanted]);
         assert!(!said.contains('\n'), "{said}");
     }
-    let explicit = bench(STAGES).run_changed("run", PLAIN, 1, &["integrator.scheme=explicit"]);
-    let said = explicit.unwrap_err().to_string();
-    assert!(said.contains("scheme = \"implicit\" only"), "{said}");
+    let none = bench("").refusal(&[]);
+    has(
+        &none,
+        &["needs closing_speed, or a list of [[clamp.stage]]"],
+    );
 }
 
 /// The clamp has long gone its way when the adhesive sets in the hold: as many steps as change its viscosity.
@@ -225,7 +223,7 @@ fn the_plan_counts_the_steps_of_cure_in_all_stages() {
         .find(|line| line.starts_with("  steps"))
         .unwrap();
     let told: f64 = line.split_whitespace().nth(2).unwrap().parse().unwrap();
-    let summary = bench.ran("run", PLAIN, usize::MAX);
+    let summary = bench.ran("run", PLAIN, END);
     println!("{line}; taken {}", summary.steps);
     assert_eq!(summary.end, End::Set);
     assert!((told / summary.steps as f64 - 1.0).abs() < 0.5, "{line}");

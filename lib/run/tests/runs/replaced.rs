@@ -6,9 +6,7 @@ use std::os::unix::fs::symlink;
 use particle_file::{Draft, Header, Kind, Provenance};
 use run::{Mode, RunFailure};
 
-use crate::bench::{Bench, OVERWRITE, PLAIN, RESUME, everything};
-
-const END: usize = usize::MAX;
+use crate::bench::{Bench, END, OVERWRITE, PLAIN, RESUME, everything};
 
 /// Names at which a run writes.
 const NAMES: [&str; 8] = [
@@ -33,12 +31,12 @@ fn marked() -> Bench {
 /// Asserts that a run is refused with `sentence` and touches nothing but an empty mark.
 fn refused(bench: &Bench, mode: Mode, sentence: &str) {
     let content = || {
-        let mut files = everything(&bench.path("run"));
+        let mut files = bench.everything();
         files.remove("bondline-run.toml");
         files
     };
     let before = content();
-    match bench.run("run", mode, END) {
+    match bench.run("run", mode, END, &[]) {
         Err(RunFailure::Usage(said)) => assert!(said.contains(sentence), "{said}"),
         ended => panic!("{sentence}: {ended:?}"),
     }
@@ -114,7 +112,7 @@ fn what_cannot_be_a_run_folder_or_its_mark_is_refused() {
         ("case", "not the mark"),
     ] {
         for mode in [PLAIN, RESUME, OVERWRITE] {
-            let said = bench.run(folder, mode, END).unwrap_err().to_string();
+            let said = bench.run(folder, mode, END, &[]).unwrap_err().to_string();
             assert!(said.contains(sentence), "{folder}: {said}");
         }
     }
@@ -179,12 +177,12 @@ fn another_run_goes_with_its_files_and_foreign_ones_stay() {
         fs::write(bench.path("run").join(name), "half").unwrap();
     }
     let fewer = ["output.snapshots=0"];
-    bench.run_changed("run", OVERWRITE, END, &fewer).unwrap();
-    let mut files = everything(&bench.path("run"));
+    bench.run("run", OVERWRITE, END, &fewer).unwrap();
+    let mut files = bench.everything();
     for name in theirs {
         assert_eq!(files.remove(name).as_deref(), Some(name.as_bytes()));
     }
-    bench.run_changed("alone", OVERWRITE, END, &fewer).unwrap();
+    bench.run("alone", OVERWRITE, END, &fewer).unwrap();
     let names: Vec<_> = everything(&bench.path("alone")).into_keys().collect();
     assert_eq!(files.into_keys().collect::<Vec<_>>(), names);
 }
@@ -209,7 +207,7 @@ fn a_run_is_not_replaced_unasked() {
     let bench = Bench::explicit();
     bench.ran("run", PLAIN, END);
     fs::remove_file(bench.path("run/final.mpts")).unwrap();
-    let other = bench.run_changed("run", RESUME, END, &["adhesive.viscosity=2 Pa s"]);
+    let other = bench.run("run", RESUME, END, &["adhesive.viscosity=2 Pa s"]);
     assert!(other.unwrap_err().to_string().contains("holds another run"));
     bench.ran("run", RESUME, END);
 }
@@ -220,18 +218,18 @@ fn a_run_that_has_ended_is_left_but_for_what_a_kill_left() {
     bench.ran("run", RESUME, 9);
     let checkpoint = fs::read(bench.path("run/checkpoint.mpts")).unwrap();
     bench.ran("run", RESUME, END);
-    let ended = everything(&bench.path("run"));
+    let ended = bench.everything();
     // Killed before the checkpoint was removed.
     fs::write(bench.path("run/checkpoint.mpts"), &checkpoint).unwrap();
     fs::write(bench.path("run/.mpm-run.tmp"), "half").unwrap();
-    assert!(bench.run("run", RESUME, END).unwrap().is_none());
-    assert!(everything(&bench.path("run")) == ended);
+    assert!(bench.run("run", RESUME, END, &[]).unwrap().is_none());
+    assert!(bench.everything() == ended);
     // At another Courant number that checkpoint is not gone on from, either.
     fs::write(bench.path("run/checkpoint.mpts"), &checkpoint).unwrap();
-    let other = bench.run_changed("run", RESUME, END, &["integrator.cfl=0.3"]);
+    let other = bench.run("run", RESUME, END, &["integrator.cfl=0.3"]);
     assert!(other.unwrap_err().to_string().contains("holds another run"));
     fs::write(bench.path("run/checkpoint.mpts"), "theirs").unwrap();
-    assert!(bench.run("run", RESUME, END).unwrap().is_none());
+    assert!(bench.run("run", RESUME, END, &[]).unwrap().is_none());
     assert_eq!(
         fs::read(bench.path("run/checkpoint.mpts")).unwrap(),
         b"theirs"
@@ -259,12 +257,8 @@ fn what_came_after_the_checkpoint_goes() {
         assert!(fs::read(bench.path("run/snapshots/0000.mpts")).unwrap() == first);
         false
     };
-    assert!(
-        bench
-            .run_until("run", RESUME, &seen, &[])
-            .unwrap()
-            .is_some()
-    );
+    let ended = bench.run_told("run", RESUME, &seen, &mut |_, _| {}, &[]);
+    assert!(ended.unwrap().is_some());
 }
 
 /// 314e630 let both end well, with the files of either.
@@ -273,7 +267,7 @@ fn a_folder_takes_one_run_at_a_time() {
     let bench = Bench::explicit();
     let other = || {
         for mode in [PLAIN, RESUME, OVERWRITE] {
-            let said = bench.run("run", mode, END).unwrap_err();
+            let said = bench.run("run", mode, END, &[]).unwrap_err();
             assert!(matches!(said, RunFailure::Usage(_)));
             assert!(
                 said.to_string().contains("another run is writing"),
@@ -282,21 +276,17 @@ fn a_folder_takes_one_run_at_a_time() {
         }
         false
     };
-    assert!(
-        bench
-            .run_until("run", PLAIN, &other, &[])
-            .unwrap()
-            .is_some()
-    );
+    let ended = bench.run_told("run", PLAIN, &other, &mut |_, _| {}, &[]);
+    assert!(ended.unwrap().is_some());
 }
 
 #[test]
 fn a_checkpoint_of_another_case_or_damaged_is_refused_or_replaced() {
     let bench = Bench::explicit();
     bench.ran("run", RESUME, 9);
-    let before = everything(&bench.path("run"));
+    let before = bench.everything();
     let other = ["adhesive.viscosity=2 Pa s"];
-    match bench.run_changed("run", RESUME, END, &other) {
+    match bench.run("run", RESUME, END, &other) {
         Err(RunFailure::Data(said)) => {
             assert!(said.contains("another case"), "{said}");
             assert!(
@@ -306,17 +296,17 @@ fn a_checkpoint_of_another_case_or_damaged_is_refused_or_replaced() {
         }
         ended => panic!("{ended:?}"),
     }
-    assert!(everything(&bench.path("run")) == before);
+    assert!(bench.everything() == before);
     let checkpoint = bench.path("run/checkpoint.mpts");
     let whole = fs::read(&checkpoint).unwrap();
     fs::write(&checkpoint, &whole[..whole.len() / 2]).unwrap();
-    let damaged = bench.run("run", RESUME, END);
+    let damaged = bench.run("run", RESUME, END, &[]);
     assert!(matches!(damaged, Err(RunFailure::Data(_))), "{damaged:?}");
     fs::write(&checkpoint, whole).unwrap();
     let both = Mode {
         resume: true,
         ..OVERWRITE
     };
-    let ended = bench.run_changed("run", both, END, &other).unwrap();
+    let ended = bench.run("run", both, END, &other).unwrap();
     assert!(ended.is_some_and(|summary| summary.end == run::End::Time));
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use particle_file::ParticleFile;
 
-use crate::bench::{Bench, PLAIN, everything};
+use crate::bench::{Bench, END, PLAIN, everything, has};
 
 /// What of a run folder does not name its inputs: history and points.
 fn results(folder: &Path) -> Vec<(String, String)> {
@@ -23,22 +23,16 @@ fn results(folder: &Path) -> Vec<(String, String)> {
 
 /// Runs a case and what it resolved to; the latter's text.
 fn runs_again(bench: &Bench) -> String {
-    bench.ran("first", PLAIN, usize::MAX);
+    bench.ran("first", PLAIN, END);
     let resolved = fs::read_to_string(bench.path("first/resolved.toml")).unwrap();
     let again = Bench::with(&resolved);
-    again.ran("first", PLAIN, usize::MAX);
+    again.ran("first", PLAIN, END);
     let [first, second] = [bench, &again].map(|bench| results(&bench.path("first")));
     assert!(first.len() > 2 && first == second, "{resolved}");
     let text = fs::read_to_string(again.path("first/resolved.toml")).unwrap();
     let [one, other]: [toml::Table; 2] = [&resolved, &text].map(|text| text.parse().unwrap());
     assert_eq!(one, other, "nothing is left to resolve");
     resolved
-}
-
-fn has(text: &str, lines: &[&str]) {
-    for line in lines {
-        assert!(text.lines().any(|l| l == *line), "{line}: {text}");
-    }
 }
 
 #[test]
@@ -50,7 +44,7 @@ fn an_explicit_case_with_its_defaults_is_the_same_run() {
             "shape = \"gimp\" # default",
             "points_per_direction = 2 # default",
             "# cavitation_pressure: any tension, as Eq. 1 has it",
-            "max_pressure = \"2.5 MPa\"",
+            "max_pressure = \"2.5 MPa\"\n",
             "pid.ki = 0.02 # default",
             "# time_limit: not used",
             "velocity_update = \"flip\" # default",
@@ -70,7 +64,7 @@ fn an_implicit_case_with_its_defaults_is_the_same_run() {
         &[
             "# shape: not used",
             "# pid.ki: not used",
-            "stop = \"closed\"",
+            "stop = \"closed\"\n",
             "time_limit = \"8e-6 s\" # default",
             "cfl = 1.0 # default",
             "tolerance = 0.001 # default",
@@ -89,7 +83,7 @@ fn a_free_drop_with_its_defaults_is_the_same_run() {
             "domain.min = [\"1e-7 m\", \"0.0 m\", \"0.0 m\"] # default",
             "history_every = \"1.0000000000000001e-11 s\" # default",
             "# [clamp]: not given",
-            "x = \"periodic\"",
+            "x = \"periodic\"\n",
         ],
     );
 }

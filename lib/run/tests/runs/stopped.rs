@@ -1,10 +1,8 @@
 //! A run stopped after any of its steps, the last one too, and continued ends as one in one piece.
 
-use std::fs;
-
 use run::{End, Summary};
 
-use crate::bench::{Bench, RESUME, files};
+use crate::bench::{Bench, END, RESUME, files};
 
 /// All of a summary but the costs.
 fn facts(summary: &Summary) -> String {
@@ -21,59 +19,49 @@ fn facts(summary: &Summary) -> String {
     value.to_string()
 }
 
-/// On 314e630 a run stopped in its last step ended at 0 Pa, without its last row.
-fn stopped_after_any_step(integrator: &str, stop: &str, every: &str) -> Summary {
-    stopped_after_every(1, integrator, stop, every)
-}
-
-/// The same of steps `apart`.
-fn stopped_after_every(apart: usize, integrator: &str, stop: &str, every: &str) -> Summary {
-    let bench = Bench::new(integrator, stop, every);
-    let summary = bench.ran("whole", RESUME, usize::MAX);
-    let whole = bench.path("whole");
-    assert!(
-        summary.steps > 9 && summary.final_pressure_pa > 1.0,
-        "{summary:?}"
-    );
-    let rows = fs::read_to_string(whole.join("history.csv")).unwrap();
-    assert!(
-        rows.lines().count() < summary.steps as usize,
-        "a row for each step shows less"
-    );
+/// A run of `bench` in one piece and stopped after every `apart`th step; its summary.
+pub fn ends_the_same(bench: &Bench, apart: usize) -> Summary {
+    let summary = bench.ran("run", RESUME, END);
+    let whole = files(&bench.path("run"));
     for steps in (1..=summary.steps as usize).step_by(apart) {
         let parts = format!("parts-{steps}");
         assert_eq!(bench.ran(&parts, RESUME, steps).end, End::Interrupted);
-        let resumed = bench.ran(&parts, RESUME, usize::MAX);
+        let resumed = bench.ran(&parts, RESUME, END);
         assert_eq!(facts(&resumed), facts(&summary), "stopped after {steps}");
-        assert!(
-            files(&bench.path(&parts)) == files(&whole),
-            "stopped after {steps}"
-        );
+        let same = files(&bench.path(&parts)) == whole;
+        assert!(same, "stopped after {steps}");
     }
+    summary
+}
+
+/// On 314e630 a run stopped in its last step ended at 0 Pa, without its last row.
+fn plates(apart: usize, integrator: &str, stop: &str, every: &str) -> Summary {
+    let bench = Bench::new(integrator, stop, every);
+    let summary = ends_the_same(&bench, apart);
+    assert!(summary.steps > 9 && summary.final_pressure_pa > 1.0);
+    let rows = bench.column("step").len() as u64;
+    assert!(rows < summary.steps, "a row for each step shows less");
     summary
 }
 
 #[test]
 fn an_explicit_run_stopped_after_any_step_ends_the_same() {
-    stopped_after_any_step("scheme = \"explicit\"", "0.007 us", "0.001 us");
+    plates(1, "scheme = \"explicit\"", "0.007 us", "0.001 us");
 }
 
 #[test]
 fn an_implicit_run_stopped_after_any_step_ends_the_same() {
-    stopped_after_any_step("scheme = \"implicit\"\ncfl = 0.05", "1.45 us", "0.4 us");
+    plates(1, "scheme = \"implicit\"\ncfl = 0.05", "1.45 us", "0.4 us");
 }
 
 /// Its clock sets the viscosity, and its end.
 #[test]
 fn a_run_of_an_adhesive_that_sets_stopped_after_any_step_ends_the_same() {
     let cure = "scheme = \"implicit\"\n[adhesive.cure]\ngel_time = \"2 us\"\nexponent = 2.0";
-    let summary = stopped_after_every(7, cure, "4 us", "0.2 us");
+    let summary = plates(7, cure, "4 us", "0.2 us");
     assert_eq!(summary.end, End::Set);
-    assert!(
-        (summary.time_s / 2e-6 - 0.999).abs() < 1e-5,
-        "{}",
-        summary.time_s
-    );
+    let set = summary.time_s / 2e-6;
+    assert!((set - 0.999).abs() < 1e-5, "{set}");
     assert!(summary.sentence().contains("because the adhesive has set"));
 }
 
@@ -81,7 +69,7 @@ fn a_run_of_an_adhesive_that_sets_stopped_after_any_step_ends_the_same() {
 #[test]
 fn a_run_of_an_adhesive_that_dries_stopped_after_any_step_ends_the_same() {
     let water = "scheme = \"implicit\"\ncfl = 0.05\n[adhesive.water]\nsolids = 0.45\nuptake = \"0.2 m/s\"\ndiffusivity = \"1e-5 m2/s\"\nviscosity_by_solids = [[0.45, 1.0], [0.6, 30.0]]";
-    let summary = stopped_after_every(5, water, "1.45 us", "0.4 us");
+    let summary = plates(5, water, "1.45 us", "0.4 us");
     let account = summary.invariants.water.expect("an account of water");
     assert!(account.solids_content > 0.4505, "{account:?}");
     assert!(account.water_missing.abs() < 1e-12, "{account:?}");

@@ -1,0 +1,255 @@
+//! The page of all tables and keys, docs/case-file.md: what `mpm-run --reference` prints, and the home of names, order
+//! and defaults in `resolved.toml`. A key of the schema without its row fails a test.
+
+/// The page, Markdown.
+pub const REFERENCE: &str = include_str!("../../../../docs/case-file.md");
+
+/// A table of a case file.
+pub(crate) struct Table {
+    /// `[clamp]` or, of one that may be given several times, `[[clamp.stage]]`.
+    pub(crate) heading: &'static str,
+    /// `clamp.stage`.
+    pub(crate) path: &'static str,
+    pub(crate) keys: Vec<Key>,
+}
+
+/// A key of a [`Table`]: its name (`pid.kp` is `kp` in the inline table `pid`), what may be given, and what holds where
+/// it is not given, in words or as `` `value` ``.
+pub(crate) struct Key([&'static str; 3]);
+
+/// The tables in the order in which they are told and written.
+pub(crate) fn tables() -> impl Iterator<Item = Table> {
+    REFERENCE.split("\n## `").skip(1).filter_map(|section| {
+        let (heading, body) = section.split_once('`')?;
+        Some(Table {
+            heading,
+            path: heading.trim_matches(['[', ']']),
+            keys: body.lines().filter_map(Key::of_row).collect(),
+        })
+    })
+}
+
+impl Table {
+    pub(crate) fn repeated(&self) -> bool {
+        self.heading.starts_with("[[")
+    }
+}
+
+impl Key {
+    fn of_row(row: &'static str) -> Option<Self> {
+        let mut cells = row.strip_prefix("| `")?.split(" | ");
+        let name = cells.next()?.trim_end_matches('`');
+        Some(Self([name, cells.next()?, cells.next()?]))
+    }
+
+    pub(crate) fn name(&self) -> &'static str {
+        self.0[0]
+    }
+
+    pub(crate) fn default(&self) -> &'static str {
+        self.0[2]
+    }
+
+    /// The default where it is a value, as TOML.
+    pub(crate) fn value(&self) -> Option<&'static str> {
+        let value = self.default().strip_prefix('`')?.strip_suffix('`')?;
+        (!value.contains('`')).then_some(value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use units::{
+        Acceleration, Angle, Density, Dimension, Length, Pressure, ShearRate, Speed,
+        SurfaceTension, Time, Viscosity,
+    };
+
+    use super::*;
+    use crate::case::Case;
+    use crate::failure::RunFailure;
+
+    const CASE: &str = r#"
+[grid]
+cell = "1 um"
+[adhesive]
+density = "1 g/cm3"
+bulk_modulus = "1 GPa"
+viscosity = "1 cP"
+[contact]
+law = "stick"
+[[clamp.stage]]
+kind = "hold"
+[integrator]
+scheme = "explicit"
+[[body]]
+material = "rigid"
+box = { min = ["0 m", "0 m", "0 m"], max = ["1 um", "1 um", "1 um"] }
+"#;
+
+    /// `CASE` with another value at `path`, parsed.
+    fn with(path: &str, value: &str) -> Result<Case, RunFailure> {
+        let mut root: toml::Table = CASE.parse().unwrap();
+        let value = toml::from_str::<toml::Table>(&format!("v = {value}")).unwrap()["v"].clone();
+        let (tables, last) = path.rsplit_once('.').unwrap_or(("", path));
+        let mut place = &mut root;
+        for name in tables.split('.').filter(|name| !name.is_empty()) {
+            let there = place.entry(name).or_insert(toml::Table::new().into());
+            if !matches!(there, toml::Value::Array(list) if list[0].is_table()) && !there.is_table()
+            {
+                *there = toml::Table::new().into();
+            }
+            let first = match there {
+                toml::Value::Array(list) => &mut list[0],
+                other => other,
+            };
+            place = first.as_table_mut().unwrap();
+        }
+        place.insert(last.into(), value);
+        Case::parse(&root.to_string(), Path::new("c"))
+    }
+
+    fn refusal(path: &str, value: &str) -> String {
+        with(path, value).map_or_else(|refused| refused.to_string(), |_| String::new())
+    }
+
+    /// Every path of the schema that is no table, below `path`: a table names its keys to one that it does not have.
+    fn schema(path: &str) -> Vec<String> {
+        let said = refusal(format!("{path}.zzz").trim_start_matches('.'), "1");
+        let Some((_, known)) = said.split_once("unknown field `zzz`, expected ") else {
+            return vec![path.to_owned()];
+        };
+        let names = known.split('`').skip(1).step_by(2);
+        let below = |name| schema(format!("{path}.{name}").trim_start_matches('.'));
+        names.flat_map(below).collect()
+    }
+
+    fn rows() -> impl Iterator<Item = (String, Key)> {
+        tables().flat_map(|table| {
+            let path = move |key: Key| (format!("{}.{}", table.path, key.name()), key);
+            table.keys.into_iter().map(path)
+        })
+    }
+
+    #[test]
+    fn every_key_has_a_row_and_every_row_a_key() {
+        let mut schema = schema("");
+        let mut told: Vec<String> = rows().map(|(path, _)| path).collect();
+        assert!(schema.len() > 80 && schema.contains(&"clamp.pid.kp".to_owned()));
+        schema.sort_unstable();
+        told.sort_unstable();
+        assert_eq!(
+            told, schema,
+            "rows of docs/case-file.md (left) against the schema"
+        );
+        let rows = REFERENCE.lines().filter(|line| line.starts_with("| `"));
+        for row in rows {
+            assert!(
+                row.matches('|').count() == 5 && row.ends_with(". |"),
+                "{row}"
+            );
+        }
+    }
+
+    /// What the schema says to a text that is no value, and to a list of them, names what the row must tell.
+    #[test]
+    fn values_are_of_the_form_told() {
+        let mut checked = 0;
+        for (path, Key([_, form, _])) in rows() {
+            let [mut said, list] = ["\"?\"", "[\"?\", \"?\", \"?\"]"].map(|v| refusal(&path, v));
+            let three = form.starts_with("three ");
+            if three {
+                said = list;
+            }
+            let parts: Vec<&str> = form.trim_start_matches("three ").split(", ").collect();
+            let quantity = said.split_once("'?' is not a").and_then(|(_, rest)| {
+                let (noun, _) = rest.split_once(": a number with one of the units")?;
+                Some(noun.split_once(' ')?.1)
+            });
+            let wanted = if let Some(noun) = quantity {
+                assert_eq!(
+                    parts
+                        .iter()
+                        .filter(|part| part.trim_end_matches('s') == noun)
+                        .count(),
+                    1,
+                    "{path}: {form}"
+                );
+                checked += 1;
+                continue;
+            } else if let Some((_, choices)) = said.split_once("'?' is not accepted: \"") {
+                let names = choices.split('"').step_by(2);
+                let names = names.filter(|name| !name.ends_with("needed"));
+                names
+                    .map(|name| format!("`\"{name}\"`"))
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            } else if said.contains("expected a boolean") {
+                "`true`, `false`".into()
+            } else {
+                continue;
+            };
+            assert_eq!(form, wanted, "{path}");
+            checked += 1;
+        }
+        assert!(checked > 50, "{checked}");
+    }
+
+    /// A default that is told as a value is what a case without the key has.
+    #[test]
+    fn defaults_are_those_of_the_schema() {
+        let plain = format!("{:?}", Case::parse(CASE, Path::new("c")).unwrap());
+        let mut told = 0;
+        for (path, key) in rows() {
+            // What the resolution, not the schema, makes of the absence: the runs of a test of `resolved.toml` check it.
+            let resolved = [
+                "velocity",
+                "name",
+                "acceleration",
+                "shape",
+                "stop",
+                "velocity_update",
+            ];
+            let Some(value) = key
+                .value()
+                .filter(|_| !resolved.contains(&key.name()) && path != "integrator.pressure")
+            else {
+                continue;
+            };
+            let named = with(&path, value).unwrap_or_else(|e| panic!("{path} = {value}: {e}"));
+            assert_eq!(format!("{named:?}"), plain, "{path}");
+            told += 1;
+        }
+        assert!(told >= 7, "{told}");
+    }
+
+    #[test]
+    fn the_units_of_the_page_are_those_accepted() {
+        fn row<D: Dimension>() -> String {
+            // Micro sign and Greek mu, which look alike, are both accepted and told once.
+            let names = D::UNITS.iter().map(|(name, _)| *name);
+            let names = names.filter(|name| !name.starts_with('\u{3bc}'));
+            let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
+            let (_, noun) = D::NAME.split_once(' ').unwrap();
+            format!("| {noun} | {} |\n", names.join(", "))
+        }
+        let rows = [
+            row::<Length>,
+            row::<Time>,
+            row::<Speed>,
+            row::<Acceleration>,
+            row::<Pressure>,
+            row::<Density>,
+            row::<Viscosity>,
+            row::<ShearRate>,
+            row::<SurfaceTension>,
+            row::<Angle>,
+        ];
+        let rows: String = rows.map(|row| row()).concat();
+        assert!(
+            REFERENCE.contains(&format!("|---|---|\n{rows}\n")),
+            "{rows}"
+        );
+    }
+}
