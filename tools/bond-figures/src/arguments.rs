@@ -35,10 +35,10 @@ impl Arguments {
             | Figure::Shear { picture, .. }
             | Figure::Penetration { picture, .. }
             | Figure::Pores { picture, .. }
-            | Figure::Slice { picture, .. }
             | Figure::Response { picture, .. }
             | Figure::Setup { picture, .. }
             | Figure::View { picture, .. } => &picture.common,
+            Figure::Slice(a) => &a.picture.common,
             Figure::Movie(a) => &a.common,
             Figure::Table2(a) => &a.common,
         }
@@ -127,30 +127,7 @@ pub(crate) enum Figure {
   bond-figures slice start=bond.mpts end=final.mpts --normal x --at 40% -o ends.png
   bond-figures slice final.mpts --at \"46.4 um\" --colour pressure -o pressure.svg
   bond-figures slice bond.mpts --part \"0 um:40 um,20 um:60 um\" --grid \"2 voxels\" -o fig3.svg")]
-    Slice {
-        /// Particle files, one panel each
-        #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
-        files: Vec<Labelled>,
-        /// Axis that the slice is normal to: x, y or z
-        #[arg(long, value_name = "AXIS", default_value = "z")]
-        normal: Axis,
-        /// Where along that axis: a length, or a percentage of the box
-        #[arg(long, value_name = "LEN|PERCENT", default_value = "50%", allow_hyphen_values = true,
-              value_parser = position)]
-        at: Position,
-        /// Colour the adhesive: plain, or by its pressure
-        #[arg(long, default_value = "plain", value_parser = one_of(COLOURINGS))]
-        colour: Colouring,
-        /// Only this part of the slice: ends along the axis to the right, then along the one up; lengths
-        /// or voxels
-        #[arg(long, value_name = "LEN:LEN,LEN:LEN", allow_hyphen_values = true, value_parser = part)]
-        part: Option<[[Extent; 2]; 2]>,
-        /// Draw the grid of a run in cells of this size (Fig. 3), a length or voxels
-        #[arg(long, value_name = "LEN", value_parser = cell)]
-        grid: Option<Extent>,
-        #[command(flatten)]
-        picture: Picture,
-    },
+    Slice(SliceArgs),
     /// A result of a sweep with its error, pressure and time against each of its parameters
     #[command(after_help = "Examples:
   bond-figures response out/sweep/table.csv -o response.svg
@@ -213,6 +190,32 @@ pub(crate) enum Figure {
   bond-figures table2 --run pf:implicit=wp.csv --errors errors.csv -o table2.csv
   bond-figures table2 --run pf:flip=wp.csv --name pf=PF --picture t.pdf --width \"84 mm\" -o t.csv")]
     Table2(Table2Args),
+}
+
+#[derive(Args)]
+pub(crate) struct SliceArgs {
+    /// Particle files, one panel each
+    #[arg(value_name = "[LABEL=]FILE", required = true, value_parser = given(labelled))]
+    pub(crate) files: Vec<Labelled>,
+    /// Axis that the slice is normal to: x, y or z
+    #[arg(long, value_name = "AXIS", default_value = "z")]
+    pub(crate) normal: Axis,
+    /// Where along that axis: a length, or a percentage of the box
+    #[arg(long, value_name = "LEN|PERCENT", default_value = "50%", allow_hyphen_values = true,
+          value_parser = position)]
+    pub(crate) at: Position,
+    /// Colour the adhesive: plain, or by its pressure
+    #[arg(long, default_value = "plain", value_parser = one_of(COLOURINGS))]
+    pub(crate) colour: Colouring,
+    /// Only this part of the slice: ends along the axis to the right, then along the one up; lengths
+    /// or voxels
+    #[arg(long, value_name = "LEN:LEN,LEN:LEN", allow_hyphen_values = true, value_parser = part)]
+    pub(crate) part: Option<[[Extent; 2]; 2]>,
+    /// Draw the grid of a run in cells of this size (Fig. 3), a length or voxels
+    #[arg(long, value_name = "LEN", value_parser = cell)]
+    pub(crate) grid: Option<Extent>,
+    #[command(flatten)]
+    pub(crate) picture: Picture,
 }
 
 #[derive(Args)]

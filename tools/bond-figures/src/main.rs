@@ -14,8 +14,9 @@ use figures::{
 };
 use particle_file::{by_time, states_of_run};
 
-use arguments::{Arguments, Figure, MovieArgs, Table2Args};
+use arguments::{Arguments, Figure, MovieArgs, SliceArgs, Table2Args};
 use inputs::Inputs;
+use picture::Picture;
 use values::{Format, Target};
 
 fn main() -> ExitCode {
@@ -76,32 +77,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
             let drawing = response(&inputs.files()[0], &result, error, picture.print.page());
             (inputs, picture, drawing)
         }
-        Figure::Slice {
-            files,
-            normal,
-            at,
-            colour,
-            part,
-            grid,
-            picture,
-        } => {
-            let inputs = Inputs::new(files)?.marked()?;
-            let cut = Cut {
-                axis: normal,
-                position: at,
-            };
-            let mut slices = Slices::read(inputs.files(), cut, colour);
-            let voxel = slices.as_ref().map_or(f64::NAN, Slices::voxel_m);
-            if let Some(part) = part {
-                let part = part.map(|ends| ends.map(|end| end.si(voxel)));
-                slices = slices.and_then(|slices| slices.part(part));
-            }
-            if let Some(cell) = grid {
-                slices = slices.and_then(|slices| slices.grid(cell.si(voxel)));
-            }
-            let drawing = slices.map(|slices| slices.draw(picture.print.page()));
-            (inputs, picture, drawing)
-        }
+        Figure::Slice(a) => slice(a)?,
         Figure::Setup {
             specimen,
             bond,
@@ -126,6 +102,28 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     let drawing = drawing.map_err(failure)?;
     inputs.keep_from(picture.output.iter().map(|target| &target.output))?;
     write(&drawing, &picture.output, &inputs.record()?)
+}
+
+/// What a figure is made of, where it goes and how it came out.
+type Drawn = (Inputs, Picture, Result<Drawing, Error>);
+
+fn slice(a: SliceArgs) -> Result<Drawn, Failure> {
+    let inputs = Inputs::new(a.files)?.marked()?;
+    let cut = Cut {
+        axis: a.normal,
+        position: a.at,
+    };
+    let mut slices = Slices::read(inputs.files(), cut, a.colour);
+    let voxel = slices.as_ref().map_or(f64::NAN, Slices::voxel_m);
+    if let Some(part) = a.part {
+        let part = part.map(|ends| ends.map(|end| end.si(voxel)));
+        slices = slices.and_then(|slices| slices.part(part));
+    }
+    if let Some(cell) = a.grid {
+        slices = slices.and_then(|slices| slices.grid(cell.si(voxel)));
+    }
+    let drawing = slices.map(|slices| slices.draw(a.picture.print.page()));
+    Ok((inputs, a.picture, drawing))
 }
 
 fn movie(a: &MovieArgs) -> Result<(), Failure> {
