@@ -97,9 +97,9 @@ mod tests {
         let block = VelocityBlock::assemble(n, fill).unwrap();
         let mut found = vec![0.0; n];
         block.multiply(&x, &mut found);
-        for row in 0..n {
+        for (row, found) in found.into_iter().enumerate() {
             let largest = weight(row).sqrt() * 1e3f64.sqrt();
-            let error = (found[row] - a.row_times_wide(row, &x)).abs() / largest;
+            let error = (found - a.row_times_wide(row, &x)).abs() / largest;
             assert!(error < 2.0 * 7.2e-15, "row {row}: {error:e}");
         }
     }

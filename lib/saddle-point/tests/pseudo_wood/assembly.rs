@@ -95,7 +95,7 @@ impl Stokes {
         for (z, y) in (0..nz).flat_map(|z| (0..ny).map(move |y| (z, y))) {
             let line = (0..nx).map(|x| [x, y, z]);
             cells.extend(line.clone().filter(|&at| wood.at(at) == Cell::Liquid));
-            for axis in 0..3 {
+            for axis in [0, 1, 2] {
                 for at in line.clone() {
                     let sides = [wood.at(at), wood.at(shift(at, axis, -1))];
                     if sides.into_iter().all(Cell::is_open) && sides.contains(&Cell::Liquid) {

@@ -37,6 +37,7 @@ fn the_speed_that_a_force_drives() {
     }
 }
 
+#[allow(clippy::print_stdout, reason = "prints for developers")]
 fn drives(times: f64) {
     let mut problem = Problem::new(&Case {
         cells: [24, 40, 24],
