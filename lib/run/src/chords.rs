@@ -1,5 +1,7 @@
 //! How wide the lumens next to the bond are: chords of the voids, in voxels and cells, for `--explain`.
 
+use std::collections::BTreeMap;
+
 use physics::{RigidBody, Scene, VoxelBlock};
 
 use crate::forecast::line;
@@ -16,10 +18,12 @@ pub(crate) fn text(scene: &Scene) -> String {
     let blocks = sides.map(|(body, up)| Some((single(scene.bodies.get(body?)?)?, up)));
     let mut lengths = Lengths::default();
     for (block, up) in blocks.into_iter().flatten() {
-        lengths.add(&across_grain(block, up));
+        for (length, n) in across_grain(block, up) {
+            *lengths.entry(length).or_default() += n;
+        }
     }
     let block = blocks.into_iter().flatten().next();
-    let (Some(chord), Some((block, _))) = (lengths.median(), block) else {
+    let (Some(chord), Some((block, _))) = (median(&lengths), block) else {
         return String::new();
     };
     let (voxel, cell) = (block.voxel()[0], scene.grid.cell_m);
@@ -28,7 +32,7 @@ pub(crate) fn text(scene: &Scene) -> String {
         "lumens at the bond",
         format!(
             "{chord} voxels across the grain, {cells:.1} cells (median by volume of {} chords)",
-            lengths.count()
+            lengths.values().sum::<u64>()
         ),
     );
     if cells < FEWEST && cell > 1.01 * voxel {
@@ -58,39 +62,19 @@ fn single(body: &RigidBody) -> Option<&VoxelBlock> {
 }
 
 /// How many runs of void have each length, voxels.
-#[derive(Clone, Debug, Default)]
-struct Lengths(Vec<u64>);
+type Lengths = BTreeMap<usize, u64>;
 
-impl Lengths {
-    fn push(&mut self, length: usize) {
-        if length >= self.0.len() {
-            self.0.resize(length + 1, 0);
-        }
-        self.0[length] += 1;
-    }
-
-    fn add(&mut self, other: &Self) {
-        self.0.resize(self.0.len().max(other.0.len()), 0);
-        for (own, more) in self.0.iter_mut().zip(&other.0) {
-            *own += more;
-        }
-    }
-
-    fn count(&self) -> u64 {
-        self.0.iter().sum()
-    }
-
-    /// Half of the void volume is in runs up to this one: what flows there counts, and pits and rays,
-    /// many and short, do not.
-    fn median(&self) -> Option<usize> {
-        let volume = |(length, n): (usize, &u64)| length as u64 * n;
-        let all: u64 = self.0.iter().enumerate().map(volume).sum();
-        let mut below = 0;
-        self.0.iter().enumerate().position(|run| {
-            below += volume(run);
-            2 * below >= all && all > 0
-        })
-    }
+/// Half of the void volume is in runs up to this one: what flows there counts, and pits and rays,
+/// many and short, do not.
+fn median(lengths: &Lengths) -> Option<usize> {
+    let volume = |(&length, &n): (&usize, &u64)| length as u64 * n;
+    let all: u64 = lengths.iter().map(volume).sum();
+    let mut below = 0;
+    let half = lengths.iter().find(|&run| {
+        below += volume(run);
+        2 * below >= all
+    });
+    half.map(|(&length, _)| length)
 }
 
 /// Chords of the voids from wood to wood along the bond, near its surface: at the upper end of the
@@ -137,7 +121,7 @@ impl Runs {
                 self.total[0] += (end - start) as u64;
                 self.total[1] += 1;
                 if start > 0 && end < length {
-                    self.chords.push(end - start);
+                    *self.chords.entry(end - start).or_default() += 1;
                 }
             }
             start = end + 1;
@@ -169,8 +153,8 @@ mod tests {
             };
             let block = VoxelBlock::from_fn([0.0; 3], [1e-6; 3], [90, 60, 90], wood);
             let chords = across_grain(&block, true);
-            assert_eq!(chords.median(), Some(7));
-            assert_eq!(chords.count(), 32 * 88 * (7 + 8));
+            assert_eq!(median(&chords), Some(7));
+            assert_eq!(chords.values().sum::<u64>(), 32 * 88 * (7 + 8));
         }
     }
 
@@ -178,7 +162,7 @@ mod tests {
     fn solid_wood_and_open_space_have_no_chords() {
         for solid in [true, false] {
             let block = VoxelBlock::from_fn([0.0; 3], [1e-6; 3], [8; 3], |_, _, _| solid);
-            assert_eq!(across_grain(&block, false).median(), None);
+            assert_eq!(median(&across_grain(&block, false)), None);
         }
     }
 }

@@ -11,22 +11,8 @@ use crate::failure;
 use crate::specimen::{self, Recipe};
 use crate::table::{ColumnKind, Table};
 
-/// What is pressed.
-#[derive(Debug)]
-pub enum Bond {
-    /// A synthetic specimen.
-    Synthetic(Recipe),
-    /// A file of the user's.
-    Given {
-        /// Where it is, from the root.
-        path: PathBuf,
-        /// Hash of its content.
-        content: String,
-    },
-}
-
 /// What a run needs beside its case.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Job {
     /// The bond file, seen from the folder of the sweep.
@@ -40,8 +26,10 @@ pub struct Job {
 pub struct Draft {
     /// The case file.
     pub case: PathBuf,
-    /// What is pressed.
-    pub bond: Bond,
+    /// What its run needs.
+    pub job: Job,
+    /// How its specimen is made, where it is a synthetic one.
+    pub recipe: Option<Recipe>,
     /// Columns and what they change, `key=value`.
     changes: Vec<(usize, String)>,
     /// The case with its changes.
@@ -52,7 +40,7 @@ impl Draft {
     /// Reads the row counted from 0; `case` is that of rows that name none. A refusal names row and column.
     pub fn of_row(table: &Table, row: usize, case: &Path) -> Result<Self, Failure> {
         let case = case_of(table, row, case);
-        let bond = bond_of(table, row)?;
+        let (job, recipe) = bond_of(table, row)?;
         let changes: Vec<(usize, String)> = (table.given(row))
             .filter(|(_, kind, _)| **kind == ColumnKind::Key)
             .map(|(i, _, cell)| (i, format!("{}={cell}", table.columns[i].0)))
@@ -62,24 +50,11 @@ impl Draft {
             Ok(text) => Ok(Self {
                 text: plain(&text),
                 case,
-                bond,
+                job,
+                recipe,
                 changes,
             }),
             Err(refused) => Err(blamed(table, row, &changes, refused, parsed)),
-        }
-    }
-
-    /// What its run needs.
-    pub fn job(&self) -> Job {
-        match &self.bond {
-            Bond::Synthetic(recipe) => Job {
-                bond: recipe.bond(),
-                content: None,
-            },
-            Bond::Given { path, content } => Job {
-                bond: path.clone(),
-                content: Some(content.clone()),
-            },
         }
     }
 
@@ -172,7 +147,8 @@ fn case_of(table: &Table, row: usize, default: &Path) -> PathBuf {
     }
 }
 
-fn bond_of(table: &Table, row: usize) -> Result<Bond, Failure> {
+/// The bond of a row, and the recipe of a synthetic one.
+fn bond_of(table: &Table, row: usize) -> Result<(Job, Option<Recipe>), Failure> {
     let specimen: Vec<(usize, &'static str, &str)> = (table.given(row))
         .filter_map(|(i, kind, cell)| match kind {
             ColumnKind::Specimen(option) => Some((i, *option, cell)),
@@ -194,10 +170,11 @@ fn bond_of(table: &Table, row: usize) -> Result<Bond, Failure> {
                 file.header().kind
             )));
         }
-        return Ok(Bond::Given {
-            content: specimen::content(&path)?,
-            path: std::fs::canonicalize(&path).map_err(|e| wrong(e.to_string()))?,
-        });
+        let job = Job {
+            content: Some(specimen::content(&path)?),
+            bond: std::fs::canonicalize(&path).map_err(|e| wrong(e.to_string()))?,
+        };
+        return Ok((job, None));
     }
     for (column, option, cell) in &specimen {
         specimen::check(option, cell).map_err(|why| table.wrong_cell(row, *column, why))?;
@@ -206,7 +183,12 @@ fn bond_of(table: &Table, row: usize) -> Result<Bond, Failure> {
         .iter()
         .map(|(_, option, cell)| (*option, *cell))
         .collect();
-    Ok(Bond::Synthetic(Recipe::quick_but(&changes)))
+    let recipe = Recipe::quick_but(&changes);
+    let job = Job {
+        bond: recipe.bond(),
+        content: None,
+    };
+    Ok((job, Some(recipe)))
 }
 
 #[cfg(test)]

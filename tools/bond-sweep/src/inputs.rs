@@ -2,8 +2,8 @@
 
 use units::unit;
 
-use crate::draft::{Bond, Draft};
-use crate::specimen::QUICK;
+use crate::draft::Draft;
+use crate::specimen::{QUICK, Recipe};
 use crate::table::{ColumnKind, Table};
 
 /// Significant digits of a number that was converted: what rounding adds lies behind them.
@@ -22,7 +22,9 @@ pub fn columns(table: &Table, drafts: &[Draft]) -> (Vec<String>, Vec<Vec<String>
                 let stem = draft.case.file_stem().unwrap_or_default();
                 stem.to_string_lossy().into_owned()
             }
-            (_, ColumnKind::Specimen(option)) => of_specimen(&draft.bond, option),
+            (_, ColumnKind::Specimen(option)) => (draft.recipe.as_ref())
+                .and_then(|recipe| of_recipe(recipe, option))
+                .unwrap_or_default(),
             (_, ColumnKind::Key) => (cases[row].as_ref())
                 .and_then(|case| of_case(case, name))
                 .unwrap_or_default(),
@@ -38,15 +40,9 @@ pub fn columns(table: &Table, drafts: &[Draft]) -> (Vec<String>, Vec<Vec<String>
     (header, rows)
 }
 
-fn of_specimen(bond: &Bond, option: &str) -> String {
-    match bond {
-        Bond::Given { .. } => String::new(),
-        Bond::Synthetic(recipe) => {
-            let mut values = QUICK.iter().zip(&recipe.0);
-            let found = values.find(|((name, _), _)| *name == option);
-            found.map_or(String::new(), |(_, value)| value.clone())
-        }
-    }
+fn of_recipe(recipe: &Recipe, option: &str) -> Option<String> {
+    let place = QUICK.iter().position(|(name, _)| *name == option)?;
+    Some(recipe.0[place].clone())
 }
 
 /// The value at a key such as `clamp.pid.kp`.

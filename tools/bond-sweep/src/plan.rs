@@ -9,8 +9,9 @@ use cli::{Failure, Output};
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
-use crate::draft::{Bond, Draft, Job};
+use crate::draft::{Draft, Job};
 use crate::inputs;
+use crate::specimen::Recipe;
 use crate::table::Table;
 
 /// The version whose runs a plan is of: others would give other numbers under the same names.
@@ -125,10 +126,9 @@ pub fn make(path: &Path, case: &Path, folder: &Path, however_long: bool) -> Resu
     for (row, (draft, inputs)) in drafts.iter().zip(cells).enumerate() {
         let run = name(draft);
         if !plan.runs.contains_key(&run) {
-            let job = draft.job();
-            draft.resolve(&table, row, &folder.join(&job.bond), however_long)?;
+            draft.resolve(&table, row, &folder.join(&draft.job.bond), however_long)?;
             cases.insert(run.clone(), draft.text.as_str());
-            plan.runs.insert(run.clone(), job);
+            plan.runs.insert(run.clone(), draft.job.clone());
         }
         plan.rows.push(Row { run, inputs });
     }
@@ -145,10 +145,8 @@ pub fn make(path: &Path, case: &Path, folder: &Path, however_long: bool) -> Resu
 
 /// What tells a run from all others: version, case as run, bond.
 fn name(draft: &Draft) -> String {
-    let bond = match &draft.bond {
-        Bond::Synthetic(recipe) => recipe.identity(),
-        Bond::Given { content, .. } => content.clone(),
-    };
+    let recipe = draft.recipe.as_ref().map(Recipe::identity);
+    let bond = recipe.or(draft.job.content.clone()).unwrap_or_default();
     let identity = format!("{VERSION}\n{bond}\n{}", draft.text);
     format!("{:016x}", xxh3_64(identity.as_bytes()))
 }
@@ -157,10 +155,7 @@ fn name(draft: &Draft) -> String {
 fn make_specimens(table: &Table, drafts: &[Draft], folder: &Path) -> Result<usize, Failure> {
     let mut made = BTreeSet::new();
     for (row, draft) in drafts.iter().enumerate() {
-        let Bond::Synthetic(recipe) = &draft.bond else {
-            continue;
-        };
-        if made.insert(recipe) {
+        if let Some(recipe) = draft.recipe.as_ref().filter(|recipe| made.insert(*recipe)) {
             cli::detail(format_args!("specimen of row {}", row + 1));
             let made = recipe.make(folder);
             made.map_err(|why| table.wrong_row(row, format_args!("its specimen: {why}")))?;

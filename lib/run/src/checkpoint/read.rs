@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use particle_file::{Header, Kind, ParticleFile};
-use physics::{Array, Saved, StepReport};
+use particle_file::ParticleFile;
+use physics::StepReport;
 
 use super::*;
-use crate::failure::RunFailure;
 
 /// Reads the run folder's checkpoint, if there is one; `changed` says what of the case is not as it was.
 /// Errors: a checkpoint that is corrupt, or belongs to another case or particle file, or was written by another build.

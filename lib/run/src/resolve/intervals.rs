@@ -148,24 +148,43 @@ mod tests {
     fn boxes_meet_when_their_gap_is_used_up_and_not_when_they_pass() {
         let floor = ([0.0; 3], [4.0, 1.0, 1.0]);
         let plate = ([0.0, 3.0, 0.0], [4.0, 4.0, 1.0]);
-        let met = |a, b, v| met(a, b, v, [f64::INFINITY; 3]);
-        let at = |v| met(plate, floor, v);
-        assert!((at([0.0, -2.0, 0.0]).unwrap() - 1.0).abs() < 1e-6);
-        assert_eq!(at([0.0, 2.0, 0.0]), None, "it moves away");
-        assert_eq!(at([8.0, -2.0, 0.0]), None, "it has passed by then");
         let far = ([-10.0, 3.0, 0.0], [-6.0, 4.0, 1.0]);
-        assert_eq!(
-            met(far, floor, [2.0, -2.0, 0.0]),
-            None,
-            "it has fallen past the floor before it comes over it"
-        );
         let beside = ([4.0, 0.0, 0.0], [5.0, 4.0, 1.0]);
-        assert_eq!(met(plate, beside, [0.0, -2.0, 0.0]), None);
         let within = ([0.0; 3], [4.0, 3.1, 1.0]);
-        let early = met(plate, within, [0.0, -2.0, 0.0]).unwrap();
-        assert!((early + 0.05).abs() < 1e-6, "{early}");
-        assert_eq!(met(plate, within, [0.0, 2.0, 0.0]), None);
-        assert_eq!(met(plate, within, [1.0, 0.0, 0.0]), None, "a wall along it");
+        for (a, b, v, when, why) in [
+            (plate, floor, [0.0, -2.0, 0.0], Some(1.0), "it comes down"),
+            (plate, floor, [0.0, 2.0, 0.0], None, "it moves away"),
+            (
+                plate,
+                floor,
+                [8.0, -2.0, 0.0],
+                None,
+                "it has passed by then",
+            ),
+            (
+                far,
+                floor,
+                [2.0, -2.0, 0.0],
+                None,
+                "it falls past the floor",
+            ),
+            (plate, beside, [0.0, -2.0, 0.0], None, "it slides along it"),
+            (
+                plate,
+                within,
+                [0.0, -2.0, 0.0],
+                Some(-0.05),
+                "it has begun to",
+            ),
+            (plate, within, [0.0, 2.0, 0.0], None, "it comes out"),
+            (plate, within, [1.0, 0.0, 0.0], None, "a wall along it"),
+        ] {
+            let found = met(a, b, v, [f64::INFINITY; 3]);
+            match (found, when) {
+                (Some(found), Some(when)) => assert!((found - when).abs() < 1e-6, "{why}: {found}"),
+                (found, when) => assert_eq!(found, when, "{why}"),
+            }
+        }
     }
 
     /// Images one by one: until 40 s a box goes over at most twelve periods.

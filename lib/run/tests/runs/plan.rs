@@ -116,6 +116,7 @@ fn a_pressed_slab_by_the_explicit_scheme() {
             "time step 1.0000e-9 s, set by viscous",
             "lumens of 17.4 um, not this specimen's: 8.7 cells across",
             "measured with 12 cells across the lumen",
+            "capillary pressure 10.0 kPa in a six-cell lumen, 0.40 % of the pressure limit",
         ],
     );
     assert!(!said.contains("not the paper's"), "{said}");

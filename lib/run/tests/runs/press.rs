@@ -118,97 +118,48 @@ fn a_closed_clamp_stands_until_the_programme_is_over() {
     assert!(summary.steps < 300 && summary.verdict.sound, "{summary:?}");
 }
 
-/// Stages after an approach to 1 MPa, and a hold there, in words of their keys.
+/// Keys of the clamp or stages, and words of the refusal.
+const REFUSED: &str = "\
+clamp; closing_speed=1 m/s | approach; speed=1 mm/s => closing_speed is for a clamp without
+clamp; stop=closed | approach; speed=1 mm/s => stop is for a clamp without
+approach => needs a speed
+approach; speed=1 mm/s; slower=1 nm/s => slower ends a hold
+approach; speed=1 mm/s; travel=9 um => at most the 8.0000 um
+approach; speed=1 mm/s; pressure=1 MPa | ramp; time=1 s => a pressure to go to
+approach; speed=1 mm/s; pressure=1 MPa | ramp; pressure=2 MPa => needs a time
+approach; speed=1 mm/s; pressure=1 MPa | hold; contact=true => contact ends an approach only
+approach; speed=1 mm/s; pressure=1 MPa | release; pressure=1 MPa; time=1 s => a release has no pressure
+approach; speed=1 mm/s; pressure=1 MPa | hold; time=1 s | hold; pressure=2 MPa; time=1 s => a ramp between them
+approach; speed=1 mm/s; pressure=1 MPa | hold; time=1 s | ramp; pressure=1 MPa; time=1 s => 1.0000 MPa already
+approach; speed=1 mm/s | hold; time=1 s => ends at none
+release; speed=1 mm/s; time=1 s => ends at no pressure
+press => \"hold\" or \"release\" is needed
+clamp => needs closing_speed, or a list of [[clamp.stage]]";
+
 #[test]
 fn stages_that_contradict_one_another_are_refused() {
-    let stage = |kind: &str, keys: &str| {
-        let keys: String = keys.split(", ").map(|key| format!("{key}\n")).collect();
-        format!("[[clamp.stage]]\nkind = \"{kind}\"\n{keys}")
+    let table = |text: &str| {
+        let mut words = text.split("; ");
+        let head = match words.next().unwrap() {
+            "clamp" => String::new(),
+            kind => format!("[[clamp.stage]]\nkind = \"{kind}\"\n"),
+        };
+        let key = |key: &str| match key.split_once('=').unwrap() {
+            (key, "true") => format!("{key} = true\n"),
+            (key, value) => format!("{key} = \"{value}\"\n"),
+        };
+        head + &words.map(key).collect::<String>()
     };
-    let first = |keys: &str| stage("approach", &format!("speed = \"1 mm/s\", {keys}"));
-    let [pressed, endless] = ["pressure = \"1 MPa\"", "contact = true"].map(first);
-    let held = pressed.clone() + &stage("hold", "time = \"1 s\"");
-    let second = "time = \"1 s\"";
-    for (before, kind, keys, wanted) in [
-        (&pressed, "ramp", second, "a pressure to go to"),
-        (&pressed, "ramp", "pressure = \"2 MPa\"", "needs a time"),
-        (
-            &pressed,
-            "hold",
-            "contact = true",
-            "contact ends an approach only",
-        ),
-        (
-            &pressed,
-            "release",
-            "pressure = \"1 MPa\"",
-            "a release has no pressure",
-        ),
-        (
-            &held,
-            "hold",
-            "pressure = \"2 MPa\", time = \"1 s\"",
-            "a ramp between them",
-        ),
-        (
-            &held,
-            "ramp",
-            "pressure = \"1 MPa\", time = \"1 s\"",
-            "1.0000 MPa already",
-        ),
-        (&endless, "hold", second, "ends at none"),
-        (
-            &endless,
-            "approach",
-            "slower = \"1 nm/s\"",
-            "slower ends a hold",
-        ),
-        (
-            &endless,
-            "approach",
-            "travel = \"9 um\"",
-            "at most the 8.0000 um",
-        ),
-        (
-            &endless,
-            "press",
-            second,
-            "\"hold\" or \"release\" is needed",
-        ),
-        (
-            &String::new(),
-            "approach",
-            "contact = true",
-            "needs a speed",
-        ),
-        (
-            &String::new(),
-            "release",
-            "speed = \"1 mm/s\", time = \"1 s\"",
-            "ends at no pressure",
-        ),
-        (
-            &"stop = \"closed\"\n".to_owned(),
-            "hold",
-            second,
-            "stop is for a clamp without",
-        ),
-        (
-            &"closing_speed = \"1 m/s\"\n".to_owned(),
-            "hold",
-            second,
-            "closing_speed is for a clamp without",
-        ),
-    ] {
-        let said = bench(&format!("{before}{}", stage(kind, keys))).refusal(&[]);
+    for line in REFUSED.lines() {
+        let (stages, wanted) = line.split_once(" => ").unwrap();
+        let stages: String = stages.split(" | ").map(table).collect();
+        let said = bench(&stages).refusal(&[]);
         has(&said, &[wanted]);
         assert!(!said.contains('\n'), "{said}");
     }
-    let none = bench("").refusal(&[]);
-    has(
-        &none,
-        &["needs closing_speed, or a list of [[clamp.stage]]"],
-    );
+    let explicit = bench(STAGES).run("run", PLAIN, 1, &["integrator.scheme=explicit"]);
+    let said = explicit.unwrap_err().to_string();
+    has(&said, &["scheme = \"implicit\" only"]);
 }
 
 /// The clamp has long gone its way when the adhesive sets in the hold: as many steps as change its viscosity.
