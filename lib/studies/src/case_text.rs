@@ -1,6 +1,4 @@
-//! Case files of the verification scenes, written as text the way a user would.
-
-use std::fmt::Write;
+//! Case files of the scenes, written as text the way a user would.
 
 use crate::voxels::Voxels;
 
@@ -11,135 +9,131 @@ pub const PF: [f64; 3] = [1200.0, 1e9, 1.3];
 #[derive(Clone, Debug)]
 pub struct Body {
     /// "adhesive" or "rigid".
-    pub material: &'static str,
+    material: &'static str,
     /// Low corner, m.
     pub min: [f64; 3],
     /// High corner, m.
     pub max: [f64; 3],
-    /// How it moves.
-    pub motion: Motion,
+    /// Velocity, m/s.
+    velocity: [f64; 3],
     /// Speed along -y besides, m/s, at which it presses the liquid: [`CaseText::released`] has none.
-    pub pressing: f64,
+    pressing: f64,
+    /// Driven by the clamp.
+    clamped: bool,
     /// Name, where a reaction is reported by it.
-    pub name: Option<&'static str>,
+    pub(crate) name: Option<&'static str>,
 }
 
 impl Body {
-    /// A wall at rest.
-    pub fn wall(min: [f64; 3], max: [f64; 3]) -> Self {
+    fn at_rest(material: &'static str, min: [f64; 3], max: [f64; 3]) -> Self {
         Self {
-            material: "rigid",
+            material,
             min,
             max,
-            motion: Motion::Rest,
+            velocity: [0.0; 3],
             pressing: 0.0,
+            clamped: false,
             name: None,
         }
+    }
+
+    /// A wall at rest.
+    pub(crate) fn wall(min: [f64; 3], max: [f64; 3]) -> Self {
+        Self::at_rest("rigid", min, max)
     }
 
     /// Liquid at rest.
-    pub fn liquid(min: [f64; 3], max: [f64; 3]) -> Self {
-        Self {
-            material: "adhesive",
-            min,
-            max,
-            motion: Motion::Rest,
-            pressing: 0.0,
-            name: None,
-        }
+    pub(crate) fn liquid(min: [f64; 3], max: [f64; 3]) -> Self {
+        Self::at_rest("adhesive", min, max)
     }
 
     /// This body at a constant velocity, m/s.
-    pub fn moving(mut self, v: [f64; 3]) -> Self {
-        self.motion = Motion::Constant(v);
+    pub(crate) fn moving(mut self, velocity: [f64; 3]) -> Self {
+        self.velocity = velocity;
         self
     }
 
     /// This body also moving along -y at `speed` (m/s), to press the liquid.
-    pub fn pressing(mut self, speed: f64) -> Self {
+    pub(crate) fn pressing(mut self, speed: f64) -> Self {
         self.pressing = speed;
         self
     }
 
     /// This body driven by the clamp.
-    pub fn clamped(mut self) -> Self {
-        self.motion = Motion::Clamped;
+    pub(crate) fn clamped(mut self) -> Self {
+        self.clamped = true;
         self
     }
 
     /// This body with a name.
-    pub fn named(mut self, name: &'static str) -> Self {
+    pub(crate) fn named(mut self, name: &'static str) -> Self {
         self.name = Some(name);
         self
     }
 
-    /// The text of its velocity; `None` at rest.
-    fn velocity(&self) -> Option<String> {
-        let [x, y, z] = match self.motion {
-            Motion::Clamped => return Some("\"clamp\"".into()),
-            Motion::Constant(v) => v,
-            Motion::Rest if self.pressing == 0.0 => return None,
-            Motion::Rest => [0.0; 3],
-        };
+    fn text(&self) -> String {
+        let bounds = corners(self.min, self.max);
+        let mut out = format!(
+            "\n[[body]]\nmaterial = \"{}\"\nbox = {bounds}\n",
+            self.material
+        );
+        let [x, y, z] = self.velocity;
         let y = y - self.pressing;
-        Some(format!("[\"{x} m/s\", \"{y} m/s\", \"{z} m/s\"]"))
+        if self.clamped {
+            out += "velocity = \"clamp\"\n";
+        } else if [x, y, z] != [0.0; 3] {
+            out += &format!("velocity = [\"{x} m/s\", \"{y} m/s\", \"{z} m/s\"]\n");
+        }
+        if let Some(name) = self.name {
+            out += &format!("name = \"{name}\"\n");
+        }
+        out
     }
-}
-
-/// How a body of a scene moves.
-#[derive(Clone, Copy, Debug)]
-pub enum Motion {
-    /// Not at all.
-    Rest,
-    /// At a velocity, m/s.
-    Constant([f64; 3]),
-    /// Driven by the clamp.
-    Clamped,
 }
 
 /// A case to be written.
 #[derive(Clone, Debug)]
 pub struct CaseText {
     /// First lines, as comments.
-    pub title: String,
+    pub(crate) title: String,
     /// Cell edge, m.
     pub cell: f64,
     /// 2 or 3.
-    pub dimensions: u8,
-    /// Box computed in, m.
-    pub domain: [[f64; 3]; 2],
+    pub(crate) dimensions: u8,
+    /// Edges of the box computed in, from the origin, m.
+    pub(crate) size: [f64; 3],
     /// Density, kg/m3.
-    pub density: f64,
+    pub(crate) density: f64,
     /// Bulk modulus, Pa.
-    pub bulk_modulus: f64,
+    pub(crate) bulk_modulus: f64,
     /// Viscosity.
     pub viscosity: Viscosity,
     /// Surface tension (N/m) and contact angle (degrees), if any.
-    pub wetting: Option<[f64; 2]>,
+    pub(crate) wetting: Option<[f64; 2]>,
     /// Lines of `[adhesive.cure]`, if any.
-    pub cure: Option<String>,
+    pub(crate) cure: Option<String>,
     /// Lines of `[adhesive.water]`, if any.
-    pub water: Option<String>,
+    pub(crate) water: Option<String>,
     /// Lines of `[air]`, if any.
     pub air: Option<String>,
     /// Lines of `[contact]`.
-    pub contact: String,
+    pub(crate) contact: String,
     /// Lines of `[clamp]`, if any.
     pub clamp: Option<String>,
     /// Body force per mass, m/s2.
     pub gravity: [f64; 3],
     /// `[boundary]` of x, y, z.
-    pub boundary: [&'static str; 3],
+    pub(crate) boundary: [&'static str; 3],
     /// End without a clamp, s.
     pub stop: Option<f64>,
     /// Bodies.
     pub bodies: Vec<Body>,
     /// Wood and liquid of a bond file, in place of box and bodies.
-    pub voxels: Option<Voxels>,
+    pub(crate) voxels: Option<Voxels>,
     /// Rows of the history, as the time between them, s.
-    pub history_every: f64,
+    pub(crate) history_every: f64,
     /// States written on the way.
-    pub snapshots: u32,
+    pub(crate) snapshots: u32,
 }
 
 /// Viscosity of a scene's liquid; a table is read linearly in the logarithm of the shear rate.
@@ -153,17 +147,37 @@ pub enum Viscosity {
     Law(String),
 }
 
+impl Viscosity {
+    fn text(&self) -> String {
+        let lines: String = match self {
+            Self::Newtonian(eta) => return format!("viscosity = \"{} Pa s\"\n", number(*eta)),
+            Self::Table(rows) => {
+                let row = |[rate, eta]: &[f64; 2]| format!("  [\"{rate} 1/s\", \"{eta} Pa s\"],\n");
+                let rows: String = rows.iter().map(row).collect();
+                format!("viscosity_table = [\n{rows}]")
+            }
+            Self::Law(key) => key.clone(),
+        };
+        format!("shear_rate = \"rheometer\"\n{lines}\n")
+    }
+}
+
 /// Lines of `[contact]` for walls the liquid sticks to.
-pub const STICK: &str = "law = \"stick\"\n";
+pub(crate) const STICK: &str = "law = \"stick\"\n";
+
+/// Lines of `[contact]` for walls of an influence length with its unit.
+pub(crate) fn partial_slip(length: &str) -> String {
+    format!("law = \"partial-slip\"\ninfluence_length = \"{length}\"\n")
+}
 
 impl CaseText {
     /// PF at rest between sides that mirror, with walls it sticks to and nothing in it yet.
-    pub fn new(title: impl Into<String>, cell: f64, dimensions: u8, size: [f64; 3]) -> Self {
+    pub(crate) fn new(cell: f64, dimensions: u8, size: [f64; 3]) -> Self {
         Self {
-            title: title.into(),
+            title: String::new(),
             cell,
             dimensions,
-            domain: [[0.0; 3], size],
+            size,
             density: PF[0],
             bulk_modulus: PF[1],
             viscosity: Viscosity::Newtonian(PF[2]),
@@ -184,14 +198,14 @@ impl CaseText {
     }
 
     /// The same in plane strain: one layer of cells, `size` along x and y.
-    pub fn plane(title: impl Into<String>, cell: f64, [x, y]: [f64; 2]) -> Self {
-        Self::new(title, cell, 2, [x, y, cell])
+    pub(crate) fn plane(cell: f64, [x, y]: [f64; 2]) -> Self {
+        Self::new(cell, 2, [x, y, cell])
     }
 
     /// The same with no body that presses. The explicit scheme needs them, because its wall law is
     /// unilateral: without pressure, as in the adhesive that a clamp presses, liquid would slip off its
     /// walls. The implicit scheme's walls hold liquid at any pressure.
-    pub fn released(mut self) -> Self {
+    pub(crate) fn released(mut self) -> Self {
         for body in &mut self.bodies {
             body.pressing = 0.0;
         }
@@ -199,111 +213,66 @@ impl CaseText {
     }
 
     /// The TOML text with the `[integrator]` lines given.
-    pub fn text(&self, integrator: &str) -> String {
-        let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = self.write(&mut out, integrator);
+    pub(crate) fn text(&self, integrator: &str) -> String {
+        let title = self.title.lines().map(|line| format!("# {line}\n"));
+        let mut out: String = title.collect();
+        let (cell, dimensions) = (um(self.cell), self.dimensions);
+        out += &format!("[grid]\ncell = \"{cell} um\"\ndimensions = {dimensions}\n");
+        if self.voxels.is_none() {
+            out += &format!("domain = {}\n", corners([0.0; 3], self.size));
+        }
+        let adhesive = self.adhesive();
+        let stop = self.stop.map(|time| format!("time = \"{} us\"", um(time)));
+        let mut output = format!("history_every = \"{} us\"\n", um(self.history_every));
+        if self.snapshots > 0 {
+            output += &format!("snapshots = {}\n", self.snapshots);
+        }
+        let gravity = (self.gravity != [0.0; 3]).then(|| {
+            let [x, y, z] = self.gravity.map(number);
+            format!("acceleration = [\"{x} m/s2\", \"{y} m/s2\", \"{z} m/s2\"]")
+        });
+        let [x, y, z] = self.boundary;
+        let boundary = format!("x = \"{x}\"\ny = \"{y}\"\nz = \"{z}\"");
+        for (name, lines) in [
+            ("adhesive", Some(adhesive.as_str())),
+            ("adhesive.cure", self.cure.as_deref()),
+            ("adhesive.water", self.water.as_deref()),
+            ("air", self.air.as_deref()),
+            ("contact", Some(&self.contact)),
+            ("clamp", self.clamp.as_deref()),
+            ("stop", stop.as_deref()),
+            ("integrator", Some(integrator)),
+            ("output", Some(&output)),
+            ("gravity", gravity.as_deref()),
+            ("boundary", Some(&boundary)),
+        ] {
+            if let Some(lines) = lines {
+                out += &format!("\n[{name}]\n{}\n", lines.trim_end());
+            }
+        }
+        out.extend(self.bodies.iter().map(Body::text));
         out
     }
 
-    fn write(&self, out: &mut String, integrator: &str) -> std::fmt::Result {
-        for line in self.title.lines() {
-            writeln!(out, "# {line}")?;
+    fn adhesive(&self) -> String {
+        let (density, modulus) = (self.density, self.bulk_modulus);
+        let mut out = format!("density = \"{density} kg/m3\"\nbulk_modulus = \"{modulus} Pa\"\n");
+        out += &self.viscosity.text();
+        if let Some([tension, angle]) = self.wetting {
+            out += &format!("surface_tension = \"{tension} N/m\"\ncontact_angle = \"{angle} deg\"");
         }
-        writeln!(
-            out,
-            "[grid]\ncell = \"{} um\"\ndimensions = {}",
-            um(self.cell),
-            self.dimensions
-        )?;
-        if self.voxels.is_none() {
-            writeln!(out, "domain = {}", corners(self.domain[0], self.domain[1]))?;
-        }
-        self.write_adhesive(out)?;
-        writeln!(out, "\n[contact]\n{}", self.contact.trim_end())?;
-        if let Some(clamp) = &self.clamp {
-            writeln!(out, "\n[clamp]\n{}", clamp.trim_end())?;
-        }
-        if let Some(stop) = self.stop {
-            writeln!(out, "\n[stop]\ntime = \"{} us\"", number(stop * 1e6))?;
-        }
-        writeln!(out, "\n[integrator]\n{}", integrator.trim_end())?;
-        writeln!(
-            out,
-            "\n[output]\nhistory_every = \"{} us\"",
-            number(self.history_every * 1e6)
-        )?;
-        if self.snapshots > 0 {
-            writeln!(out, "snapshots = {}", self.snapshots)?;
-        }
-        if self.gravity != [0.0; 3] {
-            let g = self.gravity;
-            writeln!(
-                out,
-                "\n[gravity]\nacceleration = [\"{} m/s2\", \"{} m/s2\", \"{} m/s2\"]",
-                number(g[0]),
-                number(g[1]),
-                number(g[2])
-            )?;
-        }
-        let [x, y, z] = self.boundary;
-        writeln!(out, "\n[boundary]\nx = \"{x}\"\ny = \"{y}\"\nz = \"{z}\"")?;
-        for body in &self.bodies {
-            writeln!(out, "\n[[body]]\nmaterial = \"{}\"", body.material)?;
-            writeln!(out, "box = {}", corners(body.min, body.max))?;
-            if let Some(velocity) = body.velocity() {
-                writeln!(out, "velocity = {velocity}")?;
-            }
-            if let Some(name) = body.name {
-                writeln!(out, "name = \"{name}\"")?;
-            }
-        }
-        Ok(())
-    }
-
-    fn write_adhesive(&self, out: &mut String) -> std::fmt::Result {
-        writeln!(
-            out,
-            "\n[adhesive]\ndensity = \"{} kg/m3\"\nbulk_modulus = \"{} Pa\"",
-            self.density, self.bulk_modulus
-        )?;
-        match &self.viscosity {
-            Viscosity::Newtonian(eta) => writeln!(out, "viscosity = \"{} Pa s\"", number(*eta))?,
-            Viscosity::Table(rows) => {
-                writeln!(out, "shear_rate = \"rheometer\"\nviscosity_table = [")?;
-                for [rate, eta] in rows {
-                    writeln!(out, "  [\"{rate} 1/s\", \"{eta} Pa s\"],")?;
-                }
-                writeln!(out, "]")?;
-            }
-            Viscosity::Law(key) => writeln!(out, "shear_rate = \"rheometer\"\n{key}")?,
-        }
-        if let Some([tension, degrees]) = self.wetting {
-            writeln!(
-                out,
-                "surface_tension = \"{tension} N/m\"\ncontact_angle = \"{degrees} deg\""
-            )?;
-        }
-        if let Some(cure) = &self.cure {
-            writeln!(out, "\n[adhesive.cure]\n{}", cure.trim_end())?;
-        }
-        if let Some(water) = &self.water {
-            writeln!(out, "\n[adhesive.water]\n{}", water.trim_end())?;
-        }
-        if let Some(air) = &self.air {
-            writeln!(out, "\n[air]\n{}", air.trim_end())?;
-        }
-        Ok(())
+        out
     }
 }
 
 fn corners(min: [f64; 3], max: [f64; 3]) -> String {
-    let list = |v: [f64; 3]| v.map(|x| format!("\"{} um\"", um(x))).join(", ");
-    format!("{{ min = [{}], max = [{}] }}", list(min), list(max))
+    let [min, max] = [min, max].map(|v| v.map(|x| format!("\"{} um\"", um(x))).join(", "));
+    format!("{{ min = [{min}], max = [{max}] }}")
 }
 
-fn um(metres: f64) -> String {
-    number(metres * 1e6)
+/// Micrometres of metres, or microseconds of seconds.
+fn um(x: f64) -> String {
+    number(x * 1e6)
 }
 
 /// Twelve significant digits at most, without the noise of binary fractions.

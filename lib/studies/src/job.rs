@@ -1,11 +1,97 @@
-//! Runs scenes by methods through the real `mpm-run` and measures each.
+//! Scenes whose right results are known, run by methods through the real `mpm-run` and measured.
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
+use crate::Result;
+use crate::case_text::CaseText;
 use crate::method::{Method, Scheme};
-use crate::scene::{Measured, Scene};
-use crate::study::side_by_side;
+use crate::outputs::Run;
+use crate::study::{side_by_side, write};
+
+type Measure = Box<dyn Fn(&Run) -> Result<Vec<Measured>> + Send + Sync>;
+
+/// A scene with the error of a run of it.
+pub struct Scene {
+    /// Name of the case file, e.g. "channel-n6-off0.25": its family, the cells across the lumen
+    /// where other scenes differ in them alone, and the rest.
+    pub name: String,
+    /// The case.
+    pub case: CaseText,
+    /// What is compared, with its equation.
+    pub(crate) against: &'static str,
+    /// Named errors of a run.
+    pub(crate) measure: Measure,
+}
+
+impl Scene {
+    pub(crate) fn new(
+        name: impl Into<String>,
+        against: &'static str,
+        case: CaseText,
+        measure: impl Fn(&Run) -> Result<Vec<Measured>> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            case,
+            against,
+            measure: Box::new(measure),
+        }
+    }
+
+    /// Cells across the lumen, if the name says so, and the name without them: scenes that agree
+    /// in the latter are one refinement series.
+    pub(crate) fn resolution(name: &str) -> (String, Option<u32>) {
+        let cells = |part: &str| part.strip_prefix('n')?.parse::<u32>().ok();
+        let found = name.split('-').find_map(cells);
+        let series: Vec<&str> = name.split('-').filter(|p| cells(p).is_none()).collect();
+        (series.join("-"), found)
+    }
+}
+
+/// One number measured against its reference.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// What, e.g. "mean velocity".
+    pub what: String,
+    /// Value of the run.
+    pub(crate) value: f64,
+    /// Value of the closed form or reference.
+    pub(crate) reference: f64,
+    /// Error as stated: relative unless `what` says otherwise.
+    pub error: f64,
+    /// Whether the error is a number of things, not a share.
+    pub(crate) counted: bool,
+}
+
+impl Measured {
+    /// A value with its relative error.
+    pub(crate) fn relative(what: impl Into<String>, value: f64, reference: f64) -> Self {
+        Self {
+            what: what.into(),
+            value,
+            reference,
+            error: value / reference - 1.0,
+            counted: false,
+        }
+    }
+
+    /// An error that is itself the value, e.g. a noise relative to a maximum.
+    pub(crate) fn absolute(what: impl Into<String>, error: f64) -> Self {
+        Self {
+            value: error,
+            error,
+            ..Self::relative(what, 0.0, 0.0)
+        }
+    }
+
+    /// A number of things that should be none.
+    pub(crate) fn count(what: impl Into<String>, number: usize) -> Self {
+        Self {
+            counted: true,
+            ..Self::absolute(what, number as f64)
+        }
+    }
+}
 
 /// One scene by one method.
 pub struct Job<'a> {
@@ -16,90 +102,72 @@ pub struct Job<'a> {
 }
 
 /// What a job gave.
-#[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Name of the scene.
-    pub scene: String,
-    /// The method.
-    pub method: Method,
+    /// Name of the scene, and what it is compared with.
+    pub(crate) scene: String,
+    pub(crate) against: &'static str,
+    pub(crate) method: Method,
     /// Measured errors, or why there are none.
     pub measured: Result<Vec<Measured>, String>,
-    /// Folder of the run.
-    pub folder: PathBuf,
+    pub(crate) run: Run,
     /// Steps; NaN if it did not end.
-    pub steps: f64,
+    pub(crate) steps: f64,
     /// User and system time of the run, s; NaN if it did not end.
-    pub cpu_s: f64,
+    pub(crate) cpu_s: f64,
 }
 
 impl Outcome {
     /// The measured quantity of this name.
-    pub fn measured(&self, what: &str) -> Option<&Measured> {
+    pub(crate) fn measured(&self, what: &str) -> Option<&Measured> {
         self.measured.as_ref().ok()?.iter().find(|m| m.what == what)
     }
 }
 
-/// The case file of `scene` for the scheme of `method`, written into `folder`; nothing presses in that
-/// of the implicit scheme.
-///
-/// # Errors
-/// The system's reason.
-pub fn write_case(folder: &Path, scene: &Scene, method: &Method) -> Result<PathBuf, String> {
-    let scheme = method.scheme;
+/// The case file of `scene` for a scheme, written into `folder`; nothing presses in that of the
+/// implicit scheme.
+fn write_case(folder: &Path, scene: &Scene, scheme: Scheme) -> Result<PathBuf> {
     let path = folder.join(format!("{}-{}.toml", scene.name, scheme.name()));
     let case = match scheme {
         Scheme::Explicit => scene.case.clone(),
         Scheme::Implicit => scene.case.clone().released(),
     };
-    write_text(&path, &case.text(scheme.integrator()))?;
+    write(&path, case.text(scheme.integrator()))?;
     Ok(path)
 }
 
-/// Writes a case file; whole at any time, because runs of other methods may be reading it.
-///
-/// # Errors
-/// The system's reason.
-pub fn write_text(path: &Path, text: &str) -> Result<(), String> {
-    static COUNT: AtomicUsize = AtomicUsize::new(0);
-    let aside = path.with_extension(format!("{}.tmp", COUNT.fetch_add(1, Ordering::Relaxed)));
-    let folder = path.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder)
-        .and_then(|()| std::fs::write(&aside, text))
-        .and_then(|()| std::fs::rename(&aside, path))
-        .map_err(|e| format!("{}: {e}", path.display()))
+fn run(job: &Job, cases: &Path, folder: &Path) -> Result<Vec<Measured>> {
+    let case = write_case(cases, job.scene, job.method.scheme)?;
+    let mut more = Vec::new();
+    let bond = case.with_extension("mpts");
+    let name = bond.display().to_string();
+    if let Some(voxels) = &job.scene.case.voxels {
+        voxels.write(&bond)?;
+        more.extend(["--particles", &name]);
+    }
+    (job.scene.measure)(&job.method.run(&case, folder, &more)?)
 }
 
 /// Runs one job in `folder`, which keeps its case in `cases`.
 pub fn run_one(job: &Job, folder: &Path) -> Outcome {
-    let (scene, method) = (job.scene, &job.method);
     let cases = folder.join("cases");
-    let folder = folder.join(format!("{}-{}", scene.name, method.file_label()));
-    let run = write_case(&cases, scene, method).and_then(|case| {
-        let Some(voxels) = &scene.case.voxels else {
-            return method.run(&case, &folder, &[]);
-        };
-        let bond = case.with_extension("mpts");
-        voxels.write(&bond)?;
-        let bond = bond.display().to_string();
-        method.run(&case, &folder, &["--particles", &bond])
-    });
-    let number = |key: &str| {
-        let run = run.as_ref().ok()?;
-        run.summary(key)
-    };
+    let folder = folder.join(format!("{}-{}", job.scene.name, job.method.file_label()));
+    let measured = run(job, &cases, &folder);
+    let run = Run { folder };
+    let number = |key: &str| run.summary(key).unwrap_or(f64::NAN);
     Outcome {
-        scene: scene.name.clone(),
+        scene: job.scene.name.clone(),
+        against: job.scene.against,
         method: job.method.clone(),
-        steps: number("steps").unwrap_or(f64::NAN),
-        cpu_s: number("cpu_s").unwrap_or(f64::NAN),
-        measured: run.and_then(|run| (scene.measure)(&run)),
-        folder,
+        steps: number("steps"),
+        cpu_s: number("cpu_s"),
+        measured: measured.map_err(|e| e.to_string()),
+        run,
     }
 }
 
 /// Runs all jobs and gives their outcomes in the order of the jobs; says each on standard output
 /// as it ends.
-pub fn run_all(jobs: &[Job], folder: &Path) -> Vec<Outcome> {
+pub(crate) fn run_all(jobs: &[Job], folder: &Path) -> Vec<Outcome> {
     side_by_side(jobs, |job| {
         let outcome = run_one(job, folder);
         say(&outcome);
@@ -111,11 +179,8 @@ fn say(outcome: &Outcome) {
     let head = format!("{:<28} {:<12}", outcome.scene, outcome.method.label);
     match &outcome.measured {
         Ok(list) => {
-            for m in list {
-                println!(
-                    "{head} {:<36} {:+10.3e}  {:7.1} s",
-                    m.what, m.error, outcome.cpu_s
-                );
+            for Measured { what, error, .. } in list {
+                println!("{head} {what:<36} {error:+10.3e}  {:7.1} s", outcome.cpu_s);
             }
         }
         Err(said) => println!("{head} FAILED: {said}"),

@@ -10,18 +10,23 @@
 
 pub mod bench;
 pub mod case_text;
-pub mod closed_forms;
+mod closed_forms;
 pub mod crash;
 pub mod experiments;
 pub mod job;
 pub mod leave_out;
 pub mod load_control;
 pub mod method;
+mod numbers;
 pub mod options;
 pub mod outputs;
-pub mod scene;
 pub mod stability;
 pub mod study;
 pub mod tradeoff;
 pub mod verification;
-pub mod voxels;
+mod voxels;
+
+/// What went wrong, as a sentence.
+pub type Error = Box<dyn std::error::Error + Send + Sync>;
+/// With that error where no other is named.
+pub type Result<T, E = Error> = std::result::Result<T, E>;

@@ -1,12 +1,13 @@
 //! The built tools, and reading what the real `mpm-run` wrote.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use particle_file::ParticleFile;
+use serde_json::Value;
 
-use crate::study::{ended, said};
+use crate::Result;
+use crate::study::printed;
 
 /// A finished run.
 pub struct Run {
@@ -21,15 +22,41 @@ pub fn bin_folder() -> PathBuf {
     folder.map_or_else(|| PathBuf::from("target/release"), Path::to_path_buf)
 }
 
-/// What a built tool prints.
-///
-/// # Errors
-/// What it said where it failed, or that it could not be started.
-pub fn tool(name: &str, arguments: &[&str]) -> Result<String, String> {
-    let output = ended(Command::new(bin_folder().join(name)).args(arguments))?;
-    match output.status.success() {
-        true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
-        false => Err(said(&output)),
+/// A built tool.
+pub(crate) fn tool(name: &str) -> Command {
+    Command::new(bin_folder().join(name))
+}
+
+/// A material point of a state: place (m), velocity (m/s), volume (m3) and pressure (Pa).
+pub(crate) struct Point {
+    pub(crate) at: [f64; 3],
+    pub(crate) velocity: [f64; 3],
+    pub(crate) volume: f64,
+    pub(crate) pressure: f64,
+}
+
+/// The material points of a state.
+pub(crate) fn points(state: &ParticleFile) -> Result<Vec<Point>> {
+    let (places, velocities) = (state.vectors("position")?, state.vectors("velocity")?);
+    let (volumes, pressures) = (
+        state.column::<f32>("volume")?,
+        state.column::<f32>("pressure")?,
+    );
+    let point = |i: usize| Point {
+        at: places[i].map(f64::from),
+        velocity: velocities[i].map(f64::from),
+        volume: f64::from(volumes[i]),
+        pressure: f64::from(pressures[i]),
+    };
+    Ok((0..places.len()).map(point).collect())
+}
+
+/// The value under a key at any depth.
+fn found<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
+    match value {
+        Value::Object(map) => (map.get(key)).or_else(|| map.values().find_map(|v| found(v, key))),
+        Value::Array(list) => list.iter().find_map(|v| found(v, key)),
+        _ => None,
     }
 }
 
@@ -38,83 +65,96 @@ impl Run {
     ///
     /// # Errors
     /// When it is missing or not numeric.
-    pub fn history(&self, column: &str) -> Result<Vec<f64>, String> {
+    pub fn history(&self, column: &str) -> Result<Vec<f64>> {
         let path = self.folder.join("history.csv");
-        let mut reader = csv::Reader::from_path(&path).map_err(|e| e.to_string())?;
-        let header = reader.headers().map_err(|e| e.to_string())?.clone();
-        let index: HashMap<_, _> = header
-            .iter()
-            .enumerate()
-            .map(|(i, n)| (n.to_owned(), i))
-            .collect();
-        let &i = index
-            .get(column)
-            .ok_or_else(|| format!("{} has no column {column}", path.display()))?;
-        reader
-            .records()
-            .map(|row| {
-                let row = row.map_err(|e| e.to_string())?;
-                row.get(i)
-                    .unwrap_or("")
-                    .parse::<f64>()
-                    .map_err(|e| format!("{column}: {e}"))
-            })
-            .collect()
+        let mut reader = csv::Reader::from_path(&path)?;
+        let at = reader.headers()?.iter().position(|name| name == column);
+        let at = at.ok_or_else(|| format!("{} has no column {column}", path.display()))?;
+        let number = |row: Result<csv::StringRecord, csv::Error>| {
+            let number = row?.get(at).unwrap_or("").parse::<f64>();
+            Ok(number.map_err(|e| format!("{column}: {e}"))?)
+        };
+        reader.records().map(number).collect()
+    }
+
+    /// Lines of `history.csv` as far as it is written.
+    pub(crate) fn rows(&self) -> usize {
+        let text = std::fs::read_to_string(self.folder.join("history.csv"));
+        text.map_or(0, |text| text.lines().count())
+    }
+
+    /// Columns of `history.csv`.
+    pub(crate) fn columns<const N: usize>(&self, names: [&str; N]) -> Result<[Vec<f64>; N]> {
+        let mut columns = [const { Vec::new() }; N];
+        for (column, name) in columns.iter_mut().zip(names) {
+            *column = self.history(name)?;
+        }
+        Ok(columns)
+    }
+
+    /// The last values of columns of `history.csv`.
+    ///
+    /// # Errors
+    /// When one is missing or not numeric, or there is no row.
+    pub(crate) fn ends<const N: usize>(&self, names: [&str; N]) -> Result<[f64; N]> {
+        let columns = self.columns(names)?;
+        if columns.iter().any(Vec::is_empty) {
+            return Err("the history is empty".into());
+        }
+        Ok(columns.map(|column| column[column.len() - 1]))
     }
 
     /// Times at which the rows' viscous forces hold, s: the middles of their steps, where the implicit
     /// scheme solves its system (docs/methods.md section 3.1).
-    ///
-    /// # Errors
-    /// When a column is missing or not numeric.
-    pub fn middles(&self) -> Result<Vec<f64>, String> {
-        let (ends, steps) = (self.history("time_s")?, self.history("dt_s")?);
-        Ok((ends.iter().zip(&steps))
-            .map(|(t, dt)| t - 0.5 * dt)
-            .collect())
+    pub(crate) fn middles(&self) -> Result<Vec<f64>> {
+        let [ends, steps] = self.columns(["time_s", "dt_s"])?;
+        let middle = |(end, step): (&f64, &f64)| end - 0.5 * step;
+        Ok(ends.iter().zip(&steps).map(middle).collect())
     }
 
     /// The last state.
-    ///
-    /// # Errors
-    /// What is wrong with the file.
-    pub fn last(&self) -> Result<ParticleFile, String> {
-        ParticleFile::open(self.folder.join("final.mpts")).map_err(|e| e.to_string())
+    pub(crate) fn last(&self) -> Result<ParticleFile> {
+        Ok(ParticleFile::open(self.folder.join("final.mpts"))?)
+    }
+
+    /// The material points of the last state.
+    pub(crate) fn points(&self) -> Result<Vec<Point>> {
+        points(&self.last()?)
     }
 
     /// The states written on the way, in order, and the last.
-    ///
-    /// # Errors
-    /// What is wrong with a file.
-    pub fn states(&self) -> Result<Vec<ParticleFile>, String> {
+    pub(crate) fn states(&self) -> Result<Vec<ParticleFile>> {
         let numbered = (0..).map(|number| self.folder.join(format!("snapshots/{number:04}.mpts")));
         let written = numbered.take_while(|path| path.is_file());
-        let states = written.map(|path| ParticleFile::open(path).map_err(|e| e.to_string()));
+        let states = written.map(|path| Ok(ParticleFile::open(path)?));
         states.chain([self.last()]).collect()
+    }
+
+    /// The value of `summary.json` under a key at any depth.
+    pub(crate) fn summary_value(&self, key: &str) -> Option<Value> {
+        let text = std::fs::read_to_string(self.folder.join("summary.json")).ok()?;
+        found(&serde_json::from_str(&text).ok()?, key).cloned()
     }
 
     /// A number of `summary.json`, by its key at any depth.
     pub fn summary(&self, key: &str) -> Option<f64> {
-        let text = std::fs::read_to_string(self.folder.join("summary.json")).ok()?;
-        let after = text.split(&format!("\"{key}\":")).nth(1)?;
-        after
-            .trim_start()
-            .split([',', '\n', '}'])
-            .next()?
-            .trim()
-            .parse()
-            .ok()
+        self.summary_value(key)?.as_f64()
+    }
+
+    /// CPU time, s; NaN where the run did not end.
+    pub(crate) fn cpu_s(&self) -> f64 {
+        self.summary("cpu_s").unwrap_or(f64::NAN)
     }
 
     /// WP of the last state about the bond plane: bottom, top and total, um.
     ///
     /// # Errors
     /// What `wp-metrics` said, or what its table lacks.
-    pub fn weighted_penetration(&self) -> Result<[f64; 3], String> {
-        let state = self.folder.join("final.mpts").display().to_string();
-        let table = tool("wp-metrics", &["--quiet", &state])?;
+    pub(crate) fn weighted_penetration(&self) -> Result<[f64; 3]> {
+        let state = self.folder.join("final.mpts");
+        let table = printed(tool("wp-metrics").arg("--quiet").arg(state))?;
         let mut rows = csv::Reader::from_reader(table.as_bytes());
-        let header = rows.headers().map_err(|e| e.to_string())?.clone();
+        let header = rows.headers()?.clone();
         let column = |name: &str| header.iter().position(|n| n == name);
         let (side, wp) = (column("side").unwrap_or(0), column("wp_um").unwrap_or(0));
         let rows: Vec<csv::StringRecord> = rows.records().filter_map(Result::ok).collect();

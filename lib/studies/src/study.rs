@@ -1,17 +1,22 @@
-//! Parts that all studies share: provenance, pieces of work side by side, the time limit, result files.
+//! Parts that all studies share: provenance, the time limit, result files.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, mpsc};
+use std::sync::mpsc;
 use std::time::Duration;
+
+use figures::Drawing;
+use rayon::prelude::*;
+
+use crate::Result;
 
 /// What a run may take by the clock. The longest, of `make tradeoff` with twelve cells, takes 95 CPU
 /// seconds, and the machine may be shared.
 const LIMIT: Duration = Duration::from_secs(3600);
 
 /// What pictures of results are made for: sharp on a screen, small in the repository.
-pub const PAGE: figures::Page = figures::Page {
+pub(crate) const PAGE: figures::Page = figures::Page {
     width_mm: None,
     dpi: 180.0,
 };
@@ -42,7 +47,7 @@ impl Study {
     ///
     /// # Errors
     /// The system's reason why there is no folder of results.
-    pub fn begin(name: &str, results: &Path, only: &[String]) -> Result<Self, String> {
+    pub fn begin(name: &str, results: &Path, only: &[String]) -> Result<Self> {
         std::fs::create_dir_all(results).map_err(|e| format!("{}: {e}", results.display()))?;
         Ok(Self {
             name: name.to_owned(),
@@ -55,12 +60,12 @@ impl Study {
     }
 
     /// The folder of its cases and runs.
-    pub fn folder(&self) -> PathBuf {
+    pub(crate) fn folder(&self) -> PathBuf {
         Path::new("out").join(&self.name)
     }
 
     /// Whether a part of this name is to be done.
-    pub fn wants(&self, name: &str) -> bool {
+    pub(crate) fn wants(&self, name: &str) -> bool {
         let wanted = self.whole() || self.only.iter().any(|part| name.contains(part));
         self.found.fetch_or(wanted, Ordering::Relaxed);
         wanted
@@ -70,72 +75,63 @@ impl Study {
     ///
     /// # Errors
     /// The parts.
-    pub fn check_only(&self) -> Result<(), String> {
-        if self.found.load(Ordering::Relaxed) {
-            return Ok(());
+    pub fn check_only(&self) -> Result<()> {
+        match self.found.load(Ordering::Relaxed) {
+            true => Ok(()),
+            false => {
+                Err(format!("nothing has one of '{}' in its name", self.only.join(" ")).into())
+            }
         }
-        Err(format!(
-            "nothing has one of '{}' in its name",
-            self.only.join(" ")
-        ))
     }
 
     /// Whether all of it is to be done.
-    pub fn whole(&self) -> bool {
+    pub(crate) fn whole(&self) -> bool {
         self.only.is_empty()
     }
 
     /// First words of a page: what made it, when, of which commit, on what machine.
-    pub fn origin(&self) -> &str {
+    pub(crate) fn origin(&self) -> &str {
         &self.origin
     }
 
     /// First lines of a page on runs of one thread each that took these CPU times (s; NaN for one
     /// that did not end).
-    pub fn head(&self, cpu_s: impl Iterator<Item = f64>) -> String {
+    pub(crate) fn head(&self, cpu_s: impl Iterator<Item = f64>) -> String {
         let all: Vec<f64> = cpu_s.collect();
         let sum: f64 = all.iter().filter(|s| s.is_finite()).sum();
-        format!(
-            "{}, {} runs of one thread each, {sum:.0} CPU seconds in all.\n",
-            self.origin,
-            all.len()
-        )
+        let (origin, runs) = (&self.origin, all.len());
+        format!("{origin}, {runs} runs of one thread each, {sum:.0} CPU seconds in all.\n")
     }
 
     /// Writes a file of results.
-    ///
-    /// # Errors
-    /// The system's reason.
-    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), String> {
-        let path = self.results.join(name);
-        std::fs::write(&path, content).map_err(|e| format!("{}: {e}", path.display()))
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<()> {
+        write(&self.results.join(name), content)
+    }
+
+    /// Writes a picture.
+    pub(crate) fn draw(&self, name: &str, drawing: Result<Drawing, figures::Error>) -> Result<()> {
+        let bytes = drawing.and_then(|d| d.to_png());
+        self.write(name, bytes.map_err(|e| format!("{name}: {e}"))?)
     }
 
     /// Writes a table with the columns named in `header`, by commas.
-    ///
-    /// # Errors
-    /// The system's reason.
-    pub fn write_csv(
+    pub(crate) fn write_csv(
         &self,
         name: &str,
         header: &str,
         rows: impl IntoIterator<Item = Vec<String>>,
-    ) -> Result<(), String> {
-        let path = self.results.join(name);
-        let failed = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
-        let mut table = csv::Writer::from_path(&path).map_err(|e| failed(&e))?;
-        table
-            .write_record(header.split(','))
-            .map_err(|e| failed(&e))?;
+    ) -> Result<()> {
+        let mut table = csv::Writer::from_writer(Vec::new());
+        table.write_record(header.split(','))?;
         for row in rows {
-            table.write_record(row).map_err(|e| failed(&e))?;
+            table.write_record(row)?;
         }
-        table.flush().map_err(|e| failed(&e))
+        self.write(name, table.into_inner().map_err(|e| e.to_string())?)
     }
 }
 
 /// What made a page, when, of which commit, on what machine.
-pub fn origin(command: &str) -> String {
+fn origin(command: &str) -> String {
     let said = |program: &str, arguments: &[&str]| {
         let output = Command::new(program).args(arguments).output().ok()?;
         let text = String::from_utf8(output.stdout).ok()?;
@@ -149,48 +145,40 @@ pub fn origin(command: &str) -> String {
         Some(_) => " with changes not yet committed",
         None => "",
     };
-    let processor = std::fs::read_to_string("/proc/cpuinfo")
-        .ok()
-        .and_then(|text| {
-            let line = text.lines().find(|l| l.starts_with("model name"))?;
-            Some(line.split(':').nth(1)?.trim().to_owned())
-        })
-        .unwrap_or_else(unknown);
+    let processors = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = processors.lines().find(|l| l.starts_with("model name"));
+    let model = model.and_then(|line| Some(line.split(':').nth(1)?.trim().to_owned()));
+    let processor = model.unwrap_or_else(unknown);
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     format!(
         "Written by `{command}` on {date}: commit {commit}{changed}, {processor} ({cores} processors)"
     )
 }
 
-/// Does `work` on each of `list`, as many at a time as there are processors; results in order.
-pub fn side_by_side<P: Sync, T: Send>(list: &[P], work: impl Fn(&P) -> T + Sync) -> Vec<T> {
-    let next = AtomicUsize::new(0);
-    let done: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::new());
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..workers.min(list.len()) {
-            scope.spawn(|| {
-                loop {
-                    let i = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(piece) = list.get(i) else { return };
-                    let result = work(piece);
-                    if let Ok(mut done) = done.lock() {
-                        done.push((i, result));
-                    }
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().unwrap_or_default();
-    done.sort_by_key(|(i, _)| *i);
-    done.into_iter().map(|(_, result)| result).collect()
+/// Writes a file and its folder; whole at any time, because other runs may be reading it.
+pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+    let aside = path.with_extension(format!("{}.tmp", COUNT.fetch_add(1, Ordering::Relaxed)));
+    std::fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))
+        .and_then(|()| std::fs::write(&aside, content))
+        .and_then(|()| std::fs::rename(&aside, path))
+        .map_err(|e| format!("{}: {e}", path.display()).into())
+}
+
+/// Does `work` on each of `list`, as many at a time as there are processors; results in order, or
+/// the first error where they are collected so.
+pub(crate) fn side_by_side<P: Sync, T: Send, C: FromParallelIterator<T>>(
+    list: &[P],
+    work: impl Fn(&P) -> T + Sync + Send,
+) -> C {
+    list.par_iter().with_max_len(1).map(work).collect()
 }
 
 /// What `command` ended with, whatever its exit status.
 ///
 /// # Errors
 /// It could not be started, or was killed because it took longer than the studies' time limit.
-pub fn ended(command: &mut Command) -> Result<Output, String> {
+pub(crate) fn ended(command: &mut Command) -> Result<Output> {
     let name = command.get_program().display().to_string();
     let child = command
         .stdin(Stdio::null())
@@ -202,22 +190,42 @@ pub fn ended(command: &mut Command) -> Result<Output, String> {
     let (end, ends) = mpsc::channel();
     std::thread::spawn(move || end.send(child.wait_with_output()));
     match ends.recv_timeout(LIMIT) {
-        Ok(output) => output.map_err(|e| format!("{name}: {e}")),
+        Ok(output) => output.map_err(|e| format!("{name}: {e}").into()),
         Err(_) => {
             // Nobody is left to hear what became of the signal.
             let _ = Command::new("kill").args(["-KILL", &id]).status();
-            Err(format!("not ended after {} s", LIMIT.as_secs()))
+            Err(format!("not ended after {} s", LIMIT.as_secs()).into())
         }
     }
 }
 
+/// What a command printed that ended well.
+///
+/// # Errors
+/// What it said where it did not.
+pub(crate) fn printed(command: &mut Command) -> Result<String> {
+    let output = ended(command)?;
+    match output.status.success() {
+        true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
+        false => Err(said(&output).into()),
+    }
+}
+
+/// Tells a process to stop.
+pub(crate) fn terminate(child: &Child) -> Result<()> {
+    let id = child.id().to_string();
+    let mut kill = Command::new("kill");
+    kill.args(["-TERM", &id]).stderr(Stdio::null()).status()?;
+    Ok(())
+}
+
 /// What a tool said on standard error.
-pub fn said(output: &Output) -> String {
+pub(crate) fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).trim().to_owned()
 }
 
 /// Each of `list` once, in the order of their first places.
-pub fn distinct<T: PartialEq>(list: impl Iterator<Item = T>) -> Vec<T> {
+pub(crate) fn distinct<T: PartialEq>(list: impl Iterator<Item = T>) -> Vec<T> {
     let mut found = Vec::new();
     for one in list {
         if !found.contains(&one) {

@@ -4,39 +4,36 @@ use std::path::Path;
 
 use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, Provenance};
 
+use crate::Result;
+use crate::study::write;
+
 /// Wood among liquid that fills all the rest of a box whose low corner is the origin.
 #[derive(Clone, Debug)]
-pub struct Voxels {
+pub(crate) struct Voxels {
     /// Edge of a voxel, m.
-    pub edge: f64,
+    edge: f64,
     dims: [usize; 3],
     wood: BitGrid,
 }
 
 impl Voxels {
     /// A box of `dims` voxels with wood where `wood(x, y, z)` says so.
-    pub fn new(
+    pub(crate) fn new(
         edge: f64,
         dims: [usize; 3],
         wood: impl Fn(usize, usize, usize) -> bool + Sync,
     ) -> Self {
-        Self {
-            edge,
-            dims,
-            wood: BitGrid::from_fn(dims, wood),
-        }
+        let wood = BitGrid::from_fn(dims, wood);
+        Self { edge, dims, wood }
     }
 
     /// Share of the box that is liquid.
-    pub fn porosity(&self) -> f64 {
+    pub(crate) fn porosity(&self) -> f64 {
         1.0 - self.wood.count() as f64 / self.dims.iter().product::<usize>() as f64
     }
 
     /// Writes the bond file, the wood of the lower half along y as the lower adherend.
-    ///
-    /// # Errors
-    /// The system's reason.
-    pub fn write(&self, path: &Path) -> Result<(), String> {
+    pub(crate) fn write(&self, path: &Path) -> Result<()> {
         let half = self.dims[1] / 2;
         let part = |top: bool| {
             BitGrid::from_fn(self.dims, |x, y, z| {
@@ -61,8 +58,7 @@ impl Voxels {
             draft = draft.block(block, bits);
         }
         let mut bytes = Vec::new();
-        (draft.write_to(&mut bytes))
-            .and_then(|()| std::fs::write(path, bytes))
-            .map_err(|e| format!("{}: {e}", path.display()))
+        draft.write_to(&mut bytes)?;
+        write(path, bytes)
     }
 }

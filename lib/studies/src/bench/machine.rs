@@ -9,7 +9,7 @@ const SWEEPS: usize = 5;
 
 /// Bytes per second of a_i = b_i + s c_i on 1, 2, 4 ... threads up to the number of processors; the
 /// write counts once.
-pub fn triad() -> Vec<(usize, f64)> {
+pub(super) fn triad() -> Vec<(usize, f64)> {
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let b: Vec<f64> = (0..LENGTH).map(|i| i as f64).collect();
     let c = b.clone();

@@ -1,41 +1,43 @@
 //! `make bench`: what both schemes cost per liquid cell, point and step, at several sizes and numbers
 //! of threads, beside an older build where `BASE` names its folder.
 
-pub mod machine;
-pub mod report;
-pub mod runs;
+mod machine;
+mod report;
+mod runs;
 
+use std::path::PathBuf;
+
+use crate::Result;
+use crate::outputs::bin_folder;
 use crate::study::Study;
-use runs::{Cost, PLAN, Program};
+use runs::Cost;
 
 /// One line of the plan by one program.
-pub struct Row {
-    /// What is run.
-    pub piece: runs::Piece,
+struct Row {
+    piece: runs::Piece,
     /// By this build.
-    pub cost: Cost,
+    cost: Cost,
     /// By the older one, where there is one.
-    pub base: Option<Cost>,
+    base: Option<Cost>,
 }
 
 /// The study, on the sizes and methods so named.
 ///
 /// # Errors
 /// What a tool said.
-pub fn run(study: &Study) -> Result<bool, String> {
+pub fn run(study: &Study) -> Result<bool> {
     let folder = study.folder();
-    let base = std::env::var_os("BASE").map(|bin| Program::at(bin.into()));
+    let base = std::env::var_os("BASE").map(PathBuf::from);
     let bandwidth = machine::triad();
     let mut rows = Vec::new();
-    for piece in PLAN.into_iter().filter(|p| study.wants(&p.name())) {
+    for piece in runs::plan().into_iter().filter(|p| study.wants(&p.name())) {
         let bond = runs::specimen(&piece.size, &folder)?;
-        let own = Program::own();
         let (mut costs, mut older) = (Vec::new(), Vec::new());
         // Next to each other, so that both see the same load of the machine.
         for _ in 0..piece.times {
-            costs.push(own.cost(&piece, &bond, &folder)?);
+            costs.push(piece.cost(&bin_folder(), &bond, &folder)?);
             if let Some(base) = &base {
-                older.push(base.cost(&piece, &bond, &folder)?);
+                older.push(piece.cost(base, &bond, &folder)?);
             }
         }
         let row = Row {

@@ -3,14 +3,14 @@
 use std::fmt::Write as _;
 
 use super::Row;
-use super::runs::Cost;
+use crate::Result;
 use crate::study::Study;
 
 const COLUMNS: &str = "size,case,threads,liquid_cells,points,steps,cpu_us_per_cell_step,\
                        cpu_over_base,points_steps_per_cpu_s,wall_s_per_step,bytes_per_cell,stages";
 
 /// A row in words.
-pub fn line(row: &Row) -> String {
+pub(super) fn line(row: &Row) -> String {
     let per_cell = 1e6 * row.cost.cpu_s / row.cost.cells();
     let ratio = ratio(row).map_or(String::new(), |r| format!(", {r:.2} of the base"));
     format!(
@@ -26,36 +26,25 @@ fn ratio(row: &Row) -> Option<f64> {
 }
 
 /// Writes `bench.csv` and `bench.md`.
-///
-/// # Errors
-/// The system's reason.
-pub fn write(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> Result<(), String> {
+pub(super) fn write(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> Result<()> {
     study.write_csv("bench.csv", COLUMNS, rows.iter().map(fields))?;
     study.write("bench.md", page(study, rows, bandwidth))
 }
 
 fn fields(row: &Row) -> Vec<String> {
-    let Cost {
-        steps,
-        points,
-        cpu_s,
-        wall_s,
-        memory,
-        ..
-    } = row.cost;
-    let cells = row.cost.cells();
+    let (cost, cells) = (&row.cost, row.cost.cells());
     vec![
         row.piece.size.name.into(),
         row.piece.case.into(),
         row.piece.threads.to_string(),
         format!("{cells:.0}"),
-        format!("{points:.0}"),
-        steps.to_string(),
-        format!("{:.4}", 1e6 * cpu_s / cells),
+        format!("{:.0}", cost.points),
+        cost.steps.to_string(),
+        format!("{:.4}", 1e6 * cost.cpu_s / cells),
         ratio(row).map_or(String::new(), |r| format!("{r:.3}")),
-        format!("{:.4e}", points / cpu_s),
-        format!("{wall_s:.4}"),
-        format!("{:.0}", memory / cells),
+        format!("{:.4e}", cost.points / cost.cpu_s),
+        format!("{:.4}", cost.wall_s),
+        format!("{:.0}", cost.memory / cells),
         stages(row),
     ]
 }

@@ -39,14 +39,9 @@ fn main() -> ExitCode {
         Ok(done)
     });
     match done {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => {
-            eprintln!("{name}: not all is as it should be; see {results}");
-            ExitCode::FAILURE
-        }
-        Err(said) => {
-            eprintln!("{name}: {said}");
-            ExitCode::FAILURE
-        }
+        Ok(true) => return ExitCode::SUCCESS,
+        Ok(false) => eprintln!("{name}: not all is as it should be; see {results}"),
+        Err(said) => eprintln!("{name}: {said}"),
     }
+    ExitCode::FAILURE
 }

@@ -5,6 +5,7 @@ use std::os::unix::process::ExitStatusExt;
 use super::faults::{self, Fault, Point};
 use super::scene::{Place, Scene, same};
 use super::{Row, all_wrong};
+use crate::Result;
 use crate::study::said;
 
 /// A run as it is started, interrupted, and recovered.
@@ -83,7 +84,7 @@ struct Trials<'a> {
 ///
 /// # Errors
 /// What keeps the campaign from being made.
-pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>, String> {
+pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>> {
     let mut rows = Vec::new();
     for series in &SERIES {
         for scene in Scene::ALL {
@@ -99,7 +100,7 @@ pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>, Strin
 }
 
 impl<'a> Trials<'a> {
-    fn new(series: &'a Series, scene: Scene) -> Result<Self, String> {
+    fn new(series: &'a Series, scene: Scene) -> Result<Self> {
         let whole = Place::new(scene)?;
         let points = faults::points(&whole, series.more, &[])?;
         // Rows are the writes that begin with the number of their step.
@@ -118,11 +119,7 @@ impl<'a> Trials<'a> {
             .map(|(point, _)| point)
             .collect();
         if rows.len() < 20 || renames.len() < 3 {
-            return Err(format!(
-                "only {} rows and {} snapshots",
-                rows.len(),
-                renames.len()
-            ));
+            return Err(format!("only {} rows and {} snapshots", rows.len(), renames.len()).into());
         }
         let stops = [rows[rows.len() / 2], renames[renames.len() / 2]].map(Clone::clone);
         let before = match series.before {
@@ -132,11 +129,9 @@ impl<'a> Trials<'a> {
                 let at = rows[(part * (rows.len() - 1) as f64) as usize];
                 let output = faults::run(&place, series.more, &[(at, Fault::Terminate)])?;
                 if output.status.code() != Some(75) {
-                    return Err(format!(
-                        "not stopped: {:?}, {}",
-                        output.status,
-                        said(&output)
-                    ));
+                    return Err(
+                        format!("not stopped: {:?}, {}", output.status, said(&output)).into(),
+                    );
                 }
                 Some(place)
             }
@@ -164,7 +159,7 @@ impl<'a> Trials<'a> {
         })
     }
 
-    fn place(&self) -> Result<Place, String> {
+    fn place(&self) -> Result<Place> {
         match &self.before {
             Some(before) => Place::with_run_of(self.scene, before),
             None => Place::new(self.scene),
@@ -177,7 +172,7 @@ impl<'a> Trials<'a> {
     }
 
     /// The points of `fault`.
-    fn points(&self, fault: Fault) -> Result<Vec<Point>, String> {
+    fn points(&self, fault: Fault) -> Result<Vec<Point>> {
         let mut all: Vec<Point> = Vec::new();
         let ways: Vec<Vec<(&Point, Fault)>> = match self.stops.as_slice() {
             [] => vec![Vec::new()],
@@ -200,7 +195,7 @@ impl<'a> Trials<'a> {
         Ok(all)
     }
 
-    fn row(&self, fault: Fault, stride: usize) -> Result<Row, String> {
+    fn row(&self, fault: Fault, stride: usize) -> Result<Row> {
         let points: Vec<Point> = (self.points(fault)?.into_iter()).step_by(stride).collect();
         Ok(Row {
             series: self.series.name,
@@ -212,12 +207,12 @@ impl<'a> Trials<'a> {
             trials: points.len(),
             wrong: all_wrong(&points, |point| {
                 self.trial(point, fault)
-                    .map_err(|said| format!("{point}: {said}"))
+                    .map_err(|said| format!("{point}: {said}").into())
             }),
         })
     }
 
-    fn trial(&self, point: &Point, fault: Fault) -> Result<(), String> {
+    fn trial(&self, point: &Point, fault: Fault) -> Result<()> {
         let place = self.place()?;
         let mut faults = vec![(point, fault)];
         faults.extend(self.stop(&point.call).map(|stop| (stop, Fault::Terminate)));
@@ -227,7 +222,7 @@ impl<'a> Trials<'a> {
             // What cannot be opened may be taken for what is not there, or not sound.
             (Fault::Fail, Some(2 | 3)) if point.call == "openat" => {}
             (Fault::Fail, Some(0 | 1 | 75)) => {}
-            (_, code) => return Err(format!("ended with {code:?}: {}", said(&output))),
+            (_, code) => return Err(format!("ended with {code:?}: {}", said(&output)).into()),
         }
         place
             .done(self.series.more)

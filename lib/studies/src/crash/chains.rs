@@ -5,6 +5,7 @@ use std::os::unix::process::ExitStatusExt;
 use super::faults::{self, Fault, Point};
 use super::scene::{Place, Scene, same};
 use super::{Row, all_wrong};
+use crate::Result;
 use crate::study::said;
 
 /// Faults before a run is let go to its end.
@@ -16,7 +17,7 @@ const MORE: [&str; 1] = ["--resume"];
 ///
 /// # Errors
 /// What keeps the trials from being made.
-pub fn rows(count: u64, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>, String> {
+pub fn rows(count: u64, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>> {
     let mut rows = Vec::new();
     for scene in Scene::ALL {
         let whole = Place::new(scene)?;
@@ -32,7 +33,7 @@ pub fn rows(count: u64, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>, String> 
                 let told = |said| format!("seed {seed}: {said}");
                 interrupted(&place, &points, seed).map_err(told)?;
                 place.done(&MORE).map_err(told)?;
-                same(&whole.run_folder(), &place.run_folder()).map_err(told)
+                Ok(same(&whole.run_folder(), &place.run_folder()).map_err(told)?)
             }),
         };
         tell(&row);
@@ -41,7 +42,7 @@ pub fn rows(count: u64, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>, String> 
     Ok(rows)
 }
 
-fn interrupted(place: &Place, points: &[(Point, String)], seed: u64) -> Result<(), String> {
+fn interrupted(place: &Place, points: &[(Point, String)], seed: u64) -> Result<()> {
     let mut random = seed;
     for _ in 0..FAULTS {
         // Knuth's linear congruential generator; its high bits are good enough to choose points.
@@ -60,7 +61,7 @@ fn interrupted(place: &Place, points: &[(Point, String)], seed: u64) -> Result<(
             (status.code(), status.signal()),
             (Some(0 | 75), _) | (None, Some(9 | 15))
         ) {
-            return Err(format!("{point}: {status:?}, {}", said(&output)));
+            return Err(format!("{point}: {status:?}, {}", said(&output)).into());
         }
     }
     Ok(())

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::process::Output;
 
 use super::scene::Place;
+use crate::Result;
 use crate::study::ended;
 
 /// The calls by which a run changes or holds its folder; those a system lacks are left out.
@@ -28,11 +29,9 @@ const CALLS: [&str; 16] = [
 
 /// The n-th call of a name by one thread, from 1 on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Point {
-    /// Name of the call.
-    pub call: String,
-    /// Its number.
-    pub nth: usize,
+pub(super) struct Point {
+    pub(super) call: String,
+    nth: usize,
 }
 
 impl std::fmt::Display for Point {
@@ -43,7 +42,7 @@ impl std::fmt::Display for Point {
 
 /// What happens at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
+pub(super) enum Fault {
     /// SIGKILL before the call.
     Kill,
     /// SIGTERM at the call.
@@ -76,10 +75,7 @@ pub fn available() -> bool {
 }
 
 /// Runs `mpm-run` in `place` with `faults`.
-///
-/// # Errors
-/// The system's reason.
-pub fn run(place: &Place, more: &[&str], faults: &[(&Point, Fault)]) -> Result<Output, String> {
+pub(super) fn run(place: &Place, more: &[&str], faults: &[(&Point, Fault)]) -> Result<Output> {
     strace(place, more, "/dev/null", faults)
 }
 
@@ -87,13 +83,13 @@ pub fn run(place: &Place, more: &[&str], faults: &[(&Point, Fault)]) -> Result<O
 ///
 /// # Errors
 /// A trace that cannot be made.
-pub fn points(
+pub(super) fn points(
     place: &Place,
     more: &[&str],
     faults: &[(&Point, Fault)],
-) -> Result<Vec<(Point, String)>, String> {
+) -> Result<Vec<(Point, String)>> {
     strace(place, more, "trace", faults)?;
-    let trace = std::fs::read(place.path().join("trace")).map_err(|e| e.to_string())?;
+    let trace = std::fs::read(place.path().join("trace"))?;
     let trace = String::from_utf8_lossy(&trace);
     let mut counts: HashMap<(&str, &str), usize> = HashMap::new();
     let mut points = Vec::new();
@@ -123,12 +119,7 @@ pub fn points(
     Ok(points)
 }
 
-fn strace(
-    place: &Place,
-    more: &[&str],
-    to: &str,
-    faults: &[(&Point, Fault)],
-) -> Result<Output, String> {
+fn strace(place: &Place, more: &[&str], to: &str, faults: &[(&Point, Fault)]) -> Result<Output> {
     let calls = CALLS.map(|call| format!("?{call}")).join(",");
     let mut words: Vec<String> = ["strace", "-f", "-qq", "-o", to, "-e"]
         .map(String::from)

@@ -4,6 +4,7 @@ use std::fs;
 
 use super::scene::{Place, Scene, same};
 use super::{Row, all_wrong};
+use crate::Result;
 use crate::study::{ended, said};
 
 /// Whether the limit can be set to a byte.
@@ -18,15 +19,14 @@ pub fn available() -> bool {
 ///
 /// # Errors
 /// What keeps the trials from being made.
-pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>, String> {
+pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>> {
     // Fewer snapshots: the limit is on every file, and only the history shall meet it.
     let more = ["--resume", "--set", "output.snapshots=0"];
     let mut rows = Vec::new();
     for scene in Scene::ALL {
         let whole = Place::new(scene)?;
         whole.done(&more)?;
-        let history =
-            fs::read(whole.run_folder().join("history.csv")).map_err(|e| e.to_string())?;
+        let history = fs::read(whole.run_folder().join("history.csv"))?;
         let text = history.strip_suffix(b"\n").unwrap_or(&history);
         let start = 1 + text.iter().rposition(|&b| b == b'\n').unwrap_or(0);
         let limits: Vec<usize> = (start..history.len()).step_by(stride).collect();
@@ -46,10 +46,11 @@ pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>, Strin
                 words.push(limit.to_string());
                 let output = ended(&mut place.command(&words, &more))?;
                 if output.status.code() != Some(1) || !said(&output).contains("history.csv") {
-                    return Err(format!("{limit}: {:?}, {}", output.status, said(&output)));
+                    return Err(format!("{limit}: {:?}, {}", output.status, said(&output)).into());
                 }
                 place.done(&more)?;
-                same(&whole.run_folder(), &place.run_folder()).map_err(|e| format!("{limit}: {e}"))
+                same(&whole.run_folder(), &place.run_folder())
+                    .map_err(|e| format!("{limit}: {e}").into())
             }),
         };
         tell(&row);

@@ -5,23 +5,22 @@ pub mod campaign;
 pub mod chains;
 pub mod faults;
 pub mod full_disk;
-pub mod report;
-pub mod scene;
+mod report;
+mod scene;
 pub mod together;
 
+use crate::Result;
 use crate::study::{Study, side_by_side};
 
 /// What came of one series of trials.
-#[derive(Clone, Debug)]
 pub struct Row {
     /// What was done.
     pub series: &'static str,
     /// Scheme of the run.
-    pub scheme: &'static str,
+    scheme: &'static str,
     /// What went wrong at each point.
-    pub fault: &'static str,
-    /// How many trials.
-    pub trials: usize,
+    fault: &'static str,
+    trials: usize,
     /// Those that did not end as they must, each in a sentence.
     pub wrong: Vec<String>,
 }
@@ -47,7 +46,7 @@ const CHAINS: u64 = 100;
 ///
 /// # Errors
 /// What keeps the trials from being made.
-pub fn run(study: &Study) -> Result<bool, String> {
+pub fn run(study: &Study) -> Result<bool> {
     let tell = |row: &Row| println!("{}", row.line());
     let (mut rows, mut left_out) = (Vec::new(), Vec::new());
     for row in [together::at_once(ROUNDS)?, together::meanwhile(ROUNDS)?] {
@@ -70,10 +69,8 @@ pub fn run(study: &Study) -> Result<bool, String> {
 }
 
 /// Does trials side by side; the sentences of those that failed.
-fn all_wrong<T: Sync>(
-    trials: &[T],
-    trial: impl Fn(&T) -> Result<(), String> + Sync,
-) -> Vec<String> {
-    let done = side_by_side(trials, trial);
-    done.into_iter().filter_map(Result::err).collect()
+fn all_wrong<T: Sync>(trials: &[T], trial: impl Fn(&T) -> Result<()> + Sync + Send) -> Vec<String> {
+    let done: Vec<Result<()>> = side_by_side(trials, trial);
+    let wrong = done.into_iter().filter_map(Result::err);
+    wrong.map(|said| said.to_string()).collect()
 }

@@ -3,13 +3,11 @@
 use std::fmt::Write;
 
 use super::Row;
+use crate::Result;
 use crate::study::Study;
 
 /// Writes the table and the page; `left_out` is what could not be done.
-///
-/// # Errors
-/// The system's reason.
-pub fn write(study: &Study, rows: &[Row], left_out: &[&str]) -> Result<(), String> {
+pub(super) fn write(study: &Study, rows: &[Row], left_out: &[&str]) -> Result<()> {
     let fields = rows.iter().map(|row| {
         let [trials, wrong] = [row.trials, row.wrong.len()].map(|count| count.to_string());
         vec![
@@ -37,26 +35,20 @@ fn page(rows: &[Row], origin: &str, left_out: &[&str]) -> String {
          | series | scheme | fault | trials | as they must be |\n|---|---|---|---|---|\n"
     );
     for row in rows {
+        let (trials, right) = (row.trials, row.trials - row.wrong.len());
+        let (series, scheme, fault) = (row.series, row.scheme, row.fault);
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {} |",
-            row.series,
-            row.scheme,
-            row.fault,
-            row.trials,
-            row.trials - row.wrong.len()
+            "| {series} | {scheme} | {fault} | {trials} | {right} |"
         );
     }
     let trials: usize = rows.iter().map(|row| row.trials).sum();
     let wrong: usize = rows.iter().map(|row| row.wrong.len()).sum();
     let _ = writeln!(text, "\n{trials} trials, {wrong} wrong.");
     for row in rows {
+        let (series, scheme, fault) = (row.series, row.scheme, row.fault);
         for said in &row.wrong {
-            let _ = writeln!(
-                text,
-                "- {}, {}, {}: {said}",
-                row.series, row.scheme, row.fault
-            );
+            let _ = writeln!(text, "- {series}, {scheme}, {fault}: {said}");
         }
     }
     for what in left_out {

@@ -7,6 +7,7 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
+use crate::Result;
 use crate::case_text::{Body, CaseText};
 use crate::method::Scheme;
 use crate::outputs::bin_folder;
@@ -23,25 +24,26 @@ const COSTS: [&str; 5] = [
 
 /// A run of about thirty steps, each with a row, and four or five snapshots, in some milliseconds.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene(pub Scheme);
+pub(super) struct Scene(pub(super) Scheme);
 
 impl Scene {
     /// Both schemes.
-    pub const ALL: [Scene; 2] = [Scene(Scheme::Explicit), Scene(Scheme::Implicit)];
+    pub(super) const ALL: [Scene; 2] = [Scene(Scheme::Explicit), Scene(Scheme::Implicit)];
 
     /// Name of the scheme.
-    pub fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         self.0.name()
     }
 
     /// Liquid between two plates, pressed out at the sides.
-    pub fn case(self) -> String {
+    pub(super) fn case(self) -> String {
         let (um, cell) = (1e-6, 2e-6);
         let (integrator, stop) = match self.0 {
             Scheme::Explicit => ("", "0.007 us"),
             Scheme::Implicit => ("\ncfl = 0.05", "2.95 us"),
         };
-        let mut case = CaseText::plane("thirty steps", cell, [24.0 * um, 30.0 * um]);
+        let mut case = CaseText::plane(cell, [24.0 * um, 30.0 * um]);
+        case.title = "thirty steps".into();
         let plate = |y: [f64; 2]| Body::wall([0.0, y[0], 0.0], [24.0 * um, y[1], cell]);
         case.bodies = vec![
             plate([0.0, 6.0 * um]).named("bottom"),
@@ -57,45 +59,39 @@ impl Scene {
 }
 
 /// A folder with `case.toml`, in which runs go to `run`.
-pub struct Place(TempDir);
+pub(super) struct Place(TempDir);
 
 impl Place {
     /// A new one for `scene`.
-    ///
-    /// # Errors
-    /// The system's reason.
-    pub fn new(scene: Scene) -> Result<Self, String> {
-        let place = Self(TempDir::new().map_err(|e| e.to_string())?);
-        fs::write(place.path().join("case.toml"), scene.case()).map_err(|e| e.to_string())?;
+    pub(super) fn new(scene: Scene) -> Result<Self> {
+        let place = Self(TempDir::new()?);
+        fs::write(place.path().join("case.toml"), scene.case())?;
         Ok(place)
     }
 
     /// The same with a copy of another's run folder.
-    ///
-    /// # Errors
-    /// The system's reason.
-    pub fn with_run_of(scene: Scene, other: &Place) -> Result<Self, String> {
+    pub(super) fn with_run_of(scene: Scene, other: &Place) -> Result<Self> {
         let place = Self::new(scene)?;
         let run = place.run_folder();
-        fs::create_dir_all(run.join("snapshots")).map_err(|e| e.to_string())?;
+        fs::create_dir_all(run.join("snapshots"))?;
         for (name, bytes) in content(&other.run_folder())? {
-            fs::write(run.join(name), bytes).map_err(|e| e.to_string())?;
+            fs::write(run.join(name), bytes)?;
         }
         Ok(place)
     }
 
     /// Where it is.
-    pub fn path(&self) -> &Path {
+    pub(super) fn path(&self) -> &Path {
         self.0.path()
     }
 
     /// Its run folder.
-    pub fn run_folder(&self) -> std::path::PathBuf {
+    pub(super) fn run_folder(&self) -> std::path::PathBuf {
         self.path().join("run")
     }
 
     /// `mpm-run` in it by way of `before`, words that another program's command line begins with.
-    pub fn command(&self, before: &[String], more: &[&str]) -> Command {
+    pub(super) fn command(&self, before: &[String], more: &[&str]) -> Command {
         let tool = bin_folder().join("mpm-run").display().to_string();
         let words = [before, &[tool]].concat();
         let mut command = Command::new(&words[0]);
@@ -112,27 +108,23 @@ impl Place {
     ///
     /// # Errors
     /// What it said where it did not end well.
-    pub fn done(&self, more: &[&str]) -> Result<(), String> {
+    pub(super) fn done(&self, more: &[&str]) -> Result<()> {
         let output = ended(&mut self.command(&[], more))?;
-        if output.status.success() {
-            Ok(())
-        } else {
-            Err(format!("{:?}: {}", output.status, said(&output)))
+        match output.status.success() {
+            true => Ok(()),
+            false => Err(format!("{:?}: {}", output.status, said(&output)).into()),
         }
     }
 }
 
 /// The files below a run folder, by name.
-///
-/// # Errors
-/// The system's reason.
-pub fn content(run: &Path) -> Result<BTreeMap<String, Vec<u8>>, String> {
+pub(super) fn content(run: &Path) -> Result<BTreeMap<String, Vec<u8>>> {
     let mut files = BTreeMap::new();
     for (folder, prefix) in [(run.to_owned(), ""), (run.join("snapshots"), "snapshots/")] {
         for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
             let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
             if entry.path().is_file() {
-                files.insert(name, fs::read(entry.path()).map_err(|e| e.to_string())?);
+                files.insert(name, fs::read(entry.path())?);
             }
         }
     }
@@ -144,20 +136,19 @@ pub fn content(run: &Path) -> Result<BTreeMap<String, Vec<u8>>, String> {
 ///
 /// # Errors
 /// The first file that differs.
-pub fn same(one: &Path, other: &Path) -> Result<(), String> {
+pub(super) fn same(one: &Path, other: &Path) -> Result<()> {
     let [one, other] = [content(one)?, content(other)?];
     let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
     if names(&one) != names(&other) {
-        return Err(format!("files {:?}, not {:?}", names(&other), names(&one)));
+        return Err(format!("files {:?}, not {:?}", names(&other), names(&one)).into());
     }
     for (name, bytes) in &one {
-        let equal = if name == "summary.json" {
-            costless(bytes) == costless(&other[name])
-        } else {
-            *bytes == other[name]
+        let equal = match name.as_str() {
+            "summary.json" => costless(bytes) == costless(&other[name]),
+            _ => *bytes == other[name],
         };
         if !equal {
-            return Err(format!("{name} differs"));
+            return Err(format!("{name} differs").into());
         }
     }
     Ok(())
@@ -165,10 +156,11 @@ pub fn same(one: &Path, other: &Path) -> Result<(), String> {
 
 fn costless(summary: &[u8]) -> String {
     let text = String::from_utf8_lossy(summary);
-    let keeps = |line: &&str| {
-        !COSTS
+    let costs = |line: &str| {
+        COSTS
             .iter()
             .any(|key| line.contains(&format!("\"{key}\":")))
     };
-    text.lines().filter(keeps).collect::<Vec<_>>().join("\n")
+    let kept = text.lines().filter(|line| !costs(line));
+    kept.collect::<Vec<_>>().join("\n")
 }

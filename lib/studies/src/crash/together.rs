@@ -1,14 +1,15 @@
 //! Two runs into one folder.
 
-use std::fs;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use super::Row;
 use super::scene::{Place, Scene, same};
+use crate::Result;
 use crate::method::Scheme;
-use crate::study::{ended, said};
+use crate::outputs::{Run, tool};
+use crate::study::{ended, said, terminate};
 
 const SCENE: Scene = Scene(Scheme::Explicit);
 
@@ -16,7 +17,7 @@ const SCENE: Scene = Scene(Scheme::Explicit);
 ///
 /// # Errors
 /// The system's reason.
-pub fn at_once(rounds: usize) -> Result<Row, String> {
+pub fn at_once(rounds: usize) -> Result<Row> {
     let whole = Place::new(SCENE)?;
     whole.done(&[])?;
     let round = || {
@@ -24,12 +25,12 @@ pub fn at_once(rounds: usize) -> Result<Row, String> {
         let [one, other] = [start(&place, &[])?, start(&place, &[])?];
         let mut codes = Vec::new();
         for child in [one, other] {
-            let output = child.wait_with_output().map_err(|e| e.to_string())?;
+            let output = child.wait_with_output()?;
             codes.push(output.status.code());
         }
         codes.sort_unstable();
         if codes != [Some(0), Some(2)] {
-            return Err(format!("ended with {codes:?}"));
+            return Err(format!("ended with {codes:?}").into());
         }
         same(&whole.run_folder(), &place.run_folder())
     };
@@ -38,7 +39,9 @@ pub fn at_once(rounds: usize) -> Result<Row, String> {
         scheme: SCENE.name(),
         fault: "second run",
         trials: rounds,
-        wrong: (0..rounds).filter_map(|_| round().err()).collect(),
+        wrong: (0..rounds)
+            .filter_map(|_| Some(round().err()?.to_string()))
+            .collect(),
     })
 }
 
@@ -47,9 +50,9 @@ pub fn at_once(rounds: usize) -> Result<Row, String> {
 ///
 /// # Errors
 /// The system's reason.
-pub fn meanwhile(rounds: usize) -> Result<Row, String> {
+pub fn meanwhile(rounds: usize) -> Result<Row> {
     let place = Place::new(SCENE)?;
-    std::os::unix::fs::symlink("run", place.path().join("link")).map_err(|e| e.to_string())?;
+    std::os::unix::fs::symlink("run", place.path().join("link"))?;
     // Minutes, of which the seconds of the second runs are needed.
     let long = [
         "clamp.stop=\"3 us\"",
@@ -58,11 +61,11 @@ pub fn meanwhile(rounds: usize) -> Result<Row, String> {
     ];
     let long: Vec<&str> = long.iter().flat_map(|change| ["--set", *change]).collect();
     let mut first = start(&place, &long)?;
-    let rows = || {
-        fs::read_to_string(place.run_folder().join("history.csv")).map_or(0, |t| t.lines().count())
+    let run = Run {
+        folder: place.run_folder(),
     };
     let begun = Instant::now();
-    while rows() < 3 {
+    while run.rows() < 3 {
         if begun.elapsed() > Duration::from_secs(60) {
             return Err("the first run did not begin".into());
         }
@@ -84,20 +87,14 @@ pub fn meanwhile(rounds: usize) -> Result<Row, String> {
             wrong.push(format!("{way:?}: {:?}, {told}", second.status));
         }
     }
-    if let Some(ended) = first.try_wait().map_err(|e| e.to_string())? {
-        return Err(format!("the first run was too short: {ended}"));
+    if let Some(ended) = first.try_wait()? {
+        return Err(format!("the first run was too short: {ended}").into());
     }
-    let told = Command::new("kill")
-        .args(["-TERM", &first.id().to_string()])
-        .status();
-    told.map_err(|e| e.to_string())?;
-    let ended = first.wait_with_output().map_err(|e| e.to_string())?;
+    terminate(&first)?;
+    let ended = first.wait_with_output()?;
     if ended.status.code() != Some(75) {
-        return Err(format!(
-            "the first run: {:?}, {}",
-            ended.status,
-            said(&ended)
-        ));
+        let (status, said) = (ended.status, said(&ended));
+        return Err(format!("the first run: {status:?}, {said}").into());
     }
     Ok(Row {
         series: "second run while the first is on",
@@ -108,14 +105,14 @@ pub fn meanwhile(rounds: usize) -> Result<Row, String> {
     })
 }
 
-fn start(place: &Place, more: &[&str]) -> Result<Child, String> {
+fn start(place: &Place, more: &[&str]) -> Result<Child> {
     let mut command = place.command(&[], more);
-    (command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn()).map_err(|e| e.to_string())
+    Ok((command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn())?)
 }
 
 /// A run into `run`, or into the folder that `way` names.
 fn second(place: &Place, way: &[&str]) -> Command {
-    let mut command = Command::new(crate::outputs::bin_folder().join("mpm-run"));
+    let mut command = tool("mpm-run");
     command
         .args(["case.toml", "--quiet"])
         .args(way)

@@ -2,24 +2,24 @@
 //! their measurements (lib/studies/reference/capillary).
 
 use super::capillary_voxels::{DIP, POOL, Voxels};
-use super::squeeze::rows;
-use crate::job::write_text;
-use crate::method::{Method, Scheme};
+use super::squeeze::{number, rows};
+use crate::Result;
+use crate::method::Method;
 use crate::study::{Study, side_by_side};
 
 /// Density of glycerol, kg/m3.
-pub const DENSITY: f64 = 1260.0;
+pub(super) const DENSITY: f64 = 1260.0;
 /// Its viscosity, Pa s.
-pub const VISCOSITY: f64 = 1.0111;
+pub(super) const VISCOSITY: f64 = 1.0111;
 /// Its surface tension, N/m.
-pub const TENSION: f64 = 0.06347;
+pub(super) const TENSION: f64 = 0.06347;
 /// Its contact angle on glass at rest, degrees.
-pub const ANGLE: f64 = 5.6308;
+pub(super) const ANGLE: f64 = 5.6308;
 /// Its weight per mass, m/s2.
-pub const GRAVITY: f64 = 9.81;
+pub(super) const GRAVITY: f64 = 9.81;
 
 /// The k that predicts all tubes, of the law without ends of a tube.
-pub const SLOWING: f64 = 88.0;
+pub(super) const SLOWING: f64 = 88.0;
 /// What mouth and dip of the tubes run resist, as a part of k.
 const ENDS: f64 = 4.0;
 /// Mouth as a length of tube, diameters: half of an orifice's resistance (Sampson 1891).
@@ -32,34 +32,30 @@ const RISEN: f64 = 0.8;
 
 /// A tube of the experiments and the k fitted to it.
 #[derive(Clone, Copy, Debug)]
-pub struct Tube {
+pub(super) struct Tube {
     /// Radius, m.
-    pub radius: f64,
+    pub(super) radius: f64,
     /// Fitted to the heights, the angles and both, each with its deviation.
-    pub fits: [[f64; 2]; 3],
+    pub(super) fits: [[f64; 2]; 3],
 }
 
 /// A run of a tube.
-pub struct Rise {
+pub(super) struct Rise {
     /// The tube.
-    pub tube: Tube,
+    pub(super) tube: Tube,
     /// Cells across.
-    pub cells: u32,
+    pub(super) cells: u32,
     /// Its k without that of the ends; 0 is a constant angle.
-    pub slowing: f64,
+    pub(super) slowing: f64,
     /// Times (s) and heights over the pool (m).
-    pub heights: Vec<[f64; 2]>,
+    pub(super) heights: Vec<[f64; 2]>,
     /// Processor seconds.
-    pub cpu_s: f64,
+    pub(super) cpu_s: f64,
 }
 
 /// The tubes of the table.
-///
-/// # Errors
-/// What is wrong with it.
-pub fn tubes() -> Result<Vec<Tube>, String> {
+pub(super) fn tubes() -> Result<Vec<Tube>> {
     let rows = rows(include_str!("../../reference/capillary/fits.csv"))?;
-    let number = |text: &str| text.parse::<f64>().map_err(|e| format!("'{text}': {e}"));
     let fits = rows.chunks_exact(3).map(|of| {
         let mut fits = [[0.0; 2]; 3];
         for (fit, row) in fits.iter_mut().zip(of) {
@@ -72,10 +68,7 @@ pub fn tubes() -> Result<Vec<Tube>, String> {
 }
 
 /// Runs the tubes that the study wants.
-///
-/// # Errors
-/// What a run or the system said.
-pub fn run(study: &Study) -> Result<Vec<Rise>, String> {
+pub(super) fn run(study: &Study) -> Result<Vec<Rise>> {
     let mut wanted = Vec::new();
     for tube in tubes()? {
         for (cells, slowing) in [(4, SLOWING), (6, SLOWING), (4, 0.0)] {
@@ -86,34 +79,29 @@ pub fn run(study: &Study) -> Result<Vec<Rise>, String> {
             }
         }
     }
-    let done = side_by_side(&wanted, |&(tube, cells, slowing)| {
+    side_by_side(&wanted, |&(tube, cells, slowing)| {
         rise(study, tube, cells, slowing)
-    });
-    done.into_iter().collect()
+    })
 }
 
 fn name(tube: &Tube, cells: u32, slowing: f64) -> String {
     format!("capillary-{}mm-{cells}-k{slowing}", 1e3 * tube.radius)
 }
 
-fn rise(study: &Study, tube: Tube, cells: u32, slowing: f64) -> Result<Rise, String> {
-    let name = name(&tube, cells, slowing);
-    let path = study.folder().join(format!("{name}.toml"));
+fn rise(study: &Study, tube: Tube, cells: u32, slowing: f64) -> Result<Rise> {
     let method = match slowing > 0.0 {
         true => Method::implicit().setting(format!("adhesive.dynamic_angle={}", slowing - ENDS)),
         false => Method::implicit(),
     };
     let voxels = Voxels::new(tube, cells);
-    write_text(&path, &voxels.case().text(Scheme::Implicit.integrator()))?;
-    let run = method.run(&path, &study.folder().join(&name), &[])?;
-    let cpu_s = run.summary("cpu_s").unwrap_or(f64::NAN);
-    println!("{name:<32} {cpu_s:6.1} s");
+    let name = name(&tube, cells, slowing);
+    let run = super::run_case(study, &name, &voxels.case(), &method)?;
     Ok(Rise {
         heights: voxels.heights(&run)?,
         tube,
         cells,
         slowing,
-        cpu_s,
+        cpu_s: run.cpu_s(),
     })
 }
 
@@ -165,24 +153,24 @@ impl Tube {
     }
 
     /// Height at a time by that, m.
-    pub fn height(&self, slowing: f64, time: f64) -> f64 {
+    pub(super) fn height(&self, slowing: f64, time: f64) -> f64 {
         self.motion(slowing).height(time)
     }
 
     /// Jurin's height, m.
-    pub fn jurin(&self) -> f64 {
+    pub(super) fn jurin(&self) -> f64 {
         self.motion(0.0).rest
     }
 
     /// Time at which a run ends, s.
-    pub fn end(&self) -> f64 {
+    pub(super) fn end(&self) -> f64 {
         self.motion(SLOWING).time(RISEN * self.jurin())
     }
 }
 
 impl Rise {
     /// Height by the equation of motion of the same tube of voxels, with its mouth, dip and pool, m.
-    pub fn law(&self, time: f64) -> f64 {
+    pub(super) fn law(&self, time: f64) -> f64 {
         let voxels = Voxels::new(self.tube, self.cells);
         let (h, d) = (voxels.cell, 2.0 * self.tube.radius);
         // Pressure gradient of developed flow over viscosity, mean speed and squared diameter: finite differences between the steps of

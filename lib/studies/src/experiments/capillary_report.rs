@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use figures::{Mark, Plot};
 
 use super::capillary::{Rise, SLOWING};
+use crate::Result;
 use crate::study::{PAGE, Study};
 
 /// Goal for a run against the equation of motion of the same tube.
@@ -30,7 +31,7 @@ fn against_fit(rise: &Rise, which: usize) -> [f64; 2] {
 }
 
 /// Whether the runs with a dynamic angle meet the goals.
-pub fn sound(all: &[Rise]) -> bool {
+pub(super) fn sound(all: &[Rise]) -> bool {
     let within = |of: [f64; 2], near: f64| of.iter().all(|e| e.abs() <= near);
     all.iter().filter(|rise| rise.slowing > 0.0).all(|rise| {
         within(range(rise, |time| rise.law(time)), NEAR) && within(against_fit(rise, 2), NEAR_FITS)
@@ -38,13 +39,9 @@ pub fn sound(all: &[Rise]) -> bool {
 }
 
 /// Writes the figure and gives the section of the page.
-///
-/// # Errors
-/// The system's reason, or what the figure lacks.
-pub fn write(study: &Study, all: &[Rise]) -> Result<String, String> {
+pub(super) fn write(study: &Study, all: &[Rise]) -> Result<String> {
     let file = "experiments-capillary.png";
-    let drawing = plot(all).draw(PAGE).and_then(|d| d.to_png());
-    study.write(file, drawing.map_err(|e| format!("{file}: {e}"))?)?;
+    study.draw(file, plot(all).draw(PAGE))?;
     Ok(section(all))
 }
 

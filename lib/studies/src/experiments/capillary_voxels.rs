@@ -1,30 +1,31 @@
 //! The case of a tube of voxels that dips into a pool.
 
 use super::capillary::{ANGLE, DENSITY, GRAVITY, TENSION, Tube, VISCOSITY};
+use crate::Result;
 use crate::case_text::{Body, CaseText, Viscosity};
-use crate::outputs::Run;
+use crate::outputs::{Run, points};
 
 /// Cells that the pool is long and wide.
-pub const POOL: [f64; 2] = [160.0, 8.0];
+pub(super) const POOL: [f64; 2] = [160.0, 8.0];
 /// Cells that the tube dips.
-pub const DIP: f64 = 1.0;
+pub(super) const DIP: f64 = 1.0;
 /// States written on the way.
 const STATES: u32 = 200;
 
 /// A quarter of a tube of voxels of half a cell in a block that dips into a pool; the pool goes on along x, between mirrors, so that
 /// its surface meets the wall of the block alone.
-pub struct Voxels {
+pub(super) struct Voxels {
     tube: Tube,
     cells: u32,
     /// Edge of a cell, m.
-    pub cell: f64,
+    pub(super) cell: f64,
     /// Width of each row of half a cell of the bore, cells.
     bore: Vec<f64>,
 }
 
 impl Voxels {
     /// Those of a tube with so many cells across.
-    pub fn new(tube: Tube, cells: u32) -> Self {
+    pub(super) fn new(tube: Tube, cells: u32) -> Self {
         let half = 0.5 * f64::from(cells);
         let width = |row: u32| {
             let z = 0.5 * (f64::from(row) + 0.5);
@@ -45,7 +46,7 @@ impl Voxels {
     }
 
     /// What the pool falls by while the tube fills by a length, over that.
-    pub fn falls(&self) -> f64 {
+    pub(super) fn falls(&self) -> f64 {
         self.area() / (POOL[0] * POOL[1])
     }
 
@@ -60,7 +61,7 @@ impl Voxels {
     }
 
     /// The case.
-    pub fn case(&self) -> CaseText {
+    pub(super) fn case(&self) -> CaseText {
         let m = |at: [f64; 3]| at.map(|x| x * self.cell);
         let (wall, under) = (self.wall(), self.under());
         let level = under + DIP;
@@ -87,16 +88,12 @@ impl Voxels {
             history_every: end / 100.0,
             snapshots: STATES,
             bodies,
-            ..CaseText::new(
-                format!(
-                    "Glycerol in a glass tube of {} mm radius, a quarter of it, {} cells across.",
-                    1e3 * self.tube.radius,
-                    self.cells
-                ),
-                self.cell,
-                3,
-                m(far),
-            )
+            title: format!(
+                "Glycerol in a glass tube of {} mm radius, a quarter of it, {} cells across.",
+                1e3 * self.tube.radius,
+                self.cells
+            ),
+            ..CaseText::new(self.cell, 3, m(far))
         }
     }
 
@@ -104,19 +101,17 @@ impl Voxels {
     ///
     /// # Errors
     /// What is wrong with a state.
-    pub fn heights(&self, run: &Run) -> Result<Vec<[f64; 2]>, String> {
+    pub(super) fn heights(&self, run: &Run) -> Result<Vec<[f64; 2]>> {
         let (h, area) = (self.cell, self.area());
         let within = [self.wall() * h, self.under() * h];
         let height = |state: &particle_file::ParticleFile| {
-            let place = state.vectors("position").map_err(|e| e.to_string())?;
-            let volume = (state.column::<f32>("volume")).map_err(|e| e.to_string())?;
-            let inside = place
+            let points = points(state)?;
+            let inside = points
                 .iter()
-                .zip(volume)
-                .filter(|(x, _)| f64::from(x[0]) < within[0] && f64::from(x[1]) > within[1]);
-            let held: f64 = inside.map(|(_, &v)| f64::from(v)).sum();
+                .filter(|p| p.at[0] < within[0] && p.at[1] > within[1]);
+            let held: f64 = inside.map(|p| p.volume).sum();
             let risen = held / (area * h.powi(2)) - DIP * h;
-            Ok::<_, String>([state.header().time_s, risen * (1.0 + self.falls())])
+            Ok([state.header().time_s, risen * (1.0 + self.falls())])
         };
         run.states()?.iter().map(height).collect()
     }

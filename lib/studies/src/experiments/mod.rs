@@ -1,22 +1,26 @@
 //! `make experiments`: predictions held against experiments that others made and published.
 
-pub mod capillary;
-pub mod capillary_report;
-pub mod capillary_voxels;
-pub mod predictions;
-pub mod press;
-pub mod section;
-pub mod squeeze;
-pub mod squeeze_report;
-pub mod wood;
+mod capillary;
+mod capillary_report;
+mod capillary_voxels;
+mod predictions;
+mod press;
+mod section;
+mod squeeze;
+mod squeeze_report;
+mod wood;
 
-use crate::study::Study;
+use crate::Result;
+use crate::case_text::CaseText;
+use crate::method::Method;
+use crate::outputs::Run;
+use crate::study::{Study, write};
 
 /// The study.
 ///
 /// # Errors
 /// What a run or the system said.
-pub fn run(study: &Study) -> Result<bool, String> {
+pub fn run(study: &Study) -> Result<bool> {
     let predictions = predictions::run(study)?;
     let rises = capillary::run(study)?;
     let wood = wood::run(study)?;
@@ -34,4 +38,13 @@ pub fn run(study: &Study) -> Result<bool, String> {
     page += &press;
     study.write("experiments.md", page)?;
     Ok(squeeze_report::sound(&predictions) && capillary_report::sound(&rises))
+}
+
+/// Runs a case by the implicit scheme, and says so.
+fn run_case(study: &Study, name: &str, case: &CaseText, method: &Method) -> Result<Run> {
+    let path = study.folder().join(format!("{name}.toml"));
+    write(&path, case.text(method.scheme.integrator()))?;
+    let run = method.run(&path, &study.folder().join(name), &[])?;
+    println!("{name:<32} {:6.1} s", run.cpu_s());
+    Ok(run)
 }

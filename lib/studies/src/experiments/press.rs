@@ -6,9 +6,11 @@ use std::path::Path;
 use voxels::Stack;
 
 use super::section::{Strip, strip};
+use crate::Result;
 use crate::method::Method;
+use crate::numbers::{largest, mean};
 use crate::outputs::tool;
-use crate::study::{Study, side_by_side};
+use crate::study::{Study, printed, side_by_side};
 
 /// Voxels of a piece, their edge (um), and the layers below the cut.
 const SIZE: [usize; 3] = [160, 192, 64];
@@ -48,7 +50,7 @@ struct Pressed {
 ///
 /// # Errors
 /// What a tool or the system said.
-pub fn run(study: &Study) -> Result<String, String> {
+pub(super) fn run(study: &Study) -> Result<String> {
     if !study.wants("press") {
         return Ok(String::new());
     }
@@ -59,35 +61,24 @@ pub fn run(study: &Study) -> Result<String, String> {
     for seed in 1..=PIECES {
         pieces.push(grown(&folder, seed)?);
     }
-    let done = side_by_side(&pieces, |piece| pressed(&folder, piece));
+    let done: Vec<Result<Pressed>> = side_by_side(&pieces, |piece| pressed(&folder, piece));
     Ok(section(&pieces, &done, strip.is_some()))
 }
 
 /// Synthetic spruce by a seed.
-fn grown(folder: &Path, seed: u32) -> Result<Piece, String> {
+fn grown(folder: &Path, seed: u32) -> Result<Piece> {
     let stack = folder.join(format!("spruce-{seed}.tif"));
     let [nx, ny, nz] = SIZE;
     let (size, voxel) = (format!("{nx}x{ny}x{nz}"), format!("{EDGE} um"));
     let (grain, seed) = (format!("{GRAIN} deg"), seed.to_string());
-    let path = stack.display().to_string();
-    let wood = ["--quiet", "--adhesive", "none", "--species", "spruce"];
-    let how = [
-        "--size",
-        &size,
-        "--voxel",
-        &voxel,
-        "--grain-angle",
-        &grain,
-        "--seed",
-        &seed,
-        "-o",
-        &path,
-    ];
-    tool("synth-xct", &[&wood[..], &how].concat())?;
-    let stack = Stack::open(&[stack]).map_err(|e| e.to_string())?;
+    let mut synth = tool("synth-xct");
+    synth.args(["--quiet", "--adhesive", "none", "--species", "spruce"]);
+    synth.args(["--size", &size, "--voxel", &voxel, "--grain-angle", &grain]);
+    printed(synth.args(["--seed", &seed, "-o"]).arg(&stack))?;
+    let stack = Stack::open(&[stack])?;
     let (mut labels, mut page) = (Vec::new(), Vec::new());
     for z in 0..nz {
-        stack.read_page(z, &mut page).map_err(|e| e.to_string())?;
+        stack.read_page(z, &mut page)?;
         labels.extend_from_slice(&page);
     }
     Ok(Piece::new(format!("synthetic {seed}"), labels))
@@ -148,43 +139,31 @@ impl Piece {
 }
 
 /// Cuts a piece, bonds it again and closes it.
-fn pressed(folder: &Path, piece: &Piece) -> Result<Pressed, String> {
+fn pressed(folder: &Path, piece: &Piece) -> Result<Pressed> {
     let name = piece.name.replace([' ', ',', '.'], "-");
     let path = |end: &str| folder.join(format!("{name}{end}")).display().to_string();
     let (raw, wood, bond) = (path(".raw"), path("-wood.mpts"), path("-bond.mpts"));
     std::fs::write(&raw, &piece.labels).map_err(|e| format!("{raw}: {e}"))?;
     let [nx, ny, nz] = SIZE;
     let (dims, voxel) = (format!("{nx}x{ny}x{nz}"), format!("{EDGE} um"));
-    let labels = ["--labels", "void=0,wood=128", "-o", &wood];
-    let read = [
-        "--quiet", &raw, "--dims", &dims, "--type", "u8", "--voxel", &voxel,
-    ];
-    tool("xct2particles", &[&read[..], &labels].concat())?;
+    let mut reader = tool("xct2particles");
+    reader.args(["--quiet", &raw, "--dims", &dims, "--type", "u8"]);
+    reader.args(["--voxel", &voxel, "--labels", "void=0,wood=128"]);
+    printed(reader.args(["-o", &wood]))?;
     let (plane, slab) = (format!("{} um", BELOW as f64 * EDGE), format!("{SLAB} um"));
-    tool(
-        "build-bondline",
-        &[
-            "--quiet", &wood, "--plane", &plane, "--slab", &slab, "-o", &bond,
-        ],
-    )?;
+    let mut build = tool("build-bondline");
+    build.args(["--quiet", &wood, "--plane", &plane, "--slab", &slab]);
+    printed(build.args(["-o", &bond]))?;
     let method = Method::implicit().setting(format!("clamp.travel=\"{TRAVEL} um\""));
     let case = Path::new("pipelines/cases/pf-implicit.toml");
     let run = method.run(case, Path::new(&path("")), &["--particles", &bond])?;
-    let (bottom, top) = (
-        run.history("pressure_bottom_Pa")?,
-        run.history("pressure_top_Pa")?,
-    );
-    let means = bottom.iter().zip(&top).map(|(b, t)| 0.5 * (b + t));
+    let [bottom, top] = run.columns(["pressure_bottom_Pa", "pressure_top_Pa"])?;
+    let [way] = run.ends(["displacement_m"])?;
     let done = Pressed {
         wp: run.weighted_penetration()?,
-        peak: means.fold(0.0, f64::max),
-        way: 1e6
-            * run
-                .history("displacement_m")?
-                .last()
-                .copied()
-                .unwrap_or(0.0),
-        cpu_s: run.summary("cpu_s").unwrap_or(f64::NAN),
+        peak: largest(bottom.iter().zip(&top).map(|(b, t)| 0.5 * (b + t))),
+        way: 1e6 * way,
+        cpu_s: run.cpu_s(),
     };
     println!(
         "{name:<32} WP {:.2} um, {:.3} MPa  {:6.1} s",
@@ -195,7 +174,7 @@ fn pressed(folder: &Path, piece: &Piece) -> Result<Pressed, String> {
     Ok(done)
 }
 
-fn section(pieces: &[Piece], done: &[Result<Pressed, String>], real: bool) -> String {
+fn section(pieces: &[Piece], done: &[Result<Pressed>], real: bool) -> String {
     let [nx, ny, nz] = SIZE;
     let mut out = format!(
         "\n## A press of real spruce beside synthetic spruce\n\n\
@@ -220,33 +199,25 @@ fn section(pieces: &[Piece], done: &[Result<Pressed, String>], real: bool) -> St
                 )
             }
             Err(said) => {
-                let why = said.split("mpm-run: ").last().unwrap_or(said);
+                let said = said.to_string();
+                let why = said.split("mpm-run: ").last().unwrap_or(&said);
                 let why = why.split(';').next().unwrap_or(why);
                 writeln!(out, "| {wood} | {head} | - | - | {why} | - |")
             }
         };
     }
-    let mean = |name: &str, of: fn(&Pressed) -> f64| {
-        let own = pieces
-            .iter()
-            .zip(done)
-            .filter(|(piece, _)| piece.name.starts_with(name));
-        let all: Vec<f64> = own
-            .filter_map(|(_, done)| done.as_ref().ok().map(of))
-            .collect();
-        all.iter().sum::<f64>() / all.len() as f64
-    };
-    let _ = writeln!(out);
-    for name in ["real", "synthetic"]
-        .into_iter()
-        .filter(|name| real || *name != "real")
-    {
+    out.push('\n');
+    for name in ["real", "synthetic"] {
+        if name == "real" && !real {
+            continue;
+        }
+        let own = (pieces.iter().zip(done)).filter(|(piece, _)| piece.name.starts_with(name));
+        let ended: Vec<&Pressed> = own.filter_map(|(_, done)| done.as_ref().ok()).collect();
+        let mean = |of: fn(&Pressed) -> f64| mean(ended.iter().map(|p| of(p)));
+        let (wp, peak, way) = (mean(|p| p.wp[2]), 1e-6 * mean(|p| p.peak), mean(|p| p.way));
         let _ = writeln!(
             out,
-            "Mean of what ended, {name}: WP {:.2} um, {:.2} MPa at most, closed by {:.2} um.",
-            mean(name, |p| p.wp[2]),
-            1e-6 * mean(name, |p| p.peak),
-            mean(name, |p| p.way)
+            "Mean of what ended, {name}: WP {wp:.2} um, {peak:.2} MPa at most, closed by {way:.2} um."
         );
     }
     if real {

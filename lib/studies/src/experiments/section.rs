@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::Result;
+
 /// Measured cells that are not in the repository (cran/RAPTOR@5704ee0, GPL 2 or newer).
 const CELLS: &str = "../shared/data/experiments/spruce/raptor_anatomy.csv";
 /// The section, and the last of its rings that lie one on the other (um along the rays).
@@ -20,20 +22,18 @@ struct Cell {
 }
 
 /// A strip of the section, its rows along the rings.
-pub struct Strip {
-    /// Pixels in a row.
-    pub width: usize,
+pub(super) struct Strip {
     /// Which pixels are lumen, row by row.
-    pub lumen: Vec<bool>,
+    pub(super) lumen: Vec<bool>,
     /// Pixels in each row that no measured cell covers.
-    pub uncovered: Vec<usize>,
+    pub(super) uncovered: Vec<usize>,
 }
 
 /// A strip of `width` pixels of `edge` (um) across all rings; none where the cells are not here.
 ///
 /// # Errors
 /// What is wrong with the table.
-pub fn strip(width: usize, edge: f64) -> Result<Option<Strip>, String> {
+pub(super) fn strip(width: usize, edge: f64) -> Result<Option<Strip>> {
     let path = Path::new(CELLS);
     if !path.is_file() {
         return Ok(None);
@@ -79,11 +79,7 @@ pub fn strip(width: usize, edge: f64) -> Result<Option<Strip>, String> {
             }
         }
     }
-    Ok(Some(Strip {
-        width,
-        lumen,
-        uncovered,
-    }))
+    Ok(Some(Strip { lumen, uncovered }))
 }
 
 /// Where a place lies in the power diagram of cells.
@@ -115,12 +111,12 @@ impl Place {
     }
 }
 
-fn read(path: &Path) -> Result<Vec<Cell>, String> {
-    let failed = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
-    let mut reader = csv::Reader::from_path(path).map_err(|e| failed(&e))?;
+fn read(path: &Path) -> Result<Vec<Cell>> {
+    let failed = |e: csv::Error| format!("{}: {e}", path.display());
+    let mut reader = csv::Reader::from_path(path).map_err(failed)?;
     let mut cells = Vec::new();
     for row in reader.records() {
-        let row = row.map_err(|e| failed(&e))?;
+        let row = row.map_err(failed)?;
         // ID, CID, YEAR, CA, XCAL, YCAL, CWTALL; a cell without its wall is left out.
         let number = |i: usize| row.get(i).and_then(|text| text.parse::<f64>().ok());
         let all = (number(3), number(4), number(5), number(6));

@@ -3,34 +3,36 @@
 
 use std::f64::consts::PI;
 
+use crate::Result;
 use crate::case_text::{Body, CaseText, Viscosity};
+use crate::numbers::crossing;
 use crate::outputs::Run;
 
 /// An experiment of the table.
 #[derive(Clone, Debug)]
-pub struct Experiment {
+pub(super) struct Experiment {
     /// Its name there.
-    pub name: String,
+    pub(super) name: String,
     /// The liquid.
-    pub liquid: &'static Liquid,
+    pub(super) liquid: &'static Liquid,
     /// Force on the upper plate (N), volume (m3) and first radius (m) of the liquid, each with its deviation
     /// among the repeats.
-    pub force: [f64; 2],
+    pub(super) force: [f64; 2],
     /// See `force`.
-    pub volume: [f64; 2],
+    pub(super) volume: [f64; 2],
     /// See `force`.
-    pub radius: [f64; 2],
+    pub(super) radius: [f64; 2],
     /// Time (s), radius (m) and its deviation among the repeats.
-    pub measured: Vec<[f64; 3]>,
+    pub(super) measured: Vec<[f64; 3]>,
 }
 
 /// A liquid of the experiments.
 #[derive(Debug)]
-pub struct Liquid {
+pub(super) struct Liquid {
     /// Its name.
-    pub name: &'static str,
+    pub(super) name: &'static str,
     /// Viscosity at rest, Pa s; beyond the rate `thins_from` (1/s) it falls by the power law `index`.
-    pub viscosity: f64,
+    pub(super) viscosity: f64,
     index: f64,
     thins_from: f64,
     /// Relative deviation of the viscosity between runs of the rheometer.
@@ -59,20 +61,16 @@ const PVP: Liquid = Liquid {
 /// Largest rate of the power law, 1/s.
 const FASTEST: f64 = 1e5;
 /// Density of both liquids, kg/m3.
-pub const DENSITY: f64 = 1260.0;
+pub(super) const DENSITY: f64 = 1260.0;
 /// Speed of a plate that nothing holds, m/s: more than the force makes of any.
 const FREE: f64 = 2.0;
 
 /// The table of experiments.
-///
-/// # Errors
-/// What is wrong with it.
-pub fn experiments() -> Result<Vec<Experiment>, String> {
+pub(super) fn experiments() -> Result<Vec<Experiment>> {
     let cases = rows(include_str!("../../reference/squeeze/cases.csv"))?;
     let radii = rows(include_str!("../../reference/squeeze/radii.csv"))?;
-    let number = |text: &str| text.parse::<f64>().map_err(|e| format!("'{text}': {e}"));
     let experiment = |row: &csv::StringRecord| {
-        let pair = |i: usize| Ok::<_, String>([number(&row[i])?, number(&row[i + 1])?]);
+        let pair = |i: usize| Ok::<_, crate::Error>([number(&row[i])?, number(&row[i + 1])?]);
         let own = radii.iter().filter(|radius| radius[0] == row[0]);
         let measured = own.map(|r| Ok([number(&r[1])?, number(&r[2])?, number(&r[3])?]));
         Ok(Experiment {
@@ -85,30 +83,30 @@ pub fn experiments() -> Result<Vec<Experiment>, String> {
             force: pair(2)?,
             volume: pair(4)?,
             radius: pair(6)?,
-            measured: measured.collect::<Result<_, String>>()?,
+            measured: measured.collect::<Result<_>>()?,
         })
     };
     cases.iter().map(experiment).collect()
 }
 
 /// The rows of a table of the references.
-///
-/// # Errors
-/// What is wrong with it.
-pub(super) fn rows(text: &str) -> Result<Vec<csv::StringRecord>, String> {
+pub(super) fn rows(text: &str) -> Result<Vec<csv::StringRecord>> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let rows = reader.records().collect::<Result<_, _>>();
-    rows.map_err(|e| e.to_string())
+    Ok(reader.records().collect::<Result<_, _>>()?)
+}
+
+pub(super) fn number(text: &str) -> Result<f64> {
+    Ok(text.parse().map_err(|e| format!("'{text}': {e}"))?)
 }
 
 impl Experiment {
     /// Height of the liquid at the start, m.
-    pub fn height(&self) -> f64 {
+    pub(super) fn height(&self) -> f64 {
         self.volume[0] / (PI * self.radius[0].powi(2))
     }
 
     /// The case: a quarter of the disc between plates, `n` cells high at first.
-    pub fn case(&self, n: u32) -> CaseText {
+    pub(super) fn case(&self, n: u32) -> CaseText {
         let cell = self.height() / f64::from(n);
         let m = |cells: f64| cells * cell;
         let (low, high) = (m(2.0), m(f64::from(n) + 2.0));
@@ -144,15 +142,11 @@ impl Experiment {
                 1.02 * last,
             )),
             bodies,
-            ..CaseText::new(
-                format!(
-                    "{}: {} N on {:.4e} m3 of {}, a quarter of the disc.",
-                    self.name, self.force[0], self.volume[0], self.liquid.name
-                ),
-                cell,
-                3,
-                far,
-            )
+            title: format!(
+                "{}: {} N on {:.4e} m3 of {}, a quarter of the disc.",
+                self.name, self.force[0], self.volume[0], self.liquid.name
+            ),
+            ..CaseText::new(cell, 3, far)
         }
     }
 
@@ -165,19 +159,10 @@ impl Experiment {
     }
 
     /// Radii (m) of a run at the measured times; none where the run ended before.
-    ///
-    /// # Errors
-    /// What its history lacks.
-    pub fn radii(&self, run: &Run) -> Result<Vec<Option<f64>>, String> {
-        let (times, ways) = (run.history("time_s")?, run.history("displacement_m")?);
+    pub(super) fn radii(&self, run: &Run) -> Result<Vec<Option<f64>>> {
+        let [times, ways] = run.columns(["time_s", "displacement_m"])?;
         let radius = |time: f64| {
-            let after = times.partition_point(|&t| t < time);
-            let (&t, &s) = (times.get(after)?, ways.get(after)?);
-            let [before, from] = match after.checked_sub(1) {
-                Some(i) => [times[i], ways[i]],
-                None => [0.0; 2],
-            };
-            let way = from + (s - from) * (time - before) / (t - before);
+            let way = crossing(&times, &ways, time)?;
             Some((self.volume[0] / (PI * (self.height() - way))).sqrt())
         };
         Ok(self.measured.iter().map(|m| radius(m[0])).collect())
@@ -186,7 +171,7 @@ impl Experiment {
     /// Relative deviation of a predicted radius by those of force, volume, first radius and viscosity, where its
     /// logarithm grows by `slope` with that of time. By lubrication R/R0 is a function of
     /// t (F V^(n+1)/(K R0^(3n+5)))^(1/n), n the index of the power law.
-    pub fn input_deviation(&self, slope: f64) -> f64 {
+    pub(super) fn input_deviation(&self, slope: f64) -> f64 {
         let n = self.liquid.index;
         let s = slope / n;
         let relative = |[mean, deviation]: [f64; 2]| deviation / mean;
@@ -214,7 +199,7 @@ impl Liquid {
     }
 
     /// Whether its viscosity depends on the rate.
-    pub fn thins(&self) -> bool {
+    pub(super) fn thins(&self) -> bool {
         self.index < 1.0
     }
 }

@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use figures::{Mark, Plot};
 
 use super::predictions::{CELLS, Point, Prediction};
+use crate::Result;
+use crate::numbers::rms;
 use crate::study::{PAGE, Study, distinct};
 
 /// From this time on (s) points of thinning liquid are to be within [`NEAR`].
@@ -35,7 +37,7 @@ impl Errors {
     }
 
     fn rms(&self) -> f64 {
-        (self.0.iter().map(|e| e * e).sum::<f64>() / self.0.len() as f64).sqrt()
+        rms(self.0.iter().copied())
     }
 
     /// Their number, rms and range.
@@ -57,7 +59,7 @@ fn of(all: &[Prediction], cells: u32) -> Vec<&Prediction> {
 }
 
 /// Whether the predictions in the larger cells meet the goals.
-pub fn sound(all: &[Prediction]) -> bool {
+pub(super) fn sound(all: &[Prediction]) -> bool {
     let first = of(all, CELLS[0]);
     let thinning = Errors::of(&first, |p, q| p.experiment.liquid.thins() && q.time > FROM);
     let trusted = first.iter().filter(|p| p.experiment.name != DOUBTED);
@@ -66,10 +68,7 @@ pub fn sound(all: &[Prediction]) -> bool {
 }
 
 /// Writes the table and the figures, and gives the section of the page.
-///
-/// # Errors
-/// The system's reason, or what a figure lacks.
-pub fn write(study: &Study, all: &[Prediction]) -> Result<String, String> {
+pub(super) fn write(study: &Study, all: &[Prediction]) -> Result<String> {
     let row = |p: &Prediction, q: &Point| {
         let mut row = vec![p.experiment.name.clone(), p.cells.to_string()];
         row.extend([q.time, q.measured[0], q.measured[1], q.predicted].map(|x| format!("{x:.5e}")));
@@ -85,8 +84,7 @@ pub fn write(study: &Study, all: &[Prediction]) -> Result<String, String> {
     let first = of(all, CELLS[0]);
     for liquid in distinct(first.iter().map(|p| p.experiment.liquid.name)) {
         let file = format!("experiments-squeeze-{}.png", liquid.to_lowercase());
-        let drawing = plot(&first, liquid).draw(PAGE).and_then(|d| d.to_png());
-        study.write(&file, drawing.map_err(|e| format!("{file}: {e}"))?)?;
+        study.draw(&file, plot(&first, liquid).draw(PAGE))?;
     }
     Ok(section(all))
 }

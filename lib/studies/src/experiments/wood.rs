@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use synthetic_wood::lumen_diameters;
 use voxels::Stack;
 
-use crate::outputs::bin_folder;
+use crate::Result;
+use crate::outputs::tool;
 use crate::study::{Study, ended, said, side_by_side};
 
 /// Edge of a voxel of the permeable pieces and of the spruce, um.
@@ -44,7 +44,7 @@ struct Found {
 ///
 /// # Errors
 /// What a tool or the system said.
-pub fn run(study: &Study) -> Result<String, String> {
+pub(super) fn run(study: &Study) -> Result<String> {
     let mut pieces = Vec::new();
     for species in ["hybrid-poplar", "birch"] {
         if study.wants(species) {
@@ -55,8 +55,8 @@ pub fn run(study: &Study) -> Result<String, String> {
     if study.wants("fiberform") && tomogram {
         pieces.extend(['x', 'y', 'z'].map(Piece::FiberForm));
     }
-    let done = side_by_side(&pieces, |piece| permeability(study, piece));
-    let found = done.into_iter().collect::<Result<Vec<Found>, String>>()?;
+    let found: Result<Vec<Found>> = side_by_side(&pieces, |piece| permeability(study, piece));
+    let found = found?;
     let mut page = permeabilities(&found, tomogram);
     if study.wants("spruce") {
         page += &lumens(study)?;
@@ -65,32 +65,23 @@ pub fn run(study: &Study) -> Result<String, String> {
 }
 
 /// Grows a piece of undamaged wood; gives its stack and what `synth-xct` says of it.
-fn grown(
-    study: &Study,
-    species: &str,
-    which: usize,
-    seed: u32,
-) -> Result<(PathBuf, String), String> {
+fn grown(study: &Study, species: &str, which: usize, seed: u32) -> Result<(PathBuf, String)> {
     let path = study.folder().join(format!("{species}-{seed}.tif"));
-    let mut command = Command::new(bin_folder().join("synth-xct"));
+    let mut command = tool("synth-xct");
     command.args(["--adhesive", "none", "--species", species]);
-    command.args([
-        "--size",
-        SIZE[which],
-        "--voxel",
-        &format!("{} um", EDGE[which]),
-    ]);
+    let voxel = format!("{} um", EDGE[which]);
+    command.args(["--size", SIZE[which], "--voxel", &voxel]);
     command.args(["--grain-angle", "0 deg", "--seed", &seed.to_string(), "-o"]);
-    std::fs::create_dir_all(study.folder()).map_err(|e| e.to_string())?;
+    std::fs::create_dir_all(study.folder())?;
     let output = ended(command.arg(&path))?;
     match output.status.success() {
         true => Ok((path, said(&output))),
-        false => Err(said(&output)),
+        false => Err(said(&output).into()),
     }
 }
 
-fn permeability(study: &Study, piece: &Piece) -> Result<Found, String> {
-    let mut command = Command::new(bin_folder().join("wp-metrics"));
+fn permeability(study: &Study, piece: &Piece) -> Result<Found> {
+    let mut command = tool("wp-metrics");
     let (name, vessels) = match piece {
         Piece::Wood(species, seed) => {
             let (path, anatomy) = grown(study, species, 0, *seed)?;
@@ -119,7 +110,7 @@ fn permeability(study: &Study, piece: &Piece) -> Result<Found, String> {
     let number = |i: usize| row.get(i).and_then(|cell| cell.parse().ok());
     let (Some(permeability), Some(error), Some(porosity)) = (number(2), number(3), number(4))
     else {
-        return Err(format!("{name}: {}", said(&output)));
+        return Err(format!("{name}: {}", said(&output)).into());
     };
     println!("{name:<32} {permeability:.3e} m2  {clock_s:6.1} s");
     Ok(Found {
@@ -174,7 +165,7 @@ fn permeabilities(found: &[Found], tomogram: bool) -> String {
 }
 
 /// The lumens of synthetic spruce beside measured ones.
-fn lumens(study: &Study) -> Result<String, String> {
+fn lumens(study: &Study) -> Result<String> {
     let mut out = format!(
         "## Lumens of spruce\n\nDiameters (um) of the circles of lumen areas: 11,685 cells of *Picea abies* ([LOT_PICEA of RAPTOR](../../lib/studies/reference/README.md#squeeze-flow-and-lumens-that-others-measured), rings of 2007 to 2013) and the middle page of\n\
          `synth-xct --adhesive none --species spruce --size {}`, a ring and more.\n\n| | cells | 10 % | 25 % | 50 % | 75 % | 90 % |\n|---|---|---|---|---|---|---|\n",
@@ -187,9 +178,9 @@ fn lumens(study: &Study) -> Result<String, String> {
     row("measured", 11_685, MEASURED);
     for seed in SEEDS {
         let (path, _) = grown(study, "spruce", 1, seed)?;
-        let stack = Stack::open(&[path]).map_err(|e| e.to_string())?;
+        let stack = Stack::open(&[path])?;
         let mut page = Vec::new();
-        stack.read_page(12, &mut page).map_err(|e| e.to_string())?;
+        stack.read_page(12, &mut page)?;
         let all = lumen_diameters(&page, 600, EDGE[1]);
         let at = |q: f64| all.get((q * all.len() as f64) as usize).copied();
         let of = QUANTILES.map(|q| at(q).unwrap_or(f64::NAN));

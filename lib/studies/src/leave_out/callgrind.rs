@@ -3,26 +3,21 @@
 use std::collections::HashMap;
 use std::process::Command;
 
-use crate::study::{ended, said};
+use crate::Result;
+use crate::study::printed;
 
 /// Instructions of a run of `command`, and of each of its functions with all that it calls.
 ///
 /// # Errors
 /// What valgrind or the run said.
-pub(super) fn profile(command: &Command) -> Result<(f64, HashMap<String, f64>), String> {
-    let file = tempfile::NamedTempFile::new().map_err(|e| e.to_string())?;
+pub(super) fn profile(command: &Command) -> Result<(f64, HashMap<String, f64>)> {
+    let file = tempfile::NamedTempFile::new()?;
     let mut counted = Command::new("valgrind");
-    counted
-        .arg("--tool=callgrind")
-        .arg(format!("--callgrind-out-file={}", file.path().display()))
-        .arg(command.get_program())
-        .args(command.get_args());
-    let output = ended(&mut counted)?;
-    if !output.status.success() {
-        return Err(said(&output));
-    }
-    let text = std::fs::read_to_string(file.path()).map_err(|e| e.to_string())?;
-    Ok(read(&text))
+    counted.arg("--tool=callgrind");
+    counted.arg(format!("--callgrind-out-file={}", file.path().display()));
+    counted.arg(command.get_program()).args(command.get_args());
+    printed(&mut counted)?;
+    Ok(read(&std::fs::read_to_string(file.path())?))
 }
 
 /// Reads callgrind's format: the costs of lines of the function `fn=`, and after `calls=` one line with

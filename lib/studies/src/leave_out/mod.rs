@@ -5,6 +5,7 @@ mod callgrind;
 mod scenes;
 mod stages;
 
+use crate::Result;
 use crate::method::Scheme;
 use crate::study::Study;
 use stages::Table;
@@ -18,7 +19,7 @@ stage, with all that they call, by callgrind; 0 where a scene has no such stage.
 ///
 /// # Errors
 /// What a run said, or that functions of a stage are not to be found.
-pub fn run(study: &Study) -> Result<bool, String> {
+pub fn run(study: &Study) -> Result<bool> {
     let folder = study.folder();
     let explicit = Table::measure(Scheme::Explicit, scenes::explicit(), &folder)?;
     let implicit = Table::measure(Scheme::Implicit, scenes::implicit(), &folder)?;
@@ -31,10 +32,7 @@ pub fn run(study: &Study) -> Result<bool, String> {
     );
     study.write("leave-out.md", page)?;
     let rows = explicit.rows().chain(implicit.rows());
-    study.write_csv(
-        "leave-out.csv",
-        "scheme,scene,stage,million_instructions_per_step",
-        rows,
-    )?;
+    let columns = "scheme,scene,stage,million_instructions_per_step";
+    study.write_csv("leave-out.csv", columns, rows)?;
     Ok(explicit.absent_are_zero() && implicit.absent_are_zero())
 }

@@ -9,68 +9,64 @@ use crate::verification::slit;
 /// Simulated time of a run of the explicit and of the implicit scheme, s: some steps of each scene.
 const END: [f64; 2] = [0.1e-6, 2e-6];
 
+fn scene(
+    name: &'static str,
+    without: &'static [&'static str],
+    method: Method,
+    case: CaseText,
+) -> Scene {
+    Scene {
+        name,
+        without,
+        method,
+        case,
+    }
+}
+
 /// A drop without walls and a piston that pushes liquid into a slit, by FLIP and with one option of the explicit scheme each.
 pub(super) fn explicit() -> Vec<Scene> {
-    let scene = |name, without, method: Method, case: CaseText| {
-        let case = CaseText {
-            stop: Some(END[0]),
-            ..case
-        };
-        Scene {
-            name,
-            without,
-            method,
-            case,
-        }
-    };
-    let with = |key: &str| Method::flip().setting(format!("integrator.{key}"));
-    let piston = || slit::scene(6, [0.0; 2]).case;
+    let flip = Method::flip;
+    let [mean, projection] = [
+        "integrator.pressure=\"cell-mean\"",
+        "integrator.density_projection=\"0.01 cell\"",
+    ];
+    let [free, pressed] = [drop(), slit::scene(6, [0.0; 2]).case].map(|case| CaseText {
+        stop: Some(END[0]),
+        ..case
+    });
+    let drop = |name, without, method| scene(name, without, method, free.clone());
     vec![
-        scene(
+        drop(
             "free drop",
             &[CONTACT, FILTER, CELL_MEAN, PROJECTION],
-            Method::flip(),
-            drop(),
+            flip(),
         ),
-        scene(
-            "piston",
-            &[FILTER, CELL_MEAN, PROJECTION],
-            Method::flip(),
-            piston(),
-        ),
-        scene(
+        scene("piston", &[FILTER, CELL_MEAN, PROJECTION], flip(), pressed),
+        drop(
             "XPIC(2)",
             &[CONTACT, CELL_MEAN, PROJECTION],
             Method::xpic(2),
-            drop(),
         ),
-        scene(
+        drop(
             "cell-mean pressure",
             &[CONTACT, FILTER, PROJECTION],
-            with("pressure=\"cell-mean\""),
-            drop(),
+            flip().setting(mean),
         ),
-        scene(
+        drop(
             "density projection",
             &[CONTACT, FILTER, CELL_MEAN],
-            with("density_projection=\"0.01 cell\""),
-            drop(),
+            flip().setting(projection),
         ),
     ]
 }
 
 /// The same piston by the implicit scheme, alone and with one thing more, and the drop.
 pub(super) fn implicit() -> Vec<Scene> {
-    let scene = |name, without, case: CaseText| Scene {
-        name,
-        without,
-        method: Method::implicit(),
-        case,
-    };
-    let piston = CaseText {
+    let scene = |name, without, case| scene(name, without, Method::implicit(), case);
+    let [drop, piston] = [drop(), slit::scene(6, [0.0; 2]).case].map(|case| CaseText {
         stop: Some(END[1]),
-        ..slit::scene(6, [0.0; 2]).case
-    };
+        ..case
+    });
     let mut held = CaseText {
         stop: None,
         clamp: Some(format!(
@@ -92,10 +88,6 @@ pub(super) fn implicit() -> Vec<Scene> {
         viscosity: Viscosity::Table(PVA_PF.to_vec()),
         ..piston.clone()
     };
-    let drop = CaseText {
-        stop: Some(END[1]),
-        ..drop()
-    };
     vec![
         scene("piston", &[TABLE, LOAD], piston),
         scene("gravity", &[TABLE, LOAD], gravity),
@@ -113,6 +105,7 @@ fn drop() -> CaseText {
     CaseText {
         boundary: ["open", "open", "symmetry"],
         bodies: vec![liquid.moving([0.4, 0.3, 0.0])],
-        ..CaseText::plane("A drop in free flight.", cell, [size, size])
+        title: "A drop in free flight.".into(),
+        ..CaseText::plane(cell, [size, size])
     }
 }

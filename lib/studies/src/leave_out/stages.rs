@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::callgrind;
+use crate::Result;
 use crate::case_text::CaseText;
-use crate::job::write_text;
 use crate::method::{Method, Scheme};
 use crate::outputs::Run;
-use crate::study::side_by_side;
+use crate::study::{side_by_side, write};
 
 /// A stage and its functions, as module and function, or type and method.
 type Stage = (&'static str, &'static [&'static str]);
@@ -70,20 +70,14 @@ impl Table {
     ///
     /// # Errors
     /// What a run said; that there is no valgrind; that no scene has a stage, because its functions are gone or were inlined.
-    pub(super) fn measure(
-        scheme: Scheme,
-        scenes: Vec<Scene>,
-        folder: &Path,
-    ) -> Result<Self, String> {
-        let counts: Result<Vec<_>, _> = side_by_side(&scenes, |scene| count(scheme, scene, folder))
-            .into_iter()
-            .collect();
+    pub(super) fn measure(scheme: Scheme, scenes: Vec<Scene>, folder: &Path) -> Result<Self> {
+        let counts: Result<Vec<Vec<f64>>> =
+            side_by_side(&scenes, |scene| count(scheme, scene, folder));
         let counts = counts?;
         for (i, (stage, functions)) in stages(scheme).iter().enumerate() {
             if counts.iter().all(|of_stage| of_stage[i] == 0.0) {
-                return Err(format!(
-                    "stage '{stage}': no run has a function {functions:?}"
-                ));
+                let said = format!("stage '{stage}': no run has a function {functions:?}");
+                return Err(said.into());
             }
         }
         Ok(Self {
@@ -104,11 +98,8 @@ impl Table {
     /// Stages and the whole run as rows, scenes as columns: the page's table.
     pub(super) fn text(&self) -> String {
         let names: Vec<&str> = self.scenes.iter().map(|scene| scene.name).collect();
-        let mut text = format!(
-            "| stage | {} |\n|---|{}\n",
-            names.join(" | "),
-            "---|".repeat(names.len())
-        );
+        let (titles, rule) = (names.join(" | "), "---|".repeat(names.len()));
+        let mut text = format!("| stage | {titles} |\n|---|{rule}\n");
         for (i, name) in self.names().enumerate() {
             let cells: Vec<String> = self.counts.iter().map(|counts| cell(counts[i])).collect();
             text += &format!("| {name} | {} |\n", cells.join(" | "));
@@ -122,14 +113,11 @@ impl Table {
             .iter()
             .zip(&self.counts)
             .flat_map(|(scene, counts)| {
-                (self.names().zip(counts)).map(|(name, count)| {
-                    vec![
-                        self.scheme.name().into(),
-                        scene.name.into(),
-                        name.into(),
-                        cell(*count),
-                    ]
-                })
+                let row = |(name, count): (&str, &f64)| {
+                    let words = [self.scheme.name(), scene.name, name, &cell(*count)];
+                    words.map(String::from).to_vec()
+                };
+                self.names().zip(counts).map(row).collect::<Vec<_>>()
             })
     }
 
@@ -148,30 +136,19 @@ fn cell(count: f64) -> String {
 }
 
 /// Millions of instructions per step of each stage of a scene, and of the whole run.
-fn count(scheme: Scheme, scene: &Scene, folder: &Path) -> Result<Vec<f64>, String> {
-    let named = |ending: &str| {
-        folder.join(format!(
-            "{}-{}{ending}",
-            scheme.name(),
-            scene.name.replace(' ', "-")
-        ))
-    };
-    let (case, run) = (named(".toml"), named(""));
-    write_text(&case, &scene.case.text(scheme.integrator()))?;
+fn count(scheme: Scheme, scene: &Scene, folder: &Path) -> Result<Vec<f64>> {
+    let name = format!("{}-{}", scheme.name(), scene.name.replace(' ', "-"));
+    let (case, run) = (folder.join(format!("{name}.toml")), folder.join(name));
+    write(&case, scene.case.text(scheme.integrator()))?;
     let (total, functions) = callgrind::profile(&scene.method.command(&case, &run))?;
     let steps = Run { folder: run }.summary("steps");
     let steps = steps.ok_or("the run's summary has no steps")?;
     let of_stage = |(_, names): &Stage| {
-        let is_its = |function: &str| {
-            names
-                .iter()
-                .any(|name| function.ends_with(&format!("::{name}")))
-        };
-        functions
+        let is = |function: &str, name: &str| function.ends_with(&format!("::{name}"));
+        let own = functions
             .iter()
-            .filter(|(function, _)| is_its(function))
-            .map(|(_, cost)| cost)
-            .sum()
+            .filter(|(f, _)| names.iter().any(|name| is(f, name)));
+        own.map(|(_, cost)| cost).sum()
     };
     let counts = stages(scheme).iter().map(of_stage).chain([total]);
     Ok(counts.map(|count: f64| count / steps / 1e6).collect())

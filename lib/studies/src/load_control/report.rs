@@ -2,14 +2,13 @@
 
 use std::fmt::Write;
 
-use super::{COURANT, Row, out_of_order, scenes::SHAPES};
+use super::{COURANT, Course, Row, out_of_order, scenes::SHAPES};
+use crate::Result;
+use crate::numbers::{largest, mean};
 use crate::study::Study;
 
 /// Writes the table and the page.
-///
-/// # Errors
-/// The system's reason.
-pub fn write(study: &Study, rows: &[Row]) -> Result<(), String> {
+pub(super) fn write(study: &Study, rows: &[Row]) -> Result<()> {
     let mut header = String::from("scene,pressure_Pa,viscosity_Pa_s");
     for cfl in COURANT {
         let columns = [
@@ -56,13 +55,10 @@ pub fn sound(rows: &[Row]) -> bool {
         row.thickness <= NEAR
             && (row.difference <= NEAR || !row.shape.touches())
             && (row.courses.iter()).all(|c| c.clamp <= EXCESS && c.closed_s.is_finite())
-    }) && out_of_order(rows).is_empty()
+    }) && out_of_order(rows) == 0
 }
 
 fn page(rows: &[Row], head: &str) -> String {
-    let worst = |of: &dyn Fn(&Row) -> f64, rows: &[&Row]| {
-        rows.iter().map(|row| of(row)).fold(0.0, f64::max)
-    };
     let mut out = format!(
         "# The clamp at its pressure limit, implicit scheme\n\n{head}\n\
          Five pressure limits by five viscosities by eight scenes, at Courant numbers {} and {}.\n\
@@ -80,30 +76,22 @@ fn page(rows: &[Row], head: &str) -> String {
         if own.is_empty() {
             continue;
         }
-        let mean = own.iter().map(|r| r.difference).sum::<f64>() / own.len() as f64;
-        let course = |of: fn(&super::Course) -> f64| {
-            worst(&|r| r.courses.iter().map(of).fold(0.0, f64::max), &own)
-        };
+        let worst = |of: fn(&Row) -> f64| 100.0 * largest(own.iter().map(|row| of(row)));
+        let courses = || own.iter().flat_map(|row| &row.courses);
+        let most = |of: fn(&Course) -> f64| largest(courses().map(of));
         let _ = writeln!(
             out,
             "| {} | {} | {:.1} % | {:.1} % | {:.1} % | {:.1} % | {:.3} | {:.2} | {:.3} | {:.1} |",
             shape.name,
             2 * own.len(),
-            100.0 * worst(&|r| r.difference, &own),
-            100.0 * mean,
-            100.0 * worst(&|r| r.thickness, &own),
-            100.0
-                * worst(
-                    &|r| (r.courses[0].closed_s / r.courses[1].closed_s - 1.0).abs(),
-                    &own
-                ),
-            course(|c| c.clamp),
-            course(|c| c.points_cross),
-            course(|c| c.overshoot),
-            own.iter()
-                .flat_map(|r| &r.courses)
-                .map(|c| c.cpu_s)
-                .sum::<f64>(),
+            worst(|r| r.difference),
+            100.0 * mean(own.iter().map(|r| r.difference)),
+            worst(|r| r.thickness),
+            worst(|r| (r.courses[0].closed_s / r.courses[1].closed_s - 1.0).abs()),
+            most(|c| c.clamp),
+            most(|c| c.points_cross),
+            most(|c| c.overshoot),
+            courses().map(|c| c.cpu_s).sum::<f64>(),
         );
     }
     let open = rows.iter().flat_map(|r| &r.courses);
@@ -112,7 +100,7 @@ fn page(rows: &[Row], head: &str) -> String {
         out,
         "\nRuns that did not close within their time limit: {open}. Pairs in which the higher pressure or the\n\
          thinner liquid closes later: {}.",
-        out_of_order(rows).len()
+        out_of_order(rows)
     );
     out
 }

@@ -3,15 +3,15 @@
 use crate::case_text::{Body, CaseText, Viscosity};
 
 /// Edge of a cell, m.
-pub const CELL: f64 = 2e-6;
+pub(super) const CELL: f64 = 2e-6;
 /// Closing speed, m/s.
-pub const SPEED: f64 = 1.0;
+const SPEED: f64 = 1.0;
 
 /// Shape of a press, lengths in cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
     /// Name in tables.
-    pub name: &'static str,
+    pub(super) name: &'static str,
     /// Width of the domain.
     width: f64,
     /// Where the liquid is along x.
@@ -25,7 +25,7 @@ pub struct Shape {
     /// Lumen of the lower body, from and to.
     lumen: Option<[f64; 2]>,
     /// How far the upper body moves.
-    pub travel: f64,
+    pub(super) travel: f64,
     /// Cells along z, and how many of them hold liquid; one for plane strain.
     depth: [f64; 2],
 }
@@ -101,17 +101,17 @@ pub const SHAPES: [Shape; 8] = [
 
 impl Shape {
     /// Distance between the plates at the start, m.
-    pub fn gap(&self) -> f64 {
+    pub(super) fn gap(&self) -> f64 {
         (self.slab + self.air) * CELL
     }
 
     /// Whether the upper plate touches the liquid from the start.
-    pub fn touches(&self) -> bool {
+    pub(super) fn touches(&self) -> bool {
         self.air == 0.0
     }
 
     /// The case for a liquid of `viscosity` (Pa s) under a limit of `pressure` (Pa).
-    pub fn case(&self, pressure: f64, viscosity: f64) -> CaseText {
+    pub(super) fn case(&self, pressure: f64, viscosity: f64) -> CaseText {
         let [deep, wet] = self.depth;
         let floor = 10.0 + self.offset;
         let plate = floor + self.slab + self.air;
@@ -132,29 +132,23 @@ impl Shape {
         let plate = wall([0.0, plate], [self.width, top + self.travel]);
         bodies.push(plate.clamped().named("top"));
         let [left, right] = self.liquid;
-        bodies.push(Body::liquid(
-            [left, floor, 0.0].map(|x| x * CELL),
-            [right, floor + self.slab, wet].map(|x| x * CELL),
-        ));
+        let (low, high) = ([left, floor, 0.0], [right, floor + self.slab, wet]);
+        bodies.push(Body::liquid(low.map(|x| x * CELL), high.map(|x| x * CELL)));
         let travel = self.travel * CELL;
         // The slowest takes some hundred times the viscosity over the pressure.
         let limit = 20.0 * travel / SPEED + 2000.0 * viscosity / pressure;
+        let (travel, limit) = (travel * 1e6, limit * 1e6);
+        let size = [self.width, top, deep].map(|x| x * CELL);
         CaseText {
+            title: format!("{}: a press at a pressure limit.", self.name),
             viscosity: Viscosity::Newtonian(viscosity),
             clamp: Some(format!(
-                "closing_speed = \"{SPEED} m/s\"\nmax_pressure = \"{pressure} Pa\"\ntravel = \"{} um\"\ntime_limit = \"{} us\"\n",
-                travel * 1e6,
-                limit * 1e6
+                "closing_speed = \"{SPEED} m/s\"\nmax_pressure = \"{pressure} Pa\"\ntravel = \"{travel} um\"\ntime_limit = \"{limit} us\"\n"
             )),
             bodies,
             // A row for every step.
             history_every: 1e-15,
-            ..CaseText::new(
-                format!("{}: a press at a pressure limit.", self.name),
-                CELL,
-                if deep > 1.0 { 3 } else { 2 },
-                [self.width * CELL, top * CELL, deep * CELL],
-            )
+            ..CaseText::new(CELL, if deep > 1.0 { 3 } else { 2 }, size)
         }
     }
 }

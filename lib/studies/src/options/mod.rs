@@ -1,15 +1,15 @@
 //! `make options`: what the explicit scheme's options change on the flows it is wrong on, piston
 //! into slit and channel, against the same references as `make verify`.
 
-use std::fmt::Write;
-
+use crate::Result;
 use crate::job::{Job, Outcome, run_all};
 use crate::method::{Method, Scheme};
+use crate::numbers::worst;
 use crate::study::Study;
 use crate::verification::{Scene, acoustic, channel, slit, squeeze};
 
 /// The options by name, with the keys they set.
-pub const OPTIONS: [(&str, &[&str]); 5] = [
+pub(crate) const OPTIONS: [(&str, &[&str]); 5] = [
     ("cell mean", &["integrator.pressure=cell-mean"]),
     ("projection", &["integrator.density_projection=0.04cell"]),
     ("separation 0.6", &["contact.separation=0.6cell"]),
@@ -33,11 +33,7 @@ fn methods() -> Vec<Method> {
     let mut list = Vec::new();
     for plain in [Method::flip(), Method::xpic(5), Method::apic()] {
         list.push(plain.clone());
-        for (name, keys) in OPTIONS {
-            let label = format!("{}, {name}", plain.label);
-            let with = keys.iter().fold(plain.clone(), |m, key| m.setting(*key));
-            list.push(with.called(label));
-        }
+        list.extend(OPTIONS.map(|(name, keys)| plain.with(name, keys)));
     }
     list.push(Method::implicit());
     list
@@ -45,9 +41,8 @@ fn methods() -> Vec<Method> {
 
 /// What is measured: where the paper's scheme is wrong, and flows that an option must not spoil.
 fn scenes() -> Vec<Scene> {
-    let mut list: Vec<Scene> = (OFFSETS.iter())
-        .map(|&offset| slit::scene(CELLS, [offset, 0.0]))
-        .collect();
+    let mut list = Vec::new();
+    list.extend(OFFSETS.map(|offset| slit::scene(CELLS, [offset, 0.0])));
     list.extend(OFFSETS.map(|offset| channel::scene(CELLS, offset, None, 3e-6)));
     list.extend(OFFSETS.map(|offset| squeeze::scene(CELLS, offset)));
     list.push(acoustic::scene(0.001));
@@ -58,30 +53,24 @@ fn scenes() -> Vec<Scene> {
 ///
 /// # Errors
 /// The system's reason.
-pub fn run(study: &Study) -> Result<bool, String> {
+pub fn run(study: &Study) -> Result<bool> {
     let mut scenes = scenes();
     scenes.retain(|s| study.wants(&s.name));
-    // The implicit scheme's usual step is as long as these runs: `make verify` has it.
-    let short = |scene: &Scene| ["squeeze", "acoustic"].contains(&scene.family());
     let mut jobs: Vec<Job> = Vec::new();
     for scene in &scenes {
-        for method in methods() {
-            if method.scheme == Scheme::Explicit || !short(scene) {
-                jobs.push(Job { scene, method });
-            }
-        }
+        // The implicit scheme's usual step is as long as these runs: `make verify` has it.
+        let short = scene.name.starts_with("squeeze") || scene.name.starts_with("acoustic");
+        let mut methods = methods();
+        methods.retain(|method| method.scheme == Scheme::Explicit || !short);
+        jobs.extend(methods.into_iter().map(|method| Job { scene, method }));
     }
     let outcomes = run_all(&jobs, &study.folder());
     let columns = "case,method,quantity,error,steps,cpu_s,said";
-    study.write_csv(
-        "explicit-options.csv",
-        columns,
-        outcomes.iter().flat_map(fields),
-    )?;
+    let rows = outcomes.iter().flat_map(fields);
+    study.write_csv("explicit-options.csv", columns, rows)?;
     let head = study.head(outcomes.iter().map(|o| o.cpu_s));
-    let page = PAGE
-        .replace("{head}", &head)
-        .replace("{table}", &table(&scenes, &outcomes));
+    let page = PAGE.replace("{head}", &head);
+    let page = page.replace("{table}", &table(&scenes, &outcomes));
     study.write("explicit-options.md", page)?;
     Ok(true)
 }
@@ -91,55 +80,38 @@ const PAGE: &str = include_str!("page.txt");
 
 /// The errors of a run, or why there are none.
 fn fields(o: &Outcome) -> Vec<Vec<String>> {
-    let head = || vec![o.scene.clone(), o.method.label.clone()];
+    let row = |of: [&str; 5]| {
+        let head = [&o.scene, o.method.label.as_str()];
+        [&head[..], &of]
+            .concat()
+            .into_iter()
+            .map(String::from)
+            .collect()
+    };
     match &o.measured {
         Ok(list) => (list.iter())
             .map(|m| {
                 let (error, cpu) = (format!("{:.4e}", m.error), format!("{:.1}", o.cpu_s));
-                let more = [
-                    m.what.clone(),
-                    error,
-                    o.steps.to_string(),
-                    cpu,
-                    String::new(),
-                ];
-                [head(), more.into()].concat()
+                row([&m.what, &error, &o.steps.to_string(), &cpu, ""])
             })
             .collect(),
-        Err(said) => {
-            let more = ["", "", "", "", said].map(String::from);
-            vec![[head(), more.into()].concat()]
-        }
+        Err(said) => vec![row(["", "", "", "", said])],
     }
 }
 
 /// The largest errors as a table: a row per method, a column per scene but for the sound wave.
 fn table(scenes: &[Scene], outcomes: &[Outcome]) -> String {
-    let names = || {
-        scenes
-            .iter()
-            .map(|s| s.name.as_str())
-            .filter(|name| !name.starts_with("acoustic"))
-    };
-    let columns: Vec<&str> = names().collect();
-    let mut out = format!(
-        "| method | {} |\n|---|{}\n",
-        columns.join(" | "),
-        "---|".repeat(columns.len())
-    );
+    let names = scenes.iter().map(|s| s.name.as_str());
+    let columns: Vec<&str> = names.filter(|name| !name.starts_with("acoustic")).collect();
+    let rule = "---|".repeat(columns.len());
+    let mut out = format!("| method | {} |\n|---|{rule}\n", columns.join(" | "));
     for method in methods() {
-        let cells = names().map(|scene| {
-            let found = outcomes
-                .iter()
-                .find(|o| o.scene == scene && o.method == method);
-            found.map_or(String::new(), cell)
+        let cells = columns.iter().map(|scene| {
+            let of = |o: &&Outcome| o.scene == **scene && o.method == method;
+            outcomes.iter().find(of).map_or(String::new(), cell)
         });
-        let _ = writeln!(
-            out,
-            "| {} | {} |",
-            method.label,
-            cells.collect::<Vec<_>>().join(" | ")
-        );
+        let cells: Vec<String> = cells.collect();
+        out += &format!("| {} | {} |\n", method.label, cells.join(" | "));
     }
     out
 }
@@ -150,9 +122,8 @@ fn cell(outcome: &Outcome) -> String {
     let Ok(list) = &outcome.measured else {
         return "stopped".into();
     };
-    let errors = list
+    let of = list
         .iter()
         .filter(|m| compared.iter().any(|what| m.what.starts_with(what)));
-    let largest = errors.max_by(|a, b| a.error.abs().total_cmp(&b.error.abs()));
-    largest.map_or(String::new(), |m| format!("{:+.0}", 100.0 * m.error))
+    worst(of.map(|m| m.error)).map_or(String::new(), |error| format!("{:+.0}", 100.0 * error))
 }

@@ -1,6 +1,5 @@
 //! Remains of a run that becomes unstable, and whether it goes on from its last checkpoint.
 
-use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -10,8 +9,10 @@ use std::time::Duration;
 use particle_file::{Kind, ParticleFile};
 
 use super::scenes::{Press, Scene, press, torn};
+use crate::Result;
 use crate::method::Method;
-use crate::outputs::{Run, bin_folder};
+use crate::outputs::{Run, tool};
+use crate::study::{said, terminate, write};
 
 /// Cells along z: enough points that a signal comes before the instability.
 const DEPTH: u32 = 32;
@@ -36,7 +37,7 @@ pub struct Trial {
 #[derive(Debug)]
 pub struct Row {
     /// Scene and method.
-    pub name: String,
+    name: String,
     /// First and second Courant number.
     pub cfl: [f64; 2],
     /// Step of the checkpoint.
@@ -46,7 +47,7 @@ pub struct Row {
     /// What it said.
     pub said: String,
     /// Particle files it left, all whole and with finite numbers.
-    pub files: usize,
+    files: usize,
     /// How it went on at the second Courant number: exit status 0 and the last step, or 1 and
     /// the sentence.
     pub then: Result<u64, String>,
@@ -90,30 +91,30 @@ impl Trial {
     ///
     /// # Errors
     /// What is not as it must be.
-    pub fn run(&self, folder: &Path) -> Result<Row, String> {
-        fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-        let checkpoint = self.stopped(folder)?;
-        let before = fs::read(folder.join("run/checkpoint.mpts")).map_err(|e| e.to_string())?;
-
-        let output = self.resumed(folder, self.cfl)?;
-        let said = sentence(&output);
-        if output.status.code() != Some(1) {
-            return Err(format!("not unstable: {:?}, {said}", output.status));
-        }
-        if fs::read(folder.join("run/checkpoint.mpts")).ok() != Some(before) {
-            return Err("the checkpoint was touched".into());
-        }
+    pub fn run(&self, folder: &Path) -> Result<Row> {
         let run = Run {
             folder: folder.join("run"),
         };
+        self.stopped(folder, &run)?;
+        let checkpoint = last_step(&run)?;
+        let before = fs::read(run.folder.join("checkpoint.mpts"))?;
+
+        let output = self.command(folder, self.cfl).arg("--resume").output()?;
+        let said = sentence(&output);
+        if output.status.code() != Some(1) {
+            return Err(format!("not unstable: {:?}, {said}", output.status).into());
+        }
+        if fs::read(run.folder.join("checkpoint.mpts")).ok() != Some(before) {
+            return Err("the checkpoint was touched".into());
+        }
         let files = sound_files(&run)?;
         let unstable = last_step(&run)?;
 
-        let output = self.resumed(folder, self.then)?;
+        let output = self.command(folder, self.then).arg("--resume").output()?;
         let then = match output.status.code() {
             Some(0) => Ok(last_step(&run)?),
             Some(1) => Err(sentence(&output)),
-            code => return Err(format!("exit {code:?}: {}", sentence(&output))),
+            code => return Err(format!("exit {code:?}: {}", sentence(&output)).into()),
         };
         sound_files(&run)?;
         Ok(Row {
@@ -127,52 +128,37 @@ impl Trial {
         })
     }
 
-    /// Starts the run and stops it after some steps; the step of its checkpoint.
-    fn stopped(&self, folder: &Path) -> Result<u64, String> {
-        let case = folder.join("case.toml");
-        let mut text = self.case.lasting(self.case.duration);
+    /// Starts the run and stops it after some steps.
+    fn stopped(&self, folder: &Path, run: &Run) -> Result<()> {
+        let mut case = self.case.lasting(self.case.duration);
         // A row for each step, by which the steps taken are counted.
-        text.history_every = 1e-5 * self.case.duration;
-        fs::write(&case, text.text(self.method.scheme.integrator())).map_err(|e| e.to_string())?;
+        case.history_every = 1e-5 * self.case.duration;
+        let text = case.text(self.method.scheme.integrator());
+        write(&folder.join("case.toml"), text)?;
         for _ in 0..ATTEMPTS {
             // The rows of an attempt before would have this one stopped before it can answer.
-            let _ = fs::remove_dir_all(folder.join("run"));
-            let mut run = self
-                .command(folder, self.cfl)
-                .spawn()
-                .map_err(|e| e.to_string())?;
-            let history = folder.join("run/history.csv");
-            let rows = || fs::read_to_string(&history).map_or(0, |text| text.lines().count());
+            let _ = fs::remove_dir_all(&run.folder);
+            let mut child = self.command(folder, self.cfl).spawn()?;
             let ended = loop {
-                match run.try_wait().map_err(|e| e.to_string())? {
+                match child.try_wait()? {
                     Some(status) => break status,
                     // Told again, it still stops but once.
-                    None if rows() > self.stop_after => terminate(run.id())?,
+                    None if run.rows() > self.stop_after => terminate(&child)?,
                     None => sleep(Duration::from_millis(1)),
                 }
             };
             match ended.code() {
-                Some(75) => {
-                    return last_step(&Run {
-                        folder: folder.join("run"),
-                    });
-                }
+                Some(75) => return Ok(()),
                 // The signal came too late.
                 Some(1) => {}
-                code => return Err(format!("ended with {code:?}")),
+                code => return Err(format!("ended with {code:?}").into()),
             }
         }
-        Err(format!("unstable before it was stopped, {ATTEMPTS} times"))
-    }
-
-    fn resumed(&self, folder: &Path, cfl: f64) -> Result<Output, String> {
-        (self.command(folder, cfl).arg("--resume"))
-            .output()
-            .map_err(|e| e.to_string())
+        Err(format!("unstable before it was stopped, {ATTEMPTS} times").into())
     }
 
     fn command(&self, folder: &Path, cfl: f64) -> Command {
-        let mut command = Command::new(bin_folder().join("mpm-run"));
+        let mut command = tool("mpm-run");
         command
             .args(["case.toml", "-o", "run", "--quiet", "--threads", "1"])
             .args(["--set", &format!("integrator.cfl={cfl}")])
@@ -186,26 +172,16 @@ impl Trial {
     }
 }
 
-fn terminate(id: u32) -> Result<(), String> {
-    let sent = Command::new("kill")
-        .args(["-TERM", &id.to_string()])
-        .stderr(Stdio::null())
-        .status();
-    sent.map(|_| ()).map_err(|e| e.to_string())
-}
-
-/// The last line said, which must be the only one but for warnings.
+/// The lines said but for warnings, which must be one.
 fn sentence(output: &Output) -> String {
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    let lines: Vec<&str> = (said.lines())
-        .filter(|line| !line.starts_with("warning"))
-        .collect();
-    lines.join(" / ")
+    let said = said(output);
+    let lines = said.lines().filter(|line| !line.starts_with("warning"));
+    lines.collect::<Vec<_>>().join(" / ")
 }
 
-fn last_step(run: &Run) -> Result<u64, String> {
-    let steps = run.history("step")?;
-    (steps.last().map(|&s| s as u64)).ok_or_else(|| "its history is empty".into())
+fn last_step(run: &Run) -> Result<u64> {
+    let [step] = run.ends(["step"])?;
+    Ok(step as u64)
 }
 
 /// How many particle files the run folder holds, all whole and without a value that is not a number;
@@ -213,7 +189,7 @@ fn last_step(run: &Run) -> Result<u64, String> {
 ///
 /// # Errors
 /// The file that is not so.
-pub fn sound_files(run: &Run) -> Result<usize, String> {
+fn sound_files(run: &Run) -> Result<usize> {
     let mut paths = vec![run.folder.join("checkpoint.mpts")];
     paths.push(run.folder.join("final.mpts"));
     paths.retain(|path| path.exists());
@@ -224,15 +200,15 @@ pub fn sound_files(run: &Run) -> Result<usize, String> {
     }
     for column in ["time_s", "kinetic_energy_J", "adhesive_volume_m3"] {
         if run.history(column)?.iter().any(|x| !x.is_finite()) {
-            return Err(format!("the history has a {column} that is not a number"));
+            return Err(format!("the history has a {column} that is not a number").into());
         }
     }
     Ok(paths.len())
 }
 
-fn sound(path: &Path) -> Result<(), String> {
-    let file = ParticleFile::open(path).map_err(|e| e.to_string())?;
-    file.check().map_err(|e| e.to_string())?;
+fn sound(path: &Path) -> Result<()> {
+    let file = ParticleFile::open(path)?;
+    file.check()?;
     if file.header().kind != Kind::Checkpoint {
         return Ok(());
     }
@@ -244,36 +220,29 @@ fn sound(path: &Path) -> Result<(), String> {
             || double.is_ok_and(|v| v.iter().all(|x| x.is_finite()))
             || file.column::<u32>(&column.name).is_ok();
         if !finite {
-            return Err(format!("{}: {} is not finite", path.display(), column.name));
+            return Err(format!("{}: {} is not finite", path.display(), column.name).into());
         }
     }
     Ok(())
 }
 
 /// The rows as a section of the page.
-pub fn section(rows: &[Result<Row, String>]) -> String {
+pub(super) fn section(rows: &[Result<Row>]) -> String {
     let mut out = String::from(SECTION);
     for row in rows {
-        // Writing to a string cannot fail.
-        let _ = match row {
+        out += &match row {
             Ok(row) => {
                 let then = match &row.then {
                     Ok(step) => format!("ended after step {step}"),
                     Err(said) => format!("stopped: {said}"),
                 };
-                writeln!(
-                    out,
-                    "| {} | {} | {} | {} | {} | {} | {} | {then} |",
-                    row.name,
-                    row.cfl[0],
-                    row.checkpoint,
-                    row.unstable,
-                    row.files,
-                    row.said,
-                    row.cfl[1]
+                let ([cfl, smaller], name, said) = (row.cfl, &row.name, &row.said);
+                let (checkpoint, unstable, files) = (row.checkpoint, row.unstable, row.files);
+                format!(
+                    "| {name} | {cfl} | {checkpoint} | {unstable} | {files} | {said} | {smaller} | {then} |\n"
                 )
             }
-            Err(said) => writeln!(out, "| BROKEN: {said} | | | | | | | |"),
+            Err(said) => format!("| BROKEN: {said} | | | | | | | |\n"),
         };
     }
     out

@@ -4,11 +4,12 @@
 
 mod extremes;
 pub mod instability;
-pub mod plan;
-pub mod report;
-pub mod scenes;
-pub mod trial;
+pub(crate) mod plan;
+mod report;
+mod scenes;
+mod trial;
 
+use crate::Result;
 use crate::study::{Study, side_by_side};
 use trial::{Row, Trial, Verdict};
 
@@ -16,14 +17,14 @@ use trial::{Row, Trial, Verdict};
 ///
 /// # Errors
 /// What keeps a trial from being made.
-pub fn run(study: &Study) -> Result<bool, String> {
+pub fn run(study: &Study) -> Result<bool> {
     let mut trials = plan::trials();
     trials.retain(|t| study.wants(t.varied) || study.wants(&t.value));
-    let done = side_by_side(&trials, |trial: &Trial| {
+    let rows: Result<Vec<Row>> = side_by_side(&trials, |trial: &Trial| {
         let row = trial.clone().run(&study.folder());
         row.inspect(|row| println!("{}", report::said(row)))
     });
-    let rows = done.into_iter().collect::<Result<Vec<Row>, String>>()?;
+    let rows = rows?;
     let unstable: Vec<_> = (instability::trials().iter().enumerate())
         .filter(|(_, trial)| study.wants(trial.scene))
         .map(|(i, trial)| trial.run(&study.folder().join(format!("checkpoint-{i}"))))

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::trial::{Row, Verdict};
+use crate::Result;
 use crate::method::Scheme;
 use crate::study::{Study, distinct};
 
@@ -18,7 +19,7 @@ impl Verdict {
     }
 
     /// What was said.
-    pub fn sentence(&self) -> &str {
+    fn sentence(&self) -> &str {
         match self {
             Verdict::Stable | Verdict::Noisy => "",
             Verdict::Refused(said) | Verdict::Stopped(said) | Verdict::Broken(said) => said,
@@ -39,31 +40,24 @@ const COLUMNS: &str = "varied,value,method,cfl,verdict,part_computed,steps,cpu_s
 travel_over_full_speed,J_min,J_max,lost_points,balance_error,sentence,warning";
 
 /// Writes the table and the page, which ends with `more`.
-///
-/// # Errors
-/// The system's reason.
-pub fn write(study: &Study, rows: &[Row], more: &str) -> Result<(), String> {
+pub(super) fn write(study: &Study, rows: &[Row], more: &str) -> Result<()> {
     let fields = rows.iter().map(|row| {
         let trial = &row.trial;
-        let mut list = [trial.varied, &trial.value, &trial.method.label]
-            .map(String::from)
-            .to_vec();
-        list.extend([trial.cfl.to_string(), row.verdict.word().into()]);
-        let [low, high] = row.j;
-        let numbers = [
-            row.part,
-            row.steps,
-            row.cpu_s,
-            row.energy,
-            row.travel,
-            low,
-            high,
-            row.lost,
-            row.balance,
+        let (cfl, verdict) = (trial.cfl.to_string(), row.verdict.word());
+        let head = [
+            trial.varied,
+            &trial.value,
+            &trial.method.label,
+            &cfl,
+            verdict,
         ];
-        list.extend(numbers.map(number));
-        list.extend([row.verdict.sentence().into(), row.warning.clone()]);
-        list
+        let numbers = [row.part, row.steps, row.cpu_s, row.energy, row.travel];
+        let ends = [row.j[0], row.j[1], row.lost, row.balance];
+        let said = [row.verdict.sentence(), &row.warning].map(String::from);
+        let numbers = numbers.into_iter().chain(ends).map(number);
+        (head.map(String::from).into_iter().chain(numbers))
+            .chain(said)
+            .collect()
     });
     study.write_csv("stability.csv", COLUMNS, fields)?;
     let head = study.head(rows.iter().map(|row| row.cpu_s));
@@ -71,7 +65,7 @@ pub fn write(study: &Study, rows: &[Row], more: &str) -> Result<(), String> {
 }
 
 /// A line for the terminal.
-pub fn said(row: &Row) -> String {
+pub(super) fn said(row: &Row) -> String {
     let trial = &row.trial;
     format!(
         "{:<22} {:<30} {:<9} {:>5} {:?} energy {:.2e} J {:.3} to {:.3} balance {:+.1e} {:.1} s",
@@ -106,15 +100,10 @@ fn summary(out: &mut String, rows: &[Row]) {
         words.join(" | ")
     );
     let line = |name: &str, of: &dyn Fn(&Row) -> bool| {
-        let count = |word| {
-            rows.iter()
-                .filter(|row| of(row) && row.verdict.word() == word)
-                .count()
-        };
-        format!(
-            "| {name} | {} |\n",
-            words.map(|word| count(word).to_string()).join(" | ")
-        )
+        let own: Vec<&Row> = rows.iter().filter(|row| of(row)).collect();
+        let count = |word| own.iter().filter(|row| row.verdict.word() == word).count();
+        let counts = words.map(|word| count(word).to_string());
+        format!("| {name} | {} |\n", counts.join(" | "))
     };
     for varied in distinct(rows.iter().map(|row| row.trial.varied)) {
         out.push_str(&line(varied, &|row| row.trial.varied == varied));
@@ -125,32 +114,25 @@ fn summary(out: &mut String, rows: &[Row]) {
     }
 }
 
-/// What was varied, to what, and how it ended.
-fn kind(row: &Row) -> (&str, &str, &str) {
-    (row.trial.varied, &row.trial.value, row.verdict.word())
-}
-
 /// A row for each value at which methods ended in the same word, but for the stable ones.
 fn not_stable(out: &mut String, rows: &[Row]) {
     out.push_str("\n## Not stable\n\n| varied | value | ended | methods | said by the first |\n|---|---|---|---|---|\n");
-    let rows: Vec<&Row> = rows
-        .iter()
-        .filter(|row| row.verdict != Verdict::Stable)
-        .collect();
+    let unstable = rows.iter().filter(|row| row.verdict != Verdict::Stable);
+    let rows: Vec<&Row> = unstable.collect();
+    let kind = |row: &Row| {
+        let (varied, value) = (row.trial.varied, row.trial.value.clone());
+        (varied, value, row.verdict.word())
+    };
     for of in distinct(rows.iter().map(|row| kind(row))) {
         let same: Vec<&&Row> = rows.iter().filter(|row| kind(row) == of).collect();
-        let methods: Vec<&str> = same
-            .iter()
+        let methods: Vec<&str> = (same.iter())
             .map(|row| row.trial.method.label.as_str())
             .collect();
-        let sentence = same[0].verdict.sentence();
+        let (methods, sentence) = (methods.join(", "), same[0].verdict.sentence());
+        let (varied, value, ended) = of;
         let _ = writeln!(
             out,
-            "| {} | {} | {} | {} | {sentence} |",
-            of.0,
-            of.1,
-            of.2,
-            methods.join(", ")
+            "| {varied} | {value} | {ended} | {methods} | {sentence} |"
         );
     }
 }
@@ -158,31 +140,26 @@ fn not_stable(out: &mut String, rows: &[Row]) {
 /// How far the clamp of a press closes where the pressure limit holds it back.
 fn closing(out: &mut String, rows: &[Row]) {
     let methods = ["FLIP", "XPIC(5)", "APIC", "APIC, cell mean", "implicit"];
+    let names = methods.join(" | ");
     let _ = writeln!(
         out,
-        "{CLOSING}| press | {} |\n|---|---|---|---|---|---|",
-        methods.join(" | ")
+        "{CLOSING}| press | {names} |\n|---|---|---|---|---|---|"
     );
+    let press = |row: &Row| (row.trial.varied, row.trial.value.clone());
     let rows = rows
         .iter()
         .filter(|row| LOCKING.contains(&row.trial.varied));
     let rows: Vec<&Row> = rows.collect();
-    for of in distinct(
-        rows.iter()
-            .map(|row| (row.trial.varied, row.trial.value.as_str())),
-    ) {
+    for of in distinct(rows.iter().map(|row| press(row))) {
         let travel = |label| {
-            let found = rows.iter().find(|row| {
-                (row.trial.varied, row.trial.value.as_str()) == of
-                    && row.trial.method.label == label
-            });
+            let own = |row: &&&Row| press(row) == of && row.trial.method.label == label;
+            let found = rows.iter().find(own);
             found.map_or(String::new(), |row| format!("{:.3}", row.travel))
         };
+        let (varied, value) = &of;
         let _ = writeln!(
             out,
-            "| {} {} | {} |",
-            of.0,
-            of.1,
+            "| {varied} {value} | {} |",
             methods.map(travel).join(" | ")
         );
     }

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 use std::process::Output;
 
 use super::scenes::{Balance, Scene};
+use crate::Result;
 use crate::case_text::{PF, Viscosity};
-use crate::job::write_text;
 use crate::method::{Method, Scheme};
+use crate::numbers::{largest, mean};
 use crate::outputs::Run;
-use crate::study::said;
+use crate::study::{said, write};
 
 /// Tait constant of paper Eq. 1.
 const TAIT_C: f64 = 0.0894;
@@ -20,22 +21,22 @@ const NOISY: f64 = 10.0;
 
 /// A scene by a method.
 #[derive(Clone, Debug)]
-pub struct Trial {
+pub(super) struct Trial {
     /// What is varied, e.g. "viscosity".
-    pub varied: &'static str,
+    pub(super) varied: &'static str,
     /// Its value.
-    pub value: String,
+    pub(super) value: String,
     /// The scene.
-    pub scene: Scene,
+    pub(super) scene: Scene,
     /// The method.
-    pub method: Method,
+    pub(super) method: Method,
     /// Courant number.
-    pub cfl: f64,
+    pub(super) cfl: f64,
 }
 
 /// How a trial ended.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
+pub(super) enum Verdict {
     /// It ended and its energy is that of the flow.
     Stable,
     /// It ended, but most of its kinetic energy is noise.
@@ -50,29 +51,29 @@ pub enum Verdict {
 
 /// A row of the table.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub(super) struct Row {
     /// The trial.
-    pub trial: Trial,
+    pub(super) trial: Trial,
     /// How it ended.
-    pub verdict: Verdict,
+    pub(super) verdict: Verdict,
     /// What was computed of the scene's motion, 1 for all of it.
-    pub part: f64,
+    pub(super) part: f64,
     /// Steps and CPU seconds; NaN if it did not end.
-    pub steps: f64,
+    pub(super) steps: f64,
     /// CPU seconds.
-    pub cpu_s: f64,
+    pub(super) cpu_s: f64,
     /// Largest kinetic energy over that of the scene's own motion.
-    pub energy: f64,
+    pub(super) energy: f64,
     /// Smallest and largest J at the end.
-    pub j: [f64; 2],
+    pub(super) j: [f64; 2],
     /// Points lost through sides, or inside bodies deeper than a point spacing.
-    pub lost: f64,
+    pub(super) lost: f64,
     /// What a clamped body has moved over what it would have at its closing speed.
-    pub travel: f64,
+    pub(super) travel: f64,
     /// Error of the balance, see [`Balance`].
-    pub balance: f64,
+    pub(super) balance: f64,
     /// Warnings, first sentence.
-    pub warning: String,
+    pub(super) warning: String,
 }
 
 /// rho h^2 / (8 eta) and h / c, the shorter times `cfl`: the explicit step.
@@ -92,20 +93,14 @@ impl Trial {
     /// Name of its files.
     fn name(&self) -> String {
         let plain = |text: &str| {
-            text.chars()
-                .map(|c| {
-                    if c.is_ascii_alphanumeric() || c == '.' || c == '-' {
-                        c
-                    } else {
-                        '_'
-                    }
-                })
-                .collect::<String>()
+            text.replace(
+                |c: char| !c.is_ascii_alphanumeric() && !".-".contains(c),
+                "_",
+            )
         };
+        let (varied, value) = (plain(self.varied), plain(&self.value));
         format!(
-            "{}-{}-{}-cfl{}",
-            plain(self.varied),
-            plain(&self.value),
+            "{varied}-{value}-{}-cfl{}",
             self.method.file_label(),
             self.cfl
         )
@@ -115,7 +110,7 @@ impl Trial {
     ///
     /// # Errors
     /// When its case cannot be written.
-    pub fn run(self, folder: &Path) -> Result<Row, String> {
+    pub(super) fn run(self, folder: &Path) -> Result<Row> {
         let whole = self.scene.duration;
         let seconds = match self.method.scheme {
             Scheme::Explicit => whole.min(MOST_STEPS * explicit_step(&self.scene, self.cfl)),
@@ -123,24 +118,20 @@ impl Trial {
         };
         let case = folder.join(format!("{}.toml", self.name()));
         let out = folder.join(self.name());
-        let text = self
-            .scene
-            .lasting(seconds)
-            .text(self.method.scheme.integrator());
-        write_text(&case, &text)?;
+        let integrator = self.method.scheme.integrator();
+        write(&case, self.scene.lasting(seconds).text(integrator))?;
         let cfl = format!("integrator.cfl={}", self.cfl);
         let ended = self.method.attempt(&case, &out, &["--set", &cfl]);
         Ok(self.judge(ended, out, seconds / whole))
     }
 
-    fn judge(self, ended: Result<Output, String>, folder: PathBuf, part: f64) -> Row {
+    fn judge(self, ended: Result<Output>, folder: PathBuf, part: f64) -> Row {
         let said = ended.as_ref().map_or(String::new(), said);
         let warning = said.lines().find(|l| l.starts_with("warning"));
         let sentence = || {
             let last = said.lines().last().unwrap_or("").trim();
             last.strip_prefix("mpm-run: ").unwrap_or(last).to_owned()
         };
-        let run = Run { folder };
         let mut row = Row {
             verdict: Verdict::Stable,
             part,
@@ -151,13 +142,12 @@ impl Trial {
             lost: f64::NAN,
             travel: f64::NAN,
             balance: f64::NAN,
-            warning: warning
-                .unwrap_or("")
+            warning: (warning.unwrap_or(""))
                 .trim_start_matches("warning: ")
                 .to_owned(),
             trial: self,
         };
-        let measured = row.measure(&run);
+        let measured = row.measure(&Run { folder });
         row.verdict = match (ended.map(|output| output.status.code()), measured) {
             (Ok(Some(0)), Ok(())) if row.energy > NOISY => Verdict::Noisy,
             (Ok(Some(0)), Ok(())) => Verdict::Stable,
@@ -165,7 +155,7 @@ impl Trial {
             (Ok(Some(1)), _) => Verdict::Stopped(sentence()),
             (Ok(Some(2)), _) => Verdict::Refused(sentence()),
             (Ok(code), _) => Verdict::Broken(format!("exit {code:?}: {}", sentence())),
-            (Err(said), _) => Verdict::Broken(said),
+            (Err(said), _) => Verdict::Broken(said.to_string()),
         };
         row
     }
@@ -173,7 +163,7 @@ impl Trial {
 
 impl Row {
     /// Reads what the run left; NaN anywhere is an error.
-    fn measure(&mut self, run: &Run) -> Result<(), String> {
+    fn measure(&mut self, run: &Run) -> Result<()> {
         let energy = run.history("kinetic_energy_J")?;
         if energy.iter().any(|e| !e.is_finite()) {
             return Err("its history has an energy that is not a number".into());
@@ -183,17 +173,13 @@ impl Row {
         // The volume of the first row: the liquid has hardly been compressed yet.
         let mass = PF[0] * volume.first().copied().unwrap_or(f64::NAN);
         let own = 0.5 * mass * scene.speed.powi(2);
-        self.energy = energy.iter().copied().fold(0.0, f64::max) / own;
-        let lost = run.history("lost_particles")?;
-        self.lost = lost.last().copied().unwrap_or(f64::NAN);
-        if let Some(deep) = run.summary("points_deep_in_wood") {
-            self.lost += deep;
-        }
+        self.energy = largest(energy.into_iter()) / own;
+        let [lost, moved] = run.ends(["lost_particles", "displacement_m"])?;
+        self.lost = lost + run.summary("points_deep_in_wood").unwrap_or(0.0);
         self.steps = run.summary("steps").unwrap_or(f64::NAN);
-        self.cpu_s = run.summary("cpu_s").unwrap_or(f64::NAN);
+        self.cpu_s = run.cpu_s();
         if scene.travel > 0.0 {
-            let moved = run.history("displacement_m")?.last().copied();
-            self.travel = moved.unwrap_or(f64::NAN) / (scene.travel * self.part);
+            self.travel = moved / (scene.travel * self.part);
         }
         self.balance = balance(run, scene)?;
         self.j = volume_ratios(run, scene)?;
@@ -202,44 +188,35 @@ impl Row {
 }
 
 /// Error of what the scene balances.
-fn balance(run: &Run, scene: &Scene) -> Result<f64, String> {
+fn balance(run: &Run, scene: &Scene) -> Result<f64> {
     match scene.balance {
         Balance::None => Ok(f64::NAN),
         Balance::Forces => {
-            let bottom = run.history("pressure_bottom_Pa")?;
-            let top = run.history("pressure_top_Pa")?;
-            let late = |list: &[f64]| {
-                let later = &list[list.len() / 2..];
-                later.iter().sum::<f64>() / later.len() as f64
-            };
-            let (top, bottom) = (late(&top), late(&bottom));
+            let columns = run.columns(["pressure_bottom_Pa", "pressure_top_Pa"])?;
+            let late = |list: Vec<f64>| mean(list[list.len() / 2..].iter().copied());
+            let [bottom, top] = columns.map(late);
             // What turning a stream of the scene's speed takes: forces may differ by it.
             let inertia = PF[0] * scene.speed.powi(2);
             Ok((top - bottom) / top.abs().max(bottom.abs()).max(inertia))
         }
         Balance::Momentum(start) => {
-            let file = run.last()?;
-            let velocity = file.vectors("velocity").map_err(|e| e.to_string())?;
-            let mean: [f64; 2] = [0, 1].map(|a| {
-                velocity.iter().map(|v| f64::from(v[a])).sum::<f64>() / velocity.len() as f64
-            });
-            Ok(f64::hypot(mean[0] - start[0], mean[1] - start[1]) / scene.speed)
+            let points = run.points()?;
+            let off = |a: usize| mean(points.iter().map(|p| p.velocity[a])) - start[a];
+            Ok(off(0).hypot(off(1)) / scene.speed)
         }
     }
 }
 
 /// Smallest and largest J of the final state, from the pressures by Eq. 1.
-fn volume_ratios(run: &Run, scene: &Scene) -> Result<[f64; 2], String> {
-    let file = run.last()?;
-    let pressure = file.column::<f32>("pressure").map_err(|e| e.to_string())?;
+fn volume_ratios(run: &Run, scene: &Scene) -> Result<[f64; 2]> {
     let scale = TAIT_C * scene.case.bulk_modulus;
-    let j = |p: f32| 1.0 - TAIT_C * (f64::from(p) / scale).ln_1p();
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for &p in pressure {
-        if !p.is_finite() {
+    for p in run.points()? {
+        if !p.pressure.is_finite() {
             return Err("its final state has a pressure that is not a number".into());
         }
-        (low, high) = (low.min(j(p)), high.max(j(p)));
+        let j = 1.0 - TAIT_C * (p.pressure / scale).ln_1p();
+        (low, high) = (low.min(j), high.max(j));
     }
     Ok([low, high])
 }

@@ -5,13 +5,15 @@ use std::path::{Path, PathBuf};
 
 use super::settings::Setting;
 use super::{Flow, Row};
+use crate::Result;
 use crate::method::{Method, Scheme};
 use crate::outputs::{Run, tool};
-use crate::study::side_by_side;
+use crate::study::{printed, side_by_side};
 
-/// Size in voxels, and the slab.
-const SPECIMEN: [&str; 6] = ["--size", "24x72x24", "--slab", "11.6 um", "--seed", "1"];
-const VOXEL: &str = "1.45 um";
+/// Size in voxels, the slab and the edge of a voxel.
+const SPECIMEN: [&str; 8] = [
+    "--size", "24x72x24", "--slab", "11.6 um", "--seed", "1", "--voxel", "1.45 um",
+];
 
 /// Edge of a cell of the reference, um: half a voxel.
 const FINEST: f64 = 0.725;
@@ -28,32 +30,32 @@ struct Closed {
 ///
 /// # Errors
 /// What a tool said when there is no specimen or no reference.
-pub fn rows(settings: &[Setting], folder: &Path) -> Result<Vec<Row>, String> {
+pub(super) fn rows(settings: &[Setting], folder: &Path) -> Result<Vec<Row>> {
     let bond = specimen(folder)?;
-    let reference = close(
-        &bond,
-        &Method::implicit(),
-        FINEST,
-        &folder.join("reference"),
-    )?;
+    let implicit = Method::implicit();
+    let reference = close(&bond, &implicit, FINEST, &folder.join("reference"))?;
+    let Closed {
+        pressure,
+        wp,
+        cpu_s,
+    } = reference;
     println!(
-        "bond line, implicit, cells of {FINEST} um: {:.4e} Pa, WP {:.4} um, {:.0} s",
-        reference.pressure, reference.wp, reference.cpu_s
+        "bond line, implicit, cells of {FINEST} um: {pressure:.4e} Pa, WP {wp:.4} um, {cpu_s:.0} s"
     );
     let chosen: Vec<&Setting> = settings.iter().filter(|s| s.bond).collect();
-    let rows = side_by_side(&chosen, |&setting| {
+    let rows: Vec<[Row; 2]> = side_by_side(&chosen, |&setting| {
         // Six cells are two voxels each, as in the paper.
         let cell = 17.4 / f64::from(setting.cells);
         let runs = folder.join(setting.method.file_label());
         let closed = close(&bond, &setting.method, cell, &runs);
-        compared(setting, &closed, &reference)
+        compared(setting, closed.map_err(|e| e.to_string()), &reference)
     });
     Ok(rows.into_iter().flatten().collect())
 }
 
 /// Pressure and WP of a run against the reference; said on standard output too.
-fn compared(setting: &Setting, closed: &Result<Closed, String>, reference: &Closed) -> [Row; 2] {
-    let row = |flow, of: fn(&Closed) -> f64| {
+fn compared(setting: &Setting, closed: Result<Closed, String>, reference: &Closed) -> [Row; 2] {
+    let row = |flow: Flow, of: fn(&Closed) -> f64| {
         let error = |c: &Closed| (of(c) / of(reference) - 1.0).abs();
         let row = Row {
             flow,
@@ -63,13 +65,11 @@ fn compared(setting: &Setting, closed: &Result<Closed, String>, reference: &Clos
             failed: closed.as_ref().err().cloned(),
             pareto: false,
         };
+        let (flow, label) = (flow.name(), &setting.method.label);
+        let failed = row.failed.as_deref().unwrap_or("");
         println!(
-            "{:<20} {:<36} {:.3e} {:7.1} s {}",
-            flow.name(),
-            setting.method.label,
-            row.error,
-            row.cpu_s,
-            row.failed.as_deref().unwrap_or("")
+            "{flow:<20} {label:<36} {:.3e} {:7.1} s {failed}",
+            row.error, row.cpu_s
         );
         row
     };
@@ -80,32 +80,30 @@ fn compared(setting: &Setting, closed: &Result<Closed, String>, reference: &Clos
 }
 
 /// Makes the bond file.
-fn specimen(folder: &Path) -> Result<PathBuf, String> {
+fn specimen(folder: &Path) -> Result<PathBuf> {
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let path = |name: &str| folder.join(name).display().to_string();
-    let (stack, whole, bond) = (
-        path("specimen.tif"),
-        path("specimen.mpts"),
-        path("bond.mpts"),
-    );
-    let mut synth = vec![
-        "--quiet",
-        "--adhesive",
-        "pf",
-        "--voxel",
-        VOXEL,
-        "-o",
-        &stack,
-    ];
-    synth.extend(SPECIMEN);
-    tool("synth-xct", &synth)?;
-    tool("xct2particles", &["--quiet", &stack, "-o", &whole])?;
-    tool("build-bondline", &["--quiet", &whole, "-o", &bond])?;
-    Ok(bond.into())
+    let [stack, whole, bond] =
+        ["specimen.tif", "specimen.mpts", "bond.mpts"].map(|name| folder.join(name));
+    let making = |name| {
+        let mut tool = tool(name);
+        tool.arg("--quiet");
+        tool
+    };
+    let mut synth = making("synth-xct");
+    printed(
+        synth
+            .args(["--adhesive", "pf"])
+            .args(SPECIMEN)
+            .arg("-o")
+            .arg(&stack),
+    )?;
+    printed(making("xct2particles").arg(&stack).arg("-o").arg(&whole))?;
+    printed(making("build-bondline").arg(&whole).arg("-o").arg(&bond))?;
+    Ok(bond)
 }
 
 /// Closes the bond line at 1 m/s, whatever the pressure.
-fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Closed, String> {
+fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Closed> {
     let case = match method.scheme {
         Scheme::Explicit => "pipelines/cases/pf-flip.toml",
         Scheme::Implicit => "pipelines/cases/pf-implicit.toml",
@@ -113,32 +111,30 @@ fn close(bond: &Path, method: &Method, cell_um: f64, folder: &Path) -> Result<Cl
     let bond = bond.display().to_string();
     let cell = format!("grid.cell=\"{cell_um} um\"");
     let mut arguments = vec!["--particles", &bond];
-    let fixed = [
+    for change in [
         cell.as_str(),
         // The wall law's length does not go with the cell here.
         "contact.influence_length=\"29 nm\"",
         "clamp.max_pressure=\"100 MPa\"",
         "output.history_every=\"0.1 us\"",
         "output.snapshots=0",
-    ];
-    for change in fixed {
+    ] {
         arguments.extend(["--set", change]);
     }
     let run = method.run(Path::new(case), folder, &arguments)?;
     Ok(Closed {
         pressure: late_pressure(&run)?,
         wp: run.weighted_penetration()?[2],
-        cpu_s: run.summary("cpu_s").unwrap_or(f64::NAN),
+        cpu_s: run.cpu_s(),
     })
 }
 
 /// Mean of both reactions over the second half of the travel: the work of the steps, whose pressures are
 /// those of their middles, over the way.
-fn late_pressure(run: &Run) -> Result<f64, String> {
-    let travel = run.history("displacement_m")?;
-    let bottom = run.history("pressure_bottom_Pa")?;
-    let top = run.history("pressure_top_Pa")?;
-    let end = travel.last().copied().ok_or("the history is empty")?;
+fn late_pressure(run: &Run) -> Result<f64> {
+    let [travel, bottom, top] =
+        run.columns(["displacement_m", "pressure_bottom_Pa", "pressure_top_Pa"])?;
+    let [end] = run.ends(["displacement_m"])?;
     let work = (1..travel.len()).map(|i| {
         let way = travel[i] - travel[i - 1].max(0.5 * end);
         0.5 * (bottom[i] + top[i]) * way.max(0.0)

@@ -1,14 +1,16 @@
 //! Error against CPU time: what scheme, update, shape function, cell size, points, Courant
 //! number, bulk modulus, solver tolerance, options and precision cost and give on four flows.
 
-pub mod bond;
-pub mod report;
-pub mod settings;
+mod bond;
+mod report;
+mod settings;
 
 use std::path::Path;
 
+use crate::Result;
 use crate::job::{Job, Outcome, run_all};
 use crate::method::Scheme;
+use crate::numbers::rms;
 use crate::study::Study;
 use crate::verification::{Scene, channel, incline, slit};
 use settings::Setting;
@@ -20,7 +22,7 @@ const DOUBLE: &str = "target/double/release/mpm-run";
 ///
 /// # Errors
 /// What a tool said without which there is no bond line or no reference for it, or the system.
-pub fn run(study: &Study) -> Result<bool, String> {
+pub fn run(study: &Study) -> Result<bool> {
     let mut settings = settings::all(Path::new(DOUBLE));
     settings.retain(|setting| study.wants(&setting.method.label));
     let mut rows = bond::rows(&settings, &study.folder().join("bond"))?;
@@ -36,7 +38,7 @@ pub fn run(study: &Study) -> Result<bool, String> {
 
 /// The flows, in the order of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Flow {
+enum Flow {
     /// Piston into slit: piston force at one and two filled widths, walls on the nodes and a
     /// quarter cell off, of the implicit scheme half a cell.
     Slit,
@@ -51,8 +53,7 @@ pub enum Flow {
 }
 
 impl Flow {
-    /// Every flow.
-    pub const ALL: [Flow; 5] = [
+    const ALL: [Flow; 5] = [
         Flow::Slit,
         Flow::Channel,
         Flow::Incline,
@@ -61,7 +62,7 @@ impl Flow {
     ];
 
     /// Name in tables.
-    pub fn name(self) -> &'static str {
+    fn name(self) -> &'static str {
         match self {
             Flow::Slit => "piston into slit",
             Flow::Channel => "channel",
@@ -85,14 +86,12 @@ impl Flow {
             Scheme::Implicit => (0.5, &[0.0, 0.5]),
         };
         match self {
-            Flow::Slit => [0.0, off]
-                .map(|offset| {
-                    let mut scene = slit::scene(n, [offset, 0.0]);
-                    // To two and a quarter of its four and a half widths.
-                    scene.case.stop = scene.case.stop.map(|t| 0.52 * t);
-                    scene
-                })
-                .into(),
+            Flow::Slit => Vec::from([0.0, off].map(|offset| {
+                let mut scene = slit::scene(n, [offset, 0.0]);
+                // To two and a quarter of its four and a half widths.
+                scene.case.stop = scene.case.stop.map(|t| 0.52 * t);
+                scene
+            })),
             Flow::Channel => (offsets.iter())
                 .map(|&offset| channel::scene(n, offset, None, until(3e-6, 10.0)))
                 .collect(),
@@ -114,69 +113,59 @@ impl Flow {
 
 /// Error and cost of a setting on a flow.
 #[derive(Clone, Debug)]
-pub struct Row {
-    /// The flow.
-    pub flow: Flow,
-    /// The setting.
-    pub setting: Setting,
+struct Row {
+    flow: Flow,
+    setting: Setting,
     /// Root mean square of the relative errors over the flow's runs and quantities; NaN when a
     /// run failed.
-    pub error: f64,
+    error: f64,
     /// CPU time of one run, s.
-    pub cpu_s: f64,
+    cpu_s: f64,
     /// What a failed run said.
-    pub failed: Option<String>,
+    failed: Option<String>,
     /// Whether nothing cheaper is as accurate.
-    pub pareto: bool,
+    pareto: bool,
 }
 
 /// Runs the settings on the flows of boxes.
 fn boxes(settings: &[Setting], folder: &Path) -> (Vec<Row>, Vec<Outcome>) {
-    let flows = [Flow::Slit, Flow::Channel, Flow::Incline];
-    let mut parts: Vec<(Flow, &Setting, Scene)> = Vec::new();
-    for flow in flows {
-        for setting in settings {
-            let scenes = flow.scenes(setting.cells, setting.method.scheme);
-            parts.extend(scenes.into_iter().map(|scene| (flow, setting, scene)));
-        }
+    let mut parts: Vec<(Flow, &Setting, Vec<Scene>)> = Vec::new();
+    for flow in [Flow::Slit, Flow::Channel, Flow::Incline] {
+        let scenes = |s: &Setting| flow.scenes(s.cells, s.method.scheme);
+        parts.extend(settings.iter().map(|s| (flow, s, scenes(s))));
     }
-    let jobs: Vec<Job> = parts
-        .iter()
-        .map(|(_, setting, scene)| Job {
+    let mut jobs: Vec<Job> = Vec::new();
+    for (_, setting, scenes) in &parts {
+        let method = &setting.method;
+        jobs.extend(scenes.iter().map(|scene| Job {
             scene,
-            method: setting.method.clone(),
-        })
-        .collect();
+            method: method.clone(),
+        }));
+    }
     let outcomes = run_all(&jobs, folder);
+    let mut rest = &outcomes[..];
     let mut rows = Vec::new();
-    for flow in flows {
-        for setting in settings {
-            let of_row = parts
-                .iter()
-                .zip(&outcomes)
-                .filter(|((f, s, _), _)| *f == flow && std::ptr::eq(*s, setting))
-                .map(|(_, outcome)| outcome);
-            rows.push(row(flow, setting, &of_row.collect::<Vec<_>>()));
-        }
+    for (flow, setting, scenes) in &parts {
+        let (own, others) = rest.split_at(scenes.len());
+        rows.push(row(*flow, setting, own));
+        rest = others;
     }
     (rows, outcomes)
 }
 
-fn row(flow: Flow, setting: &Setting, outcomes: &[&Outcome]) -> Row {
+fn row(flow: Flow, setting: &Setting, outcomes: &[Outcome]) -> Row {
     let failed = outcomes.iter().find_map(|o| o.measured.clone().err());
-    let errors: Vec<f64> = outcomes
+    let all = outcomes
         .iter()
         .filter_map(|o| o.measured.as_ref().ok())
-        .flatten()
-        .filter(|m| m.what.starts_with(flow.quantity()))
-        .map(|m| m.error)
-        .collect();
-    let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
+        .flatten();
+    let of_flow = all.filter(|m| m.what.starts_with(flow.quantity()));
+    let error = rms(of_flow.map(|m| m.error));
     let cpu: f64 = outcomes.iter().map(|o| o.cpu_s).sum();
     Row {
         flow,
         setting: setting.clone(),
-        error: if failed.is_some() { f64::NAN } else { rms },
+        error: if failed.is_some() { f64::NAN } else { error },
         cpu_s: cpu / outcomes.len() as f64,
         failed,
         pareto: false,

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use figures::{Mark, Plot};
 
 use super::{Flow, Row};
+use crate::Result;
 use crate::method::{Method, Scheme};
 use crate::study::{PAGE, Study};
 use crate::verification::report::percent;
@@ -15,18 +16,12 @@ const QUOTED: &str = "lib/run/src/expected_error.csv";
 
 /// Writes `tradeoff.csv`, `tradeoff.md`, the figures and, after the whole study, the table of
 /// expected errors.
-///
-/// # Errors
-/// The system's reason.
-pub fn write(study: &Study, rows: &[Row], head: &str) -> Result<(), String> {
+pub(super) fn write(study: &Study, rows: &[Row], head: &str) -> Result<()> {
     let columns = "flow,scheme,method,varied,cells,set,error,cpu_s,pareto,failed";
     study.write_csv("tradeoff.csv", columns, rows.iter().map(fields))?;
     for (flow, name) in [(Flow::Slit, "slit"), (Flow::BondPressure, "bond")] {
-        let drawing = plot(rows, flow).draw(PAGE).and_then(|d| d.to_png());
-        study.write(
-            &format!("tradeoff-{name}.png"),
-            drawing.map_err(|e| e.to_string())?,
-        )?;
+        let drawing = plot(rows, flow).draw(PAGE);
+        study.draw(&format!("tradeoff-{name}.png"), drawing)?;
     }
     study.write("tradeoff.md", page(rows, head))?;
     if study.whole() {
@@ -53,29 +48,22 @@ fn fields(r: &Row) -> Vec<String> {
 
 fn plot(rows: &[Row], flow: Flow) -> Plot {
     let of = |wanted: &dyn Fn(&Row) -> bool| -> Vec<[f64; 2]> {
-        let mut points: Vec<[f64; 2]> = rows
+        let own = rows
             .iter()
-            .filter(|r| r.flow == flow && r.error.is_finite() && wanted(r))
+            .filter(|r| r.flow == flow && r.error.is_finite());
+        let mut points: Vec<[f64; 2]> = (own.filter(|r| wanted(r)))
             .map(|r| [r.cpu_s.max(0.01), 100.0 * r.error])
             .collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         points
     };
-    let labelled = |name: &'static str| {
-        of(&|r: &Row| {
-            let word = r.setting.method.label.split([',', '(']).next();
-            word == Some(name)
-        })
-    };
-    let mut plot = Plot::new(
-        &format!("Error against CPU time: {}", flow.name()),
-        "CPU time of a run (s)",
-        "error (%)",
-    )
-    .logarithmic([true, true])
-    .with("Pareto front", Mark::Line, of(&|r| r.pareto));
+    let title = format!("Error against CPU time: {}", flow.name());
+    let mut plot = Plot::new(&title, "CPU time of a run (s)", "error (%)")
+        .logarithmic([true, true])
+        .with("Pareto front", Mark::Line, of(&|r| r.pareto));
     for name in ["FLIP", "PIC", "APIC", "XPIC", "FMPM", "implicit"] {
-        let points = labelled(name);
+        let first = |label: &str| label.split([',', '(']).next() == Some(name);
+        let points = of(&|r: &Row| first(&r.setting.method.label));
         if !points.is_empty() {
             plot = plot.with(name, Mark::Dots, points);
         }
@@ -115,23 +103,17 @@ fn advice(out: &mut String, rows: &[Row]) {
         for goal in [0.3, 0.1, 0.05, 0.02] {
             let cheapest = |explicit: bool| {
                 let good = rows.iter().filter(|r| {
-                    r.flow == flow
-                        && r.error <= goal
-                        && (!explicit || r.setting.method.scheme == Scheme::Explicit)
+                    let scheme = r.setting.method.scheme;
+                    r.flow == flow && r.error <= goal && (!explicit || scheme == Scheme::Explicit)
                 });
-                good.min_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s))
-                    .map_or("none | ".to_owned(), |r| {
-                        format!("{} | {:.2}", r.setting.method.label, r.cpu_s)
-                    })
+                let best = good.min_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s));
+                best.map_or("none | ".to_owned(), |r| {
+                    format!("{} | {:.2}", r.setting.method.label, r.cpu_s)
+                })
             };
-            let _ = writeln!(
-                out,
-                "| {} | {:.0} % | {} | {} |",
-                flow.name(),
-                100.0 * goal,
-                cheapest(false),
-                cheapest(true)
-            );
+            let (flow, percent) = (flow.name(), 100.0 * goal);
+            let (any, explicit) = (cheapest(false), cheapest(true));
+            let _ = writeln!(out, "| {flow} | {percent:.0} % | {any} | {explicit} |");
         }
     }
     out.push('\n');
@@ -161,25 +143,22 @@ const ADVICE: &str = "\
 
 /// The settings that nothing cheaper matches on some flow, and those as a case has them by default.
 fn front(out: &mut String, rows: &[Row]) {
-    let names = Flow::ALL.map(Flow::name).join(" | ");
+    let (names, rule) = (
+        Flow::ALL.map(Flow::name).join(" | "),
+        "---|".repeat(Flow::ALL.len()),
+    );
     let _ = writeln!(
         out,
-        "## Settings on the front, and plain ones\n\nError, CPU seconds.\n\n| setting | {names} |\n|---|{}",
-        "---|".repeat(Flow::ALL.len())
+        "## Settings on the front, and plain ones\n\nError, CPU seconds.\n\n| setting | {names} |\n|---|{rule}"
     );
-    for setting in rows
-        .iter()
-        .filter(|r| r.flow == Flow::Slit)
-        .map(|r| &r.setting)
-    {
-        let label = &setting.method.label;
+    for row in rows.iter().filter(|r| r.flow == Flow::Slit) {
+        let label = &row.setting.method.label;
         let own = || rows.iter().filter(|r| r.setting.method.label == *label);
-        if setting.varied != "update" && !own().any(|r| r.pareto) {
-            continue;
+        if row.setting.varied == "update" || own().any(|r| r.pareto) {
+            let of = |flow| own().find(|r| r.flow == flow);
+            let cells = Flow::ALL.map(|flow| of(flow).map_or(String::new(), cell));
+            let _ = writeln!(out, "| {label} | {} |", cells.join(" | "));
         }
-        let cells =
-            Flow::ALL.map(|flow| own().find(|r| r.flow == flow).map_or(String::new(), cell));
-        let _ = writeln!(out, "| {label} | {} |", cells.join(" | "));
     }
 }
 
@@ -189,13 +168,8 @@ fn failed(out: &mut String, rows: &[Row]) {
     }
     for r in rows {
         if let Some(said) = &r.failed {
-            let flow = r.flow.name();
-            let _ = writeln!(
-                out,
-                "- {}, {flow}: {}",
-                r.setting.method.label,
-                said.replace('\n', " ")
-            );
+            let (label, said) = (&r.setting.method.label, said.replace('\n', " "));
+            let _ = writeln!(out, "- {label}, {}: {said}", r.flow.name());
         }
     }
 }
@@ -205,12 +179,8 @@ fn cell(row: &Row) -> String {
         return "failed".into();
     }
     let error = percent(row.error).trim_start_matches('+').to_owned();
-    let text = format!("{error}, {:.2}", row.cpu_s);
-    if row.pareto {
-        format!("**{text}**")
-    } else {
-        text
-    }
+    let mark = if row.pareto { "**" } else { "" };
+    format!("{mark}{error}, {:.2}{mark}", row.cpu_s)
 }
 
 /// The table that `mpm-run --explain` quotes: one row per scheme, update, shape, option and cells,
@@ -226,32 +196,25 @@ fn expected(rows: &[Row]) -> String {
             continue;
         }
         let error = |flow| {
-            rows.iter()
-                .find(|o| o.flow == flow && o.setting.method == *method)
-                .filter(|o| o.error.is_finite())
-                .map_or(String::new(), |o| format!("{:.4}", o.error))
+            let own = (rows.iter()).find(|o| o.flow == flow && o.setting.method == *method);
+            let found = own.filter(|o| o.error.is_finite());
+            found.map_or(String::new(), |o| format!("{:.4}", o.error))
         };
+        let of = |key, usual| value(method, key).unwrap_or(usual);
         let key = match method.scheme {
             Scheme::Implicit => ",,,,".to_owned(),
-            Scheme::Explicit => format!(
-                "{},{},{},{},{}",
-                value(method, "integrator.velocity_update").unwrap_or("flip"),
-                value(method, "integrator.order").unwrap_or(""),
-                value(method, "grid.shape").unwrap_or("gimp"),
-                value(method, "integrator.pressure").unwrap_or("point"),
-                value(method, "integrator.density_projection").map_or("no", |_| "yes")
-            ),
+            Scheme::Explicit => [
+                of("integrator.velocity_update", "flip"),
+                of("integrator.order", ""),
+                of("grid.shape", "gimp"),
+                of("integrator.pressure", "point"),
+                value(method, "integrator.density_projection").map_or("no", |_| "yes"),
+            ]
+            .join(","),
         };
-        let _ = writeln!(
-            csv,
-            "{},{key},{},{},{},{},{}",
-            method.scheme.name(),
-            r.setting.cells,
-            error(Flow::Slit),
-            error(Flow::Channel),
-            error(Flow::BondPressure),
-            error(Flow::BondWp)
-        );
+        let errors = [Flow::Slit, Flow::Channel, Flow::BondPressure, Flow::BondWp].map(error);
+        let (scheme, cells) = (method.scheme.name(), r.setting.cells);
+        let _ = writeln!(csv, "{scheme},{key},{cells},{}", errors.join(","));
     }
     csv
 }

@@ -4,6 +4,7 @@
 use std::f64::consts::PI;
 
 use super::{Measured, Scene};
+use crate::Result;
 use crate::case_text::{Body, CaseText, PF, Viscosity};
 use crate::outputs::Run;
 
@@ -25,44 +26,34 @@ pub fn scene(eta: f64) -> Scene {
         Body::liquid([x, 0.0, 0.0], [x + CELL, 2.0 * CELL, CELL]).moving([v, 0.0, 0.0])
     };
     let case = CaseText {
+        title: format!(
+            "Standing sound wave, half a wave over {CELLS} cells, {eta} Pa s.\nAgainst c^2 = K/rho and a decay of (4/3 eta) k^2/(2 rho)."
+        ),
         viscosity: Viscosity::Newtonian(eta),
         stop: Some(3.2 * period),
         bodies: (0..CELLS).map(cell).collect(),
         history_every: period / 200.0,
-        ..CaseText::plane(
-            format!(
-                "Standing sound wave, half a wave over {CELLS} cells, {eta} Pa s.\nAgainst c^2 = K/rho and a decay of (4/3 eta) k^2/(2 rho)."
-            ),
-            CELL,
-            [long, 2.0 * CELL],
-        )
+        ..CaseText::plane(CELL, [long, 2.0 * CELL])
     };
     let decay = 4.0 / 3.0 * eta * k * k / (2.0 * PF[0]);
-    Scene {
-        name: format!("acoustic-eta{eta}"),
-        case,
-        against: "linear acoustics",
-        measure: Box::new(move |run| {
-            let peaks = energy_peaks(run)?;
-            let (Some(first), Some(last)) = (peaks.first(), peaks.last()) else {
-                return Err("no wave".into());
-            };
-            let waves = (peaks.len() - 1) as f64 / 2.0;
-            let found = waves / (last[0] - first[0]);
-            let damped = 0.5 * (first[1] / last[1]).ln() / waves;
-            let exact = (omega * omega - decay * decay).sqrt() / (2.0 * PI);
-            Ok(vec![
-                Measured::relative("frequency", found, exact),
-                Measured::relative("1 + damping per period", 1.0 + damped, 1.0 + decay / exact),
-            ])
-        }),
-    }
+    let name = format!("acoustic-eta{eta}");
+    Scene::new(name, "linear acoustics", case, move |run| {
+        let peaks = energy_peaks(run)?;
+        let (first, last) = (peaks[0], peaks[peaks.len() - 1]);
+        let waves = (peaks.len() - 1) as f64 / 2.0;
+        let found = waves / (last[0] - first[0]);
+        let damped = 0.5 * (first[1] / last[1]).ln() / waves;
+        let exact = (omega * omega - decay * decay).sqrt() / (2.0 * PI);
+        Ok(vec![
+            Measured::relative("frequency", found, exact),
+            Measured::relative("1 + damping per period", 1.0 + damped, 1.0 + decay / exact),
+        ])
+    })
 }
 
-/// Time and height of the maxima of the kinetic energy after the start, by parabolas.
-fn energy_peaks(run: &Run) -> Result<Vec<[f64; 2]>, String> {
-    let time = run.history("time_s")?;
-    let energy = run.history("kinetic_energy_J")?;
+/// Time and height of the maxima, three or more, of the kinetic energy after the start, by parabolas.
+fn energy_peaks(run: &Run) -> Result<Vec<[f64; 2]>> {
+    let [time, energy] = run.columns(["time_s", "kinetic_energy_J"])?;
     // Higher modes ride on the wave where the start was not smooth: a maximum counts where it
     // is one over a quarter of a wave.
     let reach = 20;
@@ -83,7 +74,7 @@ fn energy_peaks(run: &Run) -> Result<Vec<[f64; 2]>, String> {
         peaks.push([time[i] + shift * step, b - 0.25 * (a - c) * shift]);
     }
     if peaks.len() < 3 {
-        return Err(format!("only {} maxima of the kinetic energy", peaks.len()));
+        return Err(format!("only {} maxima of the kinetic energy", peaks.len()).into());
     }
     Ok(peaks)
 }

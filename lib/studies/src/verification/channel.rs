@@ -2,7 +2,7 @@
 //! periodic channel.
 
 use super::{LUMEN, Scene, mean_against, pressing};
-use crate::case_text::{Body, CaseText, PF, STICK, Viscosity};
+use crate::case_text::{Body, CaseText, PF, STICK, Viscosity, partial_slip};
 use crate::closed_forms::{channel, channel_of};
 
 /// Body force per mass, m/s2: a mean velocity near 0.02 m/s.
@@ -15,14 +15,13 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
     let (width, low) = (4.0 * cell, (2.0 + offset) * cell);
     let high = low + LUMEN;
     let top = (f64::from(n) + 5.0) * cell;
-    let contact = slip.map_or(STICK.to_owned(), |l| {
-        format!(
-            "law = \"partial-slip\"\ninfluence_length = \"{} um\"\n",
-            l * LUMEN * 1e6
-        )
-    });
     let case = CaseText {
-        contact,
+        title: format!(
+            "Plane Poiseuille flow in a channel of {n} cells, walls {offset} cell off the nodes.\nAgainst rho g (y (H - y) + H/k)/(2 eta)."
+        ),
+        contact: slip.map_or(STICK.to_owned(), |l| {
+            partial_slip(&format!("{} um", l * LUMEN * 1e6))
+        }),
         gravity: [G, 0.0, 0.0],
         boundary: ["periodic", "symmetry", "symmetry"],
         stop: Some(until),
@@ -34,27 +33,15 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
             Body::liquid([0.0, low, 0.0], [width, high, cell]),
         ],
         history_every: until / 20.0,
-        ..CaseText::plane(
-            format!(
-                "Plane Poiseuille flow in a channel of {n} cells, walls {offset} cell off the nodes.\nAgainst rho g (y (H - y) + H/k)/(2 eta)."
-            ),
-            cell,
-            [width, top],
-        )
+        ..CaseText::plane(cell, [width, top])
     };
-    Scene {
-        name: format!(
-            "channel-n{n}-off{offset}{}",
-            slip.map_or(String::new(), |s| format!("-slip{s}"))
-        ),
-        case,
-        against: "plane Poiseuille",
-        measure: Box::new(move |run| {
-            let slip = slip.unwrap_or(0.0) * LUMEN;
-            let exact = |y: f64| channel(y, LUMEN, slip, G, PF[0], PF[2]);
-            Ok(vec![mean_against(run, low, exact)?])
-        }),
-    }
+    let walls = slip.map_or(String::new(), |s| format!("-slip{s}"));
+    let name = format!("channel-n{n}-off{offset}{walls}");
+    Scene::new(name, "plane Poiseuille", case, move |run| {
+        let slip = slip.unwrap_or(0.0) * LUMEN;
+        let exact = |y: f64| channel(y, LUMEN, slip, G, PF[0], PF[2]);
+        Ok(vec![mean_against(run, low, exact)?])
+    })
 }
 
 /// Shear rate (1/s) and viscosity (Pa s) of a liquid that thins: its stress grows with the rate
@@ -66,16 +53,17 @@ const STRONG: f64 = 2.2e7;
 
 /// A channel of `n` cells with a viscosity table, linear in the logarithm of the shear rate.
 pub fn table_scene(n: u32, offset: f64, until: f64) -> Scene {
-    let mut scene = scene(n, offset, None, until);
-    scene.name = format!("table-n{n}-off{offset}");
-    scene.against = "quadrature of the profile";
-    scene.case.title = format!(
-        "Channel of {n} cells, viscosity table, walls {offset} cell off the nodes.\nAgainst quadrature of the profile."
-    );
-    scene.case.viscosity = Viscosity::Table(THINNING.to_vec());
-    scene.case.gravity = [STRONG, 0.0, 0.0];
-    let low = scene.case.bodies[0].max[1];
-    scene.measure = Box::new(move |run| {
+    let case = CaseText {
+        title: format!(
+            "Channel of {n} cells, viscosity table, walls {offset} cell off the nodes.\nAgainst quadrature of the profile."
+        ),
+        viscosity: Viscosity::Table(THINNING.to_vec()),
+        gravity: [STRONG, 0.0, 0.0],
+        ..scene(n, offset, None, until).case
+    };
+    let low = case.bodies[0].max[1];
+    let name = format!("table-n{n}-off{offset}");
+    Scene::new(name, "quadrature of the profile", case, move |run| {
         let [[slow, thick], [fast, thin]] = THINNING;
         let eta = |rate: f64| {
             let share = (rate / slow).log10() / (fast / slow).log10();
@@ -83,6 +71,5 @@ pub fn table_scene(n: u32, offset: f64, until: f64) -> Scene {
         };
         let exact = channel_of(eta, 1e6, LUMEN, STRONG, PF[0]);
         Ok(vec![mean_against(run, low, exact)?])
-    });
-    scene
+    })
 }

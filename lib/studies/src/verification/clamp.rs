@@ -3,6 +3,7 @@
 
 use super::{Measured, Scene};
 use crate::case_text::{Body, CaseText};
+use crate::numbers::largest;
 
 const CELL: f64 = 2.9e-6;
 /// Closing speed, m/s.
@@ -14,10 +15,13 @@ const LIMIT: f64 = 2.5e6;
 pub fn scene(travel: f64) -> Scene {
     let (low, gap, half) = (2.0 * CELL, 8.0 * CELL, 16.0 * CELL);
     let (right, top) = (half + 24.0 * CELL, low + gap + 2.0 * CELL);
+    let limit = LIMIT * half / right;
     let case = CaseText {
+        title: format!(
+            "A squeeze film closed by {travel} cells under a pressure limit.\nAgainst the limit, the closing speed and the travel."
+        ),
         clamp: Some(format!(
-            "closing_speed = \"{SPEED} m/s\"\nmax_pressure = \"{} Pa\"\nstop = \"closed\"\ntravel = \"{:.6} um\"\n",
-            LIMIT * half / right,
+            "closing_speed = \"{SPEED} m/s\"\nmax_pressure = \"{limit} Pa\"\nstop = \"closed\"\ntravel = \"{:.6} um\"\n",
             travel * CELL * 1e6
         )),
         bodies: vec![
@@ -28,43 +32,26 @@ pub fn scene(travel: f64) -> Scene {
             Body::liquid([0.0, low, 0.0], [half, low + gap, CELL]),
         ],
         history_every: 0.02e-6,
-        ..CaseText::plane(
-            format!(
-                "A squeeze film closed by {travel} cells under a pressure limit.\nAgainst the limit, the closing speed and the travel."
-            ),
-            CELL,
-            [right, top],
-        )
+        ..CaseText::plane(CELL, [right, top])
     };
-    Scene {
-        name: format!("clamp-travel{travel}"),
-        case,
-        against: "what the clamp is set to",
-        measure: Box::new(move |run| {
-            let pressure = run.history("pressure_top_Pa")?;
-            let speed = run.history("closing_speed_m_s")?;
-            let done = run.history("displacement_m")?;
-            let limit = LIMIT * half / right;
-            let largest = pressure.iter().copied().fold(0.0, f64::max);
-            let mut list = vec![Measured::absolute(
-                "overshoot over the limit",
-                (largest / limit - 1.0).max(0.0),
-            )];
-            // Held from the second microsecond after the limit was met on.
-            if let Some(met) = pressure.iter().position(|&p| p >= 0.98 * limit) {
-                let held = &pressure[(met + 100).min(pressure.len() - 1)..];
-                let worst = held.iter().map(|p| (p / limit - 1.0).abs());
-                list.push(Measured::absolute(
-                    "worst error of the pressure held",
-                    worst.fold(0.0, f64::max),
-                ));
-            }
-            let outside = |v: &f64| (-v).max(v - SPEED).max(0.0);
-            let wrong = speed.iter().map(outside).fold(0.0, f64::max);
-            list.push(Measured::absolute("speed outside 0 to 1 m/s", wrong));
-            let end = done.last().copied().unwrap_or(f64::NAN);
-            list.push(Measured::relative("travel at the end", end, travel * CELL));
-            Ok(list)
-        }),
-    }
+    let name = format!("clamp-travel{travel}");
+    Scene::new(name, "what the clamp is set to", case, move |run| {
+        let [pressure, speed] = run.columns(["pressure_top_Pa", "closing_speed_m_s"])?;
+        let [end] = run.ends(["displacement_m"])?;
+        let over = (largest(pressure.iter().copied()) / limit - 1.0).max(0.0);
+        let mut list = vec![Measured::absolute("overshoot over the limit", over)];
+        // Held from the second microsecond after the limit was met on.
+        if let Some(met) = pressure.iter().position(|&p| p >= 0.98 * limit) {
+            let held = &pressure[(met + 100).min(pressure.len() - 1)..];
+            let worst = largest(held.iter().map(|p| (p / limit - 1.0).abs()));
+            list.push(Measured::absolute(
+                "worst error of the pressure held",
+                worst,
+            ));
+        }
+        let wrong = largest(speed.iter().map(|v| (-v).max(v - SPEED)));
+        list.push(Measured::absolute("speed outside 0 to 1 m/s", wrong));
+        list.push(Measured::relative("travel at the end", end, travel * CELL));
+        Ok(list)
+    })
 }

@@ -2,6 +2,7 @@
 
 use super::{Measured, Scene};
 use crate::case_text::{Body, CaseText, PF};
+use crate::numbers::{mean, rms};
 
 const CELL: f64 = 2.9e-6;
 /// Body force per mass, m/s2.
@@ -11,6 +12,9 @@ const G: f64 = 1e6;
 pub fn scene(offset: f64, until: f64) -> Scene {
     let (width, floor, height) = (4.0 * CELL, (2.0 + offset) * CELL, 12.0 * CELL);
     let case = CaseText {
+        title: format!(
+            "Liquid at rest under a body force, floor {offset} cell off the nodes.\nAgainst rho g h."
+        ),
         contact: "law = \"frictionless\"\n".into(),
         gravity: [0.0, -G, 0.0],
         boundary: ["symmetry", "open", "symmetry"],
@@ -20,36 +24,21 @@ pub fn scene(offset: f64, until: f64) -> Scene {
             Body::liquid([0.0, floor, 0.0], [width, floor + height, CELL]),
         ],
         history_every: until / 200.0,
-        ..CaseText::plane(
-            format!(
-                "Liquid at rest under a body force, floor {offset} cell off the nodes.\nAgainst rho g h."
-            ),
-            CELL,
-            [width, 18.0 * CELL],
-        )
+        ..CaseText::plane(CELL, [width, 18.0 * CELL])
     };
-    Scene {
-        name: format!("column-off{offset}"),
-        case,
-        against: "hydrostatics",
-        measure: Box::new(move |run| {
-            let weight = PF[0] * G * height;
-            let force = run.history("pressure_bottom_Pa")?;
-            let late = &force[force.len() * 4 / 5..];
-            let mean = late.iter().sum::<f64>() / late.len() as f64;
-            let file = run.last()?;
-            let position = file.vectors("position").map_err(|e| e.to_string())?;
-            let pressure = file.column::<f32>("pressure").map_err(|e| e.to_string())?;
-            let square = |(x, p): (&[f32; 3], &f32)| {
-                let depth = floor + height - f64::from(x[1]);
-                (f64::from(*p) - PF[0] * G * depth).powi(2)
-            };
-            let sum: f64 = position.iter().zip(pressure).map(square).sum();
-            let rms = (sum / position.len() as f64).sqrt() / weight;
-            Ok(vec![
-                Measured::relative("weight on the floor", mean, weight),
-                Measured::absolute("rms pressure over rho g h", rms),
-            ])
-        }),
-    }
+    let name = format!("column-off{offset}");
+    Scene::new(name, "hydrostatics", case, move |run| {
+        let weight = PF[0] * G * height;
+        let force = run.history("pressure_bottom_Pa")?;
+        let late = mean(force[force.len() * 4 / 5..].iter().copied());
+        let points = run.points()?;
+        let depth = |y: f64| floor + height - y;
+        let off = points
+            .iter()
+            .map(|p| p.pressure - PF[0] * G * depth(p.at[1]));
+        Ok(vec![
+            Measured::relative("weight on the floor", late, weight),
+            Measured::absolute("rms pressure over rho g h", rms(off) / weight),
+        ])
+    })
 }

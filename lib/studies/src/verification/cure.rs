@@ -5,6 +5,7 @@ use super::lumen::Section;
 use super::piston::{self, Drive};
 use super::{LUMEN, Measured, Scene, slit, washburn};
 use crate::case_text::PF;
+use crate::numbers::worst;
 
 /// Pressure, Pa: filling takes half a second.
 const PRESSURE: f64 = 1e3;
@@ -63,14 +64,12 @@ impl Growth {
 /// A slit of `n` cells that fills to 4.5 of its widths.
 pub fn slit_scene(n: u32, growth: Growth) -> Scene {
     let h = LUMEN / f64::from(n);
-    let limit = PRESSURE * 4.0 * LUMEN / (4.0 * LUMEN + 6.0 * h);
-    let entrance = (washburn::TIME_TO_FIVE - 12.5) / 5.0 + slit::corner(n);
     let filling = Filling {
         name: format!("cure-slit-n{n}-{}", growth.name()),
         growth,
-        limit,
+        limit: PRESSURE * 4.0 * LUMEN / slit::domain(h),
         unit: 12.0 * PF[2] / PRESSURE,
-        entrance,
+        entrance: washburn::entrance(n),
         goal: 4.5,
         travel: 0.25,
     };
@@ -116,48 +115,41 @@ impl Filling {
         let time = self.growth.time(whole);
         let set = self.growth.set(time);
         let mut case = filling.case;
+        let (law, travel) = (
+            self.growth.name(),
+            1.2 * self.goal * self.travel * LUMEN * 1e6,
+        );
         case.title = format!(
-            "Filling at constant pressure with an adhesive that cures ({}).\nAgainst Washburn's law with the integral of P/eta dt.",
-            self.growth.name()
+            "Filling at constant pressure with an adhesive that cures ({law}).\nAgainst Washburn's law with the integral of P/eta dt."
         );
         case.clamp = Some(format!(
-            "closing_speed = \"0.02 m/s\"\nmax_pressure = \"{:.6} Pa\"\nstop = \"{} s\"\ntravel = \"{:.6} um\"\n",
+            "closing_speed = \"0.02 m/s\"\nmax_pressure = \"{:.6} Pa\"\nstop = \"{} s\"\ntravel = \"{travel:.6} um\"\n",
             self.limit,
             10.0 * time,
-            1.2 * self.goal * self.travel * LUMEN * 1e6
         ));
         case.cure = Some(self.growth.keys(time));
         case.history_every = set / 400.0;
-        Scene {
-            name: self.name.clone(),
-            case,
-            against: "Washburn with cure",
-            measure: Box::new(move |run| {
-                let times = run.history("time_s")?;
-                let travel = run.history("displacement_m")?;
-                let filled = |s: &f64| s / (self.travel * LUMEN);
-                let done = |t: f64| self.growth.fluidity(time, t) / self.unit;
-                let exact = |from: f64, since: f64, t: f64| {
-                    let start = from + self.entrance;
-                    (start * start + 2.0 * (done(t) - since)).sqrt() - self.entrance
-                };
-                let first = travel.iter().position(|s| filled(s) >= 1.0);
-                let first = first.ok_or("it was not filled to one width")?;
-                let (from, since) = (filled(&travel[first]), done(times[first]));
-                let errors = (times.iter().zip(&travel).skip(first))
-                    .map(|(t, s)| filled(s) / exact(from, since, *t) - 1.0);
-                let worst = errors.max_by(|a, b| a.abs().total_cmp(&b.abs()));
-                let worst = worst.unwrap_or(f64::NAN);
-                let (end, came) = (times.last(), travel.last());
-                let (Some(end), Some(came)) = (end, came) else {
-                    return Err("its history is empty".into());
-                };
-                Ok(vec![
-                    Measured::relative("L where it has set", filled(came), exact(0.0, 0.0, *end)),
-                    Measured::absolute("L(t) from L = d on, worst", worst),
-                    Measured::relative("time at which it ended", *end, set),
-                ])
-            }),
-        }
+        let name = self.name.clone();
+        Scene::new(name, "Washburn with cure", case, move |run| {
+            let [times, travel] = run.columns(["time_s", "displacement_m"])?;
+            let [end, came] = run.ends(["time_s", "displacement_m"])?;
+            let filled = |s: f64| s / (self.travel * LUMEN);
+            let done = |t: f64| self.growth.fluidity(time, t) / self.unit;
+            let exact = |from: f64, since: f64, t: f64| {
+                let start = from + self.entrance;
+                (start * start + 2.0 * (done(t) - since)).sqrt() - self.entrance
+            };
+            let first = travel.iter().position(|&s| filled(s) >= 1.0);
+            let first = first.ok_or("it was not filled to one width")?;
+            let (from, since) = (filled(travel[first]), done(times[first]));
+            let rows = times.iter().zip(&travel).skip(first);
+            let worst = worst(rows.map(|(&t, &s)| filled(s) / exact(from, since, t) - 1.0));
+            let worst = worst.unwrap_or(f64::NAN);
+            Ok(vec![
+                Measured::relative("L where it has set", filled(came), exact(0.0, 0.0, end)),
+                Measured::absolute("L(t) from L = d on, worst", worst),
+                Measured::relative("time at which it ended", end, set),
+            ])
+        })
     }
 }

@@ -1,12 +1,13 @@
 //! Squeeze film between closing discs: a quarter disc of liquid between plates that are wider.
 
-use super::lumen::{Rectangle, Section, quarter};
+use super::lumen::{Section, quarter};
 use super::{Measured, Scene};
 use crate::case_text::{Body, CaseText, PF};
 use crate::closed_forms::squeeze_discs;
 
 const CELL: f64 = 2.9e-6;
 const SPEED: f64 = 0.1;
+
 /// Gap of `n` cells, lower plate `offset` cells off the nodes, radius `aspect` gaps.
 pub fn scene(aspect: u32, n: u32, offset: f64) -> Scene {
     let across = 2 * aspect * n;
@@ -21,50 +22,32 @@ pub fn scene(aspect: u32, n: u32, offset: f64) -> Scene {
             .moving([0.0, -SPEED, 0.0])
             .named("top"),
     ];
-    let liquid =
-        |r: &Rectangle| Body::liquid([r.low[0], low, r.low[1]], [r.high[0], low + gap, r.high[1]]);
-    bodies.extend(
-        quarter(Section::Round(2), across, d, right)
-            .open
-            .iter()
-            .map(liquid),
-    );
+    for r in quarter(Section::Round(2), across, d, right).open {
+        let high = [r.high[0], low + gap, r.high[1]];
+        bodies.push(Body::liquid([r.low[0], low, r.low[1]], high));
+    }
     let case = CaseText {
+        title: format!(
+            "Squeeze film of a disc, radius {aspect} gaps, gap of {n} cells, plates {offset} cell off the nodes; a quarter of it.\nAgainst 3 pi eta R^4 V/(2 h^3), R of the voxels' area."
+        ),
         stop: Some(until),
         bodies,
         history_every: until / 10.0,
-        ..CaseText::new(
-            format!(
-                "Squeeze film of a disc, radius {aspect} gaps, gap of {n} cells, plates {offset} cell off the nodes; a quarter of it.\nAgainst 3 pi eta R^4 V/(2 h^3), R of the voxels' area."
-            ),
-            CELL,
-            3,
-            [right, top, right],
-        )
+        ..CaseText::new(CELL, 3, [right, top, right])
     };
     // The radius of a circle of the area of the voxels.
     let radius = d * (Section::Round(2).area(across) / std::f64::consts::PI).sqrt();
-    Scene {
-        name: format!("disc{aspect}-n{n}-off{offset}"),
-        case,
-        against: "lubrication theory",
-        measure: Box::new(move |run| {
-            let time = run.middles()?;
-            let (top, bottom) = (
-                run.history("pressure_top_Pa")?,
-                run.history("pressure_bottom_Pa")?,
-            );
-            let (Some(&t), Some(&p), Some(&q)) = (time.last(), top.last(), bottom.last()) else {
-                return Err("the history is empty".into());
-            };
-            // What is pressed out widens the disc.
-            let now = gap - t * SPEED;
-            let wider = radius * (gap / now).sqrt();
-            let exact = 0.25 * squeeze_discs(wider, now, SPEED, PF[2]);
-            Ok(vec![
-                Measured::relative("force on the top", p * right * right, exact),
-                Measured::relative("force on the bottom", q * right * right, exact),
-            ])
-        }),
-    }
+    let name = format!("disc{aspect}-n{n}-off{offset}");
+    Scene::new(name, "lubrication theory", case, move |run| {
+        let [end, step, top, bottom] =
+            run.ends(["time_s", "dt_s", "pressure_top_Pa", "pressure_bottom_Pa"])?;
+        // What is pressed out widens the disc.
+        let now = gap - (end - 0.5 * step) * SPEED;
+        let wider = radius * (gap / now).sqrt();
+        let exact = 0.25 * squeeze_discs(wider, now, SPEED, PF[2]);
+        Ok(vec![
+            Measured::relative("force on the top", top * right * right, exact),
+            Measured::relative("force on the bottom", bottom * right * right, exact),
+        ])
+    })
 }

@@ -18,51 +18,37 @@ pub fn scene(until: f64) -> Scene {
         let [u, v] = VELOCITY[i];
         Body::liquid([x, y, 0.0], [x + edge, y + edge, CELL]).moving([u, v, 0.0])
     };
-    let size = 17.0 * CELL;
     let case = CaseText {
+        title: "A free drop whose quarters move differently.\nAgainst conservation of momentum and angular momentum.".into(),
         boundary: ["open", "open", "symmetry"],
         stop: Some(until),
         bodies: (0..4).map(quarter).collect(),
         history_every: until / 20.0,
-        ..CaseText::plane(
-            "A free drop whose quarters move differently.\nAgainst conservation of momentum and angular momentum.",
-            CELL,
-            [size, size],
-        )
+        ..CaseText::plane(CELL, [17.0 * CELL; 2])
     };
-    Scene {
-        name: "drop".into(),
-        case,
-        against: "conservation",
-        measure: Box::new(move |run| {
-            let file = run.last()?;
-            let read = |name| file.vectors(name).map_err(|e| e.to_string());
-            let (position, velocity) = (read("position")?, read("velocity")?);
-            // Points of one box and spacing have one mass.
-            let (mut p, mut l) = ([0.0; 2], 0.0);
-            let centre = low + edge;
-            for (x, v) in position.iter().zip(velocity) {
-                let (x, v) = (x.map(f64::from), v.map(f64::from));
-                p = [p[0] + v[0], p[1] + v[1]];
-                l += (x[0] - centre) * v[1] - (x[1] - centre) * v[0];
-            }
-            let n = position.len() as f64;
-            let (mut p0, mut l0, mut l_size) = ([0.0; 2], 0.0, 0.0);
-            for (i, v) in VELOCITY.iter().enumerate() {
-                let arm = [(i % 2) as f64 - 0.5, (i / 2) as f64 - 0.5].map(|a| a * edge);
-                p0 = [p0[0] + 0.25 * v[0], p0[1] + 0.25 * v[1]];
-                l0 += 0.25 * (arm[0] * v[1] - arm[1] * v[0]);
-                l_size += 0.25 * arm[0].hypot(arm[1]) * v[0].hypot(v[1]);
-            }
-            let speed = p0[0].hypot(p0[1]);
-            let lost = (p[0] / n - p0[0]).hypot(p[1] / n - p0[1]) / speed;
-            Ok(vec![
-                Measured::absolute("momentum lost, share", lost),
-                Measured::absolute(
-                    "angular momentum lost, share of sum |r||v|",
-                    (l / n - l0).abs() / l_size,
-                ),
-            ])
-        }),
-    }
+    Scene::new("drop", "conservation", case, move |run| {
+        // Points of one box and spacing have one mass.
+        let (mut p, mut l) = ([0.0; 2], 0.0);
+        let centre = low + edge;
+        let points = run.points()?;
+        let n = points.len() as f64;
+        for point in &points {
+            let ([x, y, _], [u, v, _]) = (point.at, point.velocity);
+            p = [p[0] + u / n, p[1] + v / n];
+            l += ((x - centre) * v - (y - centre) * u) / n;
+        }
+        let (mut p0, mut l0, mut l_size) = ([0.0; 2], 0.0, 0.0);
+        for (i, [u, v]) in VELOCITY.into_iter().enumerate() {
+            let [x, y] = [(i % 2) as f64 - 0.5, (i / 2) as f64 - 0.5].map(|a| a * edge);
+            p0 = [p0[0] + 0.25 * u, p0[1] + 0.25 * v];
+            l0 += 0.25 * (x * v - y * u);
+            l_size += 0.25 * x.hypot(y) * u.hypot(v);
+        }
+        let lost = (p[0] - p0[0]).hypot(p[1] - p0[1]) / p0[0].hypot(p0[1]);
+        let turn = (l - l0).abs() / l_size;
+        Ok(vec![
+            Measured::absolute("momentum lost, share", lost),
+            Measured::absolute("angular momentum lost, share of sum |r||v|", turn),
+        ])
+    })
 }

@@ -13,50 +13,37 @@ pub fn scene(section: Section, n: u32, until: f64) -> Scene {
     let cell = LUMEN / f64::from(n);
     let (long, far) = (4.0 * cell, (f64::from(n.div_ceil(2)) + 3.0) * cell);
     let shape = quarter(section, n, LUMEN, far);
-    let corners = |r: &Rectangle| ([0.0, r.low[1], r.low[0]], [long, r.high[1], r.high[0]]);
     let body = |make: fn([f64; 3], [f64; 3]) -> Body, r: &Rectangle| {
-        let (low, high) = corners(r);
-        make(low, high)
+        make([0.0, r.low[1], r.low[0]], [long, r.high[1], r.high[0]])
     };
-    let mut bodies = vec![
-        body(Body::wall, &shape.roof)
-            .pressing(pressing(until))
-            .named("top"),
-    ];
+    let roof = body(Body::wall, &shape.roof).pressing(pressing(until));
+    let mut bodies = vec![roof.named("top")];
     let sides = shape.sides.iter();
     bodies.extend(sides.map(|r| body(Body::wall, r).named("bottom")));
     bodies.extend(shape.open.iter().map(|r| body(Body::liquid, r)));
+    let name = section.name();
     let case = CaseText {
+        title: format!(
+            "Developed flow through a lumen ({name}) of {n} cells, a quarter of it.\nAgainst rho g d^2/(c eta), c = 28.454 (square) or 32 (tube, d from the voxels' area), and finite differences in the same staircase."
+        ),
         gravity: [G, 0.0, 0.0],
         boundary: ["periodic", "symmetry", "symmetry"],
         stop: Some(until),
         bodies,
         history_every: until / 20.0,
-        ..CaseText::new(
-            format!(
-                "Developed flow through a lumen ({}) of {n} cells, a quarter of it.\nAgainst rho g d^2/(c eta), c = 28.454 (square) or 32 (tube, d from the voxels' area), and finite differences in the same staircase.",
-                section.name()
-            ),
-            cell,
-            3,
-            [long, far, far],
-        )
+        ..CaseText::new(cell, 3, [long, far, far])
     };
-    Scene {
-        name: format!("duct-{}-n{n}", section.name()),
-        case,
-        against: "White 2006; Hagen-Poiseuille",
-        measure: Box::new(move |run| {
-            let mean = mean_velocity(run, PF[0] * G)?;
-            let exact = |resistance: f64| PF[0] * G * LUMEN.powi(2) / (resistance * PF[2]);
-            let smooth = exact(section.resistance(n));
-            let mut list = vec![Measured::relative("mean velocity", mean, smooth)];
-            if section != Section::Square {
-                let stairs = exact(section.staircase_resistance(n));
-                let what = "mean velocity, same staircase";
-                list.push(Measured::relative(what, mean, stairs));
-            }
-            Ok(list)
-        }),
-    }
+    let name = format!("duct-{name}-n{n}");
+    Scene::new(name, "White 2006; Hagen-Poiseuille", case, move |run| {
+        let mean = mean_velocity(run, PF[0] * G)?;
+        let exact = |resistance: f64| PF[0] * G * LUMEN.powi(2) / (resistance * PF[2]);
+        let smooth = exact(section.resistance(n));
+        let mut list = vec![Measured::relative("mean velocity", mean, smooth)];
+        if section != Section::Square {
+            let stairs = exact(section.staircase_resistance(n));
+            let what = "mean velocity, same staircase";
+            list.push(Measured::relative(what, mean, stairs));
+        }
+        Ok(list)
+    })
 }

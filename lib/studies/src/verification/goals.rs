@@ -1,7 +1,7 @@
 //! Goals of the verification, for the page to say whether it reaches them.
 
 /// A largest error for some of the runs.
-pub struct Goal {
+pub(super) struct Goal {
     /// Beginnings of names of scenes, in words for the page.
     pub cases: &'static str,
     /// Whole words at the beginnings of names of scenes.
@@ -24,7 +24,7 @@ impl Goal {
     }
 
     /// Whether a run of `scene` by the method of this label counts.
-    pub fn is_about(&self, scene: &str, label: &str) -> bool {
+    pub(super) fn is_about(&self, scene: &str, label: &str) -> bool {
         let method = match self.method {
             "explicit" => !label.starts_with("implicit"),
             "implicit" => label.starts_with("implicit"),
@@ -70,7 +70,7 @@ const HALVES: &str = "walls half way between faces: a front fills half cells bes
 
 /// The numbers the project set out to reach, one a line.
 #[rustfmt::skip]
-pub const GOALS: &[Goal] = &[
+pub(super) const GOALS: &[Goal] = &[
     goal("incline, 0.5 ms, on nodes", &["incline-n6-off0"], "XPIC(5)", "rms profile", 0.01),
     goal("incline, 0.5 ms, on nodes", &["incline-n6-off0"], "XPIC(5)", "rms v_y", 0.001),
     goal("channel, 6 cells, any offset", &["channel-n6"], "implicit", "mean velocity", 0.02),

@@ -36,23 +36,20 @@ pub fn scene(n: u32) -> Scene {
     let until = 12.0 * (rho * darcy / eta + eta / modulus * edge.powi(2) / (10.0 * darcy));
     // The liquid moves by a tenth of a cell: the points stay where they fill the voids evenly.
     let g = 0.1 * edge / f64::from(n) / until * eta * porosity / (rho * darcy);
-    let about = "Flow along the grain through 48 x 48 x 48 voxels of the acer stack. Against the same voxels by lattice Boltzmann, refined.";
-    Scene {
-        name: format!("grain-n{n}"),
-        case: CaseText {
-            gravity: [g, 0.0, 0.0],
-            boundary: ["periodic"; 3],
-            stop: Some(until),
-            voxels: Some(voxels),
-            history_every: until / 20.0,
-            ..CaseText::new(about, edge / f64::from(n), 3, [edge; 3])
-        },
-        against: "lattice Boltzmann",
-        measure: Box::new(move |run| {
-            let found = porosity * mean_velocity(run, rho * g)? * eta / (rho * g);
-            Ok(vec![Measured::relative("permeability", found, darcy)])
-        }),
-    }
+    let case = CaseText {
+        title: "Flow along the grain through 48 x 48 x 48 voxels of the acer stack. Against the same voxels by lattice Boltzmann, refined.".into(),
+        gravity: [g, 0.0, 0.0],
+        boundary: ["periodic"; 3],
+        stop: Some(until),
+        voxels: Some(voxels),
+        history_every: until / 20.0,
+        ..CaseText::new(edge / f64::from(n), 3, [edge; 3])
+    };
+    let name = format!("grain-n{n}");
+    Scene::new(name, "lattice Boltzmann", case, move |run| {
+        let found = porosity * mean_velocity(run, rho * g)? * eta / (rho * g);
+        Ok(vec![Measured::relative("permeability", found, darcy)])
+    })
 }
 
 /// The first pages of the stack, along the grain.

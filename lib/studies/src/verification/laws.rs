@@ -1,8 +1,8 @@
 //! Viscosity laws by formula in a channel, against quadrature of the profile.
 
-use super::channel;
-use super::{LUMEN, Measured, Scene, final_points, mean_against};
-use crate::case_text::{PF, Viscosity};
+use super::{LUMEN, Measured, Scene, channel, mean_against};
+use crate::Result;
+use crate::case_text::{CaseText, PF, Viscosity};
 use crate::closed_forms::channel_of;
 use crate::outputs::Run;
 
@@ -17,11 +17,12 @@ pub struct Law {
     eta: fn(f64) -> f64,
     /// Stress below which it does not flow, Pa.
     yields: f64,
-    /// Body force per mass, m/s2: shear rates up to 3e4 1/s at the walls.
-    force: f64,
     /// Fewest cells: of a profile that is flat but for a thin layer, 3 show nothing, and passes do not settle.
-    pub coarsest: u32,
+    pub(crate) coarsest: u32,
 }
+
+/// Body force per mass, m/s2: shear rates up to 3e4 1/s at the walls.
+const FORCE: f64 = 8e6;
 
 /// The laws, thinning tenfold and more over the channel.
 pub const LAWS: [Law; 5] = [
@@ -30,7 +31,6 @@ pub const LAWS: [Law; 5] = [
         key: "power_law = { consistency = \"500 Pa s^n\", index = 0.5, rates = [\"1 1/s\", \"1e6 1/s\"] }",
         eta: |rate| 500.0 * rate.powf(-0.5),
         yields: 0.0,
-        force: 8e6,
         coarsest: 3,
     },
     Law {
@@ -38,7 +38,6 @@ pub const LAWS: [Law; 5] = [
         key: "power_law = { consistency = \"3000 Pa s^n\", index = 0.3, rates = [\"1 1/s\", \"1e6 1/s\"] }",
         eta: |rate| 3000.0 * rate.powf(-0.7),
         yields: 0.0,
-        force: 8e6,
         coarsest: 6,
     },
     Law {
@@ -46,7 +45,6 @@ pub const LAWS: [Law; 5] = [
         key: "cross = { zero_rate = \"50 Pa s\", infinite_rate = \"0.5 Pa s\", time = \"1 ms\", exponent = 0.8 }",
         eta: |rate| 0.5 + 49.5 / (1.0 + (1e-3 * rate).powf(0.8)),
         yields: 0.0,
-        force: 8e6,
         coarsest: 3,
     },
     Law {
@@ -54,7 +52,6 @@ pub const LAWS: [Law; 5] = [
         key: "carreau_yasuda = { zero_rate = \"50 Pa s\", infinite_rate = \"0.5 Pa s\", time = \"1 ms\", index = 0.4 }",
         eta: |rate| 0.5 + 49.5 * (1.0 + (1e-3 * rate).powi(2)).powf(-0.3),
         yields: 0.0,
-        force: 8e6,
         coarsest: 3,
     },
     Law {
@@ -62,51 +59,52 @@ pub const LAWS: [Law; 5] = [
         key: "herschel_bulkley = { yield_stress = \"40000 Pa\", consistency = \"250 Pa s^n\", index = 0.5, regularisation_rate = \"3 1/s\" }",
         eta: |rate| 40e3 / rate + 250.0 * rate.powf(-0.5),
         yields: 40e3,
-        force: 8e6,
         coarsest: 6,
     },
 ];
 
 /// A channel of `n` cells, its lower wall `offset` cells off the nodes.
 pub fn scene(law: Law, n: u32, offset: f64, until: f64) -> Scene {
-    let mut scene = channel::scene(n, offset, None, until);
-    scene.name = format!("law-{}-n{n}-off{offset}", law.name);
-    scene.against = "quadrature of the profile";
-    scene.case.title = format!(
+    let title = format!(
         "Channel of {n} cells, {}, walls {offset} cell off the nodes.\nAgainst quadrature of the profile.",
         law.name
     );
-    scene.case.viscosity = Viscosity::Law(law.key.into());
-    scene.case.gravity = [law.force, 0.0, 0.0];
-    let low = scene.case.bodies[0].max[1];
-    scene.measure = Box::new(move |run| {
-        let exact = channel_of(law.eta, 1e7, LUMEN, law.force, PF[0]);
+    let case = CaseText {
+        title,
+        viscosity: Viscosity::Law(law.key.into()),
+        gravity: [FORCE, 0.0, 0.0],
+        ..channel::scene(n, offset, None, until).case
+    };
+    let low = case.bodies[0].max[1];
+    let name = format!("law-{}-n{n}-off{offset}", law.name);
+    Scene::new(name, "quadrature of the profile", case, move |run| {
+        let exact = channel_of(law.eta, 1e7, LUMEN, FORCE, PF[0]);
         let mut list = vec![mean_against(run, low, exact)?];
         if law.yields > 0.0 {
             // Half the thickness of what does not yield.
-            let half = law.yields / (PF[0] * law.force);
+            let half = law.yields / (PF[0] * FORCE);
             list.push(plug(run, low, half, LUMEN / f64::from(n))?);
         }
         Ok(list)
-    });
-    scene
+    })
 }
 
 /// How far velocities differ in the plug, `half` (m) about the middle of the channel, in those of its `cell`s (m) that share
 /// nothing with what yields, over the velocity there.
-fn plug(run: &Run, low: f64, half: f64, cell: f64) -> Result<Measured, String> {
+fn plug(run: &Run, low: f64, half: f64, cell: f64) -> Result<Measured> {
     let (mut slowest, mut fastest) = (f64::INFINITY, 0.0_f64);
-    for (x, v) in final_points(run)? {
-        let middle = ((x[1] / cell).floor() + 0.5) * cell;
+    for p in run.points()? {
+        let middle = ((p.at[1] / cell).floor() + 0.5) * cell;
         if (middle - low - 0.5 * LUMEN).abs() + 0.5 * cell <= half {
-            (slowest, fastest) = (slowest.min(v[0]), fastest.max(v[0]));
+            slowest = slowest.min(p.velocity[0]);
+            fastest = fastest.max(p.velocity[0]);
         }
     }
-    if fastest == 0.0 {
-        return Err("there is no plug".into());
+    match fastest {
+        0.0 => Err("there is no plug".into()),
+        _ => Ok(Measured::absolute(
+            "motion within the plug",
+            1.0 - slowest / fastest,
+        )),
     }
-    Ok(Measured::absolute(
-        "motion within the plug",
-        1.0 - slowest / fastest,
-    ))
 }

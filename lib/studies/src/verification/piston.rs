@@ -6,8 +6,10 @@
 use std::f64::consts::PI;
 
 use super::lumen::{Rectangle, Section, quarter};
-use super::{LUMEN, Measured, Scene, at_middle};
+use super::{LUMEN, Measured, Scene};
+use crate::Result;
 use crate::case_text::{Body, CaseText, PF};
+use crate::numbers::{at_middle, crossing};
 use crate::outputs::Run;
 
 /// Depth of the reservoir over the diameter of the lumen.
@@ -63,68 +65,55 @@ pub fn scene(section: Section, n: u32, drive: Drive) -> Scene {
     };
     let mut bodies: Vec<Body> = shape.sides.iter().map(lumen).collect();
     bodies.push(lumen(&shape.roof));
-    let beside = [[LUMEN, 0.0], [0.0, LUMEN]];
-    let wall = |[x, z]: [f64; 2]| Body::wall([x, shoulder, z], [right, top, right]).named("bottom");
-    bodies.extend(beside.map(wall));
+    for [x, z] in [[LUMEN, 0.0], [0.0, LUMEN]] {
+        let wall = Body::wall([x, shoulder, z], [right, top, right]);
+        bodies.push(wall.named("bottom"));
+    }
     let plunger = Body::wall([0.0, piston, 0.0], [LUMEN, top + 2.0 * LUMEN, LUMEN]).named("top");
+    let liquid = Body::liquid([0.0, shoulder, 0.0], [LUMEN, piston, LUMEN]);
     let area = section.area(n);
     let resistance = section.staircase_resistance(n) * PF[2];
-    let (mut clamp, mut stop) = (None, None);
-    let until;
+    let (word, constant, until) = match drive {
+        Drive::Speed(v) => ("piston", "speed", LONGEST * area / 4.0 * LUMEN / v),
+        Drive::Pressure(p) => {
+            let until = 1.4 * resistance / p * (0.5 * LONGEST * LONGEST + 0.5);
+            ("washburn3d", "pressure", until)
+        }
+    };
+    let name = section.name();
+    let mut case = CaseText {
+        title: format!(
+            "A piston at constant {constant} presses liquid into a lumen ({name}) of {n} cells, a quarter of it.\nAgainst c eta V (L + e)/d^2, c of developed flow between the same walls by finite differences."
+        ),
+        bulk_modulus: STIFF,
+        history_every: until / 400.0,
+        ..CaseText::new(cell, 3, [right, top, right])
+    };
     match drive {
         Drive::Speed(v) => {
-            until = LONGEST * area / 4.0 * LUMEN / v;
-            stop = Some(until);
+            case.stop = Some(until);
             bodies.push(plunger.moving([0.0, -v, 0.0]));
         }
         Drive::Pressure(p) => {
-            until = 1.4 * resistance / p * (0.5 * LONGEST * LONGEST + 0.5);
-            let limit = p * (LUMEN / right).powi(2);
-            clamp = Some(format!(
-                "closing_speed = \"20 m/s\"\nmax_pressure = \"{limit:.6} Pa\"\nstop = \"{:.6} us\"\ntravel = \"{:.6} um\"\n",
+            case.clamp = Some(format!(
+                "closing_speed = \"20 m/s\"\nmax_pressure = \"{:.6} Pa\"\nstop = \"{:.6} us\"\ntravel = \"{:.6} um\"\n",
+                p * (LUMEN / right).powi(2),
                 until * 1e6,
                 1.2 * LUMEN * 1e6
             ));
             bodies.push(plunger.clamped());
         }
     }
-    bodies.push(Body::liquid([0.0, shoulder, 0.0], [LUMEN, piston, LUMEN]));
-    let case = CaseText {
-        clamp,
-        stop,
-        bodies,
-        bulk_modulus: STIFF,
-        history_every: until / 400.0,
-        ..CaseText::new(
-            format!(
-                "A piston at constant {} presses liquid into a lumen ({}) of {n} cells, a quarter of it.\nAgainst c eta V (L + e)/d^2, c of developed flow between the same walls by finite differences.",
-                match drive {
-                    Drive::Speed(_) => "speed",
-                    Drive::Pressure(_) => "pressure",
-                },
-                section.name()
-            ),
-            cell,
-            3,
-            [right, top, right],
-        )
-    };
-    let word = match drive {
-        Drive::Speed(_) => "piston",
-        Drive::Pressure(_) => "washburn3d",
-    };
-    Scene {
-        name: format!("{word}-{}-n{n}", section.name()),
-        case,
-        against: "developed flow",
-        measure: Box::new(move |run| match drive {
-            Drive::Speed(v) => {
-                let unit = resistance * 4.0 / area * v / LUMEN;
-                pressures(run, area, v, unit, right, 2.0 + entrance(section, n))
-            }
-            Drive::Pressure(p) => times(run, area, resistance / p, 1.5 + entrance(section, n)),
-        }),
-    }
+    bodies.push(liquid);
+    case.bodies = bodies;
+    let name = format!("{word}-{name}-n{n}");
+    Scene::new(name, "developed flow", case, move |run| match drive {
+        Drive::Speed(v) => {
+            let unit = resistance * 4.0 / area * v / LUMEN;
+            pressures(run, area, v, unit, right, 2.0 + entrance(section, n))
+        }
+        Drive::Pressure(p) => times(run, area, resistance / p, 1.5 + entrance(section, n)),
+    })
 }
 
 /// Growth of the pressure over the filled length, and the pressure itself, where that of two filled diameters is `exact`;
@@ -137,25 +126,20 @@ fn pressures(
     unit: f64,
     right: f64,
     exact: f64,
-) -> Result<Vec<Measured>, String> {
-    let time = run.middles()?;
+) -> Result<Vec<Measured>> {
     let pressure = run.history("pressure_top_Pa")?;
-    let pressure: Vec<f64> = pressure
-        .iter()
+    let pressure: Vec<f64> = (pressure.iter())
         .map(|p| p * (right / LUMEN).powi(2))
         .collect();
     // What the liquid gives way by itself does not flow into the lumen.
-    let filled: Vec<f64> = time
-        .iter()
-        .zip(&pressure)
+    let filled: Vec<f64> = (run.middles()?.iter().zip(&pressure))
         .map(|(t, p)| 4.0 / area * (speed * t / LUMEN - DEPTH * p / STIFF))
         .collect();
     let at = |length: f64| {
-        at_middle(&filled, &pressure, length - 0.25, length + 0.25)
-            .map(|p| p / unit)
-            .ok_or("the lumen was not filled to two diameters")
+        let found = at_middle(&filled, &pressure, length - 0.25, length + 0.25);
+        found.ok_or("the lumen was not filled to two diameters")
     };
-    let (one, two) = (at(1.0)?, at(2.0)?);
+    let (one, two) = (at(1.0)? / unit, at(2.0)? / unit);
     Ok(vec![
         Measured::relative("pressure per filled diameter", two - one, 1.0),
         Measured::relative("pressure at L = 2 d", two, exact),
@@ -163,20 +147,13 @@ fn pressures(
 }
 
 /// Time in which the liquid goes on from one to two diameters, over `c eta/p` (s), where `exact` is right.
-fn times(run: &Run, area: f64, unit: f64, exact: f64) -> Result<Vec<Measured>, String> {
-    let time = run.history("time_s")?;
-    let travel = run.history("displacement_m")?;
+fn times(run: &Run, area: f64, unit: f64, exact: f64) -> Result<Vec<Measured>> {
+    let [time, travel] = run.columns(["time_s", "displacement_m"])?;
     let when = |length: f64| {
-        let goal = length * area / 4.0 * LUMEN;
-        let i = travel.iter().position(|&s| s >= goal).filter(|&i| i > 0);
-        let i = i.ok_or("the lumen was not filled to two diameters")?;
-        let part = (goal - travel[i - 1]) / (travel[i] - travel[i - 1]);
-        Ok::<f64, String>(time[i - 1] + part * (time[i] - time[i - 1]))
+        let found = crossing(&travel, &time, length * area / 4.0 * LUMEN);
+        found.ok_or("the lumen was not filled to two diameters")
     };
     let took = (when(2.0)? - when(1.0)?) / unit;
-    Ok(vec![Measured::relative(
-        "time from L = d to 2 d",
-        took,
-        exact,
-    )])
+    let what = "time from L = d to 2 d";
+    Ok(vec![Measured::relative(what, took, exact)])
 }

@@ -3,43 +3,30 @@
 use figures::{Clouds, Drawing, Mark, Plot};
 
 use super::{LUMEN, incline, slit};
+use crate::Result;
 use crate::job::Outcome;
 use crate::outputs::Run;
 use crate::study::{PAGE, Study};
 
 /// Writes the figures whose runs are among `outcomes`.
-///
-/// # Errors
-/// What a figure lacks, or the system's reason.
-pub fn write(study: &Study, outcomes: &[Outcome]) -> Result<(), String> {
+pub(super) fn write(study: &Study, outcomes: &[Outcome]) -> Result<()> {
     let done = |scene: &str, label: &str| {
-        let found = outcomes
-            .iter()
-            .find(|o| o.scene == scene && o.method.label == label);
-        found.filter(|o| o.measured.is_ok()).map(|o| Run {
-            folder: o.folder.clone(),
-        })
+        let of = |o: &&Outcome| o.scene == scene && o.method.label == label && o.measured.is_ok();
+        outcomes.iter().find(of).map(|o| &o.run)
     };
-    let save = |name: &str, drawing: Result<Drawing, figures::Error>| {
-        let bytes = drawing.and_then(|d| d.to_png());
-        study.write(
-            &format!("verification-{name}.png"),
-            bytes.map_err(|e| format!("{name}: {e}"))?,
-        )
-    };
-    let aligned = "incline-n6-off0";
+    let save = |name: &str, drawing| study.draw(&format!("verification-{name}.png"), drawing);
     let main = ["FLIP", "XPIC(5)", "implicit"];
-    let runs = main.map(|label| done(aligned, label));
-    if let [Some(flip), Some(xpic), Some(implicit)] = &runs {
-        let runs = [flip, xpic, implicit];
-        save("incline", profiles(&main, &runs))?;
-        save("incline-points", points(&main, &runs))?;
+    let runs = main.map(|label| done("incline-n6-off0", label));
+    if let [Some(flip), Some(xpic), Some(implicit)] = runs {
+        let profile = |run| incline::profile(run, 6, 0.0);
+        let spots = [profile(flip)?, profile(xpic)?, profile(implicit)?];
+        save("incline", profiles(&main, &spots))?;
+        save("incline-points", points(&main, &spots))?;
     }
-    let channel = channel(outcomes);
-    if let Some(plot) = channel {
+    if let Some(plot) = channel(outcomes) {
         save("channel", plot.draw(PAGE))?;
     }
-    let slits: Vec<(&str, Run)> = ["FLIP", "XPIC(5)", "APIC", "implicit"]
+    let slits: Vec<(&str, &Run)> = ["FLIP", "XPIC(5)", "APIC", "implicit"]
         .into_iter()
         .filter_map(|label| Some((label, done("slit-n6-off0-0", label)?)))
         .collect();
@@ -49,37 +36,34 @@ pub fn write(study: &Study, outcomes: &[Outcome]) -> Result<(), String> {
     Ok(())
 }
 
+type Spots = Vec<([f64; 2], f64)>;
+
 /// Velocity over height of films whose floor lies on the nodes, with Eq. 5.
-fn profiles(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
+fn profiles(labels: &[&str], runs: &[Spots]) -> Result<Drawing, figures::Error> {
     let mut plot = Plot::new(
         "Film at 0.5 ms, floor on the nodes",
         "height / thickness",
         "velocity / largest by Eq. 5",
     );
-    for (label, run) in labels.iter().zip(runs) {
-        let spots = incline::profile(run, 6, 0.0).map_err(figures::Error::Data)?;
+    for (label, spots) in labels.iter().zip(runs) {
         let places = spots.iter().map(|(at, v)| [at[1], *v]).collect();
         plot = plot.with(label, Mark::Dots, places);
     }
-    let exact = (0..=100)
-        .map(|i| {
-            let y = f64::from(i) / 100.0;
-            [y, incline::velocity(y * LUMEN) / incline::fastest()]
-        })
-        .collect();
-    plot.with("Eq. 5", Mark::Line, exact).draw(PAGE)
+    let exact = (0..=100).map(|i| f64::from(i) / 100.0);
+    let exact = exact.map(|y| [y, incline::velocity(y * LUMEN) / incline::fastest()]);
+    let plot = plot.with("Eq. 5", Mark::Line, exact.collect());
+    plot.draw(PAGE)
 }
 
-fn points(labels: &[&str], runs: &[&Run]) -> Result<Drawing, figures::Error> {
+fn points(labels: &[&str], runs: &[Spots]) -> Result<Drawing, figures::Error> {
     let mut clouds = Clouds::new(
         ["place along the floor / thickness", "height / thickness"],
         "velocity / largest by Eq. 5",
         [0.0, 1.0],
         0.03,
     );
-    for (label, run) in labels.iter().zip(runs) {
-        let spots = incline::profile(run, 6, 0.0).map_err(figures::Error::Data)?;
-        clouds = clouds.with(label, spots);
+    for (label, spots) in labels.iter().zip(runs) {
+        clouds = clouds.with(label, spots.clone());
     }
     clouds.draw(PAGE)
 }
@@ -91,10 +75,9 @@ fn channel(outcomes: &[Outcome]) -> Option<Plot> {
         "offset of the walls from the nodes (cells)",
         "error (%)",
     );
-    let mut any = false;
+    let mut labels = Vec::new();
     for label in ["FLIP", "XPIC(5)", "APIC", "PIC", "implicit"] {
-        let errors: Vec<[f64; 2]> = outcomes
-            .iter()
+        let errors: Vec<[f64; 2]> = (outcomes.iter())
             .filter(|o| o.method.label == label)
             .filter_map(|o| {
                 let offset = o.scene.strip_prefix("channel-n6-off")?.parse().ok()?;
@@ -103,26 +86,23 @@ fn channel(outcomes: &[Outcome]) -> Option<Plot> {
             .collect();
         if !errors.is_empty() {
             plot = plot.with(label, Mark::LineAndDots, errors);
-            any = true;
+            labels.push(label);
         }
     }
-    any.then_some(plot)
+    (!labels.is_empty()).then_some(plot)
 }
 
-fn slit_forces(runs: &[(&str, Run)]) -> Result<Plot, String> {
+fn slit_forces(runs: &[(&str, &Run)]) -> Result<Plot> {
     let mut plot = Plot::new(
         "A piston presses liquid into a slit of 6 cells, walls on the nodes",
         "filled length over slit width",
         "piston force over that of one filled width",
     );
     for (label, run) in runs {
-        let rows = slit::curve(run, 6)?;
+        let mut rows = slit::curve(run, 6)?;
         // The first row is the blow of the start.
-        plot = plot.with(
-            label,
-            Mark::Line,
-            rows.into_iter().filter(|p| p[0] > 0.2).collect(),
-        );
+        rows.retain(|p| p[0] > 0.2);
+        plot = plot.with(label, Mark::Line, rows);
     }
-    Ok(plot.with("finite elements", Mark::Dots, slit::reference(6)))
+    Ok(plot.with("finite elements", Mark::Dots, slit::reference(6).into()))
 }

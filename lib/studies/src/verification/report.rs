@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
-use super::catalogue::Entry;
 use super::families::FAMILIES;
 use super::goals::{GOALS, Goal};
 use super::{Measured, Scene};
+use crate::Result;
 use crate::job::Outcome;
+use crate::numbers::worst;
 use crate::study::{Study, distinct};
 
 /// Order of the methods in tables.
@@ -15,29 +16,26 @@ const COLUMNS: [&str; 9] = [
 ];
 
 /// Writes `verification.csv` and `verification.md`.
-///
-/// # Errors
-/// The system's reason.
-pub fn write(study: &Study, entries: &[Entry], outcomes: &[Outcome]) -> Result<(), String> {
+pub(super) fn write(study: &Study, outcomes: &[Outcome]) -> Result<()> {
     let columns = "case,scheme,method,set,against,quantity,value,reference,error,order,steps,cpu_s";
-    let rows = outcomes.iter().flat_map(|o| fields(o, entries, outcomes));
+    let rows = outcomes.iter().flat_map(|o| fields(o, outcomes));
     study.write_csv("verification.csv", columns, rows)?;
     let head = study.head(outcomes.iter().map(|o| o.cpu_s));
     study.write("verification.md", page(&head, outcomes))
 }
 
 /// The rows of a run in the table.
-fn fields(o: &Outcome, entries: &[Entry], outcomes: &[Outcome]) -> Vec<Vec<String>> {
-    let scene = entries.iter().find(|(scene, _)| scene.name == o.scene);
-    let head = || {
-        vec![
-            o.scene.clone(),
-            o.method.scheme.name().into(),
-            o.method.label.clone(),
-            o.method.set.join(" "),
-            scene.map_or(String::new(), |(scene, _)| scene.against.into()),
-        ]
-    };
+fn fields(o: &Outcome, outcomes: &[Outcome]) -> Vec<Vec<String>> {
+    let method = &o.method;
+    let set = method.set.join(" ");
+    let head = [
+        &o.scene,
+        method.scheme.name(),
+        &method.label,
+        &set,
+        o.against,
+    ]
+    .map(String::from);
     let row = |m: &Measured| {
         let order = order(o, m, outcomes).map_or(String::new(), |order| format!("{order:.1}"));
         let numbers = [
@@ -49,12 +47,12 @@ fn fields(o: &Outcome, entries: &[Entry], outcomes: &[Outcome]) -> Vec<Vec<Strin
             o.steps.to_string(),
             format!("{:.2}", o.cpu_s),
         ];
-        [head(), numbers.into()].concat()
+        [&head[..], &numbers].concat()
     };
     match &o.measured {
         Ok(list) => list.iter().map(row).collect(),
         Err(said) => {
-            let mut row = head();
+            let mut row = head.to_vec();
             row.push(format!("failed: {said}"));
             row.resize(12, String::new());
             vec![row]
@@ -104,43 +102,33 @@ fn goals(out: &mut String, outcomes: &[Outcome]) {
         "## Goals\n\n| case | method | quantity | goal | worst | |\n|---|---|---|---|---|---|\n",
     );
     for goal in GOALS {
-        let Some(worst) = worst(goal, outcomes) else {
+        let Some(worst) = worst_of(goal, outcomes) else {
             continue;
         };
-        let missed = match goal.why {
+        let reached = match goal.why {
+            _ if worst.abs() <= goal.limit => "reached".into(),
             Some(why) => format!("**missed**: {why}"),
             None => "**missed**".into(),
         };
-        let reached = if worst.abs() <= goal.limit {
-            "reached"
-        } else {
-            missed.as_str()
-        };
+        let (cases, limit, worst) = (goal.cases, percent(goal.limit), percent(worst));
         let _ = writeln!(
             out,
-            "| {} | {} | {} | {} | {} | {reached} |",
-            goal.cases,
+            "| {cases} | {} | {} | {} | {worst} | {reached} |",
             goal.method,
             goal.quantity,
-            percent(goal.limit).trim_start_matches('+'),
-            percent(worst)
+            limit.trim_start_matches('+'),
         );
     }
     out.push('\n');
 }
 
-fn worst(goal: &Goal, outcomes: &[Outcome]) -> Option<f64> {
-    let of = outcomes
-        .iter()
-        .filter(|o| goal.is_about(&o.scene, &o.method.label));
-    let errors = of.filter_map(|o| {
-        let list = o.measured.as_ref().ok()?;
-        let about = list.iter().filter(|m| m.what.starts_with(goal.quantity));
-        about
-            .map(|m| m.error)
-            .max_by(|a, b| a.abs().total_cmp(&b.abs()))
-    });
-    errors.max_by(|a, b| a.abs().total_cmp(&b.abs()))
+fn worst_of(goal: &Goal, outcomes: &[Outcome]) -> Option<f64> {
+    let of = (outcomes.iter()).filter(|o| goal.is_about(&o.scene, &o.method.label));
+    let all = of.filter_map(|o| o.measured.as_ref().ok()).flatten();
+    worst(
+        all.filter(|m| m.what.starts_with(goal.quantity))
+            .map(|m| m.error),
+    )
 }
 
 /// The worst error of each quantity at each resolution by each method, and what failed.

@@ -1,8 +1,10 @@
 //! A piston pushes liquid from a reservoir, four slit widths wide, into a slit: the mission's
 //! own flow. Against finite elements behind a tracked front (lib/studies/reference).
 
-use super::{LUMEN, Measured, Scene, at_middle};
+use super::{LUMEN, Measured, Scene};
+use crate::Result;
 use crate::case_text::{Body, CaseText, PF};
+use crate::numbers::at_middle;
 use crate::outputs::Run;
 
 /// Piston speed, m/s; the slit is a quarter of the reservoir, so it flows four times faster.
@@ -17,75 +19,80 @@ const ENTRANCE: [(f64, f64); 4] = [(1.0, 0.246), (2.0, 0.235), (3.0, 0.260), (4.
 /// to its sides has no limit, since both corners are Taylor's scraper (pressure as 1/r).
 const CORNER: f64 = 0.0223;
 
-/// Slit of `n` cells, walls offset by `offset` cells along x and y.
-pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
-    let h = LUMEN / f64::from(n);
-    let (x0, width) = ((2.0 + offset[0]) * h, 4.0 * LUMEN);
-    let centre = x0 + 0.5 * width;
-    // A whole number of cells, because pressures refer to the cross-section of the grid.
-    let right = (4.0 * f64::from(n) + 6.0) * h;
-    let shoulder = 7.0 * LUMEN + 2.0 * h;
-    // The piston comes from above; the slit leads down, as in a clamped bond line.
-    let piston = shoulder + 2.0 * LUMEN + offset[1] * h;
-    let top = piston + 3.0 * h;
-    let half = 0.5 * LUMEN;
-    let case = CaseText {
-        stop: Some(0.55 * 2.0 * LUMEN / SPEED),
+/// Width of the reservoir, m.
+const WIDTH: f64 = 4.0 * LUMEN;
+
+/// Edge (m) along x of the domain of a reservoir in cells of `h` (m).
+pub(super) fn domain(h: f64) -> f64 {
+    WIDTH + 6.0 * h
+}
+
+/// A reservoir from `x0` on whose piston comes from above, in cells of `h`; the slit leads down from its
+/// `shoulder`, as in a clamped bond line. The piston, `driven`, goes on `above` the domain. All m.
+pub(super) fn reservoir(
+    h: f64,
+    [x0, shoulder, piston]: [f64; 3],
+    above: f64,
+    driven: fn(Body) -> Body,
+) -> CaseText {
+    let (x1, right, top) = (x0 + WIDTH, domain(h), piston + 3.0 * h);
+    let slit = [0.5 * WIDTH - 0.5 * LUMEN, 0.5 * WIDTH + 0.5 * LUMEN].map(|x| x0 + x);
+    let wall = |[x, y]: [f64; 2], [to_x, to_y]: [f64; 2]| {
+        Body::wall([x, y, 0.0], [to_x, to_y, h]).named("bottom")
+    };
+    CaseText {
         bodies: vec![
-            Body::wall([0.0, 0.0, 0.0], [x0, top, h]).named("bottom"),
-            Body::wall([x0 + width, 0.0, 0.0], [right, top, h]).named("bottom"),
-            Body::wall([x0, 0.0, 0.0], [centre - half, shoulder, h]).named("bottom"),
-            Body::wall([centre + half, 0.0, 0.0], [x0 + width, shoulder, h]).named("bottom"),
-            Body::wall([x0, piston, 0.0], [x0 + width, top + LUMEN, h])
-                .moving([0.0, -SPEED, 0.0])
-                .named("top"),
-            Body::liquid([x0, shoulder, 0.0], [x0 + width, piston, h]),
+            wall([0.0, 0.0], [x0, top]),
+            wall([x1, 0.0], [right, top]),
+            wall([x0, 0.0], [slit[0], shoulder]),
+            wall([slit[1], 0.0], [x1, shoulder]),
+            driven(wall([x0, piston], [x1, top + above]).named("top")),
+            Body::liquid([x0, shoulder, 0.0], [x1, piston, h]),
         ],
         history_every: 0.05e-6,
-        ..CaseText::new(
-            format!(
-                "A piston pushes liquid from a reservoir into a slit of {n} cells, walls ({}, {}) cell off the nodes.",
-                offset[0], offset[1]
-            ),
-            h,
-            2,
-            [right, top, h],
-        )
-    };
-    Scene {
-        name: format!("slit-n{n}-off{}-{}", offset[0], offset[1]),
-        case,
-        against: "finite elements",
-        measure: Box::new(move |run| {
-            let (filled, force): (Vec<f64>, Vec<f64>) =
-                curve(run, n)?.iter().map(|p| (p[0], p[1])).unzip();
-            let mut list = Vec::new();
-            for (length, entrance) in ENTRANCE {
-                if let Some(f) = at_middle(&filled, &force, length - 0.25, length + 0.25) {
-                    list.push(Measured::relative(
-                        format!("piston force at L = {length} H"),
-                        f,
-                        length + entrance + corner(n),
-                    ));
-                }
-            }
-            let time = run.summary("time_s").unwrap_or(f64::NAN);
-            let room = (piston - SPEED * time - shoulder) * width * h;
-            list.push(Measured::absolute(
-                "density in the reservoir",
-                volume_above(run, shoulder)? / room - 1.0,
-            ));
-            Ok(list)
-        }),
+        ..CaseText::plane(h, [right, top])
     }
+}
+
+/// Slit of `n` cells, walls offset by `offset` cells along x and y.
+pub(crate) fn scene(n: u32, offset: [f64; 2]) -> Scene {
+    let h = LUMEN / f64::from(n);
+    let [aside, up] = offset;
+    let shoulder = 7.0 * LUMEN + 2.0 * h;
+    let piston = shoulder + 2.0 * LUMEN + up * h;
+    let case = CaseText {
+        title: format!(
+            "A piston pushes liquid from a reservoir into a slit of {n} cells, walls ({aside}, {up}) cell off the nodes."
+        ),
+        stop: Some(0.55 * 2.0 * LUMEN / SPEED),
+        ..reservoir(h, [(2.0 + aside) * h, shoulder, piston], LUMEN, |piston| {
+            piston.moving([0.0, -SPEED, 0.0])
+        })
+    };
+    let name = format!("slit-n{n}-off{aside}-{up}");
+    Scene::new(name, "finite elements", case, move |run| {
+        let (filled, force): (Vec<f64>, Vec<f64>) =
+            curve(run, n)?.iter().map(|p| (p[0], p[1])).unzip();
+        let mut list = Vec::new();
+        for [length, exact] in reference(n) {
+            if let Some(f) = at_middle(&filled, &force, length - 0.25, length + 0.25) {
+                let what = format!("piston force at L = {length} H");
+                list.push(Measured::relative(what, f, exact));
+            }
+        }
+        let time = run.summary("time_s").unwrap_or(f64::NAN);
+        let room = (piston - SPEED * time - shoulder) * WIDTH * h;
+        let points = run.points()?;
+        let above = points.iter().filter(|p| p.at[1] > shoulder);
+        let dense = above.map(|p| p.volume).sum::<f64>() / room - 1.0;
+        list.push(Measured::absolute("density in the reservoir", dense));
+        Ok(list)
+    })
 }
 
 /// Filled length in slit widths and force on the piston over that of one filled width, row by
 /// row of the history of a run with `n` cells.
-///
-/// # Errors
-/// What is wrong with the history.
-pub fn curve(run: &Run, n: u32) -> Result<Vec<[f64; 2]>, String> {
+pub(super) fn curve(run: &Run, n: u32) -> Result<Vec<[f64; 2]>> {
     let time = run.middles()?;
     let pressure = run.history("pressure_top_Pa")?;
     // History pressures refer to the whole cross-section of the domain.
@@ -96,25 +103,11 @@ pub fn curve(run: &Run, n: u32) -> Result<Vec<[f64; 2]>, String> {
 }
 
 /// What the corners of the piston add where its sides give way over one of `n` cells.
-pub fn corner(n: u32) -> f64 {
+pub(super) fn corner(n: u32) -> f64 {
     CORNER * (f64::from(n) / 24.0).ln()
 }
 
 /// Filled lengths and forces of the reference for `n` cells.
-pub fn reference(n: u32) -> Vec<[f64; 2]> {
-    ENTRANCE
-        .map(|(length, more)| [length, length + more + corner(n)])
-        .to_vec()
-}
-
-/// Volume of the points above a height, m3.
-fn volume_above(run: &Run, height: f64) -> Result<f64, String> {
-    let file = run.last()?;
-    let position = file.vectors("position").map_err(|e| e.to_string())?;
-    let volume = file.column::<f32>("volume").map_err(|e| e.to_string())?;
-    let above = position
-        .iter()
-        .zip(volume)
-        .filter(|(x, _)| f64::from(x[1]) > height);
-    Ok(above.map(|(_, v)| f64::from(*v)).sum())
+pub(super) fn reference(n: u32) -> [[f64; 2]; 4] {
+    ENTRANCE.map(|(length, more)| [length, length + more + corner(n)])
 }

@@ -21,6 +21,9 @@ pub fn scene(n: u32, offset: f64) -> Scene {
     // Short enough that the gap changes by a twentieth of a cell.
     let until = 0.05 * CELL / SPEED;
     let case = CaseText {
+        title: format!(
+            "Squeeze film, gap of {n} cells, plates {offset} cell off the nodes, half-length {ASPECT} gaps.\nAgainst 8 eta v a^3/h^3 per length."
+        ),
         stop: Some(until),
         bodies: vec![
             Body::wall([0.0, 0.0, 0.0], [right, low, CELL]).named("bottom"),
@@ -30,33 +33,19 @@ pub fn scene(n: u32, offset: f64) -> Scene {
             Body::liquid([0.0, low, 0.0], [half_length, high, CELL]),
         ],
         history_every: until / 10.0,
-        ..CaseText::plane(
-            format!(
-                "Squeeze film, gap of {n} cells, plates {offset} cell off the nodes, half-length {ASPECT} gaps.\nAgainst 8 eta v a^3/h^3 per length."
-            ),
-            CELL,
-            [right, top],
-        )
+        ..CaseText::plane(CELL, [right, top])
     };
-    Scene {
-        name: format!("squeeze-n{n}-off{offset}"),
-        case,
-        against: "lubrication theory",
-        measure: Box::new(move |run| {
-            let travelled: Vec<f64> = run.middles()?.iter().map(|t| t * SPEED).collect();
-            let top = run.history("pressure_top_Pa")?;
-            let bottom = run.history("pressure_bottom_Pa")?;
-            let (Some(&s), Some(&p), Some(&q)) = (travelled.last(), top.last(), bottom.last())
-            else {
-                return Err("the history is empty".into());
-            };
-            // What is pressed out lengthens the film.
-            let longer = half_length * gap / (gap - s);
-            let exact = 0.5 * squeeze_plates(longer, gap - s, SPEED, PF[2]);
-            Ok(vec![
-                Measured::relative("force on the top", p * right, exact),
-                Measured::relative("force on the bottom", q * right, exact),
-            ])
-        }),
-    }
+    let name = format!("squeeze-n{n}-off{offset}");
+    Scene::new(name, "lubrication theory", case, move |run| {
+        let [end, step, top, bottom] =
+            run.ends(["time_s", "dt_s", "pressure_top_Pa", "pressure_bottom_Pa"])?;
+        // What is pressed out lengthens the film.
+        let now = gap - (end - 0.5 * step) * SPEED;
+        let longer = half_length * gap / now;
+        let exact = 0.5 * squeeze_plates(longer, now, SPEED, PF[2]);
+        Ok(vec![
+            Measured::relative("force on the top", top * right, exact),
+            Measured::relative("force on the bottom", bottom * right, exact),
+        ])
+    })
 }

@@ -3,6 +3,7 @@
 use super::{Measured, Scene};
 use crate::case_text::{Body, CaseText, Viscosity};
 use crate::closed_forms::closing_film;
+use crate::numbers::worst;
 
 /// Small and thin enough for the liquid's inertia to be over long before a microsecond is, at pressures
 /// that do not compress it.
@@ -70,14 +71,14 @@ pub fn scene(n: u32, load: Load, time: f64) -> Scene {
     let (right, top) = (half_length / END + 8.0 * CELL, low + gap + 3.0 * CELL);
     let scale = 4.0 * VISCOSITY * (half_length * gap).powi(3) / 5.0;
     let force = (END.powi(-5) - 1.0) * gap.powi(-5) * scale / (load.impulse(1.0) * time);
+    let (travel, stages) = (0.9 * gap * 1e6, load.stages(force / right, time));
     let case = CaseText {
+        title: format!(
+            "A film of {n} cells that a load closes to half within {time:e} s ({load:?}).\nAgainst h^-5 = h0^-5 + 5/(4 eta a0^3 h0^3) times the integral of the force."
+        ),
         viscosity: Viscosity::Newtonian(VISCOSITY),
         bulk_modulus: BULK_MODULUS,
-        clamp: Some(format!(
-            "travel = \"{} um\"\n{}",
-            0.9 * gap * 1e6,
-            load.stages(force / right, time)
-        )),
+        clamp: Some(format!("travel = \"{travel} um\"\n{stages}")),
         bodies: vec![
             Body::wall([0.0; 3], [right, low, CELL]).named("bottom"),
             Body::wall([0.0, low + gap, 0.0], [right, top + gap, CELL])
@@ -87,39 +88,25 @@ pub fn scene(n: u32, load: Load, time: f64) -> Scene {
         ],
         // A row for every step.
         history_every: 1e-15,
-        ..CaseText::plane(
-            format!(
-                "A film of {n} cells that a load closes to half within {time:e} s ({load:?}).\nAgainst h^-5 = h0^-5 + 5/(4 eta a0^3 h0^3) times the integral of the force."
-            ),
-            CELL,
-            [right, top],
-        )
+        ..CaseText::plane(CELL, [right, top])
     };
     let kind = match load {
         Load::Hold => "hold",
         Load::Programme => "programme",
     };
-    Scene {
-        name: format!("stefan-n{n}-{kind}-{time:e}s"),
-        case,
-        against: "lubrication theory",
-        measure: Box::new(move |run| {
-            let times = run.history("time_s")?;
-            let travel = run.history("displacement_m")?;
-            let exact = |t: f64| {
-                let impulse = force * time * load.impulse(t / time);
-                closing_film(gap, half_length, impulse, VISCOSITY)
-            };
-            let rows = times.iter().zip(&travel);
-            let off = rows.map(|(&t, &way)| (gap - way) / exact(t) - 1.0);
-            let worst = off.fold(0.0, |m: f64, e| if e.abs() > m.abs() { e } else { m });
-            let (Some(&t), Some(&way)) = (times.last(), travel.last()) else {
-                return Err("the history is empty".into());
-            };
-            Ok(vec![
-                Measured::absolute("gap over time, relative", worst),
-                Measured::relative("gap at the end", gap - way, exact(t)),
-            ])
-        }),
-    }
+    let name = format!("stefan-n{n}-{kind}-{time:e}s");
+    Scene::new(name, "lubrication theory", case, move |run| {
+        let [times, travel] = run.columns(["time_s", "displacement_m"])?;
+        let [end, way] = run.ends(["time_s", "displacement_m"])?;
+        let exact = |t: f64| {
+            let impulse = force * time * load.impulse(t / time);
+            closing_film(gap, half_length, impulse, VISCOSITY)
+        };
+        let rows = times.iter().zip(&travel);
+        let off = worst(rows.map(|(&t, &way)| (gap - way) / exact(t) - 1.0));
+        Ok(vec![
+            Measured::absolute("gap over time, relative", off.unwrap_or(f64::NAN)),
+            Measured::relative("gap at the end", gap - way, exact(end)),
+        ])
+    })
 }

@@ -3,7 +3,7 @@
 use super::{Measured, Scene};
 use crate::case_text::{Body, CaseText, PF};
 use crate::closed_forms::tait;
-use crate::outputs::Run;
+use crate::numbers::{mean, rms};
 
 const CELL: f64 = 2.9e-6;
 const SPEED: f64 = 0.5;
@@ -14,6 +14,7 @@ pub fn scene() -> Scene {
     let piston = floor + height;
     let until = 0.02 * height / SPEED;
     let case = CaseText {
+        title: "A piston compresses a closed column of liquid by 2 %.\nAgainst paper Eq. 1.".into(),
         contact: "law = \"frictionless\"\n".into(),
         stop: Some(until),
         bodies: vec![
@@ -24,46 +25,24 @@ pub fn scene() -> Scene {
             Body::liquid([0.0, floor, 0.0], [width, piston, CELL]),
         ],
         history_every: until / 20.0,
-        ..CaseText::plane(
-            "A piston compresses a closed column of liquid by 2 %.\nAgainst paper Eq. 1.",
-            CELL,
-            [width, piston + 3.0 * CELL],
-        )
+        ..CaseText::plane(CELL, [width, piston + 3.0 * CELL])
     };
-    Scene {
-        name: "tait-column".into(),
-        case,
-        against: "paper Eq. 1",
-        measure: Box::new(move |run| {
-            let (time, p) = (run.history("time_s")?, run.history("pressure_top_Pa")?);
-            // Each row of the last tenth against the law at its own time: sound still rings.
-            let late = time.iter().zip(&p).filter(|(t, _)| **t > 0.9 * until);
-            let (mut sum, mut exact, mut rows) = (0.0, 0.0, 0.0);
-            for (t, p) in late {
-                sum += p;
-                exact += tait(1.0 - SPEED * t / height, PF[1]);
-                rows += 1.0;
-            }
-            Ok(vec![
-                Measured::relative("piston pressure", sum / rows, exact / rows),
-                Measured::absolute(
-                    "rms pressure of points of their volume",
-                    law_error(run, width * height * CELL)?,
-                ),
-            ])
-        }),
-    }
-}
-
-/// Root mean square over the points of their pressure over that of Eq. 1 at their own volume,
-/// minus one: the law itself, without the walls. They had a volume of `begun` (m3) in all.
-fn law_error(run: &Run, begun: f64) -> Result<f64, String> {
-    let file = run.last()?;
-    let read = |name| file.column::<f32>(name).map_err(|e| e.to_string());
-    let (volume, pressure) = (read("volume")?, read("pressure")?);
-    let whole = begun / volume.len() as f64;
-    let square =
-        |(v, p): (&f32, &f32)| (f64::from(*p) / tait(f64::from(*v) / whole, PF[1]) - 1.0).powi(2);
-    let sum: f64 = volume.iter().zip(pressure).map(square).sum();
-    Ok((sum / volume.len() as f64).sqrt())
+    Scene::new("tait-column", "paper Eq. 1", case, move |run| {
+        let [time, pressure] = run.columns(["time_s", "pressure_top_Pa"])?;
+        // Each row of the last tenth against the law at its own time: sound still rings.
+        let from = time.partition_point(|&t| t <= 0.9 * until);
+        let exact = |t: &f64| tait(1.0 - SPEED * t / height, PF[1]);
+        let exact = mean(time[from..].iter().map(exact));
+        let found = mean(pressure[from..].iter().copied());
+        // The law itself, without the walls: each point's pressure against that of its own volume.
+        let points = run.points()?;
+        let whole = width * height * CELL / points.len() as f64;
+        let off = points
+            .iter()
+            .map(|p| p.pressure / tait(p.volume / whole, PF[1]) - 1.0);
+        Ok(vec![
+            Measured::relative("piston pressure", found, exact),
+            Measured::absolute("rms pressure of points of their volume", rms(off)),
+        ])
+    })
 }

@@ -26,32 +26,23 @@ pub fn scene(n: u32, eta: f64) -> Scene {
         Body::liquid([x, y, 0.0], [x + cell, y + cell, cell]).moving(v)
     };
     let case = CaseText {
+        title: format!(
+            "Taylor-Green vortex of {n} x {n} cells, {eta} Pa s.\nAgainst exp(-4 nu k^2 t)."
+        ),
         viscosity: Viscosity::Newtonian(eta),
         stop: Some(until),
         bodies: (0..n * n).map(one).collect(),
         history_every: until / 50.0,
-        ..CaseText::plane(
-            format!(
-                "Taylor-Green vortex of {n} x {n} cells, {eta} Pa s.\nAgainst exp(-4 nu k^2 t)."
-            ),
-            cell,
-            [EDGE, EDGE],
-        )
+        ..CaseText::plane(cell, [EDGE, EDGE])
     };
-    Scene {
-        name: format!("vortex-n{n}-eta{eta}"),
-        case,
-        against: "Taylor & Green 1937",
-        measure: Box::new(move |run| {
-            let time = run.history("time_s")?;
-            let energy = run.history("kinetic_energy_J")?;
-            // The start is a velocity per cell, not per point: its roughness goes first.
-            let from = time.iter().position(|&t| t > 0.2 * until);
-            let (Some(i), Some(j)) = (from, time.len().checked_sub(1)) else {
-                return Err("the history is empty".into());
-            };
-            let found = (energy[i] / energy[j]).ln() / (time[j] - time[i]);
-            Ok(vec![Measured::relative("decay rate", found, rate)])
-        }),
-    }
+    let name = format!("vortex-n{n}-eta{eta}");
+    Scene::new(name, "Taylor & Green 1937", case, move |run| {
+        let [time, energy] = run.columns(["time_s", "kinetic_energy_J"])?;
+        let [end, last] = run.ends(["time_s", "kinetic_energy_J"])?;
+        // The start is a velocity per cell, not per point: its roughness goes first.
+        let from = time.iter().position(|&t| t > 0.2 * until);
+        let from = from.ok_or("the history is too short")?;
+        let found = (energy[from] / last).ln() / (end - time[from]);
+        Ok(vec![Measured::relative("decay rate", found, rate)])
+    })
 }

@@ -5,6 +5,7 @@ use super::lumen::{Rectangle, Section, quarter};
 use super::water_front::{Front, TABLE};
 use super::{LUMEN, Measured, Scene};
 use crate::case_text::{Body, CaseText, PF, Viscosity};
+use crate::numbers::{largest, worst};
 
 /// Pressure, Pa: it takes a minute.
 const PRESSURE: f64 = 1e3;
@@ -103,55 +104,55 @@ impl Column {
         let area: f64 = self.open.iter().map(edges).sum();
         let end = END * unit;
         let piston = (BEYOND + COLUMN) * LUMEN;
+        let [pressure, travel] = [
+            PRESSURE * area / (self.side[0] * self.side[1]),
+            0.95 * COLUMN * LUMEN * 1e6,
+        ];
         let case = CaseText {
+            title: "A piston at constant pressure presses a column of adhesive along a lumen whose walls take its water.\nAgainst Darcy's law and the balance of solids and water along the lumen.".into(),
             clamp: Some(format!(
-                "closing_speed = \"0.2 mm/s\"\nmax_pressure = \"{:.9} Pa\"\nstop = \"{end} s\"\ntravel = \"{:.6} um\"\n",
-                PRESSURE * area / (self.side[0] * self.side[1]),
-                0.95 * COLUMN * LUMEN * 1e6
+                "closing_speed = \"0.2 mm/s\"\nmax_pressure = \"{pressure:.9} Pa\"\nstop = \"{end} s\"\ntravel = \"{travel:.6} um\"\n"
             )),
             viscosity: Viscosity::Newtonian(VISCOSITY),
             water: Some(water(&front, self.wall, unit)),
             bodies: self.bodies(piston),
             history_every: end / 300.0,
             ..CaseText::new(
-                "A piston at constant pressure presses a column of adhesive along a lumen whose walls take its water.\nAgainst Darcy's law and the balance of solids and water along the lumen.",
                 self.cell,
                 self.dimensions,
                 [self.side[0], piston + 3.0 * self.cell, self.side[1]],
             )
         };
-        Scene {
-            name: self.name.clone(),
-            case,
-            against: "viscosity front",
-            measure: Box::new(move |run| {
-                let times = run.history("time_s")?;
-                let travel = run.history("displacement_m")?;
-                let taken = run.history("water_in_walls_m3")?;
-                let exact = front.course(PF[0], END);
-                // What the piston displaces and the walls do not take is beyond the mouth.
-                let course = (times.iter().zip(travel.iter().zip(&taken)))
-                    .map(|(t, (s, w))| (t / unit, (s - w / area) / LUMEN));
-                let course: Vec<(f64, f64)> = course.collect();
-                let farthest = course.iter().map(|p| p.1).fold(0.0, f64::max);
-                let worst = (course.iter().map(|(t, l)| (exact.at(*t), l)))
-                    .filter(|(exact, _)| *exact >= 1.0)
-                    .map(|(exact, l)| l / exact - 1.0)
-                    .max_by(|a, b| a.abs().total_cmp(&b.abs()));
-                let missing = run.summary("water_missing");
-                Ok(vec![
-                    Measured::relative("L where it stops", farthest, exact.farthest()),
-                    Measured::absolute(
-                        "L(t) from L = d on, worst",
-                        worst.ok_or("it was not filled to one width")?,
-                    ),
-                    Measured::absolute(
-                        "mass of water",
-                        missing.ok_or("it has no account of water")?,
-                    ),
-                ])
-            }),
-        }
+        Scene::new(self.name, "viscosity front", case, move |run| {
+            let [times, travel, taken] =
+                run.columns(["time_s", "displacement_m", "water_in_walls_m3"])?;
+            let exact = front.course(PF[0], END);
+            // What the piston displaces and the walls do not take is beyond the mouth.
+            let lengths = travel
+                .iter()
+                .zip(&taken)
+                .map(|(s, w)| (s - w / area) / LUMEN);
+            let course: Vec<(f64, f64)> = times.iter().map(|t| t / unit).zip(lengths).collect();
+            let beyond = course.iter().map(|(t, l)| (exact.at(*t), l));
+            let beyond = beyond.filter(|(exact, _)| *exact >= 1.0);
+            let worst = worst(beyond.map(|(exact, l)| l / exact - 1.0));
+            let missing = run.summary("water_missing");
+            Ok(vec![
+                Measured::relative(
+                    "L where it stops",
+                    largest(course.iter().map(|p| p.1)),
+                    exact.farthest(),
+                ),
+                Measured::absolute(
+                    "L(t) from L = d on, worst",
+                    worst.ok_or("it was not filled to one width")?,
+                ),
+                Measured::absolute(
+                    "mass of water",
+                    missing.ok_or("it has no account of water")?,
+                ),
+            ])
+        })
     }
 
     /// Walls above and below the mouth, the piston at its height and the column.

@@ -5,6 +5,8 @@
 //! Lengths in widths of the lumen, times in that in which a front goes sqrt 2 of them from a reservoir without
 //! resistance or loss of water: then sum eta u dx = 1, eta over that at the start, u the velocity in a slice.
 
+use crate::numbers::largest;
+
 /// Solids content and factor of the viscosity.
 pub const TABLE: [(f64, f64); 2] = [(0.45, 1.0), (0.75, 1e3)];
 /// Density of water, kg/m3.
@@ -50,7 +52,7 @@ impl Course {
 
     /// The largest filled length.
     pub fn farthest(&self) -> f64 {
-        self.0.iter().map(|p| p.1).fold(0.0, f64::max)
+        largest(self.0.iter().map(|p| p.1))
     }
 }
 
@@ -151,14 +153,14 @@ impl Front {
     fn asked(&self, slices: &[Slice], travel: f64, mixture: &Mixture, dt: f64) -> Vec<f64> {
         let mut high = self.filled(slices, travel);
         let contact = high - self.meniscus * between(&BEHIND, high);
-        let each = slices.iter().map(|slice| {
+        let of_slice = |slice: &Slice| {
             let low = high - slice.length();
             let wetted = (high.min(contact) - low.max(0.0)).max(0.0);
             high = low;
             let left = (slice.water - mixture.least * slice.solids).max(0.0);
             (self.sink * wetted).min(left / dt)
-        });
-        each.collect()
+        };
+        slices.iter().map(of_slice).collect()
     }
 
     /// Conductances of water from each slice to the one nearer to the piston.

@@ -2,9 +2,11 @@
 //! entry below the jump.
 
 use super::lumen::{Rectangle, Section, quarter};
-use super::{LUMEN, Measured, Scene, slit, washburn};
+use super::{LUMEN, Measured, Scene, washburn};
+use crate::Result;
 use crate::case_text::{Body, CaseText, PF};
-use crate::outputs::Run;
+use crate::numbers::{largest, worst};
+use crate::outputs::{Run, points};
 
 /// Surface tension, N/m.
 pub(super) const TENSION: f64 = 0.05;
@@ -18,39 +20,29 @@ const STATES: u32 = 60;
 
 /// Slit of `n` cells in plane strain, a liquid of this contact angle, walls `offset` cells off the nodes
 /// across the slit and along it.
-pub fn slit_scene(n: u32, offset: [f64; 2], degrees: f64) -> Scene {
+pub(super) fn slit_scene(n: u32, [aside, along]: [f64; 2], degrees: f64) -> Scene {
     let h = LUMEN / f64::from(n);
-    let (mouth, low) = (
-        3.0 * LUMEN + (2.0 + offset[1]) * h,
-        1.5 * LUMEN + offset[0] * h,
-    );
+    let (mouth, low) = (3.0 * LUMEN + (2.0 + along) * h, 1.5 * LUMEN + aside * h);
     let size = [mouth + (LONGEST + 1.5) * LUMEN, 4.0 * LUMEN];
     let bodies = vec![
         Body::wall([mouth, 0.0, 0.0], [size[0], low, h]),
         Body::wall([mouth, low + LUMEN, 0.0], [size[0], size[1], h]),
         Body::liquid([2.0 * h, 0.0, 0.0], [mouth, size[1], h]),
     ];
-    let passage = Passage {
-        name: format!(
-            "wicking-slit-n{n}-{degrees}deg-off{}-{}",
-            offset[0], offset[1]
-        ),
+    Passage {
+        name: format!("wicking-slit-n{n}-{degrees}deg-off{aside}-{along}"),
         degrees,
         mouth,
         area: LUMEN * h,
         jump: 2.0 / LUMEN,
         resistance: 12.0,
-        entrance: (washburn::TIME_TO_FIVE - 12.5) / 5.0 + slit::corner(n),
-    };
-    let case = CaseText {
-        bodies,
-        ..CaseText::plane(String::new(), h, size)
-    };
-    passage.of(case)
+        entrance: washburn::entrance(n),
+    }
+    .filled(bodies, CaseText::plane(h, size))
 }
 
 /// A quarter of a tube of `n` cells.
-pub fn tube_scene(n: u32, degrees: f64) -> Scene {
+pub(super) fn tube_scene(n: u32, degrees: f64) -> Scene {
     let section = Section::Round(2);
     let h = LUMEN / f64::from(n);
     let mouth = 1.5 * LUMEN + 2.0 * h;
@@ -61,7 +53,7 @@ pub fn tube_scene(n: u32, degrees: f64) -> Scene {
     let mut bodies: Vec<Body> = shape.sides.iter().map(wall).collect();
     bodies.push(wall(&shape.roof));
     bodies.push(Body::liquid([2.0 * h, 0.0, 0.0], [mouth, right, right]));
-    let passage = Passage {
+    Passage {
         name: format!("wicking-tube-n{n}-{degrees}deg"),
         degrees,
         mouth,
@@ -69,12 +61,8 @@ pub fn tube_scene(n: u32, degrees: f64) -> Scene {
         jump: 4.0 / LUMEN,
         resistance: section.staircase_resistance(n),
         entrance: MOUTH,
-    };
-    let case = CaseText {
-        bodies,
-        ..CaseText::new(String::new(), h, 3, [far, right, right])
-    };
-    passage.of(case)
+    }
+    .filled(bodies, CaseText::new(h, 3, [far, right, right]))
 }
 
 /// A passage behind a reservoir with a free surface at its back.
@@ -94,8 +82,9 @@ struct Passage {
 }
 
 impl Passage {
-    fn of(self, case: CaseText) -> Scene {
-        let jump = TENSION * self.degrees.to_radians().cos() * self.jump;
+    fn filled(self, bodies: Vec<Body>, case: CaseText) -> Scene {
+        let degrees = self.degrees;
+        let jump = TENSION * degrees.to_radians().cos() * self.jump;
         // L^2 + 2 e L = 2 P d^2/(R eta) t
         let rate = 2.0 * jump.abs() * LUMEN * LUMEN / (self.resistance * PF[2]);
         let end = LUMEN * LUMEN * LONGEST * (LONGEST + 2.0 * self.entrance) / rate;
@@ -106,63 +95,46 @@ impl Passage {
         };
         let case = CaseText {
             title: format!(
-                "A passage in front of a reservoir, contact angle {} degrees.\nAgainst {against}.",
-                self.degrees
+                "A passage in front of a reservoir, contact angle {degrees} degrees.\nAgainst {against}."
             ),
-            wetting: Some([TENSION, self.degrees]),
+            bodies,
+            wetting: Some([TENSION, degrees]),
             stop: Some(end),
             snapshots: STATES,
             history_every: end / 100.0,
             ..case
         };
-        Scene {
-            name: self.name,
-            case,
-            against,
-            measure: Box::new(move |run| {
-                let course = course(run, self.mouth, self.area)?;
-                if entry {
-                    let most = course.iter().fold(0.0, |most: f64, c| most.max(c[1]));
-                    return Ok(vec![Measured::absolute(
-                        "length entered over width",
-                        most / LUMEN,
-                    )]);
-                }
-                let filled: Vec<[f64; 2]> = (course.iter())
-                    .map(|[t, l]| [t * rate / (LUMEN * LUMEN), l / LUMEN])
-                    .filter(|c| c[1] >= 1.0)
-                    .collect();
-                let (Some(first), Some(last)) = (filled.first(), filled.last()) else {
-                    return Err("it was not filled to one width".into());
-                };
-                let exact = |t: f64| {
-                    let start = first[1] + self.entrance;
-                    (start * start + t - first[0]).sqrt() - self.entrance
-                };
-                let off = filled.iter().map(|[t, l]| l / exact(*t) - 1.0);
-                let worst = off.fold(0.0, |m: f64, e| if e.abs() > m.abs() { e } else { m });
-                Ok(vec![
-                    Measured::relative("L at the end", last[1], exact(last[0])),
-                    Measured::absolute("L(t) from L = d on, worst", worst),
-                ])
-            }),
-        }
+        Scene::new(self.name, against, case, move |run| {
+            let course = course(run, self.mouth, self.area)?;
+            if entry {
+                let most = largest(course.iter().map(|c| c[1]));
+                let what = "length entered over width";
+                return Ok(vec![Measured::absolute(what, most)]);
+            }
+            let filled: Vec<_> = course.into_iter().filter(|c| c[1] >= 1.0).collect();
+            let [Some(first), Some(last)] = [filled.first(), filled.last()] else {
+                return Err("it was not filled to one width".into());
+            };
+            let exact = |t: f64| {
+                let start = first[1] + self.entrance;
+                (start * start + (t - first[0]) * rate / (LUMEN * LUMEN)).sqrt() - self.entrance
+            };
+            let worst = worst(filled.iter().map(|[t, l]| l / exact(*t) - 1.0));
+            Ok(vec![
+                Measured::relative("L at the end", last[1], exact(last[0])),
+                Measured::absolute("L(t) from L = d on, worst", worst.unwrap_or(0.0)),
+            ])
+        })
     }
 }
 
-/// Time (s) and filled length (m) of each state.
-fn course(run: &Run, mouth: f64, area: f64) -> Result<Vec<[f64; 2]>, String> {
-    (run.states()?.iter())
-        .map(|state| {
-            let said = |e: particle_file::Error| e.to_string();
-            let position = state.vectors("position").map_err(said)?;
-            let volume = state.column::<f32>("volume").map_err(said)?;
-            let inside = position
-                .iter()
-                .zip(volume)
-                .filter(|(x, _)| f64::from(x[0]) > mouth);
-            let filled: f64 = inside.map(|(_, v)| f64::from(*v)).sum();
-            Ok([state.header().time_s, filled / area])
-        })
-        .collect()
+/// Time (s) and filled length (widths) of each state.
+fn course(run: &Run, mouth: f64, area: f64) -> Result<Vec<[f64; 2]>> {
+    let at = |state: &particle_file::ParticleFile| {
+        let points = points(state)?;
+        let inside = points.iter().filter(|p| p.at[0] > mouth);
+        let filled = inside.map(|p| p.volume).sum::<f64>() / area;
+        Ok([state.header().time_s, filled / LUMEN])
+    };
+    run.states()?.iter().map(at).collect()
 }
