@@ -114,47 +114,31 @@ impl View<'_> {
         if self.walls.influence_length.is_infinite() {
             return link;
         }
-        let places = [f.low, f.high].map(|pore| {
-            self.mesh
-                .place(self.mesh.pores[pore as usize].cell as usize)
-        });
         for t in others(axis) {
             if self.lattice.flat && t == 2 {
                 continue;
             }
             for r in 0..self.mesh.k {
-                self.column((face, clear), places, t, r, &mut link);
+                self.column((face, clear), t, r, &mut link);
             }
         }
         link
     }
 
     /// Adds the walls at both ends along `t` of column `r` of a face.
-    fn column(
-        &self,
-        (face, clear): (usize, bool),
-        places: [[usize; 3]; 2],
-        t: usize,
-        r: usize,
-        link: &mut Link,
-    ) {
+    fn column(&self, (face, clear): (usize, bool), t: usize, r: usize, link: &mut Link) {
         let (mesh, k) = (self.mesh, self.mesh.k);
         let f = mesh.faces[face];
         let axis = usize::from(f.axis);
-        let pores = [f.low, f.high].map(|pore| pore as usize);
-        let cells = pores.map(|pore| mesh.pores[pore].cell as usize);
+        let pores = f.ends();
+        let cells = pores.map(|pore| mesh.cell(pore));
         let across = 3 - axis - t;
         let voxel = |half: usize, i: usize| {
             let mut at = [0; 3];
             (at[axis], at[t], at[across]) = (if half == 0 { k - 1 } else { 0 }, i, r);
             at
         };
-        let bit = |i: usize| {
-            let at = voxel(0, i);
-            let [s, q] = others(axis);
-            at[s] + k * at[q]
-        };
-        let mut open = (0..k).filter(|&i| f.open >> bit(i) & 1 == 1);
+        let mut open = (0..k).filter(|&i| mesh.is_open(face, voxel(0, i)));
         let Some(first) = open.next() else {
             return;
         };
@@ -175,7 +159,7 @@ impl View<'_> {
         for (half, cell) in cells.into_iter().enumerate() {
             let edges = [1.0, mesh.height(pores[half]), 1.0];
             let ends = both[half];
-            let place = mesh.place_in_lattice(self.lattice, places[half], voxel(half, first));
+            let place = mesh.lattice_place(self.lattice, cell, voxel(half, first));
             let width = |a: usize| self.width(place, a) / edges[t];
             link.by_gap |= place.is_some_and(|place| self.chords.through_gap(place));
             let part = 0.5 * edges[axis] * edges[across] / k as f64;

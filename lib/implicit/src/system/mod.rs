@@ -17,7 +17,7 @@ mod viscosity;
 pub(crate) use assembly::{Problem, Scales};
 pub(crate) use edges::Edges;
 pub(crate) use equations::resistance;
-pub(crate) use fronts::{Fronts, Wetting};
+pub(crate) use fronts::{Fronts, STILL, Wetting};
 pub(crate) use halves::{halves, masses, stiffnesses};
 pub(crate) use links::{Links, Walls};
 pub(crate) use passes::Search;
