@@ -12,13 +12,6 @@ const NORMAL: f64 = 0.7;
 /// looks cost next to nothing beside a solution.
 const CROSSED: f64 = 0.25;
 
-/// Liquid before a step: the volume at no pressure in each pore, and the water in it, or nothing.
-#[derive(Clone, Copy)]
-pub(crate) struct Held<'a> {
-    pub(crate) volumes: &'a [f64],
-    pub(crate) water: &'a [f64],
-}
-
 /// Volume that is rounding, cells: at most a hundred bits of a full cell.
 pub(super) const ROUNDING: f64 = 1e-14;
 /// Passes after which what is left of an excess or a lack stays: all that settle take fewer.
@@ -34,13 +27,13 @@ pub(crate) struct Moved {
     pub(crate) lost: [f64; 2],
 }
 
-/// Moves the liquid by the velocities of the faces, over `dt`, into pores of capacity `capacities`. A pore that
+/// Moves the liquid, `volumes` at no pressure in each pore and the `water` in it or nothing, by the velocities of the faces, over `dt`, into pores of capacity `capacities`. A pore that
 /// is `full` passes on what its velocities say. One that is partly filled passes on its share, or, where the surface is
 /// across the flow, what lies ahead until its own air is gone (donor and acceptor, Hirt & Nichols 1981,
 /// 10.1016/0021-9991(81)90145-5), and never more than it holds.
 pub(crate) fn transport(
     mesh: &Mesh,
-    held: Held,
+    [volumes, water]: [&[f64]; 2],
     full: &[bool],
     capacities: &[f64],
     velocity: &[f64],
@@ -53,8 +46,8 @@ pub(crate) fn transport(
         .map(|face| velocity[face] * mesh.area(face) * dt / parts)
         .collect();
     let mut moved = Moved {
-        volumes: held.volumes.to_vec(),
-        water: held.water.to_vec(),
+        volumes: volumes.to_vec(),
+        water: water.to_vec(),
         lost: [0.0; 2],
     };
     for _ in 0..parts as usize {

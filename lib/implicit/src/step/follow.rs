@@ -7,7 +7,7 @@ use physics::{StepLimit, StepReport};
 use super::Implicit;
 use super::solve::Solved;
 use crate::clock::Stage;
-use crate::liquid::{Held, Moved, TRACE, transport};
+use crate::liquid::{Moved, TRACE, transport};
 use crate::settings::LARGEST_CFL;
 use crate::system::Flow;
 use crate::water::Exchange;
@@ -105,10 +105,10 @@ impl Implicit {
             lost: [lost, water_lost],
         } = transport(
             mesh,
-            Held {
-                volumes: &state.volumes,
-                water: state.wet.as_ref().map_or(&[], |wet| &wet.water),
-            },
+            [
+                &state.volumes,
+                state.wet.as_ref().map_or(&[], |wet| &wet.water),
+            ],
             full,
             &capacities,
             velocity,

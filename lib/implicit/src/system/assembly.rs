@@ -130,8 +130,7 @@ impl Problem<'_> {
         );
         self.add_slowing(face, entries);
         let number = |face: usize| self.unknowns.face(face);
-        let ends = self.ends(face);
-        for (pore, up) in [(ends[0], false), (ends[1], true)] {
+        for (pore, up) in self.ends(face).into_iter().zip([false, true]) {
             let stiffness = self.stiffness(pore);
             if stiffness == 0.0 {
                 continue;
@@ -209,8 +208,7 @@ impl Problem<'_> {
             force[0] += inertia * frame * self.speed_before;
             force[1] -= inertia * frame;
             force[3] = -frame * (force[0] - self.push(face));
-            let ends = self.ends(face);
-            for (pore, up) in [(ends[0], false), (ends[1], true)] {
+            for (pore, up) in self.ends(face).into_iter().zip([false, true]) {
                 let stiffness = self.stiffness(pore);
                 stretching(self.mesh, face, up, |pull| {
                     if pull.other.is_none_or(|other| self.moves(other)) {

@@ -20,7 +20,7 @@ pub(crate) use equations::resistance;
 pub(crate) use fronts::{Fronts, STILL, Wetting};
 pub(crate) use halves::{halves, masses, stiffnesses};
 pub(crate) use links::{Links, Walls};
-pub(crate) use passes::Search;
+pub(crate) use passes::{PASSES, Search};
 pub(crate) use solution::{Drive, Flow, forces, solve};
 pub(crate) use unknowns::{FULL, Unknowns};
 pub(crate) use viscosity::{FlowField, Viscosities};

@@ -6,10 +6,15 @@ use rayon::prelude::*;
 
 use super::viscosity::{Rates, Viscosities, Wall};
 
+/// Passes over what depends on the solution, at most: what settles takes fewer.
+pub(crate) const PASSES: usize = 30;
+
 /// Largest exponent of a rate that is anticipated, and how near it is found.
 const FARTHEST: f64 = 30.0;
 const NEAR: f64 = 1e-4;
-/// Mean change of ln(viscosity), weighted by dissipation, that ends the passes; a smaller one tells nothing of the answer.
+/// Mean square of the changes of ln(viscosity) below which they tell nothing of the answer.
+const UNMOVED: f64 = 1e-6;
+/// Mean change of ln(viscosity), weighted by dissipation, that ends the passes.
 const SETTLED: f64 = 2e-3;
 
 /// The viscosities that the flow of a step is sought with, pass by pass, for a liquid whose viscosity depends on the rate.
@@ -94,7 +99,7 @@ impl Pass {
                 weight += power;
             }
         }
-        match cause > SETTLED * SETTLED * weight {
+        match cause > UNMOVED * weight {
             true => 0.5 * (last + (answer / cause).clamp(-1.0, 0.0)),
             false => last,
         }
