@@ -12,8 +12,6 @@ use crate::system::{
 
 /// Relative residual of the solve: the flux is within a tenth of it.
 const TOLERANCE: f64 = 1e-4;
-/// Iterations of the solve at most.
-const ITERATIONS: usize = 500;
 /// Compression of a cell by a unit of pressure: next to none, so that there is one mean pressure.
 const COMPRESSION: f64 = 1e-8;
 
@@ -140,7 +138,7 @@ impl Through {
         );
         let unknowns = Unknowns::new(mesh, fractions, &[]);
         let halves: Vec<[f64; 2]> = (mesh.faces.iter())
-            .map(|face| [face.low, face.high].map(|pore| fractions[pore as usize]))
+            .map(|face| face.ends().map(|pore| fractions[pore]))
             .collect();
         let viscosities = Viscosities::constant(mesh, 1.0);
         let problem = Problem {
@@ -191,7 +189,6 @@ impl Through {
         };
         let mut solver = SaddleSolver::new(SaddleOptions {
             tolerance: TOLERANCE,
-            max_iterations: ITERATIONS,
             ..SaddleOptions::default()
         });
         let solved = solver.solve(&system, &mut u, &mut p);
@@ -204,22 +201,18 @@ impl Through {
 /// image; 0 for others.
 fn full(mesh: &Mesh, axis: usize) -> Vec<f64> {
     let n = mesh.size[axis];
-    let layer = |pore: usize| mesh.place(mesh.pores[pore].cell as usize)[axis];
+    let layer = |pore: usize| mesh.place(mesh.cell(pore))[axis];
     let reached = |sides: [usize; 2]| {
         let mut seen: Vec<bool> = (0..mesh.pores.len())
             .map(|pore| sides.contains(&layer(pore)))
             .collect();
         let mut next: Vec<usize> = (0..seen.len()).filter(|&pore| seen[pore]).collect();
         while let Some(pore) = next.pop() {
-            for (a, up) in (0..3).flat_map(|a| [(a, false), (a, true)]) {
-                for face in mesh.faces_at(pore, a, up) {
-                    let f = &mesh.faces[face];
-                    let other = if up { f.high } else { f.low } as usize;
-                    let mirrored = (layer(other) < n / 2) != (layer(pore) < n / 2);
-                    if !seen[other] && !mirrored {
-                        seen[other] = true;
-                        next.push(other);
-                    }
+            for (_, _, other) in mesh.beside(pore) {
+                let mirrored = (layer(other) < n / 2) != (layer(pore) < n / 2);
+                if !seen[other] && !mirrored {
+                    seen[other] = true;
+                    next.push(other);
                 }
             }
         }

@@ -3,7 +3,7 @@
 use physics::{Amount, Cure, Dimensions, Scene, Stages, Stop};
 
 use crate::settings::Settings;
-use crate::step::{CURED, DRIED};
+use crate::step::THICKENS;
 
 /// Speed of the liquid that sets the step over that of the body that drives it, averaged over a run: 1.6 to 1.8 where wood
 /// closes on a slab.
@@ -66,9 +66,9 @@ impl Plan {
             .map_or(duration, |set| set.min(duration));
         // A programme waits in its stages long after the clamp has gone its way, while the liquid sets.
         let waits: f64 = scene.programme.iter().map(|stage| stage.time_s).sum();
-        let cured = cure.map_or(0.0, |cure| cure.change(duration.max(waits)) / CURED);
+        let cured = cure.map_or(0.0, |cure| cure.change(duration.max(waits)) / THICKENS);
         let dried = (scene.liquid.water.as_ref())
-            .map_or(0.0, |water| water.factor(water.least()).ln() / DRIED);
+            .map_or(0.0, |water| water.factor(water.least()).ln() / THICKENS);
         let blocks = scene.bodies.iter().flat_map(|body| &body.blocks);
         let voxels: f64 = blocks
             .map(|block| block.dims().iter().map(|&n| n as f64).product::<f64>())

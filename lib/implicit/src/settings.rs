@@ -1,5 +1,8 @@
 //! The choices that a case has.
 
+/// Cells that liquid crosses in a step at most, in jets too: the mesh ends two cells off the liquid.
+pub(crate) const LARGEST_CFL: f64 = 1.5;
+
 /// Settings of the implicit scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -33,9 +36,9 @@ impl Settings {
     /// # Errors
     /// A sentence that names the setting and what would be accepted.
     pub fn check(&self) -> Result<(), String> {
-        if !(self.cfl > 0.0 && self.cfl <= 1.5) {
+        if !(self.cfl > 0.0 && self.cfl <= LARGEST_CFL) {
             return Err(format!(
-                "cfl is {:?}: the implicit scheme takes more than 0 and at most 1.5 cells per step",
+                "cfl is {:?}: the implicit scheme takes more than 0 and at most {LARGEST_CFL} cells per step",
                 self.cfl
             ));
         }

@@ -208,3 +208,29 @@ fn code(bodies: &[RigidBody], at: [f64; 3]) -> u8 {
     let body = bodies.iter().position(|body| body.contains(at));
     body.map_or(OPEN, |body| body as u8 + 1)
 }
+
+#[cfg(test)]
+impl super::mesh::Mesh {
+    /// Open cells between mirrors, one across: so many below and above a gap of so many that closes.
+    pub(crate) fn column([below, above]: [usize; 2], gap: usize) -> Self {
+        let layer = vec![OPEN];
+        let lattice = Lattice {
+            k: 1,
+            cells: [1, 1],
+            boundary: [Boundary::Symmetry; 3],
+            flat: false,
+            below: vec![layer.clone(); below],
+            gap: layer.clone(),
+            above: vec![layer; above],
+            gap_low_m: 0.0,
+            gap_height: gap as f64,
+            moving: Some(Moving::Above),
+            mover: Some(0),
+            slide: vec![[0.0; 3]],
+        };
+        let rows = lattice.rows();
+        let size = Self::size_of(&lattice, &(0..rows.len()));
+        let region = super::region::Region::new(size, true);
+        Self::new(&lattice, rows, 0..rows.len(), region)
+    }
+}

@@ -51,6 +51,11 @@ impl Mesh {
         self.measures.heights[self.row_of(pore)][1]
     }
 
+    /// Edge of the cell of a pore along an axis, cells.
+    pub(crate) fn edge(&self, pore: usize, axis: usize) -> f64 {
+        if axis == 1 { self.height(pore) } else { 1.0 }
+    }
+
     /// Edges of a cell along x, y, z, cells.
     pub(crate) fn edges(&self, cell: usize) -> [f64; 3] {
         [1.0, self.measures.heights[self.row(cell)][0], 1.0]
@@ -97,7 +102,7 @@ impl Mesh {
 
     /// Velocity of the grid along y at a face over the closing speed; of faces across y alone.
     pub(crate) fn frame(&self, lattice: &Lattice, face: usize) -> f64 {
-        let row = self.row_of(self.faces[face].high as usize);
+        let row = self.row_of(self.faces[face].ends()[1]);
         lattice.speed_at(self.rows().share(row))
     }
 }

@@ -30,6 +30,31 @@ pub(crate) struct Face {
     pub(crate) axis: u8,
 }
 
+impl Face {
+    /// The pores on its low and its high side.
+    pub(crate) fn ends(&self) -> [usize; 2] {
+        [self.low as usize, self.high as usize]
+    }
+}
+
+/// A face seen from a pore beside it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Way {
+    pub(crate) face: usize,
+    pub(crate) axis: usize,
+    /// Whether it is on the pore's high side.
+    pub(crate) up: bool,
+    /// The pore behind it.
+    pub(crate) beside: usize,
+}
+
+impl Way {
+    /// Sign of a velocity that leaves the pore.
+    pub(crate) fn sign(self) -> f64 {
+        if self.up { 1.0 } else { -1.0 }
+    }
+}
+
 /// The pores and faces of a range of rows. Cells are counted x first, then y (rows), then z; on open sides a layer of
 /// cells beyond the domain takes what leaves it.
 pub(crate) struct Mesh {
@@ -145,17 +170,10 @@ impl Mesh {
     }
 
     fn open_voxels(&self, lattice: &Lattice, cell: usize) -> u8 {
-        let mut open = 0;
-        let n = self.k;
-        if !self.region.holds(cell) {
-            return 0;
-        }
-        for bit in 0..n * n * n {
-            if self.lattice_code(lattice, cell, self.voxel(bit)) == OPEN {
-                open |= 1 << bit;
-            }
-        }
-        open
+        (0..self.k.pow(3))
+            .filter(|_| self.region.holds(cell))
+            .filter(|&bit| self.lattice_code(lattice, cell, self.voxel(bit)) == OPEN)
+            .fold(0, |open, bit| open | 1 << bit)
     }
 
     /// Adds the faces between the pores of two cells.
@@ -180,11 +198,6 @@ impl Mesh {
     pub(crate) fn voxel(&self, bit: usize) -> [usize; 3] {
         let k = self.k;
         [bit % k, bit / k % k, bit / (k * k)]
-    }
-
-    /// The bit of the voxel at a place in its cell.
-    pub(crate) fn bit(&self, at: [usize; 3]) -> usize {
-        at[0] + self.k * (at[1] + self.k * at[2])
     }
 
     /// Voxels on the high or low side of a cell along an axis, as bits of the other two axes, the lower fastest.
@@ -265,37 +278,70 @@ impl Mesh {
         self.sides[range].iter().map(|&face| face as usize)
     }
 
+    /// The faces of a pore, along x, y, z, on its low side first.
+    pub(crate) fn ways(&self, pore: usize) -> impl Iterator<Item = Way> {
+        (0..6).flat_map(move |side| {
+            let (axis, up) = (side / 2, side % 2 == 1);
+            self.faces_at(pore, axis, up).map(move |face| Way {
+                face,
+                axis,
+                up,
+                beside: self.faces[face].ends()[usize::from(up)],
+            })
+        })
+    }
+
+    /// Pores beside one, with the axis along which and whether on its high side.
+    pub(crate) fn beside(&self, pore: usize) -> impl Iterator<Item = (usize, bool, usize)> {
+        self.ways(pore).map(|way| (way.axis, way.up, way.beside))
+    }
+
+    /// Cell of a pore.
+    pub(crate) fn cell(&self, pore: usize) -> usize {
+        self.pores[pore].cell as usize
+    }
+
+    /// Places in their cell of the voxels of a pore.
+    pub(crate) fn voxels(&self, pore: usize) -> impl Iterator<Item = [usize; 3]> {
+        let Pore { voxels, .. } = self.pores[pore];
+        (0..8)
+            .filter(move |bit| voxels >> bit & 1 == 1)
+            .map(|bit| self.voxel(bit))
+    }
+
+    /// Whether a face is open at the column of voxels along its axis through a place in a cell.
+    pub(crate) fn is_open(&self, face: usize, at: [usize; 3]) -> bool {
+        let Face { open, axis, .. } = self.faces[face];
+        let [s, t] = others(usize::from(axis));
+        open >> (at[s] + self.k * at[t]) & 1 == 1
+    }
+
     /// Whether a face is in the gap or beside it.
     pub(crate) fn is_by_gap(&self, face: usize) -> bool {
-        let f = self.faces[face];
-        let row = |pore: u32| self.row_of(pore as usize);
+        let [low, high] = self.faces[face].ends().map(|pore| self.row_of(pore));
         let rows = self.rows();
         let gap = rows.below..rows.below + rows.gap + 1;
-        gap.contains(&row(f.high)) || gap.contains(&(row(f.low) + 1))
+        gap.contains(&high) || gap.contains(&(low + 1))
     }
 
     /// Whether there is liquid on either side of a face.
     pub(crate) fn is_wet(&self, face: usize, fractions: &[f64]) -> bool {
-        let f = self.faces[face];
-        [f.low, f.high]
+        self.faces[face]
+            .ends()
             .iter()
-            .any(|&pore| fractions[pore as usize] > 0.0)
+            .any(|&pore| fractions[pore] > 0.0)
     }
 
     /// The pore of a cell that holds a voxel.
     pub(crate) fn pore_with(&self, cell: usize, voxel: [usize; 3]) -> Option<usize> {
-        let bit = self.bit(voxel);
+        let bit = voxel[0] + self.k * (voxel[1] + self.k * voxel[2]);
         self.pores_of(cell)
             .find(|&pore| self.pores[pore].voxels >> bit & 1 == 1)
     }
 
     /// The face between two pores along an axis.
     pub(crate) fn face_between(&self, low: usize, high: usize, axis: usize) -> Option<usize> {
-        self.faces_of(self.pores[low].cell as usize, axis)
-            .find(|&face| {
-                let face = &self.faces[face];
-                face.low as usize == low && face.high as usize == high
-            })
+        (self.faces_of(self.cell(low), axis)).find(|&face| self.faces[face].ends() == [low, high])
     }
 
     /// Whether a cell lies beyond an open side.

@@ -12,12 +12,9 @@ mod split;
 mod still;
 mod voxels;
 
-pub(crate) use chords::Chords;
-pub(crate) use chords::Place;
-#[cfg(test)]
-pub(crate) use lattice::Moving;
+pub(crate) use chords::{Chords, Place};
 pub(crate) use lattice::{Lattice, MIRROR, OPEN};
-pub(crate) use mesh::{Face, Mesh, others};
+pub(crate) use mesh::{Face, Mesh, Way, others};
 pub(crate) use passages::narrowness;
 pub(crate) use region::Region;
 pub(crate) use rows::{RowKind, Rows};

@@ -8,9 +8,6 @@ use super::mesh::{Mesh, others};
 /// opens into the bond line they grow by more.
 const WIDENS: f64 = 3.0;
 
-/// Narrowest width that counts, voxels: no image shows less, and a gap that closes would pull without limit.
-const NARROWEST: f64 = 1.0;
-
 /// Perimeter over area, 1/cells, of the passage at a pore by the two narrowest of its widths that liquid spans, 2/d each:
 /// 4/d in a tube, 2/d in a slit. Walls too far apart have none, nor has liquid that lies on one wall alone. `wet` says which
 /// pores are full.
@@ -27,12 +24,11 @@ pub(crate) fn narrowness(
         mesh,
         gap: mesh.rows().height * mesh.k as f64,
     };
-    let (cell, voxels) = (mesh.pores[pore].cell as usize, mesh.pores[pore].voxels);
-    let sum: f64 = (0..8)
-        .filter(|bit| voxels >> bit & 1 == 1)
-        .map(|bit| view.at(cell, mesh.voxel(bit), wet))
-        .sum();
-    mesh.k as f64 * sum / f64::from(voxels.count_ones())
+    let count = f64::from(mesh.pores[pore].voxels.count_ones());
+    let each = mesh
+        .voxels(pore)
+        .map(|voxel| view.at(mesh.cell(pore), voxel, wet));
+    mesh.k as f64 * each.sum::<f64>() / count
 }
 
 /// Voxels and chords with a gap of so many voxels.
@@ -47,7 +43,8 @@ struct View<'a> {
 type Voxel = (usize, [usize; 3]);
 
 impl View<'_> {
-    /// At a voxel, 1/voxels. In plane strain the passage is as deep as can be.
+    /// At a voxel, 1/voxels. In plane strain the passage is as deep as can be. A width is a voxel at least: no image shows less,
+    /// and a gap that closes would pull without limit.
     fn at(&self, cell: usize, voxel: [usize; 3], wet: &impl Fn(usize) -> bool) -> f64 {
         let Some(place) = self.mesh.lattice_place(self.lattice, cell, voxel) else {
             return 0.0;
@@ -69,7 +66,7 @@ impl View<'_> {
         (widths.iter())
             .filter(|&&(width, axis)| self.spanned((cell, voxel), axis, axes, width, wet))
             .take(axes - 1)
-            .map(|width| 2.0 / width.0.max(NARROWEST))
+            .map(|width| 2.0 / width.0.max(1.0))
             .sum()
     }
 
@@ -170,6 +167,7 @@ impl View<'_> {
                 _ => None,
             }
         };
+        let beyond = |layer: usize, away: bool| layer.checked_add_signed(if away { 1 } else { -1 });
         let next = match (place, axis, up) {
             (Place::Gap(at), 1, true) => Place::Above(0, at),
             (Place::Gap(at), 1, false) => Place::Below(0, at),
@@ -190,13 +188,5 @@ impl View<'_> {
             Place::Above(layer, at) => self.lattice.above.get(layer).and_then(|l| l.get(at)),
         };
         (code == Some(&OPEN)).then_some(next)
-    }
-}
-
-/// The layer after or before one.
-fn beyond(layer: usize, away: bool) -> Option<usize> {
-    match away {
-        true => Some(layer + 1),
-        false => layer.checked_sub(1),
     }
 }

@@ -1,6 +1,6 @@
 //! Some of the cells of a box: those that a mesh has pores in, near liquid, and those of a mesh with something in common.
 
-use super::mesh::Mesh;
+use super::mesh::{Face, Mesh};
 
 /// Some of the cells of a box, x first, then y, then z.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -103,11 +103,8 @@ impl Mesh {
     /// Which faces are beside a cell whose neighbours are all in the region: only these can have liquid.
     pub(crate) fn inner_faces(&self) -> Vec<bool> {
         let inner = self.region.inner(self.periodic());
-        let holds = |pore: u32| inner.holds(self.pores[pore as usize].cell as usize);
-        let faces = self.faces.iter();
-        faces
-            .map(|face| holds(face.low) || holds(face.high))
-            .collect()
+        let holds = |face: &Face| face.ends().iter().any(|&pore| inner.holds(self.cell(pore)));
+        self.faces.iter().map(holds).collect()
     }
 
     /// Cells that are open, as are all of their neighbours: no wall is near.
@@ -124,10 +121,7 @@ impl Mesh {
 
     /// Whether both cells of a face are among those.
     pub(crate) fn is_clear(&self, face: usize, clear: &Region) -> bool {
-        let face = &self.faces[face];
-        [face.low, face.high]
-            .iter()
-            .all(|&pore| clear.holds(self.pores[pore as usize].cell as usize))
+        (self.faces[face].ends().iter()).all(|&pore| clear.holds(self.cell(pore)))
     }
 }
 

@@ -4,9 +4,6 @@ use physics::{Boundary, VoxelBlock};
 
 use super::lattice::{Lattice, OPEN};
 
-/// Code of the one body there is.
-const SOLID: u8 = 1;
-
 impl Lattice {
     /// The lattice of one body at rest, in `size` cells of `k` voxels an edge from its low corner on, and of its mirror image
     /// behind it along `axis`: periodic along that, with these sides else.
@@ -25,7 +22,7 @@ impl Lattice {
         let code = |mut at: [usize; 3]| {
             at[axis] = at[axis].min(2 * single - 1 - at[axis]);
             match solid.solid(at[0], at[1], at[2]) {
-                true => SOLID,
+                true => 1,
                 false => OPEN,
             }
         };

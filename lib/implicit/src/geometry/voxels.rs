@@ -23,16 +23,7 @@ impl Mesh {
         cell: usize,
         voxel: [usize; 3],
     ) -> Option<Place> {
-        self.place_in_lattice(lattice, self.place(cell), voxel)
-    }
-
-    /// The same of a cell by its place.
-    pub(crate) fn place_in_lattice(
-        &self,
-        lattice: &Lattice,
-        [x, y, z]: [usize; 3],
-        voxel: [usize; 3],
-    ) -> Option<Place> {
+        let [x, y, z] = self.place(cell);
         let across = lattice.across();
         let sub = |i: usize, a: usize| (i * self.k + voxel[a]).checked_sub(self.beyond[a] * self.k);
         let (x, z) = (sub(x, 0)?, sub(z, 2)?);
@@ -73,18 +64,6 @@ impl Mesh {
             None if self.boundary[1] == Boundary::Open || self.is_beyond(cell) => OPEN,
             None => MIRROR,
         }
-    }
-
-    /// Pores beside one, with the axis along which and whether on its high side.
-    pub(crate) fn beside(&self, pore: usize) -> impl Iterator<Item = (usize, bool, usize)> {
-        (0..3)
-            .flat_map(|axis| [false, true].map(|up| (axis, up)))
-            .flat_map(move |(axis, up)| {
-                self.faces_at(pore, axis, up).map(move |face| {
-                    let face = &self.faces[face];
-                    (axis, up, if up { face.high } else { face.low } as usize)
-                })
-            })
     }
 
     /// The voxel next to one along an axis: its cell and place; `None` beyond the mesh.

@@ -66,17 +66,18 @@ impl Kept {
             (row == 0 || row > range.start) && (row + 1 == mesh.rows().len() || row + 1 < range.end)
         };
         let inner = old.region.inner(old.periodic());
-        let old_cell = |pore: u32| {
-            let [x, _, z] = new.place(new.pores[pore as usize].cell as usize);
-            let row = new.row_of(pore as usize);
+        let old_cell = |pore: usize| {
+            let [x, _, z] = new.place(new.cell(pore));
+            let row = new.row_of(pore);
             let cell = old.cell_at([x, same_row(new, old, row)?, z]);
             let whole = inner.holds(cell) && in_rows(new, row) && in_rows(old, old.row(cell));
             Some((cell, whole))
         };
         let found = |face: usize| {
             let f = new.faces[face];
-            let (low, high) = old_cell(f.low).zip(old_cell(f.high))?;
-            let (axis, cell) = (usize::from(f.axis), new.pores[f.low as usize].cell as usize);
+            let [low, high] = f.ends().map(old_cell);
+            let (low, high) = low.zip(high)?;
+            let (axis, cell) = (usize::from(f.axis), new.cell(f.low as usize));
             let index = face - new.faces_of(cell, axis).start;
             let old_face = old.faces_of(low.0, axis).nth(index)?;
             let by_gap = new.is_by_gap(face) || old.is_by_gap(old_face);
@@ -149,7 +150,7 @@ fn of_pores(
     join: impl Fn(&[(f64, f64)]) -> f64 + Sync,
 ) -> Vec<f64> {
     let value = |pore: usize| {
-        let cell = new.pores[pore].cell as usize;
+        let cell = new.cell(pore);
         let index = pore - new.pores_of(cell).start;
         let [x, _, z] = new.place(cell);
         let row = new.row(cell);
@@ -223,7 +224,7 @@ fn outlets(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
 
 /// The pores of the bodies above and below a pore of a gap that is gone.
 fn above_and_below(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
-    let [x, _, z] = old.place(old.pores[pore].cell as usize);
+    let [x, _, z] = old.place(old.cell(pore));
     let mut found = Vec::new();
     for (row, voxel_row) in [
         (new.rows().below.wrapping_sub(1), new.k - 1),
@@ -233,8 +234,7 @@ fn above_and_below(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
             continue;
         }
         let cell = new.cell_at([x, row - new.range.start, z]);
-        for bit in (0..8).filter(|bit| old.pores[pore].voxels >> bit & 1 == 1) {
-            let [a, b, c] = old.voxel(bit);
+        for [a, b, c] in old.voxels(pore) {
             if b == 0 {
                 found.extend(new.pore_with(cell, [a, voxel_row, c]));
             }
@@ -248,7 +248,7 @@ pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Ve
     let mut carried = vec![0.0; new.faces.len()];
     for (face, carried) in carried.iter_mut().enumerate() {
         let f = new.faces[face];
-        let (axis, cell) = (usize::from(f.axis), new.pores[f.low as usize].cell as usize);
+        let (axis, cell) = (usize::from(f.axis), new.cell(f.low as usize));
         let index = face - new.faces_of(cell, axis).start;
         let [x, _, z] = new.place(cell);
         let row = new.row(cell);
@@ -268,35 +268,11 @@ pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Lattice, Moving, OPEN};
-
-    /// A cell of a gap with open cells below and above it, and `gap` rows high.
-    fn mesh(gap: usize) -> Mesh {
-        let layers = || vec![vec![OPEN]];
-        let lattice = Lattice {
-            k: 1,
-            cells: [1, 1],
-            boundary: [Boundary::Symmetry; 3],
-            flat: false,
-            below: layers(),
-            gap: vec![OPEN],
-            above: layers(),
-            gap_low_m: 0.0,
-            gap_height: gap as f64,
-            moving: Some(Moving::Above),
-            mover: Some(0),
-            slide: vec![[0.0; 3]],
-        };
-        let rows = lattice.rows();
-        let range = 0..rows.len();
-        let size = Mesh::size_of(&lattice, &range);
-        Mesh::new(&lattice, rows, range, Region::new(size, true))
-    }
 
     #[test]
     fn volumes_add_up_and_pressures_do_not() {
         let values = [7.0, 1.0, 3.0, 5.0, 9.0];
-        let (three, two, none) = (mesh(3), mesh(2), mesh(0));
+        let [three, two, none] = [3, 2, 0].map(|gap| Mesh::column([1, 1], gap));
         assert_eq!(carried_volumes(&two, &three, &values), [7.0, 2.5, 6.5, 9.0]);
         let pressures = carried_pressures(&two, &three, &values);
         let expected = [7.0, 5.0 / 3.0, 13.0 / 3.0, 9.0];

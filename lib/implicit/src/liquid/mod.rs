@@ -12,6 +12,6 @@ pub(crate) use carry::{
     Kept, carried_pressures, carried_region, carried_velocities, carried_volumes,
 };
 pub(crate) use deposit::{Place, deposit};
-pub(crate) use output::{Shown, points};
+pub(crate) use output::{Shown, TRACE, points};
 pub(crate) use profile::Profile;
-pub(crate) use transport::{Held, Moved, transport};
+pub(crate) use transport::{Moved, transport};

@@ -7,8 +7,8 @@ use super::deposit::Place;
 use super::profile::Profile;
 use crate::geometry::Mesh;
 
-/// Least volume of a point, cells: less is rounding that a front left behind.
-const LEAST: f64 = 1e-9;
+/// Volume, cells, that counts as none: what rounding leaves behind a front.
+pub(crate) const TRACE: f64 = 1e-9;
 
 /// What is shown of the liquid, in cells and the scheme's units.
 pub(crate) struct Shown<'a> {
@@ -28,21 +28,19 @@ pub(crate) fn points(mesh: &Mesh, place: Place, shown: &Shown) -> LiquidState {
     let mut places = Vec::new();
     let k = mesh.k;
     for pore in 0..mesh.pores.len() {
-        let voxels = mesh.pores[pore].voxels;
-        let n = f64::from(voxels.count_ones());
+        let n = f64::from(mesh.pores[pore].voxels.count_ones());
         let volume = shown.volumes[pore] / n;
-        if volume < LEAST {
+        if volume < TRACE {
             continue;
         }
-        let cell = mesh.pores[pore].cell as usize;
+        let cell = mesh.cell(pore);
         let (at, edges) = (mesh.place(cell), mesh.edges(cell));
         let low = [
             at[0] as f64 - mesh.beyond[0] as f64,
             mesh.rows().low(mesh.row(cell)),
             at[2] as f64 - mesh.beyond[2] as f64,
         ];
-        for bit in (0..k * k * k).filter(|bit| voxels >> bit & 1 == 1) {
-            let voxel = mesh.voxel(bit);
+        for voxel in mesh.voxels(pore) {
             state.position.push(std::array::from_fn(|a| {
                 let cells = low[a] + edges[a] * (voxel[a] as f64 + 0.5) / k as f64;
                 (place.origin_m[a] + place.cell_m * cells) as f32

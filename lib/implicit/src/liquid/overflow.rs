@@ -1,15 +1,11 @@
 //! Liquid beyond what a pore can hold goes on to pores beside it.
 
-use crate::geometry::Mesh;
-
-/// Excess, cells, that stays where it is, as rounding.
-const NOTHING: f64 = 1e-13;
-/// Passes after which what is left stays where it is.
-const PASSES: usize = 100;
+use super::transport::{PASSES, ROUNDING};
+use crate::geometry::{Mesh, Way};
 
 /// A face by which excess may leave a pore.
 #[derive(Clone, Copy)]
-struct Way {
+struct Outlet {
     face: usize,
     up: bool,
     /// What flows there.
@@ -37,7 +33,7 @@ pub(super) fn overflow(
     flux: &mut [f64],
 ) {
     let is_over =
-        |volumes: &[f64], pore: usize| !full[pore] && volumes[pore] - capacities[pore] > NOTHING;
+        |volumes: &[f64], pore: usize| !full[pore] && volumes[pore] - capacities[pore] > ROUNDING;
     let mut over: Vec<usize> = (0..mesh.pores.len())
         .filter(|&pore| is_over(volumes, pore))
         .collect();
@@ -71,8 +67,8 @@ pub(super) fn overflow(
 
 /// How much of an excess goes by each of the ways: as much as there is room for where it flows, then anywhere, and the rest
 /// to full pores where it flows, or back. What is sent on to others without room would only come to and fro. Little room takes little, so that room next to nothing does what none does.
-fn shares(ways: &[Way], excess: f64) -> Vec<(usize, bool, f64)> {
-    type Weight = fn(&Way) -> f64;
+fn shares(ways: &[Outlet], excess: f64) -> Vec<(usize, bool, f64)> {
+    type Weight = fn(&Outlet) -> f64;
     let kinds: [(Weight, bool); 5] = [
         (|way| way.flow + way.straight, true),
         (|way| way.area, true),
@@ -83,29 +79,30 @@ fn shares(ways: &[Way], excess: f64) -> Vec<(usize, bool, f64)> {
     let mut given = vec![0.0; ways.len()];
     let mut left = excess;
     for (weight, to_room) in kinds {
-        let roomy = |way: &Way, given: f64| !to_room || way.room > given;
+        let roomy = |way: &Outlet, given: f64| !to_room || way.room > given;
         let all: f64 = (ways.iter().zip(&given))
             .filter(|(way, given)| roomy(way, **given))
             .map(|(way, _)| weight(way))
             .sum();
-        if all <= NOTHING {
+        if all <= ROUNDING {
             continue;
         }
         let mut passed = 0.0;
         for (way, given) in ways.iter().zip(&mut given) {
             if roomy(way, *given) {
                 let share = left * weight(way) / all;
-                let share = if to_room {
-                    share.min(way.room - *given)
+                let most = if to_room {
+                    way.room - *given
                 } else {
-                    share
+                    f64::INFINITY
                 };
+                let share = share.min(most);
                 *given += share;
                 passed += share;
             }
         }
         left -= passed;
-        if left <= NOTHING {
+        if left <= ROUNDING {
             break;
         }
     }
@@ -123,34 +120,29 @@ fn ways(
     full: &[bool],
     swept: &[f64],
     flux: &[f64],
-) -> Vec<Way> {
-    let mut ways = Vec::new();
-    for axis in 0..3 {
-        for up in [false, true] {
-            let sign = if up { 1.0 } else { -1.0 };
-            let straight: f64 = (mesh.faces_at(pore, axis, !up))
-                .map(|face| (sign * flux[face]).max(0.0))
-                .sum();
-            let all: f64 = mesh
-                .faces_at(pore, axis, up)
-                .map(|face| mesh.area(face))
-                .sum();
-            ways.extend(mesh.faces_at(pore, axis, up).map(|face| {
-                let f = mesh.faces[face];
-                let area = mesh.area(face);
-                let behind = if up { f.high } else { f.low } as usize;
-                Way {
-                    face,
-                    up,
-                    flow: (sign * swept[face]).max(0.0),
-                    straight: straight * area / all,
-                    came: (-sign * flux[face]).max(0.0),
-                    area,
-                    room: room(behind),
-                    full: full[behind],
-                }
-            }));
+) -> Vec<Outlet> {
+    let outlet = |way: Way| {
+        let Way {
+            face,
+            axis,
+            up,
+            beside,
+        } = way;
+        let (sign, area) = (way.sign(), mesh.area(face));
+        let straight: f64 = (mesh.faces_at(pore, axis, !up))
+            .map(|face| (sign * flux[face]).max(0.0))
+            .sum();
+        let side = mesh.faces_at(pore, axis, up).map(|face| mesh.area(face));
+        Outlet {
+            face,
+            up,
+            flow: (sign * swept[face]).max(0.0),
+            straight: straight * area / side.sum::<f64>(),
+            came: (-sign * flux[face]).max(0.0),
+            area,
+            room: room(beside),
+            full: full[beside],
         }
-    }
-    ways
+    };
+    mesh.ways(pore).map(outlet).collect()
 }

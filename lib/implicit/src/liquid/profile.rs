@@ -113,14 +113,14 @@ impl Profile<'_> {
         if axis != 1 {
             return 0.0;
         }
-        let row = self.mesh.row(self.mesh.pores[pore].cell as usize);
+        let row = self.mesh.row_of(pore);
         let share = self.mesh.rows().share(row + usize::from(up));
         self.lattice.speed_at(share) * self.speed
     }
 
     fn end(&self, pore: usize, voxel: [usize; 3], axis: usize, up: bool) -> End {
         let mesh = self.mesh;
-        let cell = mesh.pores[pore].cell as usize;
+        let cell = mesh.cell(pore);
         let mut last = voxel;
         let side = if up { mesh.k - 1 } else { 0 };
         while last[axis] != side {
@@ -149,11 +149,9 @@ impl Profile<'_> {
 
     /// The face by which a voxel at the side of a pore is open to the next cell.
     fn face(&self, pore: usize, voxel: [usize; 3], axis: usize, up: bool) -> Option<usize> {
-        let [s, t] = others(axis);
-        let bit = voxel[s] + self.mesh.k * voxel[t];
         let at_side = voxel[axis] == if up { self.mesh.k - 1 } else { 0 };
         let mut faces = self.mesh.faces_at(pore, axis, up);
-        faces.find(|&face| at_side && self.mesh.faces[face].open >> bit & 1 == 1)
+        faces.find(|&face| at_side && self.mesh.is_open(face, voxel))
     }
 
     /// Velocity of a face against the grid in the middle of a voxel of the pore beside it.
@@ -171,7 +169,7 @@ impl Profile<'_> {
     /// What the velocity in the middle of a voxel differs by from the mean of its column along `t`.
     fn departure(&self, face: usize, pore: usize, voxel: [usize; 3], t: usize) -> f64 {
         let mesh = self.mesh;
-        let edge = mesh.edges(mesh.pores[pore].cell as usize)[t] / mesh.k as f64;
+        let edge = mesh.edges(mesh.cell(pore))[t] / mesh.k as f64;
         let [first, last] = self.column(face, voxel, t);
         let height = edge * (last + 1 - first) as f64;
         let sides = [(first, false), (last, true)].map(|(i, up)| {
@@ -187,11 +185,10 @@ impl Profile<'_> {
 
     /// The first and the last of the voxels along `t` through `voxel` that a face is open to.
     fn column(&self, face: usize, voxel: [usize; 3], t: usize) -> [usize; 2] {
-        let [s, q] = others(usize::from(self.mesh.faces[face].axis));
         let is_open = |&i: &usize| {
             let mut at = voxel;
             at[t] = i;
-            self.mesh.faces[face].open >> (at[s] + self.mesh.k * at[q]) & 1 == 1
+            self.mesh.is_open(face, at)
         };
         let mut open = (0..self.mesh.k).filter(is_open);
         let first = open.next().unwrap_or(voxel[t]);
@@ -209,7 +206,7 @@ impl Profile<'_> {
         height: f64,
     ) -> Side {
         let mesh = self.mesh;
-        let (f, cell) = (mesh.faces[face], mesh.pores[pore].cell as usize);
+        let (f, cell) = (mesh.faces[face], mesh.cell(pore));
         let axis = usize::from(f.axis);
         let own = self.velocity[face];
         let Some((beside, next)) = mesh.next_voxel(cell, voxel, t, up) else {
@@ -217,10 +214,9 @@ impl Profile<'_> {
         };
         let open = match beside == cell {
             true => mesh.pore_with(cell, next),
-            false => self.face(pore, voxel, t, up).map(|face| {
-                let face = &mesh.faces[face];
-                (if up { face.high } else { face.low }) as usize
-            }),
+            false => {
+                (self.face(pore, voxel, t, up)).map(|face| mesh.faces[face].ends()[usize::from(up)])
+            }
         };
         let Some(open) = open else {
             let code = mesh.code(self.lattice, beside, next);

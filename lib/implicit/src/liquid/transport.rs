@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::overflow::overflow;
 use super::water::carry;
-use crate::geometry::Mesh;
+use crate::geometry::{Mesh, Way};
 
 /// Least part of the surface's normal along a face's axis for which the face passes on what lies ahead.
 const NORMAL: f64 = 0.7;
@@ -12,16 +12,10 @@ const NORMAL: f64 = 0.7;
 /// looks cost next to nothing beside a solution.
 const CROSSED: f64 = 0.25;
 
-/// Liquid before a step: the volume at no pressure in each pore, and the water in it, or nothing.
-#[derive(Clone, Copy)]
-pub(crate) struct Held<'a> {
-    pub(crate) volumes: &'a [f64],
-    pub(crate) water: &'a [f64],
-}
-
-/// Volume that is rounding, cells, and passes in which what is missing is given back.
-const ROUNDING: f64 = 1e-14;
-const PASSES: usize = 100;
+/// Volume that is rounding, cells: at most a hundred bits of a full cell.
+pub(super) const ROUNDING: f64 = 1e-14;
+/// Passes after which what is left of an excess or a lack stays: all that settle take fewer.
+pub(super) const PASSES: usize = 100;
 
 /// Liquid after a step.
 pub(crate) struct Moved {
@@ -33,13 +27,13 @@ pub(crate) struct Moved {
     pub(crate) lost: [f64; 2],
 }
 
-/// Moves the liquid by the velocities of the faces, over `dt`, into pores of capacity `capacities`. A pore that
+/// Moves the liquid, `volumes` at no pressure in each pore and the `water` in it or nothing, by the velocities of the faces, over `dt`, into pores of capacity `capacities`. A pore that
 /// is `full` passes on what its velocities say. One that is partly filled passes on its share, or, where the surface is
 /// across the flow, what lies ahead until its own air is gone (donor and acceptor, Hirt & Nichols 1981,
 /// 10.1016/0021-9991(81)90145-5), and never more than it holds.
 pub(crate) fn transport(
     mesh: &Mesh,
-    held: Held,
+    [volumes, water]: [&[f64]; 2],
     full: &[bool],
     capacities: &[f64],
     velocity: &[f64],
@@ -52,8 +46,8 @@ pub(crate) fn transport(
         .map(|face| velocity[face] * mesh.area(face) * dt / parts)
         .collect();
     let mut moved = Moved {
-        volumes: held.volumes.to_vec(),
-        water: held.water.to_vec(),
+        volumes: volumes.to_vec(),
+        water: water.to_vec(),
         lost: [0.0; 2],
     };
     for _ in 0..parts as usize {
@@ -106,7 +100,7 @@ fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[
         carry(mesh, &held, &mut water, &flux);
     }
     for (pore, volume) in volumes.iter_mut().enumerate() {
-        if mesh.is_beyond(mesh.pores[pore].cell as usize) {
+        if mesh.is_beyond(mesh.cell(pore)) {
             lost[0] += std::mem::take(volume);
             lost[1] += water.get_mut(pore).map_or(0.0, std::mem::take);
         }
@@ -124,18 +118,10 @@ fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
     for _ in 0..PASSES {
         let mut returned: Vec<(usize, bool, f64)> = Vec::new();
         for pore in (0..volumes.len()).filter(|&pore| volumes[pore] < -ROUNDING) {
-            let ways = || {
-                (0..3)
-                    .flat_map(|axis| [false, true].map(|up| (axis, up)))
-                    .flat_map(|(axis, up)| {
-                        mesh.faces_at(pore, axis, up).map(move |face| (face, up))
-                    })
-            };
-            let passed =
-                |(face, up): (usize, bool)| if up { flux[face] } else { -flux[face] }.max(0.0);
-            let all: f64 = ways().map(passed).sum();
-            let part = (-volumes[pore] / all.max(f64::MIN_POSITIVE)).min(1.0);
-            returned.extend(ways().map(|way| (way.0, way.1, part * passed(way))));
+            let passed = |way: &Way| (way.sign() * flux[way.face]).max(0.0);
+            let part = (-volumes[pore] / outflow(mesh, flux, pore)).min(1.0);
+            let each = mesh.ways(pore);
+            returned.extend(each.map(|way| (way.face, way.up, part * passed(&way))));
         }
         if returned.is_empty() {
             break;
@@ -156,14 +142,12 @@ fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
 /// Change of the volume fraction across a pore along each axis, from neighbour to neighbour.
 fn gradient(mesh: &Mesh, fractions: &[f64], pore: usize) -> [f64; 3] {
     std::array::from_fn(|axis| {
-        [false, true]
-            .into_iter()
-            .flat_map(|up| mesh.faces_at(pore, axis, up))
-            .map(|face| {
-                let f = mesh.faces[face];
-                fractions[f.high as usize] - fractions[f.low as usize]
-            })
-            .sum()
+        let faces = [false, true].map(|up| mesh.faces_at(pore, axis, up));
+        let change = |face: usize| {
+            let [low, high] = mesh.faces[face].ends();
+            fractions[high] - fractions[low]
+        };
+        faces.into_iter().flatten().map(change).sum()
     })
 }
 
@@ -198,11 +182,7 @@ impl Crossing {
         }
         let gradient = gradient(mesh, fractions, self.donor);
         // Change of the fraction along the flow, from the pore behind to the pore ahead.
-        let change = if self.up {
-            gradient[self.axis]
-        } else {
-            -gradient[self.axis]
-        };
+        let change = if self.up { 1.0 } else { -1.0 } * gradient[self.axis];
         let behind = ahead - change;
         let aside = (0..3)
             .filter(|&a| a != self.axis)
@@ -222,26 +202,15 @@ impl Crossing {
 
 /// What leaves a pore.
 fn outflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
-    let out = sum(mesh, pore, |face, up| {
-        if up { flux[face] } else { -flux[face] }.max(0.0)
-    });
-    out.max(f64::MIN_POSITIVE)
+    let out = mesh
+        .ways(pore)
+        .map(|way| (way.sign() * flux[way.face]).max(0.0));
+    out.sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
 /// What comes into a pore less what leaves it.
 fn net_inflow(mesh: &Mesh, flux: &[f64], pore: usize) -> f64 {
-    sum(
-        mesh,
-        pore,
-        |face, up| if up { -flux[face] } else { flux[face] },
-    )
-}
-
-/// Sum over the faces of a pore.
-fn sum(mesh: &Mesh, pore: usize, of: impl Fn(usize, bool) -> f64) -> f64 {
-    let of = &of;
-    (0..3)
-        .flat_map(|axis| [false, true].map(|up| (axis, up)))
-        .flat_map(|(axis, up)| mesh.faces_at(pore, axis, up).map(move |face| of(face, up)))
+    mesh.ways(pore)
+        .map(|way| -way.sign() * flux[way.face])
         .sum()
 }

@@ -1,32 +1,25 @@
 //! Water that goes with the liquid.
 
+use super::transport::{PASSES, ROUNDING};
 use crate::geometry::Mesh;
-
-/// Passes after which what goes through pores that pass on more than they hold counts as it is.
-const PASSES: usize = 50;
-/// Change of a part of water that is rounding.
-const ROUNDING: f64 = 1e-15;
 
 /// Moves the `water` in liquid `volumes` by the liquid that crossed each face. A pore passes on the part of water that it
 /// had, or, where it passes on more than it held, that with what came in.
 pub(super) fn carry(mesh: &Mesh, volumes: &[f64], water: &mut [f64], flux: &[f64]) {
     let ends = |face: usize| {
         let f = mesh.faces[face];
-        let (from, to) = if flux[face] > 0.0 {
-            (f.low, f.high)
+        let [low, high] = f.ends();
+        if flux[face] > 0.0 {
+            (low, high)
         } else {
-            (f.high, f.low)
-        };
-        (from as usize, to as usize)
+            (high, low)
+        }
     };
     let moving: Vec<usize> = (0..flux.len()).filter(|&face| flux[face] != 0.0).collect();
     let mut parts: Vec<f64> = (volumes.iter().zip(&*water))
         .map(|(&volume, &water)| {
-            if volume > 0.0 {
-                (water / volume).clamp(0.0, 1.0)
-            } else {
-                0.0
-            }
+            let part = (water / volume).clamp(0.0, 1.0);
+            if volume > 0.0 { part } else { 0.0 }
         })
         .collect();
     let mut out = vec![0.0; volumes.len()];

@@ -5,10 +5,8 @@ use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::{Kept, carried_pressures, carried_region, carried_velocities, carried_volumes};
 use crate::system::Edges;
 
-/// Cells around the liquid that a mesh has, and the least that it may have before it is made anew: liquid crosses less than
-/// two in a step.
+/// Cells around the liquid that a mesh has. It is made anew where half of them are left: liquid crosses less than two in a step.
 pub(super) const MARGIN: usize = 4;
-const LEAST_MARGIN: usize = 2;
 
 impl Implicit {
     /// Makes the mesh anew where the gap has other rows now, or the liquid has come near its end.
@@ -19,12 +17,12 @@ impl Implicit {
         let wet = mesh.cells_with(|pore| self.state.volumes[pore] > 0.0);
         let wet_rows = self.wet_rows();
         let near =
-            |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < LEAST_MARGIN;
+            |end: usize, side: usize, all: usize| side != all && end.abs_diff(side) < MARGIN / 2;
         if !self.links.is_empty()
             && rows.gap == mesh.rows().gap
             && !near(wet_rows.start, mesh.range.start, 0)
             && !near(wet_rows.end, mesh.range.end, mesh.rows().len())
-            && (mesh.region).covers(&wet.grown(LEAST_MARGIN, mesh.periodic()))
+            && (mesh.region).covers(&wet.grown(MARGIN / 2, mesh.periodic()))
         {
             return;
         }

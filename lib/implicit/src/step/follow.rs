@@ -7,18 +7,15 @@ use physics::{StepLimit, StepReport};
 use super::Implicit;
 use super::solve::Solved;
 use crate::clock::Stage;
-use crate::liquid::{Held, Moved, transport};
+use crate::liquid::{Moved, TRACE, transport};
+use crate::settings::LARGEST_CFL;
 use crate::system::Flow;
 use crate::water::Exchange;
 
 /// Most by which flow is expected to go on growing: a flow that starts is no trend.
 const FORESEEN: f64 = 1.25;
-/// Fraction of the faces, the fastest, that the Courant number ignores, jets through holes of a voxel, and the cells that
-/// they cross at most.
+/// Fraction of the faces, the fastest, that the Courant number ignores: jets through holes of a voxel.
 const JETS: f64 = 1e-3;
-const JET_CFL: f64 = 1.5;
-/// Height of a gap, cells, that is none.
-const CLOSED: f64 = 1e-9;
 
 impl Implicit {
     /// Completes an accepted step.
@@ -92,7 +89,7 @@ impl Implicit {
         let middle = self.mesh.rows().height;
         if self.setup.lattice.moving.is_some() {
             let height = self.height - travel;
-            self.height = if height > CLOSED { height } else { 0.0 };
+            self.height = if height > TRACE { height } else { 0.0 };
         }
         self.mesh.set_height(self.height);
         let capacities = self.capacities();
@@ -108,10 +105,10 @@ impl Implicit {
             lost: [lost, water_lost],
         } = transport(
             mesh,
-            Held {
-                volumes: &state.volumes,
-                water: state.wet.as_ref().map_or(&[], |wet| &wet.water),
-            },
+            [
+                &state.volumes,
+                state.wet.as_ref().map_or(&[], |wet| &wet.water),
+            ],
             full,
             &capacities,
             velocity,
@@ -154,5 +151,5 @@ pub(super) fn fastest(flow: &Flow, cfl: f64) -> f64 {
     let at = ((1.0 - JETS) * (speeds.len() - 1) as f64) as usize;
     let most = speeds.iter().fold(0.0, |most: f64, &v| v.max(most));
     let (_, &mut counted, _) = speeds.select_nth_unstable_by(at, f64::total_cmp);
-    counted.max(most * cfl / JET_CFL)
+    counted.max(most * cfl / LARGEST_CFL)
 }

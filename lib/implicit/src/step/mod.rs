@@ -28,16 +28,15 @@ use follow::fastest;
 use setup::Setup;
 use water::Wet;
 
-pub(crate) use water::DRIED;
-
 /// Attempts at a step of acceptable length; the second nearly always is.
 const ATTEMPTS: usize = 8;
 /// Excess over the Courant number that a step may have, and the part of it that the next attempt aims at: so few steps are
 /// solved twice.
 const EXCESS: f64 = 1.1;
 const AIM: f64 = 0.95;
-/// Most that cure changes ln(viscosity) by in a step: its middle then differs from the mean of 1/viscosity by 0.17 %.
-pub(crate) const CURED: f64 = 0.2;
+/// Most that cure changes ln(viscosity) by in a step, and what one aims at where the liquid dries: its middle then differs from
+/// the mean of 1/viscosity by 0.17 %.
+pub(crate) const THICKENS: f64 = 0.2;
 /// Most that a step grows by where menisci are held.
 const GROWTH: f64 = 2.0;
 
@@ -194,7 +193,9 @@ impl Implicit {
         let falls = (2.0 * settings.cfl / pull).sqrt();
         // The viscosity of a liquid that cures is that of the middle of the step.
         let cure = self.setup.liquid.cure.as_ref();
-        let free = cure.map_or(free, |cure| cure.steady(self.state.time, CURED).min(free));
+        let free = cure.map_or(free, |cure| {
+            cure.steady(self.state.time, THICKENS).min(free)
+        });
         let moist = self.state.wet.as_ref().map_or(f64::INFINITY, Wet::steady);
         let dt = free.min(moist).min(if self.state.steps == 0 {
             falls

@@ -54,11 +54,8 @@ impl Scheme for Implicit {
             .collect();
         setup.measure(&mut links, &self.mesh, &fractions);
         let field = FlowField {
-            mesh: &self.mesh,
             links: &links,
-            edges: &self.edges,
-            velocity: &flow.velocity,
-            speed: flow.speed,
+            ..self.field(flow)
         };
         let rates = field.pore_rates(setup.liquid.shear_rate);
         let volumes: Vec<f64> = (0..self.mesh.pores.len())
@@ -192,12 +189,8 @@ impl Scheme for Implicit {
         state.displacement = displacement;
         self.walls = self.setup.taking_walls(&mesh);
         self.links = self.setup.links(&mesh, &Kept::default(), &Links::default());
-        self.edges = Edges::new(
-            &mesh,
-            &self.setup.lattice,
-            &Kept::default(),
-            &Edges::default(),
-        );
+        let (lattice, none) = (&self.setup.lattice, Edges::default());
+        self.edges = Edges::new(&mesh, lattice, &Kept::default(), &none);
         (self.mesh, self.height) = (mesh, height);
         Ok(())
     }

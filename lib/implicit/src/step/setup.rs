@@ -10,11 +10,8 @@ use crate::air::Gas;
 use crate::geometry::{Chords, Face, Lattice, Mesh, Region, Rows};
 use crate::liquid::{Kept, Place, deposit};
 use crate::settings::Settings;
-use crate::system::{Links, Scales, Walls};
+use crate::system::{Links, STILL, Scales, Walls};
 use crate::water;
-
-/// Part of the cells that the Courant number lets liquid cross in a step: slower flow counts as none.
-const SLOW: f64 = 0.01;
 
 /// Units of the scheme.
 #[derive(Clone, Copy, Debug)]
@@ -223,7 +220,7 @@ impl Setup {
         let density = self.liquid.density;
         Scales {
             dt,
-            slow: SLOW * self.settings.cfl / dt,
+            slow: STILL * self.settings.cfl / dt,
             inertia: density * h * h / (eta * dt),
             gravity: self.gravity.map(|g| density * h * g / eta),
             compressibility: eta / self.liquid.tait.bulk_modulus,

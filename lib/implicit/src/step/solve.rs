@@ -3,7 +3,6 @@
 use std::mem::take;
 use std::time::Instant;
 
-use rayon::prelude::*;
 use saddle_point::SaddleSolver;
 
 use super::Implicit;
@@ -11,15 +10,12 @@ use super::compression::Compression;
 use super::failure::unsolved;
 use crate::air::Air;
 use crate::clock::{Clock, Stage};
-use crate::liquid::{Held, transport};
+use crate::liquid::transport;
 use crate::system::{
-    Drive, FULL, Flow, FlowField, Problem, Search, Unknowns, Viscosities, forces, halves, masses,
-    solve, stiffnesses,
+    Drive, FULL, Flow, FlowField, PASSES, Problem, Search, Unknowns, Viscosities, forces, halves,
+    masses, solve, stiffnesses,
 };
 use crate::water::Exchange;
-
-/// Passes at most.
-const PASSES: usize = 30;
 
 /// The liquid in the middle of a step.
 pub(super) struct Middle {
@@ -93,10 +89,7 @@ impl Implicit {
         } else {
             transport(
                 mesh,
-                Held {
-                    volumes: &state.volumes,
-                    water: &[],
-                },
+                [&state.volumes, &[]],
                 &full,
                 &self.capacities(),
                 &flow.unwrap_or(&state.flow).velocity,
@@ -138,15 +131,11 @@ impl Implicit {
     /// What each pore can hold: without end beyond open sides.
     pub(super) fn capacities(&self) -> Vec<f64> {
         let mesh = &self.mesh;
-        (0..mesh.pores.len())
-            .into_par_iter()
-            .map(
-                |pore| match mesh.is_beyond(mesh.pores[pore].cell as usize) {
-                    true => f64::INFINITY,
-                    false => mesh.volume(pore),
-                },
-            )
-            .collect()
+        let capacity = |pore: usize| match mesh.is_beyond(mesh.cell(pore)) {
+            true => f64::INFINITY,
+            false => mesh.volume(pore),
+        };
+        (0..mesh.pores.len()).map(capacity).collect()
     }
 
     /// Solves with the body that closes the gap driven so, in passes: until viscosity, compression, air and torn pores are
@@ -274,7 +263,8 @@ impl Implicit {
         Search::new(liquid, factor, slip, used)
     }
 
-    fn field<'a>(&'a self, flow: &'a Flow) -> FlowField<'a> {
+    /// A flow with the friction of the middle of the step.
+    pub(super) fn field<'a>(&'a self, flow: &'a Flow) -> FlowField<'a> {
         FlowField {
             mesh: &self.mesh,
             links: &self.links,

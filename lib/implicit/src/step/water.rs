@@ -2,21 +2,17 @@
 
 use physics::{Array, SET, Saved, Saving, WaterState};
 
-use super::Implicit;
 use super::setup::Setup;
 use super::solve::Solved;
-use crate::water::{Account, Exchange, Medium};
+use super::{Implicit, THICKENS};
+use crate::water::{Account, Exchange, Medium, ROUNDING};
 
-/// Change of ln(viscosity), where the liquid dries, that a step aims at, as for cure: its viscosity is that of its middle.
-pub(crate) const DRIED: f64 = 0.2;
-/// The same from which a step is taken again, shorter: few are.
-const MOST_DRIED: f64 = 0.3;
+/// Change of ln(viscosity) by drying from which a step is taken again, shorter: half above what it aims at, so few are.
+const MOST_THICKENS: f64 = 0.3;
 /// Names of the arrays that hold the water in the liquid, in the walls of each pore, and the account.
 const WATER: &str = "water";
 const SOAKED: &str = "water_in_walls";
 const ACCOUNT: &str = "water_account";
-/// Part of a volume that rounding may move.
-const ROUNDING: f64 = 1e-6;
 
 /// The water of a liquid that loses it.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +26,7 @@ pub(super) struct Wet {
 impl Wet {
     /// For how long the loss of water leaves the viscosity as it is, s.
     pub(super) fn steady(&self) -> f64 {
-        DRIED / self.account.pace
+        THICKENS / self.account.pace
     }
 
     /// Takes what a step of `dt` (s) moves out of the liquid.
@@ -55,7 +51,7 @@ impl Solved {
     /// How long a step may be at most, s, where the liquid dries too fast in this one.
     pub(super) fn dries_too_fast(&self) -> Option<f64> {
         let change = self.exchange.as_ref()?.change;
-        (change > MOST_DRIED).then(|| self.dt * DRIED / change)
+        (change > MOST_THICKENS).then(|| self.dt * THICKENS / change)
     }
 }
 

@@ -97,8 +97,12 @@ impl Problem<'_> {
 
     /// The two pores of a face.
     pub(super) fn ends(&self, face: usize) -> [usize; 2] {
-        let face = &self.mesh.faces[face];
-        [face.low as usize, face.high as usize]
+        self.mesh.faces[face].ends()
+    }
+
+    /// Whether a face has a velocity.
+    fn moves(&self, face: usize) -> bool {
+        self.unknowns.face(face).is_some()
     }
 
     /// Friction of the walls at a face, in its low and its high half.
@@ -126,8 +130,7 @@ impl Problem<'_> {
         );
         self.add_slowing(face, entries);
         let number = |face: usize| self.unknowns.face(face);
-        let ends = self.ends(face);
-        for (pore, up) in [(ends[0], false), (ends[1], true)] {
+        for (pore, up) in self.ends(face).into_iter().zip([false, true]) {
             let stiffness = self.stiffness(pore);
             if stiffness == 0.0 {
                 continue;
@@ -205,14 +208,10 @@ impl Problem<'_> {
             force[0] += inertia * frame * self.speed_before;
             force[1] -= inertia * frame;
             force[3] = -frame * (force[0] - self.push(face));
-            let ends = self.ends(face);
-            for (pore, up) in [(ends[0], false), (ends[1], true)] {
+            for (pore, up) in self.ends(face).into_iter().zip([false, true]) {
                 let stiffness = self.stiffness(pore);
                 stretching(self.mesh, face, up, |pull| {
-                    if pull
-                        .other
-                        .is_none_or(|other| self.unknowns.face(other).is_some())
-                    {
+                    if pull.other.is_none_or(|other| self.moves(other)) {
                         let squeezed = stiffness * pull.weight * pull.closing;
                         force[1] += squeezed;
                         force[5] += clinging(self.viscosities.pores[pore]) * squeezed;
@@ -225,13 +224,12 @@ impl Problem<'_> {
 
     /// Force per closing speed on the body that closes, by liquid that stays where it is in the grid.
     pub(crate) fn resistance(&self) -> f64 {
-        let faces: f64 = (self.unknowns.faces.iter())
-            .map(|&face| self.resistance_of(face as usize))
-            .sum();
+        let faces = self.unknowns.faces.iter();
+        let pores = 0..self.mesh.pores.len();
         faces
-            + (0..self.mesh.pores.len())
-                .map(|pore| self.squeezed(pore))
-                .sum::<f64>()
+            .map(|&face| self.resistance_of(face as usize))
+            .sum::<f64>()
+            + pores.map(|pore| self.squeezed(pore)).sum::<f64>()
     }
 
     fn resistance_of(&self, face: usize) -> f64 {
@@ -252,30 +250,15 @@ impl Problem<'_> {
             return 0.0;
         }
         let mut sum = 0.0;
-        for face in self
-            .mesh
-            .faces_at(pore, 1, false)
-            .filter(|&f| self.unknowns.face(f).is_some())
-        {
-            stretching(self.mesh, face, true, |pull| {
-                if pull
-                    .other
-                    .is_none_or(|other| self.unknowns.face(other).is_some())
-                {
+        // From its high faces where it has no low ones.
+        let up = self.mesh.faces_at(pore, 1, false).len() == 0;
+        let faces = self.mesh.faces_at(pore, 1, up);
+        for face in faces.filter(|&face| self.moves(face)) {
+            stretching(self.mesh, face, !up, |pull| {
+                if pull.other.is_none_or(|other| self.moves(other)) {
                     sum += pull.weight * pull.closing * pull.closing;
                 }
             });
-        }
-        if self.mesh.faces_at(pore, 1, false).next().is_none() {
-            for face in self
-                .mesh
-                .faces_at(pore, 1, true)
-                .filter(|&f| self.unknowns.face(f).is_some())
-            {
-                stretching(self.mesh, face, false, |pull| {
-                    sum += pull.weight * pull.closing * pull.closing;
-                });
-            }
         }
         stiffness * sum
     }

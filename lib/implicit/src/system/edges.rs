@@ -28,13 +28,7 @@ impl Edge {
     fn rate(&self, mesh: &Mesh, face: usize, u: &[f64]) -> f64 {
         let f = mesh.faces[face];
         let apart = |open: [u8; 2], pores: [u32; 2], a: u8| {
-            let height = |pore: u32| {
-                if a == 1 {
-                    mesh.height(pore as usize)
-                } else {
-                    1.0
-                }
-            };
+            let height = |pore: u32| mesh.edge(pore as usize, usize::from(a));
             let [low, high] = [0, 1].map(|i| f64::from(open[i]) * height(pores[i]));
             0.5 * (low + high) / mesh.k as f64
         };
@@ -55,13 +49,7 @@ impl Edge {
     pub(crate) fn measured(&self, mesh: &Mesh, face: usize) -> [f64; 2] {
         let f = mesh.faces[face];
         let (axis, t) = (usize::from(f.axis), usize::from(self.t));
-        let edge = |pore: u32, a: usize| {
-            if a == 1 {
-                mesh.height(pore as usize)
-            } else {
-                1.0
-            }
-        };
+        let edge = |pore: u32, a: usize| mesh.edge(pore as usize, a);
         let [own, other] = self.open.map(|voxels| f64::from(voxels) / mesh.k as f64);
         let next = mesh.faces[self.next as usize].low;
         let distance = 0.5 * (own * edge(f.low, t) + other * edge(next, t));
@@ -80,9 +68,6 @@ impl Edge {
         [shear, f64::from(self.part) * across]
     }
 }
-
-/// Faces whose edges are found together.
-const CHUNK: usize = 4096;
 
 /// The edges of all faces of a mesh.
 #[derive(Default)]
@@ -124,13 +109,15 @@ impl Edges {
             }
             (edges.len() - first) as u32
         };
-        let faces: Vec<u32> = (0..mesh.faces.len() as u32).collect();
-        let lists: Vec<(Vec<u32>, Vec<Edge>)> = (faces.par_chunks(CHUNK))
-            .map(|faces| {
-                let mut edges = Vec::new();
-                let counts = faces.iter().map(|&face| add(face as usize, &mut edges));
-                (counts.collect(), edges)
-            })
+        let lists: Vec<(Vec<u32>, Vec<Edge>)> = (0..mesh.faces.len())
+            .into_par_iter()
+            .fold(
+                Default::default,
+                |(mut counts, mut edges): (Vec<_>, Vec<_>), face| {
+                    counts.push(add(face, &mut edges));
+                    (counts, edges)
+                },
+            )
             .collect();
         let mut start = Vec::with_capacity(mesh.faces.len() + 1);
         let mut edges = Vec::with_capacity(lists.iter().map(|list| list.1.len()).sum());
@@ -227,12 +214,10 @@ fn edge(
     let axis = usize::from(f.axis);
     let across = 3 - axis - t;
     let height = |face: usize, along: usize, end: usize| {
-        let face = mesh.faces[face];
-        let [s, q] = others(usize::from(face.axis));
         let open = |i: usize| {
             let mut at = [0; 3];
             (at[along], at[across]) = (i, r);
-            face.open >> (at[s] + k * at[q]) & 1 == 1
+            mesh.is_open(face, at)
         };
         match open(end) {
             true => (0..k).filter(|&i| open(i)).count() as u8,
@@ -244,8 +229,8 @@ fn edge(
     if own == 0 {
         return None;
     }
-    let ends = [f.low, f.high].map(|pore| pore as usize);
-    let cells = ends.map(|pore| mesh.pores[pore].cell as usize);
+    let ends = f.ends();
+    let cells = ends.map(|pore| mesh.cell(pore));
     let beside = [
         mesh.neighbour(cells[0], t, up)?,
         mesh.neighbour(cells[1], t, up)?,

@@ -59,11 +59,8 @@ impl Equations {
             }
         }
         let of_pores = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
-            unknowns
-                .pores
-                .iter()
-                .map(|&pore| of(pore as usize))
-                .collect()
+            let pores = unknowns.pores.iter();
+            pores.map(|&pore| of(pore as usize)).collect()
         };
         let mut equations = Self {
             a,
@@ -184,9 +181,9 @@ pub(crate) fn resistance(problem: &Problem, face: usize) -> f64 {
         true => 12.0 * link.narrowness / (1.0 + 6.0 * slip * link.narrowness.sqrt()),
         false => 0.0,
     };
-    let f = problem.mesh.faces[face];
-    let eta =
-        problem.viscosities.pores[f.low as usize].max(problem.viscosities.pores[f.high as usize]);
-    let least = 1e-6;
-    (problem.masses[face] * (problem.scales.inertia + eta * narrow)).max(least)
+    let [low, high] = problem
+        .ends(face)
+        .map(|pore| problem.viscosities.pores[pore]);
+    // A diagonal without zeros.
+    (problem.masses[face] * (problem.scales.inertia + low.max(high) * narrow)).max(1e-6)
 }

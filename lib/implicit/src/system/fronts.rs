@@ -8,9 +8,9 @@ use super::assembly::Problem;
 use super::unknowns::Unknowns;
 use crate::geometry::{Chords, Lattice, Mesh, narrowness};
 
-/// Way of a meniscus in a step, cells, at which one at rest is held by half of all that holds it (docs/methods.md section 3.12): far
-/// less than a step moves, far more than solutions are off by.
-const CAUGHT: f64 = 0.01;
+/// Way in a step, cells, that counts as rest: far less than a step moves, far more than solutions are off by. A meniscus that goes
+/// it is held by half of all that holds it (docs/methods.md section 3.12).
+pub(crate) const STILL: f64 = 0.01;
 
 /// How liquid meets the walls, in the units of a step.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +46,7 @@ impl Wetting {
     /// as steps grow.
     fn held(&self, uneven: f64, speed: f64) -> f64 {
         let held = self.tension * self.cosine.abs() * uneven;
-        held / (self.shorter * speed.abs() + CAUGHT / self.dt)
+        held / (self.shorter * speed.abs() + STILL / self.dt)
     }
 }
 
@@ -87,7 +87,7 @@ impl Fronts {
             .into_par_iter()
             .map(|pore| {
                 let near = dry[pore] || mesh.beside(pore).any(|(_, _, beside)| dry[beside]);
-                match near && !mesh.is_beyond(mesh.pores[pore].cell as usize) {
+                match near && !mesh.is_beyond(mesh.cell(pore)) {
                     true => narrowness(lattice, chords, mesh, pore, &|pore| {
                         unknowns.has_pressure(pore)
                     }),
@@ -95,20 +95,14 @@ impl Fronts {
                 }
             })
             .collect();
-        for (pore, pressure) in fronts
-            .pressure
-            .iter_mut()
-            .enumerate()
-            .filter(|at| dry[at.0])
-        {
+        let pressures = fronts.pressure.iter_mut().enumerate();
+        for (pore, pressure) in pressures.filter(|at| dry[at.0]) {
             *pressure -= wetting.tension * wetting.cosine * narrow[pore];
         }
         let view = View {
             mesh,
             dry: &dry,
-            empty: &|pore| {
-                !unknowns.has_pressure(pore) && !mesh.is_beyond(mesh.pores[pore].cell as usize)
-            },
+            empty: &|pore| !unknowns.has_pressure(pore) && !mesh.is_beyond(mesh.cell(pore)),
             narrow: &narrow,
             wetting,
         };
@@ -140,7 +134,7 @@ impl View<'_> {
     /// What holds menisci at a face over its velocity.
     fn drag(&self, face: usize, velocity: f64) -> f64 {
         let f = &self.mesh.faces[face];
-        let [low, high] = [f.low as usize, f.high as usize];
+        let [low, high] = f.ends();
         let (wet, dry, up) = match [low, high].map(|pore| self.dry[pore]) {
             [false, true] => (low, high, true),
             [true, false] => (high, low, false),
@@ -197,17 +191,9 @@ fn into<'a>(
     unknowns: &'a Unknowns,
     pore: usize,
 ) -> impl Iterator<Item = (usize, f64)> + 'a {
-    let ways = (0..3).flat_map(|axis| [false, true].map(|up| (axis, up)));
-    ways.flat_map(move |(axis, up)| {
-        let faces = mesh.faces_at(pore, axis, up);
-        faces.filter_map(move |face| {
-            let f = &mesh.faces[face];
-            let beside = if up { f.high } else { f.low };
-            let area = mesh.area(face);
-            let wet = unknowns.has_pressure(beside as usize);
-            wet.then_some((face, if up { -area } else { area }))
-        })
-    })
+    (mesh.ways(pore))
+        .filter(|way| unknowns.has_pressure(way.beside))
+        .map(|way| (way.face, -way.sign() * mesh.area(way.face)))
 }
 
 impl Problem<'_> {
@@ -248,15 +234,9 @@ impl Problem<'_> {
         entries: &mut RowEntries,
         counts: impl Fn(usize) -> bool,
     ) {
-        for axis in 0..3 {
-            for up in [false, true] {
-                for face in self.mesh.faces_at(pore, axis, up) {
-                    let beside = self.ends(face)[usize::from(up)];
-                    if let Some(number) = self.unknowns.face(face).filter(|_| counts(beside)) {
-                        let area = self.mesh.area(face);
-                        entries.add(number, if up { area } else { -area });
-                    }
-                }
+        for way in self.mesh.ways(pore).filter(|way| counts(way.beside)) {
+            if let Some(number) = self.unknowns.face(way.face) {
+                entries.add(number, way.sign() * self.mesh.area(way.face));
             }
         }
     }

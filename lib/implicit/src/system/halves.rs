@@ -9,22 +9,19 @@ use crate::geometry::{Face, Mesh};
 /// Liquid in the halves of each face, over their volumes. A pore that a full one beside it fills has all of its liquid in
 /// that half: what the pressure of the full pore moves reaches to the surface.
 pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
-    let full = |pore: u32| fractions[pore as usize] >= FULL;
+    let full = |pore: usize| fractions[pore] >= FULL;
     (mesh.faces.par_iter())
         .map(|face| {
-            let ends = [face.low, face.high];
+            let ends = face.ends();
             [0, 1].map(|half| {
                 let (pore, other) = (ends[half], ends[1 - half]);
-                let fraction = fractions[pore as usize];
+                let fraction = fractions[pore];
                 if full(pore) || fraction == 0.0 {
                     return fraction;
                 }
                 let up = half == 1;
-                let mut opposite = mesh.faces_at(pore as usize, usize::from(face.axis), up);
-                let behind = opposite.any(|opposite| {
-                    let opposite = &mesh.faces[opposite];
-                    full(if up { opposite.high } else { opposite.low })
-                });
+                let mut opposite = mesh.faces_at(pore, usize::from(face.axis), up);
+                let behind = opposite.any(|face| full(mesh.faces[face].ends()[half]));
                 match (full(other), behind) {
                     (true, false) => 2.0 * fraction,
                     (false, true) => 0.0,
@@ -39,13 +36,12 @@ pub(crate) fn halves(mesh: &Mesh, fractions: &[f64]) -> Vec<[f64; 2]> {
 pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
     let mass = |(index, (face, parts)): (usize, (&Face, &[f64; 2]))| {
         let axis = usize::from(face.axis);
-        [(face.low, true), (face.high, false)]
-            .into_iter()
+        let half = |((pore, up), part): ((usize, bool), &f64)| {
+            0.5 * part * mesh.volume(pore) * mesh.share(index, pore, axis, up)
+        };
+        (face.ends().into_iter().zip([true, false]))
             .zip(parts)
-            .map(|((pore, up), part)| {
-                let pore = pore as usize;
-                0.5 * part * mesh.volume(pore) * mesh.share(index, pore, axis, up)
-            })
+            .map(half)
             .sum::<f64>()
     };
     let faces = mesh.faces.par_iter().zip(halves).enumerate();
@@ -55,15 +51,10 @@ pub(crate) fn masses(mesh: &Mesh, halves: &[[f64; 2]]) -> Vec<f64> {
 /// Liquid of the halves of each face, times the viscosity of their pores where that of edges is none of its own.
 pub(crate) fn stiffnesses(mesh: &Mesh, halves: &[[f64; 2]], viscosities: &Viscosities) -> Vec<f64> {
     let own = viscosities.edges.is_empty();
-    let viscosity = |pore: u32| {
-        if own {
-            viscosities.pores[pore as usize]
-        } else {
-            1.0
-        }
-    };
+    let viscosity = |pore: usize| if own { viscosities.pores[pore] } else { 1.0 };
     let of = |(face, parts): (&Face, &[f64; 2])| {
-        parts[0] * viscosity(face.low) + parts[1] * viscosity(face.high)
+        let [low, high] = face.ends().map(viscosity);
+        parts[0] * low + parts[1] * high
     };
     mesh.faces.par_iter().zip(halves).map(of).collect()
 }

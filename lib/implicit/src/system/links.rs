@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::geometry::{Chords, Lattice, MIRROR, Mesh, OPEN, Place, others};
 use crate::liquid::Kept;
 
-use super::link::{Link, Single};
+use super::link::Link;
 
 /// Least effective distance over the open height of a column, so that friction stays finite.
 const LEAST: f64 = 0.1;
@@ -14,7 +14,7 @@ const NARROWEST: f64 = 0.85;
 
 /// The links of all faces of a mesh.
 #[derive(Clone, Default)]
-pub(crate) struct Links(Vec<Single>);
+pub(crate) struct Links(Vec<Link<f32>>);
 
 /// What walls are like in a scene.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +33,7 @@ impl Links {
 
     /// The link of a face.
     pub(crate) fn of(&self, face: usize) -> Link {
-        self.0[face].into()
+        self.0[face].with(f64::from)
     }
 
     /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
@@ -56,8 +56,8 @@ impl Links {
             let old = kept.whole(face).map(|face| old.0[face]);
             match old.filter(|link| !link.by_gap) {
                 Some(link) => link,
-                None if inner[face] => view.link(face, mesh.is_clear(face, &clear)).into(),
-                None => Single::default(),
+                None if inner[face] => view.link(face, mesh.is_clear(face, &clear)),
+                None => Link::default(),
             }
         };
         Self((0..mesh.faces.len()).into_par_iter().map(link).collect())
@@ -80,7 +80,7 @@ impl Links {
         };
         self.0.par_iter_mut().enumerate().for_each(|(face, link)| {
             if link.by_gap && mesh.is_wet(face, fractions) {
-                *link = view.link(face, !link.walled).into();
+                *link = view.link(face, !link.walled);
             }
         });
     }
@@ -104,57 +104,41 @@ struct Column {
 
 impl View<'_> {
     /// The link of a face that is `clear` of walls or not.
-    fn link(&self, face: usize, clear: bool) -> Link {
-        let mut link = Link {
+    fn link(&self, face: usize, clear: bool) -> Link<f32> {
+        let mut link = Link::<f64> {
             by_gap: self.mesh.is_by_gap(face),
             ..Link::default()
         };
         let f = self.mesh.faces[face];
         let axis = usize::from(f.axis);
         if self.walls.influence_length.is_infinite() {
-            return link;
+            return link.with(|value| value as f32);
         }
-        let places = [f.low, f.high].map(|pore| {
-            self.mesh
-                .place(self.mesh.pores[pore as usize].cell as usize)
-        });
         for t in others(axis) {
             if self.lattice.flat && t == 2 {
                 continue;
             }
             for r in 0..self.mesh.k {
-                self.column((face, clear), places, t, r, &mut link);
+                self.column((face, clear), t, r, &mut link);
             }
         }
-        link
+        link.with(|value| value as f32)
     }
 
     /// Adds the walls at both ends along `t` of column `r` of a face.
-    fn column(
-        &self,
-        (face, clear): (usize, bool),
-        places: [[usize; 3]; 2],
-        t: usize,
-        r: usize,
-        link: &mut Link,
-    ) {
+    fn column(&self, (face, clear): (usize, bool), t: usize, r: usize, link: &mut Link) {
         let (mesh, k) = (self.mesh, self.mesh.k);
         let f = mesh.faces[face];
         let axis = usize::from(f.axis);
-        let pores = [f.low, f.high].map(|pore| pore as usize);
-        let cells = pores.map(|pore| mesh.pores[pore].cell as usize);
+        let pores = f.ends();
+        let cells = pores.map(|pore| mesh.cell(pore));
         let across = 3 - axis - t;
         let voxel = |half: usize, i: usize| {
             let mut at = [0; 3];
             (at[axis], at[t], at[across]) = (if half == 0 { k - 1 } else { 0 }, i, r);
             at
         };
-        let bit = |i: usize| {
-            let at = voxel(0, i);
-            let [s, q] = others(axis);
-            at[s] + k * at[q]
-        };
-        let mut open = (0..k).filter(|&i| f.open >> bit(i) & 1 == 1);
+        let mut open = (0..k).filter(|&i| mesh.is_open(face, voxel(0, i)));
         let Some(first) = open.next() else {
             return;
         };
@@ -175,7 +159,7 @@ impl View<'_> {
         for (half, cell) in cells.into_iter().enumerate() {
             let edges = [1.0, mesh.height(pores[half]), 1.0];
             let ends = both[half];
-            let place = mesh.place_in_lattice(self.lattice, places[half], voxel(half, first));
+            let place = mesh.lattice_place(self.lattice, cell, voxel(half, first));
             let width = |a: usize| self.width(place, a) / edges[t];
             link.by_gap |= place.is_some_and(|place| self.chords.through_gap(place));
             let part = 0.5 * edges[axis] * edges[across] / k as f64;

@@ -6,12 +6,14 @@ use rayon::prelude::*;
 
 use super::viscosity::{Rates, Viscosities, Wall};
 
+/// Passes over what depends on the solution, at most: what settles takes fewer.
+pub(crate) const PASSES: usize = 30;
+
 /// Largest exponent of a rate that is anticipated, and how near it is found.
 const FARTHEST: f64 = 30.0;
 const NEAR: f64 = 1e-4;
 /// Mean square of the changes of ln(viscosity) below which they tell nothing of the answer.
 const UNMOVED: f64 = 1e-6;
-
 /// Mean change of ln(viscosity), weighted by dissipation, that ends the passes.
 const SETTLED: f64 = 2e-3;
 

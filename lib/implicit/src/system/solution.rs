@@ -120,10 +120,10 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
     let closed_in = problem.pockets.iter().flat_map(|pocket| &pocket.pores);
     for &pore in problem.unknowns.pores.iter().chain(closed_in) {
         let pore = pore as usize;
-        let (p, cell) = (flow.pressure[pore], mesh.pores[pore].cell as usize);
-        for bit in (0..8).filter(|bit| mesh.pores[pore].voxels >> bit & 1 == 1) {
+        let p = flow.pressure[pore];
+        for voxel in mesh.voxels(pore) {
             for (up, sign) in [(false, -1.0), (true, 1.0)] {
-                if let Some((cell, voxel)) = mesh.next_voxel(cell, mesh.voxel(bit), 1, up) {
+                if let Some((cell, voxel)) = mesh.next_voxel(mesh.cell(pore), voxel, 1, up) {
                     push(mesh.code(lattice, cell, voxel), sign * p * part);
                 }
             }
@@ -141,8 +141,7 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
                 })
                 .sum();
             push(link.body, drag);
-            let f = mesh.faces[face];
-            for (pore, up) in [(f.low as usize, false), (f.high as usize, true)] {
+            for (pore, up) in problem.ends(face).into_iter().zip([false, true]) {
                 stretching(mesh, face, up, |pull| {
                     if pull.other.is_none() {
                         let against = flow.velocity[face] - pull.closing * flow.speed;
@@ -158,10 +157,9 @@ pub(crate) fn forces(problem: &Problem, flow: &Flow, bodies: usize) -> Vec<f64> 
 
 /// Code of the body whose wall bounds a pore on its high (`up`) or low side along y.
 fn wall_ahead(problem: &Problem, pore: usize, up: bool) -> u8 {
-    let (mesh, cell) = (problem.mesh, problem.mesh.pores[pore].cell as usize);
-    (0..8)
-        .filter(|bit| mesh.pores[pore].voxels >> bit & 1 == 1)
-        .filter_map(|bit| mesh.next_voxel(cell, mesh.voxel(bit), 1, up))
+    let mesh = problem.mesh;
+    (mesh.voxels(pore))
+        .filter_map(|voxel| mesh.next_voxel(mesh.cell(pore), voxel, 1, up))
         .map(|(cell, voxel)| mesh.code(problem.lattice, cell, voxel))
         .find(|&code| code != OPEN)
         .unwrap_or(OPEN)

@@ -2,9 +2,6 @@
 
 use crate::geometry::{Mesh, RowKind};
 
-/// Nearest that a wall ahead counts, in edges of the cell: bounds the slope where little is open.
-const NEAREST: f64 = 0.3;
-
 /// A velocity that pulls at a face with a weight; the wall ahead has none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pull {
@@ -19,8 +16,8 @@ pub(crate) struct Pull {
 pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut(Pull)) {
     let f = mesh.faces[face];
     let axis = usize::from(f.axis);
-    let pore = if up { f.high } else { f.low } as usize;
-    let edge = if axis == 1 { mesh.height(pore) } else { 1.0 };
+    let pore = f.ends()[usize::from(up)];
+    let edge = mesh.edge(pore, axis);
     let weight = 2.0 * mesh.volume(pore) / (edge * edge);
     let own = mesh.share(face, pore, axis, !up);
     let closing = match (axis, mesh.rows().kind(mesh.row_of(pore))) {
@@ -31,7 +28,8 @@ pub(crate) fn stretching(mesh: &Mesh, face: usize, up: bool, mut add: impl FnMut
     let closing = if up { -closing } else { closing };
     let ahead = mesh.faces_at(pore, axis, up);
     if ahead.len() == 0 {
-        let distance = (mesh.volume(pore) / mesh.area(face) / edge).clamp(NEAREST, 1.0);
+        // Half an edge at least: behind each open voxel face is a voxel.
+        let distance = (mesh.volume(pore) / mesh.area(face) / edge).min(1.0);
         add(Pull {
             other: None,
             weight: weight * own / (distance * distance),

@@ -6,8 +6,6 @@ use crate::geometry::Mesh;
 pub(crate) const FULL: f64 = 0.9;
 /// Mean liquid volume of two pores, cells, above which the face between them has a velocity without a full pore beside it.
 const WET: f64 = 0.005;
-/// No unknown.
-const ABSENT: u32 = u32::MAX;
 
 /// Numbers of the unknowns of a step: of velocities along rows of cells, one component after the other, so that neighbours
 /// are near in memory and consecutive rows of the velocity block couple to equal distances, which the solver packs.
@@ -16,7 +14,7 @@ pub(crate) struct Unknowns {
     pub(crate) faces: Vec<u32>,
     /// Pores with a pressure.
     pub(crate) pores: Vec<u32>,
-    face_number: Vec<u32>,
+    face_number: Vec<Option<u32>>,
     /// Whether each pore has one.
     bounded: Vec<bool>,
 }
@@ -24,25 +22,24 @@ pub(crate) struct Unknowns {
 impl Unknowns {
     /// Those of pores filled to `fractions`, where those that are `torn`, if any can be, have no pressure.
     pub(crate) fn new(mesh: &Mesh, fractions: &[f64], torn: &[bool]) -> Self {
-        let full =
-            |pore: u32| fractions[pore as usize] >= FULL && torn.get(pore as usize) != Some(&true);
+        let full = |pore: usize| fractions[pore] >= FULL && torn.get(pore) != Some(&true);
         let mut unknowns = Self {
             faces: Vec::new(),
             pores: Vec::new(),
-            face_number: vec![ABSENT; mesh.faces.len()],
+            face_number: vec![None; mesh.faces.len()],
             bounded: vec![false; mesh.pores.len()],
         };
         for face in by_rows(mesh) {
-            let ends = [mesh.faces[face].low, mesh.faces[face].high];
-            let liquid = |pore: u32| fractions[pore as usize] * mesh.volume(pore as usize);
+            let ends = mesh.faces[face].ends();
+            let liquid = |pore: usize| fractions[pore] * mesh.volume(pore);
             let wet = || ends.iter().map(|&pore| 0.5 * liquid(pore)).sum::<f64>() > WET;
             if !(ends.iter().any(|&pore| full(pore)) || wet()) {
                 continue;
             }
-            unknowns.face_number[face] = unknowns.faces.len() as u32;
+            unknowns.face_number[face] = Some(unknowns.faces.len() as u32);
             unknowns.faces.push(face as u32);
             for pore in ends.into_iter().filter(|&pore| full(pore)) {
-                unknowns.bounded[pore as usize] = true;
+                unknowns.bounded[pore] = true;
             }
         }
         let pores = 0..mesh.pores.len() as u32;
@@ -58,14 +55,13 @@ impl Unknowns {
     /// Whether a pore has none and is beside one that has, in the domain.
     pub(crate) fn is_front(&self, mesh: &Mesh, pore: usize) -> bool {
         !self.bounded[pore]
-            && !mesh.is_beyond(mesh.pores[pore].cell as usize)
+            && !mesh.is_beyond(mesh.cell(pore))
             && mesh.beside(pore).any(|(_, _, beside)| self.bounded[beside])
     }
 
     /// Number of the velocity of a face.
     pub(crate) fn face(&self, face: usize) -> Option<usize> {
-        let number = self.face_number[face];
-        (number != ABSENT).then_some(number as usize)
+        self.face_number[face].map(|number| number as usize)
     }
 }
 

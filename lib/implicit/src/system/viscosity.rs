@@ -4,10 +4,10 @@ use physics::{Liquid, ShearRate, Viscosity};
 use rayon::prelude::*;
 
 use super::edges::Edges;
+use super::links::Links;
 use super::stretching::stretching;
 use super::thinning::{steepness, thinning_distance};
-use crate::geometry::{Mesh, others};
-use crate::system::Links;
+use crate::geometry::{Mesh, Way, others};
 
 /// Viscosities over their unit: of each pore, at the walls of the halves of each face, and at each edge, none where those of
 /// pores are one.
@@ -50,9 +50,8 @@ impl Viscosities {
         if !thick.edges.is_empty() {
             for face in 0..mesh.faces.len() {
                 for (index, edge) in edges.of(face).iter().enumerate() {
-                    let (own, next) = (mesh.faces[face], mesh.faces[edge.next as usize]);
-                    let around = [own.low, own.high, next.low, next.high];
-                    let sum: f64 = around.iter().map(|&pore| factor[pore as usize]).sum();
+                    let around = [face, edge.next as usize].map(|face| mesh.faces[face].ends());
+                    let sum: f64 = around.as_flattened().iter().map(|&pore| factor[pore]).sum();
                     thick.edges[edges.first(face) + index] *= 0.25 * sum;
                 }
             }
@@ -197,38 +196,28 @@ impl FlowField<'_> {
     fn parts(&self, pore: usize, sheared: &[[f64; 2]]) -> ([f64; 4], f64) {
         let (mesh, u) = (self.mesh, self.velocity);
         let (mut parts, mut walls) = ([0.0; 4], 0.0);
-        for axis in 0..3 {
-            for up in [false, true] {
-                for face in mesh.faces_at(pore, axis, up) {
-                    if !up {
-                        // The pore is on the high side of its low faces.
-                        stretching(mesh, face, true, |pull| {
-                            let other = pull.other.map_or(0.0, |other| u[other]);
-                            parts[0] +=
-                                pull.weight * (other - u[face] + pull.closing * self.speed).powi(2);
-                        });
-                    }
-                    for (around, sheared) in others(axis).into_iter().zip(sheared[face]) {
-                        parts[1 + around] += sheared;
-                    }
-                    let link = self.links.of(face);
-                    let half = usize::from(!up);
-                    if link.friction[half] > 0.0 {
-                        let wall = self.wall(face, half);
-                        walls += link.friction[half] * (u[face] - wall).powi(2);
-                    }
-                }
+        for Way { face, axis, up, .. } in mesh.ways(pore) {
+            if !up {
+                // The pore is on the high side of its low faces.
+                stretching(mesh, face, true, |pull| {
+                    let other = pull.other.map_or(0.0, |other| u[other]);
+                    let rate = other - u[face] + pull.closing * self.speed;
+                    parts[0] += pull.weight * rate.powi(2);
+                });
+            }
+            for (around, sheared) in others(axis).into_iter().zip(sheared[face]) {
+                parts[1 + around] += sheared;
+            }
+            let link = self.links.of(face);
+            let half = usize::from(!up);
+            if link.friction[half] > 0.0 {
+                let [own, closing] = link.sliding[half];
+                let wall = (own + closing * self.speed) / link.friction[half];
+                walls += link.friction[half] * (u[face] - wall).powi(2);
             }
         }
         let volume = mesh.volume(pore);
         (parts.map(|part| part / volume), walls / volume)
-    }
-
-    /// Mean velocity of the walls beside the half of a face.
-    fn wall(&self, face: usize, half: usize) -> f64 {
-        let link = self.links.of(face);
-        let [own, closing] = link.sliding[half];
-        (own + closing * self.speed) / link.friction[half]
     }
 
     /// What the walls of a face do.

@@ -1,7 +1,7 @@
 //! Where the water is that the liquid does not hold.
 
-/// Part of the water that rounding may move.
-const ROUNDING: f64 = 1e-6;
+/// Part of the water, or of a volume, that rounding may move in a run.
+pub(crate) const ROUNDING: f64 = 1e-6;
 
 /// The account of the water, and what the next step goes by.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,11 +11,7 @@ use physics::Water;
 use super::solve::{Node, solve};
 use super::walls::Walls;
 use crate::geometry::Mesh;
-
-/// Volume of solids, cells, below which a pore neither passes water on nor gives any off: what rounding leaves behind a front.
-const LEAST: f64 = 1e-9;
-/// No node.
-const NONE: u32 = u32::MAX;
+use crate::liquid::TRACE;
 
 /// What holds for a step.
 pub(crate) struct Medium<'a> {
@@ -100,14 +96,14 @@ impl Medium<'_> {
     /// The pores with liquid and what passes between them.
     fn nodes(&self, volumes: &[f64], water: &[f64], soaked: &[f64]) -> Vec<Node> {
         let mesh = self.mesh;
-        let mut number = vec![NONE; mesh.pores.len()];
+        let mut number = vec![None; mesh.pores.len()];
         let mut nodes = Vec::new();
         for pore in 0..mesh.pores.len() {
             let solids = volumes[pore] - water[pore];
-            if solids < LEAST {
+            if solids < TRACE {
                 continue;
             }
-            number[pore] = nodes.len() as u32;
+            number[pore] = Some(nodes.len() as u32);
             let area = self.walls.area(mesh, pore);
             let room = (self.capacity * area - soaked[pore]).max(0.0);
             nodes.push(Node {
@@ -119,11 +115,10 @@ impl Medium<'_> {
             });
         }
         for (index, face) in mesh.faces.iter().enumerate() {
-            let ends = [face.low as usize, face.high as usize];
-            let [low, high] = ends.map(|pore| number[pore]);
-            if low == NONE || high == NONE {
+            let ends = face.ends();
+            let [Some(low), Some(high)] = ends.map(|pore| number[pore]) else {
                 continue;
-            }
+            };
             let wet = self.fractions[ends[0]].min(self.fractions[ends[1]]);
             let axis = usize::from(face.axis);
             let area = mesh.area(index);

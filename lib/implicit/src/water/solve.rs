@@ -1,10 +1,9 @@
 //! The balance of water in all pores: X of each, not below what walls leave.
 
-/// Relative residual of the solution, far below what a step moves, and iterations to reach it.
+use crate::system::PASSES;
+
+/// Relative residual of the solution, far below what a step moves.
 const TOLERANCE: f64 = 1e-10;
-const MAX_ITERATIONS: usize = 2000;
-/// Times that pores change sides between those that still give all that is asked for and those at the limit, at most.
-const MAX_TURNS: usize = 30;
 /// Part of the limit by which X may fall short of it: above what the solution is off by.
 const HAIR: f64 = 1e-9;
 
@@ -42,7 +41,8 @@ pub(super) fn solve(nodes: &[Node], least: f64) -> Option<(Vec<f64>, Vec<bool>)>
     let mut held: Vec<bool> = (nodes.iter())
         .map(|node| node.asked > 0.0 && node.ratio <= least * (1.0 + HAIR))
         .collect();
-    for _ in 0..MAX_TURNS {
+    // Pores change sides between those that still give all that is asked for and those at the limit.
+    for _ in 0..PASSES {
         for (x, held) in ratio.iter_mut().zip(&held) {
             *x = if *held { least } else { *x };
         }
@@ -92,7 +92,8 @@ fn gradients(nodes: &[Node], held: &[bool], ratio: &mut [f64]) -> bool {
     let mut correction = scaled(&rest);
     let mut way = correction.clone();
     let mut size = dot(&rest, &correction);
-    for _ in 0..MAX_ITERATIONS {
+    // Conjugate gradients are exact after one iteration a node but for rounding.
+    for _ in 0..=2 * count {
         if dot(&rest, &rest) <= TOLERANCE * TOLERANCE * scale || size <= 0.0 {
             return true;
         }

@@ -20,10 +20,8 @@ impl Walls {
     pub(crate) fn new(lattice: &Lattice, mesh: &Mesh, take: &[bool]) -> Self {
         let takes = |code: u8| code != OPEN && code != MIRROR && take[usize::from(code - 1)];
         let areas = |pore: usize| {
-            let (cell, bits) = (mesh.pores[pore].cell as usize, mesh.pores[pore].voxels);
-            let mut areas = [0.0; 2];
-            for bit in (0..8).filter(|bit| bits >> bit & 1 == 1) {
-                let voxel = mesh.voxel(bit);
+            let (cell, mut areas) = (mesh.cell(pore), [0.0; 2]);
+            for voxel in mesh.voxels(pore) {
                 for (axis, up) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
                     let beyond = mesh.next_voxel(cell, voxel, axis, up);
                     let code = beyond.map_or(MIRROR, |(cell, at)| mesh.code(lattice, cell, at));
@@ -42,8 +40,7 @@ impl Walls {
     /// Area of a pore, cells.
     pub(crate) fn area(&self, mesh: &Mesh, pore: usize) -> f64 {
         let [across, along] = self.0[pore];
-        let height = mesh.edges(mesh.pores[pore].cell as usize)[1];
-        across + height * along
+        across + mesh.height(pore) * along
     }
 }
 

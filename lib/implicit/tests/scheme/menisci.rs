@@ -1,17 +1,12 @@
 //! Liquid drawn into slits and tubes by its surface: rest, Lucas and Washburn, Jurin's height, angles that depend on the
-//! speed. Run with `--nocapture` to see the errors.
-
-#![allow(clippy::print_stdout, reason = "prints for developers")]
-
-#[path = "common/plain.rs"]
-mod plain;
+//! speed.
 
 use implicit::{Implicit, Settings};
-use physics::{Motion, Points, Scene, Scheme, StepLimit, VoxelBlock, Wetting};
+use physics::{Motion, Points, Scene, Scheme, VoxelBlock, Wetting};
 
-/// Width of slits and tubes, m.
-const H: f64 = 17.4e-6;
-const ETA: f64 = 1.3;
+use crate::plain;
+use crate::runs::{ETA, H, advance, plainly, until};
+
 /// Surface tension, N/m.
 const SIGMA: f64 = 0.05;
 
@@ -42,6 +37,14 @@ impl Passage {
                 (0..2 * n).flat_map(inside).count() as f64 / (2 * n).pow(2) as f64
             }
             _ => 1.0,
+        }
+    }
+
+    /// Cells along z of a section so many cells across.
+    fn deep(self, across: usize) -> usize {
+        match self {
+            Self::Slit => 1,
+            _ => across,
         }
     }
 
@@ -93,17 +96,12 @@ fn walls(kind: Passage, n: usize, mouth: f64) -> (Vec<VoxelBlock>, usize) {
 
 /// Liquid in a box of cells, where no wall is, as points of half a cell.
 fn liquid(h: f64, low: [f64; 3], cells: [usize; 3], blocks: &[VoxelBlock]) -> Points {
-    let flat = cells[2] == 1;
-    let (dz, nz) = if flat {
-        (h, 1)
-    } else {
-        (0.5 * h, 2 * cells[2])
+    let (dz, nz) = match cells[2] {
+        1 => (h, 1),
+        deep => (0.5 * h, 2 * deep),
     };
-    let all = plain::fill(
-        low.map(|x| x * h),
-        [0.5 * h, 0.5 * h, dz],
-        [2 * cells[0], 2 * cells[1], nz],
-    );
+    let n = [2 * cells[0], 2 * cells[1], nz];
+    let all = plain::fill(low.map(|x| x * h), [0.5 * h, 0.5 * h, dz], n);
     let mut points = Points::default();
     for (at, x) in all.position.iter().enumerate() {
         if !blocks.iter().any(|block| block.contains(*x)) {
@@ -115,20 +113,29 @@ fn liquid(h: f64, low: [f64; 3], cells: [usize; 3], blocks: &[VoxelBlock]) -> Po
     points
 }
 
+/// A quarter of a passage in so many cells, filled from a cell on over some.
+fn filled(
+    h: f64,
+    cells: [usize; 3],
+    (from, count): (f64, usize),
+    blocks: Vec<VoxelBlock>,
+    degrees: f64,
+) -> Scene {
+    let mut scene = plain::scene(h, cells);
+    scene.points = liquid(h, [from, 0.0, 0.0], [count, cells[1], cells[2]], &blocks);
+    scene.bodies = vec![plain::body("wood", blocks, Motion::Fixed)];
+    scene.liquid.wetting = Some(wetting(degrees));
+    scene
+}
+
 /// A quarter of a passage behind a reservoir four times as wide and three times as deep, with a free surface at its back; and
 /// the x of its mouth, m.
 fn wicking(kind: Passage, n: usize, degrees: f64) -> (Scene, f64) {
     let h = H / n as f64;
     let mouth = 3 * n + 2;
     let (blocks, across) = walls(kind, n, mouth as f64);
-    let deep = match kind {
-        Passage::Slit => 1,
-        _ => across,
-    };
-    let mut scene = plain::scene(h, [8 * n + 4, across, deep]);
-    scene.points = liquid(h, [2.0, 0.0, 0.0], [3 * n, across, deep], &blocks);
-    scene.bodies = vec![plain::body("wood", blocks, Motion::Fixed)];
-    scene.liquid.wetting = Some(wetting(degrees));
+    let cells = [8 * n + 4, across, kind.deep(across)];
+    let scene = filled(h, cells, (2.0, 3 * n), blocks, degrees);
     (scene, mouth as f64 * h)
 }
 
@@ -139,14 +146,6 @@ fn beyond(scheme: &Implicit, axis: usize, from: f64) -> f64 {
         .filter(|(x, _)| f64::from(x[axis]) > from)
         .map(|(_, &v)| f64::from(v))
         .sum()
-}
-
-fn advance(scheme: &mut Implicit, time_s: f64) -> f64 {
-    let limit = StepLimit {
-        time_s,
-        travel_m: f64::INFINITY,
-    };
-    scheme.advance(limit).unwrap().dt_s
 }
 
 /// Error of the length, from one width to four, against L (L + 2 e) = t/`unit`, lengths in H; `e` is the equivalent length of
@@ -163,7 +162,7 @@ fn length_error(kind: Passage, n: usize, degrees: f64, settings: Settings, e: f6
     let (mut time, mut steps) = (0.0, 0);
     let mut course: Vec<[f64; 2]> = Vec::new();
     while course.last().is_none_or(|last| last[1] < 4.0) {
-        time += advance(&mut scheme, 1.0);
+        time += advance(&mut scheme, 1.0).dt_s;
         steps += 1;
         assert!(steps < 60 * n);
         let length = beyond(&scheme, 0, mouth) / quarter;
@@ -192,13 +191,9 @@ fn entrance(kind: Passage) -> f64 {
 
 #[test]
 fn lucas_and_washburn() {
-    for (kind, n, degrees) in [
-        (Passage::Slit, 6, 0.0),
-        (Passage::Slit, 6, 60.0),
-        (Passage::Slit, 3, 60.0),
-        (Passage::Square, 6, 0.0),
-        (Passage::Round, 6, 0.0),
-    ] {
+    use Passage::{Round, Slit, Square};
+    let slits = [(Slit, 6, 0.0), (Slit, 6, 60.0), (Slit, 3, 60.0)];
+    for (kind, n, degrees) in slits.into_iter().chain([(Square, 6, 0.0), (Round, 6, 0.0)]) {
         let error = length_error(kind, n, degrees, Settings::default(), entrance(kind));
         assert!(error.abs() < 0.03);
     }
@@ -207,14 +202,9 @@ fn lucas_and_washburn() {
 #[test]
 #[ignore = "prints the numbers of other widths and steps"]
 fn lucas_and_washburn_in_other_passages() {
-    for (kind, n) in [
-        (Passage::Slit, 4),
-        (Passage::Slit, 12),
-        (Passage::Square, 3),
-        (Passage::Square, 4),
-        (Passage::Round, 4),
-        (Passage::Round, 12),
-    ] {
+    use Passage::{Round, Slit, Square};
+    let slits = [(Slit, 4), (Slit, 12), (Square, 3), (Square, 4)];
+    for (kind, n) in slits.into_iter().chain([(Round, 4), (Round, 12)]) {
         length_error(kind, n, 0.0, Settings::default(), entrance(kind));
     }
     for cfl in [0.5, 0.25] {
@@ -222,20 +212,16 @@ fn lucas_and_washburn_in_other_passages() {
             cfl,
             ..Settings::default()
         };
-        length_error(Passage::Slit, 6, 0.0, settings, entrance(Passage::Slit));
+        length_error(Slit, 6, 0.0, settings, entrance(Slit));
     }
 }
 
 /// A contact line that resists by k Ca adds k narrowness/resistance widths to the length of developed flow.
 #[test]
 fn an_angle_that_depends_on_the_speed_adds_a_length() {
-    for (kind, k) in [
-        (Passage::Slit, 5.0),
-        (Passage::Slit, 90.0),
-        (Passage::Square, 90.0),
-        (Passage::Round, 20.0),
-        (Passage::Round, 90.0),
-    ] {
+    use Passage::{Round, Slit, Square};
+    let tubes = [(Square, 90.0), (Round, 20.0), (Round, 90.0)];
+    for (kind, k) in [(Slit, 5.0), (Slit, 90.0)].into_iter().chain(tubes) {
         let settings = Settings {
             dynamic_angle: k,
             ..Settings::default()
@@ -253,18 +239,9 @@ fn liquid_between_two_menisci_rests() {
         let n = 6;
         let h = H / n as f64;
         let (blocks, across) = walls(kind, n, -1.0);
-        let deep = match kind {
-            Passage::Slit => 1,
-            _ => across,
-        };
-        let mut scene = plain::scene(h, [20, across, deep]);
-        scene.points = liquid(h, [5.0, 0.0, 0.0], [8, across, deep], &blocks);
-        scene.bodies = vec![plain::body("wood", blocks, Motion::Fixed)];
-        scene.liquid.wetting = Some(wetting(0.0));
-        let mut scheme = Implicit::new(&scene, Settings::default()).unwrap();
-        for _ in 0..5 {
-            advance(&mut scheme, 1e-3);
-        }
+        let scene = filled(h, [20, across, kind.deep(across)], (5.0, 8), blocks, 0.0);
+        let mut scheme = plainly(&scene);
+        (0..5).for_each(|_| _ = advance(&mut scheme, 1e-3));
         let jump = SIGMA * kind.narrowness() / H;
         let liquid = scheme.liquid();
         let lowest = liquid
@@ -289,24 +266,14 @@ fn rise(n: usize, degrees: f64) -> (f64, f64) {
     let [left, right, low] = [n / 2, n, n];
     let plate = VoxelBlock::solid_box([m(left), m(low), 0.0], [m(right), 99.0 * H, h]);
     let mut scene = plain::scene(h, [n / 2 * 5, 5 * n, 1]);
-    scene.points = liquid(
-        h,
-        [0.0; 3],
-        [n / 2 * 5, 2 * n, 1],
-        std::slice::from_ref(&plate),
-    );
+    let plates = std::slice::from_ref(&plate);
+    scene.points = liquid(h, [0.0; 3], [n / 2 * 5, 2 * n, 1], plates);
     scene.bodies = vec![plain::body("plate", vec![plate], Motion::Fixed)];
     scene.liquid.wetting = Some(wetting(degrees));
     let height = 1.5 * H;
     scene.gravity[1] = -2.0 * SIGMA / (scene.liquid.density * H * height);
-    let mut scheme = Implicit::new(&scene, Settings::default()).unwrap();
-    let (mut time, end) = (0.0, 120.0 * ETA * H / SIGMA);
-    let mut steps = 0;
-    while time < end * (1.0 - 1e-9) {
-        time += advance(&mut scheme, end - time);
-        steps += 1;
-        assert!(steps < 100_000);
-    }
+    let (mut scheme, mut steps) = (plainly(&scene), 0);
+    until(&mut scheme, 120.0 * ETA * H / SIGMA, |_, _| steps += 1);
     let liquid = scheme.liquid();
     let mut above = [0.0; 2];
     for (x, v) in liquid.position.iter().zip(&liquid.volume) {

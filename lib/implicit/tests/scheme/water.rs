@@ -1,15 +1,12 @@
 //! Loss of water from a column in a slit: nothing of it is lost, and a saved run goes on bit by bit.
 
-#![allow(clippy::print_stdout, reason = "prints for developers")]
+use implicit::Implicit;
+use physics::{Array, Motion, Saved, Scene, Scheme, VoxelBlock, Water, WaterLaw};
 
-#[path = "common/plain.rs"]
-mod plain;
+use crate::plain;
+use crate::runs::{H, advance, block, clamp, plainly, press, until};
 
-use implicit::{Implicit, Settings};
-use physics::{Array, Clamp, Motion, Saved, Scene, Scheme, StepLimit, VoxelBlock, Water, WaterLaw};
-
-/// Width of the slit, m, and cells across it.
-const H: f64 = 17.4e-6;
+/// Cells across the slit.
 const CELLS: usize = 6;
 
 /// A column three widths long above a lumen of two whose walls take water; a clamp presses on it.
@@ -33,36 +30,37 @@ fn scene(law: impl Fn(&mut WaterLaw)) -> Scene {
     let half = 0.5 * cell;
     let points = [2 * CELLS, 6 * CELLS, 2];
     scene.points = plain::fill([low, mouth, 0.0], [half; 3], points);
-    scene.clamp = Some(Clamp {
-        closing_speed: 0.02,
-        max_pressure: Some(1e5 * H / scene.grid.max_m()[0]),
-        pid: None,
-    });
+    scene.clamp = clamp(0.02, 1e5 * H / scene.grid.max_m()[0]);
     (scene.bottom, scene.top) = (Some(1), Some(2));
-    let mut water = WaterLaw {
-        uptake: 1e-3,
+    let water = losing(&scene, 1e-3, |water| {
+        water.walls = vec!["lumen".into()];
+        law(water);
+    });
+    scene.liquid.water = Some(water);
+    scene
+}
+
+/// Water of a liquid of 45 % of solids of which all walls take, with what a test has otherwise.
+fn losing(scene: &Scene, uptake: f64, other: impl Fn(&mut WaterLaw)) -> Water {
+    let mut law = WaterLaw {
+        uptake,
         solids: 0.45,
         capacity: None,
         limit: Some(0.6),
         diffusivity: 1e-7,
         factor: vec![(0.45, 1.0), (0.7, 1e4)],
-        walls: vec!["lumen".into()],
+        walls: Vec::new(),
     };
-    law(&mut water);
-    scene.liquid.water = Some(Water::new(water, scene.liquid.density).unwrap());
-    scene
+    other(&mut law);
+    Water::new(law, scene.liquid.density).unwrap()
 }
 
 fn begun(law: impl Fn(&mut WaterLaw)) -> Implicit {
-    Implicit::new(&scene(law), Settings::default()).unwrap()
+    plainly(&scene(law))
 }
 
 fn step(scheme: &mut Implicit) -> f64 {
-    let limit = StepLimit {
-        time_s: 10e-3,
-        travel_m: f64::INFINITY,
-    };
-    scheme.advance(limit).unwrap().dt_s
+    advance(scheme, 10e-3).dt_s
 }
 
 #[test]
@@ -107,12 +105,9 @@ fn only_the_walls_named_take_water() {
 fn a_saved_run_goes_on_bit_by_bit() {
     let full = |law: &mut WaterLaw| law.capacity = Some(1e-6);
     let mut whole = begun(full);
-    for _ in 0..6 {
-        step(&mut whole);
-    }
-    let saved = whole.save();
+    (0..6).for_each(|_| _ = step(&mut whole));
     let mut other = begun(full);
-    other.restore(&saved).unwrap();
+    other.restore(&whole.save()).unwrap();
     for _ in 0..3 {
         assert_eq!(step(&mut whole), step(&mut other));
     }
@@ -122,9 +117,7 @@ fn a_saved_run_goes_on_bit_by_bit() {
 #[test]
 fn a_checkpoint_holds_the_water_of_the_start() {
     let mut scheme = begun(|_| ());
-    for _ in 0..4 {
-        step(&mut scheme);
-    }
+    (0..4).for_each(|_| _ = step(&mut scheme));
     let refused = |name: &str, factor: f64| {
         let Saved(mut arrays) = scheme.save();
         let array = arrays.iter_mut().find(|(own, _)| own == name);
@@ -175,46 +168,25 @@ fn a_film_between_mirrors_closes_as_its_water_goes() {
         let cell = 2.9e-6;
         let (low, gap) = ((1.0 + offset) * cell, 4.0 * cell);
         let mut scene = plain::scene(cell, [8, 8, 1]);
-        let plate = |from: f64, to: f64| {
-            let high = [8.0 * cell, to, cell];
-            vec![VoxelBlock::solid_box([0.0, from, 0.0], high)]
-        };
-        scene.bodies = vec![
-            plain::body("below", plate(0.0, low), Motion::Fixed),
-            plain::body("above", plate(low + gap, 12.0 * cell), Motion::Clamped),
-        ];
+        let first = 1.0 + offset;
+        let plates = [[0.0, first], [first + 4.0, 12.0]];
+        let plates = plates.map(|[from, to]| vec![block(cell, [0.0, from], [8.0, to])]);
+        press(&mut scene, ["below", "above"], plates, Motion::Clamped);
         scene.points = plain::fill([0.0, low, 0.0], [0.5 * cell; 3], [16, 8, 2]);
-        scene.clamp = Some(Clamp {
-            closing_speed: 1e-3,
-            max_pressure: Some(1e5),
-            pid: None,
+        scene.clamp = clamp(1e-3, 1e5);
+        let water = losing(&scene, UPTAKE, |law| {
+            (law.capacity, law.diffusivity) = (capacity, 1e-6);
+            law.factor = vec![(0.45, 1.0), (0.7, 100.0)];
         });
-        (scene.bottom, scene.top) = (Some(0), Some(1));
-        let law = WaterLaw {
-            uptake: UPTAKE,
-            solids: 0.45,
-            capacity,
-            limit: Some(0.6),
-            diffusivity: 1e-6,
-            factor: vec![(0.45, 1.0), (0.7, 100.0)],
-            walls: Vec::new(),
-        };
-        let water = Water::new(law, scene.liquid.density).unwrap();
         let last = gap * (1.0 - (1.0 + water.least()) / (1.0 + water.start()));
         let last = capacity.map_or(last, |capacity| last.min(2.0 * capacity));
         scene.liquid.water = Some(water);
-        let mut scheme = Implicit::new(&scene, Settings::default()).unwrap();
-        let (mut time, mut worst, mut travel) = (0.0, 0.0_f64, 0.0);
-        while time < 40e-3 {
-            let limit = StepLimit {
-                time_s: 40e-3 - time,
-                travel_m: f64::INFINITY,
-            };
-            let report = scheme.advance(limit).unwrap();
-            (time, travel) = (time + report.dt_s, report.travel_m);
+        let (mut worst, mut travel) = (0.0_f64, 0.0);
+        until(&mut plainly(&scene), 40e-3, |report, time| {
+            travel = report.travel_m;
             let exact = (2.0 * UPTAKE * time).min(last);
             worst = worst.max((travel - exact).abs() / last);
-        }
+        });
         println!(
             "offset {offset}: off by {worst:.1e} at most, {:+.1e} at the end",
             travel / last - 1.0

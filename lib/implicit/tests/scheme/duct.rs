@@ -1,17 +1,12 @@
 //! A piston presses liquid from a reservoir into a square duct or a tube of voxels: what the shape of the moving front adds to the
 //! length of developed flow, against finite elements in the frame of the front (tests/references/front).
 
-#![allow(clippy::print_stdout, reason = "prints for developers")]
-
-#[path = "common/plain.rs"]
-mod plain;
-
 use implicit::{Implicit, Settings};
-use physics::{Motion, Points, Scene, Scheme, StepLimit, VoxelBlock};
+use physics::{Motion, Scene, VoxelBlock};
 
-/// Width of the lumen, m.
-const H: f64 = 17.4e-6;
-const ETA: f64 = 1.3;
+use crate::plain;
+use crate::runs::{ETA, H, advance, append, spread};
+
 const SPEED: f64 = 0.5;
 /// Pressure gradient of developed flow in a square, over viscosity, mean speed and width squared.
 const SQUARE: f64 = 28.454;
@@ -59,29 +54,20 @@ impl Lumen {
     fn scene(self, length: usize) -> Scene {
         let n = self.cells();
         let (h, v) = (H / n as f64, H / self.voxels as f64);
-        let cells = [n + 2, 2 + (DEPTH + LENGTH) * n, n + 2];
+        let [x, y, z] = [n + 2, 2 + (DEPTH + LENGTH) * n, n + 2];
         let m = |cells: usize| cells as f64 * h;
         let block =
             |low: [usize; 3], high: [usize; 3]| VoxelBlock::solid_box(low.map(m), high.map(m));
-        let [x, y, z] = cells;
-        let top = 2 + DEPTH * n;
-        let wide = self.voxels;
-        let shaft = VoxelBlock::from_fn(
-            [0.0, m(top), 0.0],
-            [v, m(y) - m(top), v],
-            [wide, 1, wide],
-            |i, _, k| !self.open(i, k),
-        );
+        let (top, wide) = (2 + DEPTH * n, self.voxels);
+        let size = [v, m(y) - m(top), v];
+        let open = |i: usize, _: usize, k: usize| !self.open(i, k);
         let walls = vec![
             block([n, 0, 0], [x, y, z]),
             block([0, 0, n], [n, y, z]),
-            shaft,
+            VoxelBlock::from_fn([0.0, m(top), 0.0], size, [wide, 1, wide], open),
         ];
-        let mut points = plain::fill(
-            [0.0, m(2), 0.0],
-            [0.5 * h; 3],
-            [2 * n, 2 * DEPTH * n, 2 * n],
-        );
+        let reservoir = [2 * n, 2 * DEPTH * n, 2 * n];
+        let mut points = plain::fill([0.0, m(2), 0.0], [0.5 * h; 3], reservoir);
         for (i, k) in (0..wide * wide).map(|at| (at % wide, at / wide)) {
             if self.open(i, k) {
                 let low = [i as f64 * v, m(top), k as f64 * v];
@@ -97,7 +83,7 @@ impl Lumen {
             ],
             bottom: Some(1),
             top: Some(0),
-            ..plain::scene(h, cells)
+            ..plain::scene(h, [x, y, z])
         };
         // So stiff that what yields in the short step of liquid that ends flat is nothing of what flows.
         scene.liquid.tait.bulk_modulus = 1e17;
@@ -121,11 +107,7 @@ impl Lumen {
             ..Settings::default()
         };
         let mut scheme = Implicit::new(&scene, settings).unwrap();
-        let limit = StepLimit {
-            time_s: 1.0,
-            travel_m: f64::INFINITY,
-        };
-        self.reduced(&scene, scheme.advance(limit).unwrap().pressure_bottom)
+        self.reduced(&scene, advance(&mut scheme, 1.0).pressure_bottom)
     }
 
     /// What the front adds to developed flow from two filled widths on, mean and standard deviation.
@@ -143,11 +125,7 @@ impl Lumen {
         let (mut time, mut found) = (0.0, Vec::new());
         let per_second = SPEED / self.area() / H;
         while per_second * time < 3.0 {
-            let limit = StepLimit {
-                time_s: 3.6 / per_second - time,
-                travel_m: f64::INFINITY,
-            };
-            let report = scheme.advance(limit).unwrap();
+            let report = advance(&mut scheme, 3.6 / per_second - time);
             let at = per_second * (time + 0.5 * report.dt_s);
             time += report.dt_s;
             if at > 2.0 {
@@ -156,64 +134,46 @@ impl Lumen {
                 found.push((pressure - flat) / developed);
             }
         }
-        let mean = found.iter().sum::<f64>() / found.len() as f64;
-        let square = found.iter().map(|f| (f - mean).powi(2)).sum::<f64>() / found.len() as f64;
+        let [mean, deviation] = spread(&found);
         println!(
-            "{} of {} cells of {} voxels, Courant number {cfl}: front adds {mean:+.3} widths (finite elements {}), standard deviation {:.3}, pressure at 2.5 widths {:+.1} %; a width {developed:.3}, entrance {:.3}",
+            "{} of {} cells of {} voxels, Courant number {cfl}: front adds {mean:+.3} widths (finite elements {}), standard deviation {deviation:.3}, pressure at 2.5 widths {:+.1} %; a width {developed:.3}, entrance {:.3}",
             if self.round { "tube" } else { "duct" },
             self.cells(),
             self.each,
             self.exact(),
-            square.sqrt(),
             100.0 * (mean - self.exact()) / (two / developed + 0.5 + self.exact()),
             two / developed - 2.0,
         );
-        [mean, square.sqrt()]
+        [mean, deviation]
     }
 }
 
-/// Adds points to others.
-fn append(points: &mut Points, more: Points) {
-    points.position.extend(more.position);
-    points.velocity.extend(more.velocity);
-    points.volume.extend(more.volume);
+fn lumen((voxels, each, round): (usize, usize, bool)) -> Lumen {
+    Lumen {
+        voxels,
+        each,
+        round,
+    }
 }
 
 #[test]
 fn fronts_in_ducts_and_tubes_take_the_pressure_that_finite_elements_say() {
-    for (voxels, each, round, most) in [
-        (6, 2, false, 0.03),
-        (6, 1, false, 0.02),
-        (12, 2, true, 0.04),
-        (12, 1, true, 0.02),
+    for (of, most) in [
+        ((6, 2, false), 0.03),
+        ((6, 1, false), 0.02),
+        ((12, 2, true), 0.04),
+        ((12, 1, true), 0.02),
     ] {
-        let lumen = Lumen {
-            voxels,
-            each,
-            round,
-        };
-        let [mean, deviation] = lumen.shape(1.0);
-        assert!((mean - lumen.exact()).abs() < most && deviation < 0.05);
+        let [mean, deviation] = lumen(of).shape(1.0);
+        assert!((mean - lumen(of).exact()).abs() < most && deviation < 0.05);
     }
 }
 
 #[test]
 #[ignore = "two minutes; prints the numbers of the issue"]
 fn lumens_of_more_cells() {
-    for (voxels, each, round) in [
-        (4, 1, false),
-        (8, 1, false),
-        (12, 1, false),
-        (6, 1, true),
-        (24, 2, true),
-    ] {
-        for cfl in [1.0, 0.5] {
-            let lumen = Lumen {
-                voxels,
-                each,
-                round,
-            };
-            lumen.shape(cfl);
-        }
+    let squares = [4, 8, 12].map(|voxels| (voxels, 1, false));
+    for of in squares.into_iter().chain([(6, 1, true), (24, 2, true)]) {
+        _ = [1.0, 0.5].map(|cfl| lumen(of).shape(cfl));
     }
 }

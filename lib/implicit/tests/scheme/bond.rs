@@ -1,15 +1,13 @@
 //! A bond of voxels with lumens, pressed: what must not depend on how it lies, on threads, or on a stop on the way.
 
-#![allow(clippy::print_stdout, reason = "prints for developers")]
-
-#[path = "common/plain.rs"]
-mod plain;
-
 use implicit::{Implicit, Settings};
 use physics::{
-    Boundary, Clamp, LiquidState, Motion, Press, PressRun, PressStage, Scene, Scheme, StepLimit,
-    Stop, VoxelBlock, WallLaw, Water, WaterLaw, Wetting,
+    Boundary, LiquidState, Motion, Press, PressRun, PressStage, Scene, Scheme, StepLimit, Stop,
+    VoxelBlock, WallLaw, Water, WaterLaw, Wetting,
 };
+
+use crate::plain;
+use crate::runs::{self, advance, at_rest, clamp, plainly, solved};
 
 /// Steps in which an adhesive that dries is pressed: before lumens of one voxel a cell are full and the clamp waits for its
 /// water to go.
@@ -54,22 +52,20 @@ fn scene(k: usize, boundary: Boundary, place: impl Fn(usize, usize) -> [usize; 2
             }
         })
     };
-    scene.bodies = vec![
-        plain::body("wood-bottom", vec![block(0, false)], Motion::Fixed),
-        plain::body("wood-top", vec![block(DEEP + SLAB, true)], Motion::Clamped),
-    ];
+    let blocks = [vec![block(0, false)], vec![block(DEEP + SLAB, true)]];
+    runs::press(
+        &mut scene,
+        ["wood-bottom", "wood-top"],
+        blocks,
+        Motion::Clamped,
+    );
     scene.points = plain::fill([0.0, v(DEEP), 0.0], [VOXEL; 3], [N, SLAB, N]);
     scene.boundary = [boundary, Boundary::Symmetry, boundary];
     scene.wall = WallLaw::PartialSlip {
         influence_length_m: 0.01 * cell,
     };
-    scene.clamp = Some(Clamp {
-        closing_speed: 1.0,
-        max_pressure: Some(2.5e6),
-        pid: None,
-    });
+    scene.clamp = clamp(1.0, 2.5e6);
     scene.stop = Stop::Closed { travel_m: v(SLAB) };
-    (scene.bottom, scene.top) = (Some(0), Some(1));
     scene
 }
 
@@ -108,17 +104,6 @@ fn press(scheme: &mut Implicit, steps: usize) -> (Vec<f64>, LiquidState) {
     (pressures, scheme.liquid())
 }
 
-fn new(scene: &Scene) -> Implicit {
-    Implicit::new(
-        scene,
-        Settings {
-            tolerance: 1e-5,
-            ..Settings::default()
-        },
-    )
-    .unwrap()
-}
-
 /// Root of the mean square of the liquid's distance from the bond, um.
 fn penetration(liquid: &LiquidState) -> f64 {
     let mid = VOXEL * DEEP as f64;
@@ -129,37 +114,23 @@ fn penetration(liquid: &LiquidState) -> f64 {
     1e6 * (mean(&|y| (y - mid).powi(2)) / mean(&|_| 1.0)).sqrt()
 }
 
+/// Also with menisci as strong as a tenth of the clamp's pressure, and with an adhesive that loses water to the wood.
 #[test]
 fn a_bond_is_pressed_the_same_however_it_lies() {
+    let drinking = |k, boundary, place: Place| {
+        let mut scene = scene(k, boundary, place);
+        scene.liquid.wetting = Some(Wetting {
+            tension: 0.5,
+            contact_angle: 40_f64.to_radians(),
+        });
+        scene
+    };
+    let scene = |k, boundary, place: Place| scene(k, boundary, place);
+    let drying = |k, boundary, place: Place| drying(k, boundary, place);
     for k in [1, 2] {
-        let plain = |boundary, place: Place| scene(k, boundary, place);
-        however_it_lies(&format!("k {k}"), &plain, usize::MAX, 1e-5);
-    }
-}
-
-/// With menisci as strong as a tenth of the clamp's pressure.
-#[test]
-fn a_bond_that_drinks_is_pressed_the_same_however_it_lies() {
-    let angle = 40_f64.to_radians();
-    for k in [1, 2] {
-        let drinking = |boundary, place: Place| {
-            let mut scene = scene(k, boundary, place);
-            scene.liquid.wetting = Some(Wetting {
-                tension: 0.5,
-                contact_angle: angle,
-            });
-            scene
-        };
-        however_it_lies(&format!("k {k}, menisci"), &drinking, 10, 1e-8);
-    }
-}
-
-/// With an adhesive that loses water to the wood.
-#[test]
-fn a_bond_that_dries_is_pressed_the_same_however_it_lies() {
-    for k in [1, 2] {
-        let drying = |boundary, place: Place| drying(k, boundary, place);
-        however_it_lies(&format!("k {k}, drying"), &drying, DRYING, 1e-5);
+        however_it_lies(&format!("k {k}"), k, &scene, usize::MAX, 1e-5);
+        however_it_lies(&format!("k {k}, menisci"), k, &drinking, 10, 1e-8);
+        however_it_lies(&format!("k {k}, drying"), k, &drying, DRYING, 1e-5);
     }
 }
 
@@ -168,16 +139,13 @@ type Place<'a> = &'a dyn Fn(usize, usize) -> [usize; 2];
 
 fn however_it_lies(
     what: &str,
-    scene: &dyn Fn(Boundary, Place) -> Scene,
+    k: usize,
+    scene: &dyn Fn(usize, Boundary, Place) -> Scene,
     steps: usize,
     tolerance: f64,
 ) {
     let found = |boundary, place: Place| {
-        let settings = Settings {
-            tolerance,
-            ..Settings::default()
-        };
-        let mut scheme = Implicit::new(&scene(boundary, place), settings).unwrap();
+        let mut scheme = solved(&scene(k, boundary, place), tolerance);
         let (pressures, liquid) = press(&mut scheme, steps);
         let solids = scheme.diagnostics().water.map_or(1.0, |water| water.solids);
         (pressures, penetration(&liquid), solids)
@@ -192,21 +160,22 @@ fn however_it_lies(
         periodic.1,
         plain.2
     );
-    for (name, as_it_lies, other) in [
-        ("x mirrored", &plain, found(mirror, &|x, z| [N - 1 - x, z])),
-        ("z mirrored", &plain, found(mirror, &|x, z| [x, N - 1 - z])),
-        ("x and z exchanged", &plain, found(mirror, &|x, z| [z, x])),
-        (
-            "shifted by 6 voxels over x",
-            &periodic,
-            found(turn, &|x, z| [(x + 6) % N, z]),
-        ),
-        (
-            "shifted by 10 voxels over z",
-            &periodic,
-            found(turn, &|x, z| [x, (z + 10) % N]),
-        ),
-    ] {
+    let places: [(&str, Boundary, Place); 5] = [
+        ("x mirrored", mirror, &|x, z| [N - 1 - x, z]),
+        ("z mirrored", mirror, &|x, z| [x, N - 1 - z]),
+        ("x and z exchanged", mirror, &|x, z| [z, x]),
+        ("shifted by 6 voxels over x", turn, &|x, z| [(x + 6) % N, z]),
+        ("shifted by 10 voxels over z", turn, &|x, z| {
+            [x, (z + 10) % N]
+        }),
+    ];
+    for (name, boundary, place) in places {
+        let as_it_lies = if boundary == mirror {
+            &plain
+        } else {
+            &periodic
+        };
+        let other = found(boundary, place);
         let last = |pressures: &[f64]| pressures[pressures.len() - 1];
         let depth = other.1 / as_it_lies.1 - 1.0;
         let pressure = last(&other.0) / last(&as_it_lies.0) - 1.0;
@@ -217,26 +186,10 @@ fn however_it_lies(
     }
 }
 
-/// Both show the same, to the last bit.
-fn assert_same(one: &LiquidState, other: &LiquidState) {
-    assert_eq!(one.position, other.position);
-    assert_eq!(one.volume, other.volume);
-    assert_eq!(one.pressure, other.pressure);
-    assert_eq!(one.velocity, other.velocity);
-    assert_eq!(one.shear_rate, other.shear_rate);
-}
-
-/// Volume of the liquid without its pressure.
-fn at_rest(scene: &Scene, liquid: &LiquidState) -> f64 {
-    (liquid.volume.iter().zip(&liquid.pressure))
-        .map(|(&v, &p)| f64::from(v) / (1.0 + scene.liquid.tait.volume_change(f64::from(p))))
-        .sum()
-}
-
 #[test]
 fn both_bodies_bear_the_same() {
     for k in [1, 2] {
-        let mut scheme = new(&scene(k, Boundary::Symmetry, |x, z| [x, z]));
+        let mut scheme = solved(&scene(k, Boundary::Symmetry, |x, z| [x, z]), 1e-5);
         let limit = StepLimit {
             time_s: 1e-3,
             travel_m: VOXEL * SLAB as f64,
@@ -258,7 +211,7 @@ fn both_bodies_bear_the_same() {
 fn no_liquid_is_made_or_lost() {
     for k in [1, 2] {
         let scene = scene(k, Boundary::Symmetry, |x, z| [x, z]);
-        let (_, liquid) = press(&mut new(&scene), usize::MAX);
+        let (_, liquid) = press(&mut solved(&scene, 1e-5), usize::MAX);
         let error = at_rest(&scene, &liquid) / scene.liquid_volume() - 1.0;
         println!("k {k}: volume {error:+.1e}");
         // Points are in single precision.
@@ -269,15 +222,16 @@ fn no_liquid_is_made_or_lost() {
 #[test]
 fn a_run_that_was_stopped_goes_on_to_the_same_end_on_any_number_of_threads() {
     let scene = drying(2, Boundary::Symmetry, |x, z| [x, z]);
-    let mut whole = new(&scene);
+    let mut whole = solved(&scene, 1e-5);
     let on = |threads: usize, work: &mut (dyn FnMut() + Send)| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.unwrap().install(work);
     };
     on(1, &mut || drop(press(&mut whole, 2)));
-    let mut resumed = new(&scene);
+    let mut resumed = solved(&scene, 1e-5);
     resumed.restore(&whole.save()).unwrap();
-    assert_same(&resumed.liquid(), &whole.liquid());
+    let parts = |l: LiquidState| (l.position, l.volume, l.pressure, l.velocity, l.shear_rate);
+    assert!(parts(resumed.liquid()) == parts(whole.liquid()));
     on(1, &mut || drop(press(&mut whole, usize::MAX)));
     on(2, &mut || drop(press(&mut resumed, usize::MAX)));
     assert!(whole.save() == resumed.save());
@@ -329,15 +283,11 @@ fn a_closed_clamp_stands_until_its_programme_ends() {
         stage(Press::Approach, None, 1e-3),
         stage(Press::Hold, Some(1e9), 2e-6),
     ];
-    let mut scheme = Implicit::new(&scene, Settings::default()).unwrap();
-    let limit = StepLimit {
-        time_s: f64::INFINITY,
-        travel_m: f64::INFINITY,
-    };
+    let mut scheme = plainly(&scene);
     let mut held = 0;
     while !scheme.programme().is_some_and(PressRun::is_over) {
         let closed = scheme.programme().is_some_and(PressRun::is_closed);
-        let report = scheme.advance(limit).unwrap();
+        let report = advance(&mut scheme, f64::INFINITY);
         held += u32::from(closed);
         assert!(!closed || report.closing_speed == 0.0);
         assert!(report.pressure_top.is_finite() && held < 100);

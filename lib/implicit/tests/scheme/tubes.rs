@@ -1,12 +1,9 @@
 //! Flow along tubes whose walls are steps of voxels, against that of ever finer cells.
 
-#![allow(clippy::print_stdout, reason = "prints for developers")]
+use physics::{Scene, VoxelBlock};
 
-#[path = "common/plain.rs"]
-mod plain;
-
-use implicit::{Implicit, Settings};
-use physics::{Boundary, Motion, Scene, Scheme, StepLimit, VoxelBlock};
+use crate::plain;
+use crate::runs::{advance, append, driven, mean_velocity, solved};
 
 /// Edge of a voxel, m.
 const VOXEL: f64 = 2e-6;
@@ -41,52 +38,34 @@ impl Tube {
         let mut scene = plain::scene(cell, [2, across, across]);
         let size = [2.0 * cell, VOXEL, VOXEL];
         let wall = VoxelBlock::from_fn([0.0; 3], size, [1, n, n], |_, j, k| !self.open(j, k));
-        scene.bodies = vec![plain::body("wall", vec![wall], Motion::Fixed)];
         let part = cell.min(VOXEL);
         let [along, parts] = [2.0 * cell, VOXEL].map(|edge| (edge / part).round() as usize);
-        for (j, k) in (0..n * n)
-            .map(|i| (i % n, i / n))
-            .filter(|&(j, k)| self.open(j, k))
-        {
-            let low = [0.0, j as f64 * VOXEL, k as f64 * VOXEL];
-            let points = plain::fill(low, [part; 3], [along, parts, parts]);
-            scene.points.position.extend(points.position);
-            scene.points.velocity.extend(points.velocity);
-            scene.points.volume.extend(points.volume);
+        for (j, k) in (0..n * n).map(|i| (i % n, i / n)) {
+            if self.open(j, k) {
+                let low = [0.0, j as f64 * VOXEL, k as f64 * VOXEL];
+                let points = plain::fill(low, [part; 3], [along, parts, parts]);
+                append(&mut scene.points, points);
+            }
         }
-        scene.boundary[0] = Boundary::Periodic;
-        scene.gravity = [PULL, 0.0, 0.0];
-        scene
+        driven(scene, vec![wall], PULL)
     }
+}
 
-    fn mean_velocity(&self) -> f64 {
-        let settings = Settings {
-            tolerance: 1e-7,
-            ..Settings::default()
-        };
-        let scene = self.scene();
-        let mut scheme = Implicit::new(&scene, settings).unwrap();
-        let limit = StepLimit {
-            time_s: 1e-3,
-            travel_m: f64::INFINITY,
-        };
-        scheme.advance(limit).unwrap();
-        // By the power that the weight gives off: points sample the profile.
-        let found = scheme.diagnostics();
-        found.viscous_power / (scene.liquid.density * PULL * found.volume)
-    }
+fn speed(diameter: f64, shift: [f64; 2], finer: usize) -> f64 {
+    let tube = Tube {
+        diameter,
+        shift,
+        finer,
+    };
+    let scene = tube.scene();
+    let mut scheme = solved(&scene, 1e-7);
+    advance(&mut scheme, 1e-3);
+    mean_velocity(&scene, &scheme)
 }
 
 /// Errors with one and with two voxels a cell, against four and eight cells a voxel.
 fn errors(diameter: f64, shift: [f64; 2]) -> [f64; 2] {
-    let of = |finer| {
-        let tube = Tube {
-            diameter,
-            shift,
-            finer,
-        };
-        tube.mean_velocity()
-    };
+    let of = |finer| speed(diameter, shift, finer);
     let [coarse, fine] = [of(4), of(8)];
     // Along re-entrant edges differences have the error h^(4/3).
     let reference = fine + (fine - coarse) / (2.0_f64.powf(4.0 / 3.0) - 1.0);
@@ -115,15 +94,7 @@ fn flow_along_tubes_of_voxels_is_that_of_finer_cells() {
 #[test]
 fn mirror_images_of_tubes_have_one_flow() {
     for diameter in [6.0, 8.0, 12.0] {
-        let of = |x: f64| {
-            let tube = Tube {
-                diameter,
-                shift: [x, 0.1],
-                finer: 0,
-            };
-            tube.mean_velocity()
-        };
-        let (own, image) = (of(0.3), of(-0.3));
+        let [own, image] = [0.3, -0.3].map(|x| speed(diameter, [x, 0.1], 0));
         assert!((image / own - 1.0).abs() < 1e-5, "{own} {image}");
     }
 }

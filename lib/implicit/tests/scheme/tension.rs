@@ -1,25 +1,20 @@
 //! Liquid that hangs in a slit closed above, and is torn off where it carries more tension than it can.
 
-#![allow(clippy::print_stdout, reason = "prints for developers")]
+use physics::{Motion, Scheme};
 
-#[path = "common/plain.rs"]
-mod plain;
-
-use implicit::{Implicit, Settings};
-use physics::{Motion, Scheme, StepLimit, VoxelBlock};
+use crate::plain;
+use crate::runs::{ETA, advance, block, solved};
 
 /// Mean speed down over that of developed flow without a closed end, of liquid that pulls at its end with `pull` (Pa) and carries `most`.
 fn speed(pull: f64, most: f64) -> f64 {
     let (h, n, length) = (2.9e-6, 6, 24);
     let m = |cells: usize| cells as f64 * h;
-    let block = |low: [usize; 2], high: [usize; 2]| {
-        VoxelBlock::solid_box([m(low[0]), m(low[1]), 0.0], [m(high[0]), m(high[1]), h])
-    };
     let top = 2 * length;
     let mut scene = plain::scene(h, [n + 2, top + 2, 1]);
+    let (wide, end) = ((n + 2) as f64, top as f64);
     let walls = vec![
-        block([0, top], [n + 2, top + 2]),
-        block([n, 0], [n + 2, top]),
+        block(h, [0.0, end], [wide, end + 2.0]),
+        block(h, [n as f64, 0.0], [wide, end]),
     ];
     scene.bodies = vec![plain::body("wall", walls, Motion::Fixed)];
     let low = [0.0, m(top - length), 0.0];
@@ -30,30 +25,18 @@ fn speed(pull: f64, most: f64) -> f64 {
     scene.liquid.tait.bulk_modulus = 1e14;
     scene.liquid.cavitation_pressure = Some(most);
     // Half of the slit lies beyond the mirror.
-    let exact = pull / m(length) * m(2 * n).powi(2) / (12.0 * 1.3);
-    let settings = Settings {
-        tolerance: 1e-6,
-        ..Settings::default()
-    };
-    let mut scheme = Implicit::new(&scene, settings).unwrap();
-    let limit = StepLimit {
-        time_s: 1e-3 * h / exact,
-        travel_m: f64::INFINITY,
-    };
-    for _ in 0..3 {
-        scheme.advance(limit).unwrap();
-    }
+    let exact = pull / m(length) * m(2 * n).powi(2) / (12.0 * ETA);
+    let mut scheme = solved(&scene, 1e-6);
+    (0..3).for_each(|_| _ = advance(&mut scheme, 1e-3 * h / exact));
     let liquid = scheme.liquid();
-    let volume: f64 = liquid.volume.iter().map(|&v| f64::from(v)).sum();
-    let flow = liquid.velocity.iter().zip(&liquid.volume);
-    let flow: f64 = flow
-        .map(|(v, &volume)| f64::from(v[1]) * f64::from(volume))
-        .sum();
-    println!(
-        "pull {pull} Pa of {most} Pa: speed {:.4}",
-        -flow / volume / exact
-    );
-    -flow / volume / exact
+    let sum = |of: &dyn Fn(usize) -> f32| -> f64 {
+        let points =
+            (0..liquid.volume.len()).map(|i| f64::from(of(i)) * f64::from(liquid.volume[i]));
+        points.sum()
+    };
+    let found = -sum(&|i| liquid.velocity[i][1]) / sum(&|_| 1.0) / exact;
+    println!("pull {pull} Pa of {most} Pa: speed {found:.4}");
+    found
 }
 
 #[test]

@@ -1,0 +1,20 @@
+//! Runs of the scheme against closed forms and finite elements. `--nocapture` prints the errors.
+
+#![allow(clippy::print_stdout, reason = "prints for developers")]
+
+#[path = "../common/plain.rs"]
+mod plain;
+mod runs;
+
+mod bond;
+mod duct;
+mod flows;
+mod menisci;
+mod opens;
+mod refused;
+mod rods;
+mod slit;
+mod statics;
+mod tension;
+mod tubes;
+mod water;

@@ -1,0 +1,76 @@
+//! Scenes that the grid cannot hold are refused.
+
+use implicit::{Implicit, Settings};
+use physics::{Boundary, Motion, Scene, VoxelBlock};
+
+use crate::plain;
+use crate::runs::block;
+
+const STILL: Motion = Motion::Fixed;
+const DOWN: Motion = Motion::Constant([0.0, -1.0, 0.0]);
+const ASIDE: Motion = Motion::Constant([1.0, 0.0, 0.0]);
+const SLANTING: Motion = Motion::Constant([1.0, -1.0, 0.0]);
+
+/// What is said of liquid among bodies in 8 x 8 cells of 1 m, the last side normal to y.
+fn refusal(bodies: Vec<(&str, VoxelBlock, Motion)>, side: Boundary) -> Option<String> {
+    let body = |(name, block, motion)| plain::body(name, vec![block], motion);
+    let scene = Scene {
+        bodies: bodies.into_iter().map(body).collect(),
+        points: plain::fill([2.0, 2.0, 0.0], [1.0; 3], [2, 2, 1]),
+        boundary: [Boundary::Symmetry, side, Boundary::Symmetry],
+        ..plain::scene(1.0, [8, 8, 1])
+    };
+    Implicit::new(&scene, Settings::default()).err()
+}
+
+#[test]
+fn what_the_grid_cannot_hold_is_refused() {
+    let shaft = ([7.0, 1.0], [8.0, 8.0]);
+    for (plate, (low, high), other, said) in [
+        (DOWN, shaft, STILL, None),
+        (STILL, ([0.0, 7.0], [8.0, 8.0]), ASIDE, None),
+        (
+            DOWN,
+            ([7.0, 5.0], [8.0, 6.5]),
+            STILL,
+            Some("not alike along it"),
+        ),
+        (
+            STILL,
+            ([6.0, 2.0], [7.0, 3.0]),
+            ASIDE,
+            Some("ends within the domain"),
+        ),
+        (DOWN, shaft, DOWN, Some("two bodies move along y")),
+        (SLANTING, shaft, STILL, Some("along y and aside")),
+        (
+            DOWN,
+            ([7.2, 1.0], [8.0, 8.0]),
+            STILL,
+            Some("off the lattice along x"),
+        ),
+    ] {
+        let bodies = vec![
+            ("floor", block(1.0, [0.0, 0.0], [8.0, 1.0]), STILL),
+            ("plate", block(1.0, [0.0, 6.0], [6.0, 7.0]), plate),
+            ("other", block(1.0, low, high), other),
+        ];
+        match (refusal(bodies, Boundary::Symmetry), said) {
+            (Some(refused), Some(said)) => assert!(refused.contains(said), "{said}: {refused}"),
+            (refused, said) => assert_eq!(refused.as_deref(), said),
+        }
+    }
+}
+
+/// Layers without wood at the bond belong to the gap; a body that moves along y has no periodic sides there.
+#[test]
+fn a_block_whose_last_layers_are_empty_is_taken_and_periodic_sides_are_not() {
+    let floor = VoxelBlock::from_fn([0.0; 3], [1.0; 3], [8, 3, 1], |_, j, _| j < 1);
+    let bodies = vec![
+        ("floor", floor, STILL),
+        ("plate", block(1.0, [0.0, 6.0], [8.0, 7.0]), DOWN),
+    ];
+    assert_eq!(refusal(bodies.clone(), Boundary::Symmetry), None);
+    let refused = refusal(bodies, Boundary::Periodic).unwrap_or_default();
+    assert!(refused.contains("periodic sides"), "{refused}");
+}

@@ -1,0 +1,105 @@
+//! Steps of a scheme, and sums over its liquid.
+
+use implicit::{Implicit, Settings};
+use physics::{
+    Boundary, Clamp, LiquidState, Motion, Points, Scene, Scheme, StepLimit, StepReport, VoxelBlock,
+};
+
+use crate::plain;
+
+/// Viscosity of the liquid, Pa s.
+pub const ETA: f64 = 1.3;
+/// Width of slits and tubes, m.
+pub const H: f64 = 17.4e-6;
+
+/// A scheme with settings as they are, but for the tolerance of its solver.
+pub fn solved(scene: &Scene, tolerance: f64) -> Implicit {
+    let settings = Settings {
+        tolerance,
+        ..Settings::default()
+    };
+    Implicit::new(scene, settings).unwrap()
+}
+
+/// A scheme with all settings as they are.
+pub fn plainly(scene: &Scene) -> Implicit {
+    Implicit::new(scene, Settings::default()).unwrap()
+}
+
+/// One step, of `time_s` at most.
+pub fn advance(scheme: &mut Implicit, time_s: f64) -> StepReport {
+    let limit = StepLimit {
+        time_s,
+        travel_m: f64::INFINITY,
+    };
+    scheme.advance(limit).unwrap()
+}
+
+/// Steps until `end` (s); `seen` gets each report and its time.
+pub fn until(scheme: &mut Implicit, end: f64, mut seen: impl FnMut(&StepReport, f64)) {
+    let mut time = 0.0;
+    while time < end * (1.0 - 1e-9) {
+        let report = advance(scheme, end - time);
+        time += report.dt_s;
+        seen(&report, time);
+    }
+}
+
+/// A box one cell deep, its corners in cells of edge `h` (m).
+pub fn block(h: f64, low: [f64; 2], high: [f64; 2]) -> VoxelBlock {
+    VoxelBlock::solid_box([low[0] * h, low[1] * h, 0.0], [high[0] * h, high[1] * h, h])
+}
+
+/// Two bodies, the upper one with the way it moves.
+pub fn press(scene: &mut Scene, names: [&str; 2], blocks: [Vec<VoxelBlock>; 2], upper: Motion) {
+    let motions = [Motion::Fixed, upper];
+    scene.bodies = (names.into_iter().zip(blocks).zip(motions))
+        .map(|((name, blocks), motion)| plain::body(name, blocks, motion))
+        .collect();
+    (scene.bottom, scene.top) = (Some(0), Some(1));
+}
+
+/// A clamp without a PID.
+pub fn clamp(closing_speed: f64, max_pressure: f64) -> Option<Clamp> {
+    Some(Clamp {
+        closing_speed,
+        max_pressure: Some(max_pressure),
+        pid: None,
+    })
+}
+
+/// Adds points to others.
+pub fn append(points: &mut Points, more: Points) {
+    points.position.extend(more.position);
+    points.velocity.extend(more.velocity);
+    points.volume.extend(more.volume);
+}
+
+/// Fixed walls, and liquid that a pull (m/s2) along x drives round periodic sides.
+pub fn driven(mut scene: Scene, walls: Vec<VoxelBlock>, pull: f64) -> Scene {
+    scene.bodies = vec![plain::body("wall", walls, Motion::Fixed)];
+    scene.boundary[0] = Boundary::Periodic;
+    scene.gravity = [pull, 0.0, 0.0];
+    scene
+}
+
+/// Mean velocity of liquid that weight drives along x, by the power that the weight gives off: points sample the profile.
+pub fn mean_velocity(scene: &Scene, scheme: &Implicit) -> f64 {
+    let found = scheme.diagnostics();
+    found.viscous_power / (scene.liquid.density * scene.gravity[0] * found.volume)
+}
+
+/// Volume of the liquid without its pressure.
+pub fn at_rest(scene: &Scene, liquid: &LiquidState) -> f64 {
+    (liquid.volume.iter().zip(&liquid.pressure))
+        .map(|(&v, &p)| f64::from(v) / (1.0 + scene.liquid.tait.volume_change(f64::from(p))))
+        .sum()
+}
+
+/// Mean and standard deviation.
+pub fn spread(values: &[f64]) -> [f64; 2] {
+    let mean =
+        |of: &dyn Fn(f64) -> f64| values.iter().map(|&v| of(v)).sum::<f64>() / values.len() as f64;
+    let middle = mean(&|v| v);
+    [middle, mean(&|v| (v - middle).powi(2)).sqrt()]
+}
