@@ -35,7 +35,7 @@ pub(super) fn scene(n: u32, offset: f64) -> Scene {
         title: format!(
             "A slit of {n} cells filled at constant pressure, walls {offset} cell off the nodes.\nAgainst Washburn's law with entrance correction."
         ),
-        clamp: Some(held(h, PRESSURE, 20.0 * unit)),
+        clamp: Some(held(h, PRESSURE, 20.0 * 12.0 * PF[2] / PRESSURE)),
         ..slit::reservoir(h, places, 4.0 * LUMEN, Body::clamped)
     };
     let name = format!("washburn-n{n}-off{offset}");
