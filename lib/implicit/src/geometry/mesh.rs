@@ -301,21 +301,6 @@ impl Mesh {
         self.pores[pore].cell as usize
     }
 
-    /// Places in their cell of the voxels of a pore.
-    pub(crate) fn voxels(&self, pore: usize) -> impl Iterator<Item = [usize; 3]> {
-        let Pore { voxels, .. } = self.pores[pore];
-        (0..8)
-            .filter(move |bit| voxels >> bit & 1 == 1)
-            .map(|bit| self.voxel(bit))
-    }
-
-    /// Whether a face is open at the column of voxels along its axis through a place in a cell.
-    pub(crate) fn is_open(&self, face: usize, at: [usize; 3]) -> bool {
-        let Face { open, axis, .. } = self.faces[face];
-        let [s, t] = others(usize::from(axis));
-        open >> (at[s] + self.k * at[t]) & 1 == 1
-    }
-
     /// Whether a face is in the gap or beside it.
     pub(crate) fn is_by_gap(&self, face: usize) -> bool {
         let [low, high] = self.faces[face].ends().map(|pore| self.row_of(pore));

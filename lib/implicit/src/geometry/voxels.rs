@@ -4,7 +4,7 @@ use physics::Boundary;
 
 use super::chords::Place;
 use super::lattice::{Lattice, MIRROR, OPEN};
-use super::mesh::Mesh;
+use super::mesh::{Face, Mesh, Pore, others};
 use super::rows::RowKind;
 
 /// Friction and exchange at half a voxel from a re-entrant edge over those of flow that is linear there, by how many voxels
@@ -44,6 +44,21 @@ impl Mesh {
                 (layer < lattice.above.len()).then_some(Place::Above(layer, at))
             }
         }
+    }
+
+    /// Places in their cell of the voxels of a pore.
+    pub(crate) fn voxels(&self, pore: usize) -> impl Iterator<Item = [usize; 3]> {
+        let Pore { voxels, .. } = self.pores[pore];
+        (0..8)
+            .filter(move |bit| voxels >> bit & 1 == 1)
+            .map(|bit| self.voxel(bit))
+    }
+
+    /// Whether a face is open at the column of voxels along its axis through a place in a cell.
+    pub(crate) fn is_open(&self, face: usize, at: [usize; 3]) -> bool {
+        let Face { open, axis, .. } = self.faces[face];
+        let [s, t] = others(usize::from(axis));
+        open >> (at[s] + self.k * at[t]) & 1 == 1
     }
 
     /// What fills a voxel of a cell.

@@ -73,17 +73,6 @@ pub(crate) struct Problem<'a> {
     pub(crate) scales: Scales,
 }
 
-/// Momenta on the right-hand side: known, per closing speed, and the part of what is known that stands: weight, menisci, gas.
-pub(crate) struct Sides {
-    pub(crate) known: Vec<f64>,
-    pub(crate) closing: Vec<f64>,
-    pub(crate) standing: Vec<f64>,
-    /// What of those known and of those per closing speed only makes thick liquid go along with what moves.
-    pub(crate) clinging: [Vec<f64>; 2],
-    /// Known force on the body that closes the gap, by the inertia and the weight of the liquid that it carries along.
-    pub(crate) carried: f64,
-}
-
 impl Problem<'_> {
     /// Viscosity times fraction of a pore.
     pub(super) fn stiffness(&self, pore: usize) -> f64 {
@@ -169,23 +158,18 @@ impl Problem<'_> {
         }
     }
 
-    /// Right-hand side of the momenta.
-    pub(crate) fn momenta(&self) -> Sides {
-        let faces = &self.unknowns.faces;
-        let sides: Vec<[f64; 6]> = (faces.par_iter())
+    /// Right-hand sides of the momenta, each of all faces with a velocity: known, per closing speed, and the part of what is known
+    /// that stands (weight, menisci, gas); known force on the body that closes the gap, by the inertia and the weight of the
+    /// liquid that it carries along; and what of those known and of those per closing speed only makes thick liquid go along
+    /// with what moves.
+    pub(crate) fn momenta(&self) -> [Vec<f64>; 6] {
+        let sides: Vec<[f64; 6]> = (self.unknowns.faces.par_iter())
             .map(|&face| self.force(face as usize))
             .collect();
-        let column = |i: usize| sides.iter().map(|side| side[i]).collect::<Vec<f64>>();
-        Sides {
-            known: column(0),
-            closing: column(1),
-            standing: column(2),
-            carried: column(3).iter().sum(),
-            clinging: [column(4), column(5)],
-        }
+        std::array::from_fn(|i| sides.iter().map(|side| side[i]).collect())
     }
 
-    /// What pushes a face, as in [`Sides`].
+    /// What pushes a face, as in [`Self::momenta`].
     fn force(&self, face: usize) -> [f64; 6] {
         let f = self.mesh.faces[face];
         let axis = usize::from(f.axis);

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use saddle_point::{Csr, SaddleSystem, SolveError, VelocityBlock};
 
-use super::assembly::{Problem, Sides};
+use super::assembly::Problem;
 use super::solution::{Drive, Flow};
 use crate::air::Pocket;
 
@@ -39,15 +39,9 @@ impl Equations {
     ) -> Result<Self, SolveError> {
         let (unknowns, scales) = (problem.unknowns, &problem.scales);
         let (a, g) = (problem.velocity_block()?, problem.outflow()?);
-        let Sides {
-            known,
-            closing,
-            mut standing,
-            clinging,
-            carried: carried_force,
-        } = problem.momenta();
+        let [known, closing, mut standing, carried_along, own, clinging] = problem.momenta();
         let speed = drive.speed();
-        let mut clinging: Vec<f64> = (clinging[0].iter().zip(&clinging[1]))
+        let mut clinging: Vec<f64> = (own.iter().zip(&clinging))
             .map(|(known, closing)| known + speed * closing)
             .collect();
         for (standing, clinging) in standing.iter_mut().zip(&clinging) {
@@ -80,7 +74,7 @@ impl Equations {
             source: of_pores(&|pore| problem.closing(pore)),
             volume_source: Vec::new(),
             carried: carried.to_vec(),
-            carried_force,
+            carried_force: carried_along.iter().sum(),
         };
         equations.add_pockets(problem);
         equations.drive(drive);
