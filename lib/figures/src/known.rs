@@ -1,4 +1,4 @@
-//! What `wp-metrics` measured of a state, with errors by the size of the cells.
+//! Measures of a state by `wp-metrics`, with errors by the size of the cells.
 
 use crate::Error;
 use crate::table::Table;
