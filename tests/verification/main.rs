@@ -110,7 +110,7 @@ fn flow_through_a_channel() {
         Run(&scene, short_steps()).notices(&[THICKER, moved], 0.01, what);
     }
     for (n, tolerance) in [(6, 0.02), (12, 0.007)] {
-        let scene = || channel::table_scene(n, 0.0, 0.4e-6);
+        let scene = || laws::scene(laws::TABLE, n, 0.0, 0.4e-6);
         Run(&scene, short_steps()).notices(&[THICKER], tolerance, what);
     }
     // The bulk of the explicit scheme's flow is right where its walls are: on the nodes.
@@ -124,7 +124,7 @@ fn laws_by_formula_in_a_channel() {
         let scene = || laws::scene(law, 12, 0.0, 0.4e-6);
         let run = Run(&scene, short_steps());
         run.notices(&[THICKER], 0.02, "mean velocity");
-        if law.name == "herschel" {
+        if law.name == "law-herschel" {
             run.within(1e-3, "motion within the plug");
         }
     }
@@ -133,8 +133,8 @@ fn laws_by_formula_in_a_channel() {
 #[test]
 fn an_adhesive_that_cures_comes_to_rest_where_it_should() {
     for scene in [
-        || cure::slit_scene(6, cure::Growth::Gel),
-        || cure::tube_scene(6, cure::Growth::Table),
+        || cure::slit_scene(6, cure::GEL),
+        || cure::tube_scene(6, cure::TABLE),
     ] {
         let run = Run(&scene, Method::implicit());
         run.notices(&[A_QUARTER_THICKER], 0.03, "L");

@@ -1,5 +1,7 @@
 //! Closed forms that runs are compared with. SI throughout.
 
+use crate::numbers::last;
+
 /// Velocity of a film of thickness `delta` running down an incline, at distance `y` from the
 /// floor, with body force `g_along` per mass along the floor (paper Eq. 5).
 pub(crate) fn film(y: f64, delta: f64, g_along: f64, rho: f64, eta: f64) -> f64 {
@@ -46,18 +48,7 @@ pub(crate) fn channel_of(
 ) -> impl Fn(f64) -> f64 {
     const PARTS: usize = 4000;
     let step = 0.5 * h / PARTS as f64;
-    let rate = |from_middle: f64| {
-        let (mut low, mut high) = (0.0, fastest);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if eta(middle) * middle < rho * g * from_middle {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        low
-    };
+    let rate = |from_middle: f64| last(fastest, |rate| eta(rate) * rate < rho * g * from_middle);
     let mut velocity = vec![0.0];
     for i in 0..PARTS {
         let before = velocity[i];

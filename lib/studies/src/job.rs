@@ -1,6 +1,6 @@
 //! Scenes whose right results are known, run by methods through the real `mpm-run` and measured.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::Result;
 use crate::case_text::CaseText;
@@ -123,28 +123,23 @@ impl Outcome {
     }
 }
 
-/// The case file of `scene` for a scheme, written into `folder`; nothing presses in that of the
-/// implicit scheme.
-fn write_case(folder: &Path, scene: &Scene, scheme: Scheme) -> Result<PathBuf> {
-    let path = folder.join(format!("{}-{}.toml", scene.name, scheme.name()));
+/// Runs a job into `folder` from a case file in `cases`; nothing presses in that of the implicit scheme.
+fn run(job: &Job, cases: &Path, folder: &Path) -> Result<Vec<Measured>> {
+    let (scene, scheme) = (job.scene, job.method.scheme);
+    let path = cases.join(format!("{}-{}.toml", scene.name, scheme.name()));
     let case = match scheme {
         Scheme::Explicit => scene.case.clone(),
         Scheme::Implicit => scene.case.clone().released(),
     };
     write(&path, case.text(scheme.integrator()))?;
-    Ok(path)
-}
-
-fn run(job: &Job, cases: &Path, folder: &Path) -> Result<Vec<Measured>> {
-    let case = write_case(cases, job.scene, job.method.scheme)?;
     let mut more = Vec::new();
-    let bond = case.with_extension("mpts");
+    let bond = path.with_extension("mpts");
     let name = bond.display().to_string();
-    if let Some(voxels) = &job.scene.case.voxels {
+    if let Some(voxels) = &case.voxels {
         voxels.write(&bond)?;
         more.extend(["--particles", &name]);
     }
-    (job.scene.measure)(&job.method.run(&case, folder, &more)?)
+    (scene.measure)(&job.method.run(&path, folder, &more)?)
 }
 
 /// Runs one job in `folder`, which keeps its case in `cases`.

@@ -29,6 +29,8 @@ pub(crate) enum Scheme {
 }
 
 impl Scheme {
+    pub(crate) const ALL: [Scheme; 2] = [Scheme::Explicit, Scheme::Implicit];
+
     /// Its name in case files.
     pub(crate) fn name(self) -> &'static str {
         match self {

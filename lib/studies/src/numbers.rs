@@ -10,6 +10,21 @@ pub(crate) fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
     numbers.fold(0.0, f64::max)
 }
 
+/// The least and the largest of numbers; NaN of nothing.
+pub(crate) fn range(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
+    numbers.fold([f64::NAN; 2], |[low, high], x| [low.min(x), high.max(x)])
+}
+
+/// Where between zero and `high` something stops to hold that does so once, by halves.
+pub(crate) fn last(high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (0.0, high);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *(if holds(middle) { &mut low } else { &mut high }) = middle;
+    }
+    low
+}
+
 /// Arithmetic mean; NaN of nothing.
 pub(crate) fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = numbers.fold((0.0, 0.0), |(sum, n), x| (sum + x, n + 1.0));

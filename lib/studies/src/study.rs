@@ -130,6 +130,13 @@ impl Study {
     }
 }
 
+/// A table of a page: the line of its heads and its rows, cells between bars.
+pub(crate) fn table(heads: &str, rows: impl IntoIterator<Item = String>) -> String {
+    let rule = "---|".repeat(heads.matches('|').count() - 1);
+    let rows = rows.into_iter().map(|row| row + "\n");
+    format!("{heads}\n|{rule}\n{}", rows.collect::<String>())
+}
+
 /// What made a page, when, of which commit, on what machine.
 fn origin(command: &str) -> String {
     let said = |program: &str, arguments: &[&str]| {
@@ -199,16 +206,31 @@ pub(crate) fn ended(command: &mut Command) -> Result<Output> {
     }
 }
 
-/// What a command printed that ended well.
+/// The same of a command that ended well.
 ///
 /// # Errors
 /// What it said where it did not.
-pub(crate) fn printed(command: &mut Command) -> Result<String> {
+pub(crate) fn done(command: &mut Command) -> Result<Output> {
     let output = ended(command)?;
     match output.status.success() {
-        true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
+        true => Ok(output),
         false => Err(said(&output).into()),
     }
+}
+
+/// What such a command printed.
+///
+/// # Errors
+/// What it said where it did not end well.
+pub(crate) fn printed(command: &mut Command) -> Result<String> {
+    let output = done(command)?;
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// Whether a program is there and does what `arguments` ask.
+pub(crate) fn works(program: &str, arguments: &[&str]) -> bool {
+    let output = Command::new(program).args(arguments).output();
+    output.is_ok_and(|output| output.status.success())
 }
 
 /// Tells a process to stop.

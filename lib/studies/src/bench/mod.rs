@@ -31,7 +31,7 @@ pub fn run(study: &Study) -> Result<bool> {
     let bandwidth = machine::triad();
     let mut rows = Vec::new();
     for piece in runs::plan().into_iter().filter(|p| study.wants(&p.name())) {
-        let bond = runs::specimen(&piece.size, &folder)?;
+        let bond = runs::specimen(piece.size, &folder)?;
         let (mut costs, mut older) = (Vec::new(), Vec::new());
         // Next to each other, so that both see the same load of the machine.
         for _ in 0..piece.times {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Row;
 use crate::Result;
-use crate::study::Study;
+use crate::study::{Study, table};
 
 const COLUMNS: &str = "size,case,threads,liquid_cells,points,steps,cpu_us_per_cell_step,\
                        cpu_over_base,points_steps_per_cpu_s,wall_s_per_step,bytes_per_cell,stages";
@@ -34,7 +34,7 @@ pub(super) fn write(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> 
 fn fields(row: &Row) -> Vec<String> {
     let (cost, cells) = (&row.cost, row.cost.cells());
     vec![
-        row.piece.size.name.into(),
+        row.piece.size.into(),
         row.piece.case.into(),
         row.piece.threads.to_string(),
         format!("{cells:.0}"),
@@ -76,17 +76,14 @@ fn page(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> String {
          a step takes per liquid cell.\n",
         streams.join(", ")
     );
-    page.push_str(
-        "| specimen | case | threads | liquid cells | CPU us per cell and step | ratio | points x steps per CPU s | \
-         streamable bytes per cell and step | memory per cell | wall s per step | stages |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-    );
+    let heads = "| specimen | case | threads | liquid cells | CPU us per cell and step | ratio | points x steps per CPU s | \
+         streamable bytes per cell and step | memory per cell | wall s per step | stages |";
     let one = bandwidth.first().map_or(f64::NAN, |b| b.1);
-    for row in rows {
+    let line = |row: &Row| {
         let (cost, cells) = (&row.cost, row.cost.cells());
-        let _ = writeln!(
-            page,
+        format!(
             "| {} | {} | {} | {cells:.0} | {:.3} | {} | {:.3} M | {:.0} | {:.0} B | {:.3} | {} |",
-            row.piece.size.name,
+            row.piece.size,
             row.piece.case,
             row.piece.threads,
             1e6 * cost.cpu_s / cells,
@@ -96,7 +93,7 @@ fn page(study: &Study, rows: &[Row], bandwidth: &[(usize, f64)]) -> String {
             cost.memory / cells,
             cost.wall_s,
             stages(row)
-        );
-    }
-    page
+        )
+    };
+    page + &table(heads, rows.iter().map(line))
 }

@@ -6,18 +6,12 @@ use std::time::Instant;
 
 use crate::Result;
 use crate::outputs::{Run, bin_folder};
-use crate::study::{ended, printed, said};
-
-/// A specimen: its name in tables and `ONLY=`, voxels along x, y, z, and the thickness of the adhesive.
-pub(super) struct Size {
-    pub(super) name: &'static str,
-    voxels: &'static str,
-    slab: &'static str,
-}
+use crate::study::{done, printed};
 
 /// One line of the page.
 pub(super) struct Piece {
-    pub(super) size: Size,
+    /// Name of the specimen in tables and `ONLY=`.
+    pub(super) size: &'static str,
     /// Case file of [`CASES`].
     pub(super) case: &'static str,
     /// Worker threads.
@@ -42,19 +36,11 @@ pub(super) fn plan() -> Vec<Piece> {
         ("full", "pf-xpic", 1, 1),
         ("full", "pf-xpic", 2, 1),
     ];
-    let piece = |(name, case, threads, times)| {
-        let (voxels, slab) = match name {
-            "small" => ("40x96x40", "14.5 um"),
-            "medium" => ("100x394x100", "55.1 um"),
-            "large" => ("200x394x200", "55.1 um"),
-            _ => ("394x394x400", "55.1 um"),
-        };
-        Piece {
-            size: Size { name, voxels, slab },
-            case,
-            threads,
-            times,
-        }
+    let piece = |(size, case, threads, times)| Piece {
+        size,
+        case,
+        threads,
+        times,
     };
     plan.map(piece).into()
 }
@@ -96,7 +82,7 @@ impl Cost {
 impl Piece {
     /// Name in tables.
     pub(super) fn name(&self) -> String {
-        format!("{} {} {}", self.size.name, self.case, self.threads)
+        format!("{} {} {}", self.size, self.case, self.threads)
     }
 
     /// What a step costs by the build in a folder: the part of the run's processor time that its stages take of the
@@ -146,11 +132,8 @@ impl Piece {
         command.args(["--overwrite", "--quiet", "--set", "output.snapshots=0"]);
         command.args(["--threads", &self.threads.to_string()]);
         command.args(["--set", &format!("clamp.time_limit=\"{until_us} us\"")]);
-        let output = ended(&mut command)?;
-        match output.status.success() {
-            true => Ok(Run { folder: run }),
-            false => Err(format!("{}: {}", self.name(), said(&output)).into()),
-        }
+        done(&mut command).map_err(|said| format!("{}: {said}", self.name()))?;
+        Ok(Run { folder: run })
     }
 }
 
@@ -158,11 +141,18 @@ impl Piece {
 ///
 /// # Errors
 /// What a tool said.
-pub(super) fn specimen(size: &Size, folder: &Path) -> Result<PathBuf> {
+pub(super) fn specimen(size: &str, folder: &Path) -> Result<PathBuf> {
+    // Voxels along x, y, z, and the thickness of the adhesive.
+    let (voxels, slab) = match size {
+        "small" => ("40x96x40", "14.5 um"),
+        "medium" => ("100x394x100", "55.1 um"),
+        "large" => ("200x394x200", "55.1 um"),
+        _ => ("394x394x400", "55.1 um"),
+    };
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let path = folder.join(format!("{}.mpts", size.name));
+    let path = folder.join(format!("{size}.mpts"));
     let bin = bin_folder();
-    let (bin, bond, Size { voxels, slab, .. }) = (bin.display(), path.display(), size);
+    let (bin, bond) = (bin.display(), path.display());
     let pipe = format!(
         "set -o pipefail; \"{bin}/synth-xct\" -q --adhesive pf --voxel '1.45 um' --seed 1 --size {voxels} --slab '{slab}' -o - \
          | \"{bin}/xct2particles\" -q - -o - | \"{bin}/build-bondline\" -q - -o '{bond}'"

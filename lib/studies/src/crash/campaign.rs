@@ -2,76 +2,53 @@
 
 use std::os::unix::process::ExitStatusExt;
 
+use super::Row;
 use super::faults::{self, Fault, Point};
-use super::scene::{Place, Scene, same};
-use super::{Row, all_wrong};
+use super::place::Place;
 use crate::Result;
+use crate::method::Scheme;
 use crate::study::said;
 
-/// A run as it is started, interrupted, and recovered.
-struct Series {
-    name: &'static str,
-    /// Arguments of the run and of its recovery.
-    more: &'static [&'static str],
-    /// What its folder holds before.
-    before: Before,
-    /// Whether it is told to stop in the middle.
-    stopped: bool,
+/// How a run comes to where faults begin.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    New,
+    /// New, and told to stop in the middle.
+    Stopped,
+    /// Continued after this part of its steps.
+    Continued(f64),
+    /// In place of the end of another run.
+    Replacing,
 }
 
-/// What a run folder holds before a run.
-#[derive(Clone, Copy, PartialEq)]
-enum Before {
-    Nothing,
-    /// The run, stopped after this part of its steps.
-    Stopped(f64),
-    /// The end of another run.
-    Other,
-}
+/// Name of a series, arguments of the run and of its recovery, and how it comes to be.
+type Series = (&'static str, &'static [&'static str], Way);
 
 const SERIES: [Series; 6] = [
-    Series {
-        name: "new run",
-        more: &["--resume"],
-        before: Before::Nothing,
-        stopped: false,
-    },
-    Series {
-        name: "run told to stop half way",
-        more: &["--resume"],
-        before: Before::Nothing,
-        stopped: true,
-    },
-    Series {
-        name: "run continued from half way",
-        more: &["--resume"],
-        before: Before::Stopped(0.5),
-        stopped: false,
-    },
-    Series {
-        name: "run continued from its last step",
-        more: &["--resume"],
-        before: Before::Stopped(1.0),
-        stopped: false,
-    },
-    Series {
-        name: "run in place of another",
-        more: &["--overwrite"],
-        before: Before::Other,
-        stopped: false,
-    },
-    Series {
-        name: "run in place of another, continued",
-        more: &["--resume", "--overwrite"],
-        before: Before::Other,
-        stopped: false,
-    },
+    ("new run", &["--resume"], Way::New),
+    ("run told to stop half way", &["--resume"], Way::Stopped),
+    (
+        "run continued from half way",
+        &["--resume"],
+        Way::Continued(0.5),
+    ),
+    (
+        "run continued from its last step",
+        &["--resume"],
+        Way::Continued(1.0),
+    ),
+    ("run in place of another", &["--overwrite"], Way::Replacing),
+    (
+        "run in place of another, continued",
+        &["--resume", "--overwrite"],
+        Way::Replacing,
+    ),
 ];
 
-/// Trials of one series for one scene.
-struct Trials<'a> {
-    series: &'a Series,
-    scene: Scene,
+/// Trials of one series by one scheme.
+struct Trials {
+    series: Series,
+    scheme: Scheme,
     /// The run in one piece.
     whole: Place,
     /// A folder like that each trial starts from.
@@ -86,11 +63,15 @@ struct Trials<'a> {
 /// What keeps the campaign from being made.
 pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>> {
     let mut rows = Vec::new();
-    for series in &SERIES {
-        for scene in Scene::ALL {
-            let trials = Trials::new(series, scene)?;
-            for fault in [Fault::Kill, Fault::Fail] {
-                let row = trials.row(fault, stride)?;
+    for series in SERIES {
+        for scheme in Scheme::ALL {
+            let trials = Trials::new(series, scheme)?;
+            for (fault, name) in [(Fault::Kill, "kill"), (Fault::Fail, "failing call")] {
+                let points: Vec<Point> =
+                    trials.points(fault)?.into_iter().step_by(stride).collect();
+                let row = Row::new(series.0, scheme, name, &points, |point| {
+                    trials.trial(point, fault)
+                });
                 tell(&row);
                 rows.push(row);
             }
@@ -99,70 +80,65 @@ pub fn rows(stride: usize, mut tell: impl FnMut(&Row)) -> Result<Vec<Row>> {
     Ok(rows)
 }
 
-impl<'a> Trials<'a> {
-    fn new(series: &'a Series, scene: Scene) -> Result<Self> {
-        let whole = Place::new(scene)?;
-        let points = faults::points(&whole, series.more, &[])?;
+impl Trials {
+    fn new(series: Series, scheme: Scheme) -> Result<Self> {
+        let (_, more, way) = series;
+        let whole = Place::new(scheme)?;
+        let points = faults::points(&whole, more, &[])?;
+        let at = |wanted: fn(&Point, &str) -> bool| -> Vec<&Point> {
+            let found = points.iter().filter(|(point, wrote)| wanted(point, wrote));
+            found.map(|(point, _)| point).collect()
+        };
         // Rows are the writes that begin with the number of their step.
-        let rows: Vec<&Point> = (points.iter())
-            .filter(|(_, wrote)| {
-                wrote
-                    .split_once(", \"")
-                    .is_some_and(|(_, text)| text.starts_with(|c: char| c.is_ascii_digit()))
-            })
-            .map(|(point, _)| point)
-            .collect();
-        let renames: Vec<&Point> = (points.iter())
-            .filter(|(point, wrote)| {
-                point.call.starts_with("rename") && wrote.contains("snapshots/")
-            })
-            .map(|(point, _)| point)
-            .collect();
+        let rows = at(|_, wrote| {
+            let text = wrote.split_once(", \"").map_or("", |(_, text)| text);
+            text.starts_with(|c: char| c.is_ascii_digit())
+        });
+        let renames =
+            at(|point, wrote| point.call.starts_with("rename") && wrote.contains("snapshots/"));
         if rows.len() < 20 || renames.len() < 3 {
             return Err(format!("only {} rows and {} snapshots", rows.len(), renames.len()).into());
         }
-        let stops = [rows[rows.len() / 2], renames[renames.len() / 2]].map(Clone::clone);
-        let before = match series.before {
-            Before::Nothing => None,
-            Before::Stopped(part) => {
-                let place = Place::new(scene)?;
+        let stops = match way {
+            Way::Stopped => vec![
+                rows[rows.len() / 2].clone(),
+                renames[renames.len() / 2].clone(),
+            ],
+            _ => Vec::new(),
+        };
+        let before = match way {
+            Way::New | Way::Stopped => None,
+            Way::Continued(part) => {
+                let place = Place::new(scheme)?;
                 let at = rows[(part * (rows.len() - 1) as f64) as usize];
-                let output = faults::run(&place, series.more, &[(at, Fault::Terminate)])?;
+                let output = faults::run(&place, more, &[(at, Fault::Terminate)])?;
                 if output.status.code() != Some(75) {
-                    return Err(
-                        format!("not stopped: {:?}, {}", output.status, said(&output)).into(),
-                    );
+                    let (status, said) = (output.status, said(&output));
+                    return Err(format!("not stopped: {status:?}, {said}").into());
                 }
                 Some(place)
             }
-            Before::Other => {
-                let place = Place::new(scene)?;
-                place.done(&[
-                    "--set",
-                    "adhesive.viscosity=\"2 Pa s\"",
-                    "--set",
-                    "output.snapshots=6",
-                ])?;
+            Way::Replacing => {
+                let place = Place::new(scheme)?;
+                let (viscosity, snapshots) =
+                    ("adhesive.viscosity=\"2 Pa s\"", "output.snapshots=6");
+                place.done(&["--set", viscosity, "--set", snapshots])?;
                 Some(place)
             }
         };
         Ok(Self {
             series,
-            scene,
+            scheme,
             whole,
             before,
-            stops: if series.stopped {
-                stops.into()
-            } else {
-                Vec::new()
-            },
+            stops,
         })
     }
 
     fn place(&self) -> Result<Place> {
         match &self.before {
-            Some(before) => Place::with_run_of(self.scene, before),
-            None => Place::new(self.scene),
+            Some(before) => before.copied(self.scheme),
+            None => Place::new(self.scheme),
         }
     }
 
@@ -173,50 +149,30 @@ impl<'a> Trials<'a> {
 
     /// The points of `fault`.
     fn points(&self, fault: Fault) -> Result<Vec<Point>> {
-        let mut all: Vec<Point> = Vec::new();
-        let ways: Vec<Vec<(&Point, Fault)>> = match self.stops.as_slice() {
-            [] => vec![Vec::new()],
-            stops => stops
-                .iter()
-                .map(|stop| vec![(stop, Fault::Terminate)])
-                .collect(),
-        };
-        for way in &ways {
-            let found = faults::points(&self.place()?, self.series.more, way)?;
-            let reached =
-                |point: &Point| self.stop(&point.call) == way.first().map(|(stop, _)| *stop);
+        let mut stops: Vec<Option<&Point>> = self.stops.iter().map(Some).collect();
+        if stops.is_empty() {
+            stops.push(None);
+        }
+        let mut all = Vec::new();
+        for stop in stops {
+            let told: Vec<_> = stop.iter().map(|stop| (*stop, Fault::Terminate)).collect();
+            let found = faults::points(&self.place()?, self.series.1, &told)?;
             // Standard error is no part of the folder, and libraries that cannot be opened say nothing.
             let found = found.into_iter().filter(|(point, arguments)| {
                 let ours = point.call != "openat" || arguments.contains("\"run");
                 !arguments.starts_with("2, ") && (fault == Fault::Kill || ours)
             });
-            all.extend(found.map(|(point, _)| point).filter(reached));
+            let found = found.map(|(point, _)| point);
+            all.extend(found.filter(|point| self.stop(&point.call) == stop));
         }
         Ok(all)
-    }
-
-    fn row(&self, fault: Fault, stride: usize) -> Result<Row> {
-        let points: Vec<Point> = (self.points(fault)?.into_iter()).step_by(stride).collect();
-        Ok(Row {
-            series: self.series.name,
-            scheme: self.scene.name(),
-            fault: match fault {
-                Fault::Kill => "kill",
-                _ => "failing call",
-            },
-            trials: points.len(),
-            wrong: all_wrong(&points, |point| {
-                self.trial(point, fault)
-                    .map_err(|said| format!("{point}: {said}").into())
-            }),
-        })
     }
 
     fn trial(&self, point: &Point, fault: Fault) -> Result<()> {
         let place = self.place()?;
         let mut faults = vec![(point, fault)];
         faults.extend(self.stop(&point.call).map(|stop| (stop, Fault::Terminate)));
-        let output = faults::run(&place, self.series.more, &faults)?;
+        let output = faults::run(&place, self.series.1, &faults)?;
         match (fault, output.status.code()) {
             (Fault::Kill, None) if output.status.signal() == Some(9) => {}
             // What cannot be opened may be taken for what is not there, or not sound.
@@ -224,9 +180,6 @@ impl<'a> Trials<'a> {
             (Fault::Fail, Some(0 | 1 | 75)) => {}
             (_, code) => return Err(format!("ended with {code:?}: {}", said(&output)).into()),
         }
-        place
-            .done(self.series.more)
-            .map_err(|said| format!("then {said}"))?;
-        same(&self.whole.run_folder(), &place.run_folder())
+        place.ends_like(&self.whole, self.series.1)
     }
 }

@@ -3,29 +3,13 @@
 use std::collections::HashMap;
 use std::process::Output;
 
-use super::scene::Place;
+use super::place::Place;
 use crate::Result;
-use crate::study::ended;
+use crate::study::{ended, works};
 
 /// The calls by which a run changes or holds its folder; those a system lacks are left out.
-const CALLS: [&str; 16] = [
-    "openat",
-    "write",
-    "writev",
-    "pwrite64",
-    "rename",
-    "renameat",
-    "renameat2",
-    "fsync",
-    "fdatasync",
-    "ftruncate",
-    "unlink",
-    "unlinkat",
-    "rmdir",
-    "mkdir",
-    "mkdirat",
-    "flock",
-];
+const CALLS: &str = "openat write writev pwrite64 rename renameat renameat2 fsync fdatasync ftruncate \
+                     unlink unlinkat rmdir mkdir mkdirat flock";
 
 /// The n-th call of a name by one thread, from 1 on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -68,10 +52,7 @@ impl Fault {
 
 /// Whether `strace` is there and allowed to trace.
 pub fn available() -> bool {
-    let traced = std::process::Command::new("strace")
-        .args(["-qq", "-o", "/dev/null", "true"])
-        .output();
-    traced.is_ok_and(|output| output.status.success())
+    works("strace", &["-qq", "-o", "/dev/null", "true"])
 }
 
 /// Runs `mpm-run` in `place` with `faults`.
@@ -99,12 +80,12 @@ pub(super) fn points(
         if rest.starts_with("---") {
             points.clear();
         }
-        let Some((call, arguments)) = rest
-            .split_once('(')
-            .filter(|(call, _)| CALLS.contains(call))
-        else {
+        let Some((call, arguments)) = rest.split_once('(') else {
             continue;
         };
+        if !CALLS.split(' ').any(|known| known == call) {
+            continue;
+        }
         let nth = counts.entry((thread, call)).or_default();
         *nth += 1;
         let point = Point {
@@ -120,11 +101,9 @@ pub(super) fn points(
 }
 
 fn strace(place: &Place, more: &[&str], to: &str, faults: &[(&Point, Fault)]) -> Result<Output> {
-    let calls = CALLS.map(|call| format!("?{call}")).join(",");
-    let mut words: Vec<String> = ["strace", "-f", "-qq", "-o", to, "-e"]
-        .map(String::from)
-        .into();
-    words.push(format!("trace={calls}"));
+    let trace = format!("trace=?{}", CALLS.replace(' ', ",?"));
+    let words = ["strace", "-f", "-qq", "-o", to, "-e", &trace];
+    let mut words = words.map(String::from).to_vec();
     for (point, fault) in faults {
         words.extend(["-e".to_owned(), fault.injection(point)]);
     }

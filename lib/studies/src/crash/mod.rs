@@ -5,11 +5,12 @@ pub mod campaign;
 pub mod chains;
 pub mod faults;
 pub mod full_disk;
+mod place;
 mod report;
-mod scene;
 pub mod together;
 
 use crate::Result;
+use crate::method::Scheme;
 use crate::study::{Study, side_by_side};
 
 /// What came of one series of trials.
@@ -26,6 +27,26 @@ pub struct Row {
 }
 
 impl Row {
+    /// Trials by a scheme, done side by side; those that fail are named in their sentences.
+    fn new<T: Sync + std::fmt::Display>(
+        series: &'static str,
+        scheme: Scheme,
+        fault: &'static str,
+        trials: &[T],
+        trial: impl Fn(&T) -> Result<()> + Sync + Send,
+    ) -> Self {
+        let done: Vec<Result<()>> = side_by_side(trials, trial);
+        let done = trials.iter().zip(done);
+        let wrong = done.filter_map(|(of, done)| Some(format!("{of}: {}", done.err()?)));
+        Self {
+            series,
+            scheme: scheme.name(),
+            fault,
+            trials: trials.len(),
+            wrong: wrong.collect(),
+        }
+    }
+
     /// A line for the terminal.
     pub fn line(&self) -> String {
         let (right, trials) = (self.trials - self.wrong.len(), self.trials);
@@ -66,11 +87,4 @@ pub fn run(study: &Study) -> Result<bool> {
     }
     report::write(study, &rows, &left_out)?;
     Ok(left_out.is_empty() && rows.iter().all(|row| row.wrong.is_empty()))
-}
-
-/// Does trials side by side; the sentences of those that failed.
-fn all_wrong<T: Sync>(trials: &[T], trial: impl Fn(&T) -> Result<()> + Sync + Send) -> Vec<String> {
-    let done: Vec<Result<()>> = side_by_side(trials, trial);
-    let wrong = done.into_iter().filter_map(Result::err);
-    wrong.map(|said| said.to_string()).collect()
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::Row;
 use crate::Result;
-use crate::study::Study;
+use crate::study::{Study, table};
 
 /// Writes the table and the page; `left_out` is what could not be done.
 pub(super) fn write(study: &Study, rows: &[Row], left_out: &[&str]) -> Result<()> {
@@ -31,17 +31,15 @@ fn page(rows: &[Row], origin: &str, left_out: &[&str]) -> String {
          folder are byte for byte those of the run in one piece, the costs in `summary.json` aside, and none is left over.\n\
          Runs are also killed or told to stop (SIGTERM) six times at places drawn by chance, the disk is full at each byte of\n\
          the last row (a limit on the size of files), and a second run is started into the folder.\n\
-         Calls that fail may end the run with status 1, 75, for files that cannot be opened 2 or 3, or, where nothing depends on them, 0.\n\n\
-         | series | scheme | fault | trials | as they must be |\n|---|---|---|---|---|\n"
+         Calls that fail may end the run with status 1, 75, for files that cannot be opened 2 or 3, or, where nothing depends on them, 0.\n\n"
     );
-    for row in rows {
+    let line = |row: &Row| {
         let (trials, right) = (row.trials, row.trials - row.wrong.len());
         let (series, scheme, fault) = (row.series, row.scheme, row.fault);
-        let _ = writeln!(
-            text,
-            "| {series} | {scheme} | {fault} | {trials} | {right} |"
-        );
-    }
+        format!("| {series} | {scheme} | {fault} | {trials} | {right} |")
+    };
+    let heads = "| series | scheme | fault | trials | as they must be |";
+    text += &table(heads, rows.iter().map(line));
     let trials: usize = rows.iter().map(|row| row.trials).sum();
     let wrong: usize = rows.iter().map(|row| row.wrong.len()).sum();
     let _ = writeln!(text, "\n{trials} trials, {wrong} wrong.");

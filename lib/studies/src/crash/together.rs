@@ -5,38 +5,35 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use super::Row;
-use super::scene::{Place, Scene, same};
+use super::place::Place;
 use crate::Result;
 use crate::method::Scheme;
 use crate::outputs::{Run, tool};
 use crate::study::{ended, said, terminate};
 
-const SCENE: Scene = Scene(Scheme::Explicit);
+const SCHEME: Scheme = Scheme::Explicit;
 
 /// Two started at the same moment, `rounds` times: one ends well, the other exits 2.
 ///
 /// # Errors
 /// The system's reason.
 pub fn at_once(rounds: usize) -> Result<Row> {
-    let whole = Place::new(SCENE)?;
+    let whole = Place::new(SCHEME)?;
     whole.done(&[])?;
     let round = || {
-        let place = Place::new(SCENE)?;
+        let place = Place::new(SCHEME)?;
         let [one, other] = [start(&place, &[])?, start(&place, &[])?];
-        let mut codes = Vec::new();
-        for child in [one, other] {
-            let output = child.wait_with_output()?;
-            codes.push(output.status.code());
-        }
+        let mut codes =
+            [one.wait_with_output()?, other.wait_with_output()?].map(|o| o.status.code());
         codes.sort_unstable();
         if codes != [Some(0), Some(2)] {
             return Err(format!("ended with {codes:?}").into());
         }
-        same(&whole.run_folder(), &place.run_folder())
+        whole.same(&place)
     };
     Ok(Row {
         series: "two runs started at once",
-        scheme: SCENE.name(),
+        scheme: SCHEME.name(),
         fault: "second run",
         trials: rounds,
         wrong: (0..rounds)
@@ -51,7 +48,7 @@ pub fn at_once(rounds: usize) -> Result<Row> {
 /// # Errors
 /// The system's reason.
 pub fn meanwhile(rounds: usize) -> Result<Row> {
-    let place = Place::new(SCENE)?;
+    let place = Place::new(SCHEME)?;
     std::os::unix::fs::symlink("run", place.path().join("link"))?;
     // Minutes, of which the seconds of the second runs are needed.
     let long = [
@@ -98,7 +95,7 @@ pub fn meanwhile(rounds: usize) -> Result<Row> {
     }
     Ok(Row {
         series: "second run while the first is on",
-        scheme: SCENE.name(),
+        scheme: SCHEME.name(),
         fault: "second run",
         trials: rounds,
         wrong,

@@ -5,6 +5,7 @@ use super::capillary_voxels::{DIP, POOL, Voxels};
 use super::squeeze::{number, rows};
 use crate::Result;
 use crate::method::Method;
+use crate::numbers::last;
 use crate::study::{Study, side_by_side};
 
 /// Density of glycerol, kg/m3.
@@ -31,7 +32,7 @@ const WIDEST: f64 = 1e-3;
 const RISEN: f64 = 0.8;
 
 /// A tube of the experiments and the k fitted to it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tube {
     /// Radius, m.
     pub(super) radius: f64,
@@ -41,15 +42,12 @@ pub(super) struct Tube {
 
 /// A run of a tube.
 pub(super) struct Rise {
-    /// The tube.
     pub(super) tube: Tube,
-    /// Cells across.
     pub(super) cells: u32,
     /// Its k without that of the ends; 0 is a constant angle.
     pub(super) slowing: f64,
     /// Times (s) and heights over the pool (m).
     pub(super) heights: Vec<[f64; 2]>,
-    /// Processor seconds.
     pub(super) cpu_s: f64,
 }
 
@@ -124,15 +122,7 @@ impl Motion {
 
     /// Height at a time, m.
     fn height(&self, time: f64) -> f64 {
-        let (mut low, mut high) = (0.0, self.rest);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            match self.time(middle) < time {
-                true => low = middle,
-                false => high = middle,
-            }
-        }
-        low
+        last(self.rest, |height| self.time(height) < time)
     }
 }
 

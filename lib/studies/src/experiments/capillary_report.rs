@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use figures::{Mark, Plot};
 
 use super::capillary::{Rise, SLOWING};
-use crate::Result;
-use crate::study::{PAGE, Study};
+use crate::study::{PAGE, Study, distinct, table};
+use crate::{Result, numbers};
 
 /// Goal for a run against the equation of motion of the same tube.
 const NEAR: f64 = 0.03;
@@ -18,10 +18,7 @@ const FROM: f64 = 0.06;
 /// Errors of the heights of a run, least and most, against `exact` at their times.
 fn range(rise: &Rise, exact: impl Fn(f64) -> f64) -> [f64; 2] {
     let risen = |at: &&[f64; 2]| at[1] > FROM * rise.tube.jurin();
-    let errors = (rise.heights.iter().filter(risen)).map(|&[time, h]| h / exact(time) - 1.0);
-    errors.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], e| {
-        [low.min(e), high.max(e)]
-    })
+    numbers::range((rise.heights.iter().filter(risen)).map(|&[time, h]| h / exact(time) - 1.0))
 }
 
 /// Against the law with the k of a tube's own fit.
@@ -60,14 +57,11 @@ fn plot(all: &[Rise]) -> Plot {
             .filter(|at| at[1] > FROM * rise.tube.jurin())
             .map(|&[time, h]| [time, 1e3 * h])
             .collect();
-        let times = (0..14)
-            .rev()
-            .map(|part| rise.tube.end() * 0.7_f64.powi(part));
+        let times = (0..14).map(|part| rise.tube.end() * 0.7_f64.powi(13 - part));
         let (mut dots, mut constant) = (Vec::new(), Vec::new());
         for time in times {
             let heights = rise.tube.fits.map(|[k, _]| 1e3 * rise.tube.height(k, time));
-            let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
-            let high = heights.iter().copied().fold(0.0, f64::max);
+            let [low, high] = numbers::range(heights.into_iter());
             dots.push([time, 0.5 * (low + high), 0.5 * (high - low)]);
             constant.push([time, 1e3 * rise.tube.height(0.0, time)]);
         }
@@ -86,14 +80,12 @@ fn section(all: &[Rise]) -> String {
          Glycerol in three glass tubes: cos(angle) = cos(5.6 degrees) - k Ca. The heights and angles themselves (Heshmati & Piri 2014) are not public. Public are the k that Lunowa et al. fitted to them,\n\
          to heights alone, to angles alone and to both ([which version](../../lib/studies/reference/README.md#capillary-rise-that-others-fitted)), and samples of the fitted curve, which are no measurement.\n\
          So `mpm-run` is held against two equations of motion (weight, friction of the tube, k): that of the **same tube** of voxels with its mouth, dip and pool, which checks the scheme; and that of a round tube without\n\
-         ends with the k **fitted** to that tube. One k of {SLOWING} for all three, of which mouth and dip, that no fit takes apart, are 4: `dynamic_angle = 84`.\n\n\
-         | radius (mm) | cells across | k | against the same tube | against the fit to both | to heights | to angles | CPU s |\n|---|---|---|---|---|---|---|---|\n"
+         ends with the k **fitted** to that tube. One k of {SLOWING} for all three, of which mouth and dip, that no fit takes apart, are 4: `dynamic_angle = 84`.\n\n"
     );
     let percent = |[low, high]: [f64; 2]| format!("{:+.1} to {:+.1} %", 100.0 * low, 100.0 * high);
-    for rise in all {
+    let line = |rise: &Rise| {
         let fits = [2, 0, 1].map(|which| percent(against_fit(rise, which)));
-        let _ = writeln!(
-            out,
+        format!(
             "| {} | {} | {} | {} | {} | {:.0} |",
             1e3 * rise.tube.radius,
             rise.cells,
@@ -101,18 +93,16 @@ fn section(all: &[Rise]) -> String {
             percent(range(rise, |time| rise.law(time))),
             fits.join(" | "),
             rise.cpu_s
-        );
-    }
+        )
+    };
+    let heads = "| radius (mm) | cells across | k | against the same tube | against the fit to both | to heights | to angles | CPU s |";
+    out += &table(heads, all.iter().map(line));
     out.push_str(
         "\nFrom 6 % of Jurin's height on, up to 80 % with a dynamic angle. k as fitted (heights; angles; both):",
     );
-    let mut seen = Vec::new();
-    for rise in all {
-        if !seen.contains(&rise.tube.radius) {
-            seen.push(rise.tube.radius);
-            let fits = rise.tube.fits.map(|[k, d]| format!("{k:.0} +- {d:.0}"));
-            let _ = write!(out, " {} mm {};", 1e3 * rise.tube.radius, fits.join(", "));
-        }
+    for tube in distinct(all.iter().map(|rise| rise.tube)) {
+        let fits = tube.fits.map(|[k, d]| format!("{k:.0} +- {d:.0}"));
+        let _ = write!(out, " {} mm {};", 1e3 * tube.radius, fits.join(", "));
     }
     let met = if sound(all) { "met" } else { "not met" };
     let _ = write!(

@@ -60,7 +60,6 @@ impl Voxels {
         0.5 * f64::from(self.cells) + 1.0
     }
 
-    /// The case.
     pub(super) fn case(&self) -> CaseText {
         let m = |at: [f64; 3]| at.map(|x| x * self.cell);
         let (wall, under) = (self.wall(), self.under());

@@ -10,7 +10,7 @@ use crate::Result;
 use crate::method::Method;
 use crate::numbers::{largest, mean};
 use crate::outputs::tool;
-use crate::study::{Study, printed, side_by_side};
+use crate::study::{Study, printed, side_by_side, table};
 
 /// Voxels of a piece, their edge (um), and the layers below the cut.
 const SIZE: [usize; 3] = [160, 192, 64];
@@ -180,40 +180,36 @@ fn section(pieces: &[Piece], done: &[Result<Pressed>], real: bool) -> String {
         "\n## A press of real spruce beside synthetic spruce\n\n\
          `synth-xct --adhesive none --species spruce --size {nx}x{ny}x{nz} --grain-angle \"{GRAIN} deg\"`, cut in the middle and bonded again with {SLAB} um of PF (`pipelines/cases/pf-implicit.toml`,\n\
          closed by {TRAVEL} um or as far as 2.5 MPa do), seeds 1 to {PIECES}; and pieces of the measured section by their distance along the rays, spread over its six rings: measured cells\n\
-         at their places, borders by the power diagram of their circles, lumens of the measured areas, extruded along the same grain. Opened: how deep the cut opens lumens, the mean of each side.\n\n\
-         | wood | lumens below, above | opened (um) | WP bottom / top / total (um) | most pressure (MPa) | closed (um) | CPU s |\n|---|---|---|---|---|---|---|\n"
+         at their places, borders by the power diagram of their circles, lumens of the measured areas, extruded along the same grain. Opened: how deep the cut opens lumens, the mean of each side.\n\n"
     );
-    for (piece, done) in pieces.iter().zip(done) {
+    let line = |(piece, done): (&Piece, &Result<Pressed>)| {
         let ([below, above], [low, high]) = (piece.shares, piece.opened);
-        let (wood, head) = (
-            &piece.name,
-            format!("{below:.3}, {above:.3} | {low:.1}, {high:.1}"),
-        );
-        let _ = match done {
+        let ended = match done {
             Ok(p) => {
                 let ([bottom, top, total], peak) = (p.wp, 1e-6 * p.peak);
-                writeln!(
-                    out,
-                    "| {wood} | {head} | {bottom:.2} / {top:.2} / {total:.2} | {peak:.2} | {:.2} | {:.0} |",
-                    p.way, p.cpu_s
-                )
+                let (way, cpu_s) = (p.way, p.cpu_s);
+                format!("{bottom:.2} / {top:.2} / {total:.2} | {peak:.2} | {way:.2} | {cpu_s:.0}")
             }
             Err(said) => {
                 let said = said.to_string();
                 let why = said.split("mpm-run: ").last().unwrap_or(&said);
-                let why = why.split(';').next().unwrap_or(why);
-                writeln!(out, "| {wood} | {head} | - | - | {why} | - |")
+                format!("- | - | {} | -", why.split(';').next().unwrap_or(why))
             }
         };
-    }
+        let wood = &piece.name;
+        format!("| {wood} | {below:.3}, {above:.3} | {low:.1}, {high:.1} | {ended} |")
+    };
+    let heads = "| wood | lumens below, above | opened (um) | WP bottom / top / total (um) | most pressure (MPa) | closed (um) | CPU s |";
+    out += &table(heads, pieces.iter().zip(done).map(line));
     out.push('\n');
-    for name in ["real", "synthetic"] {
-        if name == "real" && !real {
-            continue;
-        }
+    for name in if real {
+        &["real", "synthetic"][..]
+    } else {
+        &["synthetic"]
+    } {
         let own = (pieces.iter().zip(done)).filter(|(piece, _)| piece.name.starts_with(name));
         let ended: Vec<&Pressed> = own.filter_map(|(_, done)| done.as_ref().ok()).collect();
-        let mean = |of: fn(&Pressed) -> f64| mean(ended.iter().map(|p| of(p)));
+        let mean = |of: fn(&Pressed) -> f64| mean(ended.iter().copied().map(of));
         let (wp, peak, way) = (mean(|p| p.wp[2]), 1e-6 * mean(|p| p.peak), mean(|p| p.way));
         let _ = writeln!(
             out,

@@ -11,16 +11,12 @@ use crate::outputs::Run;
 /// An experiment of the table.
 #[derive(Clone, Debug)]
 pub(super) struct Experiment {
-    /// Its name there.
     pub(super) name: String,
-    /// The liquid.
     pub(super) liquid: &'static Liquid,
     /// Force on the upper plate (N), volume (m3) and first radius (m) of the liquid, each with its deviation
     /// among the repeats.
     pub(super) force: [f64; 2],
-    /// See `force`.
     pub(super) volume: [f64; 2],
-    /// See `force`.
     pub(super) radius: [f64; 2],
     /// Time (s), radius (m) and its deviation among the repeats.
     pub(super) measured: Vec<[f64; 3]>,
@@ -29,7 +25,6 @@ pub(super) struct Experiment {
 /// A liquid of the experiments.
 #[derive(Debug)]
 pub(super) struct Liquid {
-    /// Its name.
     pub(super) name: &'static str,
     /// Viscosity at rest, Pa s; beyond the rate `thins_from` (1/s) it falls by the power law `index`.
     pub(super) viscosity: f64,

@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 use figures::{Mark, Plot};
 
 use super::predictions::{CELLS, Point, Prediction};
+use super::squeeze::DENSITY;
 use crate::Result;
-use crate::numbers::rms;
-use crate::study::{PAGE, Study, distinct};
+use crate::numbers::{largest, range, rms};
+use crate::study::{PAGE, Study, distinct, table};
 
 /// From this time on (s) points of thinning liquid are to be within [`NEAR`].
 const FROM: f64 = 0.1;
@@ -19,21 +20,23 @@ const DEVIATIONS: f64 = 2.0;
 /// The case whose volume is in doubt.
 const DOUBTED: &str = "GlyV2F025";
 
+/// Which points count.
+type Wanted = fn(&Prediction, &Point) -> bool;
+
+impl Prediction {
+    fn is_trusted(&self) -> bool {
+        self.experiment.name != DOUBTED
+    }
+}
+
 /// Errors of some of the points.
 struct Errors(Vec<f64>);
 
 impl Errors {
-    fn of<'a>(
-        predictions: &[&'a Prediction],
-        wanted: impl Fn(&Prediction, &Point) -> bool + 'a,
-    ) -> Self {
+    fn of(predictions: &[&Prediction], wanted: Wanted) -> Self {
         let points = (predictions.iter()).flat_map(|p| p.points.iter().map(move |q| (p, q)));
-        Self(
-            points
-                .filter(|(p, q)| wanted(p, q))
-                .map(|(_, q)| q.error())
-                .collect(),
-        )
+        let points = points.filter(|(p, q)| wanted(p, q));
+        Self(points.map(|(_, q)| q.error()).collect())
     }
 
     fn rms(&self) -> f64 {
@@ -42,14 +45,9 @@ impl Errors {
 
     /// Their number, rms and range.
     fn text(&self) -> String {
-        let fold = |by: fn(f64, f64) -> f64| self.0.iter().copied().reduce(by).unwrap_or(f64::NAN);
-        format!(
-            "{} | {:.2} % | {:+.1} to {:+.1} %",
-            self.0.len(),
-            100.0 * self.rms(),
-            100.0 * fold(f64::min),
-            100.0 * fold(f64::max)
-        )
+        let [low, high] = range(self.0.iter().copied()).map(|e| 100.0 * e);
+        let (count, rms) = (self.0.len(), 100.0 * self.rms());
+        format!("{count} | {rms:.2} % | {low:+.1} to {high:+.1} %")
     }
 }
 
@@ -62,7 +60,7 @@ fn of(all: &[Prediction], cells: u32) -> Vec<&Prediction> {
 pub(super) fn sound(all: &[Prediction]) -> bool {
     let first = of(all, CELLS[0]);
     let thinning = Errors::of(&first, |p, q| p.experiment.liquid.thins() && q.time > FROM);
-    let trusted = first.iter().filter(|p| p.experiment.name != DOUBTED);
+    let trusted = first.iter().filter(|p| p.is_trusted());
     let mut deviations = trusted.flat_map(|p| &p.points).map(Point::deviations);
     thinning.0.iter().all(|e| e.abs() <= NEAR) && deviations.all(|d| d <= DEVIATIONS)
 }
@@ -115,67 +113,59 @@ fn section(all: &[Prediction]) -> String {
         "## Squeeze flow under a constant force\n\n\
          Discs of liquid between a plate at rest and one that a constant force brings down, eight cases with ten repeats each;\n\
          radii, volumes, forces and viscosities by rheometer from s152754/PhDproject\n\
-         ([which version](../../lib/studies/reference/README.md#squeeze-flow-and-lumens-that-others-measured); no licence file: numbers only). Blind: nothing is fitted. The radius is that of the volume over the gap.\n\n\
-         | cells of the first height | points | radii | rms | range |\n|---|---|---|---|---|\n",
+         ([which version](../../lib/studies/reference/README.md#squeeze-flow-and-lumens-that-others-measured); no licence file: numbers only). Blind: nothing is fitted. The radius is that of the volume over the gap.\n\n",
     );
-    for cells in CELLS {
-        let own = of(all, cells);
-        let mut line = |what: &str, wanted: &dyn Fn(&Prediction, &Point) -> bool| {
-            let errors = Errors::of(&own, wanted);
-            let _ = writeln!(out, "| {cells} | {what} | {} |", errors.text());
-        };
-        line("all", &|_, _| true);
-        line("from 0.1 s", &|_, q| q.time > FROM);
-        line("all but GlyV2F025", &|p, _| p.experiment.name != DOUBTED);
-        line("thinning, from 0.1 s", &|p, q| {
+    let some: [(&str, Wanted); 4] = [
+        ("all", |_, _| true),
+        ("from 0.1 s", |_, q| q.time > FROM),
+        ("all but GlyV2F025", |p, _| p.is_trusted()),
+        ("thinning, from 0.1 s", |p, q| {
             p.experiment.liquid.thins() && q.time > FROM
-        });
-    }
+        }),
+    ];
+    let lines = CELLS.into_iter().flat_map(|cells| {
+        let own = of(all, cells);
+        some.map(|(what, wanted)| {
+            let text = Errors::of(&own, wanted).text();
+            format!("| {cells} | {what} | {text} |")
+        })
+    });
+    let heads = "| cells of the first height | points | radii | rms | range |";
+    out += &table(heads, lines);
     let first = of(all, CELLS[0]);
     let _ = write!(
         out,
-        "\nBy case, {} cells; deviations: most of the error over the deviation of repeats and inputs.\n\n\
-         | case | radii | rms | range | deviations |\n|---|---|---|---|---|\n",
+        "\nBy case, {} cells; deviations: most of the error over the deviation of repeats and inputs.\n\n",
         CELLS[0]
     );
-    for p in &first {
-        let errors = Errors::of(&[p], |_, _| true);
-        let most = p.points.iter().map(Point::deviations).fold(0.0, f64::max);
-        let (name, text) = (&p.experiment.name, errors.text());
-        let _ = writeln!(out, "| {name} | {text} | {most:.1} |");
-    }
-    let trusted = Errors::of(&first, |p, _| p.experiment.name != DOUBTED);
+    let line = |p: &&Prediction| {
+        let text = Errors::of(&[p], |_, _| true).text();
+        let most = largest(p.points.iter().map(Point::deviations));
+        format!("| {} | {text} | {most:.1} |", p.experiment.name)
+    };
+    let heads = "| case | radii | rms | range | deviations |";
+    out += &table(heads, first.iter().map(line));
+    let trusted = Errors::of(&first, |p, _| p.is_trusted());
+    let height = |trusted: bool| {
+        let own = first.iter().filter(|p| p.is_trusted() == trusted);
+        range(own.map(|p| 1e3 * p.experiment.height()))
+    };
+    let ([_, doubted], [low, high]) = (height(false), height(true));
     let met = |met: bool| if met { "met" } else { "not met" };
     let _ = write!(
         out,
         "\nGoals: rms {:.1} % ({} over all radii, {} without {DOUBTED}); thinning points from 0.1 s on within 5 %, and none but {DOUBTED}\n\
          beyond two deviations ({}). {DOUBTED} is off by the same factor at all times, as by a volume a quarter too large (R goes with its fourth root), and its first\n\
-         height, {:.2} mm, is the largest of the eight ({:.2} to {:.2} mm): the volume is in doubt, not the flow. The inertia of a weight that presses is worth less than\n\
+         height, {doubted:.2} mm, is the largest of the eight ({low:.2} to {high:.2} mm): the volume is in doubt, not the flow. The inertia of a weight that presses is worth less than\n\
          0.1 % of a radius from 0.067 s on (lubrication).\n\n{}\n\
          ![Radii of glycerol over time](experiments-squeeze-glycerol.png)\n![Radii of the thinning solution](experiments-squeeze-pvp.png)\n\n",
         100.0 * RMS,
         met(Errors::of(&first, |_, _| true).rms() <= RMS),
         met(trusted.rms() <= RMS),
         met(sound(all)),
-        1e3 * height(&first, |p| p.experiment.name == DOUBTED, f64::max),
-        1e3 * height(&first, |p| p.experiment.name != DOUBTED, f64::min),
-        1e3 * height(&first, |p| p.experiment.name != DOUBTED, f64::max),
         explicit(&first),
     );
     out
-}
-
-/// Least or largest first height of some cases, m.
-fn height(
-    all: &[&Prediction],
-    wanted: impl Fn(&Prediction) -> bool,
-    by: fn(f64, f64) -> f64,
-) -> f64 {
-    let heights = all
-        .iter()
-        .filter(|p| wanted(p))
-        .map(|p| p.experiment.height());
-    heights.reduce(by).unwrap_or(f64::NAN)
 }
 
 /// Why the explicit scheme predicts none of it.
@@ -183,16 +173,12 @@ fn explicit(first: &[&Prediction]) -> String {
     let steps = |p: &&Prediction| {
         let cell = p.experiment.height() / f64::from(CELLS[0]);
         // The viscous limit of its step; that of sound at 1 GPa is below it but for the solution.
-        let viscous =
-            super::squeeze::DENSITY * cell.powi(2) / (8.0 * p.experiment.liquid.viscosity);
+        let viscous = DENSITY * cell.powi(2) / (8.0 * p.experiment.liquid.viscosity);
         p.points.last().map_or(0.0, |q| q.time / viscous)
     };
-    let all: Vec<f64> = first.iter().map(steps).collect();
-    let fold = |by: fn(f64, f64) -> f64| all.iter().copied().reduce(by).unwrap_or(f64::NAN);
+    let [fewest, most] = range(first.iter().map(steps));
     format!(
-        "The explicit scheme predicts none of it: it takes no stages of a press, its viscous step limit alone, rho h^2/(8 eta), makes {:.0e} to {:.0e} steps of a case in the same\n\
-         cells (sound in glycerol of 1 GPa a hundred times as many), and it places walls to half a cell where the gap closes to less than two.\n",
-        fold(f64::min),
-        fold(f64::max)
+        "The explicit scheme predicts none of it: it takes no stages of a press, its viscous step limit alone, rho h^2/(8 eta), makes {fewest:.0e} to {most:.0e} steps of a case in the same\n\
+         cells (sound in glycerol of 1 GPa a hundred times as many), and it places walls to half a cell where the gap closes to less than two.\n"
     )
 }

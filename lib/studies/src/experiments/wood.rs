@@ -1,6 +1,5 @@
 //! Synthetic wood beside wood that others measured: permeability along the grain, and the lumens of spruce.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use synthetic_wood::lumen_diameters;
@@ -8,7 +7,7 @@ use voxels::Stack;
 
 use crate::Result;
 use crate::outputs::tool;
-use crate::study::{Study, ended, said, side_by_side};
+use crate::study::{Study, done, ended, said, side_by_side, table};
 
 /// Edge of a voxel of the permeable pieces and of the spruce, um.
 const EDGE: [f64; 2] = [2.0, 1.45];
@@ -30,16 +29,6 @@ enum Piece {
     FiberForm(char),
 }
 
-/// Numbers of a piece: vessels per mm2 and their median diameter (um) where there are any, the row of `wp-metrics`, and its time.
-struct Found {
-    name: String,
-    vessels: Option<[f64; 2]>,
-    permeability: f64,
-    error: f64,
-    porosity: f64,
-    clock_s: f64,
-}
-
 /// Runs what the study wants, and gives the sections of the page.
 ///
 /// # Errors
@@ -55,9 +44,8 @@ pub(super) fn run(study: &Study) -> Result<String> {
     if study.wants("fiberform") && tomogram {
         pieces.extend(['x', 'y', 'z'].map(Piece::FiberForm));
     }
-    let found: Result<Vec<Found>> = side_by_side(&pieces, |piece| permeability(study, piece));
-    let found = found?;
-    let mut page = permeabilities(&found, tomogram);
+    let rows: Result<Vec<String>> = side_by_side(&pieces, |piece| permeability(study, piece));
+    let mut page = permeabilities(rows?, tomogram);
     if study.wants("spruce") {
         page += &lumens(study)?;
     }
@@ -73,15 +61,14 @@ fn grown(study: &Study, species: &str, which: usize, seed: u32) -> Result<(PathB
     command.args(["--size", SIZE[which], "--voxel", &voxel]);
     command.args(["--grain-angle", "0 deg", "--seed", &seed.to_string(), "-o"]);
     std::fs::create_dir_all(study.folder())?;
-    let output = ended(command.arg(&path))?;
-    match output.status.success() {
-        true => Ok((path, said(&output))),
-        false => Err(said(&output).into()),
-    }
+    let output = done(command.arg(&path))?;
+    Ok((path, said(&output)))
 }
 
-fn permeability(study: &Study, piece: &Piece) -> Result<Found> {
+/// The row of a piece.
+fn permeability(study: &Study, piece: &Piece) -> Result<String> {
     let mut command = tool("wp-metrics");
+    // Vessels per mm2 and their median diameter, um.
     let (name, vessels) = match piece {
         Piece::Wood(species, seed) => {
             let (path, anatomy) = grown(study, species, 0, *seed)?;
@@ -94,7 +81,7 @@ fn permeability(study: &Study, piece: &Piece) -> Result<Found> {
                 line.split_whitespace().next()?.parse::<f64>().ok()
             };
             let vessels = number("vessels per mm2").zip(number("vessel lumen um"));
-            (format!("{species} {seed}"), vessels.map(|(n, d)| [n, d]))
+            (format!("{species} {seed}"), vessels)
         }
         Piece::FiberForm(axis) => {
             command.args([FIBERFORM, "--voxel", "1.3 um", "--grey", "wood=90.."]);
@@ -108,47 +95,31 @@ fn permeability(study: &Study, piece: &Piece) -> Result<Found> {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let row: Vec<&str> = text.lines().nth(1).unwrap_or("").split(',').collect();
     let number = |i: usize| row.get(i).and_then(|cell| cell.parse().ok());
-    let (Some(permeability), Some(error), Some(porosity)) = (number(2), number(3), number(4))
-    else {
+    let numbers: (_, Option<f64>, Option<f64>) = (number(2), number(3), number(4));
+    let (Some(permeability), Some(error), Some(porosity)) = numbers else {
         return Err(format!("{name}: {}", said(&output)).into());
     };
     println!("{name:<32} {permeability:.3e} m2  {clock_s:6.1} s");
-    Ok(Found {
-        name,
-        vessels,
-        permeability,
-        error,
-        porosity,
-        clock_s,
-    })
+    let tubes = vessels.map_or("- | -".into(), |(n, d): (f64, f64)| {
+        let tubes = n * 1e6 * std::f64::consts::PI * (1e-6 * d).powi(4) / 128.0;
+        format!("{tubes:.2e} | {:.2}", permeability / tubes)
+    });
+    let error = 100.0 * error / permeability;
+    Ok(format!(
+        "| {name} | {porosity:.3} | {permeability:.3e} | {error:.1} % | {tubes} | {clock_s:.0} |"
+    ))
 }
 
-fn permeabilities(found: &[Found], tomogram: bool) -> String {
+fn permeabilities(rows: Vec<String>, tomogram: bool) -> String {
     let [edge, _] = EDGE;
     let mut out = format!(
         "## Permeability along the grain\n\n\
          `synth-xct --adhesive none --grain-angle \"0 deg\" --size {} --voxel \"{edge} um\"`, then `wp-metrics --permeability z`: steady flow through all\n\
-         open lumens. Error: distance from cells of two voxels. Poiseuille: pi d^4/128 by the number of vessels and their median diameter, of some eight in a piece.\n\n\
-         | piece | porosity | permeability (m2) | error | Poiseuille (m2) | ratio | s by the clock |\n|---|---|---|---|---|---|---|\n",
+         open lumens. Error: distance from cells of two voxels. Poiseuille: pi d^4/128 by the number of vessels and their median diameter, of some eight in a piece.\n\n",
         SIZE[0]
     );
-    for f in found {
-        let tubes = f
-            .vessels
-            .map(|[n, d]| n * 1e6 * std::f64::consts::PI * (1e-6 * d).powi(4) / 128.0);
-        let tubes = tubes.map_or("- | -".into(), |p| {
-            format!("{p:.2e} | {:.2}", f.permeability / p)
-        });
-        let _ = writeln!(
-            out,
-            "| {} | {:.3} | {:.3e} | {:.1} % | {tubes} | {:.0} |",
-            f.name,
-            f.porosity,
-            f.permeability,
-            100.0 * f.error / f.permeability,
-            f.clock_s
-        );
-    }
+    let heads = "| piece | porosity | permeability (m2) | error | Poiseuille (m2) | ratio | s by the clock |";
+    out += &table(heads, rows);
     out.push_str(
         "\nPublished: *Populus nigra* 1.05e-10 and 1.63e-10 m2 at vessel lumens of 63 and 67 um (Taghiyari et al. 2011, abstract), 0.49e-10 in outer wood (Taghiyari 2014, abstract).\n\
          Birch carries 0.34 (water) to 0.38 (air) of Poiseuille's flow through its vessels, half of the resistance at perforation plates and a fifth of the vessels\n\
@@ -168,14 +139,14 @@ fn permeabilities(found: &[Found], tomogram: bool) -> String {
 fn lumens(study: &Study) -> Result<String> {
     let mut out = format!(
         "## Lumens of spruce\n\nDiameters (um) of the circles of lumen areas: 11,685 cells of *Picea abies* ([LOT_PICEA of RAPTOR](../../lib/studies/reference/README.md#squeeze-flow-and-lumens-that-others-measured), rings of 2007 to 2013) and the middle page of\n\
-         `synth-xct --adhesive none --species spruce --size {}`, a ring and more.\n\n| | cells | 10 % | 25 % | 50 % | 75 % | 90 % |\n|---|---|---|---|---|---|---|\n",
+         `synth-xct --adhesive none --species spruce --size {}`, a ring and more.\n\n",
         SIZE[1]
     );
-    let mut row = |name: &str, cells: usize, of: [f64; 5]| {
+    let row = |name: &str, cells: usize, of: [f64; 5]| {
         let of = of.map(|d| format!("{d:.1}")).join(" | ");
-        let _ = writeln!(out, "| {name} | {cells} | {of} |");
+        format!("| {name} | {cells} | {of} |")
     };
-    row("measured", 11_685, MEASURED);
+    let mut rows = vec![row("measured", 11_685, MEASURED)];
     for seed in SEEDS {
         let (path, _) = grown(study, "spruce", 1, seed)?;
         let stack = Stack::open(&[path])?;
@@ -184,8 +155,9 @@ fn lumens(study: &Study) -> Result<String> {
         let all = lumen_diameters(&page, 600, EDGE[1]);
         let at = |q: f64| all.get((q * all.len() as f64) as usize).copied();
         let of = QUANTILES.map(|q| at(q).unwrap_or(f64::NAN));
-        row(&format!("synthetic, seed {seed}"), all.len(), of);
+        rows.push(row(&format!("synthetic, seed {seed}"), all.len(), of));
     }
+    out += &table("| | cells | 10 % | 25 % | 50 % | 75 % | 90 % |", rows);
     out.push_str(
         "\nThe smallest lumens of late wood, a tenth below 8 um, are two voxels and less of 1.45 um across and stay wider here. Walls are thinner than measured (half of a double wall 1.7 to 3.4 um,\n\
          measured 2.7 to 5.4 at 10 and 90 %): that spruce of a dry alpine valley is denser than the 430 kg/m3 that the species stands for.\n\

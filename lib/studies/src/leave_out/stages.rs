@@ -7,7 +7,7 @@ use crate::Result;
 use crate::case_text::CaseText;
 use crate::method::{Method, Scheme};
 use crate::outputs::Run;
-use crate::study::{side_by_side, write};
+use crate::study::{side_by_side, table, write};
 
 /// A stage and its functions, as module and function, or type and method.
 type Stage = (&'static str, &'static [&'static str]);
@@ -98,27 +98,24 @@ impl Table {
     /// Stages and the whole run as rows, scenes as columns: the page's table.
     pub(super) fn text(&self) -> String {
         let names: Vec<&str> = self.scenes.iter().map(|scene| scene.name).collect();
-        let (titles, rule) = (names.join(" | "), "---|".repeat(names.len()));
-        let mut text = format!("| stage | {titles} |\n|---|{rule}\n");
-        for (i, name) in self.names().enumerate() {
+        let row = |(i, name): (usize, &str)| {
             let cells: Vec<String> = self.counts.iter().map(|counts| cell(counts[i])).collect();
-            text += &format!("| {name} | {} |\n", cells.join(" | "));
-        }
-        text
+            format!("| {name} | {} |", cells.join(" | "))
+        };
+        let heads = format!("| stage | {} |", names.join(" | "));
+        table(&heads, self.names().enumerate().map(row))
     }
 
     /// Rows of the CSV file.
     pub(super) fn rows(&self) -> impl Iterator<Item = Vec<String>> {
-        self.scenes
-            .iter()
-            .zip(&self.counts)
-            .flat_map(|(scene, counts)| {
-                let row = |(name, count): (&str, &f64)| {
-                    let words = [self.scheme.name(), scene.name, name, &cell(*count)];
-                    words.map(String::from).to_vec()
-                };
-                self.names().zip(counts).map(row).collect::<Vec<_>>()
-            })
+        let scenes = self.scenes.iter().zip(&self.counts);
+        scenes.flat_map(|(scene, counts)| {
+            let row = |(name, count): (&str, &f64)| {
+                let words = [self.scheme.name(), scene.name, name, &cell(*count)];
+                words.map(String::from).to_vec()
+            };
+            self.names().zip(counts).map(row).collect::<Vec<_>>()
+        })
     }
 
     fn names(&self) -> impl Iterator<Item = &'static str> {

@@ -27,7 +27,6 @@ const AT: [f64; 2] = [0.5, 0.25];
 /// One press at both Courant numbers.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// The scene.
     shape: Shape,
     /// Pressure limit, Pa.
     pub pressure: f64,

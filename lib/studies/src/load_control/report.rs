@@ -2,23 +2,19 @@
 
 use std::fmt::Write;
 
-use super::{COURANT, Course, Row, out_of_order, scenes::SHAPES};
+use super::scenes::{SHAPES, Shape};
+use super::{COURANT, Course, Row, out_of_order};
 use crate::Result;
 use crate::numbers::{largest, mean};
-use crate::study::Study;
+use crate::study::{Study, table};
 
 /// Writes the table and the page.
 pub(super) fn write(study: &Study, rows: &[Row]) -> Result<()> {
     let mut header = String::from("scene,pressure_Pa,viscosity_Pa_s");
     for cfl in COURANT {
-        let columns = [
-            "closed_s",
-            "clamp_over_cfl",
-            "points_cross_cells",
-            "pressure_over_limit",
-            "cpu_s",
-        ];
-        header.extend(columns.map(|column| format!(",{column}_{cfl}")));
+        header += &format!(
+            ",closed_s_{cfl},clamp_over_cfl_{cfl},points_cross_cells_{cfl},pressure_over_limit_{cfl},cpu_s_{cfl}"
+        );
     }
     header.push_str(",way_difference,thickness_difference");
     let fields = rows.iter().map(|row| {
@@ -67,20 +63,18 @@ fn page(rows: &[Row], head: &str) -> String {
          plates. Goal: 10 %, of the former where the plate touches the liquid from the start, of the latter\n\
          where it first crosses air, a film of which thinner than half a cell is not resolved. Clamp: most cells it crossed in a step over the\n\
          Courant number. Points: most cells that a material point crossed in a step (jets through\n\
-         holes of a voxel may cross 1.5). Pressure: highest over the limit.\n\n\
-         | scene | runs | way, worst | mean | plates, worst | closing time, worst | clamp | points | pressure | CPU s |\n|---|---|---|---|---|---|---|---|---|---|\n",
+         holes of a voxel may cross 1.5). Pressure: highest over the limit.\n\n",
         COURANT[0], COURANT[1]
     );
-    for shape in SHAPES {
+    let line = |shape: Shape| {
         let own: Vec<&Row> = rows.iter().filter(|r| r.shape.name == shape.name).collect();
         if own.is_empty() {
-            continue;
+            return None;
         }
         let worst = |of: fn(&Row) -> f64| 100.0 * largest(own.iter().map(|row| of(row)));
         let courses = || own.iter().flat_map(|row| &row.courses);
         let most = |of: fn(&Course) -> f64| largest(courses().map(of));
-        let _ = writeln!(
-            out,
+        Some(format!(
             "| {} | {} | {:.1} % | {:.1} % | {:.1} % | {:.1} % | {:.3} | {:.2} | {:.3} | {:.1} |",
             shape.name,
             2 * own.len(),
@@ -92,8 +86,10 @@ fn page(rows: &[Row], head: &str) -> String {
             most(|c| c.points_cross),
             most(|c| c.overshoot),
             courses().map(|c| c.cpu_s).sum::<f64>(),
-        );
-    }
+        ))
+    };
+    let heads = "| scene | runs | way, worst | mean | plates, worst | closing time, worst | clamp | points | pressure | CPU s |";
+    out += &table(heads, SHAPES.into_iter().filter_map(line));
     let open = rows.iter().flat_map(|r| &r.courses);
     let open = open.filter(|c| c.closed_s.is_infinite()).count();
     let _ = writeln!(

@@ -5,7 +5,7 @@ use crate::Result;
 use crate::job::{Job, Outcome, run_all};
 use crate::method::{Method, Scheme};
 use crate::numbers::worst;
-use crate::study::Study;
+use crate::study::{self, Study};
 use crate::verification::{Scene, acoustic, channel, slit, squeeze};
 
 /// The options by name, with the keys they set.
@@ -103,17 +103,16 @@ fn fields(o: &Outcome) -> Vec<Vec<String>> {
 fn table(scenes: &[Scene], outcomes: &[Outcome]) -> String {
     let names = scenes.iter().map(|s| s.name.as_str());
     let columns: Vec<&str> = names.filter(|name| !name.starts_with("acoustic")).collect();
-    let rule = "---|".repeat(columns.len());
-    let mut out = format!("| method | {} |\n|---|{rule}\n", columns.join(" | "));
-    for method in methods() {
+    let row = |method: Method| {
         let cells = columns.iter().map(|scene| {
             let of = |o: &&Outcome| o.scene == **scene && o.method == method;
             outcomes.iter().find(of).map_or(String::new(), cell)
         });
         let cells: Vec<String> = cells.collect();
-        out += &format!("| {} | {} |\n", method.label, cells.join(" | "));
-    }
-    out
+        format!("| {} | {} |", method.label, cells.join(" | "))
+    };
+    let heads = format!("| method | {} |", columns.join(" | "));
+    study::table(&heads, methods().into_iter().map(row))
 }
 
 /// The largest error of what is compared, in per cent, or that the run stopped.

@@ -12,7 +12,7 @@ use super::scenes::{Press, Scene, press, torn};
 use crate::Result;
 use crate::method::Method;
 use crate::outputs::{Run, tool};
-use crate::study::{said, terminate, write};
+use crate::study::{said, table, terminate, write};
 
 /// Cells along z: enough points that a signal comes before the instability.
 const DEPTH: u32 = 32;
@@ -228,24 +228,23 @@ fn sound(path: &Path) -> Result<()> {
 
 /// The rows as a section of the page.
 pub(super) fn section(rows: &[Result<Row>]) -> String {
-    let mut out = String::from(SECTION);
-    for row in rows {
-        out += &match row {
-            Ok(row) => {
-                let then = match &row.then {
-                    Ok(step) => format!("ended after step {step}"),
-                    Err(said) => format!("stopped: {said}"),
-                };
-                let ([cfl, smaller], name, said) = (row.cfl, &row.name, &row.said);
-                let (checkpoint, unstable, files) = (row.checkpoint, row.unstable, row.files);
-                format!(
-                    "| {name} | {cfl} | {checkpoint} | {unstable} | {files} | {said} | {smaller} | {then} |\n"
-                )
-            }
-            Err(said) => format!("| BROKEN: {said} | | | | | | | |\n"),
-        };
-    }
-    out
+    let line = |row: &Result<Row>| match row {
+        Ok(row) => {
+            let then = match &row.then {
+                Ok(step) => format!("ended after step {step}"),
+                Err(said) => format!("stopped: {said}"),
+            };
+            let ([cfl, smaller], name, said) = (row.cfl, &row.name, &row.said);
+            let (checkpoint, unstable, files) = (row.checkpoint, row.unstable, row.files);
+            format!(
+                "| {name} | {cfl} | {checkpoint} | {unstable} | {files} | {said} | {smaller} | {then} |"
+            )
+        }
+        Err(said) => format!("| BROKEN: {said} | | | | | | | |"),
+    };
+    let heads =
+        "| run | CFL | checkpoint after step | last step | files left | said | then CFL | and it |";
+    format!("{SECTION}{}", table(heads, rows.iter().map(line)))
 }
 
 const SECTION: &str = "
@@ -256,6 +255,4 @@ checkpoint at a smaller Courant number, which is the one key of a case that may 
 Checked: the checkpoint is left as it was; every particle file left is whole, and no number in them or
 in the history is a NaN or infinite.
 
-| run | CFL | checkpoint after step | last step | files left | said | then CFL | and it |
-|---|---|---|---|---|---|---|---|
 ";

@@ -103,37 +103,28 @@ fn liquids(plan: &mut Plan) {
 
 /// Laws of which the slow and the fast liquid of one scene differ by up to nine decades of viscosity.
 fn contrasts(plan: &mut Plan) {
-    let law = |key: &str| Viscosity::Law(key.into());
-    for (name, viscosity) in [
+    let laws = [
         (
             "Carreau-Yasuda, 1e6 to 1e-3 Pa s",
-            law(
-                "carreau_yasuda = { zero_rate = \"1e6 Pa s\", infinite_rate = \"1e-3 Pa s\", time = \"1e3 s\", index = 0.1 }",
-            ),
+            "carreau_yasuda = { zero_rate = \"1e6 Pa s\", infinite_rate = \"1e-3 Pa s\", time = \"1e3 s\", index = 0.1 }",
         ),
         (
             "Cross, 1e6 to 1e-3 Pa s",
-            law(
-                "cross = { zero_rate = \"1e6 Pa s\", infinite_rate = \"1e-3 Pa s\", time = \"1e3 s\", exponent = 1.0 }",
-            ),
+            "cross = { zero_rate = \"1e6 Pa s\", infinite_rate = \"1e-3 Pa s\", time = \"1e3 s\", exponent = 1.0 }",
         ),
         (
             "Herschel-Bulkley, 1e6 Pa s at rest, 1e-3 Pa s",
-            law(
-                "herschel_bulkley = { yield_stress = \"1e4 Pa\", consistency = \"1e-3 Pa s^n\", index = 1.0, regularisation_rate = \"0.01 1/s\" }",
-            ),
+            "herschel_bulkley = { yield_stress = \"1e4 Pa\", consistency = \"1e-3 Pa s^n\", index = 1.0, regularisation_rate = \"0.01 1/s\" }",
         ),
         (
             "power law, n = 0.1, 1e6 to 1e-3 Pa s",
-            law(
-                "power_law = { consistency = \"1e4 Pa s^n\", index = 0.1, rates = [\"6e-3 1/s\", \"6e7 1/s\"] }",
-            ),
+            "power_law = { consistency = \"1e4 Pa s^n\", index = 0.1, rates = [\"6e-3 1/s\", \"6e7 1/s\"] }",
         ),
-        (
-            "table, 1e6 to 1e-3 Pa s, stress falls",
-            Viscosity::Table(vec![[1e-2, 1e6], [1e6, 1e-3]]),
-        ),
-    ] {
+    ];
+    let laws = laws.map(|(name, key)| (name, Viscosity::Law(key.into())));
+    let table = Viscosity::Table(vec![[1e-2, 1e6], [1e6, 1e-3]]);
+    let table = ("table, 1e6 to 1e-3 Pa s, stress falls", table);
+    for (name, viscosity) in laws.into_iter().chain([table]) {
         let scene = press(Press::default()).of(viscosity, PF[1]);
         plan.add("contrast", name, scene, &[Method::implicit()]);
     }

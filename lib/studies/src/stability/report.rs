@@ -1,11 +1,9 @@
 //! `stability.csv` and `stability.md`.
 
-use std::fmt::Write;
-
 use super::trial::{Row, Verdict};
 use crate::Result;
 use crate::method::Scheme;
-use crate::study::{Study, distinct};
+use crate::study::{Study, distinct, table};
 
 impl Verdict {
     fn word(&self) -> &'static str {
@@ -94,75 +92,63 @@ fn page(rows: &[Row], head: &str) -> String {
 /// How many runs ended how, for each quantity varied.
 fn summary(out: &mut String, rows: &[Row]) {
     let words = ["stable", "noisy", "refused", "stopped", "BROKEN"];
-    let _ = writeln!(
-        out,
-        "## In short\n\n| varied | {} |\n|---|---|---|---|---|---|",
-        words.join(" | ")
-    );
     let line = |name: &str, of: &dyn Fn(&Row) -> bool| {
         let own: Vec<&Row> = rows.iter().filter(|row| of(row)).collect();
         let count = |word| own.iter().filter(|row| row.verdict.word() == word).count();
         let counts = words.map(|word| count(word).to_string());
-        format!("| {name} | {} |\n", counts.join(" | "))
+        format!("| {name} | {} |", counts.join(" | "))
     };
-    for varied in distinct(rows.iter().map(|row| row.trial.varied)) {
-        out.push_str(&line(varied, &|row| row.trial.varied == varied));
-    }
-    for scheme in [Scheme::Explicit, Scheme::Implicit] {
+    let varied = distinct(rows.iter().map(|row| row.trial.varied)).into_iter();
+    let varied = varied.map(|varied| line(varied, &|row| row.trial.varied == varied));
+    let schemes = Scheme::ALL.map(|scheme| {
         let name = format!("**all {}**", scheme.name());
-        out.push_str(&line(&name, &|row| row.trial.method.scheme == scheme));
-    }
+        line(&name, &|row| row.trial.method.scheme == scheme)
+    });
+    let heads = format!("| varied | {} |", words.join(" | "));
+    *out += "## In short\n\n";
+    *out += &table(&heads, varied.chain(schemes));
 }
 
 /// A row for each value at which methods ended in the same word, but for the stable ones.
 fn not_stable(out: &mut String, rows: &[Row]) {
-    out.push_str("\n## Not stable\n\n| varied | value | ended | methods | said by the first |\n|---|---|---|---|---|\n");
     let unstable = rows.iter().filter(|row| row.verdict != Verdict::Stable);
     let rows: Vec<&Row> = unstable.collect();
     let kind = |row: &Row| {
         let (varied, value) = (row.trial.varied, row.trial.value.clone());
         (varied, value, row.verdict.word())
     };
-    for of in distinct(rows.iter().map(|row| kind(row))) {
+    let line = |of: (&str, String, &str)| {
         let same: Vec<&&Row> = rows.iter().filter(|row| kind(row) == of).collect();
-        let methods: Vec<&str> = (same.iter())
-            .map(|row| row.trial.method.label.as_str())
-            .collect();
-        let (methods, sentence) = (methods.join(", "), same[0].verdict.sentence());
-        let (varied, value, ended) = of;
-        let _ = writeln!(
-            out,
-            "| {varied} | {value} | {ended} | {methods} | {sentence} |"
-        );
-    }
+        let methods = same.iter().map(|row| row.trial.method.label.as_str());
+        let methods = methods.collect::<Vec<_>>().join(", ");
+        let ((varied, value, ended), sentence) = (of, same[0].verdict.sentence());
+        format!("| {varied} | {value} | {ended} | {methods} | {sentence} |")
+    };
+    let kinds = distinct(rows.iter().map(|row| kind(row)));
+    let heads = "| varied | value | ended | methods | said by the first |";
+    *out += "\n## Not stable\n\n";
+    *out += &table(heads, kinds.into_iter().map(line));
 }
 
 /// How far the clamp of a press closes where the pressure limit holds it back.
 fn closing(out: &mut String, rows: &[Row]) {
     let methods = ["FLIP", "XPIC(5)", "APIC", "APIC, cell mean", "implicit"];
-    let names = methods.join(" | ");
-    let _ = writeln!(
-        out,
-        "{CLOSING}| press | {names} |\n|---|---|---|---|---|---|"
-    );
     let press = |row: &Row| (row.trial.varied, row.trial.value.clone());
-    let rows = rows
-        .iter()
-        .filter(|row| LOCKING.contains(&row.trial.varied));
-    let rows: Vec<&Row> = rows.collect();
-    for of in distinct(rows.iter().map(|row| press(row))) {
+    let locking = |row: &&Row| LOCKING.contains(&row.trial.varied);
+    let rows: Vec<&Row> = rows.iter().filter(locking).collect();
+    let line = |of: (&str, String)| {
         let travel = |label| {
             let own = |row: &&&Row| press(row) == of && row.trial.method.label == label;
             let found = rows.iter().find(own);
             found.map_or(String::new(), |row| format!("{:.3}", row.travel))
         };
-        let (varied, value) = &of;
-        let _ = writeln!(
-            out,
-            "| {varied} {value} | {} |",
-            methods.map(travel).join(" | ")
-        );
-    }
+        let (travels, (varied, value)) = (methods.map(travel).join(" | "), &of);
+        format!("| {varied} {value} | {travels} |")
+    };
+    let presses = distinct(rows.iter().map(|row| press(row)));
+    let heads = format!("| press | {} |", methods.join(" | "));
+    *out += CLOSING;
+    *out += &table(&heads, presses.into_iter().map(line));
 }
 
 /// What is varied where the explicit scheme locks.

@@ -7,8 +7,8 @@ use super::scenes::{Balance, Scene};
 use crate::Result;
 use crate::case_text::{PF, Viscosity};
 use crate::method::{Method, Scheme};
-use crate::numbers::{largest, mean};
-use crate::outputs::Run;
+use crate::numbers::{largest, mean, range};
+use crate::outputs::{Point, Run};
 use crate::study::{said, write};
 
 /// Tait constant of paper Eq. 1.
@@ -24,13 +24,9 @@ const NOISY: f64 = 10.0;
 pub(super) struct Trial {
     /// What is varied, e.g. "viscosity".
     pub(super) varied: &'static str,
-    /// Its value.
     pub(super) value: String,
-    /// The scene.
     pub(super) scene: Scene,
-    /// The method.
     pub(super) method: Method,
-    /// Courant number.
     pub(super) cfl: f64,
 }
 
@@ -52,7 +48,6 @@ pub(super) enum Verdict {
 /// A row of the table.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
-    /// The trial.
     pub(super) trial: Trial,
     /// How it ended.
     pub(super) verdict: Verdict,
@@ -60,7 +55,6 @@ pub(super) struct Row {
     pub(super) part: f64,
     /// Steps and CPU seconds; NaN if it did not end.
     pub(super) steps: f64,
-    /// CPU seconds.
     pub(super) cpu_s: f64,
     /// Largest kinetic energy over that of the scene's own motion.
     pub(super) energy: f64,
@@ -210,13 +204,10 @@ fn balance(run: &Run, scene: &Scene) -> Result<f64> {
 /// Smallest and largest J of the final state, from the pressures by Eq. 1.
 fn volume_ratios(run: &Run, scene: &Scene) -> Result<[f64; 2]> {
     let scale = TAIT_C * scene.case.bulk_modulus;
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for p in run.points()? {
-        if !p.pressure.is_finite() {
-            return Err("its final state has a pressure that is not a number".into());
-        }
-        let j = 1.0 - TAIT_C * (p.pressure / scale).ln_1p();
-        (low, high) = (low.min(j), high.max(j));
+    let points = run.points()?;
+    if points.iter().any(|p| !p.pressure.is_finite()) {
+        return Err("its final state has a pressure that is not a number".into());
     }
-    Ok([low, high])
+    let ratio = |p: &Point| 1.0 - TAIT_C * (p.pressure / scale).ln_1p();
+    Ok(range(points.iter().map(ratio)))
 }

@@ -34,13 +34,9 @@ pub(super) fn rows(settings: &[Setting], folder: &Path) -> Result<Vec<Row>> {
     let bond = specimen(folder)?;
     let implicit = Method::implicit();
     let reference = close(&bond, &implicit, FINEST, &folder.join("reference"))?;
-    let Closed {
-        pressure,
-        wp,
-        cpu_s,
-    } = reference;
     println!(
-        "bond line, implicit, cells of {FINEST} um: {pressure:.4e} Pa, WP {wp:.4} um, {cpu_s:.0} s"
+        "bond line, implicit, cells of {FINEST} um: {:.4e} Pa, WP {:.4} um, {:.0} s",
+        reference.pressure, reference.wp, reference.cpu_s
     );
     let chosen: Vec<&Setting> = settings.iter().filter(|s| s.bond).collect();
     let rows: Vec<[Row; 2]> = side_by_side(&chosen, |&setting| {
@@ -84,21 +80,18 @@ fn specimen(folder: &Path) -> Result<PathBuf> {
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let [stack, whole, bond] =
         ["specimen.tif", "specimen.mpts", "bond.mpts"].map(|name| folder.join(name));
-    let making = |name| {
-        let mut tool = tool(name);
-        tool.arg("--quiet");
-        tool
-    };
-    let mut synth = making("synth-xct");
-    printed(
-        synth
-            .args(["--adhesive", "pf"])
-            .args(SPECIMEN)
-            .arg("-o")
-            .arg(&stack),
-    )?;
-    printed(making("xct2particles").arg(&stack).arg("-o").arg(&whole))?;
-    printed(making("build-bondline").arg(&whole).arg("-o").arg(&bond))?;
+    let mut synth = tool("synth-xct");
+    synth.args(["--adhesive", "pf"]).args(SPECIMEN);
+    let (mut reader, mut build) = (tool("xct2particles"), tool("build-bondline"));
+    reader.arg(&stack);
+    build.arg(&whole);
+    for (tool, to) in [
+        (&mut synth, &stack),
+        (&mut reader, &whole),
+        (&mut build, &bond),
+    ] {
+        printed(tool.args(["--quiet", "-o"]).arg(to))?;
+    }
     Ok(bond)
 }
 

@@ -8,7 +8,7 @@ use figures::{Mark, Plot};
 use super::{Flow, Row};
 use crate::Result;
 use crate::method::{Method, Scheme};
-use crate::study::{PAGE, Study};
+use crate::study::{PAGE, Study, table};
 use crate::verification::report::percent;
 
 /// Where `mpm-run --explain` finds what it quotes.
@@ -94,11 +94,7 @@ fn page(rows: &[Row], head: &str) -> String {
 
 /// For each accuracy the cheapest setting of the flows that count, from the rows themselves.
 fn advice(out: &mut String, rows: &[Row]) {
-    out.push_str(
-        "## Which settings for which accuracy\n\nThe cheapest setting measured that reaches an \
-         error, and the cheapest explicit one:\n\n| flow | error | cheapest | CPU (s) | cheapest \
-         explicit | CPU (s) |\n|---|---|---|---|---|---|\n",
-    );
+    let mut lines = Vec::new();
     for flow in [Flow::Slit, Flow::Channel, Flow::BondPressure, Flow::BondWp] {
         for goal in [0.3, 0.1, 0.05, 0.02] {
             let cheapest = |explicit: bool| {
@@ -113,11 +109,16 @@ fn advice(out: &mut String, rows: &[Row]) {
             };
             let (flow, percent) = (flow.name(), 100.0 * goal);
             let (any, explicit) = (cheapest(false), cheapest(true));
-            let _ = writeln!(out, "| {flow} | {percent:.0} % | {any} | {explicit} |");
+            lines.push(format!("| {flow} | {percent:.0} % | {any} | {explicit} |"));
         }
     }
-    out.push('\n');
-    out.push_str(ADVICE);
+    let heads = "| flow | error | cheapest | CPU (s) | cheapest explicit | CPU (s) |";
+    let _ = writeln!(
+        out,
+        "## Which settings for which accuracy\n\nThe cheapest setting measured that reaches an \
+         error, and the cheapest explicit one:\n\n{}\n{ADVICE}",
+        table(heads, lines)
+    );
 }
 
 /// What the tables say, in words.
@@ -138,28 +139,22 @@ const ADVICE: &str = "\
   the same; the bond line within 0.5 % and the slit within 3 % of the error, because rounding grows until points take other
   places. It costs 1.2 to 1.9 times the CPU time. What f32 does leave is a drift of liquid that moves with its walls, without
   friction up to 2e-5 of the speed in twelve thousand steps (1e-16 in double precision).
-
 ";
 
 /// The settings that nothing cheaper matches on some flow, and those as a case has them by default.
 fn front(out: &mut String, rows: &[Row]) {
-    let (names, rule) = (
-        Flow::ALL.map(Flow::name).join(" | "),
-        "---|".repeat(Flow::ALL.len()),
-    );
-    let _ = writeln!(
-        out,
-        "## Settings on the front, and plain ones\n\nError, CPU seconds.\n\n| setting | {names} |\n|---|{rule}"
-    );
-    for row in rows.iter().filter(|r| r.flow == Flow::Slit) {
+    let line = |row: &Row| {
         let label = &row.setting.method.label;
         let own = || rows.iter().filter(|r| r.setting.method.label == *label);
-        if row.setting.varied == "update" || own().any(|r| r.pareto) {
-            let of = |flow| own().find(|r| r.flow == flow);
-            let cells = Flow::ALL.map(|flow| of(flow).map_or(String::new(), cell));
-            let _ = writeln!(out, "| {label} | {} |", cells.join(" | "));
-        }
-    }
+        let shown = row.setting.varied == "update" || own().any(|r| r.pareto);
+        let of = |flow| own().find(|r| r.flow == flow);
+        let cells = Flow::ALL.map(|flow| of(flow).map_or(String::new(), cell));
+        shown.then(|| format!("| {label} | {} |", cells.join(" | ")))
+    };
+    let heads = format!("| setting | {} |", Flow::ALL.map(Flow::name).join(" | "));
+    *out += "## Settings on the front, and plain ones\n\nError, CPU seconds.\n\n";
+    let slits = rows.iter().filter(|r| r.flow == Flow::Slit);
+    *out += &table(&heads, slits.filter_map(line));
 }
 
 fn failed(out: &mut String, rows: &[Row]) {

@@ -102,7 +102,7 @@ fn channels(list: &mut Vec<Entry>) {
         if n == 6 {
             methods.extend(paper());
         }
-        list.push((channel::table_scene(n, 0.0, 0.4e-6), methods));
+        list.push((laws::scene(laws::TABLE, n, 0.0, 0.4e-6), methods));
     }
     for law in laws::LAWS {
         for (n, offset) in [(3, 0.0), (6, 0.0), (12, 0.0), (12, 0.5)] {
@@ -170,7 +170,7 @@ fn filling(list: &mut Vec<Entry>) {
             add(piston::scene(section, n, Drive::Pressure(1e6)));
         }
     }
-    for growth in [cure::Growth::Gel, cure::Growth::Table] {
+    for growth in [cure::GEL, cure::TABLE] {
         for n in [3, 6] {
             add(cure::slit_scene(n, growth));
             add(cure::tube_scene(n, growth));

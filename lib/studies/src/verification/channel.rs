@@ -2,8 +2,8 @@
 //! periodic channel.
 
 use super::{LUMEN, Scene, mean_against, pressing};
-use crate::case_text::{Body, CaseText, PF, STICK, Viscosity, partial_slip};
-use crate::closed_forms::{channel, channel_of};
+use crate::case_text::{Body, CaseText, PF, STICK, partial_slip};
+use crate::closed_forms::channel;
 
 /// Body force per mass, m/s2: a mean velocity near 0.02 m/s.
 const G: f64 = 2.3e5;
@@ -40,36 +40,6 @@ pub fn scene(n: u32, offset: f64, slip: Option<f64>, until: f64) -> Scene {
     Scene::new(name, "plane Poiseuille", case, move |run| {
         let slip = slip.unwrap_or(0.0) * LUMEN;
         let exact = |y: f64| channel(y, LUMEN, slip, G, PF[0], PF[2]);
-        Ok(vec![mean_against(run, low, exact)?])
-    })
-}
-
-/// Shear rate (1/s) and viscosity (Pa s) of a liquid that thins: its stress grows with the rate
-/// everywhere, so that the profile is one.
-const THINNING: [[f64; 2]; 2] = [[1e2, 20.0], [1e5, 5.0]];
-
-/// Body force per mass in [`table_scene`], m/s2: shear rates up to 3e4 1/s at the walls.
-const STRONG: f64 = 2.2e7;
-
-/// A channel of `n` cells with a viscosity table, linear in the logarithm of the shear rate.
-pub fn table_scene(n: u32, offset: f64, until: f64) -> Scene {
-    let case = CaseText {
-        title: format!(
-            "Channel of {n} cells, viscosity table, walls {offset} cell off the nodes.\nAgainst quadrature of the profile."
-        ),
-        viscosity: Viscosity::Table(THINNING.to_vec()),
-        gravity: [STRONG, 0.0, 0.0],
-        ..scene(n, offset, None, until).case
-    };
-    let low = case.bodies[0].max[1];
-    let name = format!("table-n{n}-off{offset}");
-    Scene::new(name, "quadrature of the profile", case, move |run| {
-        let [[slow, thick], [fast, thin]] = THINNING;
-        let eta = |rate: f64| {
-            let share = (rate / slow).log10() / (fast / slow).log10();
-            thick + (thin - thick) * share.clamp(0.0, 1.0)
-        };
-        let exact = channel_of(eta, 1e6, LUMEN, STRONG, PF[0]);
         Ok(vec![mean_against(run, low, exact)?])
     })
 }

@@ -1,6 +1,7 @@
 //! Load control: a squeeze film whose force runs into the pressure limit, held there, then
 //! closed to the end.
 
+use super::squeeze::plates;
 use super::{Measured, Scene};
 use crate::case_text::{Body, CaseText};
 use crate::numbers::largest;
@@ -24,13 +25,13 @@ pub fn scene(travel: f64) -> Scene {
             "closing_speed = \"{SPEED} m/s\"\nmax_pressure = \"{limit} Pa\"\nstop = \"closed\"\ntravel = \"{:.6} um\"\n",
             travel * CELL * 1e6
         )),
-        bodies: vec![
-            Body::wall([0.0; 3], [right, low, CELL]).named("bottom"),
-            Body::wall([0.0, low + gap, 0.0], [right, top + 8.0 * CELL, CELL])
-                .clamped()
-                .named("top"),
-            Body::liquid([0.0, low, 0.0], [half, low + gap, CELL]),
-        ],
+        bodies: plates(
+            [right, CELL],
+            [low, low + gap, top + 8.0 * CELL],
+            Body::clamped,
+        )
+        .chain([Body::liquid([0.0, low, 0.0], [half, low + gap, CELL])])
+        .collect(),
         history_every: 0.02e-6,
         ..CaseText::plane(CELL, [right, top])
     };
@@ -44,10 +45,8 @@ pub fn scene(travel: f64) -> Scene {
         if let Some(met) = pressure.iter().position(|&p| p >= 0.98 * limit) {
             let held = &pressure[(met + 100).min(pressure.len() - 1)..];
             let worst = largest(held.iter().map(|p| (p / limit - 1.0).abs()));
-            list.push(Measured::absolute(
-                "worst error of the pressure held",
-                worst,
-            ));
+            let what = "worst error of the pressure held";
+            list.push(Measured::absolute(what, worst));
         }
         let wrong = largest(speed.iter().map(|v| (-v).max(v - SPEED)));
         list.push(Measured::absolute("speed outside 0 to 1 m/s", wrong));

@@ -1,7 +1,7 @@
 //! Couette flow with partial slip: the speed of the liquid at the walls.
 
-use super::{LUMEN, Measured, Scene, pressing};
-use crate::case_text::{Body, CaseText, PF, partial_slip};
+use super::{LUMEN, Measured, Scene, channel};
+use crate::case_text::{CaseText, PF};
 use crate::closed_forms::couette_slip;
 use crate::numbers::line_at_zero;
 
@@ -9,28 +9,18 @@ const SPEED: f64 = 0.5;
 
 /// A gap of `n` cells, lower wall `offset` cells off the nodes, influence length `slip` widths.
 pub fn scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
-    let cell = LUMEN / f64::from(n);
-    let (width, low) = (4.0 * cell, (2.0 + offset) * cell);
-    let high = low + LUMEN;
-    let top = (f64::from(n) + 5.0) * cell;
-    let case = CaseText {
+    let mut case = CaseText {
         title: format!(
             "Couette flow with partial slip, gap of {n} cells, walls {offset} cell off the nodes.\nAgainst v l/(H + 2 l) at the resting wall."
         ),
-        contact: partial_slip(&format!("{} um", slip * LUMEN * 1e6)),
-        boundary: ["periodic", "symmetry", "symmetry"],
-        stop: Some(until),
-        bodies: vec![
-            Body::wall([0.0; 3], [width, low, cell]).named("bottom"),
-            Body::wall([-1e-3, high, 0.0], [1e-3, top + cell, cell])
-                .moving([SPEED, 0.0, 0.0])
-                .pressing(pressing(until))
-                .named("top"),
-            Body::liquid([0.0, low, 0.0], [width, high, cell]),
-        ],
-        history_every: until / 20.0,
-        ..CaseText::plane(cell, [width, top])
+        gravity: [0.0; 3],
+        ..channel::scene(n, offset, Some(slip), until).case
     };
+    let (low, area) = (case.bodies[0].max[1], case.size[0] * case.cell);
+    case.bodies[0] = case.bodies[0].clone().named("bottom");
+    let upper = &mut case.bodies[1];
+    (upper.min[0], upper.max[0]) = (-1e-3, 1e-3);
+    *upper = upper.clone().moving([SPEED, 0.0, 0.0]);
     let name = format!("couette-n{n}-off{offset}-slip{slip}");
     Scene::new(name, "Couette with Navier slip", case, move |run| {
         // Least-squares line through the middle half, read off at the resting wall: the
@@ -45,16 +35,14 @@ pub fn scene(n: u32, offset: f64, slip: f64, until: f64) -> Scene {
         let [power] = run.ends(["viscous_power_W"])?;
         let mut list = Vec::new();
         // Three cells may have one row of points there.
-        if points
-            .iter()
-            .any(|(y, _)| (y - points[0].0).abs() > 0.01 * LUMEN)
-        {
+        let apart = |(y, _): &(f64, f64)| (y - points[0].0).abs() > 0.01 * LUMEN;
+        if points.iter().any(apart) {
             let found = line_at_zero(&points);
             list.push(Measured::relative("slip velocity", found, exact));
         }
         list.push(Measured::relative(
             "stress, from the power dissipated",
-            power / (SPEED * width * cell),
+            power / (SPEED * area),
             PF[2] * exact / (slip * LUMEN),
         ));
         Ok(list)

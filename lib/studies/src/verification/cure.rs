@@ -12,60 +12,42 @@ const PRESSURE: f64 = 1e3;
 /// Growth of the viscosity at which a run counts as set.
 const SET: f64 = 1e6;
 
-/// How the viscosity grows.
+/// How the viscosity grows by a law with one time, s: t_gel, or that of the last point.
 #[derive(Clone, Copy, Debug)]
-pub enum Growth {
-    /// (1 - t/t_gel)^-2.
-    Gel,
-    /// Exponentially, by a table of two points, to [`SET`].
-    Table,
-}
-
-impl Growth {
-    fn name(self) -> &'static str {
-        match self {
-            Growth::Gel => "gel",
-            Growth::Table => "table",
-        }
-    }
-
-    /// Time (s) of the law, t_gel or that of the last point, for an integral of 1/factor of `whole` (s).
-    fn time(self, whole: f64) -> f64 {
-        match self {
-            Growth::Gel => 3.0 * whole,
-            Growth::Table => SET.ln() * whole,
-        }
-    }
-
-    /// Integral of 1/factor up to a time, s.
-    fn fluidity(self, time: f64, until: f64) -> f64 {
-        match self {
-            Growth::Gel => time / 3.0 * (1.0 - (1.0 - until / time).powi(3)),
-            Growth::Table => time / SET.ln() * (1.0 - SET.powf(-until / time)),
-        }
-    }
-
+pub struct Growth {
+    name: &'static str,
+    /// The time for an integral of 1/factor of so much, s.
+    time: fn(f64) -> f64,
+    /// Integral of 1/factor by that time up to another, s.
+    fluidity: fn(f64, f64) -> f64,
     /// When the viscosity has grown to [`SET`] times that at the start, s.
-    fn set(self, time: f64) -> f64 {
-        match self {
-            Growth::Gel => time * (1.0 - SET.powf(-0.5)),
-            Growth::Table => time,
-        }
-    }
-
-    fn keys(self, time: f64) -> String {
-        match self {
-            Growth::Gel => format!("gel_time = \"{time} s\"\nexponent = 2.0\n"),
-            Growth::Table => format!("factor = [[\"0 s\", 1.0], [\"{time} s\", {SET:e}]]\n"),
-        }
-    }
+    set: fn(f64) -> f64,
+    keys: fn(f64) -> String,
 }
+
+/// (1 - t/t_gel)^-2.
+pub const GEL: Growth = Growth {
+    name: "gel",
+    time: |whole| 3.0 * whole,
+    fluidity: |time, until| time / 3.0 * (1.0 - (1.0 - until / time).powi(3)),
+    set: |time| time * (1.0 - SET.powf(-0.5)),
+    keys: |time| format!("gel_time = \"{time} s\"\nexponent = 2.0\n"),
+};
+
+/// Exponentially, by a table of two points, to [`SET`].
+pub const TABLE: Growth = Growth {
+    name: "table",
+    time: |whole| SET.ln() * whole,
+    fluidity: |time, until| time / SET.ln() * (1.0 - SET.powf(-until / time)),
+    set: |time| time,
+    keys: |time| format!("factor = [[\"0 s\", 1.0], [\"{time} s\", {SET:e}]]\n"),
+};
 
 /// A slit of `n` cells that fills to 4.5 of its widths.
 pub fn slit_scene(n: u32, growth: Growth) -> Scene {
     let h = LUMEN / f64::from(n);
     let filling = Filling {
-        name: format!("cure-slit-n{n}-{}", growth.name()),
+        name: format!("cure-slit-n{n}-{}", growth.name),
         growth,
         limit: PRESSURE * 4.0 * LUMEN / slit::domain(h),
         unit: 12.0 * PF[2] / PRESSURE,
@@ -81,7 +63,7 @@ pub fn tube_scene(n: u32, growth: Growth) -> Scene {
     let section = Section::Round(2);
     let right = LUMEN + 2.0 * LUMEN / f64::from(n);
     let filling = Filling {
-        name: format!("cure-tube-n{n}-{}", growth.name()),
+        name: format!("cure-tube-n{n}-{}", growth.name),
         growth,
         limit: PRESSURE * (LUMEN / right).powi(2),
         unit: section.staircase_resistance(n) * PF[2] / PRESSURE,
@@ -112,13 +94,11 @@ impl Filling {
     /// The scene of `filling` without cure, with cure.
     fn of(self, filling: Scene) -> Scene {
         let whole = self.unit * (0.5 * self.goal * self.goal + self.entrance * self.goal);
-        let time = self.growth.time(whole);
-        let set = self.growth.set(time);
+        let time = (self.growth.time)(whole);
+        let set = (self.growth.set)(time);
         let mut case = filling.case;
-        let (law, travel) = (
-            self.growth.name(),
-            1.2 * self.goal * self.travel * LUMEN * 1e6,
-        );
+        let travel = 1.2 * self.goal * self.travel * LUMEN * 1e6;
+        let law = self.growth.name;
         case.title = format!(
             "Filling at constant pressure with an adhesive that cures ({law}).\nAgainst Washburn's law with the integral of P/eta dt."
         );
@@ -127,14 +107,14 @@ impl Filling {
             self.limit,
             10.0 * time,
         ));
-        case.cure = Some(self.growth.keys(time));
+        case.cure = Some((self.growth.keys)(time));
         case.history_every = set / 400.0;
         let name = self.name.clone();
         Scene::new(name, "Washburn with cure", case, move |run| {
             let [times, travel] = run.columns(["time_s", "displacement_m"])?;
             let [end, came] = run.ends(["time_s", "displacement_m"])?;
             let filled = |s: f64| s / (self.travel * LUMEN);
-            let done = |t: f64| self.growth.fluidity(time, t) / self.unit;
+            let done = |t: f64| (self.growth.fluidity)(time, t) / self.unit;
             let exact = |from: f64, since: f64, t: f64| {
                 let start = from + self.entrance;
                 (start * start + 2.0 * (done(t) - since)).sqrt() - self.entrance

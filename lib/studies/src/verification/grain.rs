@@ -2,8 +2,9 @@
 
 use voxels::{Stack, WOOD};
 
-use super::{Measured, Scene, mean_velocity};
-use crate::case_text::{CaseText, PF};
+use super::spheres::{driven, permeability};
+use super::{Measured, Scene};
+use crate::case_text::CaseText;
 use crate::voxels::Voxels;
 
 /// The cube of the stack below whose void and adhesive the liquid fills: voxels along an edge, first row and first
@@ -32,22 +33,15 @@ pub fn scene(n: u32) -> Scene {
     let voxels = Voxels::new(VOXEL / split as f64, [EDGE * split; 3], wood);
     let (porosity, edge) = (voxels.porosity(), EDGE as f64 * VOXEL);
     let darcy = PERMEABILITY * VOXEL.powi(2);
-    let [rho, modulus, eta] = PF;
-    let until = 12.0 * (rho * darcy / eta + eta / modulus * edge.powi(2) / (10.0 * darcy));
-    // The liquid moves by a tenth of a cell: the points stay where they fill the voids evenly.
-    let g = 0.1 * edge / f64::from(n) / until * eta * porosity / (rho * darcy);
     let case = CaseText {
         title: "Flow along the grain through 48 x 48 x 48 voxels of the acer stack. Against the same voxels by lattice Boltzmann, refined.".into(),
-        gravity: [g, 0.0, 0.0],
         boundary: ["periodic"; 3],
-        stop: Some(until),
-        voxels: Some(voxels),
-        history_every: until / 20.0,
-        ..CaseText::new(edge / f64::from(n), 3, [edge; 3])
+        ..driven(voxels, edge / f64::from(n), [edge; 3], darcy)
     };
+    let g = case.gravity[0];
     let name = format!("grain-n{n}");
     Scene::new(name, "lattice Boltzmann", case, move |run| {
-        let found = porosity * mean_velocity(run, rho * g)? * eta / (rho * g);
+        let found = permeability(run, porosity, g)?;
         Ok(vec![Measured::relative("permeability", found, darcy)])
     })
 }

@@ -1,4 +1,4 @@
-//! Viscosity laws by formula in a channel, against quadrature of the profile.
+//! Viscosity laws and a table in a channel, against quadrature of the profile.
 
 use super::{LUMEN, Measured, Scene, channel, mean_against};
 use crate::Result;
@@ -9,7 +9,7 @@ use crate::outputs::Run;
 /// A law with its own formula, not the code's.
 #[derive(Clone, Copy, Debug)]
 pub struct Law {
-    /// Word in names.
+    /// Beginning of names.
     pub name: &'static str,
     /// Its key and value in a case file.
     key: &'static str,
@@ -17,49 +17,65 @@ pub struct Law {
     eta: fn(f64) -> f64,
     /// Stress below which it does not flow, Pa.
     yields: f64,
+    /// Body force per mass, m/s2: shear rates up to 3e4 1/s at the walls.
+    force: f64,
+    /// Above all shear rates, 1/s.
+    fastest: f64,
     /// Fewest cells: of a profile that is flat but for a thin layer, 3 show nothing, and passes do not settle.
     pub(crate) coarsest: u32,
 }
 
-/// Body force per mass, m/s2: shear rates up to 3e4 1/s at the walls.
-const FORCE: f64 = 8e6;
+/// A table, linear in the logarithm of the shear rate: the stress grows with the rate everywhere, so that the profile is one.
+pub const TABLE: Law = Law {
+    name: "table",
+    key: "viscosity_table = [\n  [\"100 1/s\", \"20 Pa s\"],\n  [\"100000 1/s\", \"5 Pa s\"],\n]",
+    eta: |rate| 20.0 - 15.0 * ((rate / 1e2).log10() / 3.0).clamp(0.0, 1.0),
+    yields: 0.0,
+    force: 2.2e7,
+    fastest: 1e6,
+    coarsest: 3,
+};
 
-/// The laws, thinning tenfold and more over the channel.
+const FORMULA: Law = Law {
+    force: 8e6,
+    fastest: 1e7,
+    ..TABLE
+};
+
+/// The laws by formula, thinning tenfold and more over the channel.
 pub const LAWS: [Law; 5] = [
     Law {
-        name: "power0.5",
+        name: "law-power0.5",
         key: "power_law = { consistency = \"500 Pa s^n\", index = 0.5, rates = [\"1 1/s\", \"1e6 1/s\"] }",
         eta: |rate| 500.0 * rate.powf(-0.5),
-        yields: 0.0,
-        coarsest: 3,
+        ..FORMULA
     },
     Law {
-        name: "power0.3",
+        name: "law-power0.3",
         key: "power_law = { consistency = \"3000 Pa s^n\", index = 0.3, rates = [\"1 1/s\", \"1e6 1/s\"] }",
         eta: |rate| 3000.0 * rate.powf(-0.7),
-        yields: 0.0,
         coarsest: 6,
+        ..FORMULA
     },
     Law {
-        name: "cross",
+        name: "law-cross",
         key: "cross = { zero_rate = \"50 Pa s\", infinite_rate = \"0.5 Pa s\", time = \"1 ms\", exponent = 0.8 }",
         eta: |rate| 0.5 + 49.5 / (1.0 + (1e-3 * rate).powf(0.8)),
-        yields: 0.0,
-        coarsest: 3,
+        ..FORMULA
     },
     Law {
-        name: "carreau",
+        name: "law-carreau",
         key: "carreau_yasuda = { zero_rate = \"50 Pa s\", infinite_rate = \"0.5 Pa s\", time = \"1 ms\", index = 0.4 }",
         eta: |rate| 0.5 + 49.5 * (1.0 + (1e-3 * rate).powi(2)).powf(-0.3),
-        yields: 0.0,
-        coarsest: 3,
+        ..FORMULA
     },
     Law {
-        name: "herschel",
+        name: "law-herschel",
         key: "herschel_bulkley = { yield_stress = \"40000 Pa\", consistency = \"250 Pa s^n\", index = 0.5, regularisation_rate = \"3 1/s\" }",
         eta: |rate| 40e3 / rate + 250.0 * rate.powf(-0.5),
         yields: 40e3,
         coarsest: 6,
+        ..FORMULA
     },
 ];
 
@@ -72,17 +88,17 @@ pub fn scene(law: Law, n: u32, offset: f64, until: f64) -> Scene {
     let case = CaseText {
         title,
         viscosity: Viscosity::Law(law.key.into()),
-        gravity: [FORCE, 0.0, 0.0],
+        gravity: [law.force, 0.0, 0.0],
         ..channel::scene(n, offset, None, until).case
     };
     let low = case.bodies[0].max[1];
-    let name = format!("law-{}-n{n}-off{offset}", law.name);
+    let name = format!("{}-n{n}-off{offset}", law.name);
     Scene::new(name, "quadrature of the profile", case, move |run| {
-        let exact = channel_of(law.eta, 1e7, LUMEN, FORCE, PF[0]);
+        let exact = channel_of(law.eta, law.fastest, LUMEN, law.force, PF[0]);
         let mut list = vec![mean_against(run, low, exact)?];
         if law.yields > 0.0 {
             // Half the thickness of what does not yield.
-            let half = law.yields / (PF[0] * FORCE);
+            let half = law.yields / (PF[0] * law.force);
             list.push(plug(run, low, half, LUMEN / f64::from(n))?);
         }
         Ok(list)

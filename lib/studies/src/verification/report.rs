@@ -8,7 +8,7 @@ use super::{Measured, Scene};
 use crate::Result;
 use crate::job::Outcome;
 use crate::numbers::worst;
-use crate::study::{Study, distinct};
+use crate::study::{Study, distinct, table};
 
 /// Order of the methods in tables.
 const COLUMNS: [&str; 9] = [
@@ -98,28 +98,23 @@ fn page(head: &str, outcomes: &[Outcome]) -> String {
 
 /// Goals with the worst error found.
 fn goals(out: &mut String, outcomes: &[Outcome]) {
-    out.push_str(
-        "## Goals\n\n| case | method | quantity | goal | worst | |\n|---|---|---|---|---|---|\n",
-    );
-    for goal in GOALS {
-        let Some(worst) = worst_of(goal, outcomes) else {
-            continue;
-        };
+    let line = |goal: &Goal| {
+        let worst = worst_of(goal, outcomes)?;
         let reached = match goal.why {
             _ if worst.abs() <= goal.limit => "reached".into(),
             Some(why) => format!("**missed**: {why}"),
             None => "**missed**".into(),
         };
-        let (cases, limit, worst) = (goal.cases, percent(goal.limit), percent(worst));
-        let _ = writeln!(
-            out,
-            "| {cases} | {} | {} | {} | {worst} | {reached} |",
-            goal.method,
-            goal.quantity,
-            limit.trim_start_matches('+'),
-        );
-    }
-    out.push('\n');
+        let (limit, worst) = (percent(goal.limit), percent(worst));
+        let (cases, method, quantity) = (goal.cases, goal.method, goal.quantity);
+        let limit = limit.trim_start_matches('+');
+        Some(format!(
+            "| {cases} | {method} | {quantity} | {limit} | {worst} | {reached} |"
+        ))
+    };
+    let heads = "| case | method | quantity | goal | worst | |";
+    let lines = table(heads, GOALS.iter().filter_map(line));
+    let _ = writeln!(out, "## Goals\n\n{lines}");
 }
 
 fn worst_of(goal: &Goal, outcomes: &[Outcome]) -> Option<f64> {
@@ -135,14 +130,12 @@ fn worst_of(goal: &Goal, outcomes: &[Outcome]) -> Option<f64> {
 fn family_table(out: &mut String, outcomes: &[&Outcome], all_outcomes: &[Outcome]) {
     let mut methods = distinct(outcomes.iter().map(|o| o.method.label.as_str()));
     methods.sort_by_key(|label| COLUMNS.iter().position(|c| c == label));
-    let _ = writeln!(out, "| quantity | n | {} |", methods.join(" | "));
-    let _ = writeln!(out, "|---|---|{}", "---|".repeat(methods.len()));
     let all = outcomes.iter().flat_map(|o| {
         let (_, cells) = Scene::resolution(&o.scene);
         let whats = o.measured.iter().flatten().map(|m| m.what.as_str());
         whats.map(move |what| (what, cells))
     });
-    for (what, cells) in distinct(all) {
+    let line = |(what, cells)| {
         let cell = |label: &&str| {
             let own = outcomes.iter().filter(|o| o.method.label == **label);
             let errors = own.filter_map(|o| {
@@ -162,14 +155,18 @@ fn family_table(out: &mut String, outcomes: &[&Outcome], all_outcomes: &[Outcome
         };
         let row: Vec<String> = methods.iter().map(cell).collect();
         let n = cells.map_or(String::new(), |n| n.to_string());
-        let _ = writeln!(out, "| {what} | {n} | {} |", row.join(" | "));
-    }
-    for o in outcomes {
-        if let Err(said) = &o.measured {
-            let _ = writeln!(out, "| {}, {} failed: {said} |", o.scene, o.method.label);
-        }
-    }
-    out.push('\n');
+        format!("| {what} | {n} | {} |", row.join(" | "))
+    };
+    let failed = outcomes.iter().filter_map(|o| {
+        let said = o.measured.as_ref().err()?;
+        Some(format!(
+            "| {}, {} failed: {said} |",
+            o.scene, o.method.label
+        ))
+    });
+    let heads = format!("| quantity | n | {} |", methods.join(" | "));
+    let lines = distinct(all).into_iter().map(line).chain(failed);
+    let _ = writeln!(out, "{}", table(&heads, lines));
 }
 
 fn error(m: &Measured) -> String {

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use super::{Measured, Scene, mean_velocity};
 use crate::Result;
 use crate::case_text::{CaseText, PF};
+use crate::outputs::Run;
 use crate::voxels::Voxels;
 
 /// Period of the array, m.
@@ -33,33 +34,47 @@ pub(super) fn scene(n: u32, (fraction, drag): (f64, f64)) -> Scene {
     let voxels = quarter(n, fraction);
     let porosity = voxels.porosity();
     let darcy = PERIOD.powi(2) / (6.0 * PI * radius(fraction) * drag);
-    // Momentum is gained in rho k/eta, pressure in the time that its liquid takes to flow in.
-    let [rho, modulus, eta] = PF;
-    let gain = rho * darcy / eta + eta / modulus * PERIOD.powi(2) / (10.0 * darcy);
-    let until = 12.0 * gain;
-    // The liquid moves by a tenth of a cell: the points stay where they fill the voids evenly.
-    let g = 0.1 * cell / until * eta * porosity / (rho * darcy);
     let case = CaseText {
         title: format!(
             "Simple cubic array of spheres, volume fraction {fraction}, {n} cells a period, a quarter of it.\nAgainst the drag 6 pi eta a K U, K = {drag} (Sangani & Acrivos 1982), and the same voxels refined."
         ),
-        gravity: [g, 0.0, 0.0],
         boundary: ["periodic", "symmetry", "symmetry"],
-        stop: Some(until),
-        voxels: Some(voxels),
-        history_every: until / 20.0,
-        ..CaseText::new(cell, 3, [PERIOD, 0.5 * PERIOD, 0.5 * PERIOD])
+        ..driven(voxels, cell, [PERIOD, 0.5 * PERIOD, 0.5 * PERIOD], darcy)
     };
+    let g = case.gravity[0];
     let name = format!("spheres-n{n}-{fraction}");
     let against = "Sangani & Acrivos 1982; lattice Boltzmann";
     Scene::new(name, against, case, move |run| {
-        let found = porosity * mean_velocity(run, rho * g)? * eta / (rho * g);
+        let found = permeability(run, porosity, g)?;
         let same = converged(n, fraction)? * darcy;
         Ok(vec![
             Measured::relative("permeability", found, darcy),
             Measured::relative("permeability, same voxels", found, same),
         ])
     })
+}
+
+/// Voxels of a box of a `size` (m), of a permeability near `darcy` (m2), with a body force along x.
+pub(super) fn driven(voxels: Voxels, cell: f64, size: [f64; 3], darcy: f64) -> CaseText {
+    // Momentum is gained in rho k/eta, pressure in the time that its liquid takes to flow in.
+    let [rho, modulus, eta] = PF;
+    let gain = rho * darcy / eta + eta / modulus * size[0].powi(2) / (10.0 * darcy);
+    let until = 12.0 * gain;
+    // The liquid moves by a tenth of a cell: the points stay where they fill the voids evenly.
+    let g = 0.1 * cell / until * eta * voxels.porosity() / (rho * darcy);
+    CaseText {
+        gravity: [g, 0.0, 0.0],
+        stop: Some(until),
+        voxels: Some(voxels),
+        history_every: until / 20.0,
+        ..CaseText::new(cell, 3, size)
+    }
+}
+
+/// Permeability (m2) that a run with a body force per mass `g` (m/s2) shows.
+pub(super) fn permeability(run: &Run, porosity: f64, g: f64) -> Result<f64> {
+    let [rho, _, eta] = PF;
+    Ok(porosity * mean_velocity(run, rho * g)? * eta / (rho * g))
 }
 
 /// A quarter of the period around the axis of the flow through a sphere, with voxels of half a cell.

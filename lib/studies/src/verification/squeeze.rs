@@ -1,8 +1,10 @@
 //! Squeeze film between closing plates: force of lubrication theory.
 
 use super::{Measured, Scene};
+use crate::Result;
 use crate::case_text::{Body, CaseText, PF};
 use crate::closed_forms::squeeze_plates;
+use crate::outputs::Run;
 
 const CELL: f64 = 2.9e-6;
 const SPEED: f64 = 0.05;
@@ -25,27 +27,47 @@ pub fn scene(n: u32, offset: f64) -> Scene {
             "Squeeze film, gap of {n} cells, plates {offset} cell off the nodes, half-length {ASPECT} gaps.\nAgainst 8 eta v a^3/h^3 per length."
         ),
         stop: Some(until),
-        bodies: vec![
-            Body::wall([0.0, 0.0, 0.0], [right, low, CELL]).named("bottom"),
-            Body::wall([0.0, high, 0.0], [right, top + CELL, CELL])
-                .moving([0.0, -SPEED, 0.0])
-                .named("top"),
-            Body::liquid([0.0, low, 0.0], [half_length, high, CELL]),
-        ],
+        bodies: plates([right, CELL], [low, high, top + CELL], |plate| {
+            plate.moving([0.0, -SPEED, 0.0])
+        })
+        .chain([Body::liquid([0.0, low, 0.0], [half_length, high, CELL])])
+        .collect(),
         history_every: until / 10.0,
         ..CaseText::plane(CELL, [right, top])
     };
     let name = format!("squeeze-n{n}-off{offset}");
     Scene::new(name, "lubrication theory", case, move |run| {
-        let [end, step, top, bottom] =
-            run.ends(["time_s", "dt_s", "pressure_top_Pa", "pressure_bottom_Pa"])?;
         // What is pressed out lengthens the film.
-        let now = gap - (end - 0.5 * step) * SPEED;
-        let longer = half_length * gap / now;
-        let exact = 0.5 * squeeze_plates(longer, now, SPEED, PF[2]);
-        Ok(vec![
-            Measured::relative("force on the top", top * right, exact),
-            Measured::relative("force on the bottom", bottom * right, exact),
-        ])
+        forces(run, right, SPEED, |closed| {
+            let now = gap - closed;
+            0.5 * squeeze_plates(half_length * gap / now, now, SPEED, PF[2])
+        })
     })
+}
+
+/// A plate at rest from zero to the first of `heights` and one, `driven`, between the others; `[x, z]` far. All m.
+pub(super) fn plates(
+    [x, z]: [f64; 2],
+    [low, high, top]: [f64; 3],
+    driven: fn(Body) -> Body,
+) -> impl Iterator<Item = Body> {
+    let bottom = Body::wall([0.0; 3], [x, low, z]).named("bottom");
+    let top = driven(Body::wall([0.0, high, 0.0], [x, top, z])).named("top");
+    [bottom, top].into_iter()
+}
+
+/// Forces on plates of an `area` (m2, or m in plane strain) that close at `speed`, against that where they have closed by a way (m).
+pub(super) fn forces(
+    run: &Run,
+    area: f64,
+    speed: f64,
+    exact: impl Fn(f64) -> f64,
+) -> Result<Vec<Measured>> {
+    let [end, step, top, bottom] =
+        run.ends(["time_s", "dt_s", "pressure_top_Pa", "pressure_bottom_Pa"])?;
+    let exact = exact((end - 0.5 * step) * speed);
+    Ok(vec![
+        Measured::relative("force on the top", top * area, exact),
+        Measured::relative("force on the bottom", bottom * area, exact),
+    ])
 }

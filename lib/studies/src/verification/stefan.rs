@@ -1,5 +1,6 @@
 //! A film between plates pressed by a given load: Stefan's closing film, from microseconds to minutes.
 
+use super::squeeze::plates;
 use super::{Measured, Scene};
 use crate::case_text::{Body, CaseText, Viscosity};
 use crate::closed_forms::closing_film;
@@ -79,13 +80,12 @@ pub fn scene(n: u32, load: Load, time: f64) -> Scene {
         viscosity: Viscosity::Newtonian(VISCOSITY),
         bulk_modulus: BULK_MODULUS,
         clamp: Some(format!("travel = \"{travel} um\"\n{stages}")),
-        bodies: vec![
-            Body::wall([0.0; 3], [right, low, CELL]).named("bottom"),
-            Body::wall([0.0, low + gap, 0.0], [right, top + gap, CELL])
-                .clamped()
-                .named("top"),
-            Body::liquid([0.0, low, 0.0], [half_length, low + gap, CELL]),
-        ],
+        bodies: plates([right, CELL], [low, low + gap, top + gap], Body::clamped)
+            .chain([Body::liquid(
+                [0.0, low, 0.0],
+                [half_length, low + gap, CELL],
+            )])
+            .collect(),
         // A row for every step.
         history_every: 1e-15,
         ..CaseText::plane(CELL, [right, top])
