@@ -10,7 +10,7 @@ use serde::Serialize;
 use units::Axis;
 
 use crate::case::Case;
-use crate::failure::RunFailure;
+use crate::failure::{RunFailure, refused};
 use crate::resolve::Setup;
 use crate::snapshot::{in_file_axes, wood_now};
 
@@ -54,12 +54,12 @@ pub(crate) struct Watch<'a> {
 /// Refuses a case that asks for what its scene cannot tell: without a bond there is nothing to measure, and in a
 /// slice the liquid is as deep as a cell and the wood as a voxel.
 pub(crate) fn check(case: &Case, bonded: bool, setup: &Setup) -> Result<(), RunFailure> {
-    match case.output.penetration && !(bonded && is_solid(setup)) {
-        true => Err(RunFailure::Usage(
-            "[output] penetration is measured of the bond of a bond file (--particles) in three dimensions".into(),
-        )),
-        false => Ok(()),
+    if case.output.penetration && !(bonded && is_solid(setup)) {
+        return refused(
+            "[output] penetration is measured of the bond of a bond file (--particles) in three dimensions",
+        );
     }
+    Ok(())
 }
 
 /// Who measures the bond of a run, where [`check`] lets it be asked for.
@@ -69,13 +69,11 @@ pub(crate) fn watch<'a>(
     bond: Option<&'a ParticleFile>,
     setup: &Setup,
 ) -> Result<Option<Watch<'a>>, RunFailure> {
-    match bond
-        .filter(|_| is_solid(setup))
-        .map(|bond| Watch::on(bond, setup))
-    {
-        Some(Err(error)) if case.output.penetration => Err(RunFailure::Usage(format!(
+    let bond = bond.filter(|_| is_solid(setup));
+    match bond.map(|bond| Watch::on(bond, setup)) {
+        Some(Err(error)) if case.output.penetration => refused(format!(
             "[output] penetration: the bond cannot be measured: {error}"
-        ))),
+        )),
         watch => Ok(watch.and_then(Result::ok)),
     }
 }
@@ -116,10 +114,22 @@ impl<'a> Watch<'a> {
     ) -> Result<Answers, RunFailure> {
         self.measure(liquid, displacements, |state, middle| {
             let layers = depth_profile(state, middle, &self.sealed)?;
-            let shares = [true, false].map(|below| shares(&layers, below));
-            let mut answers = Answers::new(&self.moment(state, middle)?, state.voxel_m, shares);
-            answers.outer_face_reached = at_an_outer_face(&layers);
-            Ok(answers)
+            let Moment { sides, line } = self.moment(state, middle)?;
+            Ok(Answers {
+                wp_m: sides.map(|side| side.wp_m).into(),
+                ep_m: sides.map(|side| side.ep_m).into(),
+                p95_depth_m: sides.map(|side| side.p95_depth_m).into(),
+                wetted_area_m2: line.wetted_m2.into(),
+                half_filled_depth_m: line.half_filled_m.into(),
+                bond_line_filled: line.filled,
+                bond_line: line.filling.to_string(),
+                outer_face_reached: at_an_outer_face(&layers),
+                filled_by_depth: FilledByDepth {
+                    layer_m: state.voxel_m,
+                    bottom: shares(&layers, true),
+                    top: shares(&layers, false),
+                },
+            })
         })
     }
 
@@ -227,27 +237,6 @@ pub struct FilledByDepth {
     pub bottom: Vec<f64>,
     /// High-coordinate side.
     pub top: Vec<f64>,
-}
-
-impl Answers {
-    fn new(moment: &Moment, layer_m: f64, [bottom, top]: [Vec<f64>; 2]) -> Self {
-        let Moment { sides, line } = moment;
-        Self {
-            wp_m: sides.map(|side| side.wp_m).into(),
-            ep_m: sides.map(|side| side.ep_m).into(),
-            p95_depth_m: sides.map(|side| side.p95_depth_m).into(),
-            wetted_area_m2: line.wetted_m2.into(),
-            half_filled_depth_m: line.half_filled_m.into(),
-            bond_line_filled: line.filled,
-            bond_line: line.filling.to_string(),
-            outer_face_reached: false,
-            filled_by_depth: FilledByDepth {
-                layer_m,
-                bottom,
-                top,
-            },
-        }
-    }
 }
 
 #[cfg(test)]

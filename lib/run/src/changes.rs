@@ -93,34 +93,32 @@ mod tests {
     #[test]
     fn keys_can_be_changed_from_the_command_line() {
         let original = "[grid]\ncell = \"2.9 um\"\n[adhesive]\ndensity = \"1 g/cm3\"\nbulk_modulus = \"1 GPa\"\nviscosity = \"1 cP\"\n[integrator]\nscheme = \"explicit\"\n";
+        let set = |original: &str, changes: &[&str]| {
+            let changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
+            let text = changed(original, Path::new("c"), &changes)?;
+            Case::parse(&text, Path::new("c"))
+        };
         let changes = [
             "grid.cell=1.45 um",
             "integrator.cfl=0.25",
             "grid.dimensions=2",
             "clamp.closing_speed=\"1 m/s\"",
         ];
-        let changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
-        let text = changed(original, Path::new("c"), &changes).unwrap();
-        let case = Case::parse(&text, Path::new("c")).unwrap();
-        assert!((case.grid.cell.si(None).unwrap() - 1.45e-6).abs() < 1e-18);
+        let case = set(original, &changes).unwrap();
+        assert!((case.grid.cell.si(1.0) - 1.45e-6).abs() < 1e-18);
         assert_eq!((case.integrator.cfl, case.grid.dimensions), (Some(0.25), 2));
         assert!(case.clamp.is_some());
         let body = format!(
             "{original}[[body]]\nmaterial = \"rigid\"\nbox = {{ min = [\"0 m\", \"0 m\", \"0 m\"], max = [\"1 m\", \"1 m\", \"1 m\"] }}\n"
         );
-        let text = changed(&body, Path::new("c"), &["body.0.box.min.1=0.5 m".into()]).unwrap();
-        let case = Case::parse(&text, Path::new("c")).unwrap();
+        let case = set(&body, &["body.0.box.min.1=0.5 m"]).unwrap();
         assert_eq!(case.body[0].corners.min[1].si(), 0.5);
         for absent in ["body.1.box.min.1=0.5 m", "body.0.box.min.3=0.5 m"] {
-            assert!(changed(&body, Path::new("c"), &[absent.into()]).is_err());
+            assert!(set(&body, &[absent]).is_err());
         }
-        assert!(changed(original, Path::new("c"), &["nonsense".into()]).is_err());
-        let said = changed(original, Path::new("c"), &["grid.cel=1".into()])
-            .unwrap_err()
-            .to_string();
-        assert!(
-            said.starts_with("--set grid.cel=1: ") && said.contains("`cell`"),
-            "{said}"
-        );
+        assert!(set(original, &["nonsense"]).is_err());
+        let said = set(original, &["grid.cel=1"]).unwrap_err().to_string();
+        assert!(said.starts_with("--set grid.cel=1: "), "{said}");
+        assert!(said.contains("`cell`"), "{said}");
     }
 }

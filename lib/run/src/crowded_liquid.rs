@@ -39,21 +39,14 @@ mod tests {
     /// One block of two cells a side: a tenth more than it may hold, and a cell, is all that counts.
     #[test]
     fn what_lies_beyond_one_and_a_half_times_the_room_counts_less_a_cell() {
+        // Plane strain: one cell deep.
         let scene = crate::verdict::tests::setup().scene;
-        let cell = scene.grid.cell_m.powi(3);
-        let room = match scene.dimensions {
-            Dimensions::Two => 4.0,
-            Dimensions::Three => 8.0,
-        };
+        let (room, cell_m) = (4.0, scene.grid.cell_m);
+        let place = scene.grid.min_m.map(|x| (x + 0.1 * cell_m) as f32);
         let filled = |times: f64| {
             let liquid = LiquidState {
-                position: vec![
-                    scene
-                        .grid
-                        .min_m
-                        .map(|x| (x + 0.1 * scene.grid.cell_m) as f32),
-                ],
-                volume: vec![(times * room * cell) as f32],
+                position: vec![place],
+                volume: vec![(times * room * cell_m.powi(3)) as f32],
                 ..LiquidState::default()
             };
             crowded(&scene, &liquid)
@@ -61,11 +54,8 @@ mod tests {
         assert_eq!(filled(1.5 + 0.9 / room), 0.0);
         for times in [2.0, 4.0] {
             let beyond = ((times - 1.5) * room - 1.0) / (times * room);
-            assert!(
-                (filled(times) - beyond).abs() < 1e-6,
-                "{} {beyond}",
-                filled(times)
-            );
+            let found = filled(times);
+            assert!((found - beyond).abs() < 1e-6, "{found} {beyond}");
         }
     }
 }

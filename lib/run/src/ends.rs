@@ -46,10 +46,7 @@ impl<'a> Ends<'a> {
     pub(crate) fn reached(&self, clock: &Clock, scheme: &dyn Scheme) -> Option<End> {
         // A relative hair, so that a sum of many steps that should meet the end does.
         let reached = |t: f64, goal: f64| t >= goal * (1.0 - 1e-12);
-        if self.set.is_some_and(|set| reached(clock.time_s, set)) {
-            return Some(End::Set);
-        }
-        if scheme.has_set() {
+        if scheme.has_set() || self.set.is_some_and(|set| reached(clock.time_s, set)) {
             return Some(End::Set);
         }
         if let Some(programme) = scheme.programme() {

@@ -137,10 +137,8 @@ fn dried(water: &Water, cell_m: f64) -> String {
 fn walls(scene: &Scene) -> String {
     let mut out = String::new();
     for body in &scene.bodies {
-        let (name, solid) = (
-            &body.name,
-            body.blocks.iter().map(VoxelBlock::count).sum::<u64>(),
-        );
+        let name = &body.name;
+        let solid: u64 = body.blocks.iter().map(VoxelBlock::count).sum();
         let motion = match body.motion {
             Motion::Fixed => "at rest".to_owned(),
             Motion::Constant([x, y, z]) => format!("moves at ({x}, {y}, {z}) m/s"),

@@ -96,11 +96,8 @@ impl RunFolder {
             )));
         }
         let held = Self::hold(path, by)?;
-        if let Some(parent) = fs::canonicalize(path)
-            .ok()
-            .as_deref()
-            .and_then(Path::parent)
-        {
+        let place = fs::canonicalize(path).ok();
+        if let Some(parent) = place.as_deref().and_then(Path::parent) {
             sync_folder(parent).map_err(RunFailure::write(path))?;
         }
         Ok(held)
@@ -305,10 +302,8 @@ pub(crate) mod tests {
         fs::remove_file(place.path().join(MARKER)).unwrap();
         fs::write(place.path().join(MARKER), "").unwrap();
         let said = folder.write_text(SUMMARY, "2").unwrap_err().to_string();
-        assert!(
-            said.contains("bondline-run.toml: it was removed or replaced"),
-            "{said}"
-        );
+        let why = "bondline-run.toml: it was removed or replaced";
+        assert!(said.contains(why), "{said}");
         assert_eq!(fs::read(place.path().join(SUMMARY)).unwrap(), b"1");
         assert!(!is_there(&place.path().join(ASIDE)));
     }

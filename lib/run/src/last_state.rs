@@ -1,6 +1,6 @@
 //! The end of a run: its last state judged and measured.
 
-use physics::{Cure, LiquidState, Scheme};
+use physics::{Cure, LiquidState, Scheme, StageTime};
 
 use crate::bond_measures::Watch;
 use crate::failure::RunFailure;
@@ -23,6 +23,10 @@ pub(crate) fn conclude(
     let (mut liquid, displacements) = (scheme.liquid(), scheme.displacements());
     let (stages, counts) = (scheme.stage_times(), scheme.counts());
     let programme = summary::programme(scheme.programme());
+    let stage = |time: &StageTime| Stage {
+        name: time.name,
+        wall_s: time.wall_s,
+    };
     let (objection, follows) = (scheme.objection(), scheme.follows_points());
     drop(scheme);
     let (begun_m3, diagnostics) = (setup.liquid.volume_m3, outcome.diagnostics);
@@ -58,7 +62,7 @@ pub(crate) fn conclude(
         programme,
         penetration,
         set_s: setup.scene.liquid.cure.as_ref().and_then(Cure::set_at),
-        stages: stages.iter().map(Stage::of).collect(),
+        stages: stages.iter().map(stage).collect(),
         counts: counts.into_iter().collect(),
         invariants,
         account,

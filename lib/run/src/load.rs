@@ -94,10 +94,8 @@ fn box_of_its_blocks(header: &Header) -> Result<(), String> {
         let outer = corners.reduce(|a, b| std::array::from_fn(|i| of(a[i], b[i])));
         outer.unwrap_or([f64::NAN; 3])
     };
-    let (low, high) = (
-        corner(f64::min, |b| b.origin_m),
-        corner(f64::max, Block::max_m),
-    );
+    let low = corner(f64::min, |b| b.origin_m);
+    let high = corner(f64::max, Block::max_m);
     for a in 0..3 {
         if !(near(header.box_min_m[a], low[a]) && near(header.box_max_m[a], high[a])) {
             return Err(format!(

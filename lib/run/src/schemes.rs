@@ -4,7 +4,7 @@ use implicit::Implicit;
 use mpm::{Explicit, PressureFrom, VelocityUpdate};
 use physics::{Choice, Scene, Scheme};
 
-use crate::case::{Case, CellLength, SchemeName};
+use crate::case::{Case, EdgeLength, SchemeName};
 use crate::failure::{RunFailure, refused};
 use crate::forecast::{Forecast, line};
 use crate::resolve::Setup;
@@ -62,7 +62,7 @@ fn refuse_stray(scheme: &str, keys: &[(bool, &str, &str)]) -> Result<(), RunFail
     }
 }
 
-fn separation(case: &Case) -> Option<CellLength> {
+fn separation(case: &Case) -> Option<EdgeLength> {
     case.contact.as_ref()?.separation
 }
 
@@ -102,8 +102,8 @@ fn explicit(case: &Case, cell: f64) -> Result<mpm::Settings, RunFailure> {
         velocity_update,
         cfl: cfl(case),
         pressure: table.pressure.unwrap_or_default(),
-        density_projection: table.density_projection.map(|length| length.cells(cell)),
-        separation: separation(case).map(|length| length.cells(cell)),
+        density_projection: table.density_projection.map(|length| length.edges(cell)),
+        separation: separation(case).map(|length| length.edges(cell)),
     };
     settings.check().map_err(RunFailure::Usage)?;
     Ok(settings)

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use particle_file::Provenance;
-use physics::{Choice, PressRun, StageTime};
+use physics::{Choice, PressRun};
 use serde::Serialize;
 
 use crate::bond_measures::Answers;
@@ -144,15 +144,6 @@ pub struct Stage {
     pub name: &'static str,
     /// Seconds.
     pub wall_s: f64,
-}
-
-impl Stage {
-    pub(crate) fn of(time: &StageTime) -> Self {
-        Self {
-            name: time.name,
-            wall_s: time.wall_s,
-        }
-    }
 }
 
 /// What made a run folder, as a summary has it.

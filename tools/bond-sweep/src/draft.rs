@@ -1,6 +1,7 @@
 //! A row of the table understood: its case, its bond and its changes.
 
 use std::path::{Path, PathBuf};
+use std::slice::from_ref;
 
 use cli::Failure;
 use particle_file::{Kind as FileKind, ParticleFile};
@@ -21,6 +22,9 @@ pub struct Job {
     pub content: Option<String>,
 }
 
+/// A column and what it changes, `key=value`.
+type Change = (usize, String);
+
 /// A row of which every cell is accepted for itself.
 #[derive(Debug)]
 pub struct Draft {
@@ -30,8 +34,7 @@ pub struct Draft {
     pub job: Job,
     /// How its specimen is made, where it is a synthetic one.
     pub recipe: Option<Recipe>,
-    /// Columns and what they change, `key=value`.
-    changes: Vec<(usize, String)>,
+    changes: Vec<Change>,
     /// The case with its changes.
     pub text: String,
 }
@@ -41,12 +44,12 @@ impl Draft {
     pub fn of_row(table: &Table, row: usize, case: &Path) -> Result<Self, Failure> {
         let case = case_of(table, row, case);
         let (job, recipe) = bond_of(table, row)?;
-        let changes: Vec<(usize, String)> = (table.given(row))
+        let changes: Vec<Change> = (table.given(row))
             .filter(|(_, kind, _)| **kind == ColumnKind::Key)
             .map(|(i, _, cell)| (i, format!("{}={cell}", table.columns[i].0)))
             .collect();
-        let parsed = |changes: &[&(usize, String)]| changed_case(&case, &texts(changes));
-        match parsed(&changes.iter().collect::<Vec<_>>()) {
+        let parsed = |changes: &[Change]| changed_case(&case, &texts(changes));
+        match parsed(&changes) {
             Ok(text) => Ok(Self {
                 text: plain(&text),
                 case,
@@ -67,7 +70,7 @@ impl Draft {
         bond: &Path,
         however_long: bool,
     ) -> Result<(), Failure> {
-        let resolved = |changes: &[&(usize, String)]| {
+        let resolved = |changes: &[Change]| {
             let request = Request::read(&self.case, Some(bond), &texts(changes))?;
             match request.excess()?.filter(|_| !however_long) {
                 Some(excess) => Err(RunFailure::Usage(format!(
@@ -76,8 +79,8 @@ impl Draft {
                 None => Ok(()),
             }
         };
-        let all: Vec<_> = self.changes.iter().collect();
-        resolved(&all).map_err(|refused| blamed(table, row, &self.changes, refused, resolved))
+        resolved(&self.changes)
+            .map_err(|refused| blamed(table, row, &self.changes, refused, resolved))
     }
 }
 
@@ -89,7 +92,7 @@ fn plain(case: &str) -> String {
     text.unwrap_or_else(|| case.to_owned())
 }
 
-fn texts(changes: &[&(usize, String)]) -> Vec<String> {
+fn texts(changes: &[Change]) -> Vec<String> {
     changes.iter().map(|(_, text)| text.clone()).collect()
 }
 
@@ -97,45 +100,38 @@ fn texts(changes: &[&(usize, String)]) -> Vec<String> {
 fn blamed<T>(
     table: &Table,
     row: usize,
-    changes: &[(usize, String)],
+    changes: &[Change],
     refused: RunFailure,
-    accepts: impl Fn(&[&(usize, String)]) -> Result<T, RunFailure>,
+    accepts: impl Fn(&[Change]) -> Result<T, RunFailure>,
 ) -> Failure {
     let RunFailure::Usage(refused) = refused else {
         return failure(refused);
     };
-    let Some(column) = blame(changes, |changes| accepts(changes).is_ok()) else {
+    let Some(change) = blame(changes, |changes| accepts(changes).is_ok()) else {
         return table.wrong_row(row, refused);
     };
     // Alone it is refused in fewer words.
-    let alone: Vec<_> = changes.iter().filter(|(i, _)| *i == column).collect();
-    let said = match accepts(&alone) {
+    let whole = match accepts(from_ref(change)) {
         Err(RunFailure::Usage(said)) => said,
         _ => refused,
     };
-    let prefix = alone.first().map(|(_, text)| format!("--set {text}: "));
-    let said = prefix.and_then(|p| said.strip_prefix(&p)).unwrap_or(&said);
-    table.wrong_cell(row, column, said)
+    let (column, text) = change;
+    let said = whole.strip_prefix(&format!("--set {text}: "));
+    table.wrong_cell(row, *column, said.unwrap_or(&whole))
 }
 
-/// The column of the change that keeps a row from being accepted: the one that is refused alone,
-/// or without which the rest is accepted. None where it is no single one, or the case itself.
-///
-/// `changes` are columns and what they change, `accepts` tells whether a case so changed is.
-fn blame(
-    changes: &[(usize, String)],
-    accepts: impl Fn(&[&(usize, String)]) -> bool,
-) -> Option<usize> {
+/// The change that keeps a row from being accepted: the one that is refused alone, or without which the rest is
+/// accepted. None where it is no single one, or the case itself.
+fn blame(changes: &[Change], accepts: impl Fn(&[Change]) -> bool) -> Option<&Change> {
     let alone = || {
-        let refused = |change: &&(usize, String)| !accepts(&[*change]);
+        let refused = |change: &&Change| !accepts(from_ref(*change));
         accepts(&[]).then(|| changes.iter().find(refused)).flatten()
     };
-    let needless = |change: &&(usize, String)| {
-        let rest: Vec<_> = changes.iter().filter(|other| other != change).collect();
-        accepts(&rest)
+    let needless = |change: &&Change| {
+        let rest = changes.iter().filter(|other| other != change);
+        accepts(&rest.cloned().collect::<Vec<_>>())
     };
-    let found = alone().or_else(|| changes.iter().find(needless));
-    found.map(|(column, _)| *column)
+    alone().or_else(|| changes.iter().find(needless))
 }
 
 /// The case file of a row: a name without an ending stands beside that of the other rows.
@@ -176,13 +172,11 @@ fn bond_of(table: &Table, row: usize) -> Result<(Job, Option<Recipe>), Failure> 
         };
         return Ok((job, None));
     }
-    for (column, option, cell) in &specimen {
-        specimen::check(option, cell).map_err(|why| table.wrong_cell(row, *column, why))?;
+    let mut changes = Vec::new();
+    for (column, option, cell) in specimen {
+        specimen::check(option, cell).map_err(|why| table.wrong_cell(row, column, why))?;
+        changes.push((option, cell));
     }
-    let changes: Vec<_> = specimen
-        .iter()
-        .map(|(_, option, cell)| (*option, *cell))
-        .collect();
     let recipe = Recipe::quick_but(&changes);
     let job = Job {
         bond: recipe.bond(),
@@ -200,14 +194,16 @@ mod tests {
         let changes: Vec<_> = [(3, "a"), (5, "b"), (7, "c")]
             .map(|(i, what)| (i, what.to_owned()))
             .to_vec();
-        let has = |given: &[&(usize, String)], what: &str| given.iter().any(|c| c.1 == what);
-        assert_eq!(blame(&changes, |given| !has(given, "b")), Some(5));
+        let has = |given: &[Change], what: &str| given.iter().any(|c| c.1 == what);
+        let found = |accepts: &dyn Fn(&[Change]) -> bool| blame(&changes, accepts).map(|c| c.0);
+        assert_eq!(found(&|given| !has(given, "b")), Some(5));
         // Each is accepted alone, two of them together are not.
-        let pair = |given: &[&(usize, String)]| !(has(given, "a") && has(given, "c"));
-        assert_eq!(blame(&changes, pair), Some(3));
+        assert_eq!(
+            found(&|given| !(has(given, "a") && has(given, "c"))),
+            Some(3)
+        );
         // A case that needs a change is not refused for it.
-        let needs = |given: &[&(usize, String)]| has(given, "a") && !has(given, "c");
-        assert_eq!(blame(&changes, needs), Some(7));
-        assert_eq!(blame(&changes, |_| false), None);
+        assert_eq!(found(&|given| has(given, "a") && !has(given, "c")), Some(7));
+        assert_eq!(found(&|_| false), None);
     }
 }

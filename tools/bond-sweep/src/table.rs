@@ -119,10 +119,8 @@ impl Table {
 
     /// The column of a kind and its cell in a row, where it is not empty.
     pub fn cell(&self, row: usize, kind: &ColumnKind) -> Option<(usize, &str)> {
-        let mut given = self.given(row);
-        given
-            .find(|(_, own, _)| *own == kind)
-            .map(|(column, _, cell)| (column, cell))
+        let found = self.given(row).find(|(_, own, _)| *own == kind);
+        found.map(|(column, _, cell)| (column, cell))
     }
 
     /// The cells of a row that are not empty, by column.
@@ -135,19 +133,18 @@ impl Table {
 }
 
 fn kind_of(name: &str) -> Result<ColumnKind, String> {
-    match (name, name.strip_prefix("specimen.")) {
-        ("case", _) => return Ok(ColumnKind::Case),
-        ("particles", _) => return Ok(ColumnKind::Particles),
-        (_, Some(option)) => {
-            let known = specimen::QUICK.iter().find(|(known, _)| *known == option);
-            return known
-                .map(|(known, _)| ColumnKind::Specimen(known))
-                .ok_or(format!(
-                    "'{name}' is no column of a sweep; of the specimen there are {}",
-                    specimen::QUICK.map(|(known, _)| known).join(", ")
-                ));
-        }
+    match name {
+        "case" => return Ok(ColumnKind::Case),
+        "particles" => return Ok(ColumnKind::Particles),
         _ => {}
+    }
+    if let Some(option) = name.strip_prefix("specimen.") {
+        let options = specimen::QUICK.map(|(known, _)| known);
+        let known = options.into_iter().find(|known| *known == option);
+        return known.map(ColumnKind::Specimen).ok_or_else(|| {
+            let options = options.join(", ");
+            format!("'{name}' is no column of a sweep; of the specimen there are {options}")
+        });
     }
     let key = name.contains('.') && !name.contains(|c: char| c.is_whitespace() || "=;".contains(c));
     key.then_some(ColumnKind::Key).ok_or_else(|| {
@@ -163,17 +160,14 @@ fn kind_of(name: &str) -> Result<ColumnKind, String> {
 mod tests {
     use super::*;
 
-    fn said(text: &str) -> String {
-        format!(
-            "{:?}",
-            Table::parse(Path::new("t.csv"), text.as_bytes()).unwrap_err()
-        )
+    fn parsed(text: &str) -> Result<Table, Failure> {
+        Table::parse(Path::new("f/t.csv"), text.as_bytes())
     }
 
     #[test]
     fn columns_are_told_and_cells_trimmed() {
         let text = "\u{feff}# mine\ncase, specimen.seed ,adhesive.viscosity\npf,1, 1300 cP\n,2,\n";
-        let table = Table::parse(Path::new("f/t.csv"), text.as_bytes()).unwrap();
+        let table = parsed(text).unwrap();
         let kinds = [
             ColumnKind::Case,
             ColumnKind::Specimen("seed"),
@@ -187,11 +181,8 @@ mod tests {
 
     #[test]
     fn rows_of_empty_cells_are_none() {
-        let text = "a.b,c.d\n,\n1,2\n , \n,,,,\n\n3,4\n,\n";
-        let table = Table::parse(Path::new("t.csv"), text.as_bytes()).unwrap();
+        let table = parsed("a.b,c.d\n,\n1,2\n , \n,,,,\n\n3,4\n,\n").unwrap();
         assert_eq!(table.rows, [["1", "2"], ["3", "4"]]);
-        assert!(said("a.b,c.d\n,\n1\n").contains("row 1 has 1 cells"));
-        assert!(said("a.b,c.d\n,\n,\n").contains("no row"));
     }
 
     #[test]
@@ -202,10 +193,13 @@ mod tests {
             ("a.b,a.b\n1,2\n", "two columns 'a.b'"),
             ("specimen.colour\n1\n", "there are adhesive, size"),
             ("a.b,c.d\n1,2\n1\n", "row 2 has 1 cells"),
+            ("a.b,c.d\n,\n1\n", "row 1 has 1 cells"),
+            ("a.b,c.d\n,\n,\n", "no row"),
             ("a.b\n", "no row"),
             ("", "no row"),
         ] {
-            assert!(said(text).contains(word), "{text}: {}", said(text));
+            let said = format!("{:?}", parsed(text).unwrap_err());
+            assert!(said.contains(word), "{text}: {said}");
         }
         assert!(Table::parse(Path::new("t.csv"), b"a.b\n\xff\n").is_err());
     }

@@ -15,7 +15,7 @@ pub(crate) use page::{Table, tables};
 pub(crate) use schema::{
     Body, BoxCorners, Case, ClampTable, Contact, MaterialName, SchemeName, StageTable,
 };
-pub(crate) use value::{BodyVelocity, CellLength, StopRule};
+pub(crate) use value::{BodyVelocity, EdgeLength, StopRule};
 
 use crate::failure::RunFailure;
 
@@ -63,19 +63,14 @@ order = 5
     #[test]
     fn the_example_parses_and_refusals_have_line_column_and_what_is_accepted() {
         let case = Case::parse(GOOD, Path::new("case.toml")).unwrap();
-        assert!((case.grid.cell.si(None).unwrap() - 2.9e-6).abs() < 1e-18);
+        assert!((case.grid.cell.si(1.0) - 2.9e-6).abs() < 1e-18);
         assert_eq!(case.integrator.order, Some(5));
         for (from, to, place, words) in [
             ("closing_speed", "closing_sped", "12:1: ", "closing_speed"),
             ("\"1300 cP\"", "\"1300\"", "7:13: ", "Pa s"),
             ("\"1300 cP\"", "1300", "7:13: ", "unit"),
             ("\"2.9 um\"", "\"-2.9 um\"", "3:8: ", "greater than zero"),
-            (
-                "\"2.9 um\"",
-                "2.9",
-                "3:8: ",
-                "float `2.9`, expected a length",
-            ),
+            ("\"2.9 um\"", "2.9", "3:8: ", "`2.9`, expected a length"),
             ("\"closed\"", "\"later\"", "14:8: ", "ms, us"),
             ("\"closed\"", "\"later\"", "14:8: ", "or \"closed\""),
             (

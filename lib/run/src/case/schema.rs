@@ -6,7 +6,7 @@ use serde::Deserialize;
 use units::{Acceleration, Length, Pressure, Quantity, Speed, Time};
 
 use super::adhesive::Adhesive;
-use super::value::{BodyVelocity, CellEdge, CellLength, Positive, StopRule, choice, some_choice};
+use super::value::{BodyVelocity, EdgeLength, Positive, StopRule, choice, in_voxels, some_choice};
 
 /// A case file.
 #[derive(Clone, Debug, Deserialize)]
@@ -31,7 +31,8 @@ pub(crate) struct Case {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Grid {
-    pub(crate) cell: CellEdge,
+    #[serde(deserialize_with = "in_voxels")]
+    pub(crate) cell: EdgeLength,
     #[serde(default = "three")]
     pub(crate) dimensions: u8,
     #[serde(default, deserialize_with = "some_choice")]
@@ -54,8 +55,8 @@ fn two() -> u8 {
 pub(crate) struct Contact {
     #[serde(deserialize_with = "choice")]
     pub(crate) law: WallLaw,
-    pub(crate) influence_length: Option<CellLength>,
-    pub(crate) separation: Option<CellLength>,
+    pub(crate) influence_length: Option<EdgeLength>,
+    pub(crate) separation: Option<EdgeLength>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -104,7 +105,7 @@ pub(crate) struct Integrator {
     pub(crate) cfl: Option<f64>,
     #[serde(default, deserialize_with = "some_choice")]
     pub(crate) pressure: Option<PressureFrom>,
-    pub(crate) density_projection: Option<CellLength>,
+    pub(crate) density_projection: Option<EdgeLength>,
     pub(crate) tolerance: Option<f64>,
 }
 

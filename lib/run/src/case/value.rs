@@ -5,8 +5,6 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error};
 use units::{Dimension, Length, Quantity, Speed, Time};
 
-use crate::failure::{RunFailure, refused};
-
 /// A quantity that must be greater than zero.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Positive<D: Dimension>(Quantity<D>);
@@ -33,94 +31,66 @@ fn positive<D: Dimension, E: Error>(text: &str, or: &str) -> Result<f64, E> {
         .map_err(|e| E::custom(format!("{e}, or {or}")))
 }
 
-/// A number greater than zero before one of the `names` of something that lengths are multiples of; none of a text
-/// without such a name.
-fn multiple<E: Error>(text: &str, names: &[&str], example: &str) -> Option<Result<f64, E>> {
-    let number = names
-        .iter()
-        .find_map(|name| text.trim().strip_suffix(name))?;
-    let number = number.trim().parse::<f64>().ok();
-    let sound = number.filter(|n| *n > 0.0 && n.is_finite());
-    Some(sound.ok_or_else(|| {
-        E::custom(format!(
-            "'{text}' is not accepted: a number of {}s greater than zero is needed, such as {example}",
-            names[names.len() - 1]
-        ))
-    }))
-}
-
-/// A length, or a multiple of the cell (`"0.01 cell"`).
+/// A length, or a multiple of an edge: that of a cell (`"0.01 cell"`) or, for the cell itself, of the specimen's voxel
+/// (`"2 voxels"`).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum CellLength {
-    Cells(f64),
+pub(crate) enum EdgeLength {
+    Edges(f64),
     /// In metres.
     Metres(f64),
 }
 
-impl CellLength {
-    /// In metres for a cell of `cell_m`.
-    pub(crate) fn si(self, cell_m: f64) -> f64 {
+impl EdgeLength {
+    /// In metres for an edge of `edge_m`.
+    pub(crate) fn si(self, edge_m: f64) -> f64 {
         match self {
-            CellLength::Cells(n) => n * cell_m,
-            CellLength::Metres(l) => l,
+            Self::Edges(n) => n * edge_m,
+            Self::Metres(l) => l,
         }
     }
 
-    /// In cells of `cell_m`.
-    pub(crate) fn cells(self, cell_m: f64) -> f64 {
+    /// In edges of `edge_m`.
+    pub(crate) fn edges(self, edge_m: f64) -> f64 {
         match self {
-            CellLength::Cells(n) => n,
-            CellLength::Metres(l) => l / cell_m,
+            Self::Edges(n) => n,
+            Self::Metres(l) => l / edge_m,
         }
+    }
+
+    /// Of a text with one of the `names` of an edge, which go on as in `example`, or a length; `or` is what a refusal of
+    /// the latter says besides.
+    fn parse<E: Error>(text: &str, names: &[&str], example: &str, or: &str) -> Result<Self, E> {
+        let number = names.iter().find_map(|n| text.trim().strip_suffix(n));
+        let Some(number) = number else {
+            let length = positive::<Length, _>(text, &format!("{or} such as {example}"));
+            return length.map(Self::Metres);
+        };
+        let number = number.trim().parse::<f64>().ok();
+        let sound = number.filter(|n| *n > 0.0 && n.is_finite());
+        sound.map(Self::Edges).ok_or_else(|| {
+            E::custom(format!(
+                "'{text}' is not accepted: a number of {}s greater than zero is needed, such as {example}",
+                names[names.len() - 1]
+            ))
+        })
     }
 }
 
-impl<'de> Deserialize<'de> for CellLength {
+/// In cells.
+impl<'de> Deserialize<'de> for EdgeLength {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
-        let text = text(
-            reader,
-            "a length such as \"29 nm\" or a multiple of the cell such as \"0.01 cell\"",
-        )?;
-        match multiple(&text, &["cell"], "\"0.01 cell\"") {
-            Some(cells) => cells.map(Self::Cells),
-            None => positive::<Length, _>(&text, "a number of cells such as \"0.01 cell\"")
-                .map(Self::Metres),
-        }
+        let wanted = "a length such as \"29 nm\" or a multiple of the cell such as \"0.01 cell\"";
+        let text = text(reader, wanted)?;
+        Self::parse(&text, &["cell"], "\"0.01 cell\"", "a number of cells")
     }
 }
 
-/// The edge of a cell: a length, or a multiple of the specimen's voxel (`"2 voxels"`).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum CellEdge {
-    Voxels(f64),
-    /// In metres.
-    Metres(f64),
-}
-
-impl CellEdge {
-    /// In metres, with the voxel of a bond file where there is one.
-    pub(crate) fn si(self, voxel_m: Option<f64>) -> Result<f64, RunFailure> {
-        match (self, voxel_m) {
-            (CellEdge::Metres(edge), _) => Ok(edge),
-            (CellEdge::Voxels(n), Some(voxel)) => Ok(n * voxel),
-            (CellEdge::Voxels(_), None) => refused(
-                "[grid] cell is given in voxels, and [[body]] tables have none: give a length such as \"2.9 um\"",
-            ),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for CellEdge {
-    fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
-        let text = text(
-            reader,
-            "a length such as \"2.9 um\" or a multiple of the specimen's voxel such as \"2 voxels\"",
-        )?;
-        match multiple(&text, &["voxels", "voxel"], "\"2 voxels\"") {
-            Some(voxels) => voxels.map(Self::Voxels),
-            None => positive::<Length, _>(&text, "voxels, such as \"2 voxels\"").map(Self::Metres),
-        }
-    }
+/// In voxels.
+pub(super) fn in_voxels<'de, R: Deserializer<'de>>(reader: R) -> Result<EdgeLength, R::Error> {
+    let wanted =
+        "a length such as \"2.9 um\" or a multiple of the specimen's voxel such as \"2 voxels\"";
+    let text = text(reader, wanted)?;
+    EdgeLength::parse(&text, &["voxels", "voxel"], "\"2 voxels\"", "voxels,")
 }
 
 /// `stop` of the clamp: `"closed"` or a time.

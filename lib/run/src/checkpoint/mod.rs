@@ -195,10 +195,8 @@ mod tests {
         let found = read(place.path(), &of("x"), &String::new).unwrap().unwrap();
         assert_eq!((found.clock, found.courant), (clock, courant.to_vec()));
         assert_eq!((found.history, found.saved), (history, saved));
-        let said = read(place.path(), &of("y"), &String::new)
-            .unwrap_err()
-            .to_string();
-        assert!(said.contains("another case"), "{said}");
+        let said = read(place.path(), &of("y"), &String::new).unwrap_err();
+        assert!(said.to_string().contains("another case"), "{said}");
     }
 
     /// It was said to have no array of some name.
@@ -230,10 +228,7 @@ mod tests {
             let there = "written by mpm-run 0.1.0 in the checkpoint format 'explicit 1, run 1'";
             let here = format!("this is mpm-run {version} in the checkpoint format '{format}'");
             assert!(told.contains(there) && told.contains(&here), "{told}");
-            assert!(
-                told.contains("continue the run with the build that wrote it"),
-                "{told}"
-            );
+            assert!(told.contains("with the build that wrote it"), "{told}");
         }
         // As builds did that named no format.
         let mut header = Header::new(Kind::Checkpoint, 1.0, 1, [0.0; 3], [0.0; 3]);
@@ -242,9 +237,7 @@ mod tests {
         Draft::new(header).write_to(&mut bytes).unwrap();
         fs::write(place.path().join(CHECKPOINT), bytes).unwrap();
         let told = said("0.2.0", "explicit 1, run 1").unwrap_err();
-        assert!(
-            told.contains("a build of mpm-run 0.1.0 whose checkpoints do not name"),
-            "{told}"
-        );
+        let there = "a build of mpm-run 0.1.0 whose checkpoints do not name";
+        assert!(told.contains(there), "{told}");
     }
 }

@@ -34,19 +34,19 @@ pub(super) fn geometry(
     dimensions: Dimensions,
     bond: Bond,
 ) -> Result<Geometry, RunFailure> {
-    let cell = case.grid.cell.si(Some(bond.adhesive.voxel()[0]))?;
+    let cell = case.grid.cell.si(bond.adhesive.voxel()[0]);
     if case.grid.domain.is_some() {
         return refused("[grid] domain is for [[body]] scenes; a bond file has its own box");
     }
-    let plane_strain = dimensions == Dimensions::Two;
-    if plane_strain && bond.adhesive.dims()[2] != 1 {
+    let depth = (dimensions == Dimensions::Two).then_some(cell);
+    if depth.is_some() && bond.adhesive.dims()[2] != 1 {
         return refused(format!(
             "plane strain needs a bond one voxel thick along z, but this one has {}; cut it with xct2particles --crop",
             bond.adhesive.dims()[2]
         ));
     }
     let mut cells = [1; 3];
-    for a in 0..if plane_strain { 2 } else { 3 } {
+    for a in 0..dimensions.axes() {
         let n = (bond.max_m[a] - bond.min_m[a]) / cell;
         if a != 1 && (n - n.round()).abs() > 1e-3 {
             return refused(format!(
@@ -65,7 +65,6 @@ pub(super) fn geometry(
         ));
     }
     let mut min_m = bond.min_m;
-    let depth = plane_strain.then_some(cell);
     if depth.is_some() {
         min_m[2] = 0.0;
     }
@@ -80,30 +79,22 @@ pub(super) fn geometry(
         blocks: vec![deepen(block, depth)],
         motion,
     };
+    let motion = match case.clamp {
+        Some(_) => Motion::Clamped,
+        None => Motion::Fixed,
+    };
     let bodies = vec![
         body("wood-bottom", &bond.bottom, Motion::Fixed),
-        body(
-            "wood-top",
-            &bond.top,
-            if case.clamp.is_some() {
-                Motion::Clamped
-            } else {
-                Motion::Fixed
-            },
-        ),
+        body("wood-top", &bond.top, motion),
     ];
+    let travel = case.clamp.as_ref().and_then(|clamp| clamp.travel);
     Ok(Geometry {
         grid,
         seeds,
         bodies,
         bottom: Some(0),
         top: Some(1),
-        travel_m: Some(
-            case.clamp
-                .as_ref()
-                .and_then(|c| c.travel)
-                .map_or(bond.gap_m, |t| t.si()),
-        ),
+        travel_m: Some(travel.map_or(bond.gap_m, |travel| travel.si())),
         normal: bond.normal,
     })
 }

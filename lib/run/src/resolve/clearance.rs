@@ -5,25 +5,20 @@ use physics::VoxelBlock;
 /// How far `upper` can come down before a solid voxel of it meets one of `lower`, m.
 pub(super) fn clearance(upper: &VoxelBlock, lower: &VoxelBlock, slack: f64) -> Option<f64> {
     let [nx, _, nz] = upper.dims();
-    let mut least: Option<f64> = None;
-    for k in 0..nz {
-        for i in 0..nx {
-            let Some(bottom) = lowest(upper, i, k) else {
-                continue;
-            };
-            let (columns_x, columns_z) = (
-                columns(upper, i, lower, 0, slack),
-                columns(upper, k, lower, 2, slack),
-            );
-            for (c, d) in columns_x.flat_map(|c| columns_z.clone().map(move |d| (c, d))) {
+    let mut least = f64::INFINITY;
+    for (k, i) in (0..nz).flat_map(|k| (0..nx).map(move |i| (k, i))) {
+        let Some(bottom) = lowest(upper, i, k) else {
+            continue;
+        };
+        for c in columns(upper, i, lower, 0, slack) {
+            for d in columns(upper, k, lower, 2, slack) {
                 if let Some(top) = highest_below(lower, c, d, bottom + slack) {
-                    let here = bottom - top;
-                    least = Some(least.map_or(here, |least| least.min(here)));
+                    least = least.min(bottom - top);
                 }
             }
         }
     }
-    least
+    least.is_finite().then_some(least)
 }
 
 /// Indices along `axis` of the voxels of `other` that voxel `index` of `block` shares a place with.

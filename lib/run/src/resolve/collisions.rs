@@ -159,38 +159,30 @@ pub(super) fn possible(
     slack: f64,
 ) -> Option<&RigidBody> {
     let closing = scene.clamp?.closing_speed;
-    let clamped = || {
-        let bodies = scene.bodies.iter();
-        bodies.filter(|body| body.motion == Motion::Clamped)
-    };
+    let clamped = |body: &&RigidBody| body.motion == Motion::Clamped;
     let moving = |body: &&RigidBody| {
         matches!(body.motion, Motion::Constant(_)) && scene.velocity(body.motion) != [0.0; 3]
     };
     scene.bodies.iter().filter(moving).find(|body| {
         let v = scene.velocity(body.motion);
-        let blocks = clamped().flat_map(|clamp| &clamp.blocks);
+        let clamps = scene.bodies.iter().filter(clamped);
+        let blocks = clamps.flat_map(|clamp| &clamp.blocks);
         (blocks.flat_map(|x| body.blocks.iter().map(move |y| (x, y)))).any(|(x, y)| {
             let along = |axis| overlap(scene, axis, y, x, v[axis]);
             let (Some(along_x), Some(along_z)) = (along(0), along(2)) else {
                 return false;
             };
             // The clamp's box may have any height down to where it is at full speed.
-            let (above, below) = (
-                y.max()[1] - x.origin()[1] - slack,
-                x.max()[1] - y.origin()[1] - slack,
-            );
+            let above = y.max()[1] - x.origin()[1] - slack;
+            let below = x.max()[1] - y.origin()[1] - slack;
             let limits = [
                 (above + travel_m, v[1]),
                 (above, v[1] + closing),
                 (below, -v[1]),
             ];
-            let along_y = limits.into_iter().fold((0.0, until_s), positive);
-            common(
-                [along_x, Overlap::between(along_y.0, along_y.1), along_z],
-                until_s,
-            )
-            .next()
-            .is_some()
+            let (begin, end) = limits.into_iter().fold((0.0, until_s), positive);
+            let axes = [along_x, Overlap::between(begin, end), along_z];
+            common(axes, until_s).next().is_some()
         })
     })
 }
@@ -237,12 +229,12 @@ mod tests {
         }
     }
 
-    fn said(collision: Option<Collision>) -> (String, f64) {
-        let met = collision.unwrap();
-        (
-            format!("{} and {}", met.body.name, met.with),
-            met.time_s / UM,
-        )
+    #[track_caller]
+    fn meet(scene: &Scene, until_us: f64, who: &str, time_us: f64) {
+        let met = first(scene, false, until_us * UM).unwrap();
+        assert_eq!(format!("{} and {}", met.body.name, met.with), who);
+        let time = met.time_s / UM;
+        assert!((time - time_us).abs() < 1e-4, "{time}");
     }
 
     const FLOOR: (&str, Motion, [f64; 4]) = ("floor", Motion::Fixed, [0.0, 0.0, 40.0, 2.0]);
@@ -255,14 +247,9 @@ mod tests {
         let bar = ("bar", bar, [2.0, 12.0, 22.0, 14.0]);
         // From 80 us on it is as low as the post, over which it is then from the second period on.
         let over = scene(&[FLOOR, bar, POST]);
-        let (who, time) = said(first(&over, false, 300.0 * UM));
-        assert_eq!(who, "bar and 'post'");
-        assert!((time - 88.0).abs() < 1e-3, "{time}");
+        meet(&over, 300.0, "bar and 'post'", 88.0);
         assert!(first(&over, false, 87.0 * UM).is_none());
-        let alone = scene(&[FLOOR, bar]);
-        let (who, time) = said(first(&alone, false, 300.0 * UM));
-        assert_eq!(who, "floor and 'bar'");
-        assert!((time - 200.0).abs() < 1e-3, "{time}");
+        meet(&scene(&[FLOOR, bar]), 300.0, "floor and 'bar'", 200.0);
     }
 
     #[test]
@@ -271,21 +258,16 @@ mod tests {
             let block = Motion::Constant([3.0, v, 0.0]);
             scene(&[("block", block, [2.0, y, 4.0, y + 4.0])])
         };
-        let (who, time) = said(first(&block(-1.0, 5.0), false, 1.0));
-        assert_eq!(who, "block and the symmetry side at the lower end of y");
-        assert!((time - 5.0).abs() < 1e-9, "{time}");
-        let (who, time) = said(first(&block(2.0, 5.0), false, 1.0));
-        assert_eq!(who, "block and the symmetry side at the upper end of y");
-        assert!((time - 5.5).abs() < 1e-9, "{time}");
+        for (v, end, time) in [(-1.0, "lower", 5.0), (2.0, "upper", 5.5)] {
+            let who = format!("block and the symmetry side at the {end} end of y");
+            meet(&block(v, 5.0), 1e6, &who, time);
+        }
         // A piston through the side, and one that comes in.
         assert!(first(&block(-1.0, -1.0), false, 1.0).is_none());
         assert!(first(&block(-1.0, 20.0), false, 19.0 * UM).is_none());
         // A plate goes along the floor for ever.
-        let plate = (
-            "plate",
-            Motion::Constant([1.0, 0.0, 0.0]),
-            [0.0, 2.0, 40.0, 4.0],
-        );
+        let along = Motion::Constant([1.0, 0.0, 0.0]);
+        let plate = ("plate", along, [0.0, 2.0, 40.0, 4.0]);
         assert!(first(&scene(&[FLOOR, plate]), false, 1.0).is_none());
     }
 

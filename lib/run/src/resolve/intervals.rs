@@ -154,28 +154,10 @@ mod tests {
         for (a, b, v, when, why) in [
             (plate, floor, [0.0, -2.0, 0.0], Some(1.0), "it comes down"),
             (plate, floor, [0.0, 2.0, 0.0], None, "it moves away"),
-            (
-                plate,
-                floor,
-                [8.0, -2.0, 0.0],
-                None,
-                "it has passed by then",
-            ),
-            (
-                far,
-                floor,
-                [2.0, -2.0, 0.0],
-                None,
-                "it falls past the floor",
-            ),
-            (plate, beside, [0.0, -2.0, 0.0], None, "it slides along it"),
-            (
-                plate,
-                within,
-                [0.0, -2.0, 0.0],
-                Some(-0.05),
-                "it has begun to",
-            ),
+            (plate, floor, [8.0, -2.0, 0.0], None, "it has passed"),
+            (far, floor, [2.0, -2.0, 0.0], None, "it falls past it"),
+            (plate, beside, [0.0, -2.0, 0.0], None, "it slides along"),
+            (plate, within, [0.0, -2.0, 0.0], Some(-0.05), "begun"),
             (plate, within, [0.0, 2.0, 0.0], None, "it comes out"),
             (plate, within, [1.0, 0.0, 0.0], None, "a wall along it"),
         ] {

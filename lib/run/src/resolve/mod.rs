@@ -88,9 +88,8 @@ pub fn resolve(case: &Case, bond: Option<Bond>) -> Result<Setup, RunFailure> {
         2 => Dimensions::Two,
         3 => Dimensions::Three,
         n => {
-            return refused(format!(
-                "[grid] dimensions = {n} is not accepted: 2 or 3 is needed"
-            ));
+            let said = format!("[grid] dimensions = {n} is not accepted: 2 or 3 is needed");
+            return refused(said);
         }
     };
     if !(1..=4).contains(&case.grid.points_per_direction) {
@@ -165,9 +164,9 @@ fn finish(case: &Case, dimensions: Dimensions, geometry: Geometry) -> Result<Set
 
 /// A clamp of one speed and one limit.
 fn clamp(table: &ClampTable) -> Result<Clamp, RunFailure> {
-    let closing_speed = table.closing_speed.ok_or_else(|| {
-        RunFailure::Usage("[clamp] needs closing_speed, or a list of [[clamp.stage]]".into())
-    })?;
+    let Some(closing_speed) = table.closing_speed else {
+        return refused("[clamp] needs closing_speed, or a list of [[clamp.stage]]");
+    };
     let pid = table.pid.map(|g| Pid {
         kp: g.kp,
         ki: g.ki,
@@ -191,16 +190,12 @@ fn stop(
     programme: &[PressStage],
     travel: Option<f64>,
 ) -> Result<(Stop, f64, f64), RunFailure> {
-    let (table, clamp) = match (&case.clamp, clamp) {
-        (Some(table), Some(clamp)) => (table, clamp),
-        _ => {
-            let time = case.stop.as_ref().map(|s| s.time.si()).ok_or_else(|| {
-                RunFailure::Usage(
-                    "the case has no end: give [stop] time, or a [clamp] with stop".into(),
-                )
-            })?;
-            return Ok((Stop::Time(time), time, time));
-        }
+    let (Some(table), Some(clamp)) = (&case.clamp, clamp) else {
+        let Some(stop) = &case.stop else {
+            return refused("the case has no end: give [stop] time, or a [clamp] with stop");
+        };
+        let time = stop.time.si();
+        return Ok((Stop::Time(time), time, time));
     };
     if case.stop.is_some() {
         return refused("[stop] is for runs without [clamp]; use the clamp's own stop");
@@ -212,11 +207,9 @@ fn stop(
     match table.stop.unwrap_or(StopRule::Closed) {
         StopRule::Time(t) => Ok((Stop::Time(t), t, t)),
         StopRule::Closed => {
-            let travel_m = travel.ok_or_else(|| {
-                RunFailure::Usage(
-                    "stop = \"closed\" needs the clamp's travel: give [clamp] travel".into(),
-                )
-            })?;
+            let Some(travel_m) = travel else {
+                return refused("stop = \"closed\" needs the clamp's travel: give [clamp] travel");
+            };
             let nominal = travel_m / clamp.closing_speed;
             // Under load control closure may never come (paper Fig. 5): twice the time at
             // full speed is where the paper's own runs had stopped moving.
@@ -241,10 +234,9 @@ fn boundary(case: &Case, dimensions: Dimensions) -> Result<[Boundary; 3], RunFai
 
 fn wall(contact: Option<&Contact>, cell: f64, walls: bool) -> Result<WallLaw, RunFailure> {
     let Some(contact) = contact else {
-        return if walls {
-            refused("the scene has rigid bodies: [contact] law is needed")
-        } else {
-            Ok(WallLaw::Frictionless)
+        return match walls {
+            true => refused("the scene has rigid bodies: [contact] law is needed"),
+            false => Ok(WallLaw::Frictionless),
         };
     };
     match (contact.law, contact.influence_length) {

@@ -4,11 +4,15 @@ use physics::{Dimensions, GridBox, Motion, RigidBody, VoxelBlock};
 
 use super::seed::{Lattice, Seeds};
 use super::{Corners, Geometry, boundary, cells_along, periodic};
-use crate::case::{Body, BodyVelocity, BoxCorners, Case, MaterialName};
+use crate::case::{Body, BodyVelocity, BoxCorners, Case, EdgeLength, MaterialName};
 use crate::failure::{RunFailure, refused};
 
 pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, RunFailure> {
-    let cell = case.grid.cell.si(None)?;
+    let EdgeLength::Metres(cell) = case.grid.cell else {
+        return refused(
+            "[grid] cell is given in voxels, and [[body]] tables have none: give a length such as \"2.9 um\"",
+        );
+    };
     let depth = (dimensions == Dimensions::Two).then_some(cell);
     let boundary = boundary(case, dimensions)?;
     let domain = domain(case, depth)?;
@@ -18,8 +22,9 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
     let mut bodies: Vec<RigidBody> = Vec::new();
     let mut filled: Vec<(usize, Corners)> = Vec::new();
     for (index, body) in case.body.iter().enumerate() {
-        let (min, max) = corners(&body.corners, depth)
-            .map_err(|e| RunFailure::Usage(format!("[[body]] number {}: {e}", index + 1)))?;
+        let wrong =
+            |said: String| RunFailure::Usage(format!("[[body]] number {}: {said}", index + 1));
+        let (min, max) = corners(&body.corners, depth).map_err(wrong)?;
         match body.material {
             MaterialName::Adhesive => {
                 let velocity = match body.velocity {
@@ -30,18 +35,15 @@ pub(super) fn geometry(case: &Case, dimensions: Dimensions) -> Result<Geometry, 
                     }
                 };
                 if let Some((other, _)) = filled.iter().find(|(_, b)| overlap(b, &(min, max))) {
-                    return refused(format!(
-                        "[[body]] number {}: it overlaps number {}, and a place holds liquid once",
-                        index + 1,
+                    return Err(wrong(format!(
+                        "it overlaps number {}, and a place holds liquid once",
                         other + 1
-                    ));
+                    )));
                 }
                 filled.push((index, (min, max)));
                 let spacing = cell / f64::from(case.grid.points_per_direction);
                 let lattice = Lattice::new(min, max, spacing, depth, velocity);
-                inside(&lattice, &grid).map_err(|e| {
-                    RunFailure::Usage(format!("[[body]] number {}: {e}", index + 1))
-                })?;
+                inside(&lattice, &grid).map_err(wrong)?;
                 lattices.push(lattice);
             }
             MaterialName::Rigid => {
@@ -137,14 +139,11 @@ fn domain(case: &Case, depth: Option<f64>) -> Result<Corners, RunFailure> {
 }
 
 fn grid((min, max): Corners, cell: f64) -> Result<GridBox, RunFailure> {
-    let mut cells = [0; 3];
-    for a in 0..3 {
-        cells[a] = cells_along((max[a] - min[a]) / cell - 1e-6)?;
-    }
+    let along = |a: usize| cells_along((max[a] - min[a]) / cell - 1e-6);
     Ok(GridBox {
         cell_m: cell,
         min_m: min,
-        cells,
+        cells: [along(0)?, along(1)?, along(2)?],
     })
 }
 

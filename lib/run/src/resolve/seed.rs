@@ -24,13 +24,9 @@ impl Lattice {
         plane_strain_depth: Option<f64>,
         velocity: [f64; 3],
     ) -> Self {
-        let mut n = [0_u64; 3];
-        let mut step = [0.0; 3];
-        for a in 0..3 {
-            let length = max[a] - min[a];
-            n[a] = ((length / spacing).round() as u64).max(1);
-            step[a] = length / n[a] as f64;
-        }
+        let length: [f64; 3] = std::array::from_fn(|a| max[a] - min[a]);
+        let mut n = length.map(|length| ((length / spacing).round() as u64).max(1));
+        let mut step = std::array::from_fn(|a| length[a] / n[a] as f64);
         let mut low = min;
         if let Some(depth) = plane_strain_depth {
             (n[2], step[2], low[2]) = (1, depth, 0.0);

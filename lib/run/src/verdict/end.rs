@@ -75,10 +75,9 @@ pub(crate) fn judge(
             "{missing:.1e} of the water is neither in the liquid nor in the walls"
         ));
     }
-    let off = if cavities {
-        -unexplained
-    } else {
-        unexplained.abs()
+    let off = match cavities {
+        true => -unexplained,
+        false => unexplained.abs(),
     };
     if lost == 0 && off > MOST_UNEXPLAINED {
         reasons.push(format!(
@@ -118,14 +117,8 @@ fn unexplained(scene: &Scene, liquid: &LiquidState, initial: f64) -> f64 {
     let at_rest = |(&volume, &pressure): (&f32, &f32)| {
         f64::from(volume) / (1.0 + scene.liquid.tait.volume_change(f64::from(pressure)))
     };
-    liquid
-        .volume
-        .iter()
-        .zip(&liquid.pressure)
-        .map(at_rest)
-        .sum::<f64>()
-        / initial
-        - 1.0
+    let volumes = liquid.volume.iter().zip(&liquid.pressure).map(at_rest);
+    volumes.sum::<f64>() / initial - 1.0
 }
 
 #[cfg(test)]

@@ -2,10 +2,9 @@
 //! beforehand, and against the same measured of its states afterwards.
 
 use std::fs;
-use std::path::Path;
 
 use metrics::{Datum, Reference, Sealed, State, bond_line, penetration};
-use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile};
+use particle_file::{BitGrid, Header, Kind, ParticleFile};
 use run::RunFailure;
 
 use crate::bench::{Bench, END, PLAIN, case, has};
@@ -34,7 +33,7 @@ snapshots = 3
 
 /// A bond whose grooves are half of its area, as deep as the wood but for three voxels, with a sealed lumen in
 /// the land of the lower adherend.
-fn grooved(path: &Path) {
+fn bench() -> Bench {
     let thick = 2 * WOOD + GAP;
     let high = [WIDE, thick, 2].map(|n| n as f64 * VOXEL * 1e-6);
     let mut header = Header::new(Kind::Bond, VOXEL * 1e-6, 1, [0.0; 3], high);
@@ -46,26 +45,10 @@ fn grooved(path: &Path) {
     });
     let top = BitGrid::from_fn([WIDE, WOOD, 2], |x, y, _| y >= WOOD - 3 || !groove(x));
     let adhesive = BitGrid::from_fn([WIDE, GAP, 2], |_, _, _| true);
-    let block = |name, material, layer: usize, bits| {
-        let origin = [0.0, layer as f64 * VOXEL * 1e-6, 0.0];
-        Block::new(name, material, origin, VOXEL * 1e-6, bits)
-    };
-    let mut bytes = Vec::new();
-    Draft::new(header)
-        .block(block("wood-bottom", Material::Rigid, 0, &bottom), &bottom)
-        .block(block("wood-top", Material::Rigid, WOOD + GAP, &top), &top)
-        .block(
-            block("adhesive", Material::Adhesive, WOOD, &adhesive),
-            &adhesive,
-        )
-        .write_to(&mut bytes)
-        .unwrap();
-    fs::write(path, bytes).unwrap();
-}
-
-fn bench() -> Bench {
     let bench = Bench::with(&case("2 um", None, TABLES));
-    grooved(&bench.path("bond.mpts"));
+    let parts = [(0, bottom), (WOOD + GAP, top), (WOOD, adhesive)];
+    let parts = parts.map(|(layer, bits)| (layer as f64 * VOXEL * 1e-6, bits));
+    bench.put_bond(header, parts);
     bench
 }
 
@@ -84,30 +67,21 @@ fn grooves_filled_by_a_known_volume_are_told_within_a_voxel() {
     let number = |name: &str| told(name).parse::<f64>().unwrap();
     // Of 72 square voxels a side: 12 wide up to a depth of 1, 6 wide from there to 11.
     let wp = ((12.0 + 6.0 * (11_f64.powi(3) - 1.0)) / 3.0 / 72.0).sqrt() * VOXEL;
+    let face = VOXEL.powi(2);
     let known = [
         ("wp", "um", wp, VOXEL),
         ("ep", "um", 6.0 * VOXEL, 0.5 * VOXEL),
         ("p95_depth", "um", (11.0 - 0.05 * 72.0 / 6.0) * VOXEL, VOXEL),
         ("half_filled_depth", "um", 11.0 * VOXEL, 1.01 * VOXEL),
         // Walls of 10 and the land, all 2 voxels along z; two voxels more or less of both walls.
-        (
-            "wetted_area",
-            "um2",
-            52.0 * VOXEL.powi(2),
-            8.0 * VOXEL.powi(2),
-        ),
+        ("wetted_area", "um2", 52.0 * face, 8.0 * face),
     ];
     for (name, unit, wanted, tolerance) in known {
         for side in ["bottom", "top"] {
             let found = number(&format!("{name}_{side}_{unit}"));
-            println!(
-                "{name} {side}: {found:.3} {unit}, known {wanted:.3}, error {:+.3}",
-                found - wanted
-            );
-            assert!(
-                (found - wanted).abs() <= tolerance,
-                "{name} {side}: {found} {wanted}"
-            );
+            let error = found - wanted;
+            println!("{name} {side}: {found:.3} {unit}, known {wanted:.3}, error {error:+.3}");
+            assert!(error.abs() <= tolerance, "{name} {side}: {found} {wanted}");
         }
     }
     let filled = number("bond_line_filled");
@@ -118,20 +92,16 @@ fn grooves_filled_by_a_known_volume_are_told_within_a_voxel() {
     // where they should, so that what is filled to any depth is known to a layer.
     let answers = summary.penetration.unwrap();
     assert!(!answers.outer_face_reached);
-    for shares in [
-        &answers.filled_by_depth.bottom,
-        &answers.filled_by_depth.top,
-    ] {
+    let by_depth = &answers.filled_by_depth;
+    for shares in [&by_depth.bottom, &by_depth.top] {
         let (mut filled, mut most) = (0.0_f64, 0.0_f64);
         for (layer, share) in shares.iter().enumerate() {
             filled += share;
             most = most.max((filled - (layer as f64 + 1.0).min(11.0)).abs());
         }
-        println!(
-            "filled to any depth: largest error {most:.3} of a layer; layers with adhesive: {}",
-            shares.len()
-        );
-        assert!(most < 1.0 && shares.len() <= 13, "{shares:?}");
+        let layers = shares.len();
+        println!("filled to any depth: largest error {most:.3} of a layer; {layers} with adhesive");
+        assert!(most < 1.0 && layers <= 13, "{shares:?}");
     }
     let of_history = format!("{:.6}", 1e6 * answers.wp_m.total);
     assert_eq!(of_history, told("wp_total_um"));

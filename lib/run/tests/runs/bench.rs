@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use particle_file::Provenance;
+use particle_file::{BitGrid, Block, Draft, Header, Material, Provenance};
 use run::{Ahead, Mode, Request, RunFailure, Summary};
 use tempfile::TempDir;
 
@@ -77,7 +77,7 @@ pub struct Bench(TempDir);
 impl Bench {
     pub fn with(case: &str) -> Self {
         let bench = Self(tempfile::tempdir().unwrap());
-        fs::write(bench.path("case.toml"), case).unwrap();
+        bench.write("case.toml", case);
         bench
     }
 
@@ -105,6 +105,37 @@ snapshots = 3"#
 
     pub fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).unwrap();
+    }
+
+    pub fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).unwrap()
+    }
+
+    pub fn remove(&self, name: &str) {
+        fs::remove_file(self.path(name)).unwrap();
+    }
+
+    /// Puts a bond of this header there: wood below, wood above and adhesive, each from a height (m) along the normal on.
+    pub fn put_bond(&self, header: Header, parts: [(f64, BitGrid); 3]) {
+        let names = [
+            ("wood-bottom", Material::Rigid),
+            ("wood-top", Material::Rigid),
+            ("adhesive", Material::Adhesive),
+        ];
+        let (voxel, normal) = (header.voxel_m, usize::from(header.normal));
+        let mut draft = Draft::new(header);
+        for ((name, material), (low, bits)) in names.into_iter().zip(&parts) {
+            let mut origin = [0.0; 3];
+            origin[normal] = *low;
+            draft = draft.block(Block::new(name, material, origin, voxel, bits), bits);
+        }
+        let mut bytes = Vec::new();
+        draft.write_to(&mut bytes).unwrap();
+        self.write("bond.mpts", bytes);
     }
 
     pub fn read(&self, changes: &[&str]) -> Result<Request, RunFailure> {
@@ -164,6 +195,13 @@ snapshots = 3"#
     pub fn ran(&self, folder: &str, mode: Mode, steps: usize) -> Summary {
         let ended = self.run(folder, mode, steps, &[]).unwrap();
         ended.expect("a run that has not ended")
+    }
+
+    /// That the run in `run` is refused, in these words.
+    #[track_caller]
+    pub fn refuses(&self, mode: Mode, changes: &[&str], words: &[&str]) {
+        let said = self.run("run", mode, END, changes).unwrap_err();
+        has(&said.to_string(), words);
     }
 
     /// A column of the history of the run in `run`.

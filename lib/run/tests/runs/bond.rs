@@ -1,7 +1,7 @@
 //! A scene from a bond file: what is read of it, turned to the scene's axes and made of it, against
 //! numbers worked out by hand, and what of it is refused.
 
-use particle_file::{BitGrid, Block, Draft, Header, Kind, Material, ParticleFile};
+use particle_file::{BitGrid, Header, Kind, ParticleFile};
 use run::RunFailure;
 
 use crate::bench::{Bench, END, PLAIN, case, has};
@@ -25,28 +25,17 @@ scheme = "implicit"
 fn bench(wide: usize, change: impl FnOnce(&mut Header)) -> Bench {
     let bench = Bench::with(&case("1 um", None, TABLES));
     let gap_voxels = GAP / VOXEL;
-    let parts = [
-        ("wood-bottom", Material::Rigid, 3, 0.0),
-        ("wood-top", Material::Rigid, 2, 3.0 + gap_voxels),
-        ("adhesive", Material::Adhesive, 2, 3.0),
-    ];
     let high = [4.0, wide as f64, 5.0 + gap_voxels].map(|n| n * VOXEL);
     let mut header = Header::new(Kind::Bond, VOXEL, 2, [0.0; 3], high);
     header.set_attribute("gap_m", GAP);
     change(&mut header);
-    let bits = parts.map(|(name, _, layers, _)| {
-        BitGrid::from_fn([4, wide, layers], |x, y, z| {
-            !(name == "wood-bottom" && x == 1 && y == 0 && z > 0)
-        })
-    });
-    let mut draft = Draft::new(header);
-    for ((name, material, _, low), bits) in parts.into_iter().zip(&bits) {
-        let origin = [0.0, 0.0, low * VOXEL];
-        draft = draft.block(Block::new(name, material, origin, VOXEL, bits), bits);
-    }
-    let mut bytes = Vec::new();
-    draft.write_to(&mut bytes).unwrap();
-    std::fs::write(bench.path("bond.mpts"), bytes).unwrap();
+    let pitted = BitGrid::from_fn([4, wide, 3], |x, y, z| !(x == 1 && y == 0 && z > 0));
+    let full = || BitGrid::from_fn([4, wide, 2], |_, _, _| true);
+    let top = (3.0 + gap_voxels) * VOXEL;
+    bench.put_bond(
+        header,
+        [(0.0, pitted), (top, full()), (3.0 * VOXEL, full())],
+    );
     bench
 }
 
@@ -127,30 +116,16 @@ fn bonds_and_cells_that_do_not_fit_are_refused() {
         r#"grid.domain={ min = ["0 um", "0 um", "0 um"], max = ["8 um", "8 um", "8 um"] }"#;
     let points = "grid={ cell = \"4 um\", points_per_direction = 1 }";
     let body = r#"body=[{ material = "rigid", box = { min = ["0 m", "0 m", "0 m"], max = ["1 m", "1 m", "1 m"] } }]"#;
+    let positive = "a number of voxels greater than zero is needed";
     for (change, sentence) in [
-        (
-            "grid.dimensions=2",
-            "one voxel thick along z, but this one has 8",
-        ),
+        ("grid.dimensions=2", "thick along z, but this one has 8"),
         ("grid.cell=3 um", "2.667 cells of 3.0000 um wide along x"),
-        (
-            "grid.cell=1.6 um",
-            "puts 2.500 points along a voxel of 2.0000 um",
-        ),
+        ("grid.cell=1.6 um", "2.500 points along a voxel of 2.0000"),
         (points, "puts 0.500 points along a voxel"),
         ("grid.cell=2 voxel s", "or voxels, such as \"2 voxels\""),
-        (
-            "grid.cell=voxels",
-            "a number of voxels greater than zero is needed",
-        ),
-        (
-            "grid.cell=-2 voxels",
-            "a number of voxels greater than zero is needed",
-        ),
-        (
-            "grid.cell=nan voxels",
-            "a number of voxels greater than zero is needed",
-        ),
+        ("grid.cell=voxels", positive),
+        ("grid.cell=-2 voxels", positive),
+        ("grid.cell=nan voxels", positive),
         (domain, "a bond file has its own box"),
         (body, "only one of them can describe the scene"),
         // 4e6 cells are accepted however small the file.
@@ -158,7 +133,7 @@ fn bonds_and_cells_that_do_not_fit_are_refused() {
     ] {
         has(&bench.refusal(&[change]), &[sentence]);
     }
-    std::fs::remove_file(bench.path("bond.mpts")).unwrap();
+    bench.remove("bond.mpts");
     has(&bench.refusal(&[]), &["nothing describes the scene"]);
 }
 

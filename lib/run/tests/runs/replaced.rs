@@ -2,11 +2,12 @@
 
 use std::fs;
 use std::os::unix::fs::symlink;
+use std::path::Path;
 
 use particle_file::{Draft, Header, Kind, Provenance};
 use run::{Mode, RunFailure};
 
-use crate::bench::{Bench, END, OVERWRITE, PLAIN, RESUME, everything};
+use crate::bench::{Bench, END, OVERWRITE, PLAIN, RESUME, everything, has};
 
 /// Names at which a run writes.
 const NAMES: [&str; 8] = [
@@ -20,11 +21,13 @@ const NAMES: [&str; 8] = [
     "snapshots/.mpm-run.tmp",
 ];
 
+const MODES: [Mode; 3] = [PLAIN, RESUME, OVERWRITE];
+
 /// A folder marked as a run folder, with no run in it.
 fn marked() -> Bench {
     let bench = Bench::explicit();
     fs::create_dir_all(bench.path("run/snapshots")).unwrap();
-    fs::write(bench.path("run/bondline-run.toml"), "").unwrap();
+    bench.write("run/bondline-run.toml", "");
     bench
 }
 
@@ -37,87 +40,89 @@ fn refused(bench: &Bench, mode: Mode, sentence: &str) {
     };
     let before = content();
     match bench.run("run", mode, END, &[]) {
-        Err(RunFailure::Usage(said)) => assert!(said.contains(sentence), "{said}"),
+        Err(RunFailure::Usage(said)) => has(&said, &[sentence]),
         ended => panic!("{sentence}: {ended:?}"),
     }
     assert!(content() == before, "{sentence}: something was touched");
 }
 
-/// The case read would have been replaced by 314e630 at five of these names.
-#[test]
-fn an_input_at_a_name_of_the_runs_is_refused() {
-    for name in NAMES {
-        let bench = marked();
-        fs::hard_link(bench.path("case.toml"), bench.path("run").join(name)).unwrap();
-        for mode in [PLAIN, RESUME, OVERWRITE] {
-            refused(&bench, mode, "read by this run");
-        }
+fn refused_always(bench: &Bench, sentence: &str) {
+    for mode in MODES {
+        refused(bench, mode, sentence);
     }
 }
 
+/// Inputs, links, folders, and files in a folder that is not marked: nothing there is known to be a run's. The case read
+/// would have been replaced by 314e630 at five of these names.
 #[test]
-fn links_and_folders_at_names_of_the_runs_are_refused() {
-    for name in NAMES {
-        let [linked, taken] = [marked(), marked()];
-        fs::write(linked.path("elsewhere"), "theirs").unwrap();
-        symlink(linked.path("elsewhere"), linked.path("run").join(name)).unwrap();
-        fs::create_dir(taken.path("run").join(name)).unwrap();
-        for bench in [linked, taken] {
-            refused(&bench, OVERWRITE, "not a file of the run's own");
+fn what_stands_at_a_name_of_the_runs_and_is_not_its_own_is_refused() {
+    type Put = fn(&Bench, &Path);
+    let not_its_file = "not a file of the run's own";
+    let cases: [(&str, Put); 4] = [
+        ("read by this run", |bench, place| {
+            fs::hard_link(bench.path("case.toml"), place).unwrap();
+        }),
+        (not_its_file, |bench, place| {
+            bench.write("elsewhere", "theirs");
+            symlink(bench.path("elsewhere"), place).unwrap();
+        }),
+        (not_its_file, |_, place| fs::create_dir(place).unwrap()),
+        ("not marked as a run folder", |bench, place| {
+            fs::write(place, "theirs").unwrap();
+            bench.remove("run/bondline-run.toml");
+        }),
+    ];
+    for (sentence, put) in cases {
+        for name in NAMES {
+            let bench = marked();
+            put(&bench, &bench.path("run").join(name));
+            refused_always(&bench, sentence);
         }
     }
+    let bench = marked();
+    bench.remove("run/bondline-run.toml");
+    bench.write("run/snapshots/photo.jpg", "theirs");
+    refused_always(&bench, "not marked as a run folder");
     let bench = marked();
     fs::remove_dir(bench.path("run/snapshots")).unwrap();
     fs::create_dir(bench.path("elsewhere")).unwrap();
     symlink("../elsewhere", bench.path("run/snapshots")).unwrap();
-    refused(&bench, OVERWRITE, "not a folder of the run's own");
+    refused_always(&bench, "not a folder of the run's own");
 }
 
-/// Nothing in a folder that is not marked is known to be a run's.
 #[test]
-fn names_of_the_runs_in_a_folder_without_a_mark_are_refused() {
-    for name in NAMES.into_iter().chain(["snapshots/photo.jpg"]) {
-        let bench = Bench::explicit();
-        fs::create_dir_all(bench.path("run/snapshots")).unwrap();
-        fs::write(bench.path("run").join(name), "theirs").unwrap();
-        for mode in [PLAIN, RESUME, OVERWRITE] {
-            refused(&bench, mode, "not marked as a run folder");
-        }
-    }
+fn a_folder_with_other_names_becomes_a_run_folder() {
     let bench = Bench::explicit();
     fs::create_dir(bench.path("run")).unwrap();
     for name in ["notes.txt", "final.tmp", "history.csv.tmp"] {
-        fs::write(bench.path("run").join(name), name).unwrap();
+        bench.write(&format!("run/{name}"), name);
     }
     bench.ran("run", PLAIN, END);
-    assert_eq!(fs::read(bench.path("run/notes.txt")).unwrap(), b"notes.txt");
+    assert_eq!(bench.bytes("run/notes.txt"), b"notes.txt");
 }
 
 #[test]
 fn what_cannot_be_a_run_folder_or_its_mark_is_refused() {
     let bench = Bench::explicit();
-    fs::write(bench.path("file"), "theirs").unwrap();
-    fs::create_dir(bench.path("linked")).unwrap();
-    fs::write(bench.path("elsewhere"), "").unwrap();
+    bench.write("file", "theirs");
+    bench.write("elsewhere", "");
+    for folder in ["linked", "case"] {
+        fs::create_dir(bench.path(folder)).unwrap();
+    }
     symlink("../elsewhere", bench.path("linked/bondline-run.toml")).unwrap();
-    fs::create_dir(bench.path("case")).unwrap();
-    fs::copy(
-        bench.path("case.toml"),
-        bench.path("case/bondline-run.toml"),
-    )
-    .unwrap();
+    bench.write("case/bondline-run.toml", bench.bytes("case.toml"));
     for (folder, sentence) in [
         ("file", "is a file"),
         ("linked", "not the mark"),
         ("case", "not the mark"),
     ] {
-        for mode in [PLAIN, RESUME, OVERWRITE] {
-            let said = bench.run(folder, mode, END, &[]).unwrap_err().to_string();
-            assert!(said.contains(sentence), "{folder}: {said}");
+        for mode in MODES {
+            let said = bench.run(folder, mode, END, &[]).unwrap_err();
+            has(&said.to_string(), &[sentence]);
         }
     }
-    assert_eq!(fs::read(bench.path("file")).unwrap(), b"theirs");
-    assert_eq!(fs::read(bench.path("elsewhere")).unwrap(), b"");
+    assert_eq!(bench.bytes("file"), b"theirs");
+    assert_eq!(bench.bytes("elsewhere"), b"");
 }
 
 #[test]
@@ -143,16 +148,12 @@ fn only_states_and_checkpoints_of_a_run_are_replaced() {
     ];
     for (name, bytes) in foreign {
         let bench = marked();
-        fs::write(bench.path("run").join(name), bytes).unwrap();
+        bench.write(&format!("run/{name}"), bytes);
         refused(&bench, OVERWRITE, "not a file that a run wrote");
     }
     let bench = marked();
-    fs::write(bench.path("run/final.mpts"), file(Kind::State, "mpm-run")).unwrap();
-    fs::write(
-        bench.path("run/checkpoint.mpts"),
-        file(Kind::Checkpoint, "mpm-run"),
-    )
-    .unwrap();
+    bench.write("run/final.mpts", file(Kind::State, "mpm-run"));
+    bench.write("run/checkpoint.mpts", file(Kind::Checkpoint, "mpm-run"));
     bench.ran("run", OVERWRITE, END);
 }
 
@@ -168,14 +169,11 @@ fn another_run_goes_with_its_files_and_foreign_ones_stay() {
         "wp.csv",
         "final.tmp",
     ];
-    for name in theirs {
-        fs::write(bench.path("run").join(name), name).unwrap();
+    // What a killed run leaves goes too.
+    for name in (theirs.iter()).chain(&[".mpm-run.tmp", "snapshots/.mpm-run.tmp"]) {
+        bench.write(&format!("run/{name}"), name);
     }
     assert!(bench.path("run/snapshots/0002.mpts").exists());
-    // What a killed run leaves goes too.
-    for name in [".mpm-run.tmp", "snapshots/.mpm-run.tmp"] {
-        fs::write(bench.path("run").join(name), "half").unwrap();
-    }
     let fewer = ["output.snapshots=0"];
     bench.run("run", OVERWRITE, END, &fewer).unwrap();
     let mut files = bench.everything();
@@ -183,32 +181,27 @@ fn another_run_goes_with_its_files_and_foreign_ones_stay() {
         assert_eq!(files.remove(name).as_deref(), Some(name.as_bytes()));
     }
     bench.run("alone", OVERWRITE, END, &fewer).unwrap();
-    let names: Vec<_> = everything(&bench.path("alone")).into_keys().collect();
-    assert_eq!(files.into_keys().collect::<Vec<_>>(), names);
+    assert!(files.keys().eq(everything(&bench.path("alone")).keys()));
 }
 
 #[test]
 fn a_run_is_not_replaced_unasked() {
-    for kept in ["history.csv", "final.mpts", "checkpoint.mpts"] {
+    let names = ["history.csv", "final.mpts", "checkpoint.mpts"];
+    for kept in names {
         let bench = Bench::explicit();
-        bench.ran(
-            "run",
-            PLAIN,
-            if kept == "checkpoint.mpts" { 9 } else { END },
-        );
-        for name in ["history.csv", "final.mpts", "checkpoint.mpts"] {
-            if name != kept && bench.path("run").join(name).exists() {
-                fs::remove_file(bench.path("run").join(name)).unwrap();
-            }
+        let steps = if kept == "checkpoint.mpts" { 9 } else { END };
+        bench.ran("run", PLAIN, steps);
+        for name in names.into_iter().filter(|name| *name != kept) {
+            let _ = fs::remove_file(bench.path("run").join(name));
         }
         refused(&bench, PLAIN, "already holds a run");
     }
     // Begun, but without a checkpoint to lose: the same case starts again, another does not.
     let bench = Bench::explicit();
     bench.ran("run", PLAIN, END);
-    fs::remove_file(bench.path("run/final.mpts")).unwrap();
-    let other = bench.run("run", RESUME, END, &["adhesive.viscosity=2 Pa s"]);
-    assert!(other.unwrap_err().to_string().contains("holds another run"));
+    bench.remove("run/final.mpts");
+    let other = ["adhesive.viscosity=2 Pa s"];
+    bench.refuses(RESUME, &other, &["holds another run"]);
     bench.ran("run", RESUME, END);
 }
 
@@ -216,24 +209,20 @@ fn a_run_is_not_replaced_unasked() {
 fn a_run_that_has_ended_is_left_but_for_what_a_kill_left() {
     let bench = Bench::explicit();
     bench.ran("run", RESUME, 9);
-    let checkpoint = fs::read(bench.path("run/checkpoint.mpts")).unwrap();
+    let checkpoint = bench.bytes("run/checkpoint.mpts");
     bench.ran("run", RESUME, END);
     let ended = bench.everything();
     // Killed before the checkpoint was removed.
-    fs::write(bench.path("run/checkpoint.mpts"), &checkpoint).unwrap();
-    fs::write(bench.path("run/.mpm-run.tmp"), "half").unwrap();
+    bench.write("run/checkpoint.mpts", &checkpoint);
+    bench.write("run/.mpm-run.tmp", "half");
     assert!(bench.run("run", RESUME, END, &[]).unwrap().is_none());
     assert!(bench.everything() == ended);
     // At another Courant number that checkpoint is not gone on from, either.
-    fs::write(bench.path("run/checkpoint.mpts"), &checkpoint).unwrap();
-    let other = bench.run("run", RESUME, END, &["integrator.cfl=0.3"]);
-    assert!(other.unwrap_err().to_string().contains("holds another run"));
-    fs::write(bench.path("run/checkpoint.mpts"), "theirs").unwrap();
+    bench.write("run/checkpoint.mpts", &checkpoint);
+    bench.refuses(RESUME, &["integrator.cfl=0.3"], &["holds another run"]);
+    bench.write("run/checkpoint.mpts", "theirs");
     assert!(bench.run("run", RESUME, END, &[]).unwrap().is_none());
-    assert_eq!(
-        fs::read(bench.path("run/checkpoint.mpts")).unwrap(),
-        b"theirs"
-    );
+    assert_eq!(bench.bytes("run/checkpoint.mpts"), b"theirs");
 }
 
 /// Snapshots of steps that a run at another Courant number may never take were kept.
@@ -241,20 +230,15 @@ fn a_run_that_has_ended_is_left_but_for_what_a_kill_left() {
 fn what_came_after_the_checkpoint_goes() {
     let bench = Bench::explicit();
     bench.ran("run", RESUME, 9);
-    let summary = bench.path("run/summary.json");
-    fs::write(bench.path("run/snapshots/0009.mpts"), "theirs").unwrap();
+    bench.write("run/snapshots/0009.mpts", "theirs");
     refused(&bench, RESUME, "not a file that a run wrote");
-    fs::copy(
-        bench.path("run/snapshots/0000.mpts"),
-        bench.path("run/snapshots/0009.mpts"),
-    )
-    .unwrap();
-    let first = fs::read(bench.path("run/snapshots/0000.mpts")).unwrap();
+    let first = bench.bytes("run/snapshots/0000.mpts");
+    bench.write("run/snapshots/0009.mpts", &first);
     let seen = || {
         // At the first step of the continued run.
-        assert!(!summary.exists());
+        assert!(!bench.path("run/summary.json").exists());
         assert!(!bench.path("run/snapshots/0009.mpts").exists());
-        assert!(fs::read(bench.path("run/snapshots/0000.mpts")).unwrap() == first);
+        assert!(bench.bytes("run/snapshots/0000.mpts") == first);
         false
     };
     let ended = bench.run_told("run", RESUME, &seen, &mut |_, _| {}, &[]);
@@ -266,13 +250,11 @@ fn what_came_after_the_checkpoint_goes() {
 fn a_folder_takes_one_run_at_a_time() {
     let bench = Bench::explicit();
     let other = || {
-        for mode in [PLAIN, RESUME, OVERWRITE] {
-            let said = bench.run("run", mode, END, &[]).unwrap_err();
-            assert!(matches!(said, RunFailure::Usage(_)));
-            assert!(
-                said.to_string().contains("another run is writing"),
-                "{said}"
-            );
+        for mode in MODES {
+            match bench.run("run", mode, END, &[]) {
+                Err(RunFailure::Usage(said)) => has(&said, &["another run is writing"]),
+                ended => panic!("{ended:?}"),
+            }
         }
         false
     };
@@ -286,23 +268,17 @@ fn a_checkpoint_of_another_case_or_damaged_is_refused_or_replaced() {
     bench.ran("run", RESUME, 9);
     let before = bench.everything();
     let other = ["adhesive.viscosity=2 Pa s"];
+    let why = "(adhesive.viscosity is \"2 Pa s\", was ";
     match bench.run("run", RESUME, END, &other) {
-        Err(RunFailure::Data(said)) => {
-            assert!(said.contains("another case"), "{said}");
-            assert!(
-                said.contains("(adhesive.viscosity is \"2 Pa s\", was "),
-                "{said}"
-            );
-        }
+        Err(RunFailure::Data(said)) => has(&said, &["another case", why]),
         ended => panic!("{ended:?}"),
     }
     assert!(bench.everything() == before);
-    let checkpoint = bench.path("run/checkpoint.mpts");
-    let whole = fs::read(&checkpoint).unwrap();
-    fs::write(&checkpoint, &whole[..whole.len() / 2]).unwrap();
+    let whole = bench.bytes("run/checkpoint.mpts");
+    bench.write("run/checkpoint.mpts", &whole[..whole.len() / 2]);
     let damaged = bench.run("run", RESUME, END, &[]);
     assert!(matches!(damaged, Err(RunFailure::Data(_))), "{damaged:?}");
-    fs::write(&checkpoint, whole).unwrap();
+    bench.write("run/checkpoint.mpts", whole);
     let both = Mode {
         resume: true,
         ..OVERWRITE
