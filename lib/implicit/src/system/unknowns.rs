@@ -1,5 +1,7 @@
 //! Which pores have a pressure and which faces a velocity.
 
+use std::num::NonZeroU32;
+
 use crate::geometry::Mesh;
 
 /// Volume fraction from which on a pore is full and has a pressure of its own, which fills what it lacks within the step.
@@ -14,7 +16,8 @@ pub(crate) struct Unknowns {
     pub(crate) faces: Vec<u32>,
     /// Pores with a pressure.
     pub(crate) pores: Vec<u32>,
-    face_number: Vec<Option<u32>>,
+    /// One more than the number of each of those, in four bytes.
+    face_number: Vec<Option<NonZeroU32>>,
     /// Whether each pore has one.
     bounded: Vec<bool>,
 }
@@ -36,8 +39,8 @@ impl Unknowns {
             if !(ends.iter().any(|&pore| full(pore)) || wet()) {
                 continue;
             }
-            unknowns.face_number[face] = Some(unknowns.faces.len() as u32);
             unknowns.faces.push(face as u32);
+            unknowns.face_number[face] = NonZeroU32::new(unknowns.faces.len() as u32);
             for pore in ends.into_iter().filter(|&pore| full(pore)) {
                 unknowns.bounded[pore] = true;
             }
@@ -61,7 +64,7 @@ impl Unknowns {
 
     /// Number of the velocity of a face.
     pub(crate) fn face(&self, face: usize) -> Option<usize> {
-        self.face_number[face].map(|number| number as usize)
+        self.face_number[face].map(|number| number.get() as usize - 1)
     }
 }
 
