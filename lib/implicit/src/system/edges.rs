@@ -80,8 +80,8 @@ impl Edges {
     /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
     pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, kept: &Kept, old: &Self) -> Self {
         let mut now = vec![None; old.start.len()];
-        for (face, old_face) in kept.same.iter().enumerate() {
-            if let Some(old_face) = old_face {
+        for (face, old_face) in kept.0.iter().enumerate() {
+            if let Some((old_face, _)) = old_face {
                 now[*old_face as usize] = Some(face as u32);
             }
         }

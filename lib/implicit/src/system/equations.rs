@@ -77,7 +77,16 @@ impl Equations {
             carried_force: carried_along.iter().sum(),
         };
         equations.add_pockets(problem);
-        equations.drive(drive);
+        equations.volume_source = vec![0.0; equations.source.len()];
+        if let Drive::Speed(speed) = drive {
+            for (known, closing) in equations.known.iter_mut().zip(&equations.closing) {
+                *known += speed * closing;
+            }
+            let moved = equations.volume_source.iter_mut();
+            for (moved, source) in moved.zip(&equations.source) {
+                *moved = speed * source;
+            }
+        }
         Ok(equations)
     }
 
@@ -102,19 +111,6 @@ impl Equations {
             self.c.push(tangent.yielding / dt);
             self.carried.push((tangent.volume - volume) / dt);
             self.two_eta.push(thickest);
-        }
-    }
-
-    /// Adds what a body at a given speed moves.
-    fn drive(&mut self, drive: Drive) {
-        self.volume_source = vec![0.0; self.source.len()];
-        if let Drive::Speed(speed) = drive {
-            for (known, closing) in self.known.iter_mut().zip(&self.closing) {
-                *known += speed * closing;
-            }
-            for (moved, source) in self.volume_source.iter_mut().zip(&self.source) {
-                *moved = speed * source;
-            }
         }
     }
 

@@ -55,13 +55,6 @@ impl Unknowns {
         self.bounded[pore]
     }
 
-    /// Whether a pore has none and is beside one that has, in the domain.
-    pub(crate) fn is_front(&self, mesh: &Mesh, pore: usize) -> bool {
-        !self.bounded[pore]
-            && !mesh.is_beyond(mesh.cell(pore))
-            && mesh.beside(pore).any(|(_, _, beside)| self.bounded[beside])
-    }
-
     /// Number of the velocity of a face.
     pub(crate) fn face(&self, face: usize) -> Option<usize> {
         self.face_number[face].map(|number| number.get() as usize - 1)
