@@ -117,12 +117,9 @@ fn runs(layer: &[u8], size: [usize; 2], axis: usize, lattice: &Lattice) -> Vec<u
     let (n, lines) = (size[axis], size[1 - axis]);
     let boundary = lattice.boundary[2 * axis];
     for line in 0..lines {
-        let at = |i: usize| {
-            if axis == 0 {
-                line * size[0] + i
-            } else {
-                i * size[0] + line
-            }
+        let at = |i: usize| match axis {
+            0 => line * size[0] + i,
+            _ => i * size[0] + line,
         };
         chords(
             n,

@@ -90,7 +90,10 @@ impl Lattice {
         let across = [0, 2].map(|a| grid.cells[a] * k);
         let layers = |from: f64, to: f64| ((to - from) / edge + ALIGNED).floor().max(0.0) as usize;
         let [low, high] = [grid.min_m[1], grid.max_m()[1]];
-        let code = |at: [f64; 3]| code(&scene.bodies, at);
+        let code = |at: [f64; 3]| {
+            let body = scene.bodies.iter().position(|body| body.contains(at));
+            body.map_or(OPEN, |body| body as u8 + 1)
+        };
         let layer = |y: f64| -> Layer {
             let mut layer = Vec::with_capacity(across[0] * across[1]);
             for z in 0..across[1] {
@@ -169,12 +172,6 @@ fn off_lattice<'a>(scene: &'a Scene, frames: &Frames, edge: f64) -> Option<(&'a 
     let bodies = scene.bodies.iter();
     let mut each = bodies.flat_map(|body| (0..3).map(move |a| (body, a)));
     each.find(|(body, a)| !body.blocks.iter().all(|block| fits(block, *a)))
-}
-
-/// The code of the body at a place, m.
-fn code(bodies: &[RigidBody], at: [f64; 3]) -> u8 {
-    let body = bodies.iter().position(|body| body.contains(at));
-    body.map_or(OPEN, |body| body as u8 + 1)
 }
 
 #[cfg(test)]

@@ -114,25 +114,20 @@ fn ways(
     flux: &[f64],
 ) -> Vec<Outlet> {
     let outlet = |way: Way| {
-        let Way {
-            face,
-            axis,
-            up,
-            beside,
-        } = way;
-        let (sign, area) = (way.sign(), mesh.area(face));
-        let straight: f64 = (mesh.faces_at(pore, axis, !up))
+        let (sign, area) = (way.sign(), mesh.area(way.face));
+        let straight: f64 = (mesh.faces_at(pore, way.axis, !way.up))
             .map(|face| (sign * flux[face]).max(0.0))
             .sum();
-        let side = mesh.faces_at(pore, axis, up).map(|face| mesh.area(face));
+        let side = mesh.faces_at(pore, way.axis, way.up);
+        let side = side.map(|face| mesh.area(face));
         Outlet {
             way,
-            flow: (sign * swept[face]).max(0.0),
+            flow: (sign * swept[way.face]).max(0.0),
             straight: straight * area / side.sum::<f64>(),
-            came: (-sign * flux[face]).max(0.0),
+            came: (-sign * flux[way.face]).max(0.0),
             area,
-            room: room(beside),
-            full: full[beside],
+            room: room(way.beside),
+            full: full[way.beside],
         }
     };
     mesh.ways(pore).map(outlet).collect()

@@ -1,6 +1,6 @@
 //! Conditions where liquid ends in a step: menisci, pockets of air, liquid torn by tension.
 
-use physics::{Array, Boundary, Liquid, Saved, restored};
+use physics::{Array, Boundary, Saved, restored};
 
 use super::Implicit;
 use crate::air::{Air, Gas};
@@ -77,11 +77,7 @@ impl Implicit {
         dt: f64,
     ) -> Fronts {
         let setup = &self.setup;
-        let Liquid {
-            cavitation_pressure: tension,
-            wetting,
-            ..
-        } = &setup.liquid;
+        let (tension, wetting) = (setup.liquid.cavitation_pressure, setup.liquid.wetting);
         if air.is_none() && tension.is_none() && wetting.is_none() {
             return Fronts::default();
         }

@@ -56,7 +56,7 @@ impl Scheme for Implicit {
             links: &links,
             ..self.field(flow)
         };
-        let rates = field.pore_rates(setup.liquid.shear_rate);
+        let (rates, _) = field.pore_rates(setup.liquid.shear_rate);
         let volumes: Vec<f64> = (0..self.mesh.pores.len())
             .map(|pore| state.volumes[pore] * self.compressed(pore))
             .collect();

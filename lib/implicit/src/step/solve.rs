@@ -288,13 +288,8 @@ impl Implicit {
         (solver, clock): (&mut SaddleSolver, &mut Clock),
     ) -> Result<(Flow, Vec<f64>, bool), String> {
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
-        let Middle {
-            dt,
-            full,
-            fractions,
-            ..
-        } = given.middle;
-        let dt = *dt;
+        let middle = given.middle;
+        let (dt, full, fractions) = (middle.dt, &middle.full, &middle.fractions);
         let stiffnesses = stiffnesses(mesh, &given.halves, viscosities);
         let fronts = self.fronts(unknowns, torn, air, given.viscosity, dt);
         let problem = Problem {

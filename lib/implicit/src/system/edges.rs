@@ -169,15 +169,8 @@ impl Edges {
 fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize, clear: bool) {
     let axis = usize::from(mesh.faces[face].axis);
     let key = |edge: &Edge| {
-        let Edge {
-            next,
-            across,
-            open,
-            aside,
-            factor,
-            ..
-        } = edge;
-        (*next, *across, *open, *aside, factor.to_bits())
+        let factor = edge.factor.to_bits();
+        (edge.next, edge.across, edge.open, edge.aside, factor)
     };
     for t in others(axis)
         .into_iter()

@@ -5,7 +5,6 @@ use saddle_point::{Csr, SaddleSystem, SolveError, VelocityBlock};
 
 use super::assembly::Problem;
 use super::solution::{Drive, Flow};
-use crate::air::Pocket;
 
 /// The equations of a step, for the linear solver.
 pub(super) struct Equations {
@@ -95,21 +94,13 @@ impl Equations {
     fn add_pockets(&mut self, problem: &Problem) {
         let thickest = self.two_eta.iter().copied().fold(1.0, f64::max);
         let dt = problem.scales.dt;
-        for Pocket {
-            pores,
-            volume,
-            tangent,
-            ..
-        } in problem.pockets
-        {
-            let closing = pores
-                .iter()
-                .map(|&pore| problem.closing(pore as usize))
-                .sum();
+        for pocket in problem.pockets {
+            let (pores, tangent) = (pocket.pores.iter(), pocket.tangent);
+            let closing = pores.map(|&pore| problem.closing(pore as usize)).sum();
             self.source.push(closing);
             self.carried_force += closing * tangent.pressure;
             self.c.push(tangent.yielding / dt);
-            self.carried.push((tangent.volume - volume) / dt);
+            self.carried.push((tangent.volume - pocket.volume) / dt);
             self.two_eta.push(thickest);
         }
     }

@@ -16,7 +16,7 @@ pub(crate) struct Unknowns {
     pub(crate) faces: Vec<u32>,
     /// Pores with a pressure.
     pub(crate) pores: Vec<u32>,
-    /// One more than the number of each of those, in four bytes.
+    /// One more than the number of the velocity of each face that has one, in four bytes.
     face_number: Vec<Option<NonZeroU32>>,
     /// Whether each pore has one.
     bounded: Vec<bool>,
