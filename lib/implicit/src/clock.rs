@@ -36,13 +36,11 @@ impl Clock {
         self.0[part as usize] += begun.elapsed();
     }
 
-    /// Times of the parts, but for those that a run is `without`.
-    pub(crate) fn report(&self, without: &[Stage]) -> Vec<StageTime> {
-        let times = NAMES.iter().zip(&self.0).enumerate();
-        times
-            .filter(|(part, _)| !without.iter().any(|without| *without as usize == *part))
-            .map(|(_, time)| time)
-            .map(|(&name, time)| StageTime {
+    /// Times of the parts, that of the loss of water where the liquid holds `water`.
+    pub(crate) fn report(&self, water: bool) -> Vec<StageTime> {
+        (NAMES.into_iter().zip(&self.0))
+            .filter(|(name, _)| water || *name != NAMES[Stage::Water as usize])
+            .map(|(name, time)| StageTime {
                 name,
                 wall_s: time.as_secs_f64(),
             })

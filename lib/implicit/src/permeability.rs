@@ -3,10 +3,10 @@
 use physics::{Boundary, VoxelBlock};
 use saddle_point::{SaddleOptions, SaddleSolver, SaddleSystem};
 
-use crate::geometry::{Chords, Lattice, Mesh, Region};
+use crate::geometry::{Chords, Lattice, Mesh};
 use crate::liquid::Kept;
 use crate::system::{
-    Edges, Fronts, Links, Problem, Scales, Unknowns, Viscosities, Walls, masses, resistance,
+    Channels, Edges, Fronts, Links, Problem, Scales, Unknowns, Viscosities, masses, resistance,
     stiffnesses,
 };
 
@@ -91,9 +91,7 @@ impl Through {
         let size = solid.dims().map(|n| n / 2 * 2 / k);
         let lattice = Lattice::of_voxels(solid, k, size, axis, sides);
         let rows = lattice.rows();
-        let range = 0..rows.len();
-        let region = Region::new(Mesh::size_of(&lattice, &range), true);
-        let mesh = Mesh::new(&lattice, rows, range, region);
+        let mesh = Mesh::whole(&lattice, rows, 0..rows.len());
         let fractions = full(&mesh, axis);
         Self {
             axis,
@@ -124,18 +122,13 @@ impl Through {
     /// Sum of the fluxes through all sections.
     fn flux(&self) -> Result<f64, String> {
         let (mesh, lattice, fractions) = (&self.mesh, &self.lattice, &self.fractions);
-        let walls = Walls {
-            influence_length: 0.0,
-            per_metre: 1.0,
-        };
-        let links = Links::new(
+        let channels = Channels {
             lattice,
-            &Chords::new(lattice),
+            chords: &Chords::new(lattice),
             mesh,
-            walls,
-            &Kept::default(),
-            &Links::default(),
-        );
+            influence_length: 0.0,
+        };
+        let links = Links::new(&channels, &Kept::default(), &Links::default());
         let unknowns = Unknowns::new(mesh, fractions, &[]);
         let halves: Vec<[f64; 2]> = (mesh.faces.iter())
             .map(|face| face.ends().map(|pore| fractions[pore]))
@@ -157,7 +150,10 @@ impl Through {
             end_height: 0.0,
             fronts: &Fronts::default(),
             pockets: &[],
-            scales: Scales::steady(),
+            scales: Scales {
+                dt: f64::INFINITY,
+                ..Scales::default()
+            },
         };
         let (a, g) = problem
             .velocity_block()
@@ -208,7 +204,7 @@ fn full(mesh: &Mesh, axis: usize) -> Vec<f64> {
             .collect();
         let mut next: Vec<usize> = (0..seen.len()).filter(|&pore| seen[pore]).collect();
         while let Some(pore) = next.pop() {
-            for (_, _, other) in mesh.beside(pore) {
+            for other in mesh.ways(pore).map(|way| way.beside) {
                 let mirrored = (layer(other) < n / 2) != (layer(pore) < n / 2);
                 if !seen[other] && !mirrored {
                     seen[other] = true;

@@ -2,12 +2,12 @@
 
 use physics::{TAIT_C, Tait};
 
+use crate::settings::MISSED;
+
 /// Least absolute pressure of a void, over that outside: one that liquid opens without air has no tangent in a vacuum.
 const THINNEST: f64 = 1e-3;
 /// Largest ratio of the volumes that one tangent and the next are taken at: Newton's steps of V = m/p end from either side.
 const STEEPEST: f64 = 4.0;
-/// Part of its volume that a pocket may be off its pressure by.
-const ASTRAY: f64 = 1e-3;
 
 /// The air of a run. Pressures are over a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +67,7 @@ impl Gas {
     pub(crate) fn agrees(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
         let right = self.tangent(mass, tangent.volume_at(pressure), dt);
         let off = right.yielding * (pressure - right.pressure).abs();
-        off <= ASTRAY * right.volume
+        off <= MISSED * right.volume
     }
 
     /// What of `mass` leaks out in a step in which it comes to a volume and to a pressure above that outside.

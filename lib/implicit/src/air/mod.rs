@@ -5,4 +5,4 @@ mod law;
 mod pockets;
 
 pub(crate) use law::Gas;
-pub(crate) use pockets::{Air, Outside, Pocket};
+pub(crate) use pockets::{Air, Pocket};

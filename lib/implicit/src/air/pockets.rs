@@ -1,29 +1,7 @@
 //! Which pores that are not full make a pocket, and the air in them.
 
-use physics::Boundary;
-
 use super::law::{Gas, Tangent};
-use crate::geometry::Mesh;
-
-/// Sides of the domain that air passes: open ones, and with a clamp those normal to y, where its body leaves room.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Outside {
-    along_y: bool,
-}
-
-impl Outside {
-    pub(crate) fn new(boundary: [Boundary; 3], clamped: bool) -> Self {
-        Self {
-            along_y: clamped || boundary[1] == Boundary::Open,
-        }
-    }
-
-    fn reaches(self, mesh: &Mesh, pore: usize) -> bool {
-        let cell = mesh.pores[pore].cell as usize;
-        let row = mesh.row(cell);
-        mesh.is_beyond(cell) || self.along_y && (row == 0 || row + 1 == mesh.rows().len())
-    }
-}
+use crate::geometry::{Mesh, Way};
 
 /// Connected pores that are not full and that nothing connects with the outside.
 #[derive(Clone, Debug)]
@@ -51,14 +29,15 @@ pub(crate) struct Air {
 }
 
 impl Air {
-    /// The air `held` by pores of the empty volume `void`, as pockets where those that are `full` part it.
+    /// The air `held` by pores of the empty volume `void`, as pockets where those that are `full` part it. It passes open sides of
+    /// the domain, and those normal to y where these let it out `along_y`.
     pub(crate) fn new(
         mesh: &Mesh,
         has_pressure: impl Fn(usize) -> bool,
         full: impl Fn(usize) -> bool,
         void: &[f64],
         held: &[f64],
-        sides: Outside,
+        along_y: bool,
     ) -> Self {
         let mut air = Self {
             pockets: Vec::new(),
@@ -68,6 +47,11 @@ impl Air {
             covered: 0.0,
         };
         air.uncover(mesh, &full, void);
+        let reaches_out = |pore: usize| {
+            let row = mesh.row_of(pore);
+            let last = row == 0 || row + 1 == mesh.rows().len();
+            mesh.is_beyond(mesh.cell(pore)) || along_y && last
+        };
         let mut found = vec![false; mesh.pores.len()];
         for first in 0..mesh.pores.len() {
             if found[first] || full(first) {
@@ -78,8 +62,8 @@ impl Air {
             found[first] = true;
             while let Some(&pore) = pores.get(next) {
                 next += 1;
-                open |= sides.reaches(mesh, pore as usize);
-                for (_, _, beside) in mesh.beside(pore as usize) {
+                open |= reaches_out(pore as usize);
+                for Way { beside, .. } in mesh.ways(pore as usize) {
                     wet |= has_pressure(beside);
                     if !full(beside) && !std::mem::replace(&mut found[beside], true) {
                         pores.push(beside as u32);
@@ -117,8 +101,8 @@ impl Air {
                 continue;
             }
             let open: Vec<usize> = mesh
-                .beside(pore)
-                .map(|beside| beside.2)
+                .ways(pore)
+                .map(|way| way.beside)
                 .filter(|&beside| !full(beside))
                 .collect();
             let all: f64 = open.iter().map(|&beside| void[beside]).sum();

@@ -21,8 +21,6 @@ struct UprightChord {
 struct PartChords {
     across: [Vec<Vec<u16>>; 2],
     along: Vec<Vec<UprightChord>>,
-    /// Chords along y from the gap on.
-    from_gap: Vec<UprightChord>,
 }
 
 /// Chord lengths of all voxels.
@@ -51,9 +49,6 @@ impl Chords {
                 layers.map(|layer| runs(layer, size, a, lattice)).collect()
             }),
             along: columns(layers, lattice),
-            from_gap: (0..size[0] * size[1])
-                .map(|at| first_run(layers, at))
-                .collect(),
         };
         Self {
             below: part(&lattice.below),
@@ -94,7 +89,13 @@ impl Chords {
 
     /// Length of the chord along y through the gap at a place in the layer.
     fn through(&self, at: usize, gap: f64) -> f64 {
-        let [low, high] = [&self.below, &self.above].map(|part| part.from_gap[at]);
+        let [low, high] = [&self.below, &self.above].map(|part| match part.along.first() {
+            Some(layer) => layer[at],
+            None => UprightChord {
+                to_side: true,
+                ..UprightChord::default()
+            },
+        });
         let voxels = f64::from(low.voxels) + gap + f64::from(high.voxels);
         self.ended(voxels, usize::from(low.to_side) + usize::from(high.to_side))
     }
@@ -116,12 +117,9 @@ fn runs(layer: &[u8], size: [usize; 2], axis: usize, lattice: &Lattice) -> Vec<u
     let (n, lines) = (size[axis], size[1 - axis]);
     let boundary = lattice.boundary[2 * axis];
     for line in 0..lines {
-        let at = |i: usize| {
-            if axis == 0 {
-                line * size[0] + i
-            } else {
-                i * size[0] + line
-            }
+        let at = |i: usize| match axis {
+            0 => line * size[0] + i,
+            _ => i * size[0] + line,
         };
         chords(
             n,
@@ -199,14 +197,4 @@ fn columns(layers: &[Vec<u8>], lattice: &Lattice) -> Vec<Vec<UprightChord>> {
         }
     }
     all
-}
-
-/// The chord of a column from the gap on.
-fn first_run(layers: &[Vec<u8>], at: usize) -> UprightChord {
-    let run = layers.iter().take_while(|layer| layer[at] == OPEN).count();
-    UprightChord {
-        voxels: run.min(usize::from(LONGEST)) as u16,
-        through_gap: true,
-        to_side: run == layers.len(),
-    }
 }

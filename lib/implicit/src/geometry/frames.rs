@@ -1,6 +1,6 @@
 //! The parts of a scene that move against one another, and the gap between them.
 
-use physics::{Boundary, Motion, RigidBody, Scene, Stop, VoxelBlock};
+use physics::{Boundary, Motion, Scene, Stop, VoxelBlock};
 
 use super::lattice::{ALIGNED, Lattice, Moving};
 
@@ -38,8 +38,7 @@ pub(super) fn check_motions(
             continue;
         };
         for block in &body.blocks {
-            let solid = sides(block);
-            let (Some(&from), Some(&to)) = (solid.first(), solid.last()) else {
+            let Some([from, to]) = sides(block) else {
                 continue;
             };
             let [bottom, top] = frames.gap;
@@ -120,14 +119,18 @@ impl Frames {
             Motion::Constant(v) => v[1] < 0.0,
             _ => true,
         };
-        let (bottom, top) = solid_extent(body);
+        let extent = (f64::INFINITY, f64::NEG_INFINITY);
+        let solid = body.blocks.iter().filter_map(sides);
+        let (bottom, top) = solid.fold(extent, |(bottom, top), [from, to]| {
+            (bottom.min(from), top.max(to))
+        });
         let high = scene.grid.max_m()[1];
         let tight = ALIGNED * scene.grid.cell_m;
         // Sides of other bodies that cross the mover's path: where one ends, the gap ends.
         let mut stop = if down { low } else { high };
         for other in scene.bodies.iter().enumerate().filter(|(i, _)| *i != mover) {
             for block in &other.1.blocks {
-                for y in sides(block) {
+                for y in sides(block).into_iter().flatten() {
                     if down && y <= bottom + tight {
                         stop = stop.max(y);
                     } else if !down && y >= top - tight {
@@ -156,27 +159,11 @@ impl Frames {
     }
 }
 
-/// Lowest and highest y of the solid voxels of a body.
-fn solid_extent(body: &RigidBody) -> (f64, f64) {
-    let mut extent = (f64::INFINITY, f64::NEG_INFINITY);
-    for block in &body.blocks {
-        for y in sides(block) {
-            extent = (extent.0.min(y), extent.1.max(y));
-        }
-    }
-    extent
-}
-
-/// y of the first and the last layer of a block that holds solid voxels, its outer sides.
-fn sides(block: &VoxelBlock) -> Vec<f64> {
+/// y of the outer sides of the first and the last layer of a block that holds solid voxels.
+fn sides(block: &VoxelBlock) -> Option<[f64; 2]> {
     let [_, ny, nz] = block.dims();
-    let holds = |j: usize| (0..nz).any(|k| block.row(j, k).iter().any(|&word| word != 0));
+    let holds = |j: &usize| (0..nz).any(|k| block.row(*j, k).iter().any(|&word| word != 0));
     let y = |j: usize| block.origin()[1] + j as f64 * block.voxel()[1];
-    let first = (0..ny).find(|&j| holds(j));
-    let last = (0..ny).rfind(|&j| holds(j));
-    first
-        .map(y)
-        .into_iter()
-        .chain(last.map(|j| y(j + 1)))
-        .collect()
+    let (first, last) = ((0..ny).find(holds)?, (0..ny).rfind(holds)?);
+    Some([y(first), y(last + 1)])
 }

@@ -1,6 +1,6 @@
 //! The voxels of a scene on one lattice: which body fills each, and how the parts move against each other.
 
-use physics::{Boundary, Dimensions, GridBox, Motion, RigidBody, Scene};
+use physics::{Boundary, Dimensions, Motion, RigidBody, Scene, VoxelBlock};
 
 use super::frames::{Frames, check_motions, mover};
 
@@ -37,7 +37,7 @@ pub(crate) struct Lattice {
     pub(crate) moving: Option<Moving>,
     /// The body that does.
     pub(crate) mover: Option<usize>,
-    /// Velocity of each body along x, y, z where that is not the clamp's, m/s: walls that move along themselves.
+    /// Velocity of each body along x, y, z where that is not the clamp's, cells/s: walls that move along themselves.
     pub(crate) slide: Vec<[f64; 3]>,
 }
 
@@ -73,12 +73,27 @@ impl Lattice {
         }
         let mover = mover(scene)?;
         let frames = Frames::new(scene, mover)?;
-        let k = voxels_per_cell(scene, &frames)?;
+        // One voxel a cell where every face lies on those of cells.
+        let k = match off_lattice(scene, &frames, grid.cell_m) {
+            None => 1,
+            Some(_) => 2,
+        };
         let edge = grid.cell_m / k as f64;
+        if let Some((body, a)) = off_lattice(scene, &frames, edge) {
+            return Err(format!(
+                "the faces of body '{}' lie off the lattice along {}: the implicit scheme takes cells of one or two \
+                 voxels, or a whole number of cells a voxel, and boxes on the faces of cells or half way between them",
+                body.name,
+                ["x", "y", "z"][a]
+            ));
+        }
         let across = [0, 2].map(|a| grid.cells[a] * k);
         let layers = |from: f64, to: f64| ((to - from) / edge + ALIGNED).floor().max(0.0) as usize;
         let [low, high] = [grid.min_m[1], grid.max_m()[1]];
-        let code = |at: [f64; 3]| code(&scene.bodies, at);
+        let code = |at: [f64; 3]| {
+            let body = scene.bodies.iter().position(|body| body.contains(at));
+            body.map_or(OPEN, |body| body as u8 + 1)
+        };
         let layer = |y: f64| -> Layer {
             let mut layer = Vec::with_capacity(across[0] * across[1]);
             for z in 0..across[1] {
@@ -111,12 +126,11 @@ impl Lattice {
             mover,
             slide: (scene.bodies.iter())
                 .map(|body| match body.motion {
-                    Motion::Constant(v) => v,
+                    Motion::Constant(v) => v.map(|v| v * (1.0 / grid.cell_m)),
                     _ => [0.0; 3],
                 })
                 .collect(),
         };
-        lattice.check(scene, &frames)?;
         check_motions(scene, &lattice, &frames)?;
         Ok(lattice)
     }
@@ -142,71 +156,22 @@ impl Lattice {
     pub(crate) fn across(&self) -> [usize; 2] {
         self.cells.map(|n| n * self.k)
     }
-
-    /// Refuses bodies whose faces lie off the lattice.
-    fn check(&self, scene: &Scene, frames: &Frames) -> Result<(), String> {
-        let edge = scene.grid.cell_m / self.k as f64;
-        let (low, high) = (scene.grid.min_m, scene.grid.max_m());
-        let whole = |x: f64| (x / edge - (x / edge).round()).abs() < ALIGNED;
-        for body in &scene.bodies {
-            for block in &body.blocks {
-                for a in 0..3 {
-                    let from = if a == 1 { frames.gap } else { [low[a]; 2] };
-                    let inside = |x: f64| x > low[a] && x < high[a];
-                    let placed = |x: f64| !inside(x) || from.iter().any(|from| whole(x - from));
-                    let fits = placed(block.origin()[a]) && placed(block.max()[a]);
-                    if !fits || block.dims()[a] > 1 && !whole(block.voxel()[a]) {
-                        return Err(format!(
-                            "the faces of body '{}' lie off the lattice along {}: the implicit scheme takes cells of one \
-                             or two voxels, or a whole number of cells a voxel, and boxes on the faces of cells or half \
-                             way between them",
-                            body.name,
-                            ["x", "y", "z"][a]
-                        ));
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
 }
 
-/// Voxels along the edge of a cell: one where every face lies on those of cells, else two.
-fn voxels_per_cell(scene: &Scene, frames: &Frames) -> Result<usize, String> {
-    let GridBox {
-        cell_m,
-        min_m,
-        cells,
-    } = scene.grid;
-    let on_cells = |x: f64, from: f64| {
-        let n = (x - from) / cell_m;
-        (n - n.round()).abs() < ALIGNED
+/// A body with a face off a lattice of voxels of this `edge`, m, and the axis along which it is.
+fn off_lattice<'a>(scene: &'a Scene, frames: &Frames, edge: f64) -> Option<(&'a RigidBody, usize)> {
+    let (low, high) = (scene.grid.min_m, scene.grid.max_m());
+    let whole = |x: f64| (x / edge - (x / edge).round()).abs() < ALIGNED;
+    let fits = |block: &VoxelBlock, a: usize| {
+        let from = if a == 1 { frames.gap } else { [low[a]; 2] };
+        let inside = |x: f64| x > low[a] && x < high[a];
+        let placed = |x: f64| !inside(x) || from.iter().any(|from| whole(x - from));
+        let layered = block.dims()[a] == 1 || whole(block.voxel()[a]);
+        layered && placed(block.origin()[a]) && placed(block.max()[a])
     };
-    for block in scene.bodies.iter().flat_map(|body| &body.blocks) {
-        for a in 0..3 {
-            let (low, high) = (block.origin()[a], block.max()[a]);
-            let fine = block.dims()[a] > 1 && !on_cells(block.voxel()[a], 0.0);
-            if fine {
-                return Ok(2);
-            }
-            let from = if a == 1 { frames.gap[0] } else { min_m[a] };
-            let end = min_m[a] + cells[a] as f64 * cell_m;
-            for x in [low, high] {
-                let inside = x > min_m[a] && x < end;
-                let other = if a == 1 { frames.gap[1] } else { from };
-                if inside && !on_cells(x, from) && !on_cells(x, other) {
-                    return Ok(2);
-                }
-            }
-        }
-    }
-    Ok(1)
-}
-
-/// The code of the body at a place, m.
-fn code(bodies: &[RigidBody], at: [f64; 3]) -> u8 {
-    let body = bodies.iter().position(|body| body.contains(at));
-    body.map_or(OPEN, |body| body as u8 + 1)
+    let bodies = scene.bodies.iter();
+    let mut each = bodies.flat_map(|body| (0..3).map(move |a| (body, a)));
+    each.find(|(body, a)| !body.blocks.iter().all(|block| fits(block, *a)))
 }
 
 #[cfg(test)]
@@ -229,8 +194,6 @@ impl super::mesh::Mesh {
             slide: vec![[0.0; 3]],
         };
         let rows = lattice.rows();
-        let size = Self::size_of(&lattice, &(0..rows.len()));
-        let region = super::region::Region::new(size, true);
-        Self::new(&lattice, rows, 0..rows.len(), region)
+        Self::whole(&lattice, rows, 0..rows.len())
     }
 }

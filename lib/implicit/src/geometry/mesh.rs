@@ -94,6 +94,12 @@ impl Mesh {
         [open_side(0), 0, open_side(2)]
     }
 
+    /// The mesh of all cells of the rows in `range`.
+    pub(crate) fn whole(lattice: &Lattice, rows: Rows, range: Range<usize>) -> Self {
+        let region = Region::new(Self::size_of(lattice, &range), true);
+        Self::new(lattice, rows, range, region)
+    }
+
     /// The mesh of a region of the rows in `range`.
     pub(crate) fn new(lattice: &Lattice, rows: Rows, range: Range<usize>, region: Region) -> Self {
         let beyond = Self::beyond_of(lattice);
@@ -291,11 +297,6 @@ impl Mesh {
         })
     }
 
-    /// Pores beside one, with the axis along which and whether on its high side.
-    pub(crate) fn beside(&self, pore: usize) -> impl Iterator<Item = (usize, bool, usize)> {
-        self.ways(pore).map(|way| (way.axis, way.up, way.beside))
-    }
-
     /// Cell of a pore.
     pub(crate) fn cell(&self, pore: usize) -> usize {
         self.pores[pore].cell as usize
@@ -307,14 +308,6 @@ impl Mesh {
         let rows = self.rows();
         let gap = rows.below..rows.below + rows.gap + 1;
         gap.contains(&high) || gap.contains(&(low + 1))
-    }
-
-    /// Whether there is liquid on either side of a face.
-    pub(crate) fn is_wet(&self, face: usize, fractions: &[f64]) -> bool {
-        self.faces[face]
-            .ends()
-            .iter()
-            .any(|&pore| fractions[pore] > 0.0)
     }
 
     /// The pore of a cell that holds a voxel.

@@ -19,8 +19,8 @@ pub(crate) struct Rows {
     pub(crate) height: f64,
 }
 
-/// Excess over a whole number of rows, cells, that is rounding.
-const ROUNDING: f64 = 1e-6;
+/// Part of a cell, or of the liquid's water, that rounding may move in a run: far more than it does, far less than steps do.
+pub(crate) const ROUNDING: f64 = 1e-6;
 
 impl Rows {
     /// Rows of a gap of `height` cells: as few as are no higher than a cell.

@@ -48,14 +48,9 @@ pub(crate) fn carried_region(
     region.grown(margin, old.periodic())
 }
 
-/// What faces of a mesh are in another one.
+/// The face of another mesh that each face of a mesh is, and whether it has the same surroundings there.
 #[derive(Default)]
-pub(crate) struct Kept {
-    /// The face of the other mesh that each is.
-    pub(crate) same: Vec<Option<u32>>,
-    /// Whether it has the same surroundings there too.
-    whole: Vec<bool>,
-}
+pub(crate) struct Kept(pub(crate) Vec<Option<(u32, bool)>>);
 
 impl Kept {
     /// What faces of `new` are in `old`. Those beside the gap, the end of the rows or that of the region have other
@@ -84,20 +79,13 @@ impl Kept {
             let periodic = new.boundary[1] == Boundary::Periodic;
             Some((old_face as u32, low.1 && high.1 && !by_gap && !periodic))
         };
-        let found: Vec<_> = (0..new.faces.len()).map(found).collect();
-        Self {
-            same: found.iter().map(|found| found.map(|f| f.0)).collect(),
-            whole: found
-                .iter()
-                .map(|found| found.is_some_and(|f| f.1))
-                .collect(),
-        }
+        Self((0..new.faces.len()).map(found).collect())
     }
 
     /// The face of the other mesh that a face is, where it has the same surroundings.
     pub(crate) fn whole(&self, face: usize) -> Option<usize> {
-        let same = self.same.get(face).copied().flatten()?;
-        self.whole[face].then_some(same as usize)
+        let (same, whole) = self.0.get(face).copied().flatten()?;
+        whole.then_some(same as usize)
     }
 }
 
@@ -122,8 +110,15 @@ pub(crate) fn carried_volumes(new: &Mesh, old: &Mesh, volumes: &[f64]) -> Vec<f6
     let sum = |parts: &[(f64, f64)]| parts.iter().map(|&(part, volume)| part * volume).sum();
     let mut carried = of_pores(new, old, volumes, sum);
     if new.rows().gap == 0 && old.rows().gap > 0 {
-        for y in old.rows().below..old.rows().below + old.rows().gap {
-            squeeze_out(new, old, y - old.range.start, volumes, &mut carried);
+        for row in old.rows().below..old.rows().below + old.rows().gap {
+            let pores = (0..volumes.len()).filter(|&pore| old.row_of(pore) == row);
+            for pore in pores.filter(|&pore| volumes[pore] != 0.0) {
+                let outlets = outlets(new, old, pore);
+                let part = volumes[pore] / outlets.len().max(1) as f64;
+                for pore in outlets {
+                    carried[pore] += part;
+                }
+            }
         }
     }
     carried
@@ -152,51 +147,38 @@ fn of_pores(
     let value = |pore: usize| {
         let cell = new.cell(pore);
         let index = pore - new.pores_of(cell).start;
-        let [x, _, z] = new.place(cell);
-        let row = new.row(cell);
-        let of = |y: usize| {
-            let pores = old.pores_of(old.cell_at([x, y, z]));
-            pores.clone().nth(index).map_or(0.0, |pore| values[pore])
-        };
-        joined(new, old, row, of, &join)
+        joined(
+            new,
+            old,
+            cell,
+            |cell| old.pores_of(cell).nth(index),
+            values,
+            &join,
+        )
     };
     (0..new.pores.len()).into_par_iter().map(value).collect()
 }
 
-/// A value in a row of `new` from those `of` rows of `old`.
+/// A value in a cell of `new` from those of `old` in the cells of its row, or of the rows of the gap that overlap it: 0 where
+/// one is `at` no place there.
 fn joined(
     new: &Mesh,
     old: &Mesh,
-    row: usize,
-    of: impl Fn(usize) -> f64,
+    cell: usize,
+    at: impl Fn(usize) -> Option<usize>,
+    values: &[f64],
     join: impl Fn(&[(f64, f64)]) -> f64,
 ) -> f64 {
+    let [x, _, z] = new.place(cell);
+    let row = new.row(cell);
+    let value = |y: usize| at(old.cell_at([x, y, z])).map_or(0.0, |at| values[at]);
     match same_row(new, old, row) {
-        Some(y) => of(y),
+        Some(y) => value(y),
         None if new.rows().kind(row) == RowKind::Gap => {
             let rows = overlapping(new, old, row).into_iter();
-            join(&rows.map(|(y, part)| (part, of(y))).collect::<Vec<_>>())
+            join(&rows.map(|(y, part)| (part, value(y))).collect::<Vec<_>>())
         }
         None => 0.0,
-    }
-}
-
-/// Gives what a row of `old` that is gone held to the pores above and below it, half each where both are; where there are
-/// none, to those of the nearest pores of the gap that have some.
-fn squeeze_out(new: &Mesh, old: &Mesh, y: usize, volumes: &[f64], carried: &mut [f64]) {
-    for z in 0..old.size[2] {
-        for x in 0..old.size[0] {
-            for pore in old.pores_of(old.cell_at([x, y, z])) {
-                if volumes[pore] == 0.0 {
-                    continue;
-                }
-                let outlets = outlets(new, old, pore);
-                let part = volumes[pore] / outlets.len().max(1) as f64;
-                for pore in outlets {
-                    carried[pore] += part;
-                }
-            }
-        }
     }
 }
 
@@ -212,9 +194,9 @@ fn outlets(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
         if !found.is_empty() {
             return found;
         }
-        let beside = front.iter().flat_map(|&pore| old.beside(pore));
+        let beside = front.iter().flat_map(|&pore| old.ways(pore));
         let next: Vec<usize> = beside
-            .map(|(_, _, pore)| pore)
+            .map(|way| way.beside)
             .filter(|&pore| in_gap(pore))
             .collect();
         front = next.into_iter().filter(|&pore| seen.insert(pore)).collect();
@@ -245,24 +227,20 @@ fn above_and_below(new: &Mesh, old: &Mesh, pore: usize) -> Vec<usize> {
 
 /// Values of the faces of `old`, velocities, on `new`.
 pub(crate) fn carried_velocities(new: &Mesh, old: &Mesh, velocity: &[f64]) -> Vec<f64> {
-    let mut carried = vec![0.0; new.faces.len()];
-    for (face, carried) in carried.iter_mut().enumerate() {
+    let value = |face: usize| {
         let f = new.faces[face];
         let (axis, cell) = (usize::from(f.axis), new.cell(f.low as usize));
         let index = face - new.faces_of(cell, axis).start;
-        let [x, _, z] = new.place(cell);
-        let row = new.row(cell);
-        let of = |y: usize| {
-            let faces = old.faces_of(old.cell_at([x, y, z]), axis);
-            faces.clone().nth(index).map_or(0.0, |face| velocity[face])
-        };
         // Where the bodies meet, nothing crosses.
-        let shut = axis == 1 && row + 1 == new.rows().below && new.rows().gap == 0;
-        if !shut {
-            *carried = joined(new, old, row, of, mean);
+        match axis == 1 && new.row(cell) + 1 == new.rows().below && new.rows().gap == 0 {
+            true => 0.0,
+            false => {
+                let at = |cell: usize| old.faces_of(cell, axis).nth(index);
+                joined(new, old, cell, at, velocity, mean)
+            }
         }
-    }
-    carried
+    };
+    (0..new.faces.len()).map(value).collect()
 }
 
 #[cfg(test)]

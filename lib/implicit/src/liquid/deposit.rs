@@ -11,20 +11,17 @@ pub(crate) struct Place {
     pub(crate) cell_m: f64,
     /// Low side of the domain along x and z, and of the gap along y, m.
     pub(crate) origin_m: [f64; 3],
-    /// Depth of the domain where it is flat, cells.
-    pub(crate) depth: Option<f64>,
+    /// Whether the domain is one cell deep.
+    pub(crate) flat: bool,
 }
 
 impl Place {
     /// Half the edges of a point of so much liquid, a cube or as deep as the domain, cells.
     pub(crate) fn half(&self, volume_m3: f64) -> [f64; 3] {
         let volume = volume_m3 / self.cell_m.powi(3);
-        match self.depth {
-            Some(depth) => {
-                let half = 0.5 * (volume / depth).sqrt();
-                [half, half, 0.5 * depth]
-            }
-            None => [0.5 * volume.cbrt(); 3],
+        match self.flat {
+            true => [0.5 * volume.sqrt(), 0.5 * volume.sqrt(), 0.5],
+            false => [0.5 * volume.cbrt(); 3],
         }
     }
 }

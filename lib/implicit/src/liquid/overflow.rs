@@ -1,13 +1,12 @@
 //! Liquid beyond what a pore can hold goes on to pores beside it.
 
-use super::transport::{PASSES, ROUNDING};
+use super::transport::{PASSES, ROUNDING, pass};
 use crate::geometry::{Mesh, Way};
 
 /// A face by which excess may leave a pore.
 #[derive(Clone, Copy)]
 struct Outlet {
-    face: usize,
-    up: bool,
+    way: Way,
     /// What flows there.
     flow: f64,
     /// What came in on the opposite side and would go straight on.
@@ -51,14 +50,7 @@ pub(super) fn overflow(
             return;
         }
         over.clear();
-        for (face, up, volume) in passed {
-            let f = mesh.faces[face];
-            let (from, to) = if up { (f.low, f.high) } else { (f.high, f.low) };
-            volumes[from as usize] -= volume;
-            volumes[to as usize] += volume;
-            flux[face] += if up { volume } else { -volume };
-            over.push(to as usize);
-        }
+        over.extend((passed.into_iter()).map(|passed| pass(mesh, volumes, flux, passed)));
         over.sort_unstable();
         over.dedup();
         over.retain(|&pore| is_over(volumes, pore));
@@ -108,7 +100,7 @@ fn shares(ways: &[Outlet], excess: f64) -> Vec<(usize, bool, f64)> {
     }
     (ways.iter().zip(given))
         .filter(|(_, given)| *given > 0.0)
-        .map(|(way, given)| (way.face, way.up, given))
+        .map(|(Outlet { way, .. }, given)| (way.face, way.up, given))
         .collect()
 }
 
@@ -122,26 +114,20 @@ fn ways(
     flux: &[f64],
 ) -> Vec<Outlet> {
     let outlet = |way: Way| {
-        let Way {
-            face,
-            axis,
-            up,
-            beside,
-        } = way;
-        let (sign, area) = (way.sign(), mesh.area(face));
-        let straight: f64 = (mesh.faces_at(pore, axis, !up))
+        let (sign, area) = (way.sign(), mesh.area(way.face));
+        let straight: f64 = (mesh.faces_at(pore, way.axis, !way.up))
             .map(|face| (sign * flux[face]).max(0.0))
             .sum();
-        let side = mesh.faces_at(pore, axis, up).map(|face| mesh.area(face));
+        let side = mesh.faces_at(pore, way.axis, way.up);
+        let side = side.map(|face| mesh.area(face));
         Outlet {
-            face,
-            up,
-            flow: (sign * swept[face]).max(0.0),
+            way,
+            flow: (sign * swept[way.face]).max(0.0),
             straight: straight * area / side.sum::<f64>(),
-            came: (-sign * flux[face]).max(0.0),
+            came: (-sign * flux[way.face]).max(0.0),
             area,
-            room: room(beside),
-            full: full[beside],
+            room: room(way.beside),
+            full: full[way.beside],
         }
     };
     mesh.ways(pore).map(outlet).collect()

@@ -13,8 +13,6 @@ pub(crate) struct Profile<'a> {
     pub(crate) speed: f64,
     /// Influence length of the walls, cells; infinite without friction.
     pub(crate) influence_length: f64,
-    /// Cells a metre.
-    pub(crate) per_metre: f64,
 }
 
 /// What one side of a column asks of u(y) - mean = a y + c (y^2 - h^2/12): that `slope` times a, away from the column's
@@ -64,16 +62,6 @@ fn parabola([low, high]: [Side; 2]) -> [f64; 2] {
     ]
 }
 
-/// One end of a voxel's column along an axis.
-struct End {
-    /// Where it is, voxels from the low side of the cell.
-    place: f64,
-    /// Velocity of the grid there.
-    frame: f64,
-    /// Velocity against the grid; none where the liquid ends.
-    own: Option<f64>,
-}
-
 impl Profile<'_> {
     /// Velocity at the middle of a voxel of a pore, cells/s.
     pub(crate) fn at(&self, pore: usize, voxel: [usize; 3]) -> [f64; 3] {
@@ -81,14 +69,16 @@ impl Profile<'_> {
             if self.lattice.flat && axis == 2 {
                 return 0.0;
             }
-            let [low, high] = [false, true].map(|up| self.end(pore, voxel, axis, up));
-            let part = (voxel[axis] as f64 + 0.5 - low.place) / (high.place - low.place);
+            let [(first, low), (last, high)] =
+                [false, true].map(|up| self.end(pore, voxel, axis, up));
+            let part = (voxel[axis] as f64 + 0.5 - first) / (last - first);
             let between = |a: f64, b: f64| a + part * (b - a);
-            let own = match (low.own, high.own) {
+            let own = match (low, high) {
                 (Some(low), Some(high)) => between(low, high),
                 (one, other) => one.or(other).unwrap_or(0.0),
             };
-            own + between(low.frame, high.frame)
+            let [low, high] = [false, true].map(|up| self.frame(pore, axis, up));
+            own + between(low, high)
         })
     }
 
@@ -118,7 +108,9 @@ impl Profile<'_> {
         self.lattice.speed_at(share) * self.speed
     }
 
-    fn end(&self, pore: usize, voxel: [usize; 3], axis: usize, up: bool) -> End {
+    /// Where a voxel's column along an axis ends, voxels from the low side of the cell, and the velocity against the grid there;
+    /// none where the liquid ends.
+    fn end(&self, pore: usize, voxel: [usize; 3], axis: usize, up: bool) -> (f64, Option<f64>) {
         let mesh = self.mesh;
         let cell = mesh.cell(pore);
         let mut last = voxel;
@@ -135,11 +127,7 @@ impl Profile<'_> {
             Some(face) => self.moves(face).then(|| self.in_column(face, pore, last)),
             None => Some(0.0),
         };
-        End {
-            place: (last[axis] + usize::from(up)) as f64,
-            frame: self.frame(pore, axis, up),
-            own,
-        }
+        ((last[axis] + usize::from(up)) as f64, own)
     }
 
     /// Whether a face had a velocity in the step: others have none at all.
@@ -245,7 +233,7 @@ impl Profile<'_> {
                 let frame = self.mesh.frame(self.lattice, face);
                 (self.lattice.speed_of(body) - frame) * self.speed
             }
-            _ => self.lattice.slide[body][axis] * self.per_metre,
+            _ => self.lattice.slide[body][axis],
         }
     }
 }

@@ -72,10 +72,7 @@ fn look(mesh: &Mesh, before: Moved, full: &[bool], capacities: &[f64], swept: &[
         })
         .collect();
     let mut flux: Vec<f64> = (swept.par_iter().enumerate())
-        .map(|(face, &swept)| {
-            let crossing = Crossing::new(mesh, &fractions, face, swept);
-            swept.signum() * crossing.passed(&fractions, swept.abs(), mesh)
-        })
+        .map(|(face, &swept)| swept.signum() * passed(mesh, &fractions, face, swept))
         .collect();
     let shares: Vec<f64> = (pores.clone().into_par_iter())
         .map(|pore| match full[pore] || volumes[pore] == 0.0 {
@@ -127,16 +124,27 @@ fn give_back(mesh: &Mesh, volumes: &mut [f64], flux: &mut [f64]) {
             break;
         }
         for (face, up, volume) in returned.into_iter().filter(|way| way.2 > 0.0) {
-            let f = mesh.faces[face];
-            let (to, from) = if up { (f.low, f.high) } else { (f.high, f.low) };
-            volumes[from as usize] -= volume;
-            volumes[to as usize] += volume;
-            flux[face] -= if up { volume } else { -volume };
+            pass(mesh, volumes, flux, (face, up, -volume));
         }
     }
     for volume in volumes.iter_mut() {
         *volume = volume.max(0.0);
     }
+}
+
+/// Passes a volume on by a face that is on the high (`up`) or low side of the pore which it leaves; that pore enters.
+pub(super) fn pass(
+    mesh: &Mesh,
+    volumes: &mut [f64],
+    flux: &mut [f64],
+    (face, up, volume): (usize, bool, f64),
+) -> usize {
+    let [low, high] = mesh.faces[face].ends();
+    let (from, to) = if up { (low, high) } else { (high, low) };
+    volumes[from] -= volume;
+    volumes[to] += volume;
+    flux[face] += if up { volume } else { -volume };
+    to
 }
 
 /// Change of the volume fraction across a pore along each axis, from neighbour to neighbour.
@@ -151,53 +159,35 @@ fn gradient(mesh: &Mesh, fractions: &[f64], pore: usize) -> [f64; 3] {
     })
 }
 
-/// A face with the pore that liquid leaves by it and the pore that it enters.
-struct Crossing {
-    donor: usize,
-    axis: usize,
-    /// Whether it passes liquid on to higher coordinates.
-    up: bool,
-    /// Volume fractions of the donor and of the pore ahead.
-    fractions: [f64; 2],
-}
-
-impl Crossing {
-    fn new(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> Self {
-        let f = mesh.faces[face];
-        let up = swept > 0.0;
-        let (donor, ahead) = if up { (f.low, f.high) } else { (f.high, f.low) };
-        Self {
-            donor: donor as usize,
-            axis: usize::from(f.axis),
-            up,
-            fractions: [donor, ahead].map(|pore| fractions[pore as usize]),
-        }
+/// Liquid in the volume that a face sweeps.
+fn passed(mesh: &Mesh, fractions: &[f64], face: usize, swept: f64) -> f64 {
+    let axis = usize::from(mesh.faces[face].axis);
+    let [low, high] = mesh.faces[face].ends();
+    let (donor, next, sign) = match swept > 0.0 {
+        true => (low, high, 1.0),
+        false => (high, low, -1.0),
+    };
+    let (own, ahead, swept) = (fractions[donor], fractions[next], swept.abs());
+    if own == 1.0 || own == 0.0 {
+        return own * swept;
     }
-
-    /// Liquid in a swept volume.
-    fn passed(&self, fractions: &[f64], swept: f64, mesh: &Mesh) -> f64 {
-        let [own, ahead] = self.fractions;
-        if own == 1.0 || own == 0.0 {
-            return own * swept;
-        }
-        let gradient = gradient(mesh, fractions, self.donor);
-        // Change of the fraction along the flow, from the pore behind to the pore ahead.
-        let change = if self.up { 1.0 } else { -1.0 } * gradient[self.axis];
-        let behind = ahead - change;
-        let aside = (0..3)
-            .filter(|&a| a != self.axis)
-            .map(|a| gradient[a] * gradient[a])
-            .sum::<f64>()
-            .sqrt();
-        // Air with liquid before and behind it is no surface; it stays behind.
-        let hole = own <= ahead && own <= behind;
-        if hole || change == 0.0 || change.abs() < NORMAL * aside {
-            return own * swept;
-        }
-        let volume = mesh.volume(self.donor);
-        let air = (1.0 - own) * volume;
-        (ahead * swept + ((1.0 - ahead) * swept - air).max(0.0)).min(own * volume)
+    let gradient = gradient(mesh, fractions, donor);
+    // Change of the fraction along the flow, from the pore behind to the pore ahead.
+    let change = sign * gradient[axis];
+    let behind = ahead - change;
+    let aside = (0..3)
+        .filter(|&a| a != axis)
+        .map(|a| gradient[a] * gradient[a])
+        .sum::<f64>()
+        .sqrt();
+    // Air with liquid before and behind it is no surface; it stays behind.
+    let hole = own <= ahead && own <= behind;
+    if hole || change == 0.0 || change.abs() < NORMAL * aside {
+        return own * swept;
     }
+    let volume = mesh.volume(donor);
+    let air = (1.0 - own) * volume;
+    (ahead * swept + ((1.0 - ahead) * swept - air).max(0.0)).min(own * volume)
 }
 
 /// What leaves a pore.

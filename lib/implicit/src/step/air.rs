@@ -1,17 +1,15 @@
 //! Conditions where liquid ends in a step: menisci, pockets of air, liquid torn by tension.
 
-use physics::{Array, Liquid, Saved, restored};
+use physics::{Array, Boundary, Saved, restored};
 
 use super::Implicit;
-use crate::air::{Air, Gas, Outside};
+use crate::air::{Air, Gas};
+use crate::geometry::ROUNDING;
 use crate::system::{FULL, Flow, Fronts, Unknowns, Wetting};
 
 /// Names of the arrays of a checkpoint that hold the air of each pore, and what is counted of it.
 const HELD: &str = "air";
 const COUNTS: &str = "air_counts";
-
-/// What a pore loses at least in a step, cells, where its liquid comes apart: more than rounding.
-const APART: f64 = 1e-6;
 
 /// The air of a run, from step to step.
 #[derive(Clone, Debug, Default)]
@@ -60,7 +58,8 @@ impl Implicit {
             |pore| fractions[pore] >= FULL,
             &self.void(self.height),
             &self.state.air.of,
-            Outside::new(self.setup.lattice.boundary, self.setup.clamped),
+            // With a clamp, its body leaves room.
+            self.setup.clamped || self.setup.lattice.boundary[1] == Boundary::Open,
         );
         for pocket in air.pockets.iter_mut().chain(&mut air.dry) {
             pocket.tangent = gas.tangent(pocket.mass, pocket.volume, dt);
@@ -78,11 +77,7 @@ impl Implicit {
         dt: f64,
     ) -> Fronts {
         let setup = &self.setup;
-        let Liquid {
-            cavitation_pressure: tension,
-            wetting,
-            ..
-        } = &setup.liquid;
+        let (tension, wetting) = (setup.liquid.cavitation_pressure, setup.liquid.wetting);
         if air.is_none() && tension.is_none() && wetting.is_none() {
             return Fronts::default();
         }
@@ -138,30 +133,22 @@ impl Implicit {
             return false;
         };
         let lowest = -tension / self.setup.units.viscosity;
+        let mesh = &self.mesh;
+        let outflow = |pore: usize| -> f64 {
+            let each = mesh.ways(pore);
+            each.map(|way| way.sign() * mesh.area(way.face) * flow.velocity[way.face])
+                .sum()
+        };
         let mut others = false;
         for (pore, torn) in torn.iter_mut().enumerate() {
             let now = match *torn {
-                true => self.outflow(pore, &flow.velocity) * dt > APART,
+                true => outflow(pore) * dt > ROUNDING,
                 false => unknowns.has_pressure(pore) && flow.pressure[pore] < lowest,
             };
             others |= now != *torn;
             *torn = now;
         }
         others
-    }
-
-    /// What flows out of a pore, cells/s.
-    fn outflow(&self, pore: usize, velocity: &[f64]) -> f64 {
-        let mesh = &self.mesh;
-        let mut sum = 0.0;
-        for axis in 0..3 {
-            for (up, sign) in [(false, -1.0), (true, 1.0)] {
-                for face in mesh.faces_at(pore, axis, up) {
-                    sum += sign * mesh.area(face) * velocity[face];
-                }
-            }
-        }
-        sum
     }
 
     /// Takes in the air of a step of `dt` (s) that is over.

@@ -3,20 +3,16 @@
 use physics::StepLimit;
 
 use super::Implicit;
-use super::drive::Asked;
+use super::drive::Hold;
 use super::solve::{Middle, Solved};
-use crate::system::{Drive, Flow};
+use crate::settings::MISSED;
+use crate::system::{Drive, Flow, STILL};
 
 /// Part of the travel that is left from which on a step that covers it is made to end it.
 const NEAR: f64 = 0.7;
-/// Part of it by which a step may miss the end and still is there, or the rest would be taken in ever smaller steps, and
-/// solves that bring it nearer: a held speed settles in one or two where it settles at all.
-const MISSED: f64 = 1e-3;
-/// Travel, cells, that counts as none: surfaces of voxels are known less well, and a film under a pressure never ends.
-const NOTHING: f64 = 1e-2;
-const CLOSER: usize = 4;
-/// Solves of a step in which a clamp under a pressure comes to its speed.
-const SPEEDS: usize = 4;
+/// Solves that bring a step nearer to the end, and a clamp under a pressure to its speed: either settles in one or two where it
+/// settles at all.
+const SOLVES: usize = 4;
 /// Part of the gap's height by which the middle of a step may be off that of its speed: flow goes with the cube of the height.
 const OFF: f64 = 0.01;
 
@@ -55,7 +51,7 @@ impl Implicit {
         }
         // The clamp's speed under load is known only then: the step ends the travel when it is that of its own length.
         let mut before = None;
-        for _ in 0..CLOSER {
+        for _ in 0..SOLVES {
             let now = [solved.dt, solved.flow.speed];
             let reach = now[0] * now[1];
             let end = arrival(left, now, before.replace(now));
@@ -65,13 +61,15 @@ impl Implicit {
             solved = self.solve_controlled(end, guess)?;
         }
         let reach = solved.flow.speed * solved.dt;
-        if reach > left + (MISSED * left).max(NOTHING) {
+        // A film under a pressure never ends, and surfaces of voxels are known less well.
+        let near = (MISSED * left).max(STILL);
+        if reach > left + near {
             let dt = solved.dt;
             let middle = self.middle(dt, Some(&solved.flow));
             solved = self.solve_driven(&middle, Drive::Speed(left / dt), guess)?;
         }
         let reach = solved.flow.speed * solved.dt;
-        solved.arrives = (reach - left).abs() <= (MISSED * left).max(NOTHING);
+        solved.arrives = (reach - left).abs() <= near;
         Ok(solved)
     }
 
@@ -95,7 +93,7 @@ impl Implicit {
             None => 0.5 * dt,
         });
         let mut middle = self.middle(dt, None);
-        for _ in 1..SPEEDS {
+        for _ in 1..SOLVES {
             let solved = self.solve_middle(&middle, guess)?;
             let [assumed, height] = self.heights(&middle, &solved, dt);
             let is_off = is_off(assumed, height);
@@ -128,14 +126,14 @@ impl Implicit {
 
     /// The same with the liquid in the `middle` of the step as it is.
     fn solve_middle(&mut self, middle: &Middle, guess: &mut Flow) -> Result<Solved, String> {
-        if let Some(asked) = self.state.drive.held() {
-            return self.solve_held(middle, asked, guess);
+        if let Some(hold) = self.state.drive.held() {
+            return self.solve_held(middle, hold, guess);
         }
         let full = Drive::Speed(self.state.drive.speed / self.setup.units.cell_m);
         let free = self.solve_driven(middle, full, guess)?;
         let pressure = self.setup.pressure(free.flow.force);
         match self.state.drive.exceeded(pressure) {
-            Some(asked) => self.solve_held(middle, asked, guess),
+            Some(hold) => self.solve_held(middle, hold, guess),
             None => Ok(free),
         }
     }
@@ -144,15 +142,15 @@ impl Implicit {
     fn solve_held(
         &mut self,
         middle: &Middle,
-        asked: Asked,
+        hold: Hold,
         guess: &mut Flow,
     ) -> Result<Solved, String> {
         let cell_m = self.setup.units.cell_m;
         // Viscous flow is in proportion to the speed that drives it.
         guess.speed_up(self.state.drive.speed / cell_m);
         let drive = Drive::Force {
-            force: self.setup.force(asked.limit),
-            scale: self.setup.force(asked.limit.max(asked.least)),
+            force: self.setup.force(hold.limit),
+            scale: self.setup.force(hold.scale()),
             guess: self.state.drive.speed / cell_m,
         };
         let solved = self.solve_driven(middle, drive, guess)?;

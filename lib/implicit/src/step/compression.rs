@@ -3,10 +3,8 @@
 use physics::Tait;
 
 use crate::geometry::Mesh;
+use crate::settings::MISSED;
 
-/// Volume by which compression may be off its law, over all that changes: beyond it the step is solved again around the
-/// pressures found. Liquid that flows away is never so compressed that it counts.
-const OFF_LAW: f64 = 1e-3;
 /// Part of the volume that is rounding: without it liquid that flies on, none of which changes, does not settle.
 const ROUNDING: f64 = 1e-12;
 
@@ -75,7 +73,7 @@ impl Compression<'_> {
                 volume += after;
             }
         }
-        off <= OFF_LAW * all + ROUNDING * volume
+        off <= MISSED * all + ROUNDING * volume
     }
 }
 

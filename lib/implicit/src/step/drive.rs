@@ -10,9 +10,10 @@ const TOLERANCE: f64 = 5e-3;
 const FAINT: f64 = 1e-3;
 
 /// Speed of the clamp.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 enum Control {
     /// Nothing is clamped, or at constant speed.
+    #[default]
     Free,
     /// At full speed until that would exceed the limit; held at the limit then, and at full speed again
     /// where that no longer reaches it.
@@ -23,24 +24,15 @@ enum Control {
 
 /// A clamp under its own load control.
 #[derive(Clone, Copy, Debug)]
-struct Hold {
+pub(super) struct Hold {
     /// Largest speed, and the least, below zero where the clamp gives way, m/s.
     speeds: [f64; 2],
     /// Pressure limit, and the least that excess over it is measured by, Pa.
-    limit: f64,
+    pub(super) limit: f64,
     least: f64,
     held: bool,
     /// Whether it is to press no more.
     releases: bool,
-}
-
-/// What a clamp is held at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Asked {
-    /// Pressure, Pa.
-    pub(super) limit: f64,
-    /// Least pressure that errors of it are measured by, Pa.
-    pub(super) least: f64,
 }
 
 impl Hold {
@@ -62,20 +54,13 @@ impl Hold {
     }
 
     /// What excess over the limit is measured by, Pa.
-    fn scale(&self) -> f64 {
+    pub(super) fn scale(&self) -> f64 {
         self.limit.max(self.least)
-    }
-
-    fn asked(&self) -> Asked {
-        Asked {
-            limit: self.limit,
-            least: self.least,
-        }
     }
 }
 
 /// The drive of the body that closes the gap.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct ClampDrive {
     control: Control,
     /// The press programme that sets the control, if there is one.
@@ -149,16 +134,16 @@ impl ClampDrive {
     }
 
     /// What the clamp is held at, its speed being unknown.
-    pub(super) fn held(&self) -> Option<Asked> {
+    pub(super) fn held(&self) -> Option<Hold> {
         match self.control {
-            Control::Limit(hold) if hold.held => Some(hold.asked()),
+            Control::Limit(hold) if hold.held => Some(hold),
             _ => None,
         }
     }
 
     /// The limit where `pressure` (Pa) at full speed exceeds it: the clamp is held from now
     /// on, and `speed` is a guess at its speed.
-    pub(super) fn exceeded(&mut self, pressure: f64) -> Option<Asked> {
+    pub(super) fn exceeded(&mut self, pressure: f64) -> Option<Hold> {
         let Control::Limit(hold) = &mut self.control else {
             return None;
         };
@@ -167,7 +152,7 @@ impl ClampDrive {
         }
         hold.held = true;
         self.speed *= hold.limit / pressure;
-        Some(hold.asked())
+        Some(*hold)
     }
 
     /// Takes the speed (m/s) that the limit asks for; `false` where the clamp cannot follow it and
@@ -280,14 +265,11 @@ mod tests {
             pid: None,
         };
         let mut drive = ClampDrive::new(Some(clamp), None, 1e-9, 2.0);
-        assert_eq!(drive.exceeded(1.004e6), None);
-        let asked = Asked {
-            limit: 1e6,
-            least: 0.0,
-        };
-        assert_eq!(drive.exceeded(1.006e6), Some(asked));
+        assert!(drive.exceeded(1.004e6).is_none());
+        let limit = |hold: Option<Hold>| hold.map(|hold| hold.limit);
+        assert_eq!(limit(drive.exceeded(1.006e6)), Some(1e6));
         assert!(!drive.follow(-1.0));
-        assert_eq!((drive.speed, drive.held()), (0.0, Some(asked)));
+        assert_eq!((drive.speed, limit(drive.held())), (0.0, Some(1e6)));
         let broken = [1.019e6, 1.021e6, 1.03e6, 1e6].map(|pressure| {
             drive.observe(pressure, 1e-9, 0.0);
             drive.broken

@@ -1,9 +1,9 @@
 //! The mesh follows the liquid and the gap.
 
 use super::Implicit;
-use crate::geometry::{Mesh, Region, Rows};
+use crate::geometry::{Mesh, Rows};
 use crate::liquid::{Kept, carried_pressures, carried_region, carried_velocities, carried_volumes};
-use crate::system::Edges;
+use crate::system::{Edges, Links};
 
 /// Cells around the liquid that a mesh has. It is made anew where half of them are left: liquid crosses less than two in a step.
 pub(super) const MARGIN: usize = 4;
@@ -28,19 +28,15 @@ impl Implicit {
         }
         let end = (wet_rows.end + rows.gap - mesh.rows().gap).max(wet_rows.start) + MARGIN;
         let near = wet_rows.start.saturating_sub(MARGIN)..end.min(rows.len());
-        let (range, region) = match self.setup.gas {
+        let lattice = &self.setup.lattice;
+        let mesh = match self.setup.gas {
             None => {
                 let region = carried_region(mesh, &wet, (&rows, &near), MARGIN);
-                (near, region)
+                Mesh::new(lattice, rows, near, region)
             }
             // Air may be closed off anywhere.
-            Some(_) => {
-                let range = 0..rows.len();
-                let size = Mesh::size_of(&self.setup.lattice, &range);
-                (range, Region::new(size, true))
-            }
+            Some(_) => Mesh::whole(lattice, rows, 0..rows.len()),
         };
-        let mesh = Mesh::new(&self.setup.lattice, rows, range, region);
         let old = std::mem::replace(&mut self.mesh, mesh);
         let (state, mesh) = (&mut self.state, &self.mesh);
         state.volumes = carried_volumes(mesh, &old, &state.volumes);
@@ -58,7 +54,7 @@ impl Implicit {
             true => Kept::default(),
             false => Kept::new(mesh, &old),
         };
-        self.links = self.setup.links(mesh, &kept, &self.links);
+        self.links = Links::new(&self.setup.channels(mesh), &kept, &self.links);
         self.edges = Edges::new(mesh, &self.setup.lattice, &kept, &self.edges);
     }
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use physics::{StepLimit, StepReport};
+use physics::{Motion, StepLimit, StepReport};
 
 use super::Implicit;
 use super::solve::Solved;
@@ -128,7 +128,10 @@ impl Implicit {
     fn move_bodies(&mut self, travel: f64, dt: f64) {
         let (lattice, cell_m) = (&self.setup.lattice, self.setup.units.cell_m);
         for (body, displacement) in self.state.displacement.iter_mut().enumerate() {
-            let slide = lattice.slide[body];
+            let slide = match self.setup.motions[body] {
+                Motion::Constant(velocity) => velocity,
+                _ => [0.0; 3],
+            };
             for a in 0..3 {
                 displacement[a] += slide[a] * dt;
             }

@@ -56,6 +56,7 @@ pub struct Implicit {
 }
 
 /// What changes from step to step.
+#[derive(Default)]
 struct State {
     /// Liquid in each pore at no pressure, cells.
     volumes: Vec<f64>,
@@ -95,7 +96,7 @@ impl Implicit {
         let drive = setup.drive(scene);
         let closing = drive.speed / setup.units.cell_m;
         let flow = Flow {
-            velocity: setup.initial_velocity(&scene.points, &mesh, closing)?,
+            velocity: setup.initial_velocity(&scene.points, &mesh, &volumes, closing)?,
             pressure: vec![0.0; mesh.pores.len()],
             speed: closing,
             ..Flow::default()
@@ -106,18 +107,11 @@ impl Implicit {
                 volumes,
                 flow,
                 drive,
-                air: HeldAir::default(),
                 displacement: vec![[0.0; 3]; scene.bodies.len()],
-                travel: 0.0,
-                time: 0.0,
-                steps: 0,
-                dt: 0.0,
                 fastest: speed,
                 growth: 1.0,
-                lost: 0.0,
-                power: 0.0,
-                unsettled: 0,
                 wet,
+                ..State::default()
             },
             solver: SaddleSolver::new(SaddleOptions {
                 tolerance: settings.tolerance,
@@ -186,36 +180,31 @@ impl Implicit {
 
     /// Length of the next step by the flow of the last, s.
     fn length(&self, limit: StepLimit) -> f64 {
-        let settings = &self.setup.settings;
-        let pull = self.setup.pull();
-        let free = settings.cfl * self.crossing();
-        // From rest, weight sets the speed.
-        let falls = (2.0 * settings.cfl / pull).sqrt();
+        let (state, liquid, units) = (&self.state, &self.setup.liquid, self.setup.units);
+        let cfl = self.setup.settings.cfl;
+        let mut dt = (cfl * self.crossing()).min(limit.time_s);
         // The viscosity of a liquid that cures is that of the middle of the step.
-        let cure = self.setup.liquid.cure.as_ref();
-        let free = cure.map_or(free, |cure| {
-            cure.steady(self.state.time, THICKENS).min(free)
-        });
-        let moist = self.state.wet.as_ref().map_or(f64::INFINITY, Wet::steady);
-        let dt = free.min(moist).min(if self.state.steps == 0 {
-            falls
-        } else {
-            f64::INFINITY
-        });
+        if let Some(cure) = &liquid.cure {
+            dt = dt.min(cure.steady(state.time, THICKENS));
+        }
+        if let Some(wet) = &state.wet {
+            dt = dt.min(wet.steady());
+        }
+        // From rest, weight sets the speed.
+        if state.steps == 0 {
+            dt = dt.min((2.0 * cfl / self.setup.pull()).sqrt());
+        }
         // From rest, no meniscus outruns tension over viscosity; what holds one is known by the speed of the step before.
-        let wets = self.setup.liquid.wetting.map_or(f64::INFINITY, |wetting| {
-            let units = self.setup.units;
-            match self.state.steps {
+        if let Some(wetting) = liquid.wetting {
+            dt = dt.min(match state.steps {
                 0 => units.cell_m * units.viscosity / wetting.tension,
-                _ => GROWTH * self.state.dt,
-            }
-        });
-        let dt = dt.min(wets);
-        let left = match self.left(limit) {
-            left if left > 0.0 => left / self.state.flow.speed.max(f64::MIN_POSITIVE),
+                _ => GROWTH * state.dt,
+            });
+        }
+        match self.left(limit) {
+            left if left > 0.0 => dt.min(left / state.flow.speed.max(f64::MIN_POSITIVE)),
             // The clamp is where it was to go.
-            _ => f64::INFINITY,
-        };
-        dt.min(limit.time_s).min(left)
+            _ => dt,
+        }
     }
 }

@@ -6,7 +6,6 @@ use physics::{
 };
 
 use super::Implicit;
-use crate::clock::Stage;
 use crate::geometry::{Mesh, Region, Rows};
 use crate::liquid::{Kept, Profile, Shown, points};
 use crate::system::{Edges, FlowField, Links};
@@ -52,12 +51,12 @@ impl Scheme for Implicit {
         let fractions: Vec<f64> = (state.volumes.iter().enumerate())
             .map(|(pore, volume)| volume / self.mesh.volume(pore))
             .collect();
-        setup.measure(&mut links, &self.mesh, &fractions);
+        links.measure(&setup.channels(&self.mesh), &fractions);
         let field = FlowField {
             links: &links,
             ..self.field(flow)
         };
-        let rates = field.pore_rates(setup.liquid.shear_rate);
+        let (rates, _) = field.pore_rates(setup.liquid.shear_rate);
         let volumes: Vec<f64> = (0..self.mesh.pores.len())
             .map(|pore| state.volumes[pore] * self.compressed(pore))
             .collect();
@@ -188,7 +187,8 @@ impl Scheme for Implicit {
         (state.flow.speed, state.flow.force, state.dt) = (speed, force, dt);
         state.displacement = displacement;
         self.walls = self.setup.taking_walls(&mesh);
-        self.links = self.setup.links(&mesh, &Kept::default(), &Links::default());
+        let none = Links::default();
+        self.links = Links::new(&self.setup.channels(&mesh), &Kept::default(), &none);
         let (lattice, none) = (&self.setup.lattice, Edges::default());
         self.edges = Edges::new(&mesh, lattice, &Kept::default(), &none);
         (self.mesh, self.height) = (mesh, height);
@@ -200,10 +200,7 @@ impl Scheme for Implicit {
     }
 
     fn stage_times(&self) -> Vec<StageTime> {
-        match self.setup.liquid.water {
-            Some(_) => self.clock.report(&[]),
-            None => self.clock.report(&[Stage::Water]),
-        }
+        self.clock.report(self.setup.liquid.water.is_some())
     }
 
     fn counts(&self) -> Vec<(&'static str, u64)> {
@@ -227,28 +224,28 @@ impl Scheme for Implicit {
         /// Part of the steps that may be so.
         const MOST: f64 = 0.1;
         let steps = self.state.steps;
-        let often = |count: u64, what: &str| {
-            (count as f64 > MOST * steps as f64)
-                .then(|| format!("in {count} of {steps} steps {what}"))
-        };
-        let unsettled = often(
-            self.state.unsettled,
-            "the passes did not settle (viscosity, compression or torn liquid)",
-        );
-        let astray = often(
-            self.state.air.astray,
-            "the passes did not find the pressure of the air that is closed off",
-        );
         let (above, pressure) = self.state.drive.broken;
-        let above = often(
-            above,
-            "liquid that is closed in pressed the clamp's body with more than its max_pressure",
-        );
-        let limit = (pressure > 0.0).then(|| physics::broken(pressure));
-        let said: Vec<String> = [unsettled, astray, above, limit]
-            .into_iter()
-            .flatten()
-            .collect();
+        let mut said: Vec<String> = [
+            (
+                self.state.unsettled,
+                "the passes did not settle (viscosity, compression or torn liquid)",
+            ),
+            (
+                self.state.air.astray,
+                "the passes did not find the pressure of the air that is closed off",
+            ),
+            (
+                above,
+                "liquid that is closed in pressed the clamp's body with more than its max_pressure",
+            ),
+        ]
+        .into_iter()
+        .filter(|&(count, _)| count as f64 > MOST * steps as f64)
+        .map(|(count, what)| format!("in {count} of {steps} steps {what}"))
+        .collect();
+        if pressure > 0.0 {
+            said.push(physics::broken(pressure));
+        }
         (!said.is_empty()).then(|| said.join("; "))
     }
 }
@@ -265,7 +262,7 @@ impl Implicit {
             ..*self.mesh.rows()
         };
         let range = start as usize..end as usize;
-        let most = self.setup.most_rows();
+        let most = self.setup.lattice.rows().gap;
         if gap as usize > most
             || range.is_empty()
             || range.end > rows.len()
@@ -295,8 +292,7 @@ impl Implicit {
             mesh: &self.mesh,
             velocity: &self.state.flow.velocity,
             speed: self.state.flow.speed,
-            influence_length: self.setup.walls.influence_length,
-            per_metre: self.setup.walls.per_metre,
+            influence_length: self.setup.influence_length,
         }
     }
 }

@@ -7,10 +7,10 @@ use physics::{Dimensions, Liquid, Motion, Points, PressRun, Scene, Seed, Stop, V
 use super::drive::ClampDrive;
 use super::fit::MARGIN;
 use crate::air::Gas;
-use crate::geometry::{Chords, Face, Lattice, Mesh, Region, Rows};
-use crate::liquid::{Kept, Place, deposit};
+use crate::geometry::{Chords, Face, Lattice, Mesh, Rows};
+use crate::liquid::{Place, deposit};
 use crate::settings::Settings;
-use crate::system::{Links, STILL, Scales, Walls};
+use crate::system::{Channels, STILL, Scales};
 use crate::water;
 
 /// Units of the scheme.
@@ -43,7 +43,8 @@ pub(super) struct Setup {
     pub(super) units: Units,
     pub(super) place: Place,
     gravity: [f64; 3],
-    pub(super) walls: Walls,
+    /// Influence length of the walls, cells; infinite without friction.
+    pub(super) influence_length: f64,
     pub(super) bottom: Option<usize>,
     pub(super) top: Option<usize>,
     /// Area that pressures refer to, m2.
@@ -77,16 +78,14 @@ impl Setup {
             cell_m,
             viscosity: scene.liquid.viscosity.at(speed / cell_m),
         };
-        let flat = scene.dimensions == Dimensions::Two;
         let place = Place {
             cell_m,
             origin_m: [scene.grid.min_m[0], lattice.gap_low_m, scene.grid.min_m[2]],
-            depth: flat.then_some(1.0),
+            flat: scene.dimensions == Dimensions::Two,
         };
         let rows = lattice.rows();
         let range = rows_of(&scene.points, rows, place);
-        let region = Region::new(Mesh::size_of(&lattice, &range), true);
-        let mesh = Mesh::new(&lattice, rows, range, region);
+        let mesh = Mesh::whole(&lattice, rows, range);
         let volumes = deposit(&mesh, &scene.points, place, |point| {
             point.volume / cell_m.powi(3)
         })?;
@@ -98,10 +97,7 @@ impl Setup {
             units,
             place,
             gravity: scene.gravity,
-            walls: Walls {
-                influence_length: scene.wall.influence_length() / cell_m,
-                per_metre: 1.0 / cell_m,
-            },
+            influence_length: scene.wall.influence_length() / cell_m,
             bottom: scene.bottom,
             top: scene.top,
             area: scene.grid.area_m2(),
@@ -124,14 +120,14 @@ impl Setup {
         Ok((setup, mesh, volumes))
     }
 
-    /// Most rows of the gap.
-    pub(super) fn most_rows(&self) -> usize {
-        self.lattice.rows().gap
-    }
-
-    /// Friction of the walls of a mesh; of faces that are `kept` from another one, as `old` has it.
-    pub(super) fn links(&self, mesh: &Mesh, kept: &Kept, old: &Links) -> Links {
-        Links::new(&self.lattice, &self.chords, mesh, self.walls, kept, old)
+    /// What the friction of the walls of a mesh is found from.
+    pub(super) fn channels<'a>(&'a self, mesh: &'a Mesh) -> Channels<'a> {
+        Channels {
+            lattice: &self.lattice,
+            chords: &self.chords,
+            mesh,
+            influence_length: self.influence_length,
+        }
     }
 
     /// Walls of a mesh that take water, of a liquid that loses it.
@@ -141,7 +137,7 @@ impl Setup {
     }
 
     /// Velocity of each face at the start, cells/s, against the grid, which moves with the closing `speed`, cells/s: the mean
-    /// of the points in the pores on its two sides.
+    /// of the points, of which pores hold these `volumes`, in the pores on its two sides.
     ///
     /// # Errors
     /// As [`deposit`].
@@ -149,6 +145,7 @@ impl Setup {
         &self,
         points: &Points,
         mesh: &Mesh,
+        volumes: &[f64],
         speed: f64,
     ) -> Result<Vec<f64>, String> {
         let cell_m = self.units.cell_m;
@@ -159,14 +156,11 @@ impl Setup {
                 moments.push(deposit(mesh, points, self.place, moment)?);
             }
         }
-        let volumes = deposit(mesh, points, self.place, |point| {
-            point.volume / cell_m.powi(3)
-        })?;
         let velocity = |(index, face): (usize, &Face)| {
             let axis = usize::from(face.axis);
             let ends = [face.low as usize, face.high as usize];
             let sum = |of: &[f64]| of[ends[0]] + of[ends[1]];
-            let volume = sum(&volumes);
+            let volume = sum(volumes);
             let own = match moments.get(axis) {
                 Some(moments) if volume > 0.0 => sum(moments) / volume,
                 _ => 0.0,
@@ -177,11 +171,6 @@ impl Setup {
             }
         };
         Ok(mesh.faces.iter().enumerate().map(velocity).collect())
-    }
-
-    /// Finds anew the friction that the gap's height is part of, of faces with liquid.
-    pub(super) fn measure(&self, links: &mut Links, mesh: &Mesh, fractions: &[f64]) {
-        links.measure(&self.lattice, &self.chords, mesh, self.walls, fractions);
     }
 
     /// The drive of the body that closes the gap.
@@ -199,16 +188,6 @@ impl Setup {
         ClampDrive::new(scene.clamp, programme, acoustic, full)
     }
 
-    /// Influence length of the walls, cells; infinite without friction.
-    pub(super) fn influence_length(&self) -> f64 {
-        self.walls.influence_length
-    }
-
-    /// Factor of the viscosity by cure.
-    pub(super) fn viscosity_at(&self, time: f64) -> f64 {
-        (self.liquid.cure.as_ref()).map_or(1.0, |cure| cure.factor(time))
-    }
-
     /// Whether the viscosity depends on the flow.
     pub(super) fn varies(&self) -> bool {
         !matches!(self.liquid.viscosity, Viscosity::Newtonian(_))
@@ -224,7 +203,7 @@ impl Setup {
             inertia: density * h * h / (eta * dt),
             gravity: self.gravity.map(|g| density * h * g / eta),
             compressibility: eta / self.liquid.tait.bulk_modulus,
-            influence_length: self.walls.influence_length,
+            influence_length: self.influence_length,
         }
     }
 

@@ -62,7 +62,7 @@ struct Given<'a> {
     /// Liquid in the halves of each face, and its volume.
     halves: Vec<[f64; 2]>,
     masses: Vec<f64>,
-    /// Viscosity without flow, Pa s.
+    /// Factor of the viscosity by cure.
     viscosity: f64,
     /// Of a liquid that loses water: what it loses.
     lost: Option<Exchange>,
@@ -107,7 +107,8 @@ impl Implicit {
             .collect();
         let begun = Instant::now();
         if self.setup.lattice.moving.is_some() {
-            (self.setup).measure(&mut self.links, &self.mesh, &fractions);
+            let channels = self.setup.channels(&self.mesh);
+            self.links.measure(&channels, &fractions);
         }
         self.clock.add(Stage::Geometry, begun);
         Middle {
@@ -228,6 +229,7 @@ impl Implicit {
         clock: &mut Clock,
     ) -> Result<Given<'a>, String> {
         let (dt, fractions) = (middle.dt, &middle.fractions);
+        let cure = self.setup.liquid.cure.as_ref();
         let begun = Instant::now();
         let lost = self.exchange(dt, fractions)?;
         if lost.is_some() {
@@ -243,7 +245,7 @@ impl Implicit {
             end: self.end_height(dt, middle.closing),
             halves,
             masses,
-            viscosity: self.setup.viscosity_at(self.state.time + 0.5 * dt),
+            viscosity: cure.map_or(1.0, |cure| cure.factor(self.state.time + 0.5 * dt)),
             lost,
         })
     }
@@ -251,7 +253,7 @@ impl Implicit {
     /// The search for the viscosity of the flow of a step, which begins with that of the flow `guess`; `viscosity` is that of
     /// no flow.
     fn search(&self, viscosity: f64, guess: &Flow) -> Search<'_> {
-        let (liquid, slip) = (&self.setup.liquid, self.setup.influence_length());
+        let (liquid, slip) = (&self.setup.liquid, self.setup.influence_length);
         let factor = viscosity / self.setup.units.viscosity;
         let used = match self.setup.varies() && self.state.steps > 0 {
             true => {
@@ -286,13 +288,8 @@ impl Implicit {
         (solver, clock): (&mut SaddleSolver, &mut Clock),
     ) -> Result<(Flow, Vec<f64>, bool), String> {
         let (setup, mesh, state) = (&self.setup, &self.mesh, &self.state);
-        let Middle {
-            dt,
-            full,
-            fractions,
-            ..
-        } = given.middle;
-        let dt = *dt;
+        let middle = given.middle;
+        let (dt, full, fractions) = (middle.dt, &middle.full, &middle.fractions);
         let stiffnesses = stiffnesses(mesh, &given.halves, viscosities);
         let fronts = self.fronts(unknowns, torn, air, given.viscosity, dt);
         let problem = Problem {
@@ -325,7 +322,11 @@ impl Implicit {
         };
         let mut carried = compression.released(&unknowns.pores, &guess.pressure);
         if let Some(exchange) = &given.lost {
-            exchange.add_to(&unknowns.pores, full, dt, &mut carried);
+            // What full pores gain in the step, those with a pressure hold more.
+            let pores = unknowns.pores.iter().map(|&pore| pore as usize);
+            for (carried, pore) in carried.iter_mut().zip(pores).filter(|of| full[of.1]) {
+                *carried += exchange.gained[pore] / dt;
+            }
         }
         let flow = solve(&problem, &carried, given.drive, guess, solver, clock)
             .map_err(|error| unsolved(&error))?;

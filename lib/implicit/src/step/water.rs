@@ -5,7 +5,8 @@ use physics::{Array, SET, Saved, Saving, WaterState};
 use super::setup::Setup;
 use super::solve::Solved;
 use super::{Implicit, THICKENS};
-use crate::water::{Account, Exchange, Medium, ROUNDING};
+use crate::geometry::ROUNDING;
+use crate::water::{Account, Exchange, Medium};
 
 /// Change of ln(viscosity) by drying from which a step is taken again, shorter: half above what it aims at, so few are.
 const MOST_THICKENS: f64 = 0.3;
@@ -40,11 +41,6 @@ impl Wet {
         self.account.pace = exchange.change / dt;
         self.account.fluidity = exchange.fluidity;
     }
-
-    /// Water in the liquid, cells.
-    fn held(&self) -> f64 {
-        self.water.iter().sum()
-    }
 }
 
 impl Solved {
@@ -64,7 +60,11 @@ impl Setup {
             .map(|volume| volume * start / (1.0 + start))
             .collect();
         Some(Wet {
-            account: Account::new(water.iter().sum()),
+            account: Account {
+                start: water.iter().sum(),
+                fluidity: 1.0,
+                ..Account::default()
+            },
             soaked: vec![0.0; water.len()],
             water,
         })
@@ -109,7 +109,7 @@ impl Implicit {
     /// Where the water is.
     pub(super) fn water_state(&self) -> Option<WaterState> {
         let (water, wet) = (self.setup.liquid.water.as_ref()?, self.state.wet.as_ref()?);
-        let held = wet.held();
+        let held = wet.water.iter().sum::<f64>();
         let solids = self.state.volumes.iter().sum::<f64>() - held;
         let volume = self.setup.units.volume();
         Some(WaterState {

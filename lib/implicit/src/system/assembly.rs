@@ -16,7 +16,7 @@ use crate::geometry::{Lattice, Mesh, RowKind};
 const FREE: f64 = 1e-7;
 
 /// What multiplies the terms of a step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Scales {
     /// Length of the step, s.
     pub(crate) dt: f64,
@@ -30,20 +30,6 @@ pub(crate) struct Scales {
     pub(crate) compressibility: f64,
     /// Influence length of the walls, cells; infinite without friction.
     pub(crate) influence_length: f64,
-}
-
-impl Scales {
-    /// Those of steady flow of liquid that sticks to walls and has no weight.
-    pub(crate) fn steady() -> Self {
-        Self {
-            dt: f64::INFINITY,
-            slow: 0.0,
-            inertia: 0.0,
-            gravity: [0.0; 3],
-            compressibility: 0.0,
-            influence_length: 0.0,
-        }
-    }
 }
 
 /// What the equations are made of.

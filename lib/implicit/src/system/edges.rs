@@ -80,8 +80,8 @@ impl Edges {
     /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
     pub(crate) fn new(mesh: &Mesh, lattice: &Lattice, kept: &Kept, old: &Self) -> Self {
         let mut now = vec![None; old.start.len()];
-        for (face, old_face) in kept.same.iter().enumerate() {
-            if let Some(old_face) = old_face {
+        for (face, old_face) in kept.0.iter().enumerate() {
+            if let Some((old_face, _)) = old_face {
                 now[*old_face as usize] = Some(face as u32);
             }
         }
@@ -169,15 +169,8 @@ impl Edges {
 fn add_edges(found: &mut Vec<Edge>, mesh: &Mesh, lattice: &Lattice, face: usize, clear: bool) {
     let axis = usize::from(mesh.faces[face].axis);
     let key = |edge: &Edge| {
-        let Edge {
-            next,
-            across,
-            open,
-            aside,
-            factor,
-            ..
-        } = edge;
-        (*next, *across, *open, *aside, factor.to_bits())
+        let factor = edge.factor.to_bits();
+        (edge.next, edge.across, edge.open, edge.aside, factor)
     };
     for t in others(axis)
         .into_iter()

@@ -5,7 +5,6 @@ use saddle_point::{Csr, SaddleSystem, SolveError, VelocityBlock};
 
 use super::assembly::Problem;
 use super::solution::{Drive, Flow};
-use crate::air::Pocket;
 
 /// The equations of a step, for the linear solver.
 pub(super) struct Equations {
@@ -77,7 +76,16 @@ impl Equations {
             carried_force: carried_along.iter().sum(),
         };
         equations.add_pockets(problem);
-        equations.drive(drive);
+        equations.volume_source = vec![0.0; equations.source.len()];
+        if let Drive::Speed(speed) = drive {
+            for (known, closing) in equations.known.iter_mut().zip(&equations.closing) {
+                *known += speed * closing;
+            }
+            let moved = equations.volume_source.iter_mut();
+            for (moved, source) in moved.zip(&equations.source) {
+                *moved = speed * source;
+            }
+        }
         Ok(equations)
     }
 
@@ -86,35 +94,14 @@ impl Equations {
     fn add_pockets(&mut self, problem: &Problem) {
         let thickest = self.two_eta.iter().copied().fold(1.0, f64::max);
         let dt = problem.scales.dt;
-        for Pocket {
-            pores,
-            volume,
-            tangent,
-            ..
-        } in problem.pockets
-        {
-            let closing = pores
-                .iter()
-                .map(|&pore| problem.closing(pore as usize))
-                .sum();
+        for pocket in problem.pockets {
+            let (pores, tangent) = (pocket.pores.iter(), pocket.tangent);
+            let closing = pores.map(|&pore| problem.closing(pore as usize)).sum();
             self.source.push(closing);
             self.carried_force += closing * tangent.pressure;
             self.c.push(tangent.yielding / dt);
-            self.carried.push((tangent.volume - volume) / dt);
+            self.carried.push((tangent.volume - pocket.volume) / dt);
             self.two_eta.push(thickest);
-        }
-    }
-
-    /// Adds what a body at a given speed moves.
-    fn drive(&mut self, drive: Drive) {
-        self.volume_source = vec![0.0; self.source.len()];
-        if let Drive::Speed(speed) = drive {
-            for (known, closing) in self.known.iter_mut().zip(&self.closing) {
-                *known += speed * closing;
-            }
-            for (moved, source) in self.volume_source.iter_mut().zip(&self.source) {
-                *moved = speed * source;
-            }
         }
     }
 

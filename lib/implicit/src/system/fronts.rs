@@ -6,7 +6,7 @@ use saddle_point::RowEntries;
 
 use super::assembly::Problem;
 use super::unknowns::Unknowns;
-use crate::geometry::{Chords, Lattice, Mesh, narrowness};
+use crate::geometry::{Chords, Lattice, Mesh, Way, narrowness};
 
 /// Way in a step, cells, that counts as rest: far less than a step moves, far more than solutions are off by. A meniscus that goes
 /// it is held by half of all that holds it (docs/methods.md section 3.12).
@@ -79,14 +79,19 @@ impl Fronts {
         let Some(wetting) = wetting else {
             return fronts;
         };
+        let empty = |pore: usize| !unknowns.has_pressure(pore) && !mesh.is_beyond(mesh.cell(pore));
         let dry: Vec<bool> = (0..mesh.pores.len())
             .into_par_iter()
-            .map(|pore| torn.get(pore) != Some(&true) && unknowns.is_front(mesh, pore))
+            .map(|pore| {
+                torn.get(pore) != Some(&true)
+                    && empty(pore)
+                    && (mesh.ways(pore)).any(|way| unknowns.has_pressure(way.beside))
+            })
             .collect();
         let narrow: Vec<f64> = (0..mesh.pores.len())
             .into_par_iter()
             .map(|pore| {
-                let near = dry[pore] || mesh.beside(pore).any(|(_, _, beside)| dry[beside]);
+                let near = dry[pore] || mesh.ways(pore).any(|way| dry[way.beside]);
                 match near && !mesh.is_beyond(mesh.cell(pore)) {
                     true => narrowness(lattice, chords, mesh, pore, &|pore| {
                         unknowns.has_pressure(pore)
@@ -102,7 +107,7 @@ impl Fronts {
         let view = View {
             mesh,
             dry: &dry,
-            empty: &|pore| !unknowns.has_pressure(pore) && !mesh.is_beyond(mesh.cell(pore)),
+            empty: &empty,
             narrow: &narrow,
             wetting,
         };
@@ -164,13 +169,14 @@ impl View<'_> {
             [here.min(self.narrow[wet]), here.max(self.narrow[wet])],
             [here; 2],
         );
-        for (along, on, beside) in self.mesh.beside(dry) {
+        for way in self.mesh.ways(dry) {
+            let Way { beside, .. } = way;
             let narrow = self.narrow[beside];
             let widen =
                 |range: &mut [f64; 2]| *range = [range[0].min(narrow), range[1].max(narrow)];
-            if along == axis && on == up {
+            if way.axis == axis && way.up == up {
                 widen(&mut ahead);
-            } else if along != axis && (self.empty)(beside) {
+            } else if way.axis != axis && (self.empty)(beside) {
                 widen(&mut behind);
                 widen(&mut ahead);
             }

@@ -16,15 +16,6 @@ const NARROWEST: f64 = 0.85;
 #[derive(Clone, Default)]
 pub(crate) struct Links(Vec<Link<f32>>);
 
-/// What walls are like in a scene.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Walls {
-    /// Influence length of Eq. 3, cells; infinite without friction.
-    pub(crate) influence_length: f64,
-    /// Cells a metre.
-    pub(crate) per_metre: f64,
-}
-
 impl Links {
     /// Whether there are none yet.
     pub(crate) fn is_empty(&self) -> bool {
@@ -36,27 +27,15 @@ impl Links {
         self.0[face].with(f64::from)
     }
 
-    /// Those of `mesh`; of faces that are `kept` from another mesh, as `old` has them.
-    pub(crate) fn new(
-        lattice: &Lattice,
-        chords: &Chords,
-        mesh: &Mesh,
-        walls: Walls,
-        kept: &Kept,
-        old: &Self,
-    ) -> Self {
-        let view = View {
-            lattice,
-            chords,
-            mesh,
-            walls,
-        };
+    /// Those of a mesh; of faces that are `kept` from another mesh, as `old` has them.
+    pub(crate) fn new(channels: &Channels, kept: &Kept, old: &Self) -> Self {
+        let mesh = channels.mesh;
         let (inner, clear) = (mesh.inner_faces(), mesh.clear_cells());
         let link = |face: usize| {
             let old = kept.whole(face).map(|face| old.0[face]);
             match old.filter(|link| !link.by_gap) {
                 Some(link) => link,
-                None if inner[face] => view.link(face, mesh.is_clear(face, &clear)),
+                None if inner[face] => channels.link(face, mesh.is_clear(face, &clear)),
                 None => Link::default(),
             }
         };
@@ -64,34 +43,23 @@ impl Links {
     }
 
     /// Finds anew the links of faces with liquid whose channels the gap's height is part of.
-    pub(crate) fn measure(
-        &mut self,
-        lattice: &Lattice,
-        chords: &Chords,
-        mesh: &Mesh,
-        walls: Walls,
-        fractions: &[f64],
-    ) {
-        let view = View {
-            lattice,
-            chords,
-            mesh,
-            walls,
-        };
+    pub(crate) fn measure(&mut self, channels: &Channels, fractions: &[f64]) {
         self.0.par_iter_mut().enumerate().for_each(|(face, link)| {
-            if link.by_gap && mesh.is_wet(face, fractions) {
-                *link = view.link(face, !link.walled);
+            let mut ends = channels.mesh.faces[face].ends().into_iter();
+            if link.by_gap && ends.any(|pore| fractions[pore] > 0.0) {
+                *link = channels.link(face, !link.walled);
             }
         });
     }
 }
 
-/// What a link is found from.
-struct View<'a> {
-    lattice: &'a Lattice,
-    chords: &'a Chords,
-    mesh: &'a Mesh,
-    walls: Walls,
+/// What links are found from.
+pub(crate) struct Channels<'a> {
+    pub(crate) lattice: &'a Lattice,
+    pub(crate) chords: &'a Chords,
+    pub(crate) mesh: &'a Mesh,
+    /// Influence length of Eq. 3, cells; infinite without friction.
+    pub(crate) influence_length: f64,
 }
 
 /// The walls beside one column of a face, in units of the edge of its cells across the column.
@@ -102,7 +70,7 @@ struct Column {
     widths: [f64; 2],
 }
 
-impl View<'_> {
+impl Channels<'_> {
     /// The link of a face that is `clear` of walls or not.
     fn link(&self, face: usize, clear: bool) -> Link<f32> {
         let mut link = Link::<f64> {
@@ -111,7 +79,7 @@ impl View<'_> {
         };
         let f = self.mesh.faces[face];
         let axis = usize::from(f.axis);
-        if self.walls.influence_length.is_infinite() {
+        if self.influence_length.is_infinite() {
             return link.with(|value| value as f32);
         }
         for t in others(axis) {
@@ -197,7 +165,7 @@ impl View<'_> {
                     mesh.lowest(f.low as usize)
                 };
                 let factor = (lowest * mesh.reentrant(self.lattice, at, [t, across], up)).exp();
-                let friction = factor * part / (distance + self.walls.influence_length);
+                let friction = factor * part / (distance + self.influence_length);
                 link.add(half, friction, self.sliding(code, face, axis));
                 link.area += part;
                 let shared = if between { 0.5 } else { 1.0 };
@@ -249,7 +217,7 @@ impl View<'_> {
     /// Velocity of a wall along an axis against the row of a face: its own, cells/s, and per closing speed.
     fn sliding(&self, code: u8, face: usize, axis: usize) -> [f64; 2] {
         let body = usize::from(code - 1);
-        let own = self.lattice.slide[body][axis] * self.walls.per_metre;
+        let own = self.lattice.slide[body][axis];
         if axis != 1 {
             return [own, 0.0];
         }

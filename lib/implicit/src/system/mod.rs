@@ -19,7 +19,7 @@ pub(crate) use edges::Edges;
 pub(crate) use equations::resistance;
 pub(crate) use fronts::{Fronts, STILL, Wetting};
 pub(crate) use halves::{halves, masses, stiffnesses};
-pub(crate) use links::{Links, Walls};
+pub(crate) use links::{Channels, Links};
 pub(crate) use passes::{PASSES, Search};
 pub(crate) use solution::{Drive, Flow, forces, solve};
 pub(crate) use unknowns::{FULL, Unknowns};

@@ -1,5 +1,7 @@
 //! Which pores have a pressure and which faces a velocity.
 
+use std::num::NonZeroU32;
+
 use crate::geometry::Mesh;
 
 /// Volume fraction from which on a pore is full and has a pressure of its own, which fills what it lacks within the step.
@@ -14,7 +16,8 @@ pub(crate) struct Unknowns {
     pub(crate) faces: Vec<u32>,
     /// Pores with a pressure.
     pub(crate) pores: Vec<u32>,
-    face_number: Vec<Option<u32>>,
+    /// One more than the number of the velocity of each face that has one, in four bytes.
+    face_number: Vec<Option<NonZeroU32>>,
     /// Whether each pore has one.
     bounded: Vec<bool>,
 }
@@ -36,8 +39,8 @@ impl Unknowns {
             if !(ends.iter().any(|&pore| full(pore)) || wet()) {
                 continue;
             }
-            unknowns.face_number[face] = Some(unknowns.faces.len() as u32);
             unknowns.faces.push(face as u32);
+            unknowns.face_number[face] = NonZeroU32::new(unknowns.faces.len() as u32);
             for pore in ends.into_iter().filter(|&pore| full(pore)) {
                 unknowns.bounded[pore] = true;
             }
@@ -52,16 +55,9 @@ impl Unknowns {
         self.bounded[pore]
     }
 
-    /// Whether a pore has none and is beside one that has, in the domain.
-    pub(crate) fn is_front(&self, mesh: &Mesh, pore: usize) -> bool {
-        !self.bounded[pore]
-            && !mesh.is_beyond(mesh.cell(pore))
-            && mesh.beside(pore).any(|(_, _, beside)| self.bounded[beside])
-    }
-
     /// Number of the velocity of a face.
     pub(crate) fn face(&self, face: usize) -> Option<usize> {
-        self.face_number[face].map(|number| number as usize)
+        self.face_number[face].map(|number| number.get() as usize - 1)
     }
 }
 

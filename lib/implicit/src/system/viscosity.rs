@@ -119,14 +119,6 @@ fn of_shear(square: f64, convention: ShearRate) -> f64 {
     convention.factor() / std::f64::consts::SQRT_2 * square.max(0.0).sqrt()
 }
 
-/// Rates of pores by the parts of their squares, and that of walls.
-fn pores(parts: &[[f64; 4]], walls: &[f64], convention: ShearRate) -> Vec<f64> {
-    let square = |(parts, walls): (&[f64; 4], &f64)| parts.iter().sum::<f64>() + walls;
-    (parts.iter().zip(walls))
-        .map(|parts| of_shear(square(parts), convention))
-        .collect()
-}
-
 /// A flow with the friction of walls, to take rates of.
 pub(crate) struct FlowField<'a> {
     pub(crate) mesh: &'a Mesh,
@@ -141,11 +133,11 @@ pub(crate) struct FlowField<'a> {
 impl FlowField<'_> {
     /// Rates of pores, edges and walls. That of a pore has the mean dissipation over it.
     pub(crate) fn rates(&self, convention: ShearRate, slip: f64) -> Rates {
-        let (parts, walls) = self.squares();
+        let (pores, parts) = self.pore_rates(convention);
         let rate = |square: f64| of_shear(square, convention);
         let edges = self.edges.rates(self.mesh, self.velocity, &parts);
         Rates {
-            pores: pores(&parts, &walls, convention),
+            pores,
             edges: edges.into_iter().map(rate).collect(),
             walls: (0..self.mesh.faces.len())
                 .into_par_iter()
@@ -154,24 +146,22 @@ impl FlowField<'_> {
         }
     }
 
-    /// Those of pores alone.
-    pub(crate) fn pore_rates(&self, convention: ShearRate) -> Vec<f64> {
-        let (parts, walls) = self.squares();
-        pores(&parts, &walls, convention)
-    }
-
-    /// Squares of the rates in full pores, whose dissipation is the mean over each: by stretching, by shear around each axis,
-    /// and by walls.
-    fn squares(&self) -> (Vec<[f64; 4]>, Vec<f64>) {
+    /// Those of pores alone, and the parts of their squares, whose dissipation is the mean over each: by stretching, and by shear
+    /// around each axis.
+    pub(crate) fn pore_rates(&self, convention: ShearRate) -> (Vec<f64>, Vec<[f64; 4]>) {
         let mesh = self.mesh;
         let sheared: Vec<[f64; 2]> = (0..mesh.faces.len())
             .into_par_iter()
             .map(|face| self.sheared(face))
             .collect();
-        (0..mesh.pores.len())
+        let (parts, walls): (Vec<[f64; 4]>, Vec<f64>) = (0..mesh.pores.len())
             .into_par_iter()
             .map(|pore| self.parts(pore, &sheared))
-            .unzip()
+            .unzip();
+        let square = |(parts, walls): (&[f64; 4], &f64)| parts.iter().sum::<f64>() + walls;
+        let rates = parts.iter().zip(&walls);
+        let rates = rates.map(|of| of_shear(square(of), convention));
+        (rates.collect(), parts)
     }
 
     /// Dissipation at the edges of a face, a quarter of each, by the axis that they lie along, the lower first.

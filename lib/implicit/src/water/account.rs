@@ -1,10 +1,9 @@
 //! Where the water is that the liquid does not hold.
 
-/// Part of the water, or of a volume, that rounding may move in a run.
-pub(crate) const ROUNDING: f64 = 1e-6;
+use crate::geometry::ROUNDING;
 
 /// The account of the water, and what the next step goes by.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Account {
     /// Water in the liquid at the start, cells.
     pub(crate) start: f64,
@@ -19,17 +18,6 @@ pub(crate) struct Account {
 }
 
 impl Account {
-    /// That of liquid with so much water in it, cells.
-    pub(crate) fn new(start: f64) -> Self {
-        Self {
-            start,
-            in_walls: 0.0,
-            left: 0.0,
-            pace: 0.0,
-            fluidity: 1.0,
-        }
-    }
-
     /// Water found nowhere, over that at the start, with so much in the liquid (cells).
     pub(crate) fn missing(&self, held: f64) -> f64 {
         (self.start - held - self.in_walls - self.left) / self.start

@@ -81,17 +81,6 @@ impl Exchange {
     }
 }
 
-impl Exchange {
-    /// Adds what full pores gain in the step to what those with a pressure hold more, over `dt`.
-    pub(crate) fn add_to(&self, pores: &[u32], full: &[bool], dt: f64, carried: &mut [f64]) {
-        for (&pore, carried) in pores.iter().zip(carried) {
-            if full[pore as usize] {
-                *carried += self.gained[pore as usize] / dt;
-            }
-        }
-    }
-}
-
 impl Medium<'_> {
     /// The pores with liquid and what passes between them.
     fn nodes(&self, volumes: &[f64], water: &[f64], soaked: &[f64]) -> Vec<Node> {

@@ -5,6 +5,6 @@ mod exchange;
 mod solve;
 mod walls;
 
-pub(crate) use account::{Account, ROUNDING};
+pub(crate) use account::Account;
 pub(crate) use exchange::{Exchange, Medium};
 pub(crate) use walls::Walls;

@@ -1,13 +1,13 @@
 //! A bond of voxels with lumens, pressed: what must not depend on how it lies, on threads, or on a stop on the way.
 
-use implicit::{Implicit, Settings};
+use implicit::Implicit;
 use physics::{
-    Boundary, LiquidState, Motion, Press, PressRun, PressStage, Scene, Scheme, StepLimit, Stop,
-    VoxelBlock, WallLaw, Water, WaterLaw, Wetting,
+    Boundary, LiquidState, Motion, Press, PressRun, Scene, Scheme, StepLimit, Stop, VoxelBlock,
+    WallLaw, Water, WaterLaw, Wetting,
 };
 
 use crate::plain;
-use crate::runs::{self, advance, at_rest, clamp, plainly, solved};
+use crate::runs::{self, advance, at_rest, clamp, plainly, solved, stage, with};
 
 /// Steps in which an adhesive that dries is pressed: before lumens of one voxel a cell are full and the clamp waits for its
 /// water to go.
@@ -246,13 +246,10 @@ fn a_bond_with_air_and_menisci_ends_and_goes_on_where_it_stopped() {
             tension: 0.05,
             contact_angle: 0.7,
         });
-        let settings = Settings {
-            air_pressure: Some(1e5),
-            ..Settings::default()
-        };
-        let mut whole = Implicit::new(&scene, settings).unwrap();
+        let begun = || with(&scene, |settings| settings.air_pressure = Some(1e5));
+        let mut whole = begun();
         press(&mut whole, 2);
-        let mut resumed = Implicit::new(&scene, settings).unwrap();
+        let mut resumed = begun();
         resumed.restore(&whole.save()).unwrap();
         let (pressures, liquid) = press(&mut whole, 60);
         press(&mut resumed, 60);
@@ -270,18 +267,9 @@ fn a_bond_with_air_and_menisci_ends_and_goes_on_where_it_stopped() {
 #[test]
 fn a_closed_clamp_stands_until_its_programme_ends() {
     let mut scene = scene(2, Boundary::Periodic, |x, z| [x, z]);
-    let stage = |kind, pressure, time_s| PressStage {
-        kind,
-        speed: 1.0,
-        pressure,
-        time_s,
-        travel_m: None,
-        contact: false,
-        slower: None,
-    };
     scene.programme = vec![
-        stage(Press::Approach, None, 1e-3),
-        stage(Press::Hold, Some(1e9), 2e-6),
+        stage(Press::Approach, 1.0, None, 1e-3),
+        stage(Press::Hold, 1.0, Some(1e9), 2e-6),
     ];
     let mut scheme = plainly(&scene);
     let mut held = 0;

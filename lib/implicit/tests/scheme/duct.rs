@@ -1,11 +1,10 @@
 //! A piston presses liquid from a reservoir into a square duct or a tube of voxels: what the shape of the moving front adds to the
 //! length of developed flow, against finite elements in the frame of the front (tests/references/front).
 
-use implicit::{Implicit, Settings};
 use physics::{Motion, Scene, VoxelBlock};
 
 use crate::plain;
-use crate::runs::{ETA, H, advance, append, spread};
+use crate::runs::{ETA, H, advance, append, spread, with};
 
 const SPEED: f64 = 0.5;
 /// Pressure gradient of developed flow in a square, over viscosity, mean speed and width squared.
@@ -101,12 +100,9 @@ impl Lumen {
     /// The same of liquid that ends flat.
     fn flat(self, filled: usize) -> f64 {
         let scene = self.scene(filled);
-        let settings = Settings {
-            cfl: 1e-3,
-            tolerance: 1e-6,
-            ..Settings::default()
-        };
-        let mut scheme = Implicit::new(&scene, settings).unwrap();
+        let mut scheme = with(&scene, |settings| {
+            (settings.cfl, settings.tolerance) = (1e-3, 1e-6);
+        });
         self.reduced(&scene, advance(&mut scheme, 1.0).pressure_bottom)
     }
 
@@ -117,11 +113,7 @@ impl Lumen {
         // The piston takes this of the reservoir for each width that is filled.
         let reservoir = 0.25 * SQUARE * self.area() * self.area();
         let scene = self.scene(0);
-        let settings = Settings {
-            cfl,
-            ..Settings::default()
-        };
-        let mut scheme = Implicit::new(&scene, settings).unwrap();
+        let mut scheme = with(&scene, |settings| settings.cfl = cfl);
         let (mut time, mut found) = (0.0, Vec::new());
         let per_second = SPEED / self.area() / H;
         while per_second * time < 3.0 {

@@ -2,10 +2,10 @@
 
 #![allow(clippy::print_stdout, reason = "prints for developers")]
 
-#[path = "../common/plain.rs"]
 mod plain;
 mod runs;
 
+mod air;
 mod bond;
 mod duct;
 mod flows;

@@ -1,9 +1,9 @@
 //! A press programme whose bodies meet, and one whose clamp gives way.
 
-use physics::{Motion, Press, PressStage, Scene, Scheme, Stop};
+use physics::{Motion, Press, Scene, Scheme, Stop};
 
 use crate::plain;
-use crate::runs::{advance, at_rest, block, clamp, plainly, press};
+use crate::runs::{advance, at_rest, block, clamp, plainly, press, stage};
 
 const CELL: f64 = 1e-6;
 
@@ -31,16 +31,9 @@ fn scene(gap: f64, [width, lumen]: [usize; 2], pressure: f64) -> Scene {
         (Press::Release, 0.0, 1e-3),
         (Press::Release, 0.0, 1e-3),
     ];
-    let stage = |(kind, pressure, time_s)| PressStage {
-        kind,
-        speed: 1e-3,
-        pressure: Some(pressure),
-        time_s,
-        travel_m: None,
-        contact: false,
-        slower: None,
-    };
-    scene.programme = stages.map(stage).to_vec();
+    scene.programme = stages
+        .map(|(kind, pressure, time_s)| stage(kind, 1e-3, Some(pressure), time_s))
+        .to_vec();
     scene
 }
 

@@ -2,7 +2,8 @@
 
 use implicit::{Implicit, Settings};
 use physics::{
-    Boundary, Clamp, LiquidState, Motion, Points, Scene, Scheme, StepLimit, StepReport, VoxelBlock,
+    Array, Boundary, Clamp, LiquidState, Motion, Points, Press, PressStage, Saved, Scene, Scheme,
+    StepLimit, StepReport, VoxelBlock,
 };
 
 use crate::plain;
@@ -12,18 +13,44 @@ pub const ETA: f64 = 1.3;
 /// Width of slits and tubes, m.
 pub const H: f64 = 17.4e-6;
 
-/// A scheme with settings as they are, but for the tolerance of its solver.
-pub fn solved(scene: &Scene, tolerance: f64) -> Implicit {
-    let settings = Settings {
-        tolerance,
-        ..Settings::default()
-    };
+/// A scheme with settings as they are, but for what a test changes.
+pub fn with(scene: &Scene, change: impl FnOnce(&mut Settings)) -> Implicit {
+    let mut settings = Settings::default();
+    change(&mut settings);
     Implicit::new(scene, settings).unwrap()
 }
 
-/// A scheme with all settings as they are.
+/// One with another tolerance of its solver.
+pub fn solved(scene: &Scene, tolerance: f64) -> Implicit {
+    with(scene, |settings| settings.tolerance = tolerance)
+}
+
+/// One with all settings as they are.
 pub fn plainly(scene: &Scene) -> Implicit {
-    Implicit::new(scene, Settings::default()).unwrap()
+    with(scene, |_| ())
+}
+
+/// A checkpoint with other numbers in an array.
+pub fn forged(scheme: &Implicit, name: &str, change: impl Fn(&mut Vec<f64>)) -> Saved {
+    let mut saved = scheme.save();
+    match saved.0.iter_mut().find(|array| array.0 == name) {
+        Some((_, Array::F64(values))) => change(values),
+        _ => panic!("no array {name}"),
+    }
+    saved
+}
+
+/// A stage of a press programme that ends with its time.
+pub fn stage(kind: Press, speed: f64, pressure: Option<f64>, time_s: f64) -> PressStage {
+    PressStage {
+        kind,
+        speed,
+        pressure,
+        time_s,
+        travel_m: None,
+        contact: false,
+        slower: None,
+    }
 }
 
 /// One step, of `time_s` at most.

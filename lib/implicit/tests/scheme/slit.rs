@@ -1,11 +1,10 @@
 //! A piston presses liquid from a reservoir into a slit: its force against filled length, by finite elements behind a
 //! tracked front.
 
-use implicit::{Implicit, Settings};
 use physics::{Motion, Scene};
 
 use crate::plain;
-use crate::runs::{ETA, H, block, spread, until};
+use crate::runs::{ETA, H, block, spread, until, with};
 
 const SPEED: f64 = 0.5;
 
@@ -44,11 +43,7 @@ fn scene(n: usize, offset: f64) -> Scene {
 /// Filled length over H, and piston force over that of lubrication theory for H.
 fn run(n: usize, offset: f64, cfl: f64) -> Vec<[f64; 2]> {
     let scene = scene(n, offset);
-    let settings = Settings {
-        cfl,
-        ..Settings::default()
-    };
-    let mut scheme = Implicit::new(&scene, settings).unwrap();
+    let mut scheme = with(&scene, |settings| settings.cfl = cfl);
     let mut force = Vec::new();
     let scale = scene.grid.area_m2() / (4.0 * H * H / n as f64) / (12.0 * ETA * 4.0 * SPEED / H);
     until(&mut scheme, 0.6 * 2.0 * H / SPEED, |report, time| {

@@ -1,10 +1,10 @@
 //! Loss of water from a column in a slit: nothing of it is lost, and a saved run goes on bit by bit.
 
 use implicit::Implicit;
-use physics::{Array, Motion, Saved, Scene, Scheme, VoxelBlock, Water, WaterLaw};
+use physics::{Motion, Scene, Scheme, VoxelBlock, Water, WaterLaw};
 
 use crate::plain;
-use crate::runs::{H, advance, block, clamp, plainly, press, until};
+use crate::runs::{H, advance, block, clamp, forged, plainly, press, until};
 
 /// Cells across the slit.
 const CELLS: usize = 6;
@@ -119,13 +119,10 @@ fn a_checkpoint_holds_the_water_of_the_start() {
     let mut scheme = begun(|_| ());
     (0..4).for_each(|_| _ = step(&mut scheme));
     let refused = |name: &str, factor: f64| {
-        let Saved(mut arrays) = scheme.save();
-        let array = arrays.iter_mut().find(|(own, _)| own == name);
-        let Some((_, Array::F64(values))) = array else {
-            panic!("no array {name}");
-        };
-        values.iter_mut().for_each(|value| *value *= factor);
-        begun(|_| ()).restore(&Saved(arrays)).unwrap_err()
+        let forged = forged(&scheme, name, |values| {
+            values.iter_mut().for_each(|value| *value *= factor);
+        });
+        begun(|_| ()).restore(&forged).unwrap_err()
     };
     for (name, factor) in [
         ("water", 1.01),

@@ -1,34 +1,18 @@
 //! Air that liquid closes off: Boyle's law, pockets that part and meet, a bond with air.
 
-#![allow(clippy::print_stdout, reason = "prints for developers")]
+use implicit::Implicit;
+use physics::{Motion, Press, Scene, Scheme, Stop, VoxelBlock};
 
-#[path = "common/plain.rs"]
-mod plain;
+use crate::plain;
+use crate::runs::{ETA, H, advance, clamp, forged, stage, until, with};
 
-use implicit::{Implicit, Settings};
-use physics::{
-    Array, Clamp, Motion, Press, PressStage, Saved, Scene, Scheme, StepLimit, Stop, VoxelBlock,
-};
-
-/// Width of the slit, m.
-const H: f64 = 17.4e-6;
 /// Absolute pressure outside, Pa.
 const OUTSIDE: f64 = 1e5;
 
-fn settings(leak_time: f64) -> Settings {
-    Settings {
-        air_pressure: Some(OUTSIDE),
-        air_leak_time: leak_time,
-        ..Settings::default()
-    }
-}
-
-fn advance(scheme: &mut Implicit, time_s: f64) -> f64 {
-    let limit = StepLimit {
-        time_s,
-        travel_m: f64::INFINITY,
-    };
-    scheme.advance(limit).unwrap().dt_s
+fn begun(scene: &Scene, leak_time: f64) -> Implicit {
+    with(scene, |settings| {
+        (settings.air_pressure, settings.air_leak_time) = (Some(OUTSIDE), leak_time);
+    })
 }
 
 /// A slit of `n` cells that is closed below, four widths of air in it under one and a half of liquid, which a piston presses down
@@ -58,34 +42,27 @@ fn slit(n: usize, speed: f64) -> Scene {
 }
 
 /// Air of all pores by the arrays of a checkpoint, in its unit.
-fn air(saved: &Saved) -> f64 {
-    saved.f64s("air").unwrap().iter().sum()
+fn air(scheme: &Implicit) -> f64 {
+    scheme.save().f64s("air").unwrap().iter().sum()
 }
 
 /// Presses the air to a quarter; largest and mean error of its pressure, over what it is then by Boyle, and the last report.
 fn pressed(n: usize, speed: f64, leak_time: f64) -> [f64; 3] {
     let scene = slit(n, speed);
     let part = scene.grid.area_m2() / (0.5 * H * H / n as f64);
-    let mut scheme = Implicit::new(&scene, settings(leak_time)).unwrap();
-    let first = air(&scheme.save());
-    let (mut time, mut errors, mut last) = (0.0, Vec::new(), 0.0);
-    let end = 3.0 * H / speed;
-    while time < end * (1.0 - 1e-9) {
-        let limit = StepLimit {
-            time_s: end - time,
-            travel_m: f64::INFINITY,
-        };
-        let report = scheme.advance(limit).unwrap();
-        time += report.dt_s;
+    let mut scheme = begun(&scene, leak_time);
+    let first = air(&scheme);
+    let (mut errors, mut last) = (Vec::new(), 0.0);
+    until(&mut scheme, 3.0 * H / speed, |report, time| {
         let boyle = OUTSIDE * (4.0 / (4.0 - time * speed / H) - 1.0);
         // Developed flow behind the front.
-        let viscous = 12.0 * 1.3 * speed * 1.5 / H;
+        let viscous = 12.0 * ETA * speed * 1.5 / H;
         last = report.pressure_top * part - viscous;
         errors.push((last - boyle) / (boyle + OUTSIDE));
-    }
+    });
     let worst = errors.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
     let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-    let kept = air(&scheme.save()) / first - 1.0;
+    let kept = air(&scheme) / first - 1.0;
     println!(
         "{n} cells, {speed} m/s, leak {leak_time} s: absolute pressure {:+.2} % in the mean, {:.2} % at worst, in {} steps, air {kept:+.1e}, {:?}",
         100.0 * mean,
@@ -126,14 +103,14 @@ fn pockets_that_part_and_meet_keep_their_air() {
     scene.bodies = vec![plain::body("posts", posts.to_vec(), Motion::Fixed)];
     scene.points = plain::fill([0.0, 16.0 * h, 0.0], [0.5 * h, 0.5 * h, h], [24, 12, 1]);
     scene.gravity[1] = -1e6;
-    let mut whole = Implicit::new(&scene, settings(f64::INFINITY)).unwrap();
-    let first = air(&whole.save());
+    let mut whole = begun(&scene, f64::INFINITY);
+    let first = air(&whole);
     let mut most = 0;
     for _ in 0..40 {
         advance(&mut whole, 1e-3);
         most = most.max(whole.counts()[0].1);
     }
-    let mut resumed = Implicit::new(&scene, settings(f64::INFINITY)).unwrap();
+    let mut resumed = begun(&scene, f64::INFINITY);
     resumed.restore(&whole.save()).unwrap();
     for _ in 0..60 {
         advance(&mut whole, 1e-3);
@@ -141,19 +118,14 @@ fn pockets_that_part_and_meet_keep_their_air() {
         most = most.max(whole.counts()[0].1);
     }
     assert!(whole.save() == resumed.save());
-    let kept = air(&whole.save()) / first - 1.0;
+    let kept = air(&whole) / first - 1.0;
     println!(
         "up to {most} pockets, air {kept:+.1e}, {:?}",
         whole.counts()
     );
     assert!(most > 1 && kept.abs() < 1e-12);
-    let mut forged = whole.save();
-    for (name, array) in &mut forged.0 {
-        if name == "air" {
-            *array = Array::F64(vec![-1.0; 12 * 24]);
-        }
-    }
-    let said = resumed.restore(&forged).unwrap_err();
+    let negative = forged(&whole, "air", |air| air.fill(-1.0));
+    let said = resumed.restore(&negative).unwrap_err();
     assert!(said.contains("air"), "{said}");
 }
 
@@ -165,30 +137,14 @@ fn a_clamp_keeps_up_with_air_in_steps_of_any_length() {
     let mut scene = slit(6, 1e-2);
     let part = scene.grid.area_m2() / (0.5 * H * H / 6.0);
     scene.bodies[1].motion = Motion::Clamped;
-    scene.clamp = Some(Clamp {
-        closing_speed: 1e-2,
-        max_pressure: Some(rise / part),
-        pid: None,
-    });
+    scene.clamp = clamp(1e-2, rise / part);
     scene.stop = Stop::Closed { travel_m: 4.0 * H };
-    scene.programme = vec![PressStage {
-        kind: Press::Ramp,
-        speed: 1e-2,
-        pressure: Some(rise / part),
-        time_s: stage_s,
-        travel_m: None,
-        contact: false,
-        slower: None,
-    }];
-    let mut scheme = Implicit::new(&scene, settings(f64::INFINITY)).unwrap();
+    scene.programme = vec![stage(Press::Ramp, 1e-2, Some(rise / part), stage_s)];
+    let mut scheme = begun(&scene, f64::INFINITY);
     let (mut travel, mut moved, mut times, mut off) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0_f64);
     let mut before = 0.0;
     for step in 0..20 {
-        let limit = StepLimit {
-            time_s: [0.4, 0.04][step % 2],
-            travel_m: f64::INFINITY,
-        };
-        let report = scheme.advance(limit).unwrap();
+        let report = advance(&mut scheme, [0.4, 0.04][step % 2]);
         times[step % 2] += report.dt_s;
         if step > 5 {
             travel[step % 2] += report.travel_m - before;
@@ -209,18 +165,14 @@ fn a_clamp_keeps_up_with_air_in_steps_of_any_length() {
 /// A run is objected to where the air is astray in more than a tenth of its steps.
 #[test]
 fn air_that_is_often_astray_is_objected_to() {
-    let mut scheme = Implicit::new(&slit(6, 1e-3), settings(f64::INFINITY)).unwrap();
+    let mut scheme = begun(&slit(6, 1e-3), f64::INFINITY);
     for _ in 0..10 {
         advance(&mut scheme, 1e-4);
     }
-    let saved = scheme.save();
     let mut objection = |astray: f64| {
-        let mut saved = saved.clone();
-        for (name, array) in &mut saved.0 {
-            if name == "air_counts" {
-                *array = Array::F64(vec![1.0, 0.0, astray]);
-            }
-        }
+        let saved = forged(&scheme, "air_counts", |counts| {
+            *counts = vec![1.0, 0.0, astray];
+        });
         scheme.restore(&saved).unwrap();
         scheme.objection()
     };
