@@ -12,6 +12,8 @@ use crate::system::{
 
 /// Relative residual of the solve: the flux is within a tenth of it.
 const TOLERANCE: f64 = 1e-4;
+/// Iterations of the solve at most.
+const ITERATIONS: usize = 500;
 /// Compression of a cell by a unit of pressure: next to none, so that there is one mean pressure.
 const COMPRESSION: f64 = 1e-8;
 
@@ -185,7 +187,7 @@ impl Through {
         };
         let mut solver = SaddleSolver::new(SaddleOptions {
             tolerance: TOLERANCE,
-            ..SaddleOptions::default()
+            max_iterations: ITERATIONS,
         });
         let solved = solver.solve(&system, &mut u, &mut p);
         solved.map_err(|e| e.to_string())?;

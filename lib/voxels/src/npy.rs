@@ -110,8 +110,9 @@ fn sample_of(descr: &str) -> Result<(Sample, bool), String> {
     let sample = match descr.get(1..) {
         Some("b1") => Some(Sample::U8),
         Some(kind) => (kind.split_at_checked(1))
+            .filter(|(_, bytes)| ["1", "2", "4", "8"].contains(bytes))
             .and_then(|(kind, bytes)| Some((kind, bytes.parse::<u8>().ok()?)))
-            .and_then(|(kind, bytes)| Sample::named(&format!("{kind}{}", 8 * u16::from(bytes)))),
+            .and_then(|(kind, bytes)| Sample::named(&format!("{kind}{}", 8 * bytes))),
         None => None,
     };
     let sample = sample.ok_or_else(|| {

@@ -122,7 +122,7 @@ fn sample_of(kind: &str) -> Result<Sample, String> {
     // As in C, short and long long may be followed by int; int8 and its like by _t.
     let short = kind
         .strip_suffix(" int")
-        .filter(|kind| kind.ends_with("short") || kind.ends_with("long"));
+        .filter(|kind| matches!(kind.rsplit(' ').next(), Some("short" | "long")));
     let sized = kind
         .strip_suffix("_t")
         .filter(|kind| kind.ends_with(char::is_numeric));

@@ -1,7 +1,10 @@
 //! Liquid beyond what a pore can hold goes on to pores beside it.
 
-use super::transport::{PASSES, ROUNDING, pass};
+use super::transport::{PASSES, pass};
 use crate::geometry::{Mesh, Way};
+
+/// Excess, cells, that stays where it is: ten times what rounding leaves of a sum.
+const NOTHING: f64 = 1e-13;
 
 /// A face by which excess may leave a pore.
 #[derive(Clone, Copy)]
@@ -32,7 +35,7 @@ pub(super) fn overflow(
     flux: &mut [f64],
 ) {
     let is_over =
-        |volumes: &[f64], pore: usize| !full[pore] && volumes[pore] - capacities[pore] > ROUNDING;
+        |volumes: &[f64], pore: usize| !full[pore] && volumes[pore] - capacities[pore] > NOTHING;
     let mut over: Vec<usize> = (0..mesh.pores.len())
         .filter(|&pore| is_over(volumes, pore))
         .collect();
@@ -76,7 +79,7 @@ fn shares(ways: &[Outlet], excess: f64) -> Vec<(usize, bool, f64)> {
             .filter(|(way, given)| roomy(way, **given))
             .map(|(way, _)| weight(way))
             .sum();
-        if all <= ROUNDING {
+        if all <= NOTHING {
             continue;
         }
         let mut passed = 0.0;
@@ -94,7 +97,7 @@ fn shares(ways: &[Outlet], excess: f64) -> Vec<(usize, bool, f64)> {
             }
         }
         left -= passed;
-        if left <= ROUNDING {
+        if left <= NOTHING {
             break;
         }
     }

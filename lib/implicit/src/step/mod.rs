@@ -165,7 +165,7 @@ impl Implicit {
             }
             longest = AIM * solved.dt * self.setup.settings.cfl / crossed;
             // A pocket without air collapses by the same volume in a step of any length.
-            if attempt > 0 {
+            if attempt > 0 && self.setup.gas.is_some() {
                 longest = longest.min(0.5 * solved.dt);
             }
         }

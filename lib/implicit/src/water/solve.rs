@@ -4,6 +4,8 @@ use crate::system::PASSES;
 
 /// Relative residual of the solution, far below what a step moves.
 const TOLERANCE: f64 = 1e-10;
+/// Iterations to reach it at most.
+const MAX_ITERATIONS: usize = 2000;
 /// Part of the limit by which X may fall short of it: above what the solution is off by.
 const HAIR: f64 = 1e-9;
 
@@ -92,8 +94,7 @@ fn gradients(nodes: &[Node], held: &[bool], ratio: &mut [f64]) -> bool {
     let mut correction = scaled(&rest);
     let mut way = correction.clone();
     let mut size = dot(&rest, &correction);
-    // Conjugate gradients are exact after one iteration a node but for rounding.
-    for _ in 0..=2 * count {
+    for _ in 0..MAX_ITERATIONS {
         if dot(&rest, &rest) <= TOLERANCE * TOLERANCE * scale || size <= 0.0 {
             return true;
         }
