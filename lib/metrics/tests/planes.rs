@@ -60,6 +60,30 @@ fn a_tilted_bond_line_is_found_by_the_fit() {
     assert!(level > 1.5 * exact);
 }
 
+/// Earlywood: walls of two voxels around lumens of ten, so that wood meets wood across the bond in a tenth of its area.
+#[test]
+fn a_tilt_is_found_between_thin_walls() {
+    for slope in [0.0, 0.0875, -0.0875] {
+        let middle = move |x: usize| 50.0 + slope * (x as f64 + 0.5 - 36.0);
+        let stack = Stack::new([72, 100, 24], move |x, y, z| {
+            let height = y as f64 + 0.5 - middle(x);
+            // Cells stand on the bond, which cuts those of each side elsewhere.
+            let across = if height > 0.0 { x + 5 } else { x };
+            let along = (height.abs() + 7.0) as usize;
+            let lumen = across % 12 >= 2 && along % 24 >= 2 && z % 12 >= 1;
+            match height.abs() {
+                h if h < 3.0 => 'a',
+                _ if lumen => ' ',
+                _ => 'w',
+            }
+        });
+        let tilt = tilt_of(&stack.state(Axis::Y))[2];
+        let exact = f64::atan(slope).to_degrees();
+        println!("tilt between thin walls: {tilt:.2} of {exact:.2} degrees");
+        assert!((tilt - exact).abs() < 0.3, "{tilt} {exact}");
+    }
+}
+
 /// Turned, it has the thickness and depths that the fit tells, and no tilt; so for any bond normal.
 #[test]
 fn a_tilted_specimen_is_turned_level() {
