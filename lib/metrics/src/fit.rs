@@ -77,7 +77,7 @@ impl Plane {
 /// In every column the opening reaches from the highest wood below the plane to the lowest
 /// wood above it. Columns that look into a cut lumen are wide open and say nothing about the
 /// surface, so only the narrowest of the open columns count: of wood of the volume fraction f a part f^2, where wood meets wood,
-/// at most a quarter (its level on bondline-acer-240 is 0.0002 voxels off the true one; that of the narrower half 0.2).
+/// at most a quarter (its level on bondline-acer-240 is 0.04 voxels off the true one; that of the narrower half 0.2).
 /// Starts from the level `start` and repeats with the fitted plane as long as the plane cuts no
 /// more wood than before: in small specimens with few surface columns a fit can otherwise walk
 /// off into the lumens. `None` where no column is open between the adherends.
