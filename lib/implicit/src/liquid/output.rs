@@ -25,7 +25,7 @@ pub(crate) struct Shown<'a> {
 /// The points of the liquid.
 pub(crate) fn points(mesh: &Mesh, place: Place, shown: &Shown) -> LiquidState {
     let mut state = LiquidState::default();
-    let mut places = Vec::new();
+    let mut shown_pores = Vec::new();
     let k = mesh.k;
     for pore in 0..mesh.pores.len() {
         let n = f64::from(mesh.pores[pore].voxels.count_ones());
@@ -33,6 +33,7 @@ pub(crate) fn points(mesh: &Mesh, place: Place, shown: &Shown) -> LiquidState {
         if volume < TRACE {
             continue;
         }
+        shown_pores.push(pore);
         let cell = mesh.cell(pore);
         let (at, edges) = (mesh.place(cell), mesh.edges(cell));
         let low = [
@@ -45,7 +46,6 @@ pub(crate) fn points(mesh: &Mesh, place: Place, shown: &Shown) -> LiquidState {
                 let cells = low[a] + edges[a] * (voxel[a] as f64 + 0.5) / k as f64;
                 (place.origin_m[a] + place.cell_m * cells) as f32
             }));
-            places.push((pore, voxel));
             state.volume.push((volume * place.cell_m.powi(3)) as f32);
             state.pressure.push((shown.pressure)(pore) as f32);
             state.shear_rate.push((shown.rate)(pore) as f32);
@@ -53,10 +53,10 @@ pub(crate) fn points(mesh: &Mesh, place: Place, shown: &Shown) -> LiquidState {
         }
     }
     let profile = &shown.profile;
-    let velocity = |&(pore, voxel): &(usize, [usize; 3])| {
-        let velocity = profile.at(pore, voxel);
-        velocity.map(|v| (v * place.cell_m) as f32)
+    let velocities = |&pore: &usize| {
+        let velocities = profile.of_pore(pore).into_iter();
+        velocities.map(|velocity| velocity.map(|v| (v * place.cell_m) as f32))
     };
-    state.velocity = places.par_iter().map(velocity).collect();
+    state.velocity = shown_pores.par_iter().flat_map_iter(velocities).collect();
     state
 }

@@ -15,6 +15,9 @@ pub(crate) struct Profile<'a> {
     pub(crate) influence_length: f64,
 }
 
+/// Velocities of the columns of voxels at a side of a pore, by their place across: the first axis runs fastest.
+type Columns = [Option<f64>; 4];
+
 /// What one side of a column asks of u(y) - mean = a y + c (y^2 - h^2/12): that `slope` times a, away from the column's
 /// middle, and `curvature` times c add up to `difference`.
 #[derive(Clone, Copy, Debug)]
@@ -63,23 +66,29 @@ fn parabola([low, high]: [Side; 2]) -> [f64; 2] {
 }
 
 impl Profile<'_> {
-    /// Velocity at the middle of a voxel of a pore, cells/s.
-    pub(crate) fn at(&self, pore: usize, voxel: [usize; 3]) -> [f64; 3] {
-        std::array::from_fn(|axis| {
-            if self.lattice.flat && axis == 2 {
-                return 0.0;
-            }
-            let [(first, low), (last, high)] =
-                [false, true].map(|up| self.end(pore, voxel, axis, up));
-            let part = (voxel[axis] as f64 + 0.5 - first) / (last - first);
-            let between = |a: f64, b: f64| a + part * (b - a);
-            let own = match (low, high) {
-                (Some(low), Some(high)) => between(low, high),
-                (one, other) => one.or(other).unwrap_or(0.0),
-            };
-            let [low, high] = [false, true].map(|up| self.frame(pore, axis, up));
-            own + between(low, high)
-        })
+    /// Velocities at the middles of the voxels of a pore, in their order, cells/s.
+    pub(crate) fn of_pore(&self, pore: usize) -> Vec<[f64; 3]> {
+        let sides: [[Columns; 2]; 3] = std::array::from_fn(|axis| {
+            [false, true].map(|up| match self.lattice.flat && axis == 2 {
+                true => [None; 4],
+                false => self.columns(pore, axis, up),
+            })
+        });
+        let at = |voxel: [usize; 3]| {
+            std::array::from_fn(|axis| {
+                let [(first, low), (last, high)] = [false, true]
+                    .map(|up| self.end(pore, voxel, &sides[axis][usize::from(up)], axis, up));
+                let part = (voxel[axis] as f64 + 0.5 - first) / (last - first);
+                let between = |a: f64, b: f64| a + part * (b - a);
+                let own = match (low, high) {
+                    (Some(low), Some(high)) => between(low, high),
+                    (one, other) => one.or(other).unwrap_or(0.0),
+                };
+                let [low, high] = [false, true].map(|up| self.frame(pore, axis, up));
+                own + between(low, high)
+            })
+        };
+        self.mesh.voxels(pore).map(at).collect()
     }
 
     /// Velocity of a pore by the means of its faces on the two sides along each axis, cells/s.
@@ -108,25 +117,30 @@ impl Profile<'_> {
         self.lattice.speed_at(share) * self.speed
     }
 
-    /// Where a voxel's column along an axis ends, voxels from the low side of the cell, and the velocity against the grid there;
-    /// none where the liquid ends.
-    fn end(&self, pore: usize, voxel: [usize; 3], axis: usize, up: bool) -> (f64, Option<f64>) {
+    /// Where a voxel's column along an axis ends, voxels from the low side of the cell, and the velocity against the grid there,
+    /// of those of the side; none where the liquid ends.
+    fn end(
+        &self,
+        pore: usize,
+        voxel: [usize; 3],
+        side: &Columns,
+        axis: usize,
+        up: bool,
+    ) -> (f64, Option<f64>) {
         let mesh = self.mesh;
         let cell = mesh.cell(pore);
         let mut last = voxel;
-        let side = if up { mesh.k - 1 } else { 0 };
-        while last[axis] != side {
+        let end = if up { mesh.k - 1 } else { 0 };
+        while last[axis] != end {
             let mut next = last;
             next[axis] = if up { last[axis] + 1 } else { last[axis] - 1 };
             if mesh.pore_with(cell, next) != Some(pore) {
-                break;
+                return ((last[axis] + usize::from(up)) as f64, Some(0.0));
             }
             last = next;
         }
-        let own = match self.face(pore, last, axis, up) {
-            Some(face) => self.moves(face).then(|| self.in_column(face, pore, last)),
-            None => Some(0.0),
-        };
+        let [s, t] = others(axis);
+        let own = side[last[s] + mesh.k * last[t]];
         ((last[axis] + usize::from(up)) as f64, own)
     }
 
@@ -142,45 +156,77 @@ impl Profile<'_> {
         faces.find(|&face| at_side && self.mesh.is_open(face, voxel))
     }
 
-    /// Velocity of a face against the grid in the middle of a voxel of the pore beside it.
-    fn in_column(&self, face: usize, pore: usize, voxel: [usize; 3]) -> f64 {
-        let axis = usize::from(self.mesh.faces[face].axis);
-        let across = others(axis).into_iter();
-        let own = self.velocity[face];
-        across
-            .filter(|&t| !(self.lattice.flat && t == 2))
-            .map(|t| self.departure(face, pore, voxel, t))
-            .sum::<f64>()
-            + own
+    /// Velocities against the grid of the columns of voxels at one side of a pore: 0 at walls, none where the liquid ends.
+    fn columns(&self, pore: usize, axis: usize, up: bool) -> Columns {
+        let (mesh, across) = (self.mesh, others(axis));
+        let k = mesh.k;
+        let mut side: Columns = [Some(0.0); 4];
+        for face in mesh.faces_at(pore, axis, up) {
+            let mut departures = [0.0; 4];
+            for (&t, other) in across.iter().zip([across[1], across[0]]) {
+                for place in 0..if self.lattice.flat && t == 2 { 0 } else { k } {
+                    let mut voxel = [0; 3];
+                    voxel[axis] = if up { k - 1 } else { 0 };
+                    voxel[other] = place;
+                    for (at, departure) in self.departures(face, pore, voxel, t) {
+                        departures[at[across[0]] + k * at[across[1]]] += departure;
+                    }
+                }
+            }
+            for (place, own) in side.iter_mut().enumerate() {
+                if mesh.faces[face].open >> place & 1 == 1 {
+                    *own = (self.moves(face)).then(|| departures[place] + self.velocity[face]);
+                }
+            }
+        }
+        side
     }
 
-    /// What the velocity in the middle of a voxel differs by from the mean of its column along `t`.
-    fn departure(&self, face: usize, pore: usize, voxel: [usize; 3], t: usize) -> f64 {
+    /// What the velocities in the middles of the voxels of a face's column along `t` differ by from the column's mean.
+    fn departures(
+        &self,
+        face: usize,
+        pore: usize,
+        mut voxel: [usize; 3],
+        t: usize,
+    ) -> impl Iterator<Item = ([usize; 3], f64)> {
         let mesh = self.mesh;
         let edge = mesh.edges(mesh.cell(pore))[t] / mesh.k as f64;
-        let [first, last] = self.column(face, voxel, t);
-        let height = edge * (last + 1 - first) as f64;
-        let sides = [(first, false), (last, true)].map(|(i, up)| {
-            let mut end = voxel;
-            end[t] = i;
-            self.side(face, pore, end, t, up, height)
+        let ends = (self.column(face, voxel, t)).filter(|_| self.moves(face));
+        let parabola = ends.map(|[first, last]| {
+            let height = edge * (last + 1 - first) as f64;
+            let sides = [(first, false), (last, true)].map(|(i, up)| {
+                let mut end = voxel;
+                end[t] = i;
+                self.side(face, pore, end, t, up, height)
+            });
+            ((first, last), height, parabola(sides))
         });
-        let middle = 0.5 * (first + last + 1) as f64;
-        let y = edge * (voxel[t] as f64 + 0.5 - middle);
-        let [slope, curvature] = parabola(sides);
-        slope * y + curvature * (y * y - height * height / 12.0)
+        parabola
+            .into_iter()
+            .flat_map(move |((first, last), height, [slope, curvature])| {
+                (first..=last).map(move |i| {
+                    voxel[t] = i;
+                    let middle = 0.5 * (first + last + 1) as f64;
+                    let y = edge * (i as f64 + 0.5 - middle);
+                    (
+                        voxel,
+                        slope * y + curvature * (y * y - height * height / 12.0),
+                    )
+                })
+            })
     }
 
-    /// The first and the last of the voxels along `t` through `voxel` that a face is open to.
-    fn column(&self, face: usize, voxel: [usize; 3], t: usize) -> [usize; 2] {
+    /// The first and the last of the voxels along `t` through `voxel` that a face is open to, if it is to any.
+    fn column(&self, face: usize, voxel: [usize; 3], t: usize) -> Option<[usize; 2]> {
         let is_open = |&i: &usize| {
             let mut at = voxel;
             at[t] = i;
             self.mesh.is_open(face, at)
         };
         let mut open = (0..self.mesh.k).filter(is_open);
-        let first = open.next().unwrap_or(voxel[t]);
-        [first, open.next_back().unwrap_or(first)]
+        let first = open.next()?;
+        Some([first, open.next_back().unwrap_or(first)])
     }
 
     /// What a column of a face ends at beyond a voxel, which is its last.
@@ -220,7 +266,7 @@ impl Profile<'_> {
             return Side::free(height);
         };
         let edge = mesh.edges(beside)[t] / mesh.k as f64;
-        let [first, last] = self.column(other, next, t);
+        let [first, last] = self.column(other, next, t).unwrap_or([next[t]; 2]);
         let beyond = edge * (last + 1 - first) as f64;
         Side::column(height, beyond, self.velocity[other] - own)
     }
