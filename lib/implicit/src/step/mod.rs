@@ -37,7 +37,8 @@ const AIM: f64 = 0.95;
 /// Most that cure changes ln(viscosity) by in a step, and what one aims at where the liquid dries: its middle then differs from
 /// the mean of 1/viscosity by 0.17 %.
 pub(crate) const THICKENS: f64 = 0.2;
-/// Most that a step grows by where menisci are held.
+/// Most that a step grows by where menisci are held: they break loose from rest, where no speed tells how long a step may be, and
+/// steps that may grow at once come no nearer to rest (docs/decisions/menisci.md).
 const GROWTH: f64 = 2.0;
 
 /// The implicit scheme on a scene.
