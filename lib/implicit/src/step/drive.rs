@@ -113,6 +113,12 @@ impl ClampDrive {
         self.programme.as_ref().is_some_and(PressRun::is_closed)
     }
 
+    /// Speed, m/s, at which the clamp gives way where it does at once.
+    pub(super) fn giving_way(&self) -> Option<f64> {
+        let programme = self.programme.as_ref().filter(|run| run.gives_way());
+        programme.map(|run| run.stage().speed)
+    }
+
     /// A limit of a step within the stage that is on, for a clamp that has travelled `travel` (m).
     pub(super) fn within(&self, limit: StepLimit, travel: f64) -> StepLimit {
         let programme = self.programme.as_ref();

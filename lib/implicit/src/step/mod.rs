@@ -195,6 +195,10 @@ impl Implicit {
         if state.steps == 0 {
             dt = dt.min((2.0 * cfl / self.setup.pull()).sqrt());
         }
+        // From rest, a clamp that lets go is no faster than it can; how fast it is with air behind it, no step before tells.
+        if let Some(speed) = state.drive.giving_way() {
+            dt = dt.min(cfl * units.cell_m / speed);
+        }
         // From rest, no meniscus outruns tension over viscosity; what holds one is known by the speed of the step before.
         if let Some(wetting) = liquid.wetting {
             dt = dt.min(match state.steps {

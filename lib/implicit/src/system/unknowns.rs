@@ -3,14 +3,12 @@
 use std::num::NonZeroU32;
 
 use crate::geometry::Mesh;
+use crate::liquid::TRACE;
 
 /// Volume fraction from which on a pore is full and has a pressure of its own, which fills what it lacks within the step. With
 /// 0.8 the force of a piston in a slit of three cells scatters by 4.0 % instead of 1.6; with 0.98 what a front's shape
 /// adds in a duct of six is off by 0.035 widths of flow instead of 0.017 (`cargo test --release -p implicit --test scheme slit duct`).
 pub(crate) const FULL: f64 = 0.9;
-/// Mean liquid volume of two pores, cells, above which the face between them has a velocity without a full pore beside it:
-/// with a tenth of it forces differ by 0.1 %, with ten times they are 10 % too small in a slit of three cells.
-const WET: f64 = 0.005;
 
 /// Numbers of the unknowns of a step: of velocities along rows of cells, one component after the other, so that neighbours
 /// are near in memory and consecutive rows of the velocity block couple to equal distances, which the solver packs.
@@ -38,7 +36,7 @@ impl Unknowns {
         for face in by_rows(mesh) {
             let ends = mesh.faces[face].ends();
             let liquid = |pore: usize| fractions[pore] * mesh.volume(pore);
-            let wet = || ends.iter().map(|&pore| 0.5 * liquid(pore)).sum::<f64>() > WET;
+            let wet = || ends.iter().map(|&pore| 0.5 * liquid(pore)).sum::<f64>() > TRACE;
             if !(ends.iter().any(|&pore| full(pore)) || wet()) {
                 continue;
             }

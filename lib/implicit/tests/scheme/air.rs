@@ -1,7 +1,7 @@
 //! Air that liquid closes off: Boyle's law, pockets that part and meet, a bond with air.
 
 use implicit::Implicit;
-use physics::{Motion, Press, Scene, Scheme, Stop, VoxelBlock};
+use physics::{Motion, Press, PressStage, Scene, Scheme, Stop, VoxelBlock};
 
 use crate::plain;
 use crate::runs::{ETA, H, advance, clamp, forged, stage, until, with};
@@ -129,17 +129,42 @@ fn pockets_that_part_and_meet_keep_their_air() {
     assert!(said.contains("air"), "{said}");
 }
 
-/// A ramp of pressure against air under liquid that hardly resists: each step ends at the pressure that is set then,
-/// and a short step has no rise of the long one before it to catch up.
-#[test]
-fn a_clamp_keeps_up_with_air_in_steps_of_any_length() {
-    let (rise, stage_s) = (1e5, 10.0);
+/// The slit under a clamp that raises the pressure of its air by `rise` (Pa) in `time_s` (s), and then as the `next` stages say.
+fn pressed_slit(rise: f64, time_s: f64, next: &[PressStage]) -> (Scene, f64) {
     let mut scene = slit(6, 1e-2);
     let part = scene.grid.area_m2() / (0.5 * H * H / 6.0);
     scene.bodies[1].motion = Motion::Clamped;
     scene.clamp = clamp(1e-2, rise / part);
     scene.stop = Stop::Closed { travel_m: 4.0 * H };
-    scene.programme = vec![stage(Press::Ramp, 1e-2, Some(rise / part), stage_s)];
+    scene.programme = vec![stage(Press::Ramp, 1e-2, Some(rise / part), time_s)];
+    scene.programme.extend_from_slice(next);
+    (scene, part)
+}
+
+/// Air under pressure lifts a clamp that lets go, at once and by twelve cells or little more than one, to where it began.
+#[test]
+fn air_that_was_pressed_lifts_a_clamp_that_lets_go() {
+    for rise in [1.0, 0.06] {
+        let release = stage(Press::Release, 1e-2, Some(0.0), 10.0);
+        let (scene, _) = pressed_slit(rise * OUTSIDE, 10.0, &[release]);
+        let mut scheme = begun(&scene, f64::INFINITY);
+        let (mut travel, mut most) = (0.0, 0.0_f64);
+        while !scheme.programme().unwrap().is_over() {
+            travel = advance(&mut scheme, 1.0).travel_m / H;
+            most = most.max(travel);
+        }
+        println!("clamp on air: {most:.3} widths, after its release {travel:+.4}");
+        let exact = 4.0 * rise / (1.0 + rise);
+        assert!((most - exact).abs() < 0.02 && travel.abs() < 0.01);
+    }
+}
+
+/// A ramp of pressure against air under liquid that hardly resists: each step ends at the pressure that is set then,
+/// and a short step has no rise of the long one before it to catch up.
+#[test]
+fn a_clamp_keeps_up_with_air_in_steps_of_any_length() {
+    let (rise, stage_s) = (1e5, 10.0);
+    let (scene, part) = pressed_slit(rise, stage_s, &[]);
     let mut scheme = begun(&scene, f64::INFINITY);
     let (mut travel, mut moved, mut times, mut off) = ([0.0; 2], [0.0; 2], [0.0; 2], 0.0_f64);
     let mut before = 0.0;

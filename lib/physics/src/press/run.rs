@@ -101,6 +101,11 @@ impl PressRun {
         self.from + (target - self.from) * part
     }
 
+    /// Whether the stage begins under less than the pressure that was reached, so that the clamp gives way at once.
+    pub fn gives_way(&self) -> bool {
+        self.elapsed_s == 0.0 && self.set_pressure(0.0) < (1.0 - REACHED) * self.from
+    }
+
     /// A limit of a step within the stage, for a clamp that has travelled `travel_m` (m).
     pub fn within(&self, limit: StepLimit, travel_m: f64) -> StepLimit {
         let stage = self.stage();
