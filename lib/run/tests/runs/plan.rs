@@ -140,6 +140,8 @@ fn the_same_by_the_implicit_scheme_and_by_others() {
         "and the default Courant number",
     ];
     says(&[], &coarser, &lines);
+    let wp = "WP about 1.0 % (a small bond line), about 3.4 % (two sizes of cells, the worst of the bonds of make)";
+    says(&IMPLICIT, &coarser, &[wp]);
     let default = says(&[], &["integrator.cfl=0.5"], &[]);
     assert!(!default.contains("and the default"), "{default}");
     let not = "pressure, flow not measured with this update";
