@@ -55,7 +55,8 @@ fn own_stacks_have_their_own_voxel_and_runs_that_end_soon() {
         ],
     );
     refuse(&["SET=grid.cell=1 um", "runs"], "give CELL=");
-    let slip = "no variable XCT_PFF= but XCT_BOTTOM= XCT_PF= XCT_PVA_PF= XCT_TOP=: make help lists all.";
+    let slip =
+        "no variable XCT_PFF= but XCT_BOTTOM= XCT_PF= XCT_PVA_PF= XCT_TOP=: make help lists all.";
     refuse(&["XCT_PFF=a.tif", "runs"], slip);
     refuse(&["THREADS=2", "runs"], "no variable THREADS=: make help");
 }
