@@ -8,6 +8,13 @@ OWN := $(if $(strip $(foreach v,$(STACKS),$($(v)))),yes)
 # One word for the shell.
 q = '$(subst ','\'',$(1))'
 
+# What nothing here reads is a slip; compilers read their own.
+READ = $(shell grep -ohE '\$$.[A-Z][A-Z0-9_]*|[A-Z][A-Z0-9_]*=' Makefile pipelines/*.mk | sed 's/^\$$.//; s/=$$//')
+GIVEN := $(foreach v,$(.VARIABLES),$(if $(filter line,$(origin $(v))),$(v)))
+SLIP := $(firstword $(if $(GIVEN),$(filter-out CARGO% RUST% CC CFLAGS $(READ),$(GIVEN))))
+NEAR = $(sort $(filter $(shell printf %.3s $(call q,$(SLIP)) | tr a-z A-Z)%,$(shell grep -oE '[A-Z][A-Z0-9_]+=' Makefile)))
+$(if $(SLIP),$(error make has no variable $(SLIP)=$(if $(NEAR),$(COMMA) but $(NEAR)): make help lists all))
+
 # In the names of stacks, which only the tools see, anything may be; the results are make's own.
 AWKWARD := $(shell [ -z "$$(printf %s $(call q,$(value OUT)) | LC_ALL=C tr -d 'A-Za-z0-9._/+@^\200-\377-')" ] || echo yes)
 $(if $(or $(AWKWARD),$(filter -%,$(OUT)),$(if $(OUT),,empty)),$(error OUT='$(value OUT)': the name of the folder of results is made of letters, digits and . _ / + @ ^ -, the last not first))

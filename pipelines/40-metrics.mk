@@ -39,6 +39,11 @@ IMPLICIT := $(filter implicit%,$(RUNS))
 first-table: $(foreach a,$(ADHESIVES),$(IMPLICIT:%=$(OUT)/$(a)/%/wp.csv)) $(EXPERIMENT_TABLES)
 	$(if $(filter %/wp.csv,$(MADE)),@$(TABLE2) $(call table2_rows,$(IMPLICIT)) -o - >/dev/null)
 
+ifeq ($(BUILT),foremost)
+$(OTHER_BINARIES) &: FORCE | $(FIRST_TABLE)
+	@CARGO_TERM_PROGRESS_WHEN=never $(CARGO) build --release --workspace
+endif
+
 define show_table2
 @cat $(OUT)/table2.txt $(if $(V),$(OUT)/table2.csv $(if $(FINER),$(OUT)/errors.csv))
 @echo "Table 2: $(OUT)/table2.csv$(if $(FINER),$(COMMA) its errors: $(OUT)/errors.csv)"

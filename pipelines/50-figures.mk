@@ -104,8 +104,7 @@ $(OUT)/figures/table2.$(FIRST): $(METRICS) $(EXPERIMENT_TABLES) $(BIN)/bond-figu
 # One film for all folders of results.
 FILM := out/film/verification-incline
 $(FILM).png: private OUTPUTS = $(FILM)-points.png
-$(FILM).png: private READS = $(BIN)/study
-$(FILM).png: $(BIN)/mpm-run FORCE
+$(FILM).png: $(BIN)/study $(BIN)/mpm-run FORCE
 	$(call made,pipelines/alone.sh $(@D) $(BIN)/study verify $(@D) incline-n6-off0 >$(@D)/log)
 $(OUT)/figures/film.png: private OUTPUTS = $(OUT)/figures/film-points.png
 $(OUT)/figures/film.png: private READS = $(FILM)-points.png

@@ -24,6 +24,8 @@ pin() {
     [[ $case == wood-* ]] && arguments+=(--particles "$bond")
     for set in "$@"; do arguments+=(--set "$set"); done
     "$bin/mpm-run" --quiet "$here/pins/$case.toml" "${arguments[@]}" -o "$run" 2>"$run.err" || status=$?
+    # A case that is refused pins nothing.
+    [ $status != 2 ] || { cat "$run.err" >&2; exit 1; }
     local sum=-
     [ -f "$run/final.mpts" ] && sum=$("$bin/particles" sum "$run/final.mpts" | cut -d' ' -f1)
     echo "$name $status $sum $(sha256sum "$run/history.csv" 2>/dev/null | cut -c1-16)"

@@ -55,6 +55,10 @@ fn own_stacks_have_their_own_voxel_and_runs_that_end_soon() {
         ],
     );
     refuse(&["SET=grid.cell=1 um", "runs"], "give CELL=");
+    let slip =
+        "no variable XCT_PFF= but XCT_BOTTOM= XCT_PF= XCT_PVA_PF= XCT_TOP=: make help lists all.";
+    refuse(&["XCT_PFF=a.tif", "runs"], slip);
+    refuse(&["THREADS=2", "runs"], "no variable THREADS=: make help");
 }
 
 /// Names that make reads as its own once gave make's own messages, or another file.
@@ -116,6 +120,15 @@ fn jobs_that_were_asked_for_hold_in_sub_makes() {
         assert!(own.iter().all(|line| !line.contains(" -j")), "{own:?}");
         assert!(!said(&output).contains("forced"), "{}", said(&output));
     }
+}
+
+/// Tools and studies were all built before the first run.
+#[test]
+fn the_first_table_comes_before_the_tools_that_it_is_not_made_by() {
+    let planned = plan(&["BUILT=", "CARGO=cargo", "ERROR=no", "all"], &[]);
+    let order = ["-p mpm-run", "-o - >/dev/null", "--workspace", "--title"];
+    let places = order.map(|what| planned.find(what).expect(what));
+    assert!(places.is_sorted(), "{places:?}: {planned}");
 }
 
 /// Undamaged wood is no experiment: two stacks or one that is cut, or a sentence.

@@ -86,6 +86,12 @@ impl RunFolder {
         reached.and_then(Value::as_bool).unwrap_or(false)
     }
 
+    /// Whether air was closed off where the specimen ends.
+    pub(crate) fn closes_off_air(&self) -> bool {
+        let mut left_out = self.list("/left_out").iter();
+        left_out.any(|item| item["what"] == "beyond the sides")
+    }
+
     /// A number of the summary by its path, times `unit`, with so many decimals.
     fn number(&self, pointer: &str, unit: f64, decimals: usize) -> String {
         let value = self.summary.pointer(pointer).unwrap_or(&Value::Null);

@@ -109,6 +109,10 @@ fn doubts(runs: &[RunFolder]) -> String {
         "Adhesive came to the outer face of the wood: the specimen is too small",
         &|run| run.outer_face_reached(),
     );
+    say(
+        "Air in lumens is closed off where the specimen ends: WP is uncertain by its difference from the same run without [air]",
+        &|run| run.closes_off_air(),
+    );
     let large = |known: &Known| known.error > LARGE * known.best().abs();
     say("WP of a side is off by more than a tenth", &|run| {
         run.wp.iter().any(large)

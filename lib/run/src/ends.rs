@@ -100,15 +100,16 @@ impl<'a> Ends<'a> {
             let set = "of the time until it sets, {} left at most";
             return vec![(if sets { set } else { time_is_up }, time)];
         };
-        let latest = match (sets, scene.programme.is_empty()) {
-            (true, _) => "of the time until it sets, {} left at most",
-            (false, true) => "of the time limit, {} left at most",
-            (false, false) => "of the programme's time, {} left at most",
-        };
         if !scene.programme.is_empty() {
-            // Stages go on where the clamp has come to its end.
-            return vec![(latest, time)];
+            // Stages go on where the clamp has come to its end. Their steps are of microseconds and of minutes, so that none
+            // tells the time of those to come.
+            let set = "of the time until it sets";
+            return vec![(if sets { set } else { "of the programme's time" }, time)];
         }
+        let latest = match sets {
+            true => "of the time until it sets, {} left at most",
+            false => "of the time limit, {} left at most",
+        };
         let closed = clock.travel_m / travel_m;
         let (limited, speed) = (scene.clamp).map_or((false, 0.0), |clamp| {
             (clamp.max_pressure.is_some(), clamp.closing_speed)
@@ -123,7 +124,7 @@ impl<'a> Ends<'a> {
 
 #[cfg(test)]
 mod tests {
-    use physics::Clamp;
+    use physics::{Clamp, Press, PressStage};
 
     use super::*;
     use crate::verdict::tests::setup;
@@ -162,5 +163,17 @@ mod tests {
             Ends::of(&setup).ahead(&clock),
             [("of the time, {} left", 0.25)]
         );
+        setup.scene.stop = Stop::Closed { travel_m: 4e-6 };
+        setup.scene.programme = vec![PressStage {
+            kind: Press::Hold,
+            speed: 1.0,
+            pressure: None,
+            contact: false,
+            travel_m: None,
+            slower: None,
+            time_s: 8e-6,
+        }];
+        let told = Ends::of(&setup).ahead(&clock);
+        assert_eq!(told, [("of the programme's time", 0.25)]);
     }
 }

@@ -10,6 +10,11 @@ use crate::schemes;
 /// Written by `make tradeoff`; not to be edited.
 const TABLE: &str = include_str!("expected_error.csv");
 
+/// `out/quick/errors.csv` of `make` (docs/results/README.md, error by cell size); not to be edited.
+const TWO_SIZES: &str = include_str!("cell_error.csv");
+/// Cells across a lumen of the coarser runs there, of two voxels each.
+const COARSER: f64 = 6.0;
+
 /// Width of the lumens that the study measured and the paper's wood has (section 2.3), m.
 const LUMEN_M: f64 = 17.4e-6;
 
@@ -53,11 +58,17 @@ pub(crate) fn of(case: &Case, cell_m: f64) -> ExpectedError {
     let row = nearest(&key(case), cells);
     let (press, bond) = ("piston into slit", "a small bond line");
     let [slit, channel, pressure, wp] = row.as_ref().map_or([None; 4], |row| row.errors);
+    let two_sizes = row.as_ref().and_then(worst_of_two_sizes);
     let measured = [
         ("clamp pressure", press, slit),
         ("clamp pressure", bond, pressure),
         ("flow in lumens", "plane channel", channel),
         ("WP", bond, wp),
+        (
+            "WP",
+            "two sizes of cells, the worst of the bonds of make",
+            two_sizes,
+        ),
     ];
     let error = |(quantity, scene, relative): (_, _, Option<f64>)| {
         relative.map(|relative| QuantityError {
@@ -144,6 +155,20 @@ fn nearest(key: &[impl AsRef<str>; 6], cells: f64) -> Option<Measured> {
         .min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
+/// The largest error of a total WP by two sizes of cells over that WP, where those of `row` are the coarser.
+fn worst_of_two_sizes(row: &Measured) -> Option<f64> {
+    let is_coarser = row.key[0] == SchemeName::Implicit.name() && row.cells == COARSER;
+    let errors = TWO_SIZES.lines().filter(|_| is_coarser).filter_map(|line| {
+        let [_, _, "wp", "total", _, _, extrapolated, error, ..] =
+            line.split(',').collect::<Vec<_>>()[..]
+        else {
+            return None;
+        };
+        Some(error.parse::<f64>().ok()? / extrapolated.parse::<f64>().ok()?)
+    });
+    errors.reduce(f64::max)
+}
+
 fn rows() -> impl Iterator<Item = Measured> {
     TABLE.lines().skip(1).filter_map(|line| {
         let words: Vec<&str> = line.split(',').collect();
@@ -184,6 +209,9 @@ mod tests {
             let row = nearest(&words, 6.4).unwrap();
             assert_eq!(row.cells, 6.0, "{words:?}");
             assert!(row.errors.iter().all(Option::is_some), "{words:?}");
+            // PF, frictionless: 0.2453 of 7.1282 um.
+            let worst = (words[0] == "implicit").then_some(0.2453 / 7.1282);
+            assert_eq!(worst_of_two_sizes(&row), worst);
             assert!(nearest(&words, 40.0).unwrap().cells > 6.0);
         }
         assert_eq!(nearest(&["explicit", "xpic", "19", "", "", ""], 6.0), None);

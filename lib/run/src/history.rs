@@ -169,6 +169,19 @@ impl History {
     }
 }
 
+/// Total WP (m) at `time_s`, where a history of this text has a row then that tells it.
+pub(crate) fn wp_at(text: &str, time_s: f64) -> Option<f64> {
+    let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let columns = rows.next()?;
+    let place = |name| columns.iter().position(|column| *column == name);
+    let [time, wp] = [place("time_s")?, place("wp_total_um")?];
+    let number = |row: &[&str], at: usize| row.get(at)?.parse::<f64>().ok();
+    // A row has ten digits of its time.
+    let mut then =
+        rows.filter(|row| number(row, time).is_some_and(|t| (t - time_s).abs() <= 1e-9 * time_s));
+    Some(1e-6 * number(&then.next()?, wp)?)
+}
+
 /// Hashes the first `bytes` of a file, or all of it if it is shorter; how many there were.
 fn hash_start(file: &mut File, bytes: u64) -> io::Result<(u64, Xxh3Default)> {
     let mut hash = Xxh3Default::new();

@@ -11,18 +11,19 @@ use crate::summary::{self, Account, Stage, Summary};
 use crate::time_loop::Outcome;
 use crate::verdict;
 
-/// The summary of a run, its liquid in the axes of the bond file, and the displacements of its bodies (m). The
-/// scheme, most of a run's memory, is gone before the liquid is measured.
+/// The summary of a run with a history of this text, its liquid in the axes of the bond file, and the displacements of
+/// its bodies (m). The scheme, most of a run's memory, is gone before the liquid is measured.
 pub(crate) fn conclude(
     setup: &Setup,
     scheme: Box<dyn Scheme>,
     outcome: Outcome,
     watch: Option<&Watch>,
     account: Account,
+    history: &str,
 ) -> Result<(Summary, LiquidState, Vec<[f64; 3]>), RunFailure> {
     let (mut liquid, displacements) = (scheme.liquid(), scheme.displacements());
     let (stages, counts) = (scheme.stage_times(), scheme.counts());
-    let programme = summary::programme(scheme.programme());
+    let programme = summary::programme(scheme.programme(), history);
     let stage = |time: &StageTime| Stage {
         name: time.name,
         wall_s: time.wall_s,

@@ -1,10 +1,13 @@
 //! Parts that a run does not compute, and why: the stages that its scheme does without, and the physics
 //! that both schemes, or the implicit one, leave out.
 
-use physics::{Regime, Stages};
+use physics::{Boundary, Dimensions, Regime, Stages};
 
 use crate::case::{Case, SchemeName};
 use crate::resolve::Setup;
+
+/// Of a run with air that mirror or periodic sides close off.
+pub(crate) const BEYOND_SIDES: &str = "beyond the sides";
 
 /// One thing left out.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -31,8 +34,13 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
         "wood deformation",
         "adherends are rigid (paper section 2.2)".into(),
     );
-    if case.air.is_none() {
-        add("trapped air", "voids are empty: p = 0, no [air]".into());
+    match &case.air {
+        None => add("trapped air", "voids are empty: p = 0, no [air]".into()),
+        Some(air) if air.leak_time.is_none() && !opens_sideways(setup) => add(
+            BEYOND_SIDES,
+            "air in lumens is closed off where the specimen ends, and drives liquid on into the few that are open: WP is uncertain by its difference from the same run without [air]; leak_time is for lumens that go on".into(),
+        ),
+        Some(_) => {}
     }
     if setup.scene.liquid.cure.is_none() {
         add(
@@ -67,4 +75,11 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
         );
     }
     list
+}
+
+/// Whether air gets out by the sides along the bond.
+fn opens_sideways(setup: &Setup) -> bool {
+    let [x, _, z] = setup.scene.boundary;
+    let solid = setup.scene.dimensions == Dimensions::Three;
+    x == Boundary::Open || (solid && z == Boundary::Open)
 }

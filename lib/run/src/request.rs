@@ -1,5 +1,6 @@
 //! A run as a tool asks for it: case file, bond file, changed keys; then explained or executed.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use particle_file::{ParticleFile, Provenance};
@@ -16,7 +17,7 @@ use crate::earlier_run::{self, Mode};
 use crate::ends::{Ahead, End};
 use crate::expected_error;
 use crate::failure::{RunFailure, refused};
-use crate::folder::{CHECKPOINT, RunFolder, SUMMARY};
+use crate::folder::{CHECKPOINT, HISTORY, RunFolder, SUMMARY};
 use crate::forecast::Forecast;
 use crate::history::History;
 use crate::last_state::conclude;
@@ -180,8 +181,13 @@ impl Request {
             Ok(outcome) => outcome,
         };
         let (end, clock) = (outcome.end, outcome.clock);
+        let rows = match self.setup.scene.programme.is_empty() {
+            true => String::new(),
+            false => fs::read_to_string(folder.place(HISTORY)).unwrap_or_default(),
+        };
+        let watch = watch.as_ref();
         let (summary, liquid, displacements) =
-            conclude(&self.setup, scheme, outcome, watch.as_ref(), account)?;
+            conclude(&self.setup, scheme, outcome, watch, account, &rows)?;
         folder.write_text(SUMMARY, &summary::text(&summary))?;
         if end != End::Interrupted {
             writer.write_final(&clock, &liquid, &displacements)?;

@@ -10,8 +10,9 @@ use crate::bond_measures::Answers;
 use crate::courant::Courant;
 use crate::ends::End;
 use crate::expected_error::ExpectedError;
+use crate::history;
 use crate::invariants::Invariants;
-use crate::left_out::LeftOut;
+use crate::left_out::{BEYOND_SIDES, LeftOut};
 use crate::verdict::Verdict;
 
 /// Content of `summary.json`.
@@ -108,10 +109,13 @@ pub struct PressedStage {
     pub travel_m: f64,
     /// Pressure on the clamp's body then, Pa.
     pub pressure_pa: f64,
+    /// Total WP then, m, where the history tells it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wp_m: Option<f64>,
 }
 
-/// How the stages of a programme ended so far.
-pub(crate) fn programme(run: Option<&PressRun>) -> Vec<PressedStage> {
+/// How the stages of a programme ended so far, by a history of this text.
+pub(crate) fn programme(run: Option<&PressRun>, history: &str) -> Vec<PressedStage> {
     let stages = run.into_iter().flat_map(PressRun::ended);
     let ended = stages.map(|(stage, end)| PressedStage {
         kind: stage.kind.name(),
@@ -119,6 +123,7 @@ pub(crate) fn programme(run: Option<&PressRun>) -> Vec<PressedStage> {
         end_s: end.time_s,
         travel_m: end.travel_m,
         pressure_pa: end.pressure,
+        wp_m: history::wp_at(history, end.time_s),
     });
     ended.collect()
 }
@@ -156,6 +161,22 @@ pub(crate) fn provenance(by: &Provenance) -> serde_json::Value {
 }
 
 impl Summary {
+    /// What a press had come to before it let go, which air may undo, and what that air makes uncertain.
+    fn held(&self) -> String {
+        let stages = self.programme.windows(2);
+        let held = (stages.filter(|stages| stages[1].kind == "release"))
+            .find_map(|stages| stages[0].wp_m)
+            .map(|wp| format!("{:.2} um before the release", 1e6 * wp));
+        let mut left_out = self.account.left_out.iter();
+        let doubt = (left_out.any(|item| item.what == BEYOND_SIDES))
+            .then(|| "uncertain by its difference from the same run without [air]".to_owned());
+        let notes: Vec<String> = held.into_iter().chain(doubt).collect();
+        match notes.is_empty() {
+            true => String::new(),
+            false => format!(" ({})", notes.join("; ")),
+        }
+    }
+
     /// One sentence for the terminal.
     pub fn sentence(&self) -> String {
         let end = match self.end {
@@ -174,10 +195,12 @@ impl Summary {
                 "filled" => String::new(),
                 other => format!(", bond line {other}"),
             };
-            match found.outer_face_reached {
+            let line = match found.outer_face_reached {
                 true => line + ", adhesive at the outer face of the wood",
                 false => line,
-            }
+            };
+            let (wp, held) = (1e6 * found.wp_m.total, self.held());
+            format!("{line}, WP {wp:.2} um{held}")
         });
         let left = match self.points_left {
             0 => String::new(),

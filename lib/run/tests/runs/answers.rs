@@ -34,6 +34,10 @@ snapshots = 3
 /// A bond whose grooves are half of its area, as deep as the wood but for three voxels, with a sealed lumen in
 /// the land of the lower adherend.
 fn bench() -> Bench {
+    bench_of(TABLES)
+}
+
+fn bench_of(tables: &str) -> Bench {
     let thick = 2 * WOOD + GAP;
     let high = [WIDE, thick, 2].map(|n| n as f64 * VOXEL * 1e-6);
     let mut header = Header::new(Kind::Bond, VOXEL * 1e-6, 1, [0.0; 3], high);
@@ -45,7 +49,7 @@ fn bench() -> Bench {
     });
     let top = BitGrid::from_fn([WIDE, WOOD, 2], |x, y, _| y >= WOOD - 3 || !groove(x));
     let adhesive = BitGrid::from_fn([WIDE, GAP, 2], |_, _, _| true);
-    let bench = Bench::with(&case("2 um", None, TABLES));
+    let bench = Bench::with(&case("2 um", None, tables));
     let parts = [(0, bottom), (WOOD + GAP, top), (WOOD, adhesive)];
     let parts = parts.map(|(layer, bits)| (layer as f64 * VOXEL * 1e-6, bits));
     bench.put_bond(header, parts);
@@ -138,6 +142,24 @@ fn the_gap_is_the_way_left_wherever_it_is_told() {
 #[test]
 fn a_run_that_tells_penetration_stopped_on_its_way_ends_the_same() {
     ends_the_same(&bench(), 4);
+}
+
+/// A press that lets go with air behind the adhesive was told by its last state alone.
+#[test]
+fn what_a_press_came_to_is_told_of_before_its_release() {
+    let stages = "[[clamp.stage]]\nkind = \"approach\"\nspeed = \"1 m/s\"\npressure = \"1 MPa\"\ntravel = \"20 um\"\n[[clamp.stage]]\nkind = \"release\"\ntime = \"0.1 ms\"\n[air]\npressure = \"101.325 kPa\"\n";
+    let pressed = "[clamp]\nclosing_speed = \"1 m/s\"\nstop = \"20 us\"\n";
+    let bench = bench_of(&TABLES.replace(pressed, stages));
+    let said = bench.ran("run", PLAIN, END).sentence();
+    let stages: Vec<String> = bench.column("stage");
+    let rows = stages.iter().filter(|stage| *stage == "1").count();
+    let held: f64 = bench.column("wp_total_um")[rows - 1].parse().unwrap();
+    let end: f64 = last(&bench, "wp_total_um").parse().unwrap();
+    println!("{said}");
+    assert!((end / held - 1.0).abs() > 0.1, "{held} {end}");
+    let wp =
+        format!("WP {end:.2} um ({held:.2} um before the release; uncertain by its difference");
+    assert!(said.contains(&wp), "{said}");
 }
 
 /// What a page can show of it.

@@ -140,6 +140,8 @@ fn the_same_by_the_implicit_scheme_and_by_others() {
         "and the default Courant number",
     ];
     says(&[], &coarser, &lines);
+    let wp = "WP about 1.0 % (a small bond line), about 3.4 % (two sizes of cells, the worst of the bonds of make)";
+    says(&IMPLICIT, &coarser, &[wp]);
     let default = says(&[], &["integrator.cfl=0.5"], &[]);
     assert!(!default.contains("and the default"), "{default}");
     let not = "pressure, flow not measured with this update";
@@ -214,6 +216,17 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
     leaves_out(&bench, &[&all[..], &explicit].concat(), &of_update[1..2]);
     let implicit = ["integrator.scheme=implicit"];
     leaves_out(&bench, &[&all[..], &implicit].concat(), &of_implicit[1..]);
+    let air = "air={ pressure = \"101.325 kPa\" }";
+    let leaks = "air={ pressure = \"101.325 kPa\", leak_time = \"1 s\" }";
+    let closed = "beyond the sides air in lumens is closed off";
+    for (changes, doubted) in [
+        (["boundary={ z = \"periodic\" }", air], true),
+        (["boundary={ x = \"open\" }", air], false),
+        (["boundary={ z = \"periodic\" }", leaks], false),
+    ] {
+        let plan = bench.plan(&[&changes[..], &implicit].concat()).unwrap();
+        assert_eq!(plan.contains(closed), doubted, "{plan}");
+    }
 }
 
 #[test]
