@@ -59,10 +59,10 @@ pub(crate) fn despeckled(found: &Despeckled, most: u16) {
 
 /// How a specimen was turned.
 pub(crate) fn level(turned: &Level) {
-    let [tilt_x, tilt_y, tilt_z] = turned.tilt_deg;
     let [x, y, z] = turned.wood.dims();
     cli::note(format_args!(
-        "level       the bond plane was turned by {tilt_x:.2}, {tilt_y:.2} and {tilt_z:.2} degrees about x, y and z; turned back, {x} x {y} x {z} voxels are left"
+        "level       the bond plane was {}; turned back, {x} x {y} x {z} voxels are left",
+        turned.tilt
     ));
 }
 
