@@ -2,18 +2,23 @@
 
 use metrics::Level;
 use units::Axis;
-use voxels::{Despeckled, Proposal, Segmented, Stack, VoxelEdge};
+use voxels::{Crop, Despeckled, Proposal, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
 const EDGE_TOLERANCE: f64 = 0.01;
 
-/// The stack and the size of its voxels.
-pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
-    let [nx, ny, nz] = stack.dims();
-    let sample = stack.format().sample;
+/// The stack, what is kept of it, and the size of its voxels.
+pub(crate) fn stack(stack: &Stack, crop: &Crop, edge: &VoxelEdge) {
+    let size = |[nx, ny, nz]: [usize; 3]| format!("{nx} x {ny} x {nz} voxels");
+    let (whole, kept) = (size(stack.dims()), size(crop.dims()));
+    let cropped = match kept == whole {
+        true => String::new(),
+        false => format!(", cropped to {kept}"),
+    };
     cli::note(format_args!(
-        "stack       {}, {nx} x {ny} x {nz} voxels (x, y, z), {sample}",
-        stack.name()
+        "stack       {}, {whole} (x, y, z), {}{cropped}",
+        stack.name(),
+        stack.format().sample
     ));
     let um = edge.metres * 1e6;
     cli::note(format_args!("voxel edge  {um:.6} um, from {}", edge.from));
