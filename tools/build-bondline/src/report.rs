@@ -110,10 +110,7 @@ pub(crate) fn tilt(specimen: &Specimen, bond: &Bond, normal: Axis) {
     let rise: f64 = across
         .map(|axis| tilt.deg[axis].to_radians().tan().abs() * width(3 - axis - n))
         .sum();
-    let said = format!(
-        "the bond plane is {tilt} and rises by {:.1} um",
-        1e6 * rise
-    );
+    let said = format!("the bond plane is {tilt} and rises by {:.1} um", 1e6 * rise);
     match rise < WORTH_LEVELLING * bond.effective_penetration_m() {
         true => cli::note(said),
         false => cli::warn(format!(
