@@ -115,7 +115,7 @@ impl Plane {
 
     /// It with its standard errors, by the planes through the `middles` without one quarter of the bond area (jackknife):
     /// surfaces are rough over many columns, whose scatter about the plane would tell errors ten times too small. Quarters are
-    /// the fewest parts that tell a plane's three numbers. Slopes of 280 crops of bondline-acer-240, 32 to 128 voxels
+    /// the fewest parts that tell a plane's three numbers. Slopes of 200 crops of bondline-acer-240, 32 to 128 voxels
     /// wide, are off by 1.5 to 2.5 such errors (rms).
     fn with_errors(self, middles: &[Middle], state: &State, opening: f64) -> Result<Self, String> {
         let across = state.across();
