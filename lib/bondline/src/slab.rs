@@ -10,15 +10,31 @@ pub(crate) fn cells(
     tolerance: f64,
     cell_m: f64,
 ) -> Result<u64, Error> {
-    let exact_cells = adhesive / area as f64 / voxels_per_cell as f64;
-    let cells = exact_cells.round();
-    let change = cells / exact_cells - 1.0;
-    if change.abs() > tolerance || cells < 1.0 {
+    let layers = adhesive / area as f64;
+    let rounded = |per_cell: usize| {
+        let exact = layers / per_cell as f64;
+        (exact.round(), exact.round() / exact - 1.0)
+    };
+    let fits = |(cells, rounding): (f64, f64)| cells >= 1.0 && rounding.abs() <= tolerance;
+    let exact_cells = layers / voxels_per_cell as f64;
+    let (cells, rounding) = rounded(voxels_per_cell);
+    if !fits((cells, rounding)) {
+        let um = 1e6 * cell_m;
+        let fewer = (1..voxels_per_cell).rev().find(|n| fits(rounded(*n)));
+        let more = (cells >= 1.0).then(|| (1e3 * rounding.abs()).ceil() / 10.0);
+        let thinner = exact_cells.floor().max(1.0);
+        let ways = (fewer.map(|n| format!("--voxels-per-cell {n}")).into_iter())
+            .chain(more.map(|percent| format!("--tolerance {percent}%")))
+            .chain([format!(
+                "of undamaged wood --slab '{:.3} um' or '{:.3} um'",
+                thinner * um,
+                (thinner + 1.0) * um
+            )]);
         return Err(Error::new(format!(
-            "the adhesive would make a slab of {exact_cells:.4} cells of {:.3} um; rounded to {cells} its volume changes by {:+.2} %, more than the tolerance of {:.2} %: use fewer voxels per cell or a larger --tolerance",
-            1e6 * cell_m,
-            100.0 * change,
-            100.0 * tolerance
+            "the adhesive would make a slab of {exact_cells:.4} cells of {um:.3} um; rounded to {cells} its volume changes by {:+.2} %, more than the tolerance of {:.2} %: give {}",
+            100.0 * rounding,
+            100.0 * tolerance,
+            ways.collect::<Vec<_>>().join(", or ")
         )));
     }
     Ok(cells as u64)
@@ -64,8 +80,16 @@ mod tests {
     #[test]
     fn rounding_beyond_the_tolerance_is_refused() {
         assert_eq!(cells(1060.0, 100, 2, 0.06, 2.0), Ok(5)); // 5.3 cells, -5.66 %
-        assert!(cells(1060.0, 100, 2, 0.05, 2.0).is_err());
-        assert!(cells(90.0, 100, 2, 1.0, 2.0).is_err(), "no cell at all");
+        let said = |adhesive, tolerance| {
+            let error = cells(adhesive, 100, 2, tolerance, 2e-6).unwrap_err();
+            error.to_string()
+        };
+        let ways = "--voxels-per-cell 1, or --tolerance 5.7%, or of undamaged wood --slab '10.000 um' or '12.000 um'";
+        assert!(said(1060.0, 0.05).ends_with(ways));
+        // No cell at all.
+        assert!(
+            said(90.0, 1.0).ends_with("1, or of undamaged wood --slab '2.000 um' or '4.000 um'")
+        );
     }
 
     #[test]

@@ -1,15 +1,15 @@
-//! Outputs that would replace what is read, one another, or what is write-protected are refused.
+//! Outputs that would replace what is read, one another, or what is write-protected are refused, and those without a folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::{Failure, Output};
-use crate::{aside, provenance};
+use crate::{aside, output, provenance};
 
-/// Refuses outputs that would replace a file that is read, one another, or a write-protected file.
+/// Refuses outputs that would replace a file that is read, one another, or a write-protected file, or have no folder to lie in.
 ///
 /// # Errors
-/// Exit 2 with the file that is named twice; exit 1 with the one that is write-protected.
+/// Exit 2 with the file that is named twice; exit 1 with the one that cannot be written.
 pub fn keep_apart<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     outputs: impl IntoIterator<Item = &'a Output>,
@@ -23,8 +23,8 @@ pub fn keep_apart<'a>(
 /// outputs too, and replace nothing but records.
 ///
 /// # Errors
-/// Exit 2 with the file that is named twice, or that stands where a record goes; exit 1 with the one that is
-/// write-protected.
+/// Exit 2 with the file that is named twice, or that stands where a record goes; exit 1 with the one that cannot
+/// be written.
 pub fn keep_apart_with_records<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     outputs: impl IntoIterator<Item = &'a Output>,
@@ -73,8 +73,8 @@ impl Places {
         ];
         match self.taken(path, twice) {
             Some(why) => Err(Failure::usage(format!("{output} {why}"))),
-            None if place(path).is_none() => Ok(()),
-            None => machine::replaced_permissions(path)
+            None => output::target(path)
+                .and_then(|target| target.map_or(Ok(None), |_| machine::replaced_permissions(path)))
                 .map(|_| ())
                 .map_err(|e| Failure::write(output, &e)),
         }
@@ -82,7 +82,7 @@ impl Places {
 
     /// Why another file cannot be written at `path`, of the two reasons, or nothing, and the place is taken from now on.
     fn taken(&mut self, path: &Path, [read, written]: [&'static str; 2]) -> Option<&'static str> {
-        // What cannot be placed cannot be written either, and is refused then.
+        // What cannot be placed holds nothing that could be replaced.
         let place = place(path)?;
         if self.read.contains(&place) {
             return Some(read);
@@ -126,6 +126,9 @@ mod tests {
         assert!(check(&[file("link"), file("b/new")]).is_err());
         let null = || Output::File("/dev/null".into());
         assert!(check(&[null(), null()]).is_ok());
+        for nowhere in ["", "none/c"] {
+            assert!(check(&[file(nowhere)]).is_err());
+        }
     }
 
     #[test]

@@ -92,14 +92,13 @@ fn is_special(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|m| !m.is_file())
 }
 
-fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+/// Where a file to be written at `path` goes; nothing for devices and pipes, which are written in place.
+pub(crate) fn target(path: &Path) -> io::Result<Option<PathBuf>> {
     if path.is_dir() {
         return Err(io::Error::other("it is a folder; a file name is needed"));
     }
     if is_special(path) {
-        let mut out = BufWriter::new(File::options().write(true).open(path)?);
-        body(&mut out)?;
-        return out.flush();
+        return Ok(None);
     }
     let target = aside::behind_links(path)?;
     let folder = aside::folder_of(&target);
@@ -109,6 +108,15 @@ fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) 
             folder.display()
         )));
     }
+    Ok(Some(target))
+}
+
+fn write_file(path: &Path, body: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let Some(target) = target(path)? else {
+        let mut out = BufWriter::new(File::options().write(true).open(path)?);
+        body(&mut out)?;
+        return out.flush();
+    };
     let mut file = aside::file_for(&target)?;
     {
         let mut out = BufWriter::with_capacity(1 << 20, file.as_file_mut());

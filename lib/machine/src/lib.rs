@@ -12,4 +12,4 @@ mod shortage;
 pub use memory::available_bytes;
 pub use process::{cpu_seconds, give_back_large_arrays, ignores, peak_memory_bytes};
 pub use replaced::replaced_permissions;
-pub use shortage::{Shortage, shortage};
+pub use shortage::{Shortage, bytes, shortage};

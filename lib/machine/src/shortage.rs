@@ -25,15 +25,17 @@ pub fn shortage(need: u64) -> Option<Shortage> {
 impl fmt::Display for Shortage {
     /// `17.2 GB of memory, and this process may have 2.0 GB`, to stand behind "needs" or "would take".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (need, have) = (size(self.need), size(self.have));
+        let [need, have] = [self.need, self.have].map(bytes);
         write!(f, "{need} of memory, and this process may have {have}")
     }
 }
 
-fn size(bytes: u64) -> String {
+/// A number of bytes in the unit that suits it.
+pub fn bytes(bytes: u64) -> String {
     match bytes as f64 {
         n if n >= 1e9 => format!("{:.1} GB", n / 1e9),
-        n => format!("{:.0} MB", n / 1e6),
+        n if n >= 1e6 => format!("{:.0} MB", n / 1e6),
+        n => format!("{:.0} kB", (n / 1e3).ceil()),
     }
 }
 
@@ -46,6 +48,7 @@ mod tests {
         let (need, have) = (17_240_000_000, 1_536_000);
         let said = Shortage { need, have }.to_string();
         assert_eq!(said, "17.2 GB of memory, and this process may have 2 MB");
+        assert_eq!([400_000, 20, 0].map(bytes), ["400 kB", "1 kB", "0 kB"]);
         assert_eq!(shortage(0), None);
         if cfg!(target_os = "linux") {
             assert!(shortage(u64::MAX).is_some());

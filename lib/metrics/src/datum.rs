@@ -5,7 +5,7 @@ use std::fmt;
 use bondline::surface;
 use units::Axis;
 
-use crate::fit::{self, Plane};
+use crate::fit::{self, Plane, Tilt};
 use crate::penetration::Side;
 use crate::{Adhesive, Error, State, Wood};
 
@@ -85,11 +85,9 @@ impl Datum {
         let middle = 0.5 * (bottom + top);
         match reference {
             Reference::Adherend => Ok(level(bottom, top)),
-            Reference::Fit => fit::plane(state, middle).map(Datum::Tilted).ok_or_else(|| {
-                Error::Usage(
-                    "no column is open between the adherends, so no plane can be fitted; use --reference mid".into(),
-                )
-            }),
+            Reference::Fit => fit::plane(state, middle)
+                .map(Datum::Tilted)
+                .map_err(|why| Error::Usage(format!("{why}; use --reference mid"))),
             _ => Ok(level(middle, middle)),
         }
     }
@@ -110,11 +108,11 @@ impl Datum {
         bondline::doubt(severed, area as u64)
     }
 
-    /// How a fitted plane is turned about x, y and z, degrees.
-    pub fn tilt_deg(&self) -> Option<[f64; 3]> {
+    /// How a fitted plane is turned.
+    pub fn tilt(&self) -> Option<Tilt> {
         match self {
             Datum::Level { .. } => None,
-            Datum::Tilted(plane) => Some(plane.tilt_deg()),
+            Datum::Tilted(plane) => Some(plane.tilt()),
         }
     }
 

@@ -22,9 +22,9 @@ pub struct DepthLayer {
 /// The adhesive against depth, from the far side of the bottom to that of the top adherend, in wood with
 /// these `sealed` voids.
 ///
-/// Layers are one voxel thick and begin at the reference; a voxel or material point is spread
-/// evenly over one voxel along the normal, so that a reference between voxel faces and an
-/// adherend between them need no rounding. With [`crate::Reference::Adherend`] what lies
+/// Layers are one voxel thick and begin at the reference; a voxel is spread evenly over itself along the normal, a material
+/// point over the height that its volume has on the area of a voxel, at most one, so that a reference between voxel faces and an
+/// adherend between them need no rounding, and points that fill voxels of a row that has closed in part fill its layer. With [`crate::Reference::Adherend`] what lies
 /// between the two bond surfaces is in no layer.
 pub fn depth_profile(
     state: &State,
@@ -78,9 +78,10 @@ pub fn depth_profile(
         }
         Adhesive::Points { position, volume } => {
             for (p, &v) in position.iter().zip(volume) {
-                let at = f64::from(p[n]) - 0.5 * voxel;
-                let fraction = f64::from(v) / state.area_m2() / voxel;
-                add([at, at + voxel], fraction, |l| &mut l.adhesive);
+                let height = (f64::from(v) / (voxel * voxel)).min(voxel);
+                let at = f64::from(p[n]) - 0.5 * height;
+                let fraction = f64::from(v) / state.area_m2() / height;
+                add([at, at + height], fraction, |l| &mut l.adhesive);
             }
         }
     }

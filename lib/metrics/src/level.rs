@@ -4,12 +4,12 @@ use bondline::Specimen;
 use particle_file::{BitGrid, BitsRef};
 use units::Axis;
 
-use crate::{State, fit};
+use crate::{State, Tilt, fit};
 
 /// A specimen turned so that its bond plane is level.
 pub struct Level {
-    /// How its bond plane was turned about x, y and z, degrees, right-handed.
-    pub tilt_deg: [f64; 3],
+    /// How its bond plane was turned.
+    pub tilt: Tilt,
     /// The wood in the new box.
     pub wood: BitGrid,
     /// The adhesive there.
@@ -20,15 +20,14 @@ pub struct Level {
 /// is at its centre; the box is as much smaller as it has to be to lie within the specimen.
 ///
 /// # Errors
-/// A sentence: no bond line, or a box too thin to be turned so far.
+/// A sentence: no bond line, a plane that is not known well enough, or a box too thin to be turned so far.
 pub fn level(specimen: &Specimen, normal: Axis) -> Result<Level, String> {
     let wood = specimen.wood();
     let line = bondline::find(specimen, normal).map_err(|error| error.what().to_owned())?;
     let middle = wood.origin_m[normal.index()] + line.middle() * wood.voxel_m;
-    let plane = fit::plane(&State::of_specimen(specimen, normal), middle)
-        .ok_or("no column is open between the adherends, so no plane can be fitted")?;
+    let plane = fit::plane(&State::of_specimen(specimen, normal), middle)?;
     let turn = turn_to(normal, plane.up());
-    let tilt_deg = plane.tilt_deg();
+    let tilt = plane.tilt();
     let old = wood.bits.dims();
     let new = std::array::from_fn(|i| {
         let cut: f64 = (0..3)
@@ -39,9 +38,8 @@ pub fn level(specimen: &Specimen, normal: Axis) -> Result<Level, String> {
         (old[i] as f64 - cut + 1e-6).max(0.0) as usize
     });
     if new.contains(&0) {
-        let [x, y, z] = tilt_deg;
         return Err(format!(
-            "its bond plane is turned by {x:.2}, {y:.2} and {z:.2} degrees about x, y and z, and nothing of its {} x {} x {} voxels is left when it is turned back",
+            "its bond plane is {tilt}, and nothing of its {} x {} x {} voxels is left when it is turned back",
             old[0], old[1], old[2]
         ));
     }
@@ -58,7 +56,7 @@ pub fn level(specimen: &Specimen, normal: Axis) -> Result<Level, String> {
         })
     };
     Ok(Level {
-        tilt_deg,
+        tilt,
         wood: turned(wood.bits),
         adhesive: turned(specimen.adhesive().bits),
     })

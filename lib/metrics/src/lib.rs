@@ -30,6 +30,7 @@ pub use compare::{Agreement, compare};
 pub use datum::{Datum, Reference};
 pub use depth_profile::{DepthLayer, depth_profile};
 pub use error::Error;
+pub use fit::Tilt;
 pub use islands::without_islands;
 pub use level::{Level, level};
 pub use map::Map;

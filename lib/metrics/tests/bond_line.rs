@@ -99,6 +99,17 @@ fn a_depth_profile_is_the_share_of_layer_and_void() {
         let off = layer.filled_void_fraction - filled;
         assert!(off.abs() < 1e-9, "{layer:?}");
     }
+    // Points that fill voxels of rows nine tenths as high, between surfaces as much nearer, fill their layers.
+    let mut run = Run::new(&stack, 25, -0.6 * VOXEL);
+    for at in 0..6 * 32 {
+        let [x, row, z] = [at % 8, at / 32, at / 8 % 4].map(|i| i as f64 + 0.5);
+        run.add([x, 22.0 + 0.9 * row, z]);
+    }
+    run.volume.fill((0.9 * VOXEL.powi(3)) as f32);
+    let layers = profile(&run.state(), Reference::Mid);
+    for layer in layers.iter().filter(|l| l.depth_m.abs() < 2.0 * VOXEL) {
+        assert!((layer.filled_void_fraction - 1.0).abs() < 1e-5, "{layer:?}");
+    }
     // From the adherends the 6 layers between them are in no layer.
     let layers = profile(&state, Reference::Adherend);
     assert_eq!(layers.len(), 44);

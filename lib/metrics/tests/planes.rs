@@ -17,7 +17,7 @@ fn total(state: &State, reference: Reference) -> Penetration {
 
 fn tilt_of(state: &State) -> [f64; 3] {
     let fit = Datum::find(Reference::Fit, state).unwrap();
-    fit.tilt_deg().unwrap()
+    fit.tilt().unwrap().deg
 }
 
 /// A gap of 8 voxels that rises 12 voxels over 96 along x and falls 6 over 64 along z at these slopes, in wood
@@ -82,6 +82,33 @@ fn a_tilt_is_found_between_thin_walls() {
         println!("tilt between thin walls: {tilt:.2} of {exact:.2} degrees");
         assert!((tilt - exact).abs() < 0.3, "{tilt} {exact}");
     }
+}
+
+/// A fit to surfaces that show in a part of the area, or that bend, told a tilt of any size.
+#[test]
+fn a_plane_that_is_not_known_is_refused() {
+    let refusal = |letter: fn([usize; 3]) -> char| {
+        let stack = Stack::new([12, 60, 12], move |x, y, z| letter([x, y, z]));
+        let error = Datum::find(Reference::Fit, &stack.state(Axis::Y)).unwrap_err();
+        assert!(error.is_usage());
+        let specimen = Specimen::new(placed(&stack.wood), placed(&stack.adhesive)).unwrap();
+        let level = metrics::level(&specimen, Axis::Y).err().unwrap();
+        assert!(error.to_string().contains(&level), "{error}, {level}");
+        level
+    };
+    // Wood above four columns of one quarter alone.
+    let narrow = refusal(|[x, y, z]| match y {
+        28..32 => 'a',
+        32.. if x > 3 || z > 0 => ' ',
+        _ => 'w',
+    });
+    assert!(narrow.contains("only 4 columns"), "{narrow}");
+    // A step of the gap's height in one quarter.
+    let bent = refusal(|[x, y, z]| match y + 6 * usize::from(x < 6 && z < 6) {
+        30..36 => 'a',
+        _ => 'w',
+    });
+    assert!(bent.contains("more than half of the 8.7 um"), "{bent}");
 }
 
 /// Turned, it has the thickness and depths that the fit tells, and no tilt; so for any bond normal.

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use figures::{Known, RunEnd, Table};
+use particle_file::ParticleFile;
 use serde_json::Value;
 
 use crate::setup::Setup;
@@ -24,6 +25,8 @@ pub struct RunFolder {
     pub(crate) wp: [Known; 3],
     /// At the end, MPa.
     pub(crate) pressure: Known,
+    /// What is odd about the size of its voxels.
+    pub(crate) voxel_doubt: Option<String>,
 }
 
 impl RunFolder {
@@ -66,8 +69,10 @@ impl RunFolder {
                 };
             }
         }
+        let state = ParticleFile::open(folder.path.join("final.mpts")).ok();
         Ok(Self {
             label: folder.label.clone(),
+            voxel_doubt: state.and_then(|state| voxels::doubt_of_file(state.header())),
             end: RunEnd::of(&summary),
             setup: Setup::read(&folder.path, &case, &resolved),
             wp,

@@ -92,6 +92,9 @@ fn doubts(runs: &[RunFolder]) -> String {
             let (label, said) = (escape(&run.label), escape(said));
             items.push(format!("<strong>{label}: {said}</strong>{command}"));
         }
+        if let Some(doubt) = &run.voxel_doubt {
+            items.push(escape(&format!("{}: {doubt}", run.label)));
+        }
     }
     let mut say = |said: &str, is: &dyn Fn(&RunFolder) -> bool| {
         let labels: Vec<&str> = (runs.iter().filter(|run| is(run)))

@@ -9,7 +9,7 @@ use crate::case::{Case, SchemeName};
 use crate::forecast::{Forecast, duration, line};
 use crate::left_out::left_out;
 use crate::resolve::Setup;
-use crate::{chords, expected_error};
+use crate::{chords, expected_error, summary};
 
 /// The plan of a run.
 pub(crate) fn text(case: &Case, setup: &Setup, forecast: &Forecast) -> String {
@@ -56,7 +56,7 @@ fn scene(setup: &Setup) -> String {
     }
     if let Some(clamp) = scene.clamp.filter(|_| scene.programme.is_empty()) {
         let limit = clamp.max_pressure.map_or("no pressure limit".into(), |p| {
-            format!("at most {:.4} MPa", p / 1e6)
+            format!("at most {}", summary::pressure(p, 4))
         });
         out += &line("clamp", format!("{} m/s, {limit}", clamp.closing_speed));
     }
@@ -184,11 +184,12 @@ fn end(setup: &Setup) -> String {
 fn told(stage: &PressStage) -> String {
     let mut said = format!("{}, at most {:.4e} m/s", stage.kind.name(), stage.speed);
     if let Some(pressure) = stage.pressure {
-        said += &match stage.kind {
-            Press::Approach => format!(", until {:.4} MPa", 1e-6 * pressure),
-            Press::Ramp => format!(", to {:.4} MPa", 1e-6 * pressure),
-            Press::Hold | Press::Release => format!(", at {:.4} MPa", 1e-6 * pressure),
+        let where_to = match stage.kind {
+            Press::Approach => "until",
+            Press::Ramp => "to",
+            Press::Hold | Press::Release => "at",
         };
+        said += &format!(", {where_to} {}", summary::pressure(pressure, 4));
     }
     if stage.contact {
         said += ", until liquid presses on the clamp's body";
@@ -221,7 +222,7 @@ fn cost(setup: &Setup, forecast: &Forecast) -> String {
             format!("{:.4e} s, set by {}", forecast.dt_s, forecast.limit),
         ),
         line("steps", format!("about {steps} to {end_s:.4e} s{held}")),
-        line("memory", format!("{:.0} MB", forecast.memory_bytes / 1e6)),
+        line("memory", machine::bytes(forecast.memory_bytes as u64)),
         line("run time", format!("{time} on {threads} threads")),
     ]
     .concat();

@@ -84,9 +84,12 @@ impl Request {
         })
     }
 
-    /// Sentences about terms left out although the regime would need them.
+    /// Sentences about voxels of an odd size, and terms left out although the regime would need them.
     pub fn warnings(&self) -> Vec<String> {
-        Regime::of(&self.setup.scene, &self.setup.liquid).warnings()
+        let bond = self.bond.iter();
+        let voxels = bond.filter_map(|bond| voxels::doubt_of_file(bond.header()));
+        let regime = Regime::of(&self.setup.scene, &self.setup.liquid).warnings();
+        voxels.chain(regime).collect()
     }
 
     fn forecast(&self) -> Result<Forecast, RunFailure> {

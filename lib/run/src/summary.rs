@@ -142,6 +142,16 @@ pub(crate) fn time(seconds: f64, digits: usize) -> String {
     }
 }
 
+/// A pressure (Pa) in MPa with `digits` behind the point, or in Pa where they would all be 0.
+pub(crate) fn pressure(pascal: f64, digits: usize) -> String {
+    let last = 1e6 * 0.1_f64.powi(digits as i32);
+    match pascal.abs() {
+        // Rounded to nothing it has no sign.
+        small if small < 0.5 * last => format!("{:.0} Pa", pascal.round() + 0.0),
+        _ => format!("{:.digits$} MPa", pascal / 1e6),
+    }
+}
+
 /// Wall time of one stage.
 #[derive(Debug, Serialize)]
 pub struct Stage {
@@ -207,11 +217,11 @@ impl Summary {
             n => format!(" ({n} points left through open sides)"),
         };
         format!(
-            "The run {end} after {} steps at {}{gap}{line}, {:.3} MPa; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
+            "The run {end} after {} steps at {}{gap}{line}, {}; volume {:+.3} %{left}, {} points in wood (deepest {:.3} um), {} in unreachable voids; {:.1} s, {:.2} M particle-steps/s; {}.",
             self.steps,
             time(self.time_s, 2),
-            self.final_pressure_pa / 1e6,
-            100.0 * self.invariants.volume_change,
+            pressure(self.final_pressure_pa, 3),
+            (1e5 * self.invariants.volume_change).round() / 1e3 + 0.0,
             self.invariants.points_in_wood,
             self.invariants.deepest_m * 1e6,
             self.invariants.points_in_unreachable_voids,

@@ -77,8 +77,8 @@ impl TimeLoop<'_> {
             stepping += begun.elapsed();
             steps_here += 1;
             self.clock.took(report);
-            let pressure = report.pressure_top / 1e6;
-            let state = format!("{}, {pressure:.3} MPa", summary::time(self.clock.time_s, 3));
+            let pressure = summary::pressure(report.pressure_top, 3);
+            let state = format!("{}, {pressure}", summary::time(self.clock.time_s, 3));
             (self.progress)(&ends.ahead(&self.clock), state);
             self.write_due(scheme, way, stages_over(scheme) > stages)?;
             let stop = (self.interrupted)();

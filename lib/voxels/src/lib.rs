@@ -63,4 +63,4 @@ pub use stack::Stack;
 pub use surface::Surface;
 pub use tiff::TiffWriter;
 pub use volume_fractions::VolumeFractions;
-pub use voxel_size::{VoxelEdge, VoxelSize};
+pub use voxel_size::{VoxelEdge, VoxelSize, doubt_of_file};

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::RangeInclusive;
 
+use particle_file::Header;
 use units::{Length, Quantity};
 
 use crate::Error;
@@ -181,16 +182,25 @@ impl VoxelEdge {
 
     /// A sentence about an edge that is rare for wood, and may be in a wrong unit.
     pub fn doubt(&self) -> Option<String> {
-        (!USUAL.contains(&self.metres)).then(|| {
-            format!(
-                "a voxel is {} by {}; cells of wood are seen in voxels of {} to {}: is the unit right?",
-                length(self.metres),
-                self.from,
-                length(*USUAL.start()),
-                length(*USUAL.end())
-            )
-        })
+        doubt(self.metres, self.from)
     }
+}
+
+/// [`VoxelEdge::doubt`] of the voxels of a particle file.
+pub fn doubt_of_file(header: &Header) -> Option<String> {
+    let from = header.attribute("voxel_from");
+    doubt(header.voxel_m, from.unwrap_or("the particle file"))
+}
+
+fn doubt(metres: f64, from: &str) -> Option<String> {
+    (!USUAL.contains(&metres)).then(|| {
+        format!(
+            "a voxel is {} by {from}; cells of wood are seen in voxels of {} to {}: is the unit right?",
+            length(metres),
+            length(*USUAL.start()),
+            length(*USUAL.end())
+        )
+    })
 }
 
 /// A length with its unit.
@@ -204,6 +214,8 @@ fn length(metres: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use particle_file::Kind;
+
     use super::*;
 
     fn close(a: f64, b: f64) -> bool {
@@ -288,5 +300,9 @@ mod tests {
         assert_eq!([1.45e-6, 0.1e-6, 20e-6].map(doubt), [None, None, None]);
         assert!(doubt(1.45e-3).unwrap().contains("1.45 mm by --voxel"));
         assert!(doubt(0.09e-6).unwrap().contains("unit"));
+        let header = |edge| Header::new(Kind::Bond, edge, 1, [0.0; 3], [edge; 3]);
+        assert_eq!(doubt_of_file(&header(1.45e-6)), None);
+        let said = doubt_of_file(&header(100e-6)).unwrap();
+        assert!(said.contains("100 um by the particle file"), "{said}");
     }
 }

@@ -87,8 +87,8 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     let page = report.to_html();
     let write = |out: &mut dyn std::io::Write| out.write_all(page.as_bytes());
     arguments.output.write_with_record(&record, write)?;
-    let size = page.len() as f64 / 1e6;
-    cli::note(format!("{}: {size:.1} MB", arguments.output));
+    let size = machine::bytes(page.len() as u64);
+    cli::note(format!("{}: {size}", arguments.output));
     Ok(())
 }
 

@@ -35,6 +35,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
         .map(|path| specimen(path))
         .collect::<Result<Vec<_>, Failure>>()?;
     for file in &files {
+        (voxels::doubt_of_file(file.header()).into_iter()).for_each(cli::warn);
         let bytes = file.len_bytes().saturating_mul(MADE_OF_A_BYTE);
         file.fits(bytes, "a bond of it").map_err(Failure::data)?;
     }

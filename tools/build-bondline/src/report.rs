@@ -100,7 +100,7 @@ fn piece(name: &str, face: &Face, voxel_m: f64) {
 pub(crate) fn tilt(specimen: &Specimen, bond: &Bond, normal: Axis) {
     let state = State::of_specimen(specimen, normal);
     let fit = Datum::find(Reference::Fit, &state);
-    let Some(tilt) = fit.ok().and_then(|plane| plane.tilt_deg()) else {
+    let Some(tilt) = fit.ok().and_then(|plane| plane.tilt()) else {
         return;
     };
     let n = normal.index();
@@ -108,13 +108,9 @@ pub(crate) fn tilt(specimen: &Specimen, bond: &Bond, normal: Axis) {
     // A turn about one axis across the bond is a rise along the other.
     let across = (0..3).filter(|&axis| axis != n);
     let rise: f64 = across
-        .map(|axis| tilt[axis].to_radians().tan().abs() * width(3 - axis - n))
+        .map(|axis| tilt.deg[axis].to_radians().tan().abs() * width(3 - axis - n))
         .sum();
-    let [x, y, z] = tilt;
-    let said = format!(
-        "the bond plane is turned by {x:.2}, {y:.2} and {z:.2} degrees about x, y and z and rises by {:.1} um",
-        1e6 * rise
-    );
+    let said = format!("the bond plane is {tilt} and rises by {:.1} um", 1e6 * rise);
     match rise < WORTH_LEVELLING * bond.effective_penetration_m() {
         true => cli::note(said),
         false => cli::warn(format!(

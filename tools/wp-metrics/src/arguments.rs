@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
     pub(crate) files: Vec<PathBuf>,
     /// What to measure from: mid (midway between the bond surfaces), adherend (the bond
     /// surface of each side), fit (a tilted plane midway; adds by how many degrees it is turned about x, y
-    /// and z, right-handed) or plane=LEN
+    /// and z, right-handed, and their standard errors) or plane=LEN
     #[arg(long, value_name = "WHAT", default_value = "mid", value_parser = reference)]
     pub(crate) reference: Reference,
     /// Axis across the bond: x, y or z [default: the file's, y of a stack]

@@ -165,6 +165,7 @@ fn open_file(path: &Path, arguments: &Arguments) -> Result<Content, Failure> {
             path.display().to_string()
         };
         let file = ParticleFile::from_mapped(own_name, bytes).map_err(Failure::data)?;
+        (voxels::doubt_of_file(file.header()).into_iter()).for_each(cli::warn);
         return Ok(Content::Particles(file));
     }
     if from_stdin {

@@ -155,7 +155,7 @@ fn measure(
     Ok(PenetrationRows {
         file: cli::cell(&input.name).into_owned(),
         reference: arguments.reference,
-        tilt_deg: datum.tilt_deg(),
+        tilt: datum.tilt(),
         sides: penetration(&state, &datum),
         agreement,
         pressure_pa: None,

@@ -40,7 +40,7 @@ fn run(arguments: Arguments) -> Result<(), Failure> {
     }
     let edge = VoxelEdge::resolve(arguments.voxel, stack.voxel_size(), stack.name());
     let edge = edge.map_err(failure)?;
-    report::stack(&stack, &edge);
+    report::stack(&stack, &crop, &edge);
     let phases = match (&arguments.labels, &arguments.grey, proposed) {
         (Some(labels), _, _) => Phases::Labels(labels.clone()),
         (None, Some(GreyLevels::Given(grey)), _) => Phases::Grey(grey.clone()),

@@ -2,18 +2,23 @@
 
 use metrics::Level;
 use units::Axis;
-use voxels::{Despeckled, Proposal, Segmented, Stack, VoxelEdge};
+use voxels::{Crop, Despeckled, Proposal, Segmented, Stack, VoxelEdge};
 
 /// A given edge further than this from the stated one is worth a warning.
 const EDGE_TOLERANCE: f64 = 0.01;
 
-/// The stack and the size of its voxels.
-pub(crate) fn stack(stack: &Stack, edge: &VoxelEdge) {
-    let [nx, ny, nz] = stack.dims();
-    let sample = stack.format().sample;
+/// The stack, what is kept of it, and the size of its voxels.
+pub(crate) fn stack(stack: &Stack, crop: &Crop, edge: &VoxelEdge) {
+    let size = |[nx, ny, nz]: [usize; 3]| format!("{nx} x {ny} x {nz} voxels");
+    let (whole, kept) = (size(stack.dims()), size(crop.dims()));
+    let cropped = match kept == whole {
+        true => String::new(),
+        false => format!(", cropped to {kept}"),
+    };
     cli::note(format_args!(
-        "stack       {}, {nx} x {ny} x {nz} voxels (x, y, z), {sample}",
-        stack.name()
+        "stack       {}, {whole} (x, y, z), {}{cropped}",
+        stack.name(),
+        stack.format().sample
     ));
     let um = edge.metres * 1e6;
     cli::note(format_args!("voxel edge  {um:.6} um, from {}", edge.from));
@@ -59,10 +64,10 @@ pub(crate) fn despeckled(found: &Despeckled, most: u16) {
 
 /// How a specimen was turned.
 pub(crate) fn level(turned: &Level) {
-    let [tilt_x, tilt_y, tilt_z] = turned.tilt_deg;
     let [x, y, z] = turned.wood.dims();
     cli::note(format_args!(
-        "level       the bond plane was turned by {tilt_x:.2}, {tilt_y:.2} and {tilt_z:.2} degrees about x, y and z; turned back, {x} x {y} x {z} voxels are left"
+        "level       the bond plane was {}; turned back, {x} x {y} x {z} voxels are left",
+        turned.tilt
     ));
 }
 

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::{pascal, seconds, share, um, um3, write};
-use crate::{Agreement, BondLine, CellError, Extrapolated, Penetration, Reference, Side};
+use crate::{Agreement, BondLine, CellError, Extrapolated, Penetration, Reference, Side, Tilt};
 
 /// One file's rows of the table of `wp-metrics`.
 pub struct PenetrationRows {
@@ -11,8 +11,8 @@ pub struct PenetrationRows {
     pub file: String,
     /// What depths are measured from.
     pub reference: Reference,
-    /// How the plane that depths are measured from is turned about x, y and z, degrees; of a fit.
-    pub tilt_deg: Option<[f64; 3]>,
+    /// How the plane that depths are measured from is turned; of a fit.
+    pub tilt: Option<Tilt>,
     /// Bottom, top and total.
     pub sides: [Penetration; 3],
     /// Agreement with an experiment, when asked for.
@@ -30,7 +30,8 @@ pub struct PenetrationRows {
 /// `time_s,gap_um,p95_depth_um,wetted_area_um2,bond_line_filled,bond_line,surfaces_um,half_filled_depth_um` of a
 /// series, and
 /// `wp_extrapolated_um,wp_error_um,ep_extrapolated_um,ep_error_um,pressure_extrapolated_pa,pressure_error_pa`
-/// when a finer run was given, and `tilt_x_deg,tilt_y_deg,tilt_z_deg` of a fit.
+/// when a finer run was given, and `tilt_x_deg,tilt_y_deg,tilt_z_deg` of a fit with their standard errors
+/// `tilt_x_error_deg,tilt_y_error_deg,tilt_z_error_deg`.
 pub fn write_penetration(out: &mut dyn Write, files: &[PenetrationRows]) -> io::Result<()> {
     let rows = || {
         files
@@ -91,9 +92,17 @@ fn cells(file: &PenetrationRows, side: usize) -> Vec<(&'static str, String)> {
             ("pressure_error_pa", pascal(pressure.error)),
         ]);
     }
-    if let Some(tilt_deg) = file.tilt_deg {
-        let names = ["tilt_x_deg", "tilt_y_deg", "tilt_z_deg"];
-        row.extend(names.into_iter().zip(tilt_deg.map(|t| format!("{t:.4}"))));
+    if let Some(tilt) = file.tilt {
+        let names = [
+            "tilt_x_deg",
+            "tilt_y_deg",
+            "tilt_z_deg",
+            "tilt_x_error_deg",
+            "tilt_y_error_deg",
+            "tilt_z_error_deg",
+        ];
+        let values = tilt.deg.into_iter().chain(tilt.error_deg);
+        row.extend(names.into_iter().zip(values.map(|t| format!("{t:.4}"))));
     }
     row
 }

@@ -68,9 +68,15 @@ order = 5
         for (from, to, place, words) in [
             ("closing_speed", "closing_sped", "12:1: ", "closing_speed"),
             ("\"1300 cP\"", "\"1300\"", "7:13: ", "Pa s"),
-            ("\"1300 cP\"", "1300", "7:13: ", "unit"),
+            ("\"1300 cP\"", "1300", "7:13: ", "'1300' has no unit"),
+            ("\"1300 cP\"", "1.3", "7:13: ", "'1.3' has no unit"),
             ("\"2.9 um\"", "\"-2.9 um\"", "3:8: ", "greater than zero"),
-            ("\"2.9 um\"", "2.9", "3:8: ", "`2.9`, expected a length"),
+            (
+                "\"2.9 um\"",
+                "2.9",
+                "3:8: ",
+                "2.9 is not accepted: a length",
+            ),
             ("\"closed\"", "\"later\"", "14:8: ", "ms, us"),
             ("\"closed\"", "\"later\"", "14:8: ", "or \"closed\""),
             (

@@ -162,8 +162,7 @@ fn text<'de, R: Deserializer<'de>>(reader: R, wanted: &str) -> Result<String, R:
     match toml::Value::deserialize(reader)? {
         toml::Value::String(text) => Ok(text),
         other => Err(Error::custom(format!(
-            "invalid type: {} `{other}`, expected {wanted}",
-            other.type_str()
+            "{other} is not accepted: {wanted} is needed"
         ))),
     }
 }

@@ -4,6 +4,7 @@ use physics::{Choice, Clamp, Press, PressStage};
 
 use crate::case::{ClampTable, StageTable};
 use crate::failure::{RunFailure, refused};
+use crate::summary;
 
 /// Duration of an approach without one over that of all its way at full speed: it ends before, closed.
 const APPROACH: f64 = 2.0;
@@ -118,13 +119,13 @@ fn pressure(table: &StageTable, before: Option<&PressStage>) -> Result<Option<f6
         (Press::Approach, given) => Ok(given),
         (Press::Ramp, None) => Err("it needs a pressure to go to".into()),
         (Press::Ramp, Some(to)) if set.is_some() && kept == Some(to) => Err(format!(
-            "the pressure is {:.4} MPa already: a hold keeps it",
-            1e-6 * to
+            "the pressure is {} already: a hold keeps it",
+            summary::pressure(to, 4)
         )),
         (Press::Hold, Some(at)) if set.is_some() && kept != Some(at) => Err(format!(
-            "it is at {:.4} MPa and the stage before ends at {:.4} MPa: a ramp between them is needed",
-            1e-6 * at,
-            1e-6 * kept.unwrap_or(0.0)
+            "it is at {} and the stage before ends at {}: a ramp between them is needed",
+            summary::pressure(at, 4),
+            summary::pressure(kept.unwrap_or(0.0), 4)
         )),
         (Press::Hold, None) => (kept.filter(|kept| *kept > 0.0))
             .map(Some)

@@ -266,6 +266,11 @@ fn walls_bodies_and_ends_of_every_kind() {
         "load control constant closing speed",
     ];
     says(&[("max_pressure = \"2.5 MPa\"\n", "")], &[], &unlimited);
+    says(
+        &[("2.5 MPa", "10 Pa")],
+        &[],
+        &["clamp 2 m/s, at most 10 Pa\n"],
+    );
 }
 
 /// Four points a cell in plane strain. Boxes of liquid that touch share a face, which is no place.

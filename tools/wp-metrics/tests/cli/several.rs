@@ -65,9 +65,10 @@ fn what_has_no_mean_is_refused() {
 #[test]
 fn a_fit_tells_its_tilt_behind_all_columns() {
     let table = crate::bench().run("specimen.mpts --reference fit").output();
-    let header = format!("{HEADER},tilt_x_deg,tilt_y_deg,tilt_z_deg");
+    let errors = "tilt_x_error_deg,tilt_y_error_deg,tilt_z_error_deg";
+    let header = format!("{HEADER},tilt_x_deg,tilt_y_deg,tilt_z_deg,{errors}");
     assert_eq!(table.lines().next(), Some(&*header));
     for row in rows(&table) {
-        assert_eq!(row[11..], ["0.0000"; 3]);
+        assert_eq!(row[11..], ["0.0000"; 6]);
     }
 }

@@ -72,6 +72,8 @@ fn standard_input_standard_output_and_crops() {
     let piped = piped.wait_with_output().unwrap();
     assert_eq!(piped.status.code(), Some(0));
     assert_eq!(piped.stdout, redirected.stdout);
+    let said = String::from_utf8(redirected.stderr).unwrap();
+    assert!(said.contains(", cropped to 64 x 7 x 3 voxels\n"), "{said}");
     let file = ParticleFile::from_bytes(&piped.stdout).unwrap();
     assert_eq!(counts(&file), [64 * 3, 64 * 5 * 3]);
     assert_eq!(file.header().attribute("crop"), Some("6:70,4:11,0:3"));
