@@ -1,7 +1,7 @@
 # Stage 3: the runs of each adhesive. They are independent, so they share the cores side by side, each with so many threads
 # as leave no core idle (RUN_THREADS; goal.sh). Of user's stacks implicit runs alone: others take days.
 
-RUNS := $(if $(OWN),,xpic flip frictionless) implicit implicit-frictionless
+RUNS := implicit implicit-frictionless $(if $(OWN),,xpic flip frictionless)
 # The cases have the paper's cells, two voxels.
 CELL ?=
 COARSE = $(if $(CELL),--set grid.cell=$(call q,$(CELL)))

@@ -31,8 +31,9 @@ NAME_implicit := partial slip, implicit
 NAME_implicit-frictionless := frictionless, implicit
 NAME_experiment := $(if $(XCT_PF)$(XCT_PVA_PF),experiment,synthetic experiment)
 
-# The run that three-dimensional views of a press, shear rates and slices are drawn of.
-SHOWN := $(firstword $(filter xpic,$(RUNS)) $(RUNS))
+# The run that three-dimensional views of a press, shear rates and slices are drawn of: the implicit one, whose walls are
+# the wood's.
+SHOWN := $(firstword $(filter implicit,$(RUNS)) $(RUNS))
 # Undamaged wood is no experiment, and its bond no stack that was parted.
 OF_ONE := press $(if $(EXPERIMENTS),setup) grid pressure adhesive map shear slice start
 FIGURES = $(foreach a,$(ADHESIVES),$(OF_ONE:%=$(OUT)/figures/$(a)-%.$(FIRST))) \

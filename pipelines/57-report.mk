@@ -7,15 +7,13 @@ CAPTION_map := Weighted penetration over the bond plane
 CAPTION_shear := Shear rate against time, $(SHOWN)
 CAPTION_slice := Slice through the end, $(SHOWN)
 CAPTION_start := Slice through the start
-CAPTION_press := Start, middle and end in three dimensions, $(SHOWN)
+CAPTION_press := Start, middle and end in three dimensions, $(SHOWN); adhesive in orange, the nearer half of the wood cut away
 CAPTION_setup := How the bond is set up
 CAPTION_grid := The grid over the voxels
 CAPTION_adhesive := The adhesive alone, experiment and runs
 CAPTION_table2 := Table 2
 CAPTION_film := Film on an incline, points and profiles
 picture_caption = $(CAPTION_$(1)) $(foreach a,$(ADHESIVES),$(if $(filter $(a)-%,$(1)),$(NAME_$(a)): $(or $(CAPTION_$(1:$(a)-%=%)),$(1:$(a)-%=%))))
-# The run that is shown in 3D: the implicit one, whose walls are the wood's.
-SEEN := $(firstword $(filter implicit,$(RUNS)) $(RUNS))
 # The first two stand in the summary.
 DRAWN = $(filter %.svg %.png,$(FIGURES))
 FOREMOST = $(foreach a,$(firstword $(ADHESIVES)),$(filter %/$(a)-press.$(FIRST) %/$(a)-pressure.$(FIRST),$(DRAWN)))
@@ -26,11 +24,12 @@ report: $(REPORT)
 	@echo "report: $(REPORT)"
 
 $(REPORT): private READS = $(foreach file,summary.json resolved.toml,$(FINALS:final.mpts=$(file)))
-$(REPORT): $(METRICS) $(FIGURES) $(FINALS) $(BIN)/bond-report FORCE
+$(REPORT): $(METRICS) $(EXPERIMENT_TABLES) $(FIGURES) $(FINALS) $(BIN)/bond-report FORCE
 	$(call made,$(BIN)/bond-report --title "Adhesive pressed into wood: $(notdir $(OUT))" \
+	    $(foreach a,$(ADHESIVES),$(call experiment,$(a),--experiment ,.csv)) \
 	    $(foreach a,$(ADHESIVES),$(foreach r,$(RUNS),--run "$(NAME_$(a)) $(r)=$(OUT)/$(a)/$(r)")) \
 	    $(foreach p,$(SHOWN_PICTURES),--picture "$(strip $(call picture_caption,$(basename $(notdir $(p)))))=$(p)") \
-	    $(foreach a,$(ADHESIVES),--state "$(NAME_$(a)) $(SEEN) at the end=$(OUT)/$(a)/$(SEEN)/final.mpts") -o $@)
+	    $(foreach a,$(ADHESIVES),--state "$(NAME_$(a)) $(SHOWN) at the end=$(OUT)/$(a)/$(SHOWN)/final.mpts") -o $@)
 
 all: $(OUT)/table2.csv $(FIGURES) $(REPORT)
 	$(show_table2)

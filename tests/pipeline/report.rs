@@ -14,7 +14,7 @@ fn reported() -> Workbench {
          bond-figures pressure -q --run run -o pressure.svg
          cp wp.csv run
          bond-figures slice -q run/final.mpts -o slice.png
-         bond-report -q --title 'A <script>alert(1)</script> & \"b\"' --run '<b>implicit=run' \
+         bond-report -q --title 'A <script>alert(1)</script> & \"b\"' --run '<b>implicit=run' --experiment '<b>measured=wp.csv' \
              --table 'Table 2=table2.csv' --picture Pressure=pressure.svg --picture Slice=slice.png \
              --state end=run/final.mpts -o report.html",
     );
@@ -35,7 +35,7 @@ fn the_page_holds_all_that_was_given_and_asks_no_network() {
         "<link",
         "<iframe",
         "<script>alert",
-        "<b>implicit",
+        "<b>",
         "<i>",
         "&quot;verdict&quot;",
         "&quot;xxh3&quot;",
@@ -59,6 +59,7 @@ fn the_page_holds_all_that_was_given_and_asks_no_network() {
         "voxels of ",
         "<td>closed</td>",
         "Weighted penetration (um)",
+        "<th scope=\"row\">&lt;b&gt;measured</th>",
     ] {
         assert!(head.contains(told), "{told}");
     }
@@ -71,6 +72,25 @@ fn the_page_holds_all_that_was_given_and_asks_no_network() {
     bench.ends(2, "bond-report --run run -o run/summary.json", "");
 }
 
+/// A run in cells of its case beside one of the same press that is extrapolated.
+#[test]
+fn runs_without_an_error_are_held_against_the_extrapolated_one() {
+    let bench = Workbench::with_bond();
+    bench.press("run", &[IMPLICIT], "");
+    bench.done("cp -r run plain");
+    let wp = bench.measured("run/final.mpts").column("wp_um");
+    let rows = ["bottom", "top", "total"].iter().zip(&wp);
+    let rows = rows.map(|(side, wp)| format!("{side},{wp},{},0.1\n", 0.8 * wp));
+    let header = "side,wp_um,wp_extrapolated_um,wp_error_um\n";
+    bench.write("run/wp.csv", header.to_owned() + &rows.collect::<String>());
+    bench.done("bond-report --run best=run --run plain -o page.html");
+    let page = bench.text("page.html");
+    let off = format!("plain by +{:.2} um (+25 %) from best.", 0.2 * wp[2]);
+    assert!(page.contains(&off), "{off}");
+    assert!(!page.contains("is not known (wp-metrics"));
+    assert!(page.contains("sqrt(bottom^2 + top^2)/2"));
+}
+
 #[test]
 fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
     let bench = Workbench::new();
@@ -81,8 +101,12 @@ fn runs_that_failed_or_have_not_ended_are_shown_with_their_sentence() {
     }
     let summary = r#"{"end": "failed", "verdict": {"sound": false, "reasons": ["step 7: too <fast>"]}, "steps": 6}"#;
     bench.write("failed/summary.json", summary);
+    // Of the run before, in the same folder.
+    let table = "side,wp_um\nbottom,7.77\ntop,7.77\ntotal,7.77\n";
+    bench.write("killed/wp.csv", table);
     bench.done("bond-report --run failed --run killed -o page.html");
     let page = bench.text("page.html");
+    assert!(!page.contains("7.77"));
     for told in [
         "failed: failed: step 7: too &lt;fast&gt;",
         "killed: not ended: mpm-run with --resume goes on",
@@ -133,7 +157,9 @@ fn a_browser_shows_the_page_and_turns_its_pictures_into_views() {
     let bench = reported();
     let shown = opened(&bench, browser);
     let page = String::from_utf8_lossy(&shown.stdout);
-    for wanted in ["data-view=\"ready\"", "<canvas", "cut wood"] {
+    // Paper has the picture of a view.
+    let picture = "<img alt=\"end: ";
+    for wanted in ["data-view=\"ready\"", "<canvas", "cut wood", picture] {
         assert!(page.contains(wanted), "no {wanted}: {}", said(&shown));
     }
     let told = said(&shown);
@@ -147,6 +173,6 @@ fn a_browser_shows_the_page_and_turns_its_pictures_into_views() {
     );
     let plain = opened(&bench, browser);
     let page = String::from_utf8_lossy(&plain.stdout);
-    assert!(page.contains("<h2>Summary</h2>") && page.contains("<img alt=\"end: "));
+    assert!(page.contains("<h2>Summary</h2>") && page.contains(picture));
     assert!(!page.contains("<canvas"), "{}", said(&plain));
 }

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use crate::Case;
-use crate::known::{Known, QUANTITIES};
+use crate::known::{Known, QUANTITIES, Quantity, signed};
 use crate::table2::{Row, Table2, number};
 
 /// The first of the quantities that Table 2 does not have.
@@ -88,13 +88,14 @@ impl Table2 {
     }
 
     fn cell(&self, row: &Row, quantity: usize) -> String {
-        let places = QUANTITIES[quantity].decimals;
+        let Quantity { unit, decimals, .. } = QUANTITIES[quantity];
         let known = row.known[quantity];
         match self.reference(row, quantity) {
             Some((_, best)) if known.as_run.is_finite() => {
-                format!("{:+.places$}", known.as_run - best.extrapolated)
+                signed(known.as_run - best.extrapolated, decimals)
             }
-            None if known.has_error() => known.told(places).join(" +- "),
+            None if known.has_error() && unit == "MPa" => known.told_pressure(decimals, " +- "),
+            None if known.has_error() => known.told(decimals).join(" +- "),
             _ => "-".into(),
         }
     }

@@ -82,7 +82,14 @@ pub fn closing(
     let mut drawing = Drawing::new(page, width, height);
     drawing.lines(&title, [0.5 * width, 20.0], Anchor::Centre, NORMAL + 2.0);
     let sample = |drawing: &mut Drawing, i: usize, ends| match i.checked_sub(runs.len()) {
-        Some(band) => drawing.area(patch(ends), bands[band].1),
+        Some(band) => {
+            let (shades, [[left, y], [right, _]]) = (&bands[band].1, ends);
+            let wide = (right - left) / shades.len() as f64;
+            for (k, shade) in shades.iter().enumerate() {
+                let left = left + wide * k as f64;
+                drawing.area(patch([[left, y], [left + wide, y]]), *shade);
+            }
+        }
         None => Stroke::of_series(i).draw(drawing, &ends),
     };
     legend.draw(&mut drawing, [left, title_height], sample);
@@ -136,15 +143,17 @@ fn read(
     Ok(runs)
 }
 
-/// Kinds of bands that there are, and how they look in the key.
-fn bands(runs: &[Course]) -> Vec<(&'static str, RGBAColor)> {
+/// Kinds of bands that there are, and their shades.
+fn bands(runs: &[Course]) -> Vec<(&'static str, Vec<RGBAColor>)> {
     let kind = |(label, converged)| {
         let has = |run: &Course| run.band.iter().any(|at| at.converged == converged);
-        let run = runs.iter().position(has)?;
-        Some((label, shade(run, converged)))
+        let shaded = (0..runs.len()).filter(|&i| has(&runs[i]));
+        let mut shades: Vec<RGBAColor> = shaded.map(|i| shade(i, converged)).collect();
+        shades.dedup();
+        (label, shades)
     };
-    let kinds = [(BAND, true), (UNSETTLED, false)];
-    kinds.into_iter().filter_map(kind).collect()
+    let kinds = [(BAND, true), (UNSETTLED, false)].map(kind).into_iter();
+    kinds.filter(|(_, shades)| !shades.is_empty()).collect()
 }
 
 impl Axes {

@@ -15,6 +15,9 @@ pub struct Known {
     pub error: f64,
 }
 
+/// Relative error of a pressure below which it is the one that the clamp holds.
+const HELD: f64 = 2e-4;
+
 /// A quantity and where a table has it.
 pub(crate) struct Quantity {
     pub(crate) name: &'static str,
@@ -109,11 +112,47 @@ impl Known {
     /// The best that is known of it and, where there is one, its error, as texts.
     pub fn told(self, decimals: usize) -> Vec<String> {
         let error = Some(self.error).filter(|_| self.has_error());
+        let error = error.map(|error| format!("{error:.decimals$}"));
         match self.best() {
-            best if best.is_finite() => ([best].into_iter().chain(error))
-                .map(|number| format!("{number:.decimals$}"))
-                .collect(),
+            best if best.is_finite() => [fixed(best, decimals)].into_iter().chain(error).collect(),
             _ => vec!["-".into()],
         }
+    }
+
+    /// The same of a pressure, with `between` before its error. Two sizes of cells agree to [`HELD`] where the clamp
+    /// holds it.
+    pub fn told_pressure(self, decimals: usize, between: &str) -> String {
+        match self.error <= HELD * self.extrapolated {
+            true => format!("{:.decimals$} at the limit", self.extrapolated),
+            false => self.told(decimals).join(between),
+        }
+    }
+}
+
+/// A number with so many decimals; 0 where they are all zero.
+pub fn fixed(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
+    match text.parse() {
+        Ok(0.0) => "0".into(),
+        _ => text,
+    }
+}
+
+/// The same with a sign where it is above zero.
+pub fn signed(number: f64, decimals: usize) -> String {
+    match fixed(number, decimals) {
+        text if number > 0.0 && text != "0" => format!("+{text}"),
+        text => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_rounds_to_zero_is_0() {
+        assert_eq!([fixed(-4e-4, 3), signed(4e-4, 3)], ["0", "0"]);
+        assert_eq!([signed(0.25, 2), signed(-1.0, 1)], ["+0.25", "-1.0"]);
     }
 }

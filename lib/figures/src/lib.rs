@@ -49,7 +49,7 @@ pub use closing::closing;
 pub use clouds::{Clouds, Spot};
 pub use column_name::worded;
 pub use drawing::{Drawing, TextBox};
-pub use known::Known;
+pub use known::{Known, fixed, signed};
 pub use movie::movie;
 pub use page::Page;
 pub use penetration::{Shown, penetrations};
@@ -61,7 +61,7 @@ pub use setup::setup;
 pub use shear_rate::shear_rates;
 pub use slice::{Colouring, Cut, Position, Slices};
 pub use table::Table;
-pub use table2::{Case, Table2};
+pub use table2::{Case, ERRORS, Table2};
 pub use view::{Direction, Views, Wood};
 pub use wp_map::wp_maps;
 

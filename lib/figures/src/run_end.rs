@@ -93,7 +93,8 @@ impl RunEnd {
             _ if !self.sound => Some("not sound".into()),
             _ if open => {
                 let percent = 100.0 * self.gap_share;
-                Some(format!("not closed, {percent:.0} % of the gap left"))
+                let digits = usize::from(percent < 1.0);
+                Some(format!("not closed, {percent:.digits$} % of the gap left"))
             }
             "time-limit" => Some("not closed".into()),
             _ => None,
@@ -196,6 +197,8 @@ mod tests {
         for closed in ["closed", "time"] {
             assert_eq!(RunEnd::of(&summary(closed, 0.0)).mark(), None);
         }
+        let nearly = RunEnd::of(&summary("set", 2e-8));
+        assert_eq!(nearly.mark().unwrap(), "not closed, 0.2 % of the gap left");
         let set = RunEnd::of(&summary("set", 1e-6));
         assert_eq!(set.mark().unwrap(), "not closed, 10 % of the gap left");
         assert!(!set.advice().unwrap().contains("--set"));

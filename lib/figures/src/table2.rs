@@ -88,7 +88,8 @@ const FINAL: &str = "final.mpts";
 /// Most bytes of a record beside a table.
 const MOST_BYTES: u64 = 1 << 20;
 /// What the numbers are, in the table for reading.
-pub(crate) const ERRORS: &str = "with \u{b1}: extrapolated to infinitely small cells (first order); the error is the difference of two sizes of cells";
+pub const ERRORS: &str = "with \u{b1}: extrapolated to infinitely small cells (first order); error: the difference of two sizes \
+    of cells, of the total at least sqrt(bottom^2 + top^2)/2 of the sides' errors";
 
 impl Table2 {
     /// Reads the cases, sorted by adhesive in the order of first mention. A case named as in

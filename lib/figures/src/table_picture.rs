@@ -40,7 +40,7 @@ impl Column {
             [] => self.drawing.width - MARGIN,
             _ => first,
         };
-        let lines = measure::lines(name, size, free - left, 3);
+        let lines = measure::lines(name, size, free - left, 5);
         self.y += 0.5 * ROW;
         (self.drawing).lines(&lines, [left, self.y], Anchor::Left, size);
         for (i, cell) in cells.iter().enumerate() {

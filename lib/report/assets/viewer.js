@@ -1,4 +1,4 @@
-// Turns the pictures of scenes into views that can be turned. Without it the pictures stay.
+// Shows scenes as views that can be turned. Without it, and on paper, their pictures stay.
 (() => {
   "use strict";
   const VERTEX = `
@@ -147,7 +147,7 @@
       distance * Math.cos(azimuth) * Math.cos(elevation),
     );
     look(turn, tilt, 2.2 * size);
-    image.replaceWith(canvas);
+    image.before(canvas);
     const orbit = new OGL.Orbit(camera, { element: canvas, target: new OGL.Vec3(), enabled: false, minDistance: 0.3 * size, maxDistance: 6 * size });
     // The wheel moves the page until the view is taken hold of.
     canvas.addEventListener("pointerdown", () => { orbit.enabled = true; canvas.focus(); });
@@ -201,5 +201,4 @@
   for (const figure of document.querySelectorAll("figure.scene")) {
     view(figure).catch((error) => { figure.dataset.view = "failed: " + error; });
   }
-  addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((d) => { d.open = true; }));
 })();

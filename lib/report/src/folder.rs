@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use figures::{Known, RunEnd, Table};
+use figures::{Known, RunEnd, Table, fixed};
 use particle_file::ParticleFile;
 use serde_json::Value;
 
@@ -12,6 +12,9 @@ use crate::{Error, Labelled, html, read_text};
 const MOST_BYTES: u64 = 1 << 20;
 /// How far the table beside a run may be from what the run says of itself: else it is another state's.
 const SAME: f64 = 1e-3;
+
+/// What a state is called; WP of its bottom, its top and in total, um.
+pub type Measured = (String, [Known; 3]);
 
 /// A run folder.
 pub struct RunFolder {
@@ -57,16 +60,15 @@ impl RunFolder {
         if beside.is_file() {
             let [bottom, top, total, .., last] = Known::read(&Table::read(&beside)?)?;
             let found = [bottom, top, total];
-            let far = |(own, found): (&Known, &Known)| {
-                (found.as_run - own.as_run).abs() > SAME * found.as_run
+            let near = |(own, found): (&Known, &Known)| {
+                let [own, found] = [own.as_run, found.as_run];
+                (found - own).abs() <= SAME * found || own.is_nan() && found.is_nan()
             };
-            if !wp.iter().zip(&found).any(far) {
+            if wp.iter().zip(&found).all(near) {
                 wp = found;
-                pressure = if last.best().is_finite() {
-                    last
-                } else {
-                    pressure
-                };
+                if last.best().is_finite() {
+                    pressure = last;
+                }
             }
         }
         let state = ParticleFile::open(folder.path.join("final.mpts")).ok();
@@ -234,10 +236,19 @@ impl RunFolder {
     }
 }
 
+/// What was measured of a state that is no run's: WP of the bottom, the top and in total, by `wp-metrics`.
+///
+/// # Errors
+/// An unreadable table, or none of `wp-metrics`.
+pub fn measured(file: &Labelled) -> Result<Measured, Error> {
+    let [bottom, top, total, ..] = Known::read(&Table::read(&file.path)?)?;
+    Ok((file.label.clone(), [bottom, top, total]))
+}
+
 /// A number times `unit`, with so many decimals.
 fn number(value: &Value, unit: f64, decimals: usize) -> String {
     let value = value.as_f64();
-    value.map_or("-".into(), |x| format!("{:.decimals$}", x * unit))
+    value.map_or("-".into(), |x| fixed(x * unit, decimals))
 }
 
 /// Some members of each object.

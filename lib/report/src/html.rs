@@ -1,5 +1,7 @@
 //! Pieces of HTML.
 
+use figures::fixed;
+
 /// Text as HTML, inside of elements and of quoted attributes.
 pub(crate) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -43,18 +45,22 @@ pub(crate) fn table(caption: &str, headers: &[impl AsRef<str>], rows: &[Vec<Stri
     out + "</tbody></table></div>\n"
 }
 
-/// `7.8`, `7.8 um`, `7.8 ± 0.2`.
+/// `7.8`, `7.8 um`, `7.8 ± 0.2`, `7.8 at the limit`, `2026-11-26`.
 fn is_number(text: &str) -> bool {
     let words: Vec<&str> = text.split_whitespace().collect();
-    let first = words.first().and_then(|word| word.parse::<f64>().ok());
-    first.is_some() && (words.len() <= 2 || words[1] == "\u{b1}")
+    let first = words.first().copied().unwrap_or_default();
+    first.contains(|c: char| c.is_ascii_digit())
+        && first
+            .chars()
+            .all(|c| c.is_ascii_digit() || "+-.e".contains(c))
+        && (words.len() <= 2 || matches!(words[1], "\u{b1}" | "at"))
 }
 
 /// A number to four digits; a whole one whole.
 pub(crate) fn rounded(number: f64) -> String {
     let size = number.abs();
     match () {
-        () if number.fract() == 0.0 && size < 1e9 => format!("{number:.0}"),
+        () if number.fract() == 0.0 && size < 1e9 => fixed(number, 0),
         () if (1e-3..1e6).contains(&size) => {
             let decimals = (3.0 - size.log10().floor()).max(0.0) as usize;
             format!("{number:.decimals$}")
@@ -91,12 +97,15 @@ mod tests {
 
     #[test]
     fn numbers_stand_right_and_are_rounded() {
-        assert!(is_number("14.57 us") && is_number("5.78 ± 0.35"));
+        for number in ["14.57 us", "5.78 ± 0.35", "2.50 at the limit", "2026-11-26"] {
+            assert!(is_number(number), "{number}");
+        }
         assert!(!is_number("1 m/s, at most 2.5 MPa") && !is_number(""));
         for (number, text) in [
             (7.801234, "7.801"),
             (-0.012345, "-0.01235"),
             (12288.0, "12288"),
+            (-0.0, "0"),
             (9.2154e-5, "9.215e-5"),
         ] {
             assert_eq!(rounded(number), text);

@@ -16,7 +16,7 @@ use std::io::Read;
 use std::path::Path;
 
 pub use figures::{Error, Labelled};
-pub use folder::RunFolder;
+pub use folder::{Measured, RunFolder, measured};
 pub use picture::picture;
 pub use scene::scene;
 pub use table::table;
@@ -26,6 +26,8 @@ pub use table::table;
 pub struct Report {
     /// Its title.
     pub title: String,
+    /// Experiments, as [`measured`] reads them.
+    pub experiments: Vec<Measured>,
     /// Run folders.
     pub runs: Vec<RunFolder>,
     /// CSV tables, as [`table`] makes them.

@@ -51,7 +51,7 @@ pub fn scene(file: &Labelled) -> Result<String, Error> {
     let label = escape(&file.label);
     let detail = escape(&window.told(labels.dims, labels.voxel_m));
     Ok(format!(
-        "<figure class=\"scene\"><img alt=\"{label}: pressed bond seen from above and aside; adhesive in orange, the nearer half of the wood cut away\" src=\"data:image/png;base64,{picture}\">\n<script type=\"application/json\">{data}</script>\n<figcaption>{label}: {detail}.</figcaption></figure>\n"
+        "<figure class=\"scene\"><img alt=\"{label}: pressed bond seen from above and aside\" src=\"data:image/png;base64,{picture}\">\n<script type=\"application/json\">{data}</script>\n<figcaption>{label}: adhesive in orange, the nearer half of the wood cut away; {detail}.</figcaption></figure>\n"
     ))
 }
 

@@ -7,7 +7,7 @@ use particle_file::ParticleFile;
 use toml::{Table, Value};
 
 /// What a run pressed. Runs of the same are told of together.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Setup {
     pub(crate) specimen: String,
     /// Whether a program grew the specimen.
@@ -17,6 +17,10 @@ pub(crate) struct Setup {
     pub(crate) press: String,
     /// Of the run's summary.
     pub(crate) date: String,
+    /// Of the specimen's file.
+    hash: Option<u64>,
+    /// Adhesive and contact, as the case has them.
+    tables: [Option<Value>; 2],
 }
 
 /// Laws of viscosity, and effects, by their tables in a case.
@@ -44,6 +48,7 @@ impl Setup {
             adhesive: format!("{case}: {}", adhesive(&resolved)),
             press: press(&resolved),
             date: date(&folder.join("summary.json")).unwrap_or_else(|| "-".into()),
+            tables: ["adhesive", "contact"].map(|table| resolved.get(table).cloned()),
             ..Self::default()
         };
         if let Ok(file) = ParticleFile::open(folder.join("final.mpts")) {
@@ -52,10 +57,17 @@ impl Setup {
         setup
     }
 
+    /// Whether another run is known to press the same specimen with the same adhesive, whatever its scheme and cells.
+    pub(crate) fn is_pressed_as<'a>(&'a self, other: &'a Self) -> bool {
+        let of = |setup: &'a Self| (setup.hash, &setup.press, &setup.tables);
+        self.hash.is_some() && of(self) == of(other)
+    }
+
     fn of_state(&mut self, file: &ParticleFile) {
         let header = file.header();
         let first = header.provenance.first();
-        if let Some((path, _)) = first.and_then(|made| made.inputs.first()) {
+        if let Some((path, hash)) = first.and_then(|made| made.inputs.first()) {
+            self.hash = Some(*hash);
             let name = Path::new(path).file_name().unwrap_or_default();
             self.specimen = name.to_string_lossy().into_owned();
             let record = std::fs::read_to_string(format!("{path}.provenance.json"));

@@ -1,10 +1,10 @@
 //! The first section of the page: what was pressed, what came of it, what to doubt.
 
-use figures::{Known, RunEnd};
+use figures::{ERRORS, Known, RunEnd, signed};
 
 use crate::html::{escape, table, verbatim};
 use crate::setup::Setup;
-use crate::{Report, RunFolder};
+use crate::{Measured, Report, RunFolder};
 
 /// Pictures that stand in the summary.
 pub(crate) const PICTURES: usize = 2;
@@ -19,9 +19,10 @@ pub(crate) fn write(report: &Report) -> String {
         true => pictures,
         false => format!("<div class=\"pair\">\n{pictures}</div>\n"),
     };
+    let penetration = penetration(&report.experiments, runs);
     match runs {
-        [] => pictures,
-        runs => pressed(runs) + &penetration(runs) + &pictures + &doubts(runs),
+        [] => penetration + &pictures,
+        runs => pressed(runs) + &penetration + &pictures + &doubts(runs),
     }
 }
 
@@ -51,24 +52,30 @@ fn pressed(runs: &[RunFolder]) -> String {
     table("What was pressed", &headers, &rows)
 }
 
-fn penetration(runs: &[RunFolder]) -> String {
-    let row = |run: &RunFolder| {
-        let mut row = vec![run.label.clone()];
-        let known = run.wp.iter().chain([&run.pressure]);
-        row.extend(known.map(|known| known.told(2).join(" \u{b1} ")));
-        row.push(run.end.mark().unwrap_or_else(|| ended(&run.end)));
-        row
+fn penetration(experiments: &[Measured], runs: &[RunFolder]) -> String {
+    let wp = |known: &[Known; 3]| known.map(|known| known.told(2).join(" \u{b1} "));
+    let experiment = |(label, known): &Measured| {
+        let nothing = ["-", "-"].map(String::from);
+        [vec![label.clone()], wp(known).to_vec(), nothing.to_vec()].concat()
     };
-    let rows: Vec<Vec<String>> = runs.iter().map(row).collect();
+    let run = |run: &RunFolder| {
+        let pressure = run.pressure.told_pressure(2, " \u{b1} ");
+        let end = run.end.mark().unwrap_or_else(|| ended(&run.end));
+        let label = vec![run.label.clone()];
+        [label, wp(&run.wp).to_vec(), vec![pressure, end]].concat()
+    };
+    let rows = experiments.iter().map(experiment);
+    let rows: Vec<Vec<String>> = rows.chain(runs.iter().map(run)).collect();
+    if rows.is_empty() {
+        return String::new();
+    }
     let pressure = "pressure at the end (MPa)";
     let headers = ["run", "bottom", "top", "total", pressure, "press"];
     let note = match runs.iter().any(|run| run.wp[2].has_error()) {
-        true => {
-            "<p class=\"note\">With \u{b1}: extrapolated to infinitely small cells (first order); the error is the difference of two sizes of cells. Others: as run.</p>\n"
-        }
-        false => "",
+        true => format!("<p class=\"note\">{ERRORS}; others: as run</p>\n"),
+        false => String::new(),
     };
-    table("Weighted penetration (um)", &headers, &rows) + note
+    table("Weighted penetration (um)", &headers, &rows) + &note
 }
 
 /// How a run ended against which nothing is to be said.
@@ -80,6 +87,17 @@ fn ended(end: &RunEnd) -> String {
         "programme" => format!("{closed}, programme over"),
         _ => closed.to_owned(),
     }
+}
+
+/// Label and extrapolated total WP of a run of the same press as one that has none.
+fn best_of<'a>(runs: &'a [RunFolder], run: &RunFolder) -> Option<(&'a str, f64)> {
+    let known = |other: &&RunFolder| other.wp[2].has_error();
+    let mut others = runs.iter().filter(known);
+    let same = |other: &&RunFolder| other.setup.is_pressed_as(&run.setup);
+    let best = others
+        .find(same)
+        .filter(|_| !known(&run) && run.wp[2].best().is_finite())?;
+    Some((&best.label, best.wp[2].best()))
 }
 
 fn doubts(runs: &[RunFolder]) -> String {
@@ -100,8 +118,10 @@ fn doubts(runs: &[RunFolder]) -> String {
         let labels: Vec<&str> = (runs.iter().filter(|run| is(run)))
             .map(|run| run.label.as_str())
             .collect();
-        if !labels.is_empty() {
-            items.push(escape(&format!("{said}: {}.", labels.join(", "))));
+        match labels.len() {
+            0 => {}
+            n if n > 1 && n == runs.len() => items.push(format!("{said}: all runs.")),
+            _ => items.push(escape(&format!("{said}: {}.", labels.join(", ")))),
         }
     };
     say(
@@ -126,8 +146,22 @@ fn doubts(runs: &[RunFolder]) -> String {
     );
     say(
         "The error by the size of the cells is not known (wp-metrics --finer tells it)",
-        &|run| !run.wp[2].has_error(),
+        &|run| !run.wp[2].has_error() && best_of(runs, run).is_none(),
     );
+    let off = runs.iter().filter_map(|run| {
+        let (label, best) = best_of(runs, run)?;
+        let by = run.wp[2].as_run - best;
+        let share = signed(100.0 * by / best, 0);
+        let by = signed(by, 2);
+        Some(format!("{} by {by} um ({share} %) from {label}", run.label))
+    });
+    let off: Vec<String> = off.collect();
+    if !off.is_empty() {
+        let off = escape(&off.join("; "));
+        items.push(format!(
+            "Total WP that is not extrapolated is off from that of the same press: {off}."
+        ));
+    }
     items.push("How well either scheme predicts a real bond line is not known: no scanned one was at hand.".into());
     let items = items.iter().map(|item| format!("<li>{item}</li>\n"));
     let items: String = items.collect();

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use cli::{Failure, InputRecord, Output, Record};
-use report::{Error, Labelled, Report, RunFolder, picture, scene, table};
+use report::{Error, Labelled, Report, RunFolder, measured, picture, scene, table};
 
 /// Put runs, tables and pictures into one HTML page that needs no network
 #[derive(Parser)]
@@ -35,6 +35,9 @@ struct Arguments {
     /// A run folder; may be repeated
     #[arg(long, value_name = "[LABEL=]RUNDIR", value_parser = labelled())]
     run: Vec<Labelled>,
+    /// The CSV of wp-metrics of a measured specimen, for a row above the runs; may be repeated
+    #[arg(long, value_name = "[LABEL=]CSV", value_parser = labelled())]
+    experiment: Vec<Labelled>,
     /// A CSV table, of at most 1000 rows; may be repeated
     #[arg(long, value_name = "[CAPTION=]CSV", value_parser = labelled())]
     table: Vec<Labelled>,
@@ -59,12 +62,13 @@ fn start(arguments: Arguments) -> Result<(), Failure> {
     let inputs = inputs(&arguments);
     if inputs.is_empty() {
         return Err(Failure::usage(
-            "nothing to report on: give --run, --table, --picture or --state",
+            "nothing to report on: give --run, --experiment, --table, --picture or --state",
         ));
     }
     cli::keep_apart_with_records(inputs.iter().map(PathBuf::as_path), [&arguments.output])?;
     let mut report = Report {
         title: arguments.title,
+        experiments: all(&arguments.experiment, measured)?,
         runs: all(&arguments.run, RunFolder::read)?,
         tables: all(&arguments.table, table)?,
         pictures: all(&arguments.picture, picture)?,
@@ -101,7 +105,12 @@ fn all<T>(given: &[Labelled], read: fn(&Labelled) -> Result<T, Error>) -> Result
 fn inputs(arguments: &Arguments) -> Vec<PathBuf> {
     let files = |run: &Labelled| RunFolder::FILES.map(|name| run.path.join(name));
     let of_runs = arguments.run.iter().flat_map(files);
-    let others = [&arguments.table, &arguments.picture, &arguments.state];
+    let others = [
+        &arguments.experiment,
+        &arguments.table,
+        &arguments.picture,
+        &arguments.state,
+    ];
     let others = others.into_iter().flatten().map(|file| file.path.clone());
     of_runs.chain(others).collect()
 }

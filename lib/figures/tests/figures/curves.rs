@@ -85,13 +85,14 @@ fn the_band_of_a_finer_run_reaches_from_the_line_beyond_the_extrapolation() {
     let unknown = draw(&fine).unwrap_err();
     assert!(matches!(unknown, Error::Request(said) if said.contains("the label of no run")));
     fine.label = "a".into();
-    let (width, pixels) = pixels(&draw(&fine).unwrap());
-    let column = |row: usize| pixels[row * width + width / 2 + 30];
-    // A quarter of the blue over white, which no line has.
-    let near = |row: &usize| {
-        let mut channels = column(*row).into_iter().zip(BLUE);
+    let (width, drawn) = pixels(&draw(&fine).unwrap());
+    let column = |row: usize| drawn[row * width + width / 2 + 30];
+    // A quarter of a series over white, which no line has.
+    let shaded = |pixel: [u8; 3], series: [u8; 3]| {
+        let mut channels = pixel.into_iter().zip(series);
         channels.all(|(found, c)| u32::from(found).abs_diff((u32::from(c) + 3 * 255) / 4) <= 2)
     };
+    let near = |row: &usize| shaded(column(*row), BLUE);
     let band: Vec<usize> = (60..680).filter(near).collect();
     let line: Vec<usize> = (60..680).filter(|row| column(*row) == BLUE).collect();
     let (top, bottom, line) = (band[0], band[band.len() - 1], line[line.len() / 2]);
@@ -99,6 +100,18 @@ fn the_band_of_a_finer_run_reaches_from_the_line_beyond_the_extrapolation() {
     // The line stands at 1.0, the band from there to 1.6, of an axis to 1.12 times that in 600 rows.
     let height = (line - top) as f64 / 600.0 * 1.12 * 1.6;
     assert!(line - bottom < 8 && (height - 0.6).abs() < 0.01, "{height}");
+    // The shades of all bands stand in the key, which is 24 high.
+    let other = |of: &Labelled| {
+        let (label, path) = ("b".to_owned(), of.path.clone());
+        [of.clone(), Labelled { label, path }]
+    };
+    let both = closing(&other(&run), &other(&fine), None, "", Page::default());
+    let (width, drawn) = pixels(&both.unwrap());
+    for series in [BLUE, VERMILION] {
+        let key = drawn[..2 * 34 * width].iter();
+        let found = key.filter(|pixel| shaded(**pixel, series)).count();
+        assert!(found > 300, "{series:?}: {found} pixels");
+    }
 }
 
 #[test]

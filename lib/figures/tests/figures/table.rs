@@ -87,6 +87,7 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         case("frictionless", &plain),
         case("implicit", &finer(7.65)),
         case("implicit-frictionless", &finer(6.0).replace("7.15", "6.5")),
+        case("held", &finer(6.0).replace("2.1e6,3e5", "2.5e6,4e0")),
     ];
     let table = Table2::read(&runs).unwrap();
     assert!(table.has_cell_errors());
@@ -104,13 +105,21 @@ fn implicit_runs_have_errors_and_the_others_their_difference() {
         );
     }
     let shown = table.to_text();
-    assert!(shown.contains("7.15 +- 0.25"), "{shown}");
+    for told in ["7.15 +- 0.25", "sqrt(bottom^2 + top^2)/2"] {
+        assert!(shown.contains(told), "{shown}");
+    }
     says(&table.draw(&BTreeMap::new(), Page::default()), &["± 0.25"]);
+    let width_mm = Some(Page::NARROWEST);
+    let dpi = 240.0;
+    let narrow = texts(&table.draw(&BTreeMap::new(), Page { width_mm, dpi }));
+    let mut notes = narrow.iter().filter(|text| text.contains(' '));
+    assert!(!notes.any(|note| note.contains('…')), "{narrow:?}");
     let text = table.cell_errors_to_text();
     for (name, told) in [
         (" flip", "+0.300"),
         (" implicit ", "4.50 +- 0.50"),
         (" implicit ", "2.100 +- 0.300"),
+        (" held ", " 2.500 at the limit"),
         // A pressure that the table does not have is not made up.
         (" frictionless", " -"),
     ] {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::families::FAMILIES;
-use super::goals::{GOALS, Goal};
+use super::goals::{self, Goal};
 use super::{Measured, Scene};
 use crate::Result;
 use crate::job::Outcome;
@@ -98,8 +98,8 @@ fn page(head: &str, outcomes: &[Outcome]) -> String {
 
 /// Goals with the worst error found.
 fn goals(out: &mut String, outcomes: &[Outcome]) {
-    let line = |goal: &Goal| {
-        let worst = worst_of(goal, outcomes)?;
+    let line = |goal: Goal| {
+        let worst = worst_of(&goal, outcomes)?;
         let reached = match goal.why {
             _ if worst.abs() <= goal.limit => "reached".into(),
             Some(why) => format!("**missed**: {why}"),
@@ -113,7 +113,7 @@ fn goals(out: &mut String, outcomes: &[Outcome]) {
         ))
     };
     let heads = "| case | method | quantity | goal | worst | |";
-    let lines = table(heads, GOALS.iter().filter_map(line));
+    let lines = table(heads, goals::goals().filter_map(line));
     let _ = writeln!(out, "## Goals\n\n{lines}");
 }
 
