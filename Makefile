@@ -15,7 +15,7 @@
 #   make XCT_BOTTOM=a.tif [XCT_TOP=b.tif | PLANE="139.2 um"] SLAB="55.1 um" VOXEL=... [TURN=90]
 #                                 the same on undamaged wood: two stacks, or one cut at PLANE
 #   make species                  four species of undamaged wood, PF and PVA-PF: their Table 2
-#   make press                    a press of the acer piece with and without cure, capillarity, loss of water, air
+#   make press                    a press of the acer piece with and without cure, loss of water, air, menisci
 #   make sweep SWEEP=table.csv    a table of parameters, a row a run, to a table of results and a figure
 #   make engines                  a small sweep by GNU parallel, Snakemake and Slurm, where installed
 #   make interop                  what other programs read of the tools' files, where installed
@@ -33,6 +33,7 @@
 #   make deny                     advisories, licences and sources of the dependencies
 #   make pins                     fingerprints of thirty small runs, to compare builds by
 #   make bench                    cost per cell and step, memory; BASE=folder: beside an older build
+#   make pages                    all that docs/results has from studies, of one build; an hour and a half
 #   make kernels                  speed of the explicit kernels and of the linear solver alone
 #   make report                   one page for a browser with tables, figures, runs and the bond in 3D
 #   make book                     the documents as one book to browse and search; needs mdbook

@@ -28,6 +28,11 @@ tradeoff: $(BINARIES)
 	@$(CARGO) build --release --quiet -p mpm-run --features double --target-dir target/double
 	$(STUDY)
 
+# Every page that a study writes, of one build: an hour and a half of two cores.
+.PHONY: pages
+pages:
+	+@for page in verify stability options load-control leave-out crash experiments bench tradeoff; do $(MAKE) $$page; done
+
 # Speed of the kernels alone and of the linear solver.
 .PHONY: kernels
 kernels:
