@@ -2,6 +2,7 @@
 
 use physics::{TAIT_C, Tait};
 
+use crate::geometry::ROUNDING;
 use crate::settings::MISSED;
 
 /// Least absolute pressure of a void, over that outside: one that liquid opens without air has no tangent in a vacuum.
@@ -63,11 +64,11 @@ impl Gas {
         }
     }
 
-    /// Whether a pressure above that outside is that of the volume which its tangent gives it.
+    /// Whether a pressure above that outside is that of the volume which its tangent gives it: a void without air collapses at any.
     pub(crate) fn agrees(&self, mass: f64, tangent: &Tangent, pressure: f64, dt: f64) -> bool {
         let right = self.tangent(mass, tangent.volume_at(pressure), dt);
         let off = right.yielding * (pressure - right.pressure).abs();
-        off <= MISSED * right.volume
+        off <= (MISSED * right.volume).max(ROUNDING)
     }
 
     /// What of `mass` leaks out in a step in which it comes to a volume and to a pressure above that outside.
@@ -79,22 +80,24 @@ impl Gas {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::system::PASSES;
 
     /// A front that a pressure pushes against friction: tangents lead from one volume to the pressure of the volume that it
-    /// comes to, from far to both sides, with a leak and without.
+    /// comes to, from far to both sides, with a leak and without; a void without air comes to one or to nothing.
     #[test]
     fn tangents_lead_to_the_pressure_of_the_volume() {
         let pushes = [(1e3, 1e2), (-99.0, 1e2), (5e4, 1e-3), (0.0, 1.0)];
-        for (leak_time, (push, resistance)) in [f64::INFINITY, 0.03]
-            .into_iter()
-            .flat_map(|time| pushes.map(|push| (time, push)))
+        for (mass, leak_time, (push, resistance)) in
+            [(1e3, f64::INFINITY), (1e3, 0.03), (0.0, f64::INFINITY)]
+                .into_iter()
+                .flat_map(|(mass, time)| pushes.map(|push| (mass, time, push)))
         {
             let gas = Gas {
                 outside: 1e2,
                 most: 1e6,
                 leak_time,
             };
-            let (mass, first, dt) = (1e3, 10.0, 0.1);
+            let (first, dt) = (10.0, 0.1);
             let mut tangent = gas.tangent(mass, first, dt);
             let mut passes = 0;
             let p = loop {
@@ -111,11 +114,11 @@ mod tests {
                 }
                 tangent = gas.tangent(mass, tangent.volume_at(p), dt);
                 passes += 1;
-                assert!(passes < 20, "{push} {resistance}");
+                assert!(passes < PASSES, "{push} {resistance}");
             };
             let (volume, absolute) = (tangent.volume_at(p), p + gas.outside);
             let leaked = gas.leaked(mass, volume, p, dt);
-            assert!((absolute * volume + leaked - mass).abs() < 2e-3 * mass);
+            assert!(mass == 0.0 || (absolute * volume + leaked - mass).abs() < 2e-3 * mass);
         }
     }
 
