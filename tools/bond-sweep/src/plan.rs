@@ -111,7 +111,10 @@ pub fn make(path: &Path, case: &Path, folder: &Path, however_long: bool) -> Resu
         .collect::<Result<Vec<_>, _>>()?;
     let written = [PLAN, RUNS].map(|name| Output::File(folder.join(name)));
     let read = drafts.iter().map(|draft| draft.case.as_path());
-    cli::keep_apart(read.chain([path]), &written)?;
+    // Nothing is read from a folder that is not there yet.
+    if folder.is_dir() {
+        cli::keep_apart(read.chain([path]), &written)?;
+    }
     refuse_foreign(folder)?;
     let made = make_specimens(&table, &drafts, folder)?;
     let (inputs, cells) = inputs::columns(&table, &drafts);
