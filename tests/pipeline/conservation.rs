@@ -2,7 +2,7 @@
 
 use particle_file::{Kind, ParticleFile};
 
-use crate::workbench::{VOXEL, Workbench, grooved};
+use crate::workbench::{METHODS, VOXEL, Workbench, grooved};
 
 const VOXEL_M3: f64 = 1.45e-6 * 1.45e-6 * 1.45e-6;
 
@@ -50,11 +50,18 @@ fn voxels_and_volume_pass_through_the_pipe() {
     let kept = volume(&last) / (adhesive as f64 * VOXEL_M3);
     println!("adhesive volume kept: {kept:.6}");
     assert!((kept - 1.0).abs() < 0.01, "{kept}");
-    // What mpm-run reports is what a reader of its files finds.
-    let history = bench.table("run/history.csv");
-    let reported = history.last("adhesive_volume_m3");
-    assert!((volume(&last) / reported - 1.0).abs() < 1e-6, "{reported}");
-    assert_eq!(history.last("lost_particles"), 0.0);
+    // What mpm-run reports is what a reader of its files finds, by every method.
+    for method in METHODS {
+        bench.press("run", method, "--overwrite");
+        let history = bench.table("run/history.csv");
+        let reported = history.last("adhesive_volume_m3");
+        let found = volume(&bench.particles("run/final.mpts"));
+        assert!(
+            (found / reported - 1.0).abs() < 1e-6,
+            "{method:?}: {reported}"
+        );
+        assert_eq!(history.last("lost_particles"), 0.0, "{method:?}");
+    }
     // The pipe and the files of `with_bond` are one and the same bond.
     assert_eq!(bench.sum("b.mpts"), bench.sum("bond.mpts"));
 }
@@ -70,6 +77,7 @@ fn every_tool_reads_and_writes_standard_streams() {
         "shear-stats - -o - < run/final.mpts | grep -q q50",
         "cat run/final.mpts | particles sum - | grep -q .",
         "particles info - < bond.mpts | grep -q slab_cells",
+        "particles check - < bond.mpts",
         "cat run/final.mpts | particles export - -f csv -o - | wc -l | grep -qx 1025",
         "particles export run/final.mpts -f npz -o - | wc -c | grep -q .....",
         "cat run/final.mpts | bond-figures slice - -o - | grep -q '</svg>'",

@@ -13,16 +13,18 @@ use crate::workbench::{Workbench, npy_header};
 const SENTENCE: &str = "of memory, and this process may have";
 
 /// A line, in so many megabytes of address space and for 20 s at most, must end with `code` and a sentence.
-fn within(bench: &Workbench, megabytes: u32, code: i32, line: &str, sentence: &str) {
+fn within(bench: &Workbench, megabytes: u32, code: i32, line: &str, sentence: &str) -> String {
     let limits = format!("ulimit -c 0; ulimit -v {megabytes}000; timeout 20");
     let told = bench.ends(code, &format!("{limits} {line}"), sentence);
     println!("{line}: {}", told.trim());
+    told
 }
 
 /// The line must end so before an allocation fails, and leave nothing.
 fn refused(bench: &Workbench, megabytes: u32, code: i32, line: &str) {
     let before = bench.names("");
-    within(bench, megabytes, code, line, SENTENCE);
+    let told = within(bench, megabytes, code, line, SENTENCE);
+    assert!(!told.contains("allocation"), "{told}");
     assert_eq!(bench.names(""), before, "{line}");
 }
 
@@ -41,13 +43,10 @@ fn a_specimen_that_does_not_fit_is_not_grown() {
     refused(&bench, 1000, 2, &format!("{line} -o O.tif"));
     // Gone on with all the same, or not foreseen, it is a failed run where the allocator gives up.
     let failed = "memory allocation of 2000000000 bytes failed";
-    within(
-        &bench,
-        1000,
-        1,
-        &format!("{line} --yes-really -o O.tif"),
-        failed,
-    );
+    let anyway = format!("{line} --yes-really -o O.tif");
+    let told = within(&bench, 1000, 1, &anyway, failed);
+    let warning = "warning: a specimen of 2000 x 2000 x 2000";
+    assert!(told.contains(warning), "{told}");
     // Larger than any machine that runs tests, without a limit of its own.
     if machine::available_bytes().is_some_and(|bytes| bytes < 17_000_000_000) {
         bench.ends(

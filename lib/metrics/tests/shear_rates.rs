@@ -37,6 +37,9 @@ fn quantiles_are_weighted_by_volume() {
     let found = ShearRates::of_file(&file, None).unwrap();
     assert_eq!(found.quantiles, [10.0, 10.0, 20.0, 20.0, 20.0, 20.0, 30.0]);
     assert_eq!(found.mean, 20.0);
+    let none = ShearRates::of_file(&snapshot(&[], &[], None), None).unwrap();
+    let numbers = none.quantiles.into_iter().chain([none.max, none.mean]);
+    assert!(numbers.into_iter().all(f64::is_nan), "{none:?}");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Grids of bits: FORMAT.md, "Bits of a block".
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use particle_file::{BitGrid, BitsRef};
 
 fn pattern(x: usize, y: usize, z: usize) -> bool {
@@ -11,10 +13,13 @@ fn pattern(x: usize, y: usize, z: usize) -> bool {
 fn every_way_to_look_at_a_grid_agrees() {
     for nx in [1, 63, 64, 65, 130] {
         let dims = [nx, 3, 4];
+        let asked = AtomicUsize::new(0);
         let grid = BitGrid::from_fn(dims, |x, y, z| {
             assert!(x < nx, "asked for a voxel behind the end of its row");
+            asked.fetch_add(1, Ordering::Relaxed);
             pattern(x, y, z)
         });
+        assert_eq!(asked.into_inner(), nx * 3 * 4, "once for each voxel");
         let mut by_set = BitGrid::new(dims);
         let mut layers = [vec![0; nx], vec![0; 3], vec![0; 4]];
         let (mut all, mut indices) = (Vec::new(), Vec::new());

@@ -121,6 +121,11 @@ fn a_dash_is_standard_input_or_the_svg_alone() {
     assert!(output.status.success());
     let texts = texts(&String::from_utf8(output.stdout).unwrap());
     assert!(texts.contains(&"piped".to_owned()), "{texts:?}");
+    let mut command = folder.command(&["pressure", "--run", "-", "-o", "p.svg"]);
+    let history = std::fs::File::open(folder.path("run/history.csv")).unwrap();
+    assert!(command.stdin(history).status().unwrap().success());
+    let record = folder.read("p.svg.provenance.json");
+    assert!(record.contains("\"path\": \"-\""), "{record}");
     folder.refused("map --map - --map - -o m.svg", 2, "can be read once");
 }
 

@@ -99,9 +99,16 @@ fn arrays_of_other_sizes_are_refused() {
             assert_refused("a.npy", &npy(1, descr, fortran, shape, &volume()), &[said]);
         }
     }
-    let keys =
-        String::from_utf8_lossy(&npy(1, "|u1", false, &shape(), &[])).replace("fortran", "c");
-    assert_refused("a.npy", keys.as_bytes(), &[]);
+    // Headers of the same length behind `at`: without the order, of a record, of nothing.
+    for (at, text, said) in [
+        (27, "'c_order': 0,           ", "no 'fortran_order'"),
+        (10, "{'descr': [('a', '<u2')],", "the type 'a'"),
+        (10, &" ".repeat(117), "no 'descr'"),
+    ] {
+        let mut file = npy(1, "|u1", false, &shape(), &volume());
+        file[at..at + text.len()].copy_from_slice(text.as_bytes());
+        assert_refused("a.npy", &file, &[said]);
+    }
     let long = npy(1, "|u1", false, "100001, 1, 1", &[0; 100_001]);
     assert_refused("a.npy", &long, &["more than 100000 along an axis"]);
 }

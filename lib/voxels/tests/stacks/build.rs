@@ -240,6 +240,10 @@ pub fn volumes() -> Vec<(&'static str, Vec<u8>)> {
         ("npy", npy(1, "|u1", false, &shape(), &all)),
         ("npz", npz(&[("labels", &shape(), &all)])),
         ("mha", mha("UCHAR", "", &all)),
+        (
+            "mha zlib",
+            mha("UCHAR", "CompressedData = True\n", &zlib(&all)),
+        ),
         ("nrrd", nrrd("uchar", "raw", "\n", &all)),
         ("nrrd gzip", nrrd("uchar", "gzip", "\n", &gzip(&all))),
         ("nifti", nifti(false, 2, &all)),

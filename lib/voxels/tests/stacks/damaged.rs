@@ -179,9 +179,21 @@ fn pages_that_make_no_stack_are_refused() {
     }
 }
 
-/// A chain of directories that bites its tail.
+/// Beginnings of files without more, and a chain of directories that bites its tail.
 #[test]
-fn a_loop_of_directories_is_refused() {
+fn directories_that_are_not_there_or_go_round_are_refused() {
+    for bytes in [
+        &b""[..],
+        b"II",
+        b"II*\0",
+        b"MM\0*\0\0\0\0",
+        b"II+\0\x08\0\0\0",
+        b"\x89PNG\r\n\x1a\n",
+    ] {
+        let (_folder, path) = stored("a.tif", bytes);
+        let said = refusal(&path);
+        assert!(said.starts_with('\''), "{said}");
+    }
     let mut bytes = tiff(&plain_pages()[..1]);
     let link = bytes.len() - 4;
     bytes.copy_within(4..8, link);

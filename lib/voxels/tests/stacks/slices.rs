@@ -72,6 +72,13 @@ fn slices_that_do_not_belong_together_are_refused() {
         fs::write(mixed.path().join("slice 8.png"), content).unwrap();
         assert_has(&refusal(mixed.path()), &[said]);
     }
+    // Cut in the palette or the pixels: what ends a PNG is not needed.
+    for color in [ColorType::Indexed, ColorType::Grayscale] {
+        let whole = png(color, BitDepth::Eight, &values(0));
+        for cut in [40, 60, whole.len() - 20] {
+            assert_refused("a.png", &whole[..cut], &["a.png'"]);
+        }
+    }
 }
 
 #[test]
