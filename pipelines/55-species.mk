@@ -8,8 +8,7 @@ SPECIES_SEEDS ?= 1 2 3
 SPECIES_SIZE ?= 40x96x40
 SPECIES_PLANE ?= 69.6 um
 SPECIES_SLAB ?= 14.5 um
-# A bond line of 2.9 um is left, a cell: a thinner film between faces as flat as a cut's is resolved by neither cell, and points caught
-# in it end in wood.
+# A bond line of 2.9 um is left, a cell: a thinner film between faces as flat as a cut's is resolved by neither size of cells.
 SPECIES_TRAVEL ?= 11.6 um
 SPECIES_TURN ?= 0
 SPECIES_OUT := out/species
