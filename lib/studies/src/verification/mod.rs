@@ -11,7 +11,6 @@ pub mod cure;
 pub mod disc;
 pub mod drop;
 pub mod duct;
-mod families;
 pub mod galilean;
 mod goals;
 mod grain;
