@@ -27,6 +27,23 @@ pub(crate) fn tool(name: &str) -> Command {
     Command::new(bin_folder().join(name))
 }
 
+/// Writes the bond file of synthetic wood with voxels of 1.45 um and PF: so many voxels along x, y and z, and the thickness of the adhesive.
+///
+/// # Errors
+/// What a tool or the system said.
+pub(crate) fn synthetic_bond(path: &Path, voxels: &str, slab: &str) -> Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let bin = bin_folder();
+    let (bin, bond) = (bin.display(), path.display());
+    let pipe = format!(
+        "set -o pipefail; \"{bin}/synth-xct\" -q --adhesive pf --voxel '1.45 um' --seed 1 --size {voxels} --slab '{slab}' -o - \
+         | \"{bin}/xct2particles\" -q - -o - | \"{bin}/build-bondline\" -q - -o '{bond}'"
+    );
+    printed(Command::new("bash").args(["-c", &pipe]))?;
+    Ok(())
+}
+
 /// A material point of a state: place (m), velocity (m/s), volume (m3) and pressure (Pa).
 pub(crate) struct Point {
     pub(crate) at: [f64; 3],

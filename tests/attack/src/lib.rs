@@ -28,43 +28,28 @@ pub struct Target {
     pub feed: fn(&[u8]) -> bool,
 }
 
+const fn target(
+    name: &'static str,
+    seeds: fn() -> Vec<Vec<u8>>,
+    feed: fn(&[u8]) -> bool,
+) -> Target {
+    Target { name, seeds, feed }
+}
+
 /// All kinds.
 pub static TARGETS: [Target; 6] = [
     // Specimens, bonds and states: opened, checked, measured, built, pressed for one step.
-    Target {
-        name: "particle-file",
-        seeds: seeds::particle_files,
-        feed: bonds::feed,
-    },
+    target("particle-file", seeds::particle_files, bonds::feed),
     // Read, restored, one step taken.
-    Target {
-        name: "checkpoint",
-        seeds: runs::checkpoints,
-        feed: runs::feed,
-    },
+    target("checkpoint", runs::checkpoints, runs::feed),
     // Parsed, resolved, explained, with and without a bond.
-    Target {
-        name: "case",
-        seeds: seeds::cases,
-        feed: readers::case,
-    },
-    // Stacks: opened, segmented.
-    Target {
-        name: "tiff",
-        seeds: seeds::tiffs,
-        feed: |bytes| readers::stack("a.tif", bytes),
-    },
-    Target {
-        name: "npy",
-        seeds: seeds::arrays,
-        feed: |bytes| readers::stack("a.npy", bytes),
-    },
-    // With their data beside or behind them.
-    Target {
-        name: "mhd",
-        seeds: seeds::meta_images,
-        feed: |bytes| readers::stack("a.mhd", bytes),
-    },
+    target("case", seeds::cases, readers::case),
+    // Stacks: opened, segmented; MetaImages with their data beside or behind them.
+    target("tiff", seeds::tiffs, |bytes| readers::stack("a.tif", bytes)),
+    target("npy", seeds::arrays, |bytes| readers::stack("a.npy", bytes)),
+    target("mhd", seeds::meta_images, |bytes| {
+        readers::stack("a.mhd", bytes)
+    }),
 ];
 
 impl Target {

@@ -13,7 +13,6 @@ mod menisci;
 mod opens;
 mod refused;
 mod rods;
-mod slit;
 mod statics;
 mod tension;
 mod tubes;

@@ -5,8 +5,8 @@ use std::process::Command;
 use std::time::Instant;
 
 use crate::Result;
-use crate::outputs::{Run, bin_folder};
-use crate::study::{done, printed};
+use crate::outputs::{Run, synthetic_bond};
+use crate::study::done;
 
 /// One line of the page.
 pub(super) struct Piece {
@@ -149,14 +149,7 @@ pub(super) fn specimen(size: &str, folder: &Path) -> Result<PathBuf> {
         "large" => ("200x394x200", "55.1 um"),
         _ => ("394x394x400", "55.1 um"),
     };
-    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let path = folder.join(format!("{size}.mpts"));
-    let bin = bin_folder();
-    let (bin, bond) = (bin.display(), path.display());
-    let pipe = format!(
-        "set -o pipefail; \"{bin}/synth-xct\" -q --adhesive pf --voxel '1.45 um' --seed 1 --size {voxels} --slab '{slab}' -o - \
-         | \"{bin}/xct2particles\" -q - -o - | \"{bin}/build-bondline\" -q - -o '{bond}'"
-    );
-    printed(Command::new("bash").args(["-c", &pipe]))?;
+    synthetic_bond(&path, voxels, slab)?;
     Ok(path)
 }

@@ -164,7 +164,7 @@ impl Rise {
         let voxels = Voxels::new(self.tube, self.cells);
         let (h, d) = (voxels.cell, 2.0 * self.tube.radius);
         // Pressure gradient of developed flow over viscosity, mean speed and squared diameter: finite differences between the steps of
-        // the walls (`lib/implicit/tests/scheme/menisci.rs`).
+        // the walls.
         let resistance = match self.cells {
             4 => 34.719,
             _ => 35.944,

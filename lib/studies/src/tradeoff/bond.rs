@@ -1,19 +1,14 @@
 //! The small bond line of the trade-off study: a synthetic specimen closed at constant speed,
 //! against the implicit scheme with the finest cells.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::settings::Setting;
 use super::{Flow, Row};
 use crate::Result;
 use crate::method::{Method, Scheme};
-use crate::outputs::{Run, tool};
-use crate::study::{printed, side_by_side};
-
-/// Size in voxels, the slab and the edge of a voxel.
-const SPECIMEN: [&str; 8] = [
-    "--size", "24x72x24", "--slab", "11.6 um", "--seed", "1", "--voxel", "1.45 um",
-];
+use crate::outputs::{Run, synthetic_bond};
+use crate::study::side_by_side;
 
 /// Edge of a cell of the reference, um: half a voxel.
 const FINEST: f64 = 0.725;
@@ -31,7 +26,8 @@ struct Closed {
 /// # Errors
 /// What a tool said when there is no specimen or no reference.
 pub(super) fn rows(settings: &[Setting], folder: &Path) -> Result<Vec<Row>> {
-    let bond = specimen(folder)?;
+    let bond = folder.join("bond.mpts");
+    synthetic_bond(&bond, "24x72x24", "11.6 um")?;
     let implicit = Method::implicit();
     let reference = close(&bond, &implicit, FINEST, &folder.join("reference"))?;
     println!(
@@ -73,26 +69,6 @@ fn compared(setting: &Setting, closed: Result<Closed, String>, reference: &Close
         row(Flow::BondPressure, |c| c.pressure),
         row(Flow::BondWp, |c| c.wp),
     ]
-}
-
-/// Makes the bond file.
-fn specimen(folder: &Path) -> Result<PathBuf> {
-    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let [stack, whole, bond] =
-        ["specimen.tif", "specimen.mpts", "bond.mpts"].map(|name| folder.join(name));
-    let mut synth = tool("synth-xct");
-    synth.args(["--adhesive", "pf"]).args(SPECIMEN);
-    let (mut reader, mut build) = (tool("xct2particles"), tool("build-bondline"));
-    reader.arg(&stack);
-    build.arg(&whole);
-    for (tool, to) in [
-        (&mut synth, &stack),
-        (&mut reader, &whole),
-        (&mut build, &bond),
-    ] {
-        printed(tool.args(["--quiet", "-o"]).arg(to))?;
-    }
-    Ok(bond)
 }
 
 /// Closes the bond line at 1 m/s, whatever the pressure.

@@ -194,14 +194,14 @@ fn menisci(list: &mut Vec<Entry>) {
     let mut add = |scene| list.push((scene, vec![Method::implicit()]));
     for n in [3, 6, 12] {
         for offset in [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]] {
-            add(wicking::slit_scene(n, offset, 60.0));
+            add(wicking::slit_scene(n, offset, 60.0, 0.0));
         }
     }
     for degrees in [0.0, 120.0] {
-        add(wicking::slit_scene(6, [0.0, 0.0], degrees));
+        add(wicking::slit_scene(6, [0.0, 0.0], degrees, 0.0));
     }
     for degrees in [0.0, 60.0, 120.0] {
-        add(wicking::tube_scene(6, degrees));
+        add(wicking::tube_scene(Section::Round(2), 6, 1.5, degrees, 0.0));
     }
     for n in [6, 12] {
         for (offset, degrees) in [(0.0, 0.0), (0.0, 60.0), (0.5, 120.0)] {

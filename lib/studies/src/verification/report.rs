@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use super::families::FAMILIES;
 use super::goals::{self, Goal};
 use super::{Measured, Scene};
 use crate::Result;
@@ -14,6 +13,9 @@ use crate::study::{Study, distinct, table};
 const COLUMNS: [&str; 9] = [
     "FLIP", "PIC", "APIC", "XPIC(2)", "XPIC(3)", "XPIC(5)", "FMPM(2)", "FMPM(5)", "implicit",
 ];
+
+/// Families of scenes in the order of the page, each with its heading and text.
+const FAMILIES: &str = include_str!("families.txt");
 
 /// Writes `verification.csv` and `verification.md`.
 pub(super) fn write(study: &Study, outcomes: &[Outcome]) -> Result<()> {
@@ -84,11 +86,13 @@ fn page(head: &str, outcomes: &[Outcome]) -> String {
          at the usual Courant number the first step is as long as the run. The explicit scheme is the paper's, with none of its options.\n\n",
     );
     goals(&mut out, outcomes);
-    for (family, text) in FAMILIES {
+    for line in FAMILIES.lines() {
+        let (family, text) = line.split_once(" | ").unwrap_or((line, ""));
         let prefix = format!("{family}-");
-        let of = |o: &&Outcome| o.scene == *family || o.scene.starts_with(&prefix);
+        let of = |o: &&Outcome| o.scene == family || o.scene.starts_with(&prefix);
         let of_family: Vec<&Outcome> = outcomes.iter().filter(of).collect();
         if !of_family.is_empty() {
+            let text = text.replacen(" | ", "\n\n", 1).replace("\\n", "\n");
             let _ = writeln!(out, "## {text}\n");
             family_table(&mut out, &of_family, outcomes);
         }

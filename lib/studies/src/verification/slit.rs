@@ -55,7 +55,7 @@ pub(super) fn reservoir(
 }
 
 /// Slit of `n` cells, walls offset by `offset` cells along x and y.
-pub(crate) fn scene(n: u32, offset: [f64; 2]) -> Scene {
+pub fn scene(n: u32, offset: [f64; 2]) -> Scene {
     let h = LUMEN / f64::from(n);
     let [aside, up] = offset;
     let shoulder = 7.0 * LUMEN + 2.0 * h;

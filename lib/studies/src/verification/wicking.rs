@@ -18,9 +18,9 @@ const MOUTH: f64 = 0.2;
 /// States of a run that L(t) is taken from.
 const STATES: u32 = 60;
 
-/// Slit of `n` cells in plane strain, a liquid of this contact angle, walls `offset` cells off the nodes
-/// across the slit and along it.
-pub(super) fn slit_scene(n: u32, [aside, along]: [f64; 2], degrees: f64) -> Scene {
+/// Slit of `n` cells in plane strain, a liquid of this contact angle whose contact lines resist by `slowing` Ca, walls `offset`
+/// cells off the nodes across the slit and along it.
+pub fn slit_scene(n: u32, [aside, along]: [f64; 2], degrees: f64, slowing: f64) -> Scene {
     let h = LUMEN / f64::from(n);
     let (mouth, low) = (3.0 * LUMEN + (2.0 + along) * h, 1.5 * LUMEN + aside * h);
     let size = [mouth + (LONGEST + 1.5) * LUMEN, 4.0 * LUMEN];
@@ -38,14 +38,13 @@ pub(super) fn slit_scene(n: u32, [aside, along]: [f64; 2], degrees: f64) -> Scen
         resistance: 12.0,
         entrance: washburn::entrance(n),
     }
-    .filled(bodies, CaseText::plane(h, size))
+    .filled(bodies, slowing, CaseText::plane(h, size))
 }
 
-/// A quarter of a tube of `n` cells.
-pub(super) fn tube_scene(n: u32, degrees: f64) -> Scene {
-    let section = Section::Round(2);
+/// A quarter of a tube or square of `n` cells before a reservoir so many widths deep, of the same liquid.
+pub fn tube_scene(section: Section, n: u32, depth: f64, degrees: f64, slowing: f64) -> Scene {
     let h = LUMEN / f64::from(n);
-    let mouth = 1.5 * LUMEN + 2.0 * h;
+    let mouth = depth * LUMEN + 2.0 * h;
     let right = LUMEN + 2.0 * h;
     let far = mouth + (LONGEST + 1.5) * LUMEN;
     let shape = quarter(section, n, LUMEN, right);
@@ -54,7 +53,7 @@ pub(super) fn tube_scene(n: u32, degrees: f64) -> Scene {
     bodies.push(wall(&shape.roof));
     bodies.push(Body::liquid([2.0 * h, 0.0, 0.0], [mouth, right, right]));
     Passage {
-        name: format!("wicking-tube-n{n}-{degrees}deg"),
+        name: format!("wicking-{}-n{n}-{degrees}deg", section.name()),
         degrees,
         mouth,
         area: section.area(n) * LUMEN * LUMEN / 4.0,
@@ -62,7 +61,7 @@ pub(super) fn tube_scene(n: u32, degrees: f64) -> Scene {
         resistance: section.staircase_resistance(n),
         entrance: MOUTH,
     }
-    .filled(bodies, CaseText::new(h, 3, [far, right, right]))
+    .filled(bodies, slowing, CaseText::new(h, 3, [far, right, right]))
 }
 
 /// A passage behind a reservoir with a free surface at its back.
@@ -82,12 +81,13 @@ struct Passage {
 }
 
 impl Passage {
-    fn filled(self, bodies: Vec<Body>, case: CaseText) -> Scene {
+    fn filled(self, bodies: Vec<Body>, slowing: f64, case: CaseText) -> Scene {
+        let entrance = self.entrance + slowing * self.jump * LUMEN / self.resistance;
         let degrees = self.degrees;
         let jump = TENSION * degrees.to_radians().cos() * self.jump;
         // L^2 + 2 e L = 2 P d^2/(R eta) t
         let rate = 2.0 * jump.abs() * LUMEN * LUMEN / (self.resistance * PF[2]);
-        let end = LUMEN * LUMEN * LONGEST * (LONGEST + 2.0 * self.entrance) / rate;
+        let end = LUMEN * LUMEN * LONGEST * (LONGEST + 2.0 * entrance) / rate;
         let entry = jump < 0.0;
         let against = match entry {
             true => "no entry",
@@ -116,8 +116,8 @@ impl Passage {
                 return Err("it was not filled to one width".into());
             };
             let exact = |t: f64| {
-                let start = first[1] + self.entrance;
-                (start * start + (t - first[0]) * rate / (LUMEN * LUMEN)).sqrt() - self.entrance
+                let start = first[1] + entrance;
+                (start * start + (t - first[0]) * rate / (LUMEN * LUMEN)).sqrt() - entrance
             };
             let worst = worst(filled.iter().map(|[t, l]| l / exact(*t) - 1.0));
             Ok(vec![
