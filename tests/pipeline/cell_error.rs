@@ -85,6 +85,12 @@ fn what_is_no_finer_run_of_the_same_bond_is_refused() {
     bench.done(&format!(
         "mpm-run -q case.toml --particles other.mpts -o other --set {IMPLICIT} {FINER} --set 'clamp.stop=0.1 us'"
     ));
+    bench.press("thinner", &[IMPLICIT, "adhesive.viscosity=1 Pa s"], FINER);
+    bench.press(
+        "slipping",
+        &[IMPLICIT, "contact.influence_length=1 um"],
+        "--set grid.cell=1.45um",
+    );
     let (coarse, fine) = ("implicit/final.mpts", "implicit-finer/final.mpts");
     for (files, sentence) in [
         (
@@ -102,6 +108,14 @@ fn what_is_no_finer_run_of_the_same_bond_is_refused() {
         (
             format!("{coarse} --finer other/final.mpts"),
             "different bonds",
+        ),
+        (
+            format!("{coarse} --finer thinner/final.mpts"),
+            "differ in [adhesive]",
+        ),
+        (
+            format!("{coarse} --finer slipping/final.mpts"),
+            "differ in [contact]",
         ),
         (
             format!("{coarse} --finer specimen.mpts"),

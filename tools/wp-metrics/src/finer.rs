@@ -1,8 +1,12 @@
 //! Error of a state's numbers by the same run in smaller cells.
 
+use std::fs;
+use std::path::Path;
+
 use cli::Failure;
 use metrics::table::PenetrationRows;
 use metrics::{Datum, LEAST_RATIO, State, cell_error, extrapolated, penetration};
+use toml::{Table, Value};
 
 use crate::arguments::Arguments;
 use crate::input::Input;
@@ -39,6 +43,12 @@ pub fn carry_on(
             input.name, finer.name
         )));
     }
+    if let Some(table) = other_table([&input.name, &finer.name], cells) {
+        return Err(Failure::usage(format!(
+            "the cases of '{}' and '{}' differ in [{table}]: --finer takes the same run in smaller cells",
+            input.name, finer.name
+        )));
+    }
     let times = [input.time_s(), finer.time_s()];
     if (times[0] - times[1]).abs() > 1e-6 * times[0] && !closed_alike(&state, &fine) {
         return Err(Failure::usage(format!(
@@ -51,6 +61,34 @@ pub fn carry_on(
     let pressure = extrapolated(input.noted(PRESSURE)?, finer.noted(PRESSURE)?, ratio);
     rows.cell_error = Some((sides, pressure));
     Ok(())
+}
+
+/// A table in which the cases of two runs differ by more than cells of these edges (m), where both lie with their states.
+fn other_table(states: [&str; 2], cells: [f64; 2]) -> Option<&'static str> {
+    let case = |state: &str| -> Option<Table> {
+        let folders = Path::new(state).ancestors().skip(1).take(2);
+        let mut texts = folders.map(|folder| fs::read_to_string(folder.join("resolved.toml")));
+        texts.find_map(Result::ok)?.parse().ok()
+    };
+    let (run, finer) = (case(states[0])?, case(states[1])?);
+    let tables = ["adhesive", "air", "contact", "clamp", "integrator"];
+    let differs = |table: &&str| of_run(&run, table, cells[0]) != of_run(&finer, table, cells[1]);
+    tables.into_iter().find(differs)
+}
+
+/// A table of a case without what goes with the size of the cells or is found from the bond, lengths in cells as m.
+fn of_run(case: &Table, table: &str, cell_m: f64) -> Option<Table> {
+    let mut table = case.get(table)?.as_table()?.clone();
+    for key in ["time_limit", "travel", "cfl", "tolerance"] {
+        table.remove(key);
+    }
+    for value in table.values_mut() {
+        let cells = value.as_str().and_then(|text| text.strip_suffix(" cell"));
+        if let Some(cells) = cells.and_then(|cells| cells.parse::<f64>().ok()) {
+            *value = Value::String(format!("{:.4e} m", cells * cell_m));
+        }
+    }
+    Some(table)
 }
 
 /// Whether two states have the same wood, wherever it is now.
