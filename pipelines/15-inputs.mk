@@ -8,10 +8,10 @@ OWN := $(if $(strip $(foreach v,$(STACKS),$($(v)))),yes)
 # One word for the shell.
 q = '$(subst ','\'',$(1))'
 
-# What nothing here reads is a slip; compilers read their own.
+# What nothing here reads is a slip; compilers, shells and threads read their own.
 READ = $(shell grep -ohE '\$$.[A-Z][A-Z0-9_]*|[A-Z][A-Z0-9_]*=' Makefile pipelines/*.mk | sed 's/^\$$.//; s/=$$//')
 GIVEN := $(foreach v,$(.VARIABLES),$(if $(filter line,$(origin $(v))),$(v)))
-SLIP := $(firstword $(if $(GIVEN),$(filter-out CARGO% RUST% CC CFLAGS $(READ),$(GIVEN))))
+SLIP := $(firstword $(if $(GIVEN),$(filter-out CARGO% RUST% RAYON% CC CXX CFLAGS SHELL PATH TMPDIR $(READ),$(GIVEN))))
 NEAR = $(sort $(filter $(shell printf %.3s $(call q,$(SLIP)) | tr a-z A-Z)%,$(shell grep -oE '[A-Z][A-Z0-9_]+=' Makefile)))
 $(if $(SLIP),$(error make has no variable $(SLIP)=$(if $(NEAR),$(COMMA) but $(NEAR)): make help lists all))
 

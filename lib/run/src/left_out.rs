@@ -36,7 +36,7 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
     );
     match &case.air {
         None => add("trapped air", "voids are empty: p = 0, no [air]".into()),
-        Some(air) if air.leak_time.is_none() && !opens_sideways(setup) => add(
+        Some(air) if !opens_sideways(setup) && air.leak_time.is_none_or(|leak| leak.si() > setup.time_limit_s) => add(
             BEYOND_SIDES,
             "air in lumens is closed off where the specimen ends, and drives liquid on into the few that are open: WP is uncertain by its difference from the same run without [air]; leak_time is for lumens that go on".into(),
         ),
@@ -77,9 +77,9 @@ pub(crate) fn left_out(case: &Case, setup: &Setup, stages: &Stages) -> Vec<LeftO
     list
 }
 
-/// Whether air gets out by the sides along the bond.
+/// Whether air gets out by all sides along the bond.
 fn opens_sideways(setup: &Setup) -> bool {
     let [x, _, z] = setup.scene.boundary;
     let solid = setup.scene.dimensions == Dimensions::Three;
-    x == Boundary::Open || (solid && z == Boundary::Open)
+    x == Boundary::Open && (!solid || z == Boundary::Open)
 }

@@ -217,12 +217,17 @@ fn what_a_scene_does_without_is_left_out_and_no_more() {
     let implicit = ["integrator.scheme=implicit"];
     leaves_out(&bench, &[&all[..], &implicit].concat(), &of_implicit[1..]);
     let air = "air={ pressure = \"101.325 kPa\" }";
-    let leaks = "air={ pressure = \"101.325 kPa\", leak_time = \"1 s\" }";
+    let leaks = |time| format!("air={{ pressure = \"101.325 kPa\", leak_time = \"{time}\" }}");
+    let [soon, late] = [leaks("1 ps"), leaks("1000 s")];
+    let side = |z| format!("boundary={{ x = \"open\", z = \"{z}\" }}");
+    let [open, mirror] = [side("open"), side("symmetry")];
     let closed = "beyond the sides air in lumens is closed off";
     for (changes, doubted) in [
         (["boundary={ z = \"periodic\" }", air], true),
-        (["boundary={ x = \"open\" }", air], false),
-        (["boundary={ z = \"periodic\" }", leaks], false),
+        ([open.as_str(), air], false),
+        ([mirror.as_str(), air], true),
+        (["boundary={ z = \"periodic\" }", soon.as_str()], false),
+        (["boundary={ z = \"periodic\" }", late.as_str()], true),
     ] {
         let plan = bench.plan(&[&changes[..], &implicit].concat()).unwrap();
         assert_eq!(plan.contains(closed), doubted, "{plan}");
